@@ -53,7 +53,7 @@ std::span<const Experiment> experiments() {
   static constexpr std::string_view long_runs[] = {"spring", "pendulum"};
   // particles on balls: the cloths that show more are the experiment's own probes
   static constexpr std::string_view on_balls[] = {"slide", "bounce"};
-  // all but those that take longest: a cloth of hard lengths, and one on a ball, whose truth is a rule's own
+  // all but those that take longest: a cloth of hard lengths, and one on a ball
   static constexpr std::string_view timed_scenes[] = {"circle",   "projectile", "spring",        "normal-modes",
                                                       "pendulum", "chain",      "chain-link",    "rod",
                                                       "slide",    "bounce",     "cloth-student", "cloth-hang"};

@@ -151,8 +151,10 @@ MethodResult& result_of(const Request& request, const Scene& scene, const Method
 /// A run of the method with its path, and nothing else that is observed.
 MethodResult recorded_result(const Method& method, const Scene& scene, const Run& run);
 
-/// Tables SCENE-energy and engines-energy: the ledgers of the results at the request's step.
-void add_energies(const Request& request, const Scene& scene, MethodResults& results, TableSet& tables);
+/// Tables SCENE-energy and engines-energy: the ledgers of the results at the request's step, and what contact took
+/// beside what it takes in truth.
+void add_energies(const Request& request, const Scene& scene, const std::optional<Truth>& truth, MethodResults& results,
+                  TableSet& tables);
 
 /// Experiment `engines` on one scene, with the results that it used.
 void engines_on(const Request& request, const Scene& scene, MethodResults& results, TableSet& tables);

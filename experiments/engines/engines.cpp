@@ -178,7 +178,7 @@ void engines_on(const Request& request, const Scene& scene, MethodResults& resul
     add_statistics(request, scene, run, results, tables);
   tables.add(summary);
   tables.add(cost);
-  add_energies(request, scene, results, tables);
+  add_energies(request, scene, truth, results, tables);
 }
 
 std::vector<Point> engines_points(const Request& request) {
@@ -188,7 +188,8 @@ std::vector<Point> engines_points(const Request& request) {
   });
 }
 
-void add_energies(const Request& request, const Scene& scene, MethodResults& results, TableSet& tables) {
+void add_energies(const Request& request, const Scene& scene, const std::optional<Truth>& truth, MethodResults& results,
+                  TableSet& tables) {
   Table summary = table_of<EngineEnergyRow>();
   if (scene.model.first_order()) {
     tables.notes.push_back(fmt::format("energies leave out {}: a first-order system has no energy", scene.name));
@@ -222,6 +223,11 @@ void add_energies(const Request& request, const Scene& scene, MethodResults& res
     if (out.verdict == Verdict::ok && !result.contact_inferred) {
       row.balance_error = worst;
       if (energy_scale > 0) row.relative_balance_error = worst / energy_scale;
+    }
+    // the samples of both are at the same times
+    if (const size_t known = truth ? truth->contact.size() : 0; known > 0 && result.ledger.size() >= known) {
+      row.contact = result.ledger[known - 1].contact, row.contact_until = result.ledger[known - 1].t;
+      row.contact_in_truth = truth->contact.back(), row.contact_bar = truth->contact_bars.back();
     }
     add(summary, row);
   }

@@ -9,6 +9,7 @@
 
 #include "experiments/estimate.h"
 #include "experiments/experiment.h"
+#include "experiments/metrics.h"
 #include "experiments/stability/map.h"
 #include "experiments/stability/margin.h"
 #include "experiments/tables/stability.h"
@@ -137,6 +138,41 @@ bool same_stability_class(const Stepper& a, const Stepper& b) {
 
 bool has_linear_limit(const Stepper& rule) { return std::isfinite(rule.limit(1, 0)); }
 
+/// Where a scene has no rest, whether the motion is followed below a limit and lost above it: errors against the truth
+/// at the nearest steps that divide the time between its samples.
+void add_errors_beside_limit(const Scene& scene, const Method& method, LimitRow& row) {
+  const Run whole = default_run(scene);
+  const auto truth = truth_of(scene, whole);
+  if (!truth || truth->under_contact_rule) return;
+  const Trajectory& known = truth->trajectory;
+  const double interval = whole.duration / whole.samples;
+  int last = 0;
+  while (last + 1 < known.frames() && known.t[last + 1] <= scene.window * (1 + 1e-9)) ++last;
+  const auto error_with = [&](int steps_per_sample) {
+    Recorder recorder;
+    Run run{interval / steps_per_sample, interval * last, last * steps_per_sample};
+    run.timed = false;
+    run_method(method, scene, run, {&recorder});
+    const auto& x = recorder.trajectory.x;
+    double error = 0;
+    for (size_t i = 0; i < x.size(); ++i) {
+      const size_t sample = i / steps_per_sample;
+      const double part = static_cast<double>(i % steps_per_sample) / steps_per_sample;
+      // between samples, where a failed run may end, a straight line is near enough to see it off
+      if (part == 0)
+        error = std::max(error, rms_distance(x[i], known.x[sample]));
+      else if (i + 1 == x.size())
+        error = std::max(error, rms_distance(x[i], (1 - part) * known.x[sample] + part * known.x[sample + 1]));
+    }
+    return error;
+  };
+  row.motion = motion_of(known), row.truth_bar = truth->error_bar;
+  const int below = static_cast<int>(std::ceil(interval / *row.held * (1 - 1e-9))),
+            above = static_cast<int>(std::floor(interval / *row.failed * (1 + 1e-9)));
+  row.step_below = interval / below, row.error_below = error_with(below);
+  if (above > 0) row.step_above = interval / above, row.error_above = error_with(above);
+}
+
 }  // namespace
 
 bool is_mapped(const Method& method) {
@@ -185,6 +221,7 @@ void add_limit(const Scene& scene, const Method& method, const Effort& effort, T
     // a twentieth above, perturbed so that it is seen
     row.above = run_perturbed(method, base, 1.05 * measured.failed, effort.steps, {perturbation.mode, 1e-3})
                     .effective_verdict();
+    if (!base.at_rest) add_errors_beside_limit(scene, method, row);
   }
   if (predicted.mode >= 0 && finite) {
     const Vibration& binding = base.spectrum.modes[predicted.mode];

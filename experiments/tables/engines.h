@@ -121,6 +121,7 @@ struct EngineEnergyRow {
   double end = 0, turned_over = 0;
   std::optional<double> balance_error = {}, relative_balance_error = {};
   bool contact_inferred = false;
+  std::optional<double> contact = {}, contact_in_truth = {}, contact_bar = {}, contact_until = {};
 
   static constexpr std::string_view table = "engines-energy";
   static constexpr auto columns = [](auto&& column) {
@@ -135,7 +136,12 @@ struct EngineEnergyRow {
         column("relative balance error", "1", &EngineEnergyRow::relative_balance_error,
                "the same over the energy turned over"),
         column("contact loss inferred", "1", &EngineEnergyRow::contact_inferred,
-               "1 where the engine does not tell what contact took, so that no balance is claimed");
+               "1 where the engine does not tell what contact took, so that no balance is claimed"),
+        column("contact took", "J", &EngineEnergyRow::contact,
+               "what contact took as long as the truth is known, less what moving spheres gave; empty without a truth"),
+        column("contact takes in truth", "J", &EngineEnergyRow::contact_in_truth, "the same of the truth"),
+        column("bar of contact in truth", "J", &EngineEnergyRow::contact_bar, "error bar of that"),
+        column("contact until", "s", &EngineEnergyRow::contact_until, "end of what these three add up");
   };
 };
 

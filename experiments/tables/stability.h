@@ -59,6 +59,9 @@ struct LimitRow {
   long steps = 0;
   std::string reason;
   std::optional<double> precision;
+  // against the truth of a scene without rest
+  std::optional<double> step_below = {}, error_below = {}, step_above = {}, error_above = {}, motion = {},
+                        truth_bar = {};
 
   static constexpr std::string_view table = "stability", about = "Largest stable steps, measured and predicted.";
   static constexpr auto columns = [](auto&& column) {
@@ -76,7 +79,15 @@ struct LimitRow {
         column("verdict above", "1", &LimitRow::above, "how a run ends at 1.05 times the failed step"),
         column("steps", "1", &LimitRow::steps, "steps of each run"),
         column("reason", "1", &LimitRow::reason, "why measurement and prediction differ, or one is missing"),
-        column("precision", "1", &LimitRow::precision, "width of the bracket from held to failed, over held");
+        column("precision", "1", &LimitRow::precision, "width of the bracket from held to failed, over held"),
+        column("step below", "s", &LimitRow::step_below,
+               "largest step up to held that divides the time between samples, where a scene without rest has a truth"),
+        column("error below", "m", &LimitRow::error_below, "largest RMS position error at that step"),
+        column("step above", "s", &LimitRow::step_above, "the smallest such step from failed on"),
+        column("error above", "m", &LimitRow::error_above,
+               "largest RMS position error at that step, up to where the run fails"),
+        column("motion", "m", &LimitRow::motion, "largest RMS distance of the truth from the start"),
+        column("truth bar", "m", &LimitRow::truth_bar, "error bar of the truth");
   };
 };
 

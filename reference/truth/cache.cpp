@@ -56,7 +56,7 @@ namespace fs = std::filesystem;
 namespace {
 
 constexpr auto extension = ".truth";
-constexpr int error_bar_version = 4;  // raised with what a truth's error bar means: no truth of an older rule is found
+constexpr int error_bar_version = 5;  // raised with what a truth's error bar means: no truth of an older rule is found
 
 class ByteWriter {
  public:
@@ -141,6 +141,8 @@ std::string serialized(const std::string& key, const std::optional<Truth>& truth
     w.add(truth->error_bars);
     w.add(std::uint64_t{truth->under_contact_rule});
     w.add(truth->until);
+    w.add(truth->contact);
+    w.add(truth->contact_bars);
   }
   ByteWriter sum;
   sum.add(Fnv1a::of(w.bytes()));
@@ -163,6 +165,8 @@ std::optional<Truth> deserialized(const std::string& key, const std::string& fil
   truth.error_bars = r.numbers();
   truth.under_contact_rule = r.count() != 0;
   truth.until = r.number();
+  truth.contact = r.numbers();
+  truth.contact_bars = r.numbers();
   return truth;
 }
 

@@ -68,34 +68,71 @@ std::optional<Truth> truth_of(const Scene& scene, const Run& run) {
 
 namespace {
 
+/// The samples of one run of a route.
+struct RoutePath : Trajectory {
+  std::vector<double> contact = {};  // J, what contact took since the start; empty where it was not observed
+};
+double apart_in_place(const RoutePath& a, const RoutePath& b, size_t i) { return rms_distance(a.x[i], b.x[i]); }
+double apart_in_contact(const RoutePath& a, const RoutePath& b, size_t i) {
+  return std::abs(a.contact[i] - b.contact[i]);
+}
+
 /// Three runs of one kind, each refined by the same factor from the one before.
 struct RefinementStudy {
   std::string how;
   double step;   // s, of the fine run; the mean under error control
   double ratio;  // by which one refinement lowers the error at best: what is seen beyond it is chance
-  Trajectory coarse, middle, fine;
+  RoutePath coarse, middle, fine;
 };
 
 /// The error estimate of a refinement study, sample by sample: the differences of its last two refinements up to there.
 class RichardsonEstimate {
  public:
-  explicit RichardsonEstimate(const RefinementStudy& study) : study_(study) {}
-  /// m, of the error up to sample i, to be called in order. An order p divides the error by 2^p at each refinement (by
-  /// r, where it is the tolerance that is refined), so that the last difference over r - 1 is left; three times that,
-  /// for r is itself measured. Where the differences do not halve no order shows, and the whole difference stands.
+  using Distance = double (*)(const RoutePath&, const RoutePath&, size_t);
+  explicit RichardsonEstimate(const RefinementStudy& study, Distance apart = apart_in_place)
+      : study_(study), apart_(apart) {}
+  /// m (or J), of the error up to sample i, to be called in order. An order p divides the error by 2^p at each
+  /// refinement (by r, where it is the tolerance that is refined), so that the last difference over r - 1 is left;
+  /// three times that, for r is itself measured. Where the differences do not halve no order shows, and the whole
+  /// difference stands.
   double error_up_to(size_t i) {
-    before_ = std::max(before_, rms_distance(study_.coarse.x[i], study_.middle.x[i]));
-    last_ = std::max(last_, rms_distance(study_.middle.x[i], study_.fine.x[i]));
+    before_ = std::max(before_, apart_(study_.coarse, study_.middle, i));
+    last_ = std::max(last_, apart_(study_.middle, study_.fine, i));
     if (!std::isfinite(last_) || !std::isfinite(before_)) return INFINITY;
     const double r = std::min(before_ / last_, study_.ratio);
     return r >= 2 ? 3 * last_ / (r - 1) : last_;
   }
-  /// m, the last difference up to the same sample.
+  /// m (or J), the last difference up to the same sample.
   double last_change() const { return last_; }
 
  private:
   const RefinementStudy& study_;
+  Distance apart_;
   double before_ = 0, last_ = 0;
+};
+
+/// The error estimate of a route by another one beside its own.
+class ErrorOfTwoRoutes {
+ public:
+  ErrorOfTwoRoutes(const RefinementStudy& one, const RefinementStudy& other,
+                   RichardsonEstimate::Distance apart = apart_in_place)
+      : one_(one), other_(other), apart_(apart), own_(one, apart), theirs_(other, apart) {}
+  /// m (or J), at sample i, to be called in order: an error of the first route is what it is apart from the second, and
+  /// what that one errs the same way; a second one of order 1 errs by far the most, and otherwise: what is left of it
+  /// is its last change.
+  double error_up_to(size_t i) {
+    const double theirs = theirs_.error_up_to(i), own = own_.error_up_to(i),
+                 between = apart_(one_.fine, other_.fine, i);
+    const double apart = other_.ratio > 2        ? between + theirs
+                         : std::isfinite(theirs) ? std::max(between, theirs_.last_change())
+                                                 : INFINITY;
+    return std::max(apart, own);
+  }
+
+ private:
+  const RefinementStudy &one_, &other_;
+  RichardsonEstimate::Distance apart_;
+  RichardsonEstimate own_, theirs_;
 };
 
 constexpr int most_followed = 49;  // particles, from event to event
@@ -113,7 +150,7 @@ double first_step(const Scene& scene, bool constrained) {
 
 /// mysim's run at one step, under a DivergenceMonitor; nothing if it failed. Throws Unsupported where the hard
 /// distances depend on each other.
-std::optional<Trajectory> run_rk4(const Scene& scene, const Run& run, bool constrained) {
+std::optional<RoutePath> run_rk4(const Scene& scene, const Run& run, bool constrained) {
   Recorder recorder;
   Outcome out;
   if (constrained) {
@@ -125,7 +162,7 @@ std::optional<Trajectory> run_rk4(const Scene& scene, const Run& run, bool const
     out = run_method(find_method("mysim/rk4"), scene, run, {&recorder});
   }
   if (out.verdict != Verdict::ok) return std::nullopt;
-  return std::move(recorder.trajectory);
+  return RoutePath{std::move(recorder.trajectory)};
 }
 
 /// Halves the step from h on until that changes little; at least twice, so that an order can be seen, and at most
@@ -134,7 +171,7 @@ template <class RunAt, class How>
 std::optional<RefinementStudy> refine_step(const Scene& scene, double h, int order, int most_halvings, RunAt at,
                                            How how) {
   const double enough = 1e-8 * scene.size();  // far below what any scene needs; a few particles reach 1e-11 at once
-  std::optional<Trajectory> coarse, middle = at(h);
+  std::optional<RoutePath> coarse, middle = at(h);
   double change = INFINITY;
   for (int i = 1; i <= most_halvings && middle; ++i) {
     h /= 2;
@@ -170,12 +207,12 @@ std::optional<RefinementStudy> refine_tolerance(const Scene& scene, const Run& r
                                                 Outcome (*engine)(const Scene&, const Run&, Observer&)) {
   RefinementStudy study{std::move(how), 0, 10, {}, {}, {}};
   double tolerance = loosest;
-  for (Trajectory* path : {&study.coarse, &study.middle, &study.fine}) {
+  for (RoutePath* path : {&study.coarse, &study.middle, &study.fine}) {
     Recorder recorder;
     const Outcome out = engine(scene, {scene.step, run.duration, run.samples, tolerance}, recorder);
     if (out.verdict != Verdict::ok) return std::nullopt;
     study.step = out.step;
-    *path = std::move(recorder.trajectory);
+    *path = RoutePath{std::move(recorder.trajectory)};
     tolerance /= 10;
   }
   return study;
@@ -198,6 +235,7 @@ std::optional<Truth> ended_after(size_t samples, Truth truth) {
   path.t.resize(samples), path.x.resize(samples), path.v.resize(samples);
   truth.error_bars.resize(samples);
   truth.error_bar = truth.error_bars.back();
+  if (!truth.contact.empty()) truth.contact.resize(samples), truth.contact_bars.resize(samples);
   return truth;
 }
 
@@ -207,7 +245,9 @@ std::optional<Truth> truth_of_routes(const Scene& scene, const Run& run, Refinem
                                      const RefinementStudy& other, double most = INFINITY) {
   Truth truth{Tier::converged, fmt::format("{}, against {}", one.how, other.how), one.fine, 0};
   const auto& x = truth.trajectory.x;
-  RichardsonEstimate own_estimate(one), other_estimate(other);
+  ErrorOfTwoRoutes of_place(one, other), of_contact(one, other, apart_in_contact);
+  const bool contact_known = !one.fine.contact.empty() && !other.fine.contact.empty();
+  double contact_bar = 0;
   // a rounding of each step's positions, adding up like a random walk
   const double random_walk = 0.5 * std::numeric_limits<double>::epsilon() * std::sqrt(run.duration / one.step);
   double motion = 0;
@@ -217,16 +257,13 @@ std::optional<Truth> truth_of_routes(const Scene& scene, const Run& run, Refinem
     // and some units in the last place that each route has of its own, whatever it refines
     const double place = x[i].norm() / std::sqrt(x[i].cols());
     const double rounding = std::max(random_walk * place, 1e-15 * std::max(scene.size(), place));
-    // an error of the first route is what it is apart from the second, and what that one errs the same way; a second
-    // one of order 1 errs by far the most, and otherwise: what is left of it is its last change
-    const double theirs = other_estimate.error_up_to(i), own = own_estimate.error_up_to(i),
-                 between = rms_distance(x[i], other.fine.x[i]);
-    const double apart = other.ratio > 2         ? between + theirs
-                         : std::isfinite(theirs) ? std::max(between, other_estimate.last_change())
-                                                 : INFINITY;
-    const double error_bar = std::max(apart, own) + rounding;
+    const double error_bar = of_place.error_up_to(i) + rounding;
     truth.error_bar = std::isfinite(error_bar) ? std::max(truth.error_bar, error_bar) : INFINITY;
     truth.error_bars.push_back(truth.error_bar);
+    if (contact_known) {
+      contact_bar = std::max(contact_bar, of_contact.error_up_to(i));
+      truth.contact.push_back(one.fine.contact[i]), truth.contact_bars.push_back(contact_bar);
+    }
     if (truth.error_bar < 0.01 * motion && truth.error_bar <= most) known = i + 1;
   }
   return ended_after(known, std::move(truth));
@@ -249,11 +286,23 @@ std::optional<Truth> converged_truth(const Scene& scene, const Run& run) try {
 
 namespace {
 
-std::optional<Trajectory> run_leapfrog(const Scene& scene, const Run& run, const char* method = "mysim/leapfrog") {
+std::optional<Trajectory> run_leapfrog(const Scene& scene, const Run& run) {
   Recorder recorder;
-  if (run_method(find_method(method), scene, run, {&recorder}).verdict != Verdict::ok) return std::nullopt;
+  if (run_method(find_method("mysim/leapfrog"), scene, run, {&recorder}).verdict != Verdict::ok) return std::nullopt;
   return std::move(recorder.trajectory);
 }
+
+/// What contact took: what the balance of energies lacks, of both routes alike, whatever they tell of their impulses.
+class MissingEnergy : public Ledger {
+ public:
+  explicit MissingEnergy(const Model& model) : Ledger(model, ContactLoss::inferred) {}
+  void contact(double) override {}
+  std::vector<double> at_samples() const {
+    std::vector<double> taken;
+    for (const LedgerRow& row : rows()) taken.push_back(row.contact);
+    return taken;
+  }
+};
 
 bool in_contact(const Spheres& spheres, const Particles& particles, double t, const Points& x) {
   for (int i = 0; i < x.cols(); ++i)
@@ -295,7 +344,7 @@ std::optional<RefinementStudy> refine_events(const Scene& scene, const Run& run)
       {}};
   double tolerance = 1e-10;
   Run shorter = run;
-  for (Trajectory* path : {&study.coarse, &study.middle, &study.fine}) {
+  for (RoutePath* path : {&study.coarse, &study.middle, &study.fine}) {
     Recorder recorder;
     try {
       const Outcome out = run_event_driven(scene, {scene.step, shorter.duration, shorter.samples, tolerance}, recorder);
@@ -303,7 +352,7 @@ std::optional<RefinementStudy> refine_events(const Scene& scene, const Run& run)
     } catch (const Unsupported&) {
       if (recorder.trajectory.frames() == 0) throw;  // of the scene; else of where a particle came to be
     }
-    *path = std::move(recorder.trajectory);
+    *path = RoutePath{std::move(recorder.trajectory)};
     const int end = path->frames() - 1;
     if (end < 1) return std::nullopt;
     shorter.duration = run.duration / run.samples * end, shorter.samples = end;
@@ -329,8 +378,13 @@ std::optional<Truth> truth_of_part(const Scene& scene, const Run& run, const Run
 std::optional<RefinementStudy> refine_leapfrog_events(const Scene& scene, const Run& run, double first, int halvings) {
   return refine_step(
       scene, first, 2, halvings,
-      [&](double h) {
-        return run_leapfrog(scene, {h, run.duration, run.samples}, "mysim/leapfrog+events");
+      [&](double h) -> std::optional<RoutePath> {
+        Recorder recorder;
+        MissingEnergy missing(scene.model);
+        const Run at{h, run.duration, run.samples};
+        if (run_method(find_method("mysim/leapfrog+events"), scene, at, {&recorder, &missing}).verdict != Verdict::ok)
+          return std::nullopt;
+        return RoutePath{std::move(recorder.trajectory), missing.at_samples()};
       },
       [](double ms) { return fmt::format("mysim/leapfrog+events at {:.3g} ms", ms); });
 }
@@ -382,11 +436,12 @@ std::optional<Truth> time_stepping_truth(const Scene& scene, const Run& run) try
   RefinementStudy stepping{"", first / 32, 2, {}, {}, {}};
   stepping.how = fmt::format("Moreau's time stepping at {:.3g} ms on equations written apart", 1e3 * stepping.step);
   double h = 4 * stepping.step;
-  for (Trajectory* path : {&stepping.coarse, &stepping.middle, &stepping.fine}) {
+  for (RoutePath* path : {&stepping.coarse, &stepping.middle, &stepping.fine}) {
     Recorder recorder;
-    if (run_time_stepping(scene, {h, part.duration, part.samples}, recorder).verdict != Verdict::ok)
-      return std::nullopt;
-    *path = std::move(recorder.trajectory);
+    MissingEnergy missing(scene.model);
+    Observers look({&recorder, &missing});
+    if (run_time_stepping(scene, {h, part.duration, part.samples}, look).verdict != Verdict::ok) return std::nullopt;
+    *path = RoutePath{std::move(recorder.trajectory), missing.at_samples()};
     h /= 2;
   }
   return truth_of_part(scene, run, part, truth_of_routes(scene, part, std::move(*events), stepping, largest_bar));

@@ -21,6 +21,9 @@ struct Truth {
   // a result of the in-house contact rule: the distance of others from it is a difference, and no error
   bool under_contact_rule = false;
   double until = INFINITY;  // s, holds up to here; the samples end with it
+  // J, what contact took up to each sample (friction and impacts, less what moving spheres gave) and its error bars, of
+  // time_stepping_truth(); empty elsewhere
+  std::vector<double> contact, contact_bars;
 };
 
 /// Exact where the scene has a closed form (bar: round-off, 1e-15 x scene size x (1 + radians turned)); otherwise
@@ -59,6 +62,7 @@ std::optional<Truth> event_truth(const Scene& scene, const Run& run);
 /// 1/32. That one is of order 1: the bar is the largest of the difference of the two, of its last change, and of the
 /// first route's estimate. It ends where the bar exceeds a third of the scene's tolerance or a hundredth of the motion:
 /// where the motion becomes sensitive, which of two rules is right can no longer be told; and with the scene's window.
+/// What contact took is what is missing from the balance of energies along the path, and its bar is found alike.
 /// None where a route fails, where a particle touches two spheres at once, or where it would end before or at the first
 /// touch.
 std::optional<Truth> time_stepping_truth(const Scene& scene, const Run& run);

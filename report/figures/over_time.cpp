@@ -214,14 +214,18 @@ double largest_fall(const std::vector<std::pair<double, double>>& points) {
   return fall;
 }
 
-Figure contact_figure(const Scene& scene, const SceneData& facts, const Table& table) {
+Figure contact_figure(const Scene& scene, const SceneData& facts, const Table& table,
+                      const std::vector<EngineEnergyRow>& energies) {
   Figure f;
   f.name = scene.name + "-energy";
   f.title = scene.name + ": energy dissipated in contact";
   f.x = {"t / s", false, 0.0, scene.duration};
-  f.tier =
-      "another engine: how much a contact takes is not known otherwise, but that friction and inelastic contact of a "
-      "still ball take and never give";
+  const auto known = std::ranges::find_if(
+      energies, [&](const EngineEnergyRow& row) { return row.scene == scene.name && row.contact_in_truth; });
+  f.tier = known == energies.end() ? "another engine; contact with a still ball takes and never gives"
+                                   : fmt::format("converged until {:.3g} s: {:.5g} ± {:.1g} J; later another engine",
+                                                 known->contact_until.value_or(0), *known->contact_in_truth,
+                                                 known->contact_bar.value_or(0));
   f.y = {"energy dissipated in contact / J", false, std::nullopt, std::nullopt};
   std::vector<std::string> guessed, left_out, gave;
   for (const MethodData& m : facts.methods) {
@@ -262,7 +266,7 @@ std::vector<Chart> balance_charts(const ChartInput& input) {
     const Table* table = input.result.table(scene.name + "-energy");
     const double scale = turned_over(energies, scene.name);
     if (!table || !(scale > 0)) continue;
-    Figure f = input.facts[i].touched() ? contact_figure(scene, input.facts[i], *table)
+    Figure f = input.facts[i].touched() ? contact_figure(scene, input.facts[i], *table, energies)
                                         : balance_figure(scene, input.facts[i], *table, scale);
     // the caption ends with what is not drawn
     f.caption = caption_of(scene, input.commit) + f.caption;

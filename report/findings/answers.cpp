@@ -193,18 +193,19 @@ std::optional<Finding> failed_runs_answer(const std::vector<SceneData>& data) {
                  .words = {{"runs", counted(all, "run")}, {"which", listed(names)}}};
 }
 
-std::optional<Finding> failure_answer(const std::vector<Scene>& scenes, const std::vector<SceneData>& data,
-                                      const TableSet& rows) {
-  const Scene* scene = main_scene(scenes, rows);
-  const auto run = scene ? recommended_run(scene->name, 0.01, rows) : std::nullopt;
+/// The limit of the main scene about a state, and how near all limits there are to theory. About a start, where theory
+/// does not see what follows, the truth must have confirmed it.
+std::optional<Finding> limit_answer(const Scene& scene, const TableSet& rows, LimitState state) {
+  const auto run = recommended_run(scene.name, 0.01, rows);
   std::optional<LimitRow> shown;
   const std::vector<LimitRow> table = rows_of<LimitRow>(rows);
   for (const LimitRow& row : table)
-    if (scene && row.scene == scene->name && row.state == LimitState::rest && row.predicted && row.measured &&
-        family_of(row.method).is_subject() && (!shown || (run && row.method == run->method)))
+    if (row.scene == scene.name && row.state == state && row.predicted && row.measured &&
+        (state == LimitState::rest || confirmed_by_truth(row)) && family_of(row.method).is_subject() &&
+        (!shown || (run && row.method == run->method)))
       shown = row;
-  const StepLimitCounts limits = step_limit_counts(table, LimitState::rest);
-  if (!shown || limits.agreeing == 0) return failed_runs_answer(data);
+  const StepLimitCounts limits = step_limit_counts(table, state);
+  if (!shown || limits.agreeing == 0) return std::nullopt;
   const size_t all = limits.agreeing + limits.coarse + limits.apart;
   return Finding{
       .rule = "answer-limit",
@@ -218,6 +219,14 @@ std::optional<Finding> failure_answer(const std::vector<Scene>& scenes, const st
                            : limits.agreeing == all ? fmt::format("All {} limits measured lie", all)
                                                     : fmt::format("{} of {} limits lie", limits.agreeing, all)},
                 {"within", percent(limits.within, 1)}}};
+}
+
+std::optional<Finding> failure_answer(const std::vector<Scene>& scenes, const std::vector<SceneData>& data,
+                                      const TableSet& rows) {
+  if (const Scene* scene = main_scene(scenes, rows))
+    for (const LimitState state : {LimitState::rest, LimitState::start})
+      if (auto answer = limit_answer(*scene, rows, state)) return answer;
+  return failed_runs_answer(data);
 }
 
 /// The last scene on which something touches and another engine has a difference.

@@ -5,6 +5,7 @@
 #include <map>
 
 #include "experiments/tables/energy.h"
+#include "experiments/tables/engines.h"
 #include "report/findings/findings.h"
 #include "report/findings/findings_text.h"
 #include "report/findings/summaries.h"
@@ -91,6 +92,58 @@ void open_balances(const std::vector<EnergyRow>& table, std::vector<Finding>& ou
   for (const auto& [scene, finding] : by_scene) out.push_back(finding);
 }
 
+/// "1.8 % more", "5.8 % less", "as much" where the error bar hides the difference.
+std::string off_text(double taken, double in_truth, double bar) {
+  const double off = taken - in_truth;
+  if (std::abs(off) <= bar) return "as much";
+  return fmt::format("{} {}", percent(std::abs(off), std::abs(in_truth)), off * in_truth > 0 ? "more" : "less");
+}
+
+/// What contact takes on scenes whose truth says it: of the methods that stand for the engines, and of mysim's the one
+/// that is furthest off.
+void taken_by_contact(const TableSet& rows, std::vector<Finding>& out) {
+  const std::vector<EngineEnergyRow> table = rows_of<EngineEnergyRow>(rows);
+  std::vector<std::string> scenes;
+  for (const EngineEnergyRow& row : table)
+    if (row.contact && std::ranges::find(scenes, row.scene) == scenes.end()) scenes.push_back(row.scene);
+  for (const std::string& scene : scenes) {
+    const EngineEnergyRow *first = nullptr, *furthest = nullptr;
+    std::vector<const EngineEnergyRow*> others;
+    for (const EngineEnergyRow& row : table) {
+      if (row.scene != scene || !row.contact || row.verdict != Verdict::ok || row.method == sticky_sphere) continue;
+      const auto off = [](const EngineEnergyRow* of) { return std::abs(*of->contact - *of->contact_in_truth); };
+      if (row.method == ours) first = &row;
+      // what an engine does not tell is what its balance lacks, and of a rule that damps by itself more than contact
+      if (is_another_engine(row.method) && stands_for_its_engine(row.method) &&
+          row.method != position_based(family_of(row.method)))
+        others.push_back(&row);
+      if (!row.contact_inferred && row.method != ours && (!furthest || off(&row) > off(furthest))) furthest = &row;
+    }
+    // a tenth: beyond that the truth knows no share of it
+    if (!first || *first->contact_bar > 0.1 * std::abs(*first->contact_in_truth)) continue;
+    if (furthest) others.insert(others.begin(), furthest);
+    const double in_truth = *first->contact_in_truth, bar = *first->contact_bar;
+    std::string words;
+    for (const EngineEnergyRow* row : others)
+      words += fmt::format(", {} {}", name_in_sentence(row->method), off_text(*row->contact, in_truth, bar));
+    const auto share = [&](double off) { return 100 * off / std::abs(in_truth); };
+    const double off = *first->contact - in_truth;
+    // as many digits as the bar allows
+    const int digits = std::clamp(static_cast<int>(std::ceil(-std::log10(bar))), 0, 9);
+    out.push_back({.rule = "contact-energy",
+                   .scene = scene,
+                   .method = ours,
+                   .value = share(std::abs(off)),
+                   .low = share(std::max(0., std::abs(off) - bar)),
+                   .high = share(std::abs(off) + bar),
+                   .words = {{"until", step_text(*first->contact_until)},
+                             {"takes", fmt::format("{} {:.{}f} ± {:.1g} J", in_truth < 0 ? "gives" : "takes",
+                                                   std::abs(in_truth), digits, bar)},
+                             {"off", off_text(*first->contact, in_truth, bar)},
+                             {"others", words}}});
+  }
+}
+
 /// Numerical damping against the closed form.
 void damping(const std::vector<DampingRow>& table, std::vector<Finding>& out) {
   std::vector<Finding> all;
@@ -116,6 +169,7 @@ std::vector<Finding> energy_findings(const TableSet& rows) {
   std::vector<Finding> out;
   const std::vector<EnergyRow> table = rows_of<EnergyRow>(rows);
   for (const auto part : {symplectic, drift, open_balances}) part(table, out);
+  taken_by_contact(rows, out);
   damping(rows_of<DampingRow>(rows), out);
   return out;
 }

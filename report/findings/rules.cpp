@@ -171,6 +171,10 @@ const std::vector<FindingRule>& finding_rules() {
       {"step-limits-at-start", "accuracy", "stability", "limits away from theory", "1", measured,
        "Where a scene has no rest, theory sees its start alone: {value} of {all} lie elsewhere.",
        "at the start: rows whose measurement contradicts the prediction", {"stability"}, "stability-limits"},
+      {"limits-by-truth", "failure", "stability", "limits that the truth confirms", "1", "converged",
+       "On {scene} the truth confirms {value} of {all}: {how}.",
+       "rows with a truth: error below at most a tenth of motion and error above more; max of error below / motion, min "
+       "of error above / motion", {"stability"}, "stability-limits"},
       {"no-stable-step", "failure", "stability", "scenes", "1", discrete,
        "{method} has no stable step at all on {where}, as theory says.",
        "rows at rest whose prediction and measurement are no stable step", {"stability"}, "stability-limits"},
@@ -209,6 +213,10 @@ const std::vector<FindingRule>& finding_rules() {
        "{method}.",
        "over runs of symplectic rules: min and max of largest residual / (|drag took| + |dashpots took| + |contact "
        "took|)", {"energy"}},
+      {"contact-energy", "energy", ball, "deviation of what contact takes from the truth", "%", "converged",
+       "Until {until} {scene}'s ball {takes}; {method} {off}{others}.",
+       "|contact took - contact takes in truth| / contact takes in truth, ± its bar, of mysim/symplectic-euler; beside it "
+       "mysim's furthest off, and other engines'", {"engines-energy"}, "{}-energy"},
       {"numerical-damping", "energy", ball, "deviation of the numerical damping from theory", "%", "exact",
        "{method} damps by itself{rate}; theory agrees to within {value}.",
        "max of |equivalent drag / by theory - 1|; equivalent drag / omega at h omega = 0.1",
@@ -234,6 +242,10 @@ const std::vector<FindingRule>& finding_rules() {
       {"after-contact-open", "contact", ball, "largest RMS position difference over the whole run", "m", other_engine,
        "On {scene} beyond {window} single positions say nothing: mysim's rules part by {own}, {other} by {value}.",
        "the same, where the other's is at most three times theirs", {"engines"}, "{}-agreement"},
+      {"final-lengths", "contact", ball, "largest difference of height and outline at the end", "m", measured,
+       "On {scene} {why}; perturbed starts move final height and outline by {spread}, other methods by up to {value}.",
+       "in the scene's table of statistics, over quantities in m at the end: max of deviation of mysim/symplectic-euler; "
+       "max of |mean - its mean|", {"engines"}},
       {"penetration", "contact", ball, "penetration depth over the radius", "%", measured,
        "With {method} particles of a cloth sink into a ball by up to {value} of its radius, triangles by "
        "{triangles}.",

@@ -34,9 +34,31 @@ std::map<std::string, double> differences_over_run(const Table& rows) {
   return largest;
 }
 
+/// The lengths of a motion's end, of perturbed runs of mysim's representative and of all methods: where positions can
+/// be held against nothing. None without a spread.
+std::optional<Finding> final_lengths(const TableSet& rows, const std::string& scene, const std::string& why) {
+  const Table* table = rows.table(scene + "-statistics");
+  if (!table) return std::nullopt;
+  const std::vector<StatisticRow> all = rows_of<StatisticRow>(*table);
+  Finding f{.rule = "final-lengths", .scene = scene, .other = ours, .value = 0};
+  double spread = 0;
+  for (const StatisticRow& of_ours : all) {
+    if (of_ours.method != ours || of_ours.unit != "m" || !of_ours.quantity.ends_with(" at the end")) continue;
+    spread = std::max(spread, of_ours.deviation.value_or(0));
+    for (const StatisticRow& row : all)
+      if (const double apart = std::abs(row.mean - of_ours.mean);
+          row.quantity == of_ours.quantity && row.method != sticky_sphere && apart > f.value)
+        f.value = apart, f.method = row.method;
+  }
+  if (!(spread > 0) || f.method.empty()) return std::nullopt;
+  f.words = {{"why", why}, {"spread", nice_length(spread)}};
+  return f;
+}
+
 /// Single positions after the window: mysim's own rules of an order above one, which share its contact
 /// rule, say whether they can be predicted. They part by what their steps err and by what grows of it; where that stays
-/// small against the difference of another engine, it is its result that differs, and no chance.
+/// small against the difference of another engine, it is its result that differs, and no chance. Otherwise, and where
+/// there is no truth, the end's lengths are held against those of perturbed runs.
 void after_contact(const TableSet& rows, std::vector<Finding>& out) {
   std::map<std::string, std::vector<EngineRow>> runs;  // by scene
   std::vector<std::string> scenes;
@@ -53,7 +75,12 @@ void after_contact(const TableSet& rows, std::vector<Finding>& out) {
     for (const EngineRow& run : runs[scene])
       duration = std::max(duration, run.end), touched |= run.clearance.value_or(1) < 1e-3;
     const double window = runs[scene][0].window;
-    if (!over_time || !touched || !(window < duration * (1 - 1e-9))) continue;
+    if (!over_time || !touched) continue;
+    const EngineRow& any = runs[scene][0];
+    if (!(window < duration * (1 - 1e-9))) {
+      if (const auto f = any.truth ? std::nullopt : final_lengths(rows, scene, "no truth is known")) out.push_back(*f);
+      continue;
+    }
     const auto apart = differences_over_run(*over_time);
     for (const EngineRow& run : runs[scene])
       if (const Method* m = builtin_method(run.method); m && m->stepper && m->stepper->order >= 2) {
@@ -61,18 +88,28 @@ void after_contact(const TableSet& rows, std::vector<Finding>& out) {
         if (const auto found = apart.find(run.method); found != apart.end()) own = std::max(own, found->second);
       }
     if (rules < 2) continue;
+    std::vector<Finding> said;
+    bool differ = false;
     for (const EngineRow& run : runs[scene])
       if (const auto other = apart.find(run.method); other != apart.end() && is_another_engine(run.method) &&
                                                      stands_for_its_engine(run.method) &&
-                                                     run.method != position_based(family_of(run.method)))
+                                                     run.method != position_based(family_of(run.method))) {
         // three times: beyond what one more rule of the kind might add
-        out.push_back(
-            {.rule = other->second > 3 * own ? "after-contact" : "after-contact-open",
+        const bool differs = other->second > 3 * own;
+        differ |= differs;
+        said.push_back(
+            {.rule = differs ? "after-contact" : "after-contact-open",
              .scene = scene,
              .method = ours,
              .other = run.method,
              .value = other->second,
              .words = {{"window", step_text(window)}, {"rules", std::to_string(rules)}, {"own", nice_length(own)}}});
+      }
+    const bool known_to_the_end = any.truth && !any.truth_until;
+    if (const auto f = final_lengths(rows, scene, "beyond " + step_text(window) + " positions say nothing");
+        f && !differ && !known_to_the_end)
+      said = {*f};
+    out.insert(out.end(), said.begin(), said.end());
   }
 }
 

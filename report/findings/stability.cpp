@@ -1,5 +1,6 @@
 // Findings of the search for the largest stable steps.
 
+#include <algorithm>
 #include <cmath>
 #include <map>
 
@@ -43,6 +44,36 @@ std::vector<Finding> limit_findings(const TableSet& rows) {
 
 namespace {
 
+/// Limits of scenes without rest, held against the truth on both sides. Where it does not confirm all, the one that is
+/// furthest off though it is called stable is named, or the one that is nearest though it is called failed.
+void limits_by_truth(const TableSet& rows, std::vector<Finding>& out) {
+  std::map<std::string, std::vector<LimitRow>> by_scene;
+  for (LimitRow& row : rows_of<LimitRow>(rows))
+    if (row.error_below && row.error_above && *row.motion > 0) by_scene[row.scene].push_back(std::move(row));
+  const auto below = [](const LimitRow& row) { return *row.error_below / *row.motion; };
+  const auto above = [](const LimitRow& row) { return *row.error_above / *row.motion; };
+  for (const auto& [scene, limits] : by_scene) {
+    const LimitRow &off = *std::ranges::max_element(limits, {}, below),
+                   &near = *std::ranges::min_element(limits, {}, above);
+    const auto confirmed = std::ranges::count_if(limits, confirmed_by_truth);
+    Finding f{.rule = "limits-by-truth", .scene = scene, .value = static_cast<double>(confirmed)};
+    const auto exception = [&](const LimitRow& row, const char* called, double step, double error) {
+      f.method = row.method;
+      return fmt::format("{}, {} at {}, is {} of the motion off", name_in_sentence(row.method), called, step_text(step),
+                         percent(error, 1));
+    };
+    if (confirmed == std::ssize(limits))
+      f.words["how"] = fmt::format("below, errors are at most {} of the motion, above at least {}",
+                                   percent(below(off), 1), percent(above(near), 1));
+    else if (below(off) > useless_from)
+      f.words["how"] = exception(off, "stable", *off.step_below, below(off));
+    else
+      f.words["how"] = exception(near, "failed", *near.step_above, above(near));
+    f.words["all"] = counted(limits.size(), "limit");
+    out.push_back(f);
+  }
+}
+
 /// Methods that fail at every step, as theory says.
 void without_stable_step(const TableSet& rows, std::vector<Finding>& out) {
   std::map<std::string, std::vector<std::string>> scenes_of;  // by method
@@ -71,6 +102,7 @@ void growth(const TableSet& rows, std::vector<Finding>& out) {
 
 std::vector<Finding> stability_findings(const TableSet& rows) {
   std::vector<Finding> out = limit_findings(rows);
+  limits_by_truth(rows, out);
   without_stable_step(rows, out);
   growth(rows, out);
   return out;

@@ -149,4 +149,9 @@ StepLimitCounts step_limit_counts(const std::vector<LimitRow>& rows, LimitState 
   return counts;
 }
 
+bool confirmed_by_truth(const LimitRow& row) {
+  return row.error_below && row.error_above && *row.error_below <= useless_from * *row.motion &&
+         *row.error_above > useless_from * *row.motion;
+}
+
 }  // namespace crosscheck

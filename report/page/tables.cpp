@@ -118,24 +118,37 @@ std::string statistics_html(const Table& table) {
     if (std::find(list.begin(), list.end(), text) == list.end()) list.push_back(text);
   };
   for (size_t i = 0; i < table.rows.size(); ++i)
-    if (number_at(table, i, "deviation"))  // single runs stand in the table of data alone
+    if (number_at(table, i, "deviation"))
       note(quantities, table.at(i, "quantity")), note(methods, table.at(i, "method"));
   for (const std::string& m : methods) out += fmt::format("<th>{}</th>", escaped(m));
-  out += "</tr></thead><tbody>\n";
+  out += "<th class=\"text\">furthest method</th></tr></thead><tbody>\n";
   for (const std::string& quantity : quantities) {
     out += fmt::format("<tr><th scope=\"row\">{}</th>", escaped(quantity));
+    // of single runs, which stand in the table of data, the one that is furthest from the first method's mean
+    std::optional<double> of_first;
+    double furthest = 0;
+    std::string where = "<td class=\"none\">–</td>";
     // a method's rows come in one order, so that its cells stand below its name
     for (const std::string& m : methods)
       for (size_t i = 0; i < table.rows.size(); ++i) {
-        if (std::get<std::string>(table.at(i, "quantity")) != quantity ||
-            std::get<std::string>(table.at(i, "method")) != m)
-          continue;
+        if (text_at(table, i, "quantity") != quantity || text_at(table, i, "method") != m) continue;
         const double mean = std::get<double>(table.at(i, "mean")), spread = std::get<double>(table.at(i, "deviation"));
         const auto& unit = std::get<std::string>(table.at(i, "unit"));
         out += fmt::format("<td>{} {} ± {}</td>", with_digits_of(mean, spread), unit,
                            unit == "m" ? nice_length(spread) : nice(spread) + " " + unit);
+        if (!of_first) of_first = mean;
       }
-    out += "</tr>\n";
+    for (size_t i = 0; i < table.rows.size() && of_first; ++i) {
+      if (text_at(table, i, "quantity") != quantity || text_at(table, i, "method") == sticky_sphere) continue;
+      const double off = *number_at(table, i, "mean") - *of_first;
+      if (!(std::abs(off) > std::max(furthest, 1e-12))) continue;
+      furthest = std::abs(off);
+      const std::string unit = text_at(table, i, "unit");
+      where = fmt::format("<td class=\"text\">{}{}, {}</td>", off > 0 ? "+" : "",
+                          unit == "m" ? nice_length(off) : nice(off) + " " + unit,
+                          escaped(name_in_sentence(text_at(table, i, "method"))));
+    }
+    out += where + "</tr>\n";
   }
   return out + "</tbody></table></div>\n";
 }

@@ -48,12 +48,22 @@ TEST(ContactTruth, OfADrapeIsThatOfTwoRulesWithoutACommonEquationUntilItIsSensit
   EXPECT_EQ(truth->error_bars.size(), truth->trajectory.t.size());
   EXPECT_LE(truth->error_bar, scene.tolerance / 3);
   // a rule of mysim's that is neither route
-  const Trajectory finer =
-      trajectory_of(stepper("rk4"), scene, {scene.step / 16, truth->until, truth->trajectory.frames() - 1});
-  const double off = sup_rms(truth->trajectory, finer);
+  Recorder recorder;
+  Ledger ledger(scene.model, ContactLoss::reported);
+  run_method(find_method("rk4"), scene, {scene.step / 16, truth->until, truth->trajectory.frames() - 1},
+             {&recorder, &ledger});
+  const double off = sup_rms(truth->trajectory, recorder.trajectory);
   fmt::print("drape: bar {:.2g} m, {:.2g} m from another rule, until {:.2g} s\n", truth->error_bar, off, truth->until);
   EXPECT_LT(off, truth->error_bar);
   EXPECT_GT(off, truth->error_bar / 40);
+  // and what its impulses took, which neither route is asked
+  ASSERT_EQ(truth->contact.size(), truth->trajectory.t.size());
+  const double taken = ledger.rows().back().contact, bar = truth->contact_bars.back();
+  fmt::print("drape: contact takes {:.6g} J, bar {:.2g} J, {:.6g} J by another rule\n", truth->contact.back(), bar,
+             taken);
+  EXPECT_LT(std::abs(taken - truth->contact.back()), bar);
+  EXPECT_GT(std::abs(taken - truth->contact.back()), bar / 40);
+  EXPECT_LT(bar, 0.005 * taken);
 }
 
 TEST(ContactTruth, ThatEndsEarlyIsHeldAgainstNothingLater) {
@@ -88,6 +98,11 @@ TEST(ContactTruth, OfOneParticleCoversTheExactSlide) {
       error = std::max(error, rms_distance(truth->trajectory.x[i], exact->at(truth->trajectory.t[i]).x));
     fmt::print("slide: bar {:.2g} m, error {:.2g} m, {}\n", truth->error_bar, error, truth->how);
     EXPECT_LT(error, truth->error_bar) << truth->how;
+    // friction is all that takes energy there
+    const auto energy = [&](int i) { return energy_of(scene.model, exact->at(truth->trajectory.t[i])).total(); };
+    for (size_t i = 0; i < truth->contact.size(); ++i)
+      EXPECT_NEAR(truth->contact[i], energy(0) - energy(static_cast<int>(i)), truth->contact_bars[i] + 1e-12) << i;
+    EXPECT_EQ(truth->contact.empty(), truth->under_contact_rule);
     // the bar of a route of order 1 says little of one of order 2 beside it
     if (truth->under_contact_rule) {
       EXPECT_GT(error, truth->error_bar / 40);

@@ -393,5 +393,37 @@ TEST(Kicks, AreBesideTheShortestSpringThatHasALength) {
   EXPECT_GT((perturbed_scene(base, {}).start.x - base.scene.start.x).norm(), 0);
 }
 
+TEST(MeasuredLimit, OfASceneWithoutRestIsHeldAgainstTheTruthOnBothSides) {
+  // two masses on a spring, stretched a little, fall on a ball: by 2 / omega = 2 / sqrt(2 k / m) leapfrog holds up to
+  // 14 ms
+  Scene scene = small_scene(std::string("[[particle]]\nposition = [0, 1.1, 0]\nmass = 0.1\n[[particle]]\n"
+                                        "position = [0.501, 1.1, 0]\nmass = 0.1\n[[spring]]\nends = [0, 1]\n"
+                                        "stiffness = 1000\nrest = 0.5\n[sphere]\ncentre = [0, 0, 0]\nradius = 1\n"
+                                        "margin = 0.02\nfriction = 0.3\n") +
+                                gravity_text,
+                            0.3, 1e-3, 10);
+  scene.window = 0.3;
+  TableSet tables;
+  add_limit(scene, find_method("leapfrog"), {400, 0.01}, tables);
+  const auto rows = rows_of<LimitRow>(*tables.table("stability"));
+  ASSERT_EQ(rows.size(), 1u);
+  const LimitRow& row = rows[0];
+  EXPECT_EQ(row.state, LimitState::start);
+  ASSERT_TRUE(row.error_below && row.error_above);
+  EXPECT_LE(*row.step_below, *row.held);
+  EXPECT_GE(*row.step_above, *row.failed);
+  for (const double step : {*row.step_below, *row.step_above})
+    EXPECT_NEAR(0.03 / step, std::round(0.03 / step), 1e-9) << "it divides the time between samples";
+  fmt::print("pair on a ball: {:.3g} of the motion below, {:.3g} above\n", *row.error_below / *row.motion,
+             *row.error_above / *row.motion);
+  EXPECT_GT(*row.error_below, *row.truth_bar);
+  EXPECT_LT(*row.error_below, 0.1 * *row.motion);
+  EXPECT_GT(*row.error_above, 0.1 * *row.motion);
+  // a scene with a rest is told by theory
+  TableSet of_rest;
+  add_limit(vertical_chain(0), find_method("leapfrog"), {400, 0.01}, of_rest);
+  EXPECT_FALSE(rows_of<LimitRow>(*of_rest.table("stability"))[0].error_below);
+}
+
 }  // namespace
 }  // namespace crosscheck

@@ -33,6 +33,7 @@ class Cache : public ::testing::Test {
           Tier::converged, "by two routes", run_and_record("rk4", requested, at).trajectory, 1e-9, {1e-12, 1e-9}};
       truth.under_contact_rule = true;
       truth.until = 0.25;
+      truth.contact = {0, 2}, truth.contact_bars = {0, 1e-3};
       return truth;
     });
   }
@@ -56,6 +57,8 @@ TEST_F(Cache, ReturnsTheSameBitsWithoutComputingAgain) {
   EXPECT_EQ(again->error_bars, (std::vector{1e-12, 1e-9}));
   EXPECT_TRUE(again->under_contact_rule);
   EXPECT_EQ(again->until, 0.25);
+  EXPECT_EQ(again->contact, (std::vector{0., 2.}));
+  EXPECT_EQ(again->contact_bars, (std::vector{0, 1e-3}));
   // one file and its lock, and no half one beside it
   EXPECT_EQ(std::distance(fs::directory_iterator(folder), {}), 2);
   EXPECT_TRUE(fs::exists(cache.file_of(scene, run).string() + ".lock"));

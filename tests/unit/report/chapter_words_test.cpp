@@ -165,6 +165,33 @@ TEST(StabilityFindings, ContradictionsAreCountedAndTheFurthestIsNamed) {
   EXPECT_EQ(all[3].value, 1);
 }
 
+TEST(StabilityFindings, TheTruthConfirmsLimitsOfScenesWithoutRest) {
+  const auto row = [](const std::string& method, double below, double above) {
+    LimitRow limit = limit_row(method, 3.64e-3, 3.617e-3, 3.623e-3, LimitState::start);
+    limit.step_below = 3.33e-3, limit.error_below = below, limit.step_above = 4e-3, limit.error_above = above;
+    limit.motion = 0.3, limit.truth_bar = 4e-5;
+    return limit;
+  };
+  const auto said = [](const std::vector<LimitRow>& limits) {
+    return the(stability_findings(rows_of({stability(limits)})), "limits-by-truth");
+  };
+  const Finding both = said({row("mysim/leapfrog", 3e-3, 0.06), row("mysim/rk4", 6e-3, 0.09)});
+  expect_short({both});
+  EXPECT_EQ(both.value, 2);
+  EXPECT_TRUE(contains(sentence_of(both), "confirms 2 of 2 limits: below, errors are at most 2 %"));
+  EXPECT_TRUE(contains(sentence_of(both), "at least 20 %"));
+  // a run called blown up that is where the truth is, and one that held and is far from it
+  const Finding failed = said({row("mysim/leapfrog", 3e-3, 0.02), row("mysim/rk4", 3e-3, 0.09)}),
+                held = said({row("mysim/leapfrog", 3e-3, 0.02), row("mysim/rk4", 0.042, 0.09)});
+  expect_short({failed, held});
+  EXPECT_EQ(failed.value, 1);
+  EXPECT_TRUE(contains(sentence_of(failed), "1 of 2 limits: leapfrog, failed at 4 ms, is 6.7 % of the motion off"));
+  EXPECT_EQ(held.value, 0);
+  EXPECT_TRUE(contains(sentence_of(held), "0 of 2 limits: rk4, stable at 3.33 ms, is 14 % of the motion off"));
+  const auto without = stability_findings(rows_of({stability({limit_row("mysim/rk4", 1e-3, 2e-3, 2.01e-3)})}));
+  EXPECT_FALSE(std::ranges::count(rules_of(without), "limits-by-truth"));
+}
+
 TEST(StabilityFindings, MethodsWithoutAStableStepAndTheRateOfTheirGrowth) {
   Table growth = crosscheck::table_of<GrowthRow>();
   for (const auto& [share, deviation] : {std::pair{std::optional<double>(), 2e-3}, {std::optional(0.98), 0.5}})
@@ -293,6 +320,34 @@ TEST(EnergyFindings, WhatContactLeavesOpenIsSaidByScene) {
   EXPECT_NEAR(*open.high, 53.3, 0.1);
   EXPECT_EQ(open.method, "mysim/symplectic-euler");
   EXPECT_EQ(open.words.at("where"), "ball");
+}
+
+TEST(EnergyFindings, WhatContactTakesIsHeldAgainstTheTruthAndNothingIsSaidBelowItsBar) {
+  const auto said = [](double bar) {
+    Table rows = crosscheck::table_of<EngineEnergyRow>();
+    for (const auto& [method, taken] : {std::pair{"mysim/symplectic-euler", 11.31},
+                                        {"mysim/leapfrog", 11.11},
+                                        {"mysim/implicit-euler", 10.46},
+                                        {"bullet/deformable-explicit", 11.14},
+                                        {"bullet/pbd", 9.},
+                                        {"mysim/symplectic-euler+sticky", 5.}})
+      add(rows, EngineEnergyRow{.scene = "drape",
+                                .method = method,
+                                .contact_inferred = std::string_view(method).starts_with("bullet"),
+                                .contact = taken,
+                                .contact_in_truth = 11.1,
+                                .contact_bar = bar,
+                                .contact_until = 0.48});
+    return energy_findings(rows_of({rows}));
+  };
+  const Finding f = the(said(0.05), "contact-energy");
+  expect_short({f});
+  EXPECT_EQ(sentence_of(f),
+            "Until 480 ms drape's ball takes 11.10 ± 0.05 J; symplectic-euler 1.9 % more, implicit-euler 5.8 % "
+            "less, Bullet's deformable-explicit as much.");
+  EXPECT_NEAR(f.value, 100 * 0.21 / 11.1, 1e-9);
+  EXPECT_NEAR(*f.low, 100 * 0.16 / 11.1, 1e-9);
+  EXPECT_TRUE(said(1.2).empty()) << "a tenth of it is not known";
 }
 
 TEST(EnergyFindings, DampingNamesWhoWasAsked) {
@@ -450,6 +505,33 @@ TEST(SphereFindings, WhetherTheMotionAfterContactIsPredictableIsMeasuredByTheRul
       "On drape beyond 500 ms, 2 of mysim's rules agree within 0.2 mm; Bullet's deformable-explicit departs by up "
       "to 3 mm.");
   EXPECT_EQ(open.rule, "after-contact-open");
+}
+
+TEST(SphereFindings, WherePositionsSayNothingTheLengthsOfTheEndAreHeldAgainstThoseOfPerturbedRuns) {
+  TableSet rows = rows_of(touched(0.2, 0.3));
+  Table statistics = crosscheck::table_of<StatisticRow>("drape-statistics");
+  const auto add_row = [&](const char* method, const char* quantity, const char* unit, double mean,
+                           std::optional<double> deviation = {}) {
+    add(statistics, StatisticRow{method, quantity, unit, mean, deviation});
+  };
+  add_row("mysim/symplectic-euler", "height of the centre of mass at the end", "m", 0.88, 1.4e-5);
+  add_row("mysim/symplectic-euler", "smallest clearance", "m", 0, 1.);
+  add_row("mysim/symplectic-euler", "elastic energy at the end", "J", 0.3, 2.);
+  add_row("bullet/pbd", "height of the centre of mass at the end", "m", 0.8825);
+  add_row("bullet/pbd", "smallest clearance", "m", -0.5);
+  add_row("mysim/symplectic-euler+sticky", "height of the centre of mass at the end", "m", 0.9);
+  rows.tables.push_back(statistics);
+  const auto all = sphere_findings(rows);
+  expect_short(all);
+  ASSERT_EQ(rules_of(all), std::vector<std::string>{"final-lengths"});
+  EXPECT_EQ(sentence_of(all[0]),
+            "On drape beyond 500 ms positions say nothing; perturbed starts move final height and outline by 14 µm, "
+            "other methods by up to 2.5 mm.");
+  EXPECT_EQ(all[0].method, "bullet/pbd");
+  // what differs in single positions is said so
+  TableSet apart = rows_of(touched(2e-4, 2.97e-3));
+  apart.tables.push_back(statistics);
+  EXPECT_EQ(rules_of(sphere_findings(apart)), std::vector<std::string>{"after-contact"});
 }
 
 TEST(ChapterWords, GrowthThatIsNotShownIsCounted) {

@@ -331,17 +331,23 @@ class Answers : public Take {
     }
   }
   std::vector<Finding> answers(const TableSet& tables) const { return answer_findings(scenes_, facts_, tables); }
+  Table limits_about(LimitState state, std::optional<double> error_below = {}) const {
+    Table limits = table_of<LimitRow>();
+    for (const char* method : {"mysim/leapfrog", "mysim/symplectic-euler"}) {
+      LimitRow row;
+      row.scene = scene, row.method = method, row.state = state, row.predicted = 2.504e-3, row.measured = 2.5075e-3;
+      row.held = 2.5e-3, row.failed = 2.515e-3, row.deviation = 0.0014;
+      if (error_below) row.error_below = error_below, row.error_above = 0.5, row.motion = 1;
+      add(limits, row);
+    }
+    return limits;
+  }
   TableSet full() {
     add_run("mysim/symplectic-euler", 2.5e-3, 7.1e-3, 0.112);
     add_cheapest("mysim/symplectic-euler", 2.5e-3, 7.1e-3, 0.112);
     TableSet all = rows();
-    Table limits = table_of<LimitRow>(), cone = table_of<ConeRow>(), least = table_of<LeastModelRow>();
-    for (const char* method : {"mysim/leapfrog", "mysim/symplectic-euler"}) {
-      LimitRow row;
-      row.scene = scene, row.method = method, row.predicted = 2.504e-3, row.measured = 2.5075e-3;
-      row.held = 2.5e-3, row.failed = 2.515e-3, row.deviation = 0.0014;
-      add(limits, row);
-    }
+    const Table limits = limits_about(LimitState::rest);
+    Table cone = table_of<ConeRow>(), least = table_of<LeastModelRow>();
     for (const std::string& method : {std::string(ours), std::string(theirs), std::string("bullet/pbd")})
       for (int i = 0; i < 72; ++i) {
         ConeRow row;
@@ -388,6 +394,18 @@ TEST_F(Answers, AreOneToEachQuestionInAtMost25Words) {
   EXPECT_TRUE(contains(sentence_of(all[3]), "pbd in 36."));
   EXPECT_DOUBLE_EQ(all[4].value, 67);
   EXPECT_TRUE(contains(sentence_of(all[4]), "bend and shear springs"));
+}
+
+TEST_F(Answers, GiveALimitAboutAStartOnlyWhereTheTruthConfirmsIt) {
+  TableSet all = full();
+  const auto failure = [&](std::optional<double> error_below) {
+    *std::ranges::find(all.tables, "stability", &Table::name) = limits_about(LimitState::start, error_below);
+    return answers(all).at(2);
+  };
+  EXPECT_EQ(failure(0.01).rule, "answer-limit");
+  EXPECT_EQ(failure(0.01).value, 2.5075e-3);
+  EXPECT_EQ(failure(0.2).rule, "answer-none-failed") << "what is called stable there is of no use";
+  EXPECT_EQ(failure({}).rule, "answer-none-failed");
 }
 
 TEST_F(Answers, NameTheReadersProgram) {
