@@ -162,16 +162,6 @@ class LabModule : public InBrowser {
     return all;
   }
 
-  /// Every stepper in a scene bursts above its critical step and holds below it.
-  void expect_bursts(const std::string& scene) {
-    const JsonField all = use(scenes_of({scene}), "labUse.bursts('" + scene + "')");
-    const auto tried = all.find("tried");
-    ASSERT_TRUE(tried);
-    EXPECT_EQ(tried->size(), static_cast<size_t>(std::ranges::count_if(steppers(), [](const Stepper& s) {
-                return !s.adaptive && !s.hard_constraints && s.evaluations > 0;
-              })));
-  }
-
   /// Scenes that the lab saved run natively to the same bits.
   static void run_natively(const JsonField& all, size_t count) {
     const auto saves = all.find("saves");
@@ -294,18 +284,11 @@ TEST_F(LabModule, FirstStepsHaveTheFingerprintsOfThePage) {
   EXPECT_GT(all["checked"].number(), 100);  // 20 scenes, most of which take seven such rules
 }
 
-TEST_F(LabModule, SlidersOfClothsChangeTheirNumberAlone) {
+TEST_F(LabModule, SlidersChangeTheirNumberAlone) {
   NEEDS_LAB;
   NEEDS_CHROMIUM;
-  const JsonField all = use(shipped(), "labUse.sliders(Object.keys(labScenes()).filter(name => /^cloth/.test(name)))");
-  EXPECT_GT(all["moved"].number(), 150);  // three places of each
-}
-
-TEST_F(LabModule, SlidersOfOtherScenesChangeTheirNumberAlone) {
-  NEEDS_LAB;
-  NEEDS_CHROMIUM;
-  const JsonField all = use(shipped(), "labUse.sliders(Object.keys(labScenes()).filter(name => !/^cloth/.test(name)))");
-  EXPECT_GT(all["moved"].number(), 100);
+  const JsonField all = use(shipped(), "labUse.sliders(Object.keys(labScenes()))");
+  EXPECT_GT(all["moved"].number(), 250);  // three places of each
 }
 
 TEST_F(LabModule, MarksAreTheNativeCriticalSteps) {
@@ -344,22 +327,17 @@ TEST_F(LabModule, MarksAreTheNativeCriticalSteps) {
   EXPECT_GT(marked, 60);
 }
 
-TEST_F(LabModule, BurstsAboveTheMarkAloneOnTheHangingCloth) {
+/// Every stepper bursts above its critical step and holds below it.
+TEST_F(LabModule, BurstsAboveTheMarkAlone) {
   NEEDS_LAB;
   NEEDS_CHROMIUM;
-  expect_bursts("cloth-hang");
-}
-
-TEST_F(LabModule, BurstsAboveTheMarkAloneOnTheFlag) {
-  NEEDS_LAB;
-  NEEDS_CHROMIUM;
-  expect_bursts("flag");
-}
-
-TEST_F(LabModule, BurstsAboveTheMarkAloneOnASpring) {
-  NEEDS_LAB;
-  NEEDS_CHROMIUM;
-  expect_bursts("spring");
+  const std::vector<Scene> scenes = scenes_of({"cloth-hang", "flag", "spring"});
+  const JsonField all = use(scenes, "labUse.bursts()");
+  const auto tried = all.find("tried");
+  ASSERT_TRUE(tried);
+  const auto explicit_rules = std::ranges::count_if(
+      steppers(), [](const Stepper& s) { return !s.adaptive && !s.hard_constraints && s.evaluations > 0; });
+  EXPECT_EQ(tried->size(), scenes.size() * static_cast<size_t>(explicit_rules));
 }
 
 TEST_F(LabModule, NoFrameComputesLongWhileItBursts) {
