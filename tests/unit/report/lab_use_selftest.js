@@ -227,10 +227,10 @@ const labUse = (() => {
   /** RK4 and Suzuki's rule damp all but the fastest vibrations at such steps, and wind and wrinkles damp those. */
   const partsOf = rule => (gentle.test(rule) ? {above: 2.5, below: 0.9} : /^(rk4|suzuki4)$/.test(rule) ? {above: 1.2, below: 0.96} : {above: 1.06, below: 0.96});
 
-  async function bursts(scene) {
+  async function bursts() {
     const all = new Complaints(), tried = [], engine = await labModule();
     const explicit = engine.steppers.filter(s => !s.adaptive && !s.hard && s.evaluations > 0);
-    for (const {name: method} of explicit) {
+    for (const [scene, method] of Object.keys(burstScenes).flatMap(scene => explicit.map(s => [scene, s.name]))) {
       const changes = {'time.samples': 1, ...burstScenes[scene](method)}, {above, below} = partsOf(method);
       const lab = await opened({scene, changes, methods: [{method}]}, false), limit = lab.reading.limitA, {duration} = lab.runs[0].sim.scene;
       const well = (holds, ...why) => all.check(holds, scene, method, ...why);

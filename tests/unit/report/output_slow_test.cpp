@@ -38,7 +38,7 @@ class OutputOfReport : public Cli {
   }
 };
 
-TEST_F(OutputOfReport, KilledAtTwentyMomentsTheFirstIsWholeOrTheSecond) {
+TEST_F(OutputOfReport, KilledAtTenMomentsTheFirstIsWholeOrTheSecond) {
   const auto begin = std::chrono::steady_clock::now();
   const ProgramResult first = start({}, report("out"));
   const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
@@ -47,12 +47,13 @@ TEST_F(OutputOfReport, KilledAtTwentyMomentsTheFirstIsWholeOrTheSecond) {
   ASSERT_TRUE(whole(folder_ / "out"));
   std::mt19937 random(22);
   int killed = 0;
-  for (int trial = 0; trial < 20; ++trial) {
-    const double moment = std::uniform_real_distribution<>(0, 1.05 * seconds)(random);
+  // one in each tenth: no two of them are further apart than the furthest of twenty that fall anywhere, a fifth
+  for (int trial = 0; trial < 10; ++trial) {
+    const double moment = std::uniform_real_distribution<>(trial, trial + 1)(random) / 10 * 1.05 * seconds;
     killed += start({"timeout", "-s", "KILL", fmt::format("{:.3f}", moment)}, report("out")).status == 128 + 9;
     EXPECT_TRUE(whole(folder_ / "out")) << "killed after " << moment << " s";
   }
-  EXPECT_GT(killed, 5);
+  EXPECT_GT(killed, 2);
   EXPECT_EQ(start({}, report("out")).status, 0);
   EXPECT_TRUE(whole(folder_ / "out"));
   EXPECT_FALSE(fs::exists(folder_ / ".out.crosscheck"));

@@ -35,7 +35,7 @@ async function use(player, seen) {
   seen.says = player.querySelector('.hint').textContent;
   player.seek(0);
   player.play();
-  seen.plays = await until(() => player.time > 0.2 * end);
+  seen.plays = await until(() => player.time > 0.02 * end);
   player.pause();
   seen.lines = player.querySelectorAll('.plot .curve').length;
 }
