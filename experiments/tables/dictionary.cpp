@@ -60,7 +60,8 @@ struct DeclaredTable {
   bool is(const Table& table) const {
     const bool one_of_many = name.starts_with("SCENE-") || name.starts_with("NAME-");
     // engines-energy is no SCENE-energy
-    return one_of_many ? table.name.ends_with(name.substr(name.find('-'))) && table.columns.size() == columns.size()
+    return one_of_many ? table.name.ends_with(name.substr(name.find('-'))) &&
+                             std::ranges::equal(table.columns, columns, {}, &Column::name, &TypedColumn::name)
                        : table.name == name;
   }
 };
