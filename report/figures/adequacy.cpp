@@ -281,11 +281,11 @@ Chart removal_chart(const Table& t, const std::string& scene, const std::string&
       !within.empty() ? fmt::format("Within {} each of these can be left out alone: {}.", nice_length(tolerance),
                                     fmt::join(within, ", "))
       : std::isfinite(of_smallest)
-          ? fmt::format("Nothing can be left out within {}: the least that any removal costs is {} ({}).",
+          ? fmt::format("Nothing can be left out within {}: any removal costs at least {} ({}).",
                         nice_length(tolerance), nice_length(of_smallest), smallest)
           : fmt::format("Nothing can be left out within {}: no smaller model gives an answer.", nice_length(tolerance));
   f.caption = fmt::format("Scene {}; commit {}.", scene, commit);
-  f.tier = fmt::format("the truth of the full scene: {}, error bar {}", truth, nice_length(error_bar));
+  f.tier = fmt::format("the full scene's truth: {}, error bar {}", truth, nice_length(error_bar));
   Chart chart{"", std::monostate{}, "adequacy"};
   // in a scene at rest no removal has an error
   if (!f.curves.empty())

@@ -207,14 +207,14 @@ Figure figure_of(const SceneRows& s, const CostAxis& kind, const ChartInput& inp
   if (!scaled.points.empty()) {
     f.x.label = "CPU time of the run, ringed: scaled from a part of it / s";
     drawn += fmt::format(
-        "{} of {} times (open marks) are of a run's first part, scaled by force evaluations (of Bullet's implicit and "
-        "position-based worlds by steps); ",
+        "{} of {} times (open marks) are of a run's first part, scaled by force evaluations (Bullet's implicit and "
+        "position-based: by steps); ",
         scaled.points.size(), good + failed);
     f.curves.insert(f.curves.begin(), std::move(scaled));
   }
   if (uncounted > 0) drawn += fmt::format("{} of unknown cost, not drawn; ", uncounted);
   f.caption = fmt::format("Scene {}; {}{}commit {}.", s.scene,
-                          kind.time ? "thread CPU time, medians of runs in turns on one core; " +
+                          kind.time ? "CPU time, medians of runs in turns on one core; " +
                                           builds_text({methods.begin(), methods.end()}) + "; "
                                     : "",
                           drawn, input.commit);

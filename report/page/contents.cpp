@@ -20,8 +20,8 @@ std::vector<Chapter> chapters() {
        "rest length, pin and ball is read back from the other engine's memory and held against the scene: a dot for "
        "each.</p><p>Where both have <b>the same rule</b>, as mysim and Bullet's explicit world have symplectic Euler, "
        "the same step must give the same motion, but for round-off: what they differ by there is the floor below which "
-       "nothing else may be claimed.</p><p>A ring is "
-       "a law that the other engine writes otherwise, a dash what it does not tell; a law's cause and size are below, "
+       "nothing else may be claimed.</p><p>The cause and "
+       "size of each law that another engine writes otherwise are below, "
        "in "
        "the smallest scene that shows it.</p>",
        {},

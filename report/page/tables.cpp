@@ -211,8 +211,8 @@ std::string parity_html(const std::vector<ScenePart>& scenes) {
   }
   return out + fmt::format(
                    "</tbody></table></div><figcaption>Parity certificates: a dot for each quantity that was read "
-                   "back from the engine's memory. Full: it matches, {} of {}; ring: another law; "
-                   "dash: not attested; red square: mismatch.</figcaption></figure>\n",
+                   "back from the engine's memory. Full: it matches, {} of {}; ring: a law written otherwise; "
+                   "dash: not told; red square: mismatch.</figcaption></figure>\n",
                    matched, all);
 }
 
