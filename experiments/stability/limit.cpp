@@ -330,8 +330,8 @@ MeasuredLimit measured_limit(const Method& method, const BaseState& base, long s
   MotionBoundsCache bounds;  // all trials begin alike
   const auto holds = [&](double h) {
     const PerturbedRun trial = run_perturbed(method, base, h, steps, perturbation, {}, std::ref(bounds));
-    if (trial.unsupported()) refused[h] = trial.reason;
-    accepted |= !trial.unsupported();
+    if (trial.without_answer()) refused[h] = trial.reason;
+    accepted |= !trial.without_answer();
     return trial.held();
   };
   // without drag a rule that grows at h omega = 1/64 does so at every step; with drag of a millionth of omega its limit
@@ -342,7 +342,7 @@ MeasuredLimit measured_limit(const Method& method, const BaseState& base, long s
   MeasuredLimit m = largest_step(holds, std::clamp(base.scene.step, lowest, highest), lowest, highest, precision, unit);
   if (refused.empty()) return m;
   if (!accepted) return {MeasuredLimit::unsupported, 0, 0, refused.begin()->second};
-  m.reason = fmt::format("a step of {:.3g} s is refused: {}", refused.begin()->first, refused.begin()->second);
+  m.reason = fmt::format("a step of {:.3g} s has no answer: {}", refused.begin()->first, refused.begin()->second);
   if (m.kind == MeasuredLimit::found && refused.contains(m.failed)) m.kind = MeasuredLimit::refused_above, m.failed = 0;
   return m;
 }

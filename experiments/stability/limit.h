@@ -61,6 +61,8 @@ struct PerturbedRun {
   long steps = 0;        // taken, where the two above are known
   bool of_mode = false;  // whether the two above are known
   bool unsupported() const { return verdict == Verdict::unsupported; }
+  /// Whether the method refuses the step, or its program died or took too long: that tells nothing of stability.
+  bool without_answer() const { return unsupported() || verdict == Verdict::crash || verdict == Verdict::timeout; }
   /// Whether the step held: no failure, and nothing that grew. A perturbed rest is judged by growth too: by 1/20
   /// over the run (beats of a neutral rule's modes look like a thousandth), and, where a Runge-Kutta rule multiplies
   /// the mode by a constant factor, by that factor: rounding and nonlinearity change a perturbation by 1e-6 over a run,
@@ -86,7 +88,7 @@ Scene perturbed_scene(const BaseState& base, const Perturbation& perturbation);
 MeasuredLimit largest_step(const std::function<bool(double)>& holds, double first, double lowest, double highest,
                            double precision, double fine_above = std::numeric_limits<double>::infinity());
 /// The same by trials of the method, from the scene's own step on: it uses no theory for the limit. Where theory
-/// says how fast the scene can vibrate, that only says where to give up. A step that it refuses counts as none that
+/// says how fast the scene can vibrate, that only says where to give up. A step without an answer counts as none that
 /// holds; where the bracket ends at such a one it is no limit but `refused_above`, and where every step was refused the
 /// scene is `unsupported`.
 MeasuredLimit measured_limit(const Method& method, const BaseState& base, long steps, const Perturbation& perturbation,

@@ -45,11 +45,11 @@ void add_map(const MapKind& kind, const Scene& scene, const Method& method, cons
   const double omega = as_it_is.spectrum.omega;
   if (!(omega > 0)) return;
   const auto no_map = [&](const std::string& why) {
-    tables.notes.push_back(fmt::format("stability draws no map of step and {}, {} on {}: it refuses every cell: {}",
+    tables.notes.push_back(fmt::format("stability draws no map of step and {}, {} on {}: it answers in no cell: {}",
                                        kind.name, method.name, scene.name, why));
   };
   // what a method lacks it lacks in every cell: tried once, at the shortest step
-  if (const PerturbedRun first = run_perturbed(method, as_it_is, step_at(0, omega), 1, {}); first.unsupported())
+  if (const PerturbedRun first = run_perturbed(method, as_it_is, step_at(0, omega), 1, {}); first.without_answer())
     return no_map(first.reason);
   long changed = 0, accepted = 0;
   std::string refusal;
@@ -66,7 +66,7 @@ void add_map(const MapKind& kind, const Scene& scene, const Method& method, cons
       LastFrames pictures(base.spectrum.omega, h);
       const PerturbedRun trial = run_perturbed(method, base, h, size.steps, perturbation,
                                                on_runs ? std::vector<Observer*>{&pictures} : std::vector<Observer*>{});
-      const bool refused = trial.unsupported();
+      const bool refused = trial.without_answer();
       if (on_runs)
         recorded.runs.push_back(
             {{.verdict = trial.verdict, .end = trial.end},
@@ -87,7 +87,7 @@ void add_map(const MapKind& kind, const Scene& scene, const Method& method, cons
     for (int i = 0; i < 5 && held > 0 && failed > 0; ++i) {
       const double middle = std::sqrt(held * failed);
       const PerturbedRun trial = run_perturbed(method, base, middle, size.steps, perturbation);
-      if (trial.unsupported()) break;
+      if (trial.without_answer()) break;
       (trial.held() ? held : failed) = middle;
     }
     MapLimitRow limit{scene.name, method.name, map, value, {}, {}, {}};

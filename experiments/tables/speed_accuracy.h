@@ -115,7 +115,9 @@ struct SpeedAccuracyCostRow {
         column("setting", "1", &SpeedAccuracyCostRow::setting, "what was set, and its unit"),
         column("asked", "see setting", &SpeedAccuracyCostRow::requested, "step or tolerance that was asked for"),
         column("verdict", "1", &SpeedAccuracyCostRow::verdict, "whether the run ended well"),
-        column("cpu", "s", &SpeedAccuracyCostRow::cpu, "CPU time of the whole run, median"),
+        column("cpu", "s", &SpeedAccuracyCostRow::cpu,
+               "CPU time of the whole run, median; scaled from a part by force evaluations, of Bullet's implicit and "
+               "position-based worlds by steps"),
         column("cpu low", "s", &SpeedAccuracyCostRow::cpu_low, "lower end of its 90 % interval"),
         column("cpu high", "s", &SpeedAccuracyCostRow::cpu_high, "upper end of its 90 % interval"),
         column("repetitions", "1", &SpeedAccuracyCostRow::repetitions, "runs that were timed"),

@@ -22,12 +22,9 @@ std::string builds_text(const std::vector<std::string>& methods) {
     if (family.build == Build::debian) debians.emplace_back(family.title);
     programs |= family.build == Build::own_program;
   }
-  if (!own.empty())
-    parts.push_back(fmt::format("{} {} compiled in this build", joined(own), own.size() == 1 ? "is" : "are"));
-  if (!debians.empty())
-    parts.push_back(debians.size() == 1 ? debians[0] + " is Debian's generic x86-64 build"
-                                        : joined(debians) + " are Debian's generic x86-64 builds");
-  if (programs) parts.emplace_back("programs of their own are as they were built");
+  if (!own.empty()) parts.push_back(joined(own) + " built here");
+  if (!debians.empty()) parts.push_back(joined(debians) + " by Debian for generic x86-64");
+  if (programs) parts.emplace_back("programs of their own as they were built");
   return fmt::format("{}", fmt::join(parts, ", "));
 }
 

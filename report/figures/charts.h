@@ -14,8 +14,8 @@ namespace crosscheck {
 
 // Remarks on measured times in captions: the builds, and which times are scaled.
 
-/// Of the methods in a chart, by name or "ENGINE/": "mysim and odeint are compiled in this build, Bullet is Debian's
-/// generic x86-64 build". Only engines that are there are named.
+/// Of the methods in a chart, by name or "ENGINE/": "mysim and odeint built here, Bullet by Debian for generic x86-64".
+/// Only engines that are there are named.
 std::string builds_text(const std::vector<std::string>& methods);
 
 /// The points of a chart whose time is that of a part of the run, scaled. A figure draws them as rings around the

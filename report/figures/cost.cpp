@@ -14,8 +14,7 @@ namespace crosscheck {
 namespace {
 
 constexpr auto builds =
-    "thread CPU time, medians of runs in turns on one core; mysim is compiled in this build, Bullet is Debian's, both "
-    "for any x86-64";
+    "CPU time, medians of runs in turns on one core; mysim built here, Bullet by Debian, both for generic x86-64";
 
 Chart size_chart(const Table& t, const std::string& commit) {
   Figure f;

@@ -1,7 +1,7 @@
 // Error against cost, once in evaluations and once in CPU time: curves of all methods, the Pareto line, the floor of
 // the truth, crosses for failed runs; and with each figure the cheapest methods.
 
-#include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
@@ -136,7 +136,7 @@ OnPage on_page(const SceneRows& s, const CostAxis& kind, const ChartInput& input
         page.critical = {
             *cost * run->requested / *limit.predicted,
             fmt::format("h = {} = {}", over_omega(*limit.predicted * *limit.omega), step_text(*limit.predicted)),
-            fmt::format("beyond the critical step of {}", short_name(run->method))};
+            fmt::format("{} is unstable here", short_name(run->method))};
   }
   return page;
 }
@@ -187,11 +187,15 @@ Figure figure_of(const SceneRows& s, const CostAxis& kind, const ChartInput& inp
   }
   f.y = {fmt::format("largest RMS position {} / m", s.error_bar && !s.difference() ? "error" : "difference"), true,
          lowest / 3, top};
+  std::vector<std::string> best;  // methods of the line, from the cheapest run to the most accurate
   if (const Table* pareto = input.result.table("speed-accuracy-pareto" + kind.suffix()))
     for (size_t i = 0; i < pareto->rows.size(); ++i)
-      if (text_or_none(*pareto, i, "scene") == s.scene)
+      if (text_or_none(*pareto, i, "scene") == s.scene) {
         f.pareto.emplace_back(*number_at(*pareto, i, kind.column().c_str()),
                               std::min(highest, *number_at(*pareto, i, "distance")));
+        const std::string name = name_in_sentence(text_at(*pareto, i, "method"));
+        if (std::ranges::find(best, name) == best.end()) best.push_back(name);
+      }
   if (!f.pareto.empty()) f.pareto.emplace_back(furthest, f.pareto.back().second);
   if (s.error_bar && s.motion > 0) {
     f.cut = 2e-6 * s.motion;
@@ -200,16 +204,16 @@ Figure figure_of(const SceneRows& s, const CostAxis& kind, const ChartInput& inp
   }
   if (s.error_bar)
     f.floor = {s.difference() ? "error bar of the converged contact rule" : "error bar of the truth", *s.error_bar};
-  f.finding = fmt::format("{} runs of {} methods; {} failed.", good + failed, methods.size(), failed);
+  f.finding = fmt::format("{}{} runs of {} methods; {} failed.",
+                          best.empty() ? "" : fmt::format("Pareto front: {}. ", fmt::join(best, ", ")), good + failed,
+                          methods.size(), failed);
   std::string drawn;
   if (beyond > 0)
     drawn = fmt::format("{} above three times the motion ({}), drawn there; ", beyond, nice_length(highest));
   if (!scaled.points.empty()) {
     f.x.label = "CPU time of the run, ringed: scaled from a part of it / s";
-    drawn += fmt::format(
-        "{} of {} times (open marks) are of a run's first part, scaled by force evaluations (Bullet's implicit and "
-        "position-based: by steps); ",
-        scaled.points.size(), good + failed);
+    drawn +=
+        fmt::format("{} of {} times (open marks) scaled from a part of the run; ", scaled.points.size(), good + failed);
     f.curves.insert(f.curves.begin(), std::move(scaled));
   }
   if (uncounted > 0) drawn += fmt::format("{} of unknown cost, not drawn; ", uncounted);

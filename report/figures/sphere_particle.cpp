@@ -66,7 +66,7 @@ Chart cone_law(const Table& table, const std::string& commit) {
     if (!failed.empty()) wrong += (wrong.empty() ? "" : "; ") + failed;
     page.rows.push_back({method, std::to_string(right), std::to_string(all), wrong});
     if (right < all && !curve.points.empty())
-      differing.push_back(fmt::format("{} ({} of {})", name_in_sentence(method), all - right, all));
+      differing.push_back(fmt::format("{} (right in {} of {})", name_in_sentence(method), right, all));
     if ((right < all || shown_always(method)) && !curve.points.empty()) f.curves.push_back(std::move(curve));
   }
   f.finding =

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <set>
 
 #include "experiments/speed_accuracy/work_precision.h"
 #include "experiments/tables/energy.h"
@@ -93,12 +94,25 @@ std::vector<std::pair<std::string, Largest>> programs_apart(const std::vector<Sc
   return programs;
 }
 
+/// The reader's programs that died or took too long wherever they ran.
+std::vector<std::string> silent_programs(const std::vector<SceneData>& data) {
+  std::set<std::string> silent, heard;
+  for (const SceneData& scene : data)
+    for (const MethodData& m : scene.methods)
+      if (family_of(m.method).role == Role::outside)
+        (m.verdict == Verdict::crash || m.verdict == Verdict::timeout ? silent : heard)
+            .insert(name_in_sentence(m.method));
+  for (const std::string& name : heard) silent.erase(name);
+  return {silent.begin(), silent.end()};
+}
+
 /// Adds the reader's programs to an answer of agreement: among those that part by round-off, or after them. It then has
 /// no room for contact.
 void add_programs(const std::vector<SceneData>& data, Finding& f) {
   bool round_off = true;
   const auto programs = programs_apart(data, round_off);
-  if (programs.empty()) return;
+  const std::vector<std::string> silent = silent_programs(data);
+  if (programs.empty() && silent.empty()) return;
   std::string names, after;
   for (const auto& [method, apart] : programs) {
     names += ", " + name_in_sentence(method);
@@ -108,6 +122,7 @@ void add_programs(const std::vector<SceneData>& data, Finding& f) {
   if (round_off && f.value > 0) f.words["most"] = "at most " + nice_length(f.value);
   f.words["programs"] = round_off ? names : "";
   f.words["contact"] = round_off ? "" : after;
+  if (!silent.empty()) f.words["contact"] += fmt::format("; {} gave no answer", joined(silent));
 }
 
 std::optional<Finding> agreement_answer(const std::vector<Scene>&, const std::vector<SceneData>& data,

@@ -258,7 +258,7 @@ const std::vector<FindingRule>& finding_rules() {
 
       // how little model is enough
       {"least-model", "adequacy", "adequacy", "spring evaluations saved", "%", "converged",
-       "On {scene}, {within}, {gone} can be left out, which saves {value} of the spring evaluations.",
+       "On {scene}, {within}, {gone} can be left out, which saves {value} of the work.",
        "left out where it holds, up to the window; 1 - cost of full", {"adequacy-least"}, "{}-adequacy"},
       {"least-model-full", "adequacy", "adequacy", "spring evaluations saved", "%", "converged",
        "On {scene}, {within}, all ingredients are needed.",

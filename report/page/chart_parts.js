@@ -29,14 +29,13 @@ const chartParts = (() => {
   const nice = (value, unit = '') => {
     if (value === 0) return unit && unit !== '1' ? `0 ${unit}` : '0';
     const size = Math.abs(value), rounded = Number(value.toPrecision(3));
-    if (unit === '%' || unit === '1' || !unit || /[^a-zA-Z]/.test(unit)) {
+    if (size < 1e-12 || unit === '%' || unit === '1' || !unit || /[^a-zA-Z]/.test(unit)) {
       const tail = unit && unit !== '1' ? ` ${unit}` : '';
       if (size >= 1e-4 && size < 1e5) return `${rounded}${tail}`;
       const power = Math.floor(Math.log10(size) + 1e-9), front = Number((value / 10 ** power).toPrecision(3));
       return `${front === 1 ? '' : `${front} × `}10${superscript(power)}${tail}`;
     }
     const step = Math.max(-12, Math.min(unit === 's' || unit === 'm' ? 0 : 9, 3 * Math.floor(Math.log10(size) / 3 + 1e-9)));
-    if (size < 1e-12) return `10${superscript(Math.round(Math.log10(size)))} ${unit}`;
     return `${Number((value / 10 ** step).toPrecision(3))} ${prefixes[step]}${unit}`;
   };
 

@@ -42,7 +42,7 @@ std::vector<Chapter> chapters() {
        "rule must follow even the fastest wave, which nobody sees: <b>stability sets its step, not accuracy</b>. Below "
        "that step halving it doubles the cost. The error of rules of order one then halves, of order two falls to a "
        "quarter.</p><p>Implicit and position-based rules take longer steps and pay for them in each step, and in "
-       "damping.</p><p>Open marks are times of a part of the run, scaled. Crosses at the top are runs that failed, at "
+       "damping.</p><p>Crosses at the top are runs that failed, at "
        "what they had cost by then.</p>",
        {{"euler-circle", "Euler's circle"}},
        {},

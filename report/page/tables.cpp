@@ -222,7 +222,10 @@ std::string recommendation_table_html(const std::vector<ScenePart>& scenes) {
   for (const ScenePart& part : scenes)
     for (const EngineBeside& other : part.take ? part.take->beside : std::vector<EngineBeside>())
       if (std::ranges::find(engines, other.engine) == engines.end()) engines.push_back(other.engine);
+  std::vector<std::string> untried;
   for (const ScenePart& part : scenes) {
+    const bool tried = std::ranges::any_of(part.runs, [](const ShownRun& r) { return !r.key.ends_with(" own"); });
+    if (!part.take && !tried) untried.push_back(part.scene->name);
     if (!part.take) continue;
     const RecommendedRun& run = *part.take;
     std::vector<std::string> tied, beside;
@@ -252,7 +255,11 @@ std::string recommendation_table_html(const std::vector<ScenePart>& scenes) {
          " / mysim</th><th "
          "class=\"text\">step "
          "bound by</th></tr></thead><tbody>\n" +
-         rows + "</tbody></table></div>\n</section>\n";
+         rows + "</tbody></table></div>\n" +
+         (untried.empty()
+              ? ""
+              : fmt::format("<p class=\"soft\">Tried at their own step only: {}.</p>\n", escaped(joined(untried)))) +
+         "</section>\n";
 }
 
 std::string readable(std::string text) {

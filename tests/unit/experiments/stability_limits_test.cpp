@@ -365,7 +365,22 @@ TEST(MeasuredLimit, EndsAtARefusalOnlyWhereThatComesFirst) {
     EXPECT_LT(m.held, std::min(refused, limit));
     EXPECT_GT(m.held, std::min(refused, limit) / 1.1);
     // above the limit no step so long was tried
-    EXPECT_EQ(m.reason.ends_with(" s is refused: too long"), refused < limit) << m.reason;
+    EXPECT_EQ(m.reason.ends_with(" s has no answer: too long"), refused < limit) << m.reason;
+  }
+}
+
+TEST(MeasuredLimit, OfAProgramThatDiesIsNone) {
+  Method dying = find_method("leapfrog");
+  for (const Verdict verdict : {Verdict::crash, Verdict::timeout}) {
+    dying.engine = [verdict](const Scene&, const crosscheck::Run&, Observer&) {
+      Outcome out;
+      out.verdict = verdict;
+      out.reason = "it lacks a library";
+      return out;
+    };
+    const MeasuredLimit m = measured_limit(dying, base_state_of(load_scene("spring")), 300, {}, 0.1);
+    EXPECT_EQ(m.kind, MeasuredLimit::unsupported) << "and not: no step holds";
+    EXPECT_EQ(m.reason, "it lacks a library");
   }
 }
 

@@ -176,12 +176,10 @@ TEST(CheapestChart, WithoutAnotherEngineThereIsNone) {
 }
 
 TEST(CheapestChart, NamesWhoIsThereAndWhichTimesAreScaled) {
-  EXPECT_EQ(builds_text({"mysim/rk4", "bullet/pbd"}),
-            "mysim is compiled in this build, Bullet is Debian's generic x86-64 build");
+  EXPECT_EQ(builds_text({"mysim/rk4", "bullet/pbd"}), "mysim built here, Bullet by Debian for generic x86-64");
   EXPECT_EQ(builds_text({"mysim/", "odeint/", "bullet/", "sundials/"}),
-            "mysim and odeint are compiled in this build, Bullet and SUNDIALS are Debian's generic x86-64 builds");
-  EXPECT_EQ(builds_text({"mysim/rk4", "exec:./a"}),
-            "mysim is compiled in this build, programs of their own are as they were built");
+            "mysim and odeint built here, Bullet and SUNDIALS by Debian for generic x86-64");
+  EXPECT_EQ(builds_text({"mysim/rk4", "exec:./a"}), "mysim built here, programs of their own as they were built");
   const auto caption_of = [](const std::vector<WorkPrecisionPoint>& points) {
     Table t = table_of<EngineSpeedRow>();
     add_by_engine("cloth", 0.01, Measure::error, 0.01, points, t);

@@ -181,7 +181,7 @@ TEST(LeastModels, HaveARowForEachThingThatIsSaid) {
   EXPECT_EQ(findings[2].scene, "cloth-hang");
   EXPECT_EQ(findings[3].value, 1);
   EXPECT_EQ(sentence_of(findings[2]),
-            "On cloth-hang, within 10 %, bend springs can be left out, which saves 33 % of the spring evaluations.");
+            "On cloth-hang, within 10 %, bend springs can be left out, which saves 33 % of the work.");
 }
 
 TEST(LeastModels, WhatHoldsAtSeveralTolerancesIsSaidOnce) {
@@ -420,6 +420,10 @@ TEST_F(Answers, NameTheReadersProgram) {
     EXPECT_TRUE(contains(sentence_of(all[0]), words)) << sentence_of(all[0]);
     expect_short(all);
   }
+  std::vector<SceneData> facts = facts_;
+  facts[1].methods.push_back(run("exec:./mine", {}, Verdict::crash));
+  const std::vector<Finding> all = answer_findings(scenes_, facts, full());
+  EXPECT_TRUE(sentence_of(all[0]).ends_with("m on 2 scenes; mine gave no answer.")) << sentence_of(all[0]);
 }
 
 TEST_F(Answers, AreOfTheEnergyWhereNothingTouches) {

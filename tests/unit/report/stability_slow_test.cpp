@@ -113,7 +113,7 @@ TEST(Map, SaysWhichCellsWereRefusedAndIsNoneWhereAllWere) {
   add_map(map_kinds()[0], spring, refusing_above(0), {3, 9, 300, true}, none);
   EXPECT_TRUE(none.tables.empty());
   ASSERT_EQ(none.notes.size(), 1u);
-  EXPECT_TRUE(contains(none.notes[0], "it refuses every cell: too long"));
+  EXPECT_TRUE(contains(none.notes[0], "it answers in no cell: too long"));
 }
 
 TEST(Map, KnowsWhatItIsMadeOf) {
