@@ -67,9 +67,9 @@ void engines_beside(const TableSet& rows, std::vector<Finding>& out) {
     if (is_asked(row) && !row.method.value_or("").empty()) asked.push_back(row.scene);
   for (const SpeedAccuracyRow& run : rows_of<SpeedAccuracyRow>(rows)) {
     const std::string engine = engine_of(run.method);
-    if (!is_another_engine(run.method) || run.verdict == Verdict::unsupported ||
-        !std::ranges::count(asked, run.scene) || std::ranges::count(within[engine], run.scene) ||
-        std::ranges::count(without[engine], run.scene))
+    if (!is_another_engine(run.method) || run.verdict == Verdict::unsupported || run.verdict == Verdict::crash ||
+        run.verdict == Verdict::timeout || !std::ranges::count(asked, run.scene) ||
+        std::ranges::count(within[engine], run.scene) || std::ranges::count(without[engine], run.scene))
       continue;
     without[engine].push_back(run.scene);
   }
