@@ -130,7 +130,8 @@ const std::vector<FindingRule>& finding_rules() {
        "at part of motion = 0.01 and measure = error: min and max of Bullet / mysim", {"speed-accuracy-cheapest"}},
       {"engine-without-run", "cost", speed, "scenes", "1", measured,
        "No run of {method} that was tried is within 1 % of the motion on {where}.",
-       "scenes with runs of an engine that are not unsupported and no row of it at part of motion = 0.01",
+       "scenes with runs of an engine that have an answer, none of them ok with a largest error within 0.01 of the "
+       "motion, and no row of it at part of motion = 0.01",
        {"speed-accuracy-engines-cost", "speed-accuracy"}},
       {"hardly-tried", "cost", speed, "pairs of a method and a scene", "1", measured,
        "Hardly tried, by less than two runs where the method takes the scene: {which}.",

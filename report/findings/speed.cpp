@@ -62,6 +62,10 @@ void engines_beside(const TableSet& rows, std::vector<Finding>& out) {
     within[row.engine].push_back(row.scene);
     if (row.times_mysim) times[row.engine].take(*row.times_mysim, row.scene);
   }
+  // a program that does not tell its time is within it all the same
+  for (const SpeedAccuracyRow& run : rows_of<SpeedAccuracyRow>(rows))
+    if (run.verdict == Verdict::ok && run.error && *run.error <= 0.01 * run.motion)
+      within[engine_of(run.method)].push_back(run.scene);
   std::vector<std::string> asked;  // scenes on which somebody is
   for (const auto& row : rows_of<CheapestRow<Cost::cpu>>(rows))
     if (is_asked(row) && !row.method.value_or("").empty()) asked.push_back(row.scene);

@@ -242,7 +242,8 @@ TEST(ChapterWords, ARunAboveItsLimitIsShownAtItsMoments) {
   EXPECT_EQ(f.title, "One step too large: leapfrog on chain at 350 ms, 1.75 times its limit");
   EXPECT_EQ(f.curves.at(0).points.size(), 9u);
   EXPECT_EQ(f.curves.at(1).points.size(), 9u);
-  EXPECT_TRUE(begins(f.finding, "Energy grows 100 times in a step by theory, 50 to 50 times here.")) << f.finding;
+  EXPECT_TRUE(begins(f.finding, "Energy grows 100 times in a step by theory, 50 to 50 times here at the end."))
+      << f.finding;
   ASSERT_EQ(chart->snapshots.size(), 1u);
   ASSERT_EQ(chart->snapshots[0].moments.size(), 4u);
   EXPECT_DOUBLE_EQ(chart->snapshots[0].moments[0].first, 0.35 * 6);
@@ -399,9 +400,12 @@ TEST(SpeedFindings, CountScenesByEngineAndTellWhatOthersTake) {
     row.times_mysim = times;
     engines.push_back(row);
   }
-  std::vector<SpeedAccuracyRow> runs(2);
+  std::vector<SpeedAccuracyRow> runs(4);
   runs[0].scene = "rod", runs[0].method = "bullet/pbd";
   runs[1].scene = "circle", runs[1].method = "bullet/pbd", runs[1].verdict = Verdict::unsupported;
+  // tells no time, and died
+  runs[2].scene = "rod", runs[2].method = "exec:./mine", runs[2].error = 9e-3, runs[2].motion = 1;
+  runs[3].scene = "circle", runs[3].method = "exec:./mine", runs[3].verdict = Verdict::crash;
   const auto all = speed_findings(rows_of({table_with(cheapest), table_with(engines), table_with(runs)}));
   expect_short(all);
   const auto wins = of_rule(all, "cheapest");
