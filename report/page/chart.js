@@ -101,8 +101,9 @@ const charts = (() => {
       if (s.marks !== false) at.forEach(([px, py]) => places.keep(px - 4, py - 4, 8, 8));
       root.append(group);
       const seen = at.filter((_, k) => !below(s.points[k])), ends = seen.length ? seen : at;  // names are those of what is seen
-      all.push({i, group, end: ends[ends.length - 1], first: ends[0]});
+      all.push({i, group, places: at, end: ends[ends.length - 1], first: ends[0]});
     }
+    nameTogether(all.filter(one => looks[one.i].hero), looks);
     if (chart.motion)
       for (const tick of y.ticks.filter(tick => [0.1, 1, 10].includes(tick))) {
         const length = nice(chart.motion * tick / 100, 'm'), at = places.take(length, [[left + 5, y.at(tick) - 5], [right - 4, y.at(tick) - 5, 'end'], [right - 4, y.at(tick) + 14, 'end']]);
@@ -115,7 +116,8 @@ const charts = (() => {
       let end = left;
       for (const f of chart.failures) {
         const known = methods[f.method], colour = known?.hero ? `var(--${known.colour})` : 'var(--grey)';
-        const cross = mark('cross', 4, [Math.max(left, Math.min(right, x.at(f.x))), top - 10], {colour}, f);
+        const px = Math.max(left, Math.min(right, x.at(f.x))), cross = mark('cross', 4, [px, top - 10], {colour}, f);
+        places.keep(px - 4, top - 14, 8, 8);
         if (f.method) cross.dataset.method = f.method;
         root.append(cross);
         end = Math.max(end, x.at(f.x));
@@ -124,13 +126,18 @@ const charts = (() => {
       const place = places.take(word, [[Math.min(end + 10, width - widthOf(word) - 4), top - 6], [left, top - 6]]);
       if (place) root.append(label(word, place, {class: 'halo soft'}));
     }
+    // along a bare line the end is the place; lines with marks are near their names anywhere
+    const spotsOf = each => chart.series[each.i].marks === false ? besideEnd(each.end) : [...around(each.end, width - 20), ...around(each.first, width - 20)];
+    for (const each of all.filter(one => one.names)) {
+      const [px, py] = each.end;
+      each.at = places.take(each.names, [...spotsOf(each), [px - 4, py - 6, 'end'], [px - 4, py + 15, 'end']], true);
+      for (const one of each.at ? [] : each.over) one.beneath = false;  // no room for all: each for itself
+    }
     for (const hero of [true, false])
       for (const each of all.filter(one => looks[one.i].hero === hero)) {
-        const look = looks[each.i], s = chart.series[each.i];
-        // along a bare line the end is the place; lines with marks are near their names anywhere
-        const spots = s.marks === false ? besideEnd(each.end) : [...around(each.end, width - 20), ...around(each.first, width - 20)];
-        const at = hero || width >= 500 ? places.take(look.text, spots, hero) : null;
-        const text = label(look.text, at ?? [Math.min(each.end[0] + 9, width - widthOf(look.text)), each.end[1] + 4], {class: at ? 'halo name' : 'halo name waiting'});
+        const look = looks[each.i];
+        const at = each.at ?? (!each.beneath && (hero || width >= 500) ? places.take(look.text, spotsOf(each), hero) : null);
+        const text = label(each.at ? each.names : look.text, at ?? [Math.min(each.end[0] + 9, width - widthOf(look.text)), each.end[1] + 4], {class: at ? 'halo name' : 'halo name waiting'});
         each.group.append(text);
       }
     const runs = chart.series.flatMap(s => (s.marks === false ? [] : s.points)), low = runs.filter(below).length;
@@ -138,6 +145,18 @@ const charts = (() => {
     if (low) beyond.push(`${low} of ${runs.length} runs are nearer than ${nice(yRange[0], '%')}: triangles on the axis.`);
     if (early) beyond.push(`${early} of ${chart.failures.length} failed runs ended sooner than the axis begins: crosses at its left end.`);
     if (chart.motion) return beyond.join(' ');
+  };
+
+  /** Of curves that lie on each other, within the width of a line, the one on top is to bear the names of all. */
+  const nameTogether = (curves, looks) => {
+    const lieTogether = (one, other) => one.places.length === other.places.length &&
+        one.places.every(([x, y], k) => Math.hypot(x - other.places[k][0], y - other.places[k][1]) < 1.5);
+    curves.forEach((top, k) => {
+      top.over = curves.slice(0, k).filter(one => lieTogether(one, top));
+      if (!top.over.length) return;
+      for (const one of top.over) one.beneath = true, delete one.names;
+      top.names = [top, ...top.over].map(one => looks[one.i].text).join(' and ');
+    });
   };
 
   /** The critical step of the rule to take, and the shade in which no step of it holds. */
