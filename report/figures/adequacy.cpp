@@ -163,7 +163,7 @@ std::optional<Chart> scaling(const Table& t, const TableSet& rows, const std::st
     for (auto& [x, y] : c.points) x -= 1, y /= first;
     f.curves.push_back(std::move(c));
     if (const auto power = power_of(rows, scene, sag_stiffness))
-      f.finding += fmt::format("{}: all stiffnesses as cells to the power {}. ", scene, power_text(*power));
+      f.finding += fmt::format("{}: stiffness as cells to the power {}. ", scene, power_text(*power));
   }
   if (const Table* bending = rows.table("adequacy-bending"); bending && !bending->rows.empty()) {
     Curve measured{"bend springs of a clamped sheet, for equal deflection", {"#000000", "1", 7}, {}, false, true},
@@ -180,8 +180,7 @@ std::optional<Chart> scaling(const Table& t, const TableSet& rows, const std::st
   if (f.curves.empty()) return std::nullopt;
   f.finding += sentences_of(bend_findings(rows));
   if (f.finding.empty()) f.finding = "Too few grids to tell a power.";
-  f.tier =
-      "for bend springs the power that is derived for many cells (dashed); measured powers have their standard errors";
+  f.tier = "for bend springs the power that is derived for many cells (dashed)";
   f.caption = fmt::format("Rest found by dynamic relaxation; exponents with their standard errors; commit {}.", commit);
   return Chart{
       "", std::move(f), "adequacy",

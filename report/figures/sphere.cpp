@@ -75,14 +75,14 @@ std::optional<Chart> depth_chart(const Table& table, const std::string& scene, c
     triangles_of_peers += fmt::format(", {} % in {}", depth_text(deepest[peer].second), peer->title);
   }
   f.finding = fmt::format(
-      "Particles of mysim are inside by at most {} % of the radius{}; the triangles between them, like chords, by {} % "
+      "Particles of mysim are inside by at most {} % of the radius{}; the triangles between them by {} % "
       "in mysim{}. Below 0.001 % nothing is drawn.",
       depth_text(deepest[&subject()].first), particles_of_peers, depth_text(deepest[&subject()].second),
       triangles_of_peers);
   f.caption =
       fmt::format("Scene {}, largest at any sample, in per cent of the contact radius; commit {}.{}", scene, commit,
                   failed.empty() ? "" : fmt::format(" Without a mark at some steps: {}.", joined(failed)));
-  f.tier = "exact (a ball's surface), from each method's own positions";
+  f.tier = "exact (a ball's surface)";
   return Chart{"", std::move(f), "sphere"};
 }
 

@@ -100,12 +100,10 @@ StepLimits limits_figure(const Table& table, const std::string& scene, const std
   rows.add(table);
   f.finding = sentences_of(limit_findings(rows));
   f.caption = fmt::format(
-      "Times are on {}, in ms. Divided by the fastest vibration ω of its scene, a rule's limit is one number. Theory "
-      "looks at small motion about rest.{} Commit {}.",
+      "Times are on {}, in ms. Divided by the fastest vibration ω of its scene, a rule's limit is one number."
+      "{} Commit {}.",
       f.columns_of, effort_text(table), commit);
-  f.tier =
-      "exact for small motion under the discrete rule (its stability function at the scene's eigenvalues); measured "
-      "limits are as fine as their search";
+  f.tier = "exact for small motion under the discrete rule (its stability function at the scene's eigenvalues)";
   return f;
 }
 
