@@ -96,7 +96,8 @@ class ByteReader {
   std::vector<double> numbers() {
     const std::uint64_t n = count();
     std::vector<double> values(n <= remaining_.size() / sizeof(double) ? n : throw CorruptFile());
-    std::memcpy(values.data(), take_bytes(sizeof(double) * n).data(), sizeof(double) * n);
+    const std::string_view bytes = take_bytes(sizeof(double) * n);
+    if (n > 0) std::memcpy(values.data(), bytes.data(), bytes.size());
     return values;
   }
   std::vector<Points> frames() {
