@@ -96,12 +96,12 @@ TimedLoop timed_steps(const Method& method, const Scene& scene, long steps, Outc
   return loop;
 }
 
-/// Times of one step or call of each, s. What takes 5 ms is the same the first time, and three times tell its spread.
+/// Times of one step or call of each, s. What takes 5 ms is the same the first time, and what takes 10 is run twice.
 std::vector<std::vector<double>> times_of(const std::vector<TimedLoop>& loops, bool full) {
   std::vector<std::function<double()>> runs;
   for (const TimedLoop& loop : loops) runs.push_back(loop.run);
   auto times = time_round_robin(runs, full ? TimingOptions{.least = 9, .most = 9}
-                                           : TimingOptions{.least = 2, .most = 3, .enough = 0.1, .warm = 0.005});
+                                           : TimingOptions{.least = 2, .most = 3, .enough = 0.02, .warm = 0.005});
   for (size_t i = 0; i < loops.size(); ++i)
     for (double& time : times[i]) time /= *loops[i].count;
   return times;
