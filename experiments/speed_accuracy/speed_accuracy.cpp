@@ -69,10 +69,10 @@ TimedPart part_of(const Method& method, const Scene& scene, const Run& base, con
   if (!method.fingerprint.empty()) return {run};     // a program of its own: what its start costs is not known
   const bool touches = scene.model.find<Spheres>();  // that may cost more than falling
   if (method.adaptive && touches) return {run};
-  const double enough = full ? 0.02 : 0.01;  // s: ten thousand ticks of the clock and more
+  const double enough = full ? 0.02 : 0.006;  // s: thousands of ticks of the clock
   // s: shorter runs are timed whole. Most of a quick report's runs are; to time the others whole takes half a minute on
   // one core
-  const double cheap = full ? 0.2 : 0.02;
+  const double cheap = full ? 0.2 : 0.012;
   const double all_of_it =
       method.adaptive ? estimated_as_it_begins(method, scene, run) : estimated_seconds(method, scene, run);
   const double share = std::min(1., enough / all_of_it);
