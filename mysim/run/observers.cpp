@@ -162,8 +162,7 @@ std::optional<MotionBounds> MotionBoundsCache::operator()(const Scene& scene, co
     }
     until_ = std::move(longer);
   }
-  const auto found = until_.lower_bound(end);
-  return found == until_.end() ? until_.rbegin()->second : found->second;
+  return until_.lower_bound(end)->second;
 }
 
 DivergenceMonitor::DivergenceMonitor(const Scene& scene, const Run& run, MotionBoundsFunction bounds)

@@ -100,8 +100,7 @@ std::vector<std::string> silent_programs(const std::vector<SceneData>& data) {
   for (const SceneData& scene : data)
     for (const MethodData& m : scene.methods)
       if (family_of(m.method).role == Role::outside)
-        (m.verdict == Verdict::crash || m.verdict == Verdict::timeout ? silent : heard)
-            .insert(name_in_sentence(m.method));
+        (m.gave_no_answer() ? silent : heard).insert(name_in_sentence(m.method));
   for (const std::string& name : heard) silent.erase(name);
   return {silent.begin(), silent.end()};
 }

@@ -106,9 +106,7 @@ void failures_of_all(const Scenes& scenes, std::vector<Finding>& out) {
                ran = std::ranges::any_of(scene.methods, &MethodData::supported);
     if (ran && !held) all.push_back(scene.scene);
     for (const MethodData& m : scene.methods)
-      if (held && m.supported() && !m.ok())
-        (m.verdict == Verdict::crash || m.verdict == Verdict::timeout ? crashed : failed)[m.method].push_back(
-            scene.scene);
+      if (held && m.supported() && !m.ok()) (m.gave_no_answer() ? crashed : failed)[m.method].push_back(scene.scene);
   }
   // of the program, which says nothing of its physics
   for (const auto& [method, where] : crashed)

@@ -38,7 +38,7 @@ bool SceneData::touched() const {
 }
 
 bool is_useless(const MethodData& run, const SceneData& scene) {
-  return run.judged() && *run.error > 0.1 * scene.motion;
+  return run.judged() && *run.error > useless_from * scene.motion;
 }
 
 SceneData scene_data(const std::string& scene, const TableSet& result) {

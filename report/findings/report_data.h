@@ -40,6 +40,8 @@ struct MethodData {
   std::optional<double> limit;             // s, largest stable step by theory, for the scene's fastest vibration
   bool supported() const { return verdict != Verdict::unsupported; }
   bool ok() const { return verdict == Verdict::ok; }
+  /// Whether its program died or took too long, which says nothing of its physics.
+  bool gave_no_answer() const { return verdict == Verdict::crash || verdict == Verdict::timeout; }
   /// Whether it came to its end and is no truth itself, and how far it is from the truth is known.
   bool judged() const { return ok() && error && family_of(method).role != Role::truth; }
   /// Whether it takes one force evaluation a step.
@@ -74,6 +76,8 @@ bool ties_with(const MethodData& run, const MethodData& other, const SceneData& 
 
 /// Whether a run came to its end so far from the truth, more than a tenth of the motion, that it is of no use.
 bool is_useless(const MethodData& run, const SceneData& scene);
+/// The part of the motion beyond which it is.
+inline constexpr double useless_from = 0.1;
 
 /// Facts of a scene from the tables `engines`, `engines-cost` and `engines-energy`.
 SceneData scene_data(const std::string& scene, const TableSet& result);

@@ -73,8 +73,6 @@ struct StepLimitCounts {
 };
 StepLimitCounts step_limit_counts(const std::vector<LimitRow>& rows, LimitState state);
 
-/// The part of the motion from which on a run that far off is of no use, as in is_useless().
-inline constexpr double useless_from = 0.1;
 /// Whether the truth of a scene without rest says that a run just below the limit is of use and one just above is not.
 /// False where it was not asked.
 bool confirmed_by_truth(const LimitRow& row);
