@@ -2,7 +2,6 @@
 #include "experiments/experiment.h"
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <stdexcept>
@@ -114,8 +113,7 @@ const Experiment& find_experiment(const std::string& name) {
     if (e.name == name) return e;
     known.emplace_back(e.name);
   }
-  throw InputError(fmt::format("unknown experiment '{}'; expected one of: {}{}", name, fmt::join(known, ", "),
-                               did_you_mean(name, known)));
+  throw InputError(unknown_name("experiment", name, known, "crosscheck list experiments"));
 }
 
 std::vector<Scene> scenes_for(const Experiment& experiment, const std::vector<std::string>& names, bool full) {

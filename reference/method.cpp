@@ -2,9 +2,9 @@
 #include "reference/method.h"
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include <algorithm>
+#include <filesystem>
 
 #include "mysim/base/errors.h"
 #include "mysim/base/text.h"
@@ -154,8 +154,11 @@ Method find_method(const std::string& text) {
   std::vector<std::string> names = known;
   if (parts[0].find('/') == std::string::npos)
     for (std::string& full : names) full = short_name(full);
-  throw InputError(fmt::format("unknown method '{}'; expected one of: {}, {}PATH{}", text, fmt::join(known, ", "),
-                               program_prefix, did_you_mean(parts[0], names)));
+  std::error_code unreadable;
+  if (std::filesystem::is_regular_file(text, unreadable))
+    throw InputError(
+        fmt::format("unknown method: {0} is a file, and a program is written {1}{0}", text, program_prefix));
+  throw InputError(unknown_name("method", parts[0], names, "crosscheck list methods"));
 }
 
 const Stepper* stepper_of(const Method& method) {

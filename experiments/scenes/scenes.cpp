@@ -2,7 +2,6 @@
 #include "experiments/scenes/scenes.h"
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include <algorithm>
 
@@ -102,8 +101,7 @@ Scene load_scene(const std::string& name) {
     return checked(name);
   std::vector<std::string> names(shipped.begin(), shipped.end());
   names.insert(names.end(), known.begin(), known.end());
-  throw InputError(fmt::format("unknown scene '{}'; expected one of {}, or the path of a .toml file{}", name,
-                               fmt::join(shipped, ", "), did_you_mean(name, names)));
+  throw InputError(unknown_name("scene", name, names, "crosscheck list scenes"));
 }
 
 std::vector<Scene> load_scenes(const std::vector<std::string>& names) {

@@ -76,6 +76,21 @@ std::string did_you_mean(std::string_view word, const std::vector<std::string>& 
   return name.empty() ? "" : "; did you mean '" + name + "'?";
 }
 
+std::string unknown_name(std::string_view kind, std::string_view word, const std::vector<std::string>& names,
+                         std::string_view list) {
+  constexpr std::size_t longest = 60;  // bytes of the word that are repeated; the rest of the message has 140
+  std::string shown(word);
+  if (shown.size() > longest) {
+    std::size_t end = longest - 3;
+    while (end > 0 && (static_cast<unsigned char>(shown[end]) & 0xc0) == 0x80) --end;  // not inside a UTF-8 character
+    shown = shown.substr(0, end) + "...";
+  }
+  const std::string near = closest_match(word, names);
+  return near.empty() || near.size() > longest
+             ? fmt::format("unknown {} '{}'; `{}` shows all", kind, shown, list)
+             : fmt::format("unknown {} '{}'; did you mean '{}'? (`{}` shows all)", kind, shown, near, list);
+}
+
 void refuse_option(const std::string& method, const std::string& option, const std::string& known) {
   std::vector<std::string> options;
   for (size_t at = known.find('+'); at != std::string::npos; at = known.find('+', at + 1))

@@ -21,6 +21,11 @@ std::string closest_match(std::string_view word, const std::vector<std::string>&
 /// The same as the end of a message: "; did you mean 'NAME'?", or nothing.
 std::string did_you_mean(std::string_view word, const std::vector<std::string>& names);
 
+/// The message for a name that is not in the list, at most 200 bytes, nearest name first: "unknown KIND 'WORD'; did you
+/// mean 'NAME'? (`LIST` shows all)". `list` is the command that prints the names.
+std::string unknown_name(std::string_view kind, std::string_view word, const std::vector<std::string>& names,
+                         std::string_view list);
+
 /// Throws InputError: "method NAME: unknown option '+OPTION'; expected KNOWN", and which of the options in KNOWN, all
 /// words behind a plus, is probably meant.
 [[noreturn]] void refuse_option(const std::string& method, const std::string& option, const std::string& known);

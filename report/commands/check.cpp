@@ -81,10 +81,10 @@ void sort_words(const std::vector<std::string>& words, std::vector<Method>& meth
     }
     try {
       methods.push_back(find_method(word));
-    } catch (const InputError& error) {
-      const std::string scene = closest_match(word, {shipped.begin(), shipped.end()});
-      throw InputError(fmt::format("{}{}", error.what(),
-                                   scene.empty() ? "" : fmt::format("; nor a scene: did you mean '{}'?", scene)));
+    } catch (const InputError&) {
+      const std::vector<std::string> scenes_by_name{shipped.begin(), shipped.end()};
+      if (closest_match(word, scenes_by_name).empty()) throw;
+      throw InputError(unknown_name("method or scene", word, scenes_by_name, "crosscheck list scenes"));
     }
   }
   if (methods.empty()) throw InputError("check: expected at least one method beside the scenes");

@@ -2,7 +2,6 @@
 #include "report/commands/command_line.h"
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
@@ -38,8 +37,7 @@ void require_known_command(const CLI::App& app, const std::string& word) {
     if (!command->get_group().empty()) known.push_back(command->get_name());
   }
   if (word == "test") throw InputError("test: the suite is built and run in a source tree: ./crosscheck test there");
-  throw InputError(fmt::format("unknown command '{}'; expected one of: {}{}", word, fmt::join(known, ", "),
-                               did_you_mean(word, known)));
+  throw InputError(unknown_name("command", word, known, "crosscheck --help"));
 }
 
 }  // namespace

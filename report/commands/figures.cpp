@@ -80,8 +80,8 @@ PictureRequest picture_named(const std::string& name, const FiguresOptions& opti
 [[noreturn]] void fail(const std::string& name) {
   std::vector<std::string> known;
   for (const Experiment& e : experiments()) known.emplace_back(e.name);
-  throw InputError(fmt::format("unknown figures '{}'; expected SCENE-picture or one of {}{}", name,
-                               fmt::join(known, ", "), did_you_mean(name, known)));
+  throw InputError(unknown_name("figure", name, known, "crosscheck list experiments") +
+                   "; pictures are called SCENE-picture");
 }
 
 /// Names are experiments, or SCENE-picture of a scene that --scene names or that comes with Crosscheck; no names are

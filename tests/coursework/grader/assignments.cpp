@@ -1,5 +1,4 @@
 // The table of assignments: a new one is a folder, the declaration of its function and a row.
-#include <fmt/ranges.h>
 
 #include <cstdlib>
 #include <stdexcept>
@@ -44,8 +43,7 @@ const Assignment& find_assignment(const std::string& name) {
     if (assignment.name == name) return assignment;
     known.emplace_back(assignment.name);
   }
-  throw std::invalid_argument(fmt::format("unknown assignment '{}'; expected one of: {}{}", name,
-                                          fmt::join(known, ", "), crosscheck::did_you_mean(name, known)));
+  throw std::invalid_argument(crosscheck::unknown_name("assignment", name, known, "crosscheck list assignments"));
 }
 
 }  // namespace coursework

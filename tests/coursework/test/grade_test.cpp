@@ -395,7 +395,7 @@ TEST(Program, BadUseIsToldInOneLine) {
   write_file(here.path / "empty-secret", "\n");
   for (const char* who : {"ada", "bo", "chen"}) write_file(here.path / "class" / who / "rk4.cpp", "");
   const std::pair<std::string, const char*> table[] = {
-      {"grade a9 " + there, "unknown assignment 'a9'; expected one of: a1-steppers"},
+      {"grade a9 " + there, "unknown assignment 'a9'; `crosscheck list assignments` shows all"},
       {"grade a1-steppers " + there + "/nothing", "/nothing: expected a folder, a zip or a tar archive"},
       {"grade a1-steppers " + there + "/class",
        "/class: this looks like a class of 3 submissions (folders); add --all to grade each of them"},

@@ -44,6 +44,22 @@ TEST(ClosestMatch, IsProposedForSlipsAndForNothingElse) {
   EXPECT_EQ(did_you_mean("colour", names), "");
 }
 
+TEST(UnknownName, NamesTheNearestFirstInAtMost200Bytes) {
+  const std::vector<std::string> names{"cloth-hang", "chain"};
+  EXPECT_EQ(unknown_name("scene", "chian", names, "list"),
+            "unknown scene 'chian'; did you mean 'chain'? (`list` shows all)");
+  EXPECT_EQ(unknown_name("scene", "", names, "list"), "unknown scene ''; `list` shows all");
+  std::string umlauts;  // two bytes each, so that the cut falls inside one of them at every other length
+  for (int i = 0; i < 300; ++i) {
+    for (const std::string& word : {std::string(i, 'x'), umlauts, "c" + umlauts, "chain" + umlauts}) {
+      const std::string message = unknown_name("assignment", word, names, "crosscheck list assignments");
+      EXPECT_LE(message.size(), 200u);
+      for (size_t at = 0; at < message.size(); at += utf8_length(message, at)) ASSERT_GT(utf8_length(message, at), 0u);
+    }
+    umlauts += "\u00fc";
+  }
+}
+
 TEST(ProgressLine, TellsNumberPartAndWhatIsLeft) {
   // one step, a quarter done in 10 s
   EXPECT_EQ(progress_line({1, 1, 0.25, 10, 0, 10, "a run"}), "a run (25 %, 10 s, about 30 s left)");
