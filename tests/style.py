@@ -40,7 +40,7 @@ def changed_lines(base):
 
 def comment_offences(lines, marker, changed):
     """Comments whose first word is one of OPENING. A line that continues a comment counts if its word is a capital."""
-    before = False  # whether the line above is a comment
+    before = False  # the line above is a comment
     for number, line in enumerate(lines, 1):
         whole = re.match(rf"\s*{marker}+!?<?\s*(.*)", line)
         trailing = None if whole else re.search(rf"(?:^|\s\s){marker}+!?<?\s+([^\"]*)$", line)
