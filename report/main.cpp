@@ -35,7 +35,7 @@ int run(int argc, char** argv) {
   const std::string word = argc > 1 ? argv[1] : "";
   if (word == "grade" || word == "assignment") return grader_command({argv + 1, argv + argc});
   return run_command_line(
-      "Crosscheck sets mysim, an in-house mass-spring and cloth engine, beside matching Bullet soft-body scenes.",
+      "Crosscheck compares physics engines on mass-spring and cloth scenes: mysim, Bullet, and programs of yours.",
       version_text(), commands, argc, argv);
 }
 

@@ -275,7 +275,7 @@ int advise_command(const AdviseOptions& options) {
 void add_advise(CLI::App& app, Invocation& call) {
   const auto options = std::make_shared<AdviseOptions>();
   auto* advise = app.add_subcommand(
-      "advise", "finds the cheapest model, method and time step that meet a tolerance, and proves it");
+      "advise", "finds the cheapest model, method and time step within a tolerance, with a verifying run");
   advise
       ->add_option("SCENE", options->scene,
                    "a shipped scene or a TOML file; values of \"fit\" are found from its [wish]")

@@ -211,8 +211,8 @@ int check_relations(const CheckOptions& options, const std::string& line) {
 
 void add_check(CLI::App& app, Invocation& call) {
   const auto options = std::make_shared<CheckOptions>();
-  auto* check =
-      app.add_subcommand("check", "asks methods for relations that need no truth: symmetries, conservation, order");
+  auto* check = app.add_subcommand(
+      "check", "tests invariants of a method (symmetries, conservation, order); needs no reference solution");
   auto* words = check->add_option("METHOD", options->words,
                                   "methods, and the scenes to ask on (default: the smallest scene of each relation)");
   check

@@ -158,7 +158,7 @@ int compare_command(const CompareOptions& options) {
 void add_compare(CLI::App& app, Invocation& call) {
   const auto options = std::make_shared<CompareOptions>();
   auto* compare = app.add_subcommand(
-      "compare", "checks that methods run the same scene (parity certificate), and compares their results");
+      "compare", "checks that all methods received the same scene (parity certificate), then compares their results");
   compare->add_option("SCENE", options->scene, "a shipped scene or a TOML file")->required();
   compare->add_option("--methods", options->methods, "methods to compare: A,B,...");
   compare->add_option("--step", options->step, "time step, s")->check(above_zero());

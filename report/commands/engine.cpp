@@ -205,8 +205,7 @@ int engine_command(const EngineOptions& options) {
 
 void add_engine(CLI::App& app, Invocation& call) {
   const auto options = std::make_shared<EngineOptions>();
-  auto* engine =
-      app.add_subcommand("engine", "writes a program for exec: Bullet's adapter against another Bullet, or Jolt's");
+  auto* engine = app.add_subcommand("engine", "builds an external engine for exec: from another Bullet, or from Jolt");
   engine->add_option("NAME", options->what, "bullet or jolt")->required();
   engine->add_option(
       "--prefix", options->prefix,

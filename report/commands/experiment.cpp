@@ -188,7 +188,7 @@ void add_experiment(CLI::App& app, Invocation& call) {
 
 void add_merge(CLI::App& app, Invocation& call) {
   const auto options = std::make_shared<MergeOptions>();
-  auto* merge = app.add_subcommand("merge", "joins the parts of an experiment, or of a hunt, into its tables");
+  auto* merge = app.add_subcommand("merge", "joins the shards of an experiment or a hunt");
   merge->add_option("DIR", options->folders, "output folders of `experiment --shard`, or of `check --hunt --shard`")
       ->required();
   merge->add_option("--out", options->out, "folder")->required();

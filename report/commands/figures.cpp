@@ -352,8 +352,7 @@ int figures_command(const FiguresOptions& given) {
 
 void add_figures(CLI::App& app, Invocation& call) {
   const auto options = std::make_shared<FiguresOptions>();
-  auto* figures =
-      app.add_subcommand("figures", "draws charts and pictures for print, with captions, for a paper or a lecture");
+  auto* figures = app.add_subcommand("figures", "draws charts and pictures with captions, for a paper or a lecture");
   figures->add_option("NAME", options->names,
                       "experiments whose charts are drawn, or SCENE-picture for a picture of a scene (default: all)");
   figures->add_option("--scene", options->scenes,

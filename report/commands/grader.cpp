@@ -84,8 +84,8 @@ int grader_command(const std::vector<std::string>& words) {
 }
 
 void add_grader(CLI::App& app, Invocation&) {
-  app.add_subcommand("grade", "grades a submission of coursework, or with --all those of a class");
-  app.add_subcommand("assignment", "writes the hand-out of an assignment, or its package for a grading service");
+  app.add_subcommand("grade", "grades a coursework submission, or a whole class with --all");
+  app.add_subcommand("assignment", "writes the handout of an assignment, or its package for a grading service");
 }
 
 }  // namespace crosscheck

@@ -39,7 +39,7 @@ int lab_command(const LabOptions& options) {
 
 void add_lab(CLI::App& app, Invocation& call) {
   const auto options = std::make_shared<LabOptions>();
-  auto* lab = app.add_subcommand("lab", "writes a page in which mysim runs scenes live, beside the truth");
+  auto* lab = app.add_subcommand("lab", "writes a page that runs mysim live, next to the reference solution");
   lab->add_option("SCENE", options->scenes, "shipped scenes or TOML files")->required();
   lab->add_option("-o", options->file, "the page, FILE.html");
   lab->add_flag("--fingerprints", options->fingerprints,

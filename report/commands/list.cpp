@@ -122,7 +122,7 @@ void add_list(CLI::App& app, Invocation& call) {
 }
 
 void add_doctor(CLI::App& app, Invocation& call) {
-  app.add_subcommand("doctor", "lists the programs and libraries that Crosscheck uses, and which are missing")
+  app.add_subcommand("doctor", "lists the programs and libraries that Crosscheck uses and reports missing ones")
       ->callback([&call] { call.status = doctor_command(); });
 }
 

@@ -109,7 +109,7 @@ int render_command(const RenderOptions& options) {
 
 void add_render(CLI::App& app, Invocation& call) {
   const auto options = std::make_shared<RenderOptions>();
-  auto* render = app.add_subcommand("render", "draws a picture of a scene, or a clip of its run, methods side by side");
+  auto* render = app.add_subcommand("render", "draws a picture or a video clip of a scene, methods side by side");
   render->add_option("SCENE", options->scene, "a shipped scene or a TOML file")->required();
   render->add_option("--methods", options->methods, "methods to draw: A,B,...");
   render->add_option("--mode", options->mode, "shaded (default), stretch, springs, difference or strip");

@@ -195,7 +195,8 @@ void add_report(CLI::App& app, Invocation& call) {
     fs::path verified, from;
   };
   const auto options = std::make_shared<Options>();
-  auto* report = app.add_subcommand("report", "the main job: a page with findings, figures, pictures and data");
+  auto* report =
+      app.add_subcommand("report", "writes the comparison report: a page with findings, figures, pictures and data");
   report->add_option("SCENE", options->scenes, "default: those that stand for the others; all with --full");
   report->add_option("--methods", options->methods, "A,B,...");
   report->add_option("--out", options->out, "folder (out/report)");

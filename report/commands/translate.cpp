@@ -226,7 +226,7 @@ int translate_command(const TranslateOptions& options) {
 void add_translate(CLI::App& app, Invocation& call) {
   const auto options = std::make_shared<TranslateOptions>();
   auto* translate = app.add_subcommand(
-      "translate", "what masses, drag, stiffness, dashpots and friction of a scene become in another engine, and back");
+      "translate", "converts masses, drag, stiffness, dashpots and friction to another engine's parameters, and back");
   translate->add_option("SCENE", options->scene, "a shipped scene or a TOML file")->required();
   translate->add_option(
       "--to", options->to,

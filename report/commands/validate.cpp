@@ -237,8 +237,7 @@ void add_validate(CLI::App& app, Invocation& call) {
     bool json = false;
   };
   const auto options = std::make_shared<Options>();
-  auto* validate =
-      app.add_subcommand("validate", "checks scene files and describes their scenes, without running them");
+  auto* validate = app.add_subcommand("validate", "checks and describes scene files without running them");
   validate->add_option("SCENE", options->scenes, "shipped scenes or TOML files")->required();
   validate->add_flag("--json", options->json, "prints JSON");
   validate->callback([options, &call] { call.status = validate_command(options->scenes, options->json); });
