@@ -1,0 +1,71 @@
+#!/usr/bin/env bash
+# Tests that take long and rarely fail. `./crosscheck test` and CI leave them out. Run all of them once a week, and the
+# part that your change touches before the change is finished:
+#
+#   experiments/ci/weekly.sh [PART]...     builds, then runs these parts; without arguments all of them
+#   experiments/ci/weekly.sh --tests       prints the regular expression of the tests that are left out elsewhere
+#
+#   corpus      coursework: all solutions, styles, mistakes, mutants, cheats and odd programs
+#   kill        reports under kill -9 at ten moments, and on a full disk
+#   rehearsals  a new stepper, term, scene, engine and experiment, added as CONTRIBUTING.md describes
+#   node        external engines and the lab's module in Node.js
+#   latex       a paper with a set of figures
+#   sanitizers  the fast tests under address and undefined-behaviour sanitizers
+#
+# Environment: CORPUS_SEEDS (2) and ODD_PROGRAMS (5) set how much of the corpus runs; 20 and 1000 take an hour.
+set -euo pipefail
+cd "$(dirname "${BASH_SOURCE[0]}")/../.."
+
+parts=(corpus kill rehearsals node latex sanitizers)
+declare -A tests=( # names as ctest knows them; a part without tests runs something else
+  [corpus]='All/(EachCheat|OddPrograms)\.|All/Corpus\..*/classic|Mutants\.LosePointsAtTheirPart'
+  [kill]='OutputOfReport\.(KilledAtTenMoments|AFullDisk)'
+  [rehearsals]='NewTerm\.|Adding\.'
+  [node]='LabModule\.(AFinger|CellsOfMaps|GivesTheNativeBitsInNode)|ProtocolKit\.TheExampleInJavaScript|Both/Jolt\..*/npm'
+  [latex]='FigureSet\.APaperWithTheSetCompiles'
+)
+declare -A packages=(
+  [node]="nodejs npm chromium clang-14 lld-14 libc++-14-dev-wasm32 libclang-rt-14-dev-wasm32 binaryen"
+  [latex]="texlive-latex-base"
+)
+expression() { # PARTS...: the tests of these parts
+  local part joined=
+  for part; do joined+=${tests[$part]:+|${tests[$part]}}; done
+  printf '^(%s)' "${joined#|}"
+}
+if [ "${1:-}" = --tests ]; then
+  expression "${parts[@]}"
+  exit
+fi
+[ $# -gt 0 ] && parts=("$@")
+for part in "${parts[@]}"; do
+  case $part in
+    corpus | kill | rehearsals | node | latex | sanitizers) ;;
+    *) sed -n '2,15s/^# \{0,1\}//p' "$0" >&2; exit 2 ;;
+  esac
+done
+
+as_root=()
+[ "$(id -u)" -eq 0 ] || as_root=(sudo)
+build=$PWD/build/release
+failed=()
+for part in "${parts[@]}"; do
+  printf '== %s\n' "$part"
+  begin=$SECONDS status=0
+  if [ -n "${packages[$part]:-}" ]; then
+    # shellcheck disable=SC2086  # several names
+    "${as_root[@]}" env DEBIAN_FRONTEND=noninteractive apt-get install -y -qq --no-install-recommends ${packages[$part]} >/dev/null
+    rm -f "$build/build.ninja" # an earlier configuration did not find them
+  fi
+  if [ "$part" = sanitizers ]; then
+    CROSSCHECK_PRESET=asan ./crosscheck test --fast || status=$?
+  else
+    ./crosscheck test --only "$(expression "$part")" || status=$?
+  fi
+  if [ "$part" = corpus ]; then
+    CORPUS_SEEDS=${CORPUS_SEEDS:-2} ODD_PROGRAMS=${ODD_PROGRAMS:-5} tests/coursework/corpus.sh "$build" || status=$?
+  fi
+  [ "$status" -eq 0 ] || failed+=("$part")
+  printf '== %s: %s after %d min\n' "$part" "$([ "$status" -eq 0 ] && echo passed || echo FAILED)" $(((SECONDS - begin + 30) / 60))
+done
+[ ${#failed[@]} -eq 0 ] || { printf 'failed: %s\n' "${failed[*]}"; exit 1; }
