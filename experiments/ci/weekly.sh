@@ -8,7 +8,7 @@
 #   corpus      coursework: all solutions, styles, mistakes, mutants, cheats and odd programs
 #   kill        reports under kill -9 at ten moments, and on a full disk
 #   rehearsals  a new stepper, term, scene, engine and experiment, added as CONTRIBUTING.md describes
-#   node        external engines and the lab's module in Node.js
+#   node        external engines and the lab's module in Node.js; Jolt from npm, if npm is installed
 #   latex       a paper with a set of figures
 #   sanitizers  the fast tests under address and undefined-behaviour sanitizers
 #
@@ -25,7 +25,7 @@ declare -A tests=( # names as ctest knows them; a part without tests runs someth
   [latex]='FigureSet\.APaperWithTheSetCompiles'
 )
 declare -A packages=(
-  [node]="nodejs npm chromium clang-14 lld-14 libc++-14-dev-wasm32 libclang-rt-14-dev-wasm32 binaryen"
+  [node]="nodejs chromium clang-14 lld-14 libc++-14-dev-wasm32 libclang-rt-14-dev-wasm32 binaryen"
   [latex]="texlive-latex-base"
 )
 expression() { # PARTS...: the tests of these parts
