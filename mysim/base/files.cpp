@@ -7,6 +7,7 @@
 #include <sys/statvfs.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cassert>
 #include <cctype>
 #include <cerrno>
@@ -18,7 +19,9 @@
 #include <sstream>
 
 #include "mysim/base/errors.h"
+#include "mysim/base/names.h"
 #include "mysim/base/pattern.h"
+#include "mysim/base/text.h"
 
 namespace crosscheck {
 namespace fs = std::filesystem;
@@ -121,10 +124,14 @@ void require_writable(const fs::path& folder) {
 }
 
 std::string file_name_of(std::string_view text) {
-  std::string name(text);
-  for (char& c : name)
-    if (!std::isalnum(static_cast<unsigned char>(c)) && std::string_view("._=+-").find(c) == std::string_view::npos)
-      c = '-';
+  std::string name;
+  for (size_t at = 0; at < text.size();) {
+    const std::string_view sign = text.substr(at, std::max<size_t>(1, utf8_length(text, at)));
+    const bool plain = std::isalnum(static_cast<unsigned char>(sign[0])) ||
+                       std::string_view("._=+-").find(sign[0]) != std::string_view::npos;
+    name += plain || (sign.size() > 1 && is_printable(sign)) ? sign : "-";
+    at += sign.size();
+  }
   return name;
 }
 

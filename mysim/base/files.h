@@ -60,7 +60,8 @@ std::string read_file(const std::filesystem::path& file, std::string_view expect
 /// it.
 void require_writable(const std::filesystem::path& folder);
 
-/// The text with every character outside [A-Za-z0-9._=+-] replaced by '-': how methods appear in file names.
+/// The text with '-' for each ASCII character outside [A-Za-z0-9._=+-], and for what is not printable (names.h): how
+/// names of methods and scenes appear in file names.
 std::string file_name_of(std::string_view text);
 
 // A private folder that goes away with the object, or, where the process is killed, at the next start.

@@ -1,21 +1,19 @@
-// The manifest of a folder of results, as JSON; and one made up for folders that version 0.1 wrote without.
+// The manifest of a folder of results, as JSON.
 #include "mysim/base/manifest.h"
 
 #include <fmt/format.h>
 #include <unistd.h>
 
 #include <algorithm>
-#include <array>
 #include <ctime>
 #include <fstream>
-#include <set>
 #include <string_view>
 
 #include "mysim/base/errors.h"
 #include "mysim/base/files.h"
 #include "mysim/base/hash.h"
 #include "mysim/base/json.h"
-#include "mysim/base/pattern.h"
+#include "mysim/base/names.h"
 
 namespace crosscheck {
 namespace fs = std::filesystem;
@@ -95,6 +93,7 @@ std::optional<Manifest> read_manifest(const fs::path& folder) {
     manifest.process = json["process"]["id"].whole();
     manifest.since = json["process"]["since"].text();
     for (const auto& [path, about] : json["files"].items()) {
+      if (!is_path_inside(path)) throw std::invalid_argument("a path outside");
       const auto hash = about.find("hash");
       manifest.files[path] = {about["bytes"].natural(), hash ? hash->text() : ""};
     }
@@ -124,10 +123,6 @@ std::vector<std::string> paths_in(const fs::path& folder) {
   if (!fs::is_directory(folder)) return paths;
   for (fs::recursive_directory_iterator at(folder), end; at != end; ++at) {
     std::string path = at->path().lexically_relative(folder).generic_string();
-    if (path == inner_work_folder) {
-      at.disable_recursion_pending();
-      continue;
-    }
     if (path == Manifest::file_name) continue;
     if (at->is_directory() && !at->is_symlink()) {
       if (!fs::is_empty(at->path())) continue;
@@ -137,76 +132,6 @@ std::vector<std::string> paths_in(const fs::path& folder) {
   }
   std::sort(paths.begin(), paths.end());
   return paths;
-}
-
-namespace {
-
-struct KnownCommand {
-  std::string_view command;
-  std::string_view sign;  // the file that is there whenever the command wrote anything
-  std::string_view mark;  // stands in it
-};
-
-constexpr std::string_view unfinished = "the report was not finished", first_line = "# command: crosscheck";
-constexpr std::array known_commands{KnownCommand{"run", "run.json", "\"force_evaluations\""},
-                                    KnownCommand{"compare", "engines.csv", first_line},
-                                    KnownCommand{"experiment", "plan.json", "\"experiments\""},
-                                    KnownCommand{"report", "report.json", "\"findings\""},
-                                    KnownCommand{"report", "report.json", unfinished},
-                                    KnownCommand{"figures", "figures.json", "\"figures\""},
-                                    KnownCommand{"advise", "advice.csv", first_line},
-                                    KnownCommand{"regress", "regress.json", "\"without_answer\""},
-                                    KnownCommand{"bench", "bench.json", "\"tables\""}};
-
-/// Names in the folders of all commands.
-const std::set<std::string_view> known_names{
-    "trajectory.npy", "velocities.npy", "run.json",    "plan.json",    "report.json", "index.html", "figures.json",
-    "CITATION.cff",   "advice.toml",    "advice.json", "regress.json", "junit.xml",   "bench.json"};
-
-/// Names that no user gives to a file by hand; runs lie in folders by their figure, scenes by their name.
-const Pattern& known_pattern() {
-  static const Pattern all(
-      R"((steppers/your-[^/]+|points/[0-9a-f]{16}\.(json|failed)|(data/)?certificate-[^/]+\.json|data/[^/]+-motions\.json)"
-      R"(|data/runs/[^/]+/[^/]+\.json|data/scenes/[^/]+\.toml|figures/([^/]+-picture|sphere-drop-aside|stability-moment)\.png|.*\.[0-9]+\.part))");
-  return all;
-}
-
-bool is_our_table(const fs::path& file) {
-  if (file.extension() != ".csv") return false;
-  std::ifstream in(file);
-  std::string line;
-  return std::getline(in, line) && line.starts_with(first_line);
-}
-
-}  // namespace
-
-std::optional<Manifest> adopt_version_0_1(const fs::path& folder, const std::string& command, std::string& foreign) {
-  const bool known = std::any_of(known_commands.begin(), known_commands.end(), [&](const KnownCommand& k) {
-    return k.command == command && fs::is_regular_file(fs::symlink_status(folder / k.sign)) &&
-           try_read_file(folder / k.sign).value_or("").find(k.mark) != std::string::npos;
-  });
-  if (!known) return std::nullopt;
-  // pictures and what belongs to a figure are named by the figure's table, or by the page or list of what was made
-  std::string lists;
-  for (const char* list : {"index.html", "report.json", "figures.json"})
-    lists += try_read_file(folder / list).value_or("");
-  Manifest manifest = Manifest::begun(command);
-  manifest.finished = true;
-  for (const std::string& path : paths_in(folder)) {
-    if (path.ends_with("/")) continue;
-    const fs::path file = folder / path;
-    const std::string name = file.filename().string();
-    const bool ours = fs::is_regular_file(fs::symlink_status(file)) &&
-                      (known_names.contains(name) || known_pattern().match(path) || is_our_table(file) ||
-                       is_our_table(fs::path(file).replace_extension(".csv")) ||
-                       lists.find("\"" + file.stem().string() + "\"") != std::string::npos);
-    if (!ours) {
-      foreign = path;
-      return std::nullopt;
-    }
-    manifest.files[path] = file_entry(file);
-  }
-  return manifest;
 }
 
 }  // namespace crosscheck

@@ -30,7 +30,8 @@ struct Manifest {
   bool ours(const std::filesystem::path& folder, const std::string& path) const;
 };
 
-/// Nothing where there is no manifest. Throws InputError that names the file where it cannot be read.
+/// Nothing where there is no manifest. Throws InputError that names the file where it cannot be read, or lists a path
+/// that does not stay inside the folder.
 std::optional<Manifest> read_manifest(const std::filesystem::path& folder);
 void write_manifest(const Manifest& manifest, const std::filesystem::path& folder);
 /// Throws InputError that names the file where it cannot be read.
@@ -40,17 +41,9 @@ Manifest::File file_entry(const std::filesystem::path& file);
 /// of other names.
 std::optional<std::string> whole_name(const std::string& path);
 
-/// The paths of all that is in a folder and below and is no folder itself, relative, sorted, the manifest and the
-/// working folder left out; links are not followed. Empty folders are listed too, with a slash at the end.
+/// The paths of all that is in a folder and below and is no folder itself, relative, sorted, the manifest left out;
+/// links are not followed. Empty folders are listed too, with a slash at the end.
 std::vector<std::string> paths_in(const std::filesystem::path& folder);
-
-/// The folder in which a result is prepared, inside of the one it is for.
-inline constexpr auto inner_work_folder = ".crosscheck";
-
-/// What a folder of version 0.1 holds, where all in it is known to be Crosscheck's by its name and beginning; otherwise
-/// nothing, and one of the other files in `foreign`.
-std::optional<Manifest> adopt_version_0_1(const std::filesystem::path& folder, const std::string& command,
-                                          std::string& foreign);
 
 /// The present, as "2026-11-23 03:10:00 UTC".
 std::string utc_now();

@@ -1,4 +1,4 @@
-// A lock in the working folder, then an exchange of names, or a journal.
+// A lock in the working folder, then an exchange of names, or two renames.
 #include "mysim/base/output_folder.h"
 
 #include <fcntl.h>
@@ -26,16 +26,10 @@ namespace crosscheck {
 namespace fs = std::filesystem;
 namespace {
 
-/// Only there can a folder not be renamed, though this user owns it and its parent.
 bool is_mount_point(const fs::path& folder) {
   struct statx about {};
   if (statx(AT_FDCWD, folder.c_str(), AT_SYMLINK_NOFOLLOW, STATX_TYPE, &about) != 0) return false;
   return (about.stx_attributes_mask & STATX_ATTR_MOUNT_ROOT) && (about.stx_attributes & STATX_ATTR_MOUNT_ROOT);
-}
-
-bool is_within(const fs::path& inner, const fs::path& outer) {
-  const fs::path relative = inner.lexically_relative(outer);
-  return !relative.empty() && *relative.begin() != "..";
 }
 
 struct Holder {
@@ -71,22 +65,29 @@ OutputPlace::OutputPlace(const fs::path& given) : requested(given) {
     target = fs::weakly_canonical(fs::absolute(given));
     if (!target.has_filename()) target = target.parent_path();
     if (given.empty() || !target.has_filename() || (fs::exists(target) && !fs::is_directory(target))) refuse();
+    for (fs::path at = target; at.has_relative_path(); at = at.parent_path())
+      if (fs::is_symlink(at))
+        refuse(fmt::format("{} is a link to {}, which does not exist; make that folder, or give another one",
+                           at.string(), fs::read_symlink(at).string()));
   } catch (const fs::filesystem_error&) {
     refuse();
   }
-  beside = target.parent_path() / fmt::format(".{}.crosscheck", target.filename().string());
-  inside = target / inner_work_folder;
+  work = target.parent_path() / fmt::format(".{}.crosscheck", target.filename().string());
 }
 
-bool OutputPlace::writable_beside() const { return access(target.parent_path().c_str(), W_OK | X_OK) == 0; }
-
-bool OutputPlace::exchangeable() const {
-  if (!writable_beside()) return false;
-  std::error_code error;
-  if (!fs::exists(target, error)) return true;
-  // a shell that stands in it would be left in a folder without a name
-  const fs::path here = fs::current_path(error);
-  return !is_mount_point(target) && (error || !is_within(here, target));
+void OutputPlace::require_replaceable() const {
+  const fs::path parent = target.parent_path();
+  struct stat above {
+  }, about{};
+  const bool exists = lstat(target.c_str(), &about) == 0;
+  if (access(parent.c_str(), W_OK | X_OK) != 0 || stat(parent.c_str(), &above) != 0)
+    refuse(exists ? parent.string() + ", where the result is prepared, cannot be written to; give a folder inside"
+                  : "");
+  if (!exists) return;
+  if (is_mount_point(target)) refuse("a mount point cannot be replaced by the next result; give a folder inside");
+  const uid_t user = geteuid();
+  if ((above.st_mode & S_ISVTX) && user != 0 && user != above.st_uid && user != about.st_uid)
+    refuse("belongs to another user; give another folder");
 }
 
 void OutputPlace::refuse(const std::string& why) const {
@@ -100,12 +101,16 @@ OutputLock::OutputLock(const OutputPlace& place, const std::string& command) : p
        above = above.parent_path())
     made_.push_back(above);
   fs::create_directories(place.target.parent_path(), error);
-  work_ = place.writable_beside() ? place.beside : place.inside;
+  place.require_replaceable();
+  work_ = place.work;
   const fs::path file = work_ / "lock";
   // one that was killed lets go when the processes that it had started are gone too, which is soon
   const auto deadline = std::chrono::steady_clock::now() + std::chrono::seconds(3);
   for (;; std::this_thread::sleep_for(std::chrono::milliseconds(10))) {
-    fs::create_directories(work_, error);
+    struct stat about {};
+    if (mkdir(work_.c_str(), 0700) != 0 && errno == EEXIST && lstat(work_.c_str(), &about) == 0 &&
+        (!S_ISDIR(about.st_mode) || about.st_uid != geteuid()))
+      place.refuse(work_.string() + " is not a folder of yours; remove it, or give another folder");
     handle_ = open(file.c_str(), O_CREAT | O_RDWR | O_CLOEXEC | O_NOFOLLOW, 0666);
     if (handle_ < 0 && errno == ENOENT && std::chrono::steady_clock::now() < deadline) continue;  // gone just now
     if (handle_ < 0) place.refuse();
@@ -147,7 +152,7 @@ bool OutputLock::own() const { return process_ == getpid(); }
 
 namespace {
 
-constexpr auto new_result = "new", old_list = "old", journal = "journal";
+constexpr auto new_result = "new", old_result = "old";
 
 bool is_there(const fs::path& path) { return fs::exists(fs::symlink_status(path)); }
 bool is_folder(const fs::path& path) { return fs::is_directory(fs::symlink_status(path)); }
@@ -250,60 +255,42 @@ void absorb(const fs::path& from, const fs::path& target) {
   fs::remove_all(from);
 }
 
-/// Moves a whole new result into the folder, file by file. However often it is interrupted, to begin again goes on.
-void follow_journal(const fs::path& work, const fs::path& target) {
-  const Manifest now = *read_manifest(work / journal);
-  const std::optional<Manifest> old = read_manifest(work / old_list);
-  const fs::path from = work / new_result;
-  fs::create_directories(target);
-  if (is_there(from / Manifest::file_name)) fs::rename(from / Manifest::file_name, target / Manifest::file_name);
-  if (old)
-    for (const auto& [path, about] : old->files) {
-      if (now.files.contains(path) || !is_there(target / path)) continue;
-      if (old->ours(target, path))
-        fs::remove(target / path);
-      else
-        keep_as_yours(target, path);
-      remove_empty_above(target, path);
+/// Gives the folder's name to the new result; returns where the earlier one is now.
+fs::path replaced(const OutputPlace& place, const fs::path& stage) {
+  std::error_code gone;
+  const fs::path here = fs::current_path(gone), inside = here.lexically_relative(place.target);
+  fs::path old = stage;
+  if (renameat2(AT_FDCWD, stage.c_str(), AT_FDCWD, place.target.c_str(), RENAME_EXCHANGE) != 0) {
+    old = place.work / old_result;
+    fs::rename(place.target, old);
+    std::error_code error;
+    fs::rename(stage, place.target, error);
+    if (error) {
+      fs::rename(old, place.target);
+      throw fs::filesystem_error("rename", place.target, error);
     }
-  for (const auto& [path, about] : now.files) {
-    if (!is_there(from / path)) continue;  // it is in its place
-    fs::path above;
-    for (const fs::path& part : fs::path(path).parent_path())
-      if (above /= part; is_there(target / above) && !is_folder(target / above)) keep_as_yours(target, above);
-    if (is_there(target / path) && !(old && old->ours(target, path))) keep_as_yours(target, path);
-    fs::create_directories((target / path).parent_path());
-    fs::rename(from / path, target / path);
   }
-  fs::remove_all(work / journal);
-  fs::remove_all(work / old_list);
-  if (is_there(from)) absorb(from, target);
+  if (!gone && !inside.empty() && *inside.begin() != "..") {
+    fs::current_path(here, gone);
+    fmt::print(stderr, "crosscheck: {} is now another folder; `cd \"$PWD\"` shows the new result\n",
+               place.requested.string());
+  }
+  return old;
 }
 
-/// Leftovers of an earlier process in a working folder.
-void recover_from(const fs::path& work, const fs::path& target) {
-  std::error_code in_use;
-  if (is_there(work / journal / Manifest::file_name)) {
-    follow_journal(work, target);
-    fs::remove(work, in_use);
-    return;
-  }
-  const fs::path left = work / new_result;
+/// Leftovers of a killed writer.
+void recover(const OutputPlace& place) {
+  const fs::path left = place.work / new_result, old = place.work / old_result;
+  if (!is_there(place.target) && is_folder(old)) fs::rename(old, place.target);
   if (is_there(left)) {
     const std::optional<Manifest> manifest = read_manifest(left);
     if (manifest && !manifest->finished)
       fs::remove_all(left);  // half a result
-    else if (manifest && !is_there(target))
-      fs::rename(left, target);
     else
-      absorb(left, target);
+      absorb(left, place.target);
   }
-  fs::remove_all(work / journal);
-  fs::remove_all(work / old_list);
-  fs::remove(work, in_use);
+  if (is_there(old)) absorb(old, place.target);
 }
-
-bool has_leftovers(const OutputPlace& place) { return is_there(place.beside) || is_there(place.inside); }
 
 /// Whether it lies in another result's folder inside of this one, as the parts of a sweep do.
 bool is_of_another_result(const fs::path& target, const std::string& path) {
@@ -320,15 +307,14 @@ std::optional<Manifest> require_ours(const OutputPlace& place, const std::string
                              manifest->command));
   if (manifest) return manifest;
   std::vector<std::string> paths = paths_in(place.target);
-  std::erase_if(paths, [&](const std::string& path) { return is_of_another_result(place.target, path); });
-  if (paths.empty()) return manifest;
-  std::string foreign = paths[0];
-  manifest = adopt_version_0_1(place.target, command, foreign);
-  if (!manifest)
+  std::erase_if(paths, [&](const std::string& path) {
+    return whole_name(path) == Manifest::file_name || is_of_another_result(place.target, path);
+  });
+  if (!paths.empty())
     place.refuse(
         fmt::format("holds files that are not of crosscheck {} ({}{}), and nothing in it was changed; give an "
                     "empty or a new folder, or move them away",
-                    command, foreign, paths.size() > 1 ? fmt::format(" among {}", paths.size()) : ""));
+                    command, paths[0], paths.size() > 1 ? fmt::format(" among {}", paths.size()) : ""));
   return manifest;
 }
 
@@ -343,31 +329,11 @@ auto with_output_errors(const OutputPlace& place, F work) {
   }
 }
 
-OutputPlace checked(OutputPlace place, const std::string& command) {
-  // before anything is made: what is refused stays as it is
-  with_output_errors(place, [&] {
-    if (!has_leftovers(place)) require_ours(place, command);
-  });
-  return place;
-}
-
-/// Removes the half manifests that killed processes left in the folder itself, where no working folder holds them.
-void remove_half_manifests(const fs::path& target) {
-  std::error_code error;
-  std::vector<fs::path> halves;
-  for (const auto& entry : fs::directory_iterator(target, error))
-    if (whole_name(entry.path().filename()) == Manifest::file_name) halves.push_back(entry.path());
-  for (const fs::path& half : halves) fs::remove(half, error);
-}
-
-/// With the lock: finishes, looks, and takes over what version 0.1 wrote.
+/// With the lock: tidies up, and looks whether the folder may be written into.
 std::optional<Manifest> entered(const OutputPlace& place, const std::string& command) {
   return with_output_errors(place, [&] {
-    for (const fs::path& work : {place.beside, place.inside}) recover_from(work, place.target);
-    remove_half_manifests(place.target);
-    std::optional<Manifest> manifest = require_ours(place, command);
-    if (manifest && !is_there(place.target / Manifest::file_name)) write_manifest(*manifest, place.target);
-    return manifest;
+    recover(place);
+    return require_ours(place, command);
   });
 }
 
@@ -375,26 +341,22 @@ std::optional<Manifest> entered(const OutputPlace& place, const std::string& com
 
 void recover_output(const fs::path& folder) {
   const OutputPlace place(folder);
-  if (!has_leftovers(place)) return;
+  if (!is_there(place.work)) return;
   std::optional<OutputLock> lock;
   try {
-    lock.emplace(place, "that finishes what another began");
+    lock.emplace(place, "that tidies up after another");
   } catch (const InputError&) {
     return;  // another process does it
   }
-  with_output_errors(place, [&] {
-    for (const fs::path& work : {place.beside, place.inside}) recover_from(work, place.target);
-    remove_half_manifests(place.target);
-  });
+  with_output_errors(place, [&] { recover(place); });
 }
 
 OutputFolder::OutputFolder(const fs::path& folder, const std::string& command)
-    : place_(checked(OutputPlace(folder), command)), lock_(place_, command), command_(command) {
+    : place_(folder), lock_(place_, command), command_(command), stage_(place_.work / new_result) {
   entered(place_, command);
   register_output(place_.target);
-  stage_ = (place_.exchangeable() ? place_.beside : place_.inside) / new_result;
   with_output_errors(place_, [&] {
-    fs::create_directories(stage_);
+    fs::create_directory(stage_);
     write_manifest(Manifest::begun(command), stage_);
   });
 }
@@ -403,7 +365,6 @@ OutputFolder::~OutputFolder() {
   if (!lock_.own() || finished_) return;
   std::error_code ignored;
   fs::remove_all(stage_, ignored);
-  fs::remove(place_.inside, ignored);
 }
 
 void OutputFolder::finish() {
@@ -418,35 +379,25 @@ void OutputFolder::finish() {
         manifest.files[path] = file_entry(stage_ / path);
       }
     manifest.finished = true;
-    const std::optional<Manifest> old = read_manifest(place_.target);
-    const fs::path work = stage_.parent_path();
-    bool placed = false;
-    if (work == place_.beside) {
-      const bool first = !is_there(place_.target);
-      if (!first) {
-        link_what_is_the_users(place_.target, old, stage_);
-        fs::permissions(stage_, fs::status(place_.target).permissions());
-      }
-      write_manifest(manifest, stage_);
-      finished_ = placed = renameat2(AT_FDCWD, stage_.c_str(), AT_FDCWD, place_.target.c_str(),
-                                     first ? RENAME_NOREPLACE : RENAME_EXCHANGE) == 0;
-      if (placed && !first) absorb(stage_, place_.target);
-    } else {
-      write_manifest(manifest, stage_);
+    const bool first = !is_there(place_.target);
+    if (!first) {
+      link_what_is_the_users(place_.target, read_manifest(place_.target), stage_);
+      fs::permissions(stage_, fs::status(place_.target).permissions());
     }
-    if (!placed) {
-      if (old) write_manifest(*old, work / old_list);
-      write_manifest(manifest, work / journal);
-      finished_ = true;  // from here on the new result is whole, and only to be moved
-      follow_journal(work, place_.target);
+    write_manifest(manifest, stage_);
+    if (first) {
+      fs::rename(stage_, place_.target);
+      finished_ = true;
+      return;
     }
-    std::error_code in_use;
-    fs::remove(work, in_use);
+    const fs::path old = replaced(place_, stage_);
+    finished_ = true;  // from here on the stage may be the earlier result
+    absorb(old, place_.target);
   });
 }
 
 ResumableOutput::ResumableOutput(const fs::path& folder, const std::string& command)
-    : place_(checked(OutputPlace(folder), command)), lock_(place_, command) {
+    : place_(folder), lock_(place_, command) {
   register_output(place_.target);
   const std::optional<Manifest> old = entered(place_, command);
   manifest_ = Manifest::begun(command);
@@ -475,6 +426,10 @@ void ResumableOutput::forget(const std::string& inner) {
 void ResumableOutput::announce(const std::vector<std::string>& files) {
   with_output_errors(place_, [&] {
     for (const std::string& path : files) {
+      fs::path above;
+      for (const fs::path& part : fs::path(path).parent_path())
+        if (above /= part; is_there(place_.target / above) && !is_folder(place_.target / above))
+          keep_as_yours(place_.target, above);
       if (is_there(place_.target / path) && !manifest_.ours(place_.target, path)) keep_as_yours(place_.target, path);
       manifest_.files[path] = now_[path] = {};
     }

@@ -9,21 +9,18 @@
 
 namespace crosscheck {
 
-// The place of a result, its working folders, and the lock for its one writer.
-
-/// A folder for results, and its working folders.
+/// A folder for results, and the working folder in which the next one is prepared.
 struct OutputPlace {
-  /// Throws InputError where there is a file of that name.
+  /// Throws InputError where there is a file of that name, or a link to nothing.
   explicit OutputPlace(const std::filesystem::path& requested);
 
   std::filesystem::path requested;  // as given
   std::filesystem::path target;     // absolute, without links
-  std::filesystem::path beside;     // PARENT/.NAME.crosscheck
-  std::filesystem::path inside;     // TARGET/.crosscheck, where nothing can be made beside it
+  std::filesystem::path work;       // PARENT/.NAME.crosscheck
 
-  bool writable_beside() const;
-  /// Whether another folder can take its name: it is no mount point, and no process that can be seen works in it.
-  bool exchangeable() const;
+  /// Throws InputError where another folder cannot take its name: its parent cannot be written to, it is a mount point,
+  /// or another user's in a sticky folder.
+  void require_replaceable() const;
   /// Throws InputError: the folder cannot be made or written to, or why else.
   [[noreturn]] void refuse(const std::string& why = "") const;
 };
@@ -31,7 +28,7 @@ struct OutputPlace {
 /// Held by the one process that writes into a folder; gone with it, however it ends.
 class OutputLock {
  public:
-  /// Throws InputError that names the process which holds it, and since when.
+  /// Throws InputError that names the process which holds it, and since when, or a working folder of another user.
   OutputLock(const OutputPlace& place, const std::string& command);
   ~OutputLock();
   OutputLock(const OutputLock&) = delete;
@@ -49,17 +46,16 @@ class OutputLock {
 // Folders of results: Crosscheck's files in them are listed in a manifest, everything else is left alone, and a
 // finished result stays until the next one is whole.
 
-/// A result that is prepared in another folder and put in place when it is whole. The two folders exchange their names
-/// (renameat2, RENAME_EXCHANGE) after the user's files were linked into the new one; where that cannot be done (no such
-/// call, a mount point, a parent folder that belongs to others) the files are moved one by one by a journal, which the
-/// next start finishes. Listed files that a user has changed, and the user's files under names that the new result
-/// has, are kept as NAME.yours.
+/// A result that is prepared in the working folder and put in place when it is whole. The user's files are linked into
+/// it first, then the two folders exchange their names (renameat2, RENAME_EXCHANGE). Where the file system cannot do
+/// that (NFS, 9p, sshfs), the earlier result is renamed to WORK/old and the new one takes its place; if a process is
+/// killed in between, the next writer puts the earlier one back. Listed files that a user has changed, and the user's
+/// files under names that the new result has, are kept as NAME.yours.
 class OutputFolder {
  public:
-  /// Takes the lock, finishes what an earlier start could not, and begins. Throws InputError "--out FOLDER: ..." where
-  /// another process writes there, where the folder is of another command, where it holds files and no manifest
-  /// (those of version 0.1 are known by their names and taken over), or where it cannot be written to. Nothing is
-  /// changed then.
+  /// Takes the lock, tidies up after a killed writer, and begins. Throws InputError "--out FOLDER: ..." where another
+  /// process writes there, where the folder is of another command, where it holds files and no manifest, or where it
+  /// cannot be replaced. Nothing is changed then.
   OutputFolder(const std::filesystem::path& folder, const std::string& command);
   /// Removes an unfinished result; the earlier one is there as before.
   ~OutputFolder();
@@ -103,8 +99,7 @@ class ResumableOutput {
   std::map<std::string, Manifest::File> now_;  // announced and kept
 };
 
-/// Finishes what a killed process could not, where there is anything to finish and no other process writes there: for
-/// readers of results, and for the process that started the killed one.
+/// Tidies up after a killed writer, unless another process writes there: for the process that started it.
 void recover_output(const std::filesystem::path& folder);
 
 }  // namespace crosscheck

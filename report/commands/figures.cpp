@@ -293,7 +293,6 @@ int finish(std::vector<FigureInSet>& drawn, const FigureSize& size, const Proven
 
 int figures_from_report(const FiguresOptions& options) {
   const FigureSize size = figure_size(options.set, options.width);
-  recover_output(options.from);
   const ReportData data = read_report(options.from);
   std::vector<Chart> charts = charts_of_report(data, options.names);
   OutputFolder folder(options.out, "figures");

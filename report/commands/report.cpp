@@ -13,6 +13,7 @@
 #include "experiments/tables/dictionary.h"
 #include "mysim/base/errors.h"
 #include "mysim/base/files.h"
+#include "mysim/base/names.h"
 #include "mysim/base/output_folder.h"
 #include "report/base/provenance.h"
 #include "report/commands/command_line.h"
@@ -145,9 +146,9 @@ int finish(ReportData& data, const ReportOptions& options, OutputFolder& folder,
 
 /// The page again, of a report that is there: without running anything, in place or into another folder.
 int remake_command(const fs::path& from, const ReportOptions& options) {
-  recover_output(from);
   ReportData data = read_report(from);
   const fs::path kept = fs::weakly_canonical(from);
+  require_plain_files(path_inside(kept, "figures"));
   OutputFolder folder(options.out, "report");
   fs::copy(kept / "data", folder.path() / "data", fs::copy_options::recursive);
   for (const auto& file : fs::directory_iterator(kept / "figures"))
@@ -161,7 +162,6 @@ int remake_command(const fs::path& from, const ReportOptions& options) {
 
 /// Whether all findings of a report follow from its data.
 int verify_command(const fs::path& folder) {
-  recover_output(folder);
   const Verification found = verify_report(folder);
   for (const std::string& mismatch : found.mismatches) fmt::print("{}\n", mismatch);
   fmt::print(

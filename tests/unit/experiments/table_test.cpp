@@ -270,7 +270,8 @@ TEST(Files, NamesKeepSafeCharactersOnly) {
   EXPECT_EQ(file_name_of("bullet/pbd+n=10"), "bullet-pbd+n=10");
   EXPECT_EQ(file_name_of("a b:c\\d*e?f\"g<h>i|j,k"), "a-b-c-d-e-f-g-h-i-j-k");
   EXPECT_EQ(file_name_of("AZaz09._=+-"), "AZaz09._=+-");
-  EXPECT_EQ(file_name_of("caf\xc3\xa9"), "caf--");  // two bytes of UTF-8
+  EXPECT_EQ(file_name_of("caf\xc3\xa9"), "caf\xc3\xa9");
+  EXPECT_EQ(file_name_of("caf\xc3"), "caf-");  // no UTF-8
   EXPECT_EQ(file_name_of(""), "");
 }
 

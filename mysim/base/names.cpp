@@ -1,0 +1,101 @@
+// Unicode classes, names and paths.
+#include "mysim/base/names.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "mysim/base/errors.h"
+#include "mysim/base/text.h"
+
+namespace crosscheck {
+namespace fs = std::filesystem;
+namespace {
+
+/// The code point of the valid UTF-8 character with that length.
+char32_t code_point(std::string_view bytes) {
+  const auto first = static_cast<unsigned char>(bytes[0]);
+  char32_t code = bytes.size() == 1 ? first : first & (0x7fu >> bytes.size());
+  for (const char c : bytes.substr(1)) code = code << 6 | (static_cast<unsigned char>(c) & 0x3fu);
+  return code;
+}
+
+/// Control characters (Cc), line and paragraph separators, and invisible format characters (Cf): soft hyphen, Arabic
+/// letter mark, zero-width and bidirectional characters, variation of language tags.
+bool is_hidden(char32_t c) {
+  constexpr std::pair<char32_t, char32_t> ranges[] = {
+      {0x00, 0x1f},     {0x7f, 0x9f},     {0xad, 0xad},     {0x61c, 0x61c},   {0x115f, 0x1160},
+      {0x17b4, 0x17b5}, {0x180b, 0x180f}, {0x200b, 0x200f}, {0x2028, 0x202e}, {0x2060, 0x206f},
+      {0x3164, 0x3164}, {0xfeff, 0xfeff}, {0xffa0, 0xffa0}, {0xfff0, 0xfffb}, {0xe0000, 0xe0fff}};
+  return std::ranges::any_of(ranges, [&](const auto& range) { return range.first <= c && c <= range.second; });
+}
+
+/// The length of the character at `at`; 0 where no printable one begins there.
+std::size_t printable_length(std::string_view text, std::size_t at) {
+  const std::size_t length = utf8_length(text, at);
+  return length > 0 && !is_hidden(code_point(text.substr(at, length))) ? length : 0;
+}
+
+}  // namespace
+
+bool is_printable(std::string_view text) {
+  for (std::size_t at = 0, length; at < text.size(); at += length)
+    if ((length = printable_length(text, at)) == 0) return false;
+  return true;
+}
+
+std::string printable(std::string_view text) {
+  std::string out;
+  for (std::size_t at = 0; at < text.size();) {
+    const std::size_t length = text[at] == '\n' || text[at] == '\t' ? 1 : printable_length(text, at);
+    out += length > 0 ? text.substr(at, length) : "?";
+    at += std::max({length, utf8_length(text, at), std::size_t{1}});
+  }
+  return out;
+}
+
+bool is_name(std::string_view text) {
+  return !text.empty() && text.size() <= 200 && text[0] != '-' && text[0] != '.' &&
+         text.find('/') == std::string_view::npos && is_printable(text);
+}
+
+const std::string& require_name(const std::string& name, const std::string& place) {
+  if (!is_name(name))
+    throw InputError(
+        fmt::format("{}: expected a name of 1 to 200 bytes of UTF-8 without '/' and invisible characters "
+                    "that does not begin with '-' or '.', got {}",
+                    place, shell_quote(name.substr(0, 60))));
+  return name;
+}
+
+bool is_path_inside(std::string_view path) {
+  return path.size() <= 1024 && is_printable(path) &&
+         std::ranges::all_of(split(path, '/'), [](const std::string& part) {
+           return !part.empty() && part.size() <= 255 && part != "." && part != "..";
+         });
+}
+
+fs::path path_inside(const fs::path& folder, const std::string& path) {
+  if (!is_path_inside(path))
+    throw InputError(fmt::format("{}: expected the path of a file inside this folder, got {}", folder.string(),
+                                 shell_quote(path.substr(0, 60))));
+  fs::path at = folder;
+  for (const fs::path& part : fs::path(path))
+    if (fs::is_symlink(fs::symlink_status(at /= part)))
+      throw InputError(fmt::format("{}: expected a file or folder, got a symbolic link", at.string()));
+  return at;
+}
+
+void require_plain_files(const fs::path& folder) {
+  for (const auto& entry : fs::recursive_directory_iterator(folder)) {
+    const fs::file_type type = entry.symlink_status().type();
+    if (!is_printable(entry.path().filename().string()))
+      throw InputError(fmt::format("{}: expected printable names of files, got {}", folder.string(),
+                                   shell_quote(entry.path().filename().string())));
+    if (type != fs::file_type::regular && type != fs::file_type::directory)
+      throw InputError(fmt::format("{}: expected a file or folder, got {}", entry.path().string(),
+                                   type == fs::file_type::symlink ? "a symbolic link" : "a device, pipe or socket"));
+  }
+}
+
+}  // namespace crosscheck

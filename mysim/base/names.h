@@ -1,0 +1,35 @@
+// Names and paths that come from data: which of them are safe to print and to use in the file system.
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <string_view>
+
+namespace crosscheck {
+
+/// True for valid UTF-8 without control, line-separating, bidirectional and zero-width characters.
+bool is_printable(std::string_view text);
+
+/// The text for a terminal: line feeds and tabs stay, all else that is not printable is replaced by '?'.
+std::string printable(std::string_view text);
+
+/// True for a name of a scene, method or student: printable, 1 to 200 bytes, without '/', not beginning with '-' or
+/// '.'.
+bool is_name(std::string_view text);
+
+/// Returns the name. Throws InputError "PLACE: expected a name ..., got '...'".
+const std::string& require_name(const std::string& name, const std::string& place);
+
+/// True for a path that stays inside a folder: relative, printable, without empty, "." and ".." parts, at most 255
+/// bytes a part and 1024 in total.
+bool is_path_inside(std::string_view path);
+
+/// The file at a path that comes from data, below a folder. Throws InputError that names both unless is_path_inside(),
+/// or if the file or a folder on the way to it is a symbolic link.
+std::filesystem::path path_inside(const std::filesystem::path& folder, const std::string& path);
+
+/// Throws InputError that names the first symbolic link, special file (device, pipe, socket) or unprintable name below a
+/// folder.
+void require_plain_files(const std::filesystem::path& folder);
+
+}  // namespace crosscheck
