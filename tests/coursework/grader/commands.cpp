@@ -32,6 +32,8 @@ namespace {
 
 std::uint64_t fresh_seed() { return std::random_device()() % 1000000000; }
 
+constexpr auto seed_file = "seed.txt";
+
 /// Seed of the hidden tests: as named, else from the lecturer's secret, else a fresh one that is printed.
 void choose_seed(const GradeCommand& command, GradeOptions& options) {
   std::string secret;
@@ -44,13 +46,8 @@ void choose_seed(const GradeCommand& command, GradeOptions& options) {
     options.secret = true;
   } else if (command.all) {
     // all of a class, and a run that goes on with it, get the same
-    const fs::path kept = fs::path(command.out) / "seed.txt";
-    if (fs::exists(kept)) {
-      options.seed = std::strtoull(content_of_file(kept).c_str(), nullptr, 10);
-    } else {
-      options.seed = fresh_seed();
-      crosscheck::write_file(kept, fmt::format("{}\n", options.seed));
-    }
+    const fs::path kept = fs::path(command.out) / seed_file;
+    options.seed = fs::exists(kept) ? std::strtoull(content_of_file(kept).c_str(), nullptr, 10) : fresh_seed();
   } else {
     options.seed = fresh_seed();
   }
@@ -88,11 +85,21 @@ void tell(std::unique_ptr<crosscheck::Progress>& progress, const Result& result)
 
 int grade_all(const Assignment& assignment, const GradeCommand& command, const Sandbox& sandbox,
               const GradeOptions& options) {
-  const std::vector<GradedSubmission> all = grade_class(assignment, command.submission, sandbox, options, command.out);
-  crosscheck::write_file(fs::path(command.out) / "table.csv", class_csv(assignment, all));
-  crosscheck::write_file(fs::path(command.out) / "table.txt", class_text(assignment, all));
-  crosscheck::write_file(fs::path(command.out) / "statistics.csv", statistics_csv(all));
-  crosscheck::write_file(fs::path(command.out) / "class.html", class_page(assignment, all, options.common));
+  const fs::path out = command.out;
+  crosscheck::ResumableOutput folder(out, "grade " + std::string(assignment.name));
+  std::vector<std::string> files{"table.csv", "table.txt", "statistics.csv", "class.html"};
+  for (const Handed& entry : submissions_in(command.submission))
+    for (const char* ending : {".json", ".html"}) files.push_back(file_name_for(entry.name) + ending);
+  const bool keeps_seed = !command.seed && !options.secret;
+  if (keeps_seed) files.emplace_back(seed_file);
+  folder.announce(files);
+  if (keeps_seed) crosscheck::write_file(out / seed_file, fmt::format("{}\n", options.seed));
+  const std::vector<GradedSubmission> all = grade_class(assignment, command.submission, sandbox, options, out);
+  crosscheck::write_file(out / "table.csv", class_csv(assignment, all));
+  crosscheck::write_file(out / "table.txt", class_text(assignment, all));
+  crosscheck::write_file(out / "statistics.csv", statistics_csv(all));
+  crosscheck::write_file(out / "class.html", class_page(assignment, all, options.common));
+  folder.finish();
   fmt::print("{}", class_text(assignment, all));
   for (const GradedSubmission& one : all)
     if (!one.failure.empty() || one.result.ungraded() > 0) return 1;

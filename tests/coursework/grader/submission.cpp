@@ -18,6 +18,7 @@
 #include <optional>
 
 #include "mysim/base/errors.h"
+#include "mysim/base/names.h"
 
 namespace coursework {
 
@@ -268,10 +269,11 @@ void read_archive(const fs::path& file, FileMatcher& matcher) {
     while (path.rfind("./", 0) == 0) path.erase(0, 2);
     if (path.empty()) continue;
     if (points_outside(path)) throw Refused{{"archive.path", {path.substr(0, 200)}}};
+    path = fs::path(path).lexically_normal().string();
     const bool link = archive_entry_filetype(entry) != AE_IFREG || archive_entry_hardlink(entry);
     const bool folder = archive_entry_filetype(entry) == AE_IFDIR;
     std::string content = unpack(from.get(), total);
-    if (folder || !matcher.wants(path)) continue;
+    if (folder || !crosscheck::is_path_inside(path) || !matcher.wants(path)) continue;
     if (link)
       matcher.refuse(path, "file.link");
     else if (content.size() > largest_file)

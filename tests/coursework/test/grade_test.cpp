@@ -351,6 +351,9 @@ TEST(Class, FilesOfTwoSubmissionsNeverMeet) {
   EXPECT_NE(file_name_for("a b"), file_name_for("a-b"));
   EXPECT_NE(file_name_for("王"), file_name_for("李"));
   EXPECT_EQ(file_name_for("../x").find('/'), std::string::npos);
+  // the class's own page, and the manifest
+  EXPECT_NE(file_name_for("class"), "class");
+  EXPECT_NE(file_name_for("crosscheck"), "crosscheck");
 }
 
 TEST(Page, CarriesWordsAndPlotsAndNothingOfTheStudentsUnescaped) {
@@ -411,6 +414,35 @@ TEST(Program, BadUseIsToldInOneLine) {
     EXPECT_EQ(called.status, 2) << words;
     EXPECT_NE(called.said.find(says), std::string::npos) << words << ": " << called.said;
   }
+}
+
+TEST(Program, ClassResultsLeaveTheUsersFilesAlone) {
+  const TemporaryFolder here("test");
+  write_file(here.path / "class/ada.zip", "no archive");
+  const fs::path out = here.path / "out";
+  const std::string words =
+      "grade a1-steppers " + (here.path / "class").string() + " --all --no-sandbox --out " + out.string();
+  write_file(out / "table.csv", "mine");
+  const Called refused = call(words);
+  EXPECT_EQ(refused.status, 2);
+  EXPECT_NE(refused.said.find("holds files that are not of crosscheck grade a1-steppers (table.csv)"),
+            std::string::npos)
+      << refused.said;
+  EXPECT_EQ(content_of_file(out / "table.csv"), "mine");
+  EXPECT_EQ(std::distance(fs::directory_iterator(out), fs::directory_iterator()), 1);
+  fs::remove(out / "table.csv");
+  EXPECT_EQ(call(words).status, 1) << "a submission is not graded";
+  const std::string seed = content_of_file(out / "seed.txt");
+  write_file(out / "notes.txt", "mine");
+  write_file(out / "table.csv", "mine");
+  EXPECT_EQ(call(words).status, 1);
+  EXPECT_EQ(content_of_file(out / "notes.txt"), "mine");
+  EXPECT_EQ(content_of_file(out / "table.csv.yours"), "mine");
+  EXPECT_EQ(content_of_file(out / "table.csv").substr(0, 11), "submission,");
+  EXPECT_EQ(content_of_file(out / "seed.txt"), seed);
+  fs::rename(here.path / "class/ada.zip", here.path / "class/bo.zip");
+  EXPECT_EQ(call(words).status, 1);
+  EXPECT_FALSE(fs::exists(out / "ada.json"));
 }
 
 TEST(Program, ChartsOfAPartEndWithItsTime) {

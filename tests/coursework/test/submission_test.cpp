@@ -317,6 +317,15 @@ TEST(Submission, ArchivesThatPointOutsideAreRefusedAsAWhole) {
     }
 }
 
+TEST(Submission, ArchivedFilesWithUnsafeNamesAreNotTaken) {
+  const TemporaryFolder here("test");
+  pack(here.path / "archive", {{"a.cpp", "a"}, {"b\nc.cpp", "b"}, {"src//d.cpp", "d"}, {"\x1b[2J.cpp", "e"}}, false);
+  const Submission one = read_submission(here.path / "archive", {});
+  std::vector<std::string> names;
+  for (const auto& [name, content] : one.files) names.push_back(name);
+  EXPECT_EQ(names, (std::vector<std::string>{"a.cpp", "src/d.cpp"}));
+}
+
 TEST(Submission, BombsAreRefusedOnBothSidesOfTheLimit) {
   const TemporaryFolder here("test");
   for (const bool too_much : {false, true}) {
