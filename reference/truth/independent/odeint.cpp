@@ -56,9 +56,9 @@ class Rk4World : public OdeintWorld {
   odeint::runge_kutta4<StateVector> rule_;
 };
 
-void require_progress(double t, double h) {
-  if (!(h > 1e-14 * std::max(1.0, t)))
-    throw SolverFailure(fmt::format("the step fell below round-off at t = {:.4g} s", t));
+/// Throws SolverFailure if a step of h is lost in the rounding of times up to t_next (all in s).
+void require_progress(double t, double h, double t_next) {
+  if (!(h > 1e-14 * t_next)) throw SolverFailure(fmt::format("the step fell below round-off at t = {:.4g} s", t));
 }
 
 class Dopri5World : public AdaptiveOdeintWorld {
@@ -71,7 +71,7 @@ class Dopri5World : public AdaptiveOdeintWorld {
   }
   void step(double, double t_next) override {
     while (rule_.current_time() < t_next) {
-      require_progress(rule_.current_time(), rule_.current_time_step());
+      require_progress(rule_.current_time(), rule_.current_time_step(), t_next);
       try {
         rule_.do_step(std::ref(f_));
       } catch (const odeint::step_adjustment_error& e) {
@@ -97,8 +97,10 @@ class BulirschStoerWorld : public AdaptiveOdeintWorld {
         h_(std::min(run.step, run.duration)),
         ramp_end_(scene.model.particles.move ? scene.model.particles.move->ramp : 0) {}
   void step(double t, double t_next) override {
-    // where a moved pin is at full swing its third derivative jumps: a step that ends there keeps its order
-    if (t < ramp_end_ && ramp_end_ < t_next) {
+    // At full swing the third derivative of a moved pin jumps: a step that ends there keeps its order. A jump within
+    // a sliver of a sample counts as at the sample, which changes positions by less than a rounding.
+    const double sliver = 1e-12 * t_next;
+    if (t + sliver < ramp_end_ && ramp_end_ + sliver < t_next) {
       integrate_to(t, ramp_end_);
       t = ramp_end_;
     }
@@ -112,7 +114,7 @@ class BulirschStoerWorld : public AdaptiveOdeintWorld {
       const bool last = t + 1.01 * h_ >= t_next;
       double h = last ? t_next - t : h_;
       const double tried = h;
-      require_progress(t, h);
+      require_progress(t, h, t_next);
       if (rule_.try_step(std::ref(f_), y_, t, h) == odeint::success) {
         ++accepted_;
         h_ = last ? std::max(h_, h) : h;

@@ -263,6 +263,21 @@ TEST(Sundials, WhereItIsMissingItsMethodsAreRefusedWithThePackagesName) {
   }
 }
 
+TEST(BulirschStoer, TakesNoSliverWhereARampEndsARoundingBesideASample) {
+  // 3 * 0.1 and its kin are not the decimal numbers of the ramps
+  for (int tenths = 1; tenths < 10; ++tenths)
+    for (const int samples : {10, 20, 30}) {
+      SCOPED_TRACE(fmt::format("{} {}", tenths, samples));
+      const Scene scene = small_scene(
+          fmt::format("[[particle]]\nposition = [0, 0, 0]\nmass = 1\n[[particle]]\nposition = [0.5, -0.3, 0]\n"
+                      "mass = 0.3\n[[spring]]\nends = [0, 1]\nstiffness = 100\nrest = 0.5\n[pins]\nparticles = [0]\n"
+                      "[pins.motion]\namplitude = [0.2, 0, 0]\nfrequency = 1\nramp = 0.{}\n",
+                      tenths));
+      NullObserver none;
+      EXPECT_EQ(run_odeint_bulirsch_stoer(scene, {1e-3, 1, samples, 1e-9}, none).verdict, Verdict::ok);
+    }
+}
+
 TEST(Integrators, AreListedAndAskedForByName) {
   for (const auto name :
        {"odeint/rk4", "odeint/dopri5", "sundials/arkode", "sundials/arkode+order=4", "sundials/cvode"}) {
