@@ -88,11 +88,6 @@ double seconds(const Case& q) {
 
 }  // namespace
 
-std::vector<std::string> scenes_of(const Selection& selection) {
-  if (!selection.scenes.empty()) return selection.scenes;
-  return {shipped_scenes().begin(), shipped_scenes().end()};
-}
-
 bool selected_by_default(const std::string& method) { return family_of(method).is_engine(); }
 
 bool passes(const std::string& filter, const std::string& scene, const std::string& method) {
@@ -109,8 +104,7 @@ std::vector<Case> cases(const Selection& selection) {
       all.push_back(std::move(q));
   };
   const std::vector<Method> methods = selection.methods.empty() ? engines() : selection.methods;
-  for (const std::string& name : scenes_of(selection)) {
-    const Scene scene = load_scene(name);
+  for (const Scene& scene : load_scenes(selection.scenes)) {
     const std::string own = find_method(scene.method).name;
     for (const Method& method : methods) {
       add({scene, method, "", false, scene.hash});

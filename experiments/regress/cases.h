@@ -78,8 +78,6 @@ struct Selection {
   std::vector<Method> methods;           // empty: all of mysim and Bullet
 };
 
-/// The names or files of the scenes.
-std::vector<std::string> scenes_of(const Selection& selection);
 /// Whether everything is selected that baselines of these scenes should have.
 inline bool covers_all(const Selection& selection) { return selection.filter.empty() && selection.methods.empty(); }
 /// Whether the method is an engine's; integrators, truth and outside programs are selected by name only.

@@ -6,6 +6,7 @@
 #include <algorithm>
 
 #include "mysim/base/errors.h"
+#include "mysim/base/files.h"
 #include "mysim/base/installation.h"
 #include "mysim/base/text.h"
 #include "mysim/scene/toml.h"
@@ -110,9 +111,10 @@ std::vector<Scene> load_scenes(const std::vector<std::string>& names) {
     for (const auto name : shipped_scenes()) scenes.push_back(load_scene(std::string(name)));
   for (const std::string& name : names) {
     Scene scene = load_scene(name);
-    for (const Scene& other : scenes)
-      if (other.name == scene.name)
-        throw InputError(fmt::format("{}: expected scenes of different names, got '{}' twice", name, scene.name));
+    for (size_t i = 0; i < scenes.size(); ++i)
+      if (file_name_of(scenes[i].name) == file_name_of(scene.name))
+        throw InputError(fmt::format("{}: expected scenes of different names; this one is '{}', that of {} is '{}'",
+                                     name, scene.name, names[i], scenes[i].name));
     scenes.push_back(std::move(scene));
   }
   return scenes;

@@ -24,8 +24,8 @@ Scene load_scene(const std::string& name_or_path);
 /// Where the scene of a known disagreement is.
 std::filesystem::path file_of_disagreement(const std::string& name);
 
-/// Several at once; none given: all shipped ones. Throws InputError when two have the same name, under which their rows
-/// and files would clash.
+/// Several at once; none given: all shipped ones. Throws InputError when two have the same name or the same file name,
+/// under which their rows or files would clash.
 std::vector<Scene> load_scenes(const std::vector<std::string>& names);
 
 }  // namespace crosscheck

@@ -22,8 +22,7 @@ struct LabOptions {
 };
 
 int lab_command(const LabOptions& options) {
-  std::vector<Scene> scenes;
-  for (const std::string& name : options.scenes) scenes.push_back(load_scene(name));
+  const std::vector<Scene> scenes = load_scenes(options.scenes);
   if (options.fingerprints) {
     fmt::print("{}\n", lab_fingerprints_json(scenes).dump(1));
     return 0;

@@ -15,6 +15,7 @@
 #include "experiments/regress/comparison.h"
 #include "experiments/regress/mutations.h"
 #include "experiments/regress/quantities.h"
+#include "experiments/regress/speed.h"
 #include "experiments/regress/tolerance.h"
 #include "experiments/scenes/ingredients.h"
 #include "experiments/scenes/scenes.h"
@@ -151,6 +152,22 @@ TEST(Comparison, AMethodWithoutBaselineRowsIsNewAndFailsNothingButNotFiniteNumbe
   ASSERT_EQ(rows.size(), 2u);
   EXPECT_EQ(rows[0].state, Status::added);
   EXPECT_EQ(rows[1].state, Status::not_finite);
+}
+
+TEST(Regression, RefusesScenesOfTheSameNameOrFileName) {
+  const TemporaryFolder folder("names");
+  const std::string spring = load_scene("spring").source;
+  for (const char* name : {"a/s.toml", "b/s.toml", "a/s s.toml", "b/s-s.toml"}) {
+    std::filesystem::create_directories((folder.path / name).parent_path());
+    write_file(folder.path / name, spring);
+  }
+  const auto path = [&](const char* name) { return (folder.path / name).string(); };
+  for (const std::vector<std::string>& scenes : std::vector<std::vector<std::string>>{
+           {path("a/s.toml"), path("b/s.toml")}, {path("a/s s.toml"), path("b/s-s.toml")}, {"spring", "spring"}}) {
+    EXPECT_THROW(cases({scenes}), InputError);
+    EXPECT_THROW(speed_cases({scenes}, {}), InputError);
+  }
+  EXPECT_FALSE(cases({{path("a/s.toml"), path("b/s-s.toml")}}).empty());
 }
 
 TEST(Comparison, NewMethodsAreThoseOfWhichASceneKnowsNothing) {
