@@ -46,6 +46,7 @@ std::filesystem::path file_of(const std::filesystem::path& folder, const std::st
 std::string text_of(const Baseline& baseline) {
   std::string out = fmt::format("# written by `crosscheck regress --bless`, never by hand\n# scene: {}\n# hash: {}\n",
                                 baseline.scene, baseline.hash);
+  if (!baseline.source.empty()) out += fmt::format("# source: {}\n", baseline.source);
   for (size_t i = 0; i < baseline.blessings.size(); ++i) out += comment_line_of(baseline.blessings[i], i + 1);
   out += fmt::format("# rows: {}\n", baseline.expected.size());
   for (const std::string& line : words_of_derivations()) out += fmt::format("# {}\n", line);
@@ -71,6 +72,8 @@ std::optional<Baseline> read_baseline(const std::filesystem::path& folder, const
     lines.next();
     baseline.hash = without_prefix("# hash: ", lines.line());
     lines.next();
+    if (lines.line().starts_with("# source: "))
+      baseline.source = without_prefix("# source: ", lines.line()), lines.next();
     baseline.blessings = lines.blessings();
     lines.rows(baseline_header, [&](const std::string& row) {
       baseline.expected.push_back(baseline_row_from(row, baseline.blessings.size()));

@@ -25,6 +25,7 @@ struct Baseline {
   std::string scene, hash;  // of the scene that these are quantities of
   std::vector<Blessing> blessings;
   std::vector<BaselineRow> expected;
+  std::string source = {};  // hash of the text of the scene's file; empty in baselines of earlier versions
 };
 
 /// SCENE.csv in the folder: comment lines with the scene's hash and each blessing, then one row for each quantity.

@@ -97,11 +97,13 @@ bool passes(const std::string& filter, const std::string& scene, const std::stri
 
 std::vector<Case> cases(const Selection& selection) {
   std::vector<Case> all;
+  bool any = false;
   const auto add = [&](Case q) {
+    if (!passes(selection.filter, q.scene.name, q.method.name)) return;
+    any = true;
     const double cost = seconds(q);
     q.slow = cost > fast;
-    if (passes(selection.filter, q.scene.name, q.method.name) && cost <= (selection.full ? slowest : fast))
-      all.push_back(std::move(q));
+    if (cost <= (selection.full ? slowest : fast)) all.push_back(std::move(q));
   };
   const std::vector<Method> methods = selection.methods.empty() ? engines() : selection.methods;
   for (const Scene& scene : load_scenes(selection.scenes)) {
@@ -114,7 +116,7 @@ std::vector<Case> cases(const Selection& selection) {
           add({without(scene, ingredient), method, ingredient.name, false, scene.hash});
     }
   }
-  if (all.empty()) throw InputError(fmt::format("--filter {}: no scene and method match", selection.filter));
+  if (!any) throw InputError(fmt::format("--filter {}: no scene and method match", selection.filter));
   return all;
 }
 

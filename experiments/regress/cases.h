@@ -87,7 +87,8 @@ bool passes(const std::string& filter, const std::string& scene, const std::stri
 
 /// Every scene under every method, as far as its cost allows (0.5 s by the estimate of experiments/estimate.h, 20 s in
 /// full runs); and under its own method also without each of its ingredients, which separates causes. Methods that
-/// refuse a scene are cases too: a refusal is behaviour. Throws InputError where the filter leaves nothing.
+/// refuse a scene are cases too: a refusal is behaviour. Throws InputError if the filter matches nothing; empty if all
+/// matches cost too much.
 std::vector<Case> cases(const Selection& selection);
 
 }  // namespace crosscheck

@@ -10,9 +10,13 @@
 namespace crosscheck {
 namespace {
 
+/// Including the verdict of a run that ended in numbers that are not.
+bool is_finite(const Quantity& q) { return q.is_word() ? q.word != name_of(Verdict::nan) : std::isfinite(q.value); }
+
 Status state_of(const Quantity& is, const QuantityWithTolerance& was) {
-  if (is.is_word() || was.quantity.is_word()) return is.word == was.quantity.word ? Status::same : Status::moved;
-  if (!std::isfinite(is.value)) return Status::not_finite;
+  if ((is.is_word() || was.quantity.is_word()) && is.word != was.quantity.word) return Status::moved;
+  if (!is_finite(is)) return Status::not_finite;
+  if (is.is_word()) return Status::same;
   return std::abs(is.value - was.quantity.value) <= was.tolerance ? Status::same : Status::moved;
 }
 
@@ -103,7 +107,7 @@ std::vector<Comparison> compared(const Case& test_case, const std::vector<Quanti
     set(row.is, row.is_word, q);
     const auto was = std::find_if(expected.begin(), expected.end(), same_name(q.name));
     if (was == expected.end()) {
-      row.state = !q.is_word() && !std::isfinite(q.value) ? Status::not_finite : Status::added;
+      row.state = is_finite(q) ? Status::added : Status::not_finite;
     } else {
       set(row.was, row.was_word, was->what.quantity);
       row.tolerance = was->what.tolerance;

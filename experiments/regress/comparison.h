@@ -10,7 +10,7 @@ namespace crosscheck {
 /// Failures stand first; what is `added` is reported and fails nothing.
 enum class Status {
   moved,       // off by more than the tolerance, or another word
-  not_finite,  // nan or infinite
+  not_finite,  // nan or infinite, or the verdict nan
   gone,        // blessed, selected, and no longer there
   missing,     // the scene has no baseline file
   stale,       // the baseline is of another scene by the same name

@@ -10,6 +10,7 @@
 #include "experiments/regress/baseline.h"
 #include "experiments/tables/typed.h"
 #include "mysim/base/errors.h"
+#include "mysim/base/hash.h"
 
 namespace crosscheck {
 namespace {
@@ -100,6 +101,11 @@ Case with_method(const Method& method, Case test_case) {
 
 std::string name_with_other_method(const Case& q) { return q.in_words() + " (against)"; }
 
+std::string source_hash(const Scene& scene) { return fmt::format("{:016x}", Fnv1a::of(scene.source)); }
+
+/// The verdict of a case that ran, or any other word or text.
+bool is_measured(const std::string& word) { return !word.empty() && word != name_of(Verdict::unsupported); }
+
 /// The scenes' baselines; what is wrong with a file is a row.
 class BaselineCache {
  public:
@@ -119,7 +125,10 @@ class BaselineCache {
         rows_.push_back(row);
       } else if (const std::string now = test_case.hash; place->hash != now) {
         row.state = Status::stale, row.was_word = place->hash, row.is_word = now;
-        row.note = "the scene is another one than the one that these are answers to";
+        row.note = place->source == source_hash(test_case.scene)
+                       ? "the same file now expands to another scene: the code that reads it has changed"
+                       : fmt::format("the scene is not the one that was blessed{}",
+                                     place->source.empty() ? "" : ": its file has changed");
         rows_.push_back(row);
         place.reset();
       }
@@ -165,8 +174,13 @@ std::vector<Comparison> no_longer_selected(const Baseline& baseline, const std::
 
 }  // namespace
 
+bool RegressionResult::measured() const {
+  return std::any_of(rows.begin(), rows.end(),
+                     [](const Comparison& row) { return row.is || is_measured(row.is_word); });
+}
+
 bool RegressionResult::passed() const {
-  return failures.empty() &&
+  return measured() && failures.empty() &&
          std::none_of(rows.begin(), rows.end(), [](const Comparison& row) { return failed(row.state); });
 }
 
@@ -228,6 +242,7 @@ class Change {
     }
     if (old) baseline_ = *old;
     baseline_.scene = test_case.scene.name, baseline_.hash = test_case.hash;
+    baseline_.source = source_hash(test_case.scene);
     baseline_.blessings.push_back(blessing);
   }
 
@@ -238,7 +253,8 @@ class Change {
     std::vector<BaselineRow> after;
     for (const Comparison& row : compared(q, quantities_in(now), before)) {
       if (row.state == Status::not_finite)
-        throw InputError(fmt::format("nothing is blessed: {}: {} is not finite", q.in_words(), row.quantity));
+        throw InputError(fmt::format("nothing is blessed: {}: {} is not finite; --method can leave this method out",
+                                     q.in_words(), row.quantity));
       if (row.state != Status::same) changed_.push_back(row);
       if (row.state == Status::gone) continue;
       if (row.state == Status::same)
@@ -305,6 +321,10 @@ BlessResult bless(const Regression& regression, const Blessing& blessing, Progre
     changes.try_emplace(q.scene.name, q, regression, blessing)
         .first->second.add(q, results.quantities.at(q.in_words()));
   BlessResult blessed;
+  for (const Case& q : all)
+    for (const QuantityWithTolerance& t : results.quantities.at(q.in_words()))
+      blessed.measured |= !t.quantity.is_word() || is_measured(t.quantity.word);
+  if (!blessed.measured) return blessed;
   for (auto& [scene, change] : changes) {
     if (covers_all(regression.selection) && regression.selection.full) change.drop_what_is_not_selected();
     if (change.changed().empty()) continue;

@@ -49,6 +49,9 @@ struct Regression {
 struct RegressionResult {
   std::vector<Comparison> rows;       // in the order of the cases; failures of files stand first
   std::vector<FailedPoint> failures;  // cases without a result: a crash
+  /// Some case did not refuse its scene.
+  bool measured() const;
+  /// Something was measured, and nothing failed.
   bool passed() const;
 };
 
@@ -58,6 +61,7 @@ struct RegressionResult {
 RegressionResult regress(const Regression& regression, Progress& progress);
 
 struct BlessResult {
+  bool measured = false;                                             // some case did not refuse its scene
   std::vector<Comparison> changed;                                   // before and after
   std::vector<std::pair<std::filesystem::path, std::string>> files;  // to be written, with their text
   std::map<std::string, int> numbers;                                // of the blessing in each changed scene's baseline

@@ -85,6 +85,9 @@ void bless_and_print_speeds(const Regression& regression, const Blessing& blessi
 
 namespace {
 
+constexpr auto nothing_measured =
+    "nothing was measured: each case is unsupported or too slow (--full selects slower ones)";
+
 void print_row(const Comparison& row) {
   std::string where = row.scene;
   if (!row.method.empty()) where += ", " + row.method;
@@ -113,6 +116,7 @@ int print_result(const RegressionResult& result, const std::string& cause, const
   fmt::print("\n{} quantities: {} the same, {} failed{}{}\n", result.rows.size(), same, wrong,
              added > 0 ? fmt::format(", {} new (not blessed yet)", added) : "",
              result.failures.empty() ? "" : fmt::format("; {} questions without an answer", result.failures.size()));
+  if (!result.measured() && wrong == 0) fmt::print("{}\n", nothing_measured);
   if (count_of(result.rows, Status::moved) > 0) fmt::print("cause: {}\n", cause.empty() ? "not attributed" : cause);
   for (const char* name : {"index.html", "regress.csv"})
     if (std::filesystem::exists(out / name)) fmt::print("{}\n", (out / name).string());
@@ -155,6 +159,10 @@ int blessed(const Regression& regression, const RegressOptions& options, const P
                           options.reason};
   const BlessResult result = bless(regression, blessing, progress);
   progress.done();
+  if (!result.measured) {
+    fmt::print("{}\n", nothing_measured);
+    return 1;
+  }
   for (const Comparison& row : result.changed) print_row(row);
   // before the files are written: pictures need the old shapes
   const auto drawn = options.figures > 0 ? before_and_after(regression, options, result, lines) : Figures{};

@@ -15,6 +15,7 @@
 #include "experiments/regress/comparison.h"
 #include "experiments/regress/mutations.h"
 #include "experiments/regress/quantities.h"
+#include "experiments/regress/regress.h"
 #include "experiments/regress/speed.h"
 #include "experiments/regress/tolerance.h"
 #include "experiments/scenes/ingredients.h"
@@ -154,6 +155,13 @@ TEST(Comparison, AMethodWithoutBaselineRowsIsNewAndFailsNothingButNotFiniteNumbe
   EXPECT_EQ(rows[1].state, Status::not_finite);
 }
 
+TEST(Comparison, ARunThatEndedInNoNumbersNeverIsTheSameAndNeverNew) {
+  const Quantity verdict{"verdict", "word", 0, "nan"};
+  const BaselineRow blessed{"mysim/leapfrog", "", false, {verdict, 0, "word"}, 1};
+  EXPECT_EQ(compared(test_case(), {verdict}, {blessed}).at(0).state, Status::not_finite);
+  EXPECT_EQ(compared(test_case(), {verdict}, {}).at(0).state, Status::not_finite);
+}
+
 TEST(Regression, RefusesScenesOfTheSameNameOrFileName) {
   const TemporaryFolder folder("names");
   const std::string spring = load_scene("spring").source;
@@ -168,6 +176,52 @@ TEST(Regression, RefusesScenesOfTheSameNameOrFileName) {
     EXPECT_THROW(speed_cases({scenes}, {}), InputError);
   }
   EXPECT_FALSE(cases({{path("a/s.toml"), path("b/s-s.toml")}}).empty());
+}
+
+/// A regression of one scene under one method, in a folder of its own.
+class RegressionOfOneScene : public testing::Test {
+ protected:
+  Regression regression_with(const std::string& method, const std::string& scene) const {
+    return {{{scene}, false, "", {find_method(method)}}, {}, folder_.path / "baselines", folder_.path / "out", 1};
+  }
+  BlessResult blessed(const Regression& regression) const {
+    Progress progress(0);
+    BlessResult result = bless(regression, {"2026-01-02", "abc", "g++", "test"}, progress);
+    std::filesystem::create_directories(regression.baselines);
+    for (const auto& [file, text] : result.files) write_file(file, text);
+    return result;
+  }
+  RegressionResult regressed(const Regression& regression) const {
+    Progress progress(0);
+    return regress(regression, progress);
+  }
+  const TemporaryFolder folder_{"regression"};
+};
+
+TEST_F(RegressionOfOneScene, FailsWhereNothingWasMeasured) {
+  const Regression refused = regression_with("bullet/pbd", "circle");  // a first-order scene
+  EXPECT_FALSE(blessed(refused).measured);
+  const RegressionResult result = regressed(refused);
+  EXPECT_FALSE(result.measured());
+  EXPECT_FALSE(result.passed());
+  const Regression measured = regression_with("leapfrog", "spring");
+  EXPECT_TRUE(blessed(measured).measured);
+  EXPECT_TRUE(regressed(measured).passed());
+}
+
+TEST_F(RegressionOfOneScene, TellsAnotherExpansionOfTheSameFileFromAnotherFile) {
+  const auto file = folder_.path / "mine.toml";
+  const std::string text = load_scene("spring").source;
+  write_file(file, text);
+  const Regression regression = regression_with("leapfrog", file.string());
+  blessed(regression);
+  Baseline baseline = *read_baseline(regression.baselines, "mine");
+  baseline.hash = "0123456789abcdef";
+  write_file(file_of(regression.baselines, "mine"), text_of(baseline));
+  const auto note = [&] { return regressed(regression).rows.at(0).note; };
+  EXPECT_NE(note().find("the same file now expands to another scene"), std::string::npos) << note();
+  write_file(file, text + "# another file\n");
+  EXPECT_EQ(note().find("the same file"), std::string::npos) << note();
 }
 
 TEST(Comparison, NewMethodsAreThoseOfWhichASceneKnowsNothing) {
