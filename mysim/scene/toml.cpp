@@ -96,7 +96,7 @@ const Key* key_in_line(std::string_view text, int line, std::span<const Key> key
       continue;
     }
     here = keys;
-    std::string path = at.substr(at.find_first_not_of("[ ", from));
+    std::string path = at.substr(std::min(at.find_first_not_of("[ ", from), at.size()));
     path = path.substr(0, path.find_first_of("] \r")) + ".";
     for (std::size_t dot; (dot = path.find('.')) != std::string::npos; path = path.substr(dot + 1)) {
       const Key* table = find(here, path.substr(0, dot));

@@ -227,6 +227,22 @@ TEST(SceneFaults, NotToml) {
   expect_messages(faults);
 }
 
+TEST(SceneFaults, LinesOfBracketsAloneAreNamedLikeAnyOther) {
+  EXPECT_TRUE(begins(message_of("a = 1\n[\n"), "bad.toml:2: not valid TOML: "));
+  Random random(11);
+  const std::string letters = "[]{}=\"'#.,a1 ";
+  for (int trial = 0; trial < 100; ++trial) {
+    std::string text;
+    for (int i = 0; i < 12; ++i) {
+      const auto letter = static_cast<size_t>(random.between(0, static_cast<double>(letters.size()) + 3));
+      text += letter < letters.size() ? letters[letter] : '\n';
+    }
+    const std::string message = message_of(text);  // fails on anything but an InputError
+    EXPECT_TRUE(begins(message, "bad.toml:")) << text;
+    EXPECT_EQ(message.find('\n'), std::string::npos) << text;
+  }
+}
+
 TEST(SceneFile, AllPinnedNothingToMoveNoParticles) {
   const std::string two =
       "[[particle]]\nposition = [0, 0, 0]\nmass = 1\n[[particle]]\nposition = [1, 0, 0]\nmass = 1\n";
