@@ -11,6 +11,7 @@
 #include "experiments/stability/limit.h"
 #include "mysim/base/errors.h"
 #include "mysim/model/system.h"
+#include "mysim/run/contacts.h"
 #include "mysim/scene/toml.h"
 
 namespace crosscheck {
@@ -259,7 +260,7 @@ std::vector<Method> advisable_methods(const Scene& scene) {
   std::vector<Method> methods;
   for (Method& m : all_methods()) {
     if (!m.family().is_subject()) continue;
-    if (scene.model.find<Spheres>() && m.stepper && m.stepper->order > 1)
+    if (scene.model.find<Spheres>() && m.stepper && locates_events(*m.stepper))
       methods.push_back(find_method(m.name + "+events"));
     methods.push_back(std::move(m));
   }

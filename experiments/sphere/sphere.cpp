@@ -9,6 +9,7 @@
 #include "experiments/metrics.h"
 #include "experiments/sphere/probes.h"
 #include "experiments/tables/sphere.h"
+#include "mysim/run/contacts.h"
 
 namespace crosscheck {
 namespace {
@@ -88,7 +89,7 @@ void cones(const Request& request, const Method& method, TableSet& tables) {
 void orders_of_contact(const Request& request, const Method& method, TableSet& tables) {
   Table table = table_of<ContactOrderRow>();
   std::vector<Method> methods = {method};
-  if (method.stepper->order > 1 && method.name.find('+') == std::string::npos)
+  if (locates_events(*method.stepper) && method.name.find('+') == std::string::npos)
     methods.push_back(find_method(method.name + "+events"));
   for (const Scene& scene : contact_order_probes()) {
     const auto truth = truth_of(scene, default_run(scene));

@@ -4,6 +4,7 @@
 #include <cassert>
 
 #include "mysim/run/contact_events.h"
+#include "mysim/steppers/steppers.h"
 
 namespace crosscheck {
 
@@ -12,6 +13,8 @@ std::optional<ContactRule> contact_rule_of_option(std::string_view option) {
   if (option == "sticky") return ContactRule::sticky;
   return std::nullopt;
 }
+
+bool locates_events(const Stepper& stepper) { return stepper.order > 1 && stepper.evaluations <= 1; }
 
 std::optional<double> resolve_spheres(const Spheres& spheres, ContactFunction act, double t_n, double t,
                                       const Vec3& x_n, const Vec3& v_n, Eigen::Ref<Vec3> x, Eigen::Ref<Vec3> v,

@@ -20,13 +20,20 @@
 
 namespace crosscheck {
 
+struct Stepper;
+
 enum class ContactRule {
   coulomb,  // acts on whole steps (terms/sphere.h): of order 1
-  events,   // with touching, leaving and stopping located within the step (contact_events.h): of order 2
+  events,   // with touching, leaving and stopping located within the step (contact_events.h): see locates_events
   sticky,   // the assignment's sphere, kept to be shown failing
 };
 /// The rule that an option of a method asks for ("events", "sticky"), or nothing.
 std::optional<ContactRule> contact_rule_of_option(std::string_view option);
+
+/// True for rules that reach order 2 under ContactRule::events. A rule of order 1 moves along another path than its
+/// velocities, by h^2 a / 2, as much as contact holds it by. A rule that evaluates forces at several stages does so
+/// inside the spheres: there a rounding of the speed at first touch decides between two paths.
+bool locates_events(const Stepper& stepper);
 
 /// The action of a rule on one particle that touches a sphere: as resolve_contact.
 using ContactFunction = double (*)(const Sphere&, const Vec3& centre, const Vec3& x_n, Eigen::Ref<Vec3> x,

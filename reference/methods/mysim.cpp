@@ -6,6 +6,7 @@
 
 #include "mysim/base/errors.h"
 #include "mysim/base/text.h"
+#include "mysim/run/contacts.h"
 #include "mysim/run/engine.h"
 #include "reference/method.h"
 
@@ -38,8 +39,13 @@ Method mysim_method(const Stepper& stepper, const MethodOptions& options) {
     execution.path = path;
   };
   for (const std::string& option : options) {
-    // a rule of order 1 moves along another path than its velocities, by h^2 a / 2, as much as contact holds it by
-    if (const auto asked = contact_rule_of_option(option); asked && (asked != ContactRule::events || stepper.order > 1))
+    const auto asked = contact_rule_of_option(option);
+    if (asked == ContactRule::events && !locates_events(stepper))
+      throw InputError(fmt::format(
+          "method {}: expected +events with leapfrog or implicit-midpoint only; it needs a rule of order 2 that "
+          "evaluates its forces at one place in each step",
+          name));
+    if (asked)
       contact = *asked;
     else if (option == "linear" && stepper.linear)
       rule.step = stepper.linear, same_as += "+linear";
@@ -54,9 +60,9 @@ Method mysim_method(const Stepper& stepper, const MethodOptions& options) {
     else
       refuse_option(name, option,
                     fmt::format("{}+sticky{} or none",
-                                stepper.linear      ? "+linear, "
-                                : stepper.order > 1 ? "+events, "
-                                                    : "",
+                                stepper.linear            ? "+linear, "
+                                : locates_events(stepper) ? "+events, "
+                                                          : "",
                                 stepper.composition ? ", +fast, +single, +plain, +threads=N" : ""));
   }
   if (contact == ContactRule::events) {

@@ -10,6 +10,7 @@
 #include "mysim/base/errors.h"
 #include "mysim/base/hash.h"
 #include "mysim/base/text.h"
+#include "mysim/run/contacts.h"
 
 namespace crosscheck {
 
@@ -42,15 +43,16 @@ void LiveRun::start(const Settings& settings) {
   Stepper rule = *found;
   ContactRule contact = ContactRule::coulomb;
   for (size_t i = 1; i < words.size(); ++i) {
-    if (const auto asked = contact_rule_of_option(words[i]); asked && (asked != ContactRule::events || rule.order > 1))
+    if (const auto asked = contact_rule_of_option(words[i]);
+        asked && (asked != ContactRule::events || locates_events(rule)))
       contact = *asked;
     else if (words[i] == "linear" && rule.linear)
       rule.step = rule.linear;
     else
       refuse_option(words[0], words[i],
-                    rule.linear      ? "+linear, +sticky or none"
-                    : rule.order > 1 ? "+events, +sticky or none"
-                                     : "+sticky or none");
+                    rule.linear            ? "+linear, +sticky or none"
+                    : locates_events(rule) ? "+events, +sticky or none"
+                                           : "+sticky or none");
   }
   rule_ = rule, contact_ = contact, keep_ledger_ = settings.keep_ledger;
   const double interval = scene_.duration / scene_.samples;

@@ -15,8 +15,8 @@ using namespace testing_tools;
 
 constexpr double g = 9.81, degrees_of_turn = 180 / std::numbers::pi;
 
-/// The rules of order 2 and more. Dopri5 beside a sphere takes steps of at most run.step, by its tolerance.
-const std::vector<std::string> rules = {"leapfrog", "trapezoidal", "rk4", "suzuki4", "dopri5", "implicit-midpoint"};
+/// The rules that locate events.
+const std::vector<std::string> rules = {"leapfrog", "implicit-midpoint"};
 
 Trajectory with_events(const std::string& rule, const Scene& scene, double h, double until, int samples) {
   Recorder recorder;
@@ -152,7 +152,7 @@ TEST(ContactEvents, ThirdApexIsExactAndEndlessBouncesEndInRest) {
 
 TEST(ContactEvents, EnergyIsAccountedForInSlidesStopsAndImpacts) {
   for (const auto& scene : {shipped_scene("slide"), on_ball(0, "friction = 0.5", "[1, 0, 0]"), shipped_scene("bounce")})
-    for (const auto& rule : {"leapfrog", "trapezoidal", "rk4", "suzuki4"}) {
+    for (const auto& rule : rules) {
       const auto open = [&](double h) {
         Ledger ledger(scene.model, ContactLoss::reported);
         simulate(stepper(rule), ContactRule::events, scene, {h, 0.9, 9}, ledger);
@@ -196,7 +196,7 @@ TEST(ContactEvents, ValleyAgreesWithTheEventDrivenRouteToSecondOrder) {
   const Scene scene = valley(0.8, 10, 0.05);
   Recorder truth;
   run_event_driven(scene, {1e-3, 1.2, 24, 1e-12}, truth);
-  for (const auto& rule : {"leapfrog", "rk4"}) {
+  for (const auto& rule : rules) {
     const auto error = [&](double h) { return sup_rms(with_events(rule, scene, h, 1.2, 24), truth.trajectory); };
     EXPECT_LT(error(1e-3), 1e-5);
     expect_second_order(rule, orders(error, 5e-3));
@@ -234,7 +234,7 @@ TEST(ContactEvents, ChainOnABallAgreesWithTheEventDrivenRouteToSecondOrder) {
       const Scene scene = chain_on_ball(9, friction, more);
       Recorder truth;
       run_event_driven(scene, {1e-3, 0.5, 10, 1e-11}, truth);
-      for (const auto& rule : {"leapfrog", "trapezoidal", "rk4", "suzuki4"}) {
+      for (const auto& rule : rules) {
         SCOPED_TRACE(fmt::format("{} {} {}", rule, friction, more));
         const auto error = [&](double h) { return sup_rms(with_events(rule, scene, h, 0.5, 10), truth.trajectory); };
         if (friction == 0) {
@@ -346,7 +346,7 @@ TEST(ContactEvents, AMovingSphereIsFollowedToSecondOrder) {
                     "friction = {}\n[sphere.motion]\namplitude = [0.05, 0.02, 0.03]\nfrequency = 0.7\nramp = 0.5\n",
                     friction) +
         gravity_text);
-    for (const auto& rule : {"leapfrog", "rk4"}) {
+    for (const auto& rule : rules) {
       SCOPED_TRACE(fmt::format("{} {}", rule, friction));
       const Trajectory finest = with_events(rule, scene, 5e-5, 0.8, 8);
       const auto error = [&](double h) { return sup_rms(with_events(rule, scene, h, 0.8, 8), finest); };
@@ -380,6 +380,27 @@ TEST(ContactEvents, AreTheSameInTheFusedStepOfACloth) {
       // rounding, and the fused step's particles that end a step outside, pressed on by O(h): h^3 each time one leaves;
       // a rule of order 1 passes them on to its own path, h^2 away
       EXPECT_LT(sup_rms(fused.trajectory, general.trajectory), rule == std::string_view("leapfrog") ? 1e-6 : 1e-3);
+TEST(ContactEvents, KeepAMirrorSymmetry) {
+  const int n = 5;
+  const Scene scene = small_scene(
+      std::string("[grid]\nsize = [5, 5]\norigin = [-0.4, 1.05, -0.4]\nu = [0.8, 0, 0]\nv = [0, 0, 0.8]\nmass = 0.5\n"
+                  "[grid.stiffness]\nstructural = 150\nshear = 100\nbend = 100\n[drag]\ngamma = 1\n"
+                  "[sphere]\ncentre = [0, 0, 0]\nradius = 1\nfriction = 0\n") +
+      gravity_text);
+  for (const Stepper& rule : steppers()) {
+    if (!locates_events(rule)) continue;
+    SCOPED_TRACE(rule.name);
+    Recorder r;
+    simulate(rule, ContactRule::events, scene, {1e-3, 0.3, 6, 1e-10}, r);
+    for (const Points& x : r.trajectory.x)
+      for (int i = 0; i < n * n; ++i) {
+        const Vec3 here = x.col(i), there = x.col(i / n * n + n - 1 - i % n);
+        // roundings of 300 steps grow about a hundredfold; two paths differ by 1e-7 and more
+        EXPECT_LT((here - Vec3(-there[0], there[1], there[2])).norm(), 300 * 100 * eps);
+      }
+  }
+}
+
       double nearest = 1;
       for (int i = 0; i < general.trajectory.frames(); ++i)
         for (const auto& x : general.trajectory.x[i].colwise())
