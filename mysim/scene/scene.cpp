@@ -410,7 +410,18 @@ Scene::~Scene() = default;
 
 double Scene::size() const {
   const double diagonal = (start.x.rowwise().maxCoeff() - start.x.rowwise().minCoeff()).norm();
-  return diagonal > 0 ? diagonal : 1;
+  if (diagonal > 0) return diagonal;
+  double length = model.first_order() ? largest_column(start.x) : 0;
+  if (!model.first_order()) {
+    Vec3 a = Vec3::Zero();
+    if (const auto* gravity = model.find<Gravity>()) a += gravity->acceleration;
+    if (const auto* wind = model.find<Wind>()) a += wind->acceleration.mean;
+    length = duration * (largest_column(start.v) + a.norm() * duration / 2);
+  }
+  if (const auto* spheres = model.find<Spheres>())
+    for (const Sphere& sphere : spheres->list)
+      length = length > 0 ? std::min(length, sphere.contact_radius()) : sphere.contact_radius();
+  return length > 0 ? length : 1;
 }
 
 }  // namespace crosscheck

@@ -63,7 +63,9 @@ struct Scene {
   Scene& operator=(Scene&&) noexcept;
   ~Scene();
 
-  /// Length of the diagonal of the box around the start, m; 1 for a single particle. The scale of round-off.
+  /// The scale of lengths and their round-off, m: the diagonal of the box around the start. For a single particle the
+  /// distance that its speed and steady forces may carry it, but no more than the radius of the smallest sphere; in a
+  /// first-order scene its distance from the origin; 1 where it cannot move.
   double size() const;
 };
 

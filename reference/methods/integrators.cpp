@@ -35,7 +35,7 @@ std::vector<Integrator> integrators() {
        false,
        {"#2E9C86", "(3,4)", 9}},
       {"odeint/dopri5", "events",
-       "Boost's odeint, Dormand-Prince 5(4), beside spheres at rest: cut where a particle hits, leaves, stops and "
+       "Boost's odeint, Dormand-Prince 5(4), beside spheres: cut where a particle hits, leaves, stops and "
        "slips",
        "", run_event_driven, true},
       {"sundials/arkode",

@@ -1,17 +1,19 @@
-// Contact with resting spheres as a sequence of smooth motions: odeint's Dormand-Prince pair on the right-hand
+// Contact with spheres as a sequence of smooth motions: odeint's Dormand-Prince pair on the right-hand
 // side written apart, cut at each impact, take-off, stop and slip. A second route to what mysim's contact rules
 // approach; none of them is called.
 //
-// Each free particle is in one of four modes. On a sphere of radius R about c, with r = x - c and n = r / R:
+// Each free particle is in one of four modes. On a sphere of radius R about c, with r = x - c, n = r / R, and a the
+// acceleration by all else less that of c:
 //   flies    r'' = a, until |r| = R
 //   slides   differentiating |r|^2 = R^2 twice, r . r'' = -|r'|^2: the sphere pushes by N = -a.n - |r'|^2 / R along n,
 //            and by mu N against the motion; until N = 0 or r' = 0. Friction turns a slow motion along the force within
-//            |r'| / (mu N), close to rest faster than any step: where that time is below 1e-5 s and the force along the
-//            motion to a hundredth, it goes straight on ("creeps"), which leaves out a hundredth of |r'| at most
+//            |r'| / (mu N), close to rest faster than any step: where friction would stop it within
+//            `shortest_slide` and the force lies along the motion to a hundredth, it goes straight on ("creeps"), which
+//            leaves out a hundredth of |r'| at most
 //   sticks   r'' = 0, until the part of a along the surface exceeds mu N
-//   wedged   between two spheres, at rest: a lies between the planes of both, else the run is refused
-// An impact reverses the normal speed u times e and takes at most mu (1 + e) u of the tangential one. A rebound that is
-// over within `shortest_flight` is none.
+//   wedged   between two spheres that stand still, at rest: a lies between the planes of both, else the run is refused
+// An impact reverses the normal speed u times e and takes at most mu (1 + e) u of the tangential one. A rebound lower
+// than `lowest_rebound` is none. Both limits are parts of the scene's size.
 
 #include <fmt/format.h>
 #include <Eigen/Dense>
@@ -35,31 +37,47 @@ namespace {
 
 namespace odeint = boost::numeric::odeint;
 
-constexpr double shortest_flight = 1e-6;    // s; within it gravity moves a particle by 5e-12 m
-constexpr double fastest_turn = 1e5;        // 1/s, beyond it a slide creeps
+constexpr double lowest_rebound = 1e-12;    // relative to the scene's size, below every error bar
+constexpr double shortest_slide = 1e-10;    // relative to the scene's size
+constexpr double rounded_to_rest = 3e-13;   // relative to the speed after a fall over the scene's size
 constexpr double surface_rounding = 2e-15;  // of the radius and the centre: no impact
 constexpr double most_work = 1e7;           // accelerations of a particle, from sample to sample: a second or two
 constexpr int most_events_in_interval = 10000;
 
+/// A sphere at the time that it was moved to last, and where the present step began.
 struct Ball {
-  Vec3 centre;
+  Vec3 start;
   double radius, friction, restitution;
+  std::optional<PrescribedMotion> motion = {};
+  Vec3 centre = start, velocity = Vec3::Zero(), acceleration = Vec3::Zero();
+  Vec3 centre_before = start, velocity_before = Vec3::Zero();
+
+  void move_to(double t) {
+    if (!motion) return;
+    double displacement[3];
+    motion->at(t, displacement, velocity.data());
+    motion->acceleration_at(t, acceleration.data());
+    centre = start + Eigen::Map<const Vec3>(displacement);
+  }
 };
 
 struct Particle {
   enum class Mode { flies, slides, sticks, wedged } mode = Mode::flies;
   int ball = -1, other = -1;    // those that it touches
   Vec3 forward = Vec3::Zero();  // of its slide, where the last step began
+  Vec3 offset = Vec3::Zero();   // m, from the centre of the ball that it sticks to
   bool creeps = false;          // a slide close to rest
 };
 
 std::vector<Ball> balls_of(const Scene& scene) {
   const auto* spheres = scene.model.find<Spheres>();
   if (!spheres) throw Unsupported("the scene has no contact: there are no events in it");
-  if (spheres->moving()) throw Unsupported("this route knows spheres at rest only");
   if (scene.model.find<Constraints>()) throw Unsupported("this route knows no hard distances");
   std::vector<Ball> balls;
-  for (const Sphere& s : spheres->list) balls.push_back({s.centre, s.radius + s.margin, s.friction, s.restitution});
+  for (const Sphere& s : spheres->list) {
+    balls.push_back({s.centre, s.radius + s.margin, s.friction, s.restitution});
+    if (s.motion) balls.back().motion.emplace(*s.motion);
+  }
   return balls;
 }
 
@@ -74,8 +92,8 @@ double first_negative(Function f, double high, double at_high) {
   };
   // what is 0 at the start, of a slide from rest say, counts as not negative: a half of the bracket is then tried
   const double at_start = std::max(f(0), -at_high);
-  const auto narrow = [](double a, double b) {
-    return b - a <= 1e-16 + 4 * std::numeric_limits<double>::epsilon() * b;
+  const auto narrow = [high](double a, double b) {
+    return b - a <= 1e-13 * high + 4 * std::numeric_limits<double>::epsilon() * b;
   };
   std::uintmax_t iterations = 200;
   return boost::math::tools::toms748_solve(nowhere_zero, 0., high, at_start, at_high, narrow, iterations).second;
@@ -85,12 +103,13 @@ class EventDrivenWorld : public World {
  public:
   EventDrivenWorld(const Scene& scene, const Run& run)
       : balls_(balls_of(scene)),
-        f_(without_spheres(scene)),
+        size_(scene.size()),
+        time_unit_(velocity_time_unit(scene)),
+        f_(without_spheres(scene), time_unit_),
         y_(f_.start()),
         n_(static_cast<int>(y_.size() / 6)),
         particles_(n_),
-        rule_(odeint::make_controlled(run.tolerance * scene.size(), run.tolerance,
-                                      odeint::runge_kutta_dopri5<StateVector>())),
+        rule_(odeint::make_controlled(run.tolerance * size_, run.tolerance, odeint::runge_kutta_dopri5<StateVector>())),
         h_(std::min(run.step, run.duration)),
         longest_(run.step),
         state_(scene.start) {
@@ -103,10 +122,12 @@ class EventDrivenWorld : public World {
     for (int events = 0; t < t_next;) {
       const bool last = t + 1.01 * h_ >= t_next;
       double h = last ? t_next - t : h_, now = t;
-      if (!(h > 1e-15 * std::max(1.0, t)))
+      if (!(h > 1e-15 * t_next)) {
+        if (last) return;  // an event a rounding before the sample is at the sample
         throw SolverFailure(fmt::format("the step fell below round-off at t = {:.4g} s", t));
+      }
       const StateVector before = y_;
-      remember_directions();
+      remember_start(t);
       if (controlled(y_, now, h) != odeint::success) {
         h_ = h;
         continue;
@@ -147,34 +168,42 @@ class EventDrivenWorld : public World {
   using Mode = Particle::Mode;
 
   static Vec3 place(const StateVector& y, int i) { return Vec3(y[3 * i], y[3 * i + 1], y[3 * i + 2]); }
-  Vec3 speed(const StateVector& y, int i) const { return place(y, n_ + i); }
+  Vec3 speed(const StateVector& y, int i) const { return place(y, n_ + i) / time_unit_; }
+  /// m/s^2, in a rate of change of the unknowns.
+  Vec3 acceleration(const StateVector& rate, int i) const { return speed(rate, i); }
   static void put(StateVector& y, int i, const Vec3& value) { std::copy_n(value.data(), 3, y.begin() + 3 * i); }
+  /// A speed among the unknowns, or an acceleration among their rates of change.
+  void put_speed(StateVector& y, int i, const Vec3& value) const { put(y, n_ + i, time_unit_ * value); }
 
   double height(const StateVector& y, int i, int ball) const {
     return (place(y, i) - balls_[ball].centre).norm() - balls_[ball].radius;
   }
   Vec3 normal(const StateVector& y, int i, int ball) const { return (place(y, i) - balls_[ball].centre).normalized(); }
 
-  /// What a ball pushes by, m/s^2, where all else accelerates by a.
+  /// m/s, as seen from a ball.
+  Vec3 seen_from(const StateVector& y, int i, int ball) const { return speed(y, i) - balls_[ball].velocity; }
+  /// Returns the push of a ball (m/s^2) on a particle that all else accelerates by a, as seen from the ball.
   double push(const StateVector& y, int i, int ball, const Vec3& a) const {
-    const Vec3 n = normal(y, i, ball), v = speed(y, i);
-    return -a.dot(n) - (v - v.dot(n) * n).squaredNorm() / balls_[ball].radius;
+    const Vec3 n = normal(y, i, ball), w = seen_from(y, i, ball);
+    return -a.dot(n) - (w - w.dot(n) * n).squaredNorm() / balls_[ball].radius;
   }
   static Vec3 along(const Vec3& a, const Vec3& n) { return a - a.dot(n) * n; }
 
   void derivative(const StateVector& y, StateVector& rate, double t) {
     rate.resize(y.size());
     f_(y, rate, t);
+    move_balls(t);
     for (int i = 0; i < n_; ++i) {
       const Particle& p = particles_[i];
       if (p.mode == Mode::flies) continue;
+      const Ball& ball = balls_[p.ball];
       if (p.mode != Mode::slides) {
-        put(rate, i, Vec3::Zero());
-        put(rate, n_ + i, Vec3::Zero());
+        put(rate, i, ball.velocity);
+        put_speed(rate, i, ball.acceleration);
         continue;
       }
-      const Vec3 a = place(rate, n_ + i), n = normal(y, i, p.ball), v = speed(y, i);
-      const double pressed = push(y, i, p.ball, a), friction = balls_[p.ball].friction;
+      const Vec3 a = acceleration(rate, i) - ball.acceleration, n = normal(y, i, p.ball), v = seen_from(y, i, p.ball);
+      const double pressed = push(y, i, p.ball, a), friction = ball.friction;
       // beyond a stop, which cuts the step, friction goes on as before: the right-hand side stays smooth
       Vec3 direction = along(v, n);
       const double size = direction.norm();
@@ -184,7 +213,7 @@ class EventDrivenWorld : public World {
         const Vec3 e = along(p.forward, n).normalized(), force = along(a, n);
         sum += force.dot(e) * e - force + friction * pressed * (direction - e);
       }
-      put(rate, n_ + i, sum);
+      put_speed(rate, i, ball.acceleration + sum);
     }
   }
 
@@ -203,49 +232,64 @@ class EventDrivenWorld : public World {
   void accelerations(double t) {
     free_rate_.resize(y_.size());
     f_(y_, free_rate_, t);
+    move_balls(t);
   }
 
-  void remember_directions() {
+  void move_balls(double t) {
+    for (Ball& ball : balls_) ball.move_to(t);
+  }
+
+  /// Balls and directions of slides where a step begins, at t (s).
+  void remember_start(double t) {
+    move_balls(t);
+    for (Ball& ball : balls_) ball.centre_before = ball.centre, ball.velocity_before = ball.velocity;
     for (int i = 0; i < n_; ++i) {
       Particle& p = particles_[i];
       if (p.mode != Mode::slides) continue;
-      if (const Vec3 v = speed(y_, i); v.norm() > 0) p.forward = v.normalized();
+      if (const Vec3 w = seen_from(y_, i, p.ball); w.norm() > 0) p.forward = w.normalized();
     }
   }
 
   /// m: how far a particle is from running into a ball; negative where it does.
   double way_in(const StateVector& y, const StateVector& before, int i, int ball) const {
-    const Vec3 c = balls_[ball].centre;
-    const double rounding = surface_rounding * (balls_[ball].radius + c.norm()), above = height(y, i, ball) + rounding;
+    const Ball& b = balls_[ball];
+    const double rounding = surface_rounding * (b.radius + b.centre.norm()), above = height(y, i, ball) + rounding;
     // in and out again within the step: the height of the chord's nearest point, for steps far shorter than the ball
-    const Vec3 from = place(before, i) - c, to = place(y, i) - c;
-    if (above < 0 || !(from.dot(speed(before, i)) < 0 && to.dot(speed(y, i)) > 0) || !(height(before, i, ball) > 0))
+    const Vec3 from = place(before, i) - b.centre_before, to = place(y, i) - b.centre;
+    if (above < 0 || !(from.dot(speed(before, i) - b.velocity_before) < 0 && to.dot(seen_from(y, i, ball)) > 0) ||
+        !(from.norm() > b.radius))
       return above;
     const Vec3 way = to - from;
     const Vec3 nearest = from - from.dot(way) / way.squaredNorm() * way;
-    return std::min(above, nearest.norm() - balls_[ball].radius + rounding);
+    return std::min(above, nearest.norm() - b.radius + rounding);
   }
 
-  /// Of a particle's mode, from one state to another: negative where it has ended. In m, m/s or m/s^2.
+  /// Negative where a particle's mode has ended, from one state to another. Without a unit, so that no unit decides
+  /// which of several conditions leads the search for the first event.
   double margin(const StateVector& y, const StateVector& before, int i) const {
     const Particle& p = particles_[i];
-    const Vec3 a = place(free_rate_, n_ + i);
+    const Vec3 a = felt(i, p.ball);
+    const double unit = size_ / (time_unit_ * time_unit_);  // m/s^2
     double least = INFINITY;
     if (p.mode == Mode::flies || p.mode == Mode::slides)
       for (int ball = 0; ball < static_cast<int>(balls_.size()); ++ball)
-        if (p.mode == Mode::flies || ball != p.ball) least = std::min(least, way_in(y, before, i, ball));
+        if (p.mode == Mode::flies || ball != p.ball) least = std::min(least, way_in(y, before, i, ball) / size_);
     if (p.mode == Mode::slides) {
-      least = std::min(least, push(y, i, p.ball, a));
-      if (balls_[p.ball].friction > 0) least = std::min(least, speed(y, i).dot(p.forward));
+      least = std::min(least, push(y, i, p.ball, a) / unit);
+      if (balls_[p.ball].friction > 0)
+        least = std::min(least, seen_from(y, i, p.ball).dot(p.forward) / (unit * time_unit_));
     }
-    if (p.mode == Mode::sticks)
-      least = balls_[p.ball].friction * push(y, i, p.ball, a) - along(a, normal(y, i, p.ball)).norm();
+    if (p.mode == Mode::sticks) {
+      const double pressed = push(y, i, p.ball, a), aside = along(a, normal(y, i, p.ball)).norm();
+      least = std::min(pressed, balls_[p.ball].friction * pressed - aside) / unit;
+    }
     if (p.mode == Mode::wedged && !is_wedged(i, p.ball, p.other)) throw Unsupported("a particle leaves a wedge");
     return least;
   }
   bool ended(const StateVector& y, const StateVector& before, int i) const { return !(margin(y, before, i) >= 0); }
   double least_margin(const StateVector& y, const StateVector& before, double t) {
     f_(y, free_rate_, t);
+    move_balls(t);
     double least = INFINITY;
     for (int i = 0; i < n_; ++i) least = std::min(least, margin(y, before, i));
     return least;
@@ -256,15 +300,15 @@ class EventDrivenWorld : public World {
     for (int i = 0; i < n_; ++i) {
       if (!ended(y_, before, i)) continue;
       Particle& p = particles_[i];
-      if (p.mode == Mode::slides && balls_[p.ball].friction > 0 && speed(y_, i).dot(p.forward) < 0)
-        put(y_, n_ + i, Vec3::Zero());  // what is left across the motion goes to 0 with it
+      if (p.mode == Mode::slides && balls_[p.ball].friction > 0 && seen_from(y_, i, p.ball).dot(p.forward) < 0)
+        put_speed(y_, i, balls_[p.ball].velocity);  // the speed across the motion goes to 0 with it
       settle(i);
     }
   }
 
   /// Whether both balls push, and nothing else is needed for rest.
   bool is_wedged(int i, int first, int second) const {
-    const Vec3 a = place(free_rate_, n_ + i);
+    const Vec3 a = acceleration(free_rate_, i);
     Eigen::Matrix<double, 3, 2> normals;
     normals << normal(y_, i, first), normal(y_, i, second);
     const Eigen::Vector2d pushes = (normals.transpose() * normals).ldlt().solve(-normals.transpose() * a);
@@ -272,10 +316,15 @@ class EventDrivenWorld : public World {
     return pushes.minCoeff() > 0 && (a + normals * pushes).norm() < 1e-9 * a.norm();
   }
 
+  /// Returns the acceleration by all but the balls (m/s^2), as seen from a ball, or from rest if `ball` is negative.
+  Vec3 felt(int i, int ball) const {
+    const Vec3 a = acceleration(free_rate_, i);
+    return ball < 0 ? a : Vec3(a - balls_[ball].acceleration);
+  }
+
   /// Impacts, and the mode that follows from place and speed.
   void settle(int i) {
     Particle& p = particles_[i];
-    const Vec3 a = place(free_rate_, n_ + i);
     std::vector<int> touched;
     for (int ball = 0; ball < static_cast<int>(balls_.size()); ++ball)
       if (height(y_, i, ball) <= 1e-11 * balls_[ball].radius) {
@@ -288,63 +337,74 @@ class EventDrivenWorld : public World {
     for (int round = 0; round < 10000; ++round) {
       bool again = false;
       for (const int ball : touched) {
-        const Vec3 n = normal(y_, i, ball), v = speed(y_, i);
+        const Vec3 n = normal(y_, i, ball), v = seen_from(y_, i, ball);
         const double u = -v.dot(n), friction = balls_[ball].friction;
-        if (!(u > 1e-15 * v.norm())) continue;
+        if (!(u > 1e-15 * (speed(y_, i).norm() + balls_[ball].velocity.norm()))) continue;
         double e = balls_[ball].restitution;
-        if (2 * e * u < shortest_flight * push(y_, i, ball, a)) e = 0;
+        if (e * u * e * u < 2 * lowest_rebound * size_ * push(y_, i, ball, felt(i, ball))) e = 0;
         const Vec3 w = along(v, n);
         const double loss = friction * (1 + e) * u;
-        put(y_, n_ + i, (w.norm() <= loss ? Vec3::Zero() : Vec3(w * (1 - loss / w.norm()))) + e * u * n);
+        put_speed(
+            y_, i,
+            balls_[ball].velocity + (w.norm() <= loss ? Vec3::Zero() : Vec3(w * (1 - loss / w.norm()))) + e * u * n);
         again = hit = true;
       }
       if (!again || touched.size() == 1) break;
     }
     std::vector<int> pressing;
     for (const int ball : touched) {
-      const double pressed = push(y_, i, ball, a), away = speed(y_, i).dot(normal(y_, i, ball));
-      if (pressed > 0 && away <= (hit ? shortest_flight * pressed / 2 : 0) + 1e-14 * speed(y_, i).norm())
-        pressing.push_back(ball);
+      const double pressed = push(y_, i, ball, felt(i, ball)), away = seen_from(y_, i, ball).dot(normal(y_, i, ball)),
+                   rounding = 1e-14 * (speed(y_, i).norm() + balls_[ball].velocity.norm());
+      const double rebound = hit && pressed > 0 ? std::sqrt(2 * lowest_rebound * size_ * pressed) : 0;
+      if (pressed > 0 && away <= rebound + rounding) pressing.push_back(ball);
     }
     if (pressing.empty()) return;
     if (pressing.size() > 1) {
-      if (!is_wedged(i, pressing[0], pressing[1]) || pressing.size() > 2)
+      const bool still = !balls_[pressing[0]].motion && !balls_[pressing[1]].motion;
+      if (!still || !is_wedged(i, pressing[0], pressing[1]) || pressing.size() > 2)
         throw Unsupported("a particle moves between two balls: this route knows rest there only");
       p.mode = Mode::wedged, p.ball = pressing[0], p.other = pressing[1];
-      put(y_, n_ + i, Vec3::Zero());
+      put_speed(y_, i, Vec3::Zero());
       return;
     }
     p.ball = pressing[0];
-    const Vec3 n = normal(y_, i, p.ball), w = along(speed(y_, i), n), force = along(a, n);
-    const bool rests = w.norm() <= 1e-13 * (1 + a.norm());
+    const Ball& ball = balls_[p.ball];
+    const Vec3 n = normal(y_, i, p.ball), w = along(seen_from(y_, i, p.ball), n), a = felt(i, p.ball),
+               force = along(a, n);
+    const bool rests = w.norm() <= rounded_to_rest * std::sqrt(size_ * a.norm()) + 1e-15 * ball.velocity.norm();
     if (rests && force.norm() <= balls_[p.ball].friction * push(y_, i, p.ball, a)) {
-      p.mode = Mode::sticks;
-      put(y_, n_ + i, Vec3::Zero());
+      p.mode = Mode::sticks, p.offset = place(y_, i) - ball.centre;
+      put_speed(y_, i, ball.velocity);
       return;
     }
     p.mode = Mode::slides;
     p.forward = rests ? Vec3(force.normalized()) : Vec3(w.normalized());
     p.creeps = rests && balls_[p.ball].friction > 0;
-    if (rests) put(y_, n_ + i, Vec3::Zero());
+    if (rests) put_speed(y_, i, ball.velocity);
     hold(i);
   }
 
   /// Takes the rounding of a slide off the surface, and tells whether it creeps.
   void hold(int i) {
     Particle& p = particles_[i];
+    if (p.mode == Mode::sticks && balls_[p.ball].motion) {
+      put(y_, i, balls_[p.ball].centre + p.offset);
+      put_speed(y_, i, balls_[p.ball].velocity);
+    }
     if (p.mode != Mode::slides) return;
     const Ball& ball = balls_[p.ball];
     const Vec3 n = normal(y_, i, p.ball);
     put(y_, i, ball.centre + ball.radius * n);
-    put(y_, n_ + i, along(speed(y_, i), n));
+    put_speed(y_, i, ball.velocity + along(seen_from(y_, i, p.ball), n));
     if (!(ball.friction > 0)) return;
-    const Vec3 a = place(free_rate_, n_ + i), force = along(a, n);
+    const Vec3 a = felt(i, p.ball), force = along(a, n);
     const double held = ball.friction * push(y_, i, p.ball, a);
     const Vec3 aside = force - force.dot(p.forward) * p.forward;
-    p.creeps = aside.norm() < 0.01 * held && speed(y_, i).norm() * fastest_turn < held;
+    p.creeps = aside.norm() < 0.01 * held && seen_from(y_, i, p.ball).squaredNorm() < 2 * shortest_slide * size_ * held;
   }
 
-  const std::vector<Ball> balls_;
+  std::vector<Ball> balls_;
+  const double size_, time_unit_;  // m, s
   RightHandSide f_;
   StateVector y_, free_rate_;
   const int n_;

@@ -10,16 +10,16 @@
 namespace crosscheck {
 
 // All but the two for contact throw Unsupported where there is contact. Those under error control keep the estimated
-// error of each step below R (scene size + |component|), with R = run.tolerance and numbers in SI units: odeint in
-// every component, SUNDIALS in the root mean square.
+// error of each step below R (scene size + |component|), with R = run.tolerance and velocities times a time unit of the
+// scene (velocity_time_unit): odeint in every component, SUNDIALS in the root mean square.
 
 /// odeint's classic Runge-Kutta rule at run.step.
 Outcome run_odeint_rk4(const Scene& scene, const Run& run, Observer& observer);
 /// odeint's Dormand-Prince 5(4) to run.tolerance, with its own interpolant at the observed times.
 Outcome run_odeint_dopri5(const Scene& scene, const Run& run, Observer& observer);
-/// odeint's Dormand-Prince 5(4) in a scene with spheres at rest, cut at every impact, take-off, stop and slip, which
+/// odeint's Dormand-Prince 5(4) in a scene with spheres, cut at every impact, take-off, stop and slip, which
 /// are located to round-off (event_driven.cpp); steps end at the samples and are at most run.step. Throws Unsupported
-/// where there is no contact, where a sphere moves, and where a particle moves between two.
+/// where there is no contact, and where a particle moves between two spheres or rests between two that move.
 Outcome run_event_driven(const Scene& scene, const Run& run, Observer& observer);
 /// Moreau's midpoint rule at run.step in a scene with spheres, at rest or moved, of any number of particles
 /// (time_stepping.cpp): order 1 with contact. No method's name: a route to truth alone. Throws Unsupported where there

@@ -24,7 +24,7 @@ namespace odeint = boost::numeric::odeint;
 
 class OdeintWorld : public World {
  public:
-  explicit OdeintWorld(const Scene& scene) : f_(scene), y_(f_.start()), state_(scene.start) {}
+  OdeintWorld(const Scene& scene, double time_unit) : f_(scene, time_unit), y_(f_.start()), state_(scene.start) {}
   const State& state(double t) override {
     f_.write_state(y_, t, state_);
     return state_;
@@ -39,7 +39,7 @@ class OdeintWorld : public World {
 
 class AdaptiveOdeintWorld : public OdeintWorld {
  public:
-  using OdeintWorld::OdeintWorld;
+  explicit AdaptiveOdeintWorld(const Scene& scene) : OdeintWorld(scene, velocity_time_unit(scene)) {}
   Work work() const override { return {f_.evaluations(), f_.degenerate_springs(), accepted_}; }
   bool chooses_steps() const override { return true; }
 
@@ -49,7 +49,7 @@ class AdaptiveOdeintWorld : public OdeintWorld {
 
 class Rk4World : public OdeintWorld {
  public:
-  using OdeintWorld::OdeintWorld;
+  explicit Rk4World(const Scene& scene) : OdeintWorld(scene, 1) {}
   void step(double t, double t_next) override { rule_.do_step(std::ref(f_), y_, t, t_next - t); }
 
  private:

@@ -8,6 +8,7 @@
 #include <numbers>
 
 #include "mysim/base/errors.h"
+#include "mysim/model/system.h"
 
 namespace crosscheck {
 namespace {
@@ -31,6 +32,23 @@ void PrescribedMotion::at(double t, double displacement[3], double velocity[3]) 
     displacement[axis] = amplitude_[axis] * ramp_value * sine;
     velocity[axis] = amplitude_[axis] * (ramp_rate * sine + ramp_value * omega_ * cosine);
   }
+}
+
+void PrescribedMotion::acceleration_at(double t, double acceleration[3]) const {
+  const double u = std::min(t / ramp_, 1.0);
+  const double ramp_value = 10 * std::pow(u, 3) - 15 * std::pow(u, 4) + 6 * std::pow(u, 5);
+  const double ramp_rate = 30 * u * u * std::pow(1 - u, 2) / ramp_;
+  const double ramp_bend = 60 * u * (1 - u) * (1 - 2 * u) / (ramp_ * ramp_);
+  const double sine = std::sin(omega_ * t), cosine = std::cos(omega_ * t);
+  for (int axis = 0; axis < 3; ++axis)
+    acceleration[axis] =
+        amplitude_[axis] * ((ramp_bend - ramp_value * omega_ * omega_) * sine + 2 * ramp_rate * omega_ * cosine);
+}
+
+double velocity_time_unit(const Scene& scene) {
+  if (scene.model.first_order()) return 1;
+  const double omega = highest_frequency(scene.model, scene.start);
+  return std::exp2(std::ilogb(omega > 0 ? std::sqrt(scene.duration / omega) : scene.duration));
 }
 
 Scene without_spheres(Scene scene) {
@@ -59,7 +77,8 @@ void RightHandSide::Signal::at(double t, double out[3]) const {
   for (int axis = 0; axis < 3; ++axis) out[axis] = mean[axis] + variation * first * mean[axis] + second * side[axis];
 }
 
-RightHandSide::RightHandSide(const Scene& scene) : n_(scene.model.particles.size()) {
+RightHandSide::RightHandSide(const Scene& scene, double time_unit)
+    : time_unit_(time_unit), n_(scene.model.particles.size()) {
   const Particles& p = scene.model.particles;
   mass_.assign(p.mass.data(), p.mass.data() + n_);
   pinned_.assign(n_, 0);
@@ -75,7 +94,8 @@ RightHandSide::RightHandSide(const Scene& scene) : n_(scene.model.particles.size
   f_.assign(3 * n_, 0);
   for (int i : free_) start_.insert(start_.end(), scene.start.x.col(i).begin(), scene.start.x.col(i).end());
   if (!first_order_)
-    for (int i : free_) start_.insert(start_.end(), scene.start.v.col(i).begin(), scene.start.v.col(i).end());
+    for (int i : free_)
+      for (const double v : scene.start.v.col(i)) start_.push_back(time_unit_ * v);
 }
 
 /// A term without a line here does not compile: nothing of a scene is left out silently.
@@ -135,7 +155,7 @@ void RightHandSide::set_state(const StateVector& y, double t) {
   for (size_t m = 0; m < free_.size(); ++m)
     for (int axis = 0; axis < 3; ++axis) {
       x_[3 * free_[m] + axis] = y[3 * m + axis];
-      if (!first_order_) v_[3 * free_[m] + axis] = y[half + 3 * m + axis];
+      if (!first_order_) v_[3 * free_[m] + axis] = y[half + 3 * m + axis] / time_unit_;
     }
 }
 
@@ -173,8 +193,8 @@ void RightHandSide::operator()(const StateVector& y, StateVector& rate, double t
   const size_t half = 3 * free_.size();
   for (size_t m = 0; m < free_.size(); ++m)
     for (int axis = 0; axis < 3; ++axis) {
-      rate[3 * m + axis] = y[half + 3 * m + axis];
-      rate[half + 3 * m + axis] = f_[3 * free_[m] + axis] / mass_[free_[m]];
+      rate[3 * m + axis] = y[half + 3 * m + axis] / time_unit_;
+      rate[half + 3 * m + axis] = time_unit_ * (f_[3 * free_[m] + axis] / mass_[free_[m]]);
     }
 }
 

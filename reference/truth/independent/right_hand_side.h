@@ -9,8 +9,8 @@
 
 namespace crosscheck {
 
-/// The unknowns of the free particles, one after the other: 3 n positions (m), then 3 n velocities (m/s); of a
-/// first-order scene positions only. Pins are no unknowns: their place is a function of time.
+/// The unknowns of the free particles, one after the other: 3 n positions (m), then 3 n velocities times a time unit
+/// (m); of a first-order scene positions only. Pins are no unknowns: their place is a function of time.
 using StateVector = std::vector<double>;
 
 /// A prescribed motion, of pins or of a sphere.
@@ -19,11 +19,18 @@ class PrescribedMotion {
   explicit PrescribedMotion(const Motion& motion);
   /// m and m/s, from where it starts.
   void at(double t, double displacement[3], double velocity[3]) const;
+  /// m/s^2.
+  void acceleration_at(double t, double acceleration[3]) const;
 
  private:
   double amplitude_[3];  // m
   double omega_, ramp_;  // rad/s, s
 };
+
+/// The time by which an integrator under error control multiplies velocities to compare them with lengths, s: the
+/// geometric mean of the duration and the time in which the fastest vibration turns by a radian, rounded down to a
+/// power of two, so that the multiplication is exact. Scales with the scene's unit of time.
+double velocity_time_unit(const Scene& scene);
 
 /// The same scene without its spheres.
 Scene without_spheres(Scene scene);
@@ -31,8 +38,9 @@ Scene without_spheres(Scene scene);
 class RightHandSide {
  public:
   /// Takes what it needs of the scene's numbers; none of mysim's forces, motions or gusts is called. Throws Unsupported
-  /// where there is contact, which no right-hand side knows.
-  explicit RightHandSide(const Scene& scene);
+  /// where there is contact, which no right-hand side knows. `time_unit` (s) is that of the velocities among the
+  /// unknowns.
+  explicit RightHandSide(const Scene& scene, double time_unit = 1);
 
   StateVector start() const;
   /// rate = dy/dt at time t (s). Under hard distances the forces that keep them are solved for, densely; throws
@@ -77,6 +85,7 @@ class RightHandSide {
   void add_aerodynamic_forces(double t);
   void add_constraint_forces();
 
+  double time_unit_;       // s
   int n_;                  // particles
   std::vector<int> free_;  // indices of the free particles
   StateVector start_;

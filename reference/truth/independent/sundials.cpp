@@ -22,7 +22,11 @@ void check_flag(int flag, const char* what) {
 }
 
 SundialsWorld::SundialsWorld(const Scene& scene, const Run& run)
-    : f_(scene), y_(f_.start()), rate_(y_.size()), state_(scene.start), interval_(run.duration / run.samples) {
+    : f_(scene, velocity_time_unit(scene)),
+      y_(f_.start()),
+      rate_(y_.size()),
+      state_(scene.start),
+      interval_(run.duration / run.samples) {
   SUNContext context = nullptr;
   check_flag(SUNContext_Create(nullptr, &context), "SUNContext_Create");
   context_.reset(context);
