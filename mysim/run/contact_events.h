@@ -17,7 +17,10 @@
 //
 // Why order 2: a contact that lasts displaces by h^2 N / 2 within a step, so that b is wrong by O(h^2) there; an impact
 // changes b by O(h), in one step. No further acceleration is evaluated. Dashpots and air act by speeds that contact
-// changes by h N after they were evaluated: beside those the order is 1.
+// changes by h N after they were evaluated: beside those the order is 1. On a moving sphere with friction a particle
+// sticks and slips, and a slow slide turns along the force within |w| / (mu N), which is less than a step: there the
+// order between two steps is anything from -0.6 to 3.9, and 1.5 to 1.7 over five halvings (mu 0.1 and 0.2, steps of 13
+// to 0.4 ms on a ball of 1 m).
 #pragma once
 
 #include <optional>
