@@ -135,7 +135,9 @@ int experiment_command(const ExperimentOptions& options) {
   folder.finish();
   print_tables(rows, texts, options.out);
   for (const std::string& name : missing) fmt::print(stderr, "crosscheck: missing in the tables: {}\n", name);
-  return failed.empty() && missing.empty() ? 0 : 1;
+  const bool any = std::ranges::any_of(rows.tables, [](const Table& table) { return !table.rows.empty(); });
+  if (!any) fmt::print(stderr, "crosscheck: nothing was measured: no method gave a row on these scenes\n");
+  return any && failed.empty() && missing.empty() ? 0 : 1;
 }
 
 int merge_command(const MergeOptions& options) {

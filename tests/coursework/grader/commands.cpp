@@ -85,10 +85,15 @@ void tell(std::unique_ptr<crosscheck::Progress>& progress, const Result& result)
 
 int grade_all(const Assignment& assignment, const GradeCommand& command, const Sandbox& sandbox,
               const GradeOptions& options) {
+  const std::vector<Handed> submissions = submissions_in(command.submission);
+  if (submissions.empty()) {
+    fmt::print(stderr, "crosscheck: {}: no submissions found; nothing was graded\n", command.submission);
+    return 1;
+  }
   const fs::path out = command.out;
   crosscheck::ResumableOutput folder(out, "grade " + std::string(assignment.name));
   std::vector<std::string> files{"table.csv", "table.txt", "statistics.csv", "class.html"};
-  for (const Handed& entry : submissions_in(command.submission))
+  for (const Handed& entry : submissions)
     for (const char* ending : {".json", ".html"}) files.push_back(file_name_for(entry.name) + ending);
   const bool keeps_seed = !command.seed && !options.secret;
   if (keeps_seed) files.emplace_back(seed_file);
