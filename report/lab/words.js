@@ -175,6 +175,7 @@ const labWords = {
   'question.cloth-student': ['What do the two rules of the assignment do to a cloth as a student would set it up?', '按学生的设置，作业中的两种方法会让布料怎样？'],
   'question.cloth-swing': ['Do the engines agree when the cloth is moved by hand?', '用手移动布料时，各引擎结果一致吗？'],
   'question.cloth-wind': ['Do the engines agree on a cloth in gusts of wind?', '布料处在阵风中，各引擎结果一致吗？'],
+  'question.curtain': ['Do the engines agree on a curtain whose hem weighs ten times as much as each row above it?', '窗帘的下摆比上面每一行重十倍，各引擎结果一致吗？'],
   'question.flag': ['Does a flag fly as the air presses on it?', '在气流的压力下，旗帜会飘扬吗？'],
   'question.jelly': ['Does a block of jelly land, wobble and come to rest?', '一块果冻落下后会晃动并最终静止吗？'],
   'question.normal-modes': ['Does a chain of springs keep the frequencies of its modes?', '弹簧链能保持各模态的频率吗？'],
