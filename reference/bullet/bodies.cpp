@@ -10,6 +10,7 @@
 #include <algorithm>
 
 #include "mysim/base/errors.h"
+#include "mysim/model/pieces.h"
 #include "reference/bullet/soft_body.h"
 
 namespace crosscheck::bullet {

@@ -6,36 +6,12 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <numeric>
 
 #include "mysim/base/errors.h"
 #include "mysim/base/random.h"
+#include "mysim/model/pieces.h"
 
 namespace crosscheck::bullet {
-
-std::vector<int> pieces_of(const Model& model) {
-  const int n = model.particles.size();
-  std::vector<int> parent(n);
-  std::iota(parent.begin(), parent.end(), 0);
-  auto root = [&](int i) {
-    while (parent[i] != i) i = parent[i] = parent[parent[i]];
-    return i;
-  };
-  if (const auto* springs = model.find<Springs>())
-    for (const Spring& s : springs->list) parent[root(s.a)] = root(s.b);
-  if (const auto* bending = model.find<Bending>())
-    for_each_pair(*bending, [&](int a, int b, double) { parent[root(a)] = root(b); });
-  if (const auto* constraints = model.find<Constraints>())
-    for (const auto& c : constraints->list) parent[root(c.a)] = root(c.b);
-  std::vector<int> number(n, -1), piece(n);
-  int pieces = 0;
-  for (int i = 0; i < n; ++i) {
-    int& known = number[root(i)];
-    if (known < 0) known = pieces++;
-    piece[i] = known;
-  }
-  return piece;
-}
 
 Points small_offsets(const Bending& bending, const Points& x) {
   double shortest = INFINITY;

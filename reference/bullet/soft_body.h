@@ -35,9 +35,6 @@ struct CollisionPipeline {
 /// `may_hang`) or cannot follow (first-order scenes, restitution). To be called before a world is built.
 void require_supported(const Scene& scene, bool may_hang = false);
 
-/// The piece of the spring graph that each particle belongs to, counted from 0 in the order of their first particles.
-std::vector<int> pieces_of(const Model& model);
-
 /// Parameters left at Bullet's defaults, or set against its advice, to be seen failing.
 struct BulletDefaults {
   bool rest = false;           // the first step overwrites rest lengths with the lengths it finds

@@ -3,9 +3,11 @@
 #include <fmt/ranges.h>
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <cmath>
 #include <map>
 #include <memory>
+#include <set>
 
 #include "experiments/estimate.h"
 #include "experiments/scenes/scenes.h"
@@ -16,6 +18,7 @@
 #include "mysim/base/text.h"
 #include "mysim/base/this_process.h"
 #include "mysim/model/moduli.h"
+#include "mysim/model/pieces.h"
 #include "mysim/model/system.h"
 #include "report/commands/commands.h"
 
@@ -35,7 +38,44 @@ struct SceneSummary {
   int evaluations = 0;  // per step of the default method; 0: as its equations take
   bool adaptive = false;
   std::vector<std::string> warnings;
+  int pieces = 0, free_pieces = 0;              // all, and those without a pin
+  std::vector<std::pair<int, int>> coincident;  // particles that start at the same place
+  std::optional<double> mass_per_area = {};     // kg/m^2 of a sheet's triangles
 };
+
+/// Mass over area of the particles of a sheet; nothing for the closed surface of a block, which has 2 V - 4 triangles
+/// on V particles, more than any sheet.
+std::optional<double> mass_per_area_of(const Scene& scene) {
+  std::set<int> particles;
+  double area = 0, mass = 0;
+  for (const auto& [a, b, c] : scene.triangles) {
+    const Vec3 origin = scene.start.x.col(a), u = scene.start.x.col(b) - origin, v = scene.start.x.col(c) - origin;
+    area += u.cross(v).norm() / 2;
+    particles.insert({a, b, c});
+  }
+  if (!(area > 0) || scene.triangles.size() + 4 >= 2 * particles.size()) return std::nullopt;
+  for (const int i : particles) mass += scene.model.particles.mass[i];
+  return mass / area;
+}
+
+void add_pieces(SceneSummary& summary) {
+  const Model& model = summary.scene.model;
+  const std::vector<int> piece = pieces_of(model);
+  summary.pieces = std::ranges::max(piece) + 1;
+  std::vector<char> held(summary.pieces, 0);
+  for (const int pin : model.particles.pins) held[piece[pin]] = 1;
+  summary.free_pieces = static_cast<int>(std::ranges::count(held, 0));
+  // 1e-9: the same place but for the rounding of decimal numbers
+  summary.coincident = coincident_pairs(summary.scene.start.x, 1e-9 * summary.scene.size());
+  for (const auto& [a, b] : summary.coincident)
+    if (piece[a] != piece[b]) {
+      summary.warnings.push_back(
+          fmt::format("particles {} and {} start at the same place, but no spring joins their pieces{}", a, b,
+                      held[piece[a]] && held[piece[b]] ? "" : ", one of which no pin holds"));
+      break;
+    }
+  summary.mass_per_area = mass_per_area_of(summary.scene);
+}
 
 SceneSummary summary_of(Scene scene) {
   SceneSummary summary{std::move(scene), {}, 0, {}, {}, {}, {}, {}, 0, false, {}};
@@ -72,6 +112,7 @@ SceneSummary summary_of(Scene scene) {
   if (summary.net.moduli)
     if (std::string warning = skip_one_warning(*summary.net.moduli); !warning.empty())
       summary.warnings.push_back(std::move(warning));
+  add_pieces(summary);
   return summary;
 }
 
@@ -115,6 +156,18 @@ void print_summary(const SceneSummary& s, const std::string& given) {
   line("particles", fmt::format("{}, {} of them pinned{}", model.particles.size(), model.particles.pins.size(),
                                 model.particles.move ? " and moved" : ""));
   line("springs", listed_springs(s));
+  if (!model.first_order()) {
+    const Eigen::VectorXd& mass = model.particles.mass;
+    const double least = mass.minCoeff(), most = mass.maxCoeff();
+    line("masses",
+         fmt::format("{} kg each, {:.6g} kg in total{}",
+                     least == most ? fmt::format("{:.6g}", most) : fmt::format("{:.6g} to {:.6g}", least, most),
+                     mass.sum(), s.mass_per_area ? fmt::format(", {:.4g} kg/m^2 of triangles", *s.mass_per_area) : ""));
+  }
+  line("pieces", fmt::format("{}, {} of them held by no pin", s.pieces, s.free_pieces));
+  if (!s.coincident.empty())
+    line("coincident", fmt::format("{} pair{} of particles at the same place, the first {} and {}", s.coincident.size(),
+                                   s.coincident.size() > 1 ? "s" : "", s.coincident[0].first, s.coincident[0].second));
   if (const auto count = length_of_term<Dashpots>(model)) line("dashpots", fmt::format("{}", count));
   if (const auto count = length_of_term<Constraints>(model)) line("hard distances", fmt::format("{}", count));
   if (const auto count = length_of_term<Spheres>(model)) line("spheres", fmt::format("{}", count));
@@ -163,7 +216,22 @@ void print_summary(const SceneSummary& s, const std::string& given) {
   for (const std::string& warning : s.warnings) line("warning", warning);
 }
 
+Json masses_json(const SceneSummary& s) {
+  if (s.scene.model.first_order()) return {};
+  const Eigen::VectorXd& mass = s.scene.model.particles.mass;
+  return {{"least", mass.minCoeff()},
+          {"largest", mass.maxCoeff()},
+          {"total", mass.sum()},
+          {"per_area", s.mass_per_area ? Json(*s.mass_per_area) : Json()}};
+}
+
 Json json_of(const SceneSummary& s, const std::string& given) {
+  Json coincident = Json::list();
+  for (const auto& [a, b] : s.coincident) {
+    Json pair = Json::list();
+    pair.push(a), pair.push(b);
+    coincident.push(std::move(pair));
+  }
   Json families = Json::object(), critical = Json::object();
   for (const auto& [family, count] : s.springs) families[name_of(family)] = count;
   for (const auto& [name, limit] : s.critical) critical[name] = limit;
@@ -172,6 +240,10 @@ Json json_of(const SceneSummary& s, const std::string& given) {
           {"hash", s.scene.hash},
           {"particles", s.scene.model.particles.size()},
           {"pins", s.scene.model.particles.pins.size()},
+          {"masses", masses_json(s)},
+          {"pieces", s.pieces},
+          {"free_pieces", s.free_pieces},
+          {"coincident", std::move(coincident)},
           {"springs", std::move(families)},
           {"dashpots", length_of_term<Dashpots>(s.scene.model)},
           {"constraints", length_of_term<Constraints>(s.scene.model)},

@@ -66,6 +66,47 @@ TEST_F(CliValidate, SaysHowAClothBends) {
   EXPECT_NEAR(told["scenes"][0]["bending"]["spacings"].number(), 2.943, 1e-3);
 }
 
+TEST_F(CliValidate, TellsPiecesParticlesAtOnePlaceAndMasses) {
+  // two bars that touch in space only; the second one is held by nothing
+  const std::string head =
+      "question = \"q\"\nparameters = \"p\"\n[time]\nduration = 1\nsamples = 10\nstep = 1e-3\nwindow = 1\ntolerance = "
+      "1e-3\n"
+      "method = \"leapfrog\"\n";
+  std::string seam = head;
+  for (const char* particle :
+       {"[0, 0, 0]\nmass = 0.1", "[0.1, 0, 0]\nmass = 0.2", "[0.1, 0, 0]\nmass = 0.3", "[0.2, 0, 0]\nmass = 0.5"})
+    seam += std::string("[[particle]]\nposition = ") + particle + "\n";
+  for (const char* ends : {"[0, 1]", "[2, 3]"})
+    seam += std::string("[[spring]]\nends = ") + ends + "\nstiffness = 50\n";
+  write("seam.toml", seam + "[pins]\nparticles = [0]\n");
+  const ProgramResult text = call({"validate", "seam.toml"});
+  EXPECT_EQ(text.status, 0) << text.err;
+  for (const char* part : {"2, 1 of them held by no pin", "the first 1 and 2", "0.1 to 0.5 kg each, 1.1 kg in total",
+                           "particles 1 and 2 start at the same place, but no spring joins their pieces"})
+    EXPECT_NE(text.out.find(part), std::string::npos) << part << " in " << text.out;
+  // 0.06 kg on 0.2 m^2, and a block, whose surface says nothing about its mass
+  write("sheet.toml", head +
+                          "[grid]\nsize = [3, 3]\norigin = [0, 0, 0]\nu = [0.5, 0, 0]\nv = [0, 0, 0.4]\nmass = 0.06\n"
+                          "stiffness = { structural = 10 }\n");
+  write("block.toml", head +
+                          "[grid]\nsize = [2, 2, 3]\norigin = [0, 0, 0]\nu = [0.5, 0, 0]\nv = [0, 0.5, 0]\n"
+                          "w = [0, 0, 0.4]\nmass = 0.06\nstiffness = { structural = 10 }\n");
+  const auto told =
+      JsonField::parse(call({"validate", "seam.toml", "sheet.toml", "block.toml", "circle", "--json"}).out, "validate");
+  const JsonField one = told["scenes"][0], sheet = told["scenes"][1], block = told["scenes"][2];
+  EXPECT_EQ(one["pieces"].whole(), 2);
+  EXPECT_EQ(one["free_pieces"].whole(), 1);
+  EXPECT_EQ(one["coincident"].size(), 1u);
+  EXPECT_EQ(one["coincident"][0][1].whole(), 2);
+  EXPECT_EQ(one["masses"]["least"].number(), 0.1);
+  EXPECT_EQ(one["masses"]["largest"].number(), 0.5);
+  EXPECT_NEAR(one["masses"]["total"].number(), 1.1, 1e-15);
+  EXPECT_FALSE(one["masses"]["per_area"].is_number());
+  EXPECT_NEAR(sheet["masses"]["per_area"].number(), 0.3, 1e-15);  // a few roundings
+  EXPECT_EQ(sheet["pieces"].whole(), 1);
+  EXPECT_FALSE(block["masses"]["per_area"].is_number());
+}
+
 TEST_F(CliValidate, LooksAtAllScenesAndTellsEveryFault) {
   write("good.toml", own_scene);
   std::string text = own_scene;
