@@ -62,8 +62,8 @@ constexpr Key pin_keys[] = {
     {"motion", "how they are moved", optional, table, motion_keys},
 };
 constexpr Key start_keys[] = {
-    {"positions", "a list of three numbers for each particle (m), in their order", required},
-    {"velocities", "a list of three numbers for each particle (m/s), in their order"},
+    {"positions", "a list of three numbers for each particle (m), in their order, or of triples", required},
+    {"velocities", "a list of three numbers for each particle (m/s), in their order, or of triples"},
 };
 constexpr Key rotation_keys[] = {
     {"rate", "a finite number (rad/s)", required},
@@ -98,7 +98,7 @@ constexpr Key aerodynamics_keys[] = {
 constexpr Key sphere_keys[] = {
     {"centre", "three finite numbers [x, y, z] (m)", required},
     {"radius", "a number above zero (m)", required},
-    {"margin", "a number above zero (m)"},
+    {"margin", "a number not below zero (m)"},
     {"friction", "a number not below zero"},
     {"restitution", "a number from 0 to 1"},
     {"motion", "how it moves", optional, table, motion_keys},

@@ -128,7 +128,7 @@ Motion read_motion(const TomlTable& s) { return {s.vec3("amplitude"), s.positive
 
 Sphere read_sphere(const TomlTable& s) {
   Sphere sphere{s.vec3("centre"), s.positive("radius"), 0, 0, 0, std::nullopt};
-  if (s.has("margin")) sphere.margin = s.positive("margin");
+  if (s.has("margin")) sphere.margin = s.not_negative("margin");
   if (s.has("friction")) sphere.friction = s.not_negative("friction");
   if (s.has("restitution")) {
     sphere.restitution = s.not_negative("restitution");
@@ -266,9 +266,9 @@ void read_start(const TomlTable& file, bool first_order, Scene& scene) {
   if (!file.has("start")) return;
   const TomlTable s = file.section("start");
   const int n = scene.model.particles.size();
-  scene.start.x = s.numbers("positions", 3 * n).reshaped(3, n);
+  scene.start.x = s.points("positions", n);
   if (first_order && s.has("velocities")) s.fail("velocities", fmt::format("none beside [rotation], {}", without_mass));
-  if (s.has("velocities")) scene.start.v = s.numbers("velocities", 3 * n).reshaped(3, n);
+  if (s.has("velocities")) scene.start.v = s.points("velocities", n);
 }
 
 void read_spheres(const TomlTable& file, Scene& scene) {

@@ -272,6 +272,22 @@ Eigen::VectorXd TomlTable::numbers(std::string_view key, int count) const {
   return list;
 }
 
+Points TomlTable::points(std::string_view key, int count) const {
+  const toml::array* values = node_->need(key, fmt::format("a list of {} finite numbers", 3 * count)).as_array();
+  if (!values || values->empty() || !values->front().is_array()) return numbers(key, 3 * count).reshaped(3, count);
+  if (values->size() != static_cast<size_t>(count))
+    fail(key, fmt::format("a list of {} triples [x, y, z], got {}", count, values->size()));
+  Points points(3, count);
+  for (int i = 0; i < count; ++i) {
+    const std::string name = fmt::format("{}[{}]", key, i);
+    const toml::array* triple = (*values)[i].as_array();
+    if (!triple || triple->size() != 3) node_->refuse((*values)[i], name, "three finite numbers [x, y, z]");
+    for (int axis = 0; axis < 3; ++axis)
+      points(axis, i) = node_->finite((*triple)[axis], fmt::format("{}[{}]", name, axis), "a finite number");
+  }
+  return points;
+}
+
 TomlTable TomlTable::section(std::string_view key) const {
   const toml::node& n = node_->need(key, "a table");
   const toml::table* t = n.as_table();

@@ -33,6 +33,7 @@ class TomlTable {
   Vec3 vec3(std::string_view key) const;                                                         // three finite numbers
   std::vector<int> integers(std::string_view key, int least = 0) const;
   Eigen::VectorXd numbers(std::string_view key, int count) const;  // so many finite numbers
+  Points points(std::string_view key, int count) const;            // three numbers each, or so many triples
 
   TomlTable section(std::string_view key) const;                   // a table; an error when it is missing
   std::vector<TomlTable> sections(std::string_view key) const;     // an array of tables; empty when it is missing

@@ -243,6 +243,27 @@ TEST(SceneFaults, LinesOfBracketsAloneAreNamedLikeAnyOther) {
   }
 }
 
+TEST(SceneFile, StartIsAListOfNumbersOrOfTriples) {
+  const std::string scene = std::string(whole).substr(0, std::string(whole).find("[camera]"));
+  std::string flat = "[start]\npositions = [", triples = flat;
+  for (int i = 0; i < 14; ++i) {
+    flat += fmt::format("{}, {}, 0.5, ", 0.1 * i, 3 + 0.2 * i);
+    triples += fmt::format("[{}, {}, 0.5], ", 0.1 * i, 3 + 0.2 * i);
+  }
+  EXPECT_EQ(parse_scene(scene + flat + "]\n", "a").start.x, parse_scene(scene + triples + "]\n", "a").start.x);
+  EXPECT_TRUE(contains(message_of(scene + triples.substr(0, triples.size() - 2) + ", [0, 0, 0]]\n"),
+                       "start.positions: expected a list of 14 triples [x, y, z], got 15"));
+  std::string bent = triples + "]\n";
+  bent.replace(bent.find("0.5], "), 6, "0.5, 1], ");
+  EXPECT_TRUE(contains(message_of(scene + bent), "start.positions[0]: expected three finite numbers"));
+}
+
+TEST(SceneFile, AMarginOfZeroIsNoMargin) {
+  const Scene zero = parse_scene(with_line(50, "margin = 0"), "a"), none = parse_scene(with_line(50, ""), "a");
+  EXPECT_EQ(zero.hash, none.hash);
+  EXPECT_TRUE(contains(message_of(with_line(50, "margin = -1")), "expected a number not below zero"));
+}
+
 TEST(SceneFile, AllPinnedNothingToMoveNoParticles) {
   const std::string two =
       "[[particle]]\nposition = [0, 0, 0]\nmass = 1\n[[particle]]\nposition = [1, 0, 0]\nmass = 1\n";
