@@ -10,6 +10,7 @@
 #include "mysim/base/errors.h"
 #include "mysim/base/hash.h"
 #include "mysim/base/text.h"
+#include "mysim/run/crossings.h"
 #include "reference/truth/cache.h"
 
 namespace crosscheck {
@@ -156,10 +157,13 @@ MethodResult& result_of(const Request& request, const Scene& scene, const Method
   for (MethodResult& result : results)
     if (result.scene == scene.name && result.method == method.name) return result;
   Recorder recorder;
-  std::vector<Observer*> observers{&recorder};
+  const Run run = run_of(request, scene);
+  CrossingObserver crossings(scene, run.samples);
+  std::vector<Observer*> observers{&recorder, &crossings};
   Ledger ledger(scene.model, method.contact);
   if (!scene.model.first_order()) observers.push_back(&ledger);
-  Outcome out = run_method(method, scene, run_of(request, scene), observers);
+  Outcome out = run_method(method, scene, run, observers);
+  crossings.note(out);
   const bool unsupported = out.verdict == Verdict::unsupported;  // found out during the run, perhaps
   if (unsupported) recorder.trajectory = {};
   return results.emplace_back(MethodResult{scene.name, method.name, std::move(out), std::move(recorder.trajectory),

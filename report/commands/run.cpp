@@ -13,6 +13,7 @@
 #include "mysim/base/files.h"
 #include "mysim/base/json.h"
 #include "mysim/base/output_folder.h"
+#include "mysim/run/crossings.h"
 #include "reference/protocol/trajectory_files.h"
 #include "report/base/mesh_files.h"
 #include "report/base/provenance.h"
@@ -75,7 +76,8 @@ int run_command(const RunOptions& options) {
 
   TrajectoryWriter frames(folder.path());
   Ledger ledger(scene.model, method.contact);
-  std::vector<Observer*> observers{&frames};
+  CrossingObserver crossings(scene, run.samples);
+  std::vector<Observer*> observers{&frames, &crossings};
   if (!scene.model.first_order()) observers.push_back(&ledger);
   if (meshes) observers.push_back(&*meshes);
   Progress progress(1);
@@ -87,6 +89,7 @@ int run_command(const RunOptions& options) {
   }
 
   frames.finish();
+  crossings.note(out);
   if (out.verdict == Verdict::ok)
     if (const std::string outlook = stability_warning(method, scene, out.step); !outlook.empty())
       out.remark += (out.remark.empty() ? "" : "; ") + outlook;
