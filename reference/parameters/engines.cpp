@@ -259,10 +259,10 @@ TranslationTarget find_target(const std::string& name, int iterations) {
   int said = 0;
   for (size_t i = 1; i < parts.size(); ++i)
     if (const auto n = iterations_in(parts[i])) said = *n;
-  std::vector<std::string_view> engines;
+  std::vector<std::string> engines;
   for (const EngineNumbers& engine : engine_numbers()) {
     if (engine.name.empty()) continue;
-    engines.push_back(engine.name);
+    engines.emplace_back(engine.name);
     if (parts[0] != engine.name) continue;
     for (size_t i = 1; i < parts.size(); ++i)
       if (!iterations_in(parts[i]))
@@ -278,8 +278,13 @@ TranslationTarget find_target(const std::string& name, int iterations) {
     }
     return target;
   }
-  // of one that is not known at all, find_method() says what methods there are
-  Method method = find_method(name);
+  Method method;
+  try {
+    method = find_method(name);
+  } catch (const InputError& unknown) {
+    throw InputError(fmt::format("{}; translate also knows {}{}", unknown.what(), fmt::join(engines, ", "),
+                                 did_you_mean(parts[0], engines)));
+  }
   for (const EngineNumbers& engine : engine_numbers()) {
     if (!engine.of || !engine.of(method) || (!engine.deaf.empty() && std::ranges::count(parts, engine.deaf) > 0))
       continue;

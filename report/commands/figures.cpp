@@ -28,7 +28,7 @@ namespace {
 struct FiguresOptions {
   std::vector<std::string> names;   // of experiments; empty: all
   std::vector<std::string> scenes;  // empty: the representative ones
-  std::string set = "paper", width;
+  std::string set = "paper", width, methods;
   bool full = false;
   std::filesystem::path from = {};  // a report whose data are drawn; empty: experiments are run
   std::filesystem::path out = "out/figures";
@@ -123,6 +123,7 @@ Work work_of(const FigureSelection& selection, const FiguresOptions& options, co
   Request request;
   request.full = options.full;
   request.scenes_only = !options.scenes.empty();
+  if (!options.methods.empty()) request.methods = find_methods(options.methods);
   for (const Experiment* experiment : selection.experiments) {
     work.experiments.emplace_back(experiment->name);
     request.scenes = scenes_for(*experiment, options.scenes, options.full);
@@ -356,11 +357,13 @@ void add_figures(CLI::App& app, Invocation& call) {
                       "experiments whose charts are drawn, or SCENE-picture for a picture of a scene (default: all)");
   figures->add_option("--scene", options->scenes,
                       "a shipped scene or a TOML file, whose charts and picture are drawn; may be repeated");
+  auto* methods = figures->add_option("--methods", options->methods, "methods that the experiments run: A,B,...");
   figures->add_option("--set", options->set, "paper (8.5 cm, 7.5 pt) or lecture (24 cm, 20 pt)");
   figures->add_option("--width", options->width, "width on paper, such as 8.5cm, 85mm or 3.3in");
   figures->add_option("--out", options->out, "folder (out/figures)");
   add_quick_and_full(*figures, options->full);
-  figures->add_option("--from", options->from, "DIR: figures of the report in it, by their names, nothing is run");
+  figures->add_option("--from", options->from, "DIR: figures of the report in it, by their names, nothing is run")
+      ->excludes(methods);
   figures->callback([options, &call] {
     options->command_line = call.line;
     call.status = options->from.empty() ? figures_command(*options) : figures_from_report(*options);

@@ -102,9 +102,17 @@ int run_command(const RunOptions& options) {
   folder.finish();
   fmt::print("{} by {}: {}{}\n", scene.name, method.name, in_words(out.verdict),
              out.reason.empty() ? "" : ", " + out.reason);
-  fmt::print("  {} steps of {:.6g} s{}, {} force evaluations, {:.3g} s of CPU time, {} frames\n", out.steps, out.step,
-             adaptive ? fmt::format(" in the mean (relative tolerance {:.3g})", out.tolerance) : "", out.evaluations,
-             out.cpu_seconds, frames.times().size());
+  // a program of its own need not count: 0 is then no number of steps
+  const bool outside = out.process_seconds > 0;
+  const auto counted = [&](long count, const char* what) {
+    return count > 0 || !outside ? fmt::format("{} {}", count, what) : fmt::format("{} (number not reported)", what);
+  };
+  fmt::print("  {} of {:.6g} s{}, {}, {}, {} frames\n", counted(out.steps, "steps"), out.step,
+             adaptive ? fmt::format(" in the mean (relative tolerance {:.3g})", out.tolerance) : "",
+             counted(out.evaluations, "force evaluations"),
+             out.cpu_seconds > 0 || !outside ? fmt::format("{:.3g} s of CPU time", out.cpu_seconds)
+                                             : fmt::format("{:.3g} s of CPU time with its start", out.process_seconds),
+             frames.times().size());
   if (!out.remark.empty()) fmt::print("  {}\n", out.remark);
   if (out.degenerate_springs > 0)
     fmt::print("  springs met at zero length {} times and got no force there\n", out.degenerate_springs);

@@ -32,6 +32,15 @@ class CliUsage : public Cli {
   }
 };
 
+TEST_F(CliUsage, DoesNotCountWhatAnEngineDoesNotReport) {
+  write("own.toml", own_scene);
+  make_engine("engine", "#!/bin/sh\n\"$EXAMPLE\" \"$@\" && rm -f \"$2/run.json\"\n");
+  const ProgramResult result = shell("\"$PROGRAM\" run own.toml --method exec:./engine");
+  ASSERT_EQ(result.status, 0) << result.err;
+  EXPECT_EQ(result.out.find(" 0 "), std::string::npos) << result.out;
+  EXPECT_NE(result.out.find("number not reported"), std::string::npos) << result.out;
+}
+
 TEST_F(CliUsage, NothingMeasuredIsANegativeAnswer) {
   expect_one_line(call({"experiment", "order", "chain", "--methods", "dopri5"}), 1, "nothing was measured");
   fs::create_directory(folder_ / "class");
