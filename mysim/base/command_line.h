@@ -31,15 +31,18 @@ inline std::string usage_error(const std::string& program, const CLI::App& app, 
     for (const std::string& word : of->remaining()) {
       const std::string option = word.substr(0, word.find('='));
       if (!option.starts_with("-") || option == "-" || option == "--")
-        return fmt::format("{}one word too many: '{}' ({} {}--help shows what is expected)", place, word, program,
-                           help);
+        return fmt::format("{}one word too many: '{}' ({} {}--help shows what is expected)", place, word.substr(0, 60),
+                           program, help);
       const std::vector<std::string> known = names_of(command);
       if (std::find(known.begin(), known.end(), option) != known.end())
         return fmt::format("{} stands before the command; expected {} {} ... {}", option, program, command->get_name(),
                            option);
-      const std::string proposal = did_you_mean(option, known);
-      return fmt::format("{}unknown option '{}'{} expected {}: {}", place, option, proposal.empty() ? ";" : proposal,
-                         top ? "a command, or one of" : "one of", fmt::format("{}", fmt::join(known, ", ")));
+      const bool out = option == "-o" || option == "--out";
+      const auto other = std::find(known.begin(), known.end(), out ? option == "-o" ? "--out" : "-o" : "");
+      const std::string proposal =
+          other != known.end() ? fmt::format("; did you mean '{}'?", *other) : did_you_mean(option, known);
+      return fmt::format("{}unknown option '{}'{} ({} {}--help shows all)", place, option.substr(0, 60), proposal,
+                         program, help);
     }
   return fmt::format("{}{} ({} {}--help shows what is expected)", place, error.what(), program, help);
 }

@@ -40,11 +40,17 @@ double tolerance_of(const std::string& text, const Scene& scene) {
   double value = 0;
   const char* end = text.data() + text.size();
   const auto [rest, failed] = std::from_chars(text.data(), end, value);
-  const bool of_motion = std::string_view(rest, end) == "%";
-  if (failed != std::errc() || (rest != end && !of_motion) || !(value > 0) || !std::isfinite(value))
-    throw InputError(fmt::format(
-        "--tolerance: expected a length above zero (m), or a part of the motion such as 1%, got '{}'", text));
-  if (!of_motion) return value;
+  const std::string unit(std::find_if(rest, end, [](char c) { return c != ' '; }), end);
+  const bool of_motion = unit == "%";
+  constexpr std::pair<std::string_view, double> lengths[] = {
+      {"", 1}, {"m", 1}, {"cm", 1e-2}, {"mm", 1e-3}, {"um", 1e-6}};
+  const auto length = std::ranges::find(lengths, std::string_view(unit), &std::pair<std::string_view, double>::first);
+  if (failed != std::errc() || (length == std::end(lengths) && !of_motion) || !(value > 0) || !std::isfinite(value))
+    throw InputError(
+        fmt::format("--tolerance: expected a length above zero (m), such as 0.001 or 1mm, or a part of the motion such "
+                    "as 1%, got '{}'",
+                    text.substr(0, 60)));
+  if (!of_motion) return value * length->second;
   Recorder recorder;
   const Outcome own = run_method(find_method(scene.method), scene, default_run(scene), {&recorder});
   if (own.verdict != Verdict::ok)

@@ -231,7 +231,7 @@ void add_check(CLI::App& app, Invocation& call) {
                    ->add_option("--hunt", options->hunt,
                                 "draws scenes for so many seconds, and makes each that breaks a relation, or on which "
                                 "two methods disagree, as small as it goes; goes on where the folder's last one ended")
-                   ->check(above_zero());
+                   ->transform(above_zero());
   check
       ->add_option("--shard", options->shard,
                    "I/N: of the hunt's cases every Nth from the Ith on; `merge` joins the parts")

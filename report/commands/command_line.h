@@ -24,9 +24,11 @@ std::string version_text();
 /// The two without the build.
 std::string program_and_version();
 
-/// Finite numbers: CLI11's own range checks let nan through and print 309 digits.
+/// Finite numbers and fractions: CLI11's own range checks let nan through and print 309 digits. Times may have a unit,
+/// and reach the option in seconds. To be given to Option::transform().
 CLI::Validator above_zero();
-CLI::Validator not_below_zero();
+CLI::Validator time_above_zero();
+CLI::Validator time_not_below_zero();
 
 /// --quick and --full, which exclude each other.
 void add_quick_and_full(CLI::App& command, bool& full);

@@ -161,7 +161,7 @@ void add_compare(CLI::App& app, Invocation& call) {
       "compare", "checks that all methods received the same scene (parity certificate), then compares their results");
   compare->add_option("SCENE", options->scene, "a shipped scene or a TOML file")->required();
   compare->add_option("--methods", options->methods, "methods to compare: A,B,...");
-  compare->add_option("--step", options->step, "time step, s")->check(above_zero());
+  compare->add_option("--step", options->step, "time step, s")->transform(time_above_zero());
   compare->add_option("--trajectory", options->trajectory,
                       "FILE.npy: positions computed by another program, compared with the methods");
   compare->add_option("--out", options->out, "folder (out/compare)");

@@ -96,9 +96,15 @@ int experiment_command(const ExperimentOptions& options) {
     const auto found = std::find_if(all.begin(), all.end(), [&](const Experiment& e) { return e.name == name; });
     if (found != all.end())
       chosen.push_back(&*found), names.push_back(name);
-    else if (chosen.empty())
+    else if (chosen.empty()) {
+      const auto first =
+          std::find_first_of(options.names.begin(), options.names.end(), all.begin(), all.end(),
+                             [](const std::string& word, const Experiment& e) { return word == e.name; });
+      if (first != options.names.end())
+        throw InputError(fmt::format(
+            "experiment: '{0}' is no experiment; did you mean `crosscheck experiment {1} {0}`?", name, *first));
       find_experiment(name);  // throws: the first word must be an experiment
-    else
+    } else
       scenes.push_back(name);
   }
   SweepOptions sweep{options.jobs, options.shard.empty() ? Shard{} : shard_from(options.shard)};

@@ -113,7 +113,7 @@ void add_render(CLI::App& app, Invocation& call) {
   render->add_option("SCENE", options->scene, "a shipped scene or a TOML file")->required();
   render->add_option("--methods", options->methods, "methods to draw: A,B,...");
   render->add_option("--mode", options->mode, "shaded (default), stretch, springs, difference or strip");
-  render->add_option("--at", options->at, "time, s (default: the end)")->check(not_below_zero());
+  render->add_option("--at", options->at, "time, s (default: the end)")->transform(time_not_below_zero());
   render->add_option("--quality", options->quality, "fast or still (default: still for a picture, fast for a clip)");
   render->add_option("--size", options->size, "WxH in pixels (default: 1280x720)");
   render->add_option("-o", options->file, "FILE.png, or FILE.mp4: 30 frames for each second of the scene")->required();

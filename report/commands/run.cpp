@@ -128,9 +128,9 @@ void add_run(CLI::App& app, Invocation& call) {
   auto* run = app.add_subcommand("run", "runs one method on a scene and writes trajectory, energies and verdict");
   run->add_option("SCENE", options->scene, "a shipped scene or a TOML file")->required();
   run->add_option("--method", options->method, "the method (default: the scene's own)");
-  run->add_option("--step", options->step, "time step of fixed-step methods, s")->check(above_zero());
-  run->add_option("--tol", options->tolerance, "relative tolerance of adaptive methods")->check(above_zero());
-  run->add_option("--duration", options->duration, "simulated time, s")->check(above_zero());
+  run->add_option("--step", options->step, "time step of fixed-step methods, s")->transform(time_above_zero());
+  run->add_option("--tol", options->tolerance, "relative tolerance of adaptive methods")->transform(above_zero());
+  run->add_option("--duration", options->duration, "simulated time, s")->transform(time_above_zero());
   run->add_option(
       "--meshes", options->meshes,
       "obj or ply: writes each sample as a file in DIR/meshes, triangles of cloths and lines of springs, and the "

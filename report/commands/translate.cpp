@@ -234,7 +234,8 @@ void add_translate(CLI::App& app, Invocation& call) {
   translate->add_option("--from", options->from, "METHOD FILE: an engine's numbers (TOML, as --to --out writes them)")
       ->expected(2)
       ->type_name("METHOD FILE");
-  translate->add_option("--step", options->step, "time step, s (the scene's, or the file's)")->check(above_zero());
+  translate->add_option("--step", options->step, "time step, s (the scene's, or the file's)")
+      ->transform(time_above_zero());
   translate->add_option("--iterations", options->iterations, "iterations or sub-steps in a step (the engine's usual)")
       ->check(CLI::Range(1, 1000));
   translate->add_option("--run", options->run,

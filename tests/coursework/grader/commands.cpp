@@ -123,6 +123,12 @@ std::string secret_in(const std::string& file) {
 
 int grade_command(const GradeCommand& given) {
   GradeCommand command = given;
+  const auto is_assignment = [](const std::string& word) {
+    return std::ranges::any_of(assignments(), [&](const Assignment& one) { return one.name == word; });
+  };
+  if (!is_assignment(command.assignment) && is_assignment(command.submission))
+    throw InputError(fmt::format("grade: '{0}' is no assignment; did you mean `crosscheck grade {1} {0}`?",
+                                 command.assignment.substr(0, 60), command.submission));
   const Assignment& assignment = find_assignment(command.assignment);
   if (command.all && command.out.empty()) command.out = "out/grade/" + command.assignment;
   GradeOptions options;

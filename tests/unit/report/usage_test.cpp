@@ -32,6 +32,54 @@ class CliUsage : public Cli {
   }
 };
 
+TEST_F(CliUsage, ProposesTheCommandThatWasMeant) {
+  const struct {
+    std::vector<std::string> words;
+    const char* meant;
+  } slips[] = {
+      {{"run", "leapfrog", "chain"}, "did you mean `crosscheck run chain --method leapfrog`?"},
+      {{"run", "chain", "rk4", "--step", "1e-3"}, "did you mean `crosscheck run chain --method rk4 --step 1e-3`?"},
+      {{"run", "leapfrog"}, "did you mean `crosscheck run SCENE --method leapfrog`?"},
+      {{"compare", "bullet/pbd", "chain"}, "did you mean `crosscheck compare chain --methods bullet/pbd`?"},
+      {{"translate", "chain", "bullet/pbd"}, "did you mean `crosscheck translate chain --to bullet/pbd`?"},
+      {{"advise", "chain", "1e-3"}, "did you mean `crosscheck advise chain --tolerance 1e-3`?"},
+      {{"compare", "chain", "--methods", "leapfrog,", "rk4"}, "did you mean `--methods leapfrog,rk4`?"},
+      {{"report", "chain", "--methods", "leapfrog,", "rk4"}, "did you mean `--methods leapfrog,rk4`?"},
+      {{"experiment", "chain", "order"}, "did you mean `crosscheck experiment order chain`?"},
+      {{"help"}, "did you mean `crosscheck --help`?"},
+      {{"version"}, "did you mean `crosscheck --version`?"},
+      {{"run", "chain", "-o", "x"}, "did you mean '--out'?"},
+      {{"render", "chain", "--out", "x.png"}, "did you mean '-o'?"},
+      {{"regress", "chain", "--methods", "rk4"}, "did you mean '--method'?"},
+      {{"run", "chain", "--stpe", "1e-3"}, "did you mean '--step'?"},
+      {{"run", "chain", "--step", "0,001"}, "did you mean '0.001'?"},
+      {{"run", "chain", "--step", "0,5ms"}, "did you mean '0.5ms'?"},
+      {{"run", "chain", "--step", "1kg"}, "as in 0.001, 1ms or 1/1000, got '1kg'"},
+      {{"run", "chain", "--tol", "1ms"}, "expected a finite number above zero, got '1ms'"},
+      {{"run", "chain", "--step", "1/0"}, "expected a finite number above zero (s)"},
+      {{"translate", "chain", "--to", "jolts"}, "translate also knows jolt, godot; did you mean 'jolt'?"},
+      {{"advise", "chain", "--tolerance", "1kg"}, "such as 0.001 or 1mm"},
+  };
+  for (const auto& [words, meant] : slips) expect_one_line(call(words), 2, meant);
+  EXPECT_EQ(files(), 0);
+}
+
+TEST_F(CliUsage, ProposesAnAssignmentInItsPlace) {
+  const ProgramResult result = call({"grade", "alice.zip", "a1-steppers"});
+  expect_one_line(result, 2, "did you mean `crosscheck grade a1-steppers alice.zip`?");
+}
+
+TEST_F(CliUsage, TakesTimesWithUnitsAndFractions) {
+  write("own.toml", own_scene);
+  for (const char* step : {"0.002", "2ms", "2 ms", "2000us", "1/500", "0.002s"}) {
+    const ProgramResult result = call({"run", "own.toml", "--step", step, "--duration", "100ms"});
+    ASSERT_EQ(result.status, 0) << step << ": " << result.err;
+    const auto run = JsonField::parse(read(folder_ / "out/run/run.json"), "run.json");
+    EXPECT_EQ(run["step"].number(), 0.002) << step;
+    EXPECT_EQ(run["end"].number(), 0.1) << step;
+  }
+}
+
 TEST_F(CliUsage, DoesNotCountWhatAnEngineDoesNotReport) {
   write("own.toml", own_scene);
   make_engine("engine", "#!/bin/sh\n\"$EXAMPLE\" \"$@\" && rm -f \"$2/run.json\"\n");
