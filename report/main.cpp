@@ -1,7 +1,10 @@
 // crosscheck: the table of its commands. A new one is a file in commands/ and a row here.
 
+#include <algorithm>
+
 #include "mysim/base/errors.h"
-#include "mysim/base/this_process.h"
+#include "mysim/base/interruption.h"
+#include "mysim/base/text.h"
 #include "report/commands/command_line.h"
 
 using namespace crosscheck;
@@ -39,8 +42,20 @@ int run(int argc, char** argv) {
       version_text(), commands, argc, argv);
 }
 
+/// Advice for a command that was interrupted; empty for commands that begin anew.
+std::string resumption(std::vector<std::string> words) {
+  const auto given = [&](const char* word) { return std::find(words.begin(), words.end(), word) != words.end(); };
+  const std::string command = words.size() > 1 ? words[1] : "";
+  if (command == "grade" && given("--all")) return "the same command continues it";
+  if (command != "experiment") return "";
+  if (!given("--resume")) words.emplace_back("--resume");
+  words[0] = "crosscheck";
+  return "`" + shell_join(words) + "` continues it";
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
-  return run_supervised([&] { return run_reporting_errors("crosscheck", [&] { return run(argc, argv); }); });
+  return run_supervised([&] { return run_reporting_errors("crosscheck", [&] { return run(argc, argv); }); },
+                        resumption({argv, argv + argc}));
 }

@@ -3,6 +3,8 @@
 
 #include <fmt/format.h>
 
+#include <cerrno>
+#include <cstdio>
 #include <cstdlib>
 #include <filesystem>
 #include <ios>
@@ -23,10 +25,14 @@ std::string path_message(const fs::filesystem_error& error) {
   const std::string reason = error.code().message();
   std::string path = error.path1().string();
   const char* temporary = std::getenv("TMPDIR");
-  if (temporary && *temporary && path == temporary)
-    return fmt::format("TMPDIR {}: {}; expected a folder for temporary files that can be written to", path, reason);
+  // the standard library names no path if that folder is missing
+  if (temporary && *temporary && (path.empty() || path == temporary))
+    return fmt::format("TMPDIR {}: {}; expected a folder for temporary files that can be written to", temporary,
+                       reason);
   if (!error.path2().empty()) path += " -> " + error.path2().string();
   const std::errc code = static_cast<std::errc>(error.code().value());
+  // unfinished results lie in hidden folders: the visible folder around them says which disk is full
+  if (code == std::errc::no_space_on_device) path = path.substr(0, path.find("/."));
   const char* expected = code == std::errc::no_space_on_device          ? "; expected more room on the disk"
                          : code == std::errc::permission_denied         ? "; expected one that you may read and write"
                          : code == std::errc::read_only_file_system     ? "; expected a place that can be written to"
@@ -69,9 +75,14 @@ std::string in_words(const std::exception_ptr& thrown) {
 
 int run_reporting_errors(std::string_view program, const std::function<int()>& work) {
   try {
-    return work();
+    const int status = work();
+    errno = 0;
+    if (std::fflush(stdout) != 0 || std::ferror(stdout) != 0)
+      throw std::system_error(errno != 0 ? errno : EIO, std::generic_category());
+    return status;
   } catch (...) {
-    fmt::print(stderr, "{}: {}\n", program, in_words(std::current_exception()));
+    fmt::print(stderr, "{}: {}{}\n", program, std::ferror(stdout) != 0 ? "standard output: " : "",
+               in_words(std::current_exception()));
     return 2;
   }
 }

@@ -19,6 +19,7 @@
 #include <csignal>
 #include <cstdlib>
 #include <cstring>
+#include <fstream>
 #include <stdexcept>
 #include <string_view>
 
@@ -111,7 +112,12 @@ struct Call {
         environment(c_strings(entries)),
         cwd(folder.string()),
         files(standard_files),
-        in_path(argv[0].find('/') == std::string::npos) {}
+        in_path(argv[0].find('/') == std::string::npos) {
+    std::string first;
+    if (!in_path && std::getline(std::ifstream(folder / argv[0]), first) && first.starts_with("#!") &&
+        first.ends_with('\r'))
+      throw CannotStart(argv[0], "its first line ends with a carriage return (CRLF); expected Unix line ends");
+  }
 
   /// Becomes the program; where that fails, the system's reason is written to the file.
   [[noreturn]] void become(int error_file) const {

@@ -23,6 +23,7 @@
 #include <sstream>
 
 #include "mysim/base/files.h"
+#include "mysim/base/interruption.h"
 #include "mysim/base/output_folder.h"
 
 namespace crosscheck {
@@ -187,7 +188,7 @@ void tidy_results(int notes) {
 
 }  // namespace
 
-int run_supervised(const std::function<int()>& work) {
+int run_supervised(const std::function<int()>& work, const std::string& when_interrupted) {
   const pid_t self = getpid();
   sigset_t waited = ending_signals(), before;
   sigaddset(&waited, SIGCHLD);
@@ -210,8 +211,12 @@ int run_supervised(const std::function<int()>& work) {
   end_descendants();
   remove_stale_temporary_folders();
   if (notes >= 0) tidy_results(notes);
+  if (WIFSIGNALED(status) && !when_interrupted.empty())
+    fmt::print(stderr, "\ncrosscheck: interrupted; {}\n", when_interrupted);
   end_as(status);
 }
+
+int run_supervised(const std::function<int()>& work) { return run_supervised(work, ""); }
 
 void register_output(const std::string& folder) {
   const char* number = std::getenv(notes_variable);

@@ -80,6 +80,27 @@ TEST_F(CliUsage, TakesTimesWithUnitsAndFractions) {
   }
 }
 
+TEST_F(CliUsage, FailsIfStandardOutputCannotBeWritten) {
+  write("own.toml", own_scene);
+  for (const char* words : {"list scenes", "list methods --json", "validate own.toml", "run own.toml", "--version"})
+    expect_one_line(shell(fmt::format("\"$PROGRAM\" {} >/dev/full", words)), 2, "standard output: ");
+}
+
+TEST_F(CliUsage, NamesAMissingFolderForTemporaryFiles) {
+  make_engine("engine", "#!/bin/sh\nexec \"$EXAMPLE\" \"$@\"\n");
+  expect_one_line(shell("\"$PROGRAM\" run chain --method exec:./engine", {"TMPDIR=/no/such/folder"}), 2,
+                  "TMPDIR /no/such/folder: ");
+}
+
+TEST_F(CliUsage, NamesACarriageReturnInAnEnginesFirstLine) {
+  write("own.toml", own_scene);
+  for (const char* first : {"#!/bin/sh\r\n", "#!/usr/bin/env python3\r\n"}) {
+    make_engine("engine", first);
+    const ProgramResult result = call({"run", "own.toml", "--method", "exec:./engine"});
+    EXPECT_NE(result.out.find("its first line ends with a carriage return"), std::string::npos) << result.out;
+  }
+}
+
 TEST_F(CliUsage, DoesNotCountWhatAnEngineDoesNotReport) {
   write("own.toml", own_scene);
   make_engine("engine", "#!/bin/sh\n\"$EXAMPLE\" \"$@\" && rm -f \"$2/run.json\"\n");
@@ -101,6 +122,15 @@ TEST_F(CliUsage, RefusesScenesOfOneNameForALab) {
   for (const char* name : {"a", "b"})
     fs::create_directory(folder_ / name), write(std::string(name) + "/s.toml", own_scene);
   expect_one_line(call({"lab", "a/s.toml", "b/s.toml", "-o", "x.html"}), 2, "expected scenes of different names");
+}
+
+TEST_F(CliUsage, AnInterruptedExperimentSaysHowToContinue) {
+  const ProgramResult result =
+      shell("timeout --preserve-status --signal=INT 0.4 \"$PROGRAM\" experiment stability --full --out o");
+  EXPECT_NE(result.status, 0);
+  EXPECT_NE(result.err.find("interrupted; `crosscheck experiment stability --full --out o --resume` continues it"),
+            std::string::npos)
+      << result.err;
 }
 
 }  // namespace
