@@ -157,26 +157,21 @@ void require_resources_to_keep(const std::vector<Method>& methods, const Scene& 
 
 namespace {
 
-/// Reports a run's progress at its samples and forwards all calls, pairs of states too where the other observes pairs.
-class ProgressObserver : public StatePairObserver {
+/// Reports a run's progress at its samples and forwards all calls.
+class ProgressObserver : public Observer {
  public:
   ProgressObserver(Observer& inner, double duration, Progress& progress)
-      : inner_(inner), pairs_(dynamic_cast<StatePairObserver*>(&inner)), duration_(duration), progress_(progress) {}
+      : inner_(inner), duration_(duration), progress_(progress) {}
   bool every_step() const override { return inner_.every_step(); }
+  bool between_samples() const override { return inner_.between_samples(); }
   Verdict observe(const State& state, bool sample) override {
     if (sample) progress_.part(state.t / duration_);
     return inner_.observe(state, sample);
   }
   void contact(double lost) override { inner_.contact(lost); }
-  bool needs_every_state() const override { return pairs_ && pairs_->needs_every_state(); }
-  void earlier(const State& state) override {
-    if (pairs_) pairs_->earlier(state);
-  }
-  Verdict later(const State& state) override { return pairs_ ? pairs_->later(state) : Verdict::ok; }
 
  private:
   Observer& inner_;
-  StatePairObserver* pairs_;  // the same, where it is one
   double duration_;
   Progress& progress_;
 };

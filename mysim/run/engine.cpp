@@ -15,13 +15,22 @@
 
 namespace crosscheck {
 
-RunLoop::PairSchedule::PairSchedule(Observer& observer, int steps_per_sample)
-    : observer_(steps_per_sample < 2 ? nullptr : dynamic_cast<StatePairObserver*>(&observer)),
-      steps_per_sample_(steps_per_sample) {}
+namespace {
 
-TimeGrid RunLoop::grid_of(const World& world, Run run, bool every_step) {
-  if (world.chooses_steps() && !every_step) run.step = run.duration / run.samples;
-  return time_grid(run);
+int stride_of(const Observer& observer, const TimeGrid& grid, World& world) {
+  if (observer.every_step()) return 1;
+  return observer.between_samples() ? verdict_stride(grid, static_cast<int>(world.state(0).x.cols()))
+                                    : grid.steps_per_sample;
+}
+
+}  // namespace
+
+TimeGrid RunLoop::grid_of(World& world, const Run& run, const Observer& observer) {
+  TimeGrid grid = time_grid(run);
+  if (!world.chooses_steps()) return grid;
+  const int stride = stride_of(observer, grid, world);  // the world crosses it in steps of its own
+  grid.steps_per_sample /= stride, grid.h = run.duration / run.samples / grid.steps_per_sample;
+  return grid;
 }
 
 RunLoop::RunLoop(World& world, const Run& run, Observer& observer)
@@ -29,13 +38,12 @@ RunLoop::RunLoop(World& world, const Run& run, Observer& observer)
       observer_(observer),
       run_(run),
       every_step_(observer.every_step()),
-      grid_(grid_of(world, run, every_step_)),
-      pairs_(observer, grid_.steps_per_sample),
+      grid_(grid_of(world, run, observer)),
+      stride_(stride_of(observer, grid_, world)),
       clock_(run.timed) {
   assert(grid_.h > 0 && grid_.steps_per_sample >= 1 && grid_.samples >= 1);
   out_.step = grid_.h;
   out_.verdict = observer.observe(world.state(0), true);
-  if (pairs_.is_earlier(0) && out_.verdict == Verdict::ok) pairs_.observer().earlier(world.state(0));
   clock_.start();
 }
 
@@ -50,21 +58,14 @@ bool RunLoop::step() {
     return true;
   }
   out_.end = t_next;
-  const bool first = out_.steps++ == 0, sampled = step_ == grid_.steps_per_sample, earlier = pairs_.is_earlier(step_),
-             later = pairs_.is_later(step_);
-  if (!every_step_ && !sampled && !first && !earlier && !later) return true;
+  const bool first = out_.steps++ == 0, sampled = step_ == grid_.steps_per_sample, seen = step_ % stride_ == 0;
+  if (!seen && !first) return true;
 
   clock_.stop();
   if (first && (out_.readback = world_.read_back())) out_.readback->step = grid_.h;
   if (every_step_) world_.report_contact(observer_);
-  if (every_step_ || sampled) out_.verdict = observer_.observe(world_.state(t_next), sampled);
-  if (earlier) pairs_.observer().earlier(world_.state(t_next));
-  if (later && out_.verdict == Verdict::ok) out_.verdict = pairs_.observer().later(world_.state(t_next));
-  if (sampled) {
-    ++sample_, step_ = 0;
-    if (sample_ < grid_.samples && out_.verdict == Verdict::ok && pairs_.is_earlier(0))
-      pairs_.observer().earlier(world_.state(t_next));
-  }
+  if (seen) out_.verdict = observer_.observe(world_.state(t_next), sampled);
+  if (sampled) ++sample_, step_ = 0;
   clock_.start();
   return true;
 }

@@ -52,36 +52,14 @@ class RunLoop {
   Outcome outcome();
 
  private:
-  /// The states that an observer of pairs is shown between two samples (StatePairObserver).
-  class PairSchedule {
-   public:
-    PairSchedule(Observer& observer, int steps_per_sample);
-    StatePairObserver& observer() const { return *observer_; }
-    /// Of the state so many steps after a sample: the first of a pair.
-    bool is_earlier(int step) const {
-      return between(step) && !observer_->needs_every_state() && steps_left(step) == 2;
-    }
-    /// The second of a pair, or any state where the observer needs every state.
-    bool is_later(int step) const {
-      return between(step) && (observer_->needs_every_state() || (step >= 2 && steps_left(step) == 0));
-    }
-
-   private:
-    bool between(int step) const { return observer_ && step < steps_per_sample_; }
-    /// Before the next sample, modulo the distance of pairs.
-    int steps_left(int step) const { return (steps_per_sample_ - step) % StatePairObserver::steps_between_pairs; }
-
-    StatePairObserver* observer_;
-    int steps_per_sample_;
-  };
-  static TimeGrid grid_of(const World& world, Run run, bool every_step);
+  static TimeGrid grid_of(World& world, const Run& run, const Observer& observer);
 
   World& world_;
   Observer& observer_;
   const Run run_;
   const bool every_step_;
   const TimeGrid grid_;
-  const PairSchedule pairs_;
+  const int stride_;  // steps between two states that the observer sees
   CpuClock clock_;
   int sample_ = 0, step_ = 0;  // samples so far, and steps since the last
   Outcome out_;

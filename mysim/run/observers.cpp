@@ -168,6 +168,8 @@ std::optional<MotionBounds> MotionBoundsCache::operator()(const Scene& scene, co
 DivergenceMonitor::DivergenceMonitor(const Scene& scene, const Run& run, MotionBoundsFunction bounds)
     : DivergenceMonitor(scene.model, &scene.start) {
   true_motion_bounds_ = [&scene, &run, bounds = std::move(bounds)] { return bounds(scene, run); };
+  const TimeGrid grid = time_grid(run);
+  interval_ = verdict_stride(grid, scene.model.particles.size()) * grid.h;
 }
 
 DivergenceMonitor::DivergenceMonitor(const Model& model, const State* start) : model_(model) {
@@ -179,11 +181,6 @@ DivergenceMonitor::DivergenceMonitor(const Model& model, const State* start) : m
         const double speed = (1 + s.restitution) * max_speed(*s.motion);
         moving_sphere_energy_ += model.particles.mass.sum() * speed * speed;
       }
-  // an engine that pushes a resting particle out of a contact hands it a little speed: that of a fall by a millimetre
-  if (const auto* gravity = model.find<Gravity>(); gravity && model.find<Spheres>()) {
-    contact_energy_ = 1e-3 * model.particles.mass.sum() * gravity->acceleration.norm();
-    contact_speed_ = std::sqrt(2e-3 * gravity->acceleration.norm());
-  }
   if (model.find<Wind>() || model.find<Aerodynamics>() || model.particles.move)
     ledger_.emplace(model, ContactLoss::reported);
 }
@@ -194,6 +191,17 @@ void DivergenceMonitor::begin(const State& state) {
   if (start_->v.cols() != start_->x.cols()) start_->v = Points::Zero(3, start_->x.cols());
   State& start = *start_;
   const Particles& particles = model_.particles;
+  // an engine that pushes a resting particle out of a contact gives it a small speed: that of a fall by 1/256 of the
+  // smaller of sphere and scene
+  const auto* spheres = model_.find<Spheres>();
+  if (const auto* gravity = model_.find<Gravity>(); gravity && spheres) {
+    const double extent = (start.x.rowwise().maxCoeff() - start.x.rowwise().minCoeff()).norm();
+    double length = extent > 0 ? extent : std::numeric_limits<double>::infinity();
+    for (const Sphere& s : spheres->list) length = std::min(length, s.contact_radius());
+    const double fall = length / 256 * gravity->acceleration.norm();
+    contact_energy_ = particles.mass.sum() * fall;
+    contact_speed_ = std::sqrt(2 * fall);
+  }
   const Energy energy = energy_of(model_, start);
   initial_energy_ = energy.kinetic + energy.elastic + moving_sphere_energy_ + contact_energy_;
   initial_gravitational_ = energy.gravitational;
@@ -217,19 +225,29 @@ bool DivergenceMonitor::frozen(const State& state) {
   first_.reset();
   freeze_checked_ = true;
   if (model_.find<Constraints>()) return false;
+  const bool velocities = state.v.cols() == state.x.cols();
   for (int i = 0; i < start.x.cols(); ++i)
-    if (!model_.particles.pinned[i] && (state.x.col(i) != start.x.col(i) || state.v.col(i) != start.v.col(i)))
+    if (!model_.particles.pinned[i] &&
+        (state.x.col(i) != start.x.col(i) || (velocities && state.v.col(i) != start.v.col(i))))
       return false;
   System system(model_);
-  State stage = start;
+  State stage = *start_;
   Points a(3, stage.x.cols());
   system.acceleration(stage, a);
   const auto* spheres = model_.find<Spheres>();
-  // what moves must be seen in the last bit: a displacement of 1e-12 of the coordinates, well above their rounding
-  const double seen = 1e-12 * (1 + start.x.cwiseAbs().maxCoeff()), t = state.t - start.t;
+  const auto touches = [&](const Vec3& x) {  // to within a few roundings in single precision
+    return spheres && std::ranges::any_of(spheres->list, [&](const Sphere& s) {
+             const Vec3 centre = s.centre_at(start.t);
+             return (x - centre).norm() < s.contact_radius() * (1 + 1e-6) + 1e-6 * centre.norm();
+           });
+  };
+  // a displacement must exceed the rounding of the coordinates (in single precision where no velocities show what is
+  // less) and, where forces balance, that of spring forces, some roundings of omega^2 times a coordinate
+  const double t = state.t - start.t, omega = highest_frequency_bound(model_, start),
+               seen = start.x.cwiseAbs().maxCoeff() * ((velocities ? 1e-12 : 1e-6) + 1e-15 * omega * omega * t * t);
   for (int i = 0; i < start.x.cols(); ++i)
-    if (!model_.particles.pinned[i] && (start.v.col(i) * t + a.col(i) * (t * t / 2)).norm() > seen &&
-        !(spheres && clearance_from(*spheres, start.t, start.x.col(i)) < 1e-6))
+    if (!model_.particles.pinned[i] && (start_->v.col(i) * t + a.col(i) * (t * t / 2)).norm() > seen &&
+        !touches(start.x.col(i)))
       return true;
   return false;
 }
@@ -268,8 +286,7 @@ Verdict DivergenceMonitor::beyond_bounds() const {
   return largest_length_ratio_ > allowed * std::max(bounds_->stretch, 1.) ? Verdict::stretch : Verdict::ok;
 }
 
-Verdict DivergenceMonitor::goes_too_far(const State& state) {
-  largest_length_ratio_ = std::max(largest_length_ratio_, largest_length_ratio(model_, *start_, state.x));
+Verdict DivergenceMonitor::goes_too_far() {
   if (true_motion_bounds_ && !bounds_ &&
       (largest_ratio_ > ratio_in_order || largest_length_ratio_ > length_bound * initial_length_ratio_)) {
     bounds_ = true_motion_bounds_();
@@ -277,50 +294,46 @@ Verdict DivergenceMonitor::goes_too_far(const State& state) {
   }
   if (bounds_) return beyond_bounds();
   if (true_motion_bounds_) return Verdict::ok;
-  // no true motion to compare with
+  // there is no true motion
   if (largest_ratio_ > ratio_suspect) return Verdict::energy;
   return largest_length_ratio_ > allowed * length_bound * initial_length_ratio_ ? Verdict::stretch : Verdict::ok;
 }
 
-void DivergenceMonitor::earlier(const State& state) {
-  if (every_step()) return;
-  before_.t = state.t, before_.x = state.x;
-  paired_ = true;
-}
-
 Verdict DivergenceMonitor::observe(const State& state, bool sample) {
-  // neither are numbers whose squares, which every error and energy is made of, are infinite
+  // a number whose square is infinite fails too: every error and energy is made of squares
   if (!std::isfinite(state.x.squaredNorm()) || !std::isfinite(state.v.squaredNorm())) return Verdict::nan;
   if (model_.first_order()) return Verdict::ok;  // no energy to judge by
   if (!begun_) begin(state);
-  const Verdict moves = paired_ || seen_ >= 2 ? moves_too_fast(state) : Verdict::ok;
-  if (!paired_) {
-    std::swap(before_, last_);
-    last_.t = state.t, last_.x = state.x;
-    ++seen_;
-  }
-  paired_ = false;
-  if (!needs_every_state_ && !every_step() && largest_ratio_ > ratio_in_order) needs_every_state_ = true, seen_ = 0;
-  if (!sample || moves != Verdict::ok) return moves;
-  if (state.v.cols() == state.x.cols()) {
-    if (!first_ && !freeze_checked_)
-      first_ = state;
-    else if (first_ && frozen(state))
-      return Verdict::frozen;
-  }
-  return goes_too_far(state);
+  const Verdict moves = seen_ >= 2 ? moves_too_fast(state) : Verdict::ok;
+  std::swap(before_, last_);
+  last_.t = state.t, last_.x = state.x;
+  ++seen_;
+  if (moves != Verdict::ok) return moves;
+  largest_length_ratio_ = std::max(largest_length_ratio_, largest_length_ratio(model_, *start_, state.x));
+  if (!sample) return Verdict::ok;
+  if (!first_ && !freeze_checked_)
+    first_ = state;
+  else if (first_ && frozen(state))
+    return Verdict::frozen;
+  return goes_too_far();
 }
 
-Verdict DivergenceMonitor::later(const State& state) { return every_step() ? Verdict::ok : observe(state, false); }
+bool MonitoredObservers::every_step() const {
+  return std::ranges::any_of(others_, [](const Observer* o) { return o->every_step(); });
+}
 
 Verdict MonitoredObservers::observe(const State& state, bool sample) {
-  const Verdict others = others_.observe(state, sample);
-  const Verdict own = sample || monitor_.every_step() ? monitor_.observe(state, sample) : Verdict::ok;
-  return others == Verdict::ok ? own : others;
+  const bool due = sample || monitor_.due(state.t);
+  Verdict first = Verdict::ok;
+  for (Observer* o : others_)
+    if (sample || o->every_step() || (due && o->between_samples()))
+      if (const Verdict v = o->observe(state, sample); first == Verdict::ok) first = v;
+  const Verdict own = due ? monitor_.observe(state, sample) : Verdict::ok;
+  return first == Verdict::ok ? own : first;
 }
 
-void MonitoredObservers::earlier(const State& state) { monitor_.earlier(state); }
-
-Verdict MonitoredObservers::later(const State& state) { return monitor_.later(state); }
+void MonitoredObservers::contact(double lost) {
+  for (Observer* o : others_) o->contact(lost);
+}
 
 }  // namespace crosscheck

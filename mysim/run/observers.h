@@ -139,7 +139,7 @@ class MotionBoundsCache {
 /// (kinetic and elastic energy and accelerations at the start, and what moving spheres may give), a run is
 ///   in order while K^ <= B, and no spring is longer than three times what the longest was at the start or at rest,
 ///   blown up when K^ > 1000 B, at once,
-///   held against the true motion from the next sample on otherwise.
+///   compared with the true motion from the next sample on otherwise.
 ///
 /// Why B: on a mode of frequency omega leapfrog and symplectic Euler go through x_n = A cos(n theta + phi) with
 /// sin(theta / 2) = h omega / 2, so that v^_n^2 + omega^2 (1 - (h omega / 2)^2) x_n^2 is the same at every step. Hence
@@ -151,28 +151,25 @@ class MotionBoundsCache {
 /// that lies in a hollow has far more energy than it can ever move with. tests/unit/experiments/verdict_trials.cpp
 /// counts how often a verdict errs.
 ///
-/// It observes every step where the work of wind or pins is added up and once K^ has passed B, else at pairs of states
-/// (run.h). Of engines that deliver samples alone the difference spans two sampling intervals: a mean
-/// velocity, which is no larger. No good run is condemned by it, but what only shakes to and fro between two samples,
-/// or is over before the third, is seen by being not finite or too long. Where there is no true motion to be had (hard
-/// distances; a monitor without a scene) K^ > 10 B is a failure, and thirty times the length of the start.
+/// It observes the states that every engine shows (verdict_stride, run.h): every step of most runs. Where they are more
+/// than a step apart, the differences are mean velocities, which are no larger: no good run is condemned, but motion
+/// that only reverses between two states is detected by lengths and non-finite numbers alone. Where there is no true
+/// motion (hard distances; a monitor without a scene) K^ > 10 B is a failure, and thirty times the length of the start.
 ///
 /// Verdict::frozen when at the first sample no free particle has moved or gained speed, bit for bit, although one that
 /// touches no sphere was accelerated at the start: an engine that dropped its forces, or a body put to sleep. (Not
-/// checked under hard distances, whose forces may balance, nor where no velocities are reported.)
-class DivergenceMonitor : public StatePairObserver {
+/// checked under hard distances, whose forces may balance.)
+class DivergenceMonitor : public Observer {
  public:
   /// Of a run of the scene; both must outlive it. `bounds` gives those of the true motion.
   DivergenceMonitor(const Scene& scene, const Run& run, MotionBoundsFunction bounds = motion_bounds_of);
   /// Of a caller that knows no more than the model. The energy at the start is that of `start`, where engines may not
   /// report velocities; else of the first state shown.
   explicit DivergenceMonitor(const Model& model, const State* start = nullptr);
-  bool every_step() const override { return ledger_.has_value(); }
+  bool between_samples() const override { return true; }
   Verdict observe(const State& state, bool sample) override;
-  /// Where K^ has passed B.
-  bool needs_every_state() const override { return needs_every_state_; }
-  void earlier(const State& state) override;
-  Verdict later(const State& state) override;
+  /// True if the verdict is based on the state at time t (s), whichever others are shown.
+  bool due(double t) const { return !begun_ || t - last_.t >= (1 - 1e-6) * interval_; }
 
   /// The largest K^ / B so far.
   double largest_ratio() const { return largest_ratio_; }
@@ -190,10 +187,10 @@ class DivergenceMonitor : public StatePairObserver {
   };
   void begin(const State& state);
   bool frozen(const State& state);
-  /// By what was seen two steps before; not ok either where a part of B is not finite.
+  /// By the state before the last; not ok either where a part of B is not finite.
   Verdict moves_too_fast(const State& state);
   /// At a sample: the verdict by lengths, and by the true motion where it is needed.
-  Verdict goes_too_far(const State& state);
+  Verdict goes_too_far();
   Verdict beyond_bounds() const;
 
   const Model& model_;
@@ -202,20 +199,20 @@ class DivergenceMonitor : public StatePairObserver {
   std::optional<State> start_;
   std::optional<Ledger> ledger_;  // only where wind or moved pins do work
   std::optional<State> first_;    // until the sample after it
+  double interval_ = 0;           // s, between two states that are due; 0: all are
   bool freeze_checked_ = false;   // whether frozen() was called
   bool begun_ = false;
-  Seen before_, last_;  // of the states shown; `paired_`: before_ is two steps before the next
+  Seen before_, last_;  // the last two states shown
   int seen_ = 0;
-  bool paired_ = false, needs_every_state_ = false;
   double moving_sphere_energy_ = 0;  // J, the most that moving spheres are expected to give
-  double contact_energy_ = 0;        // J, what corrections at contacts may give
+  double contact_energy_ = 0;        // J, the most that corrections at contacts are expected to give
   double initial_energy_ = 0;  // J, kinetic and elastic at the start and what moving spheres and contacts may give
   double initial_gravitational_ = 0;  // J, gravitational at the start
   double gravitational_change_ = 0;   // J, the largest change of it
   double external_work_ = 0;          // J, the largest work of wind and moved pins so far
   double squared_acceleration_ = 0;   // kg m^2/s^4, sum of m |a_0|^2
   double squared_rounding_ = 0;       // kg m^2, sum of m/2 |rounding of a position|^2
-  double contact_speed_ = 0;          // m/s, what a contact may hand to what rests
+  double contact_speed_ = 0;          // m/s, that a correction at a contact may give to a particle at rest
   double position_rounding_ = 0;      // m, of a position
   double largest_ratio_ = 0;
   double largest_speed_ = 0;         // m/s, of a free particle, less what roundings may be
@@ -225,20 +222,18 @@ class DivergenceMonitor : public StatePairObserver {
 
 /// Other observers and a monitor as one. The monitor sees the same states whichever other observers see every step, so
 /// that other observers change no verdict.
-class MonitoredObservers : public StatePairObserver {
+class MonitoredObservers : public Observer {
  public:
   MonitoredObservers(DivergenceMonitor& monitor, std::vector<Observer*> others)
       : monitor_(monitor), others_(std::move(others)) {}
-  bool every_step() const override { return monitor_.every_step() || others_.every_step(); }
+  bool every_step() const override;
+  bool between_samples() const override { return true; }
   Verdict observe(const State& state, bool sample) override;
-  bool needs_every_state() const override { return monitor_.needs_every_state(); }
-  void contact(double lost) override { others_.contact(lost); }
-  void earlier(const State& state) override;
-  Verdict later(const State& state) override;
+  void contact(double lost) override;
 
  private:
   DivergenceMonitor& monitor_;
-  Observers others_;
+  std::vector<Observer*> others_;
 };
 
 }  // namespace crosscheck

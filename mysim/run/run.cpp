@@ -72,6 +72,13 @@ TimeGrid time_grid(const Run& run) {
   return {interval / steps, steps, run.samples};
 }
 
+int verdict_stride(const TimeGrid& grid, int particles) {
+  const int n = grid.steps_per_sample;
+  int states = std::clamp(std::min(8192, (1 << 20) / std::max(1, particles)) / grid.samples, 1, n);  // per sample
+  while (n % states != 0) --states;
+  return n / states;
+}
+
 bool Observers::every_step() const {
   return std::any_of(list_.begin(), list_.end(), [](const Observer* o) { return o->every_step(); });
 }

@@ -45,6 +45,10 @@ struct TimeGrid {
 };
 /// Throws InputError when the step is so small that a sampling interval would take more than 1e9 of them.
 TimeGrid time_grid(const Run& run);
+/// Steps between two states that a verdict is based on: the smallest divisor of a sampling interval with which a run
+/// has at most 8192 such states, and at most 2^20 particle positions in them. Outside programs are asked for the same
+/// states, so that every engine is judged on the same evidence.
+int verdict_stride(const TimeGrid& grid, int particles);
 
 /// Observes the states of a run.
 class Observer {
@@ -52,6 +56,8 @@ class Observer {
   virtual ~Observer() = default;
   /// True: sees every step. False: sees the start and the samples only.
   virtual bool every_step() const { return false; }
+  /// True: sees every verdict_stride-th step between two samples, too.
+  virtual bool between_samples() const { return false; }
   /// Anything but Verdict::ok ends the run.
   virtual Verdict observe(const State& state, bool sample) = 0;
   /// Something touched in the last step, and this is what it took, J (contacts.h says how it is counted): called before
@@ -129,6 +135,7 @@ struct Outcome {
   std::string reason;                      // one sentence when the verdict is not ok
   double end = 0;                          // s, last time reached; the time of failure when the verdict is not ok
   double step = 0;                         // s, as used; the mean of adaptive methods
+  bool adaptive = false;                   // an outside program reports that it chooses its steps
   double tolerance = 0;                    // 1, of adaptive methods; 0 elsewhere
   long steps = 0;                          // taken
   long evaluations = 0;                    // of the right-hand side, or the engine's own force passes
@@ -141,22 +148,5 @@ struct Outcome {
 };
 
 using Engine = std::function<Outcome(const Scene&, const Run&, Observer&)>;
-
-// Pairs of states two steps apart, for observers that need differences but not every step.
-
-/// An observer of samples that is also shown, by the run loop, the state two steps before each sample (where a sampling
-/// interval has two steps or more), and such a pair every `steps_between_pairs` steps before it, whichever observers
-/// see every step. Where only samples are known (outside programs, adaptive rules) neither function is called.
-class StatePairObserver : public Observer {
- public:
-  static constexpr int steps_between_pairs = 16;
-  /// Once true it stays so: later() is then shown every state between two samples, and earlier() none.
-  virtual bool needs_every_state() const { return false; }
-  /// The state two steps before the next that is shown.
-  virtual void earlier(const State& state) = 0;
-  /// The state two steps after that one, or any where every state is needed, between two samples. Anything but
-  /// Verdict::ok ends the run.
-  virtual Verdict later(const State& state) = 0;
-};
 
 }  // namespace crosscheck

@@ -35,7 +35,7 @@ void certify_motion(const Scene& scene, const Readback& r, CertificateWriter& w)
   auto row = [&](const std::string& quantity, const std::optional<Motion>& motion, const Points& ours,
                  const Points& reported) {
     const double off = reported.cols() == ours.cols() ? largest_column(ours - reported) : NAN;
-    const bool same = off <= w.tolerance() * (1 + largest_column(ours));
+    const bool same = off <= w.tolerance() * (scene.size() + largest_column(ours));
     if (!motion && same) return;
     w.row(quantity,
           motion ? fmt::format("({:.6g}, {:.6g}, {:.6g}) m at {:.6g} Hz", motion->amplitude.x(), motion->amplitude.y(),
@@ -139,10 +139,12 @@ Certificate certify(const std::string& method, const Scene& scene, const Outcome
   certify_springs(scene, r, w);
   certify_terms(scene, r, w);
   const std::string step = fmt::format("{:.6g} s", outcome.step);
-  if (r.step)
+  if (outcome.adaptive)
+    w.row("step", step, "chosen by the engine", Parity::unattested);
+  else if (r.step)
     // single precision has no 0.001: the nearest is off by half an ulp
     w.row("step", step, fmt::format("{:.6g} s", *r.step),
-          std::abs(*r.step - outcome.step) <= (r.precision == "single" ? 0x1p-24 * outcome.step : 0));
+          std::abs(*r.step - outcome.step) <= (r.precision == "single" ? 0x1p-24 : w.tolerance()) * outcome.step);
   else
     w.add_unattested("step", step);
   w.row("precision", "double", r.precision, r.precision == "double" ? Parity::match : Parity::different_law);

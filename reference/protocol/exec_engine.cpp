@@ -174,14 +174,20 @@ std::string misled_pin(const Frames& frames, const Scene& scene, const Run& run,
       which, worst, when, allowed);
 }
 
-Outcome run_outside_engine(const Program& program, const Scene& scene, const Run& run, Observer& observer) {
+Outcome run_outside_engine(const Program& program, const Scene& scene, const Run& asked, Observer& observer) {
+  // the program writes every state that verdicts are based on, as many as engines in this process show
+  const TimeGrid grid = time_grid(asked);
+  const int per_sample =
+      observer.between_samples() ? grid.steps_per_sample / verdict_stride(grid, scene.model.particles.size()) : 1;
+  Run run = asked;
+  run.samples *= per_sample;
   const TemporaryFolder folder("engine");
   const fs::path task = folder.path / "scene.json", results = folder.path / "out";
   write_file(task, scene_json(scene, run, program.options));
   fs::create_directory(results);
 
   Outcome out;
-  out.step = time_grid(run).h;
+  out.step = grid.h;
   ProgramResult end;
   try {
     end = run_program({program.path.string(), task.string(), results.string()}, ".", {}, program.timeout);
@@ -212,13 +218,13 @@ Outcome run_outside_engine(const Program& program, const Scene& scene, const Run
     std::string what = broken.what();
     if (what.starts_with(results.string() + "/")) what.erase(0, results.string().size() + 1);
     Outcome none;
-    none.step = time_grid(run).h;
+    none.step = grid.h;
     none.process_seconds = end.cpu_seconds;
     return failed(none, Verdict::crash, "did not deliver: " + what, end);
   }
   const Verdict reported = out.verdict;
   const std::string misled = misled_pin(frames, scene, run, out);
-  replay(frames, scene, run, observer, out);
+  replay(frames, scene, run, observer, out, per_sample);
   if (reported != Verdict::ok && out.reason.empty()) out.reason = "by the program's own word";
 
   auto remark = [&](const std::string& what) { out.remark += (out.remark.empty() ? "" : "; ") + what; };
@@ -226,8 +232,10 @@ Outcome run_outside_engine(const Program& program, const Scene& scene, const Run
     remark("it wrote on stderr, last: " + last_stderr_line);
   if (!misled.empty()) remark(misled);
   if (end.left_children) remark("it left a process behind, which was killed");
-  if (out.step != time_grid(run).h)
-    remark(fmt::format("it took steps of {:.6g} s, asked were {:.6g} s", out.step, time_grid(run).h));
+  if (std::abs(out.step - grid.h) <= 1e-12 * grid.h)
+    out.step = grid.h;  // equal but for rounding
+  else if (!out.adaptive)
+    remark(fmt::format("it took steps of {:.6g} s, asked were {:.6g} s", out.step, grid.h));
   return out;
 }
 

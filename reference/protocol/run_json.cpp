@@ -143,6 +143,7 @@ std::string run_json(const Outcome& out) {
             {"coincident_springs", out.degenerate_springs},
             {"cpu_seconds", out.cpu_seconds},
             {"different_law", out.different_law}};
+  if (out.adaptive) json["adaptive"] = true;
   if (out.readback) json["readback"] = readback_json(*out.readback);
   return json.dump(1) + "\n";
 }
@@ -177,6 +178,7 @@ void read_run_json(const std::filesystem::path& path, Outcome& out, double durat
   count("steps", out.steps);
   count("force_evaluations", out.evaluations);
   count("coincident_springs", out.degenerate_springs);
+  if (const auto adaptive = f.find("adaptive")) out.adaptive = adaptive->boolean();
   if (const auto laws = f.find("different_law")) {
     for (const JsonField& law : laws->elements()) {
       // "ingredient: how it differs", as the certificate prints it

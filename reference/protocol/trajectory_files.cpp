@@ -171,12 +171,14 @@ std::vector<Points> read_positions(const std::filesystem::path& file, const Scen
   return x;
 }
 
-void replay(const Frames& frames, const Scene& scene, const Run& run, Observer& observer, Outcome& out) {
+void replay(const Frames& frames, const Scene& scene, const Run& run, Observer& observer, Outcome& out,
+            int per_sample) {
   const TimeGrid steps = time_grid(run);
   const bool moving = !scene.model.first_order() && !frames.v.empty();
   for (size_t i = 0; i < frames.x.size(); ++i) {
     const double t = steps.time(static_cast<int>(i), 0);
-    const Verdict verdict = observer.observe({t, frames.x[i], moving ? frames.v[i] : Points(3, 0)}, true);
+    const bool sample = i % static_cast<size_t>(per_sample) == 0;
+    const Verdict verdict = observer.observe({t, frames.x[i], moving ? frames.v[i] : Points(3, 0)}, sample);
     out.end = t;
     if (verdict == Verdict::ok) continue;
     out.verdict = verdict;

@@ -62,7 +62,9 @@ struct Frames {
 std::vector<Points> read_positions(const std::filesystem::path& file, const Scene& scene, const Run& run,
                                    bool may_be_truncated = false);
 
-/// Shows the frames to the observer; fills verdict, reason and end of the outcome when the observer ends the run.
-void replay(const Frames& frames, const Scene& scene, const Run& run, Observer& observer, Outcome& out);
+/// Shows the frames to the observer, every `per_sample`-th as a sample; fills verdict, reason and end of the outcome
+/// when the observer ends the run.
+void replay(const Frames& frames, const Scene& scene, const Run& run, Observer& observer, Outcome& out,
+            int per_sample = 1);
 
 }  // namespace crosscheck

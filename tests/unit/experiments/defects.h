@@ -18,6 +18,7 @@ class ChangedStates : public Observer {
   using Change = std::function<void(State&)>;
   ChangedStates(Observer& to, Change change) : to_(to), change_(std::move(change)) {}
   bool every_step() const override { return to_.every_step(); }
+  bool between_samples() const override { return to_.between_samples(); }
   Verdict observe(const State& state, bool sample) override {
     State changed = state;
     change_(changed);

@@ -153,11 +153,10 @@ inline TrialScene trial_scene(Random& random) {
 /// it.
 class UnstoppedRun : public Observer {
  public:
-  /// There are two monitors: one is shown all steps, the other pairs of states, as in runs. `most_*`: what counts as
+  /// There are two monitors: one sees all steps, the other those that verdicts are based on. `most_*`: what counts as
   /// within.
   UnstoppedRun(const TrialScene& trial, const Run& run, double most_stretch, double most_speed)
       : trial_(trial),
-        steps_(time_grid(run)),
         most_stretch_(most_stretch),
         most_speed_(most_speed),
         all_(trial.scene, run),
@@ -174,19 +173,8 @@ class UnstoppedRun : public Observer {
     if (left == 0 && step_ > 0 && (stretch > most_stretch_ || speed > most_speed_)) left = step_;
     const Verdict now = all_.observe(state, sample);
     if (by_all == Verdict::ok && (by_all = now) != Verdict::ok) when_all = step_;
-    if (by_pairs == Verdict::ok) {
-      const int before = static_cast<int>(steps_.steps_per_sample - 1 - (step_ - 1) % steps_.steps_per_sample);
-      const bool pairs = steps_.steps_per_sample > 1;
-      constexpr int between = StatePairObserver::steps_between_pairs;
-      if (pairs_.every_step() || sample)
-        by_pairs = pairs_.observe(state, sample);
-      else if (pairs &&
-               (pairs_.needs_every_state() || (before % between == 0 && steps_.steps_per_sample - before >= 2)))
-        by_pairs = pairs_.later(state);
-      const int next = sample ? steps_.steps_per_sample : before;
-      if (pairs && !pairs_.needs_every_state() && next % between == 2) pairs_.earlier(state);
-      if (by_pairs != Verdict::ok) when_pairs = step_;
-    }
+    if (by_pairs == Verdict::ok && (sample || pairs_.due(state.t)))
+      if ((by_pairs = pairs_.observe(state, sample)) != Verdict::ok) when_pairs = step_;
     return finite ? Verdict::ok : Verdict::nan;
   }
   double largest_ratio() const { return all_.largest_ratio(); }
@@ -211,7 +199,6 @@ class UnstoppedRun : public Observer {
   }
 
   const TrialScene& trial_;
-  TimeGrid steps_;
   double most_stretch_, most_speed_;
   DivergenceMonitor all_, pairs_;
   State before_, last_;

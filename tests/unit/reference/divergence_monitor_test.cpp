@@ -60,13 +60,12 @@ TEST(DivergenceMonitorOnASpring, JudgesAtTheStepOfLeavingOrTheNextSample) {
 }
 
 TEST(DivergenceMonitorOnASpring, SeesBlowUpsBetweenSamples) {
-  // a tenth above the limit K^ grows by exp(2 * 0.887) a step: from B to 1000 B in four, which are looked at closely
-  // from the pair on that has passed B
+  // a tenth above the limit K^ grows by exp(2 * 0.887) a step: from B to 1000 B in four, and all steps are seen
   const Scene scene = kilogram(1.1, 0);
   const double h = 0.22;
   const MethodRun a = run_and_record("leapfrog", scene, {h, h * 2000, 2});
   EXPECT_EQ(a.outcome.verdict, Verdict::energy);
-  EXPECT_LE(a.outcome.steps, 3 * StatePairObserver::steps_between_pairs);
+  EXPECT_LE(a.outcome.steps, 48);
 }
 
 TEST(DivergenceMonitorOnASpring, JudgesGrowthThatIsCertainAsRun) {
