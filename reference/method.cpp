@@ -2,6 +2,7 @@
 #include "reference/method.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <filesystem>
@@ -9,6 +10,7 @@
 #include "mysim/base/errors.h"
 #include "mysim/base/text.h"
 #include "mysim/run/observers.h"
+#include "reference/which_rule.h"
 
 namespace crosscheck {
 namespace {
@@ -105,6 +107,12 @@ std::string short_name(const std::string& method) {
   return family_of(method).is_subject() ? method.substr(method.find('/') + 1) : method;
 }
 
+std::string program_title(const std::string& method) {
+  std::vector<std::string> parts = split(method.substr(method.find(':') + 1), '+');
+  parts[0] = std::filesystem::path(parts[0]).stem().string();
+  return fmt::format("{}", fmt::join(parts, ", "));
+}
+
 std::string sticky_method() { return std::string(subject().representative) + "+sticky"; }
 
 std::span<const Method> builtin_methods() {
@@ -163,10 +171,27 @@ Method find_method(const std::string& text) {
 
 const Stepper* stepper_of(const Method& method) {
   if (method.stepper) return method.stepper;
-  const std::string name = method.rule == "implicit-euler+linear" ? "implicit-euler" : method.rule;
+  const std::string name = method.identify                          ? method.identify().like
+                           : method.rule == "implicit-euler+linear" ? "implicit-euler"
+                                                                    : method.rule;
   for (const Stepper& rule : steppers())
     if (rule.name == name) return &rule;
   return nullptr;
+}
+
+std::string rule_on(const Method& method, const Model& model) {
+  if (!method.identify) return method.rule;
+  const FoundRule& found = method.identify();
+  const auto tried = [&](const char* ingredient) { return found.tried.find(ingredient) != std::string::npos; };
+  const auto* springs = model.find<Springs>();
+  const bool known =
+      found.kind == FoundRule::same && !model.particles.move && !model.first_order() &&
+      (model.particles.pins.empty() || tried("pins")) && (!springs || springs->law == SpringLaw::hooke) &&
+      std::ranges::all_of(model.terms, [&](const Term& term) {
+        return std::holds_alternative<Springs>(term) || (std::holds_alternative<Gravity>(term) && tried("gravity")) ||
+               (std::holds_alternative<Drag>(term) && found.own_drag);
+      });
+  return known ? found.rule : "";
 }
 
 std::vector<Method> find_methods(const std::string& list) {
@@ -175,13 +200,47 @@ std::vector<Method> find_methods(const std::string& list) {
   return methods;
 }
 
-/// Of mysim: simulate(), mysim/run/engine.cpp.
+namespace {
+
+/// The largest speed of a free particle from one state that verdicts are based on to the next, m/s. The verdict goes by
+/// differences over two, from which a vibration that reverses in every step is absent; a stable one may swing in them
+/// near its limit, which is no failure.
+class PeakSpeed : public Observer {
+ public:
+  explicit PeakSpeed(const Scene& scene) : particles_(scene.model.particles) {}
+  bool between_samples() const override { return true; }
+  Verdict observe(const State& state, bool) override {
+    for (int i = 0; x_.cols() > 0 && state.t > t_ && i < particles_.size(); ++i)
+      if (!particles_.pinned[i]) peak = std::max(peak, (state.x.col(i) - x_.col(i)).norm() / (state.t - t_));
+    x_ = state.x, t_ = state.t;
+    return Verdict::ok;
+  }
+  double peak = 0;
+
+ private:
+  const Particles& particles_;
+  Points x_;
+  double t_ = 0;
+};
+
+}  // namespace
+
+/// Runs of mysim: simulate(), mysim/run/engine.cpp.
 Outcome run_method(const Method& method, const Scene& scene, const Run& run, std::vector<Observer*> observers,
                    const MotionBoundsFunction& bounds) {
   DivergenceMonitor monitor(scene, run, bounds);
+  PeakSpeed speed(scene);
+  observers.push_back(&speed);
   MonitoredObservers all(monitor, std::move(observers));
   try {
-    return method.engine(scene, run, all);
+    Outcome out = method.engine(scene, run, all);
+    if (out.verdict != Verdict::ok || monitor.largest_ratio() <= DivergenceMonitor::ratio_in_order) return out;
+    if (const auto known = bounds(scene, run); known && speed.peak > DivergenceMonitor::allowed * known->speed)
+      out.remark += fmt::format(
+          "{}from one step to the next a particle moved up to {:.3g} times as fast as in the true "
+          "motion; the step is at its limit or above",
+          out.remark.empty() ? "" : "; ", speed.peak / known->speed);
+    return out;
   } catch (const Unsupported& refusal) {
     Outcome out;
     out.verdict = Verdict::unsupported;

@@ -66,6 +66,8 @@ using FamilyFilter = std::function<bool(const MethodFamily&)>;
 /// The family of a method's name, or of a family's; what has no other is a program's, of `exec:`.
 const MethodFamily& family_of(std::string_view name);
 
+struct FoundRule;
+
 struct Method {
   std::string name;     // full, e.g. "mysim/leapfrog+sticky"
   std::string what;     // one line for people
@@ -77,9 +79,10 @@ struct Method {
   bool implicit = false;             // solves an equation in each step
   bool position_based = false;
   bool multistep = false;
-  bool splits_dashpots = false;             // solves them after an explicit step
-  std::string on_one_spring = {};           // the rule that it is on one linear spring; empty: `rule`
-  std::string fingerprint = {};             // of an outside program's or trajectory's file; empty for what is built in
+  bool splits_dashpots = false;    // solves them after an explicit step
+  std::string on_one_spring = {};  // the rule that it is on one linear spring; empty: `rule`
+  std::string fingerprint = {};    // hash of an outside program's or trajectory's file; empty for built-in methods
+  std::function<const FoundRule&()> identify = {};  // the rule that the runs of an outside program show (which_rule.h)
   bool counts_evaluations = true;           // false: its steps alone are known, and not what its solver takes for each
   bool sticky_contact = false;              // a touching particle is put back to where it came from
   SpringLaw spring_law = SpringLaw::hooke;  // of its springs, whatever the scene asks for, where it is position-based
@@ -107,6 +110,9 @@ std::string subject_method(const std::function<bool(const Stepper&)>& asked);
 /// "leapfrog" of mysim's; of others the whole name.
 std::string short_name(const std::string& method);
 
+/// An outside program's or trajectory's name for readers, by its file and options: "my-mujoco, n=4".
+std::string program_title(const std::string& method);
+
 /// The subject's representative with the contact rule that puts a touching particle back.
 std::string sticky_method();
 
@@ -122,8 +128,13 @@ Method find_method(const std::string& text);
 Method trajectory_method(const std::filesystem::path& file, const Scene& scene, const Run& run);
 
 /// mysim's row of the rule that a method follows, or null: Bullet's explicit world has symplectic Euler's, odeint/rk4
-/// has rk4's. +linear counts as implicit Euler: one Newton step is the whole step where forces are linear.
+/// has rk4's, and an outside program that of the rule it was found to be. +linear counts as implicit Euler: one Newton
+/// step is the whole step where forces are linear.
 const Stepper* stepper_of(const Method& method);
+
+/// The name of the rule that a method follows on scenes of the model's ingredients. For outside programs it is empty
+/// where the model has more than those with which the rule was found. Methods of one rule must agree to round-off.
+std::string rule_on(const Method& method, const Model& model);
 
 /// Splits "a,b,c" and finds each.
 std::vector<Method> find_methods(const std::string& list);

@@ -12,6 +12,7 @@
 #include "mysim/base/eigenvalues.h"
 #include "mysim/base/random.h"
 #include "reference/truth/discrete.h"
+#include "reference/which_rule.h"
 
 namespace crosscheck {
 namespace {
@@ -134,6 +135,9 @@ PredictedLimit predicted_limit(const Method& method, const Spectrum& spectrum) {
     return {0, -1,
             fmt::format("no linear theory: {} solves dashpots implicitly, at the end of the explicit step",
                         method.family().title)};
+  if (method.identify &&
+      (spectrum.system.has_dashpots() || (!method.identify().own_drag && spectrum.system.damping().squaredNorm() > 0)))
+    return {0, -1, "no linear theory: its rule was found without such damping"};
   return predicted_limit(*rule, spectrum);
 }
 
@@ -160,7 +164,7 @@ class GrowthObserver : public Observer {
       other_ = rates_of(s.modes[mode]).other;
     }
   }
-  bool every_step() const override { return true; }
+  bool between_samples() const override { return true; }
   Verdict observe(const State& state, bool) override {
     const bool begins = state.t <= 0.1 * duration_, ends = state.t >= 0.9 * duration_ * (1 - 1e-12);
     if (begins || ends) {
@@ -269,6 +273,7 @@ PerturbedRun run_perturbed(const Method& method, const BaseState& base, double h
                            const MotionBoundsFunction& bounds) {
   const Run run = run_of_perturbed(h, steps);
   const Stepper* rule = stepper_of(method);
+  const TimeGrid grid = time_grid(run);
   const bool rotation = base.scene.model.first_order(), one_factor = rotation || (rule && is_runge_kutta(*rule));
   const bool multiplies = base.at_rest && base.spectrum.commuting && one_factor;
   GrowthObserver growth_observer(base, multiplies, perturbation.mode, run.duration);
@@ -290,8 +295,8 @@ PerturbedRun run_perturbed(const Method& method, const BaseState& base, double h
   trial.of_mode = out.verdict == Verdict::ok && growth_observer.of_mode();
   if (trial.of_mode) {
     trial.amplitude = growth_observer.end / growth_observer.start;
-    trial.steps = out.steps;
-    trial.per_step = std::exp(std::log(trial.amplitude) / static_cast<double>(std::max(1L, out.steps)));
+    trial.steps = static_cast<long>(grid.samples) * grid.steps_per_sample;
+    trial.per_step = std::exp(std::log(trial.amplitude) / static_cast<double>(trial.steps));
   }
   return trial;
 }
@@ -320,7 +325,7 @@ MeasuredLimit largest_step(const std::function<bool(double)>& holds, double firs
   return m;
 }
 
-MeasuredLimit measured_limit(const Method& method, const BaseState& base, long steps, const Perturbation& perturbation,
+MeasuredLimit measured_limit(const Method& method, const BaseState& base, long steps, Perturbation perturbation,
                              double precision) {
   const Spectrum& s = base.spectrum;
   const double unit = s.omega > 0 ? 1 / s.omega : base.scene.step;
@@ -328,6 +333,9 @@ MeasuredLimit measured_limit(const Method& method, const BaseState& base, long s
   std::map<double, std::string> refused;  // by step
   bool accepted = false;
   MotionBoundsCache bounds;  // all trials begin alike
+  // a method of another or an unknown rule may rest elsewhere: its way there must be small beside the perturbation
+  if (const Stepper* rule = stepper_of(method); !rule || rule->hard_constraints)
+    perturbation.size = std::max(perturbation.size, 1e-3);
   const auto holds = [&](double h) {
     const PerturbedRun trial = run_perturbed(method, base, h, steps, perturbation, {}, std::ref(bounds));
     if (trial.without_answer()) refused[h] = trial.reason;

@@ -91,7 +91,7 @@ MeasuredLimit largest_step(const std::function<bool(double)>& holds, double firs
 /// says how fast the scene can vibrate, that only says where to give up. A step without an answer counts as none that
 /// holds; where the bracket ends at such a one it is no limit but `refused_above`, and where every step was refused the
 /// scene is `unsupported`.
-MeasuredLimit measured_limit(const Method& method, const BaseState& base, long steps, const Perturbation& perturbation,
+MeasuredLimit measured_limit(const Method& method, const BaseState& base, long steps, Perturbation perturbation,
                              double precision);
 
 }  // namespace crosscheck

@@ -7,6 +7,7 @@
 #include "reference/method.h"
 #include "reference/protocol/exec_engine.h"
 #include "reference/protocol/trajectory_files.h"
+#include "reference/which_rule.h"
 
 namespace crosscheck {
 namespace {
@@ -19,13 +20,18 @@ std::string fingerprint_of(const std::filesystem::path& file) {
 
 Method exec_method(const std::string& text) {
   const auto program = find_program(text);
-  return {.name = std::string(program_prefix) + text,
-          .what = "an outside program that speaks the engine protocol",
-          .rule = "",
-          .engine = [program](const Scene& scene, const Run& run,
-                              Observer& observer) { return run_outside_engine(program, scene, run, observer); },
-          .contact = ContactLoss::sampled,
-          .fingerprint = fingerprint_of(program.path)};
+  Method method{.name = std::string(program_prefix) + text,
+                .what = "an outside program that speaks the engine protocol",
+                .rule = "",
+                .engine = [program](const Scene& scene, const Run& run,
+                                    Observer& observer) { return run_outside_engine(program, scene, run, observer); },
+                .contact = ContactLoss::sampled,
+                .fingerprint = fingerprint_of(program.path)};
+  method.identify = [method, found = std::make_shared<std::optional<FoundRule>>()]() -> const FoundRule& {
+    if (!*found) *found = cached_rule(method);
+    return **found;
+  };
+  return method;
 }
 
 Method trajectory_method(const std::filesystem::path& file, const Scene& scene, const Run& run) {
