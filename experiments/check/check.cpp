@@ -13,6 +13,7 @@
 #include "mysim/base/files.h"
 #include "mysim/base/installation.h"
 #include "mysim/scene/toml.h"
+#include "reference/which_rule.h"
 
 namespace crosscheck {
 namespace {
@@ -21,9 +22,10 @@ bool glob_matches(const std::string& glob, const std::string& text) {
   return fnmatch(glob.c_str(), text.c_str(), FNM_EXTMATCH) == 0;
 }
 
-const KnownBreak* known_break(const Answer& answer, const std::vector<KnownBreak>& known) {
+const KnownBreak* known_break(const Answer& answer, const std::vector<KnownBreak>& known, const std::string& rule) {
   for (const KnownBreak& one : known)
-    if (glob_matches(one.method, answer.method) && glob_matches(one.relation, std::string(answer.relation->name)) &&
+    if ((one.rule.empty() ? glob_matches(one.method, answer.method) : glob_matches(one.rule, rule)) &&
+        glob_matches(one.relation, std::string(answer.relation->name)) &&
         (one.scene.empty() || glob_matches(one.scene, answer.scene)) &&
         (!one.times || (!answer.finding.what.empty() && answer.finding.ratio() <= *one.times)))
       return &one;
@@ -47,7 +49,12 @@ std::vector<KnownBreak> read_known_breaks(const std::filesystem::path& file) {
   const TomlTable root = TomlTable::parse_text(read_file(file, "a table of known breaks"), file.string());
   std::vector<KnownBreak> list;
   for (const TomlTable& s : root.sections("known")) {
-    KnownBreak one{s.text("method"), s.text("relation"), s.has("scene") ? s.text("scene") : "", s.text("reason"), {}};
+    KnownBreak one{s.has("rule") ? "" : s.text("method"),
+                   s.text("relation"),
+                   s.has("scene") ? s.text("scene") : "",
+                   s.text("reason"),
+                   {}};
+    if (s.has("rule")) one.rule = s.text("rule");
     if (s.has("times")) one.times = s.positive("times");
     if (!glob_matches(one.relation, std::string(agreement().name)) &&
         std::none_of(relations().begin(), relations().end(),
@@ -71,9 +78,15 @@ std::string Answer::sentence() const {
   return mark == RelationMark::known ? text + "; known: " + reason : text;
 }
 
-void mark_known(Answer& answer, const std::vector<KnownBreak>& known) {
+std::string rule_of(const Method& method) {
+  if (!method.identify) return method.stepper ? std::string(method.stepper->name) : method.rule;
+  const FoundRule& found = method.identify();
+  return found.kind == FoundRule::same ? found.rule : "";
+}
+
+void mark_known(Answer& answer, const std::vector<KnownBreak>& known, const std::string& rule) {
   if (answer.mark != RelationMark::broken) return;
-  const KnownBreak* one = known_break(answer, known);
+  const KnownBreak* one = known_break(answer, known, rule);
   if (!one) return;
   answer.mark = RelationMark::known;
   answer.reason += (answer.reason.empty() ? "" : "; known: ") + one->reason;
@@ -91,7 +104,7 @@ Answer ask(const Relation& relation, Subject& subject, const Scene& scene, unsig
     answer.mark = RelationMark::broken, answer.reason = how.what();
     answer.finding.since = how.end, answer.failure = how.verdict;
   }
-  mark_known(answer, known);
+  mark_known(answer, known, answer.mark == RelationMark::broken ? rule_of(subject.method()) : "");
   return answer;
 }
 
@@ -109,14 +122,17 @@ std::vector<Answer> ask_pairs(const std::vector<Method>& methods, const std::vec
 }
 
 std::vector<Answer> answers_of(const Method& method, const std::vector<Scene>& scenes, unsigned seed,
-                               const std::vector<KnownBreak>& known, const AboutToAsk& begin) {
+                               const std::vector<KnownBreak>& known, const AboutToAsk& begin, const OnAnswer& on_answer,
+                               const Relation* only) {
   std::vector<Answer> answers;
   Subject subject(method);
-  for (const Relation& relation : relations()) {
+  for (const Relation& relation : only ? std::span(only, 1) : relations()) {
     if (begin) begin(fmt::format("{}: {}", method.name, relation.name));
     for (const Scene& scene : scenes.empty() ? relation.smallest() : scenes)
-      if (scenes.empty() || relation.excluded(scene).empty())
+      if (scenes.empty() || relation.excluded(scene).empty()) {
         answers.push_back(ask(relation, subject, scene, seed, known));
+        if (on_answer) on_answer(answers.back());
+      }
   }
   withdraw_where_nothing_ran(answers);
   return answers;

@@ -16,10 +16,11 @@ struct KnownBreak {
   std::string method, relation, scene;  // globs; no scene: all; of a pair "A & B" the method is that text
   std::string reason;                   // one sentence with the cause as measured
   std::optional<double> times;          // up to so many times the tolerance; none: whatever the size
+  std::string rule = {};                // glob of the rule that the method follows (rule_of); no `method` is given then
 };
 /// Where those that come with Crosscheck stand.
 std::filesystem::path shipped_known_breaks();
-/// [[known]] tables with method, relation, reason, scene where it is one alone, and times. Throws InputError.
+/// [[known]] tables with method or rule, relation, reason, scene where it is one alone, and times. Throws InputError.
 std::vector<KnownBreak> read_known_breaks(const std::filesystem::path& file);
 
 /// One relation asked of one method on one scene.
@@ -36,8 +37,11 @@ struct Answer {
   std::string sentence() const;
 };
 
-/// A broken one becomes known where a row of the list covers it.
-void mark_known(Answer& answer, const std::vector<KnownBreak>& known);
+/// The rule that a method follows: that of the built-in rule which it is, or which its runs were found to be.
+std::string rule_of(const Method& method);
+
+/// A broken one becomes known where a row of the list covers it; `rule`: that of the method, empty for a pair.
+void mark_known(Answer& answer, const std::vector<KnownBreak>& known, const std::string& rule = "");
 
 Answer ask(const Relation& relation, Subject& subject, const Scene& scene, unsigned seed,
            const std::vector<KnownBreak>& known);
@@ -45,10 +49,14 @@ Answer ask(const Relation& relation, Subject& subject, const Scene& scene, unsig
 /// Is told what is asked next, "mysim/leapfrog: turned".
 using AboutToAsk = std::function<void(const std::string&)>;
 
-/// Every relation of a method: on its smallest scenes where no scene is given, else on each of these that it says
-/// something about. A method that ended no run could not be asked.
+/// Is shown each answer as it comes.
+using OnAnswer = std::function<void(const Answer&)>;
+
+/// Every relation of a method, or the one given: on its smallest scenes where no scene is given, else on each of these
+/// that it says something about. A method that ended no run could not be asked.
 std::vector<Answer> answers_of(const Method& method, const std::vector<Scene>& scenes, unsigned seed,
-                               const std::vector<KnownBreak>& known, const AboutToAsk& begin = {});
+                               const std::vector<KnownBreak>& known, const AboutToAsk& begin = {},
+                               const OnAnswer& on_answer = {}, const Relation* only = nullptr);
 
 /// Whether each two of the methods agree (agreement.h), on these scenes or on the small net.
 std::vector<Answer> ask_pairs(const std::vector<Method>& methods, const std::vector<Scene>& scenes,

@@ -5,6 +5,8 @@
 
 #include <cmath>
 
+#include "reference/which_rule.h"
+
 namespace crosscheck {
 
 RelationResult farthest(std::string what, const Trajectory& a, const Trajectory& b, const std::vector<double>& bound,
@@ -38,6 +40,10 @@ std::vector<double> distances(const Trajectory& a, const Trajectory& b) {
 std::vector<double> sum_of(std::vector<double> a, const std::vector<double>& b) {
   for (size_t i = 0; i < a.size(); ++i) a[i] += b[i];
   return a;
+}
+
+bool chooses_steps(const Method& method) {
+  return method.adaptive || (method.identify && method.identify().kind == FoundRule::own_steps);
 }
 
 int order_of(const Method& method) {

@@ -28,6 +28,9 @@ const Trajectory& halved(Subject& subject, const Scene& scene, int times);
 /// The rounding of such a run, m, up to each sample.
 std::vector<double> noise_at(Subject& subject, Scene scene, int times);
 
+/// True for methods that follow run.tolerance, and for outside programs that were found to choose their steps.
+bool chooses_steps(const Method& method);
+
 /// The order of the method's rule; 1 where it is not known.
 int order_of(const Method& method);
 

@@ -5,11 +5,20 @@
 
 #include "experiments/check/compare.h"
 #include "experiments/check/transformations.h"
+#include "reference/which_rule.h"
 
 namespace crosscheck {
 namespace {
 
-constexpr auto own_steps = "it chooses its own steps";
+/// Throws CannotBeAsked where the method chooses its steps, and RunFailed where it has a step of its own and keeps it.
+void require_own_step(const Method& method) {
+  if (chooses_steps(method)) throw CannotBeAsked("it chooses its own steps");
+  if (method.identify && method.identify().kind == FoundRule::ignores_step)
+    throw RunFailed(
+        "the step asked for has no effect, and the error is not that of an engine that chooses its steps (which says "
+        "so by \"adaptive\" in run.json)",
+        0, Verdict::ok);
+}
 
 /// `fine` must be no more than `part` of `coarse`, and twice the noise, as long as `coarse` is at most a hundredth of
 /// the lengths: beyond that a vibration is out of phase by so much that no power of the step is seen.
@@ -48,7 +57,7 @@ std::vector<double> noise_at(Subject& subject, Scene scene, int times) {
 }
 
 RelationResult half_the_step(Subject& subject, const Scene& scene, unsigned) {
-  if (subject.method().adaptive) throw CannotBeAsked(own_steps);
+  require_own_step(subject.method());
   const Trajectory& one = halved(subject, scene, 0);
   const int order = order_of(subject.method());
   // the error C h^p makes the second difference 2^-p of the first; half a power is left for terms of higher order
@@ -68,7 +77,7 @@ RelationResult half_the_step(Subject& subject, const Scene& scene, unsigned) {
 }
 
 RelationResult one_answer(Subject& subject, const Scene& scene, unsigned) {
-  if (subject.method().adaptive) throw CannotBeAsked(own_steps);
+  require_own_step(subject.method());
   const auto noise = noise_at(subject, scene, 3);
   const Trajectory &one = halved(subject, scene, 0), &two = halved(subject, scene, 1),
                    &four = halved(subject, scene, 2), &eight = halved(subject, scene, 3);
@@ -113,7 +122,7 @@ RelationResult stop_and_go_on(Subject& subject, const Scene& scene, unsigned) {
   }
   // a rule that keeps more than positions and velocities is begun anew, which is an error of its order
   std::vector<double> bound = subject.noise(scene).x;
-  if (!subject.method().adaptive) bound = sum_of(std::move(bound), distances(whole, halved(subject, scene, 1)));
+  if (!chooses_steps(subject.method())) bound = sum_of(std::move(bound), distances(whole, halved(subject, scene, 1)));
   bound.erase(bound.begin(), bound.begin() + middle);
   return farthest("the second half against a run that starts from the middle", second_half, rest, bound,
                   lengths_in(scene, whole));

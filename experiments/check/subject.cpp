@@ -7,6 +7,7 @@
 #include <cmath>
 #include <limits>
 
+#include "experiments/check/compare.h"
 #include "experiments/metrics.h"
 #include "mysim/model/system.h"
 
@@ -30,7 +31,9 @@ SubjectRun Subject::fresh_run(const Scene& scene, const Run& run) {
   SubjectRun made;
   made.outcome = run_method(method_, scene, run, {&recorder});
   made.path = std::move(recorder.trajectory);
-  const Outcome& out = made.outcome;
+  Outcome& out = made.outcome;
+  const TimeGrid grid = time_grid(run);
+  if (out.steps == 0) out.steps = static_cast<long>(grid.samples) * grid.steps_per_sample;  // the program reports none
   if (out.verdict == Verdict::unsupported) throw CannotBeAsked(out.reason);
   if (out.readback) single_ = out.readback->precision == "single";
   if (out.verdict != Verdict::ok)
@@ -76,7 +79,7 @@ Subject::Noise Subject::noise(const Scene& scene, double lengths) {
   const double scale = std::max(lengths, lengths_in(scene, plain.path));
   Noise noise;
   noise.start = rounding(scale, plain.outcome.steps, method_.position_based || scene.model.find<Spheres>());
-  if (method_.adaptive) noise.start = std::max(noise.start, settings.tolerance * scale * plain.outcome.steps);
+  if (chooses_steps(method_)) noise.start = std::max(noise.start, settings.tolerance * scale * plain.outcome.steps);
   // velocities are rounded in the same proportion
   const bool velocities = plain.path.v.back().cols() == plain.path.x.back().cols();
   noise.x.assign(plain.path.frames(), 3 * noise.start);

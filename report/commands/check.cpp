@@ -14,7 +14,9 @@
 #include "mysim/base/files.h"
 #include "mysim/base/json.h"
 #include "mysim/base/output_folder.h"
+#include "mysim/base/progress.h"
 #include "mysim/base/text.h"
+#include "reference/which_rule.h"
 #include "report/base/provenance.h"
 #include "report/commands/command_line.h"
 #include "report/commands/commands.h"
@@ -61,7 +63,7 @@ int check_protocol(const std::string& program, bool json) {
 
 struct CheckOptions {
   std::vector<std::string> words;  // methods and scenes
-  std::string known, junit, out;
+  std::string known, junit, out, relation;
   unsigned seed = 1;
   std::string program;  // of the conformance kit; empty: relations are asked
   bool json = false, pairs = false;
@@ -91,9 +93,12 @@ void sort_words(const std::vector<std::string>& words, std::vector<Method>& meth
   if (!names.empty()) scenes = load_scenes(names);
 }
 
-void print_answers(const std::vector<Answer>& answers) {
-  for (const Answer& a : answers)
-    fmt::print("{:<16} {:<17} {:<20} {:<20} {}\n", name_of(a.mark), a.relation->name, a.method, a.scene, a.sentence());
+void print_answer(const Answer& a) {
+  fmt::print("{:<16} {:<17} {:<20} {:<20} {}\n", name_of(a.mark), a.relation->name, a.method, a.scene, a.sentence());
+  std::fflush(stdout);
+}
+
+void print_counts(const std::vector<Answer>& answers) {
   fmt::print("\n");
   std::string counts;
   for (const auto mark : {RelationMark::holds, RelationMark::broken, RelationMark::known, RelationMark::not_asked})
@@ -185,10 +190,24 @@ int check_relations(const CheckOptions& options, const std::string& line) {
   Progress progress(static_cast<int>(methods.size() * relations().size()));
   std::vector<Answer> answers;
   const AboutToAsk begin = [&](const std::string& what) { progress.begin(what); };
-  for (const Method& method : methods)
-    for (Answer& answer : answers_of(method, scenes, options.seed, known, begin)) answers.push_back(std::move(answer));
-  if (options.pairs)
-    for (Answer& answer : ask_pairs(methods, scenes, known, begin)) answers.push_back(std::move(answer));
+  // rows are printed as they come: a check that is stopped leaves what it has found
+  const OnAnswer on_answer = [&](const Answer& answer) {
+    if (!options.json) print_answer(answer);
+  };
+  const Relation* only = options.relation.empty() ? nullptr : &find_relation(options.relation);
+  if (only == &agreement())
+    throw InputError("--relation agreement: expected --pairs, which asks it of each two methods");
+  for (const Method& method : methods) {
+    if (method.identify && !options.json)
+      fmt::print("{}: its rule is {}\n", method.name, sentence_of(method.identify()));
+    std::ranges::move(answers_of(method, scenes, options.seed, known, begin, on_answer, only),
+                      std::back_inserter(answers));
+  }
+  if (options.pairs && !only)
+    for (Answer& answer : ask_pairs(methods, scenes, known, begin)) {
+      on_answer(answer);
+      answers.push_back(std::move(answer));
+    }
   progress.done();
   if (folder) {
     const Table table = table_of(answers);
@@ -203,7 +222,7 @@ int check_relations(const CheckOptions& options, const std::string& line) {
   if (options.json)
     fmt::print("{}\n", json_of(answers).dump(1));
   else
-    print_answers(answers);
+    print_counts(answers);
   return status_of(answers);
 }
 
@@ -220,6 +239,7 @@ void add_check(CLI::App& app, Invocation& call) {
                    "exec:PROGRAM: says line by line what an adapter of the engine protocol still lacks")
       ->excludes(words);
   check->add_option("--known", options->known, "TOML file of known breaks, instead of those that come with Crosscheck");
+  check->add_option("--relation", options->relation, "name of the one relation to ask (default: all)");
   check->add_option("--seed", options->seed, "seed of turns, shifts and orders (default: 1)");
   check->add_flag("--json", options->json, "prints JSON");
   check->add_option("--junit", options->junit, "file for JUnit XML");
