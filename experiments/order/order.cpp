@@ -38,7 +38,8 @@ std::optional<Fit> asymptotic_order(const std::vector<ErrorAtStep>& points) {
   const auto slope = [](const ErrorAtStep* a, const ErrorAtStep* b) {
     return std::log(a->error / b->error) / std::log(a->step / b->step);
   };
-  if (!(std::abs(slope(p, q) - slope(q, r)) < 0.3)) return std::nullopt;
+  // an error that hardly falls is that of another law, and no order
+  if (!(std::abs(slope(p, q) - slope(q, r)) < 0.3) || slope(p, r) < 0.5) return std::nullopt;
   return Fit{slope(p, r), p->step, r->step};
 }
 
@@ -72,7 +73,7 @@ void order_on(const Request& request, const Scene& scene, TableSet& tables) {
       adaptive.insert(method.name);
       continue;
     }
-    // other engines cost ten times as much a step, and declare no order
+    // other engines cost ten times as much a step
     const int steps = method.stepper ? halvings : std::min(halvings, 5);
     std::vector<Refinement> runs;
     for (int i = 0; i < steps; ++i) {
@@ -104,10 +105,12 @@ void order_on(const Request& request, const Scene& scene, TableSet& tables) {
       // below 30 truth bars the bar, and below round-off the round-off, bends the slope by more than 0.05
       if (r.ok() && error > 30 * truth->error_bar && error < 0.1 * motion) good.push_back({out.step, error});
     }
-    if (!method.stepper) continue;
-    if (const auto fit = asymptotic_order(good))
-      add(slopes, OrderSlopeRow{scene.name, method.name, method.stepper->order, fit->order, fit->from, fit->to});
-    else
+    const auto fit = asymptotic_order(good);
+    if (fit) {
+      const Stepper* rule = stepper_of(method);
+      add(slopes, OrderSlopeRow{scene.name, method.name, rule ? std::optional<long>(rule->order) : std::nullopt,
+                                fit->order, fit->from, fit->to});
+    } else
       tables.notes.push_back(fmt::format("order sees no steady slope of {} on {}", method.name, scene.name));
   }
   if (!adaptive.empty())

@@ -34,14 +34,15 @@ struct OrderRow {
 /// The slope of the error where it is a power of the step.
 struct OrderSlopeRow {
   std::string scene, method;
-  long declared_order = 0;
+  std::optional<long> declared_order;
   double measured_order = 0, from_step = 0, to_step = 0;
 
   static constexpr std::string_view table = "order-slopes";
   static constexpr auto columns = [](auto&& column) {
     column("scene", "1", &OrderSlopeRow::scene, "scene"),
         column("method", "1", &OrderSlopeRow::method, "method that was run"),
-        column("declared order", "1", &OrderSlopeRow::declared_order, "order that the rule promises"),
+        column("declared order", "1", &OrderSlopeRow::declared_order,
+               "order of the rule; empty where the rule is unknown"),
         column("measured order", "1", &OrderSlopeRow::measured_order,
                "slope of the error over the step, both in logarithms, where it is steady"),
         column("from step", "s", &OrderSlopeRow::from_step, "longest step of the slope"),

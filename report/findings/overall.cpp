@@ -125,10 +125,11 @@ void failures_of_all(const Scenes& scenes, std::vector<Finding>& out) {
 }
 
 void orders(const TableSet& rows, std::vector<Finding>& out) {
-  const std::vector<OrderSlopeRow> slopes = rows_of<OrderSlopeRow>(rows);
+  std::vector<OrderSlopeRow> slopes = rows_of<OrderSlopeRow>(rows);
+  std::erase_if(slopes, [](const OrderSlopeRow& row) { return !row.declared_order; });
   if (slopes.empty()) return;
   const auto off = [](const OrderSlopeRow& row) {
-    return std::abs(row.measured_order - static_cast<double>(row.declared_order));
+    return std::abs(row.measured_order - static_cast<double>(*row.declared_order));
   };
   const OrderSlopeRow& worst = *std::ranges::max_element(slopes, {}, off);
   Lists methods, scenes;
@@ -145,7 +146,7 @@ void orders(const TableSet& rows, std::vector<Finding>& out) {
                    .method = worst.method,
                    .value = worst.measured_order,
                    .words = {{"off", fmt::format("{:.2f}", worst.measured_order)},
-                             {"declared", std::to_string(worst.declared_order)},
+                             {"declared", std::to_string(*worst.declared_order)},
                              {"where", worst.scene}}});
 }
 
