@@ -79,6 +79,7 @@ struct Request {
   bool full = false;            // more points of the same experiments
   double step = 0;              // s, of all fixed-step methods; 0: each scene's own
   bool scenes_only = false;     // only these scenes, not the experiments' own ones
+  std::string reference = {};   // method from which `engines` measures differences; empty: the subject's representative
   RunCallback on_runs = {};     // is given the runs of engines, speed-accuracy and the maps; rows do not depend on it
 };
 

@@ -95,7 +95,10 @@ void engines_on(const Request& request, const Scene& scene, MethodResults& resul
   Table table = table_of<EngineTimeRow>(scene.name + "-engines");
   const auto truth = truth_of(scene, run);
   // differences from a run that failed would say nothing
-  const MethodResult& by_rule = result_of(request, scene, find_method(std::string(subject().representative)), results);
+  const std::string of(request.reference.empty() ? subject().representative : request.reference);
+  const auto asked = std::ranges::find(request.methods, of, &Method::name);
+  const MethodResult& by_rule =
+      result_of(request, scene, asked == request.methods.end() ? find_method(of) : *asked, results);
   const Trajectory reference = by_rule.outcome.verdict == Verdict::ok ? by_rule.trajectory : Trajectory{};
   const Method probe = find_method(reference.frames() > 0 ? std::string(subject().representative) : scene.method);
   const Growth growing = growth_of(probe, scene, run, reference.frames() > 0 ? &reference : nullptr);

@@ -36,6 +36,17 @@ void certify_family(Family family, const Springs& springs, const Readback& r, Ce
     w.add_unattested(name + ": stiffness", range);
 }
 
+/// True if a force that the scene does not have is more than the rounding of those that it has, N.
+bool beyond_rounding(const Scene& scene, const Points& force, const CertificateWriter& w) {
+  const double lengths = scene.size() + largest_column(scene.start.x);
+  double scale = 0;
+  if (const auto* springs = scene.model.find<Springs>())
+    for (const Spring& s : springs->list) scale = std::max(scale, s.k * lengths);
+  if (const auto* gravity = scene.model.find<Gravity>())
+    scale += scene.model.particles.mass.maxCoeff() * gravity->acceleration.norm();
+  return !(largest_column(force) <= w.tolerance() * scale);
+}
+
 /// Forces that the engine computed at a known stretch and speed, against the scene's own.
 void certify_forces(const Scene& scene, const Readback& r, CertificateWriter& w) {
   const Particles& particles = scene.model.particles;
@@ -91,11 +102,11 @@ void certify_forces(const Scene& scene, const Readback& r, CertificateWriter& w)
                 return bent(s, probed.x).norm() <=
                        1e-6 * (probed.x.col(s.particle[0]) - probed.x.col(s.particle[1])).norm();
               }));
-  } else if (r.probe && r.probe->bending.size() > 0 && largest_column(r.probe->bending) > 0) {
+  } else if (r.probe && r.probe->bending.size() > 0 && beyond_rounding(scene, r.probe->bending, w)) {
     w.row("bending", "none", "some", false);
   }
   if (!dashpots) {
-    if (r.probe && r.probe->dashpots.size() > 0 && largest_column(r.probe->dashpots) > 0)
+    if (r.probe && r.probe->dashpots.size() > 0 && beyond_rounding(scene, r.probe->dashpots, w))
       w.row("dashpots", "none", "some", false);
     return;
   }
@@ -184,7 +195,7 @@ void certify_wind(const Scene& scene, const Readback& r, CertificateWriter& w) {
   const auto* air = scene.model.find<Aerodynamics>();
   const bool reported = r.probe && r.probe->wind.size() > 0;
   if (!wind && !air) {
-    if (reported && largest_column(r.probe->wind) > 0) w.row("wind", "none", "some", false);
+    if (reported && beyond_rounding(scene, r.probe->wind, w)) w.row("wind", "none", "some", false);
     return;
   }
   const WindSignal& wind_signal = wind ? wind->acceleration : air->velocity;
@@ -244,10 +255,13 @@ void certify_drag(const Drag& drag, const Particles& particles, const Readback& 
 }
 
 /// What the scene does not have must not be in the engine either; what the engine does not deny stands in one row.
-void certify_absent(const Model& model, const Readback& r, CertificateWriter& w) {
-  if (!model.find<Gravity>() && r.gravity && !r.gravity->isZero(0))
+void certify_absent(const Scene& scene, const Readback& r, CertificateWriter& w) {
+  const Model& model = scene.model;
+  // rounding of a position in each step, and of 1 - exp(-gamma h)
+  if (!model.find<Gravity>() && r.gravity && !(r.gravity->norm() * w.step() * w.step() <= w.tolerance() * scene.size()))
     w.row("gravity", "none", acceleration_text(*r.gravity), false);
-  if (!model.find<Drag>() && r.drag && std::any_of(r.drag->begin(), r.drag->end(), [](double c) { return c != 0; }))
+  if (!model.find<Drag>() && r.drag &&
+      std::ranges::any_of(*r.drag, [&](double c) { return !(std::abs(c) * w.step() <= w.tolerance()); }))
     w.row("drag", "none", "some", false);
   if (model.first_order()) return;
 
@@ -280,7 +294,7 @@ void certify_terms(const Scene& scene, const Readback& r, CertificateWriter& w) 
   for (const Term& term : scene.model.terms) std::visit(certify_term, term);
   certify_wind(scene, r, w);
   certify_spheres(scene.model.find<Spheres>(), r, w);
-  certify_absent(scene.model, r, w);
+  certify_absent(scene, r, w);
 }
 
 }  // namespace crosscheck

@@ -44,6 +44,7 @@ class CertificateWriter {
       return law.starts_with(ingredient) && law.substr(ingredient.size()).starts_with(": ");
     });
   }
+  double step() const { return outcome_.step; }  // s
   /// Rounding of an engine that computes in this precision, after a mapping and its inverse: some tens of ulps.
   double tolerance() const { return readback_.precision == "single" ? 1e-5 : 1e-12; }
 
