@@ -94,7 +94,9 @@ MethodStyle style_of(const std::string& method) {
   }
   unsigned sum = 0;
   for (char c : method) sum = 31 * sum + static_cast<unsigned char>(c);
-  return styled(spare_styles[sum % std::size(spare_styles)]);
+  // programs whose colours are the same differ by their dashes or markers
+  constexpr size_t n = std::size(spare_styles);
+  return styled({spare_styles[sum % n].colour, spare_styles[sum / n % n].dash, spare_styles[sum / n / n % n].marker});
 }
 
 void draw(const Drawing& figure, const Provenance& provenance, const std::filesystem::path& folder) {

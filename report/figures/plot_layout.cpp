@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <filesystem>
 #include <utility>
 
 #include "reference/method.h"
@@ -238,10 +237,7 @@ std::string reader_name(const std::string& title) {
   // of what is said of a method in its title only what stands in parentheses or after a comma is its own
   if (rest.starts_with(' ') && !rest.starts_with(" (")) rest.clear();
   const MethodFamily& family = family_of(method);
-  if (family.role == Role::outside) {
-    const std::string path = method.substr(0, method.find('+'));
-    return std::filesystem::path(path.substr(path.find(':') + 1)).stem().string() + rest;
-  }
+  if (family.role == Role::outside) return program_title(method) + rest;
   const size_t plus = method.find('+');
   std::string rule = method.substr(0, plus).substr(method.find('/') + 1), option;
   if (plus != std::string::npos) option = ", " + method.substr(plus + 1);

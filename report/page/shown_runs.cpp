@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <filesystem>
 #include <map>
 
 #include "experiments/speed_accuracy/speed_accuracy.h"
@@ -131,7 +130,7 @@ class Chooser {
 /// Engine and rule; an outside program goes by its own name.
 std::string engine_and_rule(const std::string& method) {
   const MethodFamily& family = family_of(method);
-  if (family.role == Role::outside) return std::filesystem::path(method.substr(0, method.find('+'))).stem().string();
+  if (family.role == Role::outside) return program_title(method);
   std::string rule = method.substr(method.find('/') + 1);
   std::ranges::replace(rule, '-', ' ');
   if (const size_t at = rule.find("euler"); at != std::string::npos) rule[at] = 'E';

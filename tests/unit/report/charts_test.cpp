@@ -580,6 +580,19 @@ TEST(MethodLooks, FamiliesHaveTheirColours) {
   EXPECT_EQ(looks["exec:./my/engine"]["title"].text(), "engine");
 }
 
+TEST(MethodLooks, ProgramsHaveNamesWithOptionsAndColoursOfTheirOwn) {
+  const std::vector<std::string> names{"exec:./my-mujoco+n=1", "exec:./my-mujoco+n=4", "exec:a/engine", "exec:b/engine",
+                                       "exec:./ode.py"};
+  const JsonField looks = JsonField::parse(method_looks_json(names).dump(), "looks");
+  std::set<std::string> titles, colours;
+  for (const std::string& name : names) {
+    titles.insert(looks[name]["title"].text()), colours.insert(looks[name]["colour"].text());
+    EXPECT_TRUE(contains(asset("page/style.css"), "--" + looks[name]["colour"].text() + ":"));
+  }
+  EXPECT_EQ(titles, (std::set<std::string>{"my-mujoco, n=1", "my-mujoco, n=4", "a/engine", "b/engine", "ode"}));
+  EXPECT_EQ(colours.size(), names.size());
+}
+
 struct Row {
   double step, error;
   std::optional<double> own;
