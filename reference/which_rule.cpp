@@ -68,7 +68,7 @@ std::vector<Candidate> candidates() {
 struct DragForm {
   std::string name;
   enum { before, after, kick } where;
-  double (*factor)(double z);  // of gamma h
+  double (*factor)(double z);  // z = gamma h
 };
 
 std::vector<DragForm> drag_forms() {
@@ -185,8 +185,8 @@ Runs runs_of(const Method& method, const Scene& scene) {
   return runs;
 }
 
-/// How far the rule's path is from the method's over what rounding may make of it, and in sizes of the net, at the
-/// largest over the samples; infinite where no sample can tell.
+/// Largest distance over the samples between the rule's path and the method's, divided by the bound of rounding
+/// (ratio) and by the size of the net (distance); infinite if no sample can tell.
 struct Match {
   double ratio = 0, distance = 0;
 };

@@ -30,8 +30,7 @@ FoundRule find_rule(const Method& method);
 /// "rk4 on a net of springs, gravity, pins, drag (explicit drag): largest difference 3.0e-15 of the net's size".
 std::string sentence_of(const FoundRule& found);
 
-/// The same as `find_rule`, from the cache folder where the program and its options were identified before by this
-/// build.
+/// As `find_rule`, but reads the cache folder if this build has identified the program with these options before.
 FoundRule cached_rule(const Method& method);
 
 }  // namespace crosscheck

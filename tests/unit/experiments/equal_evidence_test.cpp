@@ -1,5 +1,5 @@
-// The same evidence for every engine: verdicts do not depend on units, nor on whether an engine is a program of its
-// own; and a method's rule is identified by its runs.
+// Equal evidence for every engine: verdicts depend neither on units nor on whether an engine is an external program,
+// and a method's rule is identified from its runs.
 
 #include <optional>
 
