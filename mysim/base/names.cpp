@@ -2,8 +2,11 @@
 #include "mysim/base/names.h"
 
 #include <fmt/format.h>
+#include <unistd.h>
 
 #include <algorithm>
+#include <cerrno>
+#include <cstdio>
 
 #include "mysim/base/errors.h"
 #include "mysim/base/text.h"
@@ -54,6 +57,49 @@ std::string printable(std::string_view text) {
   return out;
 }
 
+namespace {
+
+/// A standard stream, and the begin of a UTF-8 character whose other bytes are in the next write.
+struct TextStream {
+  int file;
+  std::string begun;
+
+  static ssize_t write_text(void* cookie, const char* bytes, size_t size) {
+    auto& self = *static_cast<TextStream*>(cookie);
+    std::string text = self.begun + std::string(bytes, size);
+    size_t whole = text.size();
+    for (size_t back = 1; back <= std::min<size_t>(3, text.size()); ++back) {
+      const auto byte = static_cast<unsigned char>(text[text.size() - back]);
+      if (byte < 0x80) break;
+      if (byte < 0xc0) continue;
+      if (back < (byte < 0xe0 ? 2u : byte < 0xf0 ? 3u : 4u)) whole -= back;
+      break;
+    }
+    self.begun = text.substr(whole);
+    text = printable(std::string_view(text).substr(0, whole));
+    for (size_t done = 0; done < text.size();) {
+      const ssize_t written = write(self.file, text.data() + done, text.size() - done);
+      if (written < 0 && errno != EINTR) return 0;  // an error of the stream
+      if (written > 0) done += static_cast<size_t>(written);
+    }
+    return static_cast<ssize_t>(size);
+  }
+};
+
+}  // namespace
+
+void print_only_text() {
+  const auto replace = [](FILE*& stream, int file, int buffering) {
+    FILE* text = fopencookie(new TextStream{file, ""}, "w", {nullptr, &TextStream::write_text, nullptr, nullptr});
+    if (!text) return;
+    setvbuf(text, nullptr, buffering, BUFSIZ);
+    std::fflush(stream);
+    stream = text;
+  };
+  replace(stdout, STDOUT_FILENO, isatty(STDOUT_FILENO) ? _IOLBF : _IOFBF);
+  replace(stderr, STDERR_FILENO, _IONBF);
+}
+
 bool is_name(std::string_view text) {
   return !text.empty() && text.size() <= 200 && text[0] != '-' && text[0] != '.' &&
          text.find('/') == std::string_view::npos && is_printable(text);
@@ -68,6 +114,13 @@ const std::string& require_name(const std::string& name, const std::string& plac
   return name;
 }
 
+void require_cell(const std::string& column, const std::string& text) {
+  const bool name = column == "scene" || column.find("method") != std::string::npos;
+  if (name ? !is_printable(text) : printable(text) != text)
+    throw InputError(fmt::format("column {}: expected text without control and hidden characters, got {}",
+                                 printable(column), shell_quote(text.substr(0, 60))));
+}
+
 bool is_path_inside(std::string_view path) {
   return path.size() <= 1024 && is_printable(path) &&
          std::ranges::all_of(split(path, '/'), [](const std::string& part) {
@@ -75,26 +128,34 @@ bool is_path_inside(std::string_view path) {
          });
 }
 
+namespace {
+
+/// Throws InputError where there is something else than a file or a folder.
+void require_plain(const fs::path& path) {
+  const fs::file_status status = fs::symlink_status(path);
+  if (fs::exists(status) && !fs::is_regular_file(status) && !fs::is_directory(status))
+    throw InputError(fmt::format("{}: expected a file or folder, got {}", path.string(),
+                                 fs::is_symlink(status) ? "a symbolic link" : "a device, pipe or socket"));
+}
+
+}  // namespace
+
 fs::path path_inside(const fs::path& folder, const std::string& path) {
   if (!is_path_inside(path))
     throw InputError(fmt::format("{}: expected the path of a file inside this folder, got {}", folder.string(),
                                  shell_quote(path.substr(0, 60))));
   fs::path at = folder;
-  for (const fs::path& part : fs::path(path))
-    if (fs::is_symlink(fs::symlink_status(at /= part)))
-      throw InputError(fmt::format("{}: expected a file or folder, got a symbolic link", at.string()));
+  for (const fs::path& part : fs::path(path)) require_plain(at /= part);
   return at;
 }
 
 void require_plain_files(const fs::path& folder) {
   for (const auto& entry : fs::recursive_directory_iterator(folder)) {
-    const fs::file_type type = entry.symlink_status().type();
-    if (!is_printable(entry.path().filename().string()))
-      throw InputError(fmt::format("{}: expected printable names of files, got {}", folder.string(),
-                                   shell_quote(entry.path().filename().string())));
-    if (type != fs::file_type::regular && type != fs::file_type::directory)
-      throw InputError(fmt::format("{}: expected a file or folder, got {}", entry.path().string(),
-                                   type == fs::file_type::symlink ? "a symbolic link" : "a device, pipe or socket"));
+    const std::string name = entry.path().filename().string();
+    if (!is_printable(name))
+      throw InputError(
+          fmt::format("{}: expected printable names of files, got {}", folder.string(), shell_quote(name)));
+    require_plain(entry.path());
   }
 }
 

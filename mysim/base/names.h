@@ -13,6 +13,10 @@ bool is_printable(std::string_view text);
 /// The text for a terminal: line feeds and tabs stay, all else that is not printable is replaced by '?'.
 std::string printable(std::string_view text);
 
+/// From here on the streams stdout and stderr print printable() text only: texts of scenes, engines and received
+/// folders cannot control the terminal.
+void print_only_text();
+
 /// True for a name of a scene, method or student: printable, 1 to 200 bytes, without '/', not beginning with '-' or
 /// '.'.
 bool is_name(std::string_view text);
@@ -20,16 +24,20 @@ bool is_name(std::string_view text);
 /// Returns the name. Throws InputError "PLACE: expected a name ..., got '...'".
 const std::string& require_name(const std::string& name, const std::string& place);
 
+/// Throws InputError unless the text can be a table's cell in that column: printable; only columns that hold no names
+/// of scenes and methods may have line feeds and tabs.
+void require_cell(const std::string& column, const std::string& text);
+
 /// True for a path that stays inside a folder: relative, printable, without empty, "." and ".." parts, at most 255
 /// bytes a part and 1024 in total.
 bool is_path_inside(std::string_view path);
 
 /// The file at a path that comes from data, below a folder. Throws InputError that names both unless is_path_inside(),
-/// or if the file or a folder on the way to it is a symbolic link.
+/// or if the file or a folder on the way to it is a symbolic link or a special file (device, pipe, socket).
 std::filesystem::path path_inside(const std::filesystem::path& folder, const std::string& path);
 
-/// Throws InputError that names the first symbolic link, special file (device, pipe, socket) or unprintable name below a
-/// folder.
+/// Throws InputError that names the first symbolic link, special file (device, pipe, socket) or unprintable name below
+/// a folder.
 void require_plain_files(const std::filesystem::path& folder);
 
 }  // namespace crosscheck

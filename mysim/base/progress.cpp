@@ -15,6 +15,8 @@
 #include <mutex>
 #include <thread>
 
+#include "mysim/base/names.h"
+
 namespace crosscheck {
 namespace {
 
@@ -45,7 +47,7 @@ std::string progress_line(const ProgressSnapshot& seen) {
   const std::string number = known && seen.total > 1    ? fmt::format("[{}/{}] ", seen.begun, seen.total)
                              : !known && seen.begun > 1 ? fmt::format("[{}] ", seen.begun)
                                                         : "";
-  return fmt::format("{}{} ({}{}{})", number, seen.what,
+  return fmt::format("{}{} ({}{}{})", number, printable(seen.what),
                      seen.part > 0.01 && seen.part < 1 ? fmt::format("{:.0f} %, ", 100 * seen.part) : "",
                      format_duration(seen.elapsed), left);
 }

@@ -24,6 +24,7 @@
 
 #include "mysim/base/files.h"
 #include "mysim/base/interruption.h"
+#include "mysim/base/names.h"
 #include "mysim/base/output_folder.h"
 
 namespace crosscheck {
@@ -189,6 +190,7 @@ void tidy_results(int notes) {
 }  // namespace
 
 int run_supervised(const std::function<int()>& work, const std::string& when_interrupted) {
+  print_only_text();
   const pid_t self = getpid();
   sigset_t waited = ending_signals(), before;
   sigaddset(&waited, SIGCHLD);

@@ -1,5 +1,8 @@
 // Names and paths that come from data.
 #include <sys/stat.h>
+#include <sys/wait.h>
+
+#include <cstdio>
 
 #include "mysim/base/errors.h"
 #include "mysim/base/files.h"
@@ -40,8 +43,35 @@ TEST(Names, WithControlHiddenOrBrokenCharactersAreRefused) {
   EXPECT_THROW(require_name("a\nb", "x.json: name"), InputError);
 }
 
+TEST(Names, StandardStreamsPrintTextOnlyAndSplitCharactersStayWhole) {
+  const TemporaryFolder here("test");
+  const std::string file = (here.path / "out").string();
+  const pid_t child = fork();
+  if (child == 0) {
+    if (!std::freopen(file.c_str(), "w", stdout) || dup2(fileno(stdout), STDOUT_FILENO) < 0) _exit(1);
+    print_only_text();
+    for (const char* part : {"a\x1b[2J", "b\xe5", "\xb8", "\x83\xe6\x96", "\x99\n"}) {
+      std::fputs(part, stdout);
+      std::fflush(stdout);
+    }
+    _exit(0);
+  }
+  int status = 0;
+  waitpid(child, &status, 0);
+  EXPECT_EQ(status, 0);
+  EXPECT_EQ(read_file(file, "text"), "a?[2Jb布料\n");
+}
+
 TEST(Names, PrintedTextHoldsNoEscapes) {
-  EXPECT_EQ(printable("a\x1b]0;t\x07\xc2\x9b" "31m\r\b\n\tb\xff 布\xe2\x80\xae"), "a?]0;t??31m??\n\tb? 布?");
+  EXPECT_EQ(printable("a\x1b]0;t\x07\xc2\x9b"
+                      "31m\r\b\n\tb\xff 布\xe2\x80\xae"),
+            "a?]0;t??31m??\n\tb? 布?");
+}
+
+TEST(Names, CellsOfScenesAndMethodsAreOneLine) {
+  EXPECT_NO_THROW(require_cell("note", "two\nlines"));
+  for (const char* column : {"scene", "method", "other_method"}) EXPECT_THROW(require_cell(column, "a\nb"), InputError);
+  EXPECT_THROW(require_cell("note", "\x1b[2J"), InputError);
 }
 
 class PathsInside : public testing_tools::InFolder {};
@@ -54,9 +84,8 @@ TEST_F(PathsInside, NeitherLeaveTheFolderNorFollowLinks) {
   EXPECT_EQ(path_inside(root, "data/a.csv"), root / "data/a.csv");
   EXPECT_EQ(path_inside(root, "data/..."), root / "data/...");  // a file may be called so, and need not exist
   const std::string deep(300, 'a');
-  for (const std::string path :
-       {"", ".", "..", "../x", "data/../..", "/etc/passwd", "data//a.csv", "data/", "./data", "link/a.csv",
-        "data/b.csv", "a\nb", deep.c_str()})
+  for (const std::string path : {"", ".", "..", "../x", "data/../..", "/etc/passwd", "data//a.csv", "data/", "./data",
+                                 "link/a.csv", "data/b.csv", "a\nb", deep.c_str()})
     EXPECT_THROW(path_inside(root, path), InputError) << path;
   std::string long_path = "a";
   while (long_path.size() <= 1024) long_path += "/a";
@@ -67,6 +96,7 @@ TEST_F(PathsInside, FolderWithLinksOrPipesIsNotPlain) {
   write_file(folder_ / "in/data/a.csv", "1");
   EXPECT_NO_THROW(require_plain_files(folder_ / "in"));
   ASSERT_EQ(mkfifo((folder_ / "in/data/pipe").c_str(), 0600), 0);
+  EXPECT_THROW(path_inside(folder_ / "in", "data/pipe"), InputError);
   EXPECT_THROW(require_plain_files(folder_ / "in"), InputError);
   fs::remove(folder_ / "in/data/pipe");
   fs::create_symlink("/etc/passwd", folder_ / "in/data/link");
