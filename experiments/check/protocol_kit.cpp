@@ -171,9 +171,12 @@ struct KitCall {
   TemporaryFolder folder{"kit"};
   ProgramResult end;
   double limit = call_limit;  // s
+  std::string unreadable;     // why its files are not read
   fs::path results() const { return folder.path / "out"; }
   bool refused() const { return end.signal == 0 && end.status == 3 && !end.timed_out; }
-  bool good() const { return end.signal == 0 && end.status == 0 && !end.timed_out && !end.killed_watcher; }
+  bool good() const {
+    return end.signal == 0 && end.status == 0 && !end.timed_out && !end.killed_watcher && unreadable.empty();
+  }
   /// The last line that it wrote on stderr, or on stdout.
   std::string last_line() const {
     std::string line = last_lines(end.err.find_first_not_of(" \t\r\n") == std::string::npos ? end.out : end.err, 1);
@@ -182,6 +185,7 @@ struct KitCall {
   }
   std::string how() const {
     if (end.timed_out) return fmt::format("did not end within {:g} s", limit);
+    if (!unreadable.empty()) return "delivered " + unreadable;
     if (end.signal != 0) return fmt::format("was ended by signal {}", end.signal);
     return fmt::format("ended with exit status {}", end.status);
   }
@@ -233,7 +237,7 @@ class Kit {
     }
   }
 
-  void call(KitCall& made, const std::string& scene_text) const {
+  void call(KitCall& made, const Scene& scene, const std::string& scene_text) const {
     made.limit = std::min(program_.timeout, call_limit);
     write_file(made.folder.path / "scene.json", scene_text);
     fs::create_directories(made.results());
@@ -241,6 +245,9 @@ class Kit {
       made.end =
           run_program({program_.path.string(), (made.folder.path / "scene.json").string(), made.results().string()},
                       ".", {}, made.limit);
+      require_result_files(made.results(), scene);
+    } catch (const InputError& error) {
+      made.unreadable = error.what();
     } catch (const CannotStart& error) {
       made.end.status = 127, made.end.err = "cannot be started: " + error.reason;
     }
@@ -249,7 +256,7 @@ class Kit {
   void try_scene(const Scene& scene) {
     const Run run = default_run(scene);
     KitCall made;
-    call(made, scene_json(scene, run, program_.options));
+    call(made, scene, scene_json(scene, run, program_.options));
     if (made.refused()) {
       add(scene.name, "starts and ends", Conformance::refuses, false,
           made.last_line().empty() ? "exit status 3 without a reason: write one line on stderr" : made.last_line(),
@@ -479,7 +486,7 @@ class Kit {
       const Run run = default_run(scene);
       const std::string text = scene_json(scene, run, program_.options);
       KitCall plain;
-      call(plain, text);
+      call(plain, scene, text);
       if (!plain.good()) continue;
       const auto changed = [&](const std::string& from, const std::string& to) {
         const size_t at = text.find(from);
@@ -487,7 +494,8 @@ class Kit {
         return text.substr(0, at) + to + text.substr(at + from.size());
       };
       KitCall term, key, option;
-      call(term, changed("\"terms\": [", "\"terms\": [{\"type\":\"a-term-of-a-later-version\",\"strength\":1.0},"));
+      call(term, scene,
+           changed("\"terms\": [", "\"terms\": [{\"type\":\"a-term-of-a-later-version\",\"strength\":1.0},"));
       if (term.refused())
         add(scene.name, "unknown term", Conformance::refuses, false, term.last_line(), answers);
       else
@@ -496,12 +504,12 @@ class Kit {
                         "every term",
                         term.how()),
             answers);
-      call(key, changed("\"version\": 1,", "\"version\": 1,\n \"a-key-of-a-later-version\": {\"x\":[1,2]},"));
+      call(key, scene, changed("\"version\": 1,", "\"version\": 1,\n \"a-key-of-a-later-version\": {\"x\":[1,2]},"));
       add(scene.name, "unknown key", key.good(), true,
           key.good() ? "is ignored" : fmt::format("it {}: ignore keys that you do not know", key.how()), scene_file);
       std::vector<std::string> options = program_.options;
       options.push_back("an-option-that-nobody-has=1");
-      call(option, scene_json(scene, run, options));
+      call(option, scene, scene_json(scene, run, options));
       const bool said =
           !option.good() && option.end.signal == 0 && !option.end.timed_out && !option.last_line().empty();
       add(scene.name, "unknown option", option.good() || said, true,

@@ -2,8 +2,11 @@
 
 #include <fmt/format.h>
 
+#include "mysim/base/errors.h"
 #include "mysim/base/files.h"
 #include "mysim/base/hash.h"
+#include "mysim/base/names.h"
+#include "mysim/base/text.h"
 #include "reference/method.h"
 #include "reference/protocol/exec_engine.h"
 #include "reference/protocol/trajectory_files.h"
@@ -19,6 +22,9 @@ std::string fingerprint_of(const std::filesystem::path& file) {
 }  // namespace
 
 Method exec_method(const std::string& text) {
+  if (!is_printable(text))
+    throw InputError(
+        fmt::format("method exec:{}: expected a path without control and hidden characters", shell_quote(text)));
   const auto program = find_program(text);
   Method method{.name = std::string(program_prefix) + text,
                 .what = "an outside program that speaks the engine protocol",
@@ -36,7 +42,7 @@ Method exec_method(const std::string& text) {
 
 Method trajectory_method(const std::filesystem::path& file, const Scene& scene, const Run& run) {
   Frames frames{read_positions(file, scene, run), {}};
-  return {.name = "file:" + file.filename().string(),
+  return {.name = "file:" + require_name(file.filename().string(), "--trajectory"),
           .what = "a trajectory from a file",
           .rule = "",
           .engine =

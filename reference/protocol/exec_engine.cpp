@@ -13,7 +13,7 @@
 
 #include "mysim/base/errors.h"
 #include "mysim/base/files.h"
-#include "mysim/base/json.h"
+#include "mysim/base/names.h"
 #include "mysim/base/process.h"
 #include "reference/protocol/run_json.h"
 #include "reference/protocol/scene_json.h"
@@ -81,7 +81,7 @@ void add_option(Program& program, const std::string& method, const std::string& 
 
 namespace {
 
-/// The last line that says something: valid UTF-8, no control characters, not too long for a table.
+/// The last line that says something: printable, not too long for a table.
 std::string last_line(const std::string& text) {
   const size_t last = text.find_last_not_of(" \t\r\n");
   if (last == std::string::npos) return "";
@@ -89,10 +89,7 @@ std::string last_line(const std::string& text) {
   std::string line = text.substr(begin == std::string::npos ? 0 : begin + 1);
   line.erase(line.find_last_not_of(" \t\r\n") + 1);
   if (line.size() > 300) line = line.substr(0, 300) + " ...";
-  line = JsonField::parse(Json(line).dump(), "stderr").text();  // bytes that are no UTF-8 are replaced
-  for (char& c : line)
-    if (static_cast<unsigned char>(c) < 32 || c == 127) c = ' ';
-  return line;
+  return printable(line);
 }
 
 std::string exit_text(const ProgramResult& end) {
@@ -120,18 +117,29 @@ std::uintmax_t largest_run_json(const Scene& scene) {
   return (1 << 20) + 2106 * static_cast<std::uintmax_t>(scene.model.particles.size()) + 492 * links;
 }
 
+}  // namespace
+
+void require_result_files(const fs::path& folder, const Scene& scene) {
+  for (const char* file : {"run.json", "trajectory.npy", "velocities.npy"}) {
+    const fs::file_status status = fs::symlink_status(folder / file);
+    if (fs::exists(status) && !fs::is_regular_file(status))
+      throw InputError(fmt::format("{}: expected a file, got {}", file,
+                                   fs::is_symlink(status)     ? "a symbolic link"
+                                   : fs::is_directory(status) ? "a folder"
+                                                              : "a device, pipe or socket"));
+  }
+  const fs::path told = folder / "run.json";
+  const auto size = fs::exists(told) ? fs::file_size(told) : 0, most = largest_run_json(scene);
+  if (size > most)
+    throw InputError(fmt::format("run.json: expected at most {} bytes for a scene of this size, got {}", most, size));
+}
+
+namespace {
+
 /// Reads what the program wrote. Throws InputError where it breaks the protocol.
 Frames read_results(const fs::path& folder, const Scene& scene, const Run& run, Outcome& out) {
-  for (const char* file : {"run.json", "trajectory.npy", "velocities.npy"}) {
-    const fs::file_status status = fs::status(folder / file);
-    if (fs::exists(status) && !fs::is_regular_file(status)) throw InputError(fmt::format("{}: expected a file", file));
-  }
-  if (fs::exists(folder / "run.json")) {
-    const auto size = fs::file_size(folder / "run.json"), most = largest_run_json(scene);
-    if (size > most)
-      throw InputError(fmt::format("run.json: expected at most {} bytes for a scene of this size, got {}", most, size));
-    read_run_json(folder / "run.json", out, run.duration);
-  }
+  require_result_files(folder, scene);
+  if (fs::exists(folder / "run.json")) read_run_json(folder / "run.json", out, run.duration);
   if (!fs::exists(folder / "trajectory.npy")) throw InputError("trajectory.npy: missing in the folder for results");
   Frames frames{read_positions(folder / "trajectory.npy", scene, run, out.verdict != Verdict::ok), {}};
   const int count = static_cast<int>(frames.x.size());

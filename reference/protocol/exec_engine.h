@@ -30,6 +30,10 @@ void add_option(Program& program, const std::string& method, const std::string& 
 /// outcome's remark. Without velocities the states have none.
 Outcome run_outside_engine(const Program& program, const Scene& scene, const Run& run, Observer& observer);
 
+/// Throws InputError where a file of results is a link or a special file, or run.json is longer than a scene of this
+/// size needs: what is read is bounded. (The lengths of the .npy files follow from the run.)
+void require_result_files(const std::filesystem::path& folder, const Scene& scene);
+
 /// The pin that the delivered frames lead furthest from where it is prescribed, in words; empty where all are in place
 /// within the rounding of the engine's precision, which the outcome's read-back tells.
 std::string misled_pin(const Frames& frames, const Scene& scene, const Run& run, const Outcome& out);

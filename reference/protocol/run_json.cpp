@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include "mysim/base/errors.h"
+#include "mysim/base/names.h"
 #include "reference/protocol/scene_json.h"
 
 namespace crosscheck {
@@ -119,7 +120,7 @@ Readback readback_of(const JsonField& f) {
   if (const auto probe = f.find("probe")) r.probe = probe_of(*probe, n);
   for (const auto& [key, map] : {std::pair{"mapped", &r.mapped}, {"settings", &r.settings}})
     if (const auto list = f.find(key))
-      for (const auto& [name, value] : list->items()) (*map)[name] = value.text();
+      for (const auto& [name, value] : list->items()) (*map)[printable(name)] = printable(value.text());
   return r;
 }
 
@@ -169,7 +170,7 @@ void read_run_json(const std::filesystem::path& path, Outcome& out, double durat
     if (const auto told = number(key, lowest, highest, expected.c_str())) value = *told;
   };
   if (const auto verdict = f.find("verdict")) out.verdict = verdict_of(*verdict);
-  if (const auto reason = f.find("reason")) out.reason = reason->text();
+  if (const auto reason = f.find("reason")) out.reason = printable(reason->text());
   // i h may round to a little more than the duration
   const double latest = duration * (1 + 1e-9), no_step = std::numeric_limits<double>::min();
   seconds("end", 0, latest, out.end);
@@ -183,7 +184,7 @@ void read_run_json(const std::filesystem::path& path, Outcome& out, double durat
     for (const JsonField& law : laws->elements()) {
       // "ingredient: how it differs", as the certificate prints it
       if (law.text().find(": ") == std::string::npos) law.fail("a sentence \"ingredient: how its law differs\"");
-      out.different_law.push_back(law.text());
+      out.different_law.push_back(printable(law.text()));
     }
   }
   if (const auto readback = f.find("readback")) {

@@ -107,6 +107,8 @@ std::vector<Points> read_npy(const std::filesystem::path& file, int min_frames, 
     length += 65536u * head[10] + 16777216u * head[11];
     begin = 12 + length;
   }
+  constexpr size_t longest = 65535;  // as format 1.0 allows; shapes of three numbers need 128
+  if (length > longest) fail(fmt::format("expected a header of at most {} bytes, got {}", longest, length));
   std::string dictionary(begin <= size ? length : 0, ' ');
   in.read(dictionary.data(), static_cast<std::streamsize>(dictionary.size()));
   const auto header = parse(dictionary);

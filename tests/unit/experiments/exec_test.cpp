@@ -88,6 +88,19 @@ TEST_F(Exec, EachMisbehaviourIsAVerdictWithAClearLine) {
       {"dies and leaves a child that holds the pipe", "(trap '' TERM HUP; sleep 60) &\nexit 4\n", "", Verdict::crash,
        "exit status 4"},
       {"delivers a folder", "mkdir \"$2/trajectory.npy\"\n", "", Verdict::crash, "trajectory.npy: expected a file"},
+      {"links to what never ends", good + "ln -s /dev/zero \"$2/run.json\"\n", "", Verdict::crash,
+       "run.json: expected a file, got a symbolic link"},
+      {"links to a file of the user's", "ln -s '" + (folder_ / "x.npy").string() + "' \"$2/trajectory.npy\"\n", "",
+       Verdict::crash, "trajectory.npy: expected a file, got a symbolic link"},
+      {"delivers a pipe", good + "mkfifo \"$2/velocities.npy\"\n", "", Verdict::crash,
+       "velocities.npy: expected a file, got a device, pipe or socket"},
+      {"claims a header of 4 GB and has it",
+       "printf '\\223NUMPY\\002\\000\\377\\377\\377\\377' > \"$2/trajectory.npy\"\n"
+       "truncate -s 5G \"$2/trajectory.npy\"\n",
+       "", Verdict::crash, "trajectory.npy: expected a header of at most 65535 bytes"},
+      {"speaks to the terminal",
+       good + "printf '{\"verdict\": \"solver\", \"reason\": \"\\\\u001b[2Jno root\"}' > \"$2/run.json\"\n", "",
+       Verdict::solver, "?[2Jno root"},
       {"starts from elsewhere", deliver("shifted.npy"), "", Verdict::crash, "got one that is 0.01 m off"},
       {"delivers velocities of another shape", good + deliver("few-frames.npy", "velocities.npy"), "", Verdict::crash,
        "velocities.npy: expected shape"},
@@ -120,7 +133,7 @@ TEST_F(Exec, NoiseIsARemarkOnAGoodRun) {
       "done\nprintf 'bell \\007 and \\377 byte\\n\\n' >&2\n";
   const MethodRun a = run(noise + deliver("x.npy"));
   EXPECT_EQ(a.outcome.verdict, Verdict::ok) << a.outcome.reason;
-  EXPECT_EQ(a.outcome.remark, "it wrote on stderr, last: bell   and \xEF\xBF\xBD byte");
+  EXPECT_EQ(a.outcome.remark, "it wrote on stderr, last: bell ? and ? byte");
   EXPECT_EQ(run(deliver("x.npy") + "echo fine\n").outcome.remark, "") << "stdout is no remark";
 }
 
@@ -302,6 +315,8 @@ TEST_F(Exec, NamesAreFilesFirstAndOptionsThen) {
   EXPECT_TRUE(find_program("sh").path.is_absolute());  // a bare word is looked up in PATH
   EXPECT_EQ(find_method("exec:" + plain + "+n=3").name, "exec:" + plain + "+n=3");
   EXPECT_EQ(find_methods("rk4,exec:" + plain).size(), 2u);
+  EXPECT_TRUE(contains(refusal_of([&] { find_method("exec:" + script("a\n`touch PWNED`\n#", "")); }),
+                       "expected a path without control and hidden characters"));
   write("data", "");
   const std::pair<std::string, std::string> cases[] = {
       {(folder_ / "none").string(), "none: no such file; expected the path of a program"},
