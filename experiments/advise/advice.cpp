@@ -176,7 +176,7 @@ std::string file_of(const Advice& a, const Candidate& model, const Trial& chosen
   TomlDocument file(a.scene.source, a.scene.name);
   for (const Ingredient& i : model.out)
     for (const std::string& key : i.keys) file.erase(key);
-  file.set("time.method", chosen.method);
+  if (!chosen.method.starts_with(program_prefix)) file.set("time.method", chosen.method);
   if (method.adaptive)
     file.set("time.tolerance", 100 * chosen.relative * model.scene.size());  // as default_run reads it
   else
@@ -187,6 +187,8 @@ std::string file_of(const Advice& a, const Candidate& model, const Trial& chosen
 }
 
 void caveats_of(Advice& a, const Trial& t) {
+  if (t.method.starts_with(program_prefix))
+    a.caveats.push_back(fmt::format("a scene file cannot name a program: run it with --method {}", t.method));
   if (a.under_contact_rule)
     a.caveats.push_back("with contact this is a difference from what the in-house contact rule converges to, no error");
   if (a.until < a.scene.duration * (1 - 1e-9))

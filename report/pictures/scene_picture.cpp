@@ -320,7 +320,7 @@ std::vector<std::string> pictured_methods(const Scene& scene) {
   }
   if (first_order || hard) return names;
   // what is meant for long steps first, and what fails there next to it
-  if (!scene.method.starts_with(program_prefix) && find_method(scene.method).implicit)
+  if (find_method(scene.method).implicit)
     names = {find_method(scene.method).name,
              subject_method([](const Stepper& s) { return s.evaluations == 0 && s.symplectic; }),
              std::string(subject().representative)};

@@ -297,6 +297,34 @@ TEST(SceneFile, CoincidingEndsAreFineAtRestLengthZero) {
   EXPECT_EQ(message_of(text), "");
 }
 
+TEST(SceneFile, CannotNameAProgram) {
+  std::string text = scene_text("[[particle]]\nposition = [0, 0, 0]\nmass = 1\n");
+  text.replace(text.find("leapfrog"), 8, "exec:./x.sh");
+  EXPECT_TRUE(contains(message_of(text),
+                       "method: expected a method that is no program (programs are named on the command "
+                       "line only: --method exec:./x.sh)"));
+}
+
+TEST(SceneFile, NameIsThatOfTheFileInAnyScript) {
+  const std::string text = scene_text("[[particle]]\nposition = [0, 0, 0]\nmass = 1\n");
+  const std::filesystem::path folder = testing::TempDir();
+  for (const char* name : {"布料", "織物", "Größe-2", "it's"}) {
+    const std::string file = folder / (std::string(name) + ".toml");
+    std::ofstream(file) << text;
+    EXPECT_EQ(read_scene(file).name, name == std::string("it's") ? "it-s" : name);
+    std::filesystem::remove(file);
+  }
+  for (const char* name : {".hidden", "-x", "a\nb", "a\x1b[2J",
+                           "\xe2\x80\xae"
+                           "a",
+                           "\xff"}) {
+    const std::string file = folder / (std::string(name) + ".toml");
+    std::ofstream(file) << text;
+    EXPECT_THROW(read_scene(file), InputError) << name;
+    std::filesystem::remove(file);
+  }
+}
+
 TEST(SceneFile, MissingFilesAndFoldersAreNamed) {
   const auto folder = std::filesystem::temp_directory_path();
   for (const std::string& file : {std::string("/nowhere/at-all.toml"), folder.string()}) {
