@@ -3,12 +3,14 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
 #include <optional>
 #include <sstream>
 #include <stdexcept>
 
 #include "mysim/base/files.h"
+#include "mysim/base/names.h"
 #include "mysim/base/process.h"
 
 namespace crosscheck {
@@ -63,9 +65,16 @@ std::string run_gnuplot(const std::string& script, const std::filesystem::path& 
   return said;
 }
 
+std::string one_line(const std::string& text) {
+  std::string out = printable(text);
+  std::ranges::replace_if(
+      out, [](char c) { return c == '\n' || c == '\t'; }, ' ');
+  return out;
+}
+
 std::string single_quoted(const std::string& text) {
   std::string out = "'";
-  for (const char c : text) out += c == '\'' ? "''" : std::string(1, c);
+  for (const char c : one_line(text)) out += c == '\'' ? "''" : std::string(1, c);
   return out + "'";
 }
 

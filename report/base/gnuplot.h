@@ -17,7 +17,10 @@ void erase_pdf_date(const std::filesystem::path& pdf);
 std::string run_gnuplot(const std::string& script, const std::filesystem::path& folder,
                         const std::vector<std::string>& files, const std::string& what);
 
-/// Text in gnuplot's single quotes, in which nothing is special but the quote itself.
+/// The text for a line of a script, such as a comment: a line feed would begin a command.
+std::string one_line(const std::string& text);
+
+/// One line in gnuplot's single quotes, in which nothing is special but the quote itself.
 std::string single_quoted(const std::string& text);
 
 /// Says on stderr, on a line each, what gnuplot warned of while it drew `what`; nothing where it did not.

@@ -9,7 +9,10 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "mysim/base/errors.h"
 #include "mysim/base/files.h"
+#include "mysim/base/names.h"
+#include "mysim/base/text.h"
 #include "reference/method.h"
 #include "report/base/assets.h"
 #include "report/base/gnuplot.h"
@@ -100,6 +103,9 @@ MethodStyle style_of(const std::string& method) {
 }
 
 void draw(const Drawing& figure, const Provenance& provenance, const std::filesystem::path& folder) {
+  // gnuplot takes files called "<NAME" and "|NAME" for commands
+  if (!is_name(figure.name) || file_name_of(figure.name) != figure.name)
+    throw InputError(fmt::format("figure {}: expected a name that can be a file's", shell_quote(figure.name)));
   // gnuplot writes its files bit by bit: in a folder of its own, so that no half figure is ever seen
   const std::filesystem::path work = folder / fmt::format(".{}.{}.part", figure.name, getpid());
   struct Remove {

@@ -160,8 +160,8 @@ Drawing drawing_of(const HeatMap& map) {
   block += sheet.text({(left + wide) / 2, below - 28}, shortened(map.x_label, wide - 8), "center", "#111111");
   block += key_commands(sheet, key, {8, below - 37}, wide - 16);
   block += "plot [0:1][0:1] -1 notitle\nunset multiplot\n";
-  const std::string script =
-      fmt::format("# {}\n# Draw again: gnuplot {}.gp\n", map.title, map.name) + terminals_of_block(map, tall, block);
+  const std::string script = fmt::format("# {}\n# Draw again: gnuplot {}.gp\n", one_line(map.title), map.name) +
+                             terminals_of_block(map, tall, block);
   return {map.name, data_of(map), script};
 }
 

@@ -153,7 +153,8 @@ std::string Sheet::margins(const Rect& box) const {
 }
 
 std::string script_head(const FigureInfo& figure) {
-  return fmt::format("# {}\n# Draw again: gnuplot {}.gp\nreset\nload \"style.gp\"\n", figure.title, figure.name);
+  return fmt::format("# {}\n# Draw again: gnuplot {}.gp\nreset\nload \"style.gp\"\n", one_line(figure.title),
+                     figure.name);
 }
 
 std::string title_command(const Sheet& sheet, const FigureInfo& figure, Place middle) {

@@ -60,9 +60,7 @@ GnuplotPage::GnuplotPage(int width, int height, const PageFormat& paper, const s
 void GnuplotPage::label(double x, double y, const char* side, const std::string& text, double size, bool bold,
                         unsigned colour) {
   if (text.empty()) return;
-  for (std::string words : lines_of(text)) {
-    std::ranges::replace_if(
-        words, [](unsigned char letter) { return letter < 32; }, ' ');
+  for (const std::string& words : lines_of(text)) {
     line(fmt::format("set label {} at {} {} noenhanced front font 'DejaVu Sans{},{:.2f}' textcolor rgb '#{:06X}'",
                      single_quoted(words), at(x, y), side, bold ? ":Bold" : "", points_ * size, colour));
     y += line_height * size;

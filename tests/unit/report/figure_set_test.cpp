@@ -9,6 +9,7 @@
 #include "mysim/base/json.h"
 #include "mysim/base/process.h"
 #include "reference/method.h"
+#include "report/base/gnuplot.h"
 #include "report/figures/plot_layout.h"
 #include "report/pictures/png_file.h"
 #include "tests/unit/helpers.h"
@@ -39,6 +40,13 @@ TEST(FigureSize, IsThatOfTheSetOrAsAsked) {
   for (const char* bad : {"8.5", "cm", "8.5 cm", "-8cm", "1cm", "200cm", "8.5pt", "nancm"})
     EXPECT_TRUE(contains(message_of("paper", bad), "expected 4cm to 100cm, in cm, mm or in")) << bad;
   EXPECT_TRUE(contains(message_of("poster", ""), "--set poster: expected paper or lecture"));
+}
+
+TEST(GnuplotTexts, StayOneLineInQuotesAndCommentsAndNamesStartNoCommand) {
+  EXPECT_EQ(single_quoted("a\n`touch X`\n#'\x1b"), "'a `touch X` #''?'");
+  EXPECT_EQ(one_line("a\r\nb"), "a? b");
+  for (const char* name : {"<touch X", "|touch X", "../x", "a\nb", "", "-e"})
+    EXPECT_THROW(draw({name, {}, ""}, {}, testing::TempDir()), InputError) << name;
 }
 
 TEST(Latex, SpecialCharactersAreEscaped) {
