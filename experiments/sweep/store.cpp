@@ -8,6 +8,7 @@
 #include "mysim/base/errors.h"
 #include "mysim/base/files.h"
 #include "mysim/base/json.h"
+#include "mysim/base/names.h"
 
 namespace crosscheck {
 
@@ -25,17 +26,19 @@ void write_point_list(const PointList& list, const std::filesystem::path& folder
 }
 
 PointList read_point_list(const std::filesystem::path& folder) {
-  const auto file = folder / "plan.json";
+  const auto file = path_inside(folder, "plan.json");
   if (!std::filesystem::exists(file))
     throw InputError(fmt::format("{}: expected the plan of a sweep, written by `experiment --shard` or `check --hunt`",
                                  file.string()));
+  if (const auto points = path_inside(folder, "points"); std::filesystem::exists(points)) require_plain_files(points);
   try {
     const JsonField json = JsonField::parse_file(file.string());
     PointList list{json["experiments"].texts(), {}, {}};
     for (const JsonField& line : json["provenance"].elements())
       list.provenance.emplace_back(line[0].text(), line[1].text());
     if (const JsonField points = json["points"]; !points.is_null())
-      for (const JsonField& p : points.elements()) list.points.push_back({p["name"].text(), p["hash"].text()});
+      for (const JsonField& p : points.elements())
+        list.points.push_back({p["name"].text(), require_name(p["hash"].text(), "hash of a point")});
     return list;
   } catch (const InputError& error) {
     throw InputError(fmt::format("expected experiments, provenance and points of a sweep: {}", error.what()));
@@ -108,18 +111,21 @@ TableSet read_table_set(const std::string& text) {
     const JsonField in = JsonField::parse(text, "rows");
     TableSet set;
     for (const JsonField& t : in["tables"].elements()) {
-      Table table{t["name"].text(), {}, {}};
+      Table table{require_name(t["name"].text(), "table"), {}, {}};
       for (const JsonField& c : t["columns"].elements()) table.columns.push_back({c[0].text(), c[1].text()});
       for (const JsonField& line : t["rows"].elements()) {
         std::vector<Cell> row;
         for (const JsonField& value : line.elements()) row.push_back(cell_of(value));
         if (row.size() != table.columns.size()) line.fail("as many cells as columns");
+        for (size_t i = 0; i < row.size(); ++i)
+          if (const auto* cell = std::get_if<std::string>(&row[i])) require_cell(table.columns[i].name, *cell);
         table.rows.push_back(std::move(row));
       }
       set.tables.push_back(std::move(table));
     }
     for (const JsonField& c : in["certificates"].elements()) {
-      Certificate certificate{c["method"].text(), c["scene"].text(), {}};
+      Certificate certificate{c["method"].text(), require_name(c["scene"].text(), "scene"), {}};
+      require_cell("method", certificate.method);
       for (const JsonField& r : c["rows"].elements())
         certificate.rows.push_back({r[0].text(), r[1].text(), r[2].text(), r[3].text(), parity_of(r[4])});
       set.certificates.push_back(std::move(certificate));

@@ -11,6 +11,8 @@
 #include "mysim/base/csv.h"
 #include "mysim/base/errors.h"
 #include "mysim/base/files.h"
+#include "mysim/base/names.h"
+#include "mysim/base/text.h"
 
 namespace crosscheck {
 namespace {
@@ -63,7 +65,7 @@ std::string csv(const Table& table, const Provenance& provenance) {
 }
 
 void write_csv(const Table& table, const Provenance& provenance, const std::filesystem::path& folder) {
-  write_file(folder / (table.name + ".csv"), csv(table, provenance));
+  write_file(path_inside(folder, table.name + ".csv"), csv(table, provenance));
 }
 
 namespace {
@@ -124,6 +126,7 @@ Table read_csv(const std::filesystem::path& file) {
     records.push_back(reader.record());
     const std::vector<CsvField>& record = records.back();
     if (record.size() != table.columns.size()) reader.fail(fmt::format("{} cells in the row", table.columns.size()));
+    for (size_t i = 0; i < record.size(); ++i) require_cell(table.columns[i].name, record[i].text);
     for (size_t i = 0; i < record.size(); ++i) any[i] = any[i] || !record[i].text.empty();
     for (size_t i = 0; i < record.size(); ++i)
       if (record[i].quoted || (!record[i].text.empty() && !as<double>(record[i].text))) text[i] = true;

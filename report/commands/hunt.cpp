@@ -14,6 +14,7 @@
 #include "mysim/base/errors.h"
 #include "mysim/base/files.h"
 #include "mysim/base/output_folder.h"
+#include "mysim/base/text.h"
 #include "report/base/provenance.h"
 #include "report/pictures/scene_picture.h"
 
@@ -48,11 +49,11 @@ std::string name_of_files(const HuntFindingRow& row) {
 std::string command_of(const HuntFindingRow& row, const HuntOptions& options, const std::string& file) {
   const std::vector<Method> methods = methods_named(row.methods, options.hunt.methods);
   std::string line = "crosscheck check";
-  for (const Method& method : methods) line += " " + method.name;
+  for (const Method& method : methods) line += " " + shell_quote(method.name);
   line += " " + file;
   if (methods.size() > 1) line += " --pairs";
   if (methods.size() == 1) line += fmt::format(" --seed {}", options.hunt.seed_of(row.index));
-  if (!options.known_file.empty()) line += " --known " + options.known_file;
+  if (!options.known_file.empty()) line += " --known " + shell_quote(options.known_file);
   return line;
 }
 
@@ -161,9 +162,14 @@ int write_findings(const TableSet& tables, const HuntOptions& options, const std
     if (group.smallest.mark == RelationMark::broken) {
       announce({name + ".toml", name + ".png", name + ".md"});
       write_file(out / (name + ".toml"), group.smallest.scene);
-      const std::string no_picture = draw_break(methods_named(group.smallest.methods, options.hunt.methods),
-                                                parse_scene(group.smallest.scene, group.smallest.kind),
-                                                group.smallest.since, out / (name + ".png"));
+      const std::vector<Method> methods = methods_named(group.smallest.methods, options.hunt.methods);
+      const bool unasked = options.received && std::ranges::any_of(methods, [](const Method& method) {
+                             return method.name.starts_with(program_prefix);
+                           });
+      const std::string no_picture = unasked
+                                         ? "the joined parts named a program, not you: it is not run"
+                                         : draw_break(methods, parse_scene(group.smallest.scene, group.smallest.kind),
+                                                      group.smallest.since, out / (name + ".png"));
       write_file(out / (name + ".md"), report_text(group, options, no_picture));
     }
     print_group(group, (options.out / (name + ".md")).string());
@@ -218,7 +224,7 @@ int merge_hunts(const std::vector<std::filesystem::path>& folders, const std::fi
   options.hunt.methods = find_methods(value_of(plan.provenance, plan_methods));
   options.hunt.seed = static_cast<unsigned>(std::stoul(value_of(plan.provenance, plan_seed)));
   options.known_file = value_of(plan.provenance, plan_known);
-  options.out = out, options.command_line = command_line;
+  options.out = out, options.command_line = command_line, options.received = true;
   OutputFolder folder(out, "merge");
   const int status = write_findings(tables, options, folder.path(), [](const auto&) {});
   folder.finish();

@@ -22,6 +22,7 @@ struct HuntOptions {
   std::filesystem::path out;
   std::string known_file;    // as given; empty: the list that comes with Crosscheck
   std::string command_line;  // as given
+  bool received = false;     // the methods come from a folder: no program among them may be run
 };
 
 /// Goes on after the last case that the folder holds. 1 where something is broken that is not known, where a case could

@@ -11,6 +11,7 @@
 #include "mysim/base/errors.h"
 #include "mysim/base/files.h"
 #include "mysim/base/json.h"
+#include "mysim/base/names.h"
 #include "report/findings/evidence.h"
 
 namespace crosscheck {
@@ -31,7 +32,7 @@ JsonField read_json(const fs::path& file) {
 TableSet read_tables(const JsonField& report, const fs::path& data, Verification& found) {
   TableSet rows;
   for (const JsonField& claimed : report["tables"].elements()) {
-    const std::string name = claimed["name"].text();
+    const std::string name = require_name(claimed["name"].text(), "report.json: tables");
     rows.tables.push_back(read_csv(data / (name + ".csv")));
     const Evidence now = evidence_of(rows.tables.back());
     found.rows += static_cast<int>(now.rows.size());
@@ -80,7 +81,8 @@ void compare(const JsonField& claimed, const Finding& now, const TableSet& rows,
 
 Verification verify_report(const fs::path& folder) {
   Verification found;
-  const JsonField report = read_json(folder / "report.json");
+  const JsonField report = read_json(path_inside(folder, "report.json"));
+  require_plain_files(path_inside(folder, "data"));
   const TableSet rows = read_tables(report, folder / "data", found);
   const std::vector<Scene> scenes = read_scenes(report, folder / "data", found);
   found.of_data = found.mismatches.size();
@@ -103,7 +105,7 @@ using SentencesByKey = std::map<Key, std::vector<std::string>>;
 SentencesByKey findings_in(const fs::path& old) {
   SentencesByKey by_key;
   try {
-    const JsonField json = JsonField::parse_file((old / "report.json").string());
+    const JsonField json = JsonField::parse_file(path_inside(old, "report.json").string());
     for (const JsonField& finding : json["findings"].elements()) {
       const auto text_or_none = [&](const char* key) {  // reports of older versions do not have all
         const auto found = finding.find(key);

@@ -76,6 +76,7 @@ ReportData read_report(const fs::path& folder) {
   const auto at = std::ranges::find(extents, extent);
   if (at == std::end(extents)) throw InputError(fmt::format("{}: extent: unknown word '{}'", folder.string(), extent));
   data.extent = static_cast<Extent>(at - std::begin(extents));
+  data.received = true;
   data.all = data.scenes;
   if (data.extent != Extent::named)
     for (const Experiment& e : experiments()) add_missing(data.all, scenes_for(e, {}, data.extent == Extent::full));
@@ -221,12 +222,15 @@ class Assembly {
     return std::ranges::find(first, &part) != first.end();
   }
 
+  bool may_run(const std::string& method) const { return !data_.received || !method.starts_with(program_prefix); }
+
   /// The still picture of the first screen: the runs that move there, and the truth as a result of its own.
   void draw_first(const ScenePart& part) const {
     const Scene& scene = *part.scene;
     std::deque<MethodResult> results;
     for (const ShownRun& run : part.runs) {
-      if (run.beside) results.push_back(recorded_result(find_method(run.method), scene, run.run));
+      if (run.beside && may_run(run.method))
+        results.push_back(recorded_result(find_method(run.method), scene, run.run));
     }
     if (const auto truth = truth_of(scene, default_run(scene)))
       results.push_back({scene.name, "truth", {}, truth->trajectory});
@@ -239,6 +243,8 @@ class Assembly {
     std::deque<MethodResult> results;
     std::vector<const MethodResult*> shown;
     for (const Snapshot::Panel& panel : s.panels) {
+      if (!may_run(panel.method))
+        throw InputError(fmt::format("{} is not run: a report's data named it, not you", panel.method));
       results.push_back(recorded_result(find_method(panel.method), s.scene, panel.run));
       shown.push_back(&results.back());
     }

@@ -26,6 +26,7 @@ struct ReportData {
   Provenance provenance;
   Extent extent = Extent::quick;
   std::vector<std::string> problems;  // what failed to be made
+  bool received = false;              // read from a folder: no program that it names may be run
 
   /// Whether each scene has charts of its own.
   bool each_has_charts() const { return extent != Extent::quick; }

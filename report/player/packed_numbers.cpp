@@ -69,6 +69,8 @@ std::string from_base64(std::string_view text) {
 
 /// Of a text that becomes so many bytes.
 std::string inflated(std::string bytes, size_t count) {
+  constexpr size_t densest = 1032;  // bytes that deflate makes one of at most
+  if (count / densest > bytes.size()) throw std::runtime_error("packed numbers end too early");
   std::string out(count, '\0');
   constexpr int gzip_format = 15 + 16;
   z_stream stream{};
@@ -87,15 +89,16 @@ std::string inflated(std::string bytes, size_t count) {
 }  // namespace
 
 std::vector<std::uint16_t> unpack(const PackedNumbers& packed) {
-  std::vector<std::uint16_t> numbers(packed.count);
-  if (numbers.empty()) return numbers;
+  if (packed.count == 0) return {};
   const std::string planes = inflated(from_base64(packed.data), 2 * packed.count);
+  std::vector<std::uint16_t> numbers(packed.count);
   for (size_t i = 0; i < packed.count; ++i) {
     const auto zigzag = static_cast<unsigned char>(planes[i]) | static_cast<unsigned char>(planes[packed.count + i])
                                                                     << 8;
     numbers[i] = static_cast<std::uint16_t>(zigzag % 2 == 0 ? zigzag / 2 : -(zigzag / 2) - 1);
   }
-  for (int k = packed.order; k >= 1; --k)
+  // a larger lag reaches no number, and its double may be too large for a size
+  for (int k = packed.lag < packed.count ? packed.order : 0; k >= 1; --k)
     for (size_t i = static_cast<size_t>(k) * packed.lag; i < packed.count; ++i)
       numbers[i] = static_cast<std::uint16_t>(numbers[i] + numbers[i - packed.lag]);
   return numbers;

@@ -94,6 +94,20 @@ TEST_F(Sweep, RowsComeBackToTheSameBits) {
 TEST_F(Sweep, WhatIsNoRowsIsRefusedInWords) {
   for (const char* text : {"", "{}", "[1]", "{\"tables\": [{\"name\": 1}]}"})
     EXPECT_TRUE(throws<InputError>([&] { read_table_set(text); }, "expected JSON of tables, certificates and notes"));
+  const TableSet good{{{"t", {{"scene", "1"}, {"note", "1"}}, {{std::string("s"), std::string("two\nlines")}}}},
+                      {{"rk4", "s", {}}},
+                      {}};
+  EXPECT_NO_THROW(read_table_set(table_set_json(good)));
+  for (const char* name : {"../../OUTSIDE", "/tmp/x", "", ".hidden", "a\nb"}) {
+    TableSet bad = good;
+    bad.tables[0].name = name;
+    EXPECT_THROW(read_table_set(table_set_json(bad)), InputError) << name;
+    bad = good, bad.certificates[0].scene = name;
+    EXPECT_THROW(read_table_set(table_set_json(bad)), InputError) << name;
+  }
+  TableSet bad = good;
+  bad.tables[0].rows[0][0] = std::string("a\nb");
+  EXPECT_THROW(read_table_set(table_set_json(bad)), InputError);
 }
 
 TEST_F(Sweep, RowsOfTheSameTableAreAppendedAndNotesSaidOnce) {
@@ -298,6 +312,12 @@ TEST_F(Sweep, PointListsComeBackAndDamagedOnesAreRefused) {
   EXPECT_EQ(back.points, list.points);
   EXPECT_EQ(back.experiments, list.experiments);
   EXPECT_EQ(back.provenance, list.provenance);
+  std::filesystem::create_directories(folder_ / "points");
+  std::filesystem::create_symlink("/dev/zero", folder_ / "points/0123456789abcdef.json");
+  EXPECT_THROW(read_point_list(folder_), InputError);
+  std::filesystem::remove_all(folder_ / "points");
+  write_point_list({{}, {{"a point", "../../x"}}, {}}, folder_);
+  EXPECT_THROW(read_point_list(folder_), InputError);
   std::ofstream(folder_ / "plan.json") << "{}";
   EXPECT_TRUE(throws<InputError>([&] { read_point_list(folder_); }, "expected experiments, provenance and points"));
   EXPECT_TRUE(throws<InputError>([&] { read_point_list(folder_ / "none"); }, "expected the plan of a sweep"));

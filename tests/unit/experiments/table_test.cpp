@@ -234,6 +234,9 @@ TEST(Files, AreWrittenWholeIntoNewFoldersAndOverOldOnes) {
   EXPECT_EQ(std::distance(fs::directory_iterator(file.parent_path()), {}), 1) << "a temporary file was left";
   write_csv({"probe", {{"a", "1"}}, {}}, {}, folder.path());
   EXPECT_EQ(content_of(folder.path() / "probe.csv"), "a [1]\n");
+  fs::create_symlink("elsewhere.csv", folder.path() / "link.csv");
+  for (const char* name : {"../probe", "/tmp/probe", "link"})
+    EXPECT_THROW(write_csv({name, {{"a", "1"}}, {}}, {}, folder.path()), InputError) << name;
 }
 
 TEST(Files, UnwritablePathsAreNamedAndNothingIsLeft) {

@@ -105,6 +105,19 @@ TEST(PackedNumbers, AnyNumbersComeBack) {
   }
 }
 
+TEST(PackedNumbers, ClaimsThatTheDataDoNotHoldAreRefused) {
+  const PackedNumbers good = pack(std::vector<std::uint16_t>(100, 7), 1, 1);
+  EXPECT_EQ(unpack(good).size(), 100u);
+  for (const size_t count : {size_t{101}, size_t{1} << 36, size_t{1} << 63}) {
+    PackedNumbers bad = good;
+    bad.count = count;
+    EXPECT_ANY_THROW(unpack(bad)) << count;
+  }
+  PackedNumbers bad = good;
+  bad.order = 2, bad.lag = (size_t{1} << 63) + 1;
+  EXPECT_EQ(unpack(bad).size(), 100u);
+}
+
 TEST(PackedNumbers, EvenMotionTakesHardlyAnyRoom) {
   std::vector<std::uint16_t> numbers;
   for (int frame = 0; frame < 150; ++frame)

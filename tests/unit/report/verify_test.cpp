@@ -34,7 +34,7 @@ class ReadCsv : public InFolder {
 };
 
 TEST_F(ReadCsv, RowsComeBackAsTheyWereWritten) {
-  Table t{"probe", {{"scene", "1"}, {"error", "m"}, {"steps", "1"}, {"note [odd], long", "1"}, {"none", "s"}}, {}};
+  Table t{"probe", {{"words", "1"}, {"error", "m"}, {"steps", "1"}, {"note [odd], long", "1"}, {"none", "s"}}, {}};
   t.add({std::string("a,b"), 0.1, 7L, std::string("plain"), {}});
   t.add({std::string("say \"so\""), -0.0, -3L, {}, {}});
   t.add({std::string("two\nlines"), 1e300, {}, std::string("12"), {}});
@@ -57,6 +57,8 @@ TEST_F(ReadCsv, SaysWhatIsWrongAndWhere) {
   EXPECT_TRUE(contains(message_of("scene [1]\n\"open\n"), "expected a closing quote"));
   EXPECT_TRUE(contains(message_of("scene [1]\ntorn"), "expected a line feed at the end of the row"));
   EXPECT_TRUE(contains(message_of("scene [1]"), "expected a line feed"));
+  EXPECT_TRUE(contains(message_of("scene [1]\n\"a\nb\"\n"), "column scene: expected text without control"));
+  EXPECT_TRUE(contains(message_of("note [1]\n\x1b[2J\n"), "column note: expected text without control"));
   try {
     read_csv(folder_ / "absent.csv");
     FAIL();
