@@ -160,6 +160,7 @@ class AdaptiveWorld : public World {
   Contacts contacts_;
   DormandPrince pair_;
   double tolerance_, h_, last_h_ = 0;
+  double shortest_;           // s, a shorter step is lost in the rounding of time
   double fastest_;            // m/s, largest speed of an accepted state
   double last_ratio_ = 1e-4;  // of the step before, for the controller
   State before_, s_, seen_;   // start and end of the last accepted step; the requested state
@@ -176,7 +177,9 @@ AdaptiveWorld::AdaptiveWorld(const Scene& scene, const Run& run, ContactRule con
       contacts_(scene.model, contact),
       pair_(scene.start),
       tolerance_(run.tolerance),
-      h_(std::min(run.step, run.duration)),
+      // observed or not, a run that chooses its steps begins with the scene's
+      h_(std::min(contacts_.any() ? run.step : scene.step, run.duration)),
+      shortest_(1e-14 * run.duration),
       fastest_(largest_column(scene.start.v)),
       before_(scene.start),
       s_(scene.start),
@@ -206,8 +209,7 @@ void AdaptiveWorld::advance(double limit) {
   for (;;) {
     // a step that would leave a sliver before the limit takes the whole way
     const double h = s_.t + 1.01 * h_ >= limit ? limit - s_.t : h_;
-    if (!(h > 1e-14 * std::max(1.0, s_.t)))
-      throw SolverFailure(fmt::format("the step fell below round-off at t = {:.4g} s", s_.t));
+    if (!(h > shortest_)) throw SolverFailure(fmt::format("the step fell below round-off at t = {:.4g} s", s_.t));
     pair_.attempt(f_, s_, h);
     const double ratio = error_ratio();
     if (ratio <= 1) {

@@ -193,7 +193,7 @@ void print(const Advice& a) {
   fmt::print("  model     {}\n", a.left_out.empty() ? "full" : t.model);
   fmt::print("  method    {}\n", how_of(t));
   fmt::print("  {} {} (largest RMS over time; truth: {}, error bar {})\n",
-             a.under_contact_rule ? "differs  " : "error    ", nice_length(*t.error),
+             a.under_contact_rule ? "differs  " : "error    ", nice_length(a.checked),
              a.under_contact_rule ? "the in-house contact rule" : name_of(a.tier), nice_length(a.error_bar));
   fmt::print("  margin    stability limit: {}\n", margin_text(t));
   fmt::print("  cost      {} force evaluations x {} springs; {:.2g} s of CPU time here\n", t.outcome.evaluations,

@@ -214,6 +214,30 @@ TEST(Advise, KeepsItsPromiseBetweenTheSamples) {
     }
 }
 
+TEST(Advise, ChecksTheVeryRunOfItsFile) {
+  for (const auto& [scene, tolerance] : {std::pair{load_scene("circle"), 6e-4},
+                                         {load_scene("circle"), 3e-5},
+                                         {sampled_spring(3), 1e-3},
+                                         {sampled_spring(1, 2), 1e-4}}) {
+    SCOPED_TRACE(fmt::format("{} {}", scene.name, tolerance));
+    const Advice a = advise(scene, tolerance, {find_method("dopri5")});
+    const Scene written = parse_scene(a.toml, scene.name);
+    const DenseTruth path(scene, tolerance);
+    MaxErrorObserver farthest(path);
+    run_method(find_method("dopri5"), written, observed_run(find_method("dopri5"), written, path), {&farthest});
+    EXPECT_EQ(farthest.distance(), a.checked);
+    // a run that is not observed takes the same steps
+    const Trajectory plain = run_and_record("dopri5", written, default_run(written)).trajectory;
+    const Trajectory observed =
+        run_and_record("dopri5", written, observed_run(find_method("dopri5"), written, path)).trajectory;
+    EXPECT_TRUE(identical(plain, observed));
+    double error = 0;
+    for (int i = 0; i < plain.frames(); ++i) error = std::max(error, rms_distance(plain.x[i], path.at(plain.t[i])));
+    EXPECT_LE(error, a.checked * (1 + 1e-9));
+    EXPECT_LE(a.checked + a.error_bar, tolerance);
+  }
+}
+
 TEST(Advise, SeesTheFastestMotionOfAScene) {
   EXPECT_NEAR(fastest_motion(sampled_spring(1)), std::sqrt(300 / 0.5), 1e-2);
   EXPECT_EQ(fastest_motion(load_scene("projectile")), 0);
