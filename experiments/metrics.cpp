@@ -49,7 +49,7 @@ std::optional<double> creep(const Scene& scene, double t, const Points& x, const
     for (int i = 0; i < x.cols(); ++i) {
       const Vec3 d = x.col(i) - centre, seen = v.col(i) - u;
       const double distance = d.norm();
-      if (scene.model.particles.pinned[i] || distance - sphere.contact_radius() > 1e-3) continue;
+      if (scene.model.particles.pinned[i] || distance > (1 + 1e-3) * sphere.contact_radius()) continue;
       const Vec3 n = d / distance;
       sum += (seen - seen.dot(n) * n).norm();
       ++touching;
@@ -61,13 +61,14 @@ std::optional<double> creep(const Scene& scene, double t, const Points& x, const
 
 std::optional<double> first_contact(const Scene& scene, const Trajectory& trajectory) {
   for (int i = 0; i < trajectory.frames(); ++i)
-    if (const auto gap = clearance(scene, trajectory.t[i], trajectory.x[i]); gap && *gap < 1e-9) return trajectory.t[i];
+    if (const auto gap = clearance(scene, trajectory.t[i], trajectory.x[i]); gap && *gap < 1e-9 * scene.size())
+      return trajectory.t[i];
   return std::nullopt;
 }
 
 std::optional<double> round_off_bound(const Scene& scene, double motion, double growth) {
   if (!(growth < 1e6)) return std::nullopt;
-  return 1e-13 * std::max(1.0, scene.size() + motion) * std::max(1.0, growth);
+  return 1e-13 * (scene.size() + motion) * std::max(1.0, growth);
 }
 
 std::optional<double> single_precision_bound(const Scene& scene, double motion, double growth, long steps) {

@@ -42,13 +42,13 @@ void add_statistics(const Request& request, const Scene& scene, const Run& run, 
                     TableSet& tables) {
   Table table = table_of<StatisticRow>(scene.name + "-statistics");
   std::vector<Statistic> reference;   // of the subject
-  constexpr double rounding = 1e-12;  // m, J: a spread below it is none of the motion
+  constexpr double rounding = 1e-12;  // relative to the mean: a smaller spread is not due to the motion
   const auto add_rows = [&](const Method& method, const std::vector<Statistic>& statistics, bool of_one_run) {
     for (size_t i = 0; i < statistics.size(); ++i) {
       const Statistic& s = statistics[i];
       StatisticRow row{method.name, s.quantity, s.unit, s.mean};
       if (!of_one_run) row.deviation = s.deviation;
-      if (!reference.empty() && reference[i].deviation > rounding)
+      if (!reference.empty() && reference[i].deviation > rounding * std::abs(reference[i].mean))
         row.apart = std::abs(s.mean - reference[i].mean) / reference[i].deviation;
       add(table, row);
     }
