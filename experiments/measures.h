@@ -15,7 +15,14 @@ namespace crosscheck {
 /// pinned, or no rest within a hundred thousand steps.
 std::optional<State> rest_of(const Scene& scene);
 
-// Plain measures of a scene: what a [wish] is about. All runs are by leapfrog at a step far below its limit.
+// Plain measures of a scene: what a [wish] is about.
+
+/// The runs from which a measure is taken.
+enum class MeasuredBy {
+  one_run,         // one run of leapfrog, to a few per cent
+  converged_runs,  // leapfrog at halved steps, extrapolated until the measure changes by less than 1e-4 of itself
+  own_method,      // the scene's method at its step, as `run` does
+};
 
 /// m: how far the particle that sank most hangs below its place at the start, along gravity, when the scene has come
 /// to rest (measures.h). Nothing where there is no such rest.
@@ -25,14 +32,14 @@ std::optional<double> sag_of(const Scene& scene);
 /// between turning points of its path, seen along the direction in which it moves most; a turning point counts when
 /// the path turns back by a tenth of its whole range or more. Nothing where fewer than three are seen in 72 times
 /// `about` (s), the period that is expected.
-std::optional<double> period_of(const Scene& scene, double about);
+std::optional<double> period_of(const Scene& scene, double about, MeasuredBy by = MeasuredBy::converged_runs);
 
 /// s: when the mechanical energy above that at rest (kinetic, elastic and gravitational) has fallen to a thousandth of
 /// its largest value for good; beyond 1.5 times `about` (s) as an exponential decay from there on would. Nothing
 /// without a rest.
-std::optional<double> settle_time_of(const Scene& scene, double about);
+std::optional<double> settle_time_of(const Scene& scene, double about, MeasuredBy by = MeasuredBy::converged_runs);
 
 /// 1: the largest strain (L - r) / r of any spring in the scene's duration. Nothing without springs of a rest length.
-std::optional<double> max_stretch_of(const Scene& scene);
+std::optional<double> max_stretch_of(const Scene& scene, MeasuredBy by = MeasuredBy::converged_runs);
 
 }  // namespace crosscheck

@@ -207,8 +207,9 @@ void caveats_of(Advice& a, const Trial& t) {
 /// The advice without its trials; throws CannotGuarantee where the truth allows none.
 Advice guarantee_of(const Scene& scene, double tolerance, const DenseTruth& path) {
   const Truth& truth = path.truth();
-  Advice a{scene, tolerance, truth.tier, truth.how, path.error_bar(), truth.under_contact_rule, path.until(), {}, 0, {},
-           {},    "",        0,          {}};
+  Advice a{
+      scene, tolerance, truth.tier, truth.how, path.error_bar(), truth.under_contact_rule, path.until(), {}, 0, {}, {},
+      "",    0,         {},         {}};
   // a third: what is left for the run's own error is then at least twice the bar
   if (!(a.error_bar <= tolerance / 3))
     throw CannotGuarantee(
@@ -296,13 +297,24 @@ Advice advise(const Scene& scene, double tolerance, std::vector<Method> methods)
   const Method method = find_method(chosen.method);
   for (const Ingredient& i : model.out) a.left_out.push_back(i.name);
   a.toml = file_of(a, model, chosen, method);
-  const Scene written = parse_scene(a.toml, scene.name);
+  Scene written = parse_scene(a.toml, scene.name);
+  a.wishes = keep_wishes(scene, written);
+  Trial last = chosen;
+  if (written.step < chosen.step && !method.adaptive) {
+    last.step = written.step;
+    a.toml = file_of(a, model, last, method);
+    written = parse_scene(a.toml, scene.name);
+    a.caveats.push_back("the step is shorter than the tolerance needs: it keeps the wishes");
+  }
+  // the very file, by the run that `crosscheck run` makes
   MaxErrorObserver farthest(path);
-  const Outcome again = run_method(method, written, observed_run(method, written, path), {&farthest});
+  last.outcome = run_method(method, written, observed_run(method, written, path), {&farthest});
   a.checked = farthest.distance();
-  if (again.verdict != Verdict::ok || !(a.checked + a.error_bar <= tolerance))
+  if (last.outcome.verdict != Verdict::ok || !(a.checked + a.error_bar <= tolerance))
     throw CannotGuarantee(fmt::format("the advised file, run again, errs by {:.3g} m", a.checked));
-  caveats_of(a, chosen);
+  last.error = a.checked;
+  a.trials[a.chosen] = std::move(last);
+  caveats_of(a, a.trials[a.chosen]);
   return a;
 }
 

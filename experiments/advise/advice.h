@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "experiments/advise/dense_truth.h"
+#include "experiments/advise/fit.h"
 #include "experiments/scenes/ingredients.h"
 #include "reference/method.h"
 #include "reference/truth/truth.h"
@@ -47,8 +48,9 @@ struct Advice {
   size_t chosen;                 // of the trials
   std::optional<size_t> second;  // the cheapest other method that meets it
   std::vector<std::string> left_out;
-  std::string toml;  // a scene file that runs as advised
-  double checked;    // m, the error of that file's own run
+  std::string toml;                // a scene file that runs as advised
+  double checked;                  // m, the error of that file's own run
+  std::vector<WishResult> wishes;  // and their values in that run
   std::vector<std::string> caveats;
 };
 

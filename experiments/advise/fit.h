@@ -1,6 +1,7 @@
 // Fits a scene's unset parameters to its wishes.
 #pragma once
 
+#include <cmath>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -18,9 +19,18 @@ struct Unknown {
 };
 
 struct WishResult {
+  static constexpr double tolerance = 5e-4;  // 1, by which `own` may differ from `reached`
   std::string name, unit;
-  double wished, reached;
+  double wished;
+  double reached;    // the scene's value, converged in the step
+  double own = NAN;  // the value in a run of the file, by its method at its step
+  bool kept() const { return std::abs(own - reached) <= tolerance * std::abs(reached); }
 };
+
+/// The wishes that `scene` fulfils, and those that `file`, a scene to be run in its place, does by its own method, with
+/// the step of `file` halved until it keeps them (WishResult::kept), or the step no longer helps. Wishes that cannot be
+/// measured are left out.
+std::vector<WishResult> keep_wishes(const Scene& scene, Scene& file);
 
 struct FitResult {
   Scene scene;
@@ -33,9 +43,10 @@ struct FitResult {
 bool has_unknowns(std::string_view text, const std::string& name);
 
 /// Finds the values by simulation: on a coarse grid over decades first, then by damped Gauss-Newton steps in the
-/// logarithms of the parameters and of the measures, until each wish is met within 0.2 %. The step becomes at most half
-/// of leapfrog's limit. Throws InputError where values are to be fitted without as many wishes, or that cannot be
-/// fitted, and CannotGuarantee where a wish cannot be measured or is not met within 2 %.
+/// logarithms of the parameters and of the measures, until each wish is met within 0.02 %. The step becomes at most
+/// half of leapfrog's limit, and so short that a run of the file keeps its wishes, if one does. Throws InputError where
+/// values are to be fitted without as many wishes, or that cannot be fitted, and CannotGuarantee where a wish cannot be
+/// measured or is not met within 2 %.
 FitResult fit_to_wishes(std::string_view text, const std::string& name);
 
 }  // namespace crosscheck

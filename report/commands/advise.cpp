@@ -187,6 +187,17 @@ std::string json_of(const Advice& a) {
   return json.dump(1) + "\n";
 }
 
+void print(const std::vector<WishResult>& wishes) {
+  for (const WishResult& w : wishes) {
+    fmt::print("  {}: wished {:.6g}{}, reached {:.6g} ({:+.2g} %), by the file's method and step {:.6g} ({:+.2g} %)\n",
+               w.name, w.wished, w.unit == "1" ? "" : " " + w.unit, w.reached, 100 * (w.reached / w.wished - 1), w.own,
+               100 * (w.own / w.reached - 1));
+    if (!w.kept())
+      fmt::print("  note: no step of the file's method keeps the {} within {} % of the scene's own\n", w.name,
+                 100 * WishResult::tolerance);
+  }
+}
+
 void print(const Advice& a) {
   const Trial& t = a.trials[a.chosen];
   fmt::print("{} to {} until {:.3g} s\n", a.scene.name, nice_length(a.tolerance), a.until);
@@ -202,15 +213,14 @@ void print(const Advice& a) {
     const Trial& s = a.trials[*a.second];
     fmt::print("  next best {}, {:.3g} times the cost\n", how_of(s), s.cost() / t.cost());
   }
+  print(a.wishes);
   for (const std::string& c : a.caveats) fmt::print("  note: {}\n", c);
 }
 
 void print(const FitResult& fitted) {
   fmt::print("{} fitted to its wishes\n", fitted.scene.name);
   for (const Unknown& u : fitted.unknowns) fmt::print("  {} = {:.6g} {}\n", u.name, u.value, u.unit);
-  for (const WishResult& w : fitted.wishes)
-    fmt::print("  {}: wished {:.6g}{}, reached {:.6g} ({:+.2g} %)\n", w.name, w.wished,
-               w.unit == "1" ? "" : " " + w.unit, w.reached, 100 * (w.reached / w.wished - 1));
+  print(fitted.wishes);
 }
 
 int advised(const AdviseOptions& options, OutputFolder& folder) {

@@ -32,10 +32,12 @@ TEST(Measures, OfASpringHaveClosedForms) {
               damped = parse_scene(mass_on_spring("0.5", "80", "[drag]\ngamma = 1.5\n"), "damped");
   EXPECT_NEAR(*sag_of(free), m * 9.81 / k, 1e-4 * m * 9.81 / k);
   const double period = 2 * std::numbers::pi * std::sqrt(m / k);
-  // leapfrog at h omega = 0.2 runs (h omega)^2 / 24 fast
+  // converged to 1e-4
   for (const double about : {period, 3 * period, period / 10})
-    EXPECT_NEAR(*period_of(free, about), period, 2e-3 * period);
-  EXPECT_NEAR(*max_stretch_of(free), 2 * m * 9.81 / k, 5e-3 * 2 * m * 9.81 / k);
+    EXPECT_NEAR(*period_of(free, about), period, 1e-4 * period);
+  EXPECT_NEAR(*max_stretch_of(free), 2 * m * 9.81 / k, 1e-4 * 2 * m * 9.81 / k);
+  // the file's own: leapfrog runs (h omega)^2 / 24 fast, here by 6.7e-4
+  EXPECT_NEAR(*period_of(free, period, MeasuredBy::own_method), period * (1 - 16e-3 / 24), 1e-4 * period);
   // the energy falls as exp(-gamma t), but for a ripple of gamma / omega
   const double settle = std::log(1e3) / gamma, ripple = 1 / std::sqrt(k / m);
   for (const double about : {settle, settle / 2, 3 * settle})
@@ -73,6 +75,38 @@ TEST(Fit, ReachesWishesWithinTwoPercent) {
     EXPECT_EQ(parse_scene(fitted.toml, "wish.toml").hash, fitted.scene.hash);
     EXPECT_EQ(run_and_record(fitted.scene.method, fitted.scene, default_run(fitted.scene)).outcome.verdict,
               Verdict::ok);
+  }
+}
+
+/// One mass under many springs, each to a pin of its own.
+std::string mass_under_pins(int pins, const std::string& k, const std::string& more) {
+  std::string text = "[[particle]]\nposition = [0, -1, 0]\nmass = 0.5\n", list;
+  for (int i = 1; i <= pins; ++i) {
+    text += fmt::format("[[particle]]\nposition = [{}, 0, 0]\nmass = 1\n[[spring]]\nends = [0, {}]\nstiffness = {}\n",
+                        0.01 * (i - (pins + 1) / 2.), i, k);
+    list += fmt::format("{}{}", i > 1 ? ", " : "", i);
+  }
+  return scene_text(text + "[pins]\nparticles = [" + list + "]\n" + gravity_text + more, 2, 1e-2, 20);
+}
+
+TEST(Fit, WishesHoldInARunOfItsFile) {
+  for (const std::string& text : {mass_on_spring("0.3", "\"fit\"", "[wish]\nperiod = 0.7\n"),
+                                  mass_under_pins(50, "\"fit\"", "[wish]\nperiod = 0.4\n"),
+                                  mass_on_spring("0.5", "80", "[drag]\ngamma = \"fit\"\n[wish]\nsettle_time = 3\n")}) {
+    SCOPED_TRACE(text.substr(0, 300));
+    const FitResult fitted = fit_to_wishes(text, "wish.toml");
+    const WishResult& w = fitted.wishes[0];
+    EXPECT_TRUE(w.kept()) << w.own << " of " << w.reached;
+    const auto at = [&](const Scene& s) {
+      return w.name == "period" ? *period_of(s, w.wished, MeasuredBy::own_method)
+                                : *settle_time_of(s, w.wished, MeasuredBy::own_method);
+    };
+    EXPECT_EQ(at(fitted.scene), w.own);
+    // the scene's value is the limit of its runs as their steps shrink
+    Scene finer = fitted.scene;
+    finer.step /= 16;
+    EXPECT_NEAR(at(finer), w.reached, 3e-4 * w.reached);
+    EXPECT_NEAR(w.own, w.wished, 1e-3 * w.wished);
   }
 }
 
@@ -226,6 +260,7 @@ TEST(Advise, ChecksTheVeryRunOfItsFile) {
     MaxErrorObserver farthest(path);
     run_method(find_method("dopri5"), written, observed_run(find_method("dopri5"), written, path), {&farthest});
     EXPECT_EQ(farthest.distance(), a.checked);
+    EXPECT_EQ(*a.trials[a.chosen].error, a.checked);
     // a run that is not observed takes the same steps
     const Trajectory plain = run_and_record("dopri5", written, default_run(written)).trajectory;
     const Trajectory observed =
@@ -236,6 +271,16 @@ TEST(Advise, ChecksTheVeryRunOfItsFile) {
     EXPECT_LE(error, a.checked * (1 + 1e-9));
     EXPECT_LE(a.checked + a.error_bar, tolerance);
   }
+}
+
+TEST(Advise, StepKeepsTheWishesOfAScene) {
+  const Scene scene = parse_scene(mass_on_spring("0.5", "80", "[wish]\nperiod = 0.5\n"), "wish");
+  const Advice a = advise(scene, 1e-2, {find_method("leapfrog")});
+  ASSERT_EQ(a.wishes.size(), 1u);
+  EXPECT_TRUE(a.wishes[0].kept());
+  const double period = 2 * std::numbers::pi * std::sqrt(0.5 / 80);
+  EXPECT_NEAR(a.wishes[0].reached, period, 1e-4 * period);
+  EXPECT_NEAR(*period_of(parse_scene(a.toml, "wish"), 0.5, MeasuredBy::own_method), period, 6e-4 * period);
 }
 
 TEST(Advise, SeesTheFastestMotionOfAScene) {
