@@ -80,6 +80,7 @@ DenseTruth::DenseTruth(const Scene& scene, double tolerance) : dense_(scene), ex
     // beside a sphere it falls as the spacing after impacts, as its fourth power elsewhere; by the square, say
     if (scene.model.find<Spheres>())
       for (double left = lost / 4; left > tolerance / 30 && i + 1 < most_doublings; left /= 4, ++i) spacing /= 2;
+    if (i == most_doublings && bar_ <= tolerance / 3) break;  // as accurate as advice requires
     if (i == most_doublings)
       throw CannotGuarantee(fmt::format(
           "between its samples the truth is known to {:.2g} m only, and {:.2g} m is asked", bar_, tolerance));

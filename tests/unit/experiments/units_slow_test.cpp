@@ -1,0 +1,192 @@
+// Scenes written in other units of length, mass and time: truths, their bars and advice are the same numbers in them.
+
+#include <regex>
+
+#include "experiments/advise/advice.h"
+#include "experiments/advise/dense_truth.h"
+#include "mysim/base/text.h"
+#include "reference/method.h"
+#include "reference/truth/truth.h"
+#include "tests/unit/helpers.h"
+
+namespace crosscheck {
+namespace {
+
+using namespace testing_tools;
+
+/// Sizes of the units of length, mass and time.
+struct Units {
+  double length = 1, mass = 1, time = 1;
+};
+
+/// The text with each number that a unit follows in the given units. Exact for powers of two.
+std::string in_units(const std::string& text, const Units& u) {
+  const std::pair<const char*, double> factors[] = {
+      {"kg/m3", u.mass / (u.length * u.length * u.length)},
+      {"m/s2", u.length / (u.time * u.time)},
+      {"N/m", u.mass / (u.time * u.time)},
+      {"Ns/m", u.mass / u.time},
+      {"m/s", u.length / u.time},
+      {"1/s", 1 / u.time},
+      {"kg", u.mass},
+      {"m", u.length},
+      {"s", u.time},
+  };
+  static const std::regex quantity(R"((-?[0-9][-0-9.e]*) (kg/m3|m/s2|N/m|Ns/m|m/s|1/s|kg|m|s)\b)");
+  std::string out;
+  auto at = text.begin();
+  for (std::sregex_iterator found(text.begin(), text.end(), quantity), end; found != end; ++found) {
+    out.append(at, (*found)[0].first);
+    for (const auto& [unit, factor] : factors)
+      if ((*found)[2] == unit) {
+        out += fmt::format("{}", std::stod((*found)[1]) * factor);
+        break;
+      }
+    at = (*found)[0].second;
+  }
+  return out.append(at, text.end());
+}
+
+struct Kind {
+  std::string name, text;
+  double duration;
+};
+
+const char* const falls = "[gravity]\nacceleration = [0 m/s2, -9.81 m/s2, 0 m/s2]\n";
+const char* const ball = "[[sphere]]\ncentre = [0 m, 0 m, 0 m]\nradius = 0.98 m\nmargin = 0.02 m\nfriction = 0.2\n";
+const char* const hung =
+    "[[particle]]\nposition = [0 m, 0 m, 0 m]\nmass = 1 kg\n[[particle]]\nposition = [0.5 m, -0.3 m, 0 m]\n"
+    "mass = 0.3 kg\n[[spring]]\nends = [0, 1]\nstiffness = 100 N/m\nrest = 0.5 m\n[pins]\nparticles = [0]\n";
+const char* const sheet =
+    "[grid]\nsize = [3, 3]\norigin = [0 m, 0 m, 0 m]\nu = [1 m, 0 m, 0 m]\nv = [0 m, -0.9 m, 0.4 m]\nmass = 0.25 kg\n"
+    "[grid.stiffness]\nstructural = 40 N/m\nshear = 30 N/m\n[pins]\nparticles = [0, 1, 2]\n";
+
+std::vector<Kind> kinds() {
+  const std::string dropped =
+      "[[particle]]\nposition = [0.02 m, 1.3 m, 0.01 m]\nmass = 0.2 kg\n[[particle]]\nposition = [0.3 m, 1.4 m, "
+      "0.05 m]\nmass = 0.3 kg\nvelocity = [0 m/s, 0 m/s, 0.2 m/s]\n[[spring]]\nends = [0, 1]\nstiffness = 80 N/m\n"
+      "rest = 0.25 m\n[drag]\ngamma = 0.3 1/s\n";
+  return {
+      {"circle", "[[particle]]\nposition = [0.7 m, 0 m, 0 m]\n[rotation]\nrate = 1.5 1/s\n", 2},
+      {"projectile",
+       std::string("[[particle]]\nposition = [0 m, 1 m, 0 m]\nmass = 0.3 kg\nvelocity = [3 m/s, 2 m/s, 0 m/s]\n[drag]\n"
+                   "gamma = 0.4 1/s\n") +
+           falls,
+       1},
+      {"pendulum", std::string(hung) + falls, 1},
+      {"moved pin",
+       std::string(hung) + "[pins.motion]\namplitude = [0.2 m, 0 m, 0 m]\nfrequency = 1 1/s\nramp = 0.3 s\n" + falls,
+       1},
+      {"dashpot and drag",
+       std::string(hung) + "[drag]\ngamma = 2 1/s\n[wind]\nacceleration = [1 m/s2, 0 m/s2, 2 m/s2]\n" + falls, 1},
+      {"sheet", std::string(sheet) + falls, 0.5},
+      {"sheet in air",
+       std::string(sheet) + "[aerodynamics]\ndensity = 1.2 kg/m3\ncoefficient = 1\nvelocity = [0 m/s, 0 m/s, 3 m/s]\n" +
+           falls,
+       0.5},
+      {"bounces", dropped + ball + "restitution = 0.5\n" + falls, 0.7},
+      {"slide in drag",
+       std::string("[[particle]]\nposition = [0 m, 1 m, 0 m]\nmass = 1 kg\nvelocity = [1 m/s, 0 m/s, 0.1 m/s]\n[drag]\n"
+                   "gamma = 0.2 1/s\n") +
+           ball + falls,
+       0.8},
+      {"moved ball",
+       std::string("[[particle]]\nposition = [0 m, 1 m, 0 m]\nmass = 1 kg\n") + ball +
+           "[sphere.motion]\namplitude = [0.05 m, 0.02 m, 0.03 m]\nfrequency = 0.7 1/s\nramp = 0.5 s\n" + falls,
+       0.4},
+  };
+}
+
+Scene scene_in(const Kind& kind, const Units& u) {
+  const std::string head = fmt::format(
+      "question = \"q\"\nparameters = \"p\"\n[time]\nduration = {0} s\nsamples = 8\nstep = 0.001 s\nwindow = {0} s\n"
+      "tolerance = 0.001 m\nmethod = \"leapfrog\"\n",
+      kind.duration);
+  return parse_scene(in_units(head + kind.text, u), kind.name);
+}
+
+TEST(Units, ByPowersOfTwoChangeNoBitOfTruths) {
+  for (const Kind& kind : kinds()) {
+    const Scene scene = scene_in(kind, {});
+    const auto truth = truth_of(scene, default_run(scene));
+    ASSERT_TRUE(truth) << kind.name;
+    for (const Units& u : {Units{0x1p10, 1, 1},
+                           {0x1p-20, 1, 1},
+                           {1, 1, 0x1p20},
+                           {1, 1, 0x1p-10},
+                           {1, 0x1p20, 1},
+                           {0x1p-10, 0x1p-20, 0x1p10}}) {
+      SCOPED_TRACE(fmt::format("{} {:a} {:a} {:a}", kind.name, u.length, u.mass, u.time));
+      const Scene other = scene_in(kind, u);
+      EXPECT_EQ(other.size(), scene.size() * u.length);
+      const auto there = truth_of(other, default_run(other));
+      ASSERT_TRUE(there);
+      EXPECT_EQ(there->tier, truth->tier);
+      EXPECT_EQ(there->error_bar, truth->error_bar * u.length);
+      EXPECT_EQ(there->until, truth->until * u.time);
+      ASSERT_EQ(there->trajectory.frames(), truth->trajectory.frames());
+      for (int i = 0; i < truth->trajectory.frames(); ++i) {
+        EXPECT_EQ(there->trajectory.t[i], truth->trajectory.t[i] * u.time);
+        EXPECT_EQ(there->trajectory.x[i], truth->trajectory.x[i] * u.length) << i;
+      }
+    }
+  }
+}
+
+TEST(Units, ByPowersOfTenKeepTierErrorsWithinTheBarsAndBarsWithinAFactorTwo) {
+  for (const Kind& kind : kinds()) {
+    const Scene scene = scene_in(kind, {});
+    const auto truth = truth_of(scene, default_run(scene));
+    ASSERT_TRUE(truth) << kind.name;
+    for (const Units& u : {Units{1e3, 1, 1}, {1e-3, 1, 1}, {1, 1, 1e3}, {1, 1, 1e-3}, {1, 1e3, 1}, {1e-3, 1e-3, 1e3}}) {
+      SCOPED_TRACE(fmt::format("{} {} {} {}", kind.name, u.length, u.mass, u.time));
+      const Scene other = scene_in(kind, u);
+      const auto there = truth_of(other, default_run(other));
+      ASSERT_TRUE(there);
+      EXPECT_EQ(there->tier, truth->tier);
+      if (std::isfinite(truth->until))
+        EXPECT_NEAR(there->until, truth->until * u.time, 1e-12 * truth->until * u.time);
+      else
+        EXPECT_EQ(there->until, truth->until);
+      const double bar = there->error_bar / u.length;
+      EXPECT_LE(std::max(bar, truth->error_bar), 2 * std::min(bar, truth->error_bar));
+      for (int i = 0; i < truth->trajectory.frames(); ++i)
+        EXPECT_LE(rms_distance(there->trajectory.x[i] / u.length, truth->trajectory.x[i]), bar + truth->error_bar);
+    }
+  }
+}
+
+TEST(Units, ByPowersOfTwoChangeNoBitOfAdvice) {
+  for (const Kind& kind : kinds()) {
+    if (kind.name == "moved ball" || kind.name == "sheet in air") continue;  // many long trials
+    const Advice a =
+        advise(scene_in(kind, {}), 1e-2, find_methods(kind.name == "circle" ? "rk4,dopri5" : "leapfrog,dopri5"));
+    for (const Units& u : {Units{0x1p-10, 1, 1}, {1, 1, 0x1p20}, {0x1p10, 0x1p-20, 0x1p-10}}) {
+      SCOPED_TRACE(fmt::format("{} {:a} {:a} {:a}", kind.name, u.length, u.mass, u.time));
+      const Scene other = scene_in(kind, u);
+      const Advice b =
+          advise(other, 1e-2 * u.length, find_methods(kind.name == "circle" ? "rk4,dopri5" : "leapfrog,dopri5"));
+      EXPECT_EQ(b.trials[b.chosen].method, a.trials[a.chosen].method);
+      EXPECT_EQ(b.trials[b.chosen].step, a.trials[a.chosen].step * u.time);
+      EXPECT_EQ(b.trials[b.chosen].relative, a.trials[a.chosen].relative);
+      EXPECT_EQ(b.error_bar, a.error_bar * u.length);
+      EXPECT_EQ(b.checked, a.checked * u.length);
+    }
+  }
+}
+
+TEST(DenseTruth, OfASmallSceneIsAcceptedFromAThirdOfTheToleranceOn) {
+  // an impact within the spacing of the truth's samples is known to a part of it only
+  const Scene scene = small_scene(
+      std::string(
+          "[[particle]]\nposition = [2e-5, 1.3e-3, 1e-5]\nmass = 1e-6\n[[particle]]\n"
+          "position = [3e-4, 1.35e-3, 0]\nmass = 1e-6\n[[spring]]\nends = [0, 1]\nstiffness = 0.3\n"
+          "[[sphere]]\ncentre = [0, 0, 0]\nradius = 9.8e-4\nmargin = 2e-5\nfriction = 0.3\nrestitution = 0.4\n") +
+          gravity_text,
+      0.04, 2e-5, 50);
+  const DenseTruth truth(scene, 4.04e-7);
+  EXPECT_LE(truth.error_bar(), 4.04e-7 / 3);
+}
+
+}  // namespace
+}  // namespace crosscheck
