@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <utility>
 #include <vector>
 
@@ -63,23 +64,63 @@ double measure_of_cell(const std::vector<Vec3>& basis) {
 
 }  // namespace
 
+namespace {
+
+/// The strain (e11, e22, 2 e12) of a sheet under a unit pull at an angle from axis 1; nothing where the net does not
+/// resist it.
+std::optional<Eigen::Vector3d> strain_under_pull(const Moduli& m, double angle) {
+  const Eigen::Matrix3d c{{m.c11, m.c12, m.c16}, {m.c12, m.c22, m.c26}, {m.c16, m.c26, m.c66}};
+  const double along = std::cos(angle), across = std::sin(angle);
+  const Eigen::Vector3d pull(along * along, across * across, along * across);
+  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> modes(c);
+  Eigen::Vector3d strain = Eigen::Vector3d::Zero();
+  for (int i = 0; i < 3; ++i) {
+    const Eigen::Vector3d mode = modes.eigenvectors().col(i);
+    const double part = mode.dot(pull), stiffness = modes.eigenvalues()[i];
+    if (stiffness > round_off * modes.eigenvalues()[2])
+      strain += part / stiffness * mode;
+    else if (part * part > round_off)
+      return std::nullopt;
+  }
+  return strain;
+}
+
+}  // namespace
+
+double Moduli::anisotropy() const {
+  if (dimension == 1 || (dimension == 3 && !cubic)) return 0;
+  if (cubic) return 2 * c66 / (c11 - c12);
+  const auto [least, largest] = young_range();
+  return least / largest;
+}
+
 double Moduli::poisson() const {
   if (dimension == 1) return 0;
-  return dimension == 2 ? c12 / c22 : c12 / (c11 + c12);
+  if (dimension == 3) return c12 / (c11 + c12);
+  const auto strain = strain_under_pull(*this, 0);
+  return strain ? -(*strain)[1] / (*strain)[0] : 0;
 }
 
 double Moduli::young() const {
   if (dimension == 1) return c11;
-  return dimension == 2 ? c11 - c12 * c12 / c22 : (c11 - c12) * (c11 + 2 * c12) / (c11 + c12);
+  return dimension == 2 ? young_at(0) : (c11 - c12) * (c11 + 2 * c12) / (c11 + c12);
 }
 
 double Moduli::young_at(double angle) const {
-  // the compliance along the pull, turned (J. F. Nye, Physical Properties of Crystals, table 9)
-  const double det = c11 * c22 - c12 * c12, s11 = c22 / det, s22 = c11 / det, s12 = -c12 / det,
-               c2 = std::cos(angle) * std::cos(angle), s2 = std::sin(angle) * std::sin(angle);
-  // a net without shear stiffness gives way to every pull that is not along its axes
-  if (c66 == 0 && c2 * s2 > round_off) return 0;
-  return 1 / (s11 * c2 * c2 + s22 * s2 * s2 + (2 * s12 + (c66 > 0 ? 1 / c66 : 0)) * c2 * s2);
+  const auto strain = strain_under_pull(*this, angle);
+  if (!strain) return 0;
+  const double along = std::cos(angle), across = std::sin(angle);
+  return 1 / (along * along * (*strain)[0] + across * across * (*strain)[1] + along * across * (*strain)[2]);
+}
+
+std::pair<double, double> Moduli::young_range() const {
+  std::pair<double, double> range{INFINITY, 0};
+  constexpr int angles = 720;  // the modulus is smooth: an extreme between two angles is missed by 1e-5
+  for (int i = 0; i < angles; ++i) {
+    const double at = young_at(std::numbers::pi * i / angles);
+    range = {std::min(range.first, at), std::max(range.second, at)};
+  }
+  return range;
 }
 
 std::string_view unit_of_moduli(int dimension) { return dimension == 1 ? "N" : dimension == 2 ? "N/m" : "Pa"; }
@@ -87,13 +128,26 @@ std::string_view unit_of_moduli(int dimension) { return dimension == 1 ? "N" : d
 std::vector<std::string> sentences_of(const Moduli& m) {
   const std::string_view unit = unit_of_moduli(m.dimension);
   if (m.dimension == 1) return {fmt::format("EA = {:.4g} N: force over strain of the line", m.c11)};
-  const bool is_square = m.dimension == 3 || std::abs(m.c22 - m.c11) <= 1e-6 * m.c11;
-  return {fmt::format("C11 = {:.4g} {}{}, C12 = C66 = {:.4g} {}", m.c11, unit,
-                      is_square ? "" : fmt::format(", C22 = {:.4g} {}", m.c22, unit), m.c12, unit),
-          fmt::format("Young's modulus {:.4g} {} along an axis, Poisson's ratio {:.3g}; anisotropy 2 C66 / (C11 - C12) "
-                      "= {:.3g}{}",
-                      m.young(), unit, m.poisson(), m.anisotropy(),
-                      std::abs(m.anisotropy() - 1) < 5e-4 ? ": isotropic" : ", 1 is isotropic")};
+  const bool coupled = std::max(std::abs(m.c16), std::abs(m.c26)) > 1e-6 * m.c11;
+  std::vector<std::string> sentences{
+      fmt::format("C11 = {:.4g} {}{}, C12 = C66 = {:.4g} {}{}", m.c11, unit,
+                  m.cubic || m.dimension == 3 ? "" : fmt::format(", C22 = {:.4g} {}", m.c22, unit), m.c12, unit,
+                  coupled ? fmt::format(", C16 = {:.4g} {}, C26 = {:.4g} {}", m.c16, unit, m.c26, unit) : "")};
+  if (m.cubic) {
+    sentences.push_back(fmt::format(
+        "Young's modulus {:.4g} {} along an axis, Poisson's ratio {:.3g}; anisotropy 2 C66 / (C11 - C12) = {:.3g}{}",
+        m.young(), unit, m.poisson(), m.anisotropy(),
+        std::abs(m.anisotropy() - 1) < 5e-4 ? ": isotropic" : ", 1 is isotropic"));
+  } else if (m.dimension == 2) {
+    const auto [least, largest] = m.young_range();
+    sentences.push_back(
+        fmt::format("Young's modulus {:.4g} {} along axis 1, Poisson's ratio {:.3g}; {:.4g} to {:.4g} {} over the "
+                    "angle: not isotropic",
+                    m.young(), unit, m.poisson(), least, largest, unit));
+  } else {
+    sentences.emplace_back("its axes differ or stretch and shear are coupled: not isotropic");
+  }
+  return sentences;
 }
 
 std::string skip_one_warning(const Moduli& m) {
@@ -146,16 +200,29 @@ NetModuli moduli_of(const Model& model, const State& start) {
   Moduli m;
   m.dimension = static_cast<int>(basis.size());
   const double cell = measure_of_cell(basis);
+  Eigen::Matrix<double, 6, 6> whole = Eigen::Matrix<double, 6, 6>::Zero();  // the tensor in Voigt's order
   for (const Arm& arm : star) {
     const double n1 = arm.to.normalized().dot(e1), n2 = arm.to.normalized().dot(e2),
                  weight = arm.k * arm.to.squaredNorm() / (2 * cell);
     m.c11 += weight * n1 * n1 * n1 * n1;
     m.c22 += weight * n2 * n2 * n2 * n2;
     m.c12 += weight * n1 * n1 * n2 * n2;
+    m.c16 += weight * n1 * n1 * n1 * n2;
+    m.c26 += weight * n1 * n2 * n2 * n2;
+    const double n3 = m.dimension == 3 ? arm.to.normalized().dot(e1.cross(e2)) : 0;
+    const Vec3 squares(n1 * n1, n2 * n2, n3 * n3);
+    Eigen::Matrix<double, 6, 1> n;
+    n << squares, n2 * n3, n1 * n3, n1 * n2;
+    whole += weight * n * n.transpose();
     if (arm.family == Family::bend) m.c11_of_bend += weight * n1 * n1 * n1 * n1;
   }
   // Cauchy's relation: so it is with central forces where each particle is a centre of symmetry
   m.c66 = m.c12;
+  Eigen::Matrix<double, 6, 6> cubic = Eigen::Matrix<double, 6, 6>::Zero();
+  for (int i = 0; i < m.dimension; ++i)
+    for (int j = 0; j < m.dimension; ++j) cubic(i, j) = i == j ? m.c11 : m.c12;
+  for (int i = m.dimension == 2 ? 5 : 3; i < 6; ++i) cubic(i, i) = m.c12;
+  m.cubic = m.dimension == 1 || (whole - cubic).cwiseAbs().maxCoeff() <= 1e-6 * m.c11;
   return {m, ""};
 }
 

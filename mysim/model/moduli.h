@@ -4,6 +4,7 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "mysim/model/model.h"
@@ -15,16 +16,21 @@ namespace crosscheck {
 struct Moduli {
   int dimension = 0;
   double c11 = 0, c22 = 0, c12 = 0, c66 = 0;
-  double c11_of_bend = 0;  // what skip-one springs give of c11
+  double c16 = 0, c26 = 0;  // for sheets only: the coupling of stretch and shear, as in cells with one diagonal
+  bool cubic = true;        // the axes are alike, and stretch and shear are not coupled
+  double c11_of_bend = 0;   // the part of c11 that skip-one springs give
 
-  /// 2 c66 / (c11 - c12), Zener's ratio: 1 where all directions are alike; 0 of a line.
-  double anisotropy() const { return dimension > 1 ? 2 * c66 / (c11 - c12) : 0; }
+  /// 1 if all directions are alike: Zener's ratio 2 c66 / (c11 - c12) of a cubic net; of any other sheet the least
+  /// Young's modulus over the largest; 0 of a line, and of a block that is not cubic.
+  double anisotropy() const;
   /// Contraction across over extension along axis 1, pulled along axis 1; 0 of a line.
   double poisson() const;
   /// Young's modulus along axis 1.
   double young() const;
   /// Young's modulus of a sheet pulled at an angle from axis 1, rad.
   double young_at(double angle) const;
+  /// The least and the largest Young's modulus of a sheet over all angles.
+  std::pair<double, double> young_range() const;
 };
 
 struct NetModuli {
@@ -42,6 +48,7 @@ NetModuli moduli_of(const Model& model, const State& start);
 /// "N", "N/m" or "Pa".
 std::string_view unit_of_moduli(int dimension);
 /// "C11 = 1200 N/m, C12 = C66 = 200 N/m", and "Young's modulus 1167 N/m along an axis, ..."; of a line one sentence.
+/// Isotropic is said of cubic nets of anisotropy 1 alone.
 std::vector<std::string> sentences_of(const Moduli& moduli);
 /// What skip-one springs do, where they make more than half of c11; else empty.
 std::string skip_one_warning(const Moduli& moduli);

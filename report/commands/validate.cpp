@@ -132,6 +132,10 @@ Json json_of(const NetModuli& net) {
   Json json = {{"dimension", m.dimension}, {"unit", std::string(unit_of_moduli(m.dimension))}, {"c11", m.c11}};
   if (m.dimension == 1) return json;
   json["c22"] = m.c22, json["c12"] = m.c12, json["c66"] = m.c66;
+  if (m.dimension == 2) {
+    const auto [least, largest] = m.young_range();
+    json["c16"] = m.c16, json["c26"] = m.c26, json["young_least"] = least, json["young_largest"] = largest;
+  }
   json["young"] = m.young(), json["poisson"] = m.poisson(), json["anisotropy"] = m.anisotropy();
   json["c11_of_skip_one_springs"] = m.c11_of_bend;
   return json;

@@ -70,6 +70,45 @@ TEST(Moduli, OfACubeTheyAreThoseOfStrainedEnergies) {
   EXPECT_NEAR(m.c66, c(2, 2), enough * m.c11);
 }
 
+/// A square net with one diagonal in each cell, all one way, of stiffness k.
+Scene net_with_one_diagonal(int n, double spacing, double k) {
+  std::string text;
+  for (int i = 0; i < n * n; ++i)
+    text += fmt::format("[[particle]]\nposition = [{}, {}, 0]\nmass = 0.01\n", spacing * (i % n), spacing * (i / n));
+  const auto join = [&](int a, int b) {
+    text += fmt::format("[[spring]]\nends = [{}, {}]\nstiffness = {}\n", a, b, k);
+  };
+  for (int i = 0; i < n; ++i)
+    for (int j = 0; j < n; ++j) {
+      if (j + 1 < n) join(n * i + j, n * i + j + 1);
+      if (i + 1 < n) join(n * i + j, n * i + j + n);
+      if (j + 1 < n && i + 1 < n) join(n * i + j, n * i + j + n + 1);
+    }
+  return small_scene(text);
+}
+
+TEST(Moduli, OneDiagonalCouplesStretchAndShear) {
+  for (const double k : {100., 3e-4}) {
+    const Scene scene = net_with_one_diagonal(5, 0.1, k);
+    const Moduli m = *moduli_of(scene.model, scene.start).moduli;
+    // edges give k to C11 and C22; a diagonal of length 2^(1/2) d along (1, 1) gives k / 2 to each modulus
+    EXPECT_NEAR(m.c11, 1.5 * k, 1e-9 * k);
+    EXPECT_NEAR(m.c22, 1.5 * k, 1e-9 * k);
+    for (const double modulus : {m.c12, m.c66, m.c16, m.c26}) EXPECT_NEAR(modulus, k / 2, 1e-9 * k);
+    const double eighth = std::atan(1.0);
+    EXPECT_NEAR(m.young_at(0), k, 1e-9 * k);
+    EXPECT_NEAR(m.young_at(eighth), 2 * k, 1e-9 * k);
+    EXPECT_NEAR(m.young_at(3 * eighth), 0.4 * k, 1e-9 * k);
+    EXPECT_FALSE(m.cubic);
+    EXPECT_NEAR(m.anisotropy(), 0.2, 1e-4);
+    EXPECT_EQ(sentences_of(m)[1].find(": isotropic"), std::string::npos);
+  }
+  // a turned net has the same moduli along its axes
+  Scene turned = net_with_one_diagonal(5, 0.1, 100);
+  turned.start.x = Eigen::AngleAxisd(0.4, Vec3(1, 2, 3).normalized()).toRotationMatrix() * turned.start.x.eval();
+  EXPECT_NEAR(moduli_of(turned.model, turned.start).moduli->young_range().first, 40, 1e-2);
+}
+
 TEST(Moduli, AreKnownOfShippedScenesOrWhyNot) {
   for (const auto& [name, said] : std::map<std::string, std::string>{
            {"cloth-inextensible", "hard distances"}, {"projectile", "no springs"}, {"spring", "not at rest"}}) {
