@@ -77,7 +77,8 @@ std::optional<MirrorSymmetry> MirrorSymmetry::of(const Scene& scene) {
       const Vec3 image = reflected(scene.start.x.col(i), mirror.centre_, axes[side]);
       int found = -1;
       for (int j = 0; j < n && found < 0; ++j)
-        if ((scene.start.x.col(j) - image).norm() < 1e-12 * scene.size() && model.particles.pinned[i] == model.particles.pinned[j] &&
+        if ((scene.start.x.col(j) - image).norm() < 1e-12 * scene.size() &&
+            model.particles.pinned[i] == model.particles.pinned[j] &&
             model.particles.mass[i] == model.particles.mass[j])
           found = j;
       if (found < 0) return std::nullopt;

@@ -27,8 +27,8 @@ std::optional<double> depth_of_triangles(const Scene& scene, double t, const Poi
 /// The partners of the particles under reflection in planes through the ball's centre, across x and across z.
 class MirrorSymmetry {
  public:
-  /// Nothing where the scene is not symmetric in both planes to 1e-12 of its size: places, speeds, gravity; and where wind, moved
-  /// pins, several or moving balls may break the symmetry.
+  /// Nothing where the scene is not symmetric in both planes to 1e-12 of its size: places, speeds, gravity; and where
+  /// wind, moved pins, several or moving balls may break the symmetry.
   static std::optional<MirrorSymmetry> of(const Scene& scene);
   /// Largest distance of a particle from its partner's mirror image, m.
   double asymmetry(const Points& x) const;

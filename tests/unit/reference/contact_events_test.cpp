@@ -299,10 +299,12 @@ TEST(EventTruth, BarsBesideMovingBallsAreThoseOfRoutesOfHighOrder) {
   // carried by friction
   const Scene carried = on_moving_ball(0.9, "[0, 1, 0]", "[0.05, 0.02, 0.03]");
   const Motion motion = *carried.model.find<Spheres>()->list[0].motion;
-  expect_bar(carried, [&](double t) { return Vec3(Vec3(0, 1, 0) + displacement_at(motion, t)); }, 1e-13);
+  expect_bar(
+      carried, [&](double t) { return Vec3(Vec3(0, 1, 0) + displacement_at(motion, t)); }, 1e-13);
   // thrown past
   const Scene thrown = on_moving_ball(0.9, "[0, 2, 0]", "[0.05, 0.02, 0.03]", "[4, 1, 0]");
-  expect_bar(thrown, [&](double t) { return Vec3(4 * t, 2 + t - g * t * t / 2, 0); }, 1e-13);
+  expect_bar(
+      thrown, [&](double t) { return Vec3(4 * t, 2 + t - g * t * t / 2, 0); }, 1e-13);
   // without friction a ball that falls away from under it, faster than by g, leaves it to fall freely
   const Scene left = on_moving_ball(0, "[0, 1, 0]", "[0, -40, 0]");
   Recorder path;
