@@ -57,7 +57,8 @@ std::map<std::string, double> round_of(const std::vector<Microbenchmark>& all, d
 
 std::map<std::string, std::vector<double>> run_microbenchmarks(const std::vector<Microbenchmark>& all,
                                                                const MicrobenchmarkOptions& options) {
-  const MachineLock exclusive(MachineLock::Mode::exclusive);
+  LockPatience patience;
+  const MachineLock exclusive(MachineLock::Mode::exclusive, patience);
   const auto first = round_of(all, options.seconds, {});
   std::map<std::string, std::vector<double>> times;
   for (int round = 0; round < options.rounds; ++round)

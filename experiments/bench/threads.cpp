@@ -74,11 +74,12 @@ void two_threads(const ThreadsOptions& options, TableSet& tables, Progress& prog
     return;
   }
   Table table = table_of<ThreadsRow>();
+  LockPatience patience;
   for (const int side : options.sides) {
     const Scene scene = hanging_cloth(side);
     progress.begin(fmt::format("{}: two threads", scene.name));
     TimedCloth one(scene, 1), two(scene, 2);
-    const MachineLock exclusive(MachineLock::Mode::exclusive);
+    const MachineLock exclusive(MachineLock::Mode::exclusive, patience);
     const int steps = steps_in(options.turns.seconds, one), rounds = options.turns.rounds;
     const std::vector<std::function<double()>> runs{[&] { return one.step(steps); }, [&] { return two.step(steps); }};
     const auto times =

@@ -43,8 +43,12 @@ class DefaultSigchld {
 /// One batch of points, timed or not, worked off by `jobs` processes.
 class Batch {
  public:
-  Batch(std::vector<const Point*> points, int jobs, const Store& store, Progress& progress)
-      : points_(std::move(points)), store_(store), progress_(progress), pids_(static_cast<size_t>(jobs), -1) {}
+  Batch(std::vector<const Point*> points, int jobs, const Store& store, Progress& progress, LockPatience& patience)
+      : points_(std::move(points)),
+        store_(store),
+        progress_(progress),
+        patience_(patience),
+        pids_(static_cast<size_t>(jobs), -1) {}
 
   std::vector<FailedPoint> run() {
     const DefaultSigchld kept;
@@ -110,10 +114,12 @@ class Batch {
       const Point& point = *points_[static_cast<size_t>(i)];
       queue_->current[worker] = i;
       if (point.timed) pin_to_one_core();
-      const MachineLock lock(point.timed ? MachineLock::Mode::exclusive : MachineLock::Mode::shared);
+      const MachineLock lock(point.timed ? MachineLock::Mode::exclusive : MachineLock::Mode::shared, patience_);
       try {
         TableSet tables;
         point.compute(tables);
+        if (point.timed && !lock.held())
+          tables.notes.push_back(fmt::format("{} was timed beside other work: its times may be disturbed", point.name));
         store_.keep(point.hash(), tables);
       } catch (const std::exception& error) {
         store_.keep_failure(point.hash(), error.what());
@@ -125,6 +131,7 @@ class Batch {
   std::vector<const Point*> points_;
   const Store& store_;
   Progress& progress_;
+  LockPatience& patience_;
   std::vector<pid_t> pids_;
   SharedWorkQueue queue_;
   std::map<const Point*, std::string> died_;  // of what signal
@@ -150,6 +157,7 @@ std::vector<FailedPoint> run_points(std::span<const Point> points, const SweepOp
                                     Progress& progress) {
   const int jobs = std::clamp(options.jobs > 0 ? options.jobs : cores_allowed(), 1, WorkQueue::most_workers);
   std::vector<FailedPoint> failed;
+  LockPatience patience(options.lock_patience);
   for (const bool timed : {false, true}) {
     std::vector<const Point*> todo;
     for (size_t i = 0; i < points.size(); ++i)
@@ -162,7 +170,8 @@ std::vector<FailedPoint> run_points(std::span<const Point> points, const SweepOp
     if (todo.empty()) continue;
     std::ranges::stable_partition(todo, &Point::is_long);
     const int workers = timed ? 1 : std::min(jobs, static_cast<int>(todo.size()));
-    for (FailedPoint& f : Batch(std::move(todo), workers, store, progress).run()) failed.push_back(std::move(f));
+    for (FailedPoint& f : Batch(std::move(todo), workers, store, progress, patience).run())
+      failed.push_back(std::move(f));
   }
   return failed;
 }

@@ -21,6 +21,7 @@ Shard shard_from(const std::string& text);
 struct SweepOptions {
   int jobs = 0;  // processes at a time; 0: as many as cores that this process may use
   Shard shard;
+  double lock_patience = 60;  // s, that all points together wait for the lock on this machine
 };
 
 struct FailedPoint {

@@ -1,6 +1,7 @@
 // This machine: its processor, the cores that this process may use, and the lock that lets one process measure alone.
 #pragma once
 
+#include <atomic>
 #include <filesystem>
 #include <string>
 
@@ -16,19 +17,42 @@ void pin_to_one_core();
 // A lock on this machine for many untimed points side by side, or one timed point alone, over all sweeps of this
 // user, so that shards on one machine do not spoil each other's timings.
 
+/// The time that all locks of one piece of work may be waited for together, also by processes forked from this one.
+class LockPatience {
+ public:
+  explicit LockPatience(double seconds = 60);
+  ~LockPatience();
+  LockPatience(const LockPatience&) = delete;
+  LockPatience& operator=(const LockPatience&) = delete;
+
+ private:
+  friend class MachineLock;
+  struct Shared {
+    double total;              // s
+    std::atomic<double> left;  // s
+    std::atomic<bool> announced = false, exhausted = false;
+  };
+  Shared* shared_;
+};
+
 class MachineLock {
  public:
   enum class Mode { shared, exclusive };
-  /// Waits until it is had. The lock file is /tmp/crosscheck-UID.lock wherever TMPDIR points, since batch systems give
-  /// each job a TMPDIR of its own; jobs that also have a /tmp of their own do not see each other. CROSSCHECK_LOCK
-  /// names another file, as tests do, which then wait for themselves only. Without a lock file there is no wait.
-  explicit MachineLock(Mode mode);
+  /// Waits for the lock as long as the patience lasts, and reports once on standard error who holds it and since when;
+  /// then goes on without the lock. The lock file is /tmp/crosscheck-UID.lock wherever TMPDIR points, since batch
+  /// systems give each job a TMPDIR of its own; jobs that also have a /tmp of their own do not see each other.
+  /// CROSSCHECK_LOCK names another file, as tests do, which then wait for themselves only. Without a lock file there is
+  /// no wait.
+  MachineLock(Mode mode, LockPatience& patience);
+  /// False: another process measures or computes at the same time, so that times may be disturbed.
+  bool held() const { return held_; }
   ~MachineLock();
   MachineLock(const MachineLock&) = delete;
   MachineLock& operator=(const MachineLock&) = delete;
 
  private:
   int handle_;
+  bool held_ = true;
 };
 
 // The kind of processor: speeds are compared on one kind only.

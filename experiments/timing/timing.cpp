@@ -137,7 +137,8 @@ double share_to_time(const TimedRun& turn, double seconds) {
 }  // namespace
 
 std::vector<EvaluationTimes> time_round_robin(const std::vector<TimedRun>& turns, const TimedRunOptions& plan) {
-  const MachineLock exclusive(MachineLock::Mode::exclusive);
+  LockPatience patience;
+  const MachineLock exclusive(MachineLock::Mode::exclusive, patience);
   std::vector<EvaluationTimes> all(turns.size());
   std::vector<std::function<double()>> runs;
   for (size_t i = 0; i < turns.size(); ++i) {

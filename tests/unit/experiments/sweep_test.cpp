@@ -1,5 +1,7 @@
 // Sweeps: points are computed once, wherever and in whatever order; what fails is named; parts join to the whole.
 
+#include <fcntl.h>
+#include <sys/file.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -10,6 +12,7 @@
 
 #include "experiments/sweep/store.h"
 #include "experiments/sweep/sweep.h"
+#include "experiments/timing/machine.h"
 #include "mysim/base/errors.h"
 #include "tests/unit/helpers.h"
 #include "tests/unit/temporary.h"
@@ -140,6 +143,25 @@ TEST_F(Sweep, NothingFinishedIsRepeatedUnlessItsFileIsDamaged) {
   run(points);
   EXPECT_EQ(ran().size(), 6u);
   EXPECT_EQ(ran().back(), "p2");
+}
+
+TEST_F(Sweep, WaitsForTheMachineALimitedTimeAndMarksTimesMeasuredBesideOtherWork) {
+  const int other = open((folder_ / "lock").c_str(), O_CREAT | O_RDWR | O_CLOEXEC, 0600);
+  ASSERT_EQ(flock(other, LOCK_EX), 0);
+  std::vector<Point> points = several(4);
+  points[2].timed = points[3].timed = true;
+  EXPECT_TRUE(run(points, {2, {}, 0.2}).empty());
+  const TableSet all = whole(points);
+  EXPECT_TRUE(missing.empty());
+  ASSERT_EQ(all.notes.size(), 2u);
+  EXPECT_TRUE(contains(all.notes[0], "p2 was timed beside other work"));
+  // the patience is one for all locks, and one that is free is had without any
+  LockPatience little(0.1), none(0);
+  EXPECT_FALSE(MachineLock(MachineLock::Mode::shared, little).held());
+  close(other);
+  EXPECT_TRUE(MachineLock(MachineLock::Mode::exclusive, none).held());
+  const MachineLock one(MachineLock::Mode::shared, none), two(MachineLock::Mode::shared, none);
+  EXPECT_TRUE(one.held() && two.held());
 }
 
 TEST_F(Sweep, AnotherContentOrNameIsAnotherPoint) {
