@@ -144,10 +144,10 @@ TEST(Units, ByPowersOfTenKeepTierErrorsWithinTheBarsAndBarsWithinAFactorTwo) {
       const auto there = truth_of(other, default_run(other));
       ASSERT_TRUE(there);
       EXPECT_EQ(there->tier, truth->tier);
-      if (std::isfinite(truth->until))
+      EXPECT_EQ(std::isinf(there->until), std::isinf(truth->until));
+      if (std::isfinite(truth->until)) {
         EXPECT_NEAR(there->until, truth->until * u.time, 1e-12 * truth->until * u.time);
-      else
-        EXPECT_EQ(there->until, truth->until);
+      }
       const double bar = there->error_bar / u.length;
       EXPECT_LE(std::max(bar, truth->error_bar), 2 * std::min(bar, truth->error_bar));
       for (int i = 0; i < truth->trajectory.frames(); ++i)
