@@ -80,7 +80,7 @@ int CrossingDetector::piercing_edges(const Points& x) {
   std::fill(last_edge_.begin(), last_edge_.end(), -1);
   int piercing = 0;
   for (int e = 0; e < static_cast<int>(edges_.size()); ++e) {
-    const auto [p, q] = edges_[e];
+    const int p = edges_[e].first, q = edges_[e].second;
     const Vec3 from = x.col(p), to = x.col(q);
     bool found = false;
     for_each_cell(from.cwiseMin(to), from.cwiseMax(to), [&](std::size_t bucket) {

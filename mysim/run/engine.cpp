@@ -268,7 +268,8 @@ void require_supported(const Stepper& stepper, const Model& model) {
 std::string hops_at_rest(const Scene& scene, State s, double h) {
   const auto returns_part = [](const Sphere& sphere) { return sphere.restitution > 0 && sphere.restitution < 1; };
   const auto* spheres = scene.model.find<Spheres>();
-  if (!spheres || scene.model.first_order() || std::ranges::none_of(spheres->list, returns_part)) return "";
+  if (!spheres || scene.model.first_order() || std::none_of(spheres->list.begin(), spheres->list.end(), returns_part))
+    return "";
   System f(scene.model);
   Points a(3, s.x.cols());
   f.acceleration(s, a);

@@ -236,7 +236,7 @@ bool DivergenceMonitor::frozen(const State& state) {
   system.acceleration(stage, a);
   const auto* spheres = model_.find<Spheres>();
   const auto touches = [&](const Vec3& x) {  // to within a few roundings in single precision
-    return spheres && std::ranges::any_of(spheres->list, [&](const Sphere& s) {
+    return spheres && std::any_of(spheres->list.begin(), spheres->list.end(), [&](const Sphere& s) {
              const Vec3 centre = s.centre_at(start.t);
              return (x - centre).norm() < s.contact_radius() * (1 + 1e-6) + 1e-6 * centre.norm();
            });
@@ -319,7 +319,7 @@ Verdict DivergenceMonitor::observe(const State& state, bool sample) {
 }
 
 bool MonitoredObservers::every_step() const {
-  return std::ranges::any_of(others_, [](const Observer* o) { return o->every_step(); });
+  return std::any_of(others_.begin(), others_.end(), [](const Observer* o) { return o->every_step(); });
 }
 
 Verdict MonitoredObservers::observe(const State& state, bool sample) {
