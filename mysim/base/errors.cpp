@@ -8,6 +8,7 @@
 #include <cstdlib>
 #include <filesystem>
 #include <ios>
+#include <iostream>
 #include <new>
 #include <stdexcept>
 #include <system_error>
@@ -77,11 +78,12 @@ int run_reporting_errors(std::string_view program, const std::function<int()>& w
   try {
     const int status = work();
     errno = 0;
-    if (std::fflush(stdout) != 0 || std::ferror(stdout) != 0)
+    std::cout.flush();  // CLI11 prints --help and --version there
+    if (!std::cout || std::fflush(stdout) != 0 || std::ferror(stdout) != 0)
       throw std::system_error(errno != 0 ? errno : EIO, std::generic_category());
     return status;
   } catch (...) {
-    fmt::print(stderr, "{}: {}{}\n", program, std::ferror(stdout) != 0 ? "standard output: " : "",
+    fmt::print(stderr, "{}: {}{}\n", program, !std::cout || std::ferror(stdout) != 0 ? "standard output: " : "",
                in_words(std::current_exception()));
     return 2;
   }

@@ -278,6 +278,14 @@ fs::path replaced(const OutputPlace& place, const fs::path& stage) {
   return old;
 }
 
+/// Removes what a writer killed in its first write left: a manifest under its temporary name.
+void remove_half_manifests(const fs::path& folder) {
+  std::vector<fs::path> halves;
+  for (const auto& entry : fs::directory_iterator(folder))
+    if (whole_name(entry.path().filename()) == Manifest::file_name) halves.push_back(entry.path());
+  for (const fs::path& half : halves) fs::remove(half);
+}
+
 /// Leftovers of a killed writer.
 void recover(const OutputPlace& place) {
   const fs::path left = place.work / new_result, old = place.work / old_result;
@@ -286,8 +294,10 @@ void recover(const OutputPlace& place) {
     const std::optional<Manifest> manifest = read_manifest(left);
     if (manifest && !manifest->finished)
       fs::remove_all(left);  // half a result
-    else
+    else {
+      if (!manifest) remove_half_manifests(left);
       absorb(left, place.target);
+    }
   }
   if (is_there(old)) absorb(old, place.target);
 }

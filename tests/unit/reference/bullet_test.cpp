@@ -415,6 +415,7 @@ TEST(BulletLink, EverySceneIsHandedOverOrRefusedWithTheReason) {
       for (const auto& [which, why] : refused)
         if (which == name) reason = why;
       if (scene.model.find<Constraints>() && method != std::string("bullet/pbd")) reason = "hard distances";
+      if (name == "curtain" && method == std::string("bullet/pbd")) reason = "one drag rate";  // its masses differ
       EXPECT_EQ(out.verdict == Verdict::unsupported, !reason.empty()) << name << ", " << method << ": " << out.reason;
       EXPECT_TRUE(contains(out.reason, reason));
     }
