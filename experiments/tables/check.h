@@ -69,7 +69,7 @@ struct HuntFindingRow {
         column("particles", "1", &HuntFindingRow::particles, "particles of the smallest scene"),
         column("springs", "1", &HuntFindingRow::springs, "springs of the smallest scene"),
         column("trials", "1", &HuntFindingRow::trials, "scenes that were asked to make it smaller"),
-        column("scene", "1", &HuntFindingRow::scene, "file of the smallest scene");
+        column("scene file", "1", &HuntFindingRow::scene, "text of the file of the smallest scene");
   };
 };
 

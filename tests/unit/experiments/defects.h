@@ -94,10 +94,14 @@ inline const std::vector<Defect>& defects() {
        }),
        {"momentum", "angular-momentum"},
        "a force from outside acts on free nets too"},
-      {"rest-shape", "gravity depends on drag", scene_defect([](Scene& s, R) {
+      {"rest-shape",
+       "gravity depends on drag",
+       scene_defect([](Scene& s, R) {
          if (const auto* drag = s.model.find<Drag>())
            multiply_gravity(s, 1 - 1e-3 * drag->c[1] / s.model.particles.mass[1]);
-       })},
+       }),
+       {"extension"},
+       "tension is compared with the scene's gravity"},
       {"extension", "stiffness enters as its power of 1.1", scene_defect([](Scene& s, R) {
          double logarithms = 0;
          for (const Spring& e : springs_in(s)) logarithms += std::log(e.k);
@@ -138,8 +142,8 @@ inline const std::vector<Defect>& defects() {
       {"half-step",
        "stiffness is off by a part of order one in the step",
        scene_defect([](Scene& s, R run) { multiply_stiffness(s, 1 + 0.1 / steps_between(run)); }),
-       {},
-       "a rule of order one has such an error by itself",
+       {"extension"},
+       "a rule of order one has such an error by itself, and the tension is off by it",
        2},
       {"scaling", "1e-6 N/m are added to every spring", scene_defect([](Scene& s, R) {
          for (Spring& e : springs_in(s)) e.k += 1e-6;

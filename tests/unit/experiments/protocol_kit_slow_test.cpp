@@ -55,7 +55,7 @@ TEST_F(ProtocolKit, FindsWhatIsSpoiledAndNamesNothingElse) {
        {"certificate: sleeping"},
        "add to readback: may_sleep"},
       {"is at other times",
-       rewrite + "'s/\"steps_per_sample\":[0-9]+/\"steps_per_sample\":37/' \"$1\"\n",
+       rewrite + "'s/\"steps_per_sample\":[0-9]+/\"steps_per_sample\":4/' \"$1\"\n",
        "",
        {"sample times", "speeds", "pins led", "acts: gravity"},
        {},
