@@ -116,7 +116,7 @@ def run(scene, method=None, step=None, tol=None, duration=None, out=None):
     'J'
     >>> run("chain", step=-1)  # doctest: +ELLIPSIS
     Traceback (most recent call last):
-    crosscheck.Error: run: --step: expected a finite number above zero, got '-1' ...
+    crosscheck.Error: run: --step: expected a finite number above zero (s), as in 0.001, 1ms or 1/1000, got '-1' ...
     """
     words = [*option("--method", None if method is None else method_word(method)), *option("--step", step),
              *option("--tol", tol), *option("--duration", duration)]
