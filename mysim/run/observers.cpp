@@ -192,13 +192,12 @@ void DivergenceMonitor::begin(const State& state) {
   State& start = *start_;
   const Particles& particles = model_.particles;
   // an engine that pushes a resting particle out of a contact gives it a small speed: that of a fall by 1/256 of the
-  // smaller of sphere and scene; the size of a single particle is the margin, half its thickness
+  // smaller of sphere and scene
   const auto* spheres = model_.find<Spheres>();
   if (const auto* gravity = model_.find<Gravity>(); gravity && spheres) {
     const double extent = (start.x.rowwise().maxCoeff() - start.x.rowwise().minCoeff()).norm();
     double length = extent > 0 ? extent : std::numeric_limits<double>::infinity();
-    for (const Sphere& s : spheres->list)
-      length = std::min(length, extent > 0 || s.margin == 0 ? s.contact_radius() : s.margin);
+    for (const Sphere& s : spheres->list) length = std::min(length, s.contact_radius());
     const double fall = length / 256 * gravity->acceleration.norm();
     contact_energy_ = particles.mass.sum() * fall;
     contact_speed_ = std::sqrt(2 * fall);

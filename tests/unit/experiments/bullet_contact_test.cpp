@@ -81,10 +81,9 @@ TEST(BulletFriction, OfThePositionBasedWorldIsACreepInProportionToTheStep) {
 TEST(BulletFriction, AHeldParticleHasNotBlownUpAndAThrownOneHas) {
   // pushed out of the contact it is handed 3e-4 m/s, where it had no energy at all: that is a correction, no blow-up
   EXPECT_GE(speed_at_the_end("bullet/pbd", on_slope(0.7), 1e-3), 0);
-  // the other side: moving with more than ten times the energy of a fall by 1/256 of the margin
+  // the other side: moving with more than ten times the energy of a fall by 1/256 of the ball, 1 km here
   const Scene scene = on_slope(0.7);
-  for (const double speed :
-       {0.1, 3.0}) {  // m/s: 5 mJ and 4.5 J, against 10 (0.8 mJ + m g of its way + 34 mJ of single rounding)
+  for (const double speed : {0.1, 50.0}) {  // m/s: 5 mJ and 1.25 kJ, against 10 times 38 J
     DivergenceMonitor monitor(scene.model);
     State s = scene.start;
     Verdict verdict = monitor.observe(s, true);
@@ -93,7 +92,7 @@ TEST(BulletFriction, AHeldParticleHasNotBlownUpAndAThrownOneHas) {
       s.v.col(0) = Vec3(0, speed, 0);
       verdict = monitor.observe(s, true);
     }
-    EXPECT_EQ(verdict, speed < 0.2 ? Verdict::ok : Verdict::energy);
+    EXPECT_EQ(verdict, speed < 1 ? Verdict::ok : Verdict::energy);
   }
 }
 
