@@ -62,7 +62,7 @@ TEST_F(OutputOfReport, KilledAtTenMomentsTheFirstIsWholeOrTheSecond) {
 
 TEST_F(OutputOfReport, AFullDiskLeavesTheFirst) {
   if (run_program({"unshare", "-rm", "true"}, folder_).status != 0)
-    GTEST_SKIP() << "this system makes no mount namespaces (unshare -rm), and so no small disk";
+    GTEST_SKIP() << "this machine makes no mount namespaces (unshare -rm), and so no small disk";
   fs::create_directories(folder_ / "disk");
   write("try.sh", R"sh(set -e
 mount -t tmpfs -o size=40m tmpfs disk
@@ -87,7 +87,7 @@ cat disk/out/data/mine.txt
 
 TEST_F(OutputOfReport, MountPointIsRefusedBeforeTheWork) {
   if (run_program({"unshare", "-rm", "true"}, folder_).status != 0)
-    GTEST_SKIP() << "this system makes no mount namespaces (unshare -rm)";
+    GTEST_SKIP() << "this machine makes no mount namespaces (unshare -rm)";
   fs::create_directories(folder_ / "disk");
   const ProgramResult refused = start(
       {"unshare", "-rm", "sh", "-c", "mount -t tmpfs -o size=40m tmpfs disk && exec \"$@\"", "sh"}, report("disk"));

@@ -74,7 +74,7 @@ TEST_F(Wrapper, InstallsNothingUnasked) {
 }
 
 TEST_F(Wrapper, InstallsWithYesAndInContinuousIntegration) {
-  if (geteuid() != 0) GTEST_SKIP() << "needs to be root: others need sudo to install";
+  if (geteuid() != 0) GTEST_SKIP() << "this machine runs tests as a user who needs sudo to install";
   write("missing", "");
   build();
   start({in_tree("crosscheck"), "list", "--yes"});
@@ -95,7 +95,7 @@ TEST_F(Wrapper, RunsThroughASymbolicLink) {
 }
 
 TEST_F(Wrapper, UsesTheBuildOfATreeThatItMayNotWriteTo) {
-  if (geteuid() != 0) GTEST_SKIP() << "needs to be root, to become another user";
+  if (geteuid() != 0) GTEST_SKIP() << "this machine runs tests as a user who cannot become another";
   build();
   write("missing", "");  // nobody but the owner could do anything about them
   const ProgramResult result = start_as_other({in_tree("crosscheck"), "list", "scenes"});
@@ -106,7 +106,7 @@ TEST_F(Wrapper, UsesTheBuildOfATreeThatItMayNotWriteTo) {
 }
 
 TEST_F(Wrapper, BuildsInTheCacheForATreeThatItMayNotWriteTo) {
-  if (geteuid() != 0) GTEST_SKIP() << "needs to be root, to become another user";
+  if (geteuid() != 0) GTEST_SKIP() << "this machine runs tests as a user who cannot become another";
   const ProgramResult first = start_as_other({in_tree("crosscheck"), "list", "scenes"});
   EXPECT_EQ(first.status, 0) << first.err;
   EXPECT_NE(first.out.find((folder_ / "home/.cache/crosscheck/build").string()), std::string::npos) << first.out;
