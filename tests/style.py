@@ -89,7 +89,7 @@ def subject_offences(base):
             yield f"{commit}: merge commit; rebase instead"
         elif len(subject) > LONGEST_SUBJECT:
             yield f"{commit}: subject of {len(subject)} characters, at most {LONGEST_SUBJECT}: {subject}"
-        elif not re.match(r"[a-z][\w./+-]*(, [a-z][\w./+-]*)*: \S", subject):
+        elif not re.match(r"[a-z][\w./+-]*: \S", subject):
             yield f"{commit}: subject without a room in front: {subject}"
 
 

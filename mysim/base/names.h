@@ -13,7 +13,7 @@ bool is_printable(std::string_view text);
 /// The text for a terminal: line feeds and tabs stay, all else that is not printable is replaced by '?'.
 std::string printable(std::string_view text);
 
-/// From here on the streams stdout and stderr print printable() text only: texts of scenes, engines and received
+/// Lets the streams stdout and stderr print printable() text only, so that texts of scenes, engines and received
 /// folders cannot control the terminal.
 void print_only_text();
 
