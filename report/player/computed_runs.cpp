@@ -55,12 +55,14 @@ class Motions {
     for (const JsonField& run : json_["runs"].elements()) {
       Part part;
       if (!run.is_null()) part.modes = run["modes"].natural(), part.frames = run["frames"].natural();
+      require_numbers(part.modes <= shapes_.size() - modes_);
       modes_ += part.modes;
       parts_.push_back(part);
     }
     size_t shape = 0, path = 0;
     const size_t wide = modes_ == 0 ? 0 : shapes_.size() / modes_;
     for (Part& part : parts_) {
+      require_numbers(part.modes == 0 || part.frames <= (paths_.size() - path) / part.modes);
       part.shapes = {shapes_.data() + shape, part.modes * wide},
       part.paths = {paths_.data() + path, part.modes * part.frames};
       shape += part.shapes.size(), path += part.paths.size();
@@ -129,6 +131,11 @@ class Motions {
     size_t modes = 0, frames = 0;
     std::span<const std::uint16_t> shapes = {}, paths = {};
   };
+  /// A received file may claim more modes and frames than it has numbers for.
+  void require_numbers(bool has) const {
+    if (!has) json_["runs"].fail("runs of no more modes and frames than there are numbers of");
+  }
+
   FileOfRuns target_;
   JsonField json_;
   std::string name_;

@@ -14,6 +14,7 @@
 #include "report/player/computed_runs.h"
 #include "report/player/motions.h"
 #include "report/player/packed_numbers.h"
+#include "report/player/static_geometry.h"
 #include "tests/unit/experiments/helpers.h"
 #include "tests/unit/reference/helpers.h"
 #include "tests/unit/report/readers.h"
@@ -512,6 +513,28 @@ TEST(ComputedRuns, AreStoredWhereNoneTiesThemToTheBase) {
   const FileOfRuns files[] = {{true, &file}};
   leave_out_computed(files, {});
   EXPECT_EQ(file, before);
+}
+
+TEST(ComputedRuns, OfAFileThatClaimsMoreNumbersThanItHasAreRefused) {
+  const auto file_of = [](const std::string& modes, const std::string& frames) {
+    const std::string six = packed_json(pack_small({1, 2, 3, 4, 5, 6})).dump();
+    return fmt::format(R"({{"name": "mysim/leapfrog", "runs": [{{"modes": {}, "frames": {}, "unit": 1, "path": 1}}],
+    "shapes": {}, "paths": {}, "values": null}})",
+                       modes, frames, six, six);
+  };
+  const auto left_out = [](std::string file) {
+    const FileOfRuns files[] = {{true, &file}};
+    leave_out_computed(files, {});
+  };
+  for (const auto& [modes, frames] : {std::pair("1", "6"), {"2", "3"}, {"6", "1"}, {"0", "9000000000"}})
+    EXPECT_NO_THROW(left_out(file_of(modes, frames))) << modes << " " << frames;
+  for (const auto& [modes, frames] : {std::pair("1", "7"),
+                                      {"1", "3000000"},
+                                      {"2", "4"},
+                                      {"7", "0"},
+                                      {"9000000000000000000", "3"},
+                                      {"18446744073709551615", "18446744073709551615"}})
+    EXPECT_THROW(left_out(file_of(modes, frames)), InputError) << modes << " " << frames;
 }
 
 TEST(Runs, AsGoodAsTheTruthWeighNextToNothing) {
