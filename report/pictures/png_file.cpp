@@ -1,6 +1,7 @@
 // PNG files of pictures: drawn, lettered and put in their place in one go; libpng reads them.
 #include "report/pictures/png_file.h"
 
+#include <fmt/format.h>
 #include <png.h>
 #include <zlib.h>
 
@@ -66,6 +67,10 @@ Image read_png(const std::filesystem::path& file) {
   png.version = PNG_IMAGE_VERSION;
   Image image;
   if (png_image_begin_read_from_file(&png, file.c_str())) {
+    if (constexpr std::size_t largest = 8192; png.width > largest || png.height > largest) {  // as --size allows
+      png_image_free(&png);
+      throw std::runtime_error(fmt::format("cannot read {}: larger than {} pixels", file.string(), largest));
+    }
     png.format = PNG_FORMAT_RGB;
     image = {int(png.width), int(png.height), std::vector<unsigned char>(PNG_IMAGE_SIZE(png))};
     png_image_finish_read(&png, nullptr, image.rgb.data(), 0, nullptr);

@@ -2,6 +2,8 @@
 
 #include "report/figures/figure_set.h"
 
+#include <zlib.h>
+
 #include <cstdlib>
 #include <regex>
 
@@ -271,6 +273,31 @@ using namespace testing_tools;
 namespace fs = std::filesystem;
 
 class PngFile : public InFolder {};
+
+TEST_F(PngFile, LargerThanAnyPictureOfOursIsNotUnpacked) {
+  const auto number = [](unsigned n) {
+    std::string bytes;
+    for (const int shift : {24, 16, 8, 0}) bytes += static_cast<char>(n >> shift);
+    return bytes;
+  };
+  const auto chunk = [&](const std::string& name, const std::string& data) {
+    const std::string all = name + data;
+    return number(static_cast<unsigned>(data.size())) + all +
+           number(static_cast<unsigned>(
+               crc32(0, reinterpret_cast<const Bytef*>(all.data()), static_cast<uInt>(all.size()))));
+  };
+  const auto grey = [&](unsigned width) {
+    const std::string row(width + 1, '\0');
+    std::string packed(compressBound(row.size()), '\0');
+    uLongf size = packed.size();
+    compress(reinterpret_cast<Bytef*>(packed.data()), &size, reinterpret_cast<const Bytef*>(row.data()), row.size());
+    return write("grey.png", "\x89PNG\r\n\x1a\n" +
+                                 chunk("IHDR", number(width) + number(1) + std::string("\10\0\0\0\0", 5)) +
+                                 chunk("IDAT", packed.substr(0, size)) + chunk("IEND", ""));
+  };
+  EXPECT_EQ(render::read_png(grey(8192)).width, 8192);
+  EXPECT_THROW(render::read_png(grey(8193)), std::runtime_error);
+}
 
 TEST_F(PngFile, PacksTightlyAndKeepsEveryPixel) {
   int smaller = 0;
