@@ -22,6 +22,7 @@
 #include "mysim/base/names.h"
 #include "mysim/base/pattern.h"
 #include "mysim/base/text.h"
+#include "mysim/base/this_process.h"
 
 namespace crosscheck {
 namespace fs = std::filesystem;
@@ -92,10 +93,21 @@ void write_file(const fs::path& file, std::string_view content) {
 
 std::optional<std::string> try_read_file(const fs::path& file) {
   std::ifstream in(file, std::ios::binary);
-  const bool nothing_there = in.peek() == std::ifstream::traits_type::eof();  // << takes nothing for a failure
-  std::stringstream text;
-  if (!in.fail() && (nothing_there || text << in.rdbuf())) return std::move(text).str();
-  return std::nullopt;
+  std::string text, block(1 << 16, '\0');
+  // a quarter of the memory that is left, as a tree or rows are made of it; asked for where it matters
+  double most = 1 << 26;
+  for (bool asked = false; in.read(block.data(), std::ssize(block)) || in.gcount() > 0;) {
+    text.append(block, 0, static_cast<size_t>(in.gcount()));
+    if (static_cast<double>(text.size()) <= most) continue;
+    if (!asked) most = std::max(most, free_memory() / 4);
+    std::error_code none;
+    const double size = fs::is_regular_file(file, none) ? static_cast<double>(fs::file_size(file, none)) : 0;
+    if (std::max(size, static_cast<double>(text.size())) > most)
+      throw InputError(fmt::format("{}: expected a file of at most {}", file.string(), format_bytes(most)));
+    asked = true;
+  }
+  if (!in.eof()) return std::nullopt;
+  return text;
 }
 
 std::string read_file(const fs::path& file, std::string_view expected) {

@@ -50,7 +50,8 @@ double free_disk(const std::filesystem::path& folder);
 /// Throws InputError that names the file when it cannot be written.
 void write_file(const std::filesystem::path& file, std::string_view content);
 
-/// The whole content of a file; nothing where it cannot be read.
+/// The whole content of a file; nothing where it cannot be read. Throws InputError where it has no end, or takes more
+/// than a quarter of the memory that is left.
 std::optional<std::string> try_read_file(const std::filesystem::path& file);
 
 /// The whole content of a file. Throws InputError that names it and what was expected there ("a scene file (TOML)").

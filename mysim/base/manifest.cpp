@@ -85,7 +85,7 @@ std::optional<Manifest> read_manifest(const fs::path& folder) {
   const fs::path file = folder / Manifest::file_name;
   if (!fs::exists(fs::symlink_status(file))) return std::nullopt;
   try {
-    const JsonField json = JsonField::parse_file(file.string());
+    const JsonField json = JsonField::parse_file(path_inside(folder, Manifest::file_name).string());
     if (json["format"].whole() != manifest_format) throw std::invalid_argument("another format");
     Manifest manifest;
     manifest.command = json["command"].text();

@@ -74,6 +74,22 @@ TEST(Names, CellsOfScenesAndMethodsAreOneLine) {
   EXPECT_THROW(require_cell("note", "\x1b[2J"), InputError);
 }
 
+TEST(Names, FilesWithoutAnEndAreRefusedAndNotRead) {
+  const TemporaryFolder here("test");
+  const fs::path file = here.path / "file";
+  for (const std::string& text : {std::string(), std::string("a\0b", 3), std::string(100000, 'x')}) {
+    write_file(file, text);
+    EXPECT_EQ(try_read_file(file), text);
+  }
+  EXPECT_FALSE(try_read_file(here.path));
+  EXPECT_FALSE(try_read_file(here.path / "none"));
+  std::error_code full;
+  fs::resize_file(file, std::uintmax_t{1} << 42, full);  // a hole, which takes no room
+  if (!full) {
+    EXPECT_THROW(try_read_file(file), InputError);
+  }
+}
+
 class PathsInside : public testing_tools::InFolder {};
 
 TEST_F(PathsInside, NeitherLeaveTheFolderNorFollowLinks) {

@@ -162,6 +162,15 @@ TEST_P(Output, AnotherCommandsFolderAndADamagedManifestAreRefused) {
   }
 }
 
+TEST_P(Output, AManifestThatIsAPipeOrALinkIsRefusedAndNotRead) {
+  fs::create_directories(target_);
+  ASSERT_EQ(mkfifo((target_ / Manifest::file_name).c_str(), 0600), 0);
+  EXPECT_TRUE(contains(refusal(), "crosscheck.json: expected what this version of crosscheck writes"));
+  fs::remove(target_ / Manifest::file_name);
+  fs::create_symlink("/dev/zero", target_ / Manifest::file_name);
+  EXPECT_TRUE(contains(refusal(), "crosscheck.json: expected what this version of crosscheck writes"));
+}
+
 TEST_P(Output, AFileAndAPlaceThatCannotBeWrittenAreNoFolders) {
   write("file", "");
   for (const fs::path& path : {folder_ / "file", folder_ / "file/below", fs::path("/proc/out"), fs::path("")}) {
