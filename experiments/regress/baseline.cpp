@@ -4,12 +4,13 @@
 #include <fmt/format.h>
 
 #include <cstdio>
-#include <fstream>
+#include <sstream>
 
 #include "experiments/tables/table.h"
 #include "mysim/base/csv.h"
 #include "mysim/base/errors.h"
 #include "mysim/base/files.h"
+#include "mysim/base/names.h"
 
 namespace crosscheck {
 namespace {
@@ -40,7 +41,7 @@ BaselineRow baseline_row_from(const std::string& line, size_t blessings) {
 }  // namespace
 
 std::filesystem::path file_of(const std::filesystem::path& folder, const std::string& scene) {
-  return folder / (file_name_of(scene) + ".csv");
+  return path_inside(folder, file_name_of(scene) + ".csv");
 }
 
 std::string text_of(const Baseline& baseline) {
@@ -83,7 +84,7 @@ std::optional<Baseline> read_baseline(const std::filesystem::path& folder, const
 }
 
 std::filesystem::path shape_file(const std::filesystem::path& folder, const std::string& scene) {
-  return folder / (file_name_of(scene) + "-shape.csv");
+  return path_inside(folder, file_name_of(scene) + "-shape.csv");
 }
 
 std::string shape_text(const std::string& scene, const std::string& method, double t, const Points& x) {
@@ -95,7 +96,7 @@ std::string shape_text(const std::string& scene, const std::string& method, doub
 }
 
 std::optional<FinalShape> read_shape(const std::filesystem::path& folder, const std::string& scene, int particles) {
-  std::ifstream in(shape_file(folder, scene));
+  std::istringstream in(try_read_file(shape_file(folder, scene)).value_or(""));
   std::string line;
   FinalShape shape{0, Points(3, particles)};
   if (!std::getline(in, line) || !std::getline(in, line) || std::sscanf(line.c_str(), "# t: %lf", &shape.t) != 1 ||

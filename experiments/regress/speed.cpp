@@ -17,6 +17,7 @@
 #include "experiments/timing/timing.h"
 #include "mysim/base/csv.h"
 #include "mysim/base/errors.h"
+#include "mysim/base/names.h"
 #include "mysim/base/random.h"
 #include "mysim/base/this_process.h"
 
@@ -202,7 +203,9 @@ const BlessedSpeed* find_speed(const SpeedFile& file, const SpeedCase& test_case
   return nullptr;
 }
 
-std::filesystem::path speed_file_in(const std::filesystem::path& folder) { return folder / "speed-cost.csv"; }
+std::filesystem::path speed_file_in(const std::filesystem::path& folder) {
+  return path_inside(folder, "speed-cost.csv");
+}
 
 std::string text_of(const SpeedFile& file) {
   std::string out = "# written by `crosscheck regress --bless`, never by hand\n";

@@ -3,10 +3,12 @@
 #pragma once
 
 #include <filesystem>
-#include <fstream>
 #include <functional>
+#include <sstream>
 #include <string>
 #include <vector>
+
+#include "mysim/base/files.h"
 
 namespace crosscheck {
 
@@ -40,7 +42,7 @@ std::vector<std::string> split_by_bars(const std::string& text, size_t count, co
 /// in front.
 class StrictCsvReader {
  public:
-  explicit StrictCsvReader(const std::filesystem::path& file) : in_(file) {}
+  explicit StrictCsvReader(const std::filesystem::path& file) : in_(read_file(file, "a file of baselines")) {}
   const std::string& line() const { return line_; }
   int number() const { return number_; }
   /// Throws InputError where there are no more.
@@ -51,7 +53,7 @@ class StrictCsvReader {
   void rows(const std::string& header, const std::function<void(const std::string&)>& add);
 
  private:
-  std::ifstream in_;
+  std::istringstream in_;
   std::string line_;
   int number_ = 0;
 };

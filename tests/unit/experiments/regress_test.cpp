@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
+#include <sys/stat.h>
 
 #include <cmath>
 #include <fstream>
@@ -54,6 +55,17 @@ TEST(Baselines, ComeBackToTheSameBits) {
   EXPECT_EQ(read->expected[0].what.quantity.name, "sag, \"deep\"");
   EXPECT_EQ(read->blessings[1].reason, "new");
   EXPECT_FALSE(read_baseline(folder.path, "no-such-scene"));
+}
+
+TEST(Baselines, ThatAreLinksOrPipesAreNotRead) {
+  const TemporaryFolder folder("baselines");
+  for (const char* file : {"chain.csv", "chain-shape.csv", "speed-cost.csv"})
+    ASSERT_EQ(mkfifo((folder.path / file).c_str(), 0600), 0);
+  std::filesystem::create_symlink("/dev/zero", folder.path / "spring.csv");
+  EXPECT_THROW(read_baseline(folder.path, "chain"), InputError);
+  EXPECT_THROW(read_baseline(folder.path, "spring"), InputError);
+  EXPECT_THROW(read_shape(folder.path, "chain", 4), InputError);
+  EXPECT_THROW(read_speed_file(folder.path), InputError);
 }
 
 /// Tolerances come from perturbed runs: where these go wrong, a tolerance grows until nothing fails any more.
