@@ -4,6 +4,9 @@
 
 namespace crosscheck {
 
+// std::regex takes stack for each character: 8 MB do for three times as many, with checks too
+constexpr size_t longest = 4000;
+
 struct Pattern::Compiled {
   std::regex regex;
 };
@@ -14,14 +17,16 @@ Pattern::~Pattern() = default;
 
 std::optional<std::vector<std::string>> Pattern::match(const std::string& text) const {
   std::smatch parts;
-  if (!std::regex_match(text, parts, compiled_->regex)) return std::nullopt;
+  if (text.size() > longest || !std::regex_match(text, parts, compiled_->regex)) return std::nullopt;
   return std::vector<std::string>(parts.begin(), parts.end());
 }
 
-bool Pattern::is_in(const std::string& text) const { return std::regex_search(text, compiled_->regex); }
+bool Pattern::is_in(const std::string& text) const {
+  return text.size() <= longest && std::regex_search(text, compiled_->regex);
+}
 
 std::string Pattern::replaced_in(const std::string& text, const std::string& by) const {
-  return std::regex_replace(text, compiled_->regex, by);
+  return text.size() > longest ? text : std::regex_replace(text, compiled_->regex, by);
 }
 
 }  // namespace crosscheck

@@ -113,6 +113,8 @@ const Key* key_in_line(std::string_view text, int line, std::span<const Key> key
 
 std::shared_ptr<const toml::table> parse(std::string_view text, const std::string& name,
                                          std::span<const Key> keys = {}) {
+  if (const auto deep = too_deep_key(text))
+    throw InputError(fmt::format("{}:{}: not valid TOML: {}", name, deep->line, deep->what));
   toml::parse_result parsed = toml::parse(text, name);
   if (parsed) return std::make_shared<const toml::table>(std::move(parsed).table());
   const toml::parse_error& e = parsed.error();

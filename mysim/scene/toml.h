@@ -86,4 +86,7 @@ struct TomlError {
 /// line and description: where the parser stumbled, and what it says, which is kept where nothing better is known.
 TomlError diagnose_toml(std::string_view text, int line, std::string_view description);
 
+/// The fault of a key with so many dots that toml++, which goes as deep for each, would exhaust the stack.
+std::optional<TomlError> too_deep_key(std::string_view text);
+
 }  // namespace crosscheck

@@ -292,6 +292,20 @@ std::optional<TomlError> standing_twice(const std::vector<BareLine>& lines, int 
 
 }  // namespace
 
+std::optional<TomlError> too_deep_key(std::string_view text) {
+  constexpr int most = 30;  // toml++ nests values 256 deep, with such a key in each
+  int line = 0;
+  for (const BareLine& bare : bare_lines(text)) {
+    ++line;
+    int dots = 0;
+    for (const char c : bare.code) {
+      dots = c == '.' ? dots + 1 : std::string_view(",[]{}=").find(c) == std::string_view::npos ? dots : 0;
+      if (dots > most) return TomlError{line, fmt::format("expected keys of at most {} parts", most)};
+    }
+  }
+  return std::nullopt;
+}
+
 TomlError diagnose_toml(std::string_view text, int line, std::string_view description) {
   const std::vector<BareLine> lines = bare_lines(text);
   const auto with_line = [&](TomlError fault) {

@@ -229,6 +229,20 @@ TEST(SceneFaults, NotToml) {
 
 TEST(SceneFaults, LinesOfBracketsAloneAreNamedLikeAnyOther) {
   EXPECT_TRUE(begins(message_of("a = 1\n[\n"), "bad.toml:2: not valid TOML: "));
+  const auto repeated = [](const std::string& part) {
+    std::string text;
+    for (int i = 0; i < 200000; ++i) text += part;
+    return text;
+  };
+  for (const auto& [before, part] : {std::pair("a", ".a"),
+                                     {"[a", " . \"[\""},
+                                     {"a = {a", ".a"},
+                                     {"a = ", "{a = "},
+                                     {"a = ", "["},
+                                     {"a = 1", "e"},
+                                     {"a = ", "_"}})
+    EXPECT_TRUE(begins(message_of("b = 1\n" + (before + repeated(part)) + "\n"), "bad.toml:2: not valid TOML: "))
+        << before << part;
   Random random(11);
   const std::string letters = "[]{}=\"'#.,a1 ";
   for (int trial = 0; trial < 100; ++trial) {
