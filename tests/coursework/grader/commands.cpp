@@ -15,6 +15,7 @@
 #include "mysim/base/files.h"
 #include "mysim/base/hash.h"
 #include "mysim/base/json.h"
+#include "mysim/base/names.h"
 #include "mysim/base/output_folder.h"
 #include "mysim/base/progress.h"
 #include "tests/coursework/grader/build.h"
@@ -46,7 +47,7 @@ void choose_seed(const GradeCommand& command, GradeOptions& options) {
     options.secret = true;
   } else if (command.all) {
     // all of a class, and a run that goes on with it, get the same
-    const fs::path kept = fs::path(command.out) / seed_file;
+    const fs::path kept = crosscheck::path_inside(command.out, seed_file);
     options.seed = fs::exists(kept) ? std::strtoull(content_of_file(kept).c_str(), nullptr, 10) : fresh_seed();
   } else {
     options.seed = fresh_seed();

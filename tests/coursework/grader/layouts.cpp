@@ -8,6 +8,7 @@
 #include <map>
 #include <set>
 
+#include "mysim/base/names.h"
 #include "mysim/base/pattern.h"
 
 namespace coursework {
@@ -46,7 +47,7 @@ constexpr const char* gradescope_file = "submission_metadata.yml";
 /// Names of those who handed in, by submission: lines "submission_N:", below it "- :name: NAME" of each of them.
 std::map<std::string, std::string> gradescope_names(const fs::path& folder) {
   std::map<std::string, std::string> names;
-  std::ifstream in(folder / gradescope_file);
+  std::ifstream in(crosscheck::path_inside(folder, gradescope_file));
   const crosscheck::Pattern begins("(submission_[0-9]+):\\s*"), is_name("\\s*-?\\s*:name:\\s*['\"]?(.*?)['\"]?\\s*");
   std::string submission;
   for (std::string line; std::getline(in, line);) {

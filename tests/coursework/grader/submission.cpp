@@ -309,6 +309,7 @@ void read_one(const fs::path& path, const std::string& name, FileMatcher& matche
     else
       matcher.refuse(name, "file.large");
   } else {
+    if (!fs::is_regular_file(path)) throw Refused{{"archive.unreadable", {"neither a file nor a folder"}}};
     read_archive(path, matcher);
   }
 }

@@ -266,6 +266,20 @@ TEST(Submission, CaseOfLettersDiffersAndIsSaid) {
   EXPECT_EQ(one.missing.at("euler.cpp").key, "file.missing");
 }
 
+TEST(Submission, ThatIsAPipeIsRefusedAndNotWaitedFor) {
+  const TemporaryFolder here("test");
+  fs::create_directories(here.path / "class");
+  for (const char* name : {"ada.zip", "bo", "rk4.cpp"})
+    ASSERT_EQ(mkfifo((here.path / "class" / name).c_str(), 0600), 0);
+  for (const Handed& handed : submissions_in(here.path / "class")) {
+    const Submission one = read_submission(handed, wanted);
+    EXPECT_TRUE(one.files.empty()) << handed.name;
+    EXPECT_TRUE(one.missing.contains("rk4.cpp")) << handed.name;
+  }
+  ASSERT_EQ(mkfifo((here.path / "class/submission_metadata.yml").c_str(), 0600), 0);
+  EXPECT_THROW(submissions_in(here.path / "class"), crosscheck::InputError);
+}
+
 TEST(Submission, LinksPipesAndLargeFilesOfAFolderAreRefused) {
   const TemporaryFolder here("test");
   write_file(here.path / "secret", "secret");
