@@ -64,10 +64,17 @@ void write_result(const fs::path& file, const Result& result, const std::string&
   crosscheck::write_file(file, to_json(result, fingerprint));
 }
 
-/// A field of CSV; spreadsheets take what begins like this for a formula.
+/// A field of CSV. Spreadsheets take what begins like this for a formula, in the field and, where they part fields at
+/// semicolons or tabs, behind these.
 std::string quoted(const std::string& text) {
-  const bool formula = !text.empty() && std::string("=+-@").find(text[0]) != std::string::npos;
-  return formula ? crosscheck::csv_quoted("'" + text) : crosscheck::csv_field(text);
+  std::string safe;
+  bool begins = true;
+  for (const char c : text) {
+    if (begins && std::string_view("=+-@").find(c) != std::string_view::npos) safe += '\'';
+    safe += c;
+    begins = c == ';' || c == '\t' || c == '\r' || c == '\n' || (begins && (c == ' ' || c == '"'));
+  }
+  return safe == text ? crosscheck::csv_field(text) : crosscheck::csv_quoted(safe);
 }
 
 std::string remark_of(const GradedSubmission& one) {

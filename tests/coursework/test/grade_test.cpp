@@ -299,17 +299,21 @@ TEST(Class, IsGradedResumedAndPutIntoATable) {
   hand_in_solution(handed / "-o");
   fs::remove(handed / "-o/sums.cpp");
   write_file(handed / "rubbish, \"really\".zip", "neither zip nor tar");
+  write_file(handed / "x;=1+1;\"-2", "neither zip nor tar");
   write_file(handed / ".DS_Store", "x");
   const auto sandbox = choose_sandbox("bare", true);
   GradeOptions options = options_for(tiny(), 7);
   const std::vector<GradedSubmission> all = grade_class(tiny(), handed, *sandbox, options, out);
-  ASSERT_EQ(all.size(), 3u);
-  EXPECT_EQ(class_csv(tiny(), all),
-            "submission,points [1],twice [1],sums [1],remark\n"
-            "\"'-o\",50,50,0,\"sums.cpp is missing. Looked in the top folder, in src/ and one folder below.\"\n"
-            "all right,100,50,50,\n"
-            "\"rubbish, \"\"really\"\".zip\",,,,\"not graded: The archive cannot be read (neither zip nor tar). Hand "
-            "in a folder, a .zip or a .tar.gz.\"\n");
+  ASSERT_EQ(all.size(), 4u);
+  EXPECT_EQ(
+      class_csv(tiny(), all),
+      "submission,points [1],twice [1],sums [1],remark\n"
+      "\"'-o\",50,50,0,\"sums.cpp is missing. Looked in the top folder, in src/ and one folder below.\"\n"
+      "all right,100,50,50,\n"
+      "\"rubbish, \"\"really\"\".zip\",,,,\"not graded: The archive cannot be read (neither zip nor tar). Hand "
+      "in a folder, a .zip or a .tar.gz.\"\n"
+      "\"x;'=1+1;\"\"'-2\",,,,\"not graded: The archive cannot be read (neither zip nor tar). Hand in a folder, a "
+      ".zip or a .tar.gz.\"\n");
   EXPECT_EQ(
       statistics_csv(all),
       "test,title,passed [1],failed [1],not graded [1],most frequent cause,times [1]\n"
@@ -319,7 +323,7 @@ TEST(Class, IsGradedResumedAndPutIntoATable) {
   with_cause[0].result.tests[0].cause = "Likely cause: behaves like another";
   EXPECT_EQ(class_page(tiny(), with_cause, options.common).find("Likely cause"), std::string::npos);
   EXPECT_NE(class_page(tiny(), with_cause, options.common).find("<td>behaves like another</td>"), std::string::npos);
-  EXPECT_NE(page.find("3 submissions, 2 graded, 1 not graded"), std::string::npos) << page;
+  EXPECT_NE(page.find("4 submissions, 2 graded, 2 not graded"), std::string::npos) << page;
   EXPECT_NE(page.find("The archive cannot be read"), std::string::npos) << page;
   EXPECT_NE(page.find("<tr><td>2.1 Sums of the first numbers</td><td>1</td><td>1</td><td>0</td><td></td></tr>"),
             std::string::npos)
@@ -414,6 +418,17 @@ TEST(Program, BadUseIsToldInOneLine) {
     EXPECT_EQ(called.status, 2) << words;
     EXPECT_NE(called.said.find(says), std::string::npos) << words << ": " << called.said;
   }
+}
+
+TEST(Program, ASeedThatIsAPipeIsRefusedAndNotWaitedFor) {
+  const TemporaryFolder here("test");
+  write_file(here.path / "class/ada.zip", "no archive");
+  fs::create_directories(here.path / "out");
+  ASSERT_EQ(mkfifo((here.path / "out/seed.txt").c_str(), 0600), 0);
+  EXPECT_EQ(call("grade a1-steppers " + (here.path / "class").string() + " --all --no-sandbox --out " +
+                 (here.path / "out").string())
+                .status,
+            2);
 }
 
 TEST(Program, ClassResultsLeaveTheUsersFilesAlone) {
