@@ -18,8 +18,11 @@
 #include "mysim/base/errors.h"
 #include "mysim/base/files.h"
 #include "mysim/base/json.h"
+#include "mysim/base/names.h"
+#include "mysim/base/text.h"
 #include "tests/coursework/grader/build.h"
 #include "tests/coursework/grader/container.h"
+#include "tests/coursework/grader/submission.h"
 
 namespace coursework {
 namespace fs = std::filesystem;
@@ -67,14 +70,20 @@ void unpack_zip(const fs::path& zip, const fs::path& folder) {
   check_archive(in.get(), archive_read_support_format_zip(in.get()));
   check_archive(in.get(), archive_read_open_filename(in.get(), zip.c_str(), block_size));
   archive_entry* entry = nullptr;
+  size_t entries = 0, total = 0;
   while (archive_read_next_header(in.get(), &entry) == ARCHIVE_OK) {
-    const fs::path name = archive_entry_pathname(entry);
-    if (name.is_absolute() || *name.lexically_normal().begin() == "..")
-      throw std::runtime_error(fmt::format("{}: {} points outside of it", zip.string(), name.string()));
+    if (++entries > most_entries) throw std::runtime_error(fmt::format("{}: too many files", zip.string()));
     if (archive_entry_filetype(entry) == AE_IFDIR) continue;
+    const char* named = archive_entry_pathname(entry);
+    const std::string name = named ? named : "";
+    if (!crosscheck::is_path_inside(name))
+      throw std::runtime_error(
+          fmt::format("{}: {} points outside of it", zip.string(), crosscheck::shell_quote(name.substr(0, 200))));
     std::string content, part(block_size, '\0');
     for (la_ssize_t got; (got = archive_read_data(in.get(), part.data(), part.size())) != 0;) {
       if (got < 0) throw std::runtime_error(fmt::format("{}: {}", zip.string(), archive_error_string(in.get())));
+      if ((total += static_cast<size_t>(got)) > largest_total)
+        throw std::runtime_error(fmt::format("{}: more than {} MB unpacked", zip.string(), largest_total >> 20));
       content.append(part.data(), static_cast<size_t>(got));
     }
     crosscheck::write_file(folder / name, content);
@@ -152,6 +161,8 @@ apt-get update
 apt-get install -y --no-install-recommends g++ libarchive-dev libseccomp-dev zlib1g-dev
 sh /autograder/source/build.sh
 )sh";
+
+constexpr const char* secret_file = "secret.txt";
 
 constexpr const char* build = R"sh(#!/bin/sh
 # Builds the grader, and grades the starter and the solution once: what their gradings compile stays in the cache.
@@ -241,9 +252,8 @@ std::string table_of_one(const std::string& table, const Assignment& only) {
   return out;
 }
 
-}  // namespace
-
-void write_package(const Assignment& assignment, const std::string& secret, const fs::path& zip) {
+/// All of a package but its secret.
+Files files_of_package(const Assignment& assignment) {
   const fs::path coursework = folder_of_coursework(), root = coursework.parent_path().parent_path();
   const std::string name(assignment.name), ours = "tests/coursework/" + name,
                                            table = "tests/coursework/grader/assignments.cpp";
@@ -262,11 +272,30 @@ void write_package(const Assignment& assignment, const std::string& secret, cons
   add_folder(files, assignment.folder(), ours);
   add_headers(files);
   files["sources.txt"] = sources;
-  files["secret.txt"] = secret + "\n";
   files["setup.sh"] = setup;
   files["build.sh"] = filled(build, name);
   files["run_autograder"] = filled(run, name);
+  return files;
+}
+
+}  // namespace
+
+void write_package(const Assignment& assignment, const std::string& secret, const fs::path& zip) {
+  Files files = files_of_package(assignment);
+  files[secret_file] = secret + "\n";
   write_zip(zip, files);
+}
+
+std::string foreign_file(const Assignment& assignment, const fs::path& folder) {
+  Files files = files_of_package(assignment);
+  for (const auto& entry : fs::recursive_directory_iterator(folder)) {
+    if (entry.is_directory()) continue;
+    const std::string name = entry.path().lexically_relative(folder).generic_string();
+    const auto ours = files.find(name);
+    if (name != secret_file && (ours == files.end() || ours->second != content_of_file(entry.path()))) return name;
+    files.erase(name);
+  }
+  return files.empty() ? "" : files.begin()->first;
 }
 
 namespace {
@@ -308,8 +337,8 @@ bool rehearse(const Assignment& assignment, const fs::path& zip) {
   const crosscheck::TemporaryFolder scratch("rehearse");
   const fs::path root = scratch.path, source = root / "source", log = root / "log.txt";
   unpack_zip(zip, source);
-  for (const char* needed : {"setup.sh", "run_autograder", "build.sh"})
-    if (!fs::exists(source / needed)) return not_ready(fmt::format("{} is not in the zip", needed));
+  if (const std::string file = foreign_file(assignment, source); !file.empty())
+    return not_ready(fmt::format("{} is not what this version packs, and nothing of it was run; pack it anew", file));
   const char* path = std::getenv("PATH");
   const std::vector<std::string> environment = {std::string("PATH=") + (path ? path : "/usr/bin:/bin"), "LANG=C",
                                                 "HOME=" + root.string(), "AUTOGRADER_ROOT=" + root.string()};

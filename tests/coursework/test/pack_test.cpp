@@ -116,13 +116,47 @@ TEST(Package, HoldsScriptsSourcesAndSecretAndNoOtherAssignment) {
 
 TEST(Zip, StaysInsideItsFolder) {
   const TemporaryFolder scratch("zip");
-  for (const char* name : {"../out.txt", "/tmp/out.txt", "a/../../out.txt"}) {
+  for (const char* name : {"../out.txt", "/tmp/out.txt", "a/../../out.txt", "a/\x1b[2J"}) {
     write_zip(scratch.path / "p.zip", {{name, "x"}});
     EXPECT_THROW(unpack_zip(scratch.path / "p.zip", scratch.path / "in"), std::runtime_error) << name;
   }
   write_file(scratch.path / "no.zip", "no zip");
   EXPECT_THROW(unpack_zip(scratch.path / "no.zip", scratch.path / "in"), std::runtime_error);
   EXPECT_FALSE(fs::exists(scratch.path / "out.txt"));
+}
+
+TEST(Zip, ThatUnpacksToTooMuchIsRefused) {
+  const TemporaryFolder scratch("zip");
+  const std::string part((16u << 20) + 1, '\0');  // packs to a thousandth
+  write_zip(scratch.path / "bomb.zip", {{"1", part}, {"2", part}, {"3", part}, {"4", part}});
+  EXPECT_THROW(unpack_zip(scratch.path / "bomb.zip", scratch.path / "in"), std::runtime_error);
+}
+
+TEST(Package, OfAnotherIsKnownBeforeAnyOfItRuns) {
+  const TemporaryFolder scratch("pack");
+  const Assignment& assignment = assignments()[0];
+  const fs::path in = scratch.path / "in";
+  write_package(assignment, "a secret", scratch.path / "p.zip");
+  unpack_zip(scratch.path / "p.zip", in);
+  EXPECT_EQ(foreign_file(assignment, in), "");
+  for (const char* name : {"build.sh", "run_autograder", "sources.txt", "headers/fmt/core.h"}) {
+    const std::string before = content_of_file(in / name);
+    write_file(in / name, before + "\n");
+    EXPECT_EQ(foreign_file(assignment, in), name) << "changed";
+    fs::remove(in / name);
+    EXPECT_EQ(foreign_file(assignment, in), name) << "missing";
+    write_file(in / name, before);
+  }
+  write_file(in / "secret.txt", "another");
+  EXPECT_EQ(foreign_file(assignment, in), "");
+  write_file(in / "headers/vector", "#include </etc/passwd>");
+  EXPECT_EQ(foreign_file(assignment, in), "headers/vector") << "one more";
+
+  write_zip(scratch.path / "evil.zip", {{"build.sh", "#!/bin/sh\ntouch " + (scratch.path / "PWNED").string() + "\n"},
+                                        {"setup.sh", ""},
+                                        {"run_autograder", ""}});
+  EXPECT_FALSE(rehearse(assignment, scratch.path / "evil.zip"));
+  EXPECT_FALSE(fs::exists(scratch.path / "PWNED"));
 }
 
 /// The size of files that this process may write, for a while; a write beyond it fails, as on a full disk.
