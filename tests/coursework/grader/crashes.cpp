@@ -31,7 +31,8 @@ long signed_of(const std::string& digits) { return static_cast<long>(std::strtou
 bool parse_place(const std::string& place, fs::path& path, int& line) {
   static const std::regex form("(/.*):([0-9]{1,6})( .*)?");
   std::smatch found;
-  if (!std::regex_match(place, found, form)) return false;
+  constexpr std::size_t longest = 4096;  // std::regex takes stack for each character, and #line names any file
+  if (place.size() > longest || !std::regex_match(place, found, form)) return false;
   path = found[1].str();
   line = std::atoi(found[2].str().c_str());
   return line > 0;

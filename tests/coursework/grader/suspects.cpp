@@ -221,6 +221,20 @@ std::vector<std::size_t> whole_divisions(const std::string& source) {
   return places;
 }
 
+bool can_be_searched(const std::string& source) {
+  // twenty times our solutions, so that looking for each of its words takes seconds; a fifth of what the stack bears
+  constexpr std::size_t largest = 1u << 15, longest = 4000;
+  if (source.size() > largest) return false;
+  std::size_t blanks = 0, word = 0;
+  for (const char c : code_of(source)) {
+    const auto sign = static_cast<unsigned char>(c);
+    blanks = std::isspace(sign) ? blanks + 1 : 0;
+    word = std::isalnum(sign) || c == '_' || c == '.' ? word + 1 : 0;
+    if (std::max(blanks, word) > longest) return false;
+  }
+  return true;
+}
+
 Remark suspected(const Subject& subject, const std::vector<TestRun>& of_part) {
   if (all_single(of_part)) return {"suspect.float", {}};
   if (keeps_something(subject, of_part)) return {"suspect.state", {}};
@@ -228,6 +242,8 @@ Remark suspected(const Subject& subject, const std::vector<TestRun>& of_part) {
     for (const Answer& answer : one.answers)
       if (answer.how != How::answered) return {};
   const std::string file = subject.builder.file_of(std::string(of_part.front().test->part));
+  const auto source = subject.submission.files.find(file);
+  if (source != subject.submission.files.end() && !can_be_searched(source->second)) return {};
   if (const int line = line_of_single(subject, of_part, file); line > 0)
     return {"suspect.float_line", {file, std::to_string(line)}};
   if (takes_degrees(subject, of_part, file)) return {"suspect.degrees", {}};

@@ -26,6 +26,10 @@ struct Subject {
 /// degrees, a division of whole numbers. No key: nothing.
 Remark suspected(const Subject& subject, const std::vector<TestRun>& of_part);
 
+/// False where std::regex could not look through a source, comments and strings left out: it takes stack for each
+/// character of a run of blanks or of a word, and the experiments look for each word in the whole.
+bool can_be_searched(const std::string& source);
+
 /// Where whole numbers may be divided: the places of `/` in a source, comments and strings left out, between what are
 /// whole numbers by their look: literals, names declared so, size(), and brackets beside a literal.
 std::vector<std::size_t> whole_divisions(const std::string& source);

@@ -350,6 +350,21 @@ TEST(Words, OfSmallCasesTellTheFirstThatFails) {
   EXPECT_EQ(smaller_text(common, own, small, {{.how = How::out_of_time}}), "");
 }
 
+TEST(Suspects, SourcesThatWouldExhaustTheStackOrTheTimeAreNotSearched) {
+  const auto filled = [](const std::string& before, std::size_t count, const std::string& with) {
+    std::string text = before;
+    for (std::size_t i = 0; i < count; ++i) text += with;
+    return text + "*/ (x) / 2;";
+  };
+  EXPECT_TRUE(can_be_searched("double y = sin(x) / 2;"));
+  EXPECT_TRUE(can_be_searched(filled("/*", 3000, "a"))) << "a long comment";
+  EXPECT_FALSE(can_be_searched(filled("sin /*", 30000, "a")));
+  EXPECT_FALSE(can_be_searched(filled("sin", 30000, "\n")));
+  EXPECT_FALSE(can_be_searched(filled("x", 30000, "y")));
+  EXPECT_FALSE(can_be_searched(filled("1", 30000, ".")));
+  EXPECT_FALSE(can_be_searched(filled("", 100000, "a / 2; ")));
+}
+
 TEST(Suspects, WholeNumbersAreDividedWhereTheyLookIt) {
   const auto lines = [](const std::string& source) { return whole_divisions(source).size(); };
   EXPECT_EQ(whole_divisions("x * (1 / 2)"), (std::vector<std::size_t>{7}));
