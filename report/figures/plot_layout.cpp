@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <stdexcept>
 #include <utility>
 
 #include "reference/method.h"
@@ -45,6 +46,10 @@ bool is_far(double value) { return value != 0 && (std::abs(value) < 0.9e-4 || st
 std::string tick_text(double value) { return number_text(value, is_far(value)); }
 
 std::vector<Tick> ticks_of(double low, double high, bool logarithmic, double length, bool upright) {
+  // received tables may hold any numbers; beyond 1e12 parts of an axis the ticks' numbers do not differ
+  if (logarithmic ? !std::isfinite(std::log10(low)) || !std::isfinite(std::log10(high))
+                  : !std::isfinite(high - low) || !(high - low > 1e-12 * std::max(std::abs(low), std::abs(high))))
+    throw std::runtime_error(fmt::format("no axis reaches from {:g} to {:g}", low, high));
   const auto along = [&](double value) {
     return logarithmic ? length * std::log(value / low) / std::log(high / low) : length * (value - low) / (high - low);
   };
@@ -255,10 +260,19 @@ namespace {
 constexpr double cell_size = 2.5;
 constexpr int taken = 1 << 16;
 
+/// The box, which must fit on a sheet: a width of a metre, the largest that is drawn, is 4000 units. Throws
+/// std::runtime_error.
+const Rect& on_a_sheet(const Rect& box) {
+  constexpr double largest = 1e5;
+  if (!(box.right >= box.left && box.top >= box.bottom && box.right - box.left + box.top - box.bottom < largest))
+    throw std::runtime_error("its numbers leave no room for a frame");
+  return box;
+}
+
 }  // namespace
 
 Board::Board(const Rect& box)
-    : box_(box),
+    : box_(on_a_sheet(box)),
       across_(static_cast<size_t>((box.right - box.left) / cell_size) + 1),
       down_(static_cast<size_t>((box.top - box.bottom) / cell_size) + 1),
       cells_(across_ * down_, 0) {}
@@ -272,7 +286,8 @@ int Board::row(double y) const {
 
 void Board::add_line(Place from, Place to, bool yields) {
   const double length = std::hypot(to.x - from.x, to.y - from.y);
-  const int pieces = std::min(4000, 1 + static_cast<int>(length / cell_size));
+  if (!std::isfinite(length)) return;
+  const int pieces = static_cast<int>(std::min(4000., 1 + length / cell_size));
   for (int i = 0; i <= pieces; ++i) {
     const double part = static_cast<double>(i) / pieces, x = from.x + part * (to.x - from.x),
                  y = from.y + part * (to.y - from.y);

@@ -164,6 +164,22 @@ TEST_F(FigureSet, NoTextLeavesTheSheet) {
   EXPECT_GT(seen, 6);
 }
 
+TEST_F(FigureSet, NumbersThatNoAxisReachesAreRefusedInNoTime) {
+  for (const double bad : {0., -1., 1e-320 / 1e10, static_cast<double>(INFINITY), static_cast<double>(NAN)}) {
+    EXPECT_THROW(ticks_of(bad, 1, true, 200, false), std::runtime_error) << bad;
+    EXPECT_THROW(ticks_of(1, bad, true, 200, false), std::runtime_error) << bad;
+  }
+  for (const auto& [low, high] : {std::pair(1e300, std::nextafter(1e300, INFINITY)), std::pair(-1.5e308, 1.5e308),
+                                  std::pair(1., 1.), std::pair<double, double>(0, INFINITY), std::pair(NAN + 0., 1.)})
+    EXPECT_THROW(ticks_of(low, high, false, 200, false), std::runtime_error) << low;
+  EXPECT_THROW(Board({0, 1e300, 0, 100}), std::runtime_error);
+  EXPECT_THROW(Board({0, NAN, 0, 100}), std::runtime_error);
+  Board board({0, 100, 0, 100});
+  for (const double far : {1e300, 1e20, static_cast<double>(-INFINITY), static_cast<double>(NAN)})
+    for (int i = 0; i < 100; ++i) board.add_line({50, 50}, {far, far}), board.add_mark({far, 50});
+  EXPECT_EQ(board.cost({10, 20, 10, 20}), 0);
+}
+
 TEST_F(FigureSet, TicksHaveRoomAndRoundNumbers) {
   const auto texts = [](const std::vector<Tick>& ticks) {
     std::vector<std::string> found;
