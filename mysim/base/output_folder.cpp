@@ -289,6 +289,9 @@ void remove_half_manifests(const fs::path& folder) {
 /// Leftovers of a killed writer.
 void recover(const OutputPlace& place) {
   const fs::path left = place.work / new_result, old = place.work / old_result;
+  for (const fs::path& leftover : {left, old})
+    if (is_there(leftover) && !is_folder(leftover))
+      place.refuse(leftover.string() + " is not a folder that crosscheck made; remove it, or give another folder");
   if (!is_there(place.target) && is_folder(old)) fs::rename(old, place.target);
   if (is_there(left)) {
     const std::optional<Manifest> manifest = read_manifest(left);

@@ -318,6 +318,23 @@ TEST_P(Output, WorkingFolderOfAnotherUserIsRefused) {
   EXPECT_TRUE(fs::exists(folder_ / ".out.crosscheck/old/index.html"));
 }
 
+TEST_P(Output, LinksInTheWorkingFolderAreRefusedAndWhatTheyLeadToStays) {
+  const fs::path work = folder_ / ".out.crosscheck", theirs = folder_ / "theirs";
+  for (const char* manifest : {"", "{}"})
+    for (const char* name : {"new", "old"}) {
+      fs::create_directories(target_);
+      write_file(theirs / "sub/precious.txt", "precious");
+      if (*manifest) write_file(theirs / Manifest::file_name, manifest);
+      fs::create_directories(work);
+      fs::create_directory_symlink(theirs, work / name);
+      EXPECT_TRUE(contains(refusal(), "is not a folder that crosscheck made"));
+      EXPECT_THROW(recover_output(target_), InputError);
+      EXPECT_EQ(read(theirs / "sub/precious.txt"), "precious");
+      EXPECT_TRUE(fs::is_empty(target_));
+      fs::remove(work / name);
+    }
+}
+
 TEST_P(Output, NextWriterPutsTheEarlierResultBack) {
   put({{"index.html", "one"}});
   write_file(folder_ / "out/mine", "mine");
