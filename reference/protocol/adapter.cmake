@@ -5,7 +5,10 @@ set(CMAKE_CXX_STANDARD 20)
 set(CMAKE_CXX_STANDARD_REQUIRED ON)
 set(CMAKE_CXX_EXTENSIONS OFF)
 set(CROSSCHECK_LIBRARIES "" CACHE PATH "the folder of libmysim.a and libprotocol.a")
-find_package(Eigen3 3.4 REQUIRED NO_MODULE)
+find_package(Eigen3 3.4...5 QUIET NO_MODULE)
+if(NOT Eigen3_FOUND)  # Eigen 3.4 does not understand ranges of versions
+  find_package(Eigen3 3.4 REQUIRED NO_MODULE)
+endif()
 find_package(fmt REQUIRED)
 find_package(Threads REQUIRED)
 

@@ -76,7 +76,7 @@ int doctor_command() {
              sundials_version() ? "" : "; apt-get install libsundials-dev, then build anew");
   fmt::print("  {:<14} {:<10} {}\n", "Benchmark", CROSSCHECK_BENCHMARK_VERSION,
              "Google's; optional: times kernels side by side for `bench`; of libbenchmark-dev");
-  fmt::print("  {:<14} {:<10} {}\n\n", "OSMesa", "linked", "renders pictures without a display");
+  fmt::print("  {:<14} {:<10} {}\n\n", CROSSCHECK_OFFSCREEN, "linked", "renders pictures without a display");
 
   // an installation compiles coursework and adapters alone
   const bool in_source_tree = std::filesystem::exists(data_folder() / "CMakeLists.txt");
@@ -89,7 +89,7 @@ int doctor_command() {
       {"python3", "python3-numpy", "runs engines in NumPy, and the package for Python; the tests need it", false},
       {"ffmpeg", "ffmpeg", "writes clips: `render -o FILE.mp4`", false},
       {"clang++", "clang", "another compiler, in which `regress --prove-builds` builds too", false},
-      {"wasm-ld-14", lab_packages, "compiles mysim to WebAssembly, with clang: the lab in the page", false},
+      {"wasm-ld", lab_packages, "compiles mysim to WebAssembly, with clang: the lab in the page", false},
       {"node", "nodejs", "runs Jolt as an engine: `engine jolt`; the tests run the lab's module in it", false},
       {"npm", "npm", "fetches Jolt, for `engine jolt`", false},
       {"pdflatex", "texlive-latex-base", "the tests compile a paper with a set of figures", false},

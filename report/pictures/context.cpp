@@ -1,7 +1,13 @@
-// The only file that knows OSMesa: creates, checks and destroys the off-screen context.
+// The only file that knows the off-screen context: OSMesa where the build found it, else EGL's surfaceless platform
+// (Mesa removed OSMesa in version 25.1).
 #include "report/pictures/context.h"
 
+#ifdef CROSSCHECK_WITH_OSMesa
 #include <GL/osmesa.h>
+#else
+#include <EGL/egl.h>
+#include <EGL/eglext.h>
+#endif
 
 #include <array>
 #include <cstdlib>
@@ -10,50 +16,81 @@
 
 namespace crosscheck::render {
 
+#ifdef CROSSCHECK_WITH_OSMesa
+
 struct Context::Handle {
   OSMesaContext context = nullptr;
   std::array<unsigned char, 16 * 16 * 4> pixels{};  // OSMesa wants a buffer; all drawing goes to own framebuffers
+  Handle() {
+    const int attributes[] = {OSMESA_FORMAT,
+                              OSMESA_RGBA,
+                              OSMESA_DEPTH_BITS,
+                              0,
+                              OSMESA_PROFILE,
+                              OSMESA_CORE_PROFILE,
+                              OSMESA_CONTEXT_MAJOR_VERSION,
+                              3,
+                              OSMESA_CONTEXT_MINOR_VERSION,
+                              3,
+                              0};
+    context = OSMesaCreateContextAttribs(attributes, nullptr);
+  }
   ~Handle() {
     if (!context) return;
     if (OSMesaGetCurrentContext() == context) OSMesaMakeCurrent(nullptr, nullptr, 0, 0, 0);
     OSMesaDestroyContext(context);
   }
+  bool make_current() { return context && OSMesaMakeCurrent(context, pixels.data(), GL_UNSIGNED_BYTE, 16, 16); }
+  static GlAddress address(const char* name) { return reinterpret_cast<GlAddress>(OSMesaGetProcAddress(name)); }
 };
 
-Context::Context() : handle_(std::make_unique<Handle>()) {
+#else
+
+struct Context::Handle {
+  EGLDisplay display = EGL_NO_DISPLAY;
+  EGLContext context = EGL_NO_CONTEXT;
+  Handle() {
+    setenv("LIBGL_ALWAYS_SOFTWARE", "true", 1);  // pictures must not depend on the graphics card
+    display = eglGetPlatformDisplay(EGL_PLATFORM_SURFACELESS_MESA, EGL_DEFAULT_DISPLAY, nullptr);
+    if (!eglInitialize(display, nullptr, nullptr) || !eglBindAPI(EGL_OPENGL_API)) return;
+    const EGLint attributes[] = {
+        EGL_CONTEXT_MAJOR_VERSION,           3,       EGL_CONTEXT_MINOR_VERSION, 3, EGL_CONTEXT_OPENGL_PROFILE_MASK,
+        EGL_CONTEXT_OPENGL_CORE_PROFILE_BIT, EGL_NONE};
+    context = eglCreateContext(display, EGL_NO_CONFIG_KHR, EGL_NO_CONTEXT, attributes);
+  }
+  ~Handle() {
+    // the display is the process's: other contexts may use it
+    if (context == EGL_NO_CONTEXT) return;
+    if (eglGetCurrentContext() == context) eglMakeCurrent(display, EGL_NO_SURFACE, EGL_NO_SURFACE, EGL_NO_CONTEXT);
+    eglDestroyContext(display, context);
+  }
+  bool make_current() {
+    return context != EGL_NO_CONTEXT && eglMakeCurrent(display, EGL_NO_SURFACE, EGL_NO_SURFACE, context);
+  }
+  static GlAddress address(const char* name) { return reinterpret_cast<GlAddress>(eglGetProcAddress(name)); }
+};
+
+#endif
+
+Context::Context() {
   // without this Mesa writes compiled shaders into the home folder
   setenv("MESA_SHADER_CACHE_DISABLE", "true", 1);
-
-  const int attributes[] = {OSMESA_FORMAT,
-                            OSMESA_RGBA,
-                            OSMESA_DEPTH_BITS,
-                            0,
-                            OSMESA_PROFILE,
-                            OSMESA_CORE_PROFILE,
-                            OSMESA_CONTEXT_MAJOR_VERSION,
-                            3,
-                            OSMESA_CONTEXT_MINOR_VERSION,
-                            3,
-                            0};
-  handle_->context = OSMesaCreateContextAttribs(attributes, nullptr);
-  if (!handle_->context) throw std::runtime_error("OSMesa gives no OpenGL 3.3 core context");
+  handle_ = std::make_unique<Handle>();
   make_current();
-  gl_ = load_gl([](const char* name) { return reinterpret_cast<GlAddress>(OSMesaGetProcAddress(name)); });
+  gl_ = load_gl(&Handle::address);
 
   // a libGL linked next to OSMesa would swallow every call in silence
   const auto* name = reinterpret_cast<const char*>(gl_.GetString(GL_RENDERER));
   const std::string renderer = name ? name : "nothing";
   if (renderer.rfind("llvmpipe", 0) != 0 && renderer.rfind("softpipe", 0) != 0) {
-    throw std::runtime_error("OSMesa's software renderer does not answer (GL_RENDERER: " + renderer + ")");
+    throw std::runtime_error("Mesa's software renderer does not answer (GL_RENDERER: " + renderer + ")");
   }
 }
 
 Context::~Context() = default;
 
 void Context::make_current() const {
-  if (!OSMesaMakeCurrent(handle_->context, handle_->pixels.data(), GL_UNSIGNED_BYTE, 16, 16)) {
-    throw std::runtime_error("OSMesa cannot make its context current");
-  }
+  if (!handle_->make_current()) throw std::runtime_error("Mesa gives no current OpenGL 3.3 core context");
 }
 
 }  // namespace crosscheck::render

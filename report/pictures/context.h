@@ -7,8 +7,8 @@
 
 namespace crosscheck::render {
 
-/// Makes an OSMesa 3.3 core context current in this thread. All OpenGL objects made meanwhile die with it.
-/// Throws std::runtime_error if there is none or if another OpenGL library is loaded in its place.
+/// Makes an OpenGL 3.3 core context of Mesa's software renderer current in this thread. All OpenGL objects made
+/// meanwhile die with it. Throws std::runtime_error if there is none.
 class Context {
  public:
   Context();

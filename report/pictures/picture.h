@@ -83,7 +83,7 @@ struct Image {
 /// Background alone.
 Image blank(int width, int height);
 
-/// Draws the panels (no letters) with OSMesa. Same input, same bytes. Throws std::runtime_error with the cause.
+/// Draws the panels (no letters) off screen. Same input, same bytes. Throws std::runtime_error with the cause.
 Image draw(const Picture& picture);
 
 /// Draws like draw(), but keeps the OpenGL context and its compiled shaders for the next picture (of the same size,
