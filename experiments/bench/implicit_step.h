@@ -59,7 +59,7 @@ inline int work_of(const ImplicitStepOptions& options) {
 /// `bench-implicit-step-cost`: from the cloth as it hangs after half a second, one step of `implicit-euler+linear` and
 /// one by Eigen's SimplicialLDLT (implicit_step.h): how far apart both end (the farthest particle, m), their times,
 /// iterations of conjugate gradients, and the ratio of the times, round by round; with the best instructions for mysim,
-/// and with SSE2 alone.
+/// and with the baseline.
 void implicit_step(const ImplicitStepOptions& options, TableSet& tables, Progress& progress);
 
 }  // namespace crosscheck

@@ -85,7 +85,7 @@ std::vector<PeerRun> PeerRuns::own(double wanted, long most) const {
   for (const MysimMethod& own : own_methods) {
     const Method method = find_method(own.method);
     progress_.begin(fmt::format("{}: {}", scene_.name, own.method));
-    if (method.name.ends_with("+single") && !fused_step<float>(scene_, simd::InstructionSet::sse2, true)) continue;
+    if (method.name.ends_with("+single") && !fused_step<float>(scene_, simd::InstructionSet::baseline, true)) continue;
     for (double part = own.first; part > shortest * own.first; part *= own.ratio) {
       const PeerRun last = done(method, part);
       runs.push_back(last);

@@ -8,7 +8,7 @@ namespace crosscheck {
 
 template <>
 struct EnumRange<simd::InstructionSet> {
-  static constexpr simd::InstructionSet first = simd::InstructionSet::sse2, last = simd::InstructionSet::avx512;
+  static constexpr simd::InstructionSet first = simd::InstructionSet::baseline, last = simd::InstructionSet::avx512;
 };
 
 /// Whether a peer converges to the scene's springs or to something else.
@@ -22,7 +22,7 @@ struct EnumRange<PeerModel> {
 struct KernelRow {
   long side = 0, springs = 0;
   std::string kernel;
-  simd::InstructionSet instructions = simd::InstructionSet::sse2;
+  simd::InstructionSet instructions = simd::InstructionSet::baseline;
   std::string precision;
   double time = 0, low = 0, high = 0, ratio = 0, ratio_low = 0, ratio_high = 0, rate = 0, share_of_peak = 0;
 
@@ -48,7 +48,7 @@ struct SceneKernelRow {
   std::string scene;
   long particles = 0, springs = 0;
   std::string kernel;
-  simd::InstructionSet instructions = simd::InstructionSet::sse2;
+  simd::InstructionSet instructions = simd::InstructionSet::baseline;
   double time = 0, low = 0, high = 0, naive = 0, ratio = 0, ratio_low = 0, ratio_high = 0;
 
   static constexpr std::string_view table = "bench-scenes-cost",
@@ -83,7 +83,7 @@ struct EqualErrorRow {
   std::optional<double> cpu, cpu_low, cpu_high, part_timed;
   double cpu_of_whole_run = 0;
   std::string build, path;
-  simd::InstructionSet instructions = simd::InstructionSet::sse2;
+  simd::InstructionSet instructions = simd::InstructionSet::baseline;
   std::optional<std::string> mysim;
   std::optional<double> mysim_step, mysim_error, mysim_cpu, ratio, ratio_low, ratio_high;
   std::optional<std::string> remark;
@@ -107,7 +107,8 @@ struct EqualErrorRow {
         column("cpu of the one whole run", "s", &EqualErrorRow::cpu_of_whole_run,
                "CPU time of the run that its error is of"),
         column("build", "1", &EqualErrorRow::build, "who compiled the peer's code"),
-        column("path of mysim", "1", &EqualErrorRow::path, "best: the machine's best instructions; sse2: those alone"),
+        column("path of mysim", "1", &EqualErrorRow::path,
+               "best: the machine's best instructions; baseline: those that every machine has"),
         column("instructions", "1", &EqualErrorRow::instructions, "instruction set of mysim"),
         column("mysim", "1", &EqualErrorRow::mysim, "mysim's method"),
         column("step of mysim", "s", &EqualErrorRow::mysim_step, "time step of mysim"),
@@ -128,7 +129,7 @@ struct OwnRunRow {
   double truth_bar = 0;
   long evaluations = 0;
   std::string path;
-  simd::InstructionSet instructions = simd::InstructionSet::sse2;
+  simd::InstructionSet instructions = simd::InstructionSet::baseline;
   std::optional<double> cpu, cpu_low, cpu_high;
 
   static constexpr std::string_view table = "bench-own-runs-cost", about = "Runs of mysim that peers stand beside.";
@@ -139,7 +140,8 @@ struct OwnRunRow {
         column("error", "m", &OwnRunRow::error, "RMS position error at the end"),
         column("truth bar", "m", &OwnRunRow::truth_bar, "error bar of the truth"),
         column("evaluations", "1", &OwnRunRow::evaluations, "force evaluations"),
-        column("path of mysim", "1", &OwnRunRow::path, "best: the machine's best instructions; sse2: those alone"),
+        column("path of mysim", "1", &OwnRunRow::path,
+               "best: the machine's best instructions; baseline: those that every machine has"),
         column("instructions", "1", &OwnRunRow::instructions, "instruction set"),
         column("cpu", "s", &OwnRunRow::cpu, "CPU time of the whole run, median"),
         column("cpu low", "s", &OwnRunRow::cpu_low, "lower end of its 90 % interval"),
@@ -153,7 +155,7 @@ struct SameStepRow {
   long steps = 0;
   double apart = 0, bullet_cpu = 0, bullet_low = 0, bullet_high = 0;
   std::string build, path;
-  simd::InstructionSet instructions = simd::InstructionSet::sse2;
+  simd::InstructionSet instructions = simd::InstructionSet::baseline;
   std::string mysim;
   double cpu = 0, low = 0, high = 0, ratio = 0, ratio_low = 0, ratio_high = 0;
 
@@ -169,7 +171,8 @@ struct SameStepRow {
         column("low of Bullet", "s", &SameStepRow::bullet_low, "lower end of its 90 % interval"),
         column("high of Bullet", "s", &SameStepRow::bullet_high, "upper end of its 90 % interval"),
         column("build", "1", &SameStepRow::build, "who compiled Bullet's code"),
-        column("path of mysim", "1", &SameStepRow::path, "best: the machine's best instructions; sse2: those alone"),
+        column("path of mysim", "1", &SameStepRow::path,
+               "best: the machine's best instructions; baseline: those that every machine has"),
         column("instructions", "1", &SameStepRow::instructions, "instruction set of mysim"),
         column("mysim", "1", &SameStepRow::mysim, "mysim's method"),
         column("cpu per step of mysim", "s", &SameStepRow::cpu, "CPU time of a step of mysim, median"),
@@ -186,7 +189,7 @@ struct ImplicitStepRow {
   long particles = 0;
   double rate = 0, apart = 0, largest_move = 0, eigen_cpu = 0, eigen_low = 0, eigen_high = 0;
   std::string path;
-  simd::InstructionSet instructions = simd::InstructionSet::sse2;
+  simd::InstructionSet instructions = simd::InstructionSet::baseline;
   long iterations = 0;
   double cpu = 0, low = 0, high = 0, ratio = 0, ratio_low = 0, ratio_high = 0;
 
@@ -203,7 +206,7 @@ struct ImplicitStepRow {
         column("low of Eigen", "s", &ImplicitStepRow::eigen_low, "lower end of its 90 % interval"),
         column("high of Eigen", "s", &ImplicitStepRow::eigen_high, "upper end of its 90 % interval"),
         column("path of mysim", "1", &ImplicitStepRow::path,
-               "best: the machine's best instructions; sse2: those alone"),
+               "best: the machine's best instructions; baseline: those that every machine has"),
         column("instructions", "1", &ImplicitStepRow::instructions, "instruction set of mysim"),
         column("iterations", "1", &ImplicitStepRow::iterations, "iterations of conjugate gradients"),
         column("cpu per step of mysim", "s", &ImplicitStepRow::cpu, "CPU time of a step of mysim, median"),
@@ -217,7 +220,7 @@ struct ImplicitStepRow {
 
 struct ThreadsRow {
   std::string scene, method;
-  simd::InstructionSet instructions = simd::InstructionSet::sse2;
+  simd::InstructionSet instructions = simd::InstructionSet::baseline;
   long threads = 0, steps = 0;
   double one = 0, one_low = 0, one_high = 0, two = 0, two_low = 0, two_high = 0, share = 0, ratio = 0, ratio_low = 0,
          ratio_high = 0;

@@ -34,7 +34,7 @@ struct CodePath {
 /// With the best instructions that the machine has (or those that CROSSCHECK_INSTRUCTIONS names); and with those alone
 /// that builds for every machine use, as the distribution's libraries are built.
 inline std::vector<CodePath> code_paths() {
-  return {{"best", simd::active_instruction_set()}, {"sse2", simd::InstructionSet::sse2}};
+  return {{"best", simd::active_instruction_set()}, {"baseline", simd::InstructionSet::baseline}};
 }
 
 }  // namespace crosscheck

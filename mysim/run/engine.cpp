@@ -4,11 +4,13 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <bit>
 #include <cassert>
 #include <cmath>
 #include <memory>
 
 #include "mysim/base/errors.h"
+#include "mysim/base/hash.h"
 #include "mysim/run/cloth_grid_world.h"
 #include "mysim/run/run.h"
 #include "mysim/simd/cloth_grid/cloth_grid.h"
@@ -317,6 +319,14 @@ Outcome simulate(const Stepper& stepper, ContactRule contact, const Scene& scene
         "bending, dashpots and air, and with spheres for symplectic-euler and leapfrog without +sticky",
         simd::fewest_columns);
   return out;
+}
+
+std::string fingerprint(const State& state) {
+  Fnv1a hash;
+  for (const Points* points : {&state.x, &state.v})
+    for (const double value : points->reshaped())
+      for (int i = 0; i < 8; ++i) hash.add(static_cast<unsigned char>(std::bit_cast<std::uint64_t>(value) >> (8 * i)));
+  return fmt::format("{:016x}", hash.value());
 }
 
 }  // namespace crosscheck

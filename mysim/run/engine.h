@@ -87,4 +87,13 @@ std::unique_ptr<World> make_world(const Stepper& stepper, ContactRule contact, c
 Outcome simulate(const Stepper& stepper, ContactRule contact, const Scene& scene, const Run& run, Observer& observer,
                  const Execution& execution = {});
 
+/// True if a rule gives the same bits on every machine: sums in one order do; solving equations and choosing steps need
+/// not. The fused step (fused_step.h) has two results, with and without fused multiply-add.
+inline bool has_same_bits_everywhere(const Stepper& rule) {
+  return !rule.adaptive && (rule.evaluations > 0 || rule.hard_constraints);
+}
+
+/// FNV-1a over the bits of positions and velocities, 16 hexadecimal digits: equal for equal states.
+std::string fingerprint(const State& state);
+
 }  // namespace crosscheck

@@ -11,16 +11,18 @@
 namespace crosscheck::simd {
 
 std::string_view name_of(InstructionSet isa) {
-  constexpr std::string_view names[] = {"sse2", "avx2", "avx512"};
+  constexpr std::string_view names[] = {"baseline", "avx2", "avx512"};
   return names[static_cast<int>(isa)];
 }
 
 std::vector<InstructionSet> supported_instruction_sets() {
-  std::vector<InstructionSet> all{InstructionSet::sse2};
+  std::vector<InstructionSet> all{InstructionSet::baseline};
+#ifdef __x86_64__
   if (__builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma")) all.push_back(InstructionSet::avx2);
   if (all.size() > 1 && __builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512dq") &&
       __builtin_cpu_supports("avx512bw") && __builtin_cpu_supports("avx512vl"))
     all.push_back(InstructionSet::avx512);
+#endif
   return all;
 }
 
@@ -30,8 +32,8 @@ InstructionSet active_instruction_set() {
   if (!named || !*named) return all.back();
   for (const InstructionSet isa : all)
     if (name_of(isa) == named) return isa;
-  throw InputError(
-      fmt::format("CROSSCHECK_INSTRUCTIONS={}: expected sse2, avx2 or avx512, and one that this machine has", named));
+  throw InputError(fmt::format(
+      "CROSSCHECK_INSTRUCTIONS={}: expected baseline, avx2 or avx512, and one that this machine has", named));
 }
 
 }  // namespace crosscheck::simd

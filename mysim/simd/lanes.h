@@ -196,7 +196,8 @@ struct Lanes<float> {
   FORCE_INLINE bool any_less(V a, V b) { return _mm256_movemask_ps(_mm256_cmp_ps(a, b, _CMP_LT_OQ)) != 0; }
 };
 
-#else  // two doubles or four floats: SSE2, and WebAssembly. No fused multiply-add, and no seed worth its steps
+#else  // the baseline, two doubles or four floats: SSE2, NEON and WebAssembly. Nothing is fused, and no seed is worth
+       // its steps
 
 #define PERMUTE __builtin_shufflevector
 

@@ -11,13 +11,22 @@
 namespace crosscheck::simd {
 namespace {
 
+/// Tells the processor that this thread spins.
+void pause() {
+#ifdef __x86_64__
+  __builtin_ia32_pause();
+#else
+  asm volatile("yield");
+#endif
+}
+
 /// Returns when `number` has become another one: what it is then.
 long wait_for_change(const std::atomic<long>& number, long known) {
   constexpr int spins = 2000, yields = 2000;  // some tens of microseconds; about a millisecond
   for (int i = 0; i < spins + yields; ++i) {
     if (const long now = number.load(std::memory_order_acquire); now != known) return now;
     if (i < spins)
-      __builtin_ia32_pause();
+      pause();
     else
       std::this_thread::yield();
   }

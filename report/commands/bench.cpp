@@ -29,7 +29,7 @@ BenchRatio ratio_of(const Row& row) {
   return {row.ratio, row.ratio_low, row.ratio_high};
 }
 
-/// Whether a row is of mysim's SSE2 path; it is then added to the last line.
+/// True if a row is of mysim's baseline path; it is then added to the last line.
 template <class Row>
 bool is_second_path(const Row& row, std::vector<BenchLine>& lines) {
   if (row.path == "best") return false;
@@ -84,7 +84,7 @@ void add_threads(const TableSet& rows, std::vector<BenchLine>& lines) {
 
 using simd::InstructionSet;
 constexpr auto naive = "naive loop";
-constexpr InstructionSet plainest = InstructionSet::sse2;
+constexpr InstructionSet plainest = InstructionSet::baseline;
 
 void add_kernels(const TableSet& all_rows, InstructionSet best, std::vector<BenchLine>& lines) {
   const std::vector<KernelRow> rows = rows_of<KernelRow>(all_rows);
@@ -104,7 +104,7 @@ void add_kernels(const TableSet& all_rows, InstructionSet best, std::vector<Benc
     const KernelRow* chosen = nullptr;
     for (const KernelRow& other : rows) {
       if (other.side != side || other.precision != row.precision) continue;
-      // with SSE2 the fastest fused step in double is the reproducible one
+      // on the baseline the fastest fused step in double is the reproducible one
       const bool same =
           other.kernel == row.kernel || (row.kernel == "sweep, fastest" && row.precision == "double" &&
                                          other.kernel == "sweep, reproducible" && other.instructions == plainest);
@@ -216,7 +216,7 @@ DotPlot bench_figure(const std::vector<BenchLine>& lines, const std::string& ins
   f.label = "CPU time / CPU time of mysim";
   f.from_costs = true;
   f.series = {{fmt::format("mysim with {}", instructions), {"#0072B2", "1", 7}, {}},
-              {"mysim with SSE2 alone", {"#D55E00", "1", 6}, {}}};
+              {"mysim with baseline instructions", {"#D55E00", "1", 6}, {}}};
   std::string heading;
   const BenchLine* least = nullptr;
   for (const BenchLine& line : lines) {
@@ -259,7 +259,7 @@ std::string text_of(const std::optional<BenchRatio>& ratio) {
 }
 
 void print(const std::vector<BenchLine>& lines, const std::string& instructions) {
-  fmt::print("{:<48} {:>22} {:>22}\n", "their CPU time over mysim's (90 % interval)", instructions, "SSE2 alone");
+  fmt::print("{:<48} {:>22} {:>22}\n", "their CPU time over mysim's (90 % interval)", instructions, "baseline");
   std::string group;
   for (const BenchLine& line : lines) {
     if (line.group != group) fmt::print("\n{}\n", line.group);

@@ -26,7 +26,7 @@ struct BenchLine {
   std::string heading;                    // the same in few words, for the figure
   std::string label;                      // the peer, and at which accuracy
   std::string detail;                     // times or rates behind the ratio; of the best path
-  std::optional<BenchRatio> best, plain;  // best instructions; SSE2 alone
+  std::optional<BenchRatio> best, plain;  // best instructions; the baseline
   std::string remark = {};                // why there is no ratio
   bool representative = true;             // of several lines about one peer the one where it does best
   bool wall = false;                      // the ratio is one of times on the wall, not of CPU times
@@ -53,7 +53,7 @@ inline std::string size_text(const std::string& scene) {
   return text;
 }
 
-/// All ratios, of each peer the one where it does best: best instructions and SSE2 alone as two markers.
+/// All ratios, of each peer the one where it does best: best instructions and the baseline as two markers.
 DotPlot bench_figure(const std::vector<BenchLine>& lines, const std::string& instructions, const std::string& commit);
 
 struct BenchOptions {

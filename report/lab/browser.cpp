@@ -68,7 +68,7 @@ bool Pattern::is_in(const std::string& text) const {
 namespace simd {
 
 std::string_view name_of(InstructionSet) { return "simd128"; }
-InstructionSet active_instruction_set() { return InstructionSet::sse2; }
+InstructionSet active_instruction_set() { return InstructionSet::baseline; }
 
 struct ThreadPool::Workers {};
 ThreadPool::ThreadPool(int) {}

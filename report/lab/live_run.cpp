@@ -3,12 +3,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <bit>
 #include <cmath>
 #include <limits>
 
 #include "mysim/base/errors.h"
-#include "mysim/base/hash.h"
 #include "mysim/base/text.h"
 #include "mysim/run/contacts.h"
 
@@ -108,7 +106,7 @@ void LiveRun::go_on(const Change& change) {
   particles.pins.clear();
   for (int i = 0; i < particles.size(); ++i)
     if (particles.pinned[i]) particles.pins.push_back(i);
-  particles.pin_home = scene_.start.x(Eigen::all, particles.pins);
+  particles.pin_home = scene_.start.x(Eigen::placeholders::all, particles.pins);
   for (const int pin : particles.pins)
     if (scene_.start.v.cols() > 0) scene_.start.v.col(pin).setZero();
   changed_ = true;
@@ -134,17 +132,6 @@ void LiveRun::release() {
 void LiveRun::set_pinned(int particle, bool pinned) {
   if (held_ == particle) held_ = -1;
   go_on([&] { scene_.model.particles.pinned[particle] = pinned; });
-}
-
-std::string LiveRun::fingerprint() const {
-  Fnv1a hash;
-  const auto add = [&](const Points& points) {
-    for (const double value : points.reshaped())
-      for (int i = 0; i < 8; ++i) hash.add(static_cast<unsigned char>(std::bit_cast<std::uint64_t>(value) >> (8 * i)));
-  };
-  add(state().x);
-  add(state().v);
-  return fmt::format("{:016x}", hash.value());
 }
 
 }  // namespace crosscheck

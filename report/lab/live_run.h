@@ -53,8 +53,7 @@ class LiveRun {
   /// Whether the scene is no longer that of its file.
   bool changed_by_hand() const { return changed_; }
 
-  /// FNV-1a over the bits of positions and velocities, 16 hexadecimal digits: equal for equal states.
-  std::string fingerprint() const;
+  std::string fingerprint() const { return crosscheck::fingerprint(state()); }
 
  private:
   /// Makes the present state the scene's start, lets `change` change it, and begins a run there.
@@ -81,11 +80,5 @@ class LiveRun {
 
 /// The stepper of a rule with its options: "leapfrog", "implicit-euler+linear"; null where there is none.
 const Stepper* stepper_of_rule(std::string_view rule);
-
-/// Whether a rule gives the same bits in every build with lanes of two doubles: a rule of sums in one order does; what
-/// solves equations, or chooses its steps, need not.
-inline bool has_same_bits_everywhere(const Stepper& rule) {
-  return !rule.adaptive && (rule.evaluations > 0 || rule.hard_constraints);
-}
 
 }  // namespace crosscheck

@@ -73,7 +73,7 @@ LabFingerprints lab_fingerprints(const std::vector<Scene>& scenes) {
     write_file(file, scene.source);
     call.push_back(file.string());
   }
-  const ProgramResult result = run_program(call, folder.path, {"CROSSCHECK_INSTRUCTIONS=sse2"});
+  const ProgramResult result = run_program(call, folder.path, {"CROSSCHECK_INSTRUCTIONS=baseline"});
   if (result.status != 0)
     throw std::runtime_error(fmt::format("the lab's fingerprints: {}", last_lines(result.err, 1)));
   LabFingerprints all;

@@ -77,7 +77,7 @@ CellStarts::Row& CellStarts::row_of(const MapCell& cell) {
       if (reading_order(term) == order) terms.push_back(term);
   scene.model.terms = std::move(terms);
   Particles& particles = scene.model.particles;
-  particles.pin_home = scene.start.x(Eigen::all, particles.pins);
+  particles.pin_home = scene.start.x(Eigen::placeholders::all, particles.pins);
   particles.place_pins(scene.start);
   rows_.push_back(std::move(row));
   return rows_.back();
@@ -100,7 +100,7 @@ std::optional<Json> CellStarts::reproduced(const RecordedRun& run, const std::ve
   // each step rounds places by half of the last digit; what rests to within that shows its rounding alone
   constexpr double epsilon = std::numeric_limits<double>::epsilon();
   within = std::max(within, 0.5 * epsilon * static_cast<double>(cell.steps) * scene_.size());
-  const ScopedInstructionSet page(simd::InstructionSet::sse2);
+  const ScopedInstructionSet page(simd::InstructionSet::baseline);
   LiveRun live(scene_of(cell));
   live.start({rule_, cell.step, 1e-6, live.scene().duration, false});
   for (size_t i = 0; i < pictures.size(); ++i) {

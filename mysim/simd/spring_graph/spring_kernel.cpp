@@ -17,8 +17,7 @@ struct SpringKernel::Impl {
 SpringKernel::SpringKernel(const Springs& springs, int particles) {
   const simd::InstructionSet isa = isa_ = simd::active_instruction_set();
   const SpringLaw law = springs.law;
-  spring_graph::SpringPartition partition =
-      spring_graph::partition_springs(springs.list, particles, spring_graph::costs(isa));
+  spring_graph::SpringPartition partition = spring_graph::partition_springs(springs.list, particles, {});
   plain_ = {std::move(partition.plain), law};
   if (partition.dia.empty() && partition.coo.empty()) {
     few_ = FewSprings(plain_, particles);

@@ -15,8 +15,8 @@ enum class InstructionSet;
 /// Adds the same forces as the plain edge loop of terms/springs.h, in another order. Each spring goes the cheapest of
 /// three ways (simd/spring_graph/spring_layout.h): by its offset (DIA), in a list of edges (COO; both in
 /// simd/spring_graph/dia_coo_kernels.h), or, where there are too few for lanes, through the plain loop itself. On all
-/// of them its force is the same to the last bit. Nothing depends on threads; AVX2 and AVX-512 partition springs alike
-/// and give the same bits.
+/// of them its force is the same to the last bit. Nothing depends on threads, and all instruction sets give the same
+/// bits.
 class SpringKernel {
  public:
   /// For springs between `particles` particles. The springs' law must be Hooke's or Bullet's link law.

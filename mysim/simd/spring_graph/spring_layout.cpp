@@ -16,12 +16,6 @@ Kernels kernels(simd::InstructionSet isa, SpringLaw law) {
   return SELECT_COMPILED(isa, kernels_of)(law == SpringLaw::hooke);
 }
 
-Costs costs(simd::InstructionSet isa) {
-  if (isa == simd::InstructionSet::sse2)
-    return {.coefficient_row = 17, .tile = 16, .coo_spring = 2.6, .coo_particle = 2, .plain = 3.1, .call = 30};
-  return {.coefficient_row = 9, .tile = 10, .coo_spring = 1.8, .coo_particle = 2, .plain = 3.1, .call = 30};
-}
-
 namespace {
 
 /// m: the places of padding particles, far from the others and from each other.

@@ -11,16 +11,15 @@ namespace crosscheck::spring_graph {
 
 Kernels kernels(simd::InstructionSet isa, SpringLaw law);
 
-/// Costs on an instruction set, ns, as measured on one machine; only their ratios matter. Both kinds of AVX share one
-/// set: they partition springs alike, add them up in the same order, and so give the same bits.
+/// Costs in ns, measured on one machine with AVX2; only their ratios matter. All instruction sets share them, so that
+/// they partition springs alike, add forces up in the same order, and give the same bits.
 struct Costs {
-  double coefficient_row;  // DIA: eight springs of a diagonal side by side
-  double tile;             // DIA: eight particles put in and taken out
-  double coo_spring, coo_particle;
-  double plain;  // a spring of the plain loop
-  double call;   // of a kernel
+  double coefficient_row = 9;  // DIA: eight springs of a diagonal side by side
+  double tile = 10;            // DIA: eight particles put in and taken out
+  double coo_spring = 1.8, coo_particle = 2;
+  double plain = 3.1;  // a spring of the plain loop
+  double call = 30;    // calling a kernel
 };
-Costs costs(simd::InstructionSet isa);
 
 using simd::AlignedBuffer;
 /// Springs with a < b, in the order of a.

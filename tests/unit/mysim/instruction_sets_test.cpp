@@ -15,7 +15,7 @@ TEST(InstructionSets, OfAnInstructionSetKeepTheirCodeToThemselves) {
   std::istringstream objects(CROSSCHECK_KERNEL_OBJECTS);
   int count = 0;
   for (std::string object; std::getline(objects, object, '|'); ++count) {
-    const std::string listed = run_program({"nm", "-C", object}, ".", {}).out;
+    const std::string listed = run_program({CROSSCHECK_NM, "-C", object}, ".", {}).out;
     EXPECT_TRUE(listed.find("double_kernel") != std::string::npos || listed.find("kernels_of") != std::string::npos)
         << object;
     std::istringstream lines(listed);
@@ -26,7 +26,11 @@ TEST(InstructionSets, OfAnInstructionSetKeepTheirCodeToThemselves) {
       EXPECT_EQ(line.find("std::"), std::string::npos) << object << ": " << line;
     }
   }
+#ifdef __x86_64__
   EXPECT_EQ(count, 9);
+#else
+  EXPECT_EQ(count, 3);
+#endif
 }
 
 }  // namespace

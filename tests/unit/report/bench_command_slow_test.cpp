@@ -57,7 +57,7 @@ TEST_F(CliBench, WritesTablesJsonAndFigureAndSaysEveryLine) {
 
   const JsonField json = JsonField::parse_file(folder_ / "bench.json");
   std::set<std::string> names{"bench-equal-error-cost", "bench-own-runs-cost", "bench-same-step-cost"};
-  std::vector<std::string> lines{"odeint/rk4", "other model", "two stiffnesses: Bullet's force", "SSE2 alone"};
+  std::vector<std::string> lines{"odeint/rk4", "other model", "two stiffnesses: Bullet's force", "baseline"};
   // where the suite was built without Google Benchmark it says so
   if (json["notes"].dump().find("libbenchmark-dev") == std::string::npos) {
     names.insert({"bench-kernels-cost", "bench-scenes-cost", "bench-implicit-step-cost"});
