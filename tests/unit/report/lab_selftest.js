@@ -1,12 +1,12 @@
 // Runs every scene of a page under every stepper of the lab's engine, in Node and in a browser alike: `runs` are
-// {scene, stepper, steps, exact}, and what comes back is each one's fingerprint, time and, of those that are not exact,
+// {scene, stepper, steps, exact, duration}, and what comes back is each one's fingerprint, time and, of those that are not exact,
 // places at the end.
 async function runAll(runs) {
   const lab = await labModule(), scenes = labScenes(), seen = [];
-  for (const {scene, stepper, steps, exact} of runs) {
+  for (const {scene, stepper, steps, exact, duration} of runs) {
     const sim = lab.open(scenes[scene].toml), entry = {scene, stepper};
     try {
-      sim.start({stepper, tolerance: 1e-6, observe: false});
+      sim.start({stepper, tolerance: 1e-6, duration, observe: false});
       sim.call('advance', Infinity, steps);
       Object.assign(entry, {t: sim.t, fingerprint: sim.fingerprint(), places: exact ? [] : [...sim.positions]});
     } catch (problem) {

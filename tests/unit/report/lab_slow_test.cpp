@@ -19,15 +19,15 @@
 #include "report/player/computed_runs.h"
 #include "report/player/motions.h"
 #include "report/player/packed_numbers.h"
+#include "tests/unit/golden_hashes.h"
 #include "tests/unit/reference/helpers.h"
 #include "tests/unit/report/in_browser.h"
 
 // clang's package first: CI installs what stands between "package" and the blank
-#define NEEDS_LAB                                                                                                  \
-  if (!has_lab_module())                                                                                           \
-  GTEST_SKIP()                                                                                                     \
-      << "package clang-14,lld-14,libc++-14-dev-wasm32,libclang-rt-14-dev-wasm32,binaryen was not installed when " \
-         "this was built: mysim is not run as WebAssembly"
+#define NEEDS_LAB                                                                                               \
+  if (!has_lab_module())                                                                                        \
+  GTEST_SKIP() << "package clang,lld,libc++-dev-wasm32,libclang-rt-dev-wasm32,binaryen was not installed when " \
+                  "this was built: mysim is not run as WebAssembly"
 
 namespace crosscheck {
 namespace {
@@ -38,6 +38,7 @@ namespace fs = std::filesystem;
 /// A run of so many steps, as a native build makes it.
 struct NativeRun {
   std::string scene, stepper;
+  double duration = 0;
   int steps = 0;
   bool exact = false;  // the same bits are asked for
   std::string fingerprint;
@@ -49,7 +50,7 @@ class LabModule : public InBrowser {
  protected:
   void SetUp() override {
     InBrowser::SetUp();
-    setenv("CROSSCHECK_INSTRUCTIONS", "sse2", 1);
+    setenv("CROSSCHECK_INSTRUCTIONS", "baseline", 1);
   }
   void TearDown() override {
     unsetenv("CROSSCHECK_INSTRUCTIONS");
@@ -73,7 +74,7 @@ class LabModule : public InBrowser {
         run.steps = run.exact ? steps : std::clamp(static_cast<int>(scene.window / scene.step), 1, steps);
         LiveRun live(scene);
         try {
-          live.start({run.stepper, scene.step, 1e-6, scene.duration, false});
+          live.start({run.stepper, scene.step, 1e-6, run.duration = golden_duration(scene), false});
         } catch (const Unsupported&) {
           continue;
         }
@@ -91,18 +92,24 @@ class LabModule : public InBrowser {
   static std::string json_of(const std::vector<NativeRun>& runs) {
     Json list = Json::list();
     for (const NativeRun& run : runs)
-      list.push({{"scene", run.scene}, {"stepper", run.stepper}, {"steps", run.steps}, {"exact", run.exact}});
+      list.push({{"scene", run.scene},
+                 {"stepper", run.stepper},
+                 {"steps", run.steps},
+                 {"exact", run.exact},
+                 {"duration", run.duration}});
     return list.dump();
   }
 
   static void compare(const std::vector<NativeRun>& native, const JsonField& seen) {
     size_t i = 0, exact = 0;
+    const GoldenHashes golden = golden_hashes();
     for (const JsonField& entry : seen.elements()) {
       const NativeRun& run = native.at(i++);
       SCOPED_TRACE(fmt::format("{} by {}, {} steps", run.scene, run.stepper, run.steps));
       ASSERT_FALSE(entry.find("refused")) << entry["refused"].text();
       if (run.exact) {
         EXPECT_EQ(entry["fingerprint"].text(), run.fingerprint);
+        if (run.steps == golden_steps) EXPECT_EQ(run.fingerprint, golden.at({run.scene, run.stepper}).unfused);
         ++exact;
         continue;
       }

@@ -1,0 +1,43 @@
+// Hashes of the state after 1000 steps of every shipped scene, by every rule with the same bits on every machine
+// (has_same_bits_everywhere), kept in reference/baselines/golden-hashes.csv.
+#pragma once
+
+#include <map>
+#include <sstream>
+#include <string>
+#include <utility>
+
+#include "mysim/base/files.h"
+#include "mysim/base/text.h"
+#include "tests/unit/helpers.h"
+
+namespace crosscheck::testing_tools {
+
+/// The baseline, ARM64 and WebAssembly do without fused multiply-add, AVX2 and AVX-512 use it in the fused step of
+/// regular cloths: everywhere else the two hashes are equal.
+struct GoldenHash {
+  std::string unfused, fused;
+};
+using GoldenHashes = std::map<std::pair<std::string, std::string>, GoldenHash>;  // by scene and rule
+
+inline std::filesystem::path golden_hash_file() { return CROSSCHECK_SOURCE "/reference/baselines/golden-hashes.csv"; }
+
+inline GoldenHashes golden_hashes() {
+  GoldenHashes table;
+  std::istringstream lines(read_file(golden_hash_file(), "the table of golden hashes"));
+  for (std::string line; std::getline(lines, line);) {
+    if (line.starts_with('#') || line.starts_with("scene")) continue;
+    const std::vector<std::string> words = split(line, ',');
+    table[{words.at(0), words.at(1)}] = {words.at(2), words.at(3)};
+  }
+  return table;
+}
+
+inline constexpr int golden_steps = 1000;
+/// s: long enough for these steps, and a whole number of the scene's sampling intervals.
+inline double golden_duration(const Scene& scene) {
+  const double interval = scene.duration / scene.samples;
+  return std::max(scene.duration, std::ceil(golden_steps * scene.step / interval) * interval);
+}
+
+}  // namespace crosscheck::testing_tools
