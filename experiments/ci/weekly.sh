@@ -11,12 +11,15 @@
 #   node        external engines and the lab's module in Node.js; Jolt from npm, if npm is installed
 #   latex       a paper with a set of figures
 #   sanitizers  the fast tests under address and undefined-behaviour sanitizers
+#   arm64       mysim and its tests, cross-compiled, under qemu-user
+#   debian-13   the README's commands in a bare Debian 13
+#   testing     build, run, report, figures and the fast tests in a bare Debian testing
 #
 # Environment: CORPUS_SEEDS (2) and ODD_PROGRAMS (5) set how much of the corpus runs; 20 and 1000 take an hour.
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/../.."
 
-parts=(corpus kill rehearsals node latex sanitizers)
+parts=(corpus kill rehearsals node latex sanitizers arm64 debian-13 testing)
 declare -A tests=( # names as ctest knows them; a part without tests runs something else
   [corpus]='All/(EachCheat|OddPrograms)\.|All/Corpus\..*/classic|Mutants\.LosePointsAtTheirPart'
   [kill]='OutputOfReport\.(KilledAtTenMoments|AFullDisk)'
@@ -25,7 +28,7 @@ declare -A tests=( # names as ctest knows them; a part without tests runs someth
   [latex]='FigureSet\.APaperWithTheSetCompiles'
 )
 declare -A packages=(
-  [node]="nodejs chromium clang-14 lld-14 libc++-14-dev-wasm32 libclang-rt-14-dev-wasm32 binaryen"
+  [node]="nodejs chromium"
   [latex]="texlive-latex-base"
 )
 expression() { # PARTS...: the tests of these parts
@@ -40,8 +43,8 @@ fi
 [ $# -gt 0 ] && parts=("$@")
 for part in "${parts[@]}"; do
   case $part in
-    corpus | kill | rehearsals | node | latex | sanitizers) ;;
-    *) sed -n '2,15s/^# \{0,1\}//p' "$0" >&2; exit 2 ;;
+    corpus | kill | rehearsals | node | latex | sanitizers | arm64 | debian-13 | testing) ;;
+    *) sed -n '2,18s/^# \{0,1\}//p' "$0" >&2; exit 2 ;;
   esac
 done
 
@@ -57,11 +60,16 @@ for part in "${parts[@]}"; do
     "${as_root[@]}" env DEBIAN_FRONTEND=noninteractive apt-get install -y -qq --no-install-recommends ${packages[$part]} >/dev/null
     rm -f "$build/build.ninja" # an earlier configuration did not find them
   fi
-  if [ "$part" = sanitizers ]; then
-    CROSSCHECK_PRESET=asan ./crosscheck test --fast || status=$?
-  else
-    ./crosscheck test --only "$(expression "$part")" || status=$?
-  fi
+  case $part in
+    sanitizers) CROSSCHECK_PRESET=asan ./crosscheck test --fast || status=$? ;;
+    arm64) experiments/ci/arm64.sh || status=$? ;;
+    debian-13) BARE_SUITE=trixie .ci/bare-root sh -exc './crosscheck report; ./crosscheck test' || status=$? ;;
+    testing)
+      BARE_SUITE=testing .ci/bare-root sh -exc './crosscheck run chain; ./crosscheck report --quick
+        ./crosscheck figures chain; ./crosscheck test --fast' || status=$?
+      ;;
+    *) ./crosscheck test --only "$(expression "$part")" || status=$? ;;
+  esac
   if [ "$part" = corpus ]; then
     CORPUS_SEEDS=${CORPUS_SEEDS:-2} ODD_PROGRAMS=${ODD_PROGRAMS:-5} tests/coursework/corpus.sh "$build" || status=$?
   fi

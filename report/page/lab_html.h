@@ -13,8 +13,7 @@
 namespace crosscheck {
 
 /// Debian's packages that make the module; they bring the C library along.
-inline constexpr std::string_view lab_packages =
-    "clang-14 lld-14 libc++-14-dev-wasm32 libclang-rt-14-dev-wasm32 binaryen";
+inline constexpr std::string_view lab_packages = "clang lld libc++-dev-wasm32 libclang-rt-dev-wasm32 binaryen";
 
 /// Whether the engine was built for the page, and where it lies then.
 bool has_lab_module();

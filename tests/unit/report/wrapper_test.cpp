@@ -21,7 +21,7 @@ class Wrapper : public Cli {
     fs::copy_file(std::string(CROSSCHECK_SOURCE) + "/crosscheck", folder_ / "tree/crosscheck");
     script("bin/dpkg-query", "[ -e \"$STUBS/missing\" ] || exec sed 's/$/ installed/' \"$STUBS/packages\"");
     script("bin/apt-get", "echo \"apt-get $*\" >>\"$STUBS/log\"");
-    script("bin/apt-cache", "exit 1");
+    script("bin/apt-cache", "[ ! -e \"$STUBS/unknown\" ] || ! grep -qxF -- \"$2\" \"$STUBS/unknown\"");
     script(
         "bin/cmake",
         "for word; do case $word in -B) b=1;; *) [ -z \"$b\" ] || { mkdir -p \"$word\"; touch \"$word/build.ninja\"; "
@@ -82,6 +82,29 @@ TEST_F(Wrapper, InstallsWithYesAndInContinuousIntegration) {
   fs::remove(folder_ / "log");
   start({in_tree("crosscheck"), "list"}, "1");
   EXPECT_NE(log().find("apt-get install -y"), std::string::npos) << log();
+}
+
+TEST_F(Wrapper, InstallsEglWhereThereIsNoOsmesa) {
+  if (geteuid() != 0) GTEST_SKIP() << "this machine runs tests as a user who needs sudo to install";
+  write("missing", "");
+  write("unknown", "libosmesa6-dev\nlibclang-rt-dev-wasm32\n");
+  build();
+  const ProgramResult result = start({in_tree("crosscheck"), "report", "--yes"});
+  const std::string told = log();
+  EXPECT_EQ(told.find("libosmesa6-dev"), std::string::npos) << told;
+  EXPECT_NE(told.find(" libegl-dev libgl-dev libegl-mesa0 libgl1-mesa-dri "), std::string::npos) << told;
+  EXPECT_NE(told.find(" lld libc++-dev-wasm32 binaryen"), std::string::npos) << told;
+  EXPECT_EQ(told.find("libclang-rt-dev-wasm32"), std::string::npos) << told;
+}
+
+TEST_F(Wrapper, LeavesOutTheLabWhereAsked) {
+  if (geteuid() != 0) GTEST_SKIP() << "this machine runs tests as a user who needs sudo to install";
+  write("missing", "");
+  build();
+  write("tree/build/release/lab.wasm", "");
+  start({in_tree("crosscheck"), "report", "--yes", "--no-lab"});
+  EXPECT_NE(log().find(" fonts-dejavu-core\n"), std::string::npos) << log();
+  EXPECT_FALSE(fs::exists(folder_ / "tree/build/release/lab.wasm")) << "with it the page would have a lab";
 }
 
 TEST_F(Wrapper, RunsThroughASymbolicLink) {
