@@ -73,7 +73,7 @@ BenchSuite bench_suite(bool full, const std::vector<std::string>& beside) {
   return suite;
 }
 
-TableSet bench(const BenchSuite& suite) {
+TableSet bench(const BenchSuite& suite, const LockPatience& patience) {
   TableSet tables;
   std::vector<EqualErrorOptions> cloths;
   for (const BenchSuite::PeerCloth& cloth : suite.cloths)
@@ -83,25 +83,26 @@ TableSet bench(const BenchSuite& suite) {
       3 + static_cast<int>(suite.kernel_sides.size() + suite.threads.sides.size()) + work_of(suite.implicit_step);
   for (const EqualErrorOptions& options : cloths) work += work_of(options);
   Progress progress(work);
-  two_threads(suite.threads, tables, progress);
+  two_threads(suite.threads, patience, tables, progress);
   pin_to_one_core();
   try {
     for (const int side : suite.kernel_sides) {
       progress.begin(fmt::format("kernels on a sheet of {0} x {0}", side));
-      tables.add(kernels_table(side, suite.kernels));
+      tables.add(kernels_table(side, suite.kernels, patience));
     }
     progress.begin("kernels on the shipped scenes");
-    tables.add(scenes_table(load_scenes(suite.scenes), suite.on_scenes));
+    tables.add(scenes_table(load_scenes(suite.scenes), suite.on_scenes, patience));
   } catch (const Unsupported& refusal) {
     tables.notes.push_back(fmt::format("bench leaves out kernels: {}", refusal.what()));
   }
-  for (const EqualErrorOptions& options : cloths) equal_error(options, tables, progress);
-  same_step(suite.same_step, tables, progress);
+  for (const EqualErrorOptions& options : cloths) equal_error(options, patience, tables, progress);
+  same_step(suite.same_step, patience, tables, progress);
   try {
-    implicit_step(suite.implicit_step, tables, progress);
+    implicit_step(suite.implicit_step, patience, tables, progress);
   } catch (const Unsupported& refusal) {
     tables.notes.push_back(fmt::format("bench leaves out implicit steps: {}", refusal.what()));
   }
+  if (patience.exhausted()) tables.notes.emplace_back(timed_beside_other_work);
   progress.done();
   return tables;
 }

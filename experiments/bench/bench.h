@@ -35,6 +35,6 @@ BenchSuite bench_suite(bool full, const std::vector<std::string>& beside = {});
 /// The tables bench-*-cost: threads first, and then kernels, scenes, peers at the same error and at the same step, and
 /// the implicit step, measured on one core, which the process keeps to from then on. Notes say what was left out and
 /// why.
-TableSet bench(const BenchSuite& suite);
+TableSet bench(const BenchSuite& suite, const LockPatience& patience);
 
 }  // namespace crosscheck

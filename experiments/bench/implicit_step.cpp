@@ -131,7 +131,7 @@ struct MysimStep {
 };
 
 void beside_factorisation(const FallingCloth& falling, double rate, const MicrobenchmarkOptions& options,
-                          Table& table) {
+                          const LockPatience& patience, Table& table) {
   const double h = 1 / rate;
   const auto factorised = std::make_shared<FactorisedStep>(falling.scene, h);
   const State& from = falling.state;
@@ -141,7 +141,7 @@ void beside_factorisation(const FallingCloth& falling, double rate, const Microb
     own.push_back(MysimStep::with(falling.scene, path.instructions));
     benchmarks.push_back({path.name, [solver = own.back(), &from, h] { solver->step.solve_linear(from, h); }});
   }
-  const auto times = run_microbenchmarks(benchmarks, options);
+  const auto times = run_microbenchmarks(benchmarks, options, patience);
   const Timing its = timing_of(times.at("factorised"));
   const Points& end = factorised->step(from.x, from.v);
   for (size_t i = 0; i < own.size(); ++i) {
@@ -171,13 +171,14 @@ void beside_factorisation(const FallingCloth& falling, double rate, const Microb
 
 }  // namespace
 
-void implicit_step(const ImplicitStepOptions& options, TableSet& tables, Progress& progress) {
+void implicit_step(const ImplicitStepOptions& options, const LockPatience& patience, TableSet& tables,
+                   Progress& progress) {
   Table table = table_of<ImplicitStepRow>();
   for (const int side : options.sides) {
     const FallingCloth falling(side);
     for (const double rate : options.rates) {
       progress.begin(fmt::format("{}: implicit steps of 1/{:g} s", falling.scene.name, rate));
-      beside_factorisation(falling, rate, options.microbenchmarks, table);
+      beside_factorisation(falling, rate, options.microbenchmarks, patience, table);
     }
   }
   tables.add(table);

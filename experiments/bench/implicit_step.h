@@ -60,6 +60,7 @@ inline int work_of(const ImplicitStepOptions& options) {
 /// one by Eigen's SimplicialLDLT (implicit_step.h): how far apart both end (the farthest particle, m), their times,
 /// iterations of conjugate gradients, and the ratio of the times, round by round; with the best instructions for mysim,
 /// and with the baseline.
-void implicit_step(const ImplicitStepOptions& options, TableSet& tables, Progress& progress);
+void implicit_step(const ImplicitStepOptions& options, const LockPatience& patience, TableSet& tables,
+                   Progress& progress);
 
 }  // namespace crosscheck

@@ -7,8 +7,6 @@
 #include <cmath>
 #include <stdexcept>
 
-#include "experiments/timing/machine.h"
-
 namespace crosscheck {
 namespace {
 
@@ -56,8 +54,8 @@ std::map<std::string, double> round_of(const std::vector<Microbenchmark>& all, d
 }  // namespace
 
 std::map<std::string, std::vector<double>> run_microbenchmarks(const std::vector<Microbenchmark>& all,
-                                                               const MicrobenchmarkOptions& options) {
-  LockPatience patience;
+                                                               const MicrobenchmarkOptions& options,
+                                                               const LockPatience& patience) {
   const MachineLock exclusive(MachineLock::Mode::exclusive, patience);
   const auto first = round_of(all, options.seconds, {});
   std::map<std::string, std::vector<double>> times;

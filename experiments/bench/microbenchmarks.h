@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "experiments/bench/spring_forces.h"
+#include "experiments/timing/machine.h"
 
 namespace crosscheck {
 
@@ -24,6 +25,7 @@ struct MicrobenchmarkOptions {
 /// machine among all of Crosscheck (experiments/timing/machine.h). Names must differ. Throws Unsupported with the
 /// package's name where the suite was built without Google Benchmark.
 std::map<std::string, std::vector<double>> run_microbenchmarks(const std::vector<Microbenchmark>& all,
-                                                               const MicrobenchmarkOptions& options);
+                                                               const MicrobenchmarkOptions& options,
+                                                               const LockPatience& patience);
 
 }  // namespace crosscheck

@@ -6,7 +6,7 @@
 namespace crosscheck {
 
 std::map<std::string, std::vector<double>> run_microbenchmarks(const std::vector<Microbenchmark>&,
-                                                               const MicrobenchmarkOptions&) {
+                                                               const MicrobenchmarkOptions&, const LockPatience&) {
   throw Unsupported("the suite was built without Google Benchmark (Debian's package libbenchmark-dev)");
 }
 

@@ -115,7 +115,8 @@ struct Times {
   std::vector<MysimTimes> own;
 };
 
-Times in_turns(const EqualErrorOptions& options, const std::vector<PeerRun>& peers, const std::vector<PeerRun>& own) {
+Times in_turns(const EqualErrorOptions& options, const std::vector<PeerRun>& peers, const std::vector<PeerRun>& own,
+               const LockPatience& patience) {
   Times times;
   times.peers.resize(peers.size());
   std::vector<TimedRun> turns;
@@ -134,7 +135,7 @@ Times in_turns(const EqualErrorOptions& options, const std::vector<PeerRun>& pee
       turns.push_back({run.method, options.scene, run.run, mine.path.instructions});
       take.push_back([&to = entry->second](const EvaluationTimes& all) { to = all.per_evaluation; });
     }
-  const std::vector<EvaluationTimes> all = time_round_robin(turns, options.turns);
+  const std::vector<EvaluationTimes> all = time_round_robin(turns, options.turns, patience);
   for (size_t i = 0; i < all.size(); ++i) take[i](all[i]);
   return times;
 }
@@ -226,7 +227,7 @@ void add_own(const std::string& scene, const std::vector<PeerRun>& own, const My
 
 int work_of(const EqualErrorOptions& options) { return 1 + PeerRuns::count(options.peers); }
 
-void equal_error(const EqualErrorOptions& options, TableSet& tables, Progress& progress) {
+void equal_error(const EqualErrorOptions& options, const LockPatience& patience, TableSet& tables, Progress& progress) {
   const std::string& scene = options.scene->name;
   const PeerRuns runs(*options.scene, progress);
   const double error_bar = runs.error_bar();
@@ -247,7 +248,7 @@ void equal_error(const EqualErrorOptions& options, TableSet& tables, Progress& p
   const std::vector<PeerRun> own = runs.own(wanted, most);
 
   progress.begin(fmt::format("{}: all in turns", scene));
-  const Times times = in_turns(options, peers, own);
+  const Times times = in_turns(options, peers, own, patience);
   Table table = table_of<EqualErrorRow>(), curve = table_of<OwnRunRow>();
   for (size_t i = 0; i < peers.size(); ++i)
     for (const MysimTimes& path : times.own) {
@@ -274,7 +275,7 @@ Points end_of(const Method& method, const Scene& scene, const Run& run,
 }
 
 void beside(const MethodFamily& peer, const std::shared_ptr<const Scene>& scene, const SameStepOptions& options,
-            Table& table, std::vector<std::string>& notes) {
+            const LockPatience& patience, Table& table, std::vector<std::string>& notes) {
   const Run run{scene->step, options.duration, 1};
   const Method theirs = find_method(std::string(peer.representative)),
                own = find_method(std::string(subject().representative) + "+fast");
@@ -286,7 +287,7 @@ void beside(const MethodFamily& peer, const std::shared_ptr<const Scene>& scene,
   }
   std::vector<TimedRun> turns{{theirs, scene, run}};
   for (const CodePath& path : code_paths()) turns.push_back({own, scene, run, path.instructions});
-  const std::vector<EvaluationTimes> times = time_round_robin(turns, options.turns);
+  const std::vector<EvaluationTimes> times = time_round_robin(turns, options.turns, patience);
   const Timing its = timing_of(times[0].per_evaluation);
   const std::string force = out.readback ? out.readback->mapped["stiffness"] : "";
   for (size_t i = 0; i < code_paths().size(); ++i) {
@@ -317,12 +318,12 @@ void beside(const MethodFamily& peer, const std::shared_ptr<const Scene>& scene,
 
 }  // namespace
 
-void same_step(const SameStepOptions& options, TableSet& tables, Progress& progress) {
+void same_step(const SameStepOptions& options, const LockPatience& patience, TableSet& tables, Progress& progress) {
   Table table = table_of<SameStepRow>();
   for (const Scene& scene : {hanging_cloth(options.side), hanging_cloth_of_two_stiffnesses(options.side)}) {
     const MethodFamily& peer = *default_peers().front();  // the table's columns are about it
     progress.begin(fmt::format("{}: the same step in {}", scene.name, peer.title));
-    beside(peer, std::make_shared<const Scene>(scene), options, table, tables.notes);
+    beside(peer, std::make_shared<const Scene>(scene), options, patience, table, tables.notes);
   }
   tables.add(table);
 }

@@ -71,7 +71,7 @@ int work_of(const EqualErrorOptions& options);
 /// the time of mysim's cheapest run that errs no more (the truth's bar counted against mysim on both sides), round by
 /// round: once with the best instructions that the machine has, once with the baseline. No ratio stands where the
 /// peer's error is within the bar. `bench-own-runs-cost`: mysim's runs.
-void equal_error(const EqualErrorOptions& options, TableSet& tables, Progress& progress);
+void equal_error(const EqualErrorOptions& options, const LockPatience& patience, TableSet& tables, Progress& progress);
 
 // Bullet's explicit world and mysim's symplectic Euler at the same step: the same rule, so that the time of a step
 // is all that differs.
@@ -86,6 +86,6 @@ struct SameStepOptions {
 /// faces), and on one of two stiffnesses under Bullet's own spring force: how far apart both engines are at the end
 /// (the farthest particle, m), the time of a step, and the ratio of the times, round by round; with the best
 /// instructions for mysim, and with the baseline.
-void same_step(const SameStepOptions& options, TableSet& tables, Progress& progress);
+void same_step(const SameStepOptions& options, const LockPatience& patience, TableSet& tables, Progress& progress);
 
 }  // namespace crosscheck

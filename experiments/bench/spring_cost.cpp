@@ -89,7 +89,7 @@ std::vector<Peak> peaks() {
 
 }  // namespace
 
-Table kernels_table(int side, const MicrobenchmarkOptions& options) {
+Table kernels_table(int side, const MicrobenchmarkOptions& options, const LockPatience& patience) {
   const Scene scene = waving_cloth(side);
   const auto springs = static_cast<long>(scene.model.find<Springs>()->list.size());
   const std::vector<Row> rows = rows_for(scene);
@@ -97,7 +97,7 @@ Table kernels_table(int side, const MicrobenchmarkOptions& options) {
   for (const Row& row : rows) benchmarks.push_back({row.name(), row.once});
   const std::vector<Peak> most = peaks();
   for (const Peak& peak : most) benchmarks.push_back({peak.name, peak.once});
-  const auto times = run_microbenchmarks(benchmarks, options);
+  const auto times = run_microbenchmarks(benchmarks, options, patience);
   std::map<std::string, double> rate_of;  // GFLOP/s
   for (const Peak& peak : most) rate_of[peak.name] = peak.operations / timing_of(times.at(peak.name)).median / 1e9;
   Table table = table_of<KernelRow>();
@@ -136,7 +136,8 @@ std::string naive_name(const Scene& scene) { return scene.name + ", naive loop";
 
 }  // namespace
 
-Table scenes_table(const std::vector<Scene>& scenes, const MicrobenchmarkOptions& options) {
+Table scenes_table(const std::vector<Scene>& scenes, const MicrobenchmarkOptions& options,
+                   const LockPatience& patience) {
   struct KernelCase {
     const Scene* scene;
     std::string kernel;
@@ -159,7 +160,7 @@ Table scenes_table(const std::vector<Scene>& scenes, const MicrobenchmarkOptions
       if (auto piece = fused_step<double>(scene, isa, false))
         add_case(scene, "sweep, reproducible", isa, std::move(*piece));
   }
-  const auto times = run_microbenchmarks(benchmarks, options);
+  const auto times = run_microbenchmarks(benchmarks, options, patience);
   Table table = table_of<SceneKernelRow>();
   for (const KernelCase& kernel_case : cases) {
     const Scene& scene = *kernel_case.scene;

@@ -10,7 +10,6 @@
 
 #include "experiments/scenes/cloths.h"
 #include "experiments/tables/bench.h"
-#include "experiments/timing/machine.h"
 #include "experiments/timing/timing.h"
 #include "mysim/run/cloth_grid_world.h"
 
@@ -68,13 +67,12 @@ int steps_in(double seconds, TimedCloth& world) {
 
 }  // namespace
 
-void two_threads(const ThreadsOptions& options, TableSet& tables, Progress& progress) {
+void two_threads(const ThreadsOptions& options, const LockPatience& patience, TableSet& tables, Progress& progress) {
   if (cores_allowed() < 2) {
     tables.notes.emplace_back("bench leaves out two threads: this process may use one core");
     return;
   }
   Table table = table_of<ThreadsRow>();
-  LockPatience patience;
   for (const int side : options.sides) {
     const Scene scene = hanging_cloth(side);
     progress.begin(fmt::format("{}: two threads", scene.name));

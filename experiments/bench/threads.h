@@ -19,6 +19,6 @@ struct ThreadsOptions {
 /// they were timed: threads that wait spin, so that other processes had the missing share, and the ratio is
 /// then less than the machine can give. A note says so below 95 %, and where there is one core only. Call it before the
 /// process is bound to a core.
-void two_threads(const ThreadsOptions& options, TableSet& tables, Progress& progress);
+void two_threads(const ThreadsOptions& options, const LockPatience& patience, TableSet& tables, Progress& progress);
 
 }  // namespace crosscheck

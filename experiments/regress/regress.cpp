@@ -64,14 +64,15 @@ std::vector<QuantityWithTolerance> quantities_of(const Table& table) {
 
 }  // namespace
 
-JobResults run_jobs(const std::vector<Job>& all, const std::filesystem::path& out, int jobs, Progress& progress) {
+JobResults run_jobs(const std::vector<Job>& all, const std::filesystem::path& out, const LockPatience& patience,
+                    Progress& progress) {
   std::vector<Point> points;
   for (const Job& job : all) points.push_back(point_of(job));
   progress.expect(static_cast<int>(points.size()));
   const Store store(store_in(out));
   store.clear();
   JobResults results;
-  results.failures = run_points(points, {jobs, {}}, store, progress);
+  results.failures = run_points(points, {patience}, store, progress);
   for (const Point& point : points) {
     const auto found = store.find(point.hash());
     if (const Table* table = found ? found->table(std::string(QuantityRow::table)) : nullptr)
@@ -191,7 +192,7 @@ RegressionResult regress(const Regression& regression, Progress& progress) {
     todo.push_back({q, q.in_words()});
     if (regression.against) todo.push_back({with_method(*regression.against, q), name_with_other_method(q), true});
   }
-  JobResults results = run_jobs(todo, regression.out, regression.jobs, progress);
+  JobResults results = run_jobs(todo, regression.out, regression.patience, progress);
   RegressionResult result;
   result.failures = std::move(results.failures);
   std::vector<Comparison> rows;
@@ -312,7 +313,7 @@ BlessResult bless(const Regression& regression, const Blessing& blessing, Progre
   const std::vector<Case> all = cases(regression.selection);
   std::vector<Job> todo;
   for (const Case& q : all) todo.push_back({q, q.in_words(), true});
-  const JobResults results = run_jobs(todo, regression.out, regression.jobs, progress);
+  const JobResults results = run_jobs(todo, regression.out, regression.patience, progress);
   for (const FailedPoint& f : results.failures)
     throw InputError(fmt::format("nothing is blessed: {}: {}", f.name, f.why));
 

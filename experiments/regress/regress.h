@@ -29,8 +29,9 @@ struct JobResults {
   std::vector<FailedPoint> failures;  // cases without a result: a crash
 };
 
-/// `out` is the folder for what is finished; `jobs` as in SweepOptions.
-JobResults run_jobs(const std::vector<Job>& all, const std::filesystem::path& out, int jobs, Progress& progress);
+/// `out` is the folder for what is finished.
+JobResults run_jobs(const std::vector<Job>& all, const std::filesystem::path& out, const LockPatience& patience,
+                    Progress& progress);
 
 /// The one of that name, or null.
 const QuantityWithTolerance* find(const std::vector<QuantityWithTolerance>& all, const std::string& name);
@@ -43,7 +44,7 @@ struct Regression {
   std::optional<Method> against;    // instead of baselines; then exactly one method is selected
   std::filesystem::path baselines;  // folder
   std::filesystem::path out;        // folder, for what is finished
-  int jobs = 0;                     // as SweepOptions
+  LockPatience patience = LockPatience();
 };
 
 struct RegressionResult {

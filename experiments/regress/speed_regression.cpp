@@ -264,7 +264,7 @@ std::vector<Ratios> SpeedMeasurement::operator()(const std::vector<SpeedCase>& c
   store.clear();
   const Point point = point_of(cases, options, ++count_);
   progress_.expect(1);
-  for (const FailedPoint& f : run_points({&point, 1}, {}, store, progress_)) throw std::runtime_error(f.why);
+  for (const FailedPoint& f : run_points({&point, 1}, {patience_}, store, progress_)) throw std::runtime_error(f.why);
   const auto found = store.find(point.hash());
   const Table* table = found ? found->table(std::string(RatiosRow::table)) : nullptr;
   if (!table) throw std::runtime_error("what was measured is gone");
@@ -301,12 +301,14 @@ Speeds compared_speeds(const SpeedRun& run, Progress& progress) {
     return speeds;
   }
   try {
-    speeds = compared_speeds(cases, file ? &*file : nullptr, run.machine, SpeedMeasurement(run.out, progress));
+    speeds =
+        compared_speeds(cases, file ? &*file : nullptr, run.machine, SpeedMeasurement(run.out, run.patience, progress));
   } catch (const std::runtime_error& error) {
     speeds.failures.push_back({"speed", error.what()});
   }
   if (!run.against && !file)
     speeds.notes = {fmt::format("speeds not compared: {}: no such file", speed_file_in(run.baselines).string())};
+  if (run.patience.exhausted()) speeds.notes.emplace_back(timed_beside_other_work);
   return speeds;
 }
 
@@ -335,8 +337,8 @@ std::vector<BlessedSpeed> bless_speeds(const SpeedRun& run, const Blessing& bles
   SpeedFile file = read_speed_file(run.baselines).value_or(SpeedFile{});
   const std::vector<SpeedCase> cases = speed_cases(run.selection, {});
   if (cases.empty()) return {};
-  const std::vector<BlessedSpeed> written =
-      merge_into(file, speeds_to_bless(cases, run.machine, SpeedMeasurement(run.out, progress)), blessing);
+  const std::vector<BlessedSpeed> written = merge_into(
+      file, speeds_to_bless(cases, run.machine, SpeedMeasurement(run.out, run.patience, progress)), blessing);
   if (!written.empty()) write_file(speed_file_in(run.baselines), text_of(file));
   return written;
 }

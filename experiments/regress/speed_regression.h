@@ -69,6 +69,7 @@ struct SpeedRun {
   std::filesystem::path baselines;  // folder
   std::filesystem::path out;        // folder, for what is measured
   Machine machine;                  // this one
+  LockPatience patience;
 };
 
 struct Speeds {
@@ -84,12 +85,14 @@ struct Speeds {
 /// later.
 class SpeedMeasurement {
  public:
-  SpeedMeasurement(std::filesystem::path out, Progress& progress) : out_(std::move(out)), progress_(progress) {}
+  SpeedMeasurement(std::filesystem::path out, const LockPatience& patience, Progress& progress)
+      : out_(std::move(out)), patience_(patience), progress_(progress) {}
   /// Throws std::runtime_error where the process died.
   std::vector<Ratios> operator()(const std::vector<SpeedCase>& cases, const SpeedOptions& options);
 
  private:
   std::filesystem::path out_;
+  LockPatience patience_;
   Progress& progress_;
   int count_ = 0;
   std::chrono::steady_clock::time_point begun_ = {};

@@ -17,7 +17,6 @@
 
 #include "experiments/experiment.h"
 #include "experiments/sweep/work_queue.h"
-#include "experiments/timing/machine.h"
 #include "mysim/base/errors.h"
 
 namespace crosscheck {
@@ -43,7 +42,8 @@ class DefaultSigchld {
 /// One batch of points, timed or not, worked off by `jobs` processes.
 class Batch {
  public:
-  Batch(std::vector<const Point*> points, int jobs, const Store& store, Progress& progress, LockPatience& patience)
+  Batch(std::vector<const Point*> points, int jobs, const Store& store, Progress& progress,
+        const LockPatience& patience)
       : points_(std::move(points)),
         store_(store),
         progress_(progress),
@@ -131,7 +131,7 @@ class Batch {
   std::vector<const Point*> points_;
   const Store& store_;
   Progress& progress_;
-  LockPatience& patience_;
+  LockPatience patience_;
   std::vector<pid_t> pids_;
   SharedWorkQueue queue_;
   std::map<const Point*, std::string> died_;  // of what signal
@@ -157,7 +157,6 @@ std::vector<FailedPoint> run_points(std::span<const Point> points, const SweepOp
                                     Progress& progress) {
   const int jobs = std::clamp(options.jobs > 0 ? options.jobs : cores_allowed(), 1, WorkQueue::most_workers);
   std::vector<FailedPoint> failed;
-  LockPatience patience(options.lock_patience);
   for (const bool timed : {false, true}) {
     std::vector<const Point*> todo;
     for (size_t i = 0; i < points.size(); ++i)
@@ -170,7 +169,7 @@ std::vector<FailedPoint> run_points(std::span<const Point> points, const SweepOp
     if (todo.empty()) continue;
     std::ranges::stable_partition(todo, &Point::is_long);
     const int workers = timed ? 1 : std::min(jobs, static_cast<int>(todo.size()));
-    for (FailedPoint& f : Batch(std::move(todo), workers, store, progress, patience).run())
+    for (FailedPoint& f : Batch(std::move(todo), workers, store, progress, options.patience).run())
       failed.push_back(std::move(f));
   }
   return failed;

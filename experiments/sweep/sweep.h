@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "experiments/sweep/store.h"
+#include "experiments/timing/machine.h"
 #include "mysim/base/progress.h"
 
 namespace crosscheck {
@@ -19,9 +20,9 @@ struct Shard {
 Shard shard_from(const std::string& text);
 
 struct SweepOptions {
-  int jobs = 0;  // processes at a time; 0: as many as cores that this process may use
-  Shard shard;
-  double lock_patience = 60;  // s, that all points together wait for the lock on this machine
+  LockPatience patience;  // the command's
+  int jobs = 0;           // processes at a time; 0: as many as cores that this process may use
+  Shard shard = {};
 };
 
 struct FailedPoint {

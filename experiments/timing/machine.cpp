@@ -11,6 +11,7 @@
 
 #include <algorithm>
 #include <cerrno>
+#include <chrono>
 #include <cstdio>
 #include <cstdlib>
 #include <ctime>
@@ -47,10 +48,8 @@ void pin_to_one_core() {
 LockPatience::LockPatience(double seconds) {
   void* memory = mmap(nullptr, sizeof(Shared), PROT_READ | PROT_WRITE, MAP_SHARED | MAP_ANONYMOUS, -1, 0);
   if (memory == MAP_FAILED) throw std::system_error(errno, std::generic_category(), "mmap");
-  shared_ = new (memory) Shared{seconds, seconds};
+  shared_.reset(new (memory) Shared{seconds, seconds}, [](Shared* shared) { munmap(shared, sizeof(Shared)); });
 }
-
-LockPatience::~LockPatience() { munmap(shared_, sizeof(Shared)); }
 
 namespace {
 
@@ -88,19 +87,20 @@ std::string holder_of(int handle) {
 
 }  // namespace
 
-MachineLock::MachineLock(Mode mode, LockPatience& patience) {
+MachineLock::MachineLock(Mode mode, const LockPatience& patience) {
   const char* named = std::getenv("CROSSCHECK_LOCK");
   const std::string file = named && *named ? named : fmt::format("/tmp/crosscheck-{}.lock", getuid());
   handle_ = open(file.c_str(), O_CREAT | O_RDWR | O_CLOEXEC | O_NOFOLLOW, 0600);
   if (handle_ < 0) return;
-  constexpr double between = 0.05;  // s, between two tries
   LockPatience::Shared& shared = *patience.shared_;
   while (!(held_ = flock(handle_, (mode == Mode::exclusive ? LOCK_EX : LOCK_SH) | LOCK_NB) == 0) && shared.left > 0) {
     if (shared.left < shared.total - 1 && !shared.announced.exchange(true))
       fmt::print(stderr, "crosscheck: waiting at most {:.0f} s for {} to release {}\n", shared.left.load(),
                  holder_of(handle_), file);
-    usleep(static_cast<useconds_t>(1e6 * between));
-    shared.left = shared.left - between;
+    const auto begun = std::chrono::steady_clock::now();
+    usleep(50000);
+    // measured: on a busy machine the pause takes longer than that
+    shared.left -= std::chrono::duration<double>(std::chrono::steady_clock::now() - begun).count();
   }
   if (!held_ && !shared.exhausted.exchange(true))
     fmt::print(stderr, "crosscheck: {} is still held; times are measured beside other work and marked\n", file);

@@ -3,6 +3,7 @@
 
 #include <atomic>
 #include <filesystem>
+#include <memory>
 #include <string>
 
 namespace crosscheck {
@@ -17,13 +18,13 @@ void pin_to_one_core();
 // A lock on this machine for many untimed points side by side, or one timed point alone, over all sweeps of this
 // user, so that shards on one machine do not spoil each other's timings.
 
-/// The time that all locks of one piece of work may be waited for together, also by processes forked from this one.
+/// The time that all locks of one command may be waited for together, also by processes forked from this one. A
+/// command makes one object and passes it to everything that computes or times; copies share the remaining time.
 class LockPatience {
  public:
   explicit LockPatience(double seconds = 60);
-  ~LockPatience();
-  LockPatience(const LockPatience&) = delete;
-  LockPatience& operator=(const LockPatience&) = delete;
+  /// True: the time was used up, and something was measured beside other work since.
+  bool exhausted() const { return shared_->exhausted; }
 
  private:
   friend class MachineLock;
@@ -32,8 +33,11 @@ class LockPatience {
     std::atomic<double> left;  // s
     std::atomic<bool> announced = false, exhausted = false;
   };
-  Shared* shared_;
+  std::shared_ptr<Shared> shared_;
 };
+
+/// The mark of what was measured after the patience had been exhausted.
+constexpr auto timed_beside_other_work = "some times were measured beside other work and may be disturbed";
 
 class MachineLock {
  public:
@@ -43,7 +47,7 @@ class MachineLock {
   /// systems give each job a TMPDIR of its own; jobs that also have a /tmp of their own do not see each other.
   /// CROSSCHECK_LOCK names another file, as tests do, which then wait for themselves only. Without a lock file there is
   /// no wait.
-  MachineLock(Mode mode, LockPatience& patience);
+  MachineLock(Mode mode, const LockPatience& patience);
   /// False: another process measures or computes at the same time, so that times may be disturbed.
   bool held() const { return held_; }
   ~MachineLock();

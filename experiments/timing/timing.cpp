@@ -6,7 +6,6 @@
 #include <numeric>
 #include <stdexcept>
 
-#include "experiments/timing/machine.h"
 #include "mysim/base/errors.h"
 
 namespace crosscheck {
@@ -136,8 +135,8 @@ double share_to_time(const TimedRun& turn, double seconds) {
 
 }  // namespace
 
-std::vector<EvaluationTimes> time_round_robin(const std::vector<TimedRun>& turns, const TimedRunOptions& plan) {
-  LockPatience patience;
+std::vector<EvaluationTimes> time_round_robin(const std::vector<TimedRun>& turns, const TimedRunOptions& plan,
+                                              const LockPatience& patience) {
   const MachineLock exclusive(MachineLock::Mode::exclusive, patience);
   std::vector<EvaluationTimes> all(turns.size());
   std::vector<std::function<double()>> runs;

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "experiments/timing/instruction_sets.h"
+#include "experiments/timing/machine.h"
 #include "reference/method.h"
 
 namespace crosscheck {
@@ -78,6 +79,7 @@ struct TimedRunOptions {
 /// CPU time of each run over its evaluations, without observers: without contact each evaluation costs the same, so
 /// that the first part of a run gives the time of the whole. A round runs all. A run that reports no time
 /// or fails at once has no times.
-std::vector<EvaluationTimes> time_round_robin(const std::vector<TimedRun>& turns, const TimedRunOptions& plan);
+std::vector<EvaluationTimes> time_round_robin(const std::vector<TimedRun>& turns, const TimedRunOptions& plan,
+                                              const LockPatience& patience);
 
 }  // namespace crosscheck

@@ -273,7 +273,7 @@ void print(const std::vector<BenchLine>& lines, const std::string& instructions)
 
 int bench_command(const BenchOptions& options, const BenchSuite& plan) {
   OutputFolder folder(options.out, "bench");
-  const TableSet rows = bench(plan);
+  const TableSet rows = bench(plan, LockPatience());
   std::vector<Scene> scenes = load_scenes(plan.scenes);
   for (const BenchSuite::PeerCloth& cloth : plan.cloths) scenes.push_back(cloth.scene());
   for (const int side : plan.threads.sides) scenes.push_back(hanging_cloth(side));

@@ -107,7 +107,7 @@ int experiment_command(const ExperimentOptions& options) {
     } else
       scenes.push_back(name);
   }
-  SweepOptions sweep{options.jobs, options.shard.empty() ? Shard{} : shard_from(options.shard)};
+  SweepOptions sweep{LockPatience(), options.jobs, options.shard.empty() ? Shard{} : shard_from(options.shard)};
   std::vector<Point> points;
   std::vector<Scene> looked_at;
   for (const Experiment* experiment : chosen) {

@@ -232,12 +232,13 @@ class Problems {
   }
   void compute(const std::vector<Point>& points, const Store& store) {
     Progress progress(static_cast<int>(points.size()));
-    for (const FailedPoint& f : run_points(points, {}, store, progress)) tell(f.name + ": " + f.why);
+    for (const FailedPoint& f : run_points(points, {patience_}, store, progress)) tell(f.name + ": " + f.why);
     progress.done();
   }
   bool any() const { return any_; }
 
  private:
+  LockPatience patience_;
   bool any_ = false;
 };
 

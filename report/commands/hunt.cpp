@@ -104,6 +104,7 @@ std::vector<FailedPoint> sweep(const HuntOptions& options, const Shard& shard, c
   const int jobs = options.jobs > 0 ? options.jobs : cores_allowed();
   const auto end = Clock::now() + std::chrono::duration<double>(options.seconds);
   std::vector<FailedPoint> all_failed;
+  const LockPatience patience;
   Progress progress(0);
   folder.announce({"plan.json"});
   for (long index = shard.index - 1; Clock::now() < end;) {
@@ -120,7 +121,7 @@ std::vector<FailedPoint> sweep(const HuntOptions& options, const Shard& shard, c
     }
     folder.announce(files);
     progress.expect(static_cast<int>(batch.size()));
-    const std::vector<FailedPoint> failed = run_points(batch, {options.jobs, {}}, store, progress);
+    const std::vector<FailedPoint> failed = run_points(batch, {patience, options.jobs}, store, progress);
     all_failed.insert(all_failed.end(), failed.begin(), failed.end());
     std::ranges::copy_if(cases, std::back_inserter(plan.points), [&](const auto& c) { return store.has(c.hash); });
     write_point_list(plan, options.out);

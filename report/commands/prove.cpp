@@ -373,7 +373,7 @@ int prove_speed_command(const RegressOptions& options) {
   Machine machine = machine_of(provenance(options.command_line));
   if (machine.cpu.empty()) machine.cpu = "this one";  // the name is not stored
   Progress progress(0);
-  const MeasureSpeeds measure = SpeedMeasurement(folder.path(), progress);
+  const MeasureSpeeds measure = SpeedMeasurement(folder.path(), LockPatience(), progress);
   SpeedFile blessed;
   merge_into(blessed, speeds_to_bless(cases, machine, measure), {});
   Tally tally;

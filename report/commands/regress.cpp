@@ -36,7 +36,8 @@ Machine machine_of(const Provenance& lines) {
 }
 
 SpeedRun speed_run_of(const Regression& regression, const Provenance& lines) {
-  return {regression.selection, regression.against, regression.baselines, regression.out, machine_of(lines)};
+  return {regression.selection, regression.against, regression.baselines,
+          regression.out,       machine_of(lines),  regression.patience};
 }
 
 Speeds speeds_beside(const Regression& regression, const Provenance& lines, const std::vector<Comparison>& comparisons,
@@ -80,6 +81,7 @@ void bless_and_print_speeds(const Regression& regression, const Blessing& blessi
     fmt::print("speed      {}, {}: {:.4g} times the plain loop, spread {:.1f} %\n", speed.scene, speed.method,
                speed.ratio, 100 * speed.spread);
   fmt::print("{} speeds blessed\n", written.size());
+  if (run.patience.exhausted()) fmt::print("{}\n", timed_beside_other_work);
   if (!written.empty()) fmt::print("{}\n", speed_file_in(regression.baselines).string());
 }
 

@@ -84,10 +84,10 @@ std::string left_out(const Request& request) {
 
 /// Computes points, a process for each, and returns what failed.
 Workers workers_of(const Store& store) {
-  return [&store](const std::vector<Point>& points) {
+  return [&store, patience = LockPatience()](const std::vector<Point>& points) {
     std::vector<std::string> problems;
     Progress progress(static_cast<int>(points.size()));
-    for (const FailedPoint& f : run_points(points, {}, store, progress))
+    for (const FailedPoint& f : run_points(points, {patience}, store, progress))
       problems.push_back(fmt::format("{}: {}", f.name, f.why));
     progress.done();
     return problems;
@@ -95,7 +95,8 @@ Workers workers_of(const Store& store) {
 }
 
 /// Runs the experiments, draws pictures of the scenes, and writes the folder's data.
-ReportData data_of_runs(const ReportOptions& options, Request& request, const fs::path& folder, const Store& store) {
+ReportData data_of_runs(const ReportOptions& options, Request& request, const fs::path& folder, const Store& store,
+                        const Workers& workers) {
   ReportData data;
   data.scenes = data.all = request.scenes;
   data.extent = options.full ? Extent::full : options.scenes.empty() ? Extent::quick : Extent::named;
@@ -121,7 +122,7 @@ ReportData data_of_runs(const ReportOptions& options, Request& request, const fs
     for (Point& point : chosen[e]->points(requests[e])) points.push_back(std::move(point));
   }
   for (size_t i = pictures; i < points.size(); ++i) plan.points.push_back({points[i].name, points[i].hash()});
-  data.problems = workers_of(store)(points);
+  data.problems = workers(points);
   std::vector<std::string> missing;  // named already as what failed
   data.rows = joined(plan, {&store, 1}, missing);
   for (const Certificate& c : data.rows.certificates)
@@ -133,8 +134,9 @@ ReportData data_of_runs(const ReportOptions& options, Request& request, const fs
   return data;
 }
 
-int finish(ReportData& data, const ReportOptions& options, OutputFolder& folder, const Store& store) {
-  const WrittenReport report = write_report(data, folder.path(), options.against, workers_of(store));
+int finish(ReportData& data, const ReportOptions& options, OutputFolder& folder, const Store& store,
+           const Workers& workers) {
+  const WrittenReport report = write_report(data, folder.path(), options.against, workers);
   store.clear();
   folder.finish();
   for (const std::string& problem : report.page.problems)
@@ -157,7 +159,7 @@ int remake_command(const fs::path& from, const ReportOptions& options) {
       fs::copy(file.path(), folder.path() / "figures" / file.path().filename());
     }
   const Store store{store_in(folder.path())};
-  return finish(data, options, folder, store);
+  return finish(data, options, folder, store, workers_of(store));
 }
 
 /// Whether all findings of a report follow from its data.
@@ -186,8 +188,9 @@ int report_command(const ReportOptions& options, OutputFolder& folder) {
       throw InputError("--against: expected another folder than that of --out, which is written anew");
   }
   const Store store{store_in(folder.path())};
-  ReportData data = data_of_runs(options, request, folder.path(), store);
-  return finish(data, options, folder, store);
+  const Workers workers = workers_of(store);
+  ReportData data = data_of_runs(options, request, folder.path(), store, workers);
+  return finish(data, options, folder, store, workers);
 }
 
 void add_report(CLI::App& app, Invocation& call) {

@@ -77,7 +77,7 @@ using BenchKernels = MicrobenchmarkTest;
 using BenchScenes = MicrobenchmarkTest;
 
 TEST_F(BenchKernels, EachOneForEachInstructionSet) {
-  const Table table = kernels_table(40, hasty);  // wide enough for single precision
+  const Table table = kernels_table(40, hasty, LockPatience());  // wide enough for single precision
   expect_finite(table);
   // two loops that are compiled once; for each instruction set the general kernel and three fused steps, two on the
   // baseline
@@ -104,7 +104,7 @@ TEST_F(BenchKernels, EachOneForEachInstructionSet) {
 }
 
 TEST_F(BenchKernels, OnNarrowClothsWithoutTheFusedStep) {
-  EXPECT_EQ(kernels_table(8, hasty).rows.size(), 2 + simd::supported_instruction_sets().size());
+  EXPECT_EQ(kernels_table(8, hasty, LockPatience()).rows.size(), 2 + simd::supported_instruction_sets().size());
 }
 
 TEST_F(BenchScenes, EveryOneWithSprings) {
@@ -115,7 +115,7 @@ TEST_F(BenchScenes, EveryOneWithSprings) {
     const auto* springs = scenes.back().model.find<Springs>();
     with_springs += springs && !springs->list.empty();
   }
-  const Table table = scenes_table(scenes, hasty);
+  const Table table = scenes_table(scenes, hasty, LockPatience());
   expect_finite(table);
   EXPECT_EQ(distinct(table, "scene").size(), with_springs);
   bool fused = false;
@@ -132,7 +132,7 @@ class BenchEqualError : public testing::Test {
   TableSet rows_of(std::vector<Peer> peers) const {
     TableSet tables;
     Progress progress(1);
-    equal_error({scene_, std::move(peers), hasty_turns}, tables, progress);
+    equal_error({scene_, std::move(peers), hasty_turns}, LockPatience(), tables, progress);
     return tables;
   }
   std::shared_ptr<const Scene> scene_ = std::make_shared<const Scene>(hanging_cloth(20));
@@ -221,7 +221,7 @@ TEST(BenchLinks, PositionBasedOnesComeToTheirOwnLawsTruth) {
   Progress progress(1);
   equal_error(
       {std::make_shared<const Scene>(hanging_cloth_of_links(20)), {{"bullet/pbd", {0.125, 0.0625}}}, hasty_turns},
-      tables, progress);
+      LockPatience(), tables, progress);
   EXPECT_TRUE(tables.notes.empty());
   const Table& table = *tables.table("bench-equal-error-cost");
   for (size_t i = 0; i < table.rows.size(); ++i) {
@@ -235,7 +235,7 @@ TEST(BenchLinks, PositionBasedOnesComeToTheirOwnLawsTruth) {
 TEST(BenchThreads, OneIsAtWorkWhereASheetIsSmallAndTheRatioIsThatOfTheTimes) {
   TableSet tables;
   Progress progress(1);
-  two_threads({{64, 96}, hasty_turns}, tables, progress);
+  two_threads({{64, 96}, hasty_turns}, LockPatience(), tables, progress);
   const Table* table = tables.table("bench-threads-cost");
   if (!table) GTEST_SKIP() << "this machine has one core for it: " << tables.notes.at(0);
   expect_finite(*table);
@@ -255,7 +255,7 @@ TEST(BenchThreads, OneIsAtWorkWhereASheetIsSmallAndTheRatioIsThatOfTheTimes) {
 TEST(BenchSameStep, BothEnginesComeToTheSamePlaces) {
   TableSet tables;
   Progress progress(1);
-  same_step({20, 0.05, hasty_turns}, tables, progress);
+  same_step({20, 0.05, hasty_turns}, LockPatience(), tables, progress);
   const Table& table = *tables.table("bench-same-step-cost");
   expect_finite(table);
   ASSERT_EQ(table.rows.size(), 4u);
@@ -282,7 +282,7 @@ using BenchImplicit = MicrobenchmarkTest;
 TEST_F(BenchImplicit, BothWaysEndWhereTheOtherDoes) {
   TableSet tables;
   Progress progress(2);
-  implicit_step({{24}, {60, 240}, hasty}, tables, progress);
+  implicit_step({{24}, {60, 240}, hasty}, LockPatience(), tables, progress);
   const Table& table = *tables.table("bench-implicit-step-cost");
   expect_finite(table);
   ASSERT_EQ(table.rows.size(), 2 * code_paths().size());

@@ -194,7 +194,7 @@ TEST(Regression, RefusesScenesOfTheSameNameOrFileName) {
 class RegressionOfOneScene : public testing::Test {
  protected:
   Regression regression_with(const std::string& method, const std::string& scene) const {
-    return {{{scene}, false, "", {find_method(method)}}, {}, folder_.path / "baselines", folder_.path / "out", 1};
+    return {{{scene}, false, "", {find_method(method)}}, {}, folder_.path / "baselines", folder_.path / "out"};
   }
   BlessResult blessed(const Regression& regression) const {
     Progress progress(0);

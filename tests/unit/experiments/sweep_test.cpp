@@ -5,14 +5,17 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <chrono>
 #include <csignal>
 #include <fstream>
 #include <map>
 #include <set>
 
+#include "experiments/scenes/scenes.h"
 #include "experiments/sweep/store.h"
 #include "experiments/sweep/sweep.h"
 #include "experiments/timing/machine.h"
+#include "experiments/timing/timing.h"
 #include "mysim/base/errors.h"
 #include "tests/unit/helpers.h"
 #include "tests/unit/temporary.h"
@@ -57,7 +60,7 @@ class Sweep : public InFolder {
     for (std::string line; std::getline(in, line);) names.push_back(line);
     return names;
   }
-  std::vector<FailedPoint> run(const std::vector<Point>& points, const SweepOptions& options = {2, {}}) {
+  std::vector<FailedPoint> run(const std::vector<Point>& points, const SweepOptions& options = {LockPatience(), 2}) {
     Progress progress(static_cast<int>(points.size()));
     return run_points(points, options, store, progress);
   }
@@ -128,7 +131,7 @@ TEST_F(Sweep, RowsOfTheSameTableAreAppendedAndNotesSaidOnce) {
 
 TEST_F(Sweep, ProcessesGiveWhatOneAfterTheOtherGives) {
   const std::vector<Point> points = several(9);
-  EXPECT_TRUE(run(points, {3, {}}).empty());
+  EXPECT_TRUE(run(points, {LockPatience(), 3}).empty());
   EXPECT_EQ(text(whole(points)), text(computed(points)));
   EXPECT_TRUE(missing.empty());
 }
@@ -150,7 +153,7 @@ TEST_F(Sweep, WaitsForTheMachineALimitedTimeAndMarksTimesMeasuredBesideOtherWork
   ASSERT_EQ(flock(other, LOCK_EX), 0);
   std::vector<Point> points = several(4);
   points[2].timed = points[3].timed = true;
-  EXPECT_TRUE(run(points, {2, {}, 0.2}).empty());
+  EXPECT_TRUE(run(points, {LockPatience(0.2), 2}).empty());
   const TableSet all = whole(points);
   EXPECT_TRUE(missing.empty());
   ASSERT_EQ(all.notes.size(), 2u);
@@ -162,6 +165,27 @@ TEST_F(Sweep, WaitsForTheMachineALimitedTimeAndMarksTimesMeasuredBesideOtherWork
   EXPECT_TRUE(MachineLock(MachineLock::Mode::exclusive, none).held());
   const MachineLock one(MachineLock::Mode::shared, none), two(MachineLock::Mode::shared, none);
   EXPECT_TRUE(one.held() && two.held());
+}
+
+TEST_F(Sweep, AllMeasurementsOfACommandWaitTogetherNoLongerThanTheLimit) {
+  const int other = open((folder_ / "lock").c_str(), O_CREAT | O_RDWR | O_CLOEXEC, 0600);
+  ASSERT_EQ(flock(other, LOCK_EX), 0);
+  constexpr double limit = 0.2;  // s
+  const LockPatience patience(limit);
+  const auto scene = std::make_shared<const Scene>(load_scene("spring"));
+  const std::vector<TimedRun> turns{{find_method("leapfrog"), scene, {scene->step, scene->duration, 1}}};
+  const auto begun = std::chrono::steady_clock::now();
+  for (int i = 0; i < 3; ++i) {
+    std::vector<Point> timed{point("timed " + std::to_string(i), 1)};
+    timed[0].timed = true;
+    EXPECT_TRUE(run(timed, {patience, 1}).empty());
+    EXPECT_TRUE(patience.exhausted());
+    EXPECT_EQ(whole(timed).notes.size(), 1u);
+    EXPECT_EQ(time_round_robin(turns, {1, 1e-5}, patience).size(), 1u);
+  }
+  // six waits of their own would take 6 limits; the work itself takes 20 ms
+  EXPECT_LT(std::chrono::duration<double>(std::chrono::steady_clock::now() - begun).count(), 4 * limit);
+  close(other);
 }
 
 TEST_F(Sweep, AnotherContentOrNameIsAnotherPoint) {
@@ -214,7 +238,7 @@ TEST_F(Sweep, WhatFailedBeforeAndDiesNowIsNamedOnce) {
 TEST_F(Sweep, WhatIsNotThereAfterwardsIsNamedWhoeverLostIt) {
   std::vector<Point> points = several(3);
   points[2].compute = [this, lost = points[1].hash()](TableSet&) { fs::remove(store.folder() / (lost + ".json")); };
-  const auto failed = run(points, {1, {}});
+  const auto failed = run(points, {LockPatience(), 1});
   ASSERT_EQ(failed.size(), 1u);
   EXPECT_EQ(failed[0].name, "p1");
 }
@@ -243,14 +267,14 @@ TEST_F(Sweep, KilledInTheMiddleItLosesNothingThatWasFinished) {
   };
   const pid_t child = fork();
   if (child == 0) {
-    run(points, {1, {}});
+    run(points, {LockPatience(), 1});
     _exit(0);
   }
   while (ran().size() < 6) usleep(1000);  // five points, and the slow one has begun
   kill(child, SIGKILL);                   // the worker dies with it
   waitpid(child, nullptr, 0);
   usleep(700000);
-  run(several(8), {1, {}});
+  run(several(8), {LockPatience(), 1});
   const std::vector<std::string> names = ran();
   EXPECT_EQ(std::set<std::string>(names.begin(), names.end()).size(), 9u);
   EXPECT_EQ(names.size(), 9u) << "nothing twice";
@@ -267,7 +291,7 @@ TEST_F(Sweep, TimedPointsRunAfterAllOthersOneAtATime) {
       note("end " + std::to_string(i));
     };
   }
-  run(points, {4, {}});
+  run(points, {LockPatience(), 4});
   const std::vector<std::string> names = ran(), timed(names.end() - 6, names.end());
   EXPECT_EQ(timed, (std::vector<std::string>{"begin 0", "end 0", "begin 3", "end 3", "begin 4", "end 4"}));
 }
@@ -275,7 +299,7 @@ TEST_F(Sweep, TimedPointsRunAfterAllOthersOneAtATime) {
 TEST_F(Sweep, LongPointsBeginFirstAndTheirRowsStandInTheirPlace) {
   std::vector<Point> points = several(4);
   points[2].is_long = true;
-  EXPECT_TRUE(run(points, {1, {}}).empty());
+  EXPECT_TRUE(run(points, {LockPatience(), 1}).empty());
   EXPECT_EQ(ran(), (std::vector<std::string>{"p2", "p0", "p1", "p3"}));
   EXPECT_EQ(text(whole(points)), text(computed(points)));
 }
@@ -292,12 +316,12 @@ TEST_F(Sweep, TimedPointsOfOneSweepWaitForThePointsOfAnother) {
   const pid_t child = fork();
   if (child == 0) {
     setenv("TMPDIR", folder_.c_str(), 1);  // as batch systems give each job one of its own
-    run(others, {3, {}});
+    run(others, {LockPatience(), 3});
     _exit(0);
   }
   while (ran().size() < 3) usleep(1000);
   Progress progress(1);
-  run_points(timed, {1, {}}, Store(folder_ / "timed"), progress);
+  run_points(timed, {LockPatience(), 1}, Store(folder_ / "timed"), progress);
   waitpid(child, nullptr, 0);
   ASSERT_EQ(ran().size(), 7u);
   EXPECT_EQ(ran().back(), "timed");
@@ -309,7 +333,7 @@ TEST_F(Sweep, ShardsAreDisjointAndJoinToTheWhole) {
   for (int i = 1; i <= 3; ++i) {
     stores.emplace_back(folder_ / std::to_string(i));
     Progress progress(7);
-    run_points(points, {2, {i, 3}}, stores.back(), progress);
+    run_points(points, {LockPatience(), 2, {i, 3}}, stores.back(), progress);
   }
   EXPECT_EQ(ran().size(), 7u);
   const PointList list = point_list_of({}, points, {});

@@ -113,7 +113,7 @@ TEST_F(CliBench, WritesTablesJsonAndFigureAndSaysEveryLine) {
 TEST(BenchLines, OfAPeerOneIsTheChief) {
   BenchSuite suite = tiny_suite();
   suite.kernel_sides = {20};
-  const TableSet rows = bench(suite);
+  const TableSet rows = bench(suite, LockPatience());
   const std::vector<BenchLine> lines = bench_lines(rows);
   int chiefs = 0, all = 0;
   for (const BenchLine& line : lines) {
