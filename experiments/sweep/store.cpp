@@ -111,7 +111,7 @@ TableSet read_table_set(const std::string& text) {
     const JsonField in = JsonField::parse(text, "rows");
     TableSet set;
     for (const JsonField& t : in["tables"].elements()) {
-      Table table{require_name(t["name"].text(), "table"), {}, {}};
+      Table table{require_name(t["name"].text(), "table", longest_derived_name), {}, {}};
       for (const JsonField& c : t["columns"].elements()) table.columns.push_back({c[0].text(), c[1].text()});
       for (const JsonField& line : t["rows"].elements()) {
         std::vector<Cell> row;

@@ -19,6 +19,7 @@
 #include <sstream>
 
 #include "mysim/base/errors.h"
+#include "mysim/base/hash.h"
 #include "mysim/base/names.h"
 #include "mysim/base/pattern.h"
 #include "mysim/base/text.h"
@@ -144,7 +145,10 @@ std::string file_name_of(std::string_view text) {
     name += plain || (sign.size() > 1 && is_printable(sign)) ? sign : "-";
     at += sign.size();
   }
-  return name;
+  if (name.size() <= longest_derived_name) return name;
+  size_t kept = longest_derived_name - 17;                                   // a dash and 16 digits
+  while ((static_cast<unsigned char>(name[kept]) & 0xc0u) == 0x80u) --kept;  // within a character
+  return fmt::format("{}-{:016x}", name.substr(0, kept), Fnv1a::of(text));
 }
 
 namespace {

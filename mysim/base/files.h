@@ -62,7 +62,8 @@ std::string read_file(const std::filesystem::path& file, std::string_view expect
 void require_writable(const std::filesystem::path& folder);
 
 /// The text with '-' for each ASCII character outside [A-Za-z0-9._=+-], and for what is not printable (names.h): how
-/// names of methods and scenes appear in file names.
+/// names of methods and scenes, and names that are made of them, appear in file names. One of more than
+/// longest_derived_name bytes keeps its beginning and ends in a hash of the whole text.
 std::string file_name_of(std::string_view text);
 
 // A private folder that goes away with the object, or, where the process is killed, at the next start.

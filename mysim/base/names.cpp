@@ -100,17 +100,17 @@ void print_only_text() {
   replace(stderr, STDERR_FILENO, _IONBF);
 }
 
-bool is_name(std::string_view text) {
-  return !text.empty() && text.size() <= 200 && text[0] != '-' && text[0] != '.' &&
+bool is_name(std::string_view text, std::size_t most) {
+  return !text.empty() && text.size() <= most && text[0] != '-' && text[0] != '.' &&
          text.find('/') == std::string_view::npos && is_printable(text);
 }
 
-const std::string& require_name(const std::string& name, const std::string& place) {
-  if (!is_name(name))
+const std::string& require_name(const std::string& name, const std::string& place, std::size_t most) {
+  if (!is_name(name, most))
     throw InputError(
-        fmt::format("{}: expected a name of 1 to 200 bytes of UTF-8 without '/' and invisible characters "
+        fmt::format("{}: expected a name of 1 to {} bytes of UTF-8 without '/' and invisible characters "
                     "that does not begin with '-' or '.', got {}",
-                    place, shell_quote(name.substr(0, 60))));
+                    place, most, shell_quote(name.substr(0, 60))));
   return name;
 }
 

@@ -17,12 +17,17 @@ std::string printable(std::string_view text);
 /// folders cannot control the terminal.
 void print_only_text();
 
-/// True for a name of a scene, method or student: printable, 1 to 200 bytes, without '/', not beginning with '-' or
-/// '.'.
-bool is_name(std::string_view text);
+/// Bytes of a name that is made of names and becomes a file's: leaves room for endings and temporary marks below the
+/// 255 bytes of file systems.
+constexpr std::size_t longest_derived_name = 220;
+
+/// True for a name of a scene, method or student: printable, 1 to 200 (or `most`) bytes, without '/', not beginning
+/// with
+/// '-' or '.'.
+bool is_name(std::string_view text, std::size_t most = 200);
 
 /// Returns the name. Throws InputError "PLACE: expected a name ..., got '...'".
-const std::string& require_name(const std::string& name, const std::string& place);
+const std::string& require_name(const std::string& name, const std::string& place, std::size_t most = 200);
 
 /// Throws InputError unless the text can be a table's cell in that column: printable; only columns that hold no names
 /// of scenes and methods may have line feeds and tabs.

@@ -113,7 +113,7 @@ int compare_command(const CompareOptions& options) {
   bool mismatch = false;  // withholds the numbers of that engine alone
   for (const Certificate& certificate : result.certificates) {
     print(certificate);
-    write_file(folder.path() / fmt::format("certificate-{}.json", file_name_of(certificate.method)),
+    write_file(folder.path() / (file_name_of("certificate-" + certificate.method) + ".json"),
                certificate_json(certificate));
     if (certificate.mismatch()) {
       fmt::print("  MISMATCH: {} was given another scene; its numbers are not compared\n", certificate.method);

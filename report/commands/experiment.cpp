@@ -41,7 +41,7 @@ struct MergeOptions {
 };
 
 std::string file_of(const Certificate& c) {
-  return fmt::format("certificate-{}-{}.json", c.scene, file_name_of(c.method));
+  return file_name_of(fmt::format("certificate-{}-{}", c.scene, c.method)) + ".json";
 }
 
 /// What is to be sent upstream, where the disagreements were among the experiments.

@@ -33,7 +33,8 @@ void write_data(const ReportData& data, const fs::path& folder) {
   for (const Table& table : data.rows.tables) write_csv(table, data.provenance, folder);
   write_csv(dictionary(data.rows.tables), data.provenance, folder);
   for (const Certificate& c : data.rows.certificates)
-    write_file(folder / fmt::format("certificate-{}-{}.json", c.scene, file_name_of(c.method)), certificate_json(c));
+    write_file(folder / (file_name_of(fmt::format("certificate-{}-{}", c.scene, c.method)) + ".json"),
+               certificate_json(c));
   for (const Scene& scene : data.scenes)
     write_file(folder / "scenes" / (file_name_of(scene.name) + ".toml"), scene.source);
 }

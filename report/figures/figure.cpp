@@ -104,7 +104,7 @@ MethodStyle style_of(const std::string& method) {
 
 void draw(const Drawing& figure, const Provenance& provenance, const std::filesystem::path& folder) {
   // gnuplot takes files called "<NAME" and "|NAME" for commands
-  if (!is_name(figure.name) || file_name_of(figure.name) != figure.name)
+  if (!is_name(figure.name, longest_derived_name) || file_name_of(figure.name) != figure.name)
     throw InputError(fmt::format("figure {}: expected a name that can be a file's", shell_quote(figure.name)));
   // gnuplot writes its files bit by bit: in a folder of its own, so that no half figure is ever seen
   const std::filesystem::path work = folder / fmt::format(".{}.{}.part", figure.name, getpid());

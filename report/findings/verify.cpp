@@ -32,7 +32,7 @@ JsonField read_json(const fs::path& file) {
 TableSet read_tables(const JsonField& report, const fs::path& data, Verification& found) {
   TableSet rows;
   for (const JsonField& claimed : report["tables"].elements()) {
-    const std::string name = require_name(claimed["name"].text(), "report.json: tables");
+    const std::string name = require_name(claimed["name"].text(), "report.json: tables", longest_derived_name);
     rows.tables.push_back(read_csv(data / (name + ".csv")));
     const Evidence now = evidence_of(rows.tables.back());
     found.rows += static_cast<int>(now.rows.size());

@@ -1,8 +1,11 @@
 // Names and paths that come from data.
+#include <fmt/format.h>
 #include <sys/stat.h>
 #include <sys/wait.h>
 
+#include <algorithm>
 #include <cstdio>
+#include <set>
 
 #include "mysim/base/errors.h"
 #include "mysim/base/files.h"
@@ -41,6 +44,36 @@ TEST(Names, WithControlHiddenOrBrokenCharactersAreRefused) {
   for (const char* name : {"", "-a", ".a", "..", "a/b", "/", "\xff", "a\xc3", "\xed\xa0\x80", "\xc0\xaf"})
     EXPECT_FALSE(is_name(name)) << shell_quote(name);
   EXPECT_THROW(require_name("a\nb", "x.json: name"), InputError);
+}
+
+TEST(Names, FileNamesMadeOfTwoNamesFitEveryFileSystemAndStayApart) {
+  const TemporaryFolder here("test");
+  std::string scene, method;  // characters of one, two, three and four bytes
+  for (const char* sign : {"a", "\xc3\xa9", "\xe5\xb8\x83", "\xf0\x9f\xa7\xb5"})
+    for (int i = 0; i < 20; ++i) scene += sign, method = sign + method;
+  ASSERT_EQ(scene.size(), 200u);
+  const auto longest_prefix = [](const std::string& text, size_t bytes) {
+    while (!is_printable(text.substr(0, bytes))) --bytes;
+    return text.substr(0, bytes);
+  };
+  std::set<std::string> pairs, files;
+  for (size_t i = 1; i <= 200; ++i)
+    for (size_t j = 1; j <= 200; j += i == 200 || i % 20 == 1 ? 1 : 29) {
+      const std::string pair = fmt::format("certificate-{}x-{}y", longest_prefix(scene, i), longest_prefix(method, j));
+      const std::string file = file_name_of(pair);
+      EXPECT_LE(file.size(), longest_derived_name);
+      EXPECT_TRUE(is_name(file, longest_derived_name)) << file;
+      EXPECT_EQ(file_name_of(file), file);
+      EXPECT_TRUE(file.starts_with(longest_prefix(pair, std::min<size_t>(pair.size(), 200))));
+      pairs.insert(pair), files.insert(file);
+    }
+  EXPECT_EQ(files.size(), pairs.size());
+  // the longest ending: a user's changed file that is kept
+  const std::string last = file_name_of(std::string(412, 'b')) + ".json.yours";
+  write_file(here.path / last, "whole");
+  EXPECT_LE(last.size() + std::string(".4194304.part").size() + 1, 255u);
+  for (size_t bytes = 1; bytes <= 200; ++bytes)
+    EXPECT_EQ(file_name_of(longest_prefix(scene, bytes)), longest_prefix(scene, bytes)) << "a name alone is kept";
 }
 
 TEST(Names, StandardStreamsPrintTextOnlyAndSplitCharactersStayWhole) {
