@@ -5,6 +5,7 @@
 
 #include <cmath>
 
+#include "experiments/tables/dictionary.h"
 #include "mysim/base/errors.h"
 #include "mysim/base/files.h"
 #include "mysim/base/json.h"
@@ -121,7 +122,7 @@ TableSet read_table_set(const std::string& text) {
           if (const auto* cell = std::get_if<std::string>(&row[i])) require_cell(table.columns[i].name, *cell);
         table.rows.push_back(std::move(row));
       }
-      set.tables.push_back(std::move(table));
+      set.tables.push_back(with_declared_types(std::move(table)));
     }
     for (const JsonField& c : in["certificates"].elements()) {
       Certificate certificate{c["method"].text(), require_name(c["scene"].text(), "scene"), {}};
@@ -137,12 +138,12 @@ TableSet read_table_set(const std::string& text) {
   }
 }
 
-std::optional<TableSet> Store::find(const std::string& hash) const {
-  const auto text = try_read_file(file_of(hash));
-  if (!text) return std::nullopt;
+std::optional<TableSet> Store::find(const std::string& hash, std::string* fault) const {
+  if (!std::filesystem::exists(file_of(hash))) return std::nullopt;
   try {
-    return read_table_set(*text);
-  } catch (const InputError&) {
+    return read_table_set(try_read_file(file_of(hash)).value_or(""));
+  } catch (const InputError& error) {
+    if (fault) *fault = fmt::format(": {}: {}", file_of(hash).string(), error.what());
     return std::nullopt;
   }
 }

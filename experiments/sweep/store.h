@@ -44,8 +44,8 @@ class Store {
  public:
   explicit Store(std::filesystem::path folder) : folder_(std::move(folder)) {}
   bool has(const std::string& hash) const { return find(hash).has_value(); }
-  /// Nothing where the point is not there; a file that cannot be read counts as not there.
-  std::optional<TableSet> find(const std::string& hash) const;
+  /// Nothing where the point is not there; a file that cannot be read counts as not there, and `fault` says why.
+  std::optional<TableSet> find(const std::string& hash, std::string* fault = nullptr) const;
   /// Written under another name and renamed: a killed run leaves whole files only.
   void keep(const std::string& hash, const TableSet& tables) const;
   /// Stores why a point failed, in its own file; it does not count as there, and the next keep() or run replaces it.

@@ -179,11 +179,16 @@ TableSet joined(const PointList& list, std::span<const Store> stores, std::vecto
   TableSet all;
   for (const PointList::Entry& point : list.points) {
     std::optional<TableSet> tables;
-    for (size_t i = 0; i < stores.size() && !tables; ++i) tables = stores[i].find(point.hash);
-    if (tables)
-      all.append(*tables);
+    std::string fault;
+    for (size_t i = 0; i < stores.size() && !tables; ++i) tables = stores[i].find(point.hash, &fault);
+    if (!tables)
+      missing.push_back(point.name + fault);
     else
-      missing.push_back(point.name);
+      try {
+        all.append(*tables);
+      } catch (const std::logic_error& error) {
+        throw InputError(fmt::format("{}, {}.json: {}", point.name, point.hash, error.what()));
+      }
   }
   for (const std::string& name : list.experiments)
     if (const Experiment& experiment = find_experiment(name); experiment.conclude) experiment.conclude(all);

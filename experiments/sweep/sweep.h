@@ -37,7 +37,8 @@ std::vector<FailedPoint> run_points(std::span<const Point> points, const SweepOp
                                     Progress& progress);
 
 /// The rows of all points of the list in their order, each from the first store that has it, and what the list's
-/// experiments conclude from them; the names of points that no store has are added to `missing`.
+/// experiments conclude from them; the names of points that no store has are added to `missing`, with the fault of
+/// a file that cannot be read.
 TableSet joined(const PointList& list, std::span<const Store> stores, std::vector<std::string>& missing);
 
 /// Computes all points here and now, without a store: for a few, and for tests. Lets exceptions through.

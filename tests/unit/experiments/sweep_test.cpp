@@ -14,9 +14,11 @@
 #include "experiments/scenes/scenes.h"
 #include "experiments/sweep/store.h"
 #include "experiments/sweep/sweep.h"
+#include "experiments/tables/order.h"
 #include "experiments/timing/machine.h"
 #include "experiments/timing/timing.h"
 #include "mysim/base/errors.h"
+#include "mysim/base/files.h"
 #include "tests/unit/helpers.h"
 #include "tests/unit/temporary.h"
 
@@ -186,6 +188,52 @@ TEST_F(Sweep, AllMeasurementsOfACommandWaitTogetherNoLongerThanTheLimit) {
   // six waits of their own would take 6 limits; the work itself takes 20 ms
   EXPECT_LT(std::chrono::duration<double>(std::chrono::steady_clock::now() - begun).count(), 4 * limit);
   close(other);
+}
+
+TEST_F(Sweep, KeepsTablesOfScenesWithNamesOfEveryLength) {
+  for (const size_t length : {1u, 199u, 200u}) {
+    TableSet tables;
+    tables.tables.push_back({std::string(length, 's') + "-speed-accuracy-cost", {{"x", "m"}}, {}});
+    store.keep("long", tables);
+    EXPECT_TRUE(store.find("long")) << length;
+    write_csv(tables.tables[0], {}, folder_);
+  }
+}
+
+TEST_F(Sweep, NamesTheFaultOfAPointsFileThatCannotBeJoined) {
+  const std::vector<Point> points = several(2);
+  run(points);
+  const std::string file = store.folder() / (points[1].hash() + ".json"), good = *try_read_file(file);
+  const auto at = [&](const char* old, const char* other) {
+    std::string text = good;
+    return text.replace(text.find(old), std::string(old).size(), other);
+  };
+  for (const std::string& text : {std::string(), good.substr(0, good.size() / 2), at("values", "../../outside"),
+                                  at("p1", "a\u001b[2J"), at("\"notes\"", "\"other\"")}) {
+    std::ofstream(file) << text;
+    missing.clear();
+    whole(points);
+    ASSERT_EQ(missing.size(), 1u) << text;
+    EXPECT_TRUE(contains(missing[0], "p1: " + file + ": expected JSON of tables, certificates and notes: "))
+        << missing[0];
+  }
+}
+
+TEST_F(Sweep, NamesThePointWhoseTableHasOtherColumnsOrTypes) {
+  std::vector<Point> points = several(2);
+  run(points);
+  TableSet other = *store.find(points[1].hash());
+  other.tables[0].columns[1].name = "other";
+  store.keep(points[1].hash(), other);
+  EXPECT_TRUE(throws<InputError>([&] { whole(points); }, "p1, " + points[1].hash() + ".json: table values: "));
+  Table typed = table_of<OrderRow>();
+  typed.rows.push_back(std::vector<Cell>(typed.columns.size(), Cell(0.5)));
+  other.tables = {typed};
+  store.keep(points[1].hash(), other);
+  missing.clear();
+  whole(points);
+  ASSERT_EQ(missing.size(), 1u);
+  EXPECT_TRUE(contains(missing[0], ".json: ") && contains(missing[0], "table order, column ")) << missing[0];
 }
 
 TEST_F(Sweep, AnotherContentOrNameIsAnotherPoint) {
