@@ -117,8 +117,9 @@ const Experiment& find_experiment(const std::string& name) {
   throw InputError(unknown_name("experiment", name, known, "crosscheck list experiments"));
 }
 
-std::vector<Scene> scenes_for(const Experiment& experiment, const std::vector<std::string>& names, bool full) {
-  if (!names.empty() || full) return load_scenes(names);
+std::vector<Scene> scenes_for(const Experiment& experiment, const std::vector<std::string>& names, bool full,
+                              const std::string& methods) {
+  if (!names.empty() || full) return load_scenes(names, methods);
   if (experiment.quick_scenes.empty()) return load_scenes(quick_scenes());
   return load_scenes({experiment.quick_scenes.begin(), experiment.quick_scenes.end()});
 }

@@ -126,8 +126,9 @@ std::span<const Experiment> experiments();
 const Experiment& find_experiment(const std::string& name);
 
 /// The scenes that an experiment looks at: the named ones; where none is named, all shipped ones or, in a quick run,
-/// its quick ones.
-std::vector<Scene> scenes_for(const Experiment& experiment, const std::vector<std::string>& names, bool full);
+/// its quick ones; `methods` as for load_scene().
+std::vector<Scene> scenes_for(const Experiment& experiment, const std::vector<std::string>& names, bool full,
+                              const std::string& methods = "");
 
 /// Whether the scene has charts of its own; `all`: scenes were named, or the run is a full one. Throws as
 /// find_experiment().

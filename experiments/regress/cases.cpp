@@ -106,7 +106,7 @@ std::vector<Case> cases(const Selection& selection) {
     if (cost <= (selection.full ? slowest : fast)) all.push_back(std::move(q));
   };
   const std::vector<Method> methods = selection.methods.empty() ? engines() : selection.methods;
-  for (const Scene& scene : load_scenes(selection.scenes)) {
+  for (const Scene& scene : load_scenes(selection.scenes, selection.methods.empty() ? "" : selection.methods[0].name)) {
     const std::string own = find_method(scene.method).name;
     for (const Method& method : methods) {
       add({scene, method, "", false, scene.hash});

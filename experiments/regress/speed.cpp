@@ -146,7 +146,7 @@ std::vector<SpeedCase> speed_cases(const Selection& selection, const std::option
     if (passes(selection.filter, scene.name, method.name)) all.push_back(std::move(q));
   };
   if (against && !against->family().in_process()) return all;
-  for (const Scene& scene : load_scenes(selection.scenes)) {
+  for (const Scene& scene : load_scenes(selection.scenes, selection.methods.empty() ? "" : selection.methods[0].name)) {
     const std::string own = find_method(scene.method).name;
     for (const Method& method : methods)
       if (against || method.name == own) add(scene, method);

@@ -72,15 +72,19 @@ std::vector<std::string> scenes_of_disagreements() {
 }
 
 /// Reads the file and makes sure that its default method is one.
-Scene checked(const std::filesystem::path& file) {
+Scene checked(const std::filesystem::path& file, const std::string& methods) {
   Scene scene = read_scene(file);
+  // the text again, for the line
+  const auto time = [&] { return TomlTable::parse_text(scene.source, file.string()).section("time"); };
+  if (scene.method.empty()) scene.method = methods.substr(0, methods.find(','));
+  if (scene.method.empty())
+    time().fail("method",
+                fmt::format("a method that is no program (programs are named on the command line only: --method {})",
+                            shell_quote(time().text("method"))));
   try {
     find_method(scene.method);
   } catch (const InputError& error) {
-    // the text again, for the line
-    TomlTable::parse_text(scene.source, file.string())
-        .section("time")
-        .fail("method", fmt::format("a method that there is: {}", error.what()));
+    time().fail("method", fmt::format("a method that there is: {}", error.what()));
   }
   return scene;
 }
@@ -91,27 +95,27 @@ std::filesystem::path file_of_disagreement(const std::string& name) {
   return folder_of_disagreements() / (name + ".toml");
 }
 
-Scene load_scene(const std::string& name) {
+Scene load_scene(const std::string& name, const std::string& methods) {
   const auto shipped = shipped_scenes();
   if (std::find(shipped.begin(), shipped.end(), name) != shipped.end())
-    return checked(folder_of_scenes() / (name + ".toml"));
+    return checked(folder_of_scenes() / (name + ".toml"), methods);
   const auto known = scenes_of_disagreements();
-  if (std::find(known.begin(), known.end(), name) != known.end()) return checked(file_of_disagreement(name));
+  if (std::find(known.begin(), known.end(), name) != known.end()) return checked(file_of_disagreement(name), methods);
   std::error_code unreadable;  // then the path of a file is what was meant, and it is named when it is read
   if (name.ends_with(".toml") || name.find('/') != std::string::npos || std::filesystem::exists(name, unreadable) ||
       unreadable)
-    return checked(name);
+    return checked(name, methods);
   std::vector<std::string> names(shipped.begin(), shipped.end());
   names.insert(names.end(), known.begin(), known.end());
   throw InputError(unknown_name("scene", name, names, "crosscheck list scenes"));
 }
 
-std::vector<Scene> load_scenes(const std::vector<std::string>& names) {
+std::vector<Scene> load_scenes(const std::vector<std::string>& names, const std::string& methods) {
   std::vector<Scene> scenes;
   if (names.empty())
     for (const auto name : shipped_scenes()) scenes.push_back(load_scene(std::string(name)));
   for (const std::string& name : names) {
-    Scene scene = load_scene(name);
+    Scene scene = load_scene(name, methods);
     for (size_t i = 0; i < scenes.size(); ++i)
       if (file_name_of(scenes[i].name) == file_name_of(scene.name))
         throw InputError(fmt::format("{}: expected scenes of different names; this one is '{}', that of {} is '{}'",

@@ -338,10 +338,8 @@ void read_time(const TomlTable& file, Scene& scene) {
            fmt::format("a window not longer than the duration of {} s, got {} s", scene.duration, scene.window));
   scene.tolerance = s.positive("tolerance");
   scene.method = s.text("method");
-  if (scene.method.find(':') != std::string::npos)
-    s.fail("method",
-           fmt::format("a method that is no program (programs are named on the command line only: --method {})",
-                       shell_quote(scene.method)));
+  // a program: files cannot name one, only the command line can (load_scene())
+  if (scene.method.find(':') != std::string::npos) scene.method.clear();
 }
 
 void read_wish(const TomlTable& file, Scene& scene) {

@@ -239,7 +239,7 @@ int advised(const AdviseOptions& options, OutputFolder& folder) {
       scene = std::move(fitted.scene);
     }
   }
-  if (!scene) scene = load_scene(options.scene);
+  if (!scene) scene = load_scene(options.scene, options.methods);
   if (options.tolerance.empty() && toml.empty())
     throw InputError(
         fmt::format("--tolerance: expected a length above zero (m), as {} has nothing to be fitted", options.scene));

@@ -90,7 +90,7 @@ void sort_words(const std::vector<std::string>& words, std::vector<Method>& meth
     }
   }
   if (methods.empty()) throw InputError("check: expected at least one method beside the scenes");
-  if (!names.empty()) scenes = load_scenes(names);
+  if (!names.empty()) scenes = load_scenes(names, methods[0].name);
 }
 
 void print_answer(const Answer& a) {

@@ -77,7 +77,7 @@ bool equal_rules_differ(const Request& request, const Scene& scene, MethodResult
 
 int compare_command(const CompareOptions& options) {
   Request request;
-  request.scenes.push_back(load_scene(options.scene));
+  request.scenes.push_back(load_scene(options.scene, options.methods));
   if (!options.methods.empty()) request.methods = find_methods(options.methods);
   request.step = options.step;
   if (!options.reference.empty()) {

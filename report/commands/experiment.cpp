@@ -111,7 +111,7 @@ int experiment_command(const ExperimentOptions& options) {
   std::vector<Point> points;
   std::vector<Scene> looked_at;
   for (const Experiment* experiment : chosen) {
-    request.scenes = scenes_for(*experiment, scenes, options.full);
+    request.scenes = scenes_for(*experiment, scenes, options.full, options.methods);
     for (const Scene& scene : request.scenes)
       require_resources_to_keep(methods_of(request, scene), scene, run_of(request, scene));
     add_missing(looked_at, request.scenes);

@@ -56,7 +56,7 @@ const Experiment* experiment_named(const std::string& name) {
 /// The scenes that the user named, or the representative ones.
 std::vector<PictureRequest> requested_pictures(const FiguresOptions& options) {
   std::vector<PictureRequest> all;
-  const std::vector<Scene> scenes = scenes_for({}, options.scenes, options.full);
+  const std::vector<Scene> scenes = scenes_for({}, options.scenes, options.full, options.methods);
   for (size_t i = 0; i < scenes.size(); ++i)
     all.push_back({scenes[i], options.scenes.empty() ? scenes[i].name : options.scenes[i]});
   return all;
@@ -126,7 +126,7 @@ Work work_of(const FigureSelection& selection, const FiguresOptions& options, co
   if (!options.methods.empty()) request.methods = find_methods(options.methods);
   for (const Experiment* experiment : selection.experiments) {
     work.experiments.emplace_back(experiment->name);
-    request.scenes = scenes_for(*experiment, options.scenes, options.full);
+    request.scenes = scenes_for(*experiment, options.scenes, options.full, options.methods);
     request.on_runs = experiment->points == engines_points ? on_engines : RunCallback();
     for (const Scene& scene : request.scenes)
       require_resources_to_keep(methods_of(request, scene), scene, run_of(request, scene));

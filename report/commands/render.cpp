@@ -73,7 +73,7 @@ std::vector<MethodResult> answers_of(const Scene& scene, const std::vector<Metho
 }
 
 int render_command(const RenderOptions& options) {
-  const Scene scene = load_scene(options.scene);
+  const Scene scene = load_scene(options.scene, options.methods);
   const bool clip = options.file.extension() == ".mp4";
   if (!clip && options.file.extension() != ".png")
     throw InputError(fmt::format("-o {}: expected a file name that ends in .png or .mp4", options.file.string()));

@@ -111,7 +111,7 @@ ReportData data_of_runs(const ReportOptions& options, Request& request, const fs
     if (!named.empty() && std::find(named.begin(), named.end(), e.name) == named.end()) continue;
     chosen.push_back(&e);
     requests.push_back(request);
-    requests.back().scenes = scenes_for(e, options.scenes, options.full);
+    requests.back().scenes = scenes_for(e, options.scenes, options.full, options.methods);
     add_missing(data.all, requests.back().scenes);
   }
   data.provenance = with_scenes(provenance(options.command_line), data.all);
@@ -179,7 +179,7 @@ int report_command(const ReportOptions& options, OutputFolder& folder) {
   Request request;
   request.full = options.full;
   if (!options.methods.empty()) request.methods = find_methods(options.methods);
-  request.scenes = scenes_for({}, options.scenes, options.full);
+  request.scenes = scenes_for({}, options.scenes, options.full, options.methods);
   for (const Scene& scene : request.scenes)
     require_resources_to_keep(methods_of(request, scene), scene, run_of(request, scene));
   request.scenes_only = !options.scenes.empty() && !options.full;

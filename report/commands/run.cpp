@@ -51,7 +51,7 @@ std::string run_json(const Scene& scene, const Method& method, const Outcome& ou
 }
 
 int run_command(const RunOptions& options) {
-  const Scene scene = load_scene(options.scene);
+  const Scene scene = load_scene(options.scene, options.method);
   const Method method = find_method(options.method.empty() ? scene.method : options.method);
   const bool adaptive = method.adaptive;
   if (options.tolerance > 0 && !adaptive)

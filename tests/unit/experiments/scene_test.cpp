@@ -2,8 +2,11 @@
 
 #include <map>
 
+#include "experiments/experiment.h"
 #include "experiments/metrics.h"
 #include "experiments/scenes/scenes.h"
+#include "mysim/base/errors.h"
+#include "mysim/base/files.h"
 #include "mysim/scene/grid.h"
 #include "reference/method.h"
 #include "reference/truth/exact/exact.h"
@@ -219,6 +222,31 @@ TEST(RandomScenes, NetworksHoldTogetherAndArePredictable) {
     EXPECT_LE(each, 160);
   }
   EXPECT_EQ(damped, 0);
+}
+
+TEST(Scenes, AFileThatNamesAProgramNeedsAMethodOfTheCommandLine) {
+  const TemporaryFolder here("test");
+  const std::string file = here.path / "programs.toml";
+  std::string text = load_scene("spring").source;
+  const std::string own = load_scene("spring").method;
+  text.replace(text.find('"' + own + '"'), own.size() + 2, "\"exec:./x.sh\"");
+  write_file(file, text);
+  try {
+    load_scene(file);
+    FAIL();
+  } catch (const InputError& error) {
+    EXPECT_TRUE(contains(error.what(), file + ":")) << error.what();
+    EXPECT_TRUE(contains(error.what(),
+                         "time.method: expected a method that is no program (programs are named on the "
+                         "command line only: --method exec:./x.sh)"))
+        << error.what();
+  }
+  EXPECT_THROW(load_scenes({file}), InputError);
+  EXPECT_THROW(scenes_for({}, {file}, false), InputError);
+  EXPECT_EQ(load_scene(file, "rk4,leapfrog").method, "rk4");
+  EXPECT_EQ(load_scenes({file}, "rk4")[0].method, "rk4");
+  EXPECT_EQ(scenes_for({}, {file}, false, "rk4")[0].method, "rk4");
+  EXPECT_EQ(load_scene("spring", "rk4").method, own);
 }
 
 TEST(Scenes, AnUnknownNameIsAnsweredWithThoseThereAre) {
