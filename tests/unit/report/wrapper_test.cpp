@@ -3,6 +3,8 @@
 
 #include <unistd.h>
 
+#include <set>
+
 #include "tests/unit/report/cli.h"
 
 namespace crosscheck {
@@ -138,6 +140,32 @@ TEST_F(Wrapper, BuildsInTheCacheForATreeThatItMayNotWriteTo) {
   const ProgramResult second = start_as_other({in_tree("crosscheck"), "list", "scenes"});
   EXPECT_EQ(second.out, first.out);
   EXPECT_EQ(second.err, "") << "said once";
+}
+
+TEST_F(Wrapper, NamesACacheFolderThatCannotBeMade) {
+  if (geteuid() != 0) GTEST_SKIP() << "this machine runs tests as a user who cannot become another";
+  fs::permissions(folder_ / "home", fs::perms(0555));
+  const ProgramResult closed = start_as_other({in_tree("crosscheck"), "list"});
+  EXPECT_EQ(closed.status, 2);
+  EXPECT_NE(closed.err.find("release cannot be made; expected HOME or XDG_CACHE_HOME"), std::string::npos)
+      << closed.err;
+  const ProgramResult none = start_as_other({"env", "-u", "HOME", in_tree("crosscheck"), "list"});
+  EXPECT_EQ(none.status, 2);
+  EXPECT_TRUE(none.err.starts_with("crosscheck: ")) << none.err;
+  EXPECT_NE(none.err.find("neither HOME nor XDG_CACHE_HOME is set"), std::string::npos) << none.err;
+}
+
+TEST_F(Wrapper, BuildsTreesOfSimilarPathsApart) {
+  if (geteuid() != 0) GTEST_SKIP() << "this machine runs tests as a user who cannot become another";
+  std::set<std::string> programs;
+  for (const char* tree : {"tree/a-b", "tree/a/b"}) {
+    fs::create_directories(folder_ / tree);
+    fs::copy_file(in_tree("crosscheck"), folder_ / tree / "crosscheck");
+    const ProgramResult result = start_as_other({(folder_ / tree / "crosscheck").string(), "list"});
+    EXPECT_EQ(result.status, 0) << result.err;
+    programs.insert(result.out);
+  }
+  EXPECT_EQ(programs.size(), 2u);
 }
 
 }  // namespace
