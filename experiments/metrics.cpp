@@ -59,13 +59,6 @@ std::optional<double> creep(const Scene& scene, double t, const Points& x, const
   return sum / touching;
 }
 
-std::optional<double> first_contact(const Scene& scene, const Trajectory& trajectory) {
-  for (int i = 0; i < trajectory.frames(); ++i)
-    if (const auto gap = clearance(scene, trajectory.t[i], trajectory.x[i]); gap && *gap < 1e-9 * scene.size())
-      return trajectory.t[i];
-  return std::nullopt;
-}
-
 std::optional<double> round_off_bound(const Scene& scene, double motion, double growth) {
   if (!(growth < 1e6)) return std::nullopt;
   return 1e-13 * (scene.size() + motion) * std::max(1.0, growth);

@@ -24,9 +24,6 @@ std::optional<double> clearance(const Scene& scene, double t, const Points& x);
 /// empty when none does, and without velocities.
 std::optional<double> creep(const Scene& scene, double t, const Points& x, const Points& v);
 
-/// Time of the first sample at which a particle touches the sphere (closer than 1e-9 of the scene's size), s.
-std::optional<double> first_contact(const Scene& scene, const Trajectory& trajectory);
-
 /// The scene with every free particle moved by `size` (m) in a seeded random direction.
 Scene perturbed(const Scene& scene, double size, unsigned seed);
 

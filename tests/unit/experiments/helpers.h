@@ -7,6 +7,7 @@
 #include <regex>
 #include <sstream>
 
+#include "experiments/metrics.h"
 #include "experiments/scenes/scenes.h"
 #include "mysim/base/errors.h"
 #include "reference/method.h"
@@ -15,6 +16,14 @@
 #include "tests/unit/reference/helpers.h"
 
 namespace crosscheck::testing_tools {
+
+/// Time of the first sample at which a particle touches the sphere (closer than 1e-9 of the scene's size), s.
+inline std::optional<double> first_contact(const Scene& scene, const Trajectory& trajectory) {
+  for (int i = 0; i < trajectory.frames(); ++i)
+    if (const auto gap = clearance(scene, trajectory.t[i], trajectory.x[i]); gap && *gap < 1e-9 * scene.size())
+      return trajectory.t[i];
+  return std::nullopt;
+}
 
 // Shipped scenes at other sizes: grids with another number of particles, other scenes with other lengths.
 

@@ -268,7 +268,6 @@ TEST(Metrics, OfKnownStates) {
   EXPECT_DOUBLE_EQ(*creep(scene, 0, x, v), 0.5);  // along the surface only
   EXPECT_FALSE(clearance(small_cloth(), 0, small_cloth().start.x));
   Trajectory t{{0, 1}, {scene.start.x, x}, {v, v}};
-  EXPECT_EQ(*first_contact(scene, t), 1);
   EXPECT_DOUBLE_EQ(motion_of(t), 0.25 / std::sqrt(3.0));
 }
 
