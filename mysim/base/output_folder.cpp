@@ -421,21 +421,6 @@ ResumableOutput::ResumableOutput(const fs::path& folder, const std::string& comm
   });
 }
 
-void ResumableOutput::forget(const std::string& inner) {
-  with_output_errors(place_, [&] {
-    for (const std::string& path : paths_in(place_.target)) {
-      if (!path.starts_with(inner + "/") || !manifest_.names(path)) continue;
-      if (manifest_.ours(place_.target, path))
-        fs::remove(place_.target / path);
-      else
-        keep_as_yours(place_.target, path);
-      remove_empty_above(place_.target, path);
-    }
-    std::erase_if(manifest_.files, [&](const auto& file) { return file.first.starts_with(inner + "/"); });
-    write_manifest(manifest_, place_.target);
-  });
-}
-
 void ResumableOutput::announce(const std::vector<std::string>& files) {
   with_output_errors(place_, [&] {
     for (const std::string& path : files) {

@@ -83,8 +83,6 @@ class ResumableOutput {
   ResumableOutput(const ResumableOutput&) = delete;
   ResumableOutput& operator=(const ResumableOutput&) = delete;
 
-  /// Removes what is listed in a folder inside, that is, an earlier result's.
-  void forget(const std::string& inner);
   /// Says which files will be written next. What a user has under these names is kept as NAME.yours.
   void announce(const std::vector<std::string>& files);
   /// Counts what is listed in a folder inside to this result too.

@@ -78,11 +78,10 @@ void announce(ResumableOutput& folder, const PointList& plan, const Store& store
   std::vector<std::string> files{"plan.json"};
   for (const PointList::Entry& point : plan.points)
     for (const char* ending : {".json", ".failed"}) files.push_back(fmt::format("{}/{}{}", points, point.hash, ending));
-  if (options.resume)
-    folder.keep(points);
-  else
-    folder.forget(points);
+  if (options.resume) folder.keep(points);
   folder.announce(files);
+  if (!options.resume)
+    for (const std::string& file : files) std::filesystem::remove(options.out / file);
 }
 
 int experiment_command(const ExperimentOptions& options) {

@@ -359,10 +359,7 @@ TEST_P(Output, CanBeReplacedFromWithin) {
 TEST_P(Output, AResultGrowsInPlaceAndGoesOn) {
   const auto grow = [&](bool resume, const std::vector<std::string>& points, const std::string& table, bool whole) {
     ResumableOutput folder(target_, "experiment");
-    if (resume)
-      folder.keep("points");
-    else
-      folder.forget("points");
+    if (resume) folder.keep("points");
     std::vector<std::string> names{"plan.json"};
     for (const std::string& point : points) names.push_back("points/" + point);
     folder.announce(names);
