@@ -9,6 +9,7 @@
 #include <set>
 #include <stdexcept>
 
+#include "mysim/base/names.h"
 #include "reference/method.h"
 #include "report/base/gnuplot.h"
 #include "report/figures/curve_plot.h"
@@ -232,7 +233,13 @@ void CurvePlot::frame_categories() {
   double longest = 0, apart = box_.right - box_.left;
   x_ticks_.clear();
   for (const auto& [at, text] : f_.categories) {
-    x_ticks_.push_back({at, reader_name(text)});
+    std::string name = reader_name(text);
+    if (width_of(name) > wide_ / 2) {  // a longer one leaves no room for the plot
+      do name.pop_back();
+      while (!is_printable(name) || width_of(name + "…") > wide_ / 2);
+      name += "…";
+    }
+    x_ticks_.push_back({at, name});
     longest = std::max(longest, width_of(x_ticks_.back().text));
   }
   std::ranges::sort(x_ticks_, {}, &Tick::at);

@@ -9,6 +9,7 @@
 
 #include "mysim/base/errors.h"
 #include "mysim/base/json.h"
+#include "mysim/base/names.h"
 #include "mysim/base/process.h"
 #include "reference/method.h"
 #include "report/base/gnuplot.h"
@@ -55,6 +56,21 @@ TEST(Latex, SpecialCharactersAreEscaped) {
   EXPECT_EQ(latex("a_b & 5 % of #1 {x} ~ ^ \\ $"),
             "a\\_b \\& 5 \\% of \\#1 \\{x\\} \\textasciitilde{} \\textasciicircum{} \\textbackslash{} \\$");
   EXPECT_EQ(latex("< 3 µm ± 1, 2 × ω"), "$<$ 3 $\\mu$m $\\pm$ 1, 2 $\\times$ $\\omega$");
+}
+
+TEST(CurveFigures, AreDrawnWithCategoryNamesOfEveryLength) {
+  for (const size_t length : {1u, 60u, 200u})
+    for (const char* set : {"paper", "lecture"}) {
+      Figure f;
+      f.name = "categories", f.title = "names", f.size = figure_size(set, "");
+      f.x = {"", false, -0.6, std::nullopt}, f.y = {"y", true, 1e-3, 10};
+      std::string name;
+      while (name.size() + 3 <= length) name += "布";
+      f.categories = {{0, name + "a"}, {1, std::string(length, 's')}};
+      f.curves = {{"mysim/rk4", style_of("mysim/rk4"), {{0, 1}, {1, 2}}, false, true}};
+      const std::string script = drawing_of(f).script;  // throws if nothing is left for the plot
+      EXPECT_EQ(printable(script), script) << length << " in " << set;
+    }
 }
 
 /// One chart of each kind.
