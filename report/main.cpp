@@ -3,8 +3,8 @@
 #include <algorithm>
 
 #include "mysim/base/errors.h"
-#include "mysim/base/interruption.h"
 #include "mysim/base/text.h"
+#include "mysim/base/this_process.h"
 #include "report/commands/command_line.h"
 
 using namespace crosscheck;

@@ -23,7 +23,6 @@
 #include <sstream>
 
 #include "mysim/base/files.h"
-#include "mysim/base/interruption.h"
 #include "mysim/base/names.h"
 #include "mysim/base/output_folder.h"
 
@@ -217,8 +216,6 @@ int run_supervised(const std::function<int()>& work, const std::string& when_int
     fmt::print(stderr, "\ncrosscheck: interrupted; {}\n", when_interrupted);
   end_as(status);
 }
-
-int run_supervised(const std::function<int()>& work) { return run_supervised(work, ""); }
 
 void register_output(const std::string& folder) {
   const char* number = std::getenv(notes_variable);

@@ -41,8 +41,9 @@ double free_memory();
 /// it ended. Before that all that descends from the child is ended too, temporary folders of processes that are gone
 /// are removed, and what they left of unfinished results (see register_output()). Nothing of this runs in a signal
 /// handler. A supervisor that is killed takes the child with it; what is left then, the next start removes. To be
-/// called first in main(). Where no process can be made, the work is done in this one.
-int run_supervised(const std::function<int()>& work);
+/// called first in main(). Where no process can be made, the work is done in this one. If a signal ends the work,
+/// `when_interrupted` is reported on standard error unless it is empty.
+int run_supervised(const std::function<int()>& work, const std::string& when_interrupted = "");
 
 /// Names a folder for results that must be seen to where this process is killed. Nothing where there is no supervisor.
 void register_output(const std::string& folder);
