@@ -68,7 +68,7 @@ class RunLoop {
 /// The whole run.
 Outcome run_loop(World& world, const Run& run, Observer& observer);
 
-/// The code that steps a scene: on regular cloths the fused step, reproducible (the same bits with AVX2 and AVX-512),
+/// The code that steps a scene: on regular cloths the fused step, reproducible (the same bits on every machine),
 /// as fast as the machine can, or in single precision; `general` is the engine for any scene.
 enum class ExecutionPath { reproducible, fastest, single_precision, general };
 
@@ -88,7 +88,7 @@ Outcome simulate(const Stepper& stepper, ContactRule contact, const Scene& scene
                  const Execution& execution = {});
 
 /// True if a rule gives the same bits on every machine: sums in one order do; solving equations and choosing steps need
-/// not. The fused step (fused_step.h) has two results, with and without fused multiply-add.
+/// not.
 inline bool has_same_bits_everywhere(const Stepper& rule) {
   return !rule.adaptive && (rule.evaluations > 0 || rule.hard_constraints);
 }

@@ -47,10 +47,6 @@ struct Lanes<double> {
   FORCE_INLINE V max(V a, V b) { return _mm512_max_pd(a, b); }
   FORCE_INLINE V root(V s) { return _mm512_sqrt_pd(s); }
   FORCE_INLINE V rsqrt_estimate(V s) { return _mm512_rsqrt14_pd(s); }  // 14 bits
-  FORCE_INLINE V rsqrt_from_bits(V s) {                                // 5 bits, from the bits of s
-    return _mm512_castsi512_pd(
-        _mm512_sub_epi64(_mm512_set1_epi64(0x5FE6EB50C7B537A9), _mm512_srli_epi64(_mm512_castpd_si512(s), 1)));
-  }
   FORCE_INLINE bool any_less(V a, V b) { return _mm512_cmp_pd_mask(a, b, _CMP_LT_OQ) != 0; }
 
   FORCE_INLINE void add(double* p, V a) { store(p, load(p) + a); }
@@ -111,11 +107,8 @@ struct Lanes<float> {
   FORCE_INLINE V fnma(V a, V b, V c) { return _mm512_fnmadd_ps(a, b, c); }
   FORCE_INLINE V min(V a, V b) { return _mm512_min_ps(a, b); }
   FORCE_INLINE V max(V a, V b) { return _mm512_max_ps(a, b); }
+  FORCE_INLINE V root(V s) { return _mm512_sqrt_ps(s); }
   FORCE_INLINE V rsqrt_estimate(V s) { return _mm512_rsqrt14_ps(s); }
-  FORCE_INLINE V rsqrt_from_bits(V s) {
-    return _mm512_castsi512_ps(
-        _mm512_sub_epi32(_mm512_set1_epi32(0x5F375A86), _mm512_srli_epi32(_mm512_castps_si512(s), 1)));
-  }
   FORCE_INLINE bool any_less(V a, V b) { return _mm512_cmp_ps_mask(a, b, _CMP_LT_OQ) != 0; }
 };
 
@@ -135,10 +128,6 @@ struct Lanes<double> {
   FORCE_INLINE V root(V s) { return _mm256_sqrt_pd(s); }
   /// 12 bits, for 1e-38 < s < 1e38.
   FORCE_INLINE V rsqrt_estimate(V s) { return _mm256_cvtps_pd(_mm_rsqrt_ps(_mm256_cvtpd_ps(s))); }
-  FORCE_INLINE V rsqrt_from_bits(V s) {
-    return _mm256_castsi256_pd(
-        _mm256_sub_epi64(_mm256_set1_epi64x(0x5FE6EB50C7B537A9), _mm256_srli_epi64(_mm256_castpd_si256(s), 1)));
-  }
   FORCE_INLINE bool any_less(V a, V b) { return _mm256_movemask_pd(_mm256_cmp_pd(a, b, _CMP_LT_OQ)) != 0; }
 
   FORCE_INLINE void add(double* p, V a) { store(p, load(p) + a); }
@@ -188,11 +177,8 @@ struct Lanes<float> {
   FORCE_INLINE V fnma(V a, V b, V c) { return _mm256_fnmadd_ps(a, b, c); }
   FORCE_INLINE V min(V a, V b) { return _mm256_min_ps(a, b); }
   FORCE_INLINE V max(V a, V b) { return _mm256_max_ps(a, b); }
+  FORCE_INLINE V root(V s) { return _mm256_sqrt_ps(s); }
   FORCE_INLINE V rsqrt_estimate(V s) { return _mm256_rsqrt_ps(s); }
-  FORCE_INLINE V rsqrt_from_bits(V s) {
-    return _mm256_castsi256_ps(
-        _mm256_sub_epi32(_mm256_set1_epi32(0x5F375A86), _mm256_srli_epi32(_mm256_castps_si256(s), 1)));
-  }
   FORCE_INLINE bool any_less(V a, V b) { return _mm256_movemask_ps(_mm256_cmp_ps(a, b, _CMP_LT_OQ)) != 0; }
 };
 
@@ -223,7 +209,6 @@ struct Lanes<double> {
 #endif
   }
   FORCE_INLINE V root(V s) { return V{__builtin_sqrt(s[0]), __builtin_sqrt(s[1])}; }
-  FORCE_INLINE V rsqrt(V s) { return all(1) / root(s); }
   FORCE_INLINE bool any_less(V a, V b) {
     const auto less = a < b;
     return (less[0] | less[1]) != 0;
@@ -284,8 +269,8 @@ struct Lanes<float> {
     return a > b ? a : b;
 #endif
   }
-  FORCE_INLINE V rsqrt(V s) {
-    return all(1) / V{__builtin_sqrtf(s[0]), __builtin_sqrtf(s[1]), __builtin_sqrtf(s[2]), __builtin_sqrtf(s[3])};
+  FORCE_INLINE V root(V s) {
+    return V{__builtin_sqrtf(s[0]), __builtin_sqrtf(s[1]), __builtin_sqrtf(s[2]), __builtin_sqrtf(s[3])};
   }
   FORCE_INLINE bool any_less(V a, V b) {
     const auto less = a < b;
@@ -295,32 +280,39 @@ struct Lanes<float> {
 
 #endif
 
-/// y with e = 1 - s y^2 of the order of the seed's error; y (1 + e/2 + 3/8 e^2 + 5/16 e^3) is 1 / sqrt(s) to its fourth
-/// power. The correction is added to y, so that only its last digits round.
-template <class L, class V>
-FORCE_INLINE V refine_rsqrt(V s, V y) {
-  const V e = L::fnma(s * y, y, L::all(1));
-  return L::fma(y * e, L::fma(e, L::fma(e, L::all(0.3125f), L::all(0.375f)), L::all(0.5f)), y);
-}
+/// Lanes for code that must have the same bits on every machine unless it is `fast`: then fma() and fnma() are fused,
+/// as the machine can, else their products are rounded.
+template <class T, bool fast>
+struct Arithmetic : Lanes<T> {
+  using V = typename Lanes<T>::V;
+  FORCE_INLINE V fma(V a, V b, V c) {
+    if constexpr (fast) return Lanes<T>::fma(a, b, c);
+    return a * b + c;
+  }
+  FORCE_INLINE V fnma(V a, V b, V c) {
+    if constexpr (fast) return Lanes<T>::fnma(a, b, c);
+    return c - a * b;
+  }
+};
 
-/// 1 / sqrt(s) to 2 units in the last place, s > 0. From a seed that every machine computes alike, or, where `fast`,
-/// from the machine's own estimate, which differs between makers.
+/// 1 / sqrt(s) to 2 units in the last place, s > 0: by root and quotient, which are rounded alike everywhere, or, where
+/// `fast`, from the machine's own estimate, which differs between makers. With e = 1 - s y^2, of the order of the
+/// estimate's error, y (1 + e/2 + 3/8 e^2 + 5/16 e^3 + ...) is 1 / sqrt(s). The correction is added to y, so that only
+/// its last digits round.
 template <class T, bool fast>
 FORCE_INLINE typename Lanes<T>::V rsqrt(typename Lanes<T>::V s) {
   using L = Lanes<T>;
 #if defined(__AVX2__)
-  const auto better = [](auto squared, auto y) __attribute__((always_inline)) { return refine_rsqrt<L>(squared, y); };
-  if constexpr (!fast) return better(s, better(s, L::rsqrt_from_bits(s)));
-  auto y = L::rsqrt_estimate(s);
-  const auto e = L::fnma(s * y, y, L::all(1));
-  if constexpr (sizeof(T) == 4) return L::fma(y * e, L::all(0.5f), y);  // one step of Newton's is enough
-  if constexpr (L::width == 4)                                          // 12 bits need one power more: e^5 is 1e-16
-    return L::fma(
-        y * e, L::fma(e, L::fma(e, L::fma(e, L::all(0.2734375f), L::all(0.3125f)), L::all(0.375f)), L::all(0.5f)), y);
-  return better(s, y);
-#else
-  return L::rsqrt(s);
+  if constexpr (fast) {
+    const auto y = L::rsqrt_estimate(s);
+    const auto e = L::fnma(s * y, y, L::all(1));
+    if constexpr (sizeof(T) == 4) return L::fma(y * e, L::all(0.5f), y);  // one step of Newton's is enough
+    auto series = L::all(0.3125f);
+    if constexpr (L::width == 4) series = L::fma(e, L::all(0.2734375f), series);  // 12 bits: e^5 is 1e-16
+    return L::fma(y * e, L::fma(e, L::fma(e, series, L::all(0.375f)), L::all(0.5f)), y);
+  }
 #endif
+  return L::all(1) / L::root(s);
 }
 
 }  // namespace

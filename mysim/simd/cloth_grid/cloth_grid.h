@@ -15,8 +15,8 @@
 
 namespace crosscheck::simd {
 
-/// The functions of the fused step (fused_step.h). `fast`: inverse roots from the machine's own estimate; else the same
-/// bits on AVX2 and AVX-512.
+/// The functions of the fused step (fused_step.h). `fast`: fused multiply-add, and inverse roots from the machine's own
+/// estimate; else the same bits on every machine.
 template <class T>
 Kernel<T> kernel(InstructionSet isa, bool fast);
 

@@ -45,7 +45,7 @@ FORCE_INLINE long row_length(const ClothGrid<T>& s) {
 template <class T, bool fast>
 FORCE_INLINE void spring(const Three<T>& near, Three<T>& force, const T* far, T* far_force, const T* k, V<T> rest,
                          V<T>& least) {
-  using L = Lanes<T>;
+  using L = Arithmetic<T, fast>;
   const Three<T> q = load(far);
   const V<T> dx = near.x - q.x, dy = near.y - q.y, dz = near.z - q.z;
   V<T> s = L::fma(dz, dz, L::fma(dy, dy, dx * dx));
@@ -92,9 +92,9 @@ FORCE_INLINE void springs_of_row(const ClothGrid<T>& s, const RowWindow<T>& rows
     }
 }
 
-template <class T>
+template <class T, bool fast>
 FORCE_INLINE bool touches(const Three<T>& x, const BoundingSphere& sphere) {
-  using L = Lanes<T>;
+  using L = Arithmetic<T, fast>;
   const V<T> dx = x.x - L::all(T(sphere.centre[0])), dy = x.y - L::all(T(sphere.centre[1])),
              dz = x.z - L::all(T(sphere.centre[2]));
   return L::any_less(L::fma(dz, dz, L::fma(dy, dy, dx * dx)), L::all(T(sphere.squared_radius)));
@@ -160,9 +160,9 @@ FORCE_INLINE void resolve_contact(const RestingSphere& s, const Three<T>& x_n, T
 }
 
 /// Kick, contacts and drift of a row.
-template <class T>
+template <class T, bool fast>
 FORCE_INLINE void move_row(const ClothGrid<T>& s, const KickDrift<T>& step, int row, T* x, const T* f) {
-  using L = Lanes<T>;
+  using L = Arithmetic<T, fast>;
   const V<T> drift_before = L::all(step.drift_before), drift_after = L::all(step.drift_after);
   const V<T> fall_x = L::all(step.uniform_acceleration[0]), fall_y = L::all(step.uniform_acceleration[1]),
              fall_z = L::all(step.uniform_acceleration[2]);
@@ -184,11 +184,11 @@ FORCE_INLINE void move_row(const ClothGrid<T>& s, const KickDrift<T>& step, int 
       Three<T> e{L::fma(drift_before, v.x, p.x), L::fma(drift_before, v.y, p.y), L::fma(drift_before, v.z, p.z)};
       if constexpr (is_double<T>)
         for (int i = 0; i < step.resting_sphere_count; ++i)
-          if (touches(e, step.bounding_spheres[i]))
+          if (touches<T, fast>(e, step.bounding_spheres[i]))
             resolve_contact<T>(step.resting_spheres[i], p - scaled<T>(drift_after, u), e, v);
       if (step.bounding_sphere_count > 0 && !in_lanes) {
         store(end + lane, e), store(speed + lane, v);
-        for (int i = 0; i < step.bounding_sphere_count; ++i) touched |= touches(e, step.bounding_spheres[i]);
+        for (int i = 0; i < step.bounding_sphere_count; ++i) touched |= touches<T, fast>(e, step.bounding_spheres[i]);
       } else {
         store(v_b + lane, v);
         store(x_b + lane,
@@ -246,7 +246,7 @@ long fused_step(const ClothGrid<T>& s, const KickDrift<T>& step) {
       if (L::any_less(least, L::all(min_squared_length<T>)))
         degenerate_springs += count_degenerate_springs(s, rows, s.rows - 1 - r);
       reduce_halo<tile_size<T>>(f[0], s.tiles);
-      move_row(s, step, r, x, f[0]);
+      move_row<T, fast>(s, step, r, x, f[0]);
     }
     T* done = f[0];
     clear(done - first, length);
