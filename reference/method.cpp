@@ -202,26 +202,57 @@ std::vector<Method> find_methods(const std::string& list) {
 
 namespace {
 
-/// The largest speed of a free particle from one state that verdicts are based on to the next, m/s. The verdict goes by
-/// differences over two, from which a vibration that reverses in every step is absent; a stable one may swing in them
-/// near its limit, which is no failure.
-class PeakSpeed : public Observer {
+/// Free particles from one state that verdicts are based on to the next.
+///
+/// Their largest speed: the verdict goes by differences over two, from which a vibration that reverses in every step is
+/// absent; a stable one may swing in them near its limit, which is no failure.
+///
+/// Passages through a sphere: both ends lie outside, and the chord comes deeper than the path may bend from it. A path
+/// whose velocity changes by dv within a time tau, in one place or evenly, lies within tau |dv| / 4 of its chord.
+class StepObserver : public Observer {
  public:
-  explicit PeakSpeed(const Scene& scene) : particles_(scene.model.particles) {}
+  explicit StepObserver(const Scene& scene)
+      : particles_(scene.model.particles), spheres_(scene.model.find<Spheres>()) {}
   bool between_samples() const override { return true; }
   Verdict observe(const State& state, bool) override {
-    for (int i = 0; x_.cols() > 0 && state.t > t_ && i < particles_.size(); ++i)
-      if (!particles_.pinned[i]) peak = std::max(peak, (state.x.col(i) - x_.col(i)).norm() / (state.t - t_));
-    x_ = state.x, t_ = state.t;
+    for (int i = 0; last_.x.cols() > 0 && state.t > last_.t && i < particles_.size(); ++i) {
+      if (particles_.pinned[i]) continue;
+      peak = std::max(peak, (state.x.col(i) - last_.x.col(i)).norm() / (state.t - last_.t));
+      if (spheres_ && state.v.cols() == state.x.cols())
+        for (const Sphere& sphere : spheres_->list) find_passage(sphere, state, i);
+    }
+    last_ = state;
     return Verdict::ok;
   }
-  double peak = 0;
+  double peak = 0;           // m/s
+  long passages = 0;         // through spheres
+  double first_passage = 0;  // s
 
  private:
+  void find_passage(const Sphere& sphere, const State& state, int i) {
+    const double radius = sphere.contact_radius(), span = state.t - last_.t;
+    const Vec3 from = last_.x.col(i) - sphere.centre_at(last_.t), to = state.x.col(i) - sphere.centre_at(state.t),
+               way = to - from;
+    const double closest = -from.dot(way) / way.squaredNorm();  // as a part of the chord
+    if (!(closest > 0 && closest < 1)) return;
+    const auto seen = [&](const State& s) {  // m/s, as seen from the sphere
+      return sphere.motion ? Vec3(s.v.col(i) - velocity_at(*sphere.motion, s.t)) : Vec3(s.v.col(i));
+    };
+    const double bend = span / 4 * (seen(state) - seen(last_)).norm();
+    // a place on the surface, rounded in single precision, is outside; one pushed out on the near side has touched
+    const double outside = radius * (1 - 1e-6);
+    if (!(from.norm() > outside && to.norm() > outside && to.dot(seen(last_)) > 0 &&
+          (from + closest * way).norm() + bend < outside))
+      return;
+    if (passages++ == 0) first_passage = last_.t + closest * span;
+  }
+
   const Particles& particles_;
-  Points x_;
-  double t_ = 0;
+  const Spheres* spheres_;
+  State last_{};
 };
+
+void add_remark(Outcome& out, const std::string& remark) { out.remark += (out.remark.empty() ? "" : "; ") + remark; }
 
 }  // namespace
 
@@ -229,17 +260,23 @@ class PeakSpeed : public Observer {
 Outcome run_method(const Method& method, const Scene& scene, const Run& run, std::vector<Observer*> observers,
                    const MotionBoundsFunction& bounds) {
   DivergenceMonitor monitor(scene, run, bounds);
-  PeakSpeed speed(scene);
-  observers.push_back(&speed);
+  StepObserver seen(scene);
+  observers.push_back(&seen);
   MonitoredObservers all(monitor, std::move(observers));
   try {
     Outcome out = method.engine(scene, run, all);
-    if (out.verdict != Verdict::ok || monitor.largest_ratio() <= DivergenceMonitor::ratio_in_order) return out;
-    if (const auto known = bounds(scene, run); known && speed.peak > DivergenceMonitor::allowed * known->speed)
-      out.remark += fmt::format(
-          "{}from one step to the next a particle moved up to {:.3g} times as fast as in the true "
-          "motion; the step is at its limit or above",
-          out.remark.empty() ? "" : "; ", speed.peak / known->speed);
+    if (out.verdict != Verdict::ok) return out;
+    if (seen.passages > 0)
+      add_remark(out, fmt::format("a particle passed through a sphere between two steps at t = {:.4g} s{}: shorter "
+                                  "steps let it touch",
+                                  seen.first_passage,
+                                  seen.passages > 1 ? fmt::format(", the first of {} passages", seen.passages) : ""));
+    if (monitor.largest_ratio() <= DivergenceMonitor::ratio_in_order) return out;
+    if (const auto known = bounds(scene, run); known && seen.peak > DivergenceMonitor::allowed * known->speed)
+      add_remark(out,
+                 fmt::format("from one step to the next a particle moved up to {:.3g} times as fast as in the true "
+                             "motion; the step is at its limit or above",
+                             seen.peak / known->speed));
     return out;
   } catch (const Unsupported& refusal) {
     Outcome out;
