@@ -77,7 +77,7 @@ DenseTruth::DenseTruth(const Scene& scene, double tolerance) : dense_(scene), ex
     const double lost = interpolation_error();
     bar_ += lost;
     if (lost <= tolerance / 30) break;
-    // beside a sphere it falls as the spacing after impacts, as its fourth power elsewhere; by the square, say
+    // beside a sphere it falls as the square of the spacing where forces jump, as its fourth power elsewhere
     if (scene.model.find<Spheres>())
       for (double left = lost / 4; left > tolerance / 30 && i + 1 < most_doublings; left /= 4, ++i) spacing /= 2;
     if (i == most_doublings && bar_ <= tolerance / 3) break;  // as accurate as advice requires
@@ -98,28 +98,66 @@ void DenseTruth::measure() {
     bar_ = std::max(bar_, truth_.error_bars.empty() ? truth_.error_bar : truth_.error_bars[i]);
     motion_ = std::max(motion_, rms_distance(path.x[i], path.x[0]));
   }
+  impact_.assign(path.t.size(), false);
+  for (int i = 0; dense_.model.find<Spheres>() && i + 1 < path.frames(); ++i) {
+    const Points end = free_path(i, path.t[i + 1]);
+    for (int k = 0; k < end.cols(); ++k)
+      if (runs_in(path.t[i], path.x[i].col(k), path.t[i + 1], end.col(k))) impact_[i] = true;
+  }
+}
+
+/// The path of constant acceleration through a sample, at t, as if no sphere were there.
+Points DenseTruth::free_path(int sample, double t) const {
+  const Trajectory& path = truth_.trajectory;
+  const double s = t - path.t[sample];
+  State state{path.t[sample], path.x[sample], path.v[sample]};
+  Points a(3, state.x.cols());
+  System(dense_.model).acceleration(state, a);
+  return state.x + s * state.v + s * s / 2 * a;
 }
 
 /// Cubic between two samples, with the velocities at both (Hermite); straight in a first-order scene, which has none.
+/// A particle that the free path takes into a sphere in between follows that path up to there, and the one from the
+/// later sample after it: nothing is interpolated across an impact.
 Points DenseTruth::interpolated(int from, int to, double t) const {
   const Trajectory& path = truth_.trajectory;
   const double span = path.t[to] - path.t[from], s = (t - path.t[from]) / span;
   const Points &a = path.x[from], &b = path.x[to];
   if (path.v[from].cols() == 0) return a + s * (b - a);
   const double left = 1 - s;
-  return left * left * (1 + 2 * s) * a + s * s * (3 - 2 * s) * b +
-         span * s * left * (left * path.v[from] - s * path.v[to]);
+  Points x = left * left * (1 + 2 * s) * a + s * s * (3 - 2 * s) * b +
+             span * s * left * (left * path.v[from] - s * path.v[to]);
+  if (std::none_of(impact_.begin() + from, impact_.begin() + to, [](char impact) { return impact; })) return x;
+  const auto& spheres = *dense_.model.find<Spheres>();
+  const Points before = free_path(from, t), after = free_path(to, t), beyond = free_path(from, path.t[to]);
+  for (int i = 0; i < x.cols(); ++i) {
+    if (!runs_in(path.t[from], a.col(i), path.t[to], beyond.col(i))) continue;
+    x.col(i) = before.col(i);
+    if (clearance_from(spheres, t, x.col(i)) > 0) continue;
+    x.col(i) = after.col(i);
+    for (const Sphere& sphere : spheres.list) {
+      const Vec3 centre = sphere.centre_at(t), d = x.col(i) - centre;
+      if (d.norm() < sphere.contact_radius()) x.col(i) = centre + sphere.contact_radius() * d.normalized();
+    }
+  }
+  return x;
 }
 
-/// Twice the spacing leaves out 16 times as much of a smooth path, half of which is trusted; where a sphere is hit the
-/// speed jumps, and it is twice as much only.
+/// True if a path leads from outside all spheres, by more than the rounding of a place on them, to inside of one.
+bool DenseTruth::runs_in(double t, const Vec3& x, double t_end, const Vec3& end) const {
+  const auto& spheres = *dense_.model.find<Spheres>();
+  return clearance_from(spheres, t, x) > 1e-9 * dense_.size() && clearance_from(spheres, t_end, end) < 0;
+}
+
+/// Twice the spacing leaves out 16 times as much of a smooth path, half of which is trusted. Beside a sphere forces
+/// jump anywhere between two samples, and the middle shows as little as half of the error.
 double DenseTruth::interpolation_error() const {
   const Trajectory& path = truth_.trajectory;
   double most = 0;
   for (int i = 1; i + 1 < path.frames() && path.t[i + 1] <= until_ * (1 + 1e-9); ++i)
     most = std::max(most, rms_distance(interpolated(i - 1, i + 1, path.t[i]), path.x[i]));
   const bool smooth = !dense_.model.find<Spheres>() && path.v.front().cols() > 0;
-  return most / (smooth ? 8 : 2);
+  return smooth ? most / 8 : 2 * most;
 }
 
 Points DenseTruth::at(double t) const {

@@ -16,8 +16,8 @@ double fastest_motion(const Scene& scene);
 
 /// The truth up to the end of what can be guaranteed, at any time. A closed form is evaluated at each time. Converged
 /// truth is sampled eight times in each period of the fastest motion, or more often, and interpolated between samples
-/// by cubics with the velocities at both ends: samples are doubled until the interpolation error, estimated by leaving
-/// out every other sample, is below a thirtieth of `tolerance` (m).
+/// by cubics with the velocities at both ends, but not across impacts: samples are doubled until the interpolation
+/// error, estimated by leaving out every other sample, is below a thirtieth of `tolerance` (m).
 class DenseTruth {
  public:
   /// Throws CannotGuarantee where no truth is known, or the samples would be too many.
@@ -36,12 +36,15 @@ class DenseTruth {
 
  private:
   void measure();
+  Points free_path(int sample, double t) const;
+  bool runs_in(double t, const Vec3& x, double t_end, const Vec3& end) const;
   Points interpolated(int from, int to, double t) const;
   double interpolation_error() const;
 
   Scene dense_;
   std::optional<ExactSolution> exact_;
   Truth truth_;
+  std::vector<char> impact_;  // true if a particle hits a sphere between a sample and the next
   double until_ = 0, bar_ = 0, motion_ = 0, time_resolution_ = 0;
 };
 

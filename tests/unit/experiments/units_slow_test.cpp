@@ -6,8 +6,10 @@
 #include "experiments/advise/dense_truth.h"
 #include "mysim/base/text.h"
 #include "reference/method.h"
+#include "reference/truth/independent/integrators.h"
 #include "reference/truth/truth.h"
 #include "tests/unit/helpers.h"
+#include "tests/unit/reference/random_scenes.h"
 
 namespace crosscheck {
 namespace {
@@ -175,8 +177,20 @@ TEST(Units, ByPowersOfTwoChangeNoBitOfAdvice) {
   }
 }
 
-TEST(DenseTruth, OfASmallSceneIsAcceptedFromAThirdOfTheToleranceOn) {
-  // an impact within the spacing of the truth's samples is known to a part of it only
+/// The largest distance of the dense truth from the event-driven route at times between its samples, m.
+double distance_between_samples(const Scene& scene, const DenseTruth& truth) {
+  Run run = default_run(scene);
+  run.samples = 7 * truth.dense().samples, run.tolerance = 1e-12;
+  run.step = std::min(run.step, run.duration / run.samples);
+  Recorder path;
+  run_event_driven(scene, run, path);
+  double most = 0;
+  for (int i = 0; i < path.trajectory.frames() && path.trajectory.t[i] <= truth.until(); ++i)
+    most = std::max(most, rms_distance(truth.at(path.trajectory.t[i]), path.trajectory.x[i]));
+  return most;
+}
+
+TEST(DenseTruth, OfASmallSceneIsKnownBetweenItsSamplesThoughItIsHit) {
   const Scene scene = small_scene(
       std::string(
           "[[particle]]\nposition = [2e-5, 1.3e-3, 1e-5]\nmass = 1e-6\n[[particle]]\n"
@@ -184,8 +198,19 @@ TEST(DenseTruth, OfASmallSceneIsAcceptedFromAThirdOfTheToleranceOn) {
           "[[sphere]]\ncentre = [0, 0, 0]\nradius = 9.8e-4\nmargin = 2e-5\nfriction = 0.3\nrestitution = 0.4\n") +
           gravity_text,
       0.04, 2e-5, 50);
-  const DenseTruth truth(scene, 4.04e-7);
-  EXPECT_LE(truth.error_bar(), 4.04e-7 / 3);
+  for (const double tolerance : {4.04e-7, 4.04e-8}) {
+    const DenseTruth truth(scene, tolerance);
+    EXPECT_LE(truth.error_bar(), tolerance / 30);
+    EXPECT_LE(distance_between_samples(scene, truth), truth.error_bar());
+  }
+}
+
+TEST(DenseTruth, OfRandomScenesWithContactLiesWithinItsBarBetweenTheSamples) {
+  for (const unsigned seed : {1, 4, 5, 7, 8, 13}) {
+    const Scene scene = random_contact_scene(seed);
+    const DenseTruth truth(scene, 1e-5 * scene.size());
+    EXPECT_LE(distance_between_samples(scene, truth), truth.error_bar()) << seed;
+  }
 }
 
 }  // namespace
