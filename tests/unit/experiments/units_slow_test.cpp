@@ -9,6 +9,7 @@
 #include "reference/truth/independent/integrators.h"
 #include "reference/truth/truth.h"
 #include "tests/unit/helpers.h"
+#include "tests/unit/reference/helpers.h"
 #include "tests/unit/reference/random_scenes.h"
 
 namespace crosscheck {
@@ -107,17 +108,31 @@ Scene scene_in(const Kind& kind, const Units& u) {
   return parse_scene(in_units(head + kind.text, u), kind.name);
 }
 
+/// Each unit alone, larger and smaller by each of the factors, then some of all three at once.
+std::vector<Units> units_by(std::vector<double> factors, int mixed, unsigned seed) {
+  std::vector<Units> list;
+  for (const double factor : factors)
+    for (const double f : {factor, 1 / factor})
+      for (const Units& u : {Units{f, 1, 1}, Units{1, f, 1}, Units{1, 1, f}}) list.push_back(u);
+  Random random(seed);
+  const auto draw = [&] {
+    const double f = factors[static_cast<size_t>(random.between(0, static_cast<double>(factors.size())))];
+    return random.between(-1, 1) < 0 ? 1 / f : f;
+  };
+  for (int i = 0; i < mixed; ++i) {
+    const double length = draw(), mass = draw(), time = draw();
+    list.push_back({length, mass, time});
+  }
+  return list;
+}
+
 TEST(Units, ByPowersOfTwoChangeNoBitOfTruths) {
+  unsigned seed = 1;
   for (const Kind& kind : kinds()) {
     const Scene scene = scene_in(kind, {});
     const auto truth = truth_of(scene, default_run(scene));
     ASSERT_TRUE(truth) << kind.name;
-    for (const Units& u : {Units{0x1p10, 1, 1},
-                           {0x1p-20, 1, 1},
-                           {1, 1, 0x1p20},
-                           {1, 1, 0x1p-10},
-                           {1, 0x1p20, 1},
-                           {0x1p-10, 0x1p-20, 0x1p10}}) {
+    for (const Units& u : units_by({0x1p10, 0x1p20}, 2, seed++)) {
       SCOPED_TRACE(fmt::format("{} {:a} {:a} {:a}", kind.name, u.length, u.mass, u.time));
       const Scene other = scene_in(kind, u);
       EXPECT_EQ(other.size(), scene.size() * u.length);
@@ -136,11 +151,12 @@ TEST(Units, ByPowersOfTwoChangeNoBitOfTruths) {
 }
 
 TEST(Units, ByPowersOfTenKeepTierErrorsWithinTheBarsAndBarsWithinAFactorTwo) {
+  unsigned seed = 1;
   for (const Kind& kind : kinds()) {
     const Scene scene = scene_in(kind, {});
     const auto truth = truth_of(scene, default_run(scene));
     ASSERT_TRUE(truth) << kind.name;
-    for (const Units& u : {Units{1e3, 1, 1}, {1e-3, 1, 1}, {1, 1, 1e3}, {1, 1, 1e-3}, {1, 1e3, 1}, {1e-3, 1e-3, 1e3}}) {
+    for (const Units& u : units_by({1e3}, 2, seed++)) {
       SCOPED_TRACE(fmt::format("{} {} {} {}", kind.name, u.length, u.mass, u.time));
       const Scene other = scene_in(kind, u);
       const auto there = truth_of(other, default_run(other));
@@ -158,22 +174,64 @@ TEST(Units, ByPowersOfTenKeepTierErrorsWithinTheBarsAndBarsWithinAFactorTwo) {
   }
 }
 
-TEST(Units, ByPowersOfTwoChangeNoBitOfAdvice) {
+/// The scene at a step (s, in the units of `kind`) by a rule, and where it ended.
+MethodRun run_in(const Kind& kind, const Units& u, const std::string& method, double step) {
+  const Scene scene = scene_in(kind, u);
+  return run_and_record(method, scene, {step * u.time, 8 * step * u.time * 12, 8, 1e-6});
+}
+
+TEST(Units, ChangeNoVerdict) {
+  unsigned seed = 1;
+  int failed = 0, good = 0, overflows = 0;
   for (const Kind& kind : kinds()) {
-    if (kind.name == "moved ball" || kind.name == "sheet in air") continue;  // many long trials
-    const Advice a =
-        advise(scene_in(kind, {}), 1e-2, find_methods(kind.name == "circle" ? "rk4,dopri5" : "leapfrog,dopri5"));
-    for (const Units& u : {Units{0x1p-10, 1, 1}, {1, 1, 0x1p20}, {0x1p10, 0x1p-20, 0x1p-10}}) {
+    const bool first_order = kind.name == "circle";
+    for (const char* method : {"rk4", "trapezoidal", "dopri5", "leapfrog", "symplectic-euler", "implicit-euler"})
+      for (const double step : {0.002, 0.03, 0.3}) {
+        if (first_order && method[0] != 'r' && method[0] != 't' && method[0] != 'd') continue;
+        const MethodRun here = run_in(kind, {}, method, step);
+        (here.outcome.verdict == Verdict::ok ? good : failed)++;
+        for (const Units& u : units_by({0x1p10, 0x1p20}, 1, seed++)) {
+          const MethodRun there = run_in(kind, u, method, step);
+          SCOPED_TRACE(fmt::format("{} {} {} {:a} {:a} {:a}", kind.name, method, step, u.length, u.mass, u.time));
+          // the range of numbers is absolute: squares overflow in one unit a step earlier than in another
+          const auto blew_up = [](Verdict v) { return v == Verdict::energy || v == Verdict::nan; };
+          if (there.outcome.verdict != here.outcome.verdict && blew_up(there.outcome.verdict) &&
+              blew_up(here.outcome.verdict)) {
+            ++overflows;
+            continue;
+          }
+          ASSERT_EQ(there.outcome.verdict, here.outcome.verdict);
+          EXPECT_EQ(there.outcome.end, here.outcome.end * u.time);
+          EXPECT_EQ(there.outcome.remark.empty(), here.outcome.remark.empty());
+          ASSERT_EQ(there.trajectory.frames(), here.trajectory.frames());
+          for (int i = 0; i < here.trajectory.frames(); ++i)
+            EXPECT_EQ(there.trajectory.x[i], here.trajectory.x[i] * u.length) << i;
+        }
+        for (const Units& u : units_by({1e3}, 1, seed++)) {
+          SCOPED_TRACE(fmt::format("{} {} {} {} {} {}", kind.name, method, step, u.length, u.mass, u.time));
+          EXPECT_EQ(run_in(kind, u, method, step).outcome.verdict == Verdict::ok, here.outcome.verdict == Verdict::ok);
+        }
+      }
+  }
+  EXPECT_GT(std::min(good, failed), 20);
+  EXPECT_LT(overflows, 10) << "of thousands";
+}
+
+TEST(Units, ByPowersOfTwoChangeNoBitOfAdvice) {
+  unsigned seed = 1;
+  for (const Kind& kind : kinds()) {
+    const auto methods = [&] { return find_methods(kind.name == "circle" ? "rk4,dopri5" : "leapfrog,dopri5"); };
+    const Advice a = advise(scene_in(kind, {}), 1e-2, methods());
+    for (const Units& u : units_by({seed % 2 == 0 ? 0x1p10 : 0x1p20}, 2, seed)) {
       SCOPED_TRACE(fmt::format("{} {:a} {:a} {:a}", kind.name, u.length, u.mass, u.time));
-      const Scene other = scene_in(kind, u);
-      const Advice b =
-          advise(other, 1e-2 * u.length, find_methods(kind.name == "circle" ? "rk4,dopri5" : "leapfrog,dopri5"));
+      const Advice b = advise(scene_in(kind, u), 1e-2 * u.length, methods());
       EXPECT_EQ(b.trials[b.chosen].method, a.trials[a.chosen].method);
       EXPECT_EQ(b.trials[b.chosen].step, a.trials[a.chosen].step * u.time);
       EXPECT_EQ(b.trials[b.chosen].relative, a.trials[a.chosen].relative);
       EXPECT_EQ(b.error_bar, a.error_bar * u.length);
       EXPECT_EQ(b.checked, a.checked * u.length);
     }
+    ++seed;
   }
 }
 
