@@ -87,7 +87,7 @@ DenseTruth::DenseTruth(const Scene& scene, double tolerance) : dense_(scene), ex
   }
   // an eighth of a period holds 0.79 rad
   const double omega = fastest_motion(scene);
-  time_resolution_ = omega > 0 ? 1 / (16 * omega) : scene.duration / dense_.samples;
+  time_resolution_ = omega > 0 ? 1 / (16 * omega) : scene.duration / dense_.samples / 8;
 }
 
 void DenseTruth::measure() {

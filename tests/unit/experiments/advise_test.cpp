@@ -248,6 +248,17 @@ TEST(Advise, KeepsItsPromiseBetweenTheSamples) {
     }
 }
 
+TEST(Advise, KeepsItsPromiseBetweenTheSamplesOfAFlightWithoutVibrations) {
+  for (const double tolerance : {5.05493e-10, 1e-6, 1e-4}) {
+    const Scene scene = load_scene("projectile");
+    const Scene written = parse_scene(advise(scene, tolerance, find_methods("dopri5")).toml, scene.name);
+    crosscheck::Run run = default_run(written);
+    run.samples *= 20;
+    const Trajectory dense = run_and_record("dopri5", written, run).trajectory;
+    EXPECT_LE(largest_rms_distance(dense, truth_of(scene, run)->trajectory), tolerance);
+  }
+}
+
 TEST(Advise, ChecksTheVeryRunOfItsFile) {
   for (const auto& [scene, tolerance] : {std::pair{load_scene("circle"), 6e-4},
                                          {load_scene("circle"), 3e-5},
