@@ -16,6 +16,18 @@
 
 namespace crosscheck {
 
+namespace {
+
+/// The key time.tolerance (m) of a file for a relative tolerance, in 20 bits: a run of the file has a trial's, bit for
+/// bit.
+double written_tolerance(const Scene& scene, double relative) {
+  int exponent = 0;
+  const double part = std::frexp(100 * relative * scene.size(), &exponent);
+  return std::ldexp(std::round(std::ldexp(part, 20)), exponent - 20);
+}
+
+}  // namespace
+
 void Search::try_all(const Candidate& model, const Method& method) {
   model_ = &model;
   method_ = &method;
@@ -52,7 +64,7 @@ const Trial& Search::trial_at(long steps) {
 }
 const Trial& Search::trial_at_tolerance(double relative) {
   Run r = observed_run(*method_, model_->scene, path_);
-  r.tolerance = relative;
+  r.tolerance = 0.01 * written_tolerance(model_->scene, relative) / model_->scene.size();  // as default_run reads it
   return run(r);
 }
 /// 1e9 spring evaluations take some seconds; a run that doubles them again and again would never end.
@@ -178,7 +190,7 @@ std::string file_of(const Advice& a, const Candidate& model, const Trial& chosen
     for (const std::string& key : i.keys) file.erase(key);
   if (!chosen.method.starts_with(program_prefix)) file.set("time.method", chosen.method);
   if (method.adaptive)
-    file.set("time.tolerance", 100 * chosen.relative * model.scene.size());  // as default_run reads it
+    file.set("time.tolerance", written_tolerance(model.scene, chosen.relative));
   else
     file.set("time.step", chosen.step), file.set("time.tolerance", a.tolerance);
   return fmt::format(

@@ -267,6 +267,7 @@ TEST(Advise, ChecksTheVeryRunOfItsFile) {
     SCOPED_TRACE(fmt::format("{} {}", scene.name, tolerance));
     const Advice a = advise(scene, tolerance, {find_method("dopri5")});
     const Scene written = parse_scene(a.toml, scene.name);
+    EXPECT_EQ(default_run(written).tolerance, a.trials[a.chosen].relative);  // bit for bit
     const DenseTruth path(scene, tolerance);
     MaxErrorObserver farthest(path);
     run_method(find_method("dopri5"), written, observed_run(find_method("dopri5"), written, path), {&farthest});
