@@ -218,7 +218,7 @@ class StepObserver : public Observer {
     for (int i = 0; last_.x.cols() > 0 && state.t > last_.t && i < particles_.size(); ++i) {
       if (particles_.pinned[i]) continue;
       peak = std::max(peak, (state.x.col(i) - last_.x.col(i)).norm() / (state.t - last_.t));
-      if (spheres_ && state.v.cols() == state.x.cols())
+      if (spheres_ && std::min(state.v.cols(), last_.v.cols()) == state.x.cols())
         for (const Sphere& sphere : spheres_->list) find_passage(sphere, state, i);
     }
     last_ = state;

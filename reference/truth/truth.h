@@ -45,17 +45,18 @@ std::optional<Truth> truth_of(const Scene& scene, const Run& run);
 /// to less than that is not known. The scene must be free of contact.
 std::optional<Truth> converged_truth(const Scene& scene, const Run& run);
 
-// Contact of few particles with spheres at rest: two independent routes as well, as long as both can be followed.
+// Contact of few particles with spheres, at rest or moved: two independent routes as well, as long as both can be
+// followed.
 
 /// The path is that of an event-driven run on equations written apart (truth/independent/event_driven.cpp) at the last
 /// of three tolerances, against mysim's leapfrog+events, whose step is halved as above, up to 1e7 steps of a particle;
 /// the bar as above. It ends where the bar exceeds a hundredth of the motion, where events come too close to each other
-/// to be followed, and where a particle moves between two spheres. None for more than 49 particles, where a sphere
-/// moves, where a route fails at once, or where it would end before or at the first touch.
+/// to be followed, and where a particle moves between two spheres. None for more than 49 particles, where a route
+/// fails at once, or where it would end before or at the first touch.
 std::optional<Truth> event_truth(const Scene& scene, const Run& run);
 
-// Contact of more particles, of cloths say, or with moving spheres: two rules of contact that share no equation, as
-// long as the motion is not too sensitive for them to agree.
+// Contact of more particles, of cloths say: two rules of contact that share no equation, as long as the motion is not
+// too sensitive for them to agree.
 
 /// The path is that of mysim's leapfrog+events at the scene's step (at most h omega = 1.4), a half and a quarter of it,
 /// against Moreau's time stepping on equations written apart (truth/independent/time_stepping.cpp) at 1/8, 1/16 and
