@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <filesystem>
 #include <functional>
@@ -396,33 +397,54 @@ class Kit {
     if (!scene.model.first_order()) collect_rows(scene, out);
   }
 
-  /// Each ingredient that the program did not refuse must act: its path is nearer to mysim's of the scene than to
-  /// mysim's of the scene without it. What it does otherwise than mysim may be large, as long as it is that.
+  /// Each ingredient that the program did not refuse must act. Those that do not are the set without which mysim's path
+  /// is nearest to the program's; of more than one only if they make the distance half of that of a smaller set, since
+  /// what the program does otherwise than mysim may be large.
   void try_ingredients(const Scene& scene, const Run& run, const Trajectory& theirs) {
-    const auto path_of = [&](const Scene& of) -> std::optional<Trajectory> {
+    const std::vector<Ingredient> all = ingredients_of(scene);
+    const auto in = [](unsigned set, size_t i) { return (set >> i & 1) != 0; };
+    // infinite where an ingredient goes with another one of the set, so that a smaller set says the same
+    const auto distance_without = [&](unsigned set) -> double {
       Recorder recorder;
-      const bool ok = run_method(find_method(scene.method), of, run, {&recorder}).verdict == Verdict::ok;
-      return ok ? std::optional(recorder.trajectory) : std::nullopt;
+      try {
+        Scene less = scene;
+        for (size_t i = 0; i < all.size(); ++i) {
+          const auto left = ingredients_of(less);
+          const auto at = std::ranges::find(left, all[i].name, &Ingredient::name);
+          if (in(set, i) && at == left.end()) return INFINITY;
+          if (in(set, i)) less = without(less, *at);
+        }
+        if (scene.model.first_order() && set != 0)
+          recorder.trajectory = {theirs.t, std::vector<Points>(theirs.x.size(), scene.start.x), {}};
+        else if (find_method(scene.method).engine(less, run, recorder).verdict != Verdict::ok)
+          return INFINITY;
+      } catch (const std::runtime_error&) {  // no scene without them
+        return INFINITY;
+      }
+      return largest_rms_distance(theirs, recorder.trajectory);
     };
-    const std::optional<Trajectory> whole = path_of(scene);
-    if (!whole) throw std::logic_error("mysim has no result on the kit's scene " + scene.name);
-    for (const Ingredient& ingredient : ingredients_of(scene)) {
-      Trajectory less = *whole;
-      if (scene.model.first_order())
-        for (Points& x : less.x) x = scene.start.x;
-      else if (const auto path = path_of(without(scene, ingredient)))
-        less = *path;
-      else
-        continue;
-      const double with = largest_rms_distance(theirs, *whole), without_it = largest_rms_distance(theirs, less);
-      add(scene.name, fmt::format("acts: {}", ingredient.name), with < without_it, true,
-          with < without_it
-              ? fmt::format("{:.2g} m from mysim", with)
-              : fmt::format("its path is {:.2g} m from mysim's without it, {:.2g} m from mysim's with it: compute it, "
-                            "or exit 3",
-                            without_it, with),
-          scene_file);
+    const double with = distance_without(0);
+    double least = with;
+    unsigned missing = 0, tried = 0;
+    for (int size = 1; size <= static_cast<int>(all.size()); ++size) {
+      const double bound = size > 1 ? least / 2 : least;
+      for (unsigned set = 1; set < 1U << all.size(); ++set)
+        if (const double apart = std::popcount(set) == size ? distance_without(set) : INFINITY; apart < INFINITY) {
+          tried |= set;
+          if (apart < std::min(bound, least)) least = apart, missing = set;
+        }
     }
+    std::string names;
+    for (size_t i = 0; i < all.size(); ++i)
+      if (in(missing, i)) names += (names.empty() ? "" : " and ") + all[i].name;
+    for (size_t i = 0; i < all.size(); ++i)
+      if (in(tried, i))
+        add(scene.name, fmt::format("acts: {}", all[i].name), !in(missing, i), true,
+            in(missing, i) ? fmt::format("its path is {:.2g} m from mysim's without {}, {:.2g} m from mysim's with it: "
+                                         "compute it, or exit 3",
+                                         least, names, with)
+                           : fmt::format("{:.2g} m from mysim", with),
+            scene_file);
   }
 
   void collect_rows(const Scene& scene, const Outcome& out) {

@@ -53,5 +53,24 @@ TEST_F(ProtocolKit, ProgramsThatAreNoAdaptersAreTold) {
   EXPECT_TRUE(contains(refusal_of([] { try_adapter("exec:no-such-program"); }), "no such file"));
 }
 
+TEST_F(ProtocolKit, NamesTheIngredientsThatAreMissingAlone) {
+  // an engine with spheres whose scene has lost an ingredient, or two, on the way
+  const auto inert = [&](const std::string& edits) {
+    const std::string program =
+        script("adapter", "sed -i -E " + edits + " \"$1\"\n" CROSSCHECK_BULLET32_PROGRAM " \"$1\" \"$2\"\n");
+    std::set<std::string> topics;
+    for (const ConformanceLine& line : try_adapter("exec:" + program + "+world=deformable-explicit").lines)
+      if (line.state == Conformance::lacks && line.topic.starts_with("acts: "))
+        topics.insert(line.scene + ", " + line.topic);
+    return topics;
+  };
+  const std::string no_friction = "-e 's/\"friction\": ?[0-9.e-]+/\"friction\":0/g'",
+                    no_drag = "-e 's/\"coefficient\": ?\\[[^]]*\\]/\"coefficient\":[0,0]/'";
+  EXPECT_EQ(inert("-e ''"), std::set<std::string>{});
+  EXPECT_EQ(inert(no_friction), std::set<std::string>{"ball, acts: friction"});
+  EXPECT_EQ(inert(no_friction + " " + no_drag),
+            (std::set<std::string>{"ball, acts: friction", "damped-spring, acts: drag"}));
+}
+
 }  // namespace
 }  // namespace crosscheck
