@@ -74,15 +74,27 @@ RelationResult free_fall(Subject& subject, const Scene& scene, unsigned) {
   const Method& method = subject.method();
   const bool known = stepper_of(method) != nullptr;
   const double h = chooses_steps(method) || (known && order_of(method) > 1) ? 0 : run.outcome.step;
-  RelationResult centre = over_time(
-      known && h == 0 ? "the centre of mass against g t^2 / 2" : "the centre of mass against g t (t +- h) / 2", "m",
-      path, noise, [&](int i) {
-        const double t = path.t[i];
-        const Vec3 off = fallen(i) - v * t - g * (t * t / 2), late = g * (t * h / 2);
-        if (known) return std::min((off - late).norm(), (off + late).norm());
-        const double along = late.squaredNorm() > 0 ? std::clamp(off.dot(late) / late.squaredNorm(), -1.0, 1.0) : 0;
-        return (off - along * late).norm();
-      });
+  // it falls g t^2 / 2 + g h (a t + b h) / 2, with the sign of a given by a known rule of order one; else a and b, at
+  // most 1, are those of the first and the last sample, whose rounding adds to the others'
+  const int last = path.frames() - 1;
+  const auto late = [&](int i) {  // in units of g h / 2
+    const Vec3 off = fallen(i) - v * path.t[i] - g * (path.t[i] * path.t[i] / 2);
+    return h > 0 && g.squaredNorm() > 0 ? off.dot(g) / g.squaredNorm() * 2 / h : 0;
+  };
+  const double at_first = last > 0 ? path.t[1] : 0, at_last = path.t[last];
+  double a = last > 1 ? (late(last) - late(1)) / (at_last - at_first) : last > 0 ? late(last) / at_last : 0;
+  double b = last > 1 && h > 0 ? (late(1) - a * at_first) / h : 0;
+  if (known) a = a < 0 ? -1 : 1, b = 0;
+  a = std::clamp(a, -1.0, 1.0), b = std::clamp(b, -1.0, 1.0);
+  std::vector<double> bound = noise;
+  if (!known && h > 0)
+    for (double& each : bound) each += noise.back();
+  RelationResult centre =
+      over_time(h == 0 ? "the centre of mass against g t^2 / 2" : "the centre of mass against g t (t +- h) / 2", "m",
+                path, bound, [&](int i) {
+                  const double t = path.t[i];
+                  return (fallen(i) - v * t - g * (t * t + (i > 0 ? h * (a * t + b * h) : 0)) / 2).norm();
+                });
   return worse(std::move(relative), std::move(centre));
 }
 
