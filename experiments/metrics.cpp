@@ -9,6 +9,7 @@
 #include "mysim/model/energy.h"
 #include "mysim/run/observers.h"
 #include "reference/truth/truth.h"
+#include "reference/which_rule.h"
 
 namespace crosscheck {
 
@@ -67,6 +68,12 @@ std::optional<double> round_off_bound(const Scene& scene, double motion, double 
 std::optional<double> single_precision_bound(const Scene& scene, double motion, double growth, long steps) {
   if (!(growth < 1e6)) return std::nullopt;
   return 10 * 6e-8 * (scene.size() + motion) * std::sqrt(static_cast<double>(steps)) * std::max(1.0, growth);
+}
+
+std::optional<double> round_off_bound_of(const Method& method, const Scene& scene, double motion, double growth,
+                                         long steps) {
+  return method.identify && method.identify().single ? single_precision_bound(scene, motion, growth, steps)
+                                                     : round_off_bound(scene, motion, growth);
 }
 
 Scene perturbed(const Scene& scene, double size, unsigned seed) {

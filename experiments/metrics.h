@@ -55,6 +55,10 @@ std::optional<double> round_off_bound(const Scene& scene, double motion, double 
 /// add up like a random walk, each grows like a perturbation, and there are about ten of them in a step.
 std::optional<double> single_precision_bound(const Scene& scene, double motion, double growth, long steps);
 
+/// The one of them for the precision that the runs of the method show (which_rule.h).
+std::optional<double> round_off_bound_of(const Method& method, const Scene& scene, double motion, double growth,
+                                         long steps);
+
 // Statistics of a motion whose single positions cannot be predicted: means over perturbed runs, and their spread.
 
 struct Statistic {

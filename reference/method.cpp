@@ -179,19 +179,36 @@ const Stepper* stepper_of(const Method& method) {
   return nullptr;
 }
 
-std::string rule_on(const Method& method, const Model& model) {
-  if (!method.identify) return method.rule;
-  const FoundRule& found = method.identify();
-  const auto tried = [&](const char* ingredient) { return found.tried.find(ingredient) != std::string::npos; };
+std::string rule_of(const Method& method) { return method.identify ? name_of(method.identify()) : method.rule; }
+
+std::optional<bool> same_rule(const Method& a, const Method& b, const Model& model) {
   const auto* springs = model.find<Springs>();
-  const bool known =
-      found.kind == FoundRule::same && !model.particles.move && !model.first_order() &&
-      (model.particles.pins.empty() || tried("pins")) && (!springs || springs->law == SpringLaw::hooke) &&
-      std::ranges::all_of(model.terms, [&](const Term& term) {
-        return std::holds_alternative<Springs>(term) || (std::holds_alternative<Gravity>(term) && tried("gravity")) ||
-               (std::holds_alternative<Drag>(term) && found.own_drag);
-      });
-  return known ? found.rule : "";
+  const bool drag = model.find<Drag>();
+  std::string rules[2];
+  bool known = true;
+  for (int i = 0; i < 2; ++i) {
+    const Method& method = i == 0 ? a : b;
+    rules[i] = method.rule;
+    if (!method.identify) continue;
+    const FoundRule& found = method.identify();
+    if (found.kind != FoundRule::same) {
+      if (found.kind == FoundRule::unknown) return std::nullopt;
+      return false;
+    }
+    if (drag && !found.drag.empty() && !found.own_drag) return false;
+    rules[i] = found.rule;
+    const auto tried = [&](const char* ingredient) { return found.tried.find(ingredient) != std::string::npos; };
+    known = known && found.exact && (!drag || found.own_drag) && !model.first_order() &&
+            (method.family().is_engine() ||
+             (!model.particles.move && (model.particles.pins.empty() || tried("pins")) &&
+              (!springs || springs->law == SpringLaw::hooke) && std::ranges::all_of(model.terms, [&](const Term& term) {
+                return std::holds_alternative<Springs>(term) || std::holds_alternative<Drag>(term) ||
+                       (std::holds_alternative<Gravity>(term) && tried("gravity"));
+              })));
+  }
+  if (rules[0].empty() || rules[1].empty()) return std::nullopt;
+  if (rules[0] != rules[1]) return false;
+  return known ? std::optional(true) : std::nullopt;
 }
 
 std::vector<Method> find_methods(const std::string& list) {

@@ -3,6 +3,7 @@
 
 #include <filesystem>
 #include <functional>
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -71,7 +72,7 @@ struct FoundRule;
 struct Method {
   std::string name;     // full, e.g. "mysim/leapfrog+sticky"
   std::string what;     // one line for people
-  std::string rule;     // methods of the same rule must agree to round-off in contact-free scenes; may be empty
+  std::string rule;     // as rule_of() gives it, of methods that are not identified by their runs; may be empty
   Engine engine;        // throws Unsupported
   ContactLoss contact;  // whether it reports what contacts took away
   const Stepper* stepper = nullptr;  // of mysim's methods
@@ -82,7 +83,7 @@ struct Method {
   bool splits_dashpots = false;    // solves them after an explicit step
   std::string on_one_spring = {};  // the rule that it is on one linear spring; empty: `rule`
   std::string fingerprint = {};    // hash of an outside program's or trajectory's file; empty for built-in methods
-  std::function<const FoundRule&()> identify = {};  // the rule that the runs of an outside program show (which_rule.h)
+  std::function<const FoundRule&()> identify = {};  // the rule that the runs of another engine show (which_rule.h)
   bool counts_evaluations = true;           // false: its steps alone are known, and not what its solver takes for each
   bool sticky_contact = false;              // a touching particle is put back to where it came from
   SpringLaw spring_law = SpringLaw::hooke;  // of its springs, whatever the scene asks for, where it is position-based
@@ -127,14 +128,18 @@ Method find_method(const std::string& text);
 /// that names the file and what was expected.
 Method trajectory_method(const std::filesystem::path& file, const Scene& scene, const Run& run);
 
-/// mysim's row of the rule that a method follows, or null: Bullet's explicit world has symplectic Euler's, odeint/rk4
-/// has rk4's, and an outside program that of the rule it was found to be. +linear counts as implicit Euler: one Newton
-/// step is the whole step where forces are linear.
+/// mysim's row of the rule that a method follows, or null: odeint/rk4 has rk4's, and another engine that of the rule it
+/// was found to be. +linear counts as implicit Euler: one Newton step is the whole step where forces are linear.
 const Stepper* stepper_of(const Method& method);
 
-/// The name of the rule that a method follows on scenes of the model's ingredients. For outside programs it is empty
-/// where the model has more than those with which the rule was found. Methods of one rule must agree to round-off.
-std::string rule_on(const Method& method, const Model& model);
+/// The name of the rule that a method follows, as the row of its family or its runs say; empty if it is none of
+/// mysim's.
+std::string rule_of(const Method& method);
+
+/// True where two methods follow one rule on scenes of the model's ingredients, so that they must agree to rounding
+/// without contact and other laws; empty where it is not known. A rule found by runs holds for the ingredients of these
+/// runs and, of built-in engines, for the others too, since those engines declare what they have under another law.
+std::optional<bool> same_rule(const Method& a, const Method& b, const Model& model);
 
 /// Splits "a,b,c" and finds each.
 std::vector<Method> find_methods(const std::string& list);

@@ -6,6 +6,9 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <memory>
+#include <optional>
+#include <span>
 
 #include "mysim/base/errors.h"
 #include "mysim/base/files.h"
@@ -29,7 +32,8 @@ struct Candidate {
   std::string name, like;
   std::function<void(System&, State&, double h, Workspace&)> step;
   std::string drag;
-  bool solves = false;  // an equation in each step
+  bool solves = false;      // an equation in each step
+  bool one_by_one = false;  // one spring after the other
 };
 
 std::vector<Candidate> candidates() {
@@ -40,7 +44,7 @@ std::vector<Candidate> candidates() {
     const std::string name(s.name), drag = solves                                         ? "implicit"
                                            : s.composition && !s.composition().kick_first ? "time-symmetric"
                                                                                           : "explicit";
-    list.push_back({name, name, s.step, drag, solves});
+    list.push_back({name, name, s.step, drag, solves, s.hard_constraints});
     if (s.linear) list.push_back({name + "+linear", name, s.linear, drag, true});
   }
   list.push_back({"velocity-verlet", "leapfrog",
@@ -83,8 +87,8 @@ std::vector<DragForm> drag_forms() {
 
 constexpr double gamma = 4;  // 1/s
 
-/// Five particles on eight springs that start up to a fifth too long or too short.
-Scene net(bool held, bool pulled) {
+/// Five particles on eight springs that start up to a fifth too long or too short; or the first of the springs alone.
+Scene net(bool held, bool pulled, bool one_spring = false) {
   std::string text =
       "question = \"Which rule is it?\"\nparameters = \"A small net.\"\n[time]\nduration = 1\nsamples = 50\nstep = "
       "0.01\n"
@@ -94,14 +98,14 @@ Scene net(bool held, bool pulled) {
                                   {0.1, -0.5, 0, 0.25, 0.1, -0.3, 0.2},
                                   {0.6, -0.45, 0.2, 0.3, 0.4, 0.2, -0.3},
                                   {0.3, -0.9, -0.1, 0.2, -0.1, 0.2, 0.1}};
-  for (int i = 0; i < 5; ++i) {
+  for (int i = 0; i < (one_spring ? 2 : 5); ++i) {
     const auto& p = particles[i];
     text += fmt::format("[[particle]]\nposition = [{}, {}, {}]\nmass = {}\n", p[0], p[1], p[2], p[3]);
     if (i > 0 || !held) text += fmt::format("velocity = [{}, {}, {}]\n", p[4], p[5], p[6]);
   }
   const double springs[8][4] = {{0, 1, 40, 0.45}, {0, 2, 50, 0.58}, {1, 3, 60, 0.41}, {2, 3, 45, 0.6},
                                 {1, 2, 40, 0.7},  {3, 4, 50, 0.52}, {2, 4, 55, 0.5},  {0, 3, 40, 0.66}};
-  for (const auto& s : springs)
+  for (const auto& s : std::span(springs).first(one_spring ? 1 : 8))
     text += fmt::format("[[spring]]\nends = [{}, {}]\nstiffness = {}\nrest = {}\n", s[0], s[1], s[2], s[3]);
   if (held) text += "[pins]\nparticles = [0]\n";
   if (pulled) text += "[gravity]\nacceleration = [0, -9.81, 0]\n";
@@ -185,17 +189,18 @@ Runs runs_of(const Method& method, const Scene& scene) {
   return runs;
 }
 
-/// Largest distance over the samples between the rule's path and the method's, divided by the bound of rounding
-/// (ratio) and by the size of the net (distance); infinite if no sample can tell.
+/// Largest distance over the samples between the rule's path and the method's, divided by the bound of rounding and of
+/// what a solver leaves (ratio), by that of rounding alone, and by the size of the net (distance); infinite if no
+/// sample can tell.
 struct Match {
-  double ratio = 0, distance = 0;
+  double ratio = 0, rounding = 0, distance = 0;
 };
 Match match_of(const Candidate& rule, const Scene& scene, const Runs& runs, int k, const DragForm* form = nullptr) {
   const Path path = path_of(rule, scene, scene.start, runs.h[k], steps, form);
-  if (path.empty()) return {infinity, infinity};
+  if (path.empty()) return {infinity, infinity, infinity};
   const double size = scene.size(), floor = 10 * runs.u * 2 * size * std::sqrt(double(steps)),
                solved = rule.solves ? 1e-8 * size : 0;
-  std::vector<double> noise(path.size(), 3 * floor + solved);
+  std::vector<double> noise(path.size(), 3 * floor);
   for (const unsigned seed : {1U, 2U, 3U}) {
     std::mt19937_64 engine(seed);
     State start = scene.start;
@@ -207,21 +212,35 @@ Match match_of(const Candidate& rule, const Scene& scene, const Runs& runs, int 
     const Path moved = path_of(rule, scene, start, runs.h[k], steps, form);
     double most = 0;
     for (size_t i = 0; i < std::min(moved.size(), path.size()); ++i)
-      noise[i] = std::max(noise[i], 3 * (most = std::max(most, distance(moved[i], path[i]))) + solved);
+      noise[i] = std::max(noise[i], 3 * (most = std::max(most, distance(moved[i], path[i]))));
   }
   Match match;
   for (size_t i = 0; i < path.size(); ++i) {
     const double off = distance(path[i], runs.path[k][i]);
-    if (!std::isfinite(off)) return {infinity, infinity};
+    if (!std::isfinite(off)) return {infinity, infinity, infinity};
     match.distance = std::max(match.distance, off / size);
-    match.ratio = std::max(match.ratio, noise[i] < 1e-3 * size ? off / noise[i] : i < 10 ? infinity : 0);
+    const bool tells = noise[i] + solved < 1e-3 * size;
+    match.ratio = std::max(match.ratio, tells ? off / (noise[i] + solved) : i < 10 ? infinity : 0);
+    // an equation is solved to rounding times its condition, which is some 1e4 at most here
+    const double solving = rule.solves ? 1e4 * runs.u * size : 0;
+    match.rounding = std::max(match.rounding, tells ? off / (noise[i] + solving) : 0);
   }
   return match;
 }
 
 Match match_of(const Candidate& rule, const Scene& scene, const Runs& runs, const DragForm* form = nullptr) {
   const Match a = match_of(rule, scene, runs, 0, form), b = match_of(rule, scene, runs, 1, form);
-  return {std::max(a.ratio, b.ratio), std::max(a.distance, b.distance)};
+  return {std::max(a.ratio, b.ratio), std::max(a.rounding, b.rounding), std::max(a.distance, b.distance)};
+}
+
+/// The rule that matches best, or null where none is the same.
+const Candidate* same_as(const std::vector<Candidate>& rules, const Scene& scene, const Runs& runs, Match& best) {
+  const Candidate* same = nullptr;
+  best = {infinity, infinity, infinity};
+  for (const Candidate& rule : rules)
+    if (const Match match = match_of(rule, scene, runs); match.ratio <= 1 && match.ratio < best.ratio)
+      best = match, same = &rule;
+  return same;
 }
 
 /// `own_steps` where the two runs differ by less than any rule's, and the error is smaller than any rule's and does not
@@ -263,11 +282,11 @@ void find_drag(const Method& method, const Candidate& rule, const Scene& plain, 
   }
 }
 
-constexpr std::pair<const char*, std::string FoundRule::*> texts[] = {{"rule", &FoundRule::rule},
-                                                                      {"like", &FoundRule::like},
-                                                                      {"drag", &FoundRule::drag},
-                                                                      {"tried", &FoundRule::tried},
-                                                                      {"reason", &FoundRule::reason}};
+constexpr std::pair<const char*, std::string FoundRule::*> texts[] = {
+    {"rule", &FoundRule::rule},   {"like", &FoundRule::like},     {"drag", &FoundRule::drag},
+    {"tried", &FoundRule::tried}, {"reason", &FoundRule::reason}, {"on_one_spring", &FoundRule::on_one_spring}};
+constexpr std::pair<const char*, bool FoundRule::*> flags[] = {
+    {"own_drag", &FoundRule::own_drag}, {"exact", &FoundRule::exact}, {"single", &FoundRule::single}};
 
 }  // namespace
 
@@ -296,23 +315,27 @@ FoundRule find_rule(const Method& method) {
       return found;
     }
     found.reason.clear();
-    const std::vector<Candidate> rules = candidates();
-    double nearest = infinity;
-    const Candidate* same = nullptr;
-    Match best{infinity, infinity};
-    for (const Candidate& rule : rules) {
-      if (const Match match = match_of(rule, scene, runs); match.ratio <= 1 && match.ratio < best.ratio)
-        best = match, same = &rule;
-      if (const double off = match_of(rule, scene, runs, 1).distance; off < nearest)
-        nearest = off, found.rule = rule.name;
-    }
-    if (same) {
-      found.kind = FoundRule::same, found.rule = same->name, found.like = same->like, found.distance = best.distance;
+    std::vector<Candidate> rules = candidates();
+    found.single = runs.u > 0x1p-53;
+    Match match;
+    if (const Candidate* same = same_as(rules, scene, runs, match)) {
+      found.kind = FoundRule::same, found.rule = same->name, found.distance = match.distance;
+      found.exact = match.rounding <= 1;
+      if (found.exact) found.like = same->like;
       find_drag(method, *same, scene, found);
-    } else {
-      found.kind = runs.own_steps ? FoundRule::own_steps : kind_by_steps(scene, runs, rules);
-      found.distance = nearest;
+      return found;
     }
+    found.kind = runs.own_steps ? FoundRule::own_steps : kind_by_steps(scene, runs, rules);
+    found.distance = infinity;
+    for (const Candidate& rule : rules)
+      if (const double off = match_of(rule, scene, runs, 1).distance; off < found.distance)
+        found.distance = off, found.rule = rule.name;
+    if (found.kind == FoundRule::nearest) try {
+        std::erase_if(rules, [](const Candidate& rule) { return !rule.one_by_one; });
+        const Scene one = net(each.held, each.pulled, true);
+        if (const Candidate* same = same_as(rules, one, runs_of(method, one), match)) found.on_one_spring = same->name;
+      } catch (const std::runtime_error&) {  // its rule on one spring is unknown too
+      }
     return found;
   }
   return found;
@@ -325,8 +348,9 @@ std::string sentence_of(const FoundRule& found) {
       return fmt::format("{} on a net of {}{}: largest difference {:.1e} of the net's size{}", found.rule, found.tried,
                          found.drag.empty() ? "" : fmt::format(" ({} drag)", found.drag), found.distance, more);
     case FoundRule::nearest:
-      return fmt::format("none of mysim's; nearest is {}, {:.1e} of the size of a net of {} away{}", found.rule,
-                         found.distance, found.tried, more);
+      return fmt::format(
+          "none of mysim's; nearest is {}, {:.1e} of the size of a net of {} away{}{}", found.rule, found.distance,
+          found.tried, found.on_one_spring.empty() ? "" : fmt::format("; {} on one spring", found.on_one_spring), more);
     case FoundRule::own_steps:
       return "chooses its steps: the step asked for has no effect";
     case FoundRule::ignores_step:
@@ -335,6 +359,14 @@ std::string sentence_of(const FoundRule& found) {
       break;
   }
   return "unknown" + more;
+}
+
+std::string name_of(const FoundRule& found) {
+  std::string name = found.kind == FoundRule::same ? found.rule
+                     : found.on_one_spring.empty() ? ""
+                                                   : found.on_one_spring + " on one spring";
+  if (found.kind == FoundRule::same && !found.exact) name += ", solver above rounding";
+  return name.empty() || !found.single ? name : name + ", single precision";
 }
 
 FoundRule cached_rule(const Method& method) {
@@ -347,7 +379,8 @@ FoundRule cached_rule(const Method& method) {
       if (stored["key"].text() == key) {
         FoundRule found;
         found.kind = static_cast<FoundRule::Kind>(stored["kind"].whole_number(0, 4));
-        found.own_drag = stored["own_drag"].boolean(), found.distance = stored["distance"].number();
+        found.distance = stored["distance"].number();
+        for (const auto& [name, member] : flags) found.*member = stored[name].boolean();
         for (const auto& [name, member] : texts) found.*member = stored[name].text();
         return found;
       }
@@ -356,8 +389,8 @@ FoundRule cached_rule(const Method& method) {
   const FoundRule found = find_rule(method);
   Json json{{"key", key},
             {"kind", static_cast<int>(found.kind)},
-            {"own_drag", found.own_drag},
             {"distance", std::isfinite(found.distance) ? found.distance : -1}};
+  for (const auto& [name, member] : flags) json[name] = found.*member;
   for (const auto& [name, member] : texts) json[name] = found.*member;
   try {
     write_file(file, json.dump(1) + "\n");
@@ -365,6 +398,13 @@ FoundRule cached_rule(const Method& method) {
     // no room or no right to write: found again next time
   }
   return found;
+}
+
+void identify_by_runs(Method& method) {
+  method.identify = [method, found = std::make_shared<std::optional<FoundRule>>()]() -> const FoundRule& {
+    if (!*found) *found = cached_rule(method);
+    return **found;
+  };
 }
 
 }  // namespace crosscheck

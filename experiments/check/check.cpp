@@ -13,7 +13,6 @@
 #include "mysim/base/files.h"
 #include "mysim/base/installation.h"
 #include "mysim/scene/toml.h"
-#include "reference/which_rule.h"
 
 namespace crosscheck {
 namespace {
@@ -76,12 +75,6 @@ std::string Answer::sentence() const {
   if (finding.since) text += fmt::format(", since {:.3g} s", *finding.since);
   if (!finding.holds()) text += ": " + finding.what;
   return mark == RelationMark::known ? text + "; known: " + reason : text;
-}
-
-std::string rule_of(const Method& method) {
-  if (!method.identify) return method.stepper ? std::string(method.stepper->name) : method.rule;
-  const FoundRule& found = method.identify();
-  return found.kind == FoundRule::same ? found.rule : "";
 }
 
 void mark_known(Answer& answer, const std::vector<KnownBreak>& known, const std::string& rule) {

@@ -37,9 +37,6 @@ struct Answer {
   std::string sentence() const;
 };
 
-/// The rule that a method follows: that of the built-in rule which it is, or which its runs were found to be.
-std::string rule_of(const Method& method);
-
 /// A broken one becomes known where a row of the list covers it; `rule`: that of the method, empty for a pair.
 void mark_known(Answer& answer, const std::vector<KnownBreak>& known, const std::string& rule = "");
 

@@ -78,8 +78,7 @@ void long_run(const Request& request, const Scene& scene, const Method& method, 
   const Model& model = scene.model;
   const bool undamped = !model.find<Drag>() && !model.find<Dashpots>() && !model.find<Spheres>();
   const bool claimed = !ledger.contact_inferred();
-  const bool symplectic =
-      (method.stepper && method.stepper->symplectic) || (!method.stepper && method.rule == "symplectic-euler");
+  const Stepper* rule = stepper_of(method);
   EnergyRow row{.scene = scene.name,
                 .method = method.name,
                 .verdict = out.verdict,
@@ -88,7 +87,7 @@ void long_run(const Request& request, const Scene& scene, const Method& method, 
                 .step = out.step,
                 .steps = out.steps,
                 .undamped = undamped,
-                .symplectic = symplectic,
+                .symplectic = rule && rule->symplectic,
                 .closure_claimed = claimed && !nothing,
                 .contact_inferred = model.find<Spheres>() && !claimed};
   if (!nothing) {

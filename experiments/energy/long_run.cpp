@@ -72,11 +72,6 @@ std::optional<double> gain(const std::string& rule, double y) {
   return std::nullopt;
 }
 
-/// The rule that a method follows on one linear spring.
-const std::string& rule_on_one_spring(const Method& method) {
-  return method.on_one_spring.empty() ? method.rule : method.on_one_spring;
-}
-
 }  // namespace
 
 Scene undamped_oscillator() {
@@ -89,7 +84,11 @@ Scene undamped_oscillator() {
 }
 
 std::optional<double> damping_by_theory(const Method& method, double h, double frequency) {
-  const auto factor = gain(rule_on_one_spring(method), h * frequency);
+  const Stepper* rule = stepper_of(method);
+  const auto factor = gain(!method.on_one_spring.empty() ? method.on_one_spring
+                           : rule                        ? std::string(rule->name)
+                                                         : "",
+                           h * frequency);
   if (!factor) return std::nullopt;
   return *factor == 1 ? 0 : -2 * std::log(*factor) / h;
 }

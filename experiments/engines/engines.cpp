@@ -92,13 +92,14 @@ void engines_on(const Request& request, const Scene& scene, MethodResults& resul
   Table cost = table_of<EngineCostRow>();
 
   const Run run = run_of(request, scene);
+  const TimeGrid grid = time_grid(run);
   Table table = table_of<EngineTimeRow>(scene.name + "-engines");
   const auto truth = truth_of(scene, run);
   // differences from a run that failed would say nothing
   const std::string of(request.reference.empty() ? subject().representative : request.reference);
   const auto asked = std::ranges::find(request.methods, of, &Method::name);
-  const MethodResult& by_rule =
-      result_of(request, scene, asked == request.methods.end() ? find_method(of) : *asked, results);
+  const Method compared_with = asked == request.methods.end() ? find_method(of) : *asked;
+  const MethodResult& by_rule = result_of(request, scene, compared_with, results);
   const Trajectory reference = by_rule.outcome.verdict == Verdict::ok ? by_rule.trajectory : Trajectory{};
   const Method probe = find_method(reference.frames() > 0 ? std::string(subject().representative) : scene.method);
   const Growth growing = growth_of(probe, scene, run, reference.frames() > 0 ? &reference : nullptr);
@@ -138,22 +139,24 @@ void engines_on(const Request& request, const Scene& scene, MethodResults& resul
       lowest = std::min(lowest, row.clearance.value_or(1e300));
       add(table, row);
     }
-    EngineRow row{.scene = scene.name,
-                  .method = method.name,
-                  .verdict = out.verdict,
-                  .reason = out.reason,
-                  .end = out.end,
-                  .step = out.step,
-                  .steps = out.steps,
-                  .evaluations = out.evaluations,
-                  .coincident = out.degenerate_springs,
-                  .motion = motion,
-                  .window = scene.window,
-                  .measured_window = growing.window(),
-                  .growth = growth,
-                  .round_off_bound = round_off_bound(scene, motion, growth),
-                  .step_limit = predicted_limit(method, scene, omega),
-                  .different_law = fmt::format("{}", fmt::join(out.different_law, "; "))};
+    EngineRow row{
+        .scene = scene.name,
+        .method = method.name,
+        .verdict = out.verdict,
+        .reason = out.reason,
+        .end = out.end,
+        .step = out.step,
+        .steps = out.steps,
+        .evaluations = out.evaluations,
+        .coincident = out.degenerate_springs,
+        .motion = motion,
+        .window = scene.window,
+        .measured_window = growing.window(),
+        .growth = growth,
+        .round_off_bound = round_off_bound_of(method, scene, motion, growth, 1L * grid.steps_per_sample * grid.samples),
+        .same_rule = same_rule(method, compared_with, scene.model),
+        .step_limit = predicted_limit(method, scene, omega),
+        .different_law = fmt::format("{}", fmt::join(out.different_law, "; "))};
     if (truth) row.truth = truth->how, row.truth_kind = {truth->tier, of_rule}, row.truth_bar = truth->error_bar;
     if (truth && std::isfinite(truth->until)) row.truth_until = truth->until;
     if (out.verdict == Verdict::ok) {

@@ -135,7 +135,7 @@ PredictedLimit predicted_limit(const Method& method, const Spectrum& spectrum) {
     return {0, -1,
             fmt::format("no linear theory: {} solves dashpots implicitly, at the end of the explicit step",
                         method.family().title)};
-  if (method.identify &&
+  if (method.identify && !method.family().is_engine() &&
       (spectrum.system.has_dashpots() || (!method.identify().own_drag && spectrum.system.damping().squaredNorm() > 0)))
     return {0, -1, "no linear theory: its rule was found without such damping"};
   return predicted_limit(*rule, spectrum);

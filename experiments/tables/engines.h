@@ -33,6 +33,7 @@ struct EngineRow {
   long steps = 0, evaluations = 0, coincident = 0;
   double motion = 0, window = 0, measured_window = 0, growth = 0;
   std::optional<double> round_off_bound = {};
+  std::optional<bool> same_rule = {};
   std::optional<std::string> truth = {};
   std::optional<TruthKind> truth_kind = {};
   std::optional<double> truth_bar = {}, truth_until = {}, error = {}, contact_difference = {}, difference = {},
@@ -55,7 +56,10 @@ struct EngineRow {
                "the same as measured: until a perturbation of 1e-10 m has grown a thousandfold"),
         column("perturbation growth", "1", &EngineRow::growth, "how many times that perturbation grows in the window"),
         column("round-off bound", "m", &EngineRow::round_off_bound,
-               "what engines of one rule may differ by; empty where single positions cannot be predicted"),
+               "what engines of one rule may differ by in the precision of this one; empty where single positions "
+               "cannot be predicted"),
+        column("same rule", "1", &EngineRow::same_rule,
+               "whether its runs show the rule of the method that differences are from; empty where it is not known"),
         column("truth", "1", &EngineRow::truth, "how the truth was found; empty where none is known"),
         column("truth tier", "1", &EngineRow::truth_kind, "how sure the truth is"),
         column("truth bar", "m", &EngineRow::truth_bar, "error bar of the truth"),

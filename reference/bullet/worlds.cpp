@@ -71,9 +71,8 @@ WorldChoice deformable_explicit(const Options& options) {
     refuse_option("bullet/deformable-explicit", "bodies", "+bodies without other options");
   if (bodies)
     return {"Bullet's deformable world, explicit: a body and a spring force of its own for each piece of the network",
-            "", run_bodies};
-  WorldChoice choice{"Bullet's deformable world, explicit: springs in N/m, Coulomb friction",
-                     options.empty() ? "symplectic-euler" : "", deformable(settings)};
+            run_bodies};
+  WorldChoice choice{"Bullet's deformable world, explicit: springs in N/m, Coulomb friction", deformable(settings)};
   choice.may_hang = settings.defaults.pieces;
   return choice;
 }
@@ -91,8 +90,7 @@ WorldChoice deformable_implicit(const Options& options) {
     else
       refuse_option("bullet/deformable-implicit", option, "+tight, +shipped, +unprojected or none");
   }
-  return {"Bullet's deformable world, implicit: one Newton step of backward Euler",
-          options == Options{"tight"} ? "implicit-euler+linear" : "", deformable(settings), true};
+  return {"Bullet's deformable world, implicit: one Newton step of backward Euler", deformable(settings), true};
 }
 
 WorldChoice pbd(const Options& options) {
@@ -115,7 +113,7 @@ WorldChoice pbd(const Options& options) {
           "(m), +gravity-factor=0.01 to +gravity-factor=100, +kLST=0 to +kLST=1e6 or none");
   }
   settings.iterations = iterations > 0 ? iterations : settings.demo ? 10 : 1;
-  return {"Bullet's position-based world, stiffness mapped per link; different link and friction laws", "",
+  return {"Bullet's position-based world, stiffness mapped per link; different link and friction laws",
           [settings](const Scene& scene, const Run& run, Observer& observer) {
             return run_pbd(scene, run, observer, settings);
           },

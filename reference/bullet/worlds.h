@@ -13,7 +13,6 @@ namespace crosscheck::bullet {
 /// One world with its options chosen.
 struct WorldChoice {
   std::string what;  // one line for people
-  std::string rule;  // of mysim's stepper that it must equal to round-off in contact-free scenes; may be empty
   Engine engine;
   bool implicit = false, position_based = false;
   bool may_hang = false;  // to be run in a process of its own only, with a time limit

@@ -10,6 +10,7 @@
 #include "reference/bullet/worlds.h"
 #include "reference/method.h"
 #include "reference/protocol/exec_engine.h"
+#include "reference/which_rule.h"
 
 namespace crosscheck {
 namespace {
@@ -18,6 +19,7 @@ namespace {
 void describe(Method& method, const bullet::WorldChoice& chosen) {
   method.implicit = chosen.implicit, method.position_based = chosen.position_based;
   method.counts_evaluations = !chosen.implicit && !chosen.position_based;
+  identify_by_runs(method);
   if (!chosen.position_based) return;
   method.spring_law = SpringLaw::bullet_link;
   method.own_friction = true;
@@ -30,7 +32,7 @@ Method in_double_precision(const std::string& world, const MethodOptions& option
         fmt::format("method bullet/{}: +in-pieces may hang and has no time limit here; expected it in a "
                     "process of its own: bullet32/{}+in-pieces+timeout=SECONDS, or exec:",
                     world, world));
-  Method method{"bullet/" + world, chosen.what, chosen.rule, chosen.engine, ContactLoss::inferred};
+  Method method{"bullet/" + world, chosen.what, "", chosen.engine, ContactLoss::inferred};
   describe(method, chosen);
   method.style = chosen.style;
   method.splits_dashpots = !chosen.implicit && !chosen.position_based;
@@ -39,7 +41,6 @@ Method in_double_precision(const std::string& world, const MethodOptions& option
   return method;
 }
 
-/// No longer of the same rule: its round-off is of another size.
 Method in_single_precision(const std::string& world, const MethodOptions& options) {
   Program program{programs_folder() / "bullet32_engine", {}};
   for (const std::string& option : options) add_option(program, "bullet32/" + world, option);

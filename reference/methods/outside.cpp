@@ -33,10 +33,7 @@ Method exec_method(const std::string& text) {
                                     Observer& observer) { return run_outside_engine(program, scene, run, observer); },
                 .contact = ContactLoss::sampled,
                 .fingerprint = fingerprint_of(program.path)};
-  method.identify = [method, found = std::make_shared<std::optional<FoundRule>>()]() -> const FoundRule& {
-    if (!*found) *found = cached_rule(method);
-    return **found;
-  };
+  identify_by_runs(method);
   return method;
 }
 

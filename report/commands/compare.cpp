@@ -45,16 +45,17 @@ void print(const Certificate& certificate) {
 
 std::string shown(std::optional<double> value) { return value ? fmt::format("{:.3g}", *value) : "-"; }
 
-/// Prints the differences between methods with the same stepper; true where one is larger than allowed.
+/// Prints the differences between methods that follow one rule; true where one is larger than allowed.
 bool equal_rules_differ(const Request& request, const Scene& scene, MethodResults& answers) {
   const std::vector<Method> methods = methods_of(request, scene);
+  const TimeGrid grid = time_grid(run_of(request, scene));
   bool differ = false;
   for (size_t i = 0; i < methods.size(); ++i)
     for (size_t j = 0; j < i; ++j) {
-      const std::string rule = rule_on(methods[i], scene.model);
       const MethodResult &a = result_of(request, scene, methods[i], answers),
                          &b = result_of(request, scene, methods[j], answers);
-      if (rule.empty() || rule != rule_on(methods[j], scene.model) || methods[i].name == methods[j].name) continue;
+      if (methods[i].name == methods[j].name || !same_rule(methods[i], methods[j], scene.model).value_or(false))
+        continue;
       if (a.outcome.verdict != Verdict::ok || b.outcome.verdict != Verdict::ok) continue;
       if (!a.outcome.different_law.empty() || !b.outcome.different_law.empty()) continue;  // such as contact
       double largest = 0;
@@ -63,7 +64,11 @@ bool equal_rules_differ(const Request& request, const Scene& scene, MethodResult
            ++k)
         largest = std::max(largest, largest_column(a.trajectory.x[k] - b.trajectory.x[k]));
       const double growth = perturbation_growth(methods[j], scene, run_of(request, scene).step, scene.window);
-      const std::optional<double> allowed = round_off_bound(scene, motion_of(a.trajectory), growth);
+      const auto bound = [&](const Method& method) {
+        return round_off_bound_of(method, scene, motion_of(a.trajectory), growth,
+                                  1L * grid.steps_per_sample * grid.samples);
+      };
+      const std::optional<double> allowed = std::max(bound(methods[i]), bound(methods[j]));
       const bool over = allowed && largest > *allowed;
       fmt::print("\n{} and {} are the same rule: they differ by {:.3g} m, ", b.method, a.method, largest);
       if (allowed)

@@ -137,8 +137,9 @@ std::string tier_of(const SceneData& facts) {
 }
 
 std::string another_engine(const SceneData& facts) {
+  const auto round_off = facts.round_off();
   return "another engine, so that these are differences and no errors" +
-         (facts.round_off ? fmt::format("; round-off alone may make {}", nice_length(*facts.round_off)) : "");
+         (round_off ? fmt::format("; round-off alone may make {}", nice_length(*round_off)) : "");
 }
 
 }  // namespace crosscheck

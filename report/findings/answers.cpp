@@ -63,11 +63,11 @@ std::optional<Finding> difference_answer(const std::vector<SceneData>& data) {
   for (const SceneData& scene : data) {
     const MethodData* other = nearest_other(scene);
     if (!other) continue;
-    if (!scene.round_off && !scene.touched()) {
+    if (!other->round_off && !scene.touched()) {
       growth.take(scene.growth, scene.scene);
       continue;
     }
-    round_off &= scene.round_off && !scene.touched() && *other->difference <= *scene.round_off;
+    round_off &= other->round_off && !scene.touched() && *other->difference <= *other->round_off;
     if (*other->difference > apart.value) apart.take(*other->difference, scene.scene), method = other->method;
   }
   if (!apart.any() && growth.any())
@@ -80,18 +80,27 @@ std::optional<Finding> difference_answer(const std::vector<SceneData>& data) {
                  .words = {{"where", apart.where}}};
 }
 
-/// The largest differences of the reader's programs from mysim's representative at the same step, without contact.
-std::vector<std::pair<std::string, Largest>> programs_apart(const std::vector<SceneData>& data, bool& round_off) {
-  std::vector<std::pair<std::string, Largest>> programs;
+/// Another engine's method beside mysim's representative at the same step, over the scenes without contact and other
+/// laws.
+struct EngineApart {
+  std::string method;
+  Largest apart = {};
+  bool same = true, another = false;  // rule: equal on all of them; another on one
+};
+
+std::vector<EngineApart> engines_apart(const std::vector<SceneData>& data) {
+  std::vector<EngineApart> engines;
   for (const SceneData& scene : data)
     for (const MethodData& m : scene.methods) {
-      if (family_of(m.method).role != Role::outside || !m.ok() || !m.difference || scene.touched()) continue;
-      auto known = std::ranges::find(programs, m.method, &std::pair<std::string, Largest>::first);
-      if (known == programs.end()) known = programs.insert(programs.end(), {m.method, {}});
-      known->second.take(*m.difference, scene.scene);
-      round_off &= scene.round_off && *m.difference <= *scene.round_off;
+      if (!is_another_engine(m.method) || !stands_for_its_engine(m.method) || !m.ok() || !m.difference ||
+          scene.touched() || !m.different_law.empty())
+        continue;
+      auto known = std::ranges::find(engines, m.method, &EngineApart::method);
+      if (known == engines.end()) known = engines.insert(engines.end(), {m.method});
+      known->apart.take(*m.difference, scene.scene);
+      known->same &= m.same_rule.value_or(false), known->another |= !m.same_rule.value_or(true);
     }
-  return programs;
+  return engines;
 }
 
 /// The reader's programs that died or took too long wherever they ran.
@@ -105,58 +114,67 @@ std::vector<std::string> silent_programs(const std::vector<SceneData>& data) {
   return {silent.begin(), silent.end()};
 }
 
-/// Adds the reader's programs to an answer of agreement: among those that part by round-off, or after them. It then has
-/// no room for contact.
-void add_programs(const std::vector<SceneData>& data, Finding& f) {
-  bool round_off = true;
-  const auto programs = programs_apart(data, round_off);
-  const std::vector<std::string> silent = silent_programs(data);
-  if (programs.empty() && silent.empty()) return;
-  std::string names, after;
-  for (const auto& [method, apart] : programs) {
-    names += ", " + name_in_sentence(method);
-    after += fmt::format("; {} by up to {}", name_in_sentence(method), nice_length(apart.value));
-    if (round_off) f.value = std::max(f.value, apart.value);
-  }
-  if (round_off && f.value > 0) f.words["most"] = "at most " + nice_length(f.value);
-  f.words["programs"] = round_off ? names : "";
-  f.words["contact"] = round_off ? "" : after;
-  if (!silent.empty()) f.words["contact"] += fmt::format("; {} gave no answer", joined(silent));
-}
-
 std::optional<Finding> agreement_answer(const std::vector<Scene>&, const std::vector<SceneData>& data,
                                         const TableSet&) {
+  const std::vector<EngineApart> engines = engines_apart(data);
   size_t same = 0;
   Largest worst, in_contact, beyond;
-  std::vector<std::string> differing;
+  std::vector<std::string> differing, agreeing;
+  std::string differs;
   for (const SceneData& scene : data) {
-    const MethodData* peer = scene.find(theirs);
-    if (!peer || !peer->ok() || !peer->difference) continue;
-    if (scene.touched())
-      in_contact.take(*peer->difference, scene.scene);
-    else if (!peer->different_law.empty())
-      continue;
-    else if (same_rule_differs(scene, *default_peers().front()))
-      differing.push_back(scene.scene), beyond.take(*peer->difference, scene.scene);
-    else if (scene.round_off)
-      ++same, worst.take(*peer->difference, scene.scene);
+    bool compared = false;
+    for (const MethodData& m : scene.methods) {
+      const auto engine = std::ranges::find(engines, m.method, &EngineApart::method);
+      if (!m.same_rule.value_or(false) || !m.ok() || !m.difference || !stands_for_its_engine(m.method)) continue;
+      if (scene.touched() && is_another_engine(m.method)) in_contact.take(*m.difference, scene.scene);
+      if (scene.touched() || engine == engines.end() || !m.different_law.empty() || !m.round_off) continue;
+      if (same_rule_differs(scene, m)) {
+        differing.push_back(scene.scene);
+        if (*m.difference > beyond.value) beyond.take(*m.difference, scene.scene), differs = engine_of(m.method);
+      } else if (engine->same) {
+        compared = true, worst.take(*m.difference, scene.scene);
+        if (std::ranges::find(agreeing, m.method) == agreeing.end()) agreeing.push_back(m.method);
+      }
+    }
+    same += compared;
   }
-  Finding f{.rule = "answer-agreement", .method = ours, .other = std::string(family_of(theirs).name)};
-  if (!differing.empty()) {
-    f.rule = "answer-agreement-no", f.value = beyond.value, f.words = {{"where", listed(differing)}};
-  } else if (same > 0) {
-    f.value = worst.value;
-    f.words = {{"most", worst.value == 0 ? "nothing" : "at most " + nice_length(worst.value)},
-               {"scenes", counted(same, "scene")},
-               {"contact", in_contact.any() ? "; with contact by at most " + nice_length(in_contact.value) : ""},
-               {"programs", ""}};
-    add_programs(data, f);
-  } else if (in_contact.any()) {
-    f.rule = "answer-agreement-contact", f.value = in_contact.value, f.words = {{"where", in_contact.where}};
-  } else {
-    return difference_answer(data);
-  }
-  return f;
+  differing.erase(std::ranges::unique(differing).begin(), differing.end());
+  if (!differing.empty())
+    return Finding{.rule = "answer-agreement-no",
+                   .method = ours,
+                   .other = differs,
+                   .value = beyond.value,
+                   .words = {{"where", listed(differing)}}};
+  if (same == 0 && in_contact.any())
+    return Finding{.rule = "answer-agreement-contact",
+                   .method = ours,
+                   .value = in_contact.value,
+                   .words = {{"where", in_contact.where}}};
+  if (same == 0) return difference_answer(data);
+  // a peer stands last in the list of engines that agree; the reader's programs that do not, or not surely, come after
+  // it, and leave no room for contact
+  std::ranges::stable_partition(agreeing,
+                                [](const std::string& name) { return family_of(name).role == Role::outside; });
+  const std::string last = agreeing.back();
+  agreeing.pop_back();
+  std::string names, after;
+  for (const std::string& name : agreeing) names += ", " + name_in_sentence(engine_of(name));
+  for (const EngineApart& each : engines)
+    if (family_of(each.method).role == Role::outside && !each.same)
+      after += fmt::format("; {} by {}{}", name_in_sentence(each.method) + (each.another ? " (other rule)" : ""),
+                           each.another ? "" : "up to ", nice_length(each.apart.value));
+  if (const auto silent = silent_programs(data); !silent.empty())
+    after += fmt::format("; {} gave no answer", joined(silent));
+  if (after.empty() && names.empty() && in_contact.any())
+    after = "; with contact by at most " + nice_length(in_contact.value);
+  return Finding{.rule = "answer-agreement",
+                 .method = ours,
+                 .other = engine_of(last),
+                 .value = worst.value,
+                 .words = {{"most", worst.value == 0 ? "nothing" : "at most " + nice_length(worst.value)},
+                           {"scenes", counted(same, "scene")},
+                           {"contact", after},
+                           {"programs", names}}};
 }
 
 /// What the cheapest run of another engine costs beside mysim's; a tie is told as one.
@@ -256,9 +274,12 @@ std::optional<Finding> ball_answer(const std::vector<Scene>&, const std::vector<
   std::vector<ConeCount> counts = cone_counts(rows);
   std::erase_if(counts, [](const ConeCount& c) { return !stands_for_its_engine(c.method); });
   const SceneData* scene = last_contact(data);
-  const MethodData* other = scene ? scene->find(theirs) : nullptr;
-  const bool same_rule = other && other->ok() && other->difference;
-  if (scene && !same_rule) other = nearest_other(*scene);
+  const MethodData* other = scene ? nearest_other(*scene) : nullptr;
+  bool same_rule = false;
+  if (scene)
+    for (const MethodData& m : scene->methods)
+      if (is_another_engine(m.method) && m.ok() && m.difference && m.same_rule.value_or(false) && !same_rule)
+        other = &m, same_rule = true;
   if (counts.empty() || counts[0].method != ours) {
     if (!scene) return std::nullopt;
     return Finding{.rule = "answer-contact",

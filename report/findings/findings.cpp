@@ -26,26 +26,24 @@ struct Said {
 
 void agreement_with(const MethodData& b, Said& said) {
   const SceneData& data = said.data;
-  const MethodFamily& family = family_of(b.method);
-  const bool same_rule = b.method == family.representative && has_our_rule(family) && b.different_law.empty();
   Finding f{.rule = "same-rule",
             .method = ours,
             .other = b.method,
             .value = *b.difference,
             .words = {{"window", said.window()}}};
-  if (data.touched() && b.method == theirs) {
-    f.rule = "same-rule-contact";
-  } else if (family.role == Role::outside) {
-    const bool round_off = data.round_off && !data.touched() && f.value <= *data.round_off;
+  if (!b.same_rule) {
+    const bool round_off = b.round_off && !data.touched() && f.value <= *b.round_off;
     f.rule = round_off ? "same-motion" : "unknown-rule";
-    if (round_off) f.words["bound"] = nice_length(*data.round_off);
-  } else if (!same_rule) {
+    if (round_off) f.words["bound"] = nice_length(*b.round_off);
+  } else if (*b.same_rule && data.touched()) {
+    f.rule = "same-rule-contact";
+  } else if (!*b.same_rule || !b.different_law.empty()) {
     f.rule = "different-rule";
-  } else if (!data.round_off) {
+  } else if (!b.round_off) {
     f.rule = "same-rule-chaotic", f.value = data.growth, f.words["apart"] = nice_length(*b.difference);
   } else {
-    f.words["bound"] = nice_length(*data.round_off);
-    if (same_rule_differs(data, family)) f.rule = "same-rule-differs";
+    f.words["bound"] = nice_length(*b.round_off);
+    if (same_rule_differs(data, b)) f.rule = "same-rule-differs";
   }
   said.add(f);
   if (data.touched() && said.scene.window < said.scene.duration && b.centres)

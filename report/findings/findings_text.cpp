@@ -37,11 +37,6 @@ bool is_rival(const std::string& method) {
   return is_another_engine(method) && family_of(method).role != Role::integrator;
 }
 
-bool has_our_rule(const MethodFamily& peer) {
-  const Method* m = builtin_method(peer.representative);
-  return m && m->rule == builtin_method(ours)->rule;
-}
-
 std::string name_in_sentence(const std::string& name) {
   const MethodFamily& family = family_of(name);
   const bool is_program = name.starts_with(program_prefix);
@@ -85,10 +80,9 @@ std::string listed(std::vector<std::string> words, size_t most) {
   return joined(words);
 }
 
-bool same_rule_differs(const SceneData& data, const MethodFamily& peer) {
-  const MethodData* b = data.find(std::string(peer.representative));
-  return b && has_our_rule(peer) && b->ok() && b->difference && !data.touched() && b->different_law.empty() &&
-         data.round_off && *b->difference > *data.round_off;
+bool same_rule_differs(const SceneData& data, const MethodData& method) {
+  return method.same_rule.value_or(false) && is_another_engine(method.method) && method.ok() && method.difference &&
+         !data.touched() && method.different_law.empty() && method.round_off && *method.difference > *method.round_off;
 }
 
 }  // namespace crosscheck

@@ -32,9 +32,6 @@ bool is_another_engine(const std::string& method);
 /// The same without others' integrators on our right-hand side.
 bool is_rival(const std::string& method);
 
-/// Whether the method that stands for a peer has the rule of the subject's.
-bool has_our_rule(const MethodFamily& peer);
-
 inline bool is_implicit(const Stepper& s) { return s.evaluations == 0; }
 inline bool never_stable_undamped(const Stepper& s) { return s.order == 1 && s.limit(1, 0) == 0; }
 inline bool is_symplectic_of_second_order(const Stepper& s) { return s.symplectic && s.order == 2 && !is_implicit(s); }
@@ -64,8 +61,7 @@ inline std::string range(const std::string& low, const std::string& high) {
   return low == high ? low : low + " to " + high;
 }
 
-/// True where no contact, no other law and no chaos excuses it: a peer's method of the same rule, more than round-off
-/// apart.
-bool same_rule_differs(const SceneData& data, const MethodFamily& peer);
+/// True where no contact, no other law and no chaos excuses it: a method of the same rule, more than round-off apart.
+bool same_rule_differs(const SceneData& data, const MethodData& method);
 
 }  // namespace crosscheck

@@ -28,10 +28,10 @@ void agreement_of_all(const Scenes& scenes, std::vector<Finding>& out) {
       const MethodData* b = scene.find(its);
       if (!b) continue;
       if (!b->supported()) alone.push_back(scene.scene);
-      if (!b->ok() || !b->difference || !has_our_rule(*peer)) continue;
+      if (!b->ok() || !b->difference || !b->same_rule.value_or(false)) continue;
       if (scene.touched())
         worst = worst && *worst->find(its)->difference >= *b->difference ? worst : &scene;
-      else if (!scene.round_off && b->different_law.empty())
+      else if (!b->round_off && b->different_law.empty())
         chaotic.push_back(scene.scene);
     }
     if (worst)

@@ -31,6 +31,13 @@ const MethodData* SceneData::find(const std::string& method) const {
   return nullptr;
 }
 
+std::optional<double> SceneData::round_off() const {
+  std::optional<double> least;
+  for (const MethodData& m : methods)
+    if (m.round_off && !(least <= m.round_off && least)) least = m.round_off;
+  return least;
+}
+
 bool SceneData::touched() const {
   for (const MethodData& m : methods)
     if (m.ok() && m.clearance && *m.clearance < 1e-3) return true;
@@ -49,7 +56,6 @@ SceneData scene_data(const std::string& scene, const TableSet& result) {
     if (run.scene != scene) continue;
     facts.motion = run.motion, facts.window = run.window;
     facts.measured_window = run.measured_window, facts.growth = run.growth;
-    facts.round_off = run.round_off_bound;
     facts.truth = run.truth.value_or("");
     facts.truth_until = run.truth_until;
     if (run.truth_kind && run.truth_kind->of_contact_rule)
@@ -71,7 +77,9 @@ SceneData scene_data(const std::string& scene, const TableSet& result) {
                              .centres = run.centre_difference,
                              .clearance = run.clearance,
                              .creep = run.creep,
-                             .limit = run.step_limit});
+                             .limit = run.step_limit,
+                             .round_off = run.round_off_bound,
+                             .same_rule = run.same_rule});
   }
   const auto energies = rows_of<EngineEnergyRow>(result);
   for (MethodData& m : facts.methods)

@@ -38,6 +38,8 @@ struct MethodData {
   std::optional<double> clearance, creep;  // m, m/s
   std::optional<double> energy_error;      // relative
   std::optional<double> limit;             // s, largest stable step by theory, for the scene's fastest vibration
+  std::optional<double> round_off;         // m, what the same rule may differ by; empty where nothing can be predicted
+  std::optional<bool> same_rule;           // its runs show mysim's symplectic Euler; empty: not known
   bool supported() const { return verdict != Verdict::unsupported; }
   bool ok() const { return verdict == Verdict::ok; }
   /// Whether its program died or took too long, which says nothing of its physics.
@@ -56,15 +58,16 @@ struct SceneData {
   std::string scene;
   double motion = 0, window = 0, growth = 0;  // m, s, 1
   double measured_window = 0;                 // s, until a perturbation of 1e-10 m has grown a thousandfold
-  std::optional<double> round_off;    // m, what the same rule may differ by; empty where nothing can be predicted
-  std::string tier;                   // of the truth; empty without one
-  double error_bar = 0;               // m
-  std::string truth;                  // how it was found, one sentence
-  std::optional<double> truth_until;  // s, of a truth that ends before the scene does
+  std::string tier;                           // tier of the truth; empty without one
+  double error_bar = 0;                       // m
+  std::string truth;                          // the way it was found, one sentence
+  std::optional<double> truth_until;          // s, of a truth that ends before the scene does
   // where the truth is what the in-house contact rule converges to: the same; tier is then empty
   std::optional<double> contact_until;
   std::vector<MethodData> methods;
   const MethodData* find(const std::string& method) const;
+  /// The least of its methods', which is that of double precision.
+  std::optional<double> round_off() const;
   /// True when some run came within a millimetre of the sphere's contact surface.
   bool touched() const;
 };

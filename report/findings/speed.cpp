@@ -135,7 +135,8 @@ std::vector<Finding> cost_findings(const TableSet& rows) {
   for (const SizeCostRow& row : rows_of<SizeCostRow>(rows)) per_side[row.side][row.method] = row.cpu;
   std::vector<Finding> out;
   for (const MethodFamily* peer : default_peers()) {
-    if (!has_our_rule(*peer)) continue;
+    const Method* standing = builtin_method(peer->representative);
+    if (!standing || rule_of(*standing) != rule_of(*builtin_method(ours))) continue;
     const std::string its(peer->representative);
     for (const auto& [rule, method] : {std::pair{"size-cost-any", ours + "+plain"}, {"size-cost-grid", ours}}) {
       Span span;

@@ -163,7 +163,7 @@ class Assembly {
     write_file(folder_ / "index.html", with_folds_packed(page_html(page_)));
     bool agree = true;  // where the same rule must agree, it does
     for (const SceneData& facts : findings_.facts)
-      for (const MethodFamily* peer : default_peers()) agree &= !same_rule_differs(facts, *peer);
+      for (const MethodData& method : facts.methods) agree &= !same_rule_differs(facts, method);
     return {std::move(page_), agree};
   }
 

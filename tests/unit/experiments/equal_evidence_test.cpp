@@ -36,10 +36,7 @@ Method as_program(Method method) {
   method.name = "exec:" + method.name, method.rule = "", method.stepper = nullptr,
   method.contact = ContactLoss::sampled;
   method.adaptive = method.implicit = method.position_based = false;
-  method.identify = [method, found = std::make_shared<std::optional<FoundRule>>()]() -> const FoundRule& {
-    if (!*found) *found = find_rule(method);
-    return **found;
-  };
+  identify_by_runs(method);
   return method;
 }
 
@@ -244,11 +241,88 @@ TEST(WhichRule, SeesThatStepsAreChosenOrIgnored) {
 }
 
 TEST(WhichRule, SpeaksOfTheIngredientsTriedOnly) {
-  const Method method = as_program("rk4");
-  EXPECT_EQ(rule_on(method, shipped_scene("chain").model), "rk4");
-  for (const char* name : {"cloth-sphere", "cloth-swing", "circle"})
-    EXPECT_EQ(rule_on(method, shipped_scene(name).model), "") << name;
-  EXPECT_EQ(rule_on(find_method("rk4"), shipped_scene("cloth-sphere").model), "rk4");
+  const Method method = as_program("rk4"), built_in = find_method("rk4");
+  const auto same = [](const Method& a, const char* b, const char* scene) {
+    return same_rule(a, find_method(b), shipped_scene(scene).model);
+  };
+  EXPECT_EQ(same(method, "rk4", "chain"), true);
+  EXPECT_EQ(same(method, "leapfrog", "cloth-sphere"), false);
+  for (const char* name : {"cloth-sphere", "cloth-swing", "circle"}) {
+    EXPECT_EQ(same(method, "rk4", name), std::nullopt) << name;
+    EXPECT_EQ(same(built_in, "odeint/rk4", name), true) << name;
+  }
+}
+
+TEST(WhichRule, OfBulletsWorldsIsMeasuredToo) {
+  const auto same = [](const char* a, const char* b) {
+    return same_rule(find_method(a), find_method(b), shipped_scene("cloth-wind").model);
+  };
+  EXPECT_EQ(same("bullet/deformable-explicit", "symplectic-euler"), true);
+  EXPECT_EQ(same("bullet/deformable-explicit", "leapfrog"), false);
+  EXPECT_EQ(same("bullet/deformable-implicit+tight", "implicit-euler+linear"), true);
+  EXPECT_EQ(same("bullet/deformable-implicit", "implicit-euler+linear"), std::nullopt) << "its solver leaves more";
+  EXPECT_EQ(same("bullet/pbd", "symplectic-euler"), false);
+  EXPECT_EQ(rule_of(find_method("bullet/deformable-implicit")), "implicit-euler+linear, solver above rounding");
+}
+
+/// The positions that are kept in single precision, and velocities as their differences.
+Method in_single_precision(const char* rule, bool reversed) {
+  Method method = find_method(rule);
+  method.engine = [step = stepper(rule).step, reversed](const Scene& asked, const EngineRun& run, Observer& observer) {
+    Scene scene = asked;
+    if (reversed)
+      for (Term& term : scene.model.terms)
+        if (auto* springs = std::get_if<Springs>(&term)) std::ranges::reverse(springs->list);
+    const TimeGrid grid = time_grid(run);
+    System f(scene.model);
+    Workspace w(scene.start);
+    State s = scene.start;
+    s.x = s.x.cast<float>().cast<double>(), s.v = s.v.cast<float>().cast<double>();
+    observer.observe(s, true);
+    for (int i = 1; i <= grid.samples * grid.steps_per_sample; ++i) {
+      step(f, s, grid.h, w);
+      s.x = s.x.cast<float>().cast<double>(), s.v = s.v.cast<float>().cast<double>(), s.t = i * grid.h;
+      observer.observe(s, i % grid.steps_per_sample == 0);
+    }
+    return Outcome{.step = grid.h};
+  };
+  return as_program(method);
+}
+
+TEST(WhichRule, IsFoundInSinglePrecision) {
+  const Method same = in_single_precision("symplectic-euler", false);
+  EXPECT_EQ(rule_of(same), "symplectic-euler, single precision") << sentence_of(same.identify());
+  EXPECT_EQ(same_rule(same, find_method("symplectic-euler"), shipped_scene("chain").model), true);
+  const Method other_order = in_single_precision("xpbd", true);
+  EXPECT_EQ(other_order.identify().kind, FoundRule::nearest) << "one spring after the other, in another order";
+  EXPECT_EQ(rule_of(other_order), "xpbd on one spring, single precision") << sentence_of(other_order.identify());
+}
+
+TEST(KnownBreaks, HangOnTheRuleFoundAndNotOnAName) {
+  const auto known = read_known_breaks(shipped_known_breaks());
+  const auto marks = [&](Method method, const char* name) {
+    method.name = name;
+    std::string text;
+    for (const char* relation : {"spring-order", "no-force"})
+      for (const Answer& a : answers_of(method, {}, 1, known, {}, {}, &find_relation(relation)))
+        text += fmt::format("{} ", name_of(a.mark));
+    return text;
+  };
+  const Method xpbd = as_program("xpbd"), right = as_program("leapfrog");
+  const std::string breaks = marks(xpbd, "exec:./engine");
+  EXPECT_TRUE(contains(breaks, "known")) << breaks;
+  for (const char* name : {"exec:./jolt", "exec:./leapfrog", "exec:./bullet/pbd"})
+    EXPECT_EQ(marks(xpbd, name), breaks) << name;
+  // a name excuses nobody
+  Method idle = right;
+  idle.engine = [](const Scene& scene, const EngineRun& run, Observer& observer) {
+    Outcome out{.step = time_grid(run).h};
+    replay({std::vector<Points>(run.samples + 1, scene.start.x), std::vector<Points>(run.samples + 1, scene.start.v)},
+           scene, run, observer, out);
+    return out;
+  };
+  identify_by_runs(idle);
+  EXPECT_TRUE(contains(marks(idle, "exec:./jolt-compare/engine"), "broken"));
 }
 
 std::vector<std::string> broken_by(const Method& method) {

@@ -25,7 +25,12 @@ MethodData run(const std::string& method, std::optional<double> error, Verdict v
                long evaluations = 6000) {
   MethodData m;
   m.method = method, m.verdict = verdict, m.error = error, m.step = 5e-4, m.evaluations = evaluations;
+  if (!method.starts_with(program_prefix)) m.same_rule = method == ours || method == theirs;
   return m;
+}
+
+void set_round_off(SceneData& f, std::optional<double> bound) {
+  for (MethodData& m : f.methods) m.round_off = bound;
 }
 
 SceneData facts(std::vector<MethodData> methods) {
@@ -106,11 +111,11 @@ TEST_F(OfAScene, AgreementIsOneOfFourRules) {
     return std::string();
   };
   EXPECT_EQ(rule(), "") << "nothing was compared";
-  peer.difference = 1e-12, f.round_off = 1e-11;
+  peer.difference = 1e-12, set_round_off(f, 1e-11);
   EXPECT_EQ(rule(), "same-rule");
   peer.difference = 1e-9;
   EXPECT_EQ(rule(), "same-rule-differs");
-  f.round_off.reset();
+  set_round_off(f, {});
   EXPECT_EQ(rule(), "same-rule-chaotic");
   peer.different_law = "drag";
   EXPECT_EQ(rule(), "different-rule");
@@ -120,14 +125,20 @@ TEST_F(OfAScene, AgreementIsOneOfFourRules) {
   EXPECT_EQ(rule(), "") << "a run that failed is compared with nothing";
 }
 
-TEST_F(OfAScene, AProgramMayFollowTheSameRule) {
+TEST_F(OfAScene, AgreementOfAProgramIsJudgedByTheRuleFound) {
   SceneData f = facts({run(ours, 1e-3), run("exec:./mine", 1e-3)});
-  f.round_off = 1e-11, f.methods[1].difference = 1e-12;
+  set_round_off(f, 1e-11), f.methods[1].difference = 1e-12;
   EXPECT_EQ(sentence_of(the(said(f), "same-motion")),
             "At the same step mine parts from mysim's symplectic-euler by at most 1.0e-12 m in 3 s; round-off allows "
             "1.0e-11 m.");
   f.methods[1].difference = 1e-9;
   EXPECT_EQ(the(said(f), "unknown-rule").value, 1e-9);
+  f.methods[1].same_rule = true;
+  EXPECT_EQ(the(said(f), "same-rule-differs").value, 1e-9);
+  f.methods[1].round_off = 1e-8;  // in single precision
+  EXPECT_EQ(the(said(f), "same-rule").value, 1e-9);
+  f.methods[1].same_rule = false;
+  EXPECT_EQ(the(said(f), "different-rule").other, "exec:./mine");
 }
 
 TEST_F(OfAScene, WithoutBulletNoSentenceSpeaksOfIt) {
@@ -325,7 +336,7 @@ class Answers : public Take {
   void SetUp() override {
     for (const Scene& s : scenes_) {
       SceneData f = facts({run(ours, 1e-3), run(theirs, 1e-3), run("bullet/pbd", 5e-3)});
-      f.scene = s.name, f.round_off = 1e-9, f.methods[1].difference = 3.4e-12;
+      f.scene = s.name, set_round_off(f, 1e-9), f.methods[1].difference = 3.4e-12;
       if (s.model.find<Spheres>()) f.methods[0].clearance = 0, f.methods[1].difference = 2.97e-3;
       facts_.push_back(f);
     }
@@ -409,14 +420,19 @@ TEST_F(Answers, GiveALimitAboutAStartOnlyWhereTheTruthConfirmsIt) {
 }
 
 TEST_F(Answers, NameTheReadersProgram) {
-  for (const auto& [difference, words] :
-       {std::pair{6e-12, "mysim, mine and Bullet part by at most 6.0e-12 m on 2 scenes."},
-        {1.3e-3, "mysim and Bullet part by at most 3.4e-12 m on 2 scenes; mine by up to 1.3 mm."}}) {
+  using Known = std::optional<bool>;
+  for (const auto& [same_rule, difference, words] :
+       {std::tuple{Known(true), 6e-12, "mysim, mine and Bullet part by at most 6.0e-12 m on 2 scenes."},
+        {Known(), 6e-12, "mysim and Bullet part by at most 3.4e-12 m on 2 scenes; mine by up to 6.0e-12 m."},
+        {Known(true), 1.3e-3, "No: with the same rule and step, mysim and mine part by up to 1.3 mm"},
+        {Known(false), 1.3e-3,
+         "mysim and Bullet part by at most 3.4e-12 m on 2 scenes; mine (other rule) by 1.3 mm."}}) {
     std::vector<SceneData> facts = facts_;
     facts[1].methods.push_back(run("exec:./mine", 1e-3));
-    facts[1].methods.back().difference = difference;
+    facts[1].methods.back().difference = difference, facts[1].methods.back().same_rule = same_rule;
+    facts[1].methods.back().round_off = 1e-9;
     const std::vector<Finding> all = answer_findings(scenes_, facts, full());
-    EXPECT_EQ(all[0].rule, "answer-agreement");
+    EXPECT_EQ(all[0].rule, same_rule && difference > 1e-9 && *same_rule ? "answer-agreement-no" : "answer-agreement");
     EXPECT_TRUE(contains(sentence_of(all[0]), words)) << sentence_of(all[0]);
     expect_short(all);
   }
@@ -478,7 +494,7 @@ TEST_F(Answers, WithoutBulletTheyAreOfTheEngineThatIsThere) {
     std::erase_if(each.methods,
                   [](const MethodData& m) { return family_of(m.method).by_default() && m.method != ours; });
     each.methods.push_back(run("exec:./bin/mine", 2e-3));
-    each.methods.back().difference = 1e-4;
+    each.methods.back().difference = 1e-4, each.methods.back().round_off = 1e-9;
   }
   const std::vector<Finding> all = answers({});
   expect_short(all);
@@ -489,6 +505,9 @@ TEST_F(Answers, WithoutBulletTheyAreOfTheEngineThatIsThere) {
   EXPECT_EQ(answers({})[0].rule, "answer-difference") << "contact has no bound";
   facts_.pop_back();
   EXPECT_EQ(answers({})[0].rule, "answer-same-motion");
+  for (SceneData& each : facts_) each.methods.back().same_rule = true;
+  EXPECT_EQ(answers({})[0].rule, "answer-agreement");
+  EXPECT_EQ(answers({})[0].other, "exec:./bin/mine");
 }
 
 TEST_F(Answers, ADisagreementBeyondRoundOffIsNoYes) {
@@ -502,7 +521,7 @@ TEST_F(Answers, ADisagreementBeyondRoundOffIsNoYes) {
 
 TEST_F(Answers, WhereTheMotionIsChaoticNothingIsSaidOfAgreement) {
   facts_.pop_back();
-  for (SceneData& each : facts_) each.round_off.reset(), each.growth = 1e9;
+  for (SceneData& each : facts_) set_round_off(each, {}), each.growth = 1e9;
   EXPECT_EQ(answers({})[0].rule, "answer-chaotic");
   EXPECT_EQ(answers({})[0].value, 1e9);
   expect_short(answers({}));
