@@ -115,8 +115,8 @@ struct SettingRun {
   bool ok() const { return outcome.verdict == Verdict::ok; }
 };
 
-/// The runs of one method; empty where it does not take the scene, or built another one. A note says where it took some
-/// settings and refused others.
+/// The runs of one method; empty where it does not take the scene. A note says where it took some settings and refused
+/// others, or built another scene at them.
 std::vector<SettingRun> runs_at(const Method& method, const Scene& scene, const Run& base,
                                 const std::vector<Setting>& settings, bool recorded, MotionBoundsCache& bounds,
                                 std::vector<std::string>& notes) {
@@ -124,6 +124,7 @@ std::vector<SettingRun> runs_at(const Method& method, const Scene& scene, const 
   std::vector<SettingRun> tries;
   std::string refusal;
   size_t refused = 0;
+  bool mismatch = false;
   for (const Setting& setting : settings) {
     Recorder recorder;
     Outcome out = run_method(method, scene, setting.applied_to(base), {&recorder}, std::ref(bounds));
@@ -132,9 +133,9 @@ std::vector<SettingRun> runs_at(const Method& method, const Scene& scene, const 
       continue;
     }
     if (!method.stepper && certify(method.name, scene, out).mismatch()) {
-      notes.push_back(fmt::format("speed-accuracy leaves out {} on {}: it built another scene, see its certificate",
-                                  method.name, scene.name));
-      return {};
+      refusal = fmt::format("at {} it built another scene, see its certificate", setting.value), ++refused;
+      mismatch = true;
+      continue;
     }
     // its last frames take a run of their own: observing every step makes adaptive methods take other steps
     LastFrames last(omega, setting.tolerance ? 0 : setting.value);
@@ -142,9 +143,9 @@ std::vector<SettingRun> runs_at(const Method& method, const Scene& scene, const 
       run_method(method, scene, setting.applied_to(base), {&last}, std::ref(bounds));
     tries.push_back({setting, std::move(out), std::move(recorder.trajectory), last.path()});
   }
-  if (refused > 0 && !tries.empty())
-    notes.push_back(fmt::format("speed-accuracy leaves out {} of {} runs of {} on {}, which it refuses: {}", refused,
-                                settings.size(), method.name, scene.name, refusal));
+  if (mismatch || (refused > 0 && !tries.empty()))
+    notes.push_back(fmt::format("speed-accuracy leaves out {} of {} runs of {} on {}, {}: {}", refused, settings.size(),
+                                method.name, scene.name, mismatch ? "for" : "which it refuses", refusal));
   return tries;
 }
 

@@ -2,6 +2,7 @@
 // by hand.
 
 #include "experiments/scenes/scenes.h"
+#include "experiments/speed_accuracy/speed_accuracy.h"
 #include "experiments/tables/adequacy.h"
 #include "experiments/tables/speed_accuracy.h"
 #include "experiments/tables/sphere.h"
@@ -13,6 +14,7 @@
 #include "report/findings/recommendation.h"
 #include "report/findings/report_data.h"
 #include "report/findings/summaries.h"
+#include "report/page/page_parts.h"
 #include "tests/unit/helpers.h"
 #include "tests/unit/report/made_up_findings.h"
 
@@ -534,6 +536,37 @@ TEST_F(Answers, RunsThatFailedAreCountedWhereNoLimitWasMeasured) {
   const Finding failed = the(answers({}), "answer-failed");
   EXPECT_EQ(failed.value, 1);
   EXPECT_EQ(sentence_of(failed), "1 of 8 runs at the scenes' own steps failed: symplectic-euler.");
+}
+
+TEST(StepReadBack, IsTheSameToRoundingInEveryChapter) {
+  Request request;
+  request.scenes = load_scenes({"spring"});
+  const Scene& scene = request.scenes[0];
+  for (const bool rounded : {true, false}) {
+    SCOPED_TRACE(rounded);
+    Method mine = find_method("bullet/deformable-explicit");
+    mine.name = "exec:./mine";
+    mine.engine = [inner = mine.engine, rounded](const Scene& s, const crosscheck::Run& r, Observer& o) {
+      Outcome out = inner(s, r, o);
+      out.readback->step = rounded ? std::nextafter(out.step, 1) : out.step * (1 + 1e-9);
+      return out;
+    };
+    request.methods = {find_method(ours), mine};
+    MethodResults results;
+    TableSet rows;
+    engines_on(request, scene, results, rows);
+    const SceneData facts = scene_data(scene.name, rows);
+    const std::vector<Finding> all = findings_of(scene, facts, rows);
+    EXPECT_EQ(of_rule(all, "same-rule").size(), rounded);
+    PageContent page;
+    page.findings = answer_findings(request.scenes, {facts}, rows);
+    page.scenes = {{&scene, &facts, all}};
+    for (const Certificate& c : rows.certificates) page.scenes[0].certificates.push_back(&c);
+    EXPECT_EQ(contains(first_screen_html(page), "certificate, 1 of 1"), rounded);
+    speed_accuracy_on(request, scene, rows);
+    const auto runs = crosscheck::rows_of<SpeedAccuracyRow>(rows);
+    EXPECT_EQ(std::ranges::any_of(runs, [](const SpeedAccuracyRow& r) { return r.method == "exec:./mine"; }), rounded);
+  }
 }
 
 TEST(MainScene, IsTheLastClothThatWasTimedElseTheLastScene) {
