@@ -435,6 +435,14 @@ void ResumableOutput::announce(const std::vector<std::string>& files) {
   });
 }
 
+std::filesystem::path ResumableOutput::growing(const std::string& file) {
+  const auto known = manifest_.files.find(file);
+  const bool whole = known != manifest_.files.end() && !known->second.hash.empty();
+  const std::string name = whole ? "unfinished-" + file : file;
+  if (!manifest_.files.contains(name)) announce({name}), now_.erase(name);
+  return place_.target / name;
+}
+
 void ResumableOutput::keep(const std::string& inner) {
   for (const auto& [path, about] : manifest_.files)
     if (path.starts_with(inner + "/")) now_.emplace(path, about);

@@ -85,6 +85,9 @@ class ResumableOutput {
 
   /// Says which files will be written next. What a user has under these names is kept as NAME.yours.
   void announce(const std::vector<std::string>& files);
+  /// The place of a file that holds a part of the result until finish(): under its own name, or as "unfinished-NAME" as
+  /// long as a finished result has a file of that name.
+  std::filesystem::path growing(const std::string& file);
   /// Counts what is listed in a folder inside to this result too.
   void keep(const std::string& inner);
   /// Removes what is listed of an earlier result and was not announced or kept since.

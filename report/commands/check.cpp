@@ -149,13 +149,15 @@ std::string junit_of(const std::vector<Answer>& answers) {
 
 /// A picture of each break that is not known, of the scene that shows it; those that cannot be drawn are left out.
 std::vector<PageImage> draw_breaks(const std::vector<Answer>& answers, const std::vector<Method>& methods,
-                                   const std::vector<Scene>& scenes, const std::filesystem::path& folder) {
+                                   const std::vector<Scene>& scenes, const std::filesystem::path& folder,
+                                   ResumableOutput& output) {
   std::vector<PageImage> pictures;
   for (const Answer& a : answers) {
     if (a.mark != RelationMark::broken) continue;
     const std::vector<Scene> asked = scenes.empty() ? a.relation->smallest() : scenes;
     const auto scene = std::ranges::find(asked, a.scene, &Scene::name);
     const auto file = folder / (file_name_of(fmt::format("{}-{}-{}", a.relation->name, a.method, a.scene)) + ".png");
+    output.announce({file.filename().string()});
     if (scene == asked.end() || !draw_break(methods_named(a.method, methods), *scene, a.finding.since, file).empty())
       continue;
     const std::string caption =
@@ -185,14 +187,19 @@ int check_relations(const CheckOptions& options, const std::string& line) {
                          options.known,
                          line});
   }
-  std::optional<OutputFolder> folder;
+  std::optional<ResumableOutput> folder;
   if (!options.out.empty()) folder.emplace(options.out, "check");
   Progress progress(static_cast<int>(methods.size() * relations().size()));
   std::vector<Answer> answers;
   const AboutToAsk begin = [&](const std::string& what) { progress.begin(what); };
-  // rows are printed as they come: a check that is stopped leaves what it has found
+  const Provenance lines = provenance(line);
+  Table so_far = table_of(std::vector<Answer>());
+  // rows are printed and written as they come: a check that is stopped leaves what it has found
   const OnAnswer on_answer = [&](const Answer& answer) {
     if (!options.json) print_answer(answer);
+    if (!folder) return;
+    so_far.add(table_of(std::vector{answer}).rows[0]);
+    write_file(folder->growing(so_far.name + ".csv"), csv(so_far, lines));
   };
   const Relation* only = options.relation.empty() ? nullptr : &find_relation(options.relation);
   if (only == &agreement())
@@ -210,12 +217,12 @@ int check_relations(const CheckOptions& options, const std::string& line) {
     }
   progress.done();
   if (folder) {
+    const std::filesystem::path out(options.out);
     const Table table = table_of(answers);
-    const Provenance lines = provenance(line);
-    write_csv(table, lines, folder->path());
-    write_file(
-        folder->path() / "index.html",
-        relations_page_html(rows_of<RelationRow>(table), draw_breaks(answers, methods, scenes, folder->path()), lines));
+    folder->announce({table.name + ".csv", "index.html"});
+    write_csv(table, lines, out);
+    write_file(out / "index.html", relations_page_html(rows_of<RelationRow>(table),
+                                                       draw_breaks(answers, methods, scenes, out, *folder), lines));
     folder->finish();
   }
   if (!options.junit.empty()) write_file(options.junit, junit_of(answers));

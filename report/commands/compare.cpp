@@ -99,27 +99,36 @@ int compare_command(const CompareOptions& options) {
   }
   const Scene& scene = request.scenes[0];
   require_resources_to_keep(methods_of(request, scene), scene, run_of(request, scene));
-  OutputFolder folder(options.out, "compare");
+  ResumableOutput folder(options.out, "compare");
+  const Provenance lines = with_scenes(provenance(options.command_line), request.scenes);
 
   MethodResults answers;
   TableSet result;
+  Table so_far = table_of<EngineRow>();
   Progress progress(static_cast<int>(methods_of(request, scene).size()) + 1);
   for (const Method& method : methods_of(request, scene)) {
     Request shown = request;
     shown.methods = {with_progress(method, progress)};
-    result_of(shown, scene, shown.methods[0], answers);
+    const Outcome& out = result_of(shown, scene, shown.methods[0], answers).outcome;
+    // differences between methods come at the end; a comparison that is stopped leaves the runs
+    add(so_far, EngineRow{scene.name, method.name, out.verdict, out.reason, out.end, out.step, out.steps,
+                          out.evaluations, out.degenerate_springs});
+    write_file(folder.growing(so_far.name + ".csv"), csv(so_far, lines));
   }
   progress.begin(fmt::format("truth and certificates of {}", scene.name));
   engines_on(request, scene, answers, result);
   progress.done();
-  const Provenance lines = with_scenes(provenance(options.command_line), request.scenes);
-  for (const Table& table : result.tables) write_csv(table, lines, folder.path());
+  for (const Table& table : result.tables) {
+    folder.announce({table.name + ".csv"});
+    write_csv(table, lines, options.out);
+  }
 
   bool mismatch = false;  // withholds the numbers of that engine alone
   for (const Certificate& certificate : result.certificates) {
     print(certificate);
-    write_file(folder.path() / (file_name_of("certificate-" + certificate.method) + ".json"),
-               certificate_json(certificate));
+    const std::string file = file_name_of("certificate-" + certificate.method) + ".json";
+    folder.announce({file});
+    write_file(options.out / file, certificate_json(certificate));
     if (certificate.mismatch()) {
       fmt::print("  MISMATCH: {} was given another scene; its numbers are not compared\n", certificate.method);
       mismatch = true;

@@ -356,6 +356,26 @@ TEST_P(Output, CanBeReplacedFromWithin) {
   fs::current_path(before);
 }
 
+TEST_P(Output, APartOfAResultIsKeptBesideAFinishedOne) {
+  const auto grow = [&](const std::string& rows, bool whole) {
+    ResumableOutput folder(target_, "check");
+    for (size_t n = 1; n <= rows.size(); ++n) write_file(folder.growing("rows.csv"), rows.substr(0, n));
+    if (!whole) return;
+    folder.announce({"rows.csv"});
+    write_file(target_ / "rows.csv", rows);
+    folder.finish();
+  };
+  grow("ab", false);
+  EXPECT_EQ(in(target_), (Files{{"rows.csv", "ab"}}));
+  EXPECT_FALSE(read_manifest(target_)->finished);
+  grow("abc", true);
+  for (const char* rows : {"d", "e"}) grow(rows, false);
+  EXPECT_EQ(in(target_), (Files{{"rows.csv", "abc"}, {"unfinished-rows.csv", "e"}}));
+  grow("de", true);
+  EXPECT_EQ(in(target_), (Files{{"rows.csv", "de"}}));
+  EXPECT_TRUE(read_manifest(target_)->finished);
+}
+
 TEST_P(Output, AResultGrowsInPlaceAndGoesOn) {
   const auto grow = [&](bool resume, const std::vector<std::string>& points, const std::string& table, bool whole) {
     ResumableOutput folder(target_, "experiment");
