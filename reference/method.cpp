@@ -107,10 +107,22 @@ std::string short_name(const std::string& method) {
   return family_of(method).is_subject() ? method.substr(method.find('/') + 1) : method;
 }
 
-std::string program_title(const std::string& method) {
-  std::vector<std::string> parts = split(method.substr(method.find(':') + 1), '+');
-  parts[0] = std::filesystem::path(parts[0]).stem().string();
-  return fmt::format("{}", fmt::join(parts, ", "));
+std::string program_title(const std::string& method, std::span<const std::string> beside) {
+  const auto title = [](const std::string& name, size_t folders) {
+    std::vector<std::string> parts = split(name.substr(name.find(':') + 1), '+');
+    std::filesystem::path file = std::filesystem::path(parts[0]).lexically_normal(), shown = file.stem();
+    for (file = file.parent_path(); folders > 0 && !file.filename().empty(); --folders, file = file.parent_path())
+      shown = file.filename() / shown;
+    parts[0] = shown.string();
+    return fmt::format("{}", fmt::join(parts, ", "));
+  };
+  for (size_t folders = 0; folders <= static_cast<size_t>(std::ranges::count(method, '/')); ++folders)
+    if (std::ranges::none_of(beside, [&](const std::string& other) {
+          return other != method && family_of(other).role == Role::outside &&
+                 title(other, folders) == title(method, folders);
+        }))
+      return title(method, folders);
+  return method.substr(method.find(':') + 1);
 }
 
 std::string sticky_method() { return std::string(subject().representative) + "+sticky"; }

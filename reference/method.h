@@ -111,8 +111,9 @@ std::string subject_method(const std::function<bool(const Stepper&)>& asked);
 /// "leapfrog" of mysim's; of others the whole name.
 std::string short_name(const std::string& method);
 
-/// An outside program's or trajectory's name for readers, by its file and options: "my-mujoco, n=4".
-std::string program_title(const std::string& method);
+/// An outside program's or trajectory's name for readers, by its file and options: "my-mujoco, n=4"; with as many
+/// folders before it as tell it from the other programs named `beside` it: "a/engine".
+std::string program_title(const std::string& method, std::span<const std::string> beside = {});
 
 /// The subject's representative with the contact rule that puts a touching particle back.
 std::string sticky_method();

@@ -49,7 +49,7 @@ Drawing drawing_of(const StackedBars& bars) {
         single_quoted(bars.name + ".csv"), single_quoted(part.title), part.colour, fill,
         part.hatched ? part.colour : "#FFFFFF"));
   }
-  for (const std::string& name : bars.names) widest = std::max(widest, width_of(reader_name(name)));
+  for (const std::string& name : bars.names) widest = std::max(widest, width_of(reader_name(name, bars.names)));
   const double lines = static_cast<double>(bars.names.size()), room = 0.03 * (high - low);
   const NamedLines layout(bars, bars.label, widest, lines, key);
   low -= low < 0 ? room : 0, high += room;
@@ -57,7 +57,7 @@ Drawing drawing_of(const StackedBars& bars) {
                     "set yzeroaxis lt 1 lc rgb \"#333333\" lw 1.5\n" +
                     layout.commands(bars, ticks_of(low, high, false, layout.box.right - layout.box.left, false));
   for (size_t i = 0; i < bars.names.size(); ++i)
-    out += layout.name(static_cast<double>(i + 1), reader_name(bars.names[i]));
+    out += layout.name(static_cast<double>(i + 1), reader_name(bars.names[i], bars.names));
   drawing.script = out + terminals(bars, layout.tall, joined_plot(parts));
   return drawing;
 }
@@ -103,12 +103,14 @@ Drawing drawing_of(const DotPlot& dots) {
   std::vector<KeyEntry> key;
   std::vector<std::string> parts;
   double low = 1, high = 1, widest = 0;
+  std::vector<std::string> titles;
+  for (const DotPlot::Series& series : dots.series) titles.push_back(series.title);
   for (size_t i = 0; i < dots.series.size(); ++i) {
     const DotPlot::Series& series = dots.series[i];
     if (!drawn(series)) continue;
     for (const auto& dot : series.dots)
       if (dot) low = std::min(low, dot->low), high = std::max(high, dot->high);
-    key.push_back({reader_name(series.title), KeyEntry::Kind::mark, series.style});
+    key.push_back({reader_name(series.title, titles), KeyEntry::Kind::mark, series.style});
     parts.push_back(fmt::format(
         "{} using (strcol(1) eq {} ? $4 : NaN):($3 + {:.3g}):5:6 with xerrorbars lc rgb \"{}\" pt {} ps 0.8 lw 1.5 "
         "notitle",
@@ -116,14 +118,15 @@ Drawing drawing_of(const DotPlot& dots) {
         series.style.colour, series.style.marker));
   }
   low /= 1.3, high *= 1.3;
-  for (const std::string& name : dots.names) widest = std::max(widest, width_of(reader_name(name)));
+  for (const std::string& name : dots.names) widest = std::max(widest, width_of(reader_name(name, dots.names)));
   const double lines = static_cast<double>(dots.names.size() + dots.headings.size());
   const NamedLines layout(dots, dots.label, widest, lines, key);
   std::string out = script_head(dots) + fmt::format("set logscale x 10\nset xrange [{:.8g}:{:.8g}]\n", low, high) +
                     layout.y_range(lines) +
                     layout.commands(dots, ticks_of(low, high, true, layout.box.right - layout.box.left, false)) +
                     "set arrow from 1, graph 0 to 1, graph 1 nohead lc rgb \"#333333\" lw 1.5 back\n";
-  for (size_t i = 0; i < dots.names.size(); ++i) out += layout.name(place_of(dots, i), reader_name(dots.names[i]));
+  for (size_t i = 0; i < dots.names.size(); ++i)
+    out += layout.name(place_of(dots, i), reader_name(dots.names[i], dots.names));
   for (const auto& [line, heading] : dots.headings) out += layout.name(place_of(dots, line) - 1, heading, true);
   drawing.script = out + terminals(dots, layout.tall, joined_plot(parts));
   return drawing;

@@ -250,9 +250,9 @@ std::string rule_of(const std::string& name) {
   return rule;
 }
 
-std::string title_of(const std::string& name) {
+std::string title_of(const std::string& name, std::span<const std::string> beside) {
   const MethodFamily& family = family_of(name);
-  if (family.role == Role::outside) return program_title(name);
+  if (family.role == Role::outside) return program_title(name, beside);
   return family.is_subject() ? rule_of(name) : fmt::format("{} {}", family.title, rule_of(name));
 }
 
@@ -276,24 +276,20 @@ const char* colour_of(const MethodFamily& family, bool representative) {
 
 Json method_looks_json(std::span<const std::string> methods) {
   // a colour and a mark for each program (style.css)
-  constexpr std::string_view colours[] = {"outside", "outside3", "outside4", "outside5", "outside6"},
+  constexpr std::string_view colours[] = {"outside2", "outside3", "outside4", "outside5", "outside6"},
                              marks[] = {"triangle", "diamond", "square", "circle"};
   Json json = Json::object();
   size_t programs = 0;
   for (const std::string& name : methods) {
     const MethodFamily& family = family_of(name);
     const bool program = family.role == Role::outside;
-    // programs of one name differ by their folder
-    const auto title_or_path = [&] {
-      const auto same = [&](const std::string& other) { return other != name && title_of(other) == title_of(name); };
-      return program && std::ranges::any_of(methods, same) ? name.substr(name.find(':') + 1) : title_of(name);
-    };
+    const std::string title = title_of(name, methods);
     const Method* method = builtin_method(name);
     const bool representative = name == family.representative;
     const bool positions = method && method->position_based && !family.is_subject();
     const bool usual = method && method->stepper && method->stepper == usual_rule();
-    json[name] = {{"title", title_or_path()},
-                  {"engine", program ? title_or_path() : std::string(family.title)},
+    json[name] = {{"title", title},
+                  {"engine", program ? title : std::string(family.title)},
                   {"rule", program ? "" : rule_of(name)},
                   {"colour", program ? colours[programs % std::size(colours)] : colour_of(family, representative)},
                   {"mark", program                     ? marks[programs % std::size(marks)]

@@ -103,7 +103,10 @@ std::vector<NamedCurves> named_parts(const Figure& f) {
   std::ranges::stable_sort(order, {}, [&](size_t i) { return place_in_line(all[i]); });
   for (size_t i = 0; i < std::min(order.size(), most_in_colour); ++i) all[order[i]].coloured = true;
   const auto left = std::ranges::count_if(all, [](const NamedCurves& n) { return !n.coloured; });
-  for (NamedCurves& n : all) n.name = n.coloured || left == 1 ? reader_name(n.title) : fmt::format("{} others", left);
+  std::vector<std::string> titles;
+  for (const NamedCurves& n : all) titles.push_back(n.title);
+  for (NamedCurves& n : all)
+    n.name = n.coloured || left == 1 ? reader_name(n.title, titles) : fmt::format("{} others", left);
   return all;
 }
 void CurvePlot::set_ranges() {
@@ -232,8 +235,10 @@ void CurvePlot::frame_numbers() {
 void CurvePlot::frame_categories() {
   double longest = 0, apart = box_.right - box_.left;
   x_ticks_.clear();
+  std::vector<std::string> texts;
+  for (const auto& [at, text] : f_.categories) texts.push_back(text);
   for (const auto& [at, text] : f_.categories) {
-    std::string name = reader_name(text);
+    std::string name = reader_name(text, texts);
     if (width_of(name) > wide_ / 2) {  // a longer one leaves no room for the plot
       do name.pop_back();
       while (!is_printable(name) || width_of(name + "…") > wide_ / 2);

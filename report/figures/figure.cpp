@@ -68,7 +68,7 @@ std::string terminals_of_block(const FigureInfo& figure, double height, const st
 namespace {
 
 // what has no style of its own, like outside programs, is distinguished as far as five go
-constexpr CurveStyle spare_styles[] = {{"#333333", "(8,2,2,2,2,2)", 3},
+constexpr CurveStyle spare_styles[] = {{"#3F5F78", "(8,2,2,2,2,2)", 3},
                                        {"#AA3377", "(6,2,2,2)", 10},
                                        {"#117733", "(10,2,4,2)", 8},
                                        {"#44AA99", "(4,3,1,3)", 14},

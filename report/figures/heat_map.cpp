@@ -143,13 +143,15 @@ Drawing drawing_of(const HeatMap& map) {
   block += fmt::format("set logscale xy 10\nset xrange [{:.6g}:{:.6g}]\nset yrange [{:.6g}:{:.6g}]\n", grid.left,
                        grid.right, grid.bottom, grid.top);
   block += "unset key\nunset grid\nset border 15 front\n";
+  std::vector<std::string> titles;
+  for (const auto& panel_of : map.panels) titles.push_back(panel_of.title);
   for (int i = 0; i < panels; ++i) {
     const int r = i / across, c = i % across;
     const double x = left + c * (panel + gap), top = tall - heading - r * row - 17;
     block += sheet.margins({x, x + panel, top - height, top});
     block +=
         "unset label\n" + sheet.text({x + panel / 2, top + 9},
-                                     shortened(reader_name(map.panels[static_cast<size_t>(i)].title), panel + gap - 4),
+                                     shortened(reader_name(titles[static_cast<size_t>(i)], titles), panel + gap - 4),
                                      "center", "#111111");
     block += tick_command("x", i + across >= panels ? x_ticks : x_bare) + tick_command("y", c == 0 ? y_ticks : y_bare);
     block += panel_plot(map, map.panels[static_cast<size_t>(i)]);

@@ -232,7 +232,7 @@ std::string method_named(const std::string& title) {
   return "";
 }
 
-std::string reader_name(const std::string& title) {
+std::string reader_name(const std::string& title, const std::vector<std::string>& beside) {
   const std::string method = method_named(title);
   if (method.empty()) return title;
   // what follows a colon, as an order, has no room on paper
@@ -243,7 +243,12 @@ std::string reader_name(const std::string& title) {
   // of what is said of a method in its title only what stands in parentheses or after a comma is its own
   if (rest.starts_with(' ') && !rest.starts_with(" (")) rest.clear();
   const MethodFamily& family = family_of(method);
-  if (family.role == Role::outside) return program_title(method) + rest;
+  if (family.role == Role::outside) {
+    std::vector<std::string> methods;
+    for (const std::string& other : beside)
+      if (const std::string named = method_named(other); !named.empty()) methods.push_back(named);
+    return program_title(method, methods) + rest;
+  }
   const size_t plus = method.find('+');
   std::string rule = method.substr(0, plus).substr(method.find('/') + 1), option;
   if (plus != std::string::npos) option = ", " + method.substr(plus + 1);

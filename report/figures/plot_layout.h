@@ -83,8 +83,9 @@ std::string shortened(const std::string& text, double room);
 /// The method that a title names, with its prefix or without; empty where it names none.
 std::string method_named(const std::string& title);
 
-/// A title as a reader knows it: the name of an engine, a blank, its rule.
-std::string reader_name(const std::string& title);
+/// A title as a reader knows it: the name of an engine, a blank, its rule. Programs differ from those in the titles
+/// `beside` it.
+std::string reader_name(const std::string& title, const std::vector<std::string>& beside = {});
 
 inline constexpr double line_of_names = 17;  // from one name to the next
 

@@ -185,7 +185,7 @@ Drawing drawing_of(const StepLimits& f) {
   const double shift = columns ? 1 : 0;  // a line for the heads of the columns
   const auto lines = static_cast<double>(f.rows.size()) + shift;
   double widest = 0;
-  for (const std::string& name : f.names) widest = std::max(widest, width_of(reader_name(name)));
+  for (const std::string& name : f.names) widest = std::max(widest, width_of(reader_name(name, f.names)));
   constexpr int points[] = {7, 5, 13, 9};
   std::vector<KeyEntry> key{{"theory", KeyEntry::Kind::line, {"#111111", "1", -1}}};
   for (size_t s = 0; s < f.scenes.size(); ++s)
@@ -203,7 +203,7 @@ Drawing drawing_of(const StepLimits& f) {
     const StepLimits::Row& row = f.rows[i];
     const double place = static_cast<double>(i + 1) + shift;
     const std::string colour = style_of(f.names[i]).colour;
-    out += layout.name(place, reader_name(f.names[i]));
+    out += layout.name(place, reader_name(f.names[i], f.names));
     const bool said = i > 0 && row.open && f.rows[i - 1].words == row.words;
     const std::string words = columns    ? row.words
                               : row.open ? fmt::format("h ω > {}", nice(row.held))

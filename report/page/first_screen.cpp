@@ -34,9 +34,11 @@ std::string readouts(const ScenePart& part) {
   const auto add = [&](const std::string& whose, const std::string& value) {
     out += fmt::format("<span><span class=\"whose\">{}</span>{}</span>", prose(whose), value);
   };
+  std::vector<std::string> methods;
+  for (const ShownRun& run : part.runs) methods.push_back(run.method);
   for (const ShownRun& run : part.runs)
     if (run.beside)
-      add(fmt::format("{}{}, {}", family_of(run.method).is_subject() ? "mysim " : "", reader_name(run.method),
+      add(fmt::format("{}{}, {}", family_of(run.method).is_subject() ? "mysim " : "", reader_name(run.method, methods),
                       run.setting),
           !run.error ? "–"
                      : fmt::format("<span data-key=\"{}\" data-method=\"{}\"><b>{}</b> {}</span>", escaped(run.key),

@@ -128,9 +128,9 @@ class Chooser {
 };
 
 /// Engine and rule; an outside program goes by its own name.
-std::string engine_and_rule(const std::string& method) {
+std::string engine_and_rule(const std::string& method, const std::vector<std::string>& beside) {
   const MethodFamily& family = family_of(method);
-  if (family.role == Role::outside) return program_title(method);
+  if (family.role == Role::outside) return program_title(method, beside);
   std::string rule = method.substr(method.find('/') + 1);
   std::ranges::replace(rule, '-', ' ');
   if (const size_t at = rule.find("euler"); at != std::string::npos) rule[at] = 'E';
@@ -150,12 +150,14 @@ std::string shown_runs_html(const ScenePart& part, bool lab) {
       fmt::format("<div class=\"scroll\"><table class=\"main-runs\" data-scene=\"{}\">", escaped(part.scene->name)) +
       "<thead><tr><th>method</th><th>step</th><th>error / % of "
       "motion</th><th>largest error</th><th>CPU time</th><th>× real time</th><th></th></tr></thead><tbody>\n";
+  std::vector<std::string> methods;
+  for (const ShownRun& run : part.runs) methods.push_back(run.method);
   for (const ShownRun& run : part.runs)
     out += fmt::format(
         "<tr data-method=\"{0}\"><th scope=\"row\">{1}</th><td>{2}</td><td>{3}</td><td>{4}</td><td>{5}</td><td>{6}</td>"
         "<td class=\"choose\" data-key=\"{7}\"><button type=\"button\" data-as=\"a\">A</button><button type=\"button\" "
         "data-as=\"b\">B</button><button type=\"button\" data-as=\"play\">play</button>{8}</td></tr>\n",
-        escaped(run.method), escaped(engine_and_rule(run.method)), prose(run.setting),
+        escaped(run.method), escaped(engine_and_rule(run.method, methods)), prose(run.setting),
         run.error && motion > 0 ? prose(percent(*run.error, motion)) : "–",
         run.error ? prose(nice_length(*run.error)) : "–", run.cpu ? prose(step_text(*run.cpu)) : "–",
         run.cpu ? prose(nice(part.scene->duration / *run.cpu)) : "–", escaped(run.key),

@@ -581,16 +581,25 @@ TEST(MethodLooks, FamiliesHaveTheirColours) {
 }
 
 TEST(MethodLooks, ProgramsHaveNamesWithOptionsAndColoursOfTheirOwn) {
-  const std::vector<std::string> names{"exec:./my-mujoco+n=1", "exec:./my-mujoco+n=4", "exec:a/engine", "exec:b/engine",
-                                       "exec:./ode.py"};
+  const std::vector<std::string> names{"exec:./my-mujoco+n=1", "exec:./my-mujoco+n=4", "exec:a/engine",
+                                       "exec:b/engine",        "exec:./ode.py",        "odeint/rk4",
+                                       "exec:/x/c/bin/tool",   "exec:/x/d/bin/tool"};
   const JsonField looks = JsonField::parse(method_looks_json(names).dump(), "looks");
   std::set<std::string> titles, colours;
   for (const std::string& name : names) {
-    titles.insert(looks[name]["title"].text()), colours.insert(looks[name]["colour"].text());
+    titles.insert(looks[name]["title"].text());
+    colours.insert(looks[name]["colour"].text() + looks[name]["mark"].text());
+    if (name != "odeint/rk4") EXPECT_NE(looks[name]["colour"].text(), looks["odeint/rk4"]["colour"].text()) << name;
     EXPECT_TRUE(contains(asset("page/style.css"), "--" + looks[name]["colour"].text() + ":"));
   }
-  EXPECT_EQ(titles, (std::set<std::string>{"my-mujoco, n=1", "my-mujoco, n=4", "a/engine", "b/engine", "ode"}));
+  EXPECT_EQ(titles, (std::set<std::string>{"my-mujoco, n=1", "my-mujoco, n=4", "a/engine", "b/engine", "ode",
+                                           "Boost odeint rk4", "c/bin/tool", "d/bin/tool"}));
   EXPECT_EQ(colours.size(), names.size());
+  Figure f;
+  f.name = "two-engines", f.title = "two programs of one name", f.x = {"t / s"}, f.y = {"error / m"};
+  for (const char* name : {"exec:a/engine", "exec:b/engine"})
+    f.curves.push_back({name, style_of(name), {{0, 1}, {1, name[5] == 'a' ? 2. : 3.}}, false, true});
+  for (const char* name : {"a/engine", "b/engine"}) EXPECT_TRUE(contains(drawing_of(f).script, name));
 }
 
 struct Row {
