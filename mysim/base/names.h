@@ -21,9 +21,8 @@ void print_only_text();
 /// 255 bytes of file systems.
 constexpr std::size_t longest_derived_name = 220;
 
-/// True for a name of a scene, method or student: printable, 1 to 200 (or `most`) bytes, without '/', not beginning
-/// with
-/// '-' or '.'.
+/// True for a name of a scene, method or student: printable, 1 to 200 (or `most`) bytes, without '/', and not
+/// beginning with '-' or '.'.
 bool is_name(std::string_view text, std::size_t most = 200);
 
 /// Returns the name. Throws InputError "PLACE: expected a name ..., got '...'".

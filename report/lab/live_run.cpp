@@ -106,7 +106,7 @@ void LiveRun::go_on(const Change& change) {
   particles.pins.clear();
   for (int i = 0; i < particles.size(); ++i)
     if (particles.pinned[i]) particles.pins.push_back(i);
-  particles.pin_home = scene_.start.x(Eigen::placeholders::all, particles.pins);
+  particles.pin_home = scene_.start.x(Eigen::seqN(0, 3), particles.pins);
   for (const int pin : particles.pins)
     if (scene_.start.v.cols() > 0) scene_.start.v.col(pin).setZero();
   changed_ = true;

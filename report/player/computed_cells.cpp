@@ -77,7 +77,7 @@ CellStarts::Row& CellStarts::row_of(const MapCell& cell) {
       if (reading_order(term) == order) terms.push_back(term);
   scene.model.terms = std::move(terms);
   Particles& particles = scene.model.particles;
-  particles.pin_home = scene.start.x(Eigen::placeholders::all, particles.pins);
+  particles.pin_home = scene.start.x(Eigen::seqN(0, 3), particles.pins);
   particles.place_pins(scene.start);
   rows_.push_back(std::move(row));
   return rows_.back();

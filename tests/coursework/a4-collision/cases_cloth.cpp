@@ -36,7 +36,7 @@ void complete(Random& random, Scene& scene, const std::vector<int>& pins) {
   p.pins = pins;
   p.pinned.assign(count, 0);
   for (int pin : pins) p.pinned[pin] = 1;
-  p.pin_home = scene.start.x(Eigen::placeholders::all, pins);
+  p.pin_home = scene.start.x(Eigen::seqN(0, 3), pins);
   scene.model.terms = {crosscheck::Gravity{scene.gravity}, crosscheck::Springs{scene.springs},
                        crosscheck::Drag{Eigen::VectorXd::Constant(count, scene.drag)}};
 }
