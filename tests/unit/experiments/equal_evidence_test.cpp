@@ -299,7 +299,7 @@ TEST(WhichRule, IsFoundInSinglePrecision) {
   EXPECT_EQ(rule_of(other_order), "xpbd on one spring, single precision") << sentence_of(other_order.identify());
 }
 
-TEST(KnownBreaks, HangOnTheRuleFoundAndNotOnAName) {
+TEST(RowsOfRules, HangOnTheRuleFoundAndNotOnAName) {
   const auto known = read_known_breaks(shipped_known_breaks());
   const auto marks = [&](Method method, const char* name) {
     method.name = name;
