@@ -269,8 +269,12 @@ Scene perturbed_scene(const BaseState& base, const Perturbation& perturbation) {
 }
 
 PerturbedRun run_perturbed(const Method& method, const BaseState& base, double h, long steps,
-                           const Perturbation& perturbation, std::vector<Observer*> observers,
+                           Perturbation perturbation, std::vector<Observer*> observers,
                            const MotionBoundsFunction& bounds) {
+  // rounding of some 1e-7 in each step must stay small beside the perturbation over thousands of steps
+  constexpr double visible_in_single = 1e-2;
+  if (method.family().single_precision || (method.identify && method.identify().single))
+    perturbation.size = std::max(perturbation.size, visible_in_single);
   const Run run = run_of_perturbed(h, steps);
   const Stepper* rule = stepper_of(method);
   const TimeGrid grid = time_grid(run);

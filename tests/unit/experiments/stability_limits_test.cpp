@@ -244,6 +244,16 @@ TEST(MeasuredLimit, OnLinearScenesHoldsTwoPerCentBelowAndFailsTwoPerCentAbove) {
   EXPECT_EQ(tried, 3 * 6 + 3 * 8);  // without drag explicit Euler and trapezoidal have no stable step
 }
 
+/// Rounding in single precision is no growth: the limit is that of the same rule in double precision.
+TEST(MeasuredLimit, OfSinglePrecisionIsThePredictedOneToTwoPerCent) {
+  const BaseState base = base_state_of(load_scene("chain-link"));
+  const Method single = find_method("bullet32/deformable-explicit");
+  const PredictedLimit p = predicted_limit(single, base.spectrum);
+  ASSERT_GT(p.limit, 0);
+  EXPECT_TRUE(run_perturbed(single, base, 0.98 * p.limit, 1000, {p.mode}).held());
+  EXPECT_FALSE(run_perturbed(single, base, 1.02 * p.limit, 1000, {p.mode}).held());
+}
+
 TEST(MeasuredLimit, IsThePredictedOneToOnePerCent) {
   for (const Scene& scene : {with_drag(load_scene("spring"), 2), with_drag(load_scene("normal-modes"), 5)}) {
     const BaseState base = base_state_of(scene);
