@@ -268,9 +268,8 @@ Scene perturbed_scene(const BaseState& base, const Perturbation& perturbation) {
   return scene;
 }
 
-PerturbedRun run_perturbed(const Method& method, const BaseState& base, double h, long steps,
-                           Perturbation perturbation, std::vector<Observer*> observers,
-                           const MotionBoundsFunction& bounds) {
+PerturbedRun run_perturbed(const Method& method, const BaseState& base, double h, long steps, Perturbation perturbation,
+                           std::vector<Observer*> observers, const MotionBoundsFunction& bounds) {
   // rounding of some 1e-7 in each step must stay small beside the perturbation over thousands of steps
   constexpr double visible_in_single = 1e-2;
   if (method.family().single_precision || (method.identify && method.identify().single))

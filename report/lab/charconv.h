@@ -1,4 +1,4 @@
-// What toml++ needs of the standard library and libc++ for WebAssembly lacks.
+// Parts of the standard library that toml++ needs and libc++ for WebAssembly lacks.
 #pragma once
 
 #include <charconv>
