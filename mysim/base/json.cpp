@@ -167,6 +167,9 @@ struct Json::Parts {
       for (const std::string_view before : {"] ", ": ", " - "})
         if (const size_t found = wrong.find(before); found != std::string::npos) wrong.erase(0, found + before.size());
       wrong.erase(std::min(wrong.find("; last read: "), wrong.size()));
+      // as nlohmann-json before version 3.11.3 calls it
+      if (wrong.starts_with("attempting to parse an empty input"))
+        wrong = "unexpected end of input; expected '[', '{', or a literal";
       read = at;
       last = token.size();
       return false;

@@ -17,16 +17,9 @@ namespace crosscheck::testing_tools {
 
 // What stands in a PDF as cairo writes it: the size of its page and of its letters.
 
-/// Of a PDF's first page, points.
-inline std::pair<double, double> page_of(const std::string& pdf) {
-  std::smatch found;
-  EXPECT_TRUE(std::regex_search(pdf, found, std::regex("/MediaBox \\[ ?[0-9.]+ [0-9.]+ ([0-9.]+) ([0-9.]+)")));
-  return {std::stod(found[1]), std::stod(found[2])};
-}
-
-/// The heights of all letters on its pages, points.
-inline std::set<double> letters_of(const std::string& pdf) {
-  std::set<double> sizes;
+/// The streams of a PDF that zlib unpacks.
+inline std::vector<std::string> streams_of(const std::string& pdf) {
+  std::vector<std::string> streams;
   const std::string begin = "stream\n";
   for (size_t at = pdf.find(begin); at != std::string::npos; at = pdf.find(begin, at + 1)) {
     std::string text(1 << 24, ' ');
@@ -34,9 +27,28 @@ inline std::set<double> letters_of(const std::string& pdf) {
     const size_t from = at + begin.size();
     uLong rest = pdf.size() - from;
     if (uncompress2(reinterpret_cast<Bytef*>(text.data()), &size, reinterpret_cast<const Bytef*>(pdf.data() + from),
-                    &rest) != Z_OK)
-      continue;
-    text.resize(size);
+                    &rest) == Z_OK)
+      streams.push_back(text.substr(0, size));
+  }
+  return streams;
+}
+
+/// Of a PDF's first page, points. From version 1.18 on cairo packs the page's description into a stream.
+inline std::pair<double, double> page_of(const std::string& pdf) {
+  std::vector<std::string> texts = streams_of(pdf);
+  texts.insert(texts.begin(), pdf);
+  std::smatch found;
+  for (const std::string& text : texts)
+    if (std::regex_search(text, found, std::regex("/MediaBox \\[ ?[0-9.]+ [0-9.]+ ([0-9.]+) ([0-9.]+)")))
+      return {std::stod(found[1]), std::stod(found[2])};
+  ADD_FAILURE() << "no page has a size";
+  return {};
+}
+
+/// The heights of all letters on its pages, points.
+inline std::set<double> letters_of(const std::string& pdf) {
+  std::set<double> sizes;
+  for (const std::string& text : streams_of(pdf)) {
     if (text.find(" Tm") == std::string::npos) continue;
     const std::regex matrix("([-0-9.]+) ([-0-9.]+) [-0-9.]+ [-0-9.]+ [-0-9.]+ [-0-9.]+ Tm");
     for (std::sregex_iterator i(text.begin(), text.end(), matrix), end; i != end; ++i)
