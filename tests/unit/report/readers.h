@@ -33,7 +33,7 @@ inline std::vector<std::string> streams_of(const std::string& pdf) {
   return streams;
 }
 
-/// Of a PDF's first page, points. From version 1.18 on cairo packs the page's description into a stream.
+/// Size of a PDF's first page, points. From version 1.18 on cairo packs the page's description into a stream.
 inline std::pair<double, double> page_of(const std::string& pdf) {
   std::vector<std::string> texts = streams_of(pdf);
   texts.insert(texts.begin(), pdf);
