@@ -328,15 +328,22 @@ Image image_in(const fs::path& file) {
   return image;
 }
 
-bool look_the_same(const Image& a, const Image& b) {
+/// `letters`: those of another version of gnuplot may differ in their outlines, a tenth of the channels in the rows
+/// where letters stand (measured between versions 5.4 and 6.0: a twentieth).
+bool look_the_same(const Image& a, const Image& b, bool letters = true) {
   if (a.width != b.width || a.height != b.height || a.rgb.empty()) return false;
-  std::size_t far = 0;
+  std::size_t far = 0, in_letters = 0;
+  const std::size_t row = 3UL * static_cast<std::size_t>(a.width), last = static_cast<std::size_t>(a.height) - 20;
   for (std::size_t i = 0; i < a.rgb.size(); ++i) {
     const int apart = std::abs(a.rgb[i] - b.rgb[i]);
+    if (!letters && apart > 2 && (i / row < 30 || i / row >= last)) {
+      ++in_letters;
+      continue;
+    }
     if (apart > 8) return false;
     far += apart > 2;
   }
-  return far <= a.rgb.size() / 200;
+  return far <= a.rgb.size() / 200 && in_letters <= 50 * row / 10;
 }
 
 /// A cloth above its ball, coloured by a value, beside the same as springs.
@@ -371,7 +378,7 @@ TEST_F(GoldenPicture, LooksAsItDidAndChangesAreNoticed) {
        {std::pair{"drape-fast.png", Quality::fast}, {"drape-still.png", Quality::still}}) {
     SCOPED_TRACE(name);
     const Image known = image_in(golden / name), now = drawn(drape(quality));
-    if (!look_the_same(known, now)) {
+    if (!look_the_same(known, now, false)) {
       const fs::path kept = fs::temp_directory_path() / name;
       fs::copy_file(folder_ / "drawn.png", kept, fs::copy_options::overwrite_existing);
       ADD_FAILURE() << (known.rgb.empty() ? "there is no picture " : "not as in ") << golden / name
@@ -399,7 +406,7 @@ TEST_F(GoldenPicture, LooksAsItDidAndChangesAreNoticed) {
     for (const auto& [what, change] : changes) {
       Picture other = drape(quality);
       change(other);
-      EXPECT_FALSE(look_the_same(known, drawn(other))) << what << ", and nobody notices";
+      EXPECT_FALSE(look_the_same(now, drawn(other))) << what << ", and nobody notices";
     }
   }
 }
