@@ -2,10 +2,12 @@
 #include "report/base/gnuplot.h"
 
 #include <fmt/format.h>
+#include <zlib.h>
 
 #include <algorithm>
 #include <array>
 #include <optional>
+#include <regex>
 #include <sstream>
 #include <stdexcept>
 
@@ -15,13 +17,69 @@
 
 namespace crosscheck {
 
-void erase_pdf_date(const std::filesystem::path& pdf) {
-  std::string text = try_read_file(pdf).value_or("");
+namespace {
+
+/// Sets the date to 1970, in the same length. False if there is none.
+bool set_date(std::string& text) {
   const std::string key = "/CreationDate (D:", date = "19700101000000";
   const size_t at = text.find(key);
-  if (at == std::string::npos) return;
+  if (at == std::string::npos || at + key.size() + date.size() > text.size()) return false;
   text.replace(at + key.size(), date.size(), date);
-  write_file(pdf, text);
+  return true;
+}
+
+/// A stream of a PDF, unpacked; empty if it is none of zlib's or longer than 1 MB.
+std::string unpacked(const std::string& packed) {
+  std::string text(1 << 20, ' ');
+  uLongf size = text.size();
+  const auto* bytes = reinterpret_cast<const Bytef*>(packed.data());
+  if (uncompress(reinterpret_cast<Bytef*>(text.data()), &size, bytes, packed.size()) != Z_OK) size = 0;
+  return text.substr(0, size);
+}
+std::string packed(const std::string& text) {
+  uLongf size = compressBound(text.size());
+  std::string bytes(size, ' ');
+  compress(reinterpret_cast<Bytef*>(bytes.data()), &size, reinterpret_cast<const Bytef*>(text.data()), text.size());
+  return bytes.substr(0, size);
+}
+
+/// Sets the date in the last object stream (PDF 1.7, sections 7.5.7 and 7.5.8). Behind it follow its length, an object
+/// of its own, and the table of offsets. Leaves the file as it is if it is not like that.
+void set_packed_date(std::string& pdf) {
+  static const std::regex tail(
+      R"(\nendstream\nendobj\n(\d+) 0 obj\n +\d+\nendobj\n(\d+) 0 obj\n(<< /Type /XRef\n +/Length )\d+([^>]*)"
+      R"(/W \[1 (\d+) (\d+)\][^>]*>>\nstream\n))");
+  const size_t object = pdf.rfind("<< /Type /ObjStm"), begin = pdf.find("stream\n", object) + 7,
+               end = pdf.find("\nendstream\n", begin), last = pdf.rfind("\nendstream\n");
+  if (object == std::string::npos || end == std::string::npos || last <= end) return;
+  std::string content = unpacked(pdf.substr(begin, end - begin));
+  const std::string rest = pdf.substr(end, last - end);
+  std::smatch parts;
+  if (!set_date(content) || !std::regex_search(rest, parts, tail, std::regex_constants::match_continuous)) return;
+  std::string offsets = unpacked(rest.substr(static_cast<size_t>(parts.length())));
+  const size_t wide = std::stoul(parts[5]), entry = 1 + wide + std::stoul(parts[6]);
+  const auto set_offset = [&](const std::string& number, size_t offset) {
+    const size_t at = std::stoul(number) * entry + 1;
+    for (size_t i = wide; i-- > 0 && at + i < offsets.size(); offset >>= 8) offsets[at + i] = static_cast<char>(offset);
+  };
+  const std::string stream = packed(content);
+  std::string changed = pdf.substr(0, begin) + stream + "\nendstream\nendobj\n";
+  set_offset(parts[1], changed.size());
+  changed += fmt::format("{} 0 obj\n   {}\nendobj\n", parts[1].str(), stream.size());
+  const size_t table = changed.size();
+  set_offset(parts[2], table);
+  const std::string packed_offsets = packed(offsets);
+  changed += fmt::format("{} 0 obj\n{}{}{}", parts[2].str(), parts[3].str(), packed_offsets.size(), parts[4].str());
+  pdf = fmt::format("{}{}\nendstream\nendobj\nstartxref\n{}\n%%EOF\n", changed, packed_offsets, table);
+}
+
+}  // namespace
+
+void erase_pdf_date(const std::filesystem::path& pdf) {
+  std::string text = try_read_file(pdf).value_or("");
+  const std::string before = text;
+  if (!set_date(text)) set_packed_date(text);
+  if (text != before) write_file(pdf, text);
 }
 
 namespace {
