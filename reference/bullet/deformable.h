@@ -47,8 +47,9 @@ class SceneForce : public btDeformableLagrangianForce {
   /// Springs only, and bending only, at m_q: for the certificate's probe too.
   void addScaledElasticForce(btScalar scale, TVStack& force);
   void add_bending_force(btScalar scale, TVStack& force);
-  /// A value that Bullet does not use: forces of a known type would be merged with the first of their kind.
-  static constexpr auto type = static_cast<btDeformableLagrangianForceType>(100);
+  /// A value of the type's range that Bullet does not use: forces of a known type would be merged with the first of
+  /// their kind.
+  static constexpr auto type = static_cast<btDeformableLagrangianForceType>(7);
   btDeformableLagrangianForceType getForceType() override { return type; }
 
  private:
