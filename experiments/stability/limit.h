@@ -74,8 +74,8 @@ struct PerturbedRun {
 
 /// Runs the method from the base state, perturbed (or from the start, unperturbed, where the scene has no rest).
 /// Further observers observe the run too; `bounds` gives those of its true motion.
-PerturbedRun run_perturbed(const Method& method, const BaseState& base, double h, long steps,
-                           Perturbation perturbation, std::vector<Observer*> observers = {},
+PerturbedRun run_perturbed(const Method& method, const BaseState& base, double h, long steps, Perturbation perturbation,
+                           std::vector<Observer*> observers = {},
                            const MotionBoundsFunction& bounds = motion_bounds_of);
 /// The times and samples of such a run.
 Run run_of_perturbed(double h, long steps);
