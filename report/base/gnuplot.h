@@ -7,9 +7,10 @@
 
 namespace crosscheck {
 
-/// Sets the one date in a PDF that cairo writes (it knows no SOURCE_DATE_EPOCH) to 1970, so that two runs write the same
-/// bytes. From version 1.18 on cairo packs the date with the last objects of the file, before the table of offsets:
-/// these are packed again, and the offsets behind them follow. Throws InputError when the file cannot be written.
+/// Sets the one date in a PDF that cairo writes (it knows no SOURCE_DATE_EPOCH) to 1970, so that two runs write the
+/// same bytes. From version 1.18 on cairo packs the date with the last objects of the file, before the table of
+/// offsets: these are packed again, and the offsets behind them follow. Throws InputError when the file cannot be
+/// written.
 void erase_pdf_date(const std::filesystem::path& pdf);
 
 /// Runs gnuplot, without user settings, on a script in `folder`, which must leave these files there. Returns
