@@ -211,19 +211,18 @@ TEST_P(Output, KilledAtAnyMomentTheFirstIsWholeOrTheSecond) {
   std::ofstream(target_ / "data/mine.txt") << "mine";
   std::ofstream(target_ / "crosscheck.json.mine.part") << "mine";
   std::mt19937 random(22);
-  int killed = 0, undisturbed = 0;
+  int undisturbed = 0;
   for (int trial = 0; trial < 60; ++trial) {
     const pid_t child = fork();
-    if (child == 0) {
+    while (child == 0) {  // never ends by itself, so however fast the machine is, the kill interrupts a write
       put(two);
       put(one);
-      _exit(0);
     }
     usleep(std::uniform_int_distribution<useconds_t>(0, 60000)(random));
     kill(child, SIGKILL);
     int status = 0;
     waitpid(child, &status, 0);
-    killed += WIFSIGNALED(status);
+    ASSERT_TRUE(WIFSIGNALED(status)) << trial;
     const Files at_once = in(target_);
     const bool whole = at_once == with_mine(one) || at_once == with_mine(two);
     if (!GetParam()) {  // by two renames it may be away until the next writer
@@ -239,7 +238,6 @@ TEST_P(Output, KilledAtAnyMomentTheFirstIsWholeOrTheSecond) {
     EXPECT_TRUE(now == with_mine(one) || now == with_mine(two)) << trial << ": " << now.size() << " files," << others;
     expect_no_working_folder();
   }
-  EXPECT_GT(killed, 10);
   EXPECT_GT(undisturbed, 10);
   put(two);
   EXPECT_EQ(in(target_), with_mine(two));
