@@ -7,7 +7,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "experiments/check/agreement.h"
 #include "experiments/check/transformations.h"
 #include "mysim/base/errors.h"
 #include "mysim/base/files.h"
@@ -55,8 +54,7 @@ std::vector<KnownBreak> read_known_breaks(const std::filesystem::path& file) {
                    {}};
     if (s.has("rule")) one.rule = s.text("rule");
     if (s.has("times")) one.times = s.positive("times");
-    if (!glob_matches(one.relation, std::string(agreement().name)) &&
-        std::none_of(relations().begin(), relations().end(),
+    if (std::none_of(relations().begin(), relations().end(),
                      [&](const Relation& r) { return glob_matches(one.relation, std::string(r.name)); }))
       s.fail("relation", "the name of a relation, got '" + one.relation + "'");
     list.push_back(std::move(one));
@@ -99,19 +97,6 @@ Answer ask(const Relation& relation, Subject& subject, const Scene& scene, unsig
   }
   mark_known(answer, known, answer.mark == RelationMark::broken ? rule_of(subject.method()) : "");
   return answer;
-}
-
-std::vector<Answer> ask_pairs(const std::vector<Method>& methods, const std::vector<Scene>& scenes,
-                              const std::vector<KnownBreak>& known, const AboutToAsk& begin) {
-  std::vector<Answer> answers;
-  std::vector<Subject> subjects(methods.begin(), methods.end());
-  for (const Scene& scene : scenes.empty() ? small_nets() : scenes)
-    for (size_t i = 0; i < methods.size(); ++i)
-      for (size_t j = i + 1; j < methods.size(); ++j) {
-        if (begin) begin(fmt::format("{}: {}", pair_name(methods[i], methods[j]), agreement().name));
-        answers.push_back(ask_agreement(subjects[i], subjects[j], scene, known));
-      }
-  return answers;
 }
 
 std::vector<Answer> answers_of(const Method& method, const std::vector<Scene>& scenes, unsigned seed,

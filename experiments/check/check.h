@@ -13,7 +13,7 @@ namespace crosscheck {
 
 /// A relation that a method breaks by design, or by a cause that was measured.
 struct KnownBreak {
-  std::string method, relation, scene;  // globs; no scene: all; of a pair "A & B" the method is that text
+  std::string method, relation, scene;  // globs; no scene: all
   std::string reason;                   // one sentence with the cause as measured
   std::optional<double> times;          // up to so many times the tolerance; none: whatever the size
   std::string rule = {};                // glob of the rule that the method follows (rule_of); no `method` is given then
@@ -54,10 +54,6 @@ using OnAnswer = std::function<void(const Answer&)>;
 std::vector<Answer> answers_of(const Method& method, const std::vector<Scene>& scenes, unsigned seed,
                                const std::vector<KnownBreak>& known, const AboutToAsk& begin = {},
                                const OnAnswer& on_answer = {}, const Relation* only = nullptr);
-
-/// Whether each two of the methods agree (agreement.h), on these scenes or on the small net.
-std::vector<Answer> ask_pairs(const std::vector<Method>& methods, const std::vector<Scene>& scenes,
-                              const std::vector<KnownBreak>& known, const AboutToAsk& begin = {});
 
 /// 0 where something was asked and nothing but known breaks was found; else 1.
 int status_of(const std::vector<Answer>& answers);

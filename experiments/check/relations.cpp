@@ -8,7 +8,6 @@
 #include <cmath>
 #include <limits>
 
-#include "experiments/check/agreement.h"
 #include "experiments/check/compare.h"
 #include "experiments/check/transformations.h"
 #include "mysim/base/errors.h"
@@ -123,7 +122,6 @@ RelationResult worse(RelationResult a, RelationResult b) { return b.ratio() > a.
 std::span<const Relation> relations() { return table; }
 
 const Relation* relation_named(std::string_view name) {
-  if (name == agreement().name) return &agreement();
   const auto* at = std::ranges::find(table, name, &Relation::name);
   return at == std::end(table) ? nullptr : at;
 }

@@ -40,7 +40,7 @@ struct Relation {
 
 /// The table (relations.cpp).
 std::span<const Relation> relations();
-/// By name, also the one that is asked of pairs (agreement.h); null where there is none.
+/// The relation of that name, or null.
 const Relation* relation_named(std::string_view name);
 /// The same. Throws InputError that names the nearest.
 const Relation& find_relation(const std::string& name);

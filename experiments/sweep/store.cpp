@@ -29,8 +29,7 @@ void write_point_list(const PointList& list, const std::filesystem::path& folder
 PointList read_point_list(const std::filesystem::path& folder) {
   const auto file = path_inside(folder, "plan.json");
   if (!std::filesystem::exists(file))
-    throw InputError(fmt::format("{}: expected the plan of a sweep, written by `experiment --shard` or `check --hunt`",
-                                 file.string()));
+    throw InputError(fmt::format("{}: expected the plan of a sweep, written by `experiment --shard`", file.string()));
   if (const auto points = path_inside(folder, "points"); std::filesystem::exists(points)) require_plain_files(points);
   try {
     const JsonField json = JsonField::parse_file(file.string());

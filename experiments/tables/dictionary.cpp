@@ -37,7 +37,7 @@ using AllRows = std::tuple<                                                     
     LimitRow, FailureRow, GrowthRow, MapRow, MapLimitRow, MapCheckRow,                              //
     SizeCostRow, PhaseCostRow, RooflineRow,                                                         //
     KernelRow, SceneKernelRow, EqualErrorRow, OwnRunRow, SameStepRow, ImplicitStepRow, ThreadsRow,  //
-    RelationRow, HuntFindingRow, HuntCaseRow>;
+    RelationRow>;
 
 struct DictionaryRow {
   std::string table_name, column_name, unit, type, description;

@@ -6,7 +6,6 @@
 #include <algorithm>
 #include <memory>
 
-#include "experiments/check/agreement.h"
 #include "experiments/check/check.h"
 #include "experiments/check/protocol_kit.h"
 #include "experiments/scenes/scenes.h"
@@ -20,8 +19,8 @@
 #include "report/base/provenance.h"
 #include "report/commands/command_line.h"
 #include "report/commands/commands.h"
-#include "report/commands/hunt.h"
 #include "report/page/page.h"
+#include "report/pictures/scene_picture.h"
 
 namespace crosscheck {
 namespace {
@@ -66,10 +65,7 @@ struct CheckOptions {
   std::string known, junit, out, relation;
   unsigned seed = 1;
   std::string program;  // of the conformance kit; empty: relations are asked
-  bool json = false, pairs = false;
-  double hunt = 0;  // s; 0: no scenes are drawn
-  std::string shard;
-  int jobs = 0;
+  bool json = false;
 };
 
 /// Words become scenes where a shipped one is called so, or a file ends in .toml; else methods.
@@ -147,6 +143,15 @@ std::string junit_of(const std::vector<Answer>& answers) {
       answers.size(), failures, skipped, body);
 }
 
+/// Draws the method's run of a scene at the time of the break (s; none: the end) into a PNG file.
+void draw_break(const Method& method, const Scene& scene, std::optional<double> since,
+                const std::filesystem::path& file) {
+  const MethodResult result = recorded_result(method, scene, run_for_relations(scene));
+  Shot shot = usual_shot(scene, false);
+  shot.at = since.value_or(-1);
+  render::write_png(picture_of(scene, {&result}, shot), file);
+}
+
 /// A picture of each break that is not known, of the scene that shows it; those that cannot be drawn are left out.
 std::vector<PageImage> draw_breaks(const std::vector<Answer>& answers, const std::vector<Method>& methods,
                                    const std::vector<Scene>& scenes, const std::filesystem::path& folder,
@@ -158,8 +163,12 @@ std::vector<PageImage> draw_breaks(const std::vector<Answer>& answers, const std
     const auto scene = std::ranges::find(asked, a.scene, &Scene::name);
     const auto file = folder / (file_name_of(fmt::format("{}-{}-{}", a.relation->name, a.method, a.scene)) + ".png");
     output.announce({file.filename().string()});
-    if (scene == asked.end() || !draw_break(methods_named(a.method, methods), *scene, a.finding.since, file).empty())
+    if (scene == asked.end()) continue;
+    try {
+      draw_break(*std::ranges::find(methods, a.method, &Method::name), *scene, a.finding.since, file);
+    } catch (const std::exception&) {
       continue;
+    }
     const std::string caption =
         fmt::format("{} on {}{}. Broken: {}.", a.method, a.scene,
                     a.finding.since ? fmt::format(" at {:.2g} s", *a.finding.since) : "", a.relation->sentence);
@@ -174,19 +183,6 @@ int check_relations(const CheckOptions& options, const std::string& line) {
   sort_words(options.words, methods, scenes);
   const auto known =
       read_known_breaks(options.known.empty() ? shipped_known_breaks() : std::filesystem::path(options.known));
-  if (options.pairs && methods.size() < 2) throw InputError("check --pairs: expected at least two methods");
-  if (options.hunt > 0) {
-    if (!scenes.empty())
-      throw InputError(
-          fmt::format("check --hunt: expected methods alone, as it draws its scenes, got scene {}", scenes[0].name));
-    return hunt_command({{methods, known, options.seed},
-                         options.hunt,
-                         options.shard,
-                         options.jobs,
-                         options.out.empty() ? "out/hunt" : options.out,
-                         options.known,
-                         line});
-  }
   std::optional<ResumableOutput> folder;
   if (!options.out.empty()) folder.emplace(options.out, "check");
   Progress progress(static_cast<int>(methods.size() * relations().size()));
@@ -202,19 +198,12 @@ int check_relations(const CheckOptions& options, const std::string& line) {
     write_file(folder->growing(so_far.name + ".csv"), csv(so_far, lines));
   };
   const Relation* only = options.relation.empty() ? nullptr : &find_relation(options.relation);
-  if (only == &agreement())
-    throw InputError("--relation agreement: expected --pairs, which asks it of each two methods");
   for (const Method& method : methods) {
     if (method.identify && !options.json)
       fmt::print("{}: its rule is {}\n", method.name, sentence_of(method.identify()));
     std::ranges::move(answers_of(method, scenes, options.seed, known, begin, on_answer, only),
                       std::back_inserter(answers));
   }
-  if (options.pairs && !only)
-    for (Answer& answer : ask_pairs(methods, scenes, known, begin)) {
-      on_answer(answer);
-      answers.push_back(std::move(answer));
-    }
   progress.done();
   if (folder) {
     const std::filesystem::path out(options.out);
@@ -250,22 +239,7 @@ void add_check(CLI::App& app, Invocation& call) {
   check->add_option("--seed", options->seed, "seed of turns, shifts and orders (default: 1)");
   check->add_flag("--json", options->json, "prints JSON");
   check->add_option("--junit", options->junit, "file for JUnit XML");
-  check->add_option(
-      "--out", options->out,
-      "folder for a page and relations.csv (default: none is written), or for findings (default: out/hunt)");
-  check->add_flag("--pairs", options->pairs, "asks too whether each two of the methods come to one answer");
-  auto* hunt = check
-                   ->add_option("--hunt", options->hunt,
-                                "draws scenes for so many seconds, and makes each that breaks a relation, or on which "
-                                "two methods disagree, as small as it goes; goes on where the folder's last one ended")
-                   ->transform(above_zero());
-  check
-      ->add_option("--shard", options->shard,
-                   "I/N: of the hunt's cases every Nth from the Ith on; `merge` joins the parts")
-      ->needs(hunt);
-  check->add_option("--jobs", options->jobs, "number of processes of the hunt (default: one per core)")
-      ->check(CLI::Range(1, 256))
-      ->needs(hunt);
+  check->add_option("--out", options->out, "folder for a page and relations.csv (default: none is written)");
   check->callback([options, &call] {
     if (options->program.empty() && options->words.empty())
       throw InputError("check: expected a method, or --protocol exec:PROGRAM");

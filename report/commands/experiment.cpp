@@ -18,7 +18,6 @@
 #include "report/base/provenance.h"
 #include "report/commands/command_line.h"
 #include "report/commands/commands.h"
-#include "report/commands/hunt.h"
 #include "report/commands/json_files.h"
 
 namespace crosscheck {
@@ -147,7 +146,6 @@ int experiment_command(const ExperimentOptions& options) {
 
 int merge_command(const MergeOptions& options) {
   const PointList plan = read_point_list(options.folders.at(0));
-  if (is_hunt(plan)) return merge_hunts(options.folders, options.out, options.command_line);
   std::vector<Store> stores;
   for (const auto& folder : options.folders) {
     if (read_point_list(folder).points != plan.points)
@@ -195,9 +193,8 @@ void add_experiment(CLI::App& app, Invocation& call) {
 
 void add_merge(CLI::App& app, Invocation& call) {
   const auto options = std::make_shared<MergeOptions>();
-  auto* merge = app.add_subcommand("merge", "joins the shards of an experiment or a hunt");
-  merge->add_option("DIR", options->folders, "output folders of `experiment --shard`, or of `check --hunt --shard`")
-      ->required();
+  auto* merge = app.add_subcommand("merge", "joins the shards of an experiment");
+  merge->add_option("DIR", options->folders, "output folders of `experiment --shard`")->required();
   merge->add_option("--out", options->out, "folder")->required();
   merge->callback([options, &call] {
     options->command_line = call.line;

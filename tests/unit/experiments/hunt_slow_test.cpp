@@ -2,8 +2,7 @@
 
 #include <ctime>
 
-#include "experiments/check/hunt.h"
-#include "experiments/tables/typed.h"
+#include "tests/hunt/hunt.h"
 #include "tests/unit/experiments/defects.h"
 #include "tests/unit/helpers.h"
 
@@ -51,21 +50,16 @@ TEST(Mutants, AreFoundWithinAMinuteOnAtMostFourParticles) {
                     read_known_breaks(shipped_known_breaks())};
     const std::clock_t begin = std::clock();
     const auto seconds = [&] { return static_cast<double>(std::clock() - begin) / CLOCKS_PER_SEC; };
-    std::vector<HuntFindingRow> broken;
+    std::vector<Break> broken;
     long index = 0;
-    for (; broken.empty() && seconds() < 60; ++index) {
-      TableSet tables;
-      compute_case(hunt, draw(hunt.seed, index), tables);
-      broken = rows_of<HuntFindingRow>(*tables.table("hunt-findings"));
-      std::erase_if(broken, [](const HuntFindingRow& row) { return row.mark == RelationMark::known; });
-    }
+    for (int answers = 0; broken.empty() && seconds() < 60; ++index) broken = breaks_of(hunt, index, answers);
     EXPECT_LT(seconds(), 60);
     ASSERT_FALSE(broken.empty());
-    for (const HuntFindingRow& row : broken) {
-      fmt::print("{}: case {}, {:.1f} s: {} {}: {} of {} particles, {} trials: {}\n", mutant.what, index - 1, seconds(),
-                 row.relation, row.methods, row.particles, row.particles_drawn, row.trials, row.sentence);
-      EXPECT_LE(row.particles, 4) << row.scene;
-      EXPECT_TRUE(contains(row.kind, mutant.kind)) << row.scene;
+    for (const auto& [answer, smallest] : broken) {
+      fmt::print("{}: case {}, {:.1f} s: {} {}: {} particles, {} trials: {}\n", mutant.what, index - 1, seconds(),
+                 answer.relation->name, answer.method, smallest.draft.size(), smallest.trials, answer.sentence());
+      EXPECT_LE(smallest.draft.size(), 4) << smallest.draft.text();
+      EXPECT_TRUE(contains(smallest.draft.kind(), mutant.kind)) << smallest.draft.text();
     }
   }
 }

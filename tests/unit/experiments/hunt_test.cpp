@@ -1,13 +1,10 @@
-// The hunter: what it draws, how it makes scenes smaller, when two methods agree, and what it keeps of a case.
+// The hunter: random scenes, shrinking, and agreement of methods.
 
-#include "experiments/check/hunt.h"
+#include "tests/hunt/hunt.h"
 #include "experiments/check/compare.h"
 #include "experiments/check/transformations.h"
-#include "experiments/sweep/store.h"
-#include "experiments/tables/typed.h"
 #include "tests/unit/experiments/defects.h"
 #include "tests/unit/helpers.h"
-#include "tests/unit/temporary.h"
 
 namespace crosscheck {
 namespace {
@@ -16,9 +13,9 @@ using namespace testing_tools;
 
 TEST(Draw, IsAFunctionOfSeedAndIndex) {
   for (long index = 0; index < 3 * drawn_kinds; ++index) {
-    EXPECT_EQ(draw(1, index).draft.text(), draw(1, index).draft.text());
-    EXPECT_NE(draw(1, index).draft.text(), draw(2, index).draft.text());
-    EXPECT_NE(draw(1, index).draft.text(), draw(1, index + drawn_kinds).draft.text());
+    EXPECT_EQ(draw(1, index).text(), draw(1, index).text());
+    EXPECT_NE(draw(1, index).text(), draw(2, index).text());
+    EXPECT_NE(draw(1, index).text(), draw(1, index + drawn_kinds).text());
   }
 }
 
@@ -27,7 +24,7 @@ TEST(Draw, GivesScenesWithEveryIngredientAndOneForEveryRelation) {
   std::set<Family> families;
   int moved = 0, gusts = 0, links = 0, frictions = 0, rebounds = 0;
   for (long index = 0; index < 20 * drawn_kinds; ++index) {
-    const Scene scene = draw(3, index).draft.scene();
+    const Scene scene = draw(3, index).scene();
     SCOPED_TRACE(scene.source);
     EXPECT_GE(scene.model.particles.size(), 1);
     EXPECT_LE(scene.model.particles.size(), 30);
@@ -54,7 +51,7 @@ TEST(Draw, GivesScenesWithEveryIngredientAndOneForEveryRelation) {
 /// A net of many parts, and a question that only gravity and one shear spring answer.
 SceneDraft large_draft() {
   for (long index = 0;; index += drawn_kinds) {
-    SceneDraft draft = draw(5, index).draft;
+    SceneDraft draft = draw(5, index);
     if (draft.size() > 15 && draft.gravity && draft.gamma &&
         std::ranges::any_of(draft.springs, [](const auto& s) { return s.family == Family::shear; }))
       return draft;
@@ -159,65 +156,29 @@ TEST(Agreement, SaysWhyItCannotBeAsked) {
   const Method leapfrog = find_method("leapfrog");
   EXPECT_TRUE(
       contains(agreement_of(leapfrog, find_method("bullet/pbd"), small_nets()[0]).sentence(), "different laws"));
-  EXPECT_TRUE(
-      contains(agreement_of(leapfrog, find_method("bullet/deformable-explicit"), draw(1, 1).draft.scene()).sentence(),
-               "bullet/deformable-explicit follows another law of contact"));
-  EXPECT_TRUE(contains(agreement_of(leapfrog, find_method("truth/converged"), draw(1, 13).draft.scene()).sentence(),
+  EXPECT_TRUE(contains(agreement_of(leapfrog, find_method("bullet/deformable-explicit"), draw(1, 1).scene()).sentence(),
+                       "bullet/deformable-explicit follows another law of contact"));
+  EXPECT_TRUE(contains(agreement_of(leapfrog, find_method("truth/converged"), draw(1, 13).scene()).sentence(),
                        "no truth is known"));
-}
-
-class KnownPairs : public InFolder {};
-
-TEST_F(KnownPairs, AreRowsOfTheListToo) {
-  const auto known = read_known_breaks(write(
-      "known.toml", "[[known]]\nmethod = \"* & mysim/rk4\"\nrelation = \"agreement\"\nreason = \"It is heavy.\"\n"));
-  Subject a(heavy("leapfrog")), b(find_method("rk4"));
-  const Answer answer = ask_agreement(a, b, small_nets()[0], known);
-  EXPECT_EQ(answer.mark, RelationMark::known);
-  EXPECT_TRUE(contains(answer.sentence(), "known: It is heavy."));
 }
 
 TEST(Hunt, KeepsTheSmallestSceneOfEachBreak) {
   const Hunt hunt{{heavy("leapfrog"), find_method("rk4")}, {}, 1, 200};
   const long projectile = 8;
-  TableSet tables, again;
-  compute_case(hunt, draw(1, projectile), tables);
-  compute_case(hunt, draw(1, projectile), again);
-  EXPECT_EQ(table_set_json(tables), table_set_json(again));
-  const auto findings = rows_of<HuntFindingRow>(*tables.table("hunt-findings"));
-  ASSERT_EQ(findings.size(), 1U);
-  const HuntFindingRow& found = findings[0];
-  EXPECT_EQ(found.methods, "mysim/leapfrog & mysim/rk4");
-  EXPECT_EQ(found.relation, "agreement");
-  EXPECT_EQ(found.kind, "gravity");
-  EXPECT_EQ(found.particles, 1);
+  int answers = 0;
+  const std::vector<Break> breaks = breaks_of(hunt, projectile, answers);
+  EXPECT_GT(answers, 5);
+  ASSERT_EQ(breaks.size(), 1U);
+  const auto& [answer, smallest] = breaks[0];
+  EXPECT_EQ(answer.method, "mysim/leapfrog & mysim/rk4");
+  EXPECT_EQ(answer.relation->name, "agreement");
+  EXPECT_EQ(smallest.draft.kind(), "gravity");
+  EXPECT_EQ(smallest.draft.size(), 1);
   // the file shows it, and nothing but it
   Subject a(hunt.methods[0]), b(hunt.methods[1]);
-  EXPECT_EQ(ask_agreement(a, b, parse_scene(found.scene, found.kind), {}).sentence(), found.sentence);
-  const auto cases = rows_of<HuntCaseRow>(*tables.table("hunt-cases"));
-  ASSERT_EQ(cases.size(), 1U);
-  EXPECT_EQ(cases[0].broken, 1);
-  EXPECT_GT(cases[0].holds, 5);
-}
-
-TEST(Hunt, PutsFindingsOfOneKindTogether) {
-  const auto row = [](long index, const char* methods, const char* kind, int particles, RelationMark mark) {
-    HuntFindingRow r;
-    r.index = index, r.methods = methods, r.relation = "turned", r.kind = kind, r.particles = particles, r.mark = mark;
-    return r;
-  };
-  using enum RelationMark;
-  const std::vector<HuntFindingRow> rows{row(0, "a", "springs", 9, known),  row(1, "a", "springs", 3, broken),
-                                         row(2, "a", "gravity", 1, known),  row(3, "a", "springs", 2, broken),
-                                         row(4, "b", "springs", 2, broken), row(5, "a", "pins-springs", 2, broken)};
-  const auto groups = grouped(rows);
-  ASSERT_EQ(groups.size(), 4U);
-  EXPECT_EQ(groups[0].cases, 2);
-  EXPECT_EQ(groups[0].smallest.index, 3);
-  EXPECT_EQ(groups[1].smallest.index, 4);
-  EXPECT_EQ(groups[2].smallest.index, 5);
-  EXPECT_EQ(groups[3].cases, 2);
-  EXPECT_EQ(groups[3].smallest.mark, known);
+  EXPECT_EQ(ask_agreement(a, b, smallest.draft.scene(), {}).sentence(), answer.sentence());
+  const std::vector<Break> again = breaks_of(hunt, projectile, answers);
+  EXPECT_EQ(again.at(0).smallest.draft.text(), smallest.draft.text());
 }
 
 }  // namespace

@@ -1,5 +1,5 @@
 // The text of a scene file.
-#include "experiments/check/draft.h"
+#include "tests/hunt/draft.h"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>

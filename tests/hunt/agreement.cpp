@@ -1,5 +1,5 @@
 // Limits of two methods, side by side.
-#include "experiments/check/agreement.h"
+#include "tests/hunt/agreement.h"
 
 #include <fmt/format.h>
 
@@ -28,8 +28,8 @@ constexpr Relation of_pairs{"agreement",
                             says_nothing,
                             of_two};
 
-/// What a method does otherwise than the scene asks, at any step. That springs or dashpots are solved in another manner
-/// is no other law: it vanishes with the step.
+/// The law that a method follows instead of the scene's at any step, or an empty text. Another solution of springs or
+/// dashpots does not count: its effect vanishes with the step.
 std::string other_law(const Outcome& out) {
   for (const std::string& law : out.different_law)
     if (!law.starts_with("springs:") && !law.starts_with("dashpots:")) return law.substr(0, law.find(':'));
@@ -61,16 +61,6 @@ LimitEstimate limit_of_truth(const Scene& scene) {
 
 const Relation& agreement() { return of_pairs; }
 
-std::string pair_name(const Method& a, const Method& b) { return a.name + " & " + b.name; }
-
-std::vector<Method> methods_named(const std::string& name, const std::vector<Method>& methods) {
-  std::vector<Method> found;
-  for (const Method& method : methods)
-    if (name == method.name || name.starts_with(method.name + " & ") || name.ends_with(" & " + method.name))
-      found.push_back(method);
-  return found;
-}
-
 LimitEstimate limit_of(Subject& subject, const Scene& scene) {
   const Method& method = subject.method();
   if (method.family().role == Role::truth) return limit_of_truth(scene);
@@ -98,7 +88,8 @@ LimitEstimate limit_of(Subject& subject, const Scene& scene) {
 }
 
 Answer ask_agreement(Subject& a, Subject& b, const Scene& scene, const std::vector<KnownBreak>& known) {
-  Answer answer{pair_name(a.method(), b.method()), scene.name, &of_pairs, RelationMark::holds, {}, "", hash_of(scene)};
+  Answer answer{
+      a.method().name + " & " + b.method().name, scene.name, &of_pairs, RelationMark::holds, {}, "", hash_of(scene)};
   try {
     if (law_of(a.method(), scene) != law_of(b.method(), scene))
       throw CannotBeAsked("their springs follow different laws");

@@ -7,8 +7,8 @@
 #include <cmath>
 #include <set>
 
-#include "experiments/check/hunt.h"
 #include "mysim/base/errors.h"
+#include "tests/hunt/hunt.h"
 
 namespace crosscheck {
 namespace {
@@ -64,7 +64,7 @@ std::vector<double*> numbers_of(SceneDraft& d) {
   return all;
 }
 
-/// Whether a value of fewer digits than the other: 0 and 1 are the simplest.
+/// True for a value of fewer digits; 0 and 1 are the simplest.
 bool simpler(double value, double than) {
   const auto rank = [](double v) {
     if (v == 0) return 0;

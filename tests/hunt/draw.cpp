@@ -6,8 +6,8 @@
 #include <numbers>
 #include <set>
 
-#include "experiments/check/hunt.h"
 #include "mysim/base/random.h"
+#include "tests/hunt/hunt.h"
 
 namespace crosscheck {
 namespace {
@@ -243,7 +243,7 @@ void hard_chain(Draw& random, DraftMaker& make, const Units& units) {
 
 }  // namespace
 
-DrawnCase draw(unsigned seed, long index) {
+SceneDraft draw(unsigned seed, long index) {
   Draw random(seed, index);
   const Units units = draw_units(random);
   DraftMaker make(random, units);
@@ -289,7 +289,7 @@ DrawnCase draw(unsigned seed, long index) {
       rotation(random, make);
       break;
   }
-  return {seed, index, std::move(make.draft)};
+  return std::move(make.draft);
 }
 
 }  // namespace crosscheck
