@@ -5,6 +5,8 @@
 #   experiments/ci/weekly.sh [PART]...     builds, then runs these parts; without arguments all of them
 #   experiments/ci/weekly.sh --tests       prints the regular expression of the tests that are left out elsewhere
 #
+#   mutants     wrong changes to mysim, each of which regress must notice
+#   builds      regress on builds with other compilers and options
 #   corpus      coursework: all solutions, styles, mistakes, mutants, cheats and odd programs
 #   kill        reports under kill -9 at ten moments, and on a full disk
 #   rehearsals  a new stepper, term, scene, engine and experiment, added as CONTRIBUTING.md describes
@@ -19,7 +21,7 @@
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/../.."
 
-parts=(corpus kill rehearsals node latex sanitizers arm64 debian-13 testing)
+parts=(mutants builds corpus kill rehearsals node latex sanitizers arm64 debian-13 testing)
 declare -A tests=( # names as ctest knows them; a part without tests runs something else
   [corpus]='All/(EachCheat|OddPrograms)\.|All/Corpus\..*/classic|Mutants\.LosePointsAtTheirPart'
   [kill]='OutputOfReport\.(KilledAtTenMoments|AFullDisk)'
@@ -43,8 +45,8 @@ fi
 [ $# -gt 0 ] && parts=("$@")
 for part in "${parts[@]}"; do
   case $part in
-    corpus | kill | rehearsals | node | latex | sanitizers | arm64 | debian-13 | testing) ;;
-    *) sed -n '2,18s/^# \{0,1\}//p' "$0" >&2; exit 2 ;;
+    mutants | builds | corpus | kill | rehearsals | node | latex | sanitizers | arm64 | debian-13 | testing) ;;
+    *) sed -n '2,20s/^# \{0,1\}//p' "$0" >&2; exit 2 ;;
   esac
 done
 
@@ -61,6 +63,8 @@ for part in "${parts[@]}"; do
     rm -f "$build/build.ninja" # an earlier configuration did not find them
   fi
   case $part in
+    mutants) tests/mutants/prove.sh || status=$? ;;
+    builds) tests/mutants/builds.sh || status=$? ;;
     sanitizers) CROSSCHECK_PRESET=asan ./crosscheck test --fast || status=$? ;;
     arm64) experiments/ci/arm64.sh || status=$? ;;
     debian-13) BARE_SUITE=trixie .ci/bare-root sh -exc './crosscheck report; ./crosscheck test' || status=$? ;;

@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <map>
 #include <set>
 
@@ -124,27 +123,6 @@ std::vector<Comparison> compared(const Case& test_case, const std::vector<Quanti
       rows.push_back(row);
     }
   return rows;
-}
-
-namespace {
-
-double distance(const Comparison& row) { return row.was ? row.off() : std::numeric_limits<double>::infinity(); }
-
-}  // namespace
-
-Difference difference_of(std::span<const Comparison> rows) {
-  Difference close;
-  for (const Comparison& row : rows) {
-    const bool numbers = row.was && row.is, words = !row.was_word.empty() && !row.is_word.empty();
-    if (!numbers && !words) continue;
-    if (numbers ? *row.was == *row.is : row.was_word == row.is_word) {
-      ++close.identical;
-      continue;
-    }
-    ++close.differing;
-    if (!close.furthest || distance(row) > distance(*close.furthest)) close.furthest = row;
-  }
-  return close;
 }
 
 }  // namespace crosscheck

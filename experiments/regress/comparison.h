@@ -53,13 +53,4 @@ std::vector<NewMethod> new_methods(std::span<const Comparison> rows);
 /// The rows of `baseline` that belong to the case.
 std::vector<BaselineRow> baseline_rows_of(const Baseline& baseline, const Case& test_case);
 
-// The difference of results from their baselines where they need not be the same bits: other compilers round otherwise.
-
-/// Of the rows that have both a value that was and one that is.
-struct Difference {
-  size_t identical = 0, differing = 0;  // to the last bit, and not
-  std::optional<Comparison> furthest;   // of those that differ the one that is most tolerances off; words first
-};
-Difference difference_of(std::span<const Comparison> rows);
-
 }  // namespace crosscheck

@@ -1,11 +1,10 @@
-// The plain loop, rounds over the cases, and the file of blessed speeds.
+// The plain loop, and rounds over the cases.
 #include "experiments/regress/speed.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
-#include <fstream>
 #include <memory>
 #include <random>
 
@@ -13,11 +12,7 @@
 #include "experiments/observers.h"
 #include "experiments/scenes/cloths.h"
 #include "experiments/scenes/scenes.h"
-#include "experiments/tables/table.h"
 #include "experiments/timing/timing.h"
-#include "mysim/base/csv.h"
-#include "mysim/base/errors.h"
-#include "mysim/base/names.h"
 #include "mysim/base/random.h"
 #include "mysim/base/this_process.h"
 
@@ -68,6 +63,7 @@ double PlainLoop::seconds_of(long steps) {
 
 namespace {
 
+constexpr double resolution = 2e-3;   // s: shorter runs are repeated within a round until they have taken as much
 constexpr double long_enough = 5e-3;  // s of CPU time by the estimate: a round of all cases takes half a second
 
 /// From the start up to the end of the window, as far as that is not long; the same on every machine.
@@ -85,7 +81,7 @@ bool ends_well(const Method& method, const SpeedCase& q) {
   return run_method(method, q.scene, q.run, {&timeout}).verdict == Verdict::ok;
 }
 
-double seconds_of(const Method& method, const SpeedCase& q, double resolution) {
+double seconds_of(const Method& method, const SpeedCase& q) {
   const auto one_run = [&] {
     NullObserver null_observer;
     return method.engine(q.scene, q.run, null_observer).cpu_seconds;
@@ -110,24 +106,22 @@ class HeapShuffle {
   std::vector<std::unique_ptr<char[]>> kept_;
 };
 
-/// A case that is known to run, and how many steps of the plain loop take long enough.
-struct PreparedCase {
-  bool runs;
+bool runs(const SpeedCase& q) { return ends_well(q.method, q) && (!q.against || ends_well(*q.against, q)); }
+
+/// As many steps of the plain loop as take long enough.
+long steps_of_loop(const Scene& scene) {
+  PlainLoop loop(scene);
   long steps = 1;
+  while (loop.seconds_of(steps) < resolution / 2 && steps < (1L << 40)) steps *= 2;
+  return steps;
+}
 
-  PreparedCase(const SpeedCase& q, double resolution)
-      : runs(ends_well(q.method, q) && (!q.against || ends_well(*q.against, q))) {
-    PlainLoop loop(q.scene);
-    while (loop.seconds_of(steps) < resolution / 2 && steps < (1L << 40)) steps *= 2;
-  }
-};
-
-void measure_once(const SpeedCase& q, const PreparedCase& prepared, double resolution, Ratios& ratios) {
+void measure_once(const SpeedCase& q, long loop_steps, Ratios& ratios) {
   PlainLoop loop(q.scene);
-  const double per_steps = q.run.duration / q.scene.step / static_cast<double>(prepared.steps);
-  const double before = loop.seconds_of(prepared.steps), is = seconds_of(q.method, q, resolution),
-               was = q.against ? seconds_of(*q.against, q, resolution) : 0,
-               plain = (before + loop.seconds_of(prepared.steps)) / 2 * per_steps;
+  const double per_steps = q.run.duration / q.scene.step / static_cast<double>(loop_steps);
+  const double before = loop.seconds_of(loop_steps), is = seconds_of(q.method, q),
+               was = q.against ? seconds_of(*q.against, q) : 0,
+               plain = (before + loop.seconds_of(loop_steps)) / 2 * per_steps;
   ratios.is.push_back(is / plain);
   if (q.against) ratios.was.push_back(was / plain);
 }
@@ -157,94 +151,17 @@ std::vector<SpeedCase> speed_cases(const Selection& selection, const std::option
   return all;
 }
 
-std::vector<Ratios> measured_ratios(const std::vector<SpeedCase>& cases, const SpeedOptions& options, int seed) {
+std::vector<Ratios> measured_ratios(const std::vector<SpeedCase>& cases, int rounds, int seed) {
   std::mt19937_64 engine(static_cast<uint64_t>(seed));
-  std::vector<PreparedCase> prepared_cases;
-  for (const SpeedCase& q : cases) prepared_cases.emplace_back(q, options.resolution);
+  std::vector<long> loop_steps;  // 0: the case has no speed
+  for (const SpeedCase& q : cases) loop_steps.push_back(runs(q) ? steps_of_loop(q.scene) : 0);
   std::vector<Ratios> all(cases.size());
-  for (int round = 0; round < options.rounds; ++round) {
+  for (int round = 0; round < rounds; ++round) {
     const HeapShuffle shuffled(engine);
-    for (size_t i = 0; i < prepared_cases.size(); ++i)
-      if (prepared_cases[i].runs) measure_once(cases[i], prepared_cases[i], options.resolution, all[i]);
+    for (size_t i = 0; i < cases.size(); ++i)
+      if (loop_steps[i] > 0) measure_once(cases[i], loop_steps[i], all[i]);
   }
   return all;
-}
-
-namespace {
-
-constexpr const char* speed_header = "scene,hash,method,ratio,spread,machine,blessing";
-constexpr const char* form_of_machine = "CPU | COMPILER AND FLAGS | YARDSTICK";
-
-std::vector<Machine> machines_of(const std::vector<BlessedSpeed>& speeds) {
-  std::vector<Machine> all;
-  for (const BlessedSpeed& s : speeds)
-    if (std::find(all.begin(), all.end(), s.machine) == all.end()) all.push_back(s.machine);
-  return all;
-}
-
-BlessedSpeed speed_from(const std::string& line, const std::vector<Machine>& machines, size_t blessings) {
-  const std::vector<std::string> f = fields_of(line);
-  if (f.size() != 7) throw InputError(fmt::format("expected 7 fields, got {}", f.size()));
-  BlessedSpeed s{f[0], f[1], f[2], finite_number(f[3], "ratio"), finite_number(f[4], "spread")};
-  if (s.scene.empty() || s.method.empty()) throw InputError("expected a scene and a method");
-  if (!(s.ratio > 0)) throw InputError("expected a ratio above zero");
-  if (s.spread < 0) throw InputError("expected a spread that is not negative");
-  s.machine = machines[static_cast<size_t>(number_up_to(machines.size(), f[5], "machine")) - 1];
-  s.blessing = number_up_to(blessings, f[6], "blessing");
-  return s;
-}
-
-}  // namespace
-
-const BlessedSpeed* find_speed(const SpeedFile& file, const SpeedCase& test_case, const Machine& machine) {
-  if (machine.cpu.empty()) return nullptr;
-  for (const BlessedSpeed& s : file.speeds)
-    if (s.scene == test_case.scene.name && s.method == test_case.method.name && s.machine == machine) return &s;
-  return nullptr;
-}
-
-std::filesystem::path speed_file_in(const std::filesystem::path& folder) {
-  return path_inside(folder, "speed-cost.csv");
-}
-
-std::string text_of(const SpeedFile& file) {
-  std::string out = "# written by `crosscheck regress --bless`, never by hand\n";
-  for (size_t i = 0; i < file.blessings.size(); ++i) out += comment_line_of(file.blessings[i], i + 1);
-  const std::vector<Machine> machines = machines_of(file.speeds);
-  for (size_t i = 0; i < machines.size(); ++i)
-    out += fmt::format("# machine {}: {} | {} | {}\n", i + 1, machines[i].cpu, machines[i].compiler,
-                       machines[i].reference_loop);
-  out += fmt::format("# rows: {}\n", file.speeds.size());
-  out += "# ratio: CPU time of the method over that of as many steps of the plain loop on the same scene, in turns;\n";
-  out +=
-      "# the middle of seven measurements apart in time, each in a process of its own, laid out otherwise in memory\n";
-  out += "# spread: how far the second farthest of these is from the middle, relative\n";
-  out += fmt::format("{}\n", speed_header);
-  for (const BlessedSpeed& s : file.speeds)
-    out += fmt::format("{},{},{},{:.5g},{:.2g},{},{}\n", csv_field(s.scene), s.hash, csv_field(s.method), s.ratio,
-                       s.spread, std::find(machines.begin(), machines.end(), s.machine) - machines.begin() + 1,
-                       s.blessing);
-  return out;
-}
-
-std::optional<SpeedFile> read_speed_file(const std::filesystem::path& folder) {
-  const std::filesystem::path name = speed_file_in(folder);
-  if (!std::filesystem::exists(name)) return std::nullopt;
-  SpeedFile file;
-  read_strictly(name, [&file](StrictCsvReader& lines) {
-    lines.next(), lines.next();
-    file.blessings = lines.blessings();
-    std::vector<Machine> machines;
-    for (; lines.line().starts_with("# machine"); lines.next()) {
-      const auto parts = split_by_bars(without_prefix(fmt::format("# machine {}: ", machines.size() + 1), lines.line()),
-                                       3, form_of_machine);
-      machines.push_back({parts[0], parts[1], parts[2]});
-    }
-    lines.rows(speed_header, [&](const std::string& row) {
-      file.speeds.push_back(speed_from(row, machines, file.blessings.size()));
-    });
-  });
-  return file;
 }
 
 }  // namespace crosscheck

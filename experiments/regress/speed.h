@@ -59,12 +59,6 @@ struct SpeedCase {
 /// where nothing is left.
 std::vector<SpeedCase> speed_cases(const Selection& selection, const std::optional<Method>& against);
 
-/// Settings of a measurement: so many rounds, each of which runs every case once.
-struct SpeedOptions {
-  int rounds;
-  double resolution = 2e-3;  // s: shorter runs are repeated within a round until they have taken as much
-};
-
 /// CPU time of a method over that of as many steps of the plain loop, 1, of every round; empty where the run is refused
 /// or fails.
 struct Ratios {
@@ -72,44 +66,12 @@ struct Ratios {
   std::vector<double> was;  // of the one that it is compared with, in the same rounds; empty without one
 };
 
-/// The source of measurements: measured_ratios(), or a table of invented ones.
-using MeasureSpeeds = std::function<std::vector<Ratios>(const std::vector<SpeedCase>&, const SpeedOptions&)>;
+/// The source of measurements: so many rounds, each of which runs every case once. measured_ratios(), or a table of
+/// invented ones.
+using MeasureSpeeds = std::function<std::vector<Ratios>(const std::vector<SpeedCase>&, int rounds)>;
 
 /// In each round each case is run between two runs of the plain loop, so that a slow spell of the machine falls
-/// on both, and with everything elsewhere in memory, as drawn from the seed: what that changes is noise, too.
-std::vector<Ratios> measured_ratios(const std::vector<SpeedCase>& cases, const SpeedOptions& options, int seed);
-
-// Blessed speeds: the cost of each method over that of the plain loop at the last blessing. One file.
-
-/// The kind of machine and program that a speed belongs to: on another kind it says nothing, for what a method takes
-/// relative to the plain loop depends on the processor's units and caches and on the compiler.
-struct Machine {
-  std::string cpu,
-      compiler;  // processor_kind() (experiments/timing/machine.h), empty where that is not known; with its flags
-  std::string reference_loop;  // which plain loop
-  bool operator==(const Machine&) const = default;
-};
-
-struct BlessedSpeed {
-  std::string scene, hash, method;  // hash: of the scene
-  double ratio = 0;                 // CPU time over the plain loop's: the middle of some measurements apart in time
-  double spread = 0;                // relative: how far the second farthest of these is from the middle
-  Machine machine;
-  int blessing = 1;  // its number in the file, from 1
-};
-
-struct SpeedFile {
-  std::vector<Blessing> blessings;
-  std::vector<BlessedSpeed> speeds;  // of several kinds of machine side by side
-};
-
-/// The case's speed on that kind of machine, or null; no kind is like one that is not known.
-const BlessedSpeed* find_speed(const SpeedFile& file, const SpeedCase& test_case, const Machine& machine);
-
-/// speed-cost.csv in the folder.
-std::filesystem::path speed_file_in(const std::filesystem::path& folder);
-std::string text_of(const SpeedFile& file);
-/// Throws InputError "FILE:LINE: expected ..."; nothing where there is no file.
-std::optional<SpeedFile> read_speed_file(const std::filesystem::path& folder);
+/// on both, and with everything elsewhere in memory, as drawn from the seed: that effect is noise, too.
+std::vector<Ratios> measured_ratios(const std::vector<SpeedCase>& cases, int rounds, int seed);
 
 }  // namespace crosscheck

@@ -11,12 +11,6 @@
 namespace crosscheck {
 namespace {
 
-double median_of(std::vector<double> values) {
-  std::sort(values.begin(), values.end());
-  const size_t n = values.size();
-  return n % 2 ? values[n / 2] : (values[n / 2 - 1] + values[n / 2]) / 2;
-}
-
 /// The largest k such that fewer than k of n fair coins show heads with probability 0.05 at most; at least 1.
 size_t rank_of_bound(size_t n) {
   double weight = std::pow(0.5, static_cast<double>(n)), below = 0;  // P(heads = k - 1), and P(heads < k)
@@ -30,6 +24,12 @@ size_t rank_of_bound(size_t n) {
 }
 
 }  // namespace
+
+double median_of(std::vector<double> values) {
+  std::sort(values.begin(), values.end());
+  const size_t n = values.size();
+  return n % 2 ? values[n / 2] : (values[n / 2 - 1] + values[n / 2]) / 2;
+}
 
 double mean_time(const std::function<double()>& run, double resolution) {
   double sum = 0;
@@ -73,6 +73,22 @@ std::vector<double> ratios_of_rounds(const std::vector<double>& a, const std::ve
   std::vector<double> all;
   for (size_t i = 0; i < std::min(a.size(), b.size()); ++i) all.push_back(a[i] / b[i]);
   return all;
+}
+
+Timing ratio_of_rounds(const std::vector<double>& a, const std::vector<double>& b) {
+  return timing_of(ratios_of_rounds(a, b));
+}
+
+double spread_of(const std::vector<double>& values) {
+  const double middle = median_of(values);
+  std::vector<double> off;
+  for (const double each : values) off.push_back(std::max(each / middle, middle / each) - 1);
+  std::sort(off.begin(), off.end());
+  return off.size() > 1 ? off[off.size() - 2] : 0;
+}
+
+int direction_of(const Timing& ratio, double noise) {
+  return ratio.low > 1 + noise ? 1 : ratio.high < 1 / (1 + noise) ? -1 : 0;
 }
 
 double noise_floor(std::span<const std::vector<double>> times) {

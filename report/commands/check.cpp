@@ -19,6 +19,7 @@
 #include "report/base/provenance.h"
 #include "report/commands/command_line.h"
 #include "report/commands/commands.h"
+#include "report/commands/junit.h"
 #include "report/page/page.h"
 #include "report/pictures/scene_picture.h"
 
@@ -124,23 +125,15 @@ Json json_of(const std::vector<Answer>& answers) {
 
 /// A case for each answer: failed where broken, skipped where known or not asked.
 std::string junit_of(const std::vector<Answer>& answers) {
-  size_t failures = 0, skipped = 0;
-  std::string body;
+  JUnitReport report("check");
   for (const Answer& a : answers) {
-    body += fmt::format("  <testcase classname=\"{}\" name=\"{}: {}\"", escaped(a.method),
-                        escaped(std::string(a.relation->name)), escaped(a.scene));
-    if (a.mark == RelationMark::holds) {
-      body += "/>\n";
-      continue;
-    }
-    const bool broken = a.mark == RelationMark::broken;
-    ++(broken ? failures : skipped);
-    body += fmt::format("><{} message=\"{}\"/></testcase>\n", broken ? "failure" : "skipped", escaped(a.sentence()));
+    const std::string name = fmt::format("{}: {}", a.relation->name, a.scene);
+    if (a.mark == RelationMark::holds)
+      report.add(a.method, name);
+    else
+      report.add(a.method, name, a.mark == RelationMark::broken ? "failure" : "skipped", a.sentence());
   }
-  return fmt::format(
-      "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<testsuites>\n<testsuite name=\"check\" tests=\"{}\" "
-      "failures=\"{}\" errors=\"0\" skipped=\"{}\">\n{}</testsuite>\n</testsuites>\n",
-      answers.size(), failures, skipped, body);
+  return report.xml();
 }
 
 /// Draws the method's run of a scene at the time of the break (s; none: the end) into a PNG file.

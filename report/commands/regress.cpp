@@ -1,6 +1,4 @@
 // regress: results against baselines or against another method's; --bless writes baselines.
-#include "report/commands/regress.h"
-
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
@@ -10,9 +8,8 @@
 #include <memory>
 #include <set>
 
-#include "experiments/regress/attribution.h"
 #include "experiments/regress/regress.h"
-#include "experiments/regress/speed.h"
+#include "experiments/regress/speed_regression.h"
 #include "experiments/timing/machine.h"
 #include "mysim/base/errors.h"
 #include "mysim/base/files.h"
@@ -25,28 +22,29 @@
 
 namespace crosscheck {
 
+namespace {
+
+struct RegressOptions {
+  std::string filter, methods, against, reason;
+  std::filesystem::path baselines;  // empty: the shipped ones
+  bool full = false, bless = false, bisect = false;
+  std::vector<std::string> scenes;       // names or files; empty: all shipped ones
+  int figures = 6;                       // number of failed cases to draw
+  bool no_speed = false, speed = false;  // speed is measured too, when bisecting only where it is requested
+  std::filesystem::path out = "out/regress";
+  std::string command_line;
+};
+
 bool measures_speed(const RegressOptions& options) { return !options.no_speed && (!options.bisect || options.speed); }
 
-std::filesystem::path shipped_baselines() { return data_folder() / "reference" / "baselines"; }
-
+/// This machine and this program.
 Machine machine_of(const Provenance& lines) {
   std::string compiler = value_of(lines, "compiler");
   if (const std::string flags = CROSSCHECK_LINK_FLAGS; !flags.empty()) compiler += " " + flags;
   return {processor_kind(), compiler, PlainLoop::name};
 }
 
-SpeedRun speed_run_of(const Regression& regression, const Provenance& lines) {
-  return {regression.selection, regression.against, regression.baselines,
-          regression.out,       machine_of(lines),  regression.patience};
-}
-
-Speeds speeds_beside(const Regression& regression, const Provenance& lines, const std::vector<Comparison>& comparisons,
-                     Progress& progress) {
-  Speeds speeds = compared_speeds(speed_run_of(regression, lines), progress);
-  speeds.explanations = explain_speeds(speeds.rows, comparisons);
-  return speeds;
-}
-
+/// Prints one line for each change, and each comparison that was left out.
 void print_speeds(const Speeds& speeds) {
   const auto count = [&](SpeedStatus state) {
     return std::count_if(speeds.rows.begin(), speeds.rows.end(),
@@ -69,23 +67,21 @@ void print_speeds(const Speeds& speeds) {
 }
 
 void bless_and_print_speeds(const Regression& regression, const Blessing& blessing, const Provenance& lines) {
-  const SpeedRun run = speed_run_of(regression, lines);
-  if (run.machine.cpu.empty()) {
+  const Machine machine = machine_of(lines);
+  if (machine.cpu.empty()) {
     fmt::print("no speeds blessed: this processor cannot be told from others\n");
     return;
   }
   Progress progress(0);
-  const std::vector<BlessedSpeed> written = bless_speeds(run, blessing, progress);
+  const std::vector<BlessedSpeed> written = bless_speeds(regression, machine, blessing, progress);
   progress.done();
   for (const BlessedSpeed& speed : written)
     fmt::print("speed      {}, {}: {:.4g} times the plain loop, spread {:.1f} %\n", speed.scene, speed.method,
                speed.ratio, 100 * speed.spread);
   fmt::print("{} speeds blessed\n", written.size());
-  if (run.patience.exhausted()) fmt::print("{}\n", timed_beside_other_work);
+  if (regression.patience.exhausted()) fmt::print("{}\n", timed_beside_other_work);
   if (!written.empty()) fmt::print("{}\n", speed_file_in(regression.baselines).string());
 }
-
-namespace {
 
 constexpr auto nothing_measured =
     "nothing was measured: each case is unsupported or too slow (--full selects slower ones)";
@@ -106,7 +102,7 @@ long count_of(const std::vector<Comparison>& rows, Status state) {
   return std::count_if(rows.begin(), rows.end(), [&](const Comparison& row) { return row.state == state; });
 }
 
-int print_result(const RegressionResult& result, const std::string& cause, const std::filesystem::path& out) {
+int print_result(const RegressionResult& result, const std::filesystem::path& out) {
   const std::vector<Comparison> worst = worst_comparisons(result.rows);
   for (const Comparison& row : worst) print_row(row);
   for (const FailedPoint& f : result.failures) fmt::print("no answer  {}: {}\n", f.name, f.why);
@@ -119,7 +115,6 @@ int print_result(const RegressionResult& result, const std::string& cause, const
              added > 0 ? fmt::format(", {} new (not blessed yet)", added) : "",
              result.failures.empty() ? "" : fmt::format("; {} questions without an answer", result.failures.size()));
   if (!result.measured() && wrong == 0) fmt::print("{}\n", nothing_measured);
-  if (count_of(result.rows, Status::moved) > 0) fmt::print("cause: {}\n", cause.empty() ? "not attributed" : cause);
   for (const char* name : {"index.html", "regress.csv"})
     if (std::filesystem::exists(out / name)) fmt::print("{}\n", (out / name).string());
   return result.passed() ? 0 : 1;
@@ -189,7 +184,7 @@ int regressed(const RegressOptions& options) {
       throw InputError("--against: expected one --method, which is set beside that one");
     regression.against = find_method(options.against);
   }
-  regression.baselines = options.baselines.empty() ? shipped_baselines() : options.baselines;
+  regression.baselines = options.baselines.empty() ? data_folder() / "reference" / "baselines" : options.baselines;
   OutputFolder folder(options.out, "regress");
   regression.out = folder.path();
   const Provenance lines = provenance(options.command_line);
@@ -203,19 +198,19 @@ int regressed(const RegressOptions& options) {
   Progress progress(0);
   const RegressionResult result = regress(regression, progress);
   Speeds speeds;
-  if (measures_speed(options)) speeds = speeds_beside(regression, lines, result.rows, progress);
+  if (measures_speed(options)) speeds = compared_speeds(regression, machine_of(lines), progress);
+  add_sentences(speeds.rows, result.rows);
   progress.done();
   const std::vector<Case> selected = cases(regression.selection);
-  const std::string cause = attribution_of(selected, result.rows);
-  write_verdict(result, speeds, cause, lines, regression.out);
+  write_verdict(result, speeds, lines, regression.out);
   if (options.figures > 0 && !options.bisect) {
-    VerdictPage page{result, speeds, cause};
+    VerdictPage page{result, speeds};
     page.beside = regression.against ? regression.against->name : "the baselines in " + regression.baselines.string();
     page.lines = lines;
     write_verdict_page(page, selected, regression, options.figures);
   }
   folder.finish();
-  const int status = print_result(result, cause, options.out);
+  const int status = print_result(result, options.out);
   print_speeds(speeds);
   return speeds.passed() ? status : 1;
 }
@@ -252,33 +247,13 @@ void add_regress(CLI::App& app, Invocation& call) {
       ->check(CLI::Range(0, 100));
   regress->add_flag("--bisect", options->bisect,
                     "exits with 125 where a build cannot be judged, as `git bisect run` expects");
-  auto* prove =
-      regress->add_flag("--prove", options->prove, "runs every mutant of mysim: all must be detected")->excludes(bless);
-  regress->add_option("--mutant", options->mutant, "with --prove: only this mutant")->needs(prove);
   auto* no_speed = regress->add_flag("--no-speed", options->no_speed, "compares results only");
   regress->add_flag("--speed", options->speed, "with --bisect: compares speeds too")->excludes(no_speed);
-  auto* prove_speed = regress->add_flag("--prove-speed", options->prove_speed,
-                                        "measures this program against itself: no speed may differ");
-  prove_speed->excludes(bless)->excludes(prove)->excludes(no_speed);
-  regress
-      ->add_option("--repetitions", options->repetitions, "with --prove-speed: number of measurements (default: 200)")
-      ->needs(prove_speed)
-      ->check(CLI::Range(1, 100000));
-  auto* prove_builds = regress
-                           ->add_flag("--prove-builds", options->prove_builds,
-                                      "builds with other compilers and options, and runs each build: all must pass")
-                           ->excludes(bless)
-                           ->excludes(prove)
-                           ->excludes(against);
-  regress->add_option("--build", options->build, "with --prove-builds: only this build")->needs(prove_builds);
   regress->add_option("--out", options->out, "folder (out/regress)");
   add_quick_and_full(*regress, options->full);
   regress->callback([options, &call] {
     options->command_line = call.line;
-    call.status = options->prove          ? prove_command(*options)
-                  : options->prove_speed  ? prove_speed_command(*options)
-                  : options->prove_builds ? prove_builds_command(*options)
-                                          : regress_command(*options);
+    call.status = regress_command(*options);
   });
 }
 

@@ -2,6 +2,7 @@
 #include "report/commands/regress_verdict.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
@@ -10,6 +11,7 @@
 #include "experiments/regress/comparison.h"
 #include "mysim/base/files.h"
 #include "mysim/base/json.h"
+#include "report/commands/junit.h"
 #include "report/commands/regress_failure.h"
 #include "report/page/page.h"
 
@@ -17,8 +19,6 @@ namespace crosscheck {
 namespace {
 
 bool was_compared(const SpeedComparison& row) { return row.change.repetitions > 0; }
-
-}  // namespace
 
 Table table_of(const Speeds& speeds) {
   Table table{"speed-cost",
@@ -62,27 +62,6 @@ void add_speeds(Json& verdict, const Speeds& speeds) {
   verdict["speed_failures"] = Json::list();
   for (const FailedPoint& f : speeds.failures) verdict["speed_failures"].push({{"what", f.name}, {"why", f.why}});
 }
-
-JUnitCases junit_cases(const Speeds& speeds) {
-  JUnitCases all;
-  for (const SpeedComparison& row : speeds.rows) {
-    if (!row.was) continue;
-    ++all.cases;
-    all.body += fmt::format("  <testcase classname=\"{}\" name=\"{}: speed\"", escaped(row.scene), escaped(row.method));
-    all.failures += failed(row.state);
-    all.body += failed(row.state) ? fmt::format("><failure message=\"{}\"/></testcase>\n",
-                                                escaped(row.state == SpeedStatus::gone ? row.note : row.sentence))
-                                  : "/>\n";
-  }
-  for (const FailedPoint& f : speeds.failures) {
-    ++all.cases, ++all.errors;
-    all.body += fmt::format("  <testcase classname=\"speed\" name=\"{}\"><error message=\"{}\"/></testcase>\n",
-                            escaped(f.name), escaped(f.why));
-  }
-  return all;
-}
-
-namespace {
 
 Cell cell(const std::optional<double>& value, const std::string& word) {
   return value ? Cell(*value) : word.empty() ? Cell() : Cell(word);
@@ -143,55 +122,44 @@ std::string sentence(const Comparison& row) {
 }
 
 std::string junit(const RegressionResult& result, const Speeds& speeds) {
-  struct Case {
-    int failures = 0;
-    std::string text;
-  };
-  std::map<std::pair<std::string, std::string>, Case> cases;
+  std::map<std::pair<std::string, std::string>, std::vector<std::string>>
+      cases;  // failed quantities, by scene and method
   for (const Comparison& row : result.rows) {
     std::string method = row.method.empty() ? "baseline" : row.method;
     if (!row.without.empty()) method += " without " + row.without;
-    Case& one = cases[{row.scene, method}];
-    if (!failed(row.state)) continue;
-    ++one.failures;
-    one.text += sentence(row) + "\n";
+    std::vector<std::string>& wrong = cases[{row.scene, method}];
+    if (failed(row.state)) wrong.push_back(sentence(row) + "\n");
   }
-  size_t failures = 0;
-  std::string body;
-  for (const auto& [name, one] : cases) {
-    body += fmt::format("  <testcase classname=\"{}\" name=\"{}\"", escaped(name.first), escaped(name.second));
-    failures += one.failures > 0;
-    body += one.failures == 0 ? "/>\n"
-                              : fmt::format("><failure message=\"{} quantities\">{}</failure></testcase>\n",
-                                            one.failures, escaped(one.text));
+  JUnitReport report("regress");
+  for (const auto& [name, wrong] : cases)
+    if (wrong.empty())
+      report.add(name.first, name.second);
+    else
+      report.add(name.first, name.second, "failure", fmt::format("{} quantities", wrong.size()),
+                 fmt::format("{}", fmt::join(wrong, "")));
+  for (const FailedPoint& f : result.failures) report.add("no answer", f.name, "error", f.why);
+  for (const SpeedComparison& row : speeds.rows) {
+    const std::string name = row.method + ": speed";
+    if (!row.was) continue;
+    if (failed(row.state))
+      report.add(row.scene, name, "failure", row.state == SpeedStatus::gone ? row.note : row.sentence);
+    else
+      report.add(row.scene, name);
   }
-  for (const FailedPoint& f : result.failures)
-    body += fmt::format("  <testcase classname=\"no answer\" name=\"{}\"><error message=\"{}\"/></testcase>\n",
-                        escaped(f.name), escaped(f.why));
-  const JUnitCases of_speed = junit_cases(speeds);
-  body += of_speed.body;
-  return fmt::format(
-      "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<testsuites>\n<testsuite name=\"regress\" tests=\"{}\" "
-      "failures=\"{}\" errors=\"{}\">\n{}</testsuite>\n</testsuites>\n",
-      cases.size() + result.failures.size() + of_speed.cases, failures + of_speed.failures,
-      result.failures.size() + of_speed.errors, body);
+  for (const FailedPoint& f : speeds.failures) report.add("speed", f.name, "error", f.why);
+  return report.xml();
 }
 
 }  // namespace
 
-void write_verdict(const RegressionResult& result, const Speeds& speeds, const std::string& cause,
-                   const Provenance& lines, const std::filesystem::path& folder) {
+void write_verdict(const RegressionResult& result, const Speeds& speeds, const Provenance& lines,
+                   const std::filesystem::path& folder) {
   write_csv(table_of(result), lines, folder);
-  const Difference close = difference_of(result.rows);
   Json json{{"passed", result.passed() && speeds.passed()},
-            {"cause", cause.empty() ? "not attributed" : cause},
             {"quantities", result.rows.size()},
-            {"identical", close.identical},
-            {"differing", close.differing},
             {"failures", Json::list()},
             {"new_methods", Json::list()},
             {"without_answer", Json::list()}};
-  if (close.furthest) json["furthest"] = json_of(*close.furthest);
   for (const Comparison& row : result.rows)
     if (failed(row.state)) json["failures"].push(json_of(row));
   for (const NewMethod& m : new_methods(result.rows))
@@ -298,11 +266,9 @@ void first_screen(const VerdictPage& page, std::string& out) {
   const auto say = [&out](const std::string& topic, const std::string& sentence) {
     out += fmt::format("<li class=\"{}\">{}</li>\n", topic, escaped(sentence));
   };
-  if (!page.result.passed() && page.blessed.empty())
-    say("failure", page.cause.empty() ? "Cause: not attributed. No single ingredient, rule or setting fits what moved "
-                                        "and what held."
-                                      : fmt::format("Cause: {}.", page.cause));
-  for (const std::string& trade : page.speeds.explanations) say("accuracy", fmt::format("Speed: {}.", trade));
+  for (const SpeedComparison& row : page.speeds.rows)
+    if (!row.sentence.empty())
+      say("accuracy", fmt::format("Speed of {} under {}: {}.", row.scene, row.method, row.sentence));
   for (const FailedPoint& f : page.result.failures) say("failure", fmt::format("No answer: {}: {}", f.name, f.why));
   const auto added = std::count_if(page.result.rows.begin(), page.result.rows.end(),
                                    [](const auto& row) { return row.state == Status::added; });
@@ -330,6 +296,9 @@ std::string describe_change(const Comparison& row) {
   return text;
 }
 
+namespace {
+
+/// Draws the failures (at most `most`) into OUT/figures. A figure that cannot be drawn is added to `problems`.
 std::vector<FailurePart> failure_parts(const std::vector<Case>& cases, const RegressionResult& result,
                                        const Regression& regression, int most, const Provenance& lines,
                                        std::vector<std::string>& problems) {
@@ -348,12 +317,6 @@ std::vector<FailurePart> failure_parts(const std::vector<Case>& cases, const Reg
     parts.push_back(std::move(part));
   }
   return parts;
-}
-
-void write_verdict_page(VerdictPage& page, const std::vector<Case>& cases, const Regression& regression, int figures) {
-  page.parts = failure_parts(cases, page.result, regression, figures, page.lines, page.problems);
-  write_file(regression.out / "index.html", verdict_html(page));
-  for (const std::string& problem : page.problems) fmt::print(stderr, "crosscheck: missing: {}\n", problem);
 }
 
 std::string verdict_html(const VerdictPage& page) {
@@ -387,9 +350,16 @@ std::string verdict_html(const VerdictPage& page) {
   }
   return out +
          "<section class=\"made\"><h2>How this was made</h2>\n<p>A tolerance is what rounding can do to the "
-         "quantity in that engine, measured by moving the start a little; each row of a baseline says how. A "
-         "cause is named only where it alone fits all that moved and all that held.</p>\n" +
+         "quantity in that engine, measured by moving the start a little; each row of a baseline says how.</p>\n" +
          provenance_html(page.lines) + "</section>\n</main></body></html>\n";
+}
+
+}  // namespace
+
+void write_verdict_page(VerdictPage& page, const std::vector<Case>& cases, const Regression& regression, int figures) {
+  page.parts = failure_parts(cases, page.result, regression, figures, page.lines, page.problems);
+  write_file(regression.out / "index.html", verdict_html(page));
+  for (const std::string& problem : page.problems) fmt::print(stderr, "crosscheck: missing: {}\n", problem);
 }
 
 }  // namespace crosscheck

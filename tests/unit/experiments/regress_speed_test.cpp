@@ -1,5 +1,4 @@
-// Speeds in regression tests: the plain loop, the file of blessed speeds, verdicts on invented measurements, accuracy
-// against speed.
+// Speeds in regression tests: the plain loop, the file of blessed speeds, verdicts on invented measurements.
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
@@ -10,7 +9,6 @@
 #include <filesystem>
 #include <fstream>
 
-#include "experiments/regress/attribution.h"
 #include "experiments/regress/speed.h"
 #include "experiments/regress/speed_regression.h"
 #include "experiments/scenes/scenes.h"
@@ -78,7 +76,7 @@ Ratios rounds(double middle, double other = 0) {
 
 /// Returns for each measurement the next ratio of each scene; the last one for ever.
 MeasureSpeeds invented(std::map<std::string, std::vector<double>> ratios) {
-  return [ratios = std::move(ratios), count = 0u](const std::vector<SpeedCase>& cases, const SpeedOptions&) mutable {
+  return [ratios = std::move(ratios), count = 0u](const std::vector<SpeedCase>& cases, int) mutable {
     std::vector<Ratios> all;
     for (const SpeedCase& q : cases) {
       const std::vector<double>& list = ratios.at(q.scene.name);
@@ -133,7 +131,7 @@ TEST(SpeedVerdicts, ARunThatVariesALotNowIsGivenMoreNoise) {
   SpeedFile file;
   file.speeds = {speed_of(q, 1)};
   // every other round takes half again as long: even and odd rounds differ by 40 %
-  const MeasureSpeeds uneven = [](const std::vector<SpeedCase>&, const SpeedOptions&) {
+  const MeasureSpeeds uneven = [](const std::vector<SpeedCase>&, int) {
     return std::vector<Ratios>{{{1.2, 1.8, 1.2, 1.8, 1.2, 1.8, 1.2, 1.8}, {}}};
   };
   const Speeds speeds = compared_speeds({q}, &file, here, uneven);
@@ -306,11 +304,11 @@ TEST(SpeedCases, AreEachSceneUnderItsOwnMethodAndACloth) {
 TEST(SpeedMeasurements, LeaveOutWhatARuleRefuses) {
   Selection selection;
   selection.filter = "rod", selection.methods = {find_method("rk4")};
-  const auto refused = measured_ratios(speed_cases(selection, find_method("xpbd")), {.rounds = 1}, 0);
+  const auto refused = measured_ratios(speed_cases(selection, find_method("xpbd")), 1, 0);
   ASSERT_EQ(refused.size(), 1u);
   EXPECT_TRUE(refused[0].is.empty());
   selection.filter = "spring";
-  const auto taken = measured_ratios(speed_cases(selection, find_method("leapfrog")), {.rounds = 2}, 0);
+  const auto taken = measured_ratios(speed_cases(selection, find_method("leapfrog")), 2, 0);
   ASSERT_EQ(taken.size(), 1u);
   EXPECT_EQ(taken[0].is.size(), 2u);
   EXPECT_EQ(taken[0].was.size(), 2u);
@@ -400,79 +398,16 @@ Comparison error(double was, double is, const std::string& scene = "chain") {
   return comparison("error against truth", was, is, scene);
 }
 
-std::string fast(const std::vector<Comparison>& comparisons) {
-  return speed_accuracy_of(speed(SpeedStatus::faster), comparisons);
-}
-std::string slow(const std::vector<Comparison>& comparisons) {
-  return speed_accuracy_of(speed(SpeedStatus::slower), comparisons);
-}
-
-TEST(SpeedAccuracyTradeOff, AreNamed) {
-  EXPECT_EQ(fast({error(1e-3, 2.3e-3)}),
-            "buys speed with accuracy: 1.4 times faster, error against truth 2.3 times larger");
-  EXPECT_EQ(slow({error(2.3e-3, 1e-3)}),
-            "buys accuracy with speed: 1.4 times slower, error against truth 2.3 times smaller");
-  EXPECT_EQ(fast({error(2.3e-3, 1e-3)}),
-            "faster and more accurate: 1.4 times faster, error against truth 2.3 times smaller");
-  EXPECT_EQ(slow({error(1e-3, 2.3e-3)}),
-            "slower and less accurate: 1.4 times slower, error against truth 2.3 times larger");
-  EXPECT_EQ(fast({error(1e-5, 5e-2)}),
-            "buys speed with accuracy: 1.4 times faster, error against truth 5000 times larger");
-  EXPECT_EQ(fast({error(0, 2e-3)}),
-            "buys speed with accuracy: 1.4 times faster, error against truth larger: from 0 to 0.002 m");
-}
-
-TEST(SpeedAccuracyTradeOff, WhatIsNotKnownIsNotClaimed) {
-  EXPECT_EQ(fast({comparison("offset at 1 s", 1, 1)}), "faster at the same answer: 1.4 times faster");
-  EXPECT_EQ(slow({comparison("offset at 1 s", 1, 1)}), "slower at the same answer: 1.4 times slower");
-  EXPECT_EQ(fast({comparison("offset at 1 s", 1, 2)}),
-            "1.4 times faster, and the answer moved; whether for the better is not known");
-  EXPECT_EQ(fast({comparison("offset at 1 s", 1, 2), error(1e-3, 1.0005e-3)}),
-            "1.4 times faster, and the answer moved; its error is the same");
-  EXPECT_EQ(fast({}), "1.4 times faster; its answer was not asked for");
-  EXPECT_EQ(speed_accuracy_of(speed(SpeedStatus::same), std::vector{error(1e-3, 2e-3)}), "");
-  EXPECT_EQ(speed_accuracy_of(speed(SpeedStatus::added), std::vector{error(1e-3, 2e-3)}), "");
-}
-
-TEST(SpeedAccuracyTradeOff, WorkIsNoPartOfTheAnswerAndAFailureIsWorseThanAnyError) {
-  EXPECT_EQ(fast({comparison("force evaluations", 4000, 1000)}), "faster at the same answer: 1.4 times faster");
-  Comparison verdict{"chain", "mysim/rk4", "", "verdict", "word"};
-  verdict.was_word = "ok", verdict.is_word = "energy", verdict.state = Status::moved;
-  EXPECT_EQ(fast({verdict}), "1.4 times faster, and the run of chain now ends with the verdict 'energy'");
-}
-
-TEST(SpeedAccuracyTradeOff, OnlyTheSceneItselfUnderTheMethodCounts) {
-  std::vector<Comparison> others{error(1e-3, 5e-3), error(1e-3, 5e-3), error(1e-3, 5e-3, "spring"),
-                                 comparison("offset at 1 s", 1, 1)};
-  others[0].without = "drag", others[1].method = "mysim/leapfrog";
-  EXPECT_EQ(fast(others), "faster at the same answer: 1.4 times faster");
-}
-
-TEST(SpeedAccuracyTradeOff, WithoutATruthTheHalvedStepTells) {
-  EXPECT_EQ(fast({comparison("change at half the step", 1e-3, 3e-3)}),
-            "buys speed with accuracy: 1.4 times faster, change at half the step 3 times larger");
-  EXPECT_EQ(fast({comparison("change at half the step", 1e-3, 3e-3), error(1e-3, 2e-3)}),
-            "buys speed with accuracy: 1.4 times faster, error against truth 2 times larger");
-}
-
-TEST(SpeedAccuracyTradeOff, OfTheClothThatIsThereForItsSizeAllScenesOfTheMethodTell) {
-  const auto cloth = [](const std::vector<Comparison>& comparisons) {
-    return speed_accuracy_of(speed(SpeedStatus::faster, "cloth-32x32"), comparisons);
-  };
-  EXPECT_EQ(cloth({error(1e-3, 2e-3), error(1e-3, 4e-3, "spring")}),
-            "buys speed with accuracy: 1.4 times faster, error against truth 4 times larger on spring");
-  EXPECT_EQ(cloth({error(1e-3, 2e-3), error(4e-3, 1e-3, "spring")}),
-            "1.4 times faster, more accurate here and less there: error against truth 2 times larger on chain, error "
-            "against truth 4 times smaller on spring");
-}
-
-TEST(SpeedAccuracyTradeOff, AreListedWithTheirScene) {
-  std::vector<SpeedComparison> speeds{speed(SpeedStatus::same), speed(SpeedStatus::slower)};
-  const auto sentences = explain_speeds(speeds, std::vector{error(1e-3, 1e-3)});
-  ASSERT_EQ(sentences.size(), 1u);
-  EXPECT_EQ(sentences[0], "chain under mysim/rk4: slower at the same answer: 1.4 times slower");
-  EXPECT_EQ(speeds[1].sentence, "slower at the same answer: 1.4 times slower");
-  EXPECT_TRUE(speeds[0].sentence.empty());
+TEST(SpeedSentences, NameTheChangeAndThatOfTheError) {
+  std::vector<Comparison> rows{error(1e-3, 2.3e-3), error(1e-3, 5e-3), error(1e-3, 5e-3), error(1e-3, 5e-3, "spring"),
+                               comparison("offset at 1 s", 1, 2)};
+  rows[1].without = "drag", rows[2].method = "mysim/leapfrog";
+  std::vector<SpeedComparison> speeds{speed(SpeedStatus::faster), speed(SpeedStatus::slower, "rod"),
+                                      speed(SpeedStatus::same), speed(SpeedStatus::added)};
+  add_sentences(speeds, rows);
+  EXPECT_EQ(speeds[0].sentence, "1.4 times faster; error against truth was 0.001, is 0.0023 m");
+  EXPECT_EQ(speeds[1].sentence, "1.4 times slower");
+  EXPECT_EQ(speeds[2].sentence + speeds[3].sentence, "");
 }
 
 }  // namespace

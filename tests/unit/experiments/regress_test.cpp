@@ -1,5 +1,4 @@
-// Regression tests tested: baselines and shapes, tolerances, verdicts on single quantities, causes, the list of
-// mutations.
+// Regression tests tested: baselines and shapes, tolerances, verdicts on single quantities.
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
@@ -11,15 +10,12 @@
 #include <set>
 #include <tuple>
 
-#include "experiments/regress/attribution.h"
 #include "experiments/regress/baseline.h"
 #include "experiments/regress/comparison.h"
-#include "experiments/regress/mutations.h"
 #include "experiments/regress/quantities.h"
 #include "experiments/regress/regress.h"
-#include "experiments/regress/speed.h"
+#include "experiments/regress/speed_regression.h"
 #include "experiments/regress/tolerance.h"
-#include "experiments/scenes/ingredients.h"
 #include "experiments/scenes/scenes.h"
 #include "mysim/base/errors.h"
 #include "mysim/base/files.h"
@@ -278,99 +274,6 @@ TEST(Comparison, OfEachQuestionTheRowToLookAtFirstIsAWordThenANumberThenACount) 
   EXPECT_EQ(worst[2].quantity, "steps");
 }
 
-/// Rows of all cases, of which those that `moves` names have moved.
-std::vector<Comparison> rows_where(const std::vector<Case>& cases, bool (*moves)(const Case&)) {
-  std::vector<Comparison> rows;
-  for (const Case& q : cases) {
-    Comparison row;
-    row.scene = q.scene.name, row.method = q.method.name, row.without = q.without;
-    row.quantity = "verdict", row.was_word = row.is_word = "ok";
-    rows.push_back(row);
-    row.quantity = "places", row.was_word = row.is_word = "", row.was = 0, row.is = 1;
-    row.state = moves(q) ? Status::moved : Status::same;
-    rows.push_back(row);
-  }
-  return rows;
-}
-
-std::vector<Case> some_questions() {
-  std::vector<Case> all;
-  for (const char* name : {"spring", "pendulum", "chain", "slide", "bounce", "cloth-wind", "cloth-hang"}) {
-    const Scene scene = load_scene(name);
-    for (const char* method : {"leapfrog", "rk4", "bullet/deformable-explicit"})
-      all.push_back({scene, find_method(method)});
-    for (const Ingredient& i : ingredients_of(scene))
-      all.push_back({without(scene, i), find_method("leapfrog"), i.name});
-  }
-  return all;
-}
-
-template <class T>
-bool has(const Case& q) {
-  return q.scene.model.find<T>() != nullptr;
-}
-
-bool has_friction(const Case& q) {
-  const auto* spheres = q.scene.model.find<Spheres>();
-  return spheres && spheres->list[0].friction > 0;
-}
-
-TEST(Attribution, IsTheIngredientThatAllWhoMovedHave) {
-  const std::vector<Case> all = some_questions();
-  const auto cause = [&](bool (*moves)(const Case&)) { return attribution_of(all, rows_where(all, moves)); };
-  EXPECT_EQ(cause(has<Drag>), "drag");
-  EXPECT_EQ(cause(has<Wind>), "wind");
-  EXPECT_EQ(cause([](const Case& q) { return q.method.name == "mysim/rk4"; }), "the rule mysim/rk4");
-  EXPECT_EQ(cause([](const Case& q) { return q.method.name == "mysim/leapfrog" && has<Drag>(q); }),
-            "drag under the rule mysim/leapfrog");
-}
-
-TEST(Attribution, IsNotNamedWhereTwoFitOrNone) {
-  const std::vector<Case> all = some_questions();
-  const auto cause = [&](bool (*moves)(const Case&)) { return attribution_of(all, rows_where(all, moves)); };
-  EXPECT_EQ(cause([](const Case&) { return false; }), "");
-  EXPECT_EQ(cause([](const Case&) { return true; }), "");
-  // one scene alone, with all that it has; the same scene without anything moves as well
-  EXPECT_EQ(cause([](const Case& q) { return q.scene.name == "chain"; }), "");
-  // drag, but one scene with drag held: something else is needed for it
-  EXPECT_EQ(cause([](const Case& q) { return has<Drag>(q) && q.scene.name != "cloth-hang"; }), "");
-  // friction and the ball it needs: taking either out helps, and no scene separates them
-  std::vector<Case> few;
-  std::copy_if(all.begin(), all.end(), std::back_inserter(few),
-               [](const Case& q) { return q.scene.name == "slide" || q.scene.name == "chain"; });
-  EXPECT_EQ(
-      attribution_of(few, rows_where(few, [](const Case& q) { return q.scene.name == "slide" && has_friction(q); })),
-      "");
-}
-
-/// A row of the case that moved: a setting's words, or a number.
-Comparison moved_row(const Case& q, const std::string& quantity, const std::string& was = "",
-                     const std::string& is = "") {
-  Comparison row;
-  row.scene = q.scene.name, row.method = q.method.name, row.quantity = quantity, row.state = Status::moved;
-  row.was_word = was, row.is_word = is;
-  if (was.empty()) row.was = 0, row.is = 1;
-  return row;
-}
-
-TEST(Attribution, IsTheSettingThatChangedWhereverSomethingMoved) {
-  const std::vector<Case> all{test_case("chain", "bullet/pbd"), test_case("slide", "bullet/pbd")};
-  std::vector<Comparison> rows;
-  for (const Case& q : all) {
-    rows.push_back(moved_row(q, "setting iterations", "1", "10"));
-    rows.push_back(moved_row(q, "places"));
-  }
-  EXPECT_EQ(attribution_of(all, rows), "the setting iterations (was 1, is 10)");
-  // a refusal says nothing of settings
-  const Case refused = test_case("bounce", "bullet/pbd");
-  rows.push_back(moved_row(refused, "verdict", "ok", "unsupported"));
-  EXPECT_EQ(attribution_of(all, rows), "the setting iterations (was 1, is 10)");
-  rows.back() = moved_row(refused, "setting margin", "1 m", "2 m");
-  EXPECT_EQ(attribution_of(all, rows), "") << "two settings, neither in all that moved";
-  rows.back() = moved_row(refused, "places");
-  EXPECT_EQ(attribution_of(all, rows).find("setting"), std::string::npos) << "one moved at the same settings";
-}
-
 TEST(Shapes, ComeBackAndDamagedOnesAreNone) {
   const TemporaryFolder folder("shapes");
   Points x(3, 2);
@@ -462,69 +365,6 @@ TEST(Tolerances, HoldBetweenTwoEnginesOfOneRule) {
       EXPECT_NEAR(other->value, was.quantity.value, was.tolerance) << scene << ", " << was.quantity.name;
     }
   }
-}
-
-Comparison number(const std::string& name, double was, double is, double tolerance) {
-  Comparison row;
-  row.quantity = name, row.was = was, row.is = is, row.tolerance = tolerance;
-  return row;
-}
-
-Comparison word(const std::string& name, const std::string& was, const std::string& is) {
-  Comparison row;
-  row.quantity = name, row.was_word = was, row.is_word = is;
-  return row;
-}
-
-TEST(Difference, CountsBitsAndNamesTheFurthest) {
-  std::vector<Comparison> rows{number("same", 1, 1, 0), number("near", 1, 1 + 1e-15, 1e-13),
-                               number("further", 1, 1 + 1e-14, 1e-14), word("verdict", "ok", "ok"), Comparison{}};
-  Difference close = difference_of(rows);
-  EXPECT_EQ(close.identical, 2u);
-  EXPECT_EQ(close.differing, 2u) << "a row without one of the values is neither";
-  ASSERT_TRUE(close.furthest);
-  EXPECT_EQ(close.furthest->quantity, "further");
-  rows.push_back(word("verdict", "ok", "nan"));
-  close = difference_of(rows);
-  EXPECT_EQ(close.differing, 3u);
-  EXPECT_EQ(close.furthest->is_word, "nan");
-  EXPECT_FALSE(difference_of({}).furthest);
-}
-
-TEST(Mutations, EachStandsOnceInItsFile) {
-  const std::filesystem::path source = CROSSCHECK_SOURCE;
-  const auto all = read_mutations(source / "tests/mutants/mutations.txt");
-  EXPECT_GE(all.size(), 25u);
-  std::set<std::string> names;
-  for (const Mutation& m : all) {
-    SCOPED_TRACE(m.name);
-    EXPECT_TRUE(names.insert(m.name).second);
-    std::ifstream in(source / "mysim" / m.file);
-    const std::string text{std::istreambuf_iterator<char>(in), {}};
-    const size_t at = text.find(m.right);
-    ASSERT_NE(at, std::string::npos);
-    EXPECT_EQ(text.find(m.right, at + 1), std::string::npos);
-  }
-}
-
-TEST(Mutations, BadFilesAreNamed) {
-  const TemporaryFolder folder("mutations");
-  const auto says = [&](const std::string& text) -> std::string {
-    write_file(folder.path / "list.txt", text);
-    try {
-      read_mutations(folder.path / "list.txt");
-    } catch (const InputError& error) {
-      return error.what();
-    }
-    return "";
-  };
-  EXPECT_NE(says("== a\nfile: b\nwhat: c\n").find("list.txt:3: expected file:, cause:, right: or wrong:"),
-            std::string::npos);
-  EXPECT_NE(says("== a\nfile: b\nright:\nc\nwrong:\nc\n")
-                .find("a: expected a file, and a right and a wrong text that differ"),
-            std::string::npos);
-  EXPECT_EQ(says("== a\nfile: b\nright:\nc\nwrong:\nd\n"), "");
-  EXPECT_THROW(read_mutations(folder.path / "none.txt"), InputError);
 }
 
 }  // namespace

@@ -1,0 +1,42 @@
+#!/usr/bin/env bash
+# Proves that `crosscheck regress` notices wrong changes to mysim: runs each change of mutations.txt, and mysim as it is,
+# against the shipped baselines. Exits with 1 if a change is not noticed, or if mysim as it is fails.
+#
+#   tests/mutants/prove.sh [NAME]...     without names all changes, which takes 40 minutes
+#
+# Environment: FILTER: only cases that this glob matches, as of `regress --filter`.
+set -euo pipefail
+cd "$(dirname "${BASH_SOURCE[0]}")/../.."
+
+cmake --preset release >/dev/null
+cmake --build build/release --target crosscheck_mutants >/dev/null
+mapfile -t all < <(sed -n 's/^== //p' tests/mutants/mutations.txt)
+[ $# -gt 0 ] || set -- "${all[@]}"
+for name; do
+  grep -qx "== $name" tests/mutants/mutations.txt || { printf 'prove.sh: %s: no such change in mutations.txt\n' "$name" >&2; exit 2; }
+done
+
+caught() { # NAME: true if regress fails
+  local status=0
+  CROSSCHECK_MUTANT=$1 build/release/crosscheck-mutants regress --no-speed --figures 0 --filter "${FILTER:-*}" \
+    --out out/mutants >out/mutants.txt || status=$?
+  [ "$status" -le 1 ] || { printf 'prove.sh: %s: no verdict\n' "$1" >&2; exit 2; }
+  [ "$status" -eq 1 ]
+}
+
+mkdir -p out
+escaped=0
+for name; do
+  if caught "$name"; then
+    printf 'caught   %-32s %s\n' "$name" "$(grep -m1 ' quantities: ' out/mutants.txt)"
+  else
+    printf 'ESCAPED  %s\n' "$name"
+    escaped=$((escaped + 1))
+  fi
+done
+if caught none; then
+  printf 'CAUGHT   mysim as it is\n'
+  escaped=$((escaped + 1))
+fi
+printf '%d of %d wrong changes caught\n' "$(($# - escaped))" "$#"
+[ "$escaped" -eq 0 ]
