@@ -3,7 +3,6 @@
 
 #include <fmt/format.h>
 
-#include "experiments/bench/spring_cost.h"
 #include "experiments/scenes/scenes.h"
 #include "experiments/timing/machine.h"
 #include "mysim/base/errors.h"
@@ -73,38 +72,43 @@ BenchSuite bench_suite(bool full, const std::vector<std::string>& beside) {
   return suite;
 }
 
-TableSet bench(const BenchSuite& suite, const LockPatience& patience) {
-  TableSet tables;
+BenchResult bench(const BenchSuite& suite, const LockPatience& patience) {
   std::vector<EqualErrorOptions> cloths;
   for (const BenchSuite::PeerCloth& cloth : suite.cloths)
     cloths.push_back({std::make_shared<const Scene>(cloth.scene()), cloth.peers, suite.turns});
-  // shipped scenes, two cloths at the same step, and implicit steps
-  int work =
-      3 + static_cast<int>(suite.kernel_sides.size() + suite.threads.sides.size()) + work_of(suite.implicit_step);
-  for (const EqualErrorOptions& options : cloths) work += work_of(options);
-  Progress progress(work);
-  two_threads(suite.threads, patience, tables, progress);
+  // shipped scenes, two cloths at the same step, and the others
+  size_t work = 3 + suite.kernel_sides.size() + suite.threads.sides.size() +
+                suite.implicit_step.sides.size() * suite.implicit_step.rates.size();
+  for (const EqualErrorOptions& options : cloths) work += static_cast<size_t>(work_of(options));
+  Progress progress(static_cast<int>(work));
+  BenchRecord record{patience, progress};
+  measure_threads(suite.threads, record);
   pin_to_one_core();
   try {
-    for (const int side : suite.kernel_sides) {
-      progress.begin(fmt::format("kernels on a sheet of {0} x {0}", side));
-      tables.add(kernels_table(side, suite.kernels, patience));
-    }
-    progress.begin("kernels on the shipped scenes");
-    tables.add(scenes_table(load_scenes(suite.scenes), suite.on_scenes, patience));
+    for (const int side : suite.kernel_sides) measure_kernels(side, suite.kernels, record);
+    measure_scenes(load_scenes(suite.scenes), suite.on_scenes, record);
   } catch (const Unsupported& refusal) {
-    tables.notes.push_back(fmt::format("bench leaves out kernels: {}", refusal.what()));
+    record.notes.push_back(fmt::format("bench leaves out kernels: {}", refusal.what()));
   }
-  for (const EqualErrorOptions& options : cloths) equal_error(options, patience, tables, progress);
-  same_step(suite.same_step, patience, tables, progress);
+  for (const EqualErrorOptions& options : cloths) measure_equal_error(options, record);
+  measure_same_step(suite.same_step, record);
   try {
-    implicit_step(suite.implicit_step, patience, tables, progress);
+    measure_implicit_steps(suite.implicit_step, record);
   } catch (const Unsupported& refusal) {
-    tables.notes.push_back(fmt::format("bench leaves out implicit steps: {}", refusal.what()));
+    record.notes.push_back(fmt::format("bench leaves out implicit steps: {}", refusal.what()));
   }
-  if (patience.exhausted()) tables.notes.emplace_back(timed_beside_other_work);
+  if (patience.exhausted()) record.notes.emplace_back(timed_beside_other_work);
   progress.done();
-  return tables;
+  return {std::move(record.rows), std::move(record.notes)};
+}
+
+void set_times(BenchRow& row, const std::vector<double>& peer, const std::vector<double>& mysim, double peer_factor,
+               double factor) {
+  const Timing theirs = timing_of(peer).times(peer_factor), own = timing_of(mysim).times(factor),
+               ratio = ratio_of_rounds(peer, mysim).times(peer_factor / factor);
+  row.peer_time = theirs.median, row.peer_low = theirs.low, row.peer_high = theirs.high;
+  row.time = own.median, row.low = own.low, row.high = own.high;
+  row.ratio = ratio.median, row.ratio_low = ratio.low, row.ratio_high = ratio.high;
 }
 
 }  // namespace crosscheck

@@ -1,10 +1,7 @@
 // Speed, as ratios against peers in one run: all that `crosscheck bench` measures.
 #pragma once
 
-#include "experiments/bench/implicit_step.h"
-#include "experiments/bench/microbenchmarks.h"
-#include "experiments/bench/peers.h"
-#include "experiments/bench/threads.h"
+#include "experiments/bench/measurements.h"
 #include "experiments/scenes/cloths.h"
 
 namespace crosscheck {
@@ -32,9 +29,12 @@ struct BenchSuite {
 /// InputError where one is not known.
 BenchSuite bench_suite(bool full, const std::vector<std::string>& beside = {});
 
-/// The tables bench-*-cost: threads first, and then kernels, scenes, peers at the same error and at the same step, and
-/// the implicit step, measured on one core, which the process keeps to from then on. Notes say what was left out and
-/// why.
-TableSet bench(const BenchSuite& suite, const LockPatience& patience);
+struct BenchResult {
+  std::vector<BenchRow> rows;
+  std::vector<std::string> notes;  // omissions, with their reasons
+};
+/// Threads first, then kernels, scenes, peers at the same error and at the same step, and the implicit step, measured
+/// on one core, which the process keeps to from then on.
+BenchResult bench(const BenchSuite& suite, const LockPatience& patience);
 
 }  // namespace crosscheck

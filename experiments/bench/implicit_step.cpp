@@ -8,10 +8,9 @@
 #include <stdexcept>
 #include <utility>
 
+#include "experiments/bench/measurements.h"
 #include "experiments/scenes/cloths.h"
-#include "experiments/tables/bench.h"
 #include "experiments/timing/instruction_sets.h"
-#include "experiments/timing/timing.h"
 #include "mysim/base/errors.h"
 #include "mysim/implicit/newton.h"
 #include "mysim/model/system.h"
@@ -131,57 +130,45 @@ struct MysimStep {
 };
 
 void beside_factorisation(const FallingCloth& falling, double rate, const MicrobenchmarkOptions& options,
-                          const LockPatience& patience, Table& table) {
+                          BenchRecord& record) {
   const double h = 1 / rate;
   const auto factorised = std::make_shared<FactorisedStep>(falling.scene, h);
   const State& from = falling.state;
   std::vector<Microbenchmark> benchmarks{{"factorised", [factorised, &from] { factorised->step(from.x, from.v); }}};
-  std::vector<std::shared_ptr<MysimStep>> own;
-  for (const CodePath& path : code_paths()) {
-    own.push_back(MysimStep::with(falling.scene, path.instructions));
-    benchmarks.push_back({path.name, [solver = own.back(), &from, h] { solver->step.solve_linear(from, h); }});
+  std::map<simd::InstructionSet, std::shared_ptr<MysimStep>> own;
+  for (const simd::InstructionSet isa : compared_instruction_sets()) {
+    own[isa] = MysimStep::with(falling.scene, isa);
+    benchmarks.push_back(
+        {std::string(name_of(isa)), [solver = own[isa], &from, h] { solver->step.solve_linear(from, h); }});
   }
-  const auto times = run_microbenchmarks(benchmarks, options, patience);
-  const Timing its = timing_of(times.at("factorised"));
+  const auto times = run_microbenchmarks(benchmarks, options, record.patience);
   const Points& end = factorised->step(from.x, from.v);
-  for (size_t i = 0; i < own.size(); ++i) {
-    const CodePath path = code_paths()[i];
-    const Points mine = own[i]->step.solve_linear(from, h).x;
-    const std::vector<double>& each = times.at(path.name);
-    const Timing time = timing_of(each), ratio = timing_of(ratios_of_rounds(times.at("factorised"), each));
-    add(table, ImplicitStepRow{.scene = falling.scene.name,
-                               .particles = from.x.cols(),
-                               .rate = rate,
-                               .apart = largest_column(mine - end),
-                               .largest_move = largest_column(mine - from.x),
-                               .eigen_cpu = its.median,
-                               .eigen_low = its.low,
-                               .eigen_high = its.high,
-                               .path = path.name,
-                               .instructions = path.instructions,
-                               .iterations = own[i]->step.iterations(),
-                               .cpu = time.median,
-                               .low = time.low,
-                               .high = time.high,
-                               .ratio = ratio.median,
-                               .ratio_low = ratio.low,
-                               .ratio_high = ratio.high});
+  for (const auto& [isa, solver] : own) {
+    BenchRow row{.work = bench_work::implicit_step,
+                 .scene = falling.scene.name,
+                 .peer = "Eigen's SimplicialLDLT",
+                 .variant = fmt::format("{:g} steps a second", rate),
+                 .step = h,
+                 .apart = largest_column(solver->step.solve_linear(from, h).x - end),
+                 .mysim = "implicit-euler+linear",
+                 .instructions = isa,
+                 .step_of_mysim = h,
+                 .unit = "step"};
+    set_times(row, times.at("factorised"), times.at(std::string(name_of(isa))));
+    record.rows.push_back(std::move(row));
   }
 }
 
 }  // namespace
 
-void implicit_step(const ImplicitStepOptions& options, const LockPatience& patience, TableSet& tables,
-                   Progress& progress) {
-  Table table = table_of<ImplicitStepRow>();
+void measure_implicit_steps(const ImplicitStepOptions& options, BenchRecord& record) {
   for (const int side : options.sides) {
     const FallingCloth falling(side);
     for (const double rate : options.rates) {
-      progress.begin(fmt::format("{}: implicit steps of 1/{:g} s", falling.scene.name, rate));
-      beside_factorisation(falling, rate, options.microbenchmarks, patience, table);
+      record.progress.begin(fmt::format("{}: implicit steps of 1/{:g} s", falling.scene.name, rate));
+      beside_factorisation(falling, rate, options.microbenchmarks, record);
     }
   }
-  tables.add(table);
 }
 
 }  // namespace crosscheck

@@ -1,18 +1,13 @@
-// mysim's implicit step beside a sparse factorisation by Eigen: the same linear system, solved to round-off by both.
+// A linear implicit Euler step as one writes it on Eigen: the matrix formed, factorised and solved.
 #pragma once
 
 #include <Eigen/SparseCholesky>
 
 #include <vector>
 
-#include "experiments/bench/microbenchmarks.h"
-#include "experiments/experiment.h"
-#include "mysim/base/progress.h"
 #include "mysim/scene/scene.h"
 
 namespace crosscheck {
-
-// A linear implicit Euler step as one writes it on Eigen: the matrix formed, factorised and solved.
 
 /// (M (1/h^2 + gamma/h) + K) u = M (g - gamma v) + F(x + h v) with K the clamped tangent at x + h v, rows and
 /// columns of pins left out; then x' = x + h v + u. Springs, gravity and uniform drag; pins that stand still. K is
@@ -44,23 +39,5 @@ class FactorisedStep {
   Eigen::SimplicialLDLT<Sparse> solver_;
   Points end_;
 };
-
-struct ImplicitStepOptions {
-  std::vector<int> sides;     // particles along a side of the cloth
-  std::vector<double> rates;  // steps a second
-  MicrobenchmarkOptions microbenchmarks;
-};
-
-/// The number of announced steps of work.
-inline int work_of(const ImplicitStepOptions& options) {
-  return static_cast<int>(options.sides.size() * options.rates.size());
-}
-
-/// `bench-implicit-step-cost`: from the cloth as it hangs after half a second, one step of `implicit-euler+linear` and
-/// one by Eigen's SimplicialLDLT (implicit_step.h): how far apart both end (the farthest particle, m), their times,
-/// iterations of conjugate gradients, and the ratio of the times, round by round; with the best instructions for mysim,
-/// and with the baseline.
-void implicit_step(const ImplicitStepOptions& options, const LockPatience& patience, TableSet& tables,
-                   Progress& progress);
 
 }  // namespace crosscheck

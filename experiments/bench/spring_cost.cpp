@@ -1,17 +1,14 @@
-// The tables of kernels.
-#include "experiments/bench/spring_cost.h"
+// The cost of a spring, kernel by kernel, on generated cloths and on shipped scenes.
+#include "experiments/bench/measurements.h"
 
 #include <fmt/format.h>
 
 #include <cmath>
 #include <memory>
-#include <set>
 
 #include "experiments/cost/cost.h"
 #include "experiments/scenes/cloths.h"
-#include "experiments/tables/bench.h"
 #include "experiments/timing/instruction_sets.h"
-#include "experiments/timing/timing.h"
 #include "mysim/simd/cloth_grid/cloth_grid.h"
 
 namespace crosscheck {
@@ -19,7 +16,7 @@ namespace {
 
 using simd::InstructionSet;
 
-constexpr auto naive = "naive loop", double_precision = "double", single_precision = "single";
+constexpr auto double_precision = "double", single_precision = "single";
 
 /// A cloth with a wave in it, so that every spring pulls.
 Scene waving_cloth(int n) {
@@ -29,33 +26,30 @@ Scene waving_cloth(int n) {
   return scene;
 }
 
-struct Row {
-  std::string kernel;
+struct TimedKernel {
+  std::string name;
   InstructionSet instructions;
   std::string precision;
   BenchmarkFunction once;
-  std::string name() const { return fmt::format("{}, {}, {}", kernel, name_of(instructions), precision); }
+  std::string id() const { return fmt::format("{}, {}, {}", name, name_of(instructions), precision); }
 };
 
-void add_fused_step(std::vector<Row>& rows, std::string kernel, InstructionSet isa, std::string precision,
-                    std::optional<BenchmarkFunction> once) {
-  if (once) rows.push_back({std::move(kernel), isa, std::move(precision), std::move(*once)});
-}
-
-std::vector<Row> rows_for(const Scene& scene) {
+std::vector<TimedKernel> kernels_of(const Scene& scene) {
   const InstructionSet baseline = InstructionSet::baseline;  // as the suite is compiled
-  std::vector<Row> rows{{naive, baseline, double_precision, naive_loop(scene)},
-                        {"plain loop", baseline, double_precision, plain_loop(scene)}};
+  std::vector<TimedKernel> kernels{{naive_loop_name, baseline, double_precision, naive_loop(scene)},
+                                   {"plain loop", baseline, double_precision, plain_loop(scene)}};
+  const auto add = [&](const char* name, InstructionSet isa, const char* precision,
+                       std::optional<BenchmarkFunction> once) {
+    if (once) kernels.push_back({name, isa, precision, std::move(*once)});
+  };
   for (const InstructionSet isa : simd::supported_instruction_sets())
-    rows.push_back({"general kernel", isa, double_precision, general_kernel(scene, isa)});
+    add("general kernel", isa, double_precision, general_kernel(scene, isa));
   for (const InstructionSet isa : simd::supported_instruction_sets()) {
-    add_fused_step(rows, "sweep, reproducible", isa, double_precision, fused_step<double>(scene, isa, false));
-    // on the baseline both are the same
-    if (isa != InstructionSet::baseline)
-      add_fused_step(rows, "sweep, fastest", isa, double_precision, fused_step<double>(scene, isa, true));
-    add_fused_step(rows, "sweep, fastest", isa, single_precision, fused_step<float>(scene, isa, true));
+    add("sweep, reproducible", isa, double_precision, fused_step<double>(scene, isa, false));
+    add("sweep, fastest", isa, double_precision, fused_step<double>(scene, isa, true));
+    add("sweep, fastest", isa, single_precision, fused_step<float>(scene, isa, true));
   }
-  return rows;
+  return kernels;
 }
 
 /// The most that an instruction set does.
@@ -89,97 +83,62 @@ std::vector<Peak> peaks() {
 
 }  // namespace
 
-Table kernels_table(int side, const MicrobenchmarkOptions& options, const LockPatience& patience) {
+void measure_kernels(int side, const MicrobenchmarkOptions& options, BenchRecord& record) {
+  record.progress.begin(fmt::format("kernels on a sheet of {0} x {0}", side));
   const Scene scene = waving_cloth(side);
-  const auto springs = static_cast<long>(scene.model.find<Springs>()->list.size());
-  const std::vector<Row> rows = rows_for(scene);
+  const auto springs = static_cast<double>(scene.model.find<Springs>()->list.size());
+  const std::vector<TimedKernel> kernels = kernels_of(scene);
   std::vector<Microbenchmark> benchmarks;
-  for (const Row& row : rows) benchmarks.push_back({row.name(), row.once});
+  for (const TimedKernel& kernel : kernels) benchmarks.push_back({kernel.id(), kernel.once});
   const std::vector<Peak> most = peaks();
   for (const Peak& peak : most) benchmarks.push_back({peak.name, peak.once});
-  const auto times = run_microbenchmarks(benchmarks, options, patience);
-  std::map<std::string, double> rate_of;  // GFLOP/s
-  for (const Peak& peak : most) rate_of[peak.name] = peak.operations / timing_of(times.at(peak.name)).median / 1e9;
-  Table table = table_of<KernelRow>();
-  for (const Row& row : rows) {
-    const std::vector<double>& own = times.at(row.name());
-    const Timing each = timing_of(own).times(1e9 / static_cast<double>(springs));
-    const Timing ratio = timing_of(ratios_of_rounds(times.at(rows[0].name()), own));
-    const double rate = flop_per_spring / each.median;
-    add(table, KernelRow{.side = side,
-                         .springs = springs,
-                         .kernel = row.kernel,
-                         .instructions = row.instructions,
-                         .precision = row.precision,
-                         .time = each.median,
-                         .low = each.low,
-                         .high = each.high,
-                         .ratio = ratio.median,
-                         .ratio_low = ratio.low,
-                         .ratio_high = ratio.high,
-                         .rate = rate,
-                         .share_of_peak = rate / rate_of.at(peak_name(name_of(row.instructions), row.precision))});
+  const auto times = run_microbenchmarks(benchmarks, options, record.patience);
+  std::map<std::string, double> peak_rate;  // 1/s
+  for (const Peak& peak : most) peak_rate[peak.name] = peak.operations / timing_of(times.at(peak.name)).median;
+  for (const TimedKernel& kernel : kernels) {
+    BenchRow row{.work = bench_work::springs,
+                 .scene = scene.name,
+                 .peer = naive_loop_name,
+                 .mysim = fmt::format("{}, {}", kernel.name, kernel.precision),
+                 .instructions = kernel.instructions,
+                 .unit = "spring"};
+    set_times(row, times.at(kernels[0].id()), times.at(kernel.id()), 1 / springs, 1 / springs);
+    row.share = flop_per_spring / *row.time / peak_rate.at(peak_name(name_of(kernel.instructions), kernel.precision));
+    record.rows.push_back(std::move(row));
   }
-  return table;
 }
 
-namespace {
-
-using simd::InstructionSet;
-
-long springs_of(const Scene& scene) {
-  const auto* springs = scene.model.find<Springs>();
-  return springs ? static_cast<long>(springs->list.size()) : 0;
-}
-
-std::string naive_name(const Scene& scene) { return scene.name + ", naive loop"; }
-
-}  // namespace
-
-Table scenes_table(const std::vector<Scene>& scenes, const MicrobenchmarkOptions& options,
-                   const LockPatience& patience) {
-  struct KernelCase {
-    const Scene* scene;
-    std::string kernel;
-    InstructionSet instructions;
-    std::string name;
-  };
-  std::vector<KernelCase> cases;
+void measure_scenes(const std::vector<Scene>& scenes, const MicrobenchmarkOptions& options, BenchRecord& record) {
+  record.progress.begin("kernels on the shipped scenes");
+  std::vector<BenchRow> rows;
   std::vector<Microbenchmark> benchmarks;
-  const auto add_case = [&](const Scene& scene, const char* kernel, InstructionSet isa, BenchmarkFunction once) {
-    cases.push_back({&scene, kernel, isa, fmt::format("{}, {}, {}", scene.name, kernel, name_of(isa))});
-    benchmarks.push_back({cases.back().name, std::move(once)});
+  const auto name = [](const BenchRow& row) {
+    return fmt::format("{}, {}, {}", row.scene, row.mysim, name_of(row.instructions));
+  };
+  const auto naive_of = [](const std::string& scene) { return scene + ", " + naive_loop_name; };
+  const auto add = [&](const Scene& scene, const char* kernel, InstructionSet isa, BenchmarkFunction once) {
+    rows.push_back({.work = bench_work::springs_of_scene,
+                    .scene = scene.name,
+                    .peer = naive_loop_name,
+                    .mysim = kernel,
+                    .instructions = isa,
+                    .unit = "evaluation"});
+    benchmarks.push_back({name(rows.back()), std::move(once)});
   };
   for (const Scene& scene : scenes) {
-    if (springs_of(scene) == 0) continue;
-    benchmarks.push_back({naive_name(scene), naive_loop(scene)});
-    std::set<InstructionSet> sets;
-    for (const CodePath& path : code_paths()) sets.insert(path.instructions);
-    for (const InstructionSet isa : sets) add_case(scene, "general kernel", isa, general_kernel(scene, isa));
-    for (const InstructionSet isa : sets)
-      if (auto piece = fused_step<double>(scene, isa, false))
-        add_case(scene, "sweep, reproducible", isa, std::move(*piece));
+    const auto* springs = scene.model.find<Springs>();
+    if (!springs || springs->list.empty()) continue;
+    benchmarks.push_back({naive_of(scene.name), naive_loop(scene)});
+    for (const InstructionSet isa : compared_instruction_sets()) {
+      add(scene, "general kernel", isa, general_kernel(scene, isa));
+      if (auto step = fused_step<double>(scene, isa, false)) add(scene, "sweep, reproducible", isa, std::move(*step));
+    }
   }
-  const auto times = run_microbenchmarks(benchmarks, options, patience);
-  Table table = table_of<SceneKernelRow>();
-  for (const KernelCase& kernel_case : cases) {
-    const Scene& scene = *kernel_case.scene;
-    const auto &own = times.at(kernel_case.name), &beside = times.at(naive_name(scene));
-    const Timing each = timing_of(own).times(1e9), ratio = timing_of(ratios_of_rounds(beside, own));
-    add(table, SceneKernelRow{.scene = scene.name,
-                              .particles = scene.start.x.cols(),
-                              .springs = springs_of(scene),
-                              .kernel = kernel_case.kernel,
-                              .instructions = kernel_case.instructions,
-                              .time = each.median,
-                              .low = each.low,
-                              .high = each.high,
-                              .naive = timing_of(beside).median * 1e9,
-                              .ratio = ratio.median,
-                              .ratio_low = ratio.low,
-                              .ratio_high = ratio.high});
+  const auto times = run_microbenchmarks(benchmarks, options, record.patience);
+  for (BenchRow& row : rows) {
+    set_times(row, times.at(naive_of(row.scene)), times.at(name(row)));
+    record.rows.push_back(std::move(row));
   }
-  return table;
 }
 
 }  // namespace crosscheck

@@ -1,5 +1,5 @@
 // Wall times with one and with two threads.
-#include "experiments/bench/threads.h"
+#include "experiments/bench/measurements.h"
 
 #include <fmt/format.h>
 
@@ -9,8 +9,6 @@
 #include <ctime>
 
 #include "experiments/scenes/cloths.h"
-#include "experiments/tables/bench.h"
-#include "experiments/timing/timing.h"
 #include "mysim/run/cloth_grid_world.h"
 
 namespace crosscheck {
@@ -67,47 +65,37 @@ int steps_in(double seconds, TimedCloth& world) {
 
 }  // namespace
 
-void two_threads(const ThreadsOptions& options, const LockPatience& patience, TableSet& tables, Progress& progress) {
+void measure_threads(const ThreadsOptions& options, BenchRecord& record) {
   if (cores_allowed() < 2) {
-    tables.notes.emplace_back("bench leaves out two threads: this process may use one core");
+    record.notes.emplace_back("bench leaves out two threads: this process may use one core");
     return;
   }
-  Table table = table_of<ThreadsRow>();
   for (const int side : options.sides) {
     const Scene scene = hanging_cloth(side);
-    progress.begin(fmt::format("{}: two threads", scene.name));
+    record.progress.begin(fmt::format("{}: two threads", scene.name));
     TimedCloth one(scene, 1), two(scene, 2);
-    const MachineLock exclusive(MachineLock::Mode::exclusive, patience);
+    const MachineLock exclusive(MachineLock::Mode::exclusive, record.patience);
     const int steps = steps_in(options.turns.seconds, one), rounds = options.turns.rounds;
     const std::vector<std::function<double()>> runs{[&] { return one.step(steps); }, [&] { return two.step(steps); }};
     const auto times =
         time_round_robin(runs, TimingOptions{.least = rounds, .most = rounds, .resolution = 0, .warm = INFINITY});
-    const Timing a = timing_of(times[0]), b = timing_of(times[1]),
-                 ratio = timing_of(ratios_of_rounds(times[0], times[1]));
-    const long at_work = two.threads();
-    const double share = two.share();
-    add(table, ThreadsRow{.scene = scene.name,
-                          .method = fmt::format("{}+threads=2", rule),
-                          .instructions = simd::active_instruction_set(),
-                          .threads = at_work,
-                          .steps = steps,
-                          .one = a.median,
-                          .one_low = a.low,
-                          .one_high = a.high,
-                          .two = b.median,
-                          .two_low = b.low,
-                          .two_high = b.high,
-                          .share = share,
-                          .ratio = ratio.median,
-                          .ratio_low = ratio.low,
-                          .ratio_high = ratio.high});
-    if (at_work > 1 && share < nearly_all)
-      tables.notes.push_back(
+    const bool both_at_work = two.threads() > 1;
+    BenchRow row{.work = bench_work::two_threads,
+                 .scene = scene.name,
+                 .peer = "one thread",
+                 .variant = both_at_work ? "" : "too small for a second",
+                 .mysim = fmt::format("{}+threads=2", rule),
+                 .instructions = simd::active_instruction_set(),
+                 .unit = "step",
+                 .share = two.share()};
+    set_times(row, times[0], times[1]);
+    if (both_at_work && *row.share < nearly_all)
+      record.notes.push_back(
           fmt::format("bench: two threads on {} got {:.0f} % of the time of two cores, as something else ran: their "
                       "ratio is less than this machine can give",
-                      scene.name, 100 * share));
+                      scene.name, 100 * *row.share));
+    record.rows.push_back(std::move(row));
   }
-  tables.add(table);
 }
 
 }  // namespace crosscheck

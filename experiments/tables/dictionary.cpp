@@ -32,11 +32,11 @@ using AllRows = std::tuple<                                                     
     DrapedDiscRow, DrapedParticleRow,                                                          //
     DisagreementRow, DisagreementCurveRow, ContactAngleRow,                                    //
     SpeedAccuracyRow, SpeedAccuracyTimingRow, SpeedAccuracyCostRow, ParetoRow<Cost::evaluations>,
-    ParetoRow<Cost::cpu>,                                                                           //
-    CheapestRow<Cost::evaluations>, CheapestRow<Cost::cpu>, EngineSpeedRow,                         //
-    LimitRow, FailureRow, GrowthRow, MapRow, MapLimitRow, MapCheckRow,                              //
-    SizeCostRow, PhaseCostRow, RooflineRow,                                                         //
-    KernelRow, SceneKernelRow, EqualErrorRow, OwnRunRow, SameStepRow, ImplicitStepRow, ThreadsRow,  //
+    ParetoRow<Cost::cpu>,                                                    //
+    CheapestRow<Cost::evaluations>, CheapestRow<Cost::cpu>, EngineSpeedRow,  //
+    LimitRow, FailureRow, GrowthRow, MapRow, MapLimitRow, MapCheckRow,       //
+    SizeCostRow, PhaseCostRow, RooflineRow,                                  //
+    BenchRow,                                                                //
     RelationRow>;
 
 struct DictionaryRow {

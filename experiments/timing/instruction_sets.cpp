@@ -22,4 +22,9 @@ ScopedInstructionSet::~ScopedInstructionSet() {
     unsetenv(variable);
 }
 
+std::vector<simd::InstructionSet> compared_instruction_sets() {
+  const simd::InstructionSet best = simd::active_instruction_set(), baseline = simd::InstructionSet::baseline;
+  return best == baseline ? std::vector{baseline} : std::vector{best, baseline};
+}
+
 }  // namespace crosscheck

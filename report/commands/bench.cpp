@@ -24,214 +24,132 @@ namespace crosscheck {
 
 namespace {
 
-template <class Row>
-BenchRatio ratio_of(const Row& row) {
-  return {row.ratio, row.ratio_low, row.ratio_high};
+std::string nice_seconds(double seconds) {
+  if (seconds >= 0.1) return fmt::format("{:.2f} s", seconds);
+  if (seconds >= 1e-4) return fmt::format("{:.3g} ms", 1e3 * seconds);
+  if (seconds >= 1e-7) return fmt::format("{:.3g} µs", 1e6 * seconds);
+  return fmt::format("{:.3g} ns", 1e9 * seconds);
 }
 
-/// True if a row is of mysim's baseline path; it is then added to the last line.
-template <class Row>
-bool is_second_path(const Row& row, std::vector<BenchLine>& lines) {
-  if (row.path == "best") return false;
-  lines.back().plain = ratio_of(row);
-  return true;
+/// "sheet-32x32-two-stiffnesses" as "32 × 32, two stiffnesses".
+std::string size_text(const std::string& scene) {
+  std::string text = scene.substr(scene.find('-') + 1);
+  for (const auto& [from, to] : {std::pair{"x", " × "}, {"-", ", "}, {"-", " "}})
+    if (const size_t at = text.find(from); at != std::string::npos) text.replace(at, 1, to);
+  return text;
 }
 
-void add_same_step(const TableSet& rows, std::vector<BenchLine>& lines) {
-  for (const SameStepRow& row : rows_of<SameStepRow>(rows)) {
-    if (is_second_path(row, lines)) continue;
-    const bool own = row.force.starts_with("force class");
-    BenchLine& line = lines.emplace_back();
-    line.group =
-        "the same step: Bullet's explicit world and symplectic-euler; springs by a force class of our own, or by "
-        "Bullet's";
-    line.heading = "the same step as Bullet";
-    line.label = fmt::format("{}: {}", size_text(row.scene), own ? "own force class" : "Bullet's force");
-    line.detail =
-        fmt::format("{} : {}, {:.1g} m apart", nice_seconds(row.bullet_cpu), nice_seconds(row.cpu), row.apart);
-    line.best = ratio_of(row);
+std::string detail_of(const BenchRow& row) {
+  if (!row.ratio) return row.remark;
+  std::string text = fmt::format("{} : {} a {}", nice_seconds(*row.peer_time), nice_seconds(*row.time), row.unit);
+  if (row.work == bench_work::same_error) text += " of " + short_name(row.mysim);
+  if (row.apart) text += fmt::format(", {:.1g} m apart", *row.apart);
+  if (row.share)
+    text += fmt::format(", {:.0f} % of {}", 100 * *row.share,
+                        row.work == bench_work::two_threads ? "two cores" : "the peak rate");
+  return text;
+}
+
+BenchLine line_of(const BenchRow& row) {
+  BenchLine line{row.work, row.scene, row.peer == naive_loop_name ? row.mysim : row.peer};
+  if (!row.variant.empty()) line.subject += ", " + row.variant;
+  line.label = line.subject;
+  if (row.work == bench_work::same_error)
+    line.label += row.error ? fmt::format(" to {} m", nice(*row.error)) : fmt::format(": {}", name_of(row.verdict));
+  if (row.work == bench_work::springs_of_scene) line.label = fmt::format("{}: {}", row.scene, line.label);
+  return line;
+}
+
+/// Keeps the line of the scene where the engine's own kernel (the last one of each scene) gains least.
+void keep_least_scene(std::vector<BenchLine>& lines) {
+  std::map<std::string, BenchLine> scenes;
+  for (const BenchLine& line : lines)
+    if (line.work == bench_work::springs_of_scene) scenes.insert_or_assign(line.scene, line);
+  std::erase_if(lines, [](const BenchLine& line) { return line.work == bench_work::springs_of_scene; });
+  if (scenes.empty()) return;
+  const auto ratio = [](const auto& entry) { return entry.second.best->median; };
+  BenchLine least = std::ranges::min_element(scenes, {}, ratio)->second;
+  least.detail +=
+      fmt::format("; slower on {} of {} scenes",
+                  std::ranges::count_if(scenes, [&](const auto& s) { return ratio(s) < 1; }), scenes.size());
+  lines.push_back(std::move(least));
+}
+
+void choose_representatives(std::vector<BenchLine>& lines) {
+  std::vector<std::string> cloths;  // on which kernels ran
+  for (const BenchLine& line : lines)
+    if (line.work == bench_work::springs && std::ranges::count(cloths, line.scene) == 0) cloths.push_back(line.scene);
+  for (BenchLine& line : lines) {
+    // the plain loop is no peer, and times of threads are not CPU times
+    line.representative = line.best && line.work != bench_work::two_threads &&
+                          !line.subject.starts_with("plain loop") && !line.subject.starts_with(naive_loop_name);
+    if (line.work == bench_work::springs) line.representative &= line.scene == cloths[cloths.size() / 2];
+    for (const BenchLine& other : lines)
+      if (line.work == bench_work::same_error && line.heading() == other.heading() && line.subject == other.subject &&
+          other.best && line.best && other.best->median < line.best->median)
+        line.representative = false;
   }
-}
-
-void add_implicit_steps(const TableSet& rows, std::vector<BenchLine>& lines) {
-  for (const ImplicitStepRow& row : rows_of<ImplicitStepRow>(rows)) {
-    if (is_second_path(row, lines)) continue;
-    BenchLine& line = lines.emplace_back();
-    const std::string size = size_text(row.scene);
-    line.group = "a linear implicit Euler step: Eigen's SimplicialLDLT and implicit-euler+linear";
-    line.heading = "implicit step, " + size;
-    line.label = fmt::format("{}, {:g} steps a second", size, row.rate);
-    line.detail = fmt::format("{} : {}, {:.1g} m apart", nice_seconds(row.eigen_cpu), nice_seconds(row.cpu), row.apart);
-    line.best = ratio_of(row);
-  }
-}
-
-void add_threads(const TableSet& rows, std::vector<BenchLine>& lines) {
-  for (const ThreadsRow& row : rows_of<ThreadsRow>(rows)) {
-    BenchLine& line = lines.emplace_back();
-    line.group = "two threads beside one: leapfrog, time on the wall";
-    line.heading = "two threads";
-    line.label = size_text(row.scene);
-    line.detail = fmt::format("{} : {}", nice_seconds(row.one), nice_seconds(row.two));
-    if (row.threads > 1)
-      line.detail += fmt::format(", with {:.0f} % of two cores", 100 * row.share);
-    else
-      line.label += ", too small for a second";
-    line.best = ratio_of(row);
-    line.wall = true;
-  }
-}
-
-using simd::InstructionSet;
-constexpr auto naive = "naive loop";
-constexpr InstructionSet plainest = InstructionSet::baseline;
-
-void add_kernels(const TableSet& all_rows, InstructionSet best, std::vector<BenchLine>& lines) {
-  const std::vector<KernelRow> rows = rows_of<KernelRow>(all_rows);
-  std::vector<long> sides;
-  for (const KernelRow& row : rows)
-    if (sides.empty() || sides.back() != row.side) sides.push_back(row.side);
-  if (sides.empty()) return;
-  const long side = sides[sides.size() / 2];
-  std::vector<std::string> seen;
-  for (const KernelRow& row : rows) {
-    const std::string label = row.kernel + ", " + row.precision;
-    if (row.side != side || row.kernel == naive || std::find(seen.begin(), seen.end(), label) != seen.end()) continue;
-    seen.push_back(label);
-    BenchLine line;
-    line.group = fmt::format("springs of a sheet of {0} × {0}, beside the naive loop", side);
-    line.heading = fmt::format("naive loop, {0} × {0}", side), line.label = label;
-    const KernelRow* chosen = nullptr;
-    for (const KernelRow& other : rows) {
-      if (other.side != side || other.precision != row.precision) continue;
-      // on the baseline the fastest fused step in double is the reproducible one
-      const bool same =
-          other.kernel == row.kernel || (row.kernel == "sweep, fastest" && row.precision == "double" &&
-                                         other.kernel == "sweep, reproducible" && other.instructions == plainest);
-      if (!same) continue;
-      if (other.instructions == plainest) line.plain = ratio_of(other);
-      if (other.instructions == best || (other.kernel == row.kernel && !chosen)) chosen = &other;
-    }
-    line.best = ratio_of(*chosen);
-    line.detail = fmt::format("{:.2f} ns a spring", chosen->time);
-    if (row.kernel.starts_with("sweep")) line.detail += fmt::format(", {:.0f} % of peak", 100 * chosen->share_of_peak);
-    lines.push_back(std::move(line));
-  }
-}
-
-/// The scene where the engine's own kernel (the fused step where there is one) gains least over the naive loop.
-void add_scenes(const TableSet& all_rows, InstructionSet best, std::vector<BenchLine>& lines) {
-  const std::vector<SceneKernelRow> rows = rows_of<SceneKernelRow>(all_rows);
-  std::optional<BenchLine> least;
-  int slower = 0, all = 0;
-  for (size_t begin = 0, end = 0; begin < rows.size(); begin = end) {  // the rows of a scene
-    const SceneKernelRow* chosen = nullptr;
-    std::optional<BenchRatio> plain;
-    for (; end < rows.size() && rows[end].scene == rows[begin].scene; ++end) {
-      // the fused step's rows come after the general kernel's
-      if (rows[end].instructions == best) chosen = &rows[end];
-      if (rows[end].instructions == plainest) plain = ratio_of(rows[end]);
-    }
-    if (!chosen) continue;
-    ++all, slower += chosen->ratio < 1;
-    if (least && least->best->ratio <= chosen->ratio) continue;
-    least.emplace();
-    least->group = "the shipped scene where mysim's kernels gain least on the naive loop";
-    least->label = fmt::format("{}, {} spring{}: {}", chosen->scene, chosen->springs, chosen->springs > 1 ? "s" : "",
-                               chosen->kernel);
-    least->heading = "naive loop, least of the scenes";
-    least->detail = fmt::format("{} an evaluation", nice_seconds(1e-9 * chosen->time));
-    least->best = ratio_of(*chosen), least->plain = plain;
-  }
-  if (!least) return;
-  least->detail += fmt::format("; slower on {} of {} scenes", slower, all);
-  lines.push_back(*least);
-}
-
-void add_equal_error(const TableSet& rows, std::vector<BenchLine>& lines) {
-  const size_t begin = lines.size();
-  std::vector<std::string> subject;  // scene and peer of each line
-  for (const EqualErrorRow& row : rows_of<EqualErrorRow>(rows)) {
-    if (row.path == "best") {
-      BenchLine& line = lines.emplace_back();
-      line.group = fmt::format("the same error on a sheet of {}, 1 s", size_text(row.scene));
-      line.label = fmt::format("{} {}{}", row.peer,
-                               row.error ? fmt::format("to {} m", nice(*row.error)) : std::string(name_of(row.verdict)),
-                               row.model == PeerModel::same ? "" : ", other model");
-      line.heading = "the same error, " + size_text(row.scene);
-      line.remark = row.remark.value_or("");
-      subject.push_back(row.scene + " " + row.peer);
-      if (row.mysim_cpu)
-        line.detail =
-            fmt::format("{} : {} {}", nice_seconds(*row.cpu), nice_seconds(*row.mysim_cpu), short_name(*row.mysim));
-    }
-    if (!row.ratio) continue;
-    (row.path == "best" ? lines.back().best : lines.back().plain) =
-        BenchRatio{*row.ratio, *row.ratio_low, *row.ratio_high};
-  }
-  for (size_t i = begin; i < lines.size(); ++i)
-    for (size_t j = begin; j < lines.size(); ++j)
-      if (subject[i - begin] == subject[j - begin] && lines[j].best &&
-          (!lines[i].best || lines[j].best->ratio < lines[i].best->ratio))
-        lines[i].representative = false;
 }
 
 }  // namespace
 
-static InstructionSet best_of(const TableSet& rows) {
-  for (const SameStepRow& row : rows_of<SameStepRow>(rows))
-    if (row.path == "best") return row.instructions;
-  for (const EqualErrorRow& row : rows_of<EqualErrorRow>(rows))
-    if (row.path == "best") return row.instructions;
-  return plainest;
+std::string BenchLine::heading() const {
+  return work == bench_work::springs_of_scene ? work : fmt::format("{}, {}", work, size_text(scene));
 }
 
-std::string best_instruction_set(const TableSet& rows) { return std::string(name_of(best_of(rows))); }
-
-std::vector<BenchLine> bench_lines(const TableSet& rows) {
+std::vector<BenchLine> bench_lines(const std::vector<BenchRow>& rows) {
   std::vector<BenchLine> lines;
-  const InstructionSet best = best_of(rows);
-  add_kernels(rows, best, lines);
-  add_scenes(rows, best, lines);
-  add_equal_error(rows, lines);
-  add_same_step(rows, lines);
-  add_implicit_steps(rows, lines);
-  add_threads(rows, lines);
+  const simd::InstructionSet best = simd::active_instruction_set();
+  for (const BenchRow& row : rows) {
+    const BenchLine made = line_of(row);
+    auto line = std::ranges::find_if(lines, [&](const BenchLine& other) {
+      return other.work == made.work && other.scene == made.scene && other.label == made.label;
+    });
+    if (line == lines.end()) line = lines.insert(lines.end(), made);
+    if (row.instructions == best || line->detail.empty()) line->detail = detail_of(row);
+    if (!row.ratio) continue;
+    const Timing ratio{*row.ratio, *row.ratio_low, *row.ratio_high};
+    if (row.instructions == best || !line->best) line->best = ratio;
+    if (row.instructions == simd::InstructionSet::baseline) line->baseline = ratio;
+  }
+  keep_least_scene(lines);
+  choose_representatives(lines);
   return lines;
 }
 
 namespace {
 
-std::optional<DotPlot::Dot> dot_of(const std::optional<BenchRatio>& ratio) {
+std::optional<DotPlot::Dot> dot_of(const std::optional<Timing>& ratio) {
   if (!ratio) return std::nullopt;
-  return DotPlot::Dot{ratio->ratio, ratio->low, ratio->high};
+  return DotPlot::Dot{ratio->median, ratio->low, ratio->high};
 }
+
+std::string best_instructions() { return std::string(name_of(simd::active_instruction_set())); }
 
 }  // namespace
 
-DotPlot bench_figure(const std::vector<BenchLine>& lines, const std::string& instructions, const std::string& commit) {
+DotPlot bench_figure(const std::vector<BenchLine>& lines, const std::string& commit) {
   DotPlot f;
   f.name = "bench-ratios";
   f.title = "CPU time relative to mysim";
   f.label = "CPU time / CPU time of mysim";
   f.from_costs = true;
-  f.series = {{fmt::format("mysim with {}", instructions), {"#0072B2", "1", 7}, {}},
+  f.series = {{fmt::format("mysim with {}", best_instructions()), {"#0072B2", "1", 7}, {}},
               {"mysim with baseline instructions", {"#D55E00", "1", 6}, {}}};
   std::string heading;
   const BenchLine* least = nullptr;
   for (const BenchLine& line : lines) {
-    // the plain loop is no peer, and wall times are not CPU times
-    if (!line.representative || !line.best || line.wall || line.label.starts_with("plain loop")) continue;
-    if (line.heading != heading) f.headings.emplace_back(f.names.size(), line.heading);
-    heading = line.heading;
+    if (!line.representative) continue;
+    if (line.heading() != heading) f.headings.emplace_back(f.names.size(), line.heading());
+    heading = line.heading();
     f.names.push_back(line.label);
     f.series[0].dots.push_back(dot_of(line.best));
-    f.series[1].dots.push_back(dot_of(line.plain));
-    if (!least || line.best->ratio < least->best->ratio) least = &line;
+    f.series[1].dots.push_back(dot_of(line.baseline));
+    if (!least || line.best->median < least->best->median) least = &line;
   }
   if (least)
     f.finding =
-        fmt::format("mysim gains least on {} ({}): {:.2g} times.", least->label, least->heading, least->best->ratio);
+        fmt::format("mysim gains least on {} ({}): {:.2g} times.", least->label, least->heading(), least->best->median);
   f.caption = fmt::format(
       "CPU time of one core, medians and 90 % intervals of ratios taken round by round; of each peer the run where it "
       "does best; commit {}.",
@@ -252,20 +170,19 @@ Provenance build_lines() {
   return lines;
 }
 
-std::string text_of(const std::optional<BenchRatio>& ratio) {
+std::string text_of(const std::optional<Timing>& ratio) {
   if (!ratio) return "-";
-  const int digits = ratio->ratio < 9.95 ? 2 : ratio->ratio < 99.5 ? 1 : 0;
-  return fmt::format("{0:.{3}f} ({1:.{3}f} to {2:.{3}f})", ratio->ratio, ratio->low, ratio->high, digits);
+  const int digits = ratio->median < 9.95 ? 2 : ratio->median < 99.5 ? 1 : 0;
+  return fmt::format("{0:.{3}f} ({1:.{3}f} to {2:.{3}f})", ratio->median, ratio->low, ratio->high, digits);
 }
 
-void print(const std::vector<BenchLine>& lines, const std::string& instructions) {
-  fmt::print("{:<48} {:>22} {:>22}\n", "their CPU time over mysim's (90 % interval)", instructions, "baseline");
-  std::string group;
+void print(const std::vector<BenchLine>& lines) {
+  fmt::print("{:<48} {:>22} {:>22}\n", "their CPU time over mysim's (90 % interval)", best_instructions(), "baseline");
+  std::string heading;
   for (const BenchLine& line : lines) {
-    if (line.group != group) fmt::print("\n{}\n", line.group);
-    group = line.group;
-    fmt::print("  {:<46} {:>22} {:>22}  {}\n", line.label, text_of(line.best), text_of(line.plain),
-               line.remark.empty() ? line.detail : line.remark);
+    if (line.heading() != heading) fmt::print("\n{}\n", line.heading());
+    heading = line.heading();
+    fmt::print("  {:<46} {:>22} {:>22}  {}\n", line.label, text_of(line.best), text_of(line.baseline), line.detail);
   }
 }
 
@@ -273,7 +190,7 @@ void print(const std::vector<BenchLine>& lines, const std::string& instructions)
 
 int bench_command(const BenchOptions& options, const BenchSuite& plan) {
   OutputFolder folder(options.out, "bench");
-  const TableSet rows = bench(plan, LockPatience());
+  const BenchResult result = bench(plan, LockPatience());
   std::vector<Scene> scenes = load_scenes(plan.scenes);
   for (const BenchSuite::PeerCloth& cloth : plan.cloths) scenes.push_back(cloth.scene());
   for (const int side : plan.threads.sides) scenes.push_back(hanging_cloth(side));
@@ -281,16 +198,19 @@ int bench_command(const BenchOptions& options, const BenchSuite& plan) {
   scenes.push_back(hanging_cloth_of_two_stiffnesses(plan.same_step.side));
   Provenance lines = with_scenes(provenance(options.command_line), scenes);
   for (auto& line : build_lines()) lines.push_back(std::move(line));
-  const std::string instructions = best_instruction_set(rows);
-  lines.emplace_back("best instructions", instructions);
+  lines.emplace_back("best instructions", best_instructions());
 
-  for (const Table& table : rows.tables) write_csv(table, lines, folder.path());
-  write_file(folder.path() / "bench.json", tables_json(rows, lines));
-  const std::vector<BenchLine> found = bench_lines(rows);
-  draw(drawing_of(bench_figure(found, instructions, value_of(lines, "commit"))), lines, folder.path());
+  Table table = table_of<BenchRow>();
+  for (const BenchRow& row : result.rows) add(table, row);
+  write_csv(table, lines, folder.path());
+  TableSet tables;
+  tables.add(table), tables.notes = result.notes;
+  write_file(folder.path() / "bench.json", tables_json(tables, lines));
+  const std::vector<BenchLine> found = bench_lines(result.rows);
+  draw(drawing_of(bench_figure(found, value_of(lines, "commit"))), lines, folder.path());
   folder.finish();
-  print(found, instructions);
-  for (const std::string& note : rows.notes) fmt::print("note: {}\n", note);
+  print(found);
+  for (const std::string& note : result.notes) fmt::print("note: {}\n", note);
   fmt::print("\n{}\n", (options.out / "bench.json").string());
   return 0;
 }

@@ -1,60 +1,37 @@
 // The results of the bench as lines for people: on the terminal and in the figure.
 #pragma once
 
-#include <fmt/format.h>
-
 #include <filesystem>
 #include <optional>
 #include <string>
 #include <vector>
 
-#include "experiments/experiment.h"
-#include "experiments/tables/table.h"
+#include "experiments/tables/bench.h"
+#include "experiments/timing/timing.h"
 #include "report/figures/figure.h"
 
 namespace crosscheck {
 
 struct BenchSuite;
 
-/// The ratio of a peer's time to mysim's, with its 90 % interval.
-struct BenchRatio {
-  double ratio, low, high;
-};
-
+/// One comparison: all rows that differ by mysim's instructions only.
 struct BenchLine {
-  std::string group;                      // a heading: the comparison
-  std::string heading;                    // the same in few words, for the figure
-  std::string label;                      // the peer, and at which accuracy
-  std::string detail;                     // times or rates behind the ratio; of the best path
-  std::optional<BenchRatio> best, plain;  // best instructions; the baseline
-  std::string remark = {};                // why there is no ratio
-  bool representative = true;             // of several lines about one peer the one where it does best
-  bool wall = false;                      // the ratio is one of times on the wall, not of CPU times
+  std::string work, scene, subject;      // subject: the peer, or mysim's kernel beside the naive loop
+  std::string label;                     // the subject, and at which accuracy
+  std::string detail;                    // times behind the ratio, in the best instructions; or why there is no ratio
+  std::optional<Timing> best, baseline;  // ratios
+  bool representative = true;            // shown in the figure
+
+  /// "same error, 32 × 32"
+  std::string heading() const;
 };
 
-/// From the tables of bench(). Kernels on the middle one of the selected cloths; of the shipped scenes the one where
-/// the engine's own kernel gains least; all runs of all peers; two threads against one.
-std::vector<BenchLine> bench_lines(const TableSet& rows);
+/// The lines of all rows, in their order; of the shipped scenes only the one where the engine's own kernel gains
+/// least. In the figure stand the kernels on the middle one of the cloths, and of each peer the run where it does best.
+std::vector<BenchLine> bench_lines(const std::vector<BenchRow>& rows);
 
-/// The name of the best instructions in the tables: "avx512".
-std::string best_instruction_set(const TableSet& rows);
-
-inline std::string nice_seconds(double seconds) {
-  if (seconds >= 0.1) return fmt::format("{:.2f} s", seconds);
-  if (seconds >= 1e-4) return fmt::format("{:.3g} ms", 1e3 * seconds);
-  return fmt::format("{:.3g} µs", 1e6 * seconds);
-}
-
-/// "sheet-32x32-two-stiffnesses" as "32 × 32, two stiffnesses".
-inline std::string size_text(const std::string& scene) {
-  std::string text = scene.substr(scene.find('-') + 1);
-  for (const auto& [from, to] : {std::pair{"x", " × "}, {"-", ", "}, {"-", " "}})
-    if (const size_t at = text.find(from); at != std::string::npos) text.replace(at, 1, to);
-  return text;
-}
-
-/// All ratios, of each peer the one where it does best: best instructions and the baseline as two markers.
-DotPlot bench_figure(const std::vector<BenchLine>& lines, const std::string& instructions, const std::string& commit);
+/// All representative ratios of CPU times: best instructions and the baseline as two markers.
+DotPlot bench_figure(const std::vector<BenchLine>& lines, const std::string& commit);
 
 struct BenchOptions {
   bool full = false;
