@@ -1,11 +1,8 @@
 // The measurements of quick and full benches, in their order.
 #include "experiments/bench/bench.h"
 
-#include <fmt/format.h>
-
 #include "experiments/scenes/scenes.h"
 #include "experiments/timing/machine.h"
-#include "mysim/base/errors.h"
 
 namespace crosscheck {
 namespace {
@@ -84,19 +81,11 @@ BenchResult bench(const BenchSuite& suite, const LockPatience& patience) {
   BenchRecord record{patience, progress};
   measure_threads(suite.threads, record);
   pin_to_one_core();
-  try {
-    for (const int side : suite.kernel_sides) measure_kernels(side, suite.kernels, record);
-    measure_scenes(load_scenes(suite.scenes), suite.on_scenes, record);
-  } catch (const Unsupported& refusal) {
-    record.notes.push_back(fmt::format("bench leaves out kernels: {}", refusal.what()));
-  }
+  for (const int side : suite.kernel_sides) measure_kernels(side, suite.kernels, record);
+  measure_scenes(load_scenes(suite.scenes), suite.on_scenes, record);
   for (const EqualErrorOptions& options : cloths) measure_equal_error(options, record);
   measure_same_step(suite.same_step, record);
-  try {
-    measure_implicit_steps(suite.implicit_step, record);
-  } catch (const Unsupported& refusal) {
-    record.notes.push_back(fmt::format("bench leaves out implicit steps: {}", refusal.what()));
-  }
+  measure_implicit_steps(suite.implicit_step, record);
   if (patience.exhausted()) record.notes.emplace_back(timed_beside_other_work);
   progress.done();
   return {std::move(record.rows), std::move(record.notes)};

@@ -1,4 +1,4 @@
-// Small pieces of work timed side by side, with Google Benchmark underneath, which chooses how often each is repeated.
+// Small pieces of work timed side by side.
 #pragma once
 
 #include <map>
@@ -22,8 +22,7 @@ struct MicrobenchmarkOptions {
 
 /// CPU time of one run of each, s, one for each round; by name. In a round all run one after the other, so
 /// that a slow spell of the machine falls on all, and quotients within a round are the most exact; alone on this
-/// machine among all of Crosscheck (experiments/timing/machine.h). Names must differ. Throws Unsupported with the
-/// package's name where the suite was built without Google Benchmark.
+/// machine among all of Crosscheck (experiments/timing/machine.h). Names must differ.
 std::map<std::string, std::vector<double>> run_microbenchmarks(const std::vector<Microbenchmark>& all,
                                                                const MicrobenchmarkOptions& options,
                                                                const LockPatience& patience);

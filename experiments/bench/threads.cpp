@@ -3,7 +3,6 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <chrono>
 #include <cmath>
 #include <ctime>
@@ -33,14 +32,14 @@ class TimedCloth {
                                            {ExecutionPath::reproducible, threads}, no_observers_)) {}
 
   /// Wall time of a step, s.
-  double step(int steps) {
+  double step(long steps) {
     using Clock = std::chrono::steady_clock;
     const double cpu = cpu_of_all_threads();
     const auto begin = Clock::now();
-    for (int i = 0; i < steps; ++i, ++taken_) world_->step(taken_ * h_, (taken_ + 1) * h_);
+    for (long i = 0; i < steps; ++i, ++taken_) world_->step(taken_ * h_, (taken_ + 1) * h_);
     const double wall = std::chrono::duration<double>(Clock::now() - begin).count();
     share_.push_back((cpu_of_all_threads() - cpu) / (threads() * wall));
-    return wall / steps;
+    return wall / static_cast<double>(steps);
   }
   /// How many are at work.
   int threads() const { return world_->work().worker_seconds > 0 ? 2 : 1; }
@@ -55,14 +54,6 @@ class TimedCloth {
   std::vector<double> share_;
 };
 
-/// As many steps as take so long.
-int steps_in(double seconds, TimedCloth& world) {
-  int steps = 1;
-  for (double taken; steps < 1000000 && (taken = world.step(steps) * steps) < seconds;)
-    steps = static_cast<int>(std::ceil(steps * std::clamp(1.2 * seconds / taken, 2., 64.)));
-  return steps;
-}
-
 }  // namespace
 
 void measure_threads(const ThreadsOptions& options, BenchRecord& record) {
@@ -75,10 +66,10 @@ void measure_threads(const ThreadsOptions& options, BenchRecord& record) {
     record.progress.begin(fmt::format("{}: two threads", scene.name));
     TimedCloth one(scene, 1), two(scene, 2);
     const MachineLock exclusive(MachineLock::Mode::exclusive, record.patience);
-    const int steps = steps_in(options.turns.seconds, one), rounds = options.turns.rounds;
+    const long steps =
+        repetitions_in(options.turns.seconds, [&](long count) { return one.step(count) * static_cast<double>(count); });
     const std::vector<std::function<double()>> runs{[&] { return one.step(steps); }, [&] { return two.step(steps); }};
-    const auto times =
-        time_round_robin(runs, TimingOptions{.least = rounds, .most = rounds, .resolution = 0, .warm = INFINITY});
+    const auto times = time_rounds(runs, options.turns.rounds);
     const bool both_at_work = two.threads() > 1;
     BenchRow row{.work = bench_work::two_threads,
                  .scene = scene.name,

@@ -108,12 +108,10 @@ class HeapShuffle {
 
 bool runs(const SpeedCase& q) { return ends_well(q.method, q) && (!q.against || ends_well(*q.against, q)); }
 
-/// As many steps of the plain loop as take long enough.
+/// The number of steps of the plain loop that take long enough.
 long steps_of_loop(const Scene& scene) {
   PlainLoop loop(scene);
-  long steps = 1;
-  while (loop.seconds_of(steps) < resolution / 2 && steps < (1L << 40)) steps *= 2;
-  return steps;
+  return repetitions_in(resolution / 2, [&](long steps) { return loop.seconds_of(steps); });
 }
 
 void measure_once(const SpeedCase& q, long loop_steps, Ratios& ratios) {

@@ -40,6 +40,13 @@ double mean_time(const std::function<double()>& run, double resolution) {
   return sum / count;
 }
 
+long repetitions_in(double seconds, const std::function<double(long)>& seconds_of) {
+  long count = 1;
+  for (double taken; count < (1L << 40) && (taken = seconds_of(count)) < seconds;)
+    count = std::lround(std::ceil(static_cast<double>(count) * std::clamp(1.2 * seconds / taken, 2., 64.)));
+  return count;
+}
+
 Timing timing_of(std::vector<double> seconds) {
   if (seconds.empty()) throw std::invalid_argument("timing_of: no times");
   std::sort(seconds.begin(), seconds.end());
@@ -67,6 +74,10 @@ std::vector<std::vector<double>> time_round_robin(std::span<const std::function<
         times[i].push_back(mean_time(runs[i], plan.resolution));
     }
   return times;
+}
+
+std::vector<std::vector<double>> time_rounds(std::span<const std::function<double()>> runs, int rounds) {
+  return time_round_robin(runs, {.least = rounds, .most = rounds, .resolution = 0, .warm = INFINITY});
 }
 
 std::vector<double> ratios_of_rounds(const std::vector<double>& a, const std::vector<double>& b) {
@@ -164,8 +175,7 @@ std::vector<EvaluationTimes> time_round_robin(const std::vector<TimedRun>& turns
     });
   }
   // what a run says is the time of an evaluation and not its own: it is long enough as it is
-  const auto times = time_round_robin(
-      runs, TimingOptions{.least = plan.rounds, .most = plan.rounds, .resolution = 0, .warm = INFINITY});
+  const auto times = time_rounds(runs, plan.rounds);
   for (size_t i = 0; i < turns.size(); ++i)
     if (times[i] != std::vector<double>{0}) all[i].per_evaluation = times[i];
   return all;

@@ -32,6 +32,9 @@ Timing timing_of(std::vector<double> seconds);
 /// The mean time of a run that says what time it took, s, and is repeated until all have taken `resolution`.
 double mean_time(const std::function<double()>& run, double resolution);
 
+/// The number of repetitions that take `seconds` by trial; seconds_of(n) returns the time of n.
+long repetitions_in(double seconds, const std::function<double(long)>& seconds_of);
+
 struct TimingOptions {
   int least = 5, most = 11;    // repetitions of each run
   double enough = 0.2;         // s: a run that has taken as much is repeated `least` times only
@@ -45,6 +48,9 @@ struct TimingOptions {
 /// its only time is 0.
 std::vector<std::vector<double>> time_round_robin(std::span<const std::function<double()>> runs,
                                                   const TimingOptions& plan);
+
+/// Times of so many rounds of one repetition each, after one run of each to warm up.
+std::vector<std::vector<double>> time_rounds(std::span<const std::function<double()>> runs, int rounds);
 
 /// Quotients of the times of two runs, round by round, over the rounds that both have: all, and their median with its
 /// interval.

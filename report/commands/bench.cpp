@@ -41,8 +41,8 @@ std::string size_text(const std::string& scene) {
 
 std::string detail_of(const BenchRow& row) {
   if (!row.ratio) return row.remark;
-  std::string text = fmt::format("{} : {} a {}", nice_seconds(*row.peer_time), nice_seconds(*row.time), row.unit);
-  if (row.work == bench_work::same_error) text += " of " + short_name(row.mysim);
+  std::string text = fmt::format("{} : {} per {}", nice_seconds(*row.peer_time), nice_seconds(*row.time), row.unit);
+  if (row.work == bench_work::same_error) text += ", " + short_name(row.mysim);
   if (row.apart) text += fmt::format(", {:.1g} m apart", *row.apart);
   if (row.share)
     text += fmt::format(", {:.0f} % of {}", 100 * *row.share,
@@ -52,11 +52,11 @@ std::string detail_of(const BenchRow& row) {
 
 BenchLine line_of(const BenchRow& row) {
   BenchLine line{row.work, row.scene, row.peer == naive_loop_name ? row.mysim : row.peer};
-  if (!row.variant.empty()) line.subject += ", " + row.variant;
   line.label = line.subject;
+  if (row.work == bench_work::springs_of_scene) line.label = fmt::format("{}: {}", row.scene, row.mysim);
   if (row.work == bench_work::same_error)
     line.label += row.error ? fmt::format(" to {} m", nice(*row.error)) : fmt::format(": {}", name_of(row.verdict));
-  if (row.work == bench_work::springs_of_scene) line.label = fmt::format("{}: {}", row.scene, line.label);
+  if (!row.variant.empty()) line.label += ", " + row.variant, line.subject += ", " + row.variant;
   return line;
 }
 
@@ -81,8 +81,7 @@ void choose_representatives(std::vector<BenchLine>& lines) {
     if (line.work == bench_work::springs && std::ranges::count(cloths, line.scene) == 0) cloths.push_back(line.scene);
   for (BenchLine& line : lines) {
     // the plain loop is no peer, and times of threads are not CPU times
-    line.representative = line.best && line.work != bench_work::two_threads &&
-                          !line.subject.starts_with("plain loop") && !line.subject.starts_with(naive_loop_name);
+    line.representative = line.best && line.work != bench_work::two_threads && !line.subject.starts_with("plain loop");
     if (line.work == bench_work::springs) line.representative &= line.scene == cloths[cloths.size() / 2];
     for (const BenchLine& other : lines)
       if (line.work == bench_work::same_error && line.heading() == other.heading() && line.subject == other.subject &&
@@ -101,6 +100,7 @@ std::vector<BenchLine> bench_lines(const std::vector<BenchRow>& rows) {
   std::vector<BenchLine> lines;
   const simd::InstructionSet best = simd::active_instruction_set();
   for (const BenchRow& row : rows) {
+    if (row.mysim.starts_with(naive_loop_name)) continue;
     const BenchLine made = line_of(row);
     auto line = std::ranges::find_if(lines, [&](const BenchLine& other) {
       return other.work == made.work && other.scene == made.scene && other.label == made.label;

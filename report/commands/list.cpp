@@ -74,8 +74,6 @@ int doctor_command() {
   fmt::print("  {:<14} {:<10} {}{}\n", "SUNDIALS", sundials_version().value_or("absent"),
              "optional: a better one, in odeint's place",
              sundials_version() ? "" : "; apt-get install libsundials-dev, then build anew");
-  fmt::print("  {:<14} {:<10} {}\n", "Benchmark", CROSSCHECK_BENCHMARK_VERSION,
-             "Google's; optional: times kernels side by side for `bench`; of libbenchmark-dev");
   fmt::print("  {:<14} {:<10} {}\n\n", CROSSCHECK_OFFSCREEN, "linked", "renders pictures without a display");
 
   // an installation compiles coursework and adapters alone

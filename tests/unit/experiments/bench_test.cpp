@@ -11,7 +11,6 @@
 #include "experiments/timing/instruction_sets.h"
 #include "mysim/implicit/newton.h"
 #include "mysim/model/system.h"
-#include "tests/unit/experiments/bench_helpers.h"
 #include "tests/unit/reference/helpers.h"
 
 namespace crosscheck {
@@ -23,6 +22,7 @@ namespace {
 using namespace testing_tools;
 
 const TimedRunOptions hasty_turns{3, 1e-4};
+const MicrobenchmarkOptions hasty{3, 1e-4};
 
 /// The rows of a measurement, and its notes.
 class Measured {
@@ -101,10 +101,7 @@ TEST(BenchInstructions, AreAsBeforeAfterwards) {
   EXPECT_EQ(value(), "none");
 }
 
-using BenchKernels = MicrobenchmarkTest;
-using BenchScenes = MicrobenchmarkTest;
-
-TEST_F(BenchKernels, EachOneForEachInstructionSet) {
+TEST(BenchKernels, EachOneForEachInstructionSet) {
   const Measured kernels(measure_kernels, 40);  // wide enough for single precision
   // two loops that are compiled once; for each instruction set the general kernel and three fused steps
   EXPECT_EQ(kernels.rows().size(), 2 + 4 * simd::supported_instruction_sets().size());
@@ -118,11 +115,11 @@ TEST_F(BenchKernels, EachOneForEachInstructionSet) {
   EXPECT_EQ(*kernels.rows()[0].ratio, 1);
 }
 
-TEST_F(BenchKernels, OnNarrowClothsWithoutTheFusedStep) {
+TEST(BenchKernels, OnNarrowClothsWithoutTheFusedStep) {
   EXPECT_EQ(Measured(measure_kernels, 8).rows().size(), 2 + simd::supported_instruction_sets().size());
 }
 
-TEST_F(BenchScenes, EveryOneWithSprings) {
+TEST(BenchScenes, EveryOneWithSprings) {
   std::vector<Scene> scenes;
   size_t with_springs = 0;
   for (const auto& name : shipped_scenes()) {
@@ -251,9 +248,7 @@ TEST(BenchSameStep, BothEnginesComeToTheSamePlaces) {
   }
 }
 
-using BenchImplicit = MicrobenchmarkTest;
-
-TEST_F(BenchImplicit, BothWaysEndWhereTheOtherDoes) {
+TEST(BenchImplicit, BothWaysEndWhereTheOtherDoes) {
   const Measured measured(measure_implicit_steps, ImplicitStepOptions{{24}, {60, 240}, hasty});
   ASSERT_EQ(measured.rows().size(), 2 * compared_instruction_sets().size());
   // solved to 1e-12 of the forces by one, to round-off by the other; what gives way most is as soft as inertia alone,
