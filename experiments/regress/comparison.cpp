@@ -93,18 +93,11 @@ std::vector<BaselineRow> baseline_rows_of(const Baseline& baseline, const Case& 
 std::vector<Comparison> compared(const Case& test_case, const std::vector<Quantity>& is,
                                  const std::vector<BaselineRow>& expected) {
   std::vector<Comparison> rows;
-  const auto same_name = [](const std::string& name) {
-    return [&name](const auto& each) {
-      if constexpr (std::is_same_v<std::decay_t<decltype(each)>, BaselineRow>)
-        return each.what.quantity.name == name;
-      else
-        return each.name == name;
-    };
-  };
   for (const Quantity& q : is) {
     Comparison row = about(test_case, q);
     set(row.is, row.is_word, q);
-    const auto was = std::find_if(expected.begin(), expected.end(), same_name(q.name));
+    const auto was = std::find_if(expected.begin(), expected.end(),
+                                  [&](const BaselineRow& e) { return e.what.quantity.name == q.name; });
     if (was == expected.end()) {
       row.state = is_finite(q) ? Status::added : Status::not_finite;
     } else {
@@ -115,7 +108,7 @@ std::vector<Comparison> compared(const Case& test_case, const std::vector<Quanti
     rows.push_back(row);
   }
   for (const BaselineRow& e : expected)
-    if (std::none_of(is.begin(), is.end(), same_name(e.what.quantity.name))) {
+    if (!find(is, e.what.quantity.name)) {
       Comparison row = about(test_case, e.what.quantity);
       set(row.was, row.was_word, e.what.quantity);
       row.tolerance = e.what.tolerance;

@@ -29,16 +29,13 @@ std::vector<int> frames_at(const Trajectory& path, int parts) {
 
 std::string at_time(const std::string& what, double t) { return fmt::format("{} at {:.6g} s", what, t); }
 
-}  // namespace
-
-std::string offset_at(double t) { return at_time("offset", t); }
-std::string places_at(double t) { return at_time("places along drawn directions", t); }
-
+/// RMS distance of the particles from their start.
 void offsets(const Observation& seen, Quantities& out) {
   for (const int i : frames_at(seen.path(), 8))
     out.push_back({offset_at(seen.path().t[i]), "m", rms_distance(seen.path().x[i], seen.path().x.front())});
 }
 
+/// Positions along directions drawn once for each particle: they differ where means over the particles agree.
 void places(const Observation& seen, Quantities& out) {
   const auto n = seen.path().x.front().cols();
   std::mt19937_64 engine(20250101);
@@ -49,6 +46,7 @@ void places(const Observation& seen, Quantities& out) {
     out.push_back({places_at(seen.path().t[i]), "m", dot(along, seen.path().x[i] - seen.path().x.front())});
 }
 
+/// Kinetic, elastic and gravitational energy, above that at the start.
 void energies(const Observation& seen, Quantities& out) {
   const auto& rows = seen.case_run.ledger;
   if (rows.empty()) return;
@@ -71,6 +69,7 @@ void peak_stretch(const Observation& seen, Quantities& out) {
   if (std::isfinite(most)) out.push_back({"peak stretch", "1", most});
 }
 
+/// The offset at the end as waves along and across the scene as it is written: sag is the first of them.
 void shape(const Observation& seen, Quantities& out) {
   const Points &x0 = seen.scene().start.x, offset = seen.path().x.back() - seen.path().x.front();
   if (x0.cols() < 9) return;
@@ -92,6 +91,7 @@ void shape(const Observation& seen, Quantities& out) {
   }
 }
 
+/// Largest way of a particle along gravity.
 void sag(const Observation& seen, Quantities& out) {
   const auto* gravity = seen.scene().model.find<Gravity>();
   if (!gravity || seen.scene().model.particles.pins.empty()) return;
@@ -99,6 +99,7 @@ void sag(const Observation& seen, Quantities& out) {
   out.push_back({"sag", "m", (gravity->acceleration.normalized().transpose() * offset).maxCoeff()});
 }
 
+/// Twice the mean time between turning points of the mean of the particles, parabolas through three samples.
 void period(const Observation& seen, Quantities& out) {
   const Trajectory& path = seen.path();
   if (seen.scene().model.find<Spheres>() || path.frames() < 8) return;
@@ -118,21 +119,6 @@ void period(const Observation& seen, Quantities& out) {
   out.push_back({"period", "s", 2 * (turns.back() - turns.front()) / static_cast<double>(turns.size() - 1)});
 }
 
-void settle_time(const Observation& seen, Quantities& out) {
-  const auto& rows = seen.case_run.ledger;
-  double peak = 0;
-  for (const LedgerRow& row : rows) peak = std::max(peak, row.energy.kinetic);
-  size_t last = 0;
-  for (size_t i = 0; i < rows.size(); ++i)
-    if (rows[i].energy.kinetic > 0.01 * peak) last = i;
-  // what falls below only towards the end may swing above once more
-  if (!(peak > 0) || last + 1 >= rows.size() || rows[last].t > 0.8 * rows.back().t) return;
-  const double above = std::log(rows[last].energy.kinetic / (0.01 * peak)),
-               below = std::log(std::max(rows[last + 1].energy.kinetic, 1e-9 * peak) / (0.01 * peak));
-  const double part = above / (above - below);
-  out.push_back({"settle time", "s", rows[last].t + part * (rows[last + 1].t - rows[last].t)});
-}
-
 void smallest_clearance(const Observation& seen, Quantities& out) {
   if (!seen.scene().model.find<Spheres>()) return;
   double least = INFINITY;
@@ -141,12 +127,14 @@ void smallest_clearance(const Observation& seen, Quantities& out) {
   out.push_back({"smallest clearance", "m", least});
 }
 
+/// The truth over the scene's run where it has a closed form, else nothing: a converged one takes minutes to find.
 std::optional<Truth> exact_truth(const Scene& scene) {
   if (!exact_solution(scene)) return std::nullopt;
   const auto truth = truth_of(scene, default_run(scene));
   return truth && truth->tier == Tier::exact ? truth : std::nullopt;
 }
 
+/// Largest height of particles above a ball after their first contact, m.
 void rebound_height(const Observation& seen, Quantities& out) {
   const auto* spheres = seen.scene().model.find<Spheres>();
   if (!spheres ||
@@ -164,26 +152,8 @@ void rebound_height(const Observation& seen, Quantities& out) {
   if (touched) out.push_back({"rebound height", "m", highest});
 }
 
-void leaving_angle(const Observation& seen, Quantities& out) {
-  constexpr double gap = 1e-3;  // m
-  const auto* spheres = seen.scene().model.find<Spheres>();
-  const auto* gravity = seen.scene().model.find<Gravity>();
-  const Points& start = seen.scene().start.x;
-  if (!spheres || spheres->list.size() != 1 || !gravity || start.cols() != 1) return;
-  if (std::abs(*clearance(seen.scene(), 0, start)) > 1e-9) return;
-  for (int i = 1; i < seen.path().frames(); ++i) {
-    const double before = *clearance(seen.scene(), seen.path().t[i - 1], seen.path().x[i - 1]),
-                 after = *clearance(seen.scene(), seen.path().t[i], seen.path().x[i]);
-    if (after < gap) continue;
-    const double part = (gap - before) / (after - before), t = std::lerp(seen.path().t[i - 1], seen.path().t[i], part);
-    const Vec3 place = (1 - part) * seen.path().x[i - 1].col(0) + part * seen.path().x[i].col(0);
-    const Vec3 up = -gravity->acceleration.normalized(),
-               out_of_ball = (place - spheres->list[0].centre_at(t)).normalized();
-    out.push_back({"leaving angle", "degrees", std::acos(up.dot(out_of_ball)) * 180 / std::numbers::pi});
-    return;
-  }
-}
-
+/// Largest RMS distance from the same run at half the step, m, where there is no closed form: an estimate of the error,
+/// right to a factor that its order says. One more run, twice as long; not of scenes without an ingredient.
 void change_at_half_the_step(const Observation& seen, Quantities& out) {
   const Scene& scene = seen.scene();
   const Method& method = seen.test_case.method;
@@ -195,6 +165,8 @@ void change_at_half_the_step(const Observation& seen, Quantities& out) {
   out.push_back({halving_quantity, "m", largest_rms_distance(seen.path(), recorder.trajectory, scene.window)});
 }
 
+/// log2 of the error against the closed form over that at half the step, where there is one: near the rule's order.
+/// One more run. Where the error is below 1e-10 of the scene's size it says nothing, and is left out.
 void order_of_error(const Observation& seen, Quantities& out) {
   const Scene& scene = seen.scene();
   const Stepper* rule = seen.test_case.method.stepper;
@@ -215,6 +187,8 @@ void order_of_error(const Observation& seen, Quantities& out) {
   out.back().error_bar = truth->error_bar / halved * 2 / std::log(2.);
 }
 
+/// s, by bisection from rest, known to 0.2 %: on scenes of at most 12 free coordinates, of rules with a finite limit.
+/// About 25 runs of 4000 steps.
 void largest_stable_step(const Observation& seen, Quantities& out) {
   constexpr double precision = 2e-3;
   const Method& method = seen.test_case.method;
@@ -231,10 +205,8 @@ void largest_stable_step(const Observation& seen, Quantities& out) {
   out.back().error_bar = measured.limit() * measured.precision();
 }
 
-namespace {
-
-/// Of the numbers whose differences quantities are: places, energies, and a spring's length over that at rest. Where
-/// nothing moves, what is zero but for rounding is bounded by the energy of a motion through the scene in its window.
+/// Size of the numbers whose differences quantities are: places, energies, and a spring's length over that at rest.
+/// If nothing moves, it is the energy of a motion through the scene in its window.
 double size_of_unit(const std::string& unit, const Scene& scene, const CaseRun& case_run) {
   double most = unit == "1" ? 1 : 0;
   if (unit == "m")
@@ -298,16 +270,54 @@ constexpr void (*table[])(const Observation&, Quantities&) = {settings,
                                                               change_at_half_the_step,
                                                               largest_stable_step};
 
-/// Of a run that failed: what it did before.
+/// The quantities of a failed run, up to half the time until then.
 constexpr void (*table_of_failed[])(const Observation&, Quantities&) = {offsets, places};
 
-/// Whether the motion itself failed, at a time that is the same in each run.
+/// True if the motion itself failed, at a time that is the same in each run.
 bool failed_in_time(Verdict verdict) {
   return verdict != Verdict::ok && verdict != Verdict::unsupported && verdict != Verdict::timeout &&
          verdict != Verdict::crash;
 }
 
 }  // namespace
+
+std::string offset_at(double t) { return at_time("offset", t); }
+std::string places_at(double t) { return at_time("places along drawn directions", t); }
+
+void settle_time(const Observation& seen, Quantities& out) {
+  const auto& rows = seen.case_run.ledger;
+  double peak = 0;
+  for (const LedgerRow& row : rows) peak = std::max(peak, row.energy.kinetic);
+  size_t last = 0;
+  for (size_t i = 0; i < rows.size(); ++i)
+    if (rows[i].energy.kinetic > 0.01 * peak) last = i;
+  // a fall towards the end may be followed by another rise
+  if (!(peak > 0) || last + 1 >= rows.size() || rows[last].t > 0.8 * rows.back().t) return;
+  const double above = std::log(rows[last].energy.kinetic / (0.01 * peak)),
+               below = std::log(std::max(rows[last + 1].energy.kinetic, 1e-9 * peak) / (0.01 * peak));
+  const double part = above / (above - below);
+  out.push_back({"settle time", "s", rows[last].t + part * (rows[last + 1].t - rows[last].t)});
+}
+
+void leaving_angle(const Observation& seen, Quantities& out) {
+  constexpr double gap = 1e-3;  // m
+  const auto* spheres = seen.scene().model.find<Spheres>();
+  const auto* gravity = seen.scene().model.find<Gravity>();
+  const Points& start = seen.scene().start.x;
+  if (!spheres || spheres->list.size() != 1 || !gravity || start.cols() != 1) return;
+  if (std::abs(*clearance(seen.scene(), 0, start)) > 1e-9) return;
+  for (int i = 1; i < seen.path().frames(); ++i) {
+    const double before = *clearance(seen.scene(), seen.path().t[i - 1], seen.path().x[i - 1]),
+                 after = *clearance(seen.scene(), seen.path().t[i], seen.path().x[i]);
+    if (after < gap) continue;
+    const double part = (gap - before) / (after - before), t = std::lerp(seen.path().t[i - 1], seen.path().t[i], part);
+    const Vec3 place = (1 - part) * seen.path().x[i - 1].col(0) + part * seen.path().x[i].col(0);
+    const Vec3 up = -gravity->acceleration.normalized(),
+               out_of_ball = (place - spheres->list[0].centre_at(t)).normalized();
+    out.push_back({"leaving angle", "degrees", std::acos(up.dot(out_of_ball)) * 180 / std::numbers::pi});
+    return;
+  }
+}
 
 std::vector<Quantity> quantities_of(const Case& test_case, const CaseRun& case_run) {
   Quantities all{{"verdict", "word", 0, std::string(name_of(case_run.outcome.verdict))}};

@@ -15,6 +15,19 @@
 namespace crosscheck {
 namespace {
 
+/// A case with the name that its result is found under; tolerances take three more runs.
+struct Job {
+  Case test_case;
+  std::string name;
+  bool with_tolerances = false;
+};
+
+struct JobResults {
+  std::map<std::string, std::vector<QuantityWithTolerance>>
+      quantities;                     // by name; tolerances are 0 where the job has none
+  std::vector<FailedPoint> failures;  // cases without a result: a crash
+};
+
 /// A quantity of a case on its way from the process that ran it.
 struct QuantityRow {
   std::string test_case, quantity, unit;
@@ -62,8 +75,7 @@ std::vector<QuantityWithTolerance> quantities_of(const Table& table) {
   return all;
 }
 
-}  // namespace
-
+/// Runs cases side by side, each in a process of its own; `out` is the folder for finished ones.
 JobResults run_jobs(const std::vector<Job>& all, const std::filesystem::path& out, const LockPatience& patience,
                     Progress& progress) {
   std::vector<Point> points;
@@ -92,8 +104,6 @@ std::vector<Quantity> quantities_in(const std::vector<QuantityWithTolerance>& al
   for (const QuantityWithTolerance& t : all) list.push_back(t.quantity);
   return list;
 }
-
-namespace {
 
 Case with_method(const Method& method, Case test_case) {
   test_case.method = method;

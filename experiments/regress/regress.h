@@ -14,31 +14,6 @@
 
 namespace crosscheck {
 
-// Runs cases side by side, each in a process of its own.
-
-/// A case with the name that its result is found under; tolerances take three more runs.
-struct Job {
-  Case test_case;
-  std::string name;
-  bool with_tolerances = false;
-};
-
-struct JobResults {
-  std::map<std::string, std::vector<QuantityWithTolerance>>
-      quantities;                     // by name; tolerances are 0 where the job has none
-  std::vector<FailedPoint> failures;  // cases without a result: a crash
-};
-
-/// `out` is the folder for what is finished.
-JobResults run_jobs(const std::vector<Job>& all, const std::filesystem::path& out, const LockPatience& patience,
-                    Progress& progress);
-
-/// The one of that name, or null.
-const QuantityWithTolerance* find(const std::vector<QuantityWithTolerance>& all, const std::string& name);
-
-/// Without their tolerances.
-std::vector<Quantity> quantities_in(const std::vector<QuantityWithTolerance>& all);
-
 struct Regression {
   Selection selection;
   std::optional<Method> against;    // instead of baselines; then exactly one method is selected

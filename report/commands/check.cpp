@@ -126,13 +126,12 @@ Json json_of(const std::vector<Answer>& answers) {
 /// A case for each answer: failed where broken, skipped where known or not asked.
 std::string junit_of(const std::vector<Answer>& answers) {
   JUnitReport report("check");
-  for (const Answer& a : answers) {
-    const std::string name = fmt::format("{}: {}", a.relation->name, a.scene);
-    if (a.mark == RelationMark::holds)
-      report.add(a.method, name);
-    else
-      report.add(a.method, name, a.mark == RelationMark::broken ? "failure" : "skipped", a.sentence());
-  }
+  for (const Answer& a : answers)
+    report.add(a.method, fmt::format("{}: {}", a.relation->name, a.scene),
+               a.mark == RelationMark::holds    ? ""
+               : a.mark == RelationMark::broken ? "failure"
+                                                : "skipped",
+               a.sentence());
   return report.xml();
 }
 

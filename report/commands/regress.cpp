@@ -235,8 +235,7 @@ void add_regress(CLI::App& app, Invocation& call) {
   regress->add_option("scenes", options->scenes, "scenes or TOML files (default: all that come with Crosscheck)");
   regress->add_option("--filter", options->filter, "GLOB: only cases whose SCENE or SCENE/METHOD it matches");
   regress->add_option("--method", options->methods, "methods to run: A,B,... (default: all of mysim and Bullet)");
-  auto* against = regress->add_option("--against", options->against,
-                                      "a method that --method is compared with, instead of baselines");
+  regress->add_option("--against", options->against, "a method that --method is compared with, instead of baselines");
   regress->add_option("--baselines", options->baselines,
                       "folder of baselines (default: those that come with Crosscheck)");
   auto* bless = regress->add_flag("--bless", options->bless, "stores the results of this run as baselines");

@@ -105,47 +105,25 @@ Json json_of(const Comparison& row) {
   return json;
 }
 
-std::string sentence(const Comparison& row) {
-  const auto shown = [](const std::optional<double>& value, const std::string& word) {
-    if (!word.empty() || !value) return word;
-    return std::isfinite(*value) ? Json(*value).dump() : std::isnan(*value) ? "nan" : "inf";
-  };
-  const std::pair<const char*, std::string> parts[] = {
-      {"was", shown(row.was, row.was_word)},
-      {"is", shown(row.is, row.is_word)},
-      {"tolerance", row.was && row.is ? Json(row.tolerance).dump() : ""},
-      {"note", row.note}};
-  std::string text = fmt::format("{}: {}", row.quantity, name_of(row.state));
-  for (const auto& [key, part] : parts)
-    if (!part.empty()) text += fmt::format(", {} {}", key, part);
-  return text;
-}
-
 std::string junit(const RegressionResult& result, const Speeds& speeds) {
-  std::map<std::pair<std::string, std::string>, std::vector<std::string>>
-      cases;  // failed quantities, by scene and method
+  // failed quantities, by scene and method
+  std::map<std::pair<std::string, std::string>, std::vector<std::string>> cases;
   for (const Comparison& row : result.rows) {
     std::string method = row.method.empty() ? "baseline" : row.method;
     if (!row.without.empty()) method += " without " + row.without;
     std::vector<std::string>& wrong = cases[{row.scene, method}];
-    if (failed(row.state)) wrong.push_back(sentence(row) + "\n");
+    if (failed(row.state))
+      wrong.push_back(fmt::format("{}: {}: {}\n", row.quantity, name_of(row.state),
+                                  row.note.empty() ? describe_change(row) : row.note));
   }
   JUnitReport report("regress");
   for (const auto& [name, wrong] : cases)
-    if (wrong.empty())
-      report.add(name.first, name.second);
-    else
-      report.add(name.first, name.second, "failure", fmt::format("{} quantities", wrong.size()),
-                 fmt::format("{}", fmt::join(wrong, "")));
+    report.add(name.first, name.second, wrong.empty() ? "" : "failure", fmt::format("{} quantities", wrong.size()),
+               fmt::format("{}", fmt::join(wrong, "")));
   for (const FailedPoint& f : result.failures) report.add("no answer", f.name, "error", f.why);
-  for (const SpeedComparison& row : speeds.rows) {
-    const std::string name = row.method + ": speed";
-    if (!row.was) continue;
-    if (failed(row.state))
-      report.add(row.scene, name, "failure", row.state == SpeedStatus::gone ? row.note : row.sentence);
-    else
-      report.add(row.scene, name);
-  }
+  for (const SpeedComparison& row : speeds.rows)
+    if (row.was)
+      report.add(row.scene, row.method + ": speed", failed(row.state) ? "failure" : "", row.sentence + row.note);
   for (const FailedPoint& f : speeds.failures) report.add("speed", f.name, "error", f.why);
   return report.xml();
 }
@@ -266,9 +244,6 @@ void first_screen(const VerdictPage& page, std::string& out) {
   const auto say = [&out](const std::string& topic, const std::string& sentence) {
     out += fmt::format("<li class=\"{}\">{}</li>\n", topic, escaped(sentence));
   };
-  for (const SpeedComparison& row : page.speeds.rows)
-    if (!row.sentence.empty())
-      say("accuracy", fmt::format("Speed of {} under {}: {}.", row.scene, row.method, row.sentence));
   for (const FailedPoint& f : page.result.failures) say("failure", fmt::format("No answer: {}: {}", f.name, f.why));
   const auto added = std::count_if(page.result.rows.begin(), page.result.rows.end(),
                                    [](const auto& row) { return row.state == Status::added; });
