@@ -365,6 +365,11 @@ Picture drape(Quality quality) {
   return picture;
 }
 
+/// The golden pictures were drawn with gnuplot 5.4; letters of other versions may differ.
+bool has_golden_letters() {
+  return run_program({"gnuplot", "--version"}, fs::temp_directory_path()).out.starts_with("gnuplot 5.4");
+}
+
 class GoldenPicture : public testing_tools::InFolder {
  protected:
   Image drawn(const Picture& picture) const {
@@ -378,7 +383,7 @@ TEST_F(GoldenPicture, LooksAsItDidAndChangesAreNoticed) {
        {std::pair{"drape-fast.png", Quality::fast}, {"drape-still.png", Quality::still}}) {
     SCOPED_TRACE(name);
     const Image known = image_in(golden / name), now = drawn(drape(quality));
-    if (!look_the_same(known, now, false)) {
+    if (!look_the_same(known, now, has_golden_letters())) {
       const fs::path kept = fs::temp_directory_path() / name;
       fs::copy_file(folder_ / "drawn.png", kept, fs::copy_options::overwrite_existing);
       ADD_FAILURE() << (known.rgb.empty() ? "there is no picture " : "not as in ") << golden / name
