@@ -88,7 +88,6 @@ struct Method {
   bool sticky_contact = false;              // a touching particle is put back to where it came from
   SpringLaw spring_law = SpringLaw::hooke;  // of its springs, whatever the scene asks for, where it is position-based
   bool own_friction = false;                // follows another law than Coulomb's
-  CurveStyle style = {};
 
   const MethodFamily& family() const { return family_of(name); }
 };

@@ -120,16 +120,12 @@ WorldChoice pbd(const Options& options) {
           false, true};
 }
 
-// the table: a name, how its world is made from the options, and its look in charts in double and in single precision
 struct Row {
   std::string_view name;
   WorldChoice (*make)(const Options&);
-  CurveStyle style, style_in_single;
 };
 constexpr Row table[] = {
-    {"deformable-explicit", deformable_explicit, {"#9A4200", "(3,2)", 5}, {"#D08050", "(14,2,2,2)", 4}},
-    {"deformable-implicit", deformable_implicit, {"#AA4499", "(20,3,4,3)", 11}, {"#B080C0", "(12,2,1,2)", 10}},
-    {"pbd", pbd, {"#D66A08", "(8,4)", 13}, {"#B08050", "(4,2,1,2)", 6}}};
+    {"deformable-explicit", deformable_explicit}, {"deformable-implicit", deformable_implicit}, {"pbd", pbd}};
 
 }  // namespace
 
@@ -141,11 +137,7 @@ std::vector<std::string> world_names() {
 
 WorldChoice choose_world(const std::string& world, const std::vector<std::string>& options) {
   for (const Row& row : table)
-    if (row.name == world) {
-      WorldChoice choice = row.make(options);
-      choice.style = row.style, choice.style_in_single = row.style_in_single;
-      return choice;
-    }
+    if (row.name == world) return row.make(options);
   throw InputError(
       fmt::format("unknown world '{}' of Bullet; expected one of: {}", world, fmt::join(world_names(), ", ")));
 }

@@ -6,7 +6,6 @@
 #include <vector>
 
 #include "mysim/run/run.h"
-#include "mysim/steppers/steppers.h"
 
 namespace crosscheck::bullet {
 
@@ -16,7 +15,6 @@ struct WorldChoice {
   Engine engine;
   bool implicit = false, position_based = false;
   bool may_hang = false;  // to be run in a process of its own only, with a time limit
-  CurveStyle style = {}, style_in_single = {};
 };
 
 /// "deformable-explicit", "deformable-implicit", "pbd".

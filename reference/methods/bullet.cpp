@@ -34,7 +34,6 @@ Method in_double_precision(const std::string& world, const MethodOptions& option
                     world, world));
   Method method{"bullet/" + world, chosen.what, "", chosen.engine, ContactLoss::inferred};
   describe(method, chosen);
-  method.style = chosen.style;
   method.splits_dashpots = !chosen.implicit && !chosen.position_based;
   // one Newton step, and a link let fall and pulled back, are backward Euler there
   if (!method.splits_dashpots) method.on_one_spring = "implicit-euler";
@@ -55,7 +54,6 @@ Method in_single_precision(const std::string& world, const MethodOptions& option
                 },
                 ContactLoss::sampled};
   describe(method, chosen);
-  method.style = chosen.style_in_single;
   return method;
 }
 

@@ -13,50 +13,27 @@ struct Integrator {
   std::string what, rule;
   Outcome (*run)(const Scene&, const Run&, Observer&);
   bool adaptive, multistep = false;
-  CurveStyle style = {};
 };
 
 std::vector<Integrator> integrators() {
   return {
-      {"odeint/rk4",
-       "",
-       "Boost's odeint, classic Runge-Kutta, on a right-hand side written apart",
-       "rk4",
-       run_odeint_rk4,
-       false,
-       false,
-       {"#0A7D5A", "(9,3)", 9}},
-      {"odeint/dopri5",
-       "",
-       "Boost's odeint, Dormand-Prince 5(4) with error control, on the same: give --tol, not --step",
-       "",
-       run_odeint_dopri5,
-       true,
-       false,
-       {"#2E9C86", "(3,4)", 9}},
+      {"odeint/rk4", "", "Boost's odeint, classic Runge-Kutta, on a right-hand side written apart", "rk4",
+       run_odeint_rk4, false},
+      {"odeint/dopri5", "",
+       "Boost's odeint, Dormand-Prince 5(4) with error control, on the same: give --tol, not --step", "",
+       run_odeint_dopri5, true},
       {"odeint/dopri5", "events",
-       "Boost's odeint, Dormand-Prince 5(4), beside spheres: cut where a particle hits, leaves, stops and "
-       "slips",
-       "", run_event_driven, true},
-      {"sundials/arkode",
-       "",
+       "Boost's odeint, Dormand-Prince 5(4), beside spheres: cut where a particle hits, leaves, stops and slips", "",
+       run_event_driven, true},
+      {"sundials/arkode", "",
        "SUNDIALS ARKODE, Fehlberg 7(8) with error control, on the same: give --tol, not --step; +order=4: Zonneveld "
        "4(3)",
-       "",
-       run_arkode,
-       true,
-       false,
-       {"#8A7A1F", "(12,2,2,2)", 11}},
+       "", run_arkode, true},
       {"sundials/arkode", "order=4", "SUNDIALS ARKODE, Zonneveld 4(3) with error control, on the same", "",
        run_arkode_order4, true},
-      {"sundials/cvode",
-       "",
-       "SUNDIALS CVODE, Adams' formulas with GMRES and error control, on the same: give --tol, not --step",
-       "",
-       run_cvode,
-       true,
-       true,
-       {"#7A6A4A", "(4,2,2,2)", 13}}};
+      {"sundials/cvode", "",
+       "SUNDIALS CVODE, Adams' formulas with GMRES and error control, on the same: give --tol, not --step", "",
+       run_cvode, true, true}};
 }
 
 Method integrator_method(const std::string& name, const MethodOptions& options) {
@@ -70,8 +47,7 @@ Method integrator_method(const std::string& name, const MethodOptions& options) 
               .engine = i.run,
               .contact = ContactLoss::inferred,
               .adaptive = i.adaptive,
-              .multistep = i.multistep,
-              .style = i.style};
+              .multistep = i.multistep};
     if (!i.option.empty()) known = "+" + i.option + " or none";
   }
   refuse_option(name, options.back(), known);

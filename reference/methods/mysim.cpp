@@ -91,7 +91,6 @@ Method mysim_method(const Stepper& stepper, const MethodOptions& options) {
                 false,
                 stepper.hard_constraints || rule.step == stepper.linear ? "implicit-euler" : ""};
   method.sticky_contact = contact == ContactRule::sticky;
-  method.style = stepper.style;
   return method;
 }
 

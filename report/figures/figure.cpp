@@ -67,7 +67,42 @@ std::string terminals_of_block(const FigureInfo& figure, double height, const st
 
 namespace {
 
-// what has no style of its own, like outside programs, is distinguished as far as five go
+/// Colour "#RRGGBB", gnuplot's dash type and point type.
+struct CurveStyle {
+  std::string_view colour, dash;
+  int marker;
+};
+
+struct StyleOfMethod {
+  std::string_view method;
+  CurveStyle style;
+};
+
+// A method of the built-in engines without a row takes one of the spare styles.
+constexpr StyleOfMethod styles[] = {
+    {"mysim/explicit-euler", {"#C0609A", "(10,3,2,3)", 15}},
+    {"mysim/trapezoidal", {"#B87A00", "(2,2)", 11}},
+    {"mysim/rk4", {"#009E73", "(6,3)", 9}},
+    {"mysim/symplectic-euler", {"#2A86D0", "(12,3,2,3)", 7}},
+    {"mysim/leapfrog", {"#0B4F94", "1", 7}},
+    {"mysim/suzuki4", {"#5B3FA0", "(12,3,3,3)", 15}},
+    {"mysim/dopri5", {"#7F7F1F", "(3,2)", 13}},
+    {"mysim/implicit-euler", {"#882255", "(18,3)", 11}},
+    {"mysim/implicit-midpoint", {"#CC6677", "(8,2,2,2)", 9}},
+    {"mysim/xpbd", {"#333333", "(5,4)", 5}},
+    {"bullet/deformable-explicit", {"#9A4200", "(3,2)", 5}},
+    {"bullet/deformable-implicit", {"#AA4499", "(20,3,4,3)", 11}},
+    {"bullet/pbd", {"#D66A08", "(8,4)", 13}},
+    {"bullet32/deformable-explicit", {"#D08050", "(14,2,2,2)", 4}},
+    {"bullet32/deformable-implicit", {"#B080C0", "(12,2,1,2)", 10}},
+    {"bullet32/pbd", {"#B08050", "(4,2,1,2)", 6}},
+    {"odeint/rk4", {"#0A7D5A", "(9,3)", 9}},
+    {"odeint/dopri5", {"#2E9C86", "(3,4)", 9}},
+    {"sundials/arkode", {"#8A7A1F", "(12,2,2,2)", 11}},
+    {"sundials/cvode", {"#7A6A4A", "(4,2,2,2)", 13}},
+};
+
+// outside programs and the like share these, as far as five go
 constexpr CurveStyle spare_styles[] = {{"#3F5F78", "(8,2,2,2,2,2)", 3},
                                        {"#AA3377", "(6,2,2,2)", 10},
                                        {"#117733", "(10,2,4,2)", 8},
@@ -78,7 +113,12 @@ MethodStyle styled(const CurveStyle& style) {
   return {std::string(style.colour), std::string(style.dash), style.marker};
 }
 
-bool lacks_style(const Method& method) { return method.family().is_engine() && method.style.colour.empty(); }
+const StyleOfMethod* find_style(std::string_view method) {
+  const auto* row = std::ranges::find(styles, method, &StyleOfMethod::method);
+  return row == std::end(styles) ? nullptr : row;
+}
+
+bool lacks_style(const Method& method) { return method.family().is_engine() && !find_style(method.name); }
 
 }  // namespace
 
@@ -91,7 +131,7 @@ MethodStyle spare_style(size_t place) {
 MethodStyle style_of(const std::string& method) {
   if (method == sticky_method()) return {"#666666", "(3,3)", 8};
   if (const Method* known = builtin_method(method)) {
-    if (!known->style.colour.empty()) return styled(known->style);
+    if (const StyleOfMethod* row = find_style(known->name)) return styled(row->style);
     const auto before = builtin_methods().first(static_cast<size_t>(known - builtin_methods().data()));
     if (lacks_style(*known)) return spare_style(static_cast<size_t>(std::ranges::count_if(before, lacks_style)));
   }
