@@ -140,8 +140,8 @@ std::optional<Drape> drape_from(const DrapedDisc& disc, const std::string& start
 }
 
 void add_drape(Table& table, const Drape& drape) {
-  add(table, DrapedDiscRow{drape.start, drape.disc.rings, nodes_of(drape.disc, drape.rest), drape.disc.rigidity,
-                           drape.disc.shear, drape_coefficient(drape.disc, drape.rest), drape.energy});
+  add(table, DrapedDiscRow{drape.start, drape.disc.rings, drape.disc.rigidity, drape.disc.shear,
+                           nodes_of(drape.disc, drape.rest), drape_coefficient(drape.disc, drape.rest), drape.energy});
 }
 
 /// From several starts on a coarse net; the lowest one is followed to finer nets.

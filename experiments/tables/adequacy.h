@@ -11,9 +11,7 @@ constexpr std::string_view name_of(ModelKind kind) {
   return kind == ModelKind::full ? "full" : kind == ModelKind::single ? "single" : "cumulative";
 }
 template <>
-struct EnumRange<ModelKind> {
-  static constexpr ModelKind first = ModelKind::full, last = ModelKind::cumulative;
-};
+inline constexpr std::pair range_of<ModelKind>{ModelKind::full, ModelKind::cumulative};
 
 /// The kind of a tolerance.
 enum class ToleranceKind { of_scene, hundredth_of_motion, tenth_of_motion };
@@ -23,9 +21,7 @@ constexpr std::string_view name_of(ToleranceKind kind) {
                                                       : "10 % of its motion";
 }
 template <>
-struct EnumRange<ToleranceKind> {
-  static constexpr ToleranceKind first = ToleranceKind::of_scene, last = ToleranceKind::tenth_of_motion;
-};
+inline constexpr std::pair range_of<ToleranceKind>{ToleranceKind::of_scene, ToleranceKind::tenth_of_motion};
 
 /// A quantity that follows a power of the number of cells.
 enum class ScalingQuantity { error, stiffness_for_sag, bend_stiffness_for_droop };
@@ -35,133 +31,84 @@ constexpr std::string_view name_of(ScalingQuantity quantity) {
                                                           : "stiffness of bend springs for the same droop";
 }
 template <>
-struct EnumRange<ScalingQuantity> {
-  static constexpr ScalingQuantity first = ScalingQuantity::error, last = ScalingQuantity::bend_stiffness_for_droop;
-};
+inline constexpr std::pair range_of<ScalingQuantity>{ScalingQuantity::error, ScalingQuantity::bend_stiffness_for_droop};
 
 /// A model of a scene without some of its ingredients.
 struct AdequacyRow {
-  std::string scene, model, left_out;
-  ModelKind kind = ModelKind::full;
-  std::optional<double> error = {};
-  double tolerance = 0;
-  bool within = false;
-  double motion = 0, truth_bar = 0;
-  std::string truth;
-  Verdict verdict = Verdict::ok;
-  long evaluations = 0, springs = 0;
-  double cost = 0;
-
-  static constexpr std::string_view table = "adequacy";
-  static constexpr auto columns = [](auto&& column) {
-    column("scene", "1", &AdequacyRow::scene, "scene"), column("rung", "1", &AdequacyRow::model, "name of the model"),
-        column("left out", "1", &AdequacyRow::left_out, "ingredients that it lacks, with commas between"),
-        column("kind", "1", &AdequacyRow::kind,
-               "whether one ingredient is left out, or this one after those before it"),
-        column("error", "m", &AdequacyRow::error,
-               "largest RMS distance from the truth of the full scene in the window; empty where the run failed"),
-        column("tolerance", "m", &AdequacyRow::tolerance, "tolerance of the scene"),
-        column("within", "1", &AdequacyRow::within, "1 where the error is within the tolerance"),
-        column("motion", "m", &AdequacyRow::motion, "largest RMS distance of the particles from their start"),
-        column("truth bar", "m", &AdequacyRow::truth_bar, "error bar of the truth"),
-        column("truth", "1", &AdequacyRow::truth, "how sure the truth is"),
-        column("verdict", "1", &AdequacyRow::verdict, "how the run ended"),
-        column("evaluations", "1", &AdequacyRow::evaluations, "evaluations of the forces"),
-        column("springs", "1", &AdequacyRow::springs, "springs of the model"),
-        column("cost", "spring evaluations", &AdequacyRow::cost, "evaluations times springs");
-  };
+  TABLE("adequacy");
+  COLUMN(std::string, scene, "scene", "1", "scene");
+  COLUMN(std::string, model, "rung", "1", "name of the model");
+  COLUMN(std::string, left_out, "left out", "1", "ingredients that it lacks, with commas between");
+  COLUMN(ModelKind, kind, "kind", "1", "whether one ingredient is left out, or this one after those before it");
+  COLUMN(std::optional<double>, error, "error", "m",
+         "largest RMS distance from the truth of the full scene in the window; empty where the run failed");
+  COLUMN(double, tolerance, "tolerance", "m", "tolerance of the scene");
+  COLUMN(bool, within, "within", "1", "1 where the error is within the tolerance");
+  COLUMN(double, motion, "motion", "m", "largest RMS distance of the particles from their start");
+  COLUMN(double, truth_bar, "truth bar", "m", "error bar of the truth");
+  COLUMN(std::string, truth, "truth", "1", "how sure the truth is");
+  COLUMN(Verdict, verdict, "verdict", "1", "how the run ended");
+  COLUMN(long, evaluations, "evaluations", "1", "evaluations of the forces");
+  COLUMN(long, springs, "springs", "1", "springs of the model");
+  COLUMN(double, cost, "cost", "spring evaluations", "evaluations times springs");
 };
 
 /// The least model of a scene within a tolerance.
 struct LeastModelRow {
-  std::string scene;
-  double tolerance = 0;
-  ToleranceKind tolerance_is = ToleranceKind::of_scene;
-  std::string least_model, left_out;
-  std::optional<double> error = {}, unseen_error_1 = {}, unseen_error_2 = {}, unseen_error_3 = {};
-  bool holds = false;
-  double cost_of_full = 0;
-
-  static constexpr std::string_view table = "adequacy-least";
-  static constexpr auto columns = [](auto&& column) {
-    column("scene", "1", &LeastModelRow::scene, "scene"),
-        column("tolerance", "m", &LeastModelRow::tolerance, "tolerance that is asked for"),
-        column("tolerance is", "1", &LeastModelRow::tolerance_is, "what that tolerance is"),
-        column("least model", "1", &LeastModelRow::least_model,
-               "name of the model that leaves out most within the tolerance"),
-        column("left out", "1", &LeastModelRow::left_out, "ingredients that it lacks, with commas between"),
-        column("error", "m", &LeastModelRow::error, "its error"),
-        column("unseen error 1", "m", &LeastModelRow::unseen_error_1,
-               "its distance from the full model from start 1 that it has not seen; of the full model: the "
-               "least error of any removal"),
-        column("unseen error 2", "m", &LeastModelRow::unseen_error_2,
-               "its distance from the full model from start 2 that it has not seen; of the full model: the "
-               "least error of any removal"),
-        column("unseen error 3", "m", &LeastModelRow::unseen_error_3,
-               "its distance from the full model from start 3 that it has not seen; of the full model: the "
-               "least error of any removal"),
-        column("holds", "1", &LeastModelRow::holds, "1 where it is the least model from all these starts too"),
-        column("cost of full", "1", &LeastModelRow::cost_of_full, "its cost over that of the full model");
-  };
+  TABLE("adequacy-least");
+  COLUMN(std::string, scene, "scene", "1", "scene");
+  COLUMN(double, tolerance, "tolerance", "m", "tolerance that is asked for");
+  COLUMN(ToleranceKind, tolerance_is, "tolerance is", "1", "what that tolerance is");
+  COLUMN(std::string, least_model, "least model", "1", "name of the model that leaves out most within the tolerance");
+  COLUMN(std::string, left_out, "left out", "1", "ingredients that it lacks, with commas between");
+  COLUMN(std::optional<double>, error, "error", "m", "its error");
+  COLUMN(std::optional<double>, unseen_error_1, "unseen error 1", "m",
+         "its distance from the full model from start 1 that it has not seen; of the full model: the least error of "
+         "any removal");
+  COLUMN(std::optional<double>, unseen_error_2, "unseen error 2", "m",
+         "its distance from the full model from start 2 that it has not seen; of the full model: the least error of "
+         "any removal");
+  COLUMN(std::optional<double>, unseen_error_3, "unseen error 3", "m",
+         "its distance from the full model from start 3 that it has not seen; of the full model: the least error of "
+         "any removal");
+  COLUMN(bool, holds, "holds", "1", "1 where it is the least model from all these starts too");
+  COLUMN(double, cost_of_full, "cost of full", "1", "its cost over that of the full model");
 };
 
 /// A cloth on one grid.
 struct GridRow {
-  std::string scene;
-  long particles = 0;
-  double cells = 0;
-  std::optional<double> error = {}, sag = {}, stiffness_factor = {};
-  Verdict verdict = Verdict::ok;
-  long evaluations = 0, springs = 0;
-  double cost = 0;
-
-  static constexpr std::string_view table = "adequacy-resolution";
-  static constexpr auto columns = [](auto&& column) {
-    column("scene", "1", &GridRow::scene, "scene"),
-        column("particles along a side", "1", &GridRow::particles, "particles along the longer side"),
-        column("cells", "1", &GridRow::cells, "cells along that side"),
-        column("error against the finest", "m", &GridRow::error,
-               "largest RMS distance from the finest grid in the window"),
-        column("sag", "m", &GridRow::sag, "how far the lowest point hangs below the highest one at rest"),
-        column("stiffness factor for the finest's sag", "1", &GridRow::stiffness_factor,
-               "what all stiffnesses are to be multiplied by to sag as the finest grid does"),
-        column("verdict", "1", &GridRow::verdict, "how the run ended"),
-        column("evaluations", "1", &GridRow::evaluations, "evaluations of the forces"),
-        column("springs", "1", &GridRow::springs, "springs of the model"),
-        column("cost", "spring evaluations", &GridRow::cost, "evaluations times springs");
-  };
+  TABLE("adequacy-resolution");
+  COLUMN(std::string, scene, "scene", "1", "scene");
+  COLUMN(long, particles, "particles along a side", "1", "particles along the longer side");
+  COLUMN(double, cells, "cells", "1", "cells along that side");
+  COLUMN(std::optional<double>, error, "error against the finest", "m",
+         "largest RMS distance from the finest grid in the window");
+  COLUMN(std::optional<double>, sag, "sag", "m", "how far the lowest point hangs below the highest one at rest");
+  COLUMN(std::optional<double>, stiffness_factor, "stiffness factor for the finest's sag", "1",
+         "what all stiffnesses are to be multiplied by to sag as the finest grid does");
+  COLUMN(Verdict, verdict, "verdict", "1", "how the run ended");
+  COLUMN(long, evaluations, "evaluations", "1", "evaluations of the forces");
+  COLUMN(long, springs, "springs", "1", "springs of the model");
+  COLUMN(double, cost, "cost", "spring evaluations", "evaluations times springs");
 };
 
 /// A clamped line of a cloth on one grid.
 struct BendingRow {
-  long particles = 0;
-  double cells = 0, stiffness = 0, droop = 0;
-
-  static constexpr std::string_view table = "adequacy-bending";
-  static constexpr auto columns = [](auto&& column) {
-    column("particles along a line", "1", &BendingRow::particles, "particles along the line"),
-        column("cells", "1", &BendingRow::cells, "cells in its free length"),
-        column("stiffness of bend springs", "N/m", &BendingRow::stiffness,
-               "stiffness at which it droops as on the coarsest grid"),
-        column("droop", "m", &BendingRow::droop, "how far its free end hangs down");
-  };
+  TABLE("adequacy-bending");
+  COLUMN(long, particles, "particles along a line", "1", "particles along the line");
+  COLUMN(double, cells, "cells", "1", "cells in its free length");
+  COLUMN(double, stiffness, "stiffness of bend springs", "N/m", "stiffness at which it droops as on the coarsest grid");
+  COLUMN(double, droop, "droop", "m", "how far its free end hangs down");
 };
 
 /// A power of the number of cells.
 struct ScalingRow {
-  std::string scene;
-  ScalingQuantity quantity = ScalingQuantity::error;
-  double exponent = 0, standard_error = 0;
-  std::optional<double> derived = {};
-
-  static constexpr std::string_view table = "adequacy-scaling";
-  static constexpr auto columns = [](auto&& column) {
-    column("scene", "1", &ScalingRow::scene, "scene; empty of the clamped line"),
-        column("quantity", "1", &ScalingRow::quantity, "what follows a power of the number of cells"),
-        column("exponent", "1", &ScalingRow::exponent, "that power, by least squares in the logarithms"),
-        column("standard error", "1", &ScalingRow::standard_error, "of the exponent"),
-        column("derived", "1", &ScalingRow::derived, "the exponent that is derived for many cells");
-  };
+  TABLE("adequacy-scaling");
+  COLUMN(std::string, scene, "scene", "1", "scene; empty of the clamped line");
+  COLUMN(ScalingQuantity, quantity, "quantity", "1", "what follows a power of the number of cells");
+  COLUMN(double, exponent, "exponent", "1", "that power, by least squares in the logarithms");
+  COLUMN(double, standard_error, "standard error", "1", "of the exponent");
+  COLUMN(std::optional<double>, derived, "derived", "1", "the exponent that is derived for many cells");
 };
 
 }  // namespace crosscheck

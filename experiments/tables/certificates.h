@@ -7,24 +7,18 @@
 namespace crosscheck {
 
 template <>
-struct EnumRange<Parity> {
-  static constexpr Parity first = Parity::match, last = Parity::unattested;
-};
+inline constexpr std::pair range_of<Parity>{Parity::match, Parity::unattested};
 
+/// Values that were read back from the engines' memory, beside the scene.
 struct AttestedRow {
-  std::string scene, method, quantity, requested, mapped, read_back;
-  Parity parity = Parity::match;
-
-  static constexpr std::string_view table = "certificates",
-                                    about = "What was read back from the engines' memory, beside the scene.";
-  static constexpr auto columns = [](auto&& column) {
-    column("scene", "1", &AttestedRow::scene, "scene"), column("method", "1", &AttestedRow::method, "method"),
-        column("quantity", "1", &AttestedRow::quantity, "what was read back"),
-        column("asked", "1", &AttestedRow::requested, "as the scene says"),
-        column("handed over", "1", &AttestedRow::mapped, "as it was handed to the engine"),
-        column("read back", "1", &AttestedRow::read_back, "as the engine has it"),
-        column("parity", "1", &AttestedRow::parity, "whether both are the same");
-  };
+  TABLE("certificates");
+  COLUMN(std::string, scene, "scene", "1", "scene");
+  COLUMN(std::string, method, "method", "1", "method");
+  COLUMN(std::string, quantity, "quantity", "1", "what was read back");
+  COLUMN(std::string, requested, "asked", "1", "as the scene says");
+  COLUMN(std::string, mapped, "handed over", "1", "as it was handed to the engine");
+  COLUMN(std::string, read_back, "read back", "1", "as the engine has it");
+  COLUMN(Parity, parity, "parity", "1", "whether both are the same");
 };
 
 }  // namespace crosscheck

@@ -11,34 +11,23 @@ inline std::string_view name_of(RelationMark mark) {
   return names[static_cast<int>(mark)];
 }
 template <>
-struct EnumRange<RelationMark> {
-  static constexpr RelationMark first = RelationMark::holds, last = RelationMark::not_asked;
-};
+inline constexpr std::pair range_of<RelationMark>{RelationMark::holds, RelationMark::not_asked};
 
 /// A relation that was asked of a method.
 struct RelationRow {
-  std::string method, relation, scene;
-  RelationMark mark = RelationMark::holds;
-  std::string compared, unit;
-  std::optional<double> measured, tolerance, ratio, since;
-  std::string reason, scene_hash;
-
-  static constexpr std::string_view table = "relations";
-  static constexpr auto columns = [](auto&& column) {
-    column("method", "1", &RelationRow::method, "method that was asked"),
-        column("relation", "1", &RelationRow::relation, "name of the relation"),
-        column("scene", "1", &RelationRow::scene, "scene on which it was asked"),
-        column("mark", "1", &RelationRow::mark, "whether it holds; known: broken, and listed as known"),
-        column("compared", "1", &RelationRow::compared, "what was measured"),
-        column("unit", "1", &RelationRow::unit, "unit of what was measured"),
-        column("measured", "unit", &RelationRow::measured, "value that was measured, where it is worst"),
-        column("tolerance", "unit", &RelationRow::tolerance, "largest value at which the relation holds there"),
-        column("ratio", "1", &RelationRow::ratio, "measured over tolerance; empty where no tolerance is allowed"),
-        column("since", "s", &RelationRow::since, "first time over the tolerance"),
-        column("reason", "1", &RelationRow::reason,
-               "why it could not be asked, how a run failed, or why the break is known"),
-        column("scene hash", "1", &RelationRow::scene_hash, "fingerprint of the scene");
-  };
+  TABLE("relations");
+  COLUMN(std::string, method, "method", "1", "method that was asked");
+  COLUMN(std::string, relation, "relation", "1", "name of the relation");
+  COLUMN(std::string, scene, "scene", "1", "scene on which it was asked");
+  COLUMN(RelationMark, mark, "mark", "1", "whether it holds; known: broken, and listed as known");
+  COLUMN(std::string, compared, "compared", "1", "what was measured");
+  COLUMN(std::string, unit, "unit", "1", "unit of what was measured");
+  COLUMN(std::optional<double>, measured, "measured", "unit", "value that was measured, where it is worst");
+  COLUMN(std::optional<double>, tolerance, "tolerance", "unit", "largest value at which the relation holds there");
+  COLUMN(std::optional<double>, ratio, "ratio", "1", "measured over tolerance; empty where no tolerance is allowed");
+  COLUMN(std::optional<double>, since, "since", "s", "first time over the tolerance");
+  COLUMN(std::string, reason, "reason", "1", "why it could not be asked, how a run failed, or why the break is known");
+  COLUMN(std::string, scene_hash, "scene hash", "1", "fingerprint of the scene");
 };
 
 }  // namespace crosscheck

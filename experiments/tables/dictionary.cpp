@@ -40,16 +40,12 @@ using AllRows = std::tuple<                                                     
     RelationRow>;
 
 struct DictionaryRow {
-  std::string table_name, column_name, unit, type, description;
-
-  static constexpr std::string_view table = "dictionary";
-  static constexpr auto columns = [](auto&& column) {
-    column("table", "1", &DictionaryRow::table_name, "table; SCENE and NAME stand for a scene and a disagreement"),
-        column("column", "1", &DictionaryRow::column_name, "column"),
-        column("unit", "1", &DictionaryRow::unit, "unit; 1 where it has none"),
-        column("type", "1", &DictionaryRow::type, "what its cells hold"),
-        column("description", "1", &DictionaryRow::description, "what it means");
-  };
+  TABLE("dictionary");
+  COLUMN(std::string, table_name, "table", "1", "table; SCENE and NAME stand for a scene and a disagreement");
+  COLUMN(std::string, column_name, "column", "1", "column");
+  COLUMN(std::string, unit, "unit", "1", "unit; 1 where it has none");
+  COLUMN(std::string, type, "type", "1", "what its cells hold");
+  COLUMN(std::string, description, "description", "1", "what it means");
 };
 
 /// A table that is declared, without its rows.

@@ -7,57 +7,39 @@ namespace crosscheck {
 
 /// A case where one of Bullet's worlds solves another problem than the scene's.
 struct DisagreementRow {
-  std::string name, world, what, cause, effect, threads, state, criterion, scene_hash;
-
-  static constexpr std::string_view table = "disagreements";
-  static constexpr auto columns = [](auto&& column) {
-    column("name", "1", &DisagreementRow::name, "name of the disagreement and of its scene"),
-        column("world", "1", &DisagreementRow::world, "method whose it is"),
-        column("what", "1", &DisagreementRow::what, "what cannot be matched, or fails"),
-        column("cause", "1", &DisagreementRow::cause, "why"),
-        column("effect", "1", &DisagreementRow::effect, "its size as measured"),
-        column("threads", "1", &DisagreementRow::threads, "upstream reports that it answers; empty: none known"),
-        column("state", "1", &DisagreementRow::state,
-               "explained, reproduced, not reproduced or not asked, computed by the criterion"),
-        column("criterion", "1", &DisagreementRow::criterion, "what the curves must do for that"),
-        column("scene hash", "1", &DisagreementRow::scene_hash, "fingerprint of the scene file");
-  };
+  TABLE("disagreements");
+  COLUMN(std::string, name, "name", "1", "name of the disagreement and of its scene");
+  COLUMN(std::string, world, "world", "1", "method whose it is");
+  COLUMN(std::string, what, "what", "1", "what cannot be matched, or fails");
+  COLUMN(std::string, cause, "cause", "1", "why");
+  COLUMN(std::string, effect, "effect", "1", "its size as measured");
+  COLUMN(std::string, threads, "threads", "1", "upstream reports that it answers; empty: none known");
+  COLUMN(std::string, state, "state", "1",
+         "explained, reproduced, not reproduced or not asked, computed by the criterion");
+  COLUMN(std::string, criterion, "criterion", "1", "what the curves must do for that");
+  COLUMN(std::string, scene_hash, "scene hash", "1", "fingerprint of the scene file");
 };
 
 /// A disagreement over time. Each such table calls its last column by its own quantity.
 struct DisagreementCurveRow {
-  std::string curve, method;
-  double step = 0;
-  Verdict verdict = Verdict::ok;
-  double t = 0, value = 0;
-
-  static constexpr std::string_view table = "NAME-disagreement";
-  static constexpr auto columns = [](auto&& column) {
-    column("curve", "1", &DisagreementCurveRow::curve, "title of the curve"),
-        column("method", "1", &DisagreementCurveRow::method, "method that was run"),
-        column("step", "s", &DisagreementCurveRow::step, "time step taken"),
-        column("verdict", "1", &DisagreementCurveRow::verdict, "how the run ended"),
-        column("t", "s", &DisagreementCurveRow::t, "time of the sample"),
-        column("QUANTITY", "UNIT", &DisagreementCurveRow::value,
-               "what the disagreement is seen in; the file has its name and unit");
-  };
+  TABLE("NAME-disagreement");
+  COLUMN(std::string, curve, "curve", "1", "title of the curve");
+  COLUMN(std::string, method, "method", "1", "method that was run");
+  COLUMN(double, step, "step", "s", "time step taken");
+  COLUMN(Verdict, verdict, "verdict", "1", "how the run ended");
+  COLUMN(double, t, "t", "s", "time of the sample");
+  COLUMN(double, value, "QUANTITY", "UNIT", "what the disagreement is seen in; the file has its name and unit");
 };
 
 /// In which direction a ball pushes.
 struct ContactAngleRow {
-  std::string method;
-  double angle = 0, in_plane = 0, sideways = 0;
-  std::string scene_hash;
-
-  static constexpr std::string_view table = "NAME-angles";
-  static constexpr auto columns = [](auto&& column) {
-    column("method", "1", &ContactAngleRow::method, "method that was run"),
-        column("angle", "rad", &ContactAngleRow::angle, "place on the ball, from its top"),
-        column("in plane", "rad", &ContactAngleRow::in_plane,
-               "direction of the push less the normal, in the plane of gravity; positive: as if farther down"),
-        column("sideways", "rad", &ContactAngleRow::sideways, "the same across that plane"),
-        column("scene hash", "1", &ContactAngleRow::scene_hash, "fingerprint of the scene file");
-  };
+  TABLE("NAME-angles");
+  COLUMN(std::string, method, "method", "1", "method that was run");
+  COLUMN(double, angle, "angle", "rad", "place on the ball, from its top");
+  COLUMN(double, in_plane, "in plane", "rad",
+         "direction of the push less the normal, in the plane of gravity; positive: as if farther down");
+  COLUMN(double, sideways, "sideways", "rad", "the same across that plane");
+  COLUMN(std::string, scene_hash, "scene hash", "1", "fingerprint of the scene file");
 };
 
 }  // namespace crosscheck

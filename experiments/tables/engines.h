@@ -26,146 +26,103 @@ struct CellOf<TruthKind> {
 };
 
 struct EngineRow {
-  std::string scene, method;
-  Verdict verdict = Verdict::ok;
-  std::string reason;
-  double end = 0, step = 0;
-  long steps = 0, evaluations = 0, coincident = 0;
-  double motion = 0, window = 0, measured_window = 0, growth = 0;
-  std::optional<double> round_off_bound = {};
-  std::optional<bool> same_rule = {};
-  std::optional<std::string> truth = {};
-  std::optional<TruthKind> truth_kind = {};
-  std::optional<double> truth_bar = {}, truth_until = {}, error = {}, contact_difference = {}, difference = {},
-                        centre_difference = {}, clearance = {}, creep = {}, step_limit = {};
-  std::string different_law = {};
-
-  static constexpr std::string_view table = "engines";
-  static constexpr auto columns = [](auto&& column) {
-    column("scene", "1", &EngineRow::scene, "scene"), column("method", "1", &EngineRow::method, "method that was run"),
-        column("verdict", "1", &EngineRow::verdict, "how the run ended"),
-        column("reason", "1", &EngineRow::reason, "why it failed or was refused"),
-        column("end", "s", &EngineRow::end, "last time reached"),
-        column("step", "s", &EngineRow::step, "time step taken"),
-        column("steps", "1", &EngineRow::steps, "steps taken"),
-        column("evaluations", "1", &EngineRow::evaluations, "evaluations of the forces"),
-        column("coincident springs", "1", &EngineRow::coincident, "springs met at zero length, over all evaluations"),
-        column("motion", "m", &EngineRow::motion, "largest RMS distance of the particles from their start"),
-        column("window", "s", &EngineRow::window, "how long single positions can be predicted, as the scene states it"),
-        column("measured window", "s", &EngineRow::measured_window,
-               "the same as measured: until a perturbation of 1e-10 m has grown a thousandfold"),
-        column("perturbation growth", "1", &EngineRow::growth, "how many times that perturbation grows in the window"),
-        column("round-off bound", "m", &EngineRow::round_off_bound,
-               "what engines of one rule may differ by in the precision of this one; empty where single positions "
-               "cannot be predicted"),
-        column("same rule", "1", &EngineRow::same_rule,
-               "whether its runs show the rule of the method that differences are from; empty where it is not known"),
-        column("truth", "1", &EngineRow::truth, "how the truth was found; empty where none is known"),
-        column("truth tier", "1", &EngineRow::truth_kind, "how sure the truth is"),
-        column("truth bar", "m", &EngineRow::truth_bar, "error bar of the truth"),
-        column("truth until", "s", &EngineRow::truth_until,
-               "until when the truth is known, where that is not to the end"),
-        column("largest error", "m", &EngineRow::error, "largest RMS distance from the truth in the window"),
-        column("largest difference from converged contact", "m", &EngineRow::contact_difference,
-               "largest RMS distance in the window from what the in-house contact rule converges to"),
-        column("largest difference", "m", &EngineRow::difference,
-               "largest RMS distance from mysim/symplectic-euler in the window"),
-        column("largest difference of centres", "m", &EngineRow::centre_difference,
-               "largest distance of the centre of mass from that of mysim/symplectic-euler over the run"),
-        column("smallest clearance", "m", &EngineRow::clearance,
-               "smallest distance of a particle from a sphere's contact surface; negative inside"),
-        column("creep at end", "m/s", &EngineRow::creep, "mean sliding speed of the touching particles at the end"),
-        column("predicted step limit", "s", &EngineRow::step_limit,
-               "largest stable step by linear theory, for the fastest vibration at the start"),
-        column("different law", "1", &EngineRow::different_law, "ingredients that the method has under another law");
-  };
+  TABLE("engines");
+  COLUMN(std::string, scene, "scene", "1", "scene");
+  COLUMN(std::string, method, "method", "1", "method that was run");
+  COLUMN(Verdict, verdict, "verdict", "1", "how the run ended");
+  COLUMN(std::string, reason, "reason", "1", "why it failed or was refused");
+  COLUMN(double, end, "end", "s", "last time reached");
+  COLUMN(double, step, "step", "s", "time step taken");
+  COLUMN(long, steps, "steps", "1", "steps taken");
+  COLUMN(long, evaluations, "evaluations", "1", "evaluations of the forces");
+  COLUMN(long, coincident, "coincident springs", "1", "springs met at zero length, over all evaluations");
+  COLUMN(double, motion, "motion", "m", "largest RMS distance of the particles from their start");
+  COLUMN(double, window, "window", "s", "how long single positions can be predicted, as the scene states it");
+  COLUMN(double, measured_window, "measured window", "s",
+         "the same as measured: until a perturbation of 1e-10 m has grown a thousandfold");
+  COLUMN(double, growth, "perturbation growth", "1", "how many times that perturbation grows in the window");
+  COLUMN(std::optional<double>, round_off_bound, "round-off bound", "m",
+         "what engines of one rule may differ by in the precision of this one; empty where single positions cannot be "
+         "predicted");
+  COLUMN(std::optional<bool>, same_rule, "same rule", "1",
+         "whether its runs show the rule of the method that differences are from; empty where it is not known");
+  COLUMN(std::optional<std::string>, truth, "truth", "1", "how the truth was found; empty where none is known");
+  COLUMN(std::optional<TruthKind>, truth_kind, "truth tier", "1", "how sure the truth is");
+  COLUMN(std::optional<double>, truth_bar, "truth bar", "m", "error bar of the truth");
+  COLUMN(std::optional<double>, truth_until, "truth until", "s",
+         "until when the truth is known, where that is not to the end");
+  COLUMN(std::optional<double>, error, "largest error", "m", "largest RMS distance from the truth in the window");
+  COLUMN(std::optional<double>, contact_difference, "largest difference from converged contact", "m",
+         "largest RMS distance in the window from what the in-house contact rule converges to");
+  COLUMN(std::optional<double>, difference, "largest difference", "m",
+         "largest RMS distance from mysim/symplectic-euler in the window");
+  COLUMN(std::optional<double>, centre_difference, "largest difference of centres", "m",
+         "largest distance of the centre of mass from that of mysim/symplectic-euler over the run");
+  COLUMN(std::optional<double>, clearance, "smallest clearance", "m",
+         "smallest distance of a particle from a sphere's contact surface; negative inside");
+  COLUMN(std::optional<double>, creep, "creep at end", "m/s",
+         "mean sliding speed of the touching particles at the end");
+  COLUMN(std::optional<double>, step_limit, "predicted step limit", "s",
+         "largest stable step by linear theory, for the fastest vibration at the start");
+  COLUMN(std::string, different_law, "different law", "1", "ingredients that the method has under another law");
 };
 
 struct EngineCostRow {
-  std::string scene, method;
-  std::optional<double> cpu = {}, cpu_per_step = {}, simulated_per_cpu = {}, process_cpu = {};
-
-  static constexpr std::string_view table = "engines-cost";
-  static constexpr auto columns = [](auto&& column) {
-    column("scene", "1", &EngineCostRow::scene, "scene"),
-        column("method", "1", &EngineCostRow::method, "method that was run"),
-        column("cpu", "s", &EngineCostRow::cpu, "CPU time of the stepping threads"),
-        column("cpu per step", "s", &EngineCostRow::cpu_per_step, "the same of one step, in the mean"),
-        column("simulated per cpu", "s/s", &EngineCostRow::simulated_per_cpu, "simulated time over CPU time"),
-        column("cpu of process", "s", &EngineCostRow::process_cpu,
-               "CPU time of a whole outside program, its start and its files included");
-  };
+  TABLE("engines-cost");
+  COLUMN(std::string, scene, "scene", "1", "scene");
+  COLUMN(std::string, method, "method", "1", "method that was run");
+  COLUMN(std::optional<double>, cpu, "cpu", "s", "CPU time of the stepping threads");
+  COLUMN(std::optional<double>, cpu_per_step, "cpu per step", "s", "the same of one step, in the mean");
+  COLUMN(std::optional<double>, simulated_per_cpu, "simulated per cpu", "s/s", "simulated time over CPU time");
+  COLUMN(std::optional<double>, process_cpu, "cpu of process", "s",
+         "CPU time of a whole outside program, its start and its files included");
 };
 
 struct EngineTimeRow {
-  std::string method;
-  double t = 0;
-  std::optional<double> error = {}, contact_difference = {}, difference = {}, centre_difference = {}, clearance = {},
-                        creep = {};
-
-  static constexpr std::string_view table = "SCENE-engines";
-  static constexpr auto columns = [](auto&& column) {
-    column("method", "1", &EngineTimeRow::method, "method that was run"),
-        column("t", "s", &EngineTimeRow::t, "time of the sample"),
-        column("error", "m", &EngineTimeRow::error, "RMS distance from the truth"),
-        column("difference from converged contact", "m", &EngineTimeRow::contact_difference,
-               "RMS distance from what the in-house contact rule converges to"),
-        column("difference", "m", &EngineTimeRow::difference, "RMS distance from mysim/symplectic-euler"),
-        column("difference of centres", "m", &EngineTimeRow::centre_difference,
-               "distance of the centre of mass from that of mysim/symplectic-euler"),
-        column("clearance", "m", &EngineTimeRow::clearance,
-               "smallest distance of a particle from a sphere's contact surface; negative inside"),
-        column("creep", "m/s", &EngineTimeRow::creep, "mean sliding speed of the touching particles");
-  };
+  TABLE("SCENE-engines");
+  COLUMN(std::string, method, "method", "1", "method that was run");
+  COLUMN(double, t, "t", "s", "time of the sample");
+  COLUMN(std::optional<double>, error, "error", "m", "RMS distance from the truth");
+  COLUMN(std::optional<double>, contact_difference, "difference from converged contact", "m",
+         "RMS distance from what the in-house contact rule converges to");
+  COLUMN(std::optional<double>, difference, "difference", "m", "RMS distance from mysim/symplectic-euler");
+  COLUMN(std::optional<double>, centre_difference, "difference of centres", "m",
+         "distance of the centre of mass from that of mysim/symplectic-euler");
+  COLUMN(std::optional<double>, clearance, "clearance", "m",
+         "smallest distance of a particle from a sphere's contact surface; negative inside");
+  COLUMN(std::optional<double>, creep, "creep", "m/s", "mean sliding speed of the touching particles");
 };
 
 struct EngineEnergyRow {
-  std::string scene, method;
-  Verdict verdict = Verdict::ok;
-  double end = 0, turned_over = 0;
-  std::optional<double> balance_error = {}, relative_balance_error = {};
-  bool contact_inferred = false;
-  std::optional<double> contact = {}, contact_in_truth = {}, contact_bar = {}, contact_until = {};
-
-  static constexpr std::string_view table = "engines-energy";
-  static constexpr auto columns = [](auto&& column) {
-    column("scene", "1", &EngineEnergyRow::scene, "scene"),
-        column("method", "1", &EngineEnergyRow::method, "method that was run"),
-        column("verdict", "1", &EngineEnergyRow::verdict, "how the run ended"),
-        column("end", "s", &EngineEnergyRow::end, "last time reached"),
-        column("energy turned over", "J", &EngineEnergyRow::turned_over,
-               "largest kinetic energy, or change of the gravitational one"),
-        column("largest balance error", "J", &EngineEnergyRow::balance_error,
-               "largest change of the sum of all energies, losses and works"),
-        column("relative balance error", "1", &EngineEnergyRow::relative_balance_error,
-               "the same over the energy turned over"),
-        column("contact loss inferred", "1", &EngineEnergyRow::contact_inferred,
-               "1 where the engine does not tell what contact took, so that no balance is claimed"),
-        column("contact took", "J", &EngineEnergyRow::contact,
-               "what contact took as long as the truth is known, less what moving spheres gave; empty without a truth"),
-        column("contact takes in truth", "J", &EngineEnergyRow::contact_in_truth, "the same of the truth"),
-        column("bar of contact in truth", "J", &EngineEnergyRow::contact_bar, "error bar of that"),
-        column("contact until", "s", &EngineEnergyRow::contact_until, "end of what these three add up");
-  };
+  TABLE("engines-energy");
+  COLUMN(std::string, scene, "scene", "1", "scene");
+  COLUMN(std::string, method, "method", "1", "method that was run");
+  COLUMN(Verdict, verdict, "verdict", "1", "how the run ended");
+  COLUMN(double, end, "end", "s", "last time reached");
+  COLUMN(double, turned_over, "energy turned over", "J", "largest kinetic energy, or change of the gravitational one");
+  COLUMN(std::optional<double>, balance_error, "largest balance error", "J",
+         "largest change of the sum of all energies, losses and works");
+  COLUMN(std::optional<double>, relative_balance_error, "relative balance error", "1",
+         "the same over the energy turned over");
+  COLUMN(bool, contact_inferred, "contact loss inferred", "1",
+         "1 where the engine does not tell what contact took, so that no balance is claimed");
+  COLUMN(std::optional<double>, contact, "contact took", "J",
+         "what contact took as long as the truth is known, less what moving spheres gave; empty without a truth");
+  COLUMN(std::optional<double>, contact_in_truth, "contact takes in truth", "J", "the same of the truth");
+  COLUMN(std::optional<double>, contact_bar, "bar of contact in truth", "J", "error bar of that");
+  COLUMN(std::optional<double>, contact_until, "contact until", "s", "end of what these three add up");
 };
 
 /// Statistics of a scene with contact: of sixteen perturbed runs, or of one run in units of the spread of such runs.
 struct StatisticRow {
-  std::string method, quantity, unit;
-  double mean = 0;
-  std::optional<double> deviation = {}, apart = {};
-
-  static constexpr std::string_view table = "SCENE-statistics";
-  static constexpr auto columns = [](auto&& column) {
-    column("method", "1", &StatisticRow::method, "method that was run"),
-        column("quantity", "1", &StatisticRow::quantity, "what the mean is of"),
-        column("unit", "1", &StatisticRow::unit, "unit of mean and deviation"),
-        column("mean", "see unit", &StatisticRow::mean,
-               "mean over runs from perturbed starts, or of one run without a deviation"),
-        column("deviation", "see unit", &StatisticRow::deviation, "standard deviation over these runs"),
-        column("apart", "1", &StatisticRow::apart,
-               "distance of the mean from that of mysim's perturbed runs, in their standard deviations");
-  };
+  TABLE("SCENE-statistics");
+  COLUMN(std::string, method, "method", "1", "method that was run");
+  COLUMN(std::string, quantity, "quantity", "1", "what the mean is of");
+  COLUMN(std::string, unit, "unit", "1", "unit of mean and deviation");
+  COLUMN(double, mean, "mean", "see unit", "mean over runs from perturbed starts, or of one run without a deviation");
+  COLUMN(std::optional<double>, deviation, "deviation", "see unit", "standard deviation over these runs");
+  COLUMN(std::optional<double>, apart, "apart", "1",
+         "distance of the mean from that of mysim's perturbed runs, in their standard deviations");
 };
 
 }  // namespace crosscheck

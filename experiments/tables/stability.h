@@ -11,9 +11,7 @@ namespace crosscheck {
 enum class LimitState { rest, start };
 inline std::string_view name_of(LimitState state) { return state == LimitState::rest ? "rest" : "start"; }
 template <>
-struct EnumRange<LimitState> {
-  static constexpr LimitState first = LimitState::rest, last = LimitState::start;
-};
+inline constexpr std::pair range_of<LimitState>{LimitState::rest, LimitState::start};
 
 enum class PredictionKind { limit, no_step, every_step, none };
 inline std::string_view name_of(PredictionKind kind) {
@@ -22,9 +20,7 @@ inline std::string_view name_of(PredictionKind kind) {
   return names[static_cast<int>(kind)];
 }
 template <>
-struct EnumRange<PredictionKind> {
-  static constexpr PredictionKind first = PredictionKind::limit, last = PredictionKind::none;
-};
+inline constexpr std::pair range_of<PredictionKind>{PredictionKind::limit, PredictionKind::none};
 
 /// What runs say of the largest step that holds.
 struct MeasuredLimit {
@@ -44,143 +40,103 @@ inline std::string_view name_of(MeasuredLimit::Kind kind) {
   return names[kind];
 }
 template <>
-struct EnumRange<MeasuredLimit::Kind> {
-  static constexpr MeasuredLimit::Kind first = MeasuredLimit::found, last = MeasuredLimit::unsupported;
-};
+inline constexpr std::pair range_of<MeasuredLimit::Kind>{MeasuredLimit::found, MeasuredLimit::unsupported};
 
+/// Largest stable steps, measured and predicted.
 struct LimitRow {
-  std::string scene, method;
-  LimitState state = LimitState::rest;
-  PredictionKind prediction = PredictionKind::limit;
-  std::optional<double> predicted, omega, gamma;
-  MeasuredLimit::Kind measurement = MeasuredLimit::found;
-  std::optional<double> measured, held, failed, deviation;
-  std::optional<Verdict> above;
-  long steps = 0;
-  std::string reason;
-  std::optional<double> precision;
-  // against the truth of a scene without rest
-  std::optional<double> step_below = {}, error_below = {}, step_above = {}, error_above = {}, motion = {},
-                        truth_bar = {};
-
-  static constexpr std::string_view table = "stability", about = "Largest stable steps, measured and predicted.";
-  static constexpr auto columns = [](auto&& column) {
-    column("scene", "1", &LimitRow::scene, "scene"), column("method", "1", &LimitRow::method, "method"),
-        column("state", "1", &LimitRow::state, "state about which the limit is looked for"),
-        column("prediction", "1", &LimitRow::prediction, "what linear theory says of steps"),
-        column("predicted limit", "s", &LimitRow::predicted, "critical time step by linear theory"),
-        column("binding omega", "rad/s", &LimitRow::omega, "angular frequency of the mode that binds it"),
-        column("binding gamma", "1/s", &LimitRow::gamma, "damping rate of that mode"),
-        column("measurement", "1", &LimitRow::measurement, "what the runs say of steps"),
-        column("measured limit", "s", &LimitRow::measured, "geometric middle of held and failed"),
-        column("held", "s", &LimitRow::held, "largest step at which a run held"),
-        column("failed", "s", &LimitRow::failed, "smallest step at which a run failed"),
-        column("deviation", "1", &LimitRow::deviation, "measured over predicted limit, less 1"),
-        column("verdict above", "1", &LimitRow::above, "how a run ends at 1.05 times the failed step"),
-        column("steps", "1", &LimitRow::steps, "steps of each run"),
-        column("reason", "1", &LimitRow::reason, "why measurement and prediction differ, or one is missing"),
-        column("precision", "1", &LimitRow::precision, "width of the bracket from held to failed, over held"),
-        column("step below", "s", &LimitRow::step_below,
-               "largest step up to held that divides the time between samples, where a scene without rest has a truth"),
-        column("error below", "m", &LimitRow::error_below, "largest RMS position error at that step"),
-        column("step above", "s", &LimitRow::step_above, "the smallest such step from failed on"),
-        column("error above", "m", &LimitRow::error_above,
-               "largest RMS position error at that step, up to where the run fails"),
-        column("motion", "m", &LimitRow::motion, "largest RMS distance of the truth from the start"),
-        column("truth bar", "m", &LimitRow::truth_bar, "error bar of the truth");
-  };
+  TABLE("stability");
+  COLUMN(std::string, scene, "scene", "1", "scene");
+  COLUMN(std::string, method, "method", "1", "method");
+  COLUMN(LimitState, state, "state", "1", "state about which the limit is looked for");
+  COLUMN(PredictionKind, prediction, "prediction", "1", "what linear theory says of steps");
+  COLUMN(std::optional<double>, predicted, "predicted limit", "s", "critical time step by linear theory");
+  COLUMN(std::optional<double>, omega, "binding omega", "rad/s", "angular frequency of the mode that binds it");
+  COLUMN(std::optional<double>, gamma, "binding gamma", "1/s", "damping rate of that mode");
+  COLUMN(MeasuredLimit::Kind, measurement, "measurement", "1", "what the runs say of steps");
+  COLUMN(std::optional<double>, measured, "measured limit", "s", "geometric middle of held and failed");
+  COLUMN(std::optional<double>, held, "held", "s", "largest step at which a run held");
+  COLUMN(std::optional<double>, failed, "failed", "s", "smallest step at which a run failed");
+  COLUMN(std::optional<double>, deviation, "deviation", "1", "measured over predicted limit, less 1");
+  COLUMN(std::optional<Verdict>, above, "verdict above", "1", "how a run ends at 1.05 times the failed step");
+  COLUMN(long, steps, "steps", "1", "steps of each run");
+  COLUMN(std::string, reason, "reason", "1", "why measurement and prediction differ, or one is missing");
+  COLUMN(std::optional<double>, precision, "precision", "1", "width of the bracket from held to failed, over held");
+  COLUMN(std::optional<double>, step_below, "step below", "s",
+         "largest step up to held that divides the time between samples, where a scene without rest has a truth");
+  COLUMN(std::optional<double>, error_below, "error below", "m", "largest RMS position error at that step");
+  COLUMN(std::optional<double>, step_above, "step above", "s", "the smallest such step from failed on");
+  COLUMN(std::optional<double>, error_above, "error above", "m",
+         "largest RMS position error at that step, up to where the run fails");
+  COLUMN(std::optional<double>, motion, "motion", "m", "largest RMS distance of the truth from the start");
+  COLUMN(std::optional<double>, truth_bar, "truth bar", "m", "error bar of the truth");
 };
 
 /// One step of a run above its method's limit, from the scene's own start.
 struct FailureRow {
-  std::string scene, method;
-  double h = 0, limit = 0;
-  std::optional<double> growth;
-  long step = 0;
-  double t = 0, kinetic = 0;
-  std::optional<double> holding;
-  bool still = false;
-
-  static constexpr std::string_view table = "stability-failure", about = "The last steps of a run above its limit.";
-  static constexpr auto columns = [](auto&& column) {
-    column("scene", "1", &FailureRow::scene, "scene"), column("method", "1", &FailureRow::method, "method"),
-        column("time step", "s", &FailureRow::h, "time step of the run"),
-        column("measured limit", "s", &FailureRow::limit, "largest stable step, from table stability"),
-        column("growth by theory", "1", &FailureRow::growth, "factor of the energy of the fastest vibration in a step"),
-        column("step", "1", &FailureRow::step, "steps since the start"), column("t", "s", &FailureRow::t, "time"),
-        column("kinetic energy", "J", &FailureRow::kinetic, "kinetic energy of the free particles"),
-        column("kinetic energy below", "J", &FailureRow::holding,
-               "the same at a quarter of the time step, where the run holds"),
-        column("still", "1", &FailureRow::still, "whether the report shows a picture of this moment");
-  };
+  TABLE("stability-failure");
+  COLUMN(std::string, scene, "scene", "1", "scene");
+  COLUMN(std::string, method, "method", "1", "method");
+  COLUMN(double, h, "time step", "s", "time step of the run");
+  COLUMN(double, limit, "measured limit", "s", "largest stable step, from table stability");
+  COLUMN(std::optional<double>, growth, "growth by theory", "1",
+         "factor of the energy of the fastest vibration in a step");
+  COLUMN(long, step, "step", "1", "steps since the start");
+  COLUMN(double, t, "t", "s", "time");
+  COLUMN(double, kinetic, "kinetic energy", "J", "kinetic energy of the free particles");
+  COLUMN(std::optional<double>, holding, "kinetic energy below", "J",
+         "the same at a quarter of the time step, where the run holds");
+  COLUMN(bool, still, "still", "1", "whether the report shows a picture of this moment");
 };
 
+/// Growth of one mode in each step.
 struct GrowthRow {
-  std::string scene, method;
-  double omega = 0, gamma = 0, step = 0, h_omega = 0;
-  std::optional<double> share_of_limit;
-  double predicted = 0, measured = 0, deviation = 0;
-
-  static constexpr std::string_view table = "stability-growth", about = "Growth of one mode in each step.";
-  static constexpr auto columns = [](auto&& column) {
-    column("scene", "1", &GrowthRow::scene, "scene"), column("method", "1", &GrowthRow::method, "method"),
-        column("omega", "rad/s", &GrowthRow::omega, "angular frequency of the mode"),
-        column("gamma", "1/s", &GrowthRow::gamma, "damping rate of the mode"),
-        column("step", "s", &GrowthRow::step, "time step"),
-        column("h omega", "1", &GrowthRow::h_omega, "time step times angular frequency"),
-        column("share of limit", "1", &GrowthRow::share_of_limit, "time step over the predicted limit"),
-        column("predicted growth", "1", &GrowthRow::predicted, "spectral radius of a step by theory, less 1"),
-        column("measured growth", "1", &GrowthRow::measured, "mean factor of the amplitude in a step, less 1"),
-        column("deviation", "1", &GrowthRow::deviation, "measured over predicted growth, less 1");
-  };
+  TABLE("stability-growth");
+  COLUMN(std::string, scene, "scene", "1", "scene");
+  COLUMN(std::string, method, "method", "1", "method");
+  COLUMN(double, omega, "omega", "rad/s", "angular frequency of the mode");
+  COLUMN(double, gamma, "gamma", "1/s", "damping rate of the mode");
+  COLUMN(double, step, "step", "s", "time step");
+  COLUMN(double, h_omega, "h omega", "1", "time step times angular frequency");
+  COLUMN(std::optional<double>, share_of_limit, "share of limit", "1", "time step over the predicted limit");
+  COLUMN(double, predicted, "predicted growth", "1", "spectral radius of a step by theory, less 1");
+  COLUMN(double, measured, "measured growth", "1", "mean factor of the amplitude in a step, less 1");
+  COLUMN(double, deviation, "deviation", "1", "measured over predicted growth, less 1");
 };
 
+/// Cells of maps: one run in each.
 struct MapRow {
-  std::string scene, method, map;
-  double value = 0, step = 0;
-  Verdict verdict = Verdict::ok;
-  std::optional<double> end, growth;
-
-  static constexpr std::string_view table = "stability-map", about = "Cells of maps: one run in each.";
-  static constexpr auto columns = [](auto&& column) {
-    column("scene", "1", &MapRow::scene, "scene"), column("method", "1", &MapRow::method, "method"),
-        column("map", "1", &MapRow::map, "what the rows of the map change: stiffness or drag"),
-        column("value", "see map", &MapRow::value, "stiffness over the scene's own, or drag rate in 1/s"),
-        column("step", "s", &MapRow::step, "time step"), column("verdict", "1", &MapRow::verdict, "how the run ended"),
-        column("end", "s", &MapRow::end, "simulated time reached"),
-        column("growth", "1", &MapRow::growth, "growth of the kick over the run");
-  };
+  TABLE("stability-map");
+  COLUMN(std::string, scene, "scene", "1", "scene");
+  COLUMN(std::string, method, "method", "1", "method");
+  COLUMN(std::string, map, "map", "1", "what the rows of the map change: stiffness or drag");
+  COLUMN(double, value, "value", "see map", "stiffness over the scene's own, or drag rate in 1/s");
+  COLUMN(double, step, "step", "s", "time step");
+  COLUMN(Verdict, verdict, "verdict", "1", "how the run ended");
+  COLUMN(std::optional<double>, end, "end", "s", "simulated time reached");
+  COLUMN(std::optional<double>, growth, "growth", "1", "growth of the kick over the run");
 };
 
+/// Largest stable steps on the rows of maps.
 struct MapLimitRow {
-  std::string scene, method, map;
-  double value = 0;
-  std::optional<double> predicted, held, failed;
-
-  static constexpr std::string_view table = "stability-map-limit", about = "Largest stable steps on the rows of maps.";
-  static constexpr auto columns = [](auto&& column) {
-    column("scene", "1", &MapLimitRow::scene, "scene"), column("method", "1", &MapLimitRow::method, "method"),
-        column("map", "1", &MapLimitRow::map, "what the rows of the map change: stiffness or drag"),
-        column("value", "see map", &MapLimitRow::value, "stiffness over the scene's own, or drag rate in 1/s"),
-        column("predicted limit", "s", &MapLimitRow::predicted, "critical time step by linear theory"),
-        column("held", "s", &MapLimitRow::held, "largest step at which a run held"),
-        column("failed", "s", &MapLimitRow::failed, "smallest step at which a run failed");
-  };
+  TABLE("stability-map-limit");
+  COLUMN(std::string, scene, "scene", "1", "scene");
+  COLUMN(std::string, method, "method", "1", "method");
+  COLUMN(std::string, map, "map", "1", "what the rows of the map change: stiffness or drag");
+  COLUMN(double, value, "value", "see map", "stiffness over the scene's own, or drag rate in 1/s");
+  COLUMN(std::optional<double>, predicted, "predicted limit", "s", "critical time step by linear theory");
+  COLUMN(std::optional<double>, held, "held", "s", "largest step at which a run held");
+  COLUMN(std::optional<double>, failed, "failed", "s", "smallest step at which a run failed");
 };
 
+/// Cells of maps that change in runs ten times longer.
 struct MapCheckRow {
-  std::string scene, method, map;
-  long steps = 0, cells = 0, changed = 0;
-
-  static constexpr std::string_view table = "stability-map-check",
-                                    about = "Cells of maps that change in runs ten times longer.";
-  static constexpr auto columns = [](auto&& column) {
-    column("scene", "1", &MapCheckRow::scene, "scene"), column("method", "1", &MapCheckRow::method, "method"),
-        column("map", "1", &MapCheckRow::map, "what the rows of the map change: stiffness or drag"),
-        column("steps", "1", &MapCheckRow::steps, "steps of each run of the map"),
-        column("cells", "1", &MapCheckRow::cells, "cells with a run"),
-        column("changed", "1", &MapCheckRow::changed, "cells that hold in one of the two runs only");
-  };
+  TABLE("stability-map-check");
+  COLUMN(std::string, scene, "scene", "1", "scene");
+  COLUMN(std::string, method, "method", "1", "method");
+  COLUMN(std::string, map, "map", "1", "what the rows of the map change: stiffness or drag");
+  COLUMN(long, steps, "steps", "1", "steps of each run of the map");
+  COLUMN(long, cells, "cells", "1", "cells with a run");
+  COLUMN(long, changed, "changed", "1", "cells that hold in one of the two runs only");
 };
 
 }  // namespace crosscheck

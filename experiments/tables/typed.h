@@ -9,6 +9,7 @@
 #include <span>
 #include <string_view>
 #include <type_traits>
+#include <utility>
 
 #include "experiments/tables/table.h"
 #include "mysim/base/errors.h"
@@ -17,18 +18,13 @@
 
 namespace crosscheck {
 
-/// The words of an enum that stands in tables, in the order of its values from `first` on. To be specialised next to
-/// each.
+/// First and last value of an enum in tables, where it is written as the word name_of(value). Specialised beside each.
 template <class Enum>
-struct EnumRange;  // static constexpr Enum first, last;
+inline constexpr std::pair<Enum, Enum> range_of;
 template <>
-struct EnumRange<Verdict> {
-  static constexpr Verdict first = Verdict::ok, last = Verdict::unsupported;
-};
+inline constexpr std::pair range_of<Verdict>{Verdict::ok, Verdict::unsupported};
 template <>
-struct EnumRange<Tier> {
-  static constexpr Tier first = Tier::exact, last = Tier::another_engine;
-};
+inline constexpr std::pair range_of<Tier>{Tier::exact, Tier::another_engine};
 
 template <class T>
 struct CellOf;
@@ -83,7 +79,7 @@ struct CellOf<Enum> {
     // a file whose column holds this word alone, or nothing, reads it as a number
     const auto* number = std::get_if<double>(&cell);
     const std::string word = number && std::isnan(*number) ? "nan" : CellOf<std::string>::read(cell);
-    for (int i = static_cast<int>(EnumRange<Enum>::first); i <= static_cast<int>(EnumRange<Enum>::last); ++i)
+    for (int i = static_cast<int>(range_of<Enum>.first); i <= static_cast<int>(range_of<Enum>.second); ++i)
       if (name_of(static_cast<Enum>(i)) == word) return static_cast<Enum>(i);
     throw InputError(fmt::format("unknown word '{}'", word));
   }
@@ -116,7 +112,7 @@ std::string type_name() {
   if constexpr (std::is_floating_point_v<T>) return "number";
   if constexpr (std::is_enum_v<T>) {
     std::string words;
-    for (int i = static_cast<int>(EnumRange<T>::first); i <= static_cast<int>(EnumRange<T>::last); ++i)
+    for (int i = static_cast<int>(range_of<T>.first); i <= static_cast<int>(range_of<T>.second); ++i)
       words.append(words.empty() ? "one of: " : " | ").append(name_of(static_cast<T>(i)));
     return words;
   }
@@ -155,18 +151,59 @@ std::vector<Cell> retyped(std::span<const TypedColumn> typed, const Table& table
 /// Throws InputError that names both tables where the columns are others.
 void require_columns(std::span<const TypedColumn> typed, const Table& table, std::string_view declared);
 
-/// The columns that a row type declares by a function which hands each of them to `column`:
-///   static constexpr auto columns = [](auto&& column) { column("end", "s", &EngineRow::end, "last time reached"), ...
-///   };
+/// The value that a row's member begins with: 0, empty, or the first value of an enum.
+template <class T>
+constexpr T initial_value() {
+  if constexpr (std::is_enum_v<T>)
+    return range_of<T>.first;
+  else
+    return T{};
+}
+
+/// A line of a header, by which columns are found and ordered.
+template <int line>
+using Line = std::integral_constant<int, line>;
+inline constexpr int most_lines = 100;  // in the declaration of a row
+
+// A row type declares its table's name and then each member together with its column, one to a line:
+//   struct ReboundRow {
+//     TABLE("sphere-rebound");
+//     COLUMN(std::string, method, "method", "1", "method that was run");
+//     COLUMN(double, height, "height", "m", "height of the fall");
+//   };
+// The members are ordinary ones: `ReboundRow{.method = name, .height = 1}`.
+#define TABLE(name_of_table)                               \
+  static constexpr std::string_view table = name_of_table; \
+  static constexpr int first_line = __LINE__
+#define COLUMN(type_of_member, member, name, unit, description)                                       \
+  type_of_member member = initial_value<type_of_member>();                                            \
+  static_assert(__LINE__ < first_line + most_lines);                                                  \
+  template <class Row>                                                                                \
+  static TypedColumn column(Line<__LINE__>, const Row& row) {                                         \
+    const auto at = reinterpret_cast<const char*>(&row.member) - reinterpret_cast<const char*>(&row); \
+    return {name, unit, description, &cell_type<type_of_member>, at};                                 \
+  }                                                                                                   \
+  static_assert(true)
+
+/// The columns of a row type, in the order of their lines.
 template <class Row>
 std::span<const TypedColumn> typed_columns() {
   static const std::vector<TypedColumn> declared = [] {
     std::vector<TypedColumn> list;
     const Row row{};
-    Row::columns([&]<class T>(const char* name, const char* unit, T Row::*member, const char* description) {
-      const auto at = reinterpret_cast<const char*>(&(row.*member)) - reinterpret_cast<const char*>(&row);
-      list.push_back({name, unit, description, &cell_type<T>, at});
-    });
+    const auto add_column = [&]<int line>(Line<line> at) {
+      if constexpr (requires { Row::column(at, row); }) list.push_back(Row::column(at, row));
+    };
+    if constexpr (requires { Row::first_line; }) {
+      const auto add_columns = [&]<int... i>(std::integer_sequence<int, i...>) {
+        (add_column(Line<Row::first_line + i>{}), ...);
+      };
+      add_columns(std::make_integer_sequence<int, most_lines>{});
+    } else
+      Row::columns([&]<class T>(const char* name, const char* unit, T Row::*member, const char* description) {
+        const auto at = reinterpret_cast<const char*>(&(row.*member)) - reinterpret_cast<const char*>(&row);
+        list.push_back({name, unit, description, &cell_type<T>, at});
+      });
     return list;
   }();
   return declared;

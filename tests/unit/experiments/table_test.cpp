@@ -84,26 +84,17 @@ TEST(Csv, ColumnsAreFoundByName) {
 }
 
 struct ProbeRow {
-  std::string name;
-  double size = 0;
-  long count = 0;
-  int order = 0;
-  bool within = false;
-  Verdict verdict = Verdict::ok;
-  std::optional<double> error = {};
-  std::optional<Tier> tier = {};
-  std::optional<TruthKind> truth = {};
+  TABLE("probe");
+  COLUMN(std::string, name, "name", "1", "a text");
+  COLUMN(double, size, "size", "m", "a number");
+  COLUMN(long, count, "count", "1", "a whole number");
+  COLUMN(int, order, "order", "1", "a small one");
+  COLUMN(bool, within, "within", "1", "yes or no");
+  COLUMN(Verdict, verdict, "verdict", "1", "a word");
+  COLUMN(std::optional<double>, error, "error", "m", "a number or nothing");
+  COLUMN(std::optional<Tier>, tier, "tier", "1", "a word or nothing");
+  COLUMN(std::optional<TruthKind>, truth, "truth", "1", "a value of its own");
   bool operator==(const ProbeRow&) const = default;
-
-  static constexpr std::string_view table = "probe";
-  static constexpr auto columns = [](auto&& column) {
-    column("name", "1", &ProbeRow::name, "a text"), column("size", "m", &ProbeRow::size, "a number"),
-        column("count", "1", &ProbeRow::count, "a whole number"), column("order", "1", &ProbeRow::order, "a small one"),
-        column("within", "1", &ProbeRow::within, "yes or no"), column("verdict", "1", &ProbeRow::verdict, "a word"),
-        column("error", "m", &ProbeRow::error, "a number or nothing"),
-        column("tier", "1", &ProbeRow::tier, "a word or nothing"),
-        column("truth", "1", &ProbeRow::truth, "a value of its own");
-  };
 };
 
 /// The table as it comes back from its file.

@@ -215,10 +215,10 @@ TEST(FabricCharts, SayTheDeviationOnTheFinestGridAndItsOrder) {
 
 TEST(FabricCharts, SayTheDrapeAndWhatItDependsOn) {
   Table drapes = table_of<DrapedDiscRow>(), strips = table_of<HangingStripRow>(), shapes = table_of<HangingShapeRow>();
-  add(drapes, DrapedDiscRow{"5 waves", 8, 5, 2e-5, 40, 71, -2e-4});
-  add(drapes, DrapedDiscRow{"6 waves", 8, 6, 2e-5, 40, 74, -1e-4});
-  add(drapes, DrapedDiscRow{"5 waves", 8, 5, 2e-5, 160, 76, -1e-4});
-  add(drapes, DrapedDiscRow{"5 waves", 16, 5, 2e-5, 40, 71.5, -2e-4});
+  add(drapes, DrapedDiscRow{"5 waves", 8, 2e-5, 40, 5, 71, -2e-4});
+  add(drapes, DrapedDiscRow{"6 waves", 8, 2e-5, 40, 6, 74, -1e-4});
+  add(drapes, DrapedDiscRow{"5 waves", 8, 2e-5, 160, 5, 76, -1e-4});
+  add(drapes, DrapedDiscRow{"5 waves", 16, 2e-5, 40, 5, 71.5, -2e-4});
   for (const double gamma : {0., 60.}) {
     add(strips, HangingStripRow{8, gamma, 0.3, 0.3, 0.04});
     add(strips, HangingStripRow{16, gamma, 0.3, 0.3, 0.01});
