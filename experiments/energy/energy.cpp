@@ -45,9 +45,68 @@ long steps_for(const Request& request, const Scene& scene) {
   return std::clamp(static_cast<long>(all_steps * budget / of_all) / samples * samples, 1000l, all_steps);
 }
 
+EnergyRow summary_of(const Scene& scene, const Method& method, const Outcome& out, const ThinnedLedger& ledger) {
+  const Model& model = scene.model;
+  const Stepper* rule = stepper_of(method);
+  const std::vector<LedgerRow>& rows = ledger.rows();
+  const bool claimed = !ledger.contact_inferred(), empty = out.verdict == Verdict::unsupported || rows.empty();
+  EnergyRow row{.scene = scene.name,
+                .method = method.name,
+                .verdict = out.verdict,
+                .reason = out.reason,
+                .end = out.end,
+                .step = out.step,
+                .steps = out.steps,
+                .undamped = !model.find<Drag>() && !model.find<Dashpots>() && !model.find<Spheres>(),
+                .symplectic = rule && rule->symplectic,
+                .closure_claimed = claimed && !empty,
+                .contact_inferred = model.find<Spheres>() && !claimed};
+  if (empty) return row;
+  const LedgerRow &start = rows.front(), &end = rows.back();
+  const ResidualStatistics all = residual_statistics(rows);
+  if (claimed) {
+    row.largest_residual = all.worst, row.residual = all.final, row.drift = all.drift;
+    row.oscillation = all.oscillation, row.growth = all.growth, row.equivalent_drag = all.equivalent_drag;
+  }
+  row.turned_over = all.energy_scale;
+  row.kinetic_at_start = start.energy.kinetic, row.elastic_at_start = start.energy.elastic;
+  row.kinetic = end.energy.kinetic, row.elastic = end.energy.elastic;
+  row.gravity = start.energy.gravitational - end.energy.gravitational;
+  row.drag = end.drag, row.dashpots = end.dashpots, row.contact = end.contact;
+  row.wind = end.wind, row.pins = end.pins;
+  return row;
+}
+
+/// Adds two hundred rows at equal times, and the first ones of each decade.
+void add_thinned(Table& table, const Method& method, const ThinnedLedger& ledger, double duration) {
+  const std::vector<LedgerRow>& rows = ledger.rows();
+  double worst = 0, next = 0;
+  size_t kept = 0;
+  for (size_t i = 0; i < rows.size(); ++i) {
+    const LedgerRow& now = rows[i];
+    const double residual = now.balance() - rows.front().balance();
+    worst = std::max(worst, std::abs(residual));
+    const bool even = now.t >= next - 1e-9 * duration;
+    const bool first = i < 40 || static_cast<double>(i) >= 1.12 * static_cast<double>(kept);
+    if (!even && !first && i + 1 < rows.size()) continue;
+    if (even) next += duration / samples;
+    kept = i;
+    SceneLedgerRow row{.method = method.name,
+                       .t = now.t,
+                       .kinetic = now.energy.kinetic,
+                       .elastic = now.energy.elastic,
+                       .gravitational = now.energy.gravitational,
+                       .drag = now.drag,
+                       .dashpots = now.dashpots,
+                       .contact = now.contact,
+                       .wind = now.wind,
+                       .pins = now.pins};
+    if (!ledger.contact_inferred()) row.residual = residual, row.largest_residual = worst;
+    add(table, row);
+  }
+}
+
 void long_run(const Request& request, const Scene& scene, const Method& method, TableSet& tables) {
-  Table summary = table_of<EnergyRow>();
-  Table table = table_of<SceneLedgerRow>(scene.name + "-ledger");
   const long steps = steps_for(request, scene);
   const double step = request.step > 0 ? request.step : scene.step;
   Run run = default_run(scene);
@@ -71,66 +130,12 @@ void long_run(const Request& request, const Scene& scene, const Method& method, 
   // some ten thousand observations are enough to find the largest residual, and cost less than the steps
   ThinnedLedger ledger(scene.model, method.contact, std::max(1l, steps / 20000));
   const Outcome out = run_method(method, scene, run, {&ledger});
-  const auto& seen = ledger.rows();
-  const bool nothing = out.verdict == Verdict::unsupported || seen.empty();
-  if (nothing && out.verdict == Verdict::ok)
+  if (out.verdict == Verdict::ok && ledger.rows().empty())
     tables.notes.push_back(fmt::format("energy leaves out {} on {}: it gave no velocities", method.name, scene.name));
-  const Model& model = scene.model;
-  const bool undamped = !model.find<Drag>() && !model.find<Dashpots>() && !model.find<Spheres>();
-  const bool claimed = !ledger.contact_inferred();
-  const Stepper* rule = stepper_of(method);
-  EnergyRow row{.scene = scene.name,
-                .method = method.name,
-                .verdict = out.verdict,
-                .reason = out.reason,
-                .end = out.end,
-                .step = out.step,
-                .steps = out.steps,
-                .undamped = undamped,
-                .symplectic = rule && rule->symplectic,
-                .closure_claimed = claimed && !nothing,
-                .contact_inferred = model.find<Spheres>() && !claimed};
-  if (!nothing) {
-    const LedgerRow &start = seen.front(), &end = seen.back();
-    const ResidualStatistics all = residual_statistics(seen);
-    if (claimed) {
-      row.largest_residual = all.worst, row.residual = all.final, row.drift = all.drift;
-      row.oscillation = all.oscillation, row.growth = all.growth, row.equivalent_drag = all.equivalent_drag;
-    }
-    row.turned_over = all.energy_scale;
-    row.kinetic_at_start = start.energy.kinetic, row.elastic_at_start = start.energy.elastic;
-    row.kinetic = end.energy.kinetic, row.elastic = end.energy.elastic;
-    row.gravity = start.energy.gravitational - end.energy.gravitational;
-    row.drag = end.drag, row.dashpots = end.dashpots, row.contact = end.contact, row.wind = end.wind,
-    row.pins = end.pins;
-  }
-  add(summary, row);
-
-  double worst = 0, next = 0;
-  size_t kept = 0;
-  for (size_t i = 0; i < seen.size() && !nothing; ++i) {
-    const LedgerRow& now = seen[i];
-    const double residual = now.balance() - seen.front().balance();
-    worst = std::max(worst, std::abs(residual));
-    // two hundred rows at equal times, and the first ones of each decade
-    const bool even = now.t >= next - 1e-9 * run.duration;
-    const bool first = i < 40 || static_cast<double>(i) >= 1.12 * static_cast<double>(kept);
-    if (!even && !first && i + 1 < seen.size()) continue;
-    if (even) next += run.duration / samples;
-    kept = i;
-    SceneLedgerRow kept_row{.method = method.name,
-                            .t = now.t,
-                            .kinetic = now.energy.kinetic,
-                            .elastic = now.energy.elastic,
-                            .gravitational = now.energy.gravitational,
-                            .drag = now.drag,
-                            .dashpots = now.dashpots,
-                            .contact = now.contact,
-                            .wind = now.wind,
-                            .pins = now.pins};
-    if (claimed) kept_row.residual = residual, kept_row.largest_residual = worst;
-    add(table, kept_row);
-  }
+  Table summary = table_of<EnergyRow>();
+  add(summary, summary_of(scene, method, out, ledger));
+  Table table = table_of<SceneLedgerRow>(scene.name + "-ledger");
+  if (out.verdict != Verdict::unsupported) add_thinned(table, method, ledger, run.duration);
   tables.add(summary);
   tables.add(table);
 }

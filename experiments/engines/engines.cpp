@@ -85,106 +85,140 @@ void add_statistics(const Request& request, const Scene& scene, const Run& run, 
   if (!table.rows.empty()) tables.add(table);
 }
 
+/// The truth and the run that all runs of a scene are compared with.
+struct Standards {
+  Standards(const Request& request, const Scene& scene, const Run& run, MethodResults& results)
+      : truth(truth_of(scene, run)),
+        // the distance from the converged in-house contact rule is a difference, not an error
+        of_rule(truth && truth->under_contact_rule) {
+    const std::string of(request.reference.empty() ? subject().representative : request.reference);
+    const auto requested = std::ranges::find(request.methods, of, &Method::name);
+    method = requested == request.methods.end() ? find_method(of) : *requested;
+    // differences from a failed run would say nothing
+    const MethodResult& result = result_of(request, scene, method, results);
+    if (result.outcome.verdict == Verdict::ok) reference = result.trajectory;
+    const bool known = reference.frames() > 0;
+    const Method probe = find_method(known ? std::string(subject().representative) : scene.method);
+    growing = growth_of(probe, scene, run, known ? &reference : nullptr);
+    motion = motion_of(truth && !of_rule ? truth->trajectory : reference);
+    omega = scene.model.first_order() ? 0 : highest_frequency(scene.model, scene.start);
+  }
+
+  std::optional<Truth> truth;
+  bool of_rule;          // the truth is that of the in-house contact rule
+  Method method;         // differences are measured from its run
+  Trajectory reference;  // empty if that run failed
+  Growth growing;
+  double motion = 0;  // m
+  double omega = 0;   // rad/s, of the fastest vibration at the start
+};
+
+/// Certifies what another engine built. A run of another scene is no result, and no number of it is kept.
+void certify_result(const Method& method, const Scene& scene, Outcome& out, TableSet& tables) {
+  if (out.verdict == Verdict::unsupported || method.stepper) return;
+  tables.certificates.push_back(certify(method.name, scene, out));
+  if (!tables.certificates.back().mismatch()) return;
+  out.verdict = Verdict::unsupported;
+  out.reason = "it built another scene, see its parity certificate";
+}
+
+std::vector<EngineTimeRow> compared_samples(const Scene& scene, const Method& method, const Trajectory& path,
+                                            const Standards& standards) {
+  std::vector<EngineTimeRow> samples;
+  const Trajectory& reference = standards.reference;
+  for (int i = 0; i < path.frames(); ++i) {
+    EngineTimeRow& row = samples.emplace_back(EngineTimeRow{.method = method.name, .t = path.t[i]});
+    if (standards.truth && i < standards.truth->trajectory.frames())
+      (standards.of_rule ? row.contact_difference : row.error) =
+          rms_distance(path.x[i], standards.truth->trajectory.x[i]);
+    if (i < reference.frames() && reference.x[i].cols() == path.x[i].cols()) {
+      row.difference = rms_distance(path.x[i], reference.x[i]);
+      row.centre_difference = (centre_of_mass(scene, path.x[i]) - centre_of_mass(scene, reference.x[i])).norm();
+    }
+    row.clearance = clearance(scene, path.t[i], path.x[i]);
+    row.creep = creep(scene, path.t[i], path.x[i], path.v[i]);
+  }
+  return samples;
+}
+
+EngineRow summary_of(const Request& request, const Scene& scene, const Method& method, const MethodResult& result,
+                     const Standards& standards, const std::vector<EngineTimeRow>& samples) {
+  const Outcome& out = result.outcome;
+  const TimeGrid grid = time_grid(run_of(request, scene));
+  const double growth = standards.growing.until(scene.window);
+  EngineRow row{.scene = scene.name,
+                .method = method.name,
+                .verdict = out.verdict,
+                .reason = out.reason,
+                .end = out.end,
+                .step = out.step,
+                .steps = out.steps,
+                .evaluations = out.evaluations,
+                .coincident = out.degenerate_springs,
+                .motion = standards.motion,
+                .window = scene.window,
+                .measured_window = standards.growing.window(),
+                .growth = growth,
+                .round_off_bound = round_off_bound_of(method, scene, standards.motion, growth,
+                                                      1L * grid.steps_per_sample * grid.samples),
+                .same_rule = same_rule(method, standards.method, scene.model),
+                .step_limit = predicted_limit(method, scene, standards.omega),
+                .different_law = fmt::format("{}", fmt::join(out.different_law, "; "))};
+  if (const auto& truth = standards.truth) {
+    row.truth = truth->how, row.truth_kind = {truth->tier, standards.of_rule}, row.truth_bar = truth->error_bar;
+    if (std::isfinite(truth->until)) row.truth_until = truth->until;
+  }
+  if (out.verdict == Verdict::ok) {
+    row.error = largest(samples, &EngineTimeRow::error, scene.window);
+    row.contact_difference = largest(samples, &EngineTimeRow::contact_difference, scene.window);
+    row.difference = largest(samples, &EngineTimeRow::difference, scene.window);
+    row.centre_difference = largest(samples, &EngineTimeRow::centre_difference, scene.duration);
+    for (const EngineTimeRow& sample : samples)
+      if (sample.clearance) row.clearance = std::min(row.clearance.value_or(*sample.clearance), *sample.clearance);
+    if (!samples.empty()) row.creep = samples.back().creep;
+  }
+  return row;
+}
+
+EngineCostRow cost_of(const Scene& scene, const Method& method, const Outcome& out) {
+  EngineCostRow row{.scene = scene.name, .method = method.name};
+  // an outside program need not report its own time
+  if (out.process_seconds == 0 || out.cpu_seconds > 0) {
+    row.cpu = out.cpu_seconds;
+    if (out.steps) row.cpu_per_step = out.cpu_seconds / static_cast<double>(out.steps);
+  }
+  if (out.cpu_seconds > 0) row.simulated_per_cpu = out.end / out.cpu_seconds;
+  if (out.process_seconds > 0) row.process_cpu = out.process_seconds;
+  return row;
+}
+
 }  // namespace
 
 void engines_on(const Request& request, const Scene& scene, MethodResults& results, TableSet& tables) {
-  Table summary = table_of<EngineRow>();
-  Table cost = table_of<EngineCostRow>();
-
-  const Run run = run_of(request, scene);
-  const TimeGrid grid = time_grid(run);
+  Table summary = table_of<EngineRow>(), cost = table_of<EngineCostRow>();
   Table table = table_of<EngineTimeRow>(scene.name + "-engines");
-  const auto truth = truth_of(scene, run);
-  // differences from a run that failed would say nothing
-  const std::string of(request.reference.empty() ? subject().representative : request.reference);
-  const auto asked = std::ranges::find(request.methods, of, &Method::name);
-  const Method compared_with = asked == request.methods.end() ? find_method(of) : *asked;
-  const MethodResult& by_rule = result_of(request, scene, compared_with, results);
-  const Trajectory reference = by_rule.outcome.verdict == Verdict::ok ? by_rule.trajectory : Trajectory{};
-  const Method probe = find_method(reference.frames() > 0 ? std::string(subject().representative) : scene.method);
-  const Growth growing = growth_of(probe, scene, run, reference.frames() > 0 ? &reference : nullptr);
-  const double growth = growing.until(scene.window);
-  const double omega = scene.model.first_order() ? 0 : highest_frequency(scene.model, scene.start);
-  // what others are apart from the converged in-house contact rule is a difference, no error
-  const bool of_rule = truth && truth->under_contact_rule;
-  const double motion = motion_of(truth && !of_rule ? truth->trajectory : reference);
-
+  const Run run = run_of(request, scene);
+  const Standards standards(request, scene, run, results);
   for (const Method& method : methods_of(request, scene)) {
     MethodResult& result = result_of(request, scene, method, results);
     Outcome& out = result.outcome;
-    if (out.verdict != Verdict::unsupported && !method.stepper) {
-      tables.certificates.push_back(certify(method.name, scene, out));
-      if (tables.certificates.back().mismatch()) {
-        // a run of another scene is no result: no number of it is kept
-        out.verdict = Verdict::unsupported;
-        out.reason = "it built another scene, see its parity certificate";
-      }
-    }
-    if (out.verdict == Verdict::unsupported) result.trajectory = {};
-    const Trajectory& path = result.trajectory;
+    certify_result(method, scene, out, tables);
     const bool unsupported = out.verdict == Verdict::unsupported;
+    if (unsupported) result.trajectory = {};
+    const Trajectory& path = result.trajectory;
     if (request.on_runs && path.frames() > 0) request.on_runs({"engines", scene, method.name, {{out, path}}});
-    std::vector<EngineTimeRow> samples;
-    double lowest = 1e300;
-    for (int i = 0; i < path.frames() && !unsupported; ++i) {
-      EngineTimeRow& row = samples.emplace_back(EngineTimeRow{.method = method.name, .t = path.t[i]});
-      if (truth && i < truth->trajectory.frames())
-        (of_rule ? row.contact_difference : row.error) = rms_distance(path.x[i], truth->trajectory.x[i]);
-      if (i < reference.frames() && reference.x[i].cols() == path.x[i].cols()) {
-        row.difference = rms_distance(path.x[i], reference.x[i]);
-        row.centre_difference = (centre_of_mass(scene, path.x[i]) - centre_of_mass(scene, reference.x[i])).norm();
-      }
-      row.clearance = clearance(scene, path.t[i], path.x[i]);
-      row.creep = creep(scene, path.t[i], path.x[i], path.v[i]);
-      lowest = std::min(lowest, row.clearance.value_or(1e300));
-      add(table, row);
-    }
-    EngineRow row{
-        .scene = scene.name,
-        .method = method.name,
-        .verdict = out.verdict,
-        .reason = out.reason,
-        .end = out.end,
-        .step = out.step,
-        .steps = out.steps,
-        .evaluations = out.evaluations,
-        .coincident = out.degenerate_springs,
-        .motion = motion,
-        .window = scene.window,
-        .measured_window = growing.window(),
-        .growth = growth,
-        .round_off_bound = round_off_bound_of(method, scene, motion, growth, 1L * grid.steps_per_sample * grid.samples),
-        .same_rule = same_rule(method, compared_with, scene.model),
-        .step_limit = predicted_limit(method, scene, omega),
-        .different_law = fmt::format("{}", fmt::join(out.different_law, "; "))};
-    if (truth) row.truth = truth->how, row.truth_kind = {truth->tier, of_rule}, row.truth_bar = truth->error_bar;
-    if (truth && std::isfinite(truth->until)) row.truth_until = truth->until;
-    if (out.verdict == Verdict::ok) {
-      row.error = largest(samples, &EngineTimeRow::error, scene.window);
-      row.contact_difference = largest(samples, &EngineTimeRow::contact_difference, scene.window);
-      row.difference = largest(samples, &EngineTimeRow::difference, scene.window);
-      row.centre_difference = largest(samples, &EngineTimeRow::centre_difference, scene.duration);
-      if (lowest < 1e300) row.clearance = lowest;
-      if (path.frames()) row.creep = creep(scene, path.t.back(), path.x.back(), path.v.back());
-    }
-    add(summary, row);
+    const std::vector<EngineTimeRow> samples = compared_samples(scene, method, path, standards);
+    for (const EngineTimeRow& row : samples) add(table, row);
+    add(summary, summary_of(request, scene, method, result, standards, samples));
     if (!out.remark.empty()) tables.notes.push_back(fmt::format("{} on {}: {}", method.name, scene.name, out.remark));
-    // an outside program need not report its own time
-    const bool time_reported = out.process_seconds == 0 || out.cpu_seconds > 0;
-    if (unsupported) continue;
-    EngineCostRow spent{.scene = scene.name, .method = method.name};
-    if (time_reported) spent.cpu = out.cpu_seconds;
-    if (time_reported && out.steps) spent.cpu_per_step = out.cpu_seconds / static_cast<double>(out.steps);
-    if (out.cpu_seconds > 0) spent.simulated_per_cpu = out.end / out.cpu_seconds;
-    if (out.process_seconds > 0) spent.process_cpu = out.process_seconds;
-    add(cost, spent);
+    if (!unsupported) add(cost, cost_of(scene, method, out));
   }
   tables.add(table);
   if (scene.model.find<Spheres>() && scene.model.particles.size() > 1)
     add_statistics(request, scene, run, results, tables);
   tables.add(summary);
   tables.add(cost);
-  add_energies(request, scene, truth, results, tables);
+  add_energies(request, scene, standards.truth, results, tables);
 }
 
 std::vector<Point> engines_points(const Request& request) {

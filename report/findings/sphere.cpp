@@ -26,11 +26,8 @@ void cone(const TableSet& rows, std::vector<Finding>& out) {
 /// Largest difference from mysim/symplectic-euler that each method's rows of a scene show, m, by method.
 std::map<std::string, double> differences_over_run(const Table& rows) {
   std::map<std::string, double> largest;
-  for (size_t i = 0; i < rows.rows.size(); ++i)
-    if (const auto apart = number_at(rows, i, "difference")) {
-      double& known = largest[text_at(rows, i, "method")];
-      known = std::max(known, *apart);
-    }
+  for (const EngineTimeRow& row : rows_of<EngineTimeRow>(rows))
+    if (row.difference) largest[row.method] = std::max(largest[row.method], *row.difference);
   return largest;
 }
 

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "experiments/tables/adequacy.h"
 #include "experiments/tables/sphere.h"
 #include "mysim/base/text.h"
 #include "report/findings/findings_text.h"
@@ -24,10 +25,9 @@ std::string residual_class(const EnergyRow& run) {
 }
 
 std::optional<PowerLaw> power_of(const TableSet& rows, const std::string& scene, const std::string& quantity) {
-  const Table* t = rows.table("adequacy-scaling");
-  for (size_t i = 0; t && i < t->rows.size(); ++i)
-    if (text_or_none(*t, i, "scene") == scene && text_at(*t, i, "quantity") == quantity)
-      return PowerLaw{*number_at(*t, i, "exponent"), *number_at(*t, i, "standard error")};
+  if (const Table* table = rows.table(std::string(ScalingRow::table)))
+    for (const ScalingRow& row : rows_of<ScalingRow>(*table))
+      if (row.scene == scene && name_of(row.quantity) == quantity) return PowerLaw{row.exponent, row.standard_error};
   return std::nullopt;
 }
 
@@ -37,14 +37,14 @@ std::string power_text(const PowerLaw& power) {
 
 std::vector<LeastModel> least_models_of(const TableSet& rows, const std::string& scene) {
   std::vector<LeastModel> all;
-  const Table* t = rows.table("adequacy-least");
-  for (size_t i = 0; t && i < t->rows.size(); ++i) {
-    if (text_at(*t, i, "scene") != scene) continue;
-    LeastModel least{text_at(*t, i, "tolerance is"),     text_at(*t, i, "left out"), flag_at(*t, i, "holds"), 0, 0,
-                     number_at(*t, i, "cost of full", 1)};
-    for (const char* column : {"unseen error 1", "unseen error 2", "unseen error 3"}) {
+  const Table* table = rows.table(std::string(LeastModelRow::table));
+  if (!table) return all;
+  for (const LeastModelRow& row : rows_of<LeastModelRow>(*table)) {
+    if (row.scene != scene) continue;
+    LeastModel least{std::string(name_of(row.tolerance_is)), row.left_out, row.holds, 0, 0, row.cost_of_full};
+    for (const auto& error : {row.unseen_error_1, row.unseen_error_2, row.unseen_error_3}) {
       ++least.starts;
-      least.failing += !(number_at(*t, i, column, INFINITY) <= number_at(*t, i, "tolerance", 0));
+      least.failing += !(error.value_or(INFINITY) <= row.tolerance);
     }
     all.push_back(std::move(least));
   }
