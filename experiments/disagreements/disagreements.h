@@ -27,7 +27,8 @@ std::vector<DirectionError> direction_errors(const std::string& method, Scene sc
 
 // Known disagreements: where Bullet's worlds solve another problem than the scene's, each in the smallest scene that
 // shows it, with its cause, the measured size of its effect, and the upstream threads that it answers. The table is in
-// disagreements/table.cpp; a new one is a scene file in scenes/disagreements/ and a row.
+// disagreements/table.cpp, the texts are in disagreements.md; a new one is a scene file in scenes/disagreements/, a row
+// and a section.
 
 /// One curve of the figure: a method at a step, perhaps on the scene with another spring law or otherwise changed.
 struct Variant {
@@ -79,11 +80,8 @@ struct TableWithSentence {
 };
 
 struct Disagreement {
-  std::string name;     // of the scene file too
-  std::string world;    // the Bullet world that has it
-  std::string what;     // a heading: what cannot be matched, or fails
-  std::string cause;    // one sentence
-  std::string threads;  // upstream, that it answers: "bullet3#4496, ..."; empty: none known
+  std::string name;   // also the name of the scene file
+  std::string world;  // the Bullet world that has it
   std::string quantity, unit;
   std::vector<Variant> variants;  // the first is the scene's own
   /// The quantity; none: the largest distance of a particle from its place in the first variant's run (m), on a
@@ -95,6 +93,10 @@ struct Disagreement {
   std::vector<Condition> symptom, cause_removed;
   std::function<TableWithSentence(const Disagreement&)> measured =
       nullptr;  // where curves over time do not show it all
+  // from disagreements.md
+  std::string what = {};     // a heading: what cannot be matched, or fails
+  std::string cause = {};    // one sentence
+  std::string threads = {};  // upstream, that it answers: "bullet3#4496, ..."; empty: none known
 };
 
 std::vector<Disagreement> disagreements();

@@ -1,6 +1,14 @@
 // The table of known disagreements.
 #include "experiments/disagreements/disagreements.h"
+
+#include <fmt/format.h>
+
+#include <sstream>
+#include <stdexcept>
+
 #include "experiments/disagreements/effects.h"
+#include "mysim/base/files.h"
+#include "mysim/base/installation.h"
 
 namespace crosscheck {
 namespace {
@@ -8,17 +16,25 @@ namespace {
 using namespace effects;
 constexpr auto apart = Condition::Kind::apart, within = Condition::Kind::within, hangs = Condition::Kind::hangs;
 
-}  // namespace
+/// Fills in heading, cause and threads from the section "# NAME" of disagreements.md: paragraphs, the last of which
+/// begins with "Upstream: " if threads are known. Throws std::logic_error where there is none.
+void add_texts(Disagreement& row) {
+  static const std::string file =
+      read_file(data_folder() / "experiments/disagreements/disagreements.md", "the texts of disagreements");
+  const std::string heading = fmt::format("\n# {}\n", row.name);
+  const size_t at = file.find(heading);
+  if (at == std::string::npos) throw std::logic_error("disagreements.md has no section " + row.name);
+  std::istringstream section(file.substr(at + heading.size()));
+  std::string blank, upstream;
+  std::getline(section, row.what) && std::getline(section, blank) && std::getline(section, row.cause) &&
+      std::getline(section, blank) && std::getline(section, upstream);
+  if (upstream.starts_with("Upstream: ")) row.threads = upstream.substr(10);
+}
 
-std::vector<Disagreement> disagreements() {
+std::vector<Disagreement> table() {
   return {
       {"pbd-friction",
        "bullet/pbd",
-       "The position-based world sticks where Coulomb's law slides",
-       "A touching node loses a fixed share f of its tangential motion in every step, whatever presses it on: it "
-       "creeps "
-       "at g sin θ h (1 - f) / f.",
-       "",
        "distance slid",
        "m",
        {{"Coulomb's law, mysim", "mysim/leapfrog"},
@@ -31,11 +47,6 @@ std::vector<Disagreement> disagreements() {
        {{within, 1, 0, 2e-3}}},
       {"pbd-stiffness",
        "bullet/pbd",
-       "The stiffness of position-based links depends on step and iterations",
-       "Each link is solved by itself and in turn; in a network the neighbours spoil it again, so that the map from "
-       "N/m "
-       "to kLST holds only where k h² / μ is below about 0.01, and more iterations do not help.",
-       "godot-jolt#765, godot#116041",
        "sag",
        "mm",
        {{"what is asked", "mysim/leapfrog"},
@@ -51,10 +62,6 @@ std::vector<Disagreement> disagreements() {
        {{within, 4, 0, 0.3}}},
       {"link-law",
        "bullet/pbd",
-       "Position-based links do not follow Hooke's law",
-       "A link corrects by (L^2 - r^2) / (L^2 + r^2), which is stiffer than Hooke's law where it is pulled and softer "
-       "where it is pushed, however short the step.",
-       "",
        "length",
        "m",
        {{"Hooke's law, mysim", "mysim/leapfrog"},
@@ -67,10 +74,6 @@ std::vector<Disagreement> disagreements() {
        {{within, 2, 1, 0.05}}},
       {"implicit-freeze",
        "bullet/deformable-implicit",
-       "The implicit world freezes unless its projection is switched on",
-       "Without setUseProjection(true) the solver's preconditioner, not made for the implicit mode, yields no number, "
-       "and the step's change of velocity is set to zero without a message.",
-       "",
        "length",
        "m",
        {{"implicit Euler, mysim", "mysim/implicit-euler"},
@@ -83,11 +86,6 @@ std::vector<Disagreement> disagreements() {
        {{within, 1, 0, 1e-3}}},
       {"indefinite-hessian",
        "bullet/deformable-implicit",
-       "Bullet's implicit spring force blows up where springs are pushed",
-       "A pushed spring has a negative stiffness across itself; the shipped force hands it over as it is, and one "
-       "Newton "
-       "step on an indefinite matrix may go anywhere.",
-       "",
        "total energy",
        "J",
        {{"implicit Euler, one Newton step, mysim", "mysim/implicit-euler+linear"},
@@ -100,10 +98,6 @@ std::vector<Disagreement> disagreements() {
        {{within, 1, 0, 1e-3}}},
       {"rest-lengths",
        "bullet",
-       "Rest lengths are overwritten in the first step",
-       "Adding a node, a link or a mass sets a flag, upon which the first step takes the lengths it finds for the rest "
-       "lengths.",
-       "bullet3#4142",
        "length",
        "m",
        {{"what is asked, mysim", "mysim/leapfrog"},
@@ -117,10 +111,6 @@ std::vector<Disagreement> disagreements() {
        {{within, 3, 0, 4e-3}}},
       {"wind-at-rest",
        "bullet/pbd",
-       "Bullet's wind does not set a cloth at rest in motion",
-       "The force of the air on a node is limited by what would stop the node, and a node at rest is stopped by "
-       "nothing.",
-       "ammo.js#235",
        "speed along the wind",
        "m/s",
        {{"what is asked, mysim", "mysim/leapfrog"},
@@ -133,10 +123,6 @@ std::vector<Disagreement> disagreements() {
        {{within, 2, 0, 0.2}}},
       {"speed-clamp",
        "bullet/deformable-explicit",
-       "The deformable world limits the speed of small bodies",
-       "A node may not move farther in a step than the body's box is wide; a small body in long steps is slowed in "
-       "silence.",
-       "",
        "distance",
        "m",
        {{"what is asked, mysim", "mysim/leapfrog"},
@@ -149,10 +135,6 @@ std::vector<Disagreement> disagreements() {
        {{within, 2, 0, 0.1}}},
       {"distance-field",
        "bullet/pbd",
-       "The default distance field misplaces obstacles",
-       "Distances to an obstacle are read from a grid; on a ball of radius R the depth in a voxel of size a is wrong "
-       "by up to a^2 / 4R (how wrong its direction is: see the direction of contact).",
-       "",
        "height over the surface",
        "mm",
        {{"what is asked, mysim", "mysim/leapfrog"},
@@ -165,11 +147,6 @@ std::vector<Disagreement> disagreements() {
        {{within, 2, 0, 0.1}}},
       {"contact-direction",
        "bullet/deformable-explicit",
-       "Contact pushes in a direction that is off, whatever the step",
-       "The normal is the gradient of the grid of distances inside one voxel, constant along each axis there: exact in "
-       "the middle of a voxel of size a, off by up to a / 2R in each direction at its faces. A smooth ball is felt as "
-       "one with facets.",
-       "",
        "direction of motion, less the tangent's",
        "mrad",
        {{"mysim", "mysim/leapfrog"},
@@ -185,10 +162,6 @@ std::vector<Disagreement> disagreements() {
        directions},
       {"contact-hop",
        "bullet/deformable-explicit",
-       "Sliding nodes hop on curved obstacles",
-       "Contact is found at the proposed position, but normal and gap are those of the old one: the node leaves along "
-       "the tangent plane, by (v h)^2 / 2R in a step.",
-       "",
        "height over the surface",
        "mm",
        {{"mysim", "mysim/leapfrog"}, {"Bullet, deformable", "bullet/deformable-explicit"}},
@@ -199,11 +172,6 @@ std::vector<Disagreement> disagreements() {
        {}},
       {"single-precision",
        "bullet32",
-       "Single precision loses half of the digits",
-       "Bullet's usual build keeps 24 bits of each number: every position is rounded by 6e-8 of its size in every "
-       "step, "
-       "whatever the rule.",
-       "",
        "distance from mysim",
        "m",
        {{"mysim, double precision", "mysim/symplectic-euler"},
@@ -216,10 +184,6 @@ std::vector<Disagreement> disagreements() {
        {{within, 1, 0, 1e-13}}},
       {"network-in-pieces",
        "bullet",
-       "A network in several pieces hangs the contact search",
-       "The builder of the tree of nodes pairs nodes that a link joins, level by level, until one is left: of pieces "
-       "that no link joins several are left for ever.",
-       "Minie#35, bullet3#3215, upbge#1288, godot#59423",
        "height of the lowest particle",
        "m",
        {{"what is asked, mysim", "mysim/leapfrog"},
@@ -232,10 +196,6 @@ std::vector<Disagreement> disagreements() {
        {{within, 2, 0, 2e-3}}},
       {"one-stiffness",
        "bullet/deformable-explicit",
-       "All bodies of a deformable world have the stiffness of the first",
-       "A force that is added to the world is merged with the first of its type: the body is entered there, and the "
-       "new force with its stiffness is forgotten.",
-       "bullet3#3014",
        "stretch of the second spring",
        "mm",
        {{"what is asked, mysim", "mysim/leapfrog"},
@@ -248,10 +208,6 @@ std::vector<Disagreement> disagreements() {
        {{within, 2, 0, 0.5}}},
       {"gravity-factor",
        "bullet/pbd",
-       "The position-based world ignores a body's gravity factor",
-       "The world adds its gravity to each node and does not ask for the body's factor; the deformable world's gravity "
-       "force does.",
-       "bullet3#4573",
        "distance fallen",
        "m",
        {{"what is asked, mysim", "mysim/leapfrog"},
@@ -264,10 +220,6 @@ std::vector<Disagreement> disagreements() {
        {{within, 2, 0, 0.02}}},
       {"stiffness-unused",
        "bullet/pbd",
-       "A stiffness in N/m does nothing in the position-based world, nor kLST in the deformable one",
-       "Each world has a number of its own: links of the position-based world know kLST alone, which the settings of "
-       "pybullet's loadSoftBody() hold at 0.5; the deformable world's force knows N/m alone.",
-       "bullet3#4496",
        "sag",
        "mm",
        {{"100 N/m, mysim", "mysim/leapfrog"},
@@ -284,10 +236,6 @@ std::vector<Disagreement> disagreements() {
        {{within, 4, 0, 0.6}, {within, 5, 1, 0.6}, {within, 6, 4, 0}}},
       {"over-relaxation",
        "bullet/pbd",
-       "A link stiffness above 4/3 explodes",
-       "kLST is the share of a link's stretch that is corrected, and the correction becomes velocity: the stretch "
-       "follows e' = (1 - K)(2e - e_before), which grows where K is above 4/3. No setter limits it.",
-       "panda3d#357",
        "stretch",
        "mm",
        {{"1000 N/m, mysim", "mysim/leapfrog"},
@@ -301,10 +249,6 @@ std::vector<Disagreement> disagreements() {
        {{within, 2, 1, 0.1}}},
       {"small-things",
        "bullet/deformable-explicit",
-       "Small things meet lengths that do not shrink with them",
-       "The margin of 0.25 m, and the voxels of 5 mm (0.25 m in the position-based world) in which distances are read, "
-       "are lengths of their own: a ball of a centimetre is smaller than both.",
-       "bullet3#4542, bullet3#351, bullet3#4271 in part (its body is a neo-Hookean solid)",
        "height over the surface",
        "mm",
        {{"what is asked, mysim", "mysim/leapfrog"},
@@ -318,9 +262,6 @@ std::vector<Disagreement> disagreements() {
        {{within, 3, 0, 0.005}}},
       {"sleeping",
        "bullet/deformable-explicit",
-       "Slow motion is stopped after two seconds",
-       "A body none of whose nodes is faster than 0.04 m/s for 2 s is put to sleep, whatever its size and its forces.",
-       "bullet3#4542 in part",
        "stretch",
        "mm",
        {{"what is asked, mysim", "mysim/leapfrog"},
@@ -332,6 +273,14 @@ std::vector<Disagreement> disagreements() {
        {{apart, 1, 0, 0.5}},
        {{within, 2, 0, 0.04}}},
   };
+}
+
+}  // namespace
+
+std::vector<Disagreement> disagreements() {
+  std::vector<Disagreement> all = table();
+  for (Disagreement& row : all) add_texts(row);
+  return all;
 }
 
 }  // namespace crosscheck
