@@ -32,34 +32,6 @@ struct ExactSolution {
 /// Springs follow Hooke's law and must never turn over: what is claimed is bounded for all times.
 std::optional<ExactSolution> exact_solution(const Scene& scene);
 
-/// The rest positions of a tree of Hooke's springs below its one pin, under gravity and steady wind (3 x n, m): each
-/// spring is longer by the weight that it carries over its stiffness. It need not start there. Nothing for other
-/// scenes.
-std::optional<Points> hanging_equilibrium(const Scene& scene);
-
-/// The limit of the motion as its amplitude goes to 0: no exact solution of any scene with springs off a line, and
-/// never given as one.
-struct LinearisedSolution {
-  std::vector<double> omega;          // rad/s, of the vibrations, rising
-  std::function<State(double t)> at;  // s -> state
-};
-
-/// The small motion of Hooke's springs under gravity, steady wind and one drag rate about an equilibrium (3 x n, m)
-/// that is near the start. Nothing where the given positions are no equilibrium, where it is not stable (a cloth that
-/// is not stretched has no stiffness out of its plane, one that is pressed buckles), and for other scenes.
-///
-/// Where it fails: what is left out begins with the square of the amplitude a. A flat cloth that moves out of its plane
-/// is symmetric in up and down: out of the plane the deviation over a falls as a^2, in the plane (where nothing moves
-/// to first order) as a. Motion in the plane is off by a to first order. A cloth of 6 x 6 particles held along its edge
-/// of 1 m, stretched by a tenth and let go in its first bump, is 1 % off within three periods from an amplitude of 11
-/// mm out of the plane, 8.8 mm in it.
-std::optional<LinearisedSolution> linearised_solution(const Scene& scene, const Points& equilibrium);
-
-/// Period of a rigid pendulum of length L (m) let go at the angle theta0 (rad), s: 2 pi sqrt(L/g) / agm(1,
-/// cos(theta0/2)), which is the complete elliptic integral of the first kind in Gauss's form. The limit of `pendulum`
-/// for k -> infinity.
-double rigid_pendulum_period(double length, double gravity, double theta0);
-
 // The closed forms by kind, and the tests by which their scenes are recognised.
 
 /// True when the model has no terms but these.

@@ -12,6 +12,7 @@
 #include "tests/unit/experiments/helpers.h"
 #include "tests/unit/helpers.h"
 #include "tests/unit/reference/helpers.h"
+#include "tests/unit/reference/limits_of_motion.h"
 
 namespace crosscheck {
 namespace {

@@ -7,6 +7,7 @@
 #include "reference/truth/exact/exact.h"
 #include "reference/truth/exact/linear.h"
 #include "tests/unit/reference/helpers.h"
+#include "tests/unit/reference/limits_of_motion.h"
 #include "tests/unit/reference/random_scenes.h"
 
 namespace crosscheck {

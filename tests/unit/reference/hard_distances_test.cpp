@@ -10,6 +10,7 @@
 #include "reference/truth/multipliers.h"
 #include "tests/unit/helpers.h"
 #include "tests/unit/reference/helpers.h"
+#include "tests/unit/reference/limits_of_motion.h"
 
 namespace crosscheck {
 
