@@ -50,8 +50,25 @@ struct Objective {
   Measure measure;
 };
 
+/// The desired behaviour of a scene in plain measures (experiments/measures.h): section [wish] of its file.
+struct Wish {
+  std::optional<double> sag, period, settle_time;  // m, s, s
+  std::optional<double> max_stretch;               // 1
+  std::optional<double> c11;                       // N/m of a sheet, Pa of a block (mysim/model/moduli.h)
+  std::optional<double> anisotropy;                // 1; 1 is isotropic
+};
+
+Wish wish_of(const Scene& scene) {
+  const TomlTable file = TomlTable::parse_text(scene.source, scene.name);
+  if (!file.has("wish")) return {};
+  const auto value = [s = file.section("wish")](const char* key) {
+    return s.has(key) ? std::optional(s.positive(key)) : std::nullopt;
+  };
+  return {value("sag"), value("period"), value("settle_time"), value("max_stretch"), value("c11"), value("anisotropy")};
+}
+
 std::vector<Objective> objectives_of(const Scene& scene) {
-  const Wish& wish = scene.wish;
+  const Wish wish = wish_of(scene);
   std::vector<Objective> objectives;
   if (wish.sag)
     objectives.push_back({{"sag", "m", *wish.sag, 0}, [](const Scene& s, MeasuredBy) { return sag_of(s); }});
@@ -162,8 +179,9 @@ class Fit {
     const auto* gravity = scene.model.find<Gravity>();
     const auto* springs = scene.model.find<Springs>();
     const double g = gravity ? gravity->acceleration.norm() : 0;
-    const double time = scene.wish.period.value_or(
-        scene.wish.settle_time.value_or(g > 0 ? std::sqrt(scene.size() / g) : scene.duration));
+    const Wish wish = wish_of(scene);
+    const double time =
+        wish.period.value_or(wish.settle_time.value_or(g > 0 ? std::sqrt(scene.size() / g) : scene.duration));
     const auto is_fitted = [&](std::string_view kind) {
       return std::ranges::any_of(kinds_, [&](const Kind* k) { return k->name == kind; });
     };

@@ -342,14 +342,14 @@ void read_time(const TomlTable& file, Scene& scene) {
   if (scene.method.find(':') != std::string::npos) scene.method.clear();
 }
 
-void read_wish(const TomlTable& file, Scene& scene) {
+/// Checks the values that `crosscheck advise` fits parameters to; no engine reads them.
+void check_wish(const TomlTable& file) {
   if (!file.has("wish")) return;
   const TomlTable s = file.section("wish");
-  const auto wished = [&](std::string_view key) { return s.has(key) ? std::optional(s.positive(key)) : std::nullopt; };
-  scene.wish = {wished("sag"),         wished("period"), wished("settle_time"),
-                wished("max_stretch"), wished("c11"),    wished("anisotropy")};
-  if (scene.wish.count() == 0)
-    file.fail("wish", "at least one of sag, period, settle_time, max_stretch, c11 and anisotropy");
+  int count = 0;
+  for (const char* key : {"sag", "period", "settle_time", "max_stretch", "c11", "anisotropy"})
+    if (s.has(key)) s.positive(key), ++count;
+  if (count == 0) file.fail("wish", "at least one of sag, period, settle_time, max_stretch, c11 and anisotropy");
 }
 
 Scene expand(const TomlTable& file, const std::string& name) {
@@ -359,7 +359,7 @@ Scene expand(const TomlTable& file, const std::string& name) {
   scene.parameters = file.text("parameters");
   scene.source = file.source();
   read_time(file, scene);
-  read_wish(file, scene);
+  check_wish(file);
 
   const bool first_order = file.has(Rotation::name);
   std::optional<Grid> grid;

@@ -17,22 +17,6 @@ struct Camera {
   std::optional<double> at;  // s, when the picture is taken; none: at the end
 };
 
-/// The wished behaviour of a scene, in plain measures (experiments/measures.h): what unset parameters are fitted
-/// to.
-struct Wish {
-  std::optional<double> sag;          // m
-  std::optional<double> period;       // s
-  std::optional<double> settle_time;  // s
-  std::optional<double> max_stretch;  // 1
-  std::optional<double> c11;          // N/m of a sheet, Pa of a block (mysim/model/moduli.h)
-  std::optional<double> anisotropy;   // 1; 1 is isotropic
-
-  int count() const {
-    return sag.has_value() + period.has_value() + settle_time.has_value() + max_stretch.has_value() + c11.has_value() +
-           anisotropy.has_value();
-  }
-};
-
 struct Scene {
   std::string name;
   std::string question;    // one sentence for a reader
@@ -49,8 +33,6 @@ struct Scene {
 
   std::vector<std::array<int, 3>> triangles;  // surface of grids, for pictures
   std::optional<Camera> camera;               // none: chosen so that everything is seen
-
-  Wish wish;  // nothing that engines see
 
   std::string source;  // the TOML that it was read from; a scene changed in memory keeps it
   std::string hash;    // 16 hexadecimal digits, of everything that engines see
