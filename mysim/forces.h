@@ -7,19 +7,12 @@
 
 namespace crosscheck {
 
-/// Up to so many particles a step's loops are as short as what begins and ends them.
-inline constexpr int few_particles = 16;
-
 struct Forces {
   Points f;                     // N (3 x n)
   long degenerate_springs = 0;  // springs met at zero length: their direction is undefined, they get zero force
 
   void clear() {
-    // of few particles by themselves: a call of memset takes as long as a spring
-    if (f.cols() > few_particles)
-      f.setZero();
-    else
-      for (double *at = f.data(), *end = at + f.size(); at < end; at += 3) Eigen::Map<Vec3>(at).setZero();
+    f.setZero();
     degenerate_springs = 0;
   }
 };

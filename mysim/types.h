@@ -1,22 +1,7 @@
 // The few types that every room shares: a vector, a set of points, and the state of a scene.
 #pragma once
 
-#include <Eigen/Core>
-
-namespace Eigen::internal {
-
-/// Three numbers are summed as (x + y) + z, which Eigen does where it has SIMD instructions for them, and not
-/// elsewhere: so the same bits in builds that have none.
-template <class Function, class Evaluator>
-struct redux_novec_unroller<Function, Evaluator, 0, 3> {
-  using Scalar = typename Evaluator::Scalar;
-  static Scalar run(const Evaluator& of, const Function& function) {
-    return function(redux_novec_unroller<Function, Evaluator, 0, 2>::run(of, function),
-                    redux_novec_unroller<Function, Evaluator, 2, 1>::run(of, function));
-  }
-};
-
-}  // namespace Eigen::internal
+#include "mysim/eigen.h"
 
 namespace crosscheck {
 

@@ -57,7 +57,10 @@ BenchmarkFunction general_kernel(const Scene& scene, simd::InstructionSet isa) {
   auto work = std::make_shared<Work>(
       Work{SpringKernel(*scene.model.find<Springs>(), scene.model.particles.size()), scene.start.x, {}});
   work->forces.f = Points::Zero(3, scene.start.x.cols());
-  return [work] { work->kernel.set_force(work->x, work->forces); };
+  return [work] {
+    work->forces.clear();
+    work->kernel.add_force(work->x, work->forces);
+  };
 }
 
 template <class T>

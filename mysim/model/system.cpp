@@ -25,17 +25,6 @@ namespace {
 template <class T>
 constexpr bool by_position = HasForce<T> && !std::is_same_v<T, Drag> && !UsesVelocity<T>;
 
-/// Of a model whose forces of that kind are springs and, after them, gravity at most; nothing of another.
-std::optional<Vec3> gravity_after_springs(const Model& model) {
-  std::vector<const Term*> terms;
-  for (const Term& term : model.terms)
-    if (std::visit([]<class T>(const T&) { return by_position<T>; }, term)) terms.push_back(&term);
-  if (terms.empty() || terms.size() > 2 || !std::holds_alternative<Springs>(*terms[0])) return std::nullopt;
-  if (terms.size() == 1) return Vec3::Zero();
-  const auto* gravity = std::get_if<Gravity>(terms[1]);
-  return gravity ? std::optional(gravity->acceleration) : std::nullopt;
-}
-
 }  // namespace
 
 System::System(const Model& model) : model_(model) {
@@ -46,30 +35,25 @@ System::System(const Model& model) : model_(model) {
   if (const auto* springs = model.find<Springs>()) spring_kernel_.emplace(*springs, n);
   for (const Term& term : model.terms)
     has_velocity_forces_ |= std::visit([]<class T>(const T&) { return UsesVelocity<T>; }, term);
-  if (spring_kernel_ && !spring_kernel_->few().empty()) gravity_of_few_ = gravity_after_springs(model);
 }
 
 /// forces_ = sum of the wanted forces; `wanted` is called with each term.
 template <class Wanted>
 void System::sum_forces(const State& stage, Wanted wanted) {
   assert(stage.x.cols() == model_.particles.size());
-  bool begun = false;
+  forces_.clear();
   for (const Term& term : model_.terms)
     std::visit(
         [&]<class T>(const T& t) {
           if constexpr (HasForce<T>) {
             if (!wanted(t)) return;
-            if constexpr (std::is_same_v<T, Springs>) {
-              begun ? spring_kernel_->add_force(stage.x, forces_) : spring_kernel_->set_force(stage.x, forces_);
-            } else {
-              if (!begun) forces_.clear();
+            if constexpr (std::is_same_v<T, Springs>)
+              spring_kernel_->add_force(stage.x, forces_);
+            else
               add_force(t, model_.particles, stage, forces_);
-            }
-            begun = true;
           }
         },
         term);
-  if (!begun) forces_.clear();
   degenerate_springs_ += forces_.degenerate_springs;
   ++evaluations_;
 }
@@ -88,15 +72,9 @@ void System::acceleration(State& stage, Points& a) {
   set_acceleration(a);
 }
 
-const Points& System::position_forces(State& stage) {
+void System::position_acceleration(State& stage, Points& a) {
   model_.particles.place_pins(stage);
   sum_forces(stage, []<class T>(const T&) { return by_position<T>; });
-  for (int pin : model_.particles.pins) forces_.f.col(pin).setZero();
-  return forces_.f;
-}
-
-void System::position_acceleration(State& stage, Points& a) {
-  position_forces(stage);
   set_acceleration(a);
 }
 

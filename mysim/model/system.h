@@ -25,12 +25,6 @@ class System {
 
   /// a = F / m of the forces that depend on position and time alone: springs, bending, gravity, uniform wind.
   void position_acceleration(State& stage, Points& a);
-  /// F of the same forces (3 x n, N; zero at pins), valid until the next evaluation.
-  const Points& position_forces(State& stage);
-  /// The springs where they, few, and then gravity are all of the same forces, else null: a rule may compute those in a
-  /// loop of its own. It counts its evaluations.
-  const FewSprings* few_springs() const { return gravity_of_few_ ? &spring_kernel_->few() : nullptr; }
-  const Vec3& gravity_of_few() const { return *gravity_of_few_; }  // m/s^2, zero where there is none
   /// Adds F / m of the forces that depend on velocity too, drag left out: dashpots, air on triangles.
   void add_velocity_acceleration(const State& stage, Points& a);
   bool has_velocity_forces() const { return has_velocity_forces_; }
@@ -57,7 +51,6 @@ class System {
   Forces forces_;
   Eigen::ArrayXd drag_rate_;
   std::optional<SpringKernel> spring_kernel_;
-  std::optional<Vec3> gravity_of_few_;
   bool has_velocity_forces_ = false;
   long evaluations_ = 0, degenerate_springs_ = 0;
 };

@@ -6,105 +6,44 @@
 namespace crosscheck {
 namespace {
 
-/// The h of a kick, s, as drag shortens it.
-double kick_time(double gamma, double h) { return h / (1 + h / 2 * gamma); }
-
-/// v' = v + h (a - gamma v) / (1 + h gamma/2) of one particle. Written as ((1 - h gamma/2) v + h a) / (1 + h gamma/2)
-/// it would round the little that drag takes as a part of v, by the same amount in every step.
-Vec3 kicked(double gamma, const Vec3& v, const Vec3& a, double kick_time) { return v + kick_time * (a - gamma * v); }
-
-/// `middle`: the time of the force, s.
-void step_with_position_forces(System& f, State& s, double middle, double h) {
-  const Eigen::VectorXd& mass = f.model().particles.mass;
-  const Eigen::ArrayXd& gamma = f.drag_rate();
-  const double start = s.t;
-  const bool few = s.x.cols() <= few_particles;
-
-  // Few particles are taken one by one, so that nothing is loaded in other parts than it was stored in just before,
-  // which would wait for the stores; many in one go, which takes fewer instructions.
-  s.t = middle;
-  if (few)
-    for (int i = 0; i < s.x.cols(); ++i) s.x.col(i) += h / 2 * s.v.col(i);
-  else
-    s.x += h / 2 * s.v;
-  const Points& force = f.position_forces(s);
-  for (int i = 0; i < s.v.cols(); ++i) {
-    const Vec3 v = kicked(gamma[i], s.v.col(i), force.col(i) / mass[i], kick_time(gamma[i], h));
-    if (few) s.x.col(i) += h / 2 * v;
-    s.v.col(i) = v;
-  }
-  if (!few) s.x += h / 2 * s.v;
-  s.t = start;
+/// Writes v' = v + h (a - gamma v) / (1 + h gamma/2) of each particle to `out`, which may be v. Written as
+/// ((1 - h gamma/2) v + h a) / (1 + h gamma/2), the small effect of drag would be rounded to ulps of v in every step.
+void kick(const Eigen::ArrayXd& gamma, const Points& v, const Points& a, double h, Points& out) {
+  for (int i = 0; i < v.cols(); ++i)
+    out.col(i) = v.col(i) + h / (1 + h / 2 * gamma[i]) * (a.col(i) - gamma[i] * v.col(i));
 }
 
-/// The same with few springs and gravity, to the last bit, in three short loops: what a call takes there would be a
-/// good part of the step. Each force lies in one line of the cache. Pins that stand still are where the caller placed
-/// them; those that move are left where they are at the middle, as the caller places them again.
-void step_with_few_forces(System& f, State& s, double middle, double h) {
-  const Particles& particles = f.model().particles;
-  const Vec3 gravity = f.gravity_of_few();
-  const double *const mass = particles.mass.data(), *const gamma = f.drag_rate().data();
-  const char* const pinned = particles.pinned.data();
-  double *const x = s.x.data(), *const v = s.v.data();
-  const int n = particles.size();
-  const double start = s.t;
-  using Point = Eigen::Map<Vec3>;
-  alignas(64) double forces[4 * few_particles];
-
-  for (int i = 0; i < n; ++i) Point(x + 3 * i) += h / 2 * Point(v + 3 * i);
-  s.t = middle;
-  if (particles.move) particles.place_pins(s);
-  s.t = start;
-  f.count_degenerate_springs(f.few_springs()->set_forces<4>(x, forces));
-  f.count(1);
-  double rate = gamma[0], time = kick_time(rate, h);
-  for (int i = 0; i < n; ++i) {
-    if (gamma[i] != rate) rate = gamma[i], time = kick_time(rate, h);
-    if (pinned[i]) continue;
-    const Vec3 a = (Point(forces + 4 * i) + mass[i] * gravity) / mass[i];
-    const Vec3 next = kicked(rate, Point(v + 3 * i), a, time);
-    Point(x + 3 * i) += h / 2 * next;
-    Point(v + 3 * i) = next;
-  }
-}
-
-void step_with_velocity_forces(System& f, State& s, double middle_time, double h, int passes, Workspace& w) {
-  State& middle = w[0];
-  Points &a = w[1].v, &position_only = w[1].x, &v = w[2].v;
-  const Eigen::ArrayXd& gamma = f.drag_rate();
-
-  // drift to the middle
-  middle.t = middle_time;
-  middle.x = s.x + h / 2 * s.v;
-  middle.v = s.v;
-
-  // kick with the force there
-  f.position_acceleration(middle, position_only);
+/// Kicks s.v by h with the accelerations `by_position` and those that depend on velocity, taken at the mean of old and
+/// new velocity.
+void kick_with_velocity_forces(System& f, State& s, const Points& by_position, double h, int passes, Workspace& w) {
+  Points &old = w[1].x, &next = w[1].v, &a = w[2].v;
+  old = s.v;
   for (int pass = 0; pass < passes; ++pass) {
-    a = position_only;
     if (pass > 0) {
-      middle.v = (s.v + v) / 2;
-      f.model().particles.place_pin_velocities(middle);
+      s.v = (old + next) / 2;
+      f.model().particles.place_pin_velocities(s);
     }
-    f.add_velocity_acceleration(middle, a);
-    for (int i = 0; i < s.v.cols(); ++i) v.col(i) = kicked(gamma[i], s.v.col(i), a.col(i), kick_time(gamma[i], h));
+    a = by_position;
+    f.add_velocity_acceleration(s, a);
+    kick(f.drag_rate(), old, a, h, next);
   }
-  s.v = v;
-
-  // drift to the end
-  s.x = middle.x + h / 2 * s.v;
+  s.v = next;
 }
 
 }  // namespace
 
 void leapfrog_step(System& f, State& s, double h, int passes, Workspace& w) {
-  const double middle = s.t + h / 2;
+  Points& a = w[0].v;
+  const double start = s.t;
+  s.t = start + h / 2;
+  s.x += h / 2 * s.v;             // drift to the middle
+  f.position_acceleration(s, a);  // kick with the force there
   if (f.has_velocity_forces())
-    step_with_velocity_forces(f, s, middle, h, passes, w);
-  else if (f.few_springs())
-    step_with_few_forces(f, s, middle, h);
+    kick_with_velocity_forces(f, s, a, h, passes, w);
   else
-    step_with_position_forces(f, s, middle, h);
+    kick(f.drag_rate(), s.v, a, h, s.v);
+  s.x += h / 2 * s.v;  // drift to the end
+  s.t = start;
 }
 
 void leapfrog(System& f, State& s, double h, Workspace& w) { leapfrog_step(f, s, h, 2, w); }

@@ -49,8 +49,9 @@ Eigenvalues eigenvalues_of(double omega, double gamma) {
   return {-gamma / 2 + root, -gamma / 2 - root};
 }
 
-/// A Runge-Kutta rule multiplies each mode by the polynomial R(h lambda), coefficients from the constant upwards.
-double runge_kutta(std::span<const double> coefficients, double omega, double gamma) {
+/// Limit of a Runge-Kutta rule, which multiplies each mode by its stability polynomial R(h lambda).
+double runge_kutta(StabilityLimit rule, double omega, double gamma) {
+  const std::span<const double> coefficients = stability_polynomial(rule);
   const auto [slow, fast] = eigenvalues_of(omega, gamma);
   auto size = [&](std::complex<double> z) {
     std::complex<double> sum = 0;
@@ -88,18 +89,22 @@ double explicit_euler(double omega, double gamma) {
 
 double trapezoidal(double omega, double gamma) {
   if (gamma == 0) return omega > 0 ? 0 : infinity;  // |R|^2 = 1 + (h omega)^4 / 4
-  constexpr double r[] = {1, 1, 1. / 2};
-  return runge_kutta(r, omega, gamma);
+  return runge_kutta(trapezoidal, omega, gamma);
 }
 
-double rk4(double omega, double gamma) {
-  constexpr double r[] = {1, 1, 1. / 2, 1. / 6, 1. / 24};
-  return runge_kutta(r, omega, gamma);
-}
+double rk4(double omega, double gamma) { return runge_kutta(rk4, omega, gamma); }
 
-double dopri5(double omega, double gamma) {
-  constexpr double r[] = {1, 1, 1. / 2, 1. / 6, 1. / 24, 1. / 120, 1. / 600};
-  return runge_kutta(r, omega, gamma);
+double dopri5(double omega, double gamma) { return runge_kutta(dopri5, omega, gamma); }
+
+std::span<const double> stability_polynomial(StabilityLimit limit) {
+  static constexpr double exponential[] = {1, 1, 1. / 2, 1. / 6, 1. / 24};
+  static constexpr double dormand_prince[] = {1, 1, 1. / 2, 1. / 6, 1. / 24, 1. / 120, 1. / 600};
+  const std::span<const double> taylor = exponential;
+  if (limit == explicit_euler) return taylor.first(2);
+  if (limit == trapezoidal) return taylor.first(3);
+  if (limit == rk4) return taylor;
+  if (limit == dopri5) return dormand_prince;
+  return {};
 }
 
 double symplectic_euler(double omega, double gamma) {
@@ -137,8 +142,7 @@ std::span<const Stepper> steppers() {
        .symplectic = false,
        .limit = limits::explicit_euler,
        .limit_formula = "h < gamma / omega^2 (2 / lambda_max when overdamped): none without drag",
-       .what = "forward Euler, kept as a warning",
-       .style = {"#C0609A", "(10,3,2,3)", 15}},
+       .what = "forward Euler, kept as a warning"},
       {.name = "trapezoidal",
        .step = trapezoidal,
        .order = 2,
@@ -147,8 +151,7 @@ std::span<const Stepper> steppers() {
        .symplectic = false,
        .limit = limits::trapezoidal,
        .limit_formula = "|1 + z + z^2/2| < 1 at z = h lambda: none without drag",
-       .what = "explicit trapezoidal rule (Heun), the assignment's second",
-       .style = {"#B87A00", "(2,2)", 11}},
+       .what = "explicit trapezoidal rule (Heun), the assignment's second"},
       {.name = "rk4",
        .step = rk4,
        .order = 4,
@@ -157,8 +160,7 @@ std::span<const Stepper> steppers() {
        .symplectic = false,
        .limit = limits::rk4,
        .limit_formula = "h omega < 2.83 without drag",
-       .what = "classic Runge-Kutta: accurate smooth motion, and the reference by step halving",
-       .style = {"#009E73", "(6,3)", 9}},
+       .what = "classic Runge-Kutta: accurate smooth motion, and the reference by step halving"},
       {.name = "symplectic-euler",
        .step = symplectic_euler,
        .order = 1,
@@ -168,8 +170,7 @@ std::span<const Stepper> steppers() {
        .limit = limits::symplectic_euler,
        .limit_formula = "h < 4 / (gamma + sqrt(gamma^2 + 4 omega^2)): h omega < 2 without drag",
        .what = "kick, then drift; the rule of Bullet's explicit deformable world",
-       .composition = symplectic_euler_composition,
-       .style = {"#2A86D0", "(12,3,2,3)", 7}},
+       .composition = symplectic_euler_composition},
       {.name = "leapfrog",
        .step = leapfrog,
        .order = 2,
@@ -179,8 +180,7 @@ std::span<const Stepper> steppers() {
        .limit = limits::leapfrog,
        .limit_formula = "h omega < 2, whatever the drag",
        .what = "half drift, kick, half drift; the best value for one evaluation a step",
-       .composition = leapfrog_composition,
-       .style = {"#0B4F94", "1", 7}},
+       .composition = leapfrog_composition},
       {.name = "suzuki4",
        .step = suzuki4,
        .order = 4,
@@ -190,8 +190,7 @@ std::span<const Stepper> steppers() {
        .limit = limits::suzuki4,
        .limit_formula = "h omega < 2.72 without drag; h gamma < 3.02 without springs",
        .what = "five leapfrogs; more accurate than rk4 for the same work, and keeps energy for ever",
-       .composition = suzuki4_composition,
-       .style = {"#5B3FA0", "(12,3,3,3)", 15}},
+       .composition = suzuki4_composition},
       {.name = "dopri5",
        .step = dopri5,
        .order = 5,
@@ -202,8 +201,7 @@ std::span<const Stepper> steppers() {
        .limit_formula = "its steps follow the tolerance; at a fixed step h omega < 1.0 without drag",
        .what = "Dormand-Prince 5(4) with error control and dense output: give --tol, not --step; beside a sphere its "
                "steps are at most the scene's own, since contact acts on whole steps",
-       .adaptive = true,
-       .style = {"#7F7F1F", "(3,2)", 13}},
+       .adaptive = true},
       {.name = "implicit-euler",
        .step = implicit_euler,
        .order = 1,
@@ -215,8 +213,7 @@ std::span<const Stepper> steppers() {
        .what = "Newton's method on the whole nonlinear step; stiff springs at long steps, at the price of damping; "
                "+linear: one Newton step, the rule of Bullet's implicit world",
        .solved_to = force_tolerance,
-       .linear = implicit_euler_linear,
-       .style = {"#882255", "(18,3)", 11}},
+       .linear = implicit_euler_linear},
       {.name = "implicit-midpoint",
        .step = implicit_midpoint,
        .order = 2,
@@ -226,8 +223,7 @@ std::span<const Stepper> steppers() {
        .limit = limits::none,
        .limit_formula = "stable at every step on linear springs",
        .what = "symplectic and implicit: keeps the energy of linear springs at any step",
-       .solved_to = force_tolerance,
-       .style = {"#CC6677", "(8,2,2,2)", 9}},
+       .solved_to = force_tolerance},
       {.name = "xpbd",
        .step = xpbd,
        .order = 1,
@@ -238,8 +234,7 @@ std::span<const Stepper> steppers() {
        .limit_formula = "stable at every step on one spring",
        .what = "extended position-based dynamics, springs of compliance 1/k swept once a step; the one rule here that "
                "keeps hard distances",
-       .hard_constraints = true,
-       .style = {"#333333", "(5,4)", 5}},
+       .hard_constraints = true},
   };
   static_assert(std::all_of(std::begin(table), std::end(table), [](const Stepper& s) {
     return std::count_if(std::begin(table), std::end(table), [&](const Stepper& t) { return t.name == s.name; }) == 1;

@@ -53,13 +53,6 @@ struct KickDriftComposition {
   bool kick_first = false;
 };
 
-/// The look of a method in charts, the same in all of them: "#RRGGBB", and gnuplot's dash type and point type.
-struct CurveStyle {
-  std::string_view colour = {};  // empty: none of its own
-  std::string_view dash = {};
-  int marker = 0;
-};
-
 struct Stepper {
   std::string_view name;
   StepFunction step;
@@ -75,7 +68,6 @@ struct Stepper {
   double solved_to = 0;            // of the largest force, inertia m v / h among them, where the step is an equation
   StepFunction linear = nullptr;   // the rule behind the option +linear
   KickDriftComposition (*composition)() = nullptr;  // where it is one
-  CurveStyle style = {};
 };
 
 void explicit_euler(System& f, State& s, double h, Workspace& w);
@@ -167,5 +159,9 @@ double symplectic_euler(double omega, double gamma);
 double leapfrog(double omega, double gamma);
 double suzuki4(double omega, double gamma);
 double none(double omega, double gamma);  // infinite: stable at every step
+
+/// Coefficients, constant first, of the stability polynomial R(h lambda) of a Runge-Kutta rule with that limit; empty
+/// for the limits of other rules.
+std::span<const double> stability_polynomial(StabilityLimit limit);
 
 }  // namespace crosscheck::limits

@@ -19,10 +19,7 @@ SpringKernel::SpringKernel(const Springs& springs, int particles) {
   const SpringLaw law = springs.law;
   spring_graph::SpringPartition partition = spring_graph::partition_springs(springs.list, particles, {});
   plain_ = {std::move(partition.plain), law};
-  if (partition.dia.empty() && partition.coo.empty()) {
-    few_ = FewSprings(plain_, particles);
-    return;
-  }
+  if (partition.dia.empty() && partition.coo.empty()) return;
   impl_ = std::make_unique<Impl>(Impl{spring_graph::kernels(isa, law), {}, {}});
   if (!partition.dia.empty()) impl_->dia.emplace(partition.dia, particles);
   if (!partition.coo.empty()) impl_->coo.emplace(partition.coo, particles);

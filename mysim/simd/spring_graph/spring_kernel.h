@@ -3,7 +3,6 @@
 
 #include <memory>
 
-#include "mysim/simd/spring_graph/few_springs.h"
 #include "mysim/terms/springs.h"
 
 namespace crosscheck {
@@ -27,17 +26,6 @@ class SpringKernel {
     if (impl_) add_on_lanes(x, forces);
     crosscheck::add_force(plain_, x, forces);
   }
-  /// The same onto nothing, whatever the forces were.
-  void set_force(const Points& x, Forces& forces) {
-    if (few_.empty()) {
-      forces.clear();
-      add_force(x, forces);
-    } else {
-      forces.degenerate_springs = few_.set_forces<3>(x.data(), forces.f.data());
-    }
-  }
-  /// All of the springs, where the plain loop takes them and there are few particles; else empty.
-  const FewSprings& few() const { return few_; }
   /// The instruction set that its lanes are compiled for.
   simd::InstructionSet isa() const { return isa_; }
 
@@ -47,7 +35,6 @@ class SpringKernel {
   struct Impl;
   std::unique_ptr<Impl> impl_;  // null where the plain loop takes all springs
   Springs plain_;               // those that the plain loop takes
-  FewSprings few_;
   simd::InstructionSet isa_;
 };
 

@@ -111,6 +111,26 @@ inline std::string contradiction(const Stepper& row) {
                            above, limit);
   }
 
+  // growth on `circle`, where a first-order rule multiplies the radius by |R(i h)| in each step
+  if (s.first_order) {
+    const std::span<const double> polynomial = limits::stability_polynomial(s.limit);
+    if (polynomial.empty()) found += "a first-order rule needs a limit with a stability polynomial. ";
+    const Scene circle = shipped_scene("circle");
+    for (const double h : {0.01, 0.05, 0.3, 1.0}) {
+      std::complex<double> r = 0;
+      for (size_t i = polynomial.size(); i-- > 0;) r = r * std::complex<double>(0, h) + polynomial[i];
+      constexpr int steps = 100;
+      const Trajectory t = trajectory_of(s, circle, {h, steps * h, steps});
+      double largest = 0;
+      for (int i = 0; i < steps; ++i)
+        largest = std::max(largest, std::abs(t.x[i + 1].norm() / t.x[i].norm() / std::abs(r) - 1));
+      // each stage rounds a few times, by half an ulp of numbers of the size of the radius
+      if (!(largest <= (8 + 4 * s.evaluations) * eps))
+        found += fmt::format("h = {} on circle: the radius grows otherwise than by {}, by {:.2g}. ", h, std::abs(r),
+                             largest);
+    }
+  }
+
   // repeatability
   const Run short_run{1e-3, 0.1, 10};
   if (!identical(trajectory_of(row, pendulum, short_run), trajectory_of(row, pendulum, short_run)))

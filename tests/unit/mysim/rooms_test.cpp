@@ -57,5 +57,19 @@ TEST(Rooms, NoneIncludesHeadersFromAbove) {
     }
 }
 
+/// The grader judges with mysim alone; of the protocol it takes the one header that engines are written with.
+TEST(Rooms, TheGraderIncludesMysimOnly) {
+  int files = 0;
+  for (const auto& entry : fs::recursive_directory_iterator(fs::path(CROSSCHECK_SOURCE) / "tests/coursework")) {
+    const std::string end = entry.path().extension();
+    if (end != ".h" && end != ".cpp") continue;
+    ++files;
+    for (const std::string& header : headers_from_above(read_file(entry.path(), "a source"), "mysim"))
+      if (header != "\"reference/protocol/crosscheck_engine.h\"")
+        ADD_FAILURE() << entry.path().string() << " includes " << header;
+  }
+  EXPECT_GE(files, 100);
+}
+
 }  // namespace
 }  // namespace crosscheck

@@ -96,32 +96,6 @@ TEST(SpringKernel, GivesTheSameBitsTwiceAndAddsToWhatIsThere) {
     }
 }
 
-TEST(SpringKernel, OfFewParticlesIsTheEdgeLoopToTheLastBitOntoNothing) {
-  long alone = 0, degenerate_springs = 0;
-  for (const SpringLaw law : {SpringLaw::hooke, SpringLaw::bullet_link})
-    for (const int size : {1, 3, 9, 20, 40, 60})
-      for (unsigned seed = 1; seed <= 20; ++seed) {
-        SCOPED_TRACE(fmt::format("{} {} springs, seed {}", name_of(law), size, seed));
-        Loose net = random_springs(seed, size, law);
-        const int n = net.particles.size();
-        // the first two particles have no spring: half of the networks join them, too
-        if (seed % 2 == 0)
-          net.springs.list.insert(net.springs.list.begin() + size / 2, {1, 0, 50, 0.1, Family::single});
-        if (seed % 4 == 0) net.springs.list.push_back({2, 2, 50, 0.1, Family::single});
-        Forces plain{Points::Zero(3, n)}, set{Points::Constant(3, n, 1e6), 7};
-        add_force(net.springs, net.particles, net.state, plain);
-        SpringKernel kernel(net.springs, n);
-        kernel.set_force(net.state.x, set);
-        EXPECT_EQ(set.degenerate_springs, plain.degenerate_springs);
-        degenerate_springs += plain.degenerate_springs;
-        if (n > few_particles || kernel.few().empty()) continue;
-        ++alone;
-        EXPECT_EQ(std::memcmp(set.f.data(), plain.f.data(), sizeof(double) * plain.f.size()), 0) << set.f - plain.f;
-      }
-  EXPECT_GE(alone, 60);
-  EXPECT_GE(degenerate_springs, 100);
-}
-
 TEST(SpringKernel, EndsThatMeetGetNoForceAndAreCounted) {
   for (const SpringLaw law : {SpringLaw::hooke, SpringLaw::bullet_link})
     for (const double rest : {0.0, 0.5}) {

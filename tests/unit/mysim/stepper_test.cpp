@@ -22,33 +22,6 @@ TEST(Steppers, SymplecticOnesKeepAreasAndOthersDoNot) {
   }
 }
 
-/// Factor by which one step changes the radius on `circle`, where a formula is known.
-double growth_on_circle(std::string_view name, double h) {
-  if (name == "explicit-euler") return std::sqrt(1 + h * h);
-  if (name == "trapezoidal") return std::sqrt(1 + h * h * h * h / 4);
-  const double terms[] = {1, 1, 1. / 2, 1. / 6, 1. / 24, 1. / 120, 1. / 600};  // of the rules' polynomials in i h
-  const int known = name == "rk4" ? 5 : name == "dopri5" ? 7 : 0;
-  std::complex<double> sum = known ? 0 : NAN, power = 1;
-  for (int i = 0; i < known; ++i, power *= std::complex<double>(0, h)) sum += terms[i] * power;
-  return std::abs(sum);
-}
-
-TEST(Steppers, GrowthPerStepOnCircleIsTheFormula) {
-  const Scene scene = shipped_scene("circle");
-  for (const Stepper& s : fixed_steppers())
-    for (const double h : {0.01, 0.05, 0.3, 1.0}) {
-      if (!s.first_order) continue;
-      SCOPED_TRACE(fmt::format("{} h = {}", s.name, h));
-      const double growth = growth_on_circle(s.name, h);
-      ASSERT_TRUE(std::isfinite(growth)) << "a new first-order stepper needs its formula here";
-      const int steps = 100;
-      const Trajectory t = trajectory_of(s, scene, {h, steps * h, steps});
-      for (int i = 0; i < steps; ++i)
-        // each stage rounds a few times, by half an ulp of numbers of the size of the radius
-        EXPECT_NEAR(t.x[i + 1].norm() / t.x[i].norm(), growth, (8 + 4 * s.evaluations) * eps * growth);
-    }
-}
-
 TEST(Steppers, LeapfrogIsItsOwnInverseUnderDrag) {
   const Scene scene = small_cloth();
   System f(scene.model);
@@ -59,34 +32,6 @@ TEST(Steppers, LeapfrogIsItsOwnInverseUnderDrag) {
   for (int i = 50; i > 0; --i) leapfrog(f, s, -h, w), s.t = (i - 1) * h, scene.model.particles.place_pins(s);
   // a hundred steps of a few ulps of a scene of 1 m, with velocities of some m/s over h
   EXPECT_LT((s.x - scene.start.x).cwiseAbs().maxCoeff(), 1e3 * eps);
-}
-
-TEST(Steppers, LeapfrogOfFewSpringsInALoopOfItsOwnIsTheGeneralOneToTheLastBit) {
-  for (const SpringLaw law : {SpringLaw::hooke, SpringLaw::bullet_link})
-    for (const bool moved : {false, true}) {
-      Network net = random_network(3, law);
-      net.model.terms.emplace_back(Drag{Eigen::VectorXd::LinSpaced(6, 0.1, 2)});
-      pin(net, {0, 3}, moved ? std::optional(Motion{{0.2, 0.1, 0}, 0.7, 0.5}) : std::nullopt);
-      Scene few = scene_of(net), general = few;
-      general.model.terms.emplace_back(Wind{{Vec3::Zero(), {}}});  // of no force: the terms are summed one by one
-      ASSERT_NE(System(few.model).few_springs(), nullptr);
-      ASSERT_EQ(System(general.model).few_springs(), nullptr);
-      for (const char* rule : {"leapfrog", "suzuki4"}) {
-        SCOPED_TRACE(rule);
-        const auto ends = [&](const Scene& scene) {
-          NullObserver nobody;
-          const auto world =
-              make_world(stepper(rule), ContactRule::coulomb, scene, default_run(scene), nobody, Execution{});
-          for (int i = 0; i < 500; ++i) world->step(i * scene.step, (i + 1) * scene.step);
-          return std::pair(world->state(500 * scene.step), world->work());
-        };
-        const auto [one, work] = ends(few);
-        const auto [other, other_work] = ends(general);
-        EXPECT_EQ(one.x, other.x);
-        EXPECT_EQ(one.v, other.v);
-        EXPECT_EQ(work.evaluations, other_work.evaluations);
-      }
-    }
 }
 
 TEST(Steppers, TwoRunsAreBitEqual) {
