@@ -30,23 +30,15 @@ struct JobResults {
 
 /// A quantity of a case on its way from the process that ran it.
 struct QuantityRow {
-  std::string test_case, quantity, unit;
-  double value = 0;
-  std::string word;
-  bool count = false;
-  double tolerance = 0;
-  std::string derivation;
-  static constexpr std::string_view table = "quantities", about = "Quantities of one case of a regression run.";
-  static constexpr auto columns = [](auto&& column) {
-    column("case", "1", &QuantityRow::test_case, "scene, method and the ingredient taken out"),
-        column("quantity", "1", &QuantityRow::quantity, "name of the quantity"),
-        column("unit", "1", &QuantityRow::unit, "unit of value and tolerance; word: it is a text"),
-        column("value", "1", &QuantityRow::value, "value, where it is a number"),
-        column("word", "1", &QuantityRow::word, "value, where it is a text"),
-        column("count", "1", &QuantityRow::count, "1 where it is a whole number that rounding cannot change"),
-        column("tolerance", "1", &QuantityRow::tolerance, "what rounding can do to it; 0 where it was not measured"),
-        column("derivation", "1", &QuantityRow::derivation, "how the tolerance was found");
-  };
+  TABLE("quantities");
+  COLUMN(std::string, test_case, "case", "1", "scene, method and the ingredient taken out");
+  COLUMN(std::string, quantity, "quantity", "1", "name of the quantity");
+  COLUMN(std::string, unit, "unit", "1", "unit of value and tolerance; word: it is a text");
+  COLUMN(double, value, "value", "1", "value, where it is a number");
+  COLUMN(std::string, word, "word", "1", "value, where it is a text");
+  COLUMN(bool, count, "count", "1", "1 where it is a whole number that rounding cannot change");
+  COLUMN(double, tolerance, "tolerance", "1", "what rounding can do to it; 0 where it was not measured");
+  COLUMN(std::string, derivation, "derivation", "1", "how the tolerance was found");
 };
 
 /// Its rows are the case's quantities.

@@ -200,15 +200,10 @@ std::vector<std::string> notes_of(const std::vector<SpeedComparison>& rows) {
 
 /// One round's ratios of a case on their way from the process that measured them.
 struct RatiosRow {
-  long test_case = 0;
-  double is = 0;
-  std::optional<double> was;
-  static constexpr std::string_view table = "ratios", about = "Speeds of one measurement of a regression run.";
-  static constexpr auto columns = [](auto&& column) {
-    column("case", "1", &RatiosRow::test_case, "number of the case, from 0"),
-        column("is", "1", &RatiosRow::is, "CPU time over the plain loop's, in one round"),
-        column("was", "1", &RatiosRow::was, "the same of the method that it stands beside");
-  };
+  TABLE("ratios");
+  COLUMN(long, test_case, "case", "1", "number of the case, from 0");
+  COLUMN(double, is, "is", "1", "CPU time over the plain loop's, in one round");
+  COLUMN(std::optional<double>, was, "was", "1", "the same of the method that it stands beside");
 };
 
 /// The reason for no speed where no case is selected, in words.

@@ -194,16 +194,10 @@ std::span<const TypedColumn> typed_columns() {
     const auto add_column = [&]<int line>(Line<line> at) {
       if constexpr (requires { Row::column(at, row); }) list.push_back(Row::column(at, row));
     };
-    if constexpr (requires { Row::first_line; }) {
-      const auto add_columns = [&]<int... i>(std::integer_sequence<int, i...>) {
-        (add_column(Line<Row::first_line + i>{}), ...);
-      };
-      add_columns(std::make_integer_sequence<int, most_lines>{});
-    } else
-      Row::columns([&]<class T>(const char* name, const char* unit, T Row::*member, const char* description) {
-        const auto at = reinterpret_cast<const char*>(&(row.*member)) - reinterpret_cast<const char*>(&row);
-        list.push_back({name, unit, description, &cell_type<T>, at});
-      });
+    const auto add_columns = [&]<int... i>(std::integer_sequence<int, i...>) {
+      (add_column(Line<Row::first_line + i>{}), ...);
+    };
+    add_columns(std::make_integer_sequence<int, most_lines>{});
     return list;
   }();
   return declared;
