@@ -78,7 +78,7 @@ struct LinearisedSolution {
 /// that is near the start. Nothing where the given positions are no equilibrium, where it is not stable (a cloth that
 /// is not stretched has no stiffness out of its plane, one that is pressed buckles), and for other scenes.
 ///
-/// Where it fails: what is left out begins with the square of the amplitude a. A flat cloth that moves out of its plane
+/// The terms left out begin with the square of the amplitude a. A flat cloth that moves out of its plane
 /// is symmetric in up and down: out of the plane the deviation over a falls as a^2, in the plane (where nothing moves
 /// to first order) as a. Motion in the plane is off by a to first order. A cloth of 6 x 6 particles held along its edge
 /// of 1 m, stretched by a tenth and let go in its first bump, is 1 % off within three periods from an amplitude of 11
