@@ -182,6 +182,17 @@ inline ::testing::AssertionResult begins(const std::string& text, const std::str
   return ::testing::AssertionFailure() << "'" << text << "' does not begin with '" << part << "'";
 }
 
+/// True if the sentence has these numbers, names and key words, in this order; the words around them are free.
+inline ::testing::AssertionResult says(const std::string& sentence, std::initializer_list<std::string_view> parts) {
+  size_t at = 0;
+  for (const std::string_view part : parts) {
+    const size_t found = sentence.find(part, at);
+    if (found == std::string::npos) return ::testing::AssertionFailure() << "no '" << part << "' in: " << sentence;
+    at = found + part.size();
+  }
+  return ::testing::AssertionSuccess();
+}
+
 /// Slope of the error between a step and half of it.
 inline double slope(double coarse, double fine) { return std::log2(coarse / fine); }
 

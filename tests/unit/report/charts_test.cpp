@@ -162,9 +162,7 @@ TEST(CheapestChart, SaysWhoIsFastestWhereTheClockCanTell) {
   EXPECT_EQ(f.series[0].title, "Bullet");
   EXPECT_EQ(f.series[0].dots[0]->value, 30);
   EXPECT_FALSE(f.series[0].dots[1]);
-  EXPECT_EQ(f.finding,
-            "Within 1 % of the motion mysim is the fastest, beyond the intervals, on 1 of 2 scenes; Bullet takes 30 "
-            "(cloth) times its CPU time, Boost odeint takes 1.1 (rod) to 2 (cloth).");
+  EXPECT_TRUE(says(f.finding, {"1 %", "1 of 2 scenes", "Bullet", "30 (cloth)", "odeint", "1.1 (rod) to 2 (cloth)"}));
   EXPECT_NO_THROW(drawing_of(f));
 }
 
@@ -190,7 +188,7 @@ TEST(CheapestChart, NamesWhoIsThereAndWhichTimesAreScaled) {
   EXPECT_FALSE(contains(caption_of(whole), "SUNDIALS")) << "where no run of it is there it is not named";
   EXPECT_FALSE(contains(caption_of(whole), "odeint"));
   part[1].part = 0.1;
-  EXPECT_TRUE(contains(caption_of(part), "in 1 of 1 quotients a time is scaled from the first part of its run; "));
+  EXPECT_TRUE(contains(caption_of(part), "1 of 1 quotients"));
 }
 
 TEST(FabricCharts, SayTheDeviationOnTheFinestGridAndItsOrder) {
@@ -231,9 +229,7 @@ TEST(FabricCharts, SayTheDrapeAndWhatItDependsOn) {
   for (const Chart& chart : charts) EXPECT_NO_THROW(drawing_of(std::get<Figure>(chart.figure)));
   EXPECT_TRUE(contains(figure_info(charts[0])->finding, "right to 1 %, and")) << figure_info(charts[0])->finding;
   EXPECT_TRUE(contains(figure_info(charts[0])->finding, "power 2.00 to 2.00"));
-  EXPECT_TRUE(contains(figure_info(charts[1])->finding,
-                       "5 nodes and a coefficient of 71.5 %, 0.5 points from that on 8 rings; the states of all "
-                       "starts have 71 to 74 %."))
+  EXPECT_TRUE(says(figure_info(charts[1])->finding, {"5 nodes", "71.5 %", "0.5 points", "8 rings", "71 to 74 %"}))
       << figure_info(charts[1])->finding;
   EXPECT_TRUE(contains(figure_info(charts[1])->caption, "with four times as much 76.0 % on 8 rings"));
 }

@@ -70,7 +70,7 @@ TEST_F(OfAScene, TheNearestOfEachEngineHasARow) {
   EXPECT_EQ(others[0].method, "bullet/deformable-explicit");
   EXPECT_EQ(others[0].other, "bullet");
   EXPECT_EQ(others[1].method, "exec:./my/engine");
-  EXPECT_EQ(sentence_of(others[1]), "engine is 0.3 mm off, 0.03 % of the motion.") << "by its own name";
+  EXPECT_TRUE(says(sentence_of(others[1]), {"engine", "0.3 mm", "0.03 %"})) << "by its own name";
 }
 
 TEST_F(OfAScene, OfSeveralThatAreAsNearTheThriftiestIsNamed) {
@@ -97,11 +97,9 @@ TEST_F(OfAScene, FailuresAreCountedAndTheFirstIsNamed) {
   const Finding failed = the(said(f), "failed");
   EXPECT_EQ(failed.value, 2);
   EXPECT_EQ(failed.method, "mysim/trapezoidal");
-  EXPECT_EQ(sentence_of(failed),
-            "At a step of 500 µs, 2 of 3 methods failed, first trapezoidal after 1 s (stable up to 100 µs).");
+  EXPECT_TRUE(says(sentence_of(failed), {"500 µs", "2 of 3", "trapezoidal", "1 s", "100 µs"}));
   f.methods[2].verdict = Verdict::ok, f.methods[2].error = 1;
-  EXPECT_EQ(sentence_of(the(said(f), "failed")),
-            "At a step of 500 µs, 1 of 3 methods failed: explicit-euler after 2 s.");
+  EXPECT_TRUE(says(sentence_of(the(said(f), "failed")), {"500 µs", "1 of 3", "explicit-euler", "2 s"}));
 }
 
 TEST_F(OfAScene, AgreementIsOneOfFourRules) {
@@ -130,9 +128,7 @@ TEST_F(OfAScene, AgreementIsOneOfFourRules) {
 TEST_F(OfAScene, AgreementOfAProgramIsJudgedByTheRuleFound) {
   SceneData f = facts({run(ours, 1e-3), run("exec:./mine", 1e-3)});
   set_round_off(f, 1e-11), f.methods[1].difference = 1e-12;
-  EXPECT_EQ(sentence_of(the(said(f), "same-motion")),
-            "At the same step mine parts from mysim's symplectic-euler by at most 1.0e-12 m in 3 s; round-off allows "
-            "1.0e-11 m.");
+  EXPECT_TRUE(says(sentence_of(the(said(f), "same-motion")), {"mine", "symplectic-euler", "1.0e-12 m", "1.0e-11 m"}));
   f.methods[1].difference = 1e-9;
   EXPECT_EQ(the(said(f), "unknown-rule").value, 1e-9);
   f.methods[1].same_rule = true;
@@ -193,8 +189,7 @@ TEST(LeastModels, HaveARowForEachThingThatIsSaid) {
   EXPECT_DOUBLE_EQ(findings[2].value, 33);
   EXPECT_EQ(findings[2].scene, "cloth-hang");
   EXPECT_EQ(findings[3].value, 1);
-  EXPECT_EQ(sentence_of(findings[2]),
-            "On cloth-hang, within 10 %, bend springs can be left out, which saves 33 % of the work.");
+  EXPECT_TRUE(says(sentence_of(findings[2]), {"cloth-hang", "10 %", "bend springs", "33 %"}));
 }
 
 TEST(LeastModels, WhatHoldsAtSeveralTolerancesIsSaidOnce) {
@@ -274,7 +269,7 @@ TEST_F(Take, OfRunsThatTheClockCannotTellApartTheNearestIsTaken) {
   EXPECT_EQ(all[1].value, 2);
   EXPECT_EQ(all[2].value, 25);
   EXPECT_EQ(all[2].low, 0.9 * 25);
-  EXPECT_EQ(sentence_of(all[3]), "For 1 % of the motion mine needs 30 times mysim's CPU time.");
+  EXPECT_TRUE(says(sentence_of(all[3]), {"1 %", "mine", "30 times"}));
   EXPECT_FALSE(recommended_run(scene, 0.1, rows())) << "no row is of that accuracy";
   EXPECT_FALSE(recommended_run("chain", 0.01, rows()));
   EXPECT_FALSE(recommended_run(scene, 0.01, {}));
@@ -465,7 +460,7 @@ TEST_F(Answers, AreOfTheEnergyWhereNothingTouches) {
   ASSERT_TRUE(answer);
   EXPECT_EQ(answer->method, "mysim/leapfrog") << "rk4 keeps it better here, and not for long";
   EXPECT_DOUBLE_EQ(answer->value, 2e-3);
-  EXPECT_TRUE(contains(sentence_of(*answer), "a drag of 0.098 ω at hω = 0.1.")) << sentence_of(*answer);
+  EXPECT_TRUE(says(sentence_of(*answer), {"0.098 ω", "0.1"})) << sentence_of(*answer);
   EXPECT_EQ(questions()[3].text_before(*answer), "What happens to the energy?");
   EXPECT_EQ(answer_findings(scenes_, facts_, rows)[3 - 1].rule, "answer-contact") << "a ball goes before";
 }
@@ -479,8 +474,8 @@ TEST_F(Answers, OfAProgramThatFellOverSayNothingOfItsPhysics) {
     const auto at = std::ranges::find(all, rule, &Finding::rule);
     return at == all.end() ? std::string() : sentence_of(*at);
   };
-  EXPECT_EQ(said("crashed-of-all"), "mine gave no answer on chain: the program failed or took too long.");
-  EXPECT_EQ(said("failed-of-all"), "mine failed on cloth-hang, where other methods hold at the same step.");
+  EXPECT_TRUE(says(said("crashed-of-all"), {"mine", "no answer", "chain"}));
+  EXPECT_TRUE(says(said("failed-of-all"), {"mine", "failed", "cloth-hang"}));
 }
 
 TEST_F(Answers, OfAQuestionThatNoTableSpeaksOfThereAreNone) {
@@ -502,7 +497,7 @@ TEST_F(Answers, WithoutBulletTheyAreOfTheEngineThatIsThere) {
   expect_short(all);
   EXPECT_EQ(rules_of(all), (std::vector<std::string>{"answer-difference", "answer-none-failed", "answer-contact"}));
   for (const Finding& f : all) EXPECT_FALSE(contains(sentence_of(f), "Bullet")) << sentence_of(f);
-  EXPECT_TRUE(contains(sentence_of(all[0]), "mine and mysim's symplectic-euler part by up to 0.1 mm"));
+  EXPECT_TRUE(says(sentence_of(all[0]), {"mine", "symplectic-euler", "0.1 mm"}));
   for (SceneData& each : facts_) each.methods.back().difference = 1e-12;
   EXPECT_EQ(answers({})[0].rule, "answer-difference") << "contact has no bound";
   facts_.pop_back();
@@ -535,7 +530,7 @@ TEST_F(Answers, RunsThatFailedAreCountedWhereNoLimitWasMeasured) {
   facts_[2].methods[2].verdict = Verdict::unsupported;
   const Finding failed = the(answers({}), "answer-failed");
   EXPECT_EQ(failed.value, 1);
-  EXPECT_EQ(sentence_of(failed), "1 of 8 runs at the scenes' own steps failed: symplectic-euler.");
+  EXPECT_TRUE(says(sentence_of(failed), {"1 of 8", "failed", "symplectic-euler"}));
 }
 
 TEST(StepReadBack, IsTheSameToRoundingInEveryChapter) {
@@ -607,9 +602,7 @@ TEST(SphereFindings, LeavingAnglesByEngineAndWhoGetsWorse) {
   EXPECT_EQ(all[0].method, "mysim/rk4") << "the furthest of mysim";
   EXPECT_NEAR(all[0].value, -0.01, 1e-9);
   EXPECT_NEAR(all[1].value, -1.6, 1e-9);
-  EXPECT_EQ(sentence_of(all[1]),
-            "With Bullet's pbd, particles leave the ball 1.6 degrees too early at 100 µs: shorter steps make "
-            "it worse.");
+  EXPECT_TRUE(says(sentence_of(all[1]), {"pbd", "1.6 degrees", "100 µs", "worse"}));
   t.rows.clear();
   EXPECT_TRUE(leaving_findings(t).empty());
 }
