@@ -12,6 +12,7 @@
 #include <optional>
 #include <set>
 
+#include "experiments/check/transformations.h"
 #include "experiments/scenes/ingredients.h"
 #include "mysim/base/errors.h"
 #include "mysim/base/files.h"
@@ -47,119 +48,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Duration and window, samples, step and method of a scene, and its ingredients as a scene file has them.
-struct KitScene {
-  const char *name, *question, *parameters;
-  double duration;  // s
-  int samples;
-  double step;  // s
-  const char *method, *ingredients;
-
-  Scene scene() const {
-    return parse_scene(fmt::format("question = \"{}\"\nparameters = \"{}\"\n[time]\nduration = {}\nsamples = {}\n"
-                                   "step = {}\nwindow = {}\ntolerance = 1e-3\nmethod = \"{}\"\n{}",
-                                   question, parameters, duration, samples, step, duration, method, ingredients),
-                       name);
-  }
-};
-
-// of one or two particles; every ingredient of the protocol but the triangles' wind is in one of them
-constexpr KitScene kit_scenes[] = {
-    {"fall", "Does a thrown particle fall?", "The simplest motion; its path along x tells when a frame was taken.", 0.2,
-     4, 2e-3, "leapfrog", R"([[particle]]
-position = [0, 1, 0]
-mass = 1
-velocity = [1, 0, 0]
-[gravity]
-acceleration = [0, -9.81, 0]
-)"},
-    {"damped-spring", "Do a spring, its dashpot and drag act?",
-     "A period of half a second, of which dashpot and drag take a tenth each.", 0.5, 5, 1e-3, "leapfrog",
-     R"([[particle]]
-position = [0, 0, 0]
-mass = 0.5
-[[particle]]
-position = [0, -0.9, 0]
-mass = 0.5
-velocity = [0.3, 0, 0]
-[[spring]]
-ends = [0, 1]
-stiffness = 80
-rest = 1
-dashpot = 0.5
-[pins]
-particles = [0]
-[gravity]
-acceleration = [0, -9.81, 0]
-[drag]
-gamma = 2
-)"},
-    {"led-pin", "Is a moved pin where it is led?",
-     "A tenth of a metre to and fro pulls the weight along; the pin is far from home at every sample, the last too.",
-     0.5, 5, 1e-3, "leapfrog", R"([[particle]]
-position = [0, 0, 0]
-mass = 0.5
-[[particle]]
-position = [0, -1, 0]
-mass = 0.5
-[[spring]]
-ends = [0, 1]
-stiffness = 80
-rest = 1
-[pins]
-particles = [0]
-[pins.motion]
-amplitude = [0.1, 0, 0]
-frequency = 0.8
-ramp = 0.1
-[gravity]
-acceleration = [0, -9.81, 0]
-)"},
-    {"ball", "Does a particle slide over a ball?", "It starts in contact; friction takes most of its speed.", 0.3, 5,
-     1e-3, "leapfrog", R"([[particle]]
-position = [0, 1.02, 0]
-mass = 1
-velocity = [1, 0, 0]
-[gravity]
-acceleration = [0, -9.81, 0]
-[sphere]
-centre = [0, 0, 0]
-radius = 1
-margin = 0.02
-friction = 0.2
-)"},
-    {"rod", "Does a distance stay what it is?", "A pendulum let go from the horizontal.", 0.3, 5, 5e-4, "xpbd",
-     R"([[particle]]
-position = [0, 0, 0]
-mass = 0.5
-[[particle]]
-position = [0.5, 0, 0]
-mass = 0.5
-[[constraint]]
-ends = [0, 1]
-[pins]
-particles = [0]
-[gravity]
-acceleration = [0, -9.81, 0]
-)"},
-    {"circle", "Does a first-order system run?", "A sixth of a turn.", 1, 5, 0.01, "rk4", R"([[particle]]
-position = [1, 0, 0]
-[rotation]
-rate = 1
-)"},
-    {"gusts", "Does the wind come and go?", "Gusts as strong as the mean.", 1, 5, 1e-3, "leapfrog", R"([[particle]]
-position = [0, 1, 0]
-mass = 0.1
-[drag]
-gamma = 4
-[wind]
-acceleration = [0, 0, 5]
-[wind.gusts]
-variation = 1
-side = [1.5, 0, 0]
-seed = 1
-)"},
-};
+// Scenes of one or two particles; every ingredient of the protocol but the triangles' wind is in one of them.
+constexpr const char* kit_scenes[] = {"fall", "damped-spring", "led-pin", "ball", "rod", "circle", "gusts"};
 
 // s: a step of these scenes costs microseconds, and an interpreter starts in less than a second
 constexpr double call_limit = 30;
@@ -202,8 +92,8 @@ class Kit {
   }
 
   ConformanceReport report() {
-    for (const KitScene& row : kit_scenes)
-      if (!hangs_) try_scene(row.scene());
+    for (const char* name : kit_scenes)
+      if (!hangs_) try_scene(scene_in("kit", name));
     if (hangs_) {
       add("", "scenes", Conformance::lacks, true, "the others are not tried, as it does not end", answers);
       return std::move(report_);
@@ -503,8 +393,8 @@ class Kit {
   /// The first scene that the program takes, in forms that other versions and callers may write.
   void try_changed_scenes() {
     if (taken_ == 0) return;
-    for (const KitScene& row : kit_scenes) {
-      const Scene scene = row.scene();
+    for (const char* name : kit_scenes) {
+      const Scene scene = scene_in("kit", name);
       const Run run = default_run(scene);
       const std::string text = scene_json(scene, run, program_.options);
       KitCall plain;

@@ -43,7 +43,11 @@ struct Mirror {
 };
 std::optional<Mirror> mirror_of(const Scene& scene);
 
-// The smallest scenes, in steps of 2^-10 s, which every precision holds exactly.
+/// The scene in experiments/check/FOLDER/NAME.toml.
+Scene scene_in(const std::string& folder, const std::string& name);
+
+// The smallest scenes that show relations. Their steps are 2^-10 s, which every precision holds exactly, and a tenth of
+// the stable one: explicit Euler's growth of 1 + (h omega)^2 / 2 a step stays below tenfold in a second.
 
 std::vector<Scene> small_nets();      // five particles, one of them pinned, swinging under gravity
 std::vector<Scene> falling_nets();    // a tetrahedron at rest: soft, stiff, with dashpots
