@@ -2,6 +2,7 @@
 #include "reference/which_rule.h"
 
 #include <fmt/format.h>
+#include <nlohmann/json.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -393,7 +394,7 @@ FoundRule cached_rule(const Method& method) {
   for (const auto& [name, member] : flags) json[name] = found.*member;
   for (const auto& [name, member] : texts) json[name] = found.*member;
   try {
-    write_file(file, json.dump(1) + "\n");
+    write_file(file, dump(json, 1) + "\n");
   } catch (const InputError&) {
     // no room or no right to write: found again next time
   }

@@ -2,6 +2,7 @@
 #include "experiments/sweep/store.h"
 
 #include <fmt/format.h>
+#include <nlohmann/json.hpp>
 
 #include <cmath>
 
@@ -20,10 +21,10 @@ PointList point_list_of(std::vector<std::string> experiments, std::span<const Po
 }
 
 void write_point_list(const PointList& list, const std::filesystem::path& folder) {
-  Json json{{"experiments", list.experiments}, {"provenance", Json::list()}, {"points", {}}};
-  for (const auto& [key, value] : list.provenance) json["provenance"].push(Json::list(key, value));
-  for (const PointList::Entry& p : list.points) json["points"].push({{"name", p.name}, {"hash", p.hash}});
-  write_file(folder / "plan.json", json.dump(1) + "\n");
+  Json json{{"experiments", list.experiments}, {"provenance", Json::array()}, {"points", {}}};
+  for (const auto& [key, value] : list.provenance) json["provenance"].push_back(Json::array({key, value}));
+  for (const PointList::Entry& p : list.points) json["points"].push_back({{"name", p.name}, {"hash", p.hash}});
+  write_file(folder / "plan.json", dump(json, 1) + "\n");
 }
 
 PointList read_point_list(const std::filesystem::path& folder) {
@@ -86,24 +87,24 @@ Parity parity_of(const JsonField& field) {
 }  // namespace
 
 std::string table_set_json(const TableSet& set) {
-  Json certificates = Json::list(), tables = Json::list();
+  Json certificates = Json::array(), tables = Json::array();
   for (const Table& table : set.tables) {
-    Json columns = Json::list(), lines = Json::list();
-    for (const Column& c : table.columns) columns.push(Json::list(c.name, c.unit));
+    Json columns = Json::array(), lines = Json::array();
+    for (const Column& c : table.columns) columns.push_back(Json::array({c.name, c.unit}));
     for (const auto& row : table.rows) {
-      Json& line = lines.push(Json::list());
-      for (const Cell& cell : row) line.push(json_of(cell));
+      Json& line = lines.emplace_back(Json::array());
+      for (const Cell& cell : row) line.push_back(json_of(cell));
     }
-    tables.push({{"columns", std::move(columns)}, {"name", table.name}, {"rows", std::move(lines)}});
+    tables.push_back({{"columns", std::move(columns)}, {"name", table.name}, {"rows", std::move(lines)}});
   }
   for (const Certificate& c : set.certificates) {
-    Json lines = Json::list();
+    Json lines = Json::array();
     for (const CertificateRow& r : c.rows)
-      lines.push(Json::list(r.quantity, r.requested, r.mapped, r.read_back, name_of(r.parity)));
-    certificates.push({{"method", c.method}, {"rows", std::move(lines)}, {"scene", c.scene}});
+      lines.push_back(Json::array({r.quantity, r.requested, r.mapped, r.read_back, name_of(r.parity)}));
+    certificates.push_back({{"method", c.method}, {"rows", std::move(lines)}, {"scene", c.scene}});
   }
   const Json all{{"certificates", std::move(certificates)}, {"notes", set.notes}, {"tables", std::move(tables)}};
-  return all.dump() + "\n";
+  return dump(all) + "\n";
 }
 
 TableSet read_table_set(const std::string& text) {

@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 #include <unistd.h>
+#include <nlohmann/json.hpp>
 
 #include <algorithm>
 #include <ctime>
@@ -115,7 +116,7 @@ void write_manifest(const Manifest& manifest, const fs::path& folder) {
                   {"state", manifest.finished ? state_finished : state_begun},
                   {"process", {{"id", manifest.process}, {"since", manifest.since}}},
                   {"files", std::move(files)}};
-  write_file(folder / Manifest::file_name, json.dump(1) + "\n");
+  write_file(folder / Manifest::file_name, dump(json, 1) + "\n");
 }
 
 std::vector<std::string> paths_in(const fs::path& folder) {

@@ -2,6 +2,7 @@
 #include "reference/protocol/run_json.h"
 
 #include <fmt/format.h>
+#include <nlohmann/json.hpp>
 
 #include "mysim/base/errors.h"
 #include "mysim/base/names.h"
@@ -27,14 +28,14 @@ Json string_map_json(const std::map<std::string, std::string>& texts) {
 
 Json readback_json(const Readback& r) {
   Json json{{"mass", r.mass},
-            {"pinned", Json::list()},
-            {"links", Json::list()},
+            {"pinned", Json::array()},
+            {"links", Json::array()},
             {"precision", r.precision},
             {"mapped", string_map_json(r.mapped)},
             {"settings", string_map_json(r.settings)}};
-  for (char pinned : r.pinned) json["pinned"].push(pinned);
+  for (char pinned : r.pinned) json["pinned"].push_back(pinned);
   for (const Readback::Link& link : r.links) {
-    Json& entry = json["links"].push({{"a", link.a}, {"b", link.b}, {"rest_length", link.rest}});
+    Json& entry = json["links"].emplace_back(Json{{"a", link.a}, {"b", link.b}, {"rest_length", link.rest}});
     add(entry, "stiffness", link.stiffness);
   }
   add(json, "may_sleep", r.may_sleep);
@@ -43,17 +44,17 @@ Json readback_json(const Readback& r) {
   add(json, "drag", r.drag);
   add(json, "margin", r.margin);
   if (r.spheres) {
-    json["spheres"] = Json::list();
+    json["spheres"] = Json::array();
     for (const Readback::Ball& ball : *r.spheres) {
-      Json& entry = json["spheres"].push({{"centre", json_of(ball.centre)}});
+      Json& entry = json["spheres"].emplace_back(Json{{"centre", json_of(ball.centre)}});
       add(entry, "radius", ball.radius);
       add(entry, "friction", ball.friction);
       add(entry, "restitution", ball.restitution);
     }
   }
   if (r.later) {
-    json["later"] = {{"t", r.later->t}, {"pins", json_of(r.later->pins)}, {"centres", Json::list()}};
-    for (const Vec3& centre : r.later->centres) json["later"]["centres"].push(json_of(centre));
+    json["later"] = {{"t", r.later->t}, {"pins", json_of(r.later->pins)}, {"centres", Json::array()}};
+    for (const Vec3& centre : r.later->centres) json["later"]["centres"].push_back(json_of(centre));
   }
   if (r.start) json["start"] = {{"x", json_of(r.start->x)}, {"v", json_of(r.start->v)}};
   if (r.probe) {
@@ -146,7 +147,7 @@ std::string run_json(const Outcome& out) {
             {"different_law", out.different_law}};
   if (out.adaptive) json["adaptive"] = true;
   if (out.readback) json["readback"] = readback_json(*out.readback);
-  return json.dump(1) + "\n";
+  return dump(json, 1) + "\n";
 }
 
 void read_run_json(const std::filesystem::path& path, Outcome& out, double duration) {

@@ -2,6 +2,7 @@
 #include "reference/protocol/scene_json.h"
 
 #include <fmt/format.h>
+#include <nlohmann/json.hpp>
 
 #include "mysim/base/errors.h"
 
@@ -20,8 +21,8 @@ Points points_of(const JsonField& field, int count) {
 Json json_of(const Vec3& v) { return std::span(v.data(), 3); }
 
 Json json_of(const Points& p) {
-  Json list = Json::list();
-  for (const auto& column : p.colwise()) list.push(std::span(column.data(), 3));
+  Json list = Json::array();
+  for (const auto& column : p.colwise()) list.push_back(std::span(column.data(), 3));
   return list;
 }
 
@@ -32,9 +33,9 @@ Json motion_json(const Motion& motion) {
 }
 
 Json waves_of(const Gust& gust) {
-  Json list = Json::list();
+  Json list = Json::array();
   for (const Gust::Wave& wave : gust.waves)
-    list.push({{"weight", wave.weight}, {"omega", wave.omega}, {"phase", wave.phase}});
+    list.push_back({{"weight", wave.weight}, {"omega", wave.omega}, {"phase", wave.phase}});
   return list;
 }
 
@@ -53,27 +54,28 @@ void add(Json& json, const Rotation& t) { json["rate"] = t.rate; }
 void add(Json& json, const Gravity& t) { json["acceleration"] = json_of(t.acceleration); }
 void add(Json& json, const Springs& t) {
   json["law"] = name_of(t.law);
-  Json& list = json["list"] = Json::list();
+  Json& list = json["list"] = Json::array();
   for (const Spring& s : t.list)
-    list.push({{"a", s.a}, {"b", s.b}, {"stiffness", s.k}, {"rest_length", s.rest}, {"family", name_of(s.family)}});
+    list.push_back(
+        {{"a", s.a}, {"b", s.b}, {"stiffness", s.k}, {"rest_length", s.rest}, {"family", name_of(s.family)}});
 }
 void add(Json& json, const Bending& t) {
   json["rigidity"] = t.rigidity;
-  Json& list = json["list"] = Json::list();
+  Json& list = json["list"] = Json::array();
   for (const Bending::Stencil& s : t.list) {
     const auto size = static_cast<size_t>(s.size);
-    list.push({{"particles", std::vector(s.particle.begin(), s.particle.begin() + s.size)},
-               {"weights", std::span(s.weight.data(), size)},
-               {"stiffness", s.k}});
+    list.push_back({{"particles", std::vector(s.particle.begin(), s.particle.begin() + s.size)},
+                    {"weights", std::span(s.weight.data(), size)},
+                    {"stiffness", s.k}});
   }
 }
 void add(Json& json, const Dashpots& t) {
-  Json& list = json["list"] = Json::list();
-  for (const auto& [a, b, c] : t.list) list.push({{"a", a}, {"b", b}, {"coefficient", c}});
+  Json& list = json["list"] = Json::array();
+  for (const auto& [a, b, c] : t.list) list.push_back({{"a", a}, {"b", b}, {"coefficient", c}});
 }
 void add(Json& json, const Constraints& t) {
-  Json& list = json["list"] = Json::list();
-  for (const auto& [a, b, length] : t.list) list.push({{"a", a}, {"b", b}, {"length", length}});
+  Json& list = json["list"] = Json::array();
+  for (const auto& [a, b, length] : t.list) list.push_back({{"a", a}, {"b", b}, {"length", length}});
 }
 void add(Json& json, const Drag& t) { json["coefficient"] = std::span(t.c.data(), static_cast<size_t>(t.c.size())); }
 void add(Json& json, const Wind& t) { add_blowing(json, "acceleration", t.acceleration); }
@@ -84,13 +86,13 @@ void add(Json& json, const Aerodynamics& t) {
   json["triangles"] = t.triangles;
 }
 void add(Json& json, const Spheres& t) {
-  Json& list = json["list"] = Json::list();
+  Json& list = json["list"] = Json::array();
   for (const Sphere& s : t.list) {
-    Json& entry = list.push({{"centre", json_of(s.centre)},
-                             {"radius", s.radius},
-                             {"margin", s.margin},
-                             {"friction", s.friction},
-                             {"restitution", s.restitution}});
+    Json& entry = list.emplace_back(Json{{"centre", json_of(s.centre)},
+                                         {"radius", s.radius},
+                                         {"margin", s.margin},
+                                         {"friction", s.friction},
+                                         {"restitution", s.restitution}});
     if (s.motion) entry["motion"] = motion_json(*s.motion);
   }
 }
@@ -101,8 +103,8 @@ Json particles_json(const Particles& particles, const State& start, bool first_o
   json["x"] = json_of(start.x);
   if (first_order) return json;
   json["v"] = json_of(start.v);
-  json["pinned"] = Json::list();
-  for (char pinned : particles.pinned) json["pinned"].push(pinned);
+  json["pinned"] = Json::array();
+  for (char pinned : particles.pinned) json["pinned"].push_back(pinned);
   return json;
 }
 
@@ -110,8 +112,8 @@ Json pins_json(const Particles& particles, const std::vector<double>& times) {
   Json json{{"particles", particles.pins}, {"home", json_of(particles.pin_home)}};
   if (!particles.move) return json;
   json["motion"] = motion_json(*particles.move);
-  json["displacement"] = Json::list();
-  for (double t : times) json["displacement"].push(json_of(displacement_at(*particles.move, t)));
+  json["displacement"] = Json::array();
+  for (double t : times) json["displacement"].push_back(json_of(displacement_at(*particles.move, t)));
   return json;
 }
 
@@ -143,15 +145,15 @@ std::string scene_json(const Scene& scene, const Run& run, const std::vector<std
               {"times", times}}},
             {"particles", particles_json(particles, scene.start, scene.model.first_order())}};
   if (!particles.pins.empty()) json["pins"] = pins_json(particles, times);
-  json["terms"] = Json::list();
+  json["terms"] = Json::array();
   for (const Term& term : scene.model.terms) {
-    Json& entry = json["terms"].push({{"type", name_of(term)}});
+    Json& entry = json["terms"].emplace_back(Json{{"type", name_of(term)}});
     std::visit([&](const auto& t) { add(entry, t); }, term);
   }
   if (!scene.triangles.empty()) json["triangles"] = scene.triangles;
 
   // a line for each part: long lists stay out of a reader's way
-  return json.dump_in_lines();
+  return dump_in_lines(json);
 }
 
 namespace {

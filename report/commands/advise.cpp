@@ -8,6 +8,7 @@
 #include <charconv>
 #include <cmath>
 #include <memory>
+#include <nlohmann/json.hpp>
 
 #include "experiments/advise/advice.h"
 #include "experiments/advise/fit.h"
@@ -165,7 +166,7 @@ Json json_of(const Trial& t) {
           {"step", t.step},
           {"relative_tolerance", t.relative > 0 ? Json(t.relative) : Json()},
           {"error", *t.error},
-          {"stability_limit", t.limit},
+          {"stability_limit", t.limit ? Json(*t.limit) : Json()},
           {"force_evaluations", t.outcome.evaluations},
           {"cost", t.cost()}};
 }
@@ -184,7 +185,7 @@ std::string json_of(const Advice& a) {
             {"second", a.second ? json_of(a.trials[*a.second]) : Json()},
             {"error_of_the_file", a.checked},
             {"caveats", a.caveats}};
-  return json.dump(1) + "\n";
+  return dump(json, 1) + "\n";
 }
 
 void print(const std::vector<WishResult>& wishes) {

@@ -5,6 +5,7 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <memory>
+#include <nlohmann/json.hpp>
 
 #include "experiments/check/check.h"
 #include "experiments/check/protocol_kit.h"
@@ -40,14 +41,14 @@ void print_conformance(const ConformanceReport& report) {
 }
 
 Json conformance_json(const ConformanceReport& report) {
-  Json json{{"format", 1}, {"program", report.program}, {"complete", report.complete()}, {"lines", Json::list()}};
+  Json json{{"format", 1}, {"program", report.program}, {"complete", report.complete()}, {"lines", Json::array()}};
   for (const ConformanceLine& line : report.lines)
-    json["lines"].push({{"scene", line.scene},
-                        {"topic", line.topic},
-                        {"state", name_of(line.state)},
-                        {"required", line.required},
-                        {"told", line.told},
-                        {"section", line.section}});
+    json["lines"].push_back({{"scene", line.scene},
+                             {"topic", line.topic},
+                             {"state", name_of(line.state)},
+                             {"required", line.required},
+                             {"told", line.told},
+                             {"section", line.section}});
   return json;
 }
 
@@ -55,7 +56,7 @@ Json conformance_json(const ConformanceReport& report) {
 int check_protocol(const std::string& program, bool json) {
   const ConformanceReport report = try_adapter(program);
   if (json)
-    fmt::print("{}\n", conformance_json(report).dump(2));
+    fmt::print("{}\n", dump(conformance_json(report), 2));
   else
     print_conformance(report);
   return report.complete() ? 0 : 1;
@@ -106,7 +107,7 @@ void print_counts(const std::vector<Answer>& answers) {
 }
 
 Json json_of(const std::vector<Answer>& answers) {
-  Json all{{"format", 1}, {"passed", status_of(answers) == 0}, {"relations", Json::list()}};
+  Json all{{"format", 1}, {"passed", status_of(answers) == 0}, {"relations", Json::array()}};
   for (const Answer& a : answers) {
     Json one{{"method", a.method}, {"relation", a.relation->name}, {"says", a.relation->sentence},
              {"scene", a.scene},   {"scene_hash", a.scene_hash},   {"mark", name_of(a.mark)}};
@@ -118,7 +119,7 @@ Json json_of(const std::vector<Answer>& answers) {
                   {"allowed", a.relation->allowed}});
     if (a.finding.since) one["since"] = *a.finding.since;
     if (!a.reason.empty()) one["reason"] = a.reason;
-    all["relations"].push(std::move(one));
+    all["relations"].push_back(std::move(one));
   }
   return all;
 }
@@ -208,7 +209,7 @@ int check_relations(const CheckOptions& options, const std::string& line) {
   }
   if (!options.junit.empty()) write_file(options.junit, junit_of(answers));
   if (options.json)
-    fmt::print("{}\n", json_of(answers).dump(1));
+    fmt::print("{}\n", dump(json_of(answers), 1));
   else
     print_counts(answers);
   return status_of(answers);

@@ -1,18 +1,20 @@
 // One object with an entry per quantity; tables as lists of objects.
 #include "report/commands/json_files.h"
 
+#include <nlohmann/json.hpp>
+
 #include "mysim/base/json.h"
 
 namespace crosscheck {
 
 std::string certificate_json(const Certificate& certificate) {
-  Json rows = Json::list();
+  Json rows = Json::array();
   for (const CertificateRow& r : certificate.rows)
-    rows.push({{"quantity", r.quantity},
-               {"asked", r.requested},
-               {"mapped", r.mapped},
-               {"read_back", r.read_back},
-               {"verdict", name_of(r.parity)}});
+    rows.push_back({{"quantity", r.quantity},
+                    {"asked", r.requested},
+                    {"mapped", r.mapped},
+                    {"read_back", r.read_back},
+                    {"verdict", name_of(r.parity)}});
   const Json json{{"scene", certificate.scene},
                   {"method", certificate.method},
                   {"verdict", certificate.mismatch()         ? "mismatch"
@@ -20,7 +22,7 @@ std::string certificate_json(const Certificate& certificate) {
                                                              : "not attested"},
                   {"summary", summary_of(certificate)},
                   {"rows", std::move(rows)}};
-  return json.dump(1) + "\n";
+  return dump(json, 1) + "\n";
 }
 
 namespace {
@@ -33,10 +35,10 @@ Json json_of(const Cell& cell) {
 }
 
 Json json_of(const Table& table) {
-  Json columns = Json::list(), rows = Json::list();
-  for (const Column& column : table.columns) columns.push({{"name", column.name}, {"unit", column.unit}});
+  Json columns = Json::array(), rows = Json::array();
+  for (const Column& column : table.columns) columns.push_back({{"name", column.name}, {"unit", column.unit}});
   for (const auto& row : table.rows) {
-    Json& object = rows.push(Json::object());
+    Json& object = rows.emplace_back(Json::object());
     for (size_t i = 0; i < row.size(); ++i) object[table.columns[i].name] = json_of(row[i]);
   }
   return {{"columns", std::move(columns)}, {"rows", std::move(rows)}};
@@ -45,10 +47,10 @@ Json json_of(const Table& table) {
 }  // namespace
 
 std::string tables_json(const TableSet& rows, const Provenance& provenance) {
-  Json lines = Json::list(), tables = Json::object();
-  for (const auto& [key, value] : provenance) lines.push({{"key", key}, {"value", value}});
+  Json lines = Json::array(), tables = Json::object();
+  for (const auto& [key, value] : provenance) lines.push_back({{"key", key}, {"value", value}});
   for (const Table& table : rows.tables) tables[table.name] = json_of(table);
-  return Json{{"provenance", lines}, {"notes", rows.notes}, {"tables", std::move(tables)}}.dump(1) + "\n";
+  return dump(Json{{"provenance", lines}, {"notes", rows.notes}, {"tables", std::move(tables)}}, 1) + "\n";
 }
 
 }  // namespace crosscheck

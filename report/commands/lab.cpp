@@ -24,7 +24,7 @@ struct LabOptions {
 int lab_command(const LabOptions& options) {
   const std::vector<Scene> scenes = load_scenes(options.scenes);
   if (options.fingerprints) {
-    fmt::print("{}\n", lab_fingerprints_json(scenes).dump(1));
+    fmt::print("{}\n", dump(lab_fingerprints_json(scenes), 1));
     return 0;
   }
   if (!options.file.ends_with(".html"))

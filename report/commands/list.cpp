@@ -6,6 +6,7 @@
 #include <cstdlib>
 #include <filesystem>
 #include <memory>
+#include <nlohmann/json.hpp>
 
 #include "experiments/disagreements/disagreements.h"
 #include "experiments/experiment.h"
@@ -48,9 +49,9 @@ int list_command(const std::string& what, bool json) {
                                  did_you_mean(what, {"scenes", "methods", "experiments", "assignments"})));
 
   if (json) {
-    Json list = Json::list();
-    for (const auto& [name, text] : rows) list.push({{"name", name}, {"what", text}});
-    fmt::print("{}\n", list.dump(2));
+    Json list = Json::array();
+    for (const auto& [name, text] : rows) list.push_back({{"name", name}, {"what", text}});
+    fmt::print("{}\n", dump(list, 2));
     return 0;
   }
   for (const auto& [name, text] : rows) fmt::print("{:<38} {}\n", name, text);

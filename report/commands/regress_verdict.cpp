@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
+#include <nlohmann/json.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -46,7 +47,7 @@ Table table_of(const Speeds& speeds) {
 }
 
 void add_speeds(Json& verdict, const Speeds& speeds) {
-  verdict["speed"] = Json::list();
+  verdict["speed"] = Json::array();
   for (const SpeedComparison& row : speeds.rows) {
     Json json{{"scene", row.scene}, {"method", row.method}, {"state", name_of(row.state)}};
     if (row.was) json["was"] = *row.was;
@@ -56,11 +57,11 @@ void add_speeds(Json& verdict, const Speeds& speeds) {
       json["noise"] = row.noise, json["measurements"] = row.seen;
     if (!row.sentence.empty()) json["sentence"] = row.sentence;
     if (!row.note.empty()) json["note"] = row.note;
-    verdict["speed"].push(json);
+    verdict["speed"].push_back(json);
   }
   verdict["speed_notes"] = speeds.notes;
-  verdict["speed_failures"] = Json::list();
-  for (const FailedPoint& f : speeds.failures) verdict["speed_failures"].push({{"what", f.name}, {"why", f.why}});
+  verdict["speed_failures"] = Json::array();
+  for (const FailedPoint& f : speeds.failures) verdict["speed_failures"].push_back({{"what", f.name}, {"why", f.why}});
 }
 
 Cell cell(const std::optional<double>& value, const std::string& word) {
@@ -135,16 +136,16 @@ void write_verdict(const RegressionResult& result, const Speeds& speeds, const P
   write_csv(table_of(result), lines, folder);
   Json json{{"passed", result.passed() && speeds.passed()},
             {"quantities", result.rows.size()},
-            {"failures", Json::list()},
-            {"new_methods", Json::list()},
-            {"without_answer", Json::list()}};
+            {"failures", Json::array()},
+            {"new_methods", Json::array()},
+            {"without_answer", Json::array()}};
   for (const Comparison& row : result.rows)
-    if (failed(row.state)) json["failures"].push(json_of(row));
+    if (failed(row.state)) json["failures"].push_back(json_of(row));
   for (const NewMethod& m : new_methods(result.rows))
-    json["new_methods"].push({{"method", m.method}, {"scenes", m.scenes}, {"quantities", m.quantities}});
-  for (const FailedPoint& f : result.failures) json["without_answer"].push({{"question", f.name}, {"why", f.why}});
+    json["new_methods"].push_back({{"method", m.method}, {"scenes", m.scenes}, {"quantities", m.quantities}});
+  for (const FailedPoint& f : result.failures) json["without_answer"].push_back({{"question", f.name}, {"why", f.why}});
   add_speeds(json, speeds);
-  write_file(folder / "regress.json", json.dump(1) + "\n");
+  write_file(folder / "regress.json", dump(json, 1) + "\n");
   write_file(folder / "junit.xml", junit(result, speeds));
   if (!speeds.rows.empty()) write_csv(table_of(speeds), lines, folder);
 }

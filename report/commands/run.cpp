@@ -4,6 +4,7 @@
 
 #include <CLI/CLI.hpp>
 #include <memory>
+#include <nlohmann/json.hpp>
 
 #include "experiments/estimate.h"
 #include "experiments/scenes/scenes.h"
@@ -47,7 +48,7 @@ std::string run_json(const Scene& scene, const Method& method, const Outcome& ou
             {"process_seconds", out.process_seconds},
             {"remark", out.remark},
             {"different_law", out.different_law}};
-  return json.dump(1) + "\n";
+  return dump(json, 1) + "\n";
 }
 
 int run_command(const RunOptions& options) {

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cmath>
 #include <memory>
+#include <nlohmann/json.hpp>
 
 #include "experiments/estimate.h"
 #include "experiments/scenes/scenes.h"
@@ -86,13 +87,14 @@ Json json_of(const TranslatedNumber& number) {
 }
 
 Json json_of(const TranslatedRun& run) {
+  const auto or_null = [](const std::optional<double>& value) { return value ? Json(*value) : Json(); };
   return {{"method", run.method},
           {"verdict", name_of(run.outcome.verdict)},
           {"reason", run.outcome.reason},
-          {"error", run.error},
-          {"difference", run.difference},
+          {"error", or_null(run.error)},
+          {"difference", or_null(run.difference)},
           {"beside", run.beside},
-          {"bar", run.bar},
+          {"bar", or_null(run.bar)},
           {"motion", run.motion},
           {"until", run.until},
           {"different_law", run.outcome.different_law}};
@@ -147,12 +149,12 @@ int to_engine(const TranslateOptions& options) {
               {"step", t.h},
               {"step_asked", run.step},
               {"iterations", target.numbers->iterations.empty() ? Json() : Json(target.iterations)},
-              {"numbers", Json::list()},
+              {"numbers", Json::array()},
               {"lost", t.lost},
               {"measured", measured ? json_of(*measured) : Json()},
               {"stand_in", stand_in}};
-    for (const TranslatedNumber& number : t.numbers) json["numbers"].push(json_of(number));
-    fmt::print("{}\n", json.dump(1));
+    for (const TranslatedNumber& number : t.numbers) json["numbers"].push_back(json_of(number));
+    fmt::print("{}\n", dump(json, 1));
   } else {
     fmt::print("{} in the numbers of {}: {}\n", scene.name, target.name, target.numbers->title);
     fmt::print("  step h = {:.6g} s{}\n", t.h,
@@ -189,16 +191,16 @@ int from_engine(const TranslateOptions& options) {
               {"from", target.name},
               {"step", numbers.h},
               {"iterations", target.numbers->iterations.empty() ? Json() : Json(numbers.iterations)},
-              {"numbers", Json::list()}};
+              {"numbers", Json::array()}};
     for (const auto& [rule, values] : numbers.numbers)
-      json["numbers"].push({{"quantity", name_of(rule->quantity)},
-                            {"unit", unit_of(rule->quantity)},
-                            {"name", rule->name},
-                            {"inverse", rule->inverse},
-                            {"engine", values},
-                            {"scene", values_of(changed, rule->quantity)},
-                            {"was", values_of(scene, rule->quantity)}});
-    fmt::print("{}\n", json.dump(1));
+      json["numbers"].push_back({{"quantity", name_of(rule->quantity)},
+                                 {"unit", unit_of(rule->quantity)},
+                                 {"name", rule->name},
+                                 {"inverse", rule->inverse},
+                                 {"engine", values},
+                                 {"scene", values_of(changed, rule->quantity)},
+                                 {"was", values_of(scene, rule->quantity)}});
+    fmt::print("{}\n", dump(json, 1));
     return 0;
   }
   fmt::print("{} of {} in {}: {}\n  step h = {:.6g} s{}\n", file, target.name, scene.name, target.numbers->title,

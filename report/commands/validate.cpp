@@ -7,6 +7,7 @@
 #include <cmath>
 #include <map>
 #include <memory>
+#include <nlohmann/json.hpp>
 #include <set>
 
 #include "experiments/estimate.h"
@@ -230,11 +231,11 @@ Json masses_json(const SceneSummary& s) {
 }
 
 Json json_of(const SceneSummary& s, const std::string& given) {
-  Json coincident = Json::list();
+  Json coincident = Json::array();
   for (const auto& [a, b] : s.coincident) {
-    Json pair = Json::list();
-    pair.push(a), pair.push(b);
-    coincident.push(std::move(pair));
+    Json pair = Json::array();
+    pair.push_back(a), pair.push_back(b);
+    coincident.push_back(std::move(pair));
   }
   Json families = Json::object(), critical = Json::object();
   for (const auto& [family, count] : s.springs) families[name_of(family)] = count;
@@ -280,7 +281,7 @@ void require_taken(const Scene& scene, const std::string& given) {
 /// error; 2 where there was one, 0 otherwise.
 int validate_command(const std::vector<std::string>& scenes, bool json) {
   int status = 0;
-  Json entries = Json::list();
+  Json entries = Json::array();
   Progress progress(static_cast<int>(scenes.size()));
   for (const std::string& given : scenes) {
     progress.begin("checking " + given);
@@ -297,11 +298,12 @@ int validate_command(const std::vector<std::string>& scenes, bool json) {
     progress.done();
     if (!summary) fmt::print(stderr, "crosscheck: {}\n", fault);
     if (json)
-      entries.push(summary ? json_of(*summary, given) : Json{{"scene", given}, {"valid", false}, {"fault", fault}});
+      entries.push_back(summary ? json_of(*summary, given)
+                                : Json{{"scene", given}, {"valid", false}, {"fault", fault}});
     else if (summary)
       print_summary(*summary, given);
   }
-  if (json) fmt::print("{}\n", Json{{"format", 1}, {"scenes", std::move(entries)}}.dump(2));
+  if (json) fmt::print("{}\n", dump(Json{{"format", 1}, {"scenes", std::move(entries)}}, 2));
   return status;
 }
 

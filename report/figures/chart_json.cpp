@@ -1,6 +1,7 @@
 #include "report/figures/chart_json.h"
 
 #include <fmt/format.h>
+#include <nlohmann/json.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -14,11 +15,13 @@ namespace {
 /// Six digits are more than a screen shows.
 Json short_number(double value) { return std::strtod(fmt::format("{:.6g}", value).c_str(), nullptr); }
 
-Json pair_json(const std::pair<double, double>& p) { return Json::list(short_number(p.first), short_number(p.second)); }
+Json pair_json(const std::pair<double, double>& p) {
+  return Json::array({short_number(p.first), short_number(p.second)});
+}
 
 Json pairs_json(const std::vector<std::pair<double, double>>& pairs) {
-  Json list = Json::list();
-  for (const auto& p : pairs) list.push(pair_json(p));
+  Json list = Json::array();
+  for (const auto& p : pairs) list.push_back(pair_json(p));
   return list;
 }
 
@@ -99,12 +102,12 @@ Json series_json(const Curve& curve, const std::set<std::pair<double, double>>& 
   const bool law = method.empty() && curve.style.marker < 0;  // a line of theory
   if (curve.style.marker == no_marker || law) json["beside"] = true;
   const std::vector<size_t> kept = thinned(curve.points);
-  Json points = Json::list(), open = Json::list(), tips = Json::list();
+  Json points = Json::array(), open = Json::array(), tips = Json::array();
   bool any_open = false;
   for (const size_t i : kept) {
-    points.push(Json::list(x.of(curve.points[i].first), y.of(curve.points[i].second)));
-    open.push(scaled.contains(curve.points[i]) ? 1 : 0), any_open |= scaled.contains(curve.points[i]);
-    if (i < curve.tooltips.size()) add_tooltip(tips.push(Json::object()), curve.tooltips[i]);
+    points.push_back(Json::array({x.of(curve.points[i].first), y.of(curve.points[i].second)}));
+    open.push_back(scaled.contains(curve.points[i]) ? 1 : 0), any_open |= scaled.contains(curve.points[i]);
+    if (i < curve.tooltips.size()) add_tooltip(tips.emplace_back(Json::object()), curve.tooltips[i]);
   }
   json["points"] = std::move(points);
   if (any_open) json["open"] = std::move(open);
@@ -120,25 +123,26 @@ Json numbers_of(const Figure& f) {
     if (curve.title == scaled_times) scaled.insert(curve.points.begin(), curve.points.end());
   // what is ringed on paper is open here
   if (!scaled.empty()) json["x"]["label"] = f.x.label.substr(0, f.x.label.find(", ringed"));
-  json["series"] = Json::list();
+  json["series"] = Json::array();
   const Fineness x(f.x, f.curves, &std::pair<double, double>::first),
       y(f.y, f.curves, &std::pair<double, double>::second);
   for (const Curve& curve : f.curves)
-    if (curve.title != scaled_times && !curve.points.empty()) json["series"].push(series_json(curve, scaled, x, y));
-  if (!f.failures.empty()) json["failures"] = Json::list();
+    if (curve.title != scaled_times && !curve.points.empty())
+      json["series"].push_back(series_json(curve, scaled, x, y));
+  if (!f.failures.empty()) json["failures"] = Json::array();
   for (const FailureMark& mark : f.failures) {
     Json failure{{"x", short_number(mark.x)}, {"kind", mark.kind}, {"method", method_in(mark.title)}};
     add_tooltip(failure, mark.tooltips);
-    json["failures"].push(std::move(failure));
+    json["failures"].push_back(std::move(failure));
   }
   if (!f.pareto.empty()) json["pareto"] = pairs_json(f.pareto);
   if (f.floor) json["floor"] = Json{{"text", f.floor->first}, {"y", short_number(f.floor->second)}};
   if (f.window) json["window"] = Json{{"x", short_number(f.window->first)}, {"text", f.window->second}};
-  if (!f.categories.empty()) json["categories"] = Json::list();
-  for (const auto& [at, text] : f.categories) json["categories"].push(Json::list(short_number(at), text));
+  if (!f.categories.empty()) json["categories"] = Json::array();
+  for (const auto& [at, text] : f.categories) json["categories"].push_back(Json::array({short_number(at), text}));
   for (const Guide& guide : f.guides) {
-    if (json["guides"].is_null()) json["guides"] = Json::list();
-    json["guides"].push({{"axis", guide.of_x ? "x" : "y"}, {"at", short_number(guide.at)}, {"text", guide.text}});
+    if (json["guides"].is_null()) json["guides"] = Json::array();
+    json["guides"].push_back({{"axis", guide.of_x ? "x" : "y"}, {"at", short_number(guide.at)}, {"text", guide.text}});
   }
   const OnPage& page = f.on_page;
   if (page.motion) json["motion"] = short_number(*page.motion);
@@ -154,11 +158,11 @@ Json numbers_of(const Figure& f) {
 
 Json numbers_of(const StackedBars& bars) {
   Json json{{"kind", "bars"}, {"x", axis_json({bars.label})}, {"names", bars.names}};
-  json["parts"] = Json::list();
+  json["parts"] = Json::array();
   for (const StackedBars::Part& part : bars.parts) {
-    Json heights = Json::list();
-    for (const double height : part.height) heights.push(short_number(height));
-    json["parts"].push(
+    Json heights = Json::array();
+    for (const double height : part.height) heights.push_back(short_number(height));
+    json["parts"].push_back(
         {{"title", part.title}, {"colour", part.colour}, {"hatched", part.hatched}, {"height", heights}});
   }
   return json;
@@ -166,54 +170,55 @@ Json numbers_of(const StackedBars& bars) {
 
 Json numbers_of(const DotPlot& plot) {
   Json json{{"kind", "dots"}, {"x", axis_json({plot.label, true})}, {"names", plot.names}};
-  json["headings"] = Json::list();
-  for (const auto& [line, heading] : plot.headings) json["headings"].push(Json::list(line, heading));
-  json["series"] = Json::list();
+  json["headings"] = Json::array();
+  for (const auto& [line, heading] : plot.headings) json["headings"].push_back(Json::array({line, heading}));
+  json["series"] = Json::array();
   for (const DotPlot::Series& series : plot.series) {
-    Json dots = Json::list();
+    Json dots = Json::array();
     for (const auto& dot : series.dots)
-      dots.push(dot ? Json::list(short_number(dot->value), short_number(dot->low), short_number(dot->high)) : Json());
+      dots.push_back(dot ? Json::array({short_number(dot->value), short_number(dot->low), short_number(dot->high)})
+                         : Json());
     Json own{{"name", series.title}, {"dots", std::move(dots)}};
     if (const std::string method = method_in(series.title); !method.empty()) own["method"] = method;
-    json["series"].push(std::move(own));
+    json["series"].push_back(std::move(own));
   }
   return json;
 }
 
 Json numbers_of(const HeatMap& map) {
   Json json{{"kind", "map"}, {"x", axis_json({map.x_label, true})}, {"y", axis_json({map.y_label, true})}};
-  json["kinds"] = Json::list();
-  for (const CellKind& kind : map.kinds) json["kinds"].push({{"title", kind.title}, {"colour", kind.colour}});
-  json["panels"] = Json::list();
+  json["kinds"] = Json::array();
+  for (const CellKind& kind : map.kinds) json["kinds"].push_back({{"title", kind.title}, {"colour", kind.colour}});
+  json["panels"] = Json::array();
   for (const HeatMap::Panel& panel : map.panels) {
-    Json cells = Json::list();
+    Json cells = Json::array();
     for (const HeatMap::HeatCell& cell : panel.cells)
-      cells.push(
-          Json::list(short_number(cell.x), short_number(cell.y), cell.kind, cell.tooltips.words, cell.tooltips.run));
-    json["panels"].push({{"title", panel.title},
-                         {"cells", std::move(cells)},
-                         {"predicted", pairs_json(panel.predicted)},
-                         {"measured", pairs_json(panel.measured)}});
+      cells.push_back(
+          Json::array({short_number(cell.x), short_number(cell.y), cell.kind, cell.tooltips.words, cell.tooltips.run}));
+    json["panels"].push_back({{"title", panel.title},
+                              {"cells", std::move(cells)},
+                              {"predicted", pairs_json(panel.predicted)},
+                              {"measured", pairs_json(panel.measured)}});
   }
   return json;
 }
 
 Json numbers_of(const StepLimits& limits) {
   Json json{{"kind", "limits"}, {"names", limits.names}, {"columns", limits.columns_of}};
-  json["scenes"] = Json::list();
-  for (const auto& [name, omega] : limits.scenes) json["scenes"].push(Json::list(name, short_number(omega)));
-  json["rows"] = Json::list();
+  json["scenes"] = Json::array();
+  for (const auto& [name, omega] : limits.scenes) json["scenes"].push_back(Json::array({name, short_number(omega)}));
+  json["rows"] = Json::array();
   for (const StepLimits::Row& row : limits.rows) {
-    Json marks = Json::list();
+    Json marks = Json::array();
     for (const StepLimits::Mark& mark : row.marks)
-      marks.push(Json::list(mark.scene, short_number(mark.measured),
-                            mark.predicted ? short_number(*mark.predicted) : Json(), mark.words));
-    json["rows"].push({{"held", short_number(row.held)},
-                       {"open", row.open},
-                       {"words", row.words},
-                       {"marks", std::move(marks)},
-                       {"measured", row.measured},
-                       {"predicted", row.predicted}});
+      marks.push_back(Json::array({mark.scene, short_number(mark.measured),
+                                   mark.predicted ? short_number(*mark.predicted) : Json(), mark.words}));
+    json["rows"].push_back({{"held", short_number(row.held)},
+                            {"open", row.open},
+                            {"words", row.words},
+                            {"marks", std::move(marks)},
+                            {"measured", row.measured},
+                            {"predicted", row.predicted}});
   }
   return json;
 }

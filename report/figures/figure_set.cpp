@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
+#include <nlohmann/json.hpp>
 
 #include <algorithm>
 #include <charconv>
@@ -118,22 +119,22 @@ void write_catalogue(const std::vector<FigureInSet>& figures, const Provenance& 
   Json json;
   for (const auto& [key, value] : provenance)
     if (key != "scene") json["provenance"][key] = value;
-  json["figures"] = Json::list();
+  json["figures"] = Json::array();
   for (const auto& [f, scene, endings] : figures) {
     Json files;
     for (const char* ending : endings) files[ending] = f.name + "." + ending;
-    json["figures"].push({{"name", f.name},
-                          {"title", f.title},
-                          {"scene", scene},
-                          {"finding", f.finding},
-                          {"caption", f.caption},
-                          {"tier", f.tier},
-                          {"width_cm", f.size.width},
-                          {"font_pt", f.size.font},
-                          {"from_timings", f.from_costs},
-                          {"files", std::move(files)}});
+    json["figures"].push_back({{"name", f.name},
+                               {"title", f.title},
+                               {"scene", scene},
+                               {"finding", f.finding},
+                               {"caption", f.caption},
+                               {"tier", f.tier},
+                               {"width_cm", f.size.width},
+                               {"font_pt", f.size.font},
+                               {"from_timings", f.from_costs},
+                               {"files", std::move(files)}});
   }
-  write_file(folder / "figures.json", json.dump(1) + "\n");
+  write_file(folder / "figures.json", dump(json, 1) + "\n");
   const std::string date = value_of(provenance, "date");
   write_file(folder / "CITATION.cff",
              fmt::format("cff-version: 1.2.0\nmessage: These figures were made with this software.\ntype: software\n"

@@ -1,6 +1,7 @@
 // The table of rules, and how a finding's sentence follows from its rule.
 
 #include <fmt/format.h>
+#include <nlohmann/json.hpp>
 
 #include <cmath>
 #include <stdexcept>
@@ -434,8 +435,8 @@ Json json_of(const Finding& f) {
           {"quantity", rule.quantity},
           {"value", f.value},
           {"unit", rule.unit},
-          {"low", f.low},
-          {"high", f.high},
+          {"low", f.low ? Json(*f.low) : Json()},
+          {"high", f.high ? Json(*f.high) : Json()},
           {"chapter", rule.chapter},
           {"rule", f.rule},
           {"formula", rule.formula}};

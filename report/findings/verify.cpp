@@ -2,6 +2,7 @@
 #include "report/findings/verify.h"
 
 #include <fmt/format.h>
+#include <nlohmann/json.hpp>
 
 #include <algorithm>
 #include <array>
@@ -61,7 +62,7 @@ void compare(const JsonField& claimed, const Finding& now, const TableSet& rows,
   };
   if (sentence != sentence_of(now)) return differs(fmt::format("the data say \"{}\"", sentence_of(now)));
   if (claimed["tier"].text() != tier_of(now)) return differs(fmt::format("it rests on \"{}\"", tier_of(now)));
-  const JsonField all = JsonField::parse(json_of(now).dump(), "the data");
+  const JsonField all = JsonField::parse(dump(json_of(now)), "the data");
   for (const auto& [key, value] : all.items()) {
     const auto said = claimed.find(key);  // none of null
     if ((said ? said->dump() : "null") != value.dump())
@@ -71,8 +72,7 @@ void compare(const JsonField& claimed, const Finding& now, const TableSet& rows,
   const std::vector<JsonField> rests_on = claimed["evidence"].elements();
   if (rests_on.size() != evidence.size()) return differs("it rests on other tables");
   for (size_t i = 0; i < evidence.size(); ++i)
-    if (rests_on[i]["table"].text() != evidence[i].table ||
-        rests_on[i]["rows"].dump() != Json(evidence[i].rows).dump() ||
+    if (rests_on[i]["table"].text() != evidence[i].table || rests_on[i]["rows"].json() != Json(evidence[i].rows) ||
         rests_on[i]["fingerprint"].text() != evidence[i].fingerprint)
       differs(fmt::format("rows of table {} are not those that were reported", evidence[i].table));
 }

@@ -1,5 +1,6 @@
 // The first screen: what moves, and an answer to each question.
 #include <fmt/format.h>
+#include <nlohmann/json.hpp>
 
 #include <algorithm>
 
@@ -57,17 +58,17 @@ std::string readouts(const ScenePart& part) {
 std::string hero_html(const PageContent& c) {
   std::string out;
   for (const ScenePart* part : first_scenes(c)) {
-    Json keys = Json::list();
+    Json keys = Json::array();
     std::vector<std::string> names;
     for (const ShownRun& run : part->runs)
-      if (run.beside) keys.push(run.key), names.push_back(run.method);
-    if (!part->facts->tier.empty() || part->facts->contact_until) keys.push("truth"), names.emplace_back("truth");
+      if (run.beside) keys.push_back(run.key), names.push_back(run.method);
+    if (!part->facts->tier.empty() || part->facts->contact_until) keys.push_back("truth"), names.emplace_back("truth");
     out += fmt::format(
         "<div class=\"views\"><div class=\"stage\">{}</div><span class=\"where\">{}</span><motion-player "
         "data-scene=\"{}\" data-shown=\"{}\"></motion-player></div>\n{}",
         image_tag({part->hero.empty() ? part->thumbnail : part->hero,
                    fmt::format("{} by {}", part->scene->name, joined(names)), ""}),
-        escaped(part->scene->name), escaped(part->scene->name), escaped(keys.dump()), readouts(*part));
+        escaped(part->scene->name), escaped(part->scene->name), escaped(dump(keys)), readouts(*part));
   }
   if (out.empty()) return "";
   return "<figure class=\"hero\">" + out +

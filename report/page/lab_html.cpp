@@ -1,6 +1,7 @@
 #include "report/page/lab_html.h"
 
 #include <fmt/format.h>
+#include <nlohmann/json.hpp>
 
 #include <algorithm>
 #include <filesystem>
@@ -103,8 +104,8 @@ std::string lab_data_html(const std::vector<Scene>& given) {
     if (const auto known = fingerprints.find(scene.name); known != fingerprints.end())
       for (const auto& [rule, digits] : known->second) own["fingerprint"][rule] = digits;
   }
-  return script_json("id=\"lab-module\"", Json(base64(gzipped(content_of_file(lab_module_file())))).dump()) +
-         script_json("id=\"lab-scenes\"", json.dump());
+  return script_json("id=\"lab-module\"", dump(base64(gzipped(content_of_file(lab_module_file()))))) +
+         script_json("id=\"lab-scenes\"", dump(json));
 }
 
 std::string lab_scripts() {
@@ -125,7 +126,7 @@ std::string lab_page_html(const std::vector<Scene>& scenes) {
          "<nav><div><a class=\"name\" href=\"#top\">Crosscheck</a><span class=\"made\">the engine mysim, live in "
          "this page</span></div></nav>\n<main id=\"top\" class=\"lab-page\">\n<live-lab data-alone></live-lab>\n"
          "</main>\n" +
-         lab_data_html(scenes) + script_json("id=\"methods-data\"", method_looks_json(methods).dump()) +
+         lab_data_html(scenes) + script_json("id=\"methods-data\"", dump(method_looks_json(methods))) +
          player_scripts() + "</body></html>\n";
 }
 

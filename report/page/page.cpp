@@ -2,6 +2,7 @@
 #include "report/page/page_parts.h"
 
 #include <fmt/ranges.h>
+#include <nlohmann/json.hpp>
 
 #include <algorithm>
 #include <map>
@@ -214,8 +215,8 @@ std::string chart_numbers_html(const PageContent& c) {
     open[figure] = packed[figure];
     packed.erase(figure);
   }
-  return script_json("id=\"open-charts\"", open.dump()) +
-         fmt::format("<script type=\"text/plain\" id=\"charts\">{}</script>\n", base64(gzipped(packed.dump())));
+  return script_json("id=\"open-charts\"", dump(open)) +
+         fmt::format("<script type=\"text/plain\" id=\"charts\">{}</script>\n", base64(gzipped(dump(packed))));
 }
 
 }  // namespace
@@ -232,7 +233,7 @@ std::string page_html(const PageContent& c) {
          fold_html("All methods", "table", methods_html(c.methods), "methods") +
          fold_html("How this was made", "provenance", made_html(c), "made") + "</section>\n</main>\n";
   out += chart_numbers_html(c);
-  out += script_json("id=\"methods-data\"", method_looks_json(c.methods).dump());
+  out += script_json("id=\"methods-data\"", dump(method_looks_json(c.methods)));
   for (const ScenePart& part : c.scenes)
     if (!part.motions.empty())
       out += script_json(fmt::format("class=\"motion\" data-scene=\"{}\"", escaped(part.scene->name)),
@@ -255,8 +256,8 @@ Json evidence_json(const Evidence& e) { return {{"table", e.table}, {"rows", e.r
 Json finding_json(const Finding& f, const TableSet& result, const std::vector<std::string>& figures) {
   Json json = json_of(f);
   json["figure"] = figure_of(f.rule, f.scene, figures);
-  json["evidence"] = Json::list();
-  for (const Evidence& e : evidence_of(f, result)) json["evidence"].push(evidence_json(e));
+  json["evidence"] = Json::array();
+  for (const Evidence& e : evidence_of(f, result)) json["evidence"].push_back(evidence_json(e));
   return json;
 }
 
@@ -269,25 +270,25 @@ std::string report_json(const PageContent& page, const AllFindings& findings, co
   for (const auto& [key, value] : page.provenance)
     if (key != "scene") json["provenance"][key] = value;
   const std::vector<std::string> figures = figures_of(page);
-  json["findings"] = Json::list();
-  for (const Finding* f : findings.each()) json["findings"].push(finding_json(*f, result, figures));
+  json["findings"] = Json::array();
+  for (const Finding* f : findings.each()) json["findings"].push_back(finding_json(*f, result, figures));
   json["scenes"] = Json::object();
   for (const ScenePart& part : page.scenes)
     json["scenes"][part.scene->name] = {
         {"hash", part.scene->hash}, {"truth", part.facts->tier}, {"truth_bar", part.facts->error_bar}};
-  json["tables"] = Json::list();
+  json["tables"] = Json::array();
   for (const Table& table : result.tables) {
     const Evidence whole = evidence_of(table);
-    json["tables"].push({{"name", whole.table}, {"rows", whole.rows.size()}, {"fingerprint", whole.fingerprint}});
+    json["tables"].push_back({{"name", whole.table}, {"rows", whole.rows.size()}, {"fingerprint", whole.fingerprint}});
   }
-  json["figures"] = Json::list();
+  json["figures"] = Json::array();
   for (const Chart& c : charts)
     if (const FigureInfo* f = figure_info(c))
-      json["figures"].push(
+      json["figures"].push_back(
           {{"name", f->name}, {"scene", c.scene}, {"caption", f->caption}, {"tier", f->tier}, {"finding", f->finding}});
   json["notes"] = page.notes;
   json["problems"] = page.problems;
-  return json.dump(1) + "\n";
+  return dump(json, 1) + "\n";
 }
 
 }  // namespace crosscheck

@@ -2,6 +2,8 @@
 // question; then which method to take for which scene, and the scenes as cards, each of which opens in its place.
 #pragma once
 
+#include <nlohmann/json.hpp>
+
 #include <filesystem>
 #include <string>
 #include <vector>

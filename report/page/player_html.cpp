@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
+#include <nlohmann/json.hpp>
 
 #include <algorithm>
 
@@ -50,7 +51,7 @@ namespace {
 
 std::string runs_html(const PlayableRuns& runs, const std::vector<std::string>& files) {
   const std::string base =
-      runs.stage.empty() ? fmt::format("\"scene\":{}", Json(runs.scene).dump()) : "\"stage\":" + runs.stage;
+      runs.stage.empty() ? fmt::format("\"scene\":{}", dump(Json(runs.scene))) : "\"stage\":" + runs.stage;
   return script_json(fmt::format("class=\"runs\" data-runs=\"{}\"", escaped(runs.key)),
                      fmt::format("{{{},\"methods\":[{}]}}", base, fmt::join(files, ",")));
 }

@@ -2,6 +2,7 @@
 #include "report/page/smaller.h"
 
 #include <fmt/format.h>
+#include <nlohmann/json.hpp>
 
 #include <algorithm>
 
@@ -37,7 +38,7 @@ std::string with_folds_packed(const std::string& page) {
   constexpr std::string_view begin = "<template", close = "</template>",
                              end_of_body = "<script type=\"text/plain\" id=\"charts\"";
   std::string out;
-  Json held = Json::list();
+  Json held = Json::array();
   size_t count = 0, from = 0;
   const auto finish = page.find(end_of_body);
   if (finish == std::string::npos) return page;
@@ -52,12 +53,12 @@ std::string with_folds_packed(const std::string& page) {
       end = next < last ? next + begin.size() : last + close.size();
     }
     out += page.substr(from, inside - 1 - from) + fmt::format(" data-held=\"{}\"></template>", count++);
-    held.push(page.substr(inside, end - close.size() - inside));
+    held.push_back(page.substr(inside, end - close.size() - inside));
     from = end;
   }
   if (count == 0) return page;
   return out + page.substr(from, finish - from) +
-         fmt::format("<script type=\"text/plain\" id=\"held\">{}</script>\n", base64(gzipped(held.dump()))) +
+         fmt::format("<script type=\"text/plain\" id=\"held\">{}</script>\n", base64(gzipped(dump(held)))) +
          page.substr(finish);
 }
 

@@ -2,6 +2,7 @@
 #include "report/player/computed_cells.h"
 
 #include <fmt/format.h>
+#include <nlohmann/json.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -117,9 +118,9 @@ std::optional<Json> CellStarts::reproduced(const RecordedRun& run, const std::ve
 }
 
 Json CellStarts::json() const {
-  Json rows = Json::list();
+  Json rows = Json::array();
   for (const Row& row : rows_)
-    rows.push({{"value", row.value}, {"at", row.at}, {"move", row.move}, {"speed", row.speed}});
+    rows.push_back({{"value", row.value}, {"at", row.at}, {"move", row.move}, {"speed", row.speed}});
   return {{"kind", kind_->name},           {"samples", samples_},    {"steps", steps_},        {"rest", rest_},
           {"rests", rest_numbers_.json()}, {"moves", moves_.json()}, {"rows", std::move(rows)}};
 }

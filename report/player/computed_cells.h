@@ -6,6 +6,8 @@
 // tells stays stored: that is told by a run of the engine with the lanes of the page.
 #pragma once
 
+#include <nlohmann/json.hpp>
+
 #include <array>
 #include <cmath>
 #include <cstdint>

@@ -2,6 +2,7 @@
 #include "report/player/computed_runs.h"
 
 #include <fmt/format.h>
+#include <nlohmann/json.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -26,20 +27,6 @@ const Stepper* mysim_stepper(const std::string& method) {
 PackedNumbers packed_of(const JsonField& json) {
   return {static_cast<size_t>(json["count"].natural()), static_cast<size_t>(json["lag"].natural()),
           json["order"].whole_number(0, 2), json["data"].text()};
-}
-
-Json built(const JsonField& field) {
-  if (field.is_null()) return nullptr;
-  if (field.is_text()) return field.text();
-  if (field.is_boolean()) return field.boolean();
-  if (field.is_integer()) return field.whole();
-  if (field.is_number()) return field.number();
-  Json out = field.is_list() ? Json::list() : Json::object();
-  if (field.is_list())
-    for (const JsonField& item : field.elements()) out.push(built(item));
-  else
-    for (const auto& [key, value] : field.items()) out[key] = built(value);
-  return out;
 }
 
 /// A file of one method's runs, read back.
@@ -106,9 +93,9 @@ class Motions {
   /// Writes the file again, without the runs that are left out and do not stay.
   void write(const std::set<std::string>& stay, const std::string& reference, double nearest) const {
     std::vector<std::uint16_t> shapes, paths;
-    Json runs = Json::list();
+    Json runs = Json::array();
     for (size_t i = 0; i < size(); ++i) {
-      Json run = built(json_["runs"][i]);
+      Json run = json_["runs"][i].json();
       // what is much nearer to the base than the reference is lost in how finely that is told
       if (is_left_out(i) && key(i) != reference && !stay.contains(key(i)) && departure(i) >= nearest / 3) {
         run.erase("unit"), run.erase("path");
@@ -118,12 +105,12 @@ class Motions {
         shapes.insert(shapes.end(), parts_[i].shapes.begin(), parts_[i].shapes.end());
         paths.insert(paths.end(), parts_[i].paths.begin(), parts_[i].paths.end());
       }
-      runs.push(std::move(run));
+      runs.push_back(std::move(run));
     }
-    Json file = built(json_);
+    Json file = json_.json();
     file["runs"] = std::move(runs);
     file["shapes"] = packed_json(pack_small(shapes)), file["paths"] = packed_json(pack_small(paths));
-    *target_.json = file.dump();
+    *target_.json = dump(file);
   }
 
  private:
@@ -177,10 +164,10 @@ std::string cells_for_page(const std::string& json, bool lab) {
   const JsonField field = JsonField::parse(json, "a file of cells");
   const auto computed = field.find("lab");
   if (!computed) return json;
-  Json file = built(field);
+  Json file = field.json();
   file.erase("lab");
-  if (lab) file.update(built(*computed));
-  return file.dump();
+  if (lab) file.update(computed->json());
+  return dump(file);
 }
 
 void leave_out_computed(std::span<const FileOfRuns> files, const std::set<std::string>& stay) {

@@ -2,6 +2,7 @@
 #include "report/player/motions.h"
 
 #include <fmt/ranges.h>
+#include <nlohmann/json.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -183,8 +184,8 @@ Json last_pictures(const Scene& scene, const MotionBase& base, const RecordedRun
   if (frames.x.size() < 2) return nullptr;
   Json json = numbers.add(departures_of(frames.x, base.x, 0), of_failed, scene.size());
   add_values(scene, frames, base, 0, numbers);
-  json["at"] = 0, json["times"] = Json::list(), json["stops"] = frames.t.back();
-  for (const double t : frames.t) json["times"].push(five_digits(t));
+  json["at"] = 0, json["times"] = Json::array(), json["stops"] = frames.t.back();
+  for (const double t : frames.t) json["times"].push_back(five_digits(t));
   add_outcome(json, run.outcome);
   return json;
 }
@@ -218,7 +219,7 @@ std::optional<CellPictures> cell_pictures(const Scene& scene, const RecordedRun&
   const double largest = out.off.cwiseAbs().maxCoeff(), seen = shortest_spring(rest, scene) / 3;
   if (!(largest > 0)) return std::nullopt;
   out.words["at"] = row;
-  out.words["times"] = Json::list(five_digits(frames.t[0]), five_digits(frames.t[keep - 1]));
+  out.words["times"] = Json::array({five_digits(frames.t[0]), five_digits(frames.t[keep - 1])});
   if (largest < seen) out.words["larger"] = two_digits(seen / largest);
   if (keep < run.path.x.size()) out.words["left"] = five_digits(run.outcome.end);  // the frame, and ended then
   return out;
@@ -237,23 +238,23 @@ Json base_run(const std::vector<Points>& x, double size, MotionNumbers& numbers)
 /// from.
 Json cells_with(const RecordedRuns& recorded, const std::vector<Points>& rests, CellStarts* starts) {
   MotionNumbers numbers;
-  Json file = Json::object(), runs = Json::list();
+  Json file = Json::object(), runs = Json::array();
   file["base"] = base_run(rests, recorded.scene.size(), numbers);
   size_t row = 0;
   for (const RecordedRun& run : recorded.runs) {
     while (rests[row] != run.cell->rest) ++row;
     const auto cell = cell_pictures(recorded.scene, run, row);
     if (!cell) {
-      runs.push(nullptr);
+      runs.push_back(nullptr);
       continue;
     }
     std::optional<Json> json;
     if (starts) json = starts->reproduced(run, cell->x, cell->off.cwiseAbs().maxCoeff() / of_cell.of_departure);
     if (!json) json = numbers.add(cell->off, of_cell, 0);
     json->update(cell->words);
-    runs.push(std::move(*json));
+    runs.push_back(std::move(*json));
   }
-  file["packed"] = base64(gzipped(runs.dump()));
+  file["packed"] = base64(gzipped(dump(runs)));
   numbers.write(file);
   if (starts) file["starts"] = starts->json();
   return file;
@@ -269,13 +270,13 @@ std::string cells_json(const RecordedRuns& recorded) {
     CellStarts starts(recorded, rests);
     file["lab"] = cells_with(recorded, rests, &starts);
   }
-  return file.dump();
+  return dump(file);
 }
 
 /// The part of the scene that all methods share.
 Json shared_json(const Scene& scene, const CameraPlacement& placement, const std::vector<double>& times) {
-  Json json{{"scene", scene.name}, {"particles", scene.model.particles.size()}, {"times", Json::list()}};
-  for (const double t : times) json["times"].push(five_digits(t));
+  Json json{{"scene", scene.name}, {"particles", scene.model.particles.size()}, {"times", Json::array()}};
+  for (const double t : times) json["times"].push_back(five_digits(t));
   json["from"] = vector_json(placement.from);
   json["floor"] = placement.floor ? Json(*placement.floor) : Json();
   json["triangles"] = triangles_json(scene);
@@ -322,7 +323,7 @@ std::string stage_json(const Scene& scene, const MotionBase& base) {
   Json json = shared_json(scene, camera_placement(scene, base.x, times), times);
   json["at"] = scene.camera && scene.camera->at ? *scene.camera->at : scene.duration;  // the poster's time, s
   MotionNumbers numbers;
-  Json known{{"name", "truth"}, {"runs", Json::list()}};
+  Json known{{"name", "truth"}, {"runs", Json::array()}};
   known["base"] = base_run(base.x, scene.size(), numbers);
   if (base.truth) {
     const Truth& truth = *base.truth;
@@ -331,7 +332,7 @@ std::string stage_json(const Scene& scene, const MotionBase& base) {
     Json own = whole_run(scene, base, {none, truth.trajectory}, base.x.size(), of_own_run, numbers);
     own.erase("step");
     own["end"] = fmt::format("known up to {:.3g} s", truth.trajectory.t.back());
-    known["runs"].push(std::move(own));
+    known["runs"].push_back(std::move(own));
     json["truth"] = {
         {"name", truth.under_contact_rule ? "converged contact rule" : fmt::format("truth, {}", name_of(truth.tier))},
         {"rule", truth.under_contact_rule},
@@ -340,7 +341,7 @@ std::string stage_json(const Scene& scene, const MotionBase& base) {
   }
   numbers.write(known);
   json["known"] = std::move(known);
-  return json.dump();  // texts of outside programs may hold any bytes
+  return dump(json);  // texts of outside programs may hold any bytes
 }
 
 std::string stage_json(const Scene& scene, bool with_text) {
@@ -348,7 +349,7 @@ std::string stage_json(const Scene& scene, bool with_text) {
   placement.floor.reset();
   Json json = shared_json(scene, placement, {0});
   if (with_text) json["toml"] = scene.source;
-  return json.dump();
+  return dump(json);
 }
 
 std::string motions_json(const RecordedRuns& recorded, const MotionBase& base) {
@@ -359,17 +360,17 @@ std::string motions_json(const RecordedRuns& recorded, const MotionBase& base) {
   const bool own = recorded.of == "engines";            // at the scene's own step
   MotionNumbers numbers;
   Json file{{"name", recorded.method}};
-  file["runs"] = Json::list();
+  file["runs"] = Json::array();
   for (const RecordedRun& run : recorded.runs) {
     if (!run.outcome.different_law.empty())
       file["note"] = fmt::format("{}", fmt::join(run.outcome.different_law, "; "));
     const bool whole = own || run.outcome.verdict == Verdict::ok;
-    file["runs"].push(whole ? whole_run(scene, base, run, own ? (many ? 50 : 150) : (many ? 30 : 75),
-                                        own ? of_own_run : of_run, numbers)
-                            : last_pictures(scene, base, run, numbers));
+    file["runs"].push_back(whole ? whole_run(scene, base, run, own ? (many ? 50 : 150) : (many ? 30 : 75),
+                                             own ? of_own_run : of_run, numbers)
+                                 : last_pictures(scene, base, run, numbers));
   }
   numbers.write(file);
-  return file.dump();
+  return dump(file);
 }
 
 }  // namespace crosscheck

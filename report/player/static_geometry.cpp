@@ -1,6 +1,8 @@
 // Writes triangles, springs and obstacles.
 #include "report/player/static_geometry.h"
 
+#include <nlohmann/json.hpp>
+
 #include <algorithm>
 #include <cmath>
 
@@ -22,7 +24,7 @@ Json triangles_json(const Scene& scene) {
 
 Json springs_json(const Scene& scene) {
   std::vector<std::uint16_t> ends;
-  Json families = Json::list();
+  Json families = Json::array();
   size_t threads = 0;
   std::vector<double> lengths;
   const auto add = [&](int a, int b, double length) {
@@ -30,7 +32,7 @@ Json springs_json(const Scene& scene) {
     lengths.push_back(length);
   };
   const auto close = [&](std::string_view name, size_t from) {
-    if (ends.size() > from) families.push({{"name", name}, {"count", (ends.size() - from) / 2}});
+    if (ends.size() > from) families.push_back({{"name", name}, {"count", (ends.size() - from) / 2}});
   };
   if (const auto* distances = scene.model.find<Constraints>()) {
     for (const auto& [a, b, length] : distances->list) add(a, b, length);
@@ -56,13 +58,13 @@ Json springs_json(const Scene& scene) {
 }
 
 Json spheres_json(const Scene& scene, const std::vector<double>& times) {
-  Json list = Json::list();
+  Json list = Json::array();
   if (const auto* spheres = scene.model.find<Spheres>())
     for (const Sphere& s : spheres->list) {
       Json centres;
       for (const double t : times)
-        if (s.motion || centres.is_null()) centres.push(vector_json(s.centre_at(t)));
-      list.push({{"radius", s.radius}, {"centres", std::move(centres)}});
+        if (s.motion || centres.is_null()) centres.push_back(vector_json(s.centre_at(t)));
+      list.push_back({{"radius", s.radius}, {"centres", std::move(centres)}});
     }
   return list;
 }

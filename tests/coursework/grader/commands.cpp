@@ -4,6 +4,7 @@
 
 #include <fmt/format.h>
 #include <sys/stat.h>
+#include <nlohmann/json.hpp>
 
 #include <cstdlib>
 #include <fstream>
@@ -171,14 +172,14 @@ int grade_command(const GradeCommand& given) {
 }
 
 int list_command(bool json) {
-  auto list = crosscheck::Json::list();
+  auto list = crosscheck::Json::array();
   for (const Assignment& assignment : assignments()) {
     if (json)
-      list.push({{"name", assignment.name}, {"what", assignment.title}});
+      list.push_back({{"name", assignment.name}, {"what", assignment.title}});
     else
       fmt::print("{:<38} {}\n", assignment.name, assignment.title);
   }
-  if (json) fmt::print("{}\n", list.dump(2));
+  if (json) fmt::print("{}\n", crosscheck::dump(list, 2));
   return 0;
 }
 

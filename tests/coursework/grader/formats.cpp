@@ -2,6 +2,7 @@
 #include "tests/coursework/grader/formats.h"
 
 #include <fmt/format.h>
+#include <nlohmann/json.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -98,9 +99,9 @@ Json gradescope_test(const Result& result, const TestResult& test, const Texts& 
 
 std::string gradescope(const Result& result, const Texts& common) {
   double earned = 0, seconds = 0, shown = 0;
-  Json tests = Json::list();
+  Json tests = Json::array();
   for (const TestResult& test : result.tests) {
-    tests.push(gradescope_test(result, test, common));
+    tests.push_back(gradescope_test(result, test, common));
     earned += test.earned;
     seconds += test.seconds;
     if (!test.hidden) shown += test.earned;
@@ -122,9 +123,9 @@ std::string gradescope(const Result& result, const Texts& common) {
         {"complete", result.complete}}},
       {"tests", std::move(tests)},
       // public points alone: a leaderboard is seen before the grades are
-      {"leaderboard", Json::list(Json{{"name", "Public points"}, {"value", shown}, {"order", "desc"}})},
+      {"leaderboard", Json::array({Json{{"name", "Public points"}, {"value", shown}, {"order", "desc"}}})},
   };
-  return out.dump(2) + "\n";
+  return crosscheck::dump(out, 2) + "\n";
 }
 
 namespace {
@@ -227,8 +228,8 @@ std::string autolab(const Result& result, const Texts& common) {
   Json scores;
   for (const auto& [problem, points] : problems) scores[problem] = points;
   scores["hidden"] = hidden;
-  const Json line{{"scores", std::move(scores)}, {"scoreboard", Json::list(shown)}};
-  return text + "\n" + line.dump() + "\n";
+  const Json line{{"scores", std::move(scores)}, {"scoreboard", Json::array({shown})}};
+  return text + "\n" + crosscheck::dump(line) + "\n";
 }
 
 std::span<const Format> formats() {

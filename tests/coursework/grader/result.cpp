@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
+#include <nlohmann/json.hpp>
 
 #include <sstream>
 
@@ -78,9 +79,9 @@ std::string to_json(const Result& result, const std::string& fingerprint) {
                {"secret", result.secret},
                {"seed", result.seed},
                {"submission", result.submission},
-               {"tests", Json::list()}});
-  for (const TestResult& test : result.tests) json["tests"].push(json_of(test));
-  return json.dump(1) + "\n";  // bytes of a student's text that are no UTF-8 are replaced
+               {"tests", Json::array()}});
+  for (const TestResult& test : result.tests) json["tests"].push_back(json_of(test));
+  return crosscheck::dump(json, 1) + "\n";  // bytes of a student's text that are no UTF-8 are replaced
 }
 
 Result result_from_json(const std::string& text, const std::string& file, std::string* fingerprint) {

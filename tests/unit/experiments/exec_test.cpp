@@ -1,6 +1,7 @@
 // Programs that misbehave: each way is a verdict with a clear line, and never a crash of ours.
 
 #include <signal.h>
+#include <nlohmann/json.hpp>
 
 #include "experiments/experiment.h"
 #include "experiments/metrics.h"
@@ -56,8 +57,8 @@ TEST_F(Exec, AReadbackWithoutProbeDoesNotAttestTheLaw) {
   readback["mass"] = std::vector<double>(p.mass.begin(), p.mass.end());
   readback["pinned"] = std::vector<int>(p.pinned.begin(), p.pinned.end());
   for (const Spring& s : scene_.model.find<Springs>()->list)
-    readback["links"].push({{"a", s.a}, {"b", s.b}, {"rest_length", s.rest}, {"stiffness", s.k}});
-  write("run.json", Json{{"readback", readback}}.dump());
+    readback["links"].push_back({{"a", s.a}, {"b", s.b}, {"rest_length", s.rest}, {"stiffness", s.k}});
+  write("run.json", dump(Json{{"readback", readback}}));
   const MethodRun delivered = run(deliver("x.npy") + deliver("run.json", "run.json"));
   ASSERT_EQ(delivered.outcome.verdict, Verdict::ok) << delivered.outcome.reason;
   const Certificate c = certify("engine", scene_, delivered.outcome);
@@ -221,11 +222,11 @@ TEST_F(Exec, APinThatIsLedAwayIsTold) {
     EXPECT_EQ(out.remark.empty(), remark.empty()) << out.remark;
   }
   // an engine that says that it computes in double precision is held to it
-  Json readback{{"mass", Json::list(1, 1, 1, 1)},
-                {"pinned", Json::list(1, 0, 0, 0)},
-                {"links", Json::list()},
+  Json readback{{"mass", Json::array({1, 1, 1, 1})},
+                {"pinned", Json::array({1, 0, 0, 0})},
+                {"links", Json::array()},
                 {"precision", "double"}};
-  write("run.json", Json{{"readback", readback}}.dump());
+  write("run.json", dump(Json{{"readback", readback}}));
   auto x = right.x;
   x[2](2, 0) += 1e-7;
   write("led.npy", npy_bytes(x));

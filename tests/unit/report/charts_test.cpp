@@ -250,7 +250,7 @@ TEST(OwnCharts, AreOfScenesThatTheExperimentLooksAt) {
 
 using namespace testing_tools;
 
-JsonField json_of(const Chart& chart) { return JsonField::parse(chart_json(chart).dump(), "chart"); }
+JsonField json_of(const Chart& chart) { return JsonField::parse(dump(chart_json(chart)), "chart"); }
 
 /// A chart of one curve of that many points, which swings.
 Chart swinging(int count) {
@@ -550,7 +550,7 @@ TEST(MethodLooks, FamiliesHaveTheirColours) {
   const std::vector<std::string> names{
       "mysim/symplectic-euler", "mysim/rk4",       "bullet/deformable-explicit", "bullet/pbd", "odeint/rk4",
       "truth/converged",        "exec:./my/engine"};
-  const JsonField looks = JsonField::parse(method_looks_json(names).dump(), "looks");
+  const JsonField looks = JsonField::parse(dump(method_looks_json(names)), "looks");
   ASSERT_EQ(looks.size(), names.size());
   std::map<std::string, std::string> families;  // by their colours
   for (const std::string& name : names) {
@@ -580,7 +580,7 @@ TEST(MethodLooks, ProgramsHaveNamesWithOptionsAndColoursOfTheirOwn) {
   const std::vector<std::string> names{"exec:./my-mujoco+n=1", "exec:./my-mujoco+n=4", "exec:a/engine",
                                        "exec:b/engine",        "exec:./ode.py",        "odeint/rk4",
                                        "exec:/x/c/bin/tool",   "exec:/x/d/bin/tool"};
-  const JsonField looks = JsonField::parse(method_looks_json(names).dump(), "looks");
+  const JsonField looks = JsonField::parse(dump(method_looks_json(names)), "looks");
   std::set<std::string> titles, colours;
   for (const std::string& name : names) {
     titles.insert(looks[name]["title"].text());

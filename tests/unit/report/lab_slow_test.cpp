@@ -1,6 +1,8 @@
 // mysim as WebAssembly gives what it gives natively: in Node and in a browser, for every shipped scene and stepper. And
 // the lab as its readers use it, in a browser.
 
+#include <nlohmann/json.hpp>
+
 #include <cstdlib>
 #include <deque>
 #include <memory>
@@ -90,14 +92,14 @@ class LabModule : public InBrowser {
   }
 
   static std::string json_of(const std::vector<NativeRun>& runs) {
-    Json list = Json::list();
+    Json list = Json::array();
     for (const NativeRun& run : runs)
-      list.push({{"scene", run.scene},
-                 {"stepper", run.stepper},
-                 {"steps", run.steps},
-                 {"exact", run.exact},
-                 {"duration", run.duration}});
-    return list.dump();
+      list.push_back({{"scene", run.scene},
+                      {"stepper", run.stepper},
+                      {"steps", run.steps},
+                      {"exact", run.exact},
+                      {"duration", run.duration}});
+    return dump(list);
   }
 
   static void compare(const std::vector<NativeRun>& native, const JsonField& seen) {
@@ -199,7 +201,7 @@ TEST_F(LabModule, GivesTheNativeBitsInNode) {
   write_file(
       folder_ / "lab.js",
       "globalThis.window = globalThis;\nconst document = {getElementById: () => ({textContent: JSON.stringify('" +
-          module + "')})};\nconst labScenes = () => (" + texts.dump() + ");\n" + asset("player/unpack.js") +
+          module + "')})};\nconst labScenes = () => (" + dump(texts) + ");\n" + asset("player/unpack.js") +
           asset("lab/scene_text.js") + asset("lab/engine.js") + self_test("lab_selftest.js") + "\nrunAll(" +
           json_of(native) + ").then(seen => process.stdout.write(JSON.stringify(seen)));\n");
   const ProgramResult result = run_program({"node", (folder_ / "lab.js").string()}, folder_);
@@ -210,7 +212,7 @@ TEST_F(LabModule, GivesTheNativeBitsInNode) {
 TEST_F(LabModule, CellsOfMapsHaveTheNativeBits) {
   NEEDS_PROGRAM("node", "nodejs", "mysim is not run as WebAssembly outside a browser");
   NEEDS_LAB;
-  Json files = Json::list();
+  Json files = Json::array();
   std::deque<Scene> scenes;
   std::vector<std::pair<std::unique_ptr<CellStarts>, RecordedRuns>> maps;
   TableSet rows;
@@ -223,7 +225,7 @@ TEST_F(LabModule, CellsOfMapsHaveTheNativeBits) {
         // as many cells as on the page, of shorter runs
         add_map(kind, scene, method, {9, 12, 200, false}, rows, [&](const RecordedRuns& map) {
           const JsonField file = JsonField::parse(cells_for_page(motions_json(map, {}), true), "cells");
-          files.push({{"stage", stage_json(scene, true)}, {"set", file.dump()}});
+          files.push_back({{"stage", stage_json(scene, true)}, {"set", file.dump()}});
           std::vector<Points> rests;
           for (const RecordedRun& run : map.runs)
             if (rests.empty() || rests.back() != run.cell->rest) rests.push_back(run.cell->rest);
@@ -239,7 +241,7 @@ TEST_F(LabModule, CellsOfMapsHaveTheNativeBits) {
       "globalThis.window = globalThis;\nconst document = {getElementById: () => ({textContent: JSON.stringify('" +
           module + "')})};\n" + asset("player/unpack.js") + asset("lab/scene_text.js") + asset("lab/engine.js") +
           asset("lab/live_run.js") + asset("lab/computed_runs.js") + self_test("lab_selftest.js") + "\nrunCells(" +
-          files.dump() + ").then(seen => process.stdout.write(JSON.stringify(seen)));\n");
+          dump(files) + ").then(seen => process.stdout.write(JSON.stringify(seen)));\n");
   const ProgramResult result = run_program({"node", (folder_ / "lab.js").string()}, folder_);
   ASSERT_EQ(result.status, 0) << last_lines(result.err, 20);
   const JsonField seen = JsonField::parse(result.out, "what Node saw");
@@ -277,7 +279,7 @@ TEST_F(LabModule, FingerprintsAreThoseOfAnyInstructionSet) {
   const Json own = lab_fingerprints_json(scenes);
   unsetenv("CROSSCHECK_INSTRUCTIONS");
   const LabFingerprints all = lab_fingerprints(scenes);
-  const JsonField expected = JsonField::parse(own.dump(), "fingerprints");
+  const JsonField expected = JsonField::parse(dump(own), "fingerprints");
   for (const Scene& scene : scenes) {
     EXPECT_GE(all.at(scene.name).size(), 7u);
     for (const auto& [rule, digits] : all.at(scene.name)) EXPECT_EQ(digits, expected[scene.name][rule].text()) << rule;

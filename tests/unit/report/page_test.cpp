@@ -1,6 +1,8 @@
 // The page: units stay together, linked words are explained, every part is listed; an assembled report has its charts'
 // numbers, its scenes and its certificates, and the same page comes of its data again.
 
+#include <nlohmann/json.hpp>
+
 #include <map>
 #include <set>
 
@@ -113,7 +115,7 @@ TEST(Smaller, FoldsArePackedWithWhatTheyHold) {
                        "<i></i><template data-scene=\"s\" data-held=\"0\"></template><b></b><template "
                        "data-held=\"1\"></template><script"));
   const std::string held = between(packed, "id=\"held\">", "</script>").substr(10);
-  const std::string list = Json(std::vector<std::string>{inner, "c"}).dump();
+  const std::string list = dump(Json(std::vector<std::string>{inner, "c"}));
   EXPECT_EQ(gunzipped(bytes_of_base64(held), list.size()), list);
   EXPECT_TRUE(contains(packed, end));
   EXPECT_EQ(with_folds_packed("<b></b>" + end), "<b></b>" + end) << "nothing is folded";

@@ -517,7 +517,7 @@ TEST(ComputedRuns, AreStoredWhereNoneTiesThemToTheBase) {
 
 TEST(ComputedRuns, OfAFileThatClaimsMoreNumbersThanItHasAreRefused) {
   const auto file_of = [](const std::string& modes, const std::string& frames) {
-    const std::string six = packed_json(pack_small({1, 2, 3, 4, 5, 6})).dump();
+    const std::string six = dump(packed_json(pack_small({1, 2, 3, 4, 5, 6})));
     return fmt::format(R"({{"name": "mysim/leapfrog", "runs": [{{"modes": {}, "frames": {}, "unit": 1, "path": 1}}],
     "shapes": {}, "paths": {}, "values": null}})",
                        modes, frames, six, six);

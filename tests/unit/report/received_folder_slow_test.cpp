@@ -1,5 +1,7 @@
 // A report that somebody else made: what the program makes of it runs no script and starts no program.
 
+#include <nlohmann/json.hpp>
+
 #include "experiments/tables/table.h"
 #include "mysim/base/csv.h"
 #include "mysim/base/files.h"
@@ -42,7 +44,7 @@ class ReceivedReport : public InBrowser {
                                        "touch '" + (folder_ / "PWNED").string() + "'\n"),
                       name = "exec:" + program;
     std::string scene = small_cloth().source;
-    const auto quoted = [](const std::string& text) { return Json(text).dump(); };
+    const auto quoted = [](const std::string& text) { return dump(Json(text)); };
     replace_all(scene, "question = \"q\"", "question = " + quoted(payload));
     replace_all(scene, "parameters = \"p\"", "parameters = " + quoted(payload));
     write("own.toml", scene);
