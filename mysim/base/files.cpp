@@ -3,6 +3,7 @@
 
 #include <fcntl.h>
 #include <fmt/format.h>
+#include <sys/file.h>
 #include <sys/stat.h>
 #include <sys/statvfs.h>
 #include <unistd.h>
@@ -11,17 +12,13 @@
 #include <cassert>
 #include <cctype>
 #include <cerrno>
-#include <cstdlib>
 #include <cstring>
 #include <fstream>
-#include <functional>
 #include <limits>
-#include <sstream>
 
 #include "mysim/base/errors.h"
 #include "mysim/base/hash.h"
 #include "mysim/base/names.h"
-#include "mysim/base/pattern.h"
 #include "mysim/base/text.h"
 #include "mysim/base/this_process.h"
 
@@ -95,17 +92,17 @@ void write_file(const fs::path& file, std::string_view content) {
 std::optional<std::string> try_read_file(const fs::path& file) {
   std::ifstream in(file, std::ios::binary);
   std::string text, block(1 << 16, '\0');
-  // a quarter of the memory that is left, as a tree or rows are made of it; asked for where it matters
+  // a document or table made from the text needs more memory than the text; small files do not ask for the free memory
   double most = 1 << 26;
   for (bool asked = false; in.read(block.data(), std::ssize(block)) || in.gcount() > 0;) {
     text.append(block, 0, static_cast<size_t>(in.gcount()));
     if (static_cast<double>(text.size()) <= most) continue;
     if (!asked) most = std::max(most, free_memory() / 4);
+    asked = true;
     std::error_code none;
     const double size = fs::is_regular_file(file, none) ? static_cast<double>(fs::file_size(file, none)) : 0;
     if (std::max(size, static_cast<double>(text.size())) > most)
       throw InputError(fmt::format("{}: expected a file of at most {}", file.string(), format_bytes(most)));
-    asked = true;
   }
   if (!in.eof()) return std::nullopt;
   return text;
@@ -151,93 +148,45 @@ std::string file_name_of(std::string_view text) {
   return fmt::format("{}-{:016x}", name.substr(0, kept), Fnv1a::of(text));
 }
 
-namespace {
+// The owner of a temporary folder holds an exclusive lock on it, which ends with the process, in every pid namespace.
 
-/// The start of a process in clock ticks since the boot; empty where there is none of that number.
-std::string start_of(const std::string& process) {
-  std::ifstream in("/proc/" + process + "/stat");
-  std::string text;
-  std::getline(in, text, '\0');
-  // the name, which may hold anything, stands in brackets; 19 fields lie between the state and the start
-  const size_t bracket = text.rfind(')');
-  if (bracket == std::string::npos) return "";
-  std::istringstream fields(text.substr(bracket + 1));
-  std::string field;
-  for (int i = 0; i < 20; ++i) fields >> field;
-  return field;
-}
-
-}  // namespace
-
-std::string pid_namespace_of(std::string_view process) {
-  std::error_code error;
-  std::string link = fs::read_symlink(fmt::format("/proc/{}/ns/pid", process), error).string();  // "pid:[4026531836]"
-  std::erase_if(link, [](char c) { return c < '0' || c > '9'; });
-  return link.empty() ? "0" : link;
-}
-
-std::string temporary_name(std::string_view purpose) {
-  const std::string self = fmt::format("{}", getpid());
-  return (fs::temp_directory_path() /
-          fmt::format("crosscheck-{}-{}.{}.{}-XXXXXX", purpose, self, start_of(self), pid_namespace_of()))
-      .string();
-}
-
-TemporaryFolder::TemporaryFolder(std::string_view purpose) {
-  std::string name = temporary_name(purpose);
-  if (!mkdtemp(name.data()))
-    throw InputError(fmt::format("{}: no folder can be made there; expected a place for temporary files", name));
-  path = name;
+TemporaryFolder::TemporaryFolder(std::string_view purpose, const fs::path& place) {
+  const fs::path name =
+      (place.empty() ? fs::temp_directory_path() : place) / fmt::format("crosscheck-{}.XXXXXX", purpose);
+  do {
+    if (lock_ >= 0) close(lock_);
+    std::string made = name.string();
+    if (!mkdtemp(made.data()))
+      throw InputError(
+          fmt::format("{}: no folder can be made there; expected a place for temporary files", name.string()));
+    path = made;
+    lock_ = open(made.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+    // again if another process took the new folder for a stale one
+  } while (lock_ >= 0 && ((flock(lock_, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK) || !fs::exists(path)));
 }
 
 TemporaryFolder::~TemporaryFolder() {
   std::error_code ignored;
   fs::remove_all(path, ignored);
+  if (lock_ >= 0) close(lock_);
 }
 
-namespace {
-
-using IsGone = std::function<bool(const std::string&, const std::string&, const std::string&)>;
-
-/// Removes what lies in that place under the name of a temporary folder, with `files` plain files and not folders, and
-/// is this user's, where its owner (its number, when it was started, its namespace) is gone.
-void remove_temporary(const fs::path& place, bool files, const IsGone& is_gone) {
-  static const Pattern ours(R"(crosscheck-[a-z]+-([0-9]+)\.([0-9]*)\.([0-9]+)-[A-Za-z0-9]{6}(\.[a-z]+)?)");
+void remove_stale_temporary_folders(const fs::path& place) {
+  constexpr std::string_view begin = "crosscheck-", end = ".XXXXXX";
   std::error_code error;
-  for (fs::directory_iterator at(place, error), end; !error && at != end; at.increment(error)) {
+  for (fs::directory_iterator at(place.empty() ? fs::temp_directory_path(error) : place, error), last;
+       !error && at != last; at.increment(error)) {
     const std::string name = at->path().filename().string();
-    if (!name.starts_with("crosscheck-")) continue;
-    const auto parts = ours.match(name);
-    if (!parts || !is_gone((*parts)[1], (*parts)[2], (*parts)[3])) continue;
+    if (!name.starts_with(begin) || name.size() < begin.size() + end.size() || name[name.size() - end.size()] != '.')
+      continue;
+    const int folder = open(at->path().c_str(), O_RDONLY | O_DIRECTORY | O_NOFOLLOW | O_CLOEXEC);
     struct stat about {};
-    if (lstat(at->path().c_str(), &about) != 0 || !(files ? S_ISREG(about.st_mode) : S_ISDIR(about.st_mode))) continue;
     std::error_code ignored;
-    if (about.st_uid == geteuid() || geteuid() == 0) fs::remove_all(at->path(), ignored);
+    if (folder >= 0 && fstat(folder, &about) == 0 && (about.st_uid == geteuid() || geteuid() == 0) &&
+        flock(folder, LOCK_EX | LOCK_NB) == 0)
+      fs::remove_all(at->path(), ignored);
+    if (folder >= 0) close(folder);
   }
-}
-
-IsGone of_ended_processes() {
-  return [here = pid_namespace_of()](const std::string& owner, const std::string& start, const std::string& space) {
-    return space == here && (start.empty() || start_of(owner) != start);
-  };
-}
-
-/// Where temporary files go; a folder that is not there has nothing in it.
-fs::path temporary_place() {
-  std::error_code ignored;
-  return fs::temp_directory_path(ignored);
-}
-
-}  // namespace
-
-void remove_stale_temporary_folders() { remove_temporary(temporary_place(), false, of_ended_processes()); }
-
-void remove_stale_files(const fs::path& folder) { remove_temporary(folder, true, of_ended_processes()); }
-
-void remove_temporary_folders_of(const std::string& pid_namespace) {
-  remove_temporary(temporary_place(), false, [&](const std::string&, const std::string&, const std::string& space) {
-    return space == pid_namespace;
-  });
 }
 
 }  // namespace crosscheck

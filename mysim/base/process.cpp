@@ -1,13 +1,10 @@
-// fork, waitpid, pipes and sockets; namespaces, PR_SET_PDEATHSIG and PR_SET_CHILD_SUBREAPER are Linux's.
+// Linux only: namespaces, PR_SET_PDEATHSIG, PR_SET_CHILD_SUBREAPER.
 #include "mysim/base/process.h"
 
 #include <fcntl.h>
 #include <poll.h>
 #include <sched.h>
-#include <sys/mman.h>
 #include <sys/prctl.h>
-#include <sys/signalfd.h>
-#include <sys/socket.h>
 #include <sys/syscall.h>
 #include <sys/wait.h>
 #include <unistd.h>
@@ -20,10 +17,10 @@
 #include <cstdlib>
 #include <cstring>
 #include <fstream>
-#include <stdexcept>
 #include <string_view>
 
 #include "mysim/base/files.h"
+#include "mysim/base/text.h"
 
 namespace crosscheck {
 namespace {
@@ -66,9 +63,12 @@ CannotStart::CannotStart(const std::string& program, const std::string& why)
 
 namespace {
 
-constexpr size_t kept_bytes = 65536;  // of a program that is not trusted
+using Clock = std::chrono::steady_clock;
+using std::chrono::milliseconds;
 
-/// The two ends of a pipe, closed however the scope is left and never handed on to other programs.
+constexpr size_t kept_bytes = 65536;  // per output of an untrusted program
+
+/// The two ends of a pipe; closed at the end of the scope and not inherited by other programs.
 struct Pipe {
   int read_end = -1, write_end = -1;  // -1: closed
   /// Throws std::runtime_error with the system's reason.
@@ -86,7 +86,7 @@ struct Pipe {
   }
 };
 
-/// What becomes stdin, stdout and stderr of a program; -1: /dev/null.
+/// The files that become stdin, stdout and stderr of a program; -1: /dev/null.
 using StandardFiles = std::array<int, 3>;
 
 bool set_standard_files(const StandardFiles& files) {
@@ -97,7 +97,13 @@ bool set_standard_files(const StandardFiles& files) {
   return true;
 }
 
-/// What exec and its kin take, made before the fork: nothing may be allocated behind it.
+/// Ends this process after the failure of a system call; the parent reads the reason.
+[[noreturn]] void fail_start(int error_file, int error) {
+  [[maybe_unused]] const ssize_t written = write(error_file, &error, sizeof error);
+  _exit(127);
+}
+
+/// Arguments for exec*(), built before the fork because the child must not allocate.
 struct Call {
   std::vector<std::string> entries;
   std::vector<char*> words, environment;
@@ -119,56 +125,58 @@ struct Call {
       throw CannotStart(argv[0], "its first line ends with a carriage return (CRLF); expected Unix line ends");
   }
 
-  /// Becomes the program; where that fails, the system's reason is written to the file.
   [[noreturn]] void become(int error_file) const {
     if (chdir(cwd.c_str()) == 0 && set_standard_files(files))
       (in_path ? execvpe : execve)(words[0], words.data(), environment.data());
-    const int error = errno;
-    [[maybe_unused]] const ssize_t told = write(error_file, &error, sizeof error);
-    _exit(127);
+    fail_start(error_file, errno);
   }
 };
 
-/// The number that was written into the pipe before its other end was closed; 0: none.
-int number_from(Pipe& pipe) {
-  Pipe::close_end(pipe.write_end);
-  int number = 0;
-  ssize_t bytes;
-  while ((bytes = read(pipe.read_end, &number, sizeof number)) < 0 && errno == EINTR) continue;
-  return bytes == sizeof number ? number : 0;
-}
-
-pid_t start(const std::vector<std::string>& argv, const std::filesystem::path& cwd,
-            const std::vector<std::string>& extra_env, const StandardFiles& files) {
-  const Call call(argv, cwd, extra_env, files);
-  Pipe exec_error;
-  const pid_t child = fork();
-  if (child == 0) call.become(exec_error.write_end);
-  if (child < 0) throw CannotStart(argv[0], std::strerror(errno));
-  const int error = number_from(exec_error);
-  if (error == 0) return child;
-  waitpid(child, nullptr, 0);
-  throw CannotStart(argv[0], std::strerror(error));
-}
-
-// A program that is not trusted may detach itself (setsid, a double fork), leave children behind and kill its parent.
-// It is started by a watcher, a process that does nothing else, waits for it and ends all that descends from it. Where
-// the kernel allows it the watcher is the first process of a pid namespace of its own: nothing inside can kill it or
-// get out, and the kernel ends all with it. Elsewhere it is a subreaper, to which orphans come, and kills its children
-// until it has none; a program that kills it there is not contained, which is reported.
-
-/// What a watcher tells of the program that it waited for.
-struct WatcherReport {
-  int status;  // as of wait()
-  rusage usage;
-  bool left_children;  // other processes of it had not ended by then
-};
-
-/// fork() without what the C library does about it, whose locks other threads may hold: the child calls only what is
-/// allowed between fork and exec.
+/// fork() without the handlers of the C library, whose locks other threads may hold: the child may call only what is
+/// permitted between fork and exec.
 pid_t clone_process(unsigned long flags) {
   return static_cast<pid_t>(syscall(SYS_clone, flags | SIGCHLD, nullptr, nullptr, nullptr, nullptr));
 }
+
+struct Started {
+  pid_t child;
+  int error;  // 0: it is running
+};
+
+/// Starts a process; `work` becomes a program, or writes an error number into the file and ends.
+template <class Work>
+Started start_process(unsigned long flags, const Work& work) {
+  Pipe exec_error;
+  const pid_t child = clone_process(flags);
+  if (child == 0) work(exec_error.write_end);
+  if (child < 0) return {child, errno};
+  Pipe::close_end(exec_error.write_end);
+  int error = 0;
+  ssize_t bytes;
+  while ((bytes = read(exec_error.read_end, &error, sizeof error)) < 0 && errno == EINTR) continue;
+  if (bytes != sizeof error) return {child, 0};
+  waitpid(child, nullptr, 0);
+  return {child, error};
+}
+
+pid_t start(const Call& call) {
+  const auto [child, error] = start_process(0, [&](int error_file) { call.become(error_file); });
+  if (error != 0) throw CannotStart(call.words[0], std::strerror(error));
+  return child;
+}
+
+// An untrusted program may detach itself (setsid, a double fork), leave children behind and kill its parent. It is
+// started by a watcher, a process that only waits for it and ends all its descendants. If the kernel permits, the
+// watcher is the first process of a pid namespace: nothing inside can kill it or escape, and the kernel ends all
+// processes inside with it. Otherwise it is a subreaper, which receives orphans, and kills its children until it has
+// none; a program that kills such a watcher is not contained, which is reported.
+
+/// The watcher's report on the program.
+struct WatcherReport {
+  int status;  // as of wait()
+  rusage usage;
+  bool timed_out, left_children;
+};
 
 bool write_small_file(const char* path, const char* text) {
   const int file = open(path, O_WRONLY | O_CLOEXEC);
@@ -178,7 +186,7 @@ bool write_small_file(const char* path, const char* text) {
   return written == size;
 }
 
-/// Texts by which a process in a user namespace of its own keeps the numbers of its user and group.
+/// Maps by which a process in a new user namespace keeps its user and group.
 struct UserMaps {
   std::string user, group;
   static std::string same(unsigned long number) { return std::to_string(number) + " " + std::to_string(number) + " 1"; }
@@ -189,63 +197,24 @@ struct UserMaps {
   }
 };
 
-/// Closes all files of this process but the standard ones and two.
-void close_all_but(int a, int b) {
-  const unsigned low = static_cast<unsigned>(std::min(a, b)), high = static_cast<unsigned>(std::max(a, b));
-  const unsigned ranges[3][2] = {{3, low - 1}, {low + 1, high - 1}, {high + 1, ~0U}};
-  for (const auto& [first, last] : ranges) {
-    if (first > last || syscall(SYS_close_range, first, last, 0) == 0) continue;
-    const unsigned most = static_cast<unsigned>(std::min(sysconf(_SC_OPEN_MAX), 65536L));
-    for (unsigned file = first; file <= std::min(last, most); ++file) close(static_cast<int>(file));
-  }
+/// Makes a file number 3 and closes all others but the standard ones.
+void keep_as_number_3(int file) {
+  dup2(file, 3);
+  if (syscall(SYS_close_range, 4, ~0U, 0) == 0) return;
+  for (int number = 4; number < std::min(sysconf(_SC_OPEN_MAX), 65536L); ++number) close(number);
 }
 
-int milliseconds_since(const timespec& begin) {
-  timespec now{};
-  clock_gettime(CLOCK_MONOTONIC, &now);
-  return static_cast<int>((now.tv_sec - begin.tv_sec) * 1000 + (now.tv_nsec - begin.tv_nsec) / 1000000);
-}
+constexpr milliseconds grace(200);     // in which children of a program that has ended may end too
+constexpr int try_without_users = -1;  // not an errno: the maps of users could not be written
 
-/// Kills children, those that come to a subreaper too, until there are none, for ten seconds at most.
-void kill_children() {
-  timespec begin{};
-  clock_gettime(CLOCK_MONOTONIC, &begin);
-  for (;;) {
-    pid_t ended;
-    while ((ended = waitpid(-1, nullptr, WNOHANG)) > 0) continue;
-    if (ended < 0 || milliseconds_since(begin) > 10000) return;
-    char text[4096];
-    const int file = open("/proc/thread-self/children", O_RDONLY | O_CLOEXEC);
-    const ssize_t size = file < 0 ? 0 : read(file, text, sizeof text);
-    if (file >= 0) close(file);
-    pid_t child = 0;
-    for (ssize_t i = 0; i < size; ++i) {  // a number that the end cuts off is not followed by a blank
-      if (text[i] >= '0' && text[i] <= '9') {
-        child = 10 * child + (text[i] - '0');
-      } else {
-        if (child > 0) kill(child, SIGKILL);
-        child = 0;
-      }
-    }
-    usleep(1000);
-  }
-}
-
-constexpr int grace_milliseconds = 200;  // in which children of a program that has ended may end too
-constexpr int try_without_users = -1;    // no error of the system's: the maps of users could not be written
-
-/// The watcher's work. `hold` is closed by the parent when time is up.
-[[noreturn]] void watch(const Call& call, unsigned long flags, const UserMaps& users, int exec_error, int report,
-                        int hold) {
-  setpgid(0, 0);  // what a terminal sends to the parent's group is not for it
+/// The watcher's work. The report comes when all processes have ended, at most ten seconds after the limit.
+[[noreturn]] void watch(const Call& call, unsigned long flags, const UserMaps& users, milliseconds limit,
+                        int error_file, int report) {
+  setpgid(0, 0);  // signals of a terminal to the parent's group are not for it
   prctl(PR_SET_PDEATHSIG, SIGKILL);
-  pollfd parent{exec_error, 0, 0};
-  if (poll(&parent, 1, 0) > 0) _exit(127);  // it ended before it could have been seen to
-  if ((flags & CLONE_NEWUSER) && !users.apply()) {
-    const int error = try_without_users;
-    [[maybe_unused]] const ssize_t told = write(exec_error, &error, sizeof error);
-    _exit(127);
-  }
+  pollfd parent{error_file, 0, 0};
+  if (poll(&parent, 1, 0) > 0) _exit(127);  // the parent has ended already
+  if ((flags & CLONE_NEWUSER) && !users.apply()) fail_start(error_file, try_without_users);
   prctl(PR_SET_CHILD_SUBREAPER, 1);
   signal(SIGCHLD, SIG_DFL);
   sigset_t child_ended, before;
@@ -258,66 +227,50 @@ constexpr int try_without_users = -1;    // no error of the system's: the maps o
     prctl(PR_SET_PDEATHSIG, SIGKILL);
     sigprocmask(SIG_SETMASK, &before, nullptr);
     signal(SIGPIPE, SIG_DFL);
-    call.become(exec_error);
+    call.become(error_file);
   }
-  if (program < 0) {
-    const int error = errno;
-    [[maybe_unused]] const ssize_t told = write(exec_error, &error, sizeof error);
-    _exit(127);
-  }
-  close_all_but(report, hold);
-  const int ends = signalfd(-1, &child_ended, SFD_CLOEXEC);
+  if (program < 0) fail_start(error_file, errno);
+  keep_as_number_3(report);
   WatcherReport told{};
-  bool ended = false, time_is_up = false;
-  timespec end{};
-  for (;;) {
+  bool ended = false;
+  for (Clock::time_point until = Clock::now() + limit;;) {
     int status = 0;
     rusage usage{};
     const pid_t one = wait4(-1, &status, WNOHANG, &usage);
     if (one == program) {
       told.status = status, told.usage = usage, ended = true;
-      clock_gettime(CLOCK_MONOTONIC, &end);
+      until = Clock::now() + (told.timed_out ? milliseconds(0) : grace);
     }
     if (one > 0) continue;
-    const int left = ended ? grace_milliseconds - milliseconds_since(end) : -1;
     told.left_children = ended && one == 0;
-    if (ended && (one < 0 || left <= 0 || time_is_up)) break;
-    pollfd events[2] = {{ends, POLLIN, 0}, {time_is_up ? -1 : hold, POLLIN, 0}};
-    poll(events, 2, left);
-    if (events[1].revents != 0) {
-      time_is_up = true;
+    const auto left = std::clamp<milliseconds>(std::chrono::ceil<milliseconds>(until - Clock::now()), milliseconds(0),
+                                               std::chrono::seconds(1000));
+    if (ended && (one < 0 || left.count() == 0)) break;
+    if (left.count() == 0) {
+      told.timed_out = true;
       kill(program, SIGKILL);
+      until = Clock::time_point::max();
     }
-    signalfd_siginfo taken;
-    if (events[0].revents != 0) [[maybe_unused]]
-      const ssize_t size = read(ends, &taken, sizeof taken);
+    const timespec rest{left.count() / 1000, left.count() % 1000 * 1000000};
+    sigtimedwait(&child_ended, nullptr, &rest);
   }
-  if (!(flags & CLONE_NEWPID)) kill_children();
-  [[maybe_unused]] const ssize_t size = write(report, &told, sizeof told);
+  if (!(flags & CLONE_NEWPID)) end_children(milliseconds(0));
+  [[maybe_unused]] const ssize_t size = write(3, &told, sizeof told);
   _exit(0);
 }
 
-/// Starts a watcher and the program; hands back the watcher.
-pid_t start_watched(const std::vector<std::string>& argv, const std::filesystem::path& cwd,
-                    const std::vector<std::string>& extra_env, const StandardFiles& files, const Pipe& report,
-                    const Pipe& hold) {
-  const Call call(argv, cwd, extra_env, files);
+/// Starts a watcher and the program; returns the watcher.
+pid_t start_watched(const Call& call, milliseconds limit, int report) {
   const UserMaps users;
-  int error = 0;
+  int last_error = 0;
   for (const unsigned long flags : {CLONE_NEWPID, CLONE_NEWUSER | CLONE_NEWPID, 0}) {
-    Pipe exec_error;
-    const pid_t watcher = clone_process(flags);
-    if (watcher == 0) watch(call, flags, users, exec_error.write_end, report.write_end, hold.read_end);
-    if (watcher < 0) {
-      error = errno;
-      continue;
-    }
-    error = number_from(exec_error);
+    const auto [watcher, error] =
+        start_process(flags, [&](int error_file) { watch(call, flags, users, limit, error_file, report); });
     if (error == 0) return watcher;
-    waitpid(watcher, nullptr, 0);
-    if (error != try_without_users) break;
+    last_error = error;
+    if (watcher >= 0 && error != try_without_users) break;
   }
-  throw CannotStart(argv[0], std::strerror(error));
+  throw CannotStart(call.words[0], std::strerror(last_error));
 }
 
 void set_end(int status, const rusage& usage, ProgramResult& result) {
@@ -333,160 +286,100 @@ void wait_for(pid_t child, ProgramResult& result) {
   set_end(status, usage, result);
 }
 
-void keep_last(std::string& text, size_t most) {
-  if (text.size() > most) text.erase(0, text.size() - most);
-}
-
-/// Takes what is there without waiting; closes at the end of the stream.
-void drain(Pipe& pipe, std::string& text, bool whole) {
+/// Appends what is in the pipe without waiting, and closes it at the end of the stream. Keeps the last bytes only.
+void drain(Pipe& pipe, std::string& text, size_t most) {
   std::array<char, 4096> chunk;
   while (pipe.read_end >= 0) {
     const ssize_t n = read(pipe.read_end, chunk.data(), chunk.size());
     if (n < 0 && errno == EINTR) continue;
-    if (n < 0 && errno == EAGAIN) return;
-    if (n <= 0) return Pipe::close_end(pipe.read_end);
-    text.append(chunk.data(), static_cast<size_t>(n));
-    if (!whole && text.size() > 2 * kept_bytes) keep_last(text, kept_bytes);
+    if (n < 0 && errno == EAGAIN) break;
+    if (n <= 0) Pipe::close_end(pipe.read_end);
+    if (n > 0) text.append(chunk.data(), static_cast<size_t>(n));
+    if (text.size() / 2 > most) text.erase(0, text.size() - most);
   }
+  if (text.size() > most) text.erase(0, text.size() - most);
 }
 
 }  // namespace
 
-namespace {
-
-ProgramResult run_watched(const std::vector<std::string>& argv, const std::filesystem::path& cwd,
-                          const std::vector<std::string>& extra_env, double timeout) {
-  Pipe out, err, report, hold;
-  const pid_t watcher = start_watched(argv, cwd, extra_env, {-1, out.write_end, err.write_end}, report, hold);
-  const std::string space = pid_namespace_of(std::to_string(watcher));
-  for (Pipe* pipe : {&out, &err, &report}) Pipe::close_end(pipe->write_end);
-  Pipe::close_end(hold.read_end);
-  for (Pipe* pipe : {&out, &err}) fcntl(pipe->read_end, F_SETFL, O_NONBLOCK);
-  using Clock = std::chrono::steady_clock;
-  const Clock::time_point limit =
-      Clock::now() + std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(timeout));
-  ProgramResult result;
-  for (;;) {
-    drain(out, result.out, false), drain(err, result.err, false);
-    const double left = std::chrono::duration<double>(limit - Clock::now()).count();
-    if ((result.timed_out = left <= 0)) break;
-    pollfd wait[3] = {{report.read_end, POLLIN, 0}, {out.read_end, POLLIN, 0}, {err.read_end, POLLIN, 0}};
-    poll(wait, 3, static_cast<int>(std::min(1000. * left + 1, 1e6)));
-    if (wait[0].revents != 0) break;
+void end_children(milliseconds grace_period) {
+  bool asked = false;
+  for (const auto begin = Clock::now();; usleep(1000)) {
+    pid_t ended;
+    while ((ended = waitpid(-1, nullptr, WNOHANG)) > 0) continue;
+    const auto waited = Clock::now() - begin;
+    if (ended < 0 || waited > grace_period + std::chrono::seconds(10)) return;
+    if (asked && waited < grace_period) continue;
+    char text[4096];
+    const int file = open("/proc/thread-self/children", O_RDONLY | O_CLOEXEC);
+    const ssize_t size = file < 0 ? 0 : read(file, text, sizeof text);
+    if (file >= 0) close(file);
+    pid_t child = 0;
+    for (ssize_t i = 0; i < size; ++i) {  // a number that is cut off has no blank behind it
+      if (text[i] >= '0' && text[i] <= '9') {
+        child = 10 * child + (text[i] - '0');
+      } else {
+        if (child > 0) kill(child, waited < grace_period ? SIGTERM : SIGKILL);
+        child = 0;
+      }
+    }
+    asked = true;
   }
-  Pipe::close_end(hold.write_end);
-  // it reports when all has ended, at the latest ten seconds after time is up; one that was stopped does not
-  pollfd reported{report.read_end, POLLIN, 0};
-  int ready;
-  while ((ready = poll(&reported, 1, 12000)) < 0 && errno == EINTR) continue;
-  if (ready <= 0) kill(watcher, SIGKILL);
-  wait_for(watcher, result);
-  // nobody else could tell that those inside have ended; 0: the watcher had, before it was looked at
-  if (space != "0" && space != pid_namespace_of()) remove_temporary_folders_of(space);
-  WatcherReport told{};
-  fcntl(report.read_end, F_SETFL, O_NONBLOCK);
-  result.killed_watcher = read(report.read_end, &told, sizeof told) != sizeof told;
-  if (!result.killed_watcher) {
-    set_end(told.status, told.usage, result);
-    result.left_children = told.left_children;
-  }
-  drain(out, result.out, false), drain(err, result.err, false);
-  keep_last(result.out, kept_bytes), keep_last(result.err, kept_bytes);
-  return result;
 }
-
-}  // namespace
 
 ProgramResult run_program(const std::vector<std::string>& argv, const std::filesystem::path& cwd,
                           const std::vector<std::string>& extra_env, std::optional<double> timeout) {
   if (argv.empty()) throw std::runtime_error("run_program: no program named");
-  if (timeout) return run_watched(argv, cwd, extra_env, *timeout);
-  Pipe out, err;
-  const pid_t child = start(argv, cwd, extra_env, {-1, out.write_end, err.write_end});
-  for (Pipe* pipe : {&out, &err}) {
+  Pipe out, err, report;
+  const Call call(argv, cwd, extra_env, {-1, out.write_end, err.write_end});
+  const milliseconds limit(static_cast<long>(1000 * std::min(timeout.value_or(0), 1e9)));
+  const pid_t child = timeout ? start_watched(call, limit, report.write_end) : start(call);
+  for (Pipe* pipe : {&out, &err, &report}) {
     Pipe::close_end(pipe->write_end);
     fcntl(pipe->read_end, F_SETFL, O_NONBLOCK);
   }
+  const size_t most = timeout ? kept_bytes : std::string::npos;
+  const auto give_up = Clock::now() + limit + std::chrono::seconds(12);  // a watcher that was stopped does not report
   ProgramResult result;
   for (;;) {
-    drain(out, result.out, true), drain(err, result.err, true);
-    if (out.read_end < 0 && err.read_end < 0) break;
-    pollfd wait[2] = {{out.read_end, POLLIN, 0}, {err.read_end, POLLIN, 0}};
-    poll(wait, 2, -1);
+    drain(out, result.out, most), drain(err, result.err, most);
+    if (!timeout && out.read_end < 0 && err.read_end < 0) break;
+    pollfd wait[3] = {
+        {timeout ? report.read_end : -1, POLLIN, 0}, {out.read_end, POLLIN, 0}, {err.read_end, POLLIN, 0}};
+    poll(wait, 3, timeout ? 1000 : -1);
+    if (wait[0].revents != 0) break;
+    if (timeout && Clock::now() > give_up) kill(child, SIGKILL);
   }
   wait_for(child, result);
+  if (!timeout) return result;
+  remove_stale_temporary_folders();  // those of the killed processes
+  WatcherReport told{};
+  result.killed_watcher = read(report.read_end, &told, sizeof told) != sizeof told;
+  if (!result.killed_watcher) {
+    set_end(told.status, told.usage, result);
+    result.timed_out = told.timed_out, result.left_children = told.left_children;
+  }
+  drain(out, result.out, most), drain(err, result.err, most);
   return result;
 }
 
 int run_in_terminal(const std::vector<std::string>& argv) {
   ProgramResult result;
-  wait_for(start(argv, ".", {}, {0, 1, 2}), result);
+  wait_for(start(Call(argv, ".", {}, {0, 1, 2})), result);
   return result.status;
 }
 
 bool on_path(const std::string& program) {
   const char* path = std::getenv("PATH");
-  std::string folders = path ? path : "";
-  for (size_t begin = 0; begin <= folders.size();) {
-    const size_t end = std::min(folders.find(':', begin), folders.size());
-    if (std::filesystem::exists(std::filesystem::path(folders.substr(begin, end - begin)) / program)) return true;
-    begin = end + 1;
-  }
-  return false;
+  return std::ranges::any_of(split(path ? path : "", ':'), [&](const std::string& folder) {
+    return std::filesystem::exists(std::filesystem::path(folder) / program);
+  });
 }
 
 std::string last_lines(const std::string& text, int count) {
   size_t at = text.find_last_not_of('\n');
   for (; at != std::string::npos && count > 0; --count) at = at == 0 ? std::string::npos : text.rfind('\n', at - 1);
   return text.substr(at == std::string::npos ? 0 : at + 1);
-}
-
-// stdin is a socket, as writing to the pipe of a program that has ended would end this one; stderr is a nameless file
-// in memory, so that no reader is needed.
-
-ProcessWithInput::ProcessWithInput(const std::vector<std::string>& argv) {
-  int ends[2] = {-1, -1};
-  err_ = memfd_create("stderr", MFD_CLOEXEC);
-  if (err_ < 0 || socketpair(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0, ends) != 0) {
-    const std::string why = std::strerror(errno);
-    if (err_ >= 0) close(err_);
-    throw std::runtime_error("cannot feed " + argv[0] + ": " + why);
-  }
-  try {
-    child_ = start(argv, ".", {}, {ends[1], -1, err_});
-  } catch (...) {
-    for (const int file : {ends[0], ends[1], err_}) close(file);
-    throw;
-  }
-  close(ends[1]);
-  input_ = ends[0];
-}
-
-ProcessWithInput::~ProcessWithInput() {
-  if (input_ >= 0) close(input_);
-  if (child_ > 0) kill(child_, SIGKILL), waitpid(child_, nullptr, 0);
-  close(err_);
-}
-
-bool ProcessWithInput::write_input(const void* data, size_t bytes) {
-  for (const char* at = static_cast<const char*>(data); bytes > 0;) {
-    const ssize_t sent = send(input_, at, bytes, MSG_NOSIGNAL);
-    if (sent < 0 && errno == EINTR) continue;
-    if (sent < 0) return false;
-    at += sent, bytes -= static_cast<size_t>(sent);
-  }
-  return true;
-}
-
-ProgramResult ProcessWithInput::finish() {
-  close(input_), input_ = -1;
-  ProgramResult result;
-  wait_for(child_, result), child_ = 0;
-  lseek(err_, 0, SEEK_SET);
-  std::array<char, 4096> chunk;
-  for (ssize_t n; (n = read(err_, chunk.data(), chunk.size())) > 0;)
-    result.err.append(chunk.data(), static_cast<size_t>(n));
-  return result;
 }
 
 }  // namespace crosscheck

@@ -1,8 +1,9 @@
-// Other programs: started without a shell, run to their end with or without a time-out, or fed through their stdin.
+// Other programs, started without a shell and run to their end, with or without a time limit.
 #pragma once
 
 #include <sys/resource.h>
 
+#include <chrono>
 #include <filesystem>
 #include <optional>
 #include <stdexcept>
@@ -11,20 +12,15 @@
 
 namespace crosscheck {
 
-// The environment of programs that Crosscheck starts.
-
-/// The entries "NAME=value" for any program that Crosscheck starts: those of this program, but a locale that
-/// exists everywhere (C.UTF-8: letters in UTF-8, points in numbers, English messages) and the time zone UTC, so that
-/// its output does not depend on the terminal or job that started it. `extra` wins over both.
+/// Environment "NAME=value" of all programs that Crosscheck starts: that of this program, with the locale C.UTF-8 and
+/// the time zone UTC, so that their output does not depend on the terminal or job. `extra` overrides both.
 std::vector<std::string> program_environment(const std::vector<std::string>& extra = {});
 
-/// The texts as exec and its kin take them, a null at the end; good as long as these texts.
+/// The texts as exec*() takes them, with a null at the end; valid as long as the texts are.
 std::vector<char*> c_strings(const std::vector<std::string>& texts);
 
 /// User and system time together, s.
 double cpu_seconds(const rusage& usage);
-
-// Runs another program without a shell and hands back how it ended and what it wrote.
 
 /// A program that cannot be started. what() names it.
 struct CannotStart : std::runtime_error {
@@ -33,54 +29,35 @@ struct CannotStart : std::runtime_error {
 };
 
 struct ProgramResult {
-  int status = 0;               // exit code; 128 + signal number if a signal ended it
-  int signal = 0;               // that ended it; 0 when it exited by itself
-  bool timed_out = false;       // only with a time-out, as the next two
-  bool left_children = false;   // it ended, and processes of it did not, which were killed
-  bool killed_watcher = false;  // it ended the process that watches over it: what it left behind may go on
+  int status = 0;               // exit code, or 128 + signal number
+  int signal = 0;               // that ended the program; 0 if it exited
+  bool timed_out = false;       // this and the next two: only with a time limit
+  bool left_children = false;   // processes of it were still running at its end; they were killed
+  bool killed_watcher = false;  // it killed the process that watches it: its children may still be running
   double cpu_seconds = 0;       // user and system time of the program and of the children it waited for
-  std::string out, err;         // all of stdout and of stderr
+  std::string out, err;         // stdout and stderr
 };
 
-/// Runs argv[0] (a path, or looked up in PATH) in the folder cwd with stdin empty, in the environment of
-/// program_environment(extra_env), until it has ended and its output is closed.
-/// With a timeout (s) it is not trusted to behave: it may hang, crash, chatter, detach itself, or leave children
-/// behind. When it has ended, or time is up, or this thread ends, all that descends from it is killed: it runs in a pid
-/// namespace of its own where the kernel allows that, elsewhere under a process that orphans are handed to. Only the
-/// last 64 KiB of stdout and of stderr are kept. Throws CannotStart.
+/// Runs argv[0] (a path, or a name in PATH) in the folder cwd, with empty stdin and program_environment(extra_env),
+/// until it has ended and its output is closed. Throws CannotStart.
+/// With a timeout (s) the program is not trusted: it may hang, crash, write without end, detach itself or leave
+/// children. All its descendants are killed at its end, at the time limit, and if the calling thread ends: it runs in a
+/// pid namespace of its own if the kernel permits, otherwise below a subreaper. Only the last 64 KiB of stdout and of
+/// stderr are kept.
 ProgramResult run_program(const std::vector<std::string>& argv, const std::filesystem::path& cwd,
                           const std::vector<std::string>& extra_env = {}, std::optional<double> timeout = {});
 
-/// Runs it with the stdin, stdout and stderr of this program, and hands back its exit status, as above. Throws
-/// CannotStart.
+/// Runs a program with this program's stdin, stdout and stderr; returns its exit status, as above. Throws CannotStart.
 int run_in_terminal(const std::vector<std::string>& argv);
 
-/// Whether a program of this name is in PATH.
+/// True if PATH has a program of this name.
 bool on_path(const std::string& program);
 
-/// The end of what a program said.
+/// The last lines of a text.
 std::string last_lines(const std::string& text, int count);
 
-// A program that is fed through its stdin while it runs.
-
-class ProcessWithInput {
- public:
-  /// Starts argv[0] (looked up in PATH); what it says on stdout is lost. Throws std::runtime_error if that is not
-  /// possible.
-  explicit ProcessWithInput(const std::vector<std::string>& argv);
-  /// Ends it, where its input was not closed.
-  ~ProcessWithInput();
-  ProcessWithInput(const ProcessWithInput&) = delete;
-  ProcessWithInput& operator=(const ProcessWithInput&) = delete;
-
-  /// False where it takes no more, as it has ended.
-  bool write_input(const void* data, size_t bytes);
-  /// Says that this was all, waits, and hands back its exit status and its stderr.
-  ProgramResult finish();
-
- private:
-  pid_t child_ = 0;
-  int input_ = -1, err_ = -1;
-};
+/// Ends all children of this process, and the orphans that it receives as a subreaper: SIGTERM, then SIGKILL after the
+/// grace period. Gives up ten seconds later. Allocates nothing.
+void end_children(std::chrono::milliseconds grace);
 
 }  // namespace crosscheck

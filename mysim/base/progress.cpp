@@ -12,6 +12,7 @@
 #include <chrono>
 #include <cmath>
 #include <condition_variable>
+#include <latch>
 #include <mutex>
 #include <thread>
 
@@ -20,7 +21,7 @@
 namespace crosscheck {
 namespace {
 
-constexpr double silent = 2;  // s: what is shorter needs no progress
+constexpr double silent = 2;  // s, after which progress is shown
 
 }  // namespace
 
@@ -33,7 +34,7 @@ std::string format_duration(double seconds) {
 }
 
 std::string progress_line(const ProgressSnapshot& seen) {
-  // of steps that are alike, as many as are behind, and a part of one; a hundredth is what an estimate needs
+  // takes all steps as alike; an estimate needs a hundredth of the work
   const bool known = seen.total >= seen.begun;
   const double done = known ? (std::max(seen.begun - 1, 0) + seen.part) / seen.total : 0;
   std::string left;
@@ -55,83 +56,65 @@ std::string progress_line(const ProgressSnapshot& seen) {
 struct Progress::Display {
   using Clock = std::chrono::steady_clock;
 
-  std::mutex mutex;  // of all that follows, `part` excepted
-  std::condition_variable ended;
-  std::condition_variable waits;
-  bool waiting = false, end = false, shown = false;  // shown: a line stands on the terminal
+  std::mutex mutex;  // guards all members but `part`
+  std::condition_variable_any stopped;
+  std::latch ready{1};
+  bool shown = false;  // the terminal shows a line
   int total, begun = 0;
-  std::string what;
+  std::string what;  // empty: nothing to show
   double expected = 0;
   std::atomic<double> part = 0;
-  bool terminal = isatty(STDERR_FILENO) != 0;
-  Clock::time_point start = Clock::now(), step_start = start;
-  double last_line = 0;  // s, when a plain line was written
-  pid_t owner = getpid();
-  std::thread thread;
+  const bool terminal = isatty(STDERR_FILENO) != 0;
+  const Clock::time_point start = Clock::now();
+  Clock::time_point step_start = start;
+  double last_line = 0;  // s, time of the last plain line
+  const pid_t owner = getpid();
+  std::jthread thread;  // last, so that it ends first
 
   explicit Display(int steps) : total(steps) {
-    // signals are for the thread that works
+    // signals are for the working thread
     sigset_t all, before;
     sigfillset(&all);
     pthread_sigmask(SIG_SETMASK, &all, &before);
-    thread = std::thread([this] { look(); });
+    thread = std::jthread([this](const std::stop_token& stop) { look(stop); });
     pthread_sigmask(SIG_SETMASK, &before, nullptr);
-    std::unique_lock lock(mutex);
-    waits.wait(lock, [this] { return waiting; });
+    ready.wait();
   }
 
   static double since(Clock::time_point from) { return std::chrono::duration<double>(Clock::now() - from).count(); }
 
   static void put(const std::string& text) {
-    // one call for each line: no buffer that a forked child could hold too
+    // unbuffered: a forked child would hold a copy of the buffer
     [[maybe_unused]] const ssize_t written = write(STDERR_FILENO, text.data(), text.size());
   }
 
-  void look() {
+  void look(const std::stop_token& stop) {
     std::unique_lock lock(mutex);
-    waiting = true;
-    waits.notify_one();
-    while (!ended.wait_for(lock, std::chrono::milliseconds(250), [this] { return end; })) {
+    ready.count_down();
+    while (!stopped.wait_for(lock, stop, std::chrono::milliseconds(250), [&] { return stop.stop_requested(); })) {
       const double elapsed = since(start);
       if (elapsed < silent || begun == 0 || what.empty()) continue;
-      // plain lines: the first after two seconds, then ever more seldom, a minute apart at most
+      // plain lines at growing intervals, at most a minute apart
       if (!terminal && last_line > 0 && elapsed - last_line < std::clamp(elapsed / 4, 5., 60.)) continue;
       std::string line = progress_line({begun, total, part, elapsed, expected, since(step_start), what});
-      if (terminal) {
-        winsize window{};
-        if (ioctl(STDERR_FILENO, TIOCGWINSZ, &window) == 0 && window.ws_col > 4 && line.size() >= window.ws_col)
-          line = line.substr(0, window.ws_col - 4) + "...";
-        put("\r\033[K" + line);
-        shown = true;
-      } else {
-        put(line + "\n");
-        last_line = elapsed;
-      }
+      winsize window{};
+      if (terminal && ioctl(STDERR_FILENO, TIOCGWINSZ, &window) == 0 && window.ws_col > 4 &&
+          line.size() >= window.ws_col)
+        line = line.substr(0, window.ws_col - 4) + "...";
+      put(terminal ? "\r\033[K" + line : line + "\n");
+      shown = terminal;
+      last_line = elapsed;
     }
-  }
-
-  void wipe() {
-    if (terminal && shown) put("\r\033[K");
-    shown = false;
   }
 };
 
 Progress::Progress(int total) : display_(std::make_unique<Display>(total)) {}
 
 Progress::~Progress() {
-  if (getpid() != display_->owner) {
-    // a forked child has no such thread, and may have been born while it held the lock
-    display_->thread.detach();
-    static_cast<void>(display_.release());
-    return;
-  }
-  {
-    const std::lock_guard lock(display_->mutex);
-    display_->end = true;
-    display_->wipe();
-  }
-  display_->ended.notify_all();
-  display_->thread.join();
+  if (getpid() == display_->owner)
+    done();
+  else
+    static_cast<void>(display_.release());  // a forked child has no such thread to join
 }
 
 void Progress::begin(const std::string& what, double seconds) {
@@ -157,8 +140,9 @@ pid_t Progress::fork() {
 
 void Progress::done() {
   const std::lock_guard lock(display_->mutex);
+  if (display_->shown) Display::put("\r\033[K");
+  display_->shown = false;
   display_->what.clear();
-  display_->wipe();
 }
 
 }  // namespace crosscheck

@@ -1,5 +1,5 @@
-// Progress of long work on standard error: one line that renews itself on a terminal, plain lines elsewhere; nothing in
-// the first two seconds.
+// Progress of long work on standard error: one renewed line on a terminal, plain lines elsewhere, nothing in the first
+// two seconds.
 #pragma once
 
 #include <sys/types.h>
@@ -9,37 +9,35 @@
 
 namespace crosscheck {
 
-/// The progress at a moment.
 struct ProgressSnapshot {
-  int begun = 0, total = 0;  // steps of work; of one alone no number is shown
-  double part = 0;           // of the step that is going on, 0 to 1
-  double elapsed = 0;        // s, since the beginning
-  double expected = 0;       // s, of the step that is going on, as estimated beforehand; 0: unknown
-  double in_step = 0;        // s, since the step began
+  int begun = 0, total = 0;  // steps of work, the current one included; a single step has no number
+  double part = 0;           // finished part of the current step, 0 to 1
+  double elapsed = 0;        // s, since the start
+  double expected = 0;       // s, estimated duration of the current step; 0: unknown
+  double in_step = 0;        // s, since the start of the step
   std::string what;
 };
-/// "[3/12] what (34 s, about 2 min left)": the time left from what is done so far, else from the estimate,
-/// else nothing.
+/// "[3/12] what (34 s, about 2 min left)": the remaining time from the finished part, otherwise from the estimate.
 std::string progress_line(const ProgressSnapshot& seen);
 /// "34 s", "12 min", "3.4 h", "5 days", "1e+05 years".
 std::string format_duration(double seconds);
 
-/// A thread of its own writes the line a few times a second; the working thread only stores a number.
+/// A thread of its own writes the line; the working thread only stores a number.
 class Progress {
  public:
-  /// total: how many steps of work there will be, for the estimate.
+  /// total: number of steps of work, for the estimate.
   explicit Progress(int total);
   ~Progress();
-  /// Announces the step that begins now; `seconds`: how long it will take, where that is known.
+  /// Begins the next step; `seconds` is its expected duration, if known.
   void begin(const std::string& what, double seconds = 0);
-  /// Sets the finished part of the current step, 0 to 1. Costs a store.
+  /// Sets the finished part of the current step, 0 to 1. Costs one store.
   void part(double done);
-  /// More work was found, or less.
+  /// Adds to the number of steps.
   void expect(int more);
-  /// Takes the line from the terminal: what is printed afterwards stands alone. The next step shows it again.
+  /// Erases the line from the terminal until the next step begins.
   void done();
-  /// fork() at a moment when the thread sleeps: else it may hold a lock, of an allocator for one, that nobody would
-  /// ever open in the child.
+  /// fork() while the thread sleeps: otherwise it could hold a lock, for example of the allocator, that would stay
+  /// closed in the child.
   pid_t fork();
 
  private:

@@ -1,7 +1,6 @@
 // Thread clock, memory left, and supervision by a parent.
 #include "mysim/base/this_process.h"
 
-#include <fcntl.h>
 #include <fmt/format.h>
 #include <signal.h>
 #include <sys/mman.h>
@@ -11,20 +10,19 @@
 #include <unistd.h>
 
 #include <algorithm>
-#include <cerrno>
+#include <atomic>
 #include <chrono>
-#include <cstdio>
-#include <cstdlib>
+#include <cstring>
 #include <ctime>
 #include <exception>
 #include <fstream>
 #include <limits>
 #include <optional>
-#include <sstream>
 
 #include "mysim/base/files.h"
 #include "mysim/base/names.h"
 #include "mysim/base/output_folder.h"
+#include "mysim/base/process.h"
 
 namespace crosscheck {
 namespace {
@@ -45,35 +43,22 @@ void CpuClock::stop() {
   if (runs_) total_ += now() - begin_;
 }
 
-namespace fs = std::filesystem;
 namespace {
+
+namespace fs = std::filesystem;
 
 constexpr double unlimited = std::numeric_limits<double>::infinity();
 
-double available_to_all() {
-  std::ifstream in("/proc/meminfo");
-  for (std::string line; std::getline(in, line);)
-    if (double kib = 0; std::sscanf(line.c_str(), "MemAvailable: %lf", &kib) == 1) return 1024 * kib;
-  return unlimited;
-}
-
-/// A number in a file; nothing where there is none ("max").
-std::optional<double> number_of_file(const fs::path& file) {
+/// A number in a file, or the one behind a word there; nothing if there is none ("max").
+std::optional<double> number_of_file(const fs::path& file, std::string_view word = "") {
   std::ifstream in(file);
+  for (std::string key; !word.empty() && in >> key && key != word;) in.ignore(100, '\n');
   double value = 0;
   return in >> value ? std::optional(value) : std::nullopt;
 }
 
-/// Bytes of files that the group's memory holds and gives up when it is needed: counted as used there.
-double given_up_by_group(const fs::path& group, std::string_view key) {
-  std::ifstream in(group / "memory.stat");
-  double bytes = 0;
-  for (std::string word; in >> word >> bytes;)
-    if (word == key) return bytes;
-  return 0;
-}
-
-/// The memory that the groups of this process leave, version 2 or 1, each one up to the root.
+/// The memory that the control groups of this process leave, version 1 or 2, each of them up to the root. File caches
+/// count as used there, but are given up on demand.
 double left_by_groups() {
   double least = unlimited;
   std::ifstream in("/proc/self/cgroup");
@@ -89,9 +74,8 @@ double left_by_groups() {
       const fs::path group = root / fs::path(at).relative_path();
       const auto limit = number_of_file(group / (both ? "memory.max" : "memory.limit_in_bytes"));
       const auto used = number_of_file(group / (both ? "memory.current" : "memory.usage_in_bytes"));
-      if (limit && used)
-        least =
-            std::min(least, *limit - *used + given_up_by_group(group, both ? "inactive_file" : "total_inactive_file"));
+      const auto cached = number_of_file(group / "memory.stat", both ? "inactive_file" : "total_inactive_file");
+      if (limit && used) least = std::min(least, *limit - *used + cached.value_or(0));
       if (at.find_first_not_of('/') == std::string::npos) break;
     }
   }
@@ -108,12 +92,20 @@ double left_of_address_space() {
 
 }  // namespace
 
-double free_memory() { return std::min({available_to_all(), left_by_groups(), left_of_address_space()}); }
+double free_memory() {
+  const auto available = number_of_file("/proc/meminfo", "MemAvailable:");  // KiB
+  return std::min({available ? 1024 * *available : unlimited, left_by_groups(), left_of_address_space()});
+}
 
 namespace {
 
-// the number of a file in memory, which parent and child share, and programs that they start do not
-constexpr auto notes_variable = "CROSSCHECK_SUPERVISOR";
+/// Folders of results that workers write, as texts with a null at the end. The supervisor shares this memory with its
+/// workers; programs that they start do not see it.
+struct Notes {
+  std::atomic<size_t> used;
+  char text[1 << 16];
+};
+Notes* notes = nullptr;
 
 /// Signals that end a program, unless its parent had them ignored.
 sigset_t ending_signals() {
@@ -126,29 +118,6 @@ sigset_t ending_signals() {
   return set;
 }
 
-void signal_children(int number) {
-  char text[4096];
-  const int file = open("/proc/thread-self/children", O_RDONLY | O_CLOEXEC);
-  const ssize_t size = file < 0 ? 0 : read(file, text, sizeof text - 1);
-  if (file >= 0) close(file);
-  std::istringstream all(std::string(text, static_cast<size_t>(std::max<ssize_t>(0, size))));
-  for (pid_t child; all >> child && !all.eof();) kill(child, number);
-}
-
-/// Ends all descendants: orphans became children of this process. Each has two seconds to tidy up before it is killed.
-void end_descendants() {
-  using Clock = std::chrono::steady_clock;
-  const auto kill_after = Clock::now() + std::chrono::seconds(2), give_up_after = kill_after + std::chrono::seconds(10);
-  for (bool first = true;; first = false) {
-    pid_t ended;
-    while ((ended = waitpid(-1, nullptr, WNOHANG)) > 0) {
-    }
-    if (ended < 0 || Clock::now() > give_up_after) return;
-    if (first || Clock::now() > kill_after) signal_children(first ? SIGTERM : SIGKILL);
-    usleep(2000);
-  }
-}
-
 int status_of_child(pid_t child, const sigset_t& waited) {
   for (;;) {
     int status = 0;
@@ -159,16 +128,12 @@ int status_of_child(pid_t child, const sigset_t& waited) {
   }
 }
 
-void tidy_results(int notes) {
-  std::string text;
-  char block[4096];
-  off_t at = 0;
-  for (ssize_t got; (got = pread(notes, block, sizeof block, at)) > 0; at += got)
-    text.append(block, static_cast<size_t>(got));
-  for (size_t begin = 0, end; (end = text.find('\0', begin)) != std::string::npos; begin = end + 1) try {
-      recover_output(text.substr(begin, end - begin));
+void tidy_results() {
+  const size_t used = std::min<size_t>(notes->used, sizeof notes->text);
+  for (size_t at = 0; at < used; at += std::strlen(notes->text + at) + 1) try {
+      if (notes->text[at]) recover_output(notes->text + at);
     } catch (const std::exception&) {
-      // another process does it by now, or the next start with this folder will say what is wrong
+      // another process does it by now, or the next start with this folder reports the problem
     }
 }
 
@@ -193,37 +158,34 @@ int run_supervised(const std::function<int()>& work, const std::string& when_int
   const pid_t self = getpid();
   sigset_t waited = ending_signals(), before;
   sigaddset(&waited, SIGCHLD);
-  const int notes = memfd_create("crosscheck", MFD_CLOEXEC);
+  void* shared = mmap(nullptr, sizeof(Notes), PROT_READ | PROT_WRITE, MAP_SHARED | MAP_ANONYMOUS, -1, 0);
+  notes = shared == MAP_FAILED ? nullptr : static_cast<Notes*>(shared);
   sigprocmask(SIG_BLOCK, &waited, &before);
   const pid_t child = fork();
   if (child <= 0) {
     if (child == 0) {
       prctl(PR_SET_PDEATHSIG, SIGKILL);
       if (getppid() != self) _exit(1);
-      if (notes >= 0) setenv(notes_variable, fmt::format("{}", notes).c_str(), 1);
     }
     sigprocmask(SIG_SETMASK, &before, nullptr);
     return work();
   }
-  signal(SIGCHLD, SIG_DFL);  // or, where the parent ignores it, no child could be waited for
+  signal(SIGCHLD, SIG_DFL);  // if the parent ignores it, no child can be waited for
   prctl(PR_SET_CHILD_SUBREAPER, 1);
   remove_stale_temporary_folders();
   const int status = status_of_child(child, waited);
-  end_descendants();
+  end_children(std::chrono::seconds(2));
   remove_stale_temporary_folders();
-  if (notes >= 0) tidy_results(notes);
+  if (notes) tidy_results();
   if (WIFSIGNALED(status) && !when_interrupted.empty())
     fmt::print(stderr, "\ncrosscheck: interrupted; {}\n", when_interrupted);
   end_as(status);
 }
 
 void register_output(const std::string& folder) {
-  const char* number = std::getenv(notes_variable);
-  if (!number) return;
-  const int notes = std::atoi(number);
-  // in a program that was started by another, the number means nothing
-  if (fcntl(notes, F_GET_SEALS) < 0 || lseek(notes, 0, SEEK_END) < 0) return;
-  [[maybe_unused]] const ssize_t written = write(notes, folder.c_str(), folder.size() + 1);
+  if (!notes) return;
+  const size_t at = notes->used.fetch_add(folder.size() + 1);
+  if (at + folder.size() < sizeof notes->text) std::memcpy(notes->text + at, folder.data(), folder.size());
 }
 
 }  // namespace crosscheck

@@ -1,4 +1,4 @@
-// This process: its CPU time, the memory left to it, and the parent that tidies up after it.
+// This process: its CPU time, the memory left to it, and a supervisor that tidies up after it.
 #pragma once
 
 #include <functional>
@@ -6,9 +6,7 @@
 
 namespace crosscheck {
 
-// CPU time of the calling thread: what the work cost, whatever else the machine was doing.
-
-/// Adds up the thread's CPU time between start() and stop(); one that does not run says 0.
+/// Adds up the calling thread's CPU time between start() and stop(), or stays at 0 if it is not to run.
 class CpuClock {
  public:
   explicit CpuClock(bool runs = true) : runs_(runs) {}
@@ -31,21 +29,18 @@ double cpu_time_of(const Work& work) {
   return clock.seconds();
 }
 
-/// Bytes that this process can still take: what the system says is available (MemAvailable), less where a control group
-/// or a limit of the process's address space allows less. Infinite where nothing is known.
+/// Memory available to this process, bytes: MemAvailable, or less if a control group or the limit of the address space
+/// leaves less. Infinite if nothing is known.
 double free_memory();
 
-// A program in two processes: one works, the other sees to it that nothing is left when the first has ended, however.
-
-/// Does the work in a child process, hands SIGINT, SIGTERM and SIGHUP on to it, and returns its exit status, or ends as
-/// it ended. Before that all that descends from the child is ended too, temporary folders of processes that are gone
-/// are removed, and what they left of unfinished results (see register_output()). Nothing of this runs in a signal
-/// handler. A supervisor that is killed takes the child with it; what is left then, the next start removes. To be
-/// called first in main(). Where no process can be made, the work is done in this one. If a signal ends the work,
-/// `when_interrupted` is reported on standard error unless it is empty.
+/// Runs the work in a child process, forwards SIGINT, SIGTERM and SIGHUP to it, and returns its exit status, or ends as
+/// the child ended. Before that it ends all descendants of the child, removes temporary folders of dead processes, and
+/// tidies up unfinished results (see register_output()), none of it in a signal handler. If this supervisor is killed,
+/// the child is killed too, and the next start tidies up. Call it first in main(). If no process can be made, the work
+/// is done in this one. If a signal ends the work, `when_interrupted` is printed on standard error unless it is empty.
 int run_supervised(const std::function<int()>& work, const std::string& when_interrupted = "");
 
-/// Names a folder for results that must be seen to where this process is killed. Nothing where there is no supervisor.
+/// Names a folder of results to tidy up if this process is killed. Does nothing without a supervisor.
 void register_output(const std::string& folder);
 
 }  // namespace crosscheck

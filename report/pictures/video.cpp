@@ -5,10 +5,15 @@
 
 #include <algorithm>
 #include <cmath>
+#include <csignal>
+#include <cstdio>
 #include <stdexcept>
+#include <utility>
 
 #include "mysim/base/errors.h"
+#include "mysim/base/files.h"
 #include "mysim/base/process.h"
+#include "mysim/base/text.h"
 #include "report/base/atomic_file.h"
 #include "report/pictures/colour.h"
 #include "report/pictures/lettering.h"
@@ -40,16 +45,35 @@ void require_encoder() {
 struct Video::Parts {
   std::filesystem::path file;
   AtomicFile output;
-  ProcessWithInput ffmpeg;
+  TemporaryFolder messages{"video"};
+  std::FILE* ffmpeg = nullptr;
+  void (*broken_pipe)(int);  // handler to restore
 
-  Parts(const std::filesystem::path& file_, int width, int height, int rate)
-      : file(file_), output(file), ffmpeg(call(output.temporary(), width, height, rate)) {}
+  Parts(const std::filesystem::path& file_, int width, int height, int rate) : file(file_), output(file) {
+    std::string command = "LC_ALL=C.UTF-8 TZ=UTC exec";
+    for (const std::string& word : call(output.temporary(), width, height, rate))
+      command += " " + shell_single_quote(word);
+    command += " > /dev/null 2> " + shell_single_quote((messages.path / "err").string());
+    ffmpeg = popen(command.c_str(), "we");
+    if (!ffmpeg) throw std::runtime_error("ffmpeg cannot be started");
+    broken_pipe = std::signal(SIGPIPE, SIG_IGN);
+  }
+  ~Parts() { close(); }
+  Parts(const Parts&) = delete;
+  Parts& operator=(const Parts&) = delete;
+
+  /// Waits for the end of ffmpeg; returns its status as of wait().
+  int close() {
+    if (!ffmpeg) return 0;
+    const int status = pclose(std::exchange(ffmpeg, nullptr));
+    std::signal(SIGPIPE, broken_pipe);
+    return status;
+  }
 
   void finish() {
-    const ProgramResult end = ffmpeg.finish();
-    if (end.status != 0)
-      throw std::runtime_error(
-          fmt::format("ffmpeg (exit code {}) on {}: {}", end.status, file.string(), last_lines(end.err, 1)));
+    if (const int status = close(); status != 0)
+      throw std::runtime_error(fmt::format("ffmpeg (exit code {}) on {}: {}", WEXITSTATUS(status), file.string(),
+                                           last_lines(try_read_file(messages.path / "err").value_or(""), 1)));
   }
 };
 
@@ -61,7 +85,7 @@ Video::Video(const std::filesystem::path& file, int width, int height, int rate)
 Video::~Video() = default;
 
 void Video::add(const Image& image) {
-  if (parts_->ffmpeg.write_input(image.rgb.data(), image.rgb.size())) return;
+  if (std::fwrite(image.rgb.data(), 1, image.rgb.size(), parts_->ffmpeg) == image.rgb.size()) return;
   parts_->finish();
   throw std::runtime_error("ffmpeg takes no more images for " + parts_->file.string());
 }

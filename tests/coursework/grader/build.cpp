@@ -72,7 +72,7 @@ Compiler::Compiler() : cache_(compiled_folder()) {
     throw InputError(
         fmt::format("{}: belongs to another user; name another folder in CROSSCHECK_CACHE", cache_.string()));
   fs::permissions(cache_, fs::perms(0700));
-  crosscheck::remove_stale_files(cache_);  // what a killed run was copying (cached())
+  crosscheck::remove_stale_temporary_folders(cache_);  // unfinished copies of killed runs (cached())
 }
 
 fs::path Compiler::cached(const std::string& key, const std::string& ending,
@@ -82,10 +82,9 @@ fs::path Compiler::cached(const std::string& key, const std::string& ending,
   const crosscheck::TemporaryFolder scratch("build");
   const fs::path made = scratch.path / ("made" + ending);
   make(made);
-  // under another name first
-  const fs::path temporary = cache_ / (scratch.path.filename().string() + ending);
-  fs::copy_file(made, temporary);
-  fs::rename(temporary, file);
+  const crosscheck::TemporaryFolder beside("copy", cache_);  // for a rename within one file system
+  fs::copy_file(made, beside.path / "made");
+  fs::rename(beside.path / "made", file);
   return file;
 }
 

@@ -18,8 +18,6 @@
 #include <thread>
 #include <vector>
 
-#include "mysim/base/files.h"
-
 namespace coursework {
 namespace fs = std::filesystem;
 namespace {
@@ -75,16 +73,9 @@ void take_back(const fs::path& entry, unsigned user) {
 }  // namespace
 
 PrivateFolder::PrivateFolder(unsigned mode, unsigned owner) {
-  std::string name = crosscheck::temporary_name("lane");
-  if (!mkdtemp(name.data())) throw std::runtime_error(fmt::format("cannot make {}: {}", name, std::strerror(errno)));
-  path_ = name;
+  const std::string name = path().string();
   if (chmod(name.c_str(), mode) != 0 || (owner && chown(name.c_str(), owner, owner) != 0))
     throw std::runtime_error(fmt::format("cannot give {} away: {}", name, std::strerror(errno)));
-}
-
-PrivateFolder::~PrivateFolder() {
-  std::error_code error;
-  fs::remove_all(path_, error);
 }
 
 SandboxUser::SandboxUser() {

@@ -8,6 +8,7 @@
 #include <utility>
 #include <vector>
 
+#include "mysim/base/files.h"
 #include "tests/coursework/grader/sandbox.h"
 
 namespace coursework {
@@ -17,13 +18,10 @@ class PrivateFolder {
  public:
   /// Throws std::runtime_error where none can be made.
   explicit PrivateFolder(unsigned mode, unsigned owner = 0);
-  ~PrivateFolder();
-  PrivateFolder(const PrivateFolder&) = delete;
-  PrivateFolder& operator=(const PrivateFolder&) = delete;
-  const std::filesystem::path& path() const { return path_; }
+  const std::filesystem::path& path() const { return folder_.path; }
 
  private:
-  std::filesystem::path path_;
+  crosscheck::TemporaryFolder folder_{"lane"};
 };
 
 /// A user id that nobody else has, held while this lives, across threads and processes. It needs no entry in the list

@@ -131,23 +131,5 @@ TEST(ClipRun, OneLookSuitsAllItsTimes) {
   }
 }
 
-TEST(ProcessWithInput, TakesWhatItIsFed) {
-  ProcessWithInput echo({"sh", "-c", "cat >&2; exit 3"});
-  const std::string text(300000, 'x');
-  EXPECT_TRUE(echo.write_input(text.data(), text.size()));
-  const ProgramResult end = echo.finish();
-  EXPECT_EQ(end.status, 3);
-  EXPECT_TRUE(end.err == text);
-}
-
-TEST(ProcessWithInput, OneThatHasEndedTakesNoMore) {
-  ProcessWithInput ends({"true"});
-  const std::string text(1 << 20, 'x');
-  while (ends.write_input(text.data(), text.size())) {
-  }
-  EXPECT_EQ(ends.finish().status, 0);
-  EXPECT_THROW(ProcessWithInput({"no-such-program-anywhere"}), std::runtime_error);
-}
-
 }  // namespace
 }  // namespace crosscheck
