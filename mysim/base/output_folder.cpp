@@ -11,7 +11,6 @@
 #include <cerrno>
 #include <chrono>
 #include <cstdio>
-#include <cstdlib>
 #include <cstring>
 #include <fstream>
 #include <iterator>
@@ -26,56 +25,43 @@ namespace crosscheck {
 namespace fs = std::filesystem;
 namespace {
 
+constexpr auto new_result = "new", old_result = "old";
+
+bool is_there(const fs::path& path) { return fs::exists(fs::symlink_status(path)); }
+bool is_folder(const fs::path& path) { return fs::is_directory(fs::symlink_status(path)); }
+
+/// Device and inode.
+std::pair<dev_t, ino_t> identity(const fs::path& file) {
+  struct stat about {};
+  if (lstat(file.c_str(), &about) != 0) return {};
+  return {about.st_dev, about.st_ino};
+}
+
 bool is_mount_point(const fs::path& folder) {
   struct statx about {};
   if (statx(AT_FDCWD, folder.c_str(), AT_SYMLINK_NOFOLLOW, STATX_TYPE, &about) != 0) return false;
   return (about.stx_attributes_mask & STATX_ATTR_MOUNT_ROOT) && (about.stx_attributes & STATX_ATTR_MOUNT_ROOT);
 }
 
-struct Holder {
-  long process = 0;
-  std::string since, command;
-};
-
-Holder holder_in(int handle) {
-  char text[512];
-  const ssize_t size = pread(handle, text, sizeof text, 0);
-  Holder holder;
-  if (size <= 0) return holder;
-  const std::string all(text, static_cast<size_t>(size));
-  const size_t first = all.find('\n'), second = all.find('\n', first + 1);
-  if (first == std::string::npos || second == std::string::npos) return holder;
-  holder.process = std::strtol(all.c_str(), nullptr, 10);
-  holder.since = all.substr(first + 1, second - first - 1);
-  holder.command = all.substr(second + 1, all.find('\n', second + 1) - second - 1);
-  return holder;
-}
-
-bool same_file(int handle, const fs::path& file) {
-  struct stat opened {
-  }, named{};
-  return fstat(handle, &opened) == 0 && stat(file.c_str(), &named) == 0 && opened.st_dev == named.st_dev &&
-         opened.st_ino == named.st_ino;
-}
-
 }  // namespace
 
-OutputPlace::OutputPlace(const fs::path& given) : requested(given) {
-  try {
-    target = fs::weakly_canonical(fs::absolute(given));
-    if (!target.has_filename()) target = target.parent_path();
-    if (given.empty() || !target.has_filename() || (fs::exists(target) && !fs::is_directory(target))) refuse();
-    for (fs::path at = target; at.has_relative_path(); at = at.parent_path())
-      if (fs::is_symlink(at))
-        refuse(fmt::format("{} is a link to {}, which does not exist; make that folder, or give another one",
-                           at.string(), fs::read_symlink(at).string()));
-  } catch (const fs::filesystem_error&) {
-    refuse();
-  }
+void OutputLock::refuse(const std::string& why) const {
+  throw InputError(fmt::format("--out {}: {}", requested.string(),
+                               why.empty() ? "expected a folder that can be made and written to" : why));
+}
+
+void OutputLock::find_target() {
+  target = fs::weakly_canonical(fs::absolute(requested));
+  if (!target.has_filename()) target = target.parent_path();
+  if (requested.empty() || !target.has_filename() || (fs::exists(target) && !fs::is_directory(target))) refuse();
+  for (fs::path at = target; at.has_relative_path(); at = at.parent_path())
+    if (fs::is_symlink(at))
+      refuse(fmt::format("{} is a link to {}, which does not exist; make that folder, or give another one", at.string(),
+                         fs::read_symlink(at).string()));
   work = target.parent_path() / fmt::format(".{}.crosscheck", target.filename().string());
 }
 
-void OutputPlace::require_replaceable() const {
+void OutputLock::require_replaceable() const {
   const fs::path parent = target.parent_path();
   struct stat above {
   }, about{};
@@ -90,75 +76,75 @@ void OutputPlace::require_replaceable() const {
     refuse("belongs to another user; give another folder");
 }
 
-void OutputPlace::refuse(const std::string& why) const {
-  throw InputError(fmt::format("--out {}: {}", requested.string(),
-                               why.empty() ? "expected a folder that can be made and written to" : why));
-}
-
-OutputLock::OutputLock(const OutputPlace& place, const std::string& command) : process_(getpid()) {
+OutputLock::OutputLock(const fs::path& given, const std::string& command) : requested(given), process_(getpid()) {
   std::error_code error;
-  for (fs::path above = place.target.parent_path(); above.has_relative_path() && !fs::exists(above, error);
+  try {
+    find_target();
+  } catch (const fs::filesystem_error&) {
+    refuse();
+  }
+  for (fs::path above = target.parent_path(); above.has_relative_path() && !fs::exists(above, error);
        above = above.parent_path())
     made_.push_back(above);
-  fs::create_directories(place.target.parent_path(), error);
-  place.require_replaceable();
-  work_ = place.work;
-  const fs::path file = work_ / "lock";
-  // one that was killed lets go when the processes that it had started are gone too, which is soon
+  fs::create_directories(target.parent_path(), error);
+  require_replaceable();
+  const fs::path file = work / "lock";
+  // the lock of a killed writer is held until its child processes have ended, too
   const auto deadline = std::chrono::steady_clock::now() + std::chrono::seconds(3);
   for (;; std::this_thread::sleep_for(std::chrono::milliseconds(10))) {
     struct stat about {};
-    if (mkdir(work_.c_str(), 0700) != 0 && errno == EEXIST && lstat(work_.c_str(), &about) == 0 &&
+    if (mkdir(work.c_str(), 0700) != 0 && errno == EEXIST && lstat(work.c_str(), &about) == 0 &&
         (!S_ISDIR(about.st_mode) || about.st_uid != geteuid()))
-      place.refuse(work_.string() + " is not a folder of yours; remove it, or give another folder");
+      refuse(work.string() + " is not a folder of yours; remove it, or give another folder");
     handle_ = open(file.c_str(), O_CREAT | O_RDWR | O_CLOEXEC | O_NOFOLLOW, 0666);
-    if (handle_ < 0 && errno == ENOENT && std::chrono::steady_clock::now() < deadline) continue;  // gone just now
-    if (handle_ < 0) place.refuse();
+    const bool in_time = std::chrono::steady_clock::now() < deadline;
+    if (handle_ < 0 && errno == ENOENT && in_time) continue;  // another process has just removed the folder
+    if (handle_ < 0) refuse();
     if (flock(handle_, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK) {
-      const Holder holder = holder_in(handle_);
       close(handle_);
-      const bool alive = holder.process > 0 && (kill(static_cast<pid_t>(holder.process), 0) == 0 || errno == EPERM);
-      if (!alive && std::chrono::steady_clock::now() < deadline) continue;
-      place.refuse(holder.process > 0
-                       ? fmt::format("process {} (crosscheck {}) has been writing into it since {}; wait "
-                                     "for it, or give another folder",
-                                     holder.process, holder.command, holder.since)
-                       : "another process is writing into it; wait for it, or give another folder");
+      std::ifstream in(file);
+      pid_t holder = 0;
+      std::string since, writes;
+      if (!(in >> holder >> std::ws && std::getline(in, since) && std::getline(in, writes))) holder = 0;
+      const bool alive = holder > 0 && (kill(holder, 0) == 0 || errno == EPERM);
+      if (!alive && in_time) continue;
+      refuse(holder > 0 ? fmt::format("process {} (crosscheck {}) has been writing into it since {}; wait for it, or "
+                                      "give another folder",
+                                      holder, writes, since)
+                        : "another process is writing into it; wait for it, or give another folder");
     }
-    if (same_file(handle_, file)) break;
+    if (fstat(handle_, &about) == 0 && identity(file) == std::pair(about.st_dev, about.st_ino)) break;
     close(handle_);  // of a process that ended in between
   }
   const std::string text = fmt::format("{}\n{}\n{}\n", getpid(), utc_now(), command);
   if (ftruncate(handle_, 0) != 0 || pwrite(handle_, text.data(), text.size(), 0) != static_cast<ssize_t>(text.size())) {
     const int why = errno;
-    unlink(file.c_str());
-    close(handle_);
-    fs::remove(work_, error);
-    place.refuse(fmt::format("cannot be written to: {}", std::strerror(why)));
+    release();
+    refuse(fmt::format("cannot be written to: {}", std::strerror(why)));
   }
 }
 
-OutputLock::~OutputLock() {
-  if (own()) {
-    std::error_code ignored;
-    fs::remove(work_ / "lock", ignored);
-    fs::remove(work_, ignored);  // unless something is left in it
-    for (const fs::path& above : made_) fs::remove(above, ignored);
-  }
+void OutputLock::release() {
+  std::error_code ignored;
+  fs::remove(work / "lock", ignored);
+  fs::remove(work, ignored);  // unless it holds more
+  for (const fs::path& above : made_) fs::remove(above, ignored);
   close(handle_);
+}
+
+OutputLock::~OutputLock() {
+  if (own())
+    release();
+  else
+    close(handle_);
 }
 
 bool OutputLock::own() const { return process_ == getpid(); }
 
 namespace {
 
-constexpr auto new_result = "new", old_result = "old";
-
-bool is_there(const fs::path& path) { return fs::exists(fs::symlink_status(path)); }
-bool is_folder(const fs::path& path) { return fs::is_directory(fs::symlink_status(path)); }
-
-/// Where something of the user's finds a place under a folder: its own path, or NAME.yours where that is taken, or
-/// where it is to have another one.
+/// A free place under a folder for a file of the user's: its own path, or NAME.yours if that is taken or if it must
+/// have another one.
 fs::path free_path(const fs::path& root, const fs::path& path, bool other) {
   fs::path at = root;
   for (const fs::path& part : path.parent_path()) {
@@ -175,11 +161,7 @@ fs::path free_path(const fs::path& root, const fs::path& path, bool other) {
 
 void move_file(const fs::path& from, const fs::path& to) {
   fs::create_directories(to.parent_path());
-  std::error_code error;
-  fs::rename(from, to, error);
-  if (!error) return;
-  fs::copy(from, to, fs::copy_options::copy_symlinks | fs::copy_options::recursive);  // another file system
-  fs::remove_all(from);
+  fs::rename(from, to);
 }
 
 void keep_as_yours(const fs::path& root, const fs::path& path) { move_file(root / path, free_path(root, path, true)); }
@@ -199,53 +181,44 @@ bool same_bytes(const fs::path& a, const fs::path& b) {
   return std::equal(std::istreambuf_iterator<char>(one), {}, std::istreambuf_iterator<char>(other), {});
 }
 
-std::pair<dev_t, ino_t> identity(const fs::path& file) {
-  struct stat about {};
-  if (lstat(file.c_str(), &about) != 0) return {};
-  return {about.st_dev, about.st_ino};
-}
-
-/// Folders above a file that have become empty, up to the root.
+/// Removes empty folders above a file, up to the root.
 void remove_empty_above(const fs::path& root, const fs::path& path) {
   std::error_code error;
   for (fs::path at = path.parent_path(); !at.empty() && fs::remove(root / at, error); at = at.parent_path()) {
   }
 }
 
-/// The user's files under `target` get a second name under `stage`, where a new result lies.
-void link_what_is_the_users(const fs::path& target, const std::optional<Manifest>& old, const fs::path& stage) {
+/// Links the user's files in `target` into `stage`, which holds a new result.
+void link_users_files(const fs::path& target, const std::optional<Manifest>& old, const fs::path& stage) {
   const std::vector<std::string> paths = paths_in(target);
-  // those that change their names come last, so that they take no other file's
+  // changed files of the earlier result come last: they get new names, which must not be those of other files
   for (const bool changed : {false, true})
     for (const std::string& path : paths) {
       if (changed != (old && old->names(path)) || (changed && old->ours(target, path))) continue;
       const bool folder = path.ends_with("/");
       if (folder && is_folder(stage / path)) continue;
       const fs::path to = free_path(stage, folder ? path.substr(0, path.size() - 1) : path, changed);
-      // folders on the way look like those they stand for
-      fs::path from_above = target, to_above = stage;
+      fs::path above;
       for (const fs::path& part : (folder ? to : to.parent_path()).lexically_relative(stage)) {
-        if (part == ".") continue;
-        from_above /= part, to_above /= part;
-        if (is_there(to_above)) continue;
-        if (is_folder(from_above))
-          fs::create_directory(to_above, from_above);
+        above /= part;
+        if (is_there(stage / above)) continue;
+        if (is_folder(target / above))
+          fs::create_directory(stage / above, target / above);  // with its permissions
         else
-          fs::create_directory(to_above);
+          fs::create_directory(stage / above);
       }
       if (!folder) link_or_copy(target / path, to);
     }
 }
 
-/// Empties a folder that another has replaced: Crosscheck's files go, and those of the user's that are not in `target`
-/// move there.
+/// Empties a replaced folder: removes Crosscheck's files and what `target` has too, and moves other files there.
 void absorb(const fs::path& from, const fs::path& target) {
   const std::optional<Manifest> old = read_manifest(from);
   std::set<std::pair<dev_t, ino_t>> there;
   for (const std::string& path : paths_in(target)) there.insert(identity(target / path));
   for (const std::string& path : paths_in(from)) {
     const fs::path file = from / path;
-    if (path.ends_with("/")) continue;
+    if (path.ends_with("/") || whole_name(path) == Manifest::file_name) continue;  // half a manifest of a killed writer
     if ((old && old->ours(from, path)) || there.contains(identity(file)) || same_bytes(file, target / path) ||
         same_bytes(file, (target / path) += ".yours"))
       fs::remove(file);
@@ -255,8 +228,8 @@ void absorb(const fs::path& from, const fs::path& target) {
   fs::remove_all(from);
 }
 
-/// Gives the folder's name to the new result; returns where the earlier one is now.
-fs::path replaced(const OutputPlace& place, const fs::path& stage) {
+/// Puts the new result in the place of the earlier one; returns where that is now.
+fs::path replaced(const OutputLock& place, const fs::path& stage) {
   std::error_code gone;
   const fs::path here = fs::current_path(gone), inside = here.lexically_relative(place.target);
   fs::path old = stage;
@@ -278,31 +251,17 @@ fs::path replaced(const OutputPlace& place, const fs::path& stage) {
   return old;
 }
 
-/// Removes what a writer killed in its first write left: a manifest under its temporary name.
-void remove_half_manifests(const fs::path& folder) {
-  std::vector<fs::path> halves;
-  for (const auto& entry : fs::directory_iterator(folder))
-    if (whole_name(entry.path().filename()) == Manifest::file_name) halves.push_back(entry.path());
-  for (const fs::path& half : halves) fs::remove(half);
-}
-
-/// Leftovers of a killed writer.
-void recover(const OutputPlace& place) {
+/// Removes what a killed writer left.
+void recover(const OutputLock& place) {
   const fs::path left = place.work / new_result, old = place.work / old_result;
   for (const fs::path& leftover : {left, old})
     if (is_there(leftover) && !is_folder(leftover))
       place.refuse(leftover.string() + " is not a folder that crosscheck made; remove it, or give another folder");
   if (!is_there(place.target) && is_folder(old)) fs::rename(old, place.target);
-  if (is_there(left)) {
-    const std::optional<Manifest> manifest = read_manifest(left);
-    if (manifest && !manifest->finished)
-      fs::remove_all(left);  // half a result
-    else {
-      if (!manifest) remove_half_manifests(left);
-      absorb(left, place.target);
-    }
-  }
-  if (is_there(old)) absorb(old, place.target);
+  const std::optional<Manifest> unfinished = read_manifest(left);
+  if (unfinished && !unfinished->finished) fs::remove_all(left);
+  for (const fs::path& leftover : {left, old})
+    if (is_there(leftover)) absorb(leftover, place.target);
 }
 
 /// Whether it lies in another result's folder inside of this one, as the parts of a sweep do.
@@ -313,7 +272,7 @@ bool is_of_another_result(const fs::path& target, const std::string& path) {
 }
 
 /// The manifest of a folder that may be written into; nothing where it is empty or not there.
-std::optional<Manifest> require_ours(const OutputPlace& place, const std::string& command) {
+std::optional<Manifest> require_ours(const OutputLock& place, const std::string& command) {
   std::optional<Manifest> manifest = read_manifest(place.target);
   if (manifest && manifest->command != command)
     place.refuse(fmt::format("holds a result of crosscheck {}, and nothing in it was changed; give another folder",
@@ -331,9 +290,9 @@ std::optional<Manifest> require_ours(const OutputPlace& place, const std::string
   return manifest;
 }
 
-/// Whatever the file system says becomes a word about --out.
+/// Reports errors of the file system as errors of --out.
 template <class F>
-auto with_output_errors(const OutputPlace& place, F work) {
+auto with_output_errors(const OutputLock& place, F work) {
   try {
     return work();
   } catch (const fs::filesystem_error& error) {
@@ -342,8 +301,8 @@ auto with_output_errors(const OutputPlace& place, F work) {
   }
 }
 
-/// With the lock: tidies up, and looks whether the folder may be written into.
-std::optional<Manifest> entered(const OutputPlace& place, const std::string& command) {
+/// Tidies up, and returns the manifest of the folder if it may be written into.
+std::optional<Manifest> entered(const OutputLock& place, const std::string& command) {
   return with_output_errors(place, [&] {
     recover(place);
     return require_ours(place, command);
@@ -353,19 +312,17 @@ std::optional<Manifest> entered(const OutputPlace& place, const std::string& com
 }  // namespace
 
 void recover_output(const fs::path& folder) {
-  const OutputPlace place(folder);
-  if (!is_there(place.work)) return;
   std::optional<OutputLock> lock;
   try {
-    lock.emplace(place, "that tidies up after another");
+    lock.emplace(folder, "that tidies up after another");
   } catch (const InputError&) {
     return;  // another process does it
   }
-  with_output_errors(place, [&] { recover(place); });
+  with_output_errors(*lock, [&] { recover(*lock); });
 }
 
 OutputFolder::OutputFolder(const fs::path& folder, const std::string& command)
-    : place_(folder), lock_(place_, command), command_(command), stage_(place_.work / new_result) {
+    : place_(folder, command), command_(command), stage_(place_.work / new_result) {
   entered(place_, command);
   register_output(place_.target);
   with_output_errors(place_, [&] {
@@ -375,7 +332,7 @@ OutputFolder::OutputFolder(const fs::path& folder, const std::string& command)
 }
 
 OutputFolder::~OutputFolder() {
-  if (!lock_.own() || finished_) return;
+  if (!place_.own() || finished_) return;
   std::error_code ignored;
   fs::remove_all(stage_, ignored);
 }
@@ -394,23 +351,18 @@ void OutputFolder::finish() {
     manifest.finished = true;
     const bool first = !is_there(place_.target);
     if (!first) {
-      link_what_is_the_users(place_.target, read_manifest(place_.target), stage_);
+      link_users_files(place_.target, read_manifest(place_.target), stage_);
       fs::permissions(stage_, fs::status(place_.target).permissions());
     }
     write_manifest(manifest, stage_);
-    if (first) {
-      fs::rename(stage_, place_.target);
-      finished_ = true;
-      return;
-    }
-    const fs::path old = replaced(place_, stage_);
+    const fs::path old = first ? fs::path() : replaced(place_, stage_);
+    if (first) fs::rename(stage_, place_.target);
     finished_ = true;  // from here on the stage may be the earlier result
-    absorb(old, place_.target);
+    if (!first) absorb(old, place_.target);
   });
 }
 
-ResumableOutput::ResumableOutput(const fs::path& folder, const std::string& command)
-    : place_(folder), lock_(place_, command) {
+ResumableOutput::ResumableOutput(const fs::path& folder, const std::string& command) : place_(folder, command) {
   register_output(place_.target);
   const std::optional<Manifest> old = entered(place_, command);
   manifest_ = Manifest::begun(command);

@@ -1,4 +1,5 @@
-// Folders of results: a lock for one writer, and a finished result that stays until the next one is whole.
+// Folders of results: one writer at a time; only files listed in the manifest are ever removed; a finished result stays
+// until the next one is complete.
 #pragma once
 
 #include <filesystem>
@@ -9,98 +10,87 @@
 
 namespace crosscheck {
 
-/// A folder for results, and the working folder in which the next one is prepared.
-struct OutputPlace {
-  /// Throws InputError where there is a file of that name, or a link to nothing.
-  explicit OutputPlace(const std::filesystem::path& requested);
+/// The lock on a folder of results, which ends with the process that holds it, and the working folder in which the next
+/// result is prepared.
+class OutputLock {
+ public:
+  /// Throws InputError "--out FOLDER: ..." if the folder cannot be made, written to or replaced (a file of that name, a
+  /// link to nothing, a mount point, another user's), or if another process holds the lock; names that process.
+  OutputLock(const std::filesystem::path& given, const std::string& command);
+  ~OutputLock();
+  OutputLock(const OutputLock&) = delete;
+  OutputLock& operator=(const OutputLock&) = delete;
+  /// False in forked children.
+  bool own() const;
+  /// Throws InputError "--out FOLDER: WHY", by default that the folder cannot be made or written to.
+  [[noreturn]] void refuse(const std::string& why = "") const;
 
   std::filesystem::path requested;  // as given
   std::filesystem::path target;     // absolute, without links
   std::filesystem::path work;       // PARENT/.NAME.crosscheck
 
-  /// Throws InputError where another folder cannot take its name: its parent cannot be written to, it is a mount point,
-  /// or another user's in a sticky folder.
-  void require_replaceable() const;
-  /// Throws InputError: the folder cannot be made or written to, or why else.
-  [[noreturn]] void refuse(const std::string& why = "") const;
-};
-
-/// Held by the one process that writes into a folder; gone with it, however it ends.
-class OutputLock {
- public:
-  /// Throws InputError that names the process which holds it, and since when, or a working folder of another user.
-  OutputLock(const OutputPlace& place, const std::string& command);
-  ~OutputLock();
-  OutputLock(const OutputLock&) = delete;
-  OutputLock& operator=(const OutputLock&) = delete;
-  /// Whether this is the process that took it, and no child of it.
-  bool own() const;
-
  private:
-  std::filesystem::path work_;
-  std::vector<std::filesystem::path> made_;  // folders above the place that were not there
+  void find_target();
+  void require_replaceable() const;
+  void release();
+
+  std::vector<std::filesystem::path> made_;  // new folders above the target
   int handle_ = -1;
   int process_;
 };
 
-// Folders of results: Crosscheck's files in them are listed in a manifest, everything else is left alone, and a
-// finished result stays until the next one is whole.
-
-/// A result that is prepared in the working folder and put in place when it is whole. The user's files are linked into
-/// it first, then the two folders exchange their names (renameat2, RENAME_EXCHANGE). Where the file system cannot do
-/// that (NFS, 9p, sshfs), the earlier result is renamed to WORK/old and the new one takes its place; if a process is
-/// killed in between, the next writer puts the earlier one back. Listed files that a user has changed, and the user's
-/// files under names that the new result has, are kept as NAME.yours.
+/// A result that is prepared in the working folder. finish() links the user's files into it and exchanges the two
+/// folders (renameat2, RENAME_EXCHANGE). On file systems that cannot exchange names (NFS, 9p, sshfs), the earlier
+/// result is renamed to WORK/old and the new one takes its place; if the process is killed in between, the next writer
+/// moves the earlier one back. Listed files that the user has changed, and the user's files under names of the new
+/// result, are kept as NAME.yours.
 class OutputFolder {
  public:
-  /// Takes the lock, tidies up after a killed writer, and begins. Throws InputError "--out FOLDER: ..." where another
-  /// process writes there, where the folder is of another command, where it holds files and no manifest, or where it
-  /// cannot be replaced. Nothing is changed then.
+  /// Takes the lock, tidies up after a killed writer, and begins. Throws InputError "--out FOLDER: ..." as OutputLock
+  /// does, and if the folder belongs to another command or holds files but no manifest. Nothing is changed then.
   OutputFolder(const std::filesystem::path& folder, const std::string& command);
-  /// Removes an unfinished result; the earlier one is there as before.
+  /// Removes an unfinished result.
   ~OutputFolder();
   OutputFolder(const OutputFolder&) = delete;
   OutputFolder& operator=(const OutputFolder&) = delete;
 
   /// The folder to write the files into.
   const std::filesystem::path& path() const { return stage_; }
-  /// Puts all that was written in place. Throws InputError where that fails.
+  /// Puts the result in place. Throws InputError.
   void finish();
 
  private:
-  OutputPlace place_;
-  OutputLock lock_;
+  OutputLock place_;
   std::string command_;
   std::filesystem::path stage_;
   bool finished_ = false;
 };
 
-/// A result that grows in place, so that an interrupted command can go on with what is there.
+/// A result that grows in place, so that an interrupted command can continue it.
 class ResumableOutput {
  public:
-  /// As OutputFolder's; the folder is made where it is missing.
+  /// As OutputFolder's; makes the folder if it is missing.
   ResumableOutput(const std::filesystem::path& folder, const std::string& command);
   ResumableOutput(const ResumableOutput&) = delete;
   ResumableOutput& operator=(const ResumableOutput&) = delete;
 
-  /// Says which files will be written next. What a user has under these names is kept as NAME.yours.
+  /// Lists files that will be written next. The user's files under these names are kept as NAME.yours.
   void announce(const std::vector<std::string>& files);
-  /// The place of a file that holds a part of the result until finish(): under its own name, or as "unfinished-NAME" as
-  /// long as a finished result has a file of that name.
+  /// The place of a file that holds a part of the result until finish(): "unfinished-NAME" if a finished result has a
+  /// file of that name, otherwise NAME.
   std::filesystem::path growing(const std::string& file);
-  /// Counts what is listed in a folder inside to this result too.
+  /// Includes the listed files of an inner folder in this result.
   void keep(const std::string& inner);
-  /// Removes what is listed of an earlier result and was not announced or kept since.
+  /// Removes files of the earlier result that were not announced or kept.
   void finish();
 
  private:
-  OutputPlace place_;
-  OutputLock lock_;
+  OutputLock place_;
   Manifest manifest_;
   std::map<std::string, Manifest::File> now_;  // announced and kept
 };
 
-/// Tidies up after a killed writer, unless another process writes there: for the process that started it.
+/// Tidies up after a killed writer, unless another process writes there.
 void recover_output(const std::filesystem::path& folder);
 
 }  // namespace crosscheck
