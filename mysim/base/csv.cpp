@@ -1,4 +1,4 @@
-// A field needs quotes where it holds a comma, a quote or an end of line; within quotes a quote stands twice.
+// Fields with a comma, a quote or an end of line need quotes; a quote within quotes is doubled.
 #include "mysim/base/csv.h"
 
 namespace crosscheck {

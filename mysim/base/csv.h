@@ -1,4 +1,4 @@
-// Records and fields of CSV as RFC 4180 has them.
+// Records and fields of CSV (RFC 4180).
 #pragma once
 
 #include <optional>
@@ -11,7 +11,7 @@ namespace crosscheck {
 /// The text in quotes.
 std::string csv_quoted(const std::string& text);
 
-/// The text as a field, in quotes where it needs them.
+/// The text as a field, in quotes if necessary.
 std::string csv_field(const std::string& text);
 
 struct CsvField {
@@ -19,8 +19,8 @@ struct CsvField {
   bool quoted = false;
 };
 
-/// The record that begins at `at`, which then is the place of its line feed or the end of the text. Nothing where a
-/// quote is not closed.
+/// The record that begins at `at`, which is moved to its line feed or to the end of the text. Nothing if a quote is not
+/// closed.
 std::optional<std::vector<CsvField>> csv_record(std::string_view text, std::size_t& at);
 
 }  // namespace crosscheck

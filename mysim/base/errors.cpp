@@ -1,4 +1,4 @@
-// Messages of what was thrown.
+// Messages of exceptions.
 #include "mysim/base/errors.h"
 
 #include <fmt/format.h>
@@ -64,7 +64,7 @@ std::string in_words(const std::exception_ptr& thrown) {
   } catch (const std::system_error& error) {
     return error.code().message();
   } catch (const std::exception& error) {
-    // a library's own mark, "[json.exception.type_error.302] ", says nothing to a reader
+    // without the library's mark "[json.exception.type_error.302] "
     std::string what = error.what();
     if (what.starts_with("[json.exception."))
       what = "a JSON file does not hold what was expected:" + what.substr(std::min(what.find(']') + 1, what.size()));

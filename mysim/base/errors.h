@@ -1,4 +1,4 @@
-// Exceptions that refuse a request, and the one place where they become a message and an exit status.
+// Exceptions for bad input, unsupported scenes and failed solvers, and their messages and exit status.
 #pragma once
 
 #include <exception>
@@ -8,9 +8,6 @@
 #include <string_view>
 
 namespace crosscheck {
-
-// Exceptions that refuse a request: bad input (exit 2), what a method lacks, and a solver that gave up (rows, not
-// crashes).
 
 /// Bad use or bad input. what() is one line that names the file, the key and what was expected.
 struct InputError : std::runtime_error {
@@ -27,14 +24,12 @@ struct SolverFailure : std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-// The one place where what was thrown becomes a message and an exit status.
-
-/// The message of an exception: one line that names the file or folder where one is concerned, without the words
-/// of the library that threw.
+/// The message of an exception: one line that names the file or folder concerned, without the words of the library that
+/// threw.
 std::string in_words(const std::exception_ptr& thrown);
 
-/// Runs a program's work and returns its exit status. What it throws is reported on standard error in one line that
-/// begins with the program's name, and the status is 2: 1 is for negative results, which are returned, never thrown.
+/// Runs a program's work and returns its exit status. An exception is reported on standard error in one line that
+/// begins with the program's name, and the status is 2; negative results (status 1) are returned, never thrown.
 int run_reporting_errors(std::string_view program, const std::function<int()>& work);
 
 }  // namespace crosscheck

@@ -5,6 +5,7 @@
 
 #include <cstdlib>
 #include <fstream>
+#include <map>
 #include <stdexcept>
 #include <string>
 
@@ -12,37 +13,25 @@ namespace crosscheck {
 namespace fs = std::filesystem;
 namespace {
 
-constexpr auto name_of_list = "crosscheck.folders";
-
-struct Folders {
-  fs::path data, programs;
-};
-
-/// Each line is a key and a folder.
-Folders read_folders(const fs::path& list) {
-  std::ifstream in(list);
-  Folders found;
-  std::string key, folder;
-  while (in >> key && std::getline(in >> std::ws, folder)) {
-    const fs::path path = fs::weakly_canonical(list.parent_path() / folder);
-    if (key == "data") found.data = path;
-    if (key == "programs") found.programs = path;
-  }
-  if (found.data.empty() || found.programs.empty())
-    throw std::runtime_error(fmt::format("{}: expected two lines, 'data FOLDER' and 'programs FOLDER'", list.string()));
-  return found;
-}
-
-const Folders& folders() {
-  static const Folders found = [] {
+/// The folders in crosscheck.folders, each line of which is a key and a folder.
+const std::map<std::string, fs::path>& folders() {
+  static const auto found = [] {
     const fs::path program = fs::read_symlink("/proc/self/exe");
     for (fs::path at = program.parent_path();; at = at.parent_path()) {
-      if (fs::exists(at / name_of_list)) return read_folders(at / name_of_list);
-      if (at == at.parent_path()) break;
+      const fs::path list = at / "crosscheck.folders";
+      std::map<std::string, fs::path> all;
+      std::ifstream in(list);
+      for (std::string key, folder; in >> key && std::getline(in >> std::ws, folder);)
+        all[key] = fs::weakly_canonical(at / folder);
+      if (all.contains("data") && all.contains("programs")) return all;
+      if (fs::exists(list))
+        throw std::runtime_error(list.string() + ": expected two lines, 'data FOLDER' and 'programs FOLDER'");
+      if (at == at.parent_path())
+        throw std::runtime_error(
+            fmt::format("{}: there is no file crosscheck.folders beside it or above: a program "
+                        "works where it was built or installed, not as a copy",
+                        program.string()));
     }
-    throw std::runtime_error(fmt::format(
-        "{}: there is no file {} beside it or above: a program works where it was built or installed, not as a copy",
-        program.string(), name_of_list));
   }();
   return found;
 }
@@ -54,8 +43,8 @@ fs::path named(const char* variable) {
 
 }  // namespace
 
-fs::path data_folder() { return folders().data; }
-fs::path programs_folder() { return folders().programs; }
+fs::path data_folder() { return folders().at("data"); }
+fs::path programs_folder() { return folders().at("programs"); }
 
 std::optional<fs::path> cache_folder() {
   if (const fs::path own = named("CROSSCHECK_CACHE"); !own.empty()) return fs::absolute(own);

@@ -1,4 +1,4 @@
-// Names and paths that come from data: which of them are safe to print and to use in the file system.
+// Names and paths from data: checks that they are safe to print and to use in the file system.
 #pragma once
 
 #include <filesystem>
@@ -10,15 +10,14 @@ namespace crosscheck {
 /// True for valid UTF-8 without control, line-separating, bidirectional and zero-width characters.
 bool is_printable(std::string_view text);
 
-/// The text for a terminal: line feeds and tabs stay, all else that is not printable is replaced by '?'.
+/// The text for a terminal: unprintable characters but line feeds and tabs are replaced by '?'.
 std::string printable(std::string_view text);
 
-/// Lets the streams stdout and stderr print printable() text only, so that texts of scenes, engines and received
-/// folders cannot control the terminal.
+/// Filters stdout and stderr through printable(), so that texts of scenes, engines and received folders cannot control
+/// the terminal.
 void print_only_text();
 
-/// Bytes of a name that is made of names and becomes a file's: leaves room for endings and temporary marks below the
-/// 255 bytes of file systems.
+/// Longest file name made from other names, bytes: leaves room for endings below the 255 bytes of file systems.
 constexpr std::size_t longest_derived_name = 220;
 
 /// True for a name of a scene, method or student: printable, 1 to 200 (or `most`) bytes, without '/', and not
@@ -28,8 +27,8 @@ bool is_name(std::string_view text, std::size_t most = 200);
 /// Returns the name. Throws InputError "PLACE: expected a name ..., got '...'".
 const std::string& require_name(const std::string& name, const std::string& place, std::size_t most = 200);
 
-/// Throws InputError unless the text can be a table's cell in that column: printable; only columns that hold no names
-/// of scenes and methods may have line feeds and tabs.
+/// Throws InputError unless the text may be a cell of that column: printable; line feeds and tabs are allowed except in
+/// names of scenes and methods.
 void require_cell(const std::string& column, const std::string& text);
 
 /// True for a path that stays inside a folder: relative, printable, without empty, "." and ".." parts, at most 255

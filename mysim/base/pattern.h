@@ -1,4 +1,4 @@
-// Regular expressions, behind one file: <regex> takes the compiler seconds wherever it is included.
+// Regular expressions; only pattern.cpp includes <regex>, which takes seconds to compile.
 #pragma once
 
 #include <memory>
@@ -9,7 +9,7 @@
 
 namespace crosscheck {
 
-/// A regular expression in ECMAScript's grammar. Throws std::regex_error where it is none.
+/// A regular expression in ECMAScript's grammar. Throws std::regex_error if it is invalid.
 class Pattern {
  public:
   explicit Pattern(std::string_view expression);
@@ -17,11 +17,11 @@ class Pattern {
   Pattern(const Pattern&) = delete;
   Pattern& operator=(const Pattern&) = delete;
 
-  /// Where the whole text is a match: the match, and each group of it ("" where it took no part).
+  /// If the whole text matches: the match and each of its groups ("" for a group that took no part).
   std::optional<std::vector<std::string>> match(const std::string& text) const;
-  /// Whether a part of the text is a match.
+  /// True if a part of the text matches.
   bool is_in(const std::string& text) const;
-  /// Each match replaced; $1 stands for its first group.
+  /// The text with each match replaced; $1 stands for the first group.
   std::string replaced_in(const std::string& text, const std::string& by) const;
 
  private:

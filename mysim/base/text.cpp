@@ -1,4 +1,4 @@
-// Edit distances between words, three ways of quoting for a shell, and Base64.
+// Edit distances, quoting, and Base64.
 #include "mysim/base/text.h"
 
 #include <fmt/format.h>
@@ -45,29 +45,27 @@ bool has_part(const std::string& name, const std::string& word) {
 std::string closest_match(std::string_view word, const std::vector<std::string>& names) {
   const std::string folded = folded_word(word.substr(0, 100));
   const std::string* best = nullptr;
-  std::size_t fewest = 0;
+  std::pair<int, long> fewest;  // kind of match, then its cost
   for (const std::string& name : names) {
     const std::string candidate = folded_word(name);
-    const std::size_t longer = std::max(folded.size(), candidate.size()), letters = edit_distance(folded, candidate);
-    if (letters > std::max<std::size_t>(1, longer / 3) || letters >= std::min(folded.size(), candidate.size()))
+    const long longer = std::max(std::ssize(folded), std::ssize(candidate));
+    const long shorter = std::min(std::ssize(folded), std::ssize(candidate));
+    const auto letters = static_cast<long>(edit_distance(folded, candidate));
+    const long alike =
+        std::mismatch(folded.begin(), folded.end(), candidate.begin(), candidate.end()).first - folded.begin();
+    std::pair<int, long> cost;
+    if (letters <= std::max(1L, longer / 3) && letters < shorter)
+      cost = {0, letters};
+    else if (has_part(candidate, folded))
+      cost = {1, std::ssize(name)};
+    else if (name.size() >= 4 && has_part(folded, candidate))
+      cost = {2, -std::ssize(name)};
+    else if (alike > 4)
+      cost = {3, -alike};
+    else
       continue;
-    if (!best || letters < fewest) best = &name, fewest = letters;
+    if (!best || cost < fewest) best = &name, fewest = cost;
   }
-  if (!best)
-    for (const std::string& name : names)
-      if (has_part(folded_word(name), folded) && (!best || name.size() < best->size())) best = &name;
-  if (!best)
-    for (const std::string& name : names)
-      if (name.size() >= 4 && has_part(folded, folded_word(name)) && (!best || name.size() > best->size()))
-        best = &name;
-  std::size_t longest = 4;  // letters of a beginning that are no chance
-  if (!best)
-    for (const std::string& name : names) {
-      const std::string candidate = folded_word(name);
-      const auto alike = static_cast<std::size_t>(
-          std::mismatch(folded.begin(), folded.end(), candidate.begin(), candidate.end()).first - folded.begin());
-      if (alike > longest) best = &name, longest = alike;
-    }
   return best ? *best : "";
 }
 
@@ -125,46 +123,22 @@ size_t utf8_length(std::string_view text, size_t at) {
   return length;
 }
 
-namespace {
-
-bool is_control(unsigned char c) { return c < 32 || c == 127; }
-
-std::string escaped(std::string_view word) {
-  std::string out = "$'";
-  for (size_t i = 0; i < word.size();) {
-    const auto c = static_cast<unsigned char>(word[i]);
-    const size_t length = utf8_length(word, i);
-    if (c == '\n')
-      out += "\\n";
-    else if (c == '\t')
-      out += "\\t";
-    else if (c == '\r')
-      out += "\\r";
-    else if (c == '\'' || c == '\\')
-      out += fmt::format("\\{}", word[i]);
-    else if (is_control(c) || length == 0)
-      out += fmt::format("\\{:03o}", c);  // three digits: the next character cannot run into it
-    else
-      out += word.substr(i, length);
-    i += std::max<size_t>(1, length);
-  }
-  return out + "'";
-}
-
-}  // namespace
-
 std::string shell_quote(const std::string& word) {
-  bool plain = !word.empty(), one_line = true;
-  for (size_t i = 0; i < word.size();) {
+  bool plain = !word.empty(), printable = true;
+  std::string escaped;
+  for (size_t i = 0, length; i < word.size(); i += std::max<size_t>(1, length)) {
+    length = utf8_length(word, i);
     const auto c = static_cast<unsigned char>(word[i]);
-    const size_t length = utf8_length(word, i);
-    if (is_control(c) || length == 0) one_line = false;
-    if (c < 0x80 && !std::isalnum(c) && std::string_view("_-+=.,/:@%").find(word[i]) == std::string_view::npos)
-      plain = false;
-    i += std::max<size_t>(1, length);
+    const bool shown = length > 0 && c >= 32 && c != 127;
+    if (!shown)
+      escaped += fmt::format("\\{:03o}", c);  // three digits: the next character cannot run into them
+    else
+      escaped += (c == '\'' || c == '\\' ? "\\" : "") + word.substr(i, length);
+    plain &= shown &&
+             (c >= 0x80 || std::isalnum(c) || std::string_view("_-+=.,/:@%").find(word[i]) != std::string_view::npos);
+    printable &= shown;
   }
-  if (!one_line) return escaped(word);
-  return plain ? word : shell_single_quote(word);
+  return plain ? word : printable ? shell_single_quote(word) : "$'" + escaped + "'";
 }
 
 std::string shell_single_quote(const std::string& word) {
@@ -190,12 +164,13 @@ std::string base64(std::string_view bytes) {
   static constexpr char alphabet[] = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
   std::string out;
   out.reserve((bytes.size() + 2) / 3 * 4);
-  for (size_t i = 0; i < bytes.size(); i += 3) {
-    const size_t left = std::min<size_t>(3, bytes.size() - i);
-    unsigned word = 0;
-    for (size_t j = 0; j < 3; ++j) word = word << 8 | (j < left ? static_cast<unsigned char>(bytes[i + j]) : 0u);
-    for (size_t j = 0; j < 4; ++j) out += j <= left ? alphabet[word >> (18 - 6 * j) & 63] : '=';
-  }
+  unsigned word = 0;
+  int bits = 0;
+  for (const char byte : bytes)
+    for (word = word << 8 | static_cast<unsigned char>(byte), bits += 8; bits >= 6; bits -= 6)
+      out += alphabet[word >> (bits - 6) & 63];
+  if (bits > 0) out += alphabet[word << (6 - bits) & 63];
+  while (out.size() % 4 != 0) out += '=';
   return out;
 }
 
