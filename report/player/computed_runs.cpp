@@ -98,7 +98,7 @@ class Motions {
       Json run = json_["runs"][i].json();
       // what is much nearer to the base than the reference is lost in how finely that is told
       if (is_left_out(i) && key(i) != reference && !stay.contains(key(i)) && departure(i) >= nearest / 3) {
-        run.erase("unit"), run.erase("path");
+        if (!run.is_null()) run.erase("unit"), run.erase("path");
         run["modes"] = 0, run["computed"] = true;
       } else {
         if (key(i) == reference) run["reference"] = true;

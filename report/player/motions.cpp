@@ -330,7 +330,7 @@ std::string stage_json(const Scene& scene, const MotionBase& base) {
     Outcome none;
     none.verdict = Verdict::ok;
     Json own = whole_run(scene, base, {none, truth.trajectory}, base.x.size(), of_own_run, numbers);
-    own.erase("step");
+    if (!own.is_null()) own.erase("step");
     own["end"] = fmt::format("known up to {:.3g} s", truth.trajectory.t.back());
     known["runs"].push_back(std::move(own));
     json["truth"] = {
