@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-#include "mysim/base/eigenvalues.h"
+#include "mysim/eigenvalues.h"
 
 namespace crosscheck {
 namespace {

@@ -4,7 +4,7 @@
 #include <cassert>
 #include <numbers>
 
-#include "mysim/base/portable_trigonometry.h"
+#include "mysim/portable_trigonometry.h"
 
 namespace crosscheck {
 namespace {

@@ -9,8 +9,8 @@
 #include <map>
 
 #include "experiments/stability/extreme_eigenvalues.h"
-#include "mysim/base/eigenvalues.h"
 #include "mysim/base/random.h"
+#include "mysim/eigenvalues.h"
 #include "reference/truth/discrete.h"
 #include "reference/which_rule.h"
 

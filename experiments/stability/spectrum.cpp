@@ -7,9 +7,9 @@
 
 #include "experiments/measures.h"
 #include "experiments/stability/extreme_eigenvalues.h"
-#include "mysim/base/eigenvalues.h"
 #include "mysim/base/errors.h"
 #include "mysim/base/random.h"
+#include "mysim/eigenvalues.h"
 #include "mysim/model/system.h"
 #include "mysim/steppers/steppers.h"
 

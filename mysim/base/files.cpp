@@ -153,7 +153,8 @@ std::string file_name_of(std::string_view text) {
 TemporaryFolder::TemporaryFolder(std::string_view purpose, const fs::path& place) {
   const fs::path name =
       (place.empty() ? fs::temp_directory_path() : place) / fmt::format("crosscheck-{}.XXXXXX", purpose);
-  do {
+  // again if another process took the new folder for a stale one
+  for (bool stale = true; stale;) {
     if (lock_ >= 0) close(lock_);
     std::string made = name.string();
     if (!mkdtemp(made.data()))
@@ -161,8 +162,8 @@ TemporaryFolder::TemporaryFolder(std::string_view purpose, const fs::path& place
           fmt::format("{}: no folder can be made there; expected a place for temporary files", name.string()));
     path = made;
     lock_ = open(made.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
-    // again if another process took the new folder for a stale one
-  } while (lock_ >= 0 && ((flock(lock_, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK) || !fs::exists(path)));
+    stale = (lock_ >= 0 && flock(lock_, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK) || !fs::exists(path);
+  }
 }
 
 TemporaryFolder::~TemporaryFolder() {

@@ -3,8 +3,8 @@
 
 #include <numbers>
 
-#include "mysim/base/portable_trigonometry.h"
 #include "mysim/base/random.h"
+#include "mysim/portable_trigonometry.h"
 
 namespace crosscheck {
 

@@ -10,8 +10,8 @@
 
 #include "mysim/base/errors.h"
 #include "mysim/base/pattern.h"
-#include "mysim/base/portable_trigonometry.h"
 #include "mysim/base/this_process.h"
+#include "mysim/portable_trigonometry.h"
 #include "mysim/simd/instruction_sets.h"
 #include "mysim/simd/thread_pool.h"
 

@@ -9,8 +9,8 @@
 #include <cstdlib>
 
 #include "experiments/metrics.h"
-#include "mysim/base/eigenvalues.h"
 #include "mysim/base/text.h"
+#include "mysim/eigenvalues.h"
 #include "mysim/model/energy.h"
 #include "report/findings/report_data.h"
 #include "report/pictures/scene_picture.h"

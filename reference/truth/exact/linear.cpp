@@ -10,7 +10,7 @@
 #include <limits>
 #include <numbers>
 
-#include "mysim/base/eigenvalues.h"
+#include "mysim/eigenvalues.h"
 #include "mysim/model/system.h"
 #include "reference/truth/exact/exact.h"
 

@@ -68,11 +68,11 @@ TEST(Methods, NoProductFileAsksForAnEngineByTheBeginningOfAName) {
   EXPECT_GT(files, 100);
 }
 
-/// Files whose data are named methods: settings of Bullet's own, a bench's rows, rules behind findings, a class's
-/// charts.
+/// Files whose data are named methods: settings of Bullet's own, a bench's rows, the look of methods in charts, a
+/// class's charts.
 constexpr std::string_view name_methods_as_data[] = {
     "experiments/disagreements/table.cpp", "experiments/stiffness/stiffness.cpp", "experiments/stiffness/effective.cpp",
-    "experiments/bench/bench.cpp", "report/commands/grader.cpp"};
+    "experiments/bench/bench.cpp",         "report/commands/grader.cpp",          "report/figures/figure.cpp"};
 
 TEST(Methods, NoOtherFileNamesAMethodOfAPeer) {
   for (const auto room : {"experiments", "report"})

@@ -4,7 +4,7 @@
 #include "experiments/stability/limit.h"
 #include "experiments/stability/margin.h"
 #include "experiments/stability/stability.h"
-#include "mysim/base/eigenvalues.h"
+#include "mysim/eigenvalues.h"
 #include "mysim/model/system.h"
 #include "tests/unit/experiments/helpers.h"
 #include "tests/unit/mysim/declared.h"

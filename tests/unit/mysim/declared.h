@@ -5,7 +5,7 @@
 
 #include <complex>
 
-#include "mysim/base/eigenvalues.h"
+#include "mysim/eigenvalues.h"
 #include "tests/unit/helpers.h"
 
 namespace crosscheck::testing_tools {

@@ -2,7 +2,7 @@
 
 #include <Eigen/Dense>
 
-#include "mysim/base/eigenvalues.h"
+#include "mysim/eigenvalues.h"
 #include "mysim/forces.h"
 #include "mysim/model/energy.h"
 #include "tests/unit/mysim/networks.h"

@@ -5,7 +5,7 @@
 
 #include <numbers>
 
-#include "mysim/base/eigenvalues.h"
+#include "mysim/eigenvalues.h"
 #include "mysim/implicit/newton.h"
 #include "mysim/steppers/steppers.h"
 #include "tests/unit/mysim/networks.h"

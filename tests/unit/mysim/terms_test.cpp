@@ -3,9 +3,9 @@
 #include <numbers>
 #include <random>
 
-#include "mysim/base/portable_trigonometry.h"
 #include "mysim/base/random.h"
 #include "mysim/model/energy.h"
+#include "mysim/portable_trigonometry.h"
 #include "tests/unit/mysim/networks.h"
 
 namespace crosscheck {

@@ -3,7 +3,7 @@
 
 #include <numbers>
 
-#include "mysim/base/eigenvalues.h"
+#include "mysim/eigenvalues.h"
 #include "mysim/model/system.h"
 #include "reference/truth/discrete.h"
 #include "reference/truth/exact/exact.h"

@@ -5,7 +5,7 @@
 #include <functional>
 #include <numbers>
 
-#include "mysim/base/eigenvalues.h"
+#include "mysim/eigenvalues.h"
 #include "mysim/model/system.h"
 #include "reference/truth/exact/exact.h"
 #include "reference/truth/exact/linear.h"

@@ -467,7 +467,7 @@ TEST(SpeedFindings, AStepOfBothIsComparedLikeForLikeFirst) {
 /// A cloth that touches a ball until 1 s, its single positions compared until 0.5 s.
 std::vector<Table> touched(double of_rules, double of_bullet) {
   std::vector<EngineRow> runs;
-  std::vector<Row> rows;
+  Table rows = crosscheck::table_of<EngineTimeRow>("drape-engines");
   for (const char* method :
        {"mysim/symplectic-euler", "mysim/leapfrog", "mysim/rk4", "mysim/xpbd", "bullet/deformable-explicit"}) {
     const std::string name = method;
@@ -478,9 +478,10 @@ std::vector<Table> touched(double of_rules, double of_bullet) {
                          : name.ends_with("xpbd")   ? 1.  // no rule like the others
                          : name.ends_with("euler")  ? 0.
                                                     : of_rules;
-    rows.push_back({name, 0.5, apart / 10}), rows.push_back({name, 1., apart});
+    for (const double t : {0.5, 1.0})
+      add(rows, EngineTimeRow{.method = name, .t = t, .difference = t == 1 ? apart : apart / 10});
   }
-  return {table_with(runs), table_of("drape-engines", {"method", "t", "difference"}, std::move(rows))};
+  return {table_with(runs), rows};
 }
 
 TEST(SphereFindings, WhetherTheMotionAfterContactIsPredictableIsMeasuredByTheRules) {

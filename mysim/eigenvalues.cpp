@@ -1,5 +1,5 @@
 // Eigenvalues of dense matrices, by Eigen.
-#include "mysim/base/eigenvalues.h"
+#include "mysim/eigenvalues.h"
 
 #include <Eigen/Eigenvalues>
 
