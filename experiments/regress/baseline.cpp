@@ -10,6 +10,7 @@
 #include "mysim/base/csv.h"
 #include "mysim/base/errors.h"
 #include "mysim/base/files.h"
+#include "mysim/base/installation.h"
 #include "mysim/base/names.h"
 
 namespace crosscheck {
@@ -50,7 +51,9 @@ std::string text_of(const Baseline& baseline) {
   if (!baseline.source.empty()) out += fmt::format("# source: {}\n", baseline.source);
   for (size_t i = 0; i < baseline.blessings.size(); ++i) out += comment_line_of(baseline.blessings[i], i + 1);
   out += fmt::format("# rows: {}\n", baseline.expected.size());
-  for (const std::string& line : words_of_derivations()) out += fmt::format("# {}\n", line);
+  std::istringstream derivations(
+      read_file(data_folder() / "experiments/regress/derivations.txt", "the explanation of derivations"));
+  for (std::string line; std::getline(derivations, line);) out += fmt::format("# {}\n", line);
   out += fmt::format("{}\n", baseline_header);
   for (const BaselineRow& e : baseline.expected) {
     const Quantity& q = e.what.quantity;

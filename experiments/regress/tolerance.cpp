@@ -82,31 +82,6 @@ Rounding rounding_of(const Case& test_case, const CaseRun& case_run) {
   return {*round_off_bound(test_case.scene, motion, 1) * more, "double precision"};
 }
 
-std::vector<std::string> words_of_derivations() {
-  return {
-      "word, count: must be the same",
-      "start moved by A: B; rounding: C: every free particle moved by A, each its own way, and all by as much along x, "
-      "y or",
-      "  z by their speed within the run, changes the quantity by B at most (3 tries),",
-      "  and all roundings of a run are as a change of the start by C: B C / A, and 64 last digits of the largest",
-      "  quantity of the unit, or of the places or energies whose difference it is",
-      "double precision: C is 1e-15 of the scene's size and motion in an evaluation of forces, adding up like a random",
-      "  walk of ten thousand of them or of as many as there are",
-      "single precision: ten roundings of 6e-8 of them in a step, adding up like a random walk",
-      "solver: an equation in each step, solved to 1e-10 of its forces: C is 1e-10 of them",
-      "steps leave D: 1e-12 of the lengths in a step, and what 64-bit places make of the stiffest spring on the",
-      "  lightest particle; in places adding up like a random walk, in energies as the velocities of one step; no",
-      "  damping counted; in the energy lost in contact 8 last digits of the largest energy in each step",
-      "truth known to D: the error bar of what the error is measured against, on top",
-      "beyond prediction: the start moved by ten times C, far less than A, changes the quantity by more than a tenth",
-      "  of B: what grows has grown as far as it can, and within thrice B it may be anything; within ten times B where",
-      "  three quantities of the run do so, all that changes in it, and times that move by a hundredth within their "
-      "size",
-      "steps: D: of a time of failure: a sampling interval and two steps on top of B, which is not scaled, as the time",
-      "  goes as the logarithm of what grew until it failed",
-  };
-}
-
 std::vector<QuantityWithTolerance> with_tolerances(const Case& test_case) {
   const CaseRun whole = run_case(test_case), case_run = comparable_part(whole);
   const std::vector<Quantity> quantities = quantities_of(test_case, whole);

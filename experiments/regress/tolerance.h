@@ -8,7 +8,7 @@ namespace crosscheck {
 struct QuantityWithTolerance {
   Quantity quantity;
   double tolerance = 0;    // in the quantity's unit; 0 for words and counts: they must be equal
-  std::string derivation;  // short: words_of_derivations() explains it
+  std::string derivation;  // short: derivations.txt explains it
 };
 
 /// m: what all roundings of a run amount to as a change of the start.
@@ -18,9 +18,6 @@ struct Rounding {
   double one_step = 0;  // m: of rules that solve an equation in each step, what that leaves
 };
 Rounding rounding_of(const Case& test_case, const CaseRun& case_run);
-
-/// Explanations of derivations, line by line, for the reader of a file of them.
-std::vector<std::string> words_of_derivations();
 
 /// The case's quantities with their tolerances: the start is moved by a little in three seeded sets of directions,
 /// and the largest change of the quantity, scaled from that little to the rounding, is what rounding can do to it; the

@@ -40,7 +40,7 @@ struct AdequacyRow {
   COLUMN(std::string, model, "rung", "1", "name of the model");
   COLUMN(std::string, left_out, "left out", "1", "ingredients that it lacks, with commas between");
   COLUMN(ModelKind, kind, "kind", "1", "whether one ingredient is left out, or this one after those before it");
-  COLUMN(std::optional<double>, error, "error", "m",
+  COLUMN(OptionalNumber, error, "error", "m",
          "largest RMS distance from the truth of the full scene in the window; empty where the run failed");
   COLUMN(double, tolerance, "tolerance", "m", "tolerance of the scene");
   COLUMN(bool, within, "within", "1", "1 where the error is within the tolerance");
@@ -61,14 +61,14 @@ struct LeastModelRow {
   COLUMN(ToleranceKind, tolerance_is, "tolerance is", "1", "what that tolerance is");
   COLUMN(std::string, least_model, "least model", "1", "name of the model that leaves out most within the tolerance");
   COLUMN(std::string, left_out, "left out", "1", "ingredients that it lacks, with commas between");
-  COLUMN(std::optional<double>, error, "error", "m", "its error");
-  COLUMN(std::optional<double>, unseen_error_1, "unseen error 1", "m",
+  COLUMN(OptionalNumber, error, "error", "m", "its error");
+  COLUMN(OptionalNumber, unseen_error_1, "unseen error 1", "m",
          "its distance from the full model from start 1 that it has not seen; of the full model: the least error of "
          "any removal");
-  COLUMN(std::optional<double>, unseen_error_2, "unseen error 2", "m",
+  COLUMN(OptionalNumber, unseen_error_2, "unseen error 2", "m",
          "its distance from the full model from start 2 that it has not seen; of the full model: the least error of "
          "any removal");
-  COLUMN(std::optional<double>, unseen_error_3, "unseen error 3", "m",
+  COLUMN(OptionalNumber, unseen_error_3, "unseen error 3", "m",
          "its distance from the full model from start 3 that it has not seen; of the full model: the least error of "
          "any removal");
   COLUMN(bool, holds, "holds", "1", "1 where it is the least model from all these starts too");
@@ -81,10 +81,10 @@ struct GridRow {
   COLUMN(std::string, scene, "scene", "1", "scene");
   COLUMN(long, particles, "particles along a side", "1", "particles along the longer side");
   COLUMN(double, cells, "cells", "1", "cells along that side");
-  COLUMN(std::optional<double>, error, "error against the finest", "m",
+  COLUMN(OptionalNumber, error, "error against the finest", "m",
          "largest RMS distance from the finest grid in the window");
-  COLUMN(std::optional<double>, sag, "sag", "m", "how far the lowest point hangs below the highest one at rest");
-  COLUMN(std::optional<double>, stiffness_factor, "stiffness factor for the finest's sag", "1",
+  COLUMN(OptionalNumber, sag, "sag", "m", "how far the lowest point hangs below the highest one at rest");
+  COLUMN(OptionalNumber, stiffness_factor, "stiffness factor for the finest's sag", "1",
          "what all stiffnesses are to be multiplied by to sag as the finest grid does");
   COLUMN(Verdict, verdict, "verdict", "1", "how the run ended");
   COLUMN(long, evaluations, "evaluations", "1", "evaluations of the forces");
@@ -108,7 +108,7 @@ struct ScalingRow {
   COLUMN(ScalingQuantity, quantity, "quantity", "1", "what follows a power of the number of cells");
   COLUMN(double, exponent, "exponent", "1", "that power, by least squares in the logarithms");
   COLUMN(double, standard_error, "standard error", "1", "of the exponent");
-  COLUMN(std::optional<double>, derived, "derived", "1", "the exponent that is derived for many cells");
+  COLUMN(OptionalNumber, derived, "derived", "1", "the exponent that is derived for many cells");
 };
 
 }  // namespace crosscheck

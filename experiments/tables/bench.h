@@ -17,31 +17,29 @@ struct BenchRow {
   COLUMN(std::string, peer, "peer", "1", "loop, method or library that mysim is compared with");
   COLUMN(std::string, variant, "variant", "1", "model, force or rate of this comparison");
   COLUMN(std::string, build, "build", "1", "who compiled the peer's code");
-  COLUMN(std::optional<double>, step, "step", "s", "time step of the peer");
-  COLUMN(std::optional<double>, tolerance, "tolerance", "1", "relative tolerance of a peer that controls its error");
+  COLUMN(OptionalNumber, step, "step", "s", "time step of the peer");
+  COLUMN(OptionalNumber, tolerance, "tolerance", "1", "relative tolerance of a peer that controls its error");
   COLUMN(Verdict, verdict, "verdict", "1", "how the peer's run ended");
-  COLUMN(std::optional<double>, error, "error", "m", "RMS position error of the peer at the end");
-  COLUMN(std::optional<double>, truth_bar, "truth bar", "m", "error bar of the truth");
-  COLUMN(std::optional<double>, apart, "farthest particle", "m",
-         "largest distance of a particle between both solutions");
+  COLUMN(OptionalNumber, error, "error", "m", "RMS position error of the peer at the end");
+  COLUMN(OptionalNumber, truth_bar, "truth bar", "m", "error bar of the truth");
+  COLUMN(OptionalNumber, apart, "farthest particle", "m", "largest distance of a particle between both solutions");
   COLUMN(std::optional<long>, evaluations, "evaluations", "1",
          "evaluations of the right-hand side by the peer, or steps");
   COLUMN(std::string, mysim, "mysim", "1", "kernel or method of mysim");
   COLUMN(simd::InstructionSet, instructions, "instructions", "1", "instruction set of mysim");
-  COLUMN(std::optional<double>, step_of_mysim, "step of mysim", "s", "time step of mysim");
-  COLUMN(std::optional<double>, error_of_mysim, "error of mysim", "m", "RMS position error of mysim at the end");
+  COLUMN(OptionalNumber, step_of_mysim, "step of mysim", "s", "time step of mysim");
+  COLUMN(OptionalNumber, error_of_mysim, "error of mysim", "m", "RMS position error of mysim at the end");
   COLUMN(std::string, unit, "unit of work", "1", "what each time is of");
-  COLUMN(std::optional<double>, peer_time, "time of peer", "s", "CPU time of the peer, median; of threads wall time");
-  COLUMN(std::optional<double>, peer_low, "low of peer", "s", "lower end of its 90 % interval");
-  COLUMN(std::optional<double>, peer_high, "high of peer", "s", "upper end of its 90 % interval");
-  COLUMN(std::optional<double>, time, "time of mysim", "s", "the same of mysim");
-  COLUMN(std::optional<double>, low, "low of mysim", "s", "lower end of its 90 % interval");
-  COLUMN(std::optional<double>, high, "high of mysim", "s", "upper end of its 90 % interval");
-  COLUMN(std::optional<double>, ratio, "ratio", "1", "time of the peer over mysim's, median of rounds");
-  COLUMN(std::optional<double>, ratio_low, "ratio low", "1", "lower end of the ratio's 90 % interval");
-  COLUMN(std::optional<double>, ratio_high, "ratio high", "1", "upper end of the ratio's 90 % interval");
-  COLUMN(std::optional<double>, share, "share", "1",
-         "part of the peak rate of the instructions, or of two cores' time");
+  COLUMN(OptionalNumber, peer_time, "time of peer", "s", "CPU time of the peer, median; of threads wall time");
+  COLUMN(OptionalNumber, peer_low, "low of peer", "s", "lower end of its 90 % interval");
+  COLUMN(OptionalNumber, peer_high, "high of peer", "s", "upper end of its 90 % interval");
+  COLUMN(OptionalNumber, time, "time of mysim", "s", "the same of mysim");
+  COLUMN(OptionalNumber, low, "low of mysim", "s", "lower end of its 90 % interval");
+  COLUMN(OptionalNumber, high, "high of mysim", "s", "upper end of its 90 % interval");
+  COLUMN(OptionalNumber, ratio, "ratio", "1", "time of the peer over mysim's, median of rounds");
+  COLUMN(OptionalNumber, ratio_low, "ratio low", "1", "lower end of the ratio's 90 % interval");
+  COLUMN(OptionalNumber, ratio_high, "ratio high", "1", "upper end of the ratio's 90 % interval");
+  COLUMN(OptionalNumber, share, "share", "1", "part of the peak rate of the instructions, or of two cores' time");
   COLUMN(std::string, remark, "remark", "1", "why there is no ratio");
 };
 

@@ -22,10 +22,10 @@ struct RelationRow {
   COLUMN(RelationMark, mark, "mark", "1", "whether it holds; known: broken, and listed as known");
   COLUMN(std::string, compared, "compared", "1", "what was measured");
   COLUMN(std::string, unit, "unit", "1", "unit of what was measured");
-  COLUMN(std::optional<double>, measured, "measured", "unit", "value that was measured, where it is worst");
-  COLUMN(std::optional<double>, tolerance, "tolerance", "unit", "largest value at which the relation holds there");
-  COLUMN(std::optional<double>, ratio, "ratio", "1", "measured over tolerance; empty where no tolerance is allowed");
-  COLUMN(std::optional<double>, since, "since", "s", "first time over the tolerance");
+  COLUMN(OptionalNumber, measured, "measured", "unit", "value that was measured, where it is worst");
+  COLUMN(OptionalNumber, tolerance, "tolerance", "unit", "largest value at which the relation holds there");
+  COLUMN(OptionalNumber, ratio, "ratio", "1", "measured over tolerance; empty where no tolerance is allowed");
+  COLUMN(OptionalNumber, since, "since", "s", "first time over the tolerance");
   COLUMN(std::string, reason, "reason", "1", "why it could not be asked, how a run failed, or why the break is known");
   COLUMN(std::string, scene_hash, "scene hash", "1", "fingerprint of the scene");
 };

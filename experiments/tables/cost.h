@@ -43,12 +43,12 @@ struct RooflineRow {
   COLUMN(std::string, what, "what", "1", "loop that was timed");
   COLUMN(double, work, "work", "flop", "floating-point operations of one run");
   COLUMN(double, bytes, "bytes", "B", "bytes that one run moves, as the source asks for them");
-  COLUMN(std::optional<double>, intensity, "intensity", "flop/B", "operations over bytes");
+  COLUMN(OptionalNumber, intensity, "intensity", "flop/B", "operations over bytes");
   COLUMN(double, cpu, "cpu", "s", "CPU time of one run, median");
   COLUMN(double, cpu_low, "cpu low", "s", "lower end of its 90 % interval");
   COLUMN(double, cpu_high, "cpu high", "s", "upper end of its 90 % interval");
   COLUMN(double, rate, "rate", "flop/s", "operations in a second");
-  COLUMN(std::optional<double>, bandwidth, "bandwidth", "B/s", "bytes in a second");
+  COLUMN(OptionalNumber, bandwidth, "bandwidth", "B/s", "bytes in a second");
 };
 
 }  // namespace crosscheck

@@ -21,7 +21,7 @@ struct SceneEnergyRow {
          "1 where the engine does not tell what contact took: it is what the balance lacks");
   COLUMN(double, wind, "wind work", "J", "work done by the wind since the start");
   COLUMN(double, pins, "pin work", "J", "work done by moved pins since the start");
-  COLUMN(std::optional<double>, balance_error, "balance error", "J",
+  COLUMN(OptionalNumber, balance_error, "balance error", "J",
          "change of the sum of all these since the start; empty where no balance is claimed");
 };
 
@@ -38,9 +38,9 @@ struct SceneLedgerRow {
   COLUMN(double, contact, "contact loss", "J", "lost in contact since the start, less what moving spheres gave");
   COLUMN(double, wind, "wind work", "J", "work done by the wind since the start");
   COLUMN(double, pins, "pin work", "J", "work done by moved pins since the start");
-  COLUMN(std::optional<double>, residual, "residual", "J",
+  COLUMN(OptionalNumber, residual, "residual", "J",
          "change of the sum of all these since the start; empty where no balance is claimed");
-  COLUMN(std::optional<double>, largest_residual, "largest residual", "J", "largest size of the residual so far");
+  COLUMN(OptionalNumber, largest_residual, "largest residual", "J", "largest size of the residual so far");
 };
 
 /// A run of very many steps.
@@ -57,30 +57,29 @@ struct EnergyRow {
   COLUMN(bool, symplectic, "symplectic", "1", "1 where the rule is symplectic");
   COLUMN(bool, closure_claimed, "closure claimed", "1",
          "1 where all that takes or gives energy is known, so that the residual should be zero");
-  COLUMN(std::optional<double>, turned_over, "energy turned over", "J",
+  COLUMN(OptionalNumber, turned_over, "energy turned over", "J",
          "largest kinetic energy, or change of gravitational or elastic energy");
-  COLUMN(std::optional<double>, largest_residual, "largest residual", "J",
+  COLUMN(OptionalNumber, largest_residual, "largest residual", "J",
          "largest size of the residual: of the balance of energies less that at the start");
-  COLUMN(std::optional<double>, residual, "residual", "J", "residual at the end");
-  COLUMN(std::optional<double>, drift, "drift", "J/s", "slope of the straight line through the residual");
-  COLUMN(std::optional<double>, oscillation, "oscillation", "J", "RMS deviation of the residual from that line");
-  COLUMN(std::optional<double>, growth, "growth of the residual", "1",
+  COLUMN(OptionalNumber, residual, "residual", "J", "residual at the end");
+  COLUMN(OptionalNumber, drift, "drift", "J/s", "slope of the straight line through the residual");
+  COLUMN(OptionalNumber, oscillation, "oscillation", "J", "RMS deviation of the residual from that line");
+  COLUMN(OptionalNumber, growth, "growth of the residual", "1",
          "log10 of the largest residual over that of the first tenth of the run; 1: grows like time");
-  COLUMN(std::optional<double>, equivalent_drag, "equivalent drag", "1/s",
+  COLUMN(OptionalNumber, equivalent_drag, "equivalent drag", "1/s",
          "drag rate that would take as much from the same motion; negative where energy is made");
-  COLUMN(std::optional<double>, kinetic_at_start, "kinetic at start", "J", "kinetic energy at the start");
-  COLUMN(std::optional<double>, elastic_at_start, "elastic at start", "J", "energy of the springs at the start");
-  COLUMN(std::optional<double>, kinetic, "kinetic", "J", "kinetic energy at the end");
-  COLUMN(std::optional<double>, elastic, "elastic", "J", "energy of the springs at the end");
-  COLUMN(std::optional<double>, gravity, "gravity gave", "J", "what gravity gave over the run");
-  COLUMN(std::optional<double>, drag, "drag took", "J", "what drag took over the run");
-  COLUMN(std::optional<double>, dashpots, "dashpots took", "J", "what dashpots took over the run");
-  COLUMN(std::optional<double>, contact, "contact took", "J",
-         "what contact took over the run, less what moving spheres gave");
+  COLUMN(OptionalNumber, kinetic_at_start, "kinetic at start", "J", "kinetic energy at the start");
+  COLUMN(OptionalNumber, elastic_at_start, "elastic at start", "J", "energy of the springs at the start");
+  COLUMN(OptionalNumber, kinetic, "kinetic", "J", "kinetic energy at the end");
+  COLUMN(OptionalNumber, elastic, "elastic", "J", "energy of the springs at the end");
+  COLUMN(OptionalNumber, gravity, "gravity gave", "J", "what gravity gave over the run");
+  COLUMN(OptionalNumber, drag, "drag took", "J", "what drag took over the run");
+  COLUMN(OptionalNumber, dashpots, "dashpots took", "J", "what dashpots took over the run");
+  COLUMN(OptionalNumber, contact, "contact took", "J", "what contact took over the run, less what moving spheres gave");
   COLUMN(bool, contact_inferred, "contact inferred", "1",
          "1 where the engine does not tell what contact took: it is what the balance lacks");
-  COLUMN(std::optional<double>, wind, "wind gave", "J", "work done by the wind over the run");
-  COLUMN(std::optional<double>, pins, "pins gave", "J", "work done by moved pins over the run");
+  COLUMN(OptionalNumber, wind, "wind gave", "J", "work done by the wind over the run");
+  COLUMN(OptionalNumber, pins, "pins gave", "J", "work done by moved pins over the run");
 };
 
 /// The numerical damping of a rule on an undamped oscillator.
@@ -91,9 +90,9 @@ struct DampingRow {
   COLUMN(double, end, "end", "s", "last time reached");
   COLUMN(double, step, "step", "s", "time step taken");
   COLUMN(double, h_omega, "h omega", "1", "step times angular frequency of the oscillator");
-  COLUMN(std::optional<double>, equivalent_drag, "equivalent drag", "1/s",
+  COLUMN(OptionalNumber, equivalent_drag, "equivalent drag", "1/s",
          "drag rate that the damping of the measured energy amounts to");
-  COLUMN(std::optional<double>, by_theory, "by theory", "1/s",
+  COLUMN(OptionalNumber, by_theory, "by theory", "1/s",
          "the same by the rule's stability function; empty where the rule has none");
 };
 

@@ -41,28 +41,27 @@ struct EngineRow {
   COLUMN(double, measured_window, "measured window", "s",
          "the same as measured: until a perturbation of 1e-10 m has grown a thousandfold");
   COLUMN(double, growth, "perturbation growth", "1", "how many times that perturbation grows in the window");
-  COLUMN(std::optional<double>, round_off_bound, "round-off bound", "m",
+  COLUMN(OptionalNumber, round_off_bound, "round-off bound", "m",
          "what engines of one rule may differ by in the precision of this one; empty where single positions cannot be "
          "predicted");
   COLUMN(std::optional<bool>, same_rule, "same rule", "1",
          "whether its runs show the rule of the method that differences are from; empty where it is not known");
   COLUMN(std::optional<std::string>, truth, "truth", "1", "how the truth was found; empty where none is known");
   COLUMN(std::optional<TruthKind>, truth_kind, "truth tier", "1", "how sure the truth is");
-  COLUMN(std::optional<double>, truth_bar, "truth bar", "m", "error bar of the truth");
-  COLUMN(std::optional<double>, truth_until, "truth until", "s",
+  COLUMN(OptionalNumber, truth_bar, "truth bar", "m", "error bar of the truth");
+  COLUMN(OptionalNumber, truth_until, "truth until", "s",
          "until when the truth is known, where that is not to the end");
-  COLUMN(std::optional<double>, error, "largest error", "m", "largest RMS distance from the truth in the window");
-  COLUMN(std::optional<double>, contact_difference, "largest difference from converged contact", "m",
+  COLUMN(OptionalNumber, error, "largest error", "m", "largest RMS distance from the truth in the window");
+  COLUMN(OptionalNumber, contact_difference, "largest difference from converged contact", "m",
          "largest RMS distance in the window from what the in-house contact rule converges to");
-  COLUMN(std::optional<double>, difference, "largest difference", "m",
+  COLUMN(OptionalNumber, difference, "largest difference", "m",
          "largest RMS distance from mysim/symplectic-euler in the window");
-  COLUMN(std::optional<double>, centre_difference, "largest difference of centres", "m",
+  COLUMN(OptionalNumber, centre_difference, "largest difference of centres", "m",
          "largest distance of the centre of mass from that of mysim/symplectic-euler over the run");
-  COLUMN(std::optional<double>, clearance, "smallest clearance", "m",
+  COLUMN(OptionalNumber, clearance, "smallest clearance", "m",
          "smallest distance of a particle from a sphere's contact surface; negative inside");
-  COLUMN(std::optional<double>, creep, "creep at end", "m/s",
-         "mean sliding speed of the touching particles at the end");
-  COLUMN(std::optional<double>, step_limit, "predicted step limit", "s",
+  COLUMN(OptionalNumber, creep, "creep at end", "m/s", "mean sliding speed of the touching particles at the end");
+  COLUMN(OptionalNumber, step_limit, "predicted step limit", "s",
          "largest stable step by linear theory, for the fastest vibration at the start");
   COLUMN(std::string, different_law, "different law", "1", "ingredients that the method has under another law");
 };
@@ -71,10 +70,10 @@ struct EngineCostRow {
   TABLE("engines-cost");
   COLUMN(std::string, scene, "scene", "1", "scene");
   COLUMN(std::string, method, "method", "1", "method that was run");
-  COLUMN(std::optional<double>, cpu, "cpu", "s", "CPU time of the stepping threads");
-  COLUMN(std::optional<double>, cpu_per_step, "cpu per step", "s", "the same of one step, in the mean");
-  COLUMN(std::optional<double>, simulated_per_cpu, "simulated per cpu", "s/s", "simulated time over CPU time");
-  COLUMN(std::optional<double>, process_cpu, "cpu of process", "s",
+  COLUMN(OptionalNumber, cpu, "cpu", "s", "CPU time of the stepping threads");
+  COLUMN(OptionalNumber, cpu_per_step, "cpu per step", "s", "the same of one step, in the mean");
+  COLUMN(OptionalNumber, simulated_per_cpu, "simulated per cpu", "s/s", "simulated time over CPU time");
+  COLUMN(OptionalNumber, process_cpu, "cpu of process", "s",
          "CPU time of a whole outside program, its start and its files included");
 };
 
@@ -82,15 +81,15 @@ struct EngineTimeRow {
   TABLE("SCENE-engines");
   COLUMN(std::string, method, "method", "1", "method that was run");
   COLUMN(double, t, "t", "s", "time of the sample");
-  COLUMN(std::optional<double>, error, "error", "m", "RMS distance from the truth");
-  COLUMN(std::optional<double>, contact_difference, "difference from converged contact", "m",
+  COLUMN(OptionalNumber, error, "error", "m", "RMS distance from the truth");
+  COLUMN(OptionalNumber, contact_difference, "difference from converged contact", "m",
          "RMS distance from what the in-house contact rule converges to");
-  COLUMN(std::optional<double>, difference, "difference", "m", "RMS distance from mysim/symplectic-euler");
-  COLUMN(std::optional<double>, centre_difference, "difference of centres", "m",
+  COLUMN(OptionalNumber, difference, "difference", "m", "RMS distance from mysim/symplectic-euler");
+  COLUMN(OptionalNumber, centre_difference, "difference of centres", "m",
          "distance of the centre of mass from that of mysim/symplectic-euler");
-  COLUMN(std::optional<double>, clearance, "clearance", "m",
+  COLUMN(OptionalNumber, clearance, "clearance", "m",
          "smallest distance of a particle from a sphere's contact surface; negative inside");
-  COLUMN(std::optional<double>, creep, "creep", "m/s", "mean sliding speed of the touching particles");
+  COLUMN(OptionalNumber, creep, "creep", "m/s", "mean sliding speed of the touching particles");
 };
 
 struct EngineEnergyRow {
@@ -100,17 +99,16 @@ struct EngineEnergyRow {
   COLUMN(Verdict, verdict, "verdict", "1", "how the run ended");
   COLUMN(double, end, "end", "s", "last time reached");
   COLUMN(double, turned_over, "energy turned over", "J", "largest kinetic energy, or change of the gravitational one");
-  COLUMN(std::optional<double>, balance_error, "largest balance error", "J",
+  COLUMN(OptionalNumber, balance_error, "largest balance error", "J",
          "largest change of the sum of all energies, losses and works");
-  COLUMN(std::optional<double>, relative_balance_error, "relative balance error", "1",
-         "the same over the energy turned over");
+  COLUMN(OptionalNumber, relative_balance_error, "relative balance error", "1", "the same over the energy turned over");
   COLUMN(bool, contact_inferred, "contact loss inferred", "1",
          "1 where the engine does not tell what contact took, so that no balance is claimed");
-  COLUMN(std::optional<double>, contact, "contact took", "J",
+  COLUMN(OptionalNumber, contact, "contact took", "J",
          "what contact took as long as the truth is known, less what moving spheres gave; empty without a truth");
-  COLUMN(std::optional<double>, contact_in_truth, "contact takes in truth", "J", "the same of the truth");
-  COLUMN(std::optional<double>, contact_bar, "bar of contact in truth", "J", "error bar of that");
-  COLUMN(std::optional<double>, contact_until, "contact until", "s", "end of what these three add up");
+  COLUMN(OptionalNumber, contact_in_truth, "contact takes in truth", "J", "the same of the truth");
+  COLUMN(OptionalNumber, contact_bar, "bar of contact in truth", "J", "error bar of that");
+  COLUMN(OptionalNumber, contact_until, "contact until", "s", "end of what these three add up");
 };
 
 /// Statistics of a scene with contact: of sixteen perturbed runs, or of one run in units of the spread of such runs.
@@ -120,8 +118,8 @@ struct StatisticRow {
   COLUMN(std::string, quantity, "quantity", "1", "what the mean is of");
   COLUMN(std::string, unit, "unit", "1", "unit of mean and deviation");
   COLUMN(double, mean, "mean", "see unit", "mean over runs from perturbed starts, or of one run without a deviation");
-  COLUMN(std::optional<double>, deviation, "deviation", "see unit", "standard deviation over these runs");
-  COLUMN(std::optional<double>, apart, "apart", "1",
+  COLUMN(OptionalNumber, deviation, "deviation", "see unit", "standard deviation over these runs");
+  COLUMN(OptionalNumber, apart, "apart", "1",
          "distance of the mean from that of mysim's perturbed runs, in their standard deviations");
 };
 

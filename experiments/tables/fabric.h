@@ -53,8 +53,8 @@ struct HangingShapeRow {
   COLUMN(double, gamma, "gamma", "1", "weight per area x length^3 / rigidity; 0: without bending");
   COLUMN(double, x, "x", "m", "of the true curve, from the middle");
   COLUMN(double, height, "height", "m", "of the true curve, above the hinges");
-  COLUMN(std::optional<double>, net_x, "net x", "m", "of the particle that belongs there; empty: none does");
-  COLUMN(std::optional<double>, net_height, "net height", "m", "of the particle that belongs there");
+  COLUMN(OptionalNumber, net_x, "net x", "m", "of the particle that belongs there; empty: none does");
+  COLUMN(OptionalNumber, net_height, "net height", "m", "of the particle that belongs there");
 };
 
 /// A round cloth over a disc: a state of rest that was found from one start.

@@ -11,8 +11,8 @@ struct OrderRow {
   COLUMN(std::string, scene, "scene", "1", "scene");
   COLUMN(std::string, method, "method", "1", "method that was run");
   COLUMN(double, step, "step", "s", "time step taken");
-  COLUMN(std::optional<double>, error, "error", "m", "largest RMS distance from the truth in the window");
-  COLUMN(std::optional<double>, distance_to_finest, "distance to own finest", "m",
+  COLUMN(OptionalNumber, error, "error", "m", "largest RMS distance from the truth in the window");
+  COLUMN(OptionalNumber, distance_to_finest, "distance to own finest", "m",
          "the same from the method's own run at its shortest step");
   COLUMN(std::string, truth, "truth", "1", "how the truth was found");
   COLUMN(Tier, truth_tier, "truth tier", "1", "how sure the truth is");

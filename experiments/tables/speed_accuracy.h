@@ -37,18 +37,18 @@ struct SpeedAccuracyRow {
   COLUMN(long, evaluations, "evaluations", "1", "force evaluations");
   COLUMN(Verdict, verdict, "verdict", "1", "how the run ended");
   COLUMN(double, end, "end", "s", "simulated time reached");
-  COLUMN(std::optional<double>, error, "largest error", "m", "largest RMS position error against the truth");
-  COLUMN(std::optional<double>, error_over_time, "error over time", "m", "the same error, RMS over time");
-  COLUMN(std::optional<double>, difference, "largest difference from converged contact", "m",
+  COLUMN(OptionalNumber, error, "largest error", "m", "largest RMS position error against the truth");
+  COLUMN(OptionalNumber, error_over_time, "error over time", "m", "the same error, RMS over time");
+  COLUMN(OptionalNumber, difference, "largest difference from converged contact", "m",
          "largest RMS position difference from the converged contact rule");
-  COLUMN(std::optional<double>, difference_over_time, "difference from converged contact over time", "m",
+  COLUMN(OptionalNumber, difference_over_time, "difference from converged contact over time", "m",
          "the same difference, RMS over time");
-  COLUMN(std::optional<double>, to_own_finest, "distance to own finest", "m",
+  COLUMN(OptionalNumber, to_own_finest, "distance to own finest", "m",
          "largest RMS position difference from the method's own finest run");
   COLUMN(double, motion, "motion", "m", "largest RMS distance of the truth from the start");
   COLUMN(double, until, "until", "s", "time up to which errors are taken");
   COLUMN(std::optional<std::string>, truth, "truth", "1", "tier of the truth");
-  COLUMN(std::optional<double>, truth_bar, "truth bar", "m", "error bar of the truth");
+  COLUMN(OptionalNumber, truth_bar, "truth bar", "m", "error bar of the truth");
   COLUMN(std::string, different_law, "different law", "1", "ingredients that the method follows under another law");
 };
 
@@ -112,20 +112,18 @@ struct CheapestRow {
   COLUMN(Measure, measure, "measure", "1", "distance that is bounded");
   COLUMN(std::optional<std::string>, method, "method", "1", "method of the cheapest run");
   COLUMN(std::optional<SettingKind>, setting, "setting", "1", "what was set, and its unit");
-  COLUMN(std::optional<double>, requested, "asked", "see setting", "step or tolerance that was asked for");
-  COLUMN(std::optional<double>, cost, timed ? "cpu" : "evaluations", timed ? "s" : "1",
+  COLUMN(OptionalNumber, requested, "asked", "see setting", "step or tolerance that was asked for");
+  COLUMN(OptionalNumber, cost, timed ? "cpu" : "evaluations", timed ? "s" : "1",
          timed ? "CPU time of the run" : "force evaluations");
-  COLUMN(std::optional<double>, distance, "distance", "m", "its largest RMS position error or difference");
+  COLUMN(OptionalNumber, distance, "distance", "m", "its largest RMS position error or difference");
   COLUMN(std::optional<std::string>, bullet, "best of Bullet", "1", "method of Bullet's cheapest run");
   COLUMN(std::optional<SettingKind>, bullet_setting, "setting of Bullet", "1", "what was set in Bullet, and its unit");
-  COLUMN(std::optional<double>, bullet_requested, "asked of Bullet", "see setting",
-         "step that was asked for in Bullet");
-  COLUMN(std::optional<double>, bullet_cost, timed ? "cpu of Bullet" : "evaluations of Bullet", timed ? "s" : "1",
+  COLUMN(OptionalNumber, bullet_requested, "asked of Bullet", "see setting", "step that was asked for in Bullet");
+  COLUMN(OptionalNumber, bullet_cost, timed ? "cpu of Bullet" : "evaluations of Bullet", timed ? "s" : "1",
          timed ? "CPU time of Bullet's run" : "force evaluations of Bullet's run");
-  COLUMN(std::optional<double>, bullet_distance, "distance of Bullet", "m",
+  COLUMN(OptionalNumber, bullet_distance, "distance of Bullet", "m",
          "largest RMS position error or difference of Bullet's run");
-  COLUMN(std::optional<double>, bullet_over_mysim, "Bullet / mysim", "1",
-         "cost of Bullet's over that of mysim's cheapest");
+  COLUMN(OptionalNumber, bullet_over_mysim, "Bullet / mysim", "1", "cost of Bullet's over that of mysim's cheapest");
   COLUMN(std::optional<std::string>, tied, "as cheap within noise", "1",
          "methods that cannot be told from the cheapest");
   COLUMN(std::optional<std::string>, remark, "remark", "1", "why there is no run");
@@ -143,11 +141,11 @@ struct EngineSpeedRow {
   COLUMN(double, requested, "asked", "see setting", "step or tolerance that was asked for");
   COLUMN(double, cpu, "cpu", "s", "CPU time of the run");
   COLUMN(double, distance, "distance", "m", "its largest RMS position error or difference");
-  COLUMN(std::optional<double>, times_mysim, "times mysim", "1", "CPU time over that of mysim's cheapest run");
-  COLUMN(std::optional<double>, times_mysim_low, "times mysim low", "1", "least that both intervals allow");
-  COLUMN(std::optional<double>, times_mysim_high, "times mysim high", "1", "most that both intervals allow");
+  COLUMN(OptionalNumber, times_mysim, "times mysim", "1", "CPU time over that of mysim's cheapest run");
+  COLUMN(OptionalNumber, times_mysim_low, "times mysim low", "1", "least that both intervals allow");
+  COLUMN(OptionalNumber, times_mysim_high, "times mysim high", "1", "most that both intervals allow");
   COLUMN(double, part_timed, "part timed", "1", "part of the run that was timed; the rest is scaled");
-  COLUMN(std::optional<double>, part_timed_of_mysim, "part timed of mysim", "1", "the same of mysim's run");
+  COLUMN(OptionalNumber, part_timed_of_mysim, "part timed of mysim", "1", "the same of mysim's run");
 };
 
 }  // namespace crosscheck

@@ -21,7 +21,7 @@ struct ReboundRow {
   COLUMN(std::string, reason, "reason", "1", "why it failed or was refused");
   COLUMN(double, step, "step", "s", "time step asked for");
   COLUMN(double, restitution, "restitution", "1", "part of its speed that the ball returns");
-  COLUMN(std::optional<double>, rebound, "rebound", "m", "how high the particle rises again above the contact surface");
+  COLUMN(OptionalNumber, rebound, "rebound", "m", "how high the particle rises again above the contact surface");
   COLUMN(double, by_theory, "by theory", "m", "the same by theory");
 };
 
@@ -32,9 +32,9 @@ struct LeavingRow {
   COLUMN(Verdict, verdict, "verdict", "1", "how the run ended");
   COLUMN(std::string, reason, "reason", "1", "why it failed or was refused");
   COLUMN(double, step, "step", "s", "time step asked for");
-  COLUMN(std::optional<double>, angle, "angle", "degrees", "angle from the top where the gap first passes 1 mm");
+  COLUMN(OptionalNumber, angle, "angle", "degrees", "angle from the top where the gap first passes 1 mm");
   COLUMN(double, angle_by_theory, "angle by theory", "degrees", "the same by theory");
-  COLUMN(std::optional<double>, speed, "speed", "m/s", "speed there");
+  COLUMN(OptionalNumber, speed, "speed", "m/s", "speed there");
   COLUMN(double, speed_by_theory, "speed by theory", "m/s", "the same by theory");
 };
 
@@ -45,8 +45,8 @@ struct ContactOrderRow {
   COLUMN(std::string, method, "method", "1", "method that was run");
   COLUMN(Verdict, verdict, "verdict", "1", "how the run ended");
   COLUMN(double, step, "step", "s", "time step taken");
-  COLUMN(std::optional<double>, error, "error", "m", "largest RMS distance from the truth");
-  COLUMN(std::optional<double>, order, "order", "1", "slope of the error from twice the step to this one");
+  COLUMN(OptionalNumber, error, "error", "m", "largest RMS distance from the truth");
+  COLUMN(OptionalNumber, order, "order", "1", "slope of the error from twice the step to this one");
   COLUMN(std::string, truth, "truth", "1", "how the truth was found");
   COLUMN(Tier, truth_tier, "truth tier", "1", "how sure the truth is");
   COLUMN(double, truth_bar, "truth bar", "m", "error bar of the truth");
@@ -61,7 +61,7 @@ struct ConeRow {
   COLUMN(double, step, "step", "s", "time step asked for");
   COLUMN(double, angle, "angle", "degrees", "of the slope");
   COLUMN(double, friction, "friction", "1", "Coulomb's coefficient of friction");
-  COLUMN(std::optional<double>, distance, "way", "m", "way down the slope in 0.5 s");
+  COLUMN(OptionalNumber, distance, "way", "m", "way down the slope in 0.5 s");
   COLUMN(double, distance_by_theory, "way by theory", "m", "the same by Coulomb's law");
   COLUMN(std::optional<ContactState>, state, "answer", "1", "whether the particle stuck or slid");
   COLUMN(ContactState, state_by_theory, "answer by theory", "1", "the same by Coulomb's law");
@@ -76,17 +76,16 @@ struct DrapeRow {
   COLUMN(std::string, reason, "reason", "1", "why it failed or was refused");
   COLUMN(double, end, "end", "s", "last time reached");
   COLUMN(double, step, "step", "s", "time step taken");
-  COLUMN(std::optional<double>, settled_after, "settled after", "s",
-         "when it came to rest: its RMS speed stays below 1 cm/s");
-  COLUMN(std::optional<double>, centre_height, "centre height", "m", "height of the centre of mass at the end");
-  COLUMN(std::optional<double>, moved_aside, "centre moved aside", "m", "how far the centre of mass moved sideways");
-  COLUMN(std::optional<double>, clearance, "clearance", "m",
+  COLUMN(OptionalNumber, settled_after, "settled after", "s", "when it came to rest: its RMS speed stays below 1 cm/s");
+  COLUMN(OptionalNumber, centre_height, "centre height", "m", "height of the centre of mass at the end");
+  COLUMN(OptionalNumber, moved_aside, "centre moved aside", "m", "how far the centre of mass moved sideways");
+  COLUMN(OptionalNumber, clearance, "clearance", "m",
          "smallest distance from a sphere's contact surface at the end; negative inside");
-  COLUMN(std::optional<double>, creep, "creep", "m/s", "mean sliding speed of the touching particles at the end");
-  COLUMN(std::optional<double>, contact, "contact took", "J", "energy lost in contact over the run");
+  COLUMN(OptionalNumber, creep, "creep", "m/s", "mean sliding speed of the touching particles at the end");
+  COLUMN(OptionalNumber, contact, "contact took", "J", "energy lost in contact over the run");
   COLUMN(bool, contact_inferred, "contact inferred", "1",
          "1 where the engine does not tell what contact took: it is what the balance lacks");
-  COLUMN(std::optional<double>, asymmetry, "asymmetry", "m",
+  COLUMN(OptionalNumber, asymmetry, "asymmetry", "m",
          "largest distance of a particle from its partner's mirror image at the end");
 };
 
@@ -98,12 +97,10 @@ struct PenetrationRow {
   COLUMN(Verdict, verdict, "verdict", "1", "how the run ended");
   COLUMN(double, step, "step", "s", "time step taken");
   COLUMN(double, radius, "radius", "m", "smallest contact radius of the scene");
-  COLUMN(std::optional<double>, particles, "particles", "%",
-         "how deep particles were inside at most, in parts of the radius");
-  COLUMN(std::optional<double>, triangles, "triangles", "%",
-         "how deep triangles were inside at most, in parts of the radius");
-  COLUMN(std::optional<double>, particles_at_end, "particles at end", "%", "the same of particles at the end");
-  COLUMN(std::optional<double>, triangles_at_end, "triangles at end", "%", "the same of triangles at the end");
+  COLUMN(OptionalNumber, particles, "particles", "%", "how deep particles were inside at most, in parts of the radius");
+  COLUMN(OptionalNumber, triangles, "triangles", "%", "how deep triangles were inside at most, in parts of the radius");
+  COLUMN(OptionalNumber, particles_at_end, "particles at end", "%", "the same of particles at the end");
+  COLUMN(OptionalNumber, triangles_at_end, "triangles at end", "%", "the same of triangles at the end");
 };
 
 /// The same cloth over time.
@@ -114,13 +111,12 @@ struct DrapeTimeRow {
   COLUMN(double, t, "t", "s", "time of the sample");
   COLUMN(double, centre_height, "centre height", "m", "height of the centre of mass");
   COLUMN(double, moved_aside, "centre moved aside", "m", "how far the centre of mass moved sideways");
-  COLUMN(std::optional<double>, clearance, "clearance", "m",
+  COLUMN(OptionalNumber, clearance, "clearance", "m",
          "smallest distance from a sphere's contact surface; negative inside");
-  COLUMN(std::optional<double>, triangles_inside, "triangles inside", "m",
+  COLUMN(OptionalNumber, triangles_inside, "triangles inside", "m",
          "how deep the deepest point of a triangle is inside; negative outside");
-  COLUMN(std::optional<double>, creep, "creep", "m/s", "mean sliding speed of the touching particles");
-  COLUMN(std::optional<double>, asymmetry, "asymmetry", "m",
-         "largest distance of a particle from its partner's mirror image");
+  COLUMN(OptionalNumber, creep, "creep", "m/s", "mean sliding speed of the touching particles");
+  COLUMN(OptionalNumber, asymmetry, "asymmetry", "m", "largest distance of a particle from its partner's mirror image");
 };
 
 }  // namespace crosscheck

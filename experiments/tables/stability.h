@@ -49,26 +49,26 @@ struct LimitRow {
   COLUMN(std::string, method, "method", "1", "method");
   COLUMN(LimitState, state, "state", "1", "state about which the limit is looked for");
   COLUMN(PredictionKind, prediction, "prediction", "1", "what linear theory says of steps");
-  COLUMN(std::optional<double>, predicted, "predicted limit", "s", "critical time step by linear theory");
-  COLUMN(std::optional<double>, omega, "binding omega", "rad/s", "angular frequency of the mode that binds it");
-  COLUMN(std::optional<double>, gamma, "binding gamma", "1/s", "damping rate of that mode");
+  COLUMN(OptionalNumber, predicted, "predicted limit", "s", "critical time step by linear theory");
+  COLUMN(OptionalNumber, omega, "binding omega", "rad/s", "angular frequency of the mode that binds it");
+  COLUMN(OptionalNumber, gamma, "binding gamma", "1/s", "damping rate of that mode");
   COLUMN(MeasuredLimit::Kind, measurement, "measurement", "1", "what the runs say of steps");
-  COLUMN(std::optional<double>, measured, "measured limit", "s", "geometric middle of held and failed");
-  COLUMN(std::optional<double>, held, "held", "s", "largest step at which a run held");
-  COLUMN(std::optional<double>, failed, "failed", "s", "smallest step at which a run failed");
-  COLUMN(std::optional<double>, deviation, "deviation", "1", "measured over predicted limit, less 1");
+  COLUMN(OptionalNumber, measured, "measured limit", "s", "geometric middle of held and failed");
+  COLUMN(OptionalNumber, held, "held", "s", "largest step at which a run held");
+  COLUMN(OptionalNumber, failed, "failed", "s", "smallest step at which a run failed");
+  COLUMN(OptionalNumber, deviation, "deviation", "1", "measured over predicted limit, less 1");
   COLUMN(std::optional<Verdict>, above, "verdict above", "1", "how a run ends at 1.05 times the failed step");
   COLUMN(long, steps, "steps", "1", "steps of each run");
   COLUMN(std::string, reason, "reason", "1", "why measurement and prediction differ, or one is missing");
-  COLUMN(std::optional<double>, precision, "precision", "1", "width of the bracket from held to failed, over held");
-  COLUMN(std::optional<double>, step_below, "step below", "s",
+  COLUMN(OptionalNumber, precision, "precision", "1", "width of the bracket from held to failed, over held");
+  COLUMN(OptionalNumber, step_below, "step below", "s",
          "largest step up to held that divides the time between samples, where a scene without rest has a truth");
-  COLUMN(std::optional<double>, error_below, "error below", "m", "largest RMS position error at that step");
-  COLUMN(std::optional<double>, step_above, "step above", "s", "the smallest such step from failed on");
-  COLUMN(std::optional<double>, error_above, "error above", "m",
+  COLUMN(OptionalNumber, error_below, "error below", "m", "largest RMS position error at that step");
+  COLUMN(OptionalNumber, step_above, "step above", "s", "the smallest such step from failed on");
+  COLUMN(OptionalNumber, error_above, "error above", "m",
          "largest RMS position error at that step, up to where the run fails");
-  COLUMN(std::optional<double>, motion, "motion", "m", "largest RMS distance of the truth from the start");
-  COLUMN(std::optional<double>, truth_bar, "truth bar", "m", "error bar of the truth");
+  COLUMN(OptionalNumber, motion, "motion", "m", "largest RMS distance of the truth from the start");
+  COLUMN(OptionalNumber, truth_bar, "truth bar", "m", "error bar of the truth");
 };
 
 /// One step of a run above its method's limit, from the scene's own start.
@@ -78,12 +78,11 @@ struct FailureRow {
   COLUMN(std::string, method, "method", "1", "method");
   COLUMN(double, h, "time step", "s", "time step of the run");
   COLUMN(double, limit, "measured limit", "s", "largest stable step, from table stability");
-  COLUMN(std::optional<double>, growth, "growth by theory", "1",
-         "factor of the energy of the fastest vibration in a step");
+  COLUMN(OptionalNumber, growth, "growth by theory", "1", "factor of the energy of the fastest vibration in a step");
   COLUMN(long, step, "step", "1", "steps since the start");
   COLUMN(double, t, "t", "s", "time");
   COLUMN(double, kinetic, "kinetic energy", "J", "kinetic energy of the free particles");
-  COLUMN(std::optional<double>, holding, "kinetic energy below", "J",
+  COLUMN(OptionalNumber, holding, "kinetic energy below", "J",
          "the same at a quarter of the time step, where the run holds");
   COLUMN(bool, still, "still", "1", "whether the report shows a picture of this moment");
 };
@@ -97,7 +96,7 @@ struct GrowthRow {
   COLUMN(double, gamma, "gamma", "1/s", "damping rate of the mode");
   COLUMN(double, step, "step", "s", "time step");
   COLUMN(double, h_omega, "h omega", "1", "time step times angular frequency");
-  COLUMN(std::optional<double>, share_of_limit, "share of limit", "1", "time step over the predicted limit");
+  COLUMN(OptionalNumber, share_of_limit, "share of limit", "1", "time step over the predicted limit");
   COLUMN(double, predicted, "predicted growth", "1", "spectral radius of a step by theory, less 1");
   COLUMN(double, measured, "measured growth", "1", "mean factor of the amplitude in a step, less 1");
   COLUMN(double, deviation, "deviation", "1", "measured over predicted growth, less 1");
@@ -112,8 +111,8 @@ struct MapRow {
   COLUMN(double, value, "value", "see map", "stiffness over the scene's own, or drag rate in 1/s");
   COLUMN(double, step, "step", "s", "time step");
   COLUMN(Verdict, verdict, "verdict", "1", "how the run ended");
-  COLUMN(std::optional<double>, end, "end", "s", "simulated time reached");
-  COLUMN(std::optional<double>, growth, "growth", "1", "growth of the kick over the run");
+  COLUMN(OptionalNumber, end, "end", "s", "simulated time reached");
+  COLUMN(OptionalNumber, growth, "growth", "1", "growth of the kick over the run");
 };
 
 /// Largest stable steps on the rows of maps.
@@ -123,9 +122,9 @@ struct MapLimitRow {
   COLUMN(std::string, method, "method", "1", "method");
   COLUMN(std::string, map, "map", "1", "what the rows of the map change: stiffness or drag");
   COLUMN(double, value, "value", "see map", "stiffness over the scene's own, or drag rate in 1/s");
-  COLUMN(std::optional<double>, predicted, "predicted limit", "s", "critical time step by linear theory");
-  COLUMN(std::optional<double>, held, "held", "s", "largest step at which a run held");
-  COLUMN(std::optional<double>, failed, "failed", "s", "smallest step at which a run failed");
+  COLUMN(OptionalNumber, predicted, "predicted limit", "s", "critical time step by linear theory");
+  COLUMN(OptionalNumber, held, "held", "s", "largest step at which a run held");
+  COLUMN(OptionalNumber, failed, "failed", "s", "smallest step at which a run failed");
 };
 
 /// Cells of maps that change in runs ten times longer.

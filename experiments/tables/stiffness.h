@@ -39,13 +39,13 @@ struct EffectiveStiffnessRow {
   COLUMN(double, stiffness, "k h^2/mu", "1",
          "stiffness k of the springs, made dimensionless by the step h and the reduced mass mu");
   COLUMN(double, expected_sag, "sag asked", "m", "sag of the scene at rest");
-  COLUMN(std::optional<double>, sag, "sag", "m", "measured; empty where the net failed or came to no rest");
-  COLUMN(std::optional<double>, by_sag, "stiffness by sag", "1",
+  COLUMN(OptionalNumber, sag, "sag", "m", "measured; empty where the net failed or came to no rest");
+  COLUMN(OptionalNumber, by_sag, "stiffness by sag", "1",
          "effective stiffness over the one asked for: sag asked / sag");
   COLUMN(double, expected_period, "period asked", "s", "period of the scene's slowest vibration along gravity");
-  COLUMN(std::optional<double>, period, "period", "s",
+  COLUMN(OptionalNumber, period, "period", "s",
          "measured; empty where it is damped too soon, or has less than twelve steps");
-  COLUMN(std::optional<double>, by_period, "stiffness by period", "1",
+  COLUMN(OptionalNumber, by_period, "stiffness by period", "1",
          "effective stiffness over the one asked for: (period asked / period)^2");
 };
 

@@ -160,6 +160,9 @@ constexpr T initial_value() {
     return T{};
 }
 
+/// A number, or an empty cell.
+using OptionalNumber = std::optional<double>;
+
 /// A line of a header, by which columns are found and ordered.
 template <int line>
 using Line = std::integral_constant<int, line>;
