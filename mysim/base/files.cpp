@@ -19,6 +19,7 @@
 #include "mysim/base/errors.h"
 #include "mysim/base/hash.h"
 #include "mysim/base/names.h"
+#include "mysim/base/pattern.h"
 #include "mysim/base/text.h"
 #include "mysim/base/this_process.h"
 
@@ -151,8 +152,9 @@ std::string file_name_of(std::string_view text) {
 // The owner of a temporary folder holds an exclusive lock on it, which ends with the process, in every pid namespace.
 
 TemporaryFolder::TemporaryFolder(std::string_view purpose, const fs::path& place) {
-  const fs::path name =
-      (place.empty() ? fs::temp_directory_path() : place) / fmt::format("crosscheck-{}.XXXXXX", purpose);
+  // a form that no folder of a user has: remove_stale_temporary_folders() goes by it
+  const fs::path name = (place.empty() ? fs::temp_directory_path() : place) /
+                        fmt::format("crosscheck-{}-{}.tmp-XXXXXX", purpose, getpid());
   // again if another process took the new folder for a stale one
   for (bool stale = true; stale;) {
     if (lock_ >= 0) close(lock_);
@@ -173,13 +175,12 @@ TemporaryFolder::~TemporaryFolder() {
 }
 
 void remove_stale_temporary_folders(const fs::path& place) {
-  constexpr std::string_view begin = "crosscheck-", end = ".XXXXXX";
+  static const Pattern ours("crosscheck-[a-z]+-[0-9]+\\.tmp-[A-Za-z0-9]{6}");
   std::error_code error;
   for (fs::directory_iterator at(place.empty() ? fs::temp_directory_path(error) : place, error), last;
        !error && at != last; at.increment(error)) {
     const std::string name = at->path().filename().string();
-    if (!name.starts_with(begin) || name.size() < begin.size() + end.size() || name[name.size() - end.size()] != '.')
-      continue;
+    if (!name.starts_with("crosscheck-") || !ours.match(name)) continue;
     const int folder = open(at->path().c_str(), O_RDONLY | O_DIRECTORY | O_NOFOLLOW | O_CLOEXEC);
     struct stat about {};
     std::error_code ignored;

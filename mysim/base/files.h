@@ -60,7 +60,7 @@ void require_writable(const std::filesystem::path& folder);
 /// end in a hash of the whole.
 std::string file_name_of(std::string_view text);
 
-/// A private folder crosscheck-PURPOSE.XXXXXX. It is removed with the object or, if the process is killed, at the next
+/// A private folder crosscheck-PURPOSE-PROCESS.tmp-XXXXXX. It is removed with the object or, if the process is killed, at the next
 /// start.
 class TemporaryFolder {
  public:
