@@ -24,7 +24,13 @@ std::vector<Scene> resting_nets() { return scenes_named({"resting-net"}); }
 std::vector<Scene> flying_nets() { return scenes_named({"flying-net"}); }
 std::vector<Scene> vibrating_nets() { return scenes_named({"dumbbell"}); }
 std::vector<Scene> symmetric_nets() { return scenes_named({"hanging-strip"}); }
-std::vector<Scene> pinned_nets() { return scenes_named({"standing-pin", "moved-pin"}); }
+std::vector<Scene> pinned_nets() {
+  Scene standing = scene_in("scenes", "small-net"), moved = standing;
+  standing.name = "standing-pin", moved.name = "moved-pin";
+  moved.model.particles.move = Motion{{0.05, 0.02, -0.03}, 2, 0.25};
+  moved.hash = hash_of(moved);
+  return {standing, moved};
+}
 std::vector<Scene> hanging_chains() { return scenes_named({"chain-in-drag", "chain-with-dashpots"}); }
 std::vector<Scene> hanging_chains_in_drag() { return scenes_named({"chain-in-drag"}); }
 

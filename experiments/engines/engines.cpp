@@ -113,7 +113,7 @@ struct Standards {
   double omega = 0;   // rad/s, of the fastest vibration at the start
 };
 
-/// Certifies what another engine built. A run of another scene is no result, and no number of it is kept.
+/// Certifies the scene that another engine built. If it is not the one requested, the run counts as unsupported.
 void certify_result(const Method& method, const Scene& scene, Outcome& out, TableSet& tables) {
   if (out.verdict == Verdict::unsupported || method.stepper) return;
   tables.certificates.push_back(certify(method.name, scene, out));

@@ -203,7 +203,7 @@ struct RatiosRow {
   TABLE("ratios");
   COLUMN(long, test_case, "case", "1", "number of the case, from 0");
   COLUMN(double, is, "is", "1", "CPU time over the plain loop's, in one round");
-  COLUMN(std::optional<double>, was, "was", "1", "the same of the method that it stands beside");
+  COLUMN(OptionalNumber, was, "was", "1", "the same of the method that it stands beside");
 };
 
 /// The reason for no speed where no case is selected, in words.

@@ -151,7 +151,7 @@ std::vector<Cell> retyped(std::span<const TypedColumn> typed, const Table& table
 /// Throws InputError that names both tables where the columns are others.
 void require_columns(std::span<const TypedColumn> typed, const Table& table, std::string_view declared);
 
-/// The value that a row's member begins with: 0, empty, or the first value of an enum.
+/// Initial value of a row's member: 0, empty, or the first value of an enum.
 template <class T>
 constexpr T initial_value() {
   if constexpr (std::is_enum_v<T>)
@@ -163,10 +163,10 @@ constexpr T initial_value() {
 /// A number, or an empty cell.
 using OptionalNumber = std::optional<double>;
 
-/// A line of a header, by which columns are found and ordered.
+/// A line number in a header, which identifies a column and orders it.
 template <int line>
 using Line = std::integral_constant<int, line>;
-inline constexpr int most_lines = 100;  // in the declaration of a row
+inline constexpr int most_lines = 100;  // per declaration of a row
 
 // A row type declares its table's name and then each member together with its column, one to a line:
 //   struct ReboundRow {

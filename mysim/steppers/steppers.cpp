@@ -97,14 +97,14 @@ double rk4(double omega, double gamma) { return runge_kutta(rk4, omega, gamma); 
 double dopri5(double omega, double gamma) { return runge_kutta(dopri5, omega, gamma); }
 
 std::span<const double> stability_polynomial(StabilityLimit limit) {
-  static constexpr double exponential[] = {1, 1, 1. / 2, 1. / 6, 1. / 24};
-  static constexpr double dormand_prince[] = {1, 1, 1. / 2, 1. / 6, 1. / 24, 1. / 120, 1. / 600};
-  const std::span<const double> taylor = exponential;
-  if (limit == explicit_euler) return taylor.first(2);
-  if (limit == trapezoidal) return taylor.first(3);
-  if (limit == rk4) return taylor;
-  if (limit == dopri5) return dormand_prince;
-  return {};
+  // all but the last one are those of the exponential, up to the order of each rule
+  static constexpr double coefficients[] = {1, 1, 1. / 2, 1. / 6, 1. / 24, 1. / 120, 1. / 600};
+  const size_t count = limit == explicit_euler ? 2
+                       : limit == trapezoidal  ? 3
+                       : limit == rk4          ? 5
+                       : limit == dopri5       ? 7
+                                               : 0;
+  return std::span(coefficients).first(count);
 }
 
 double symplectic_euler(double omega, double gamma) {

@@ -102,7 +102,7 @@ constexpr StyleOfMethod styles[] = {
     {"sundials/cvode", {"#7A6A4A", "(4,2,2,2)", 13}},
 };
 
-// outside programs and the like share these, as far as five go
+// shared by outside programs and methods without a row
 constexpr CurveStyle spare_styles[] = {{"#3F5F78", "(8,2,2,2,2,2)", 3},
                                        {"#AA3377", "(6,2,2,2)", 10},
                                        {"#117733", "(10,2,4,2)", 8},

@@ -126,7 +126,7 @@ inline std::string contradiction(const Stepper& row) {
         largest = std::max(largest, std::abs(t.x[i + 1].norm() / t.x[i].norm() / std::abs(r) - 1));
       // each stage rounds a few times, by half an ulp of numbers of the size of the radius
       if (!(largest <= (8 + 4 * s.evaluations) * eps))
-        found += fmt::format("h = {} on circle: the radius grows otherwise than by {}, by {:.2g}. ", h, std::abs(r),
+        found += fmt::format("h = {} on circle: the growth of the radius differs from {} by {:.2g}. ", h, std::abs(r),
                              largest);
     }
   }

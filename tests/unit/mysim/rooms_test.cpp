@@ -57,7 +57,7 @@ TEST(Rooms, NoneIncludesHeadersFromAbove) {
     }
 }
 
-/// The grader judges with mysim alone; of the protocol it takes the one header that engines are written with.
+/// The grader uses mysim only, and of the protocol the one header that engines are written with.
 TEST(Rooms, TheGraderIncludesMysimOnly) {
   int files = 0;
   for (const auto& entry : fs::recursive_directory_iterator(fs::path(CROSSCHECK_SOURCE) / "tests/coursework")) {
