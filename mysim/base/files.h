@@ -60,8 +60,8 @@ void require_writable(const std::filesystem::path& folder);
 /// end in a hash of the whole.
 std::string file_name_of(std::string_view text);
 
-/// A private folder crosscheck-PURPOSE-PROCESS.tmp-XXXXXX. It is removed with the object or, if the process is killed, at the next
-/// start.
+/// A private folder crosscheck-PURPOSE-PROCESS.tmp-XXXXXX. It is removed with the object or, if the process is killed,
+/// at the next start.
 class TemporaryFolder {
  public:
   /// Makes it in `place`, by default where temporary files go. Throws InputError that names it.
