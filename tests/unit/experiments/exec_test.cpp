@@ -165,7 +165,7 @@ TEST_F(Exec, WhatAProgramLeavesBehindIsKilled) {
 TEST_F(Exec, TemporaryFoldersOfAKilledProgramGoWithIt) {
   const std::string name = (folder_ / "name").string();
   const std::string text =
-      "f=${TMPDIR:-/tmp}/crosscheck-kept.$(head -c 3 /dev/urandom | od -An -tx1 | tr -d ' ')\n"
+      "f=${TMPDIR:-/tmp}/crosscheck-kept-$$.tmp-$(head -c 3 /dev/urandom | od -An -tx1 | tr -d ' ')\n"
       "mkdir \"$f\"; echo \"$f\" > '" +
       name + "'\nsleep 60\n";
   EXPECT_EQ(run(text, "+timeout=0.5").outcome.verdict, Verdict::timeout);
