@@ -24,11 +24,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// In the order in which they know each other, behind the player's.
-constexpr const char* lab_script_names[] = {"scene_text", "engine",        "words",      "lab_link",    "knobs",
-                                            "live_run",   "computed_runs", "live_plots", "live_stage",  "hand",
-                                            "lab_view",   "lab_acts",      "lab",        "experiments", "guide"};
-
 /// What the guided experiments open.
 constexpr std::string_view guided_scenes[] = {"circle", "pendulum", "cloth-hang", "slide", "cloth-sphere"};
 
@@ -88,7 +83,9 @@ std::string live_lab_html(const std::string& scene) {
   return scene.empty() ? "" : fmt::format("<live-lab data-scene=\"{}\"></live-lab>\n", escaped(scene));
 }
 
-std::string lab_styles() { return "<style>\n" + asset("lab/lab.css") + asset("lab/guide.css") + "</style>\n"; }
+std::string lab_styles() {
+  return "<style>\n" + asset("page/lab/lab.css") + asset("page/lab/guide.css") + "</style>\n";
+}
 
 std::string lab_data_html(const std::vector<Scene>& given) {
   if (!has_lab_module()) return "";
@@ -108,12 +105,6 @@ std::string lab_data_html(const std::vector<Scene>& given) {
          script_json("id=\"lab-scenes\"", dump(json));
 }
 
-std::string lab_scripts() {
-  std::string out;
-  for (const char* name : lab_script_names) out += asset(fmt::format("lab/{}.js", name));
-  return out;
-}
-
 std::string lab_page_html(const std::vector<Scene>& scenes) {
   if (!has_lab_module())
     throw InputError(
@@ -127,7 +118,7 @@ std::string lab_page_html(const std::vector<Scene>& scenes) {
          "this page</span></div></nav>\n<main id=\"top\" class=\"lab-page\">\n<live-lab data-alone></live-lab>\n"
          "</main>\n" +
          lab_data_html(scenes) + script_json("id=\"methods-data\"", dump(method_looks_json(methods))) +
-         player_scripts() + "</body></html>\n";
+         script_element("lab_page.js") + "</body></html>\n";
 }
 
 }  // namespace crosscheck

@@ -36,8 +36,6 @@ std::string lab_styles();
 /// The module and the scenes for the end of a page: those given, and those of the guided experiments. Empty where there
 /// is no module.
 std::string lab_data_html(const std::vector<Scene>& scenes);
-/// The scripts of the lab, without <script>: they share their scope with the player's.
-std::string lab_scripts();
 
 /// A page with the lab alone. Throws InputError, with what to install, where there is no module.
 std::string lab_page_html(const std::vector<Scene>& scenes);

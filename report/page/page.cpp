@@ -244,9 +244,7 @@ std::string page_html(const PageContent& c) {
       if (run.beside) shown[part->scene->name].insert(run.key);
   out += all_runs_html(c.runs, !c.lab.empty(), shown);
   out += c.lab;
-  return out + player_scripts() + "<script>\n" +
-         script_without_comments(asset("page/chart_parts.js") + asset("page/chart.js") + asset("page/page.js")) +
-         "</script>\n</body></html>\n";
+  return out + script_element("app.js") + "</body></html>\n";
 }
 
 namespace {

@@ -9,28 +9,17 @@
 
 #include "experiments/stability/map.h"
 #include "mysim/base/files.h"
+#include "mysim/base/installation.h"
 #include "mysim/base/json.h"
 #include "report/base/assets.h"
 #include "report/page/lab_html.h"
-#include "report/page/smaller.h"
 #include "report/player/computed_runs.h"
 
 namespace crosscheck {
-namespace {
+std::string player_styles() { return "<style>\n" + asset("page/player/player.css") + "</style>\n"; }
 
-/// In the order in which they know each other: pages from a folder cannot load modules.
-constexpr const char* scripts[] = {"unpack", "vectors",  "colours", "orbit", "shaders",      "gl",
-                                   "shapes", "motion",   "bounds",  "stage", "raster_stage", "pointer_input",
-                                   "plot",   "controls", "player",  "runs"};
-
-}  // namespace
-
-std::string player_styles() { return "<style>\n" + asset("player/player.css") + "</style>\n"; }
-
-std::string player_scripts() {
-  std::string out = "<script>(() => {\n'use strict';\n";
-  for (const char* name : scripts) out += script_without_comments(asset(fmt::format("player/{}.js", name)));
-  return out + script_without_comments(lab_scripts()) + "})();</script>\n";
+std::string script_element(const char* bundle) {
+  return "<script>" + content_of_file(programs_folder() / "page" / bundle) + "</script>\n";
 }
 
 std::string script_json(const std::string& attributes, const std::string& json) {

@@ -13,9 +13,12 @@
 
 namespace crosscheck {
 
-/// Styles of all players of a page, for its head; and their scripts, for its end, where the motions stand already.
+/// Styles of all players of a page, for its head.
 std::string player_styles();
-std::string player_scripts();
+
+/// The page's scripts, for its end: `bundle` is "app.js" or, for a page that holds the lab alone, "lab_page.js". Throws
+/// std::runtime_error if it was not built.
+std::string script_element(const char* bundle);
 
 /// The player of a scene's motions, which begins with two of its runs; its stage shows the scene's thumbnail where
 /// nothing can be played.

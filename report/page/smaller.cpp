@@ -1,4 +1,4 @@
-// Scripts, folds and drawings, made smaller.
+// Folds and drawings, made smaller.
 #include "report/page/smaller.h"
 
 #include <fmt/format.h>
@@ -12,27 +12,6 @@
 #include "report/player/packed_numbers.h"
 
 namespace crosscheck {
-
-std::string script_without_comments(std::string_view script) {
-  std::string out;
-  bool in_text = false, in_comment = false;
-  for (size_t at = 0; at < script.size();) {
-    const size_t end = std::min(script.find('\n', at), script.size());
-    std::string_view line = script.substr(at, end - at);
-    at = end + 1;
-    if (!in_text) {
-      line.remove_prefix(std::min(line.find_first_not_of(' '), line.size()));
-      if (in_comment || line.starts_with("/**")) {
-        in_comment = !line.ends_with("*/");
-        continue;
-      }
-      if (line.empty() || line.starts_with("//")) continue;
-    }
-    in_text ^= std::ranges::count(line, '`') % 2 == 1;
-    out.append(line) += '\n';
-  }
-  return out;
-}
 
 std::string with_folds_packed(const std::string& page) {
   constexpr std::string_view begin = "<template", close = "</template>",

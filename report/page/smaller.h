@@ -6,11 +6,7 @@
 
 namespace crosscheck {
 
-/// A script without comments that have lines of their own ("//", "/** ... */") and without indentation. Lines of texts
-/// that go over several (`...`) stay as they are.
-std::string script_without_comments(std::string_view script);
-
-/// The page with what its outermost templates hold in one packed list at its end, which page.js puts back: without
+/// The page with what its outermost templates hold in one packed list at its end, which page.ts puts back: without
 /// scripts nobody sees it either way.
 std::string with_folds_packed(const std::string& page);
 

@@ -17,27 +17,3 @@ async function runAll(runs) {
   }
   return seen;
 }
-
-/**
- * Runs the cells of maps (`stage` and `set` as texts) up to their last picture: of each {fingerprint, until (steps)},
- * false where its pictures are stored, null where it has none.
- */
-async function runCells(maps) {
-  const lab = await labModule(), seen = [];
-  for (const [stage, set] of maps.map(map => [JSON.parse(map.stage), JSON.parse(map.set)])) {
-    await opened(set, 3 * stage.particles);
-    const cells = [];
-    for (const run of set.runs) {
-      if (!run?.computed) {
-        cells.push(run && false);
-        continue;
-      }
-      const {sim} = await openCell(lab, stage, set, run), until = run.first + (run.frames - 1) * run.apart;
-      sim.advance(run.h * until);
-      cells.push({fingerprint: sim.fingerprint(), until});
-      sim.close();
-    }
-    seen.push(cells);
-  }
-  return seen;
-}

@@ -8,18 +8,15 @@
 #include <memory>
 
 #include "experiments/scenes/scenes.h"
-#include "experiments/stability/map.h"
-#include "experiments/stability/stability.h"
 #include "mysim/base/errors.h"
 #include "mysim/base/files.h"
+#include "mysim/base/installation.h"
 #include "mysim/base/text.h"
 #include "report/base/assets.h"
 #include "report/lab/live_run.h"
 #include "report/page/lab_html.h"
 #include "report/page/page.h"
-#include "report/player/computed_cells.h"
-#include "report/player/computed_runs.h"
-#include "report/player/motions.h"
+#include "report/page/player_html.h"
 #include "report/player/packed_numbers.h"
 #include "tests/unit/golden_hashes.h"
 #include "tests/unit/reference/helpers.h"
@@ -130,13 +127,15 @@ class LabModule : public InBrowser {
   /// The page with the lab alone, and a self-test in the scope of its scripts: a function that returns what it saw.
   fs::path page_with(const std::vector<Scene>& scenes, const std::string& script, const std::string& call) const {
     std::string page = lab_page_html(scenes);
-    const std::string end = "})();</script>";
-    const size_t at = page.rfind(end);
-    page.insert(at, script + "\n;(async () => {\n  let seen;\n  try {\n    seen = await " + call +
-                        ";\n  } catch (problem) {\n    seen = {problem: String(problem.stack ?? problem)};\n  }\n"
-                        "  const note = document.createElement('script');\n  note.type = 'application/json';\n"
-                        "  note.id = 'seen';\n  note.textContent = JSON.stringify(seen).replaceAll('<', '\\\\u003c');\n"
-                        "  document.body.append(note);\n})();\n");
+    const std::string scripts = script_element("lab_page.js");
+    page.replace(page.rfind(scripts), scripts.size(), script_element("inner.js") + "<script>" + script + "\n</script>");
+    const std::string end = "</body>";
+    page.insert(page.rfind(end),
+                "<script>(async () => {\n  let seen;\n  try {\n    seen = await " + call +
+                    ";\n  } catch (problem) {\n    seen = {problem: String(problem.stack ?? problem)};\n  }\n"
+                    "  const note = document.createElement('script');\n  note.type = 'application/json';\n"
+                    "  note.id = 'seen';\n  note.textContent = JSON.stringify(seen).replaceAll('<', '\\\\u003c');\n"
+                    "  document.body.append(note);\n})();</script>\n");
     const fs::path file = folder_ / "lab.html";
     write_file(file, page);
     return file;
@@ -200,69 +199,13 @@ TEST_F(LabModule, GivesTheNativeBitsInNode) {
   const std::string module = base64(gzipped(content_of_file(lab_module_file())));
   write_file(
       folder_ / "lab.js",
-      "globalThis.window = globalThis;\nconst document = {getElementById: () => ({textContent: JSON.stringify('" +
-          module + "')})};\nconst labScenes = () => (" + dump(texts) + ");\n" + asset("player/unpack.js") +
-          asset("lab/scene_text.js") + asset("lab/engine.js") + self_test("lab_selftest.js") + "\nrunAll(" +
+      "globalThis.window = globalThis;\nglobalThis.document = {getElementById: () => ({textContent: JSON.stringify('" +
+          module + "')})};\nconst labScenes = () => (" + dump(texts) + ");\n" +
+          content_of_file(programs_folder() / "page/inner_engine.js") + self_test("lab_selftest.js") + "\nrunAll(" +
           json_of(native) + ").then(seen => process.stdout.write(JSON.stringify(seen)));\n");
   const ProgramResult result = run_program({"node", (folder_ / "lab.js").string()}, folder_);
   ASSERT_EQ(result.status, 0) << last_lines(result.err, 20);
   compare(native, JsonField::parse(result.out, "what Node saw"));
-}
-
-TEST_F(LabModule, CellsOfMapsHaveTheNativeBits) {
-  NEEDS_PROGRAM("node", "nodejs", "mysim is not run as WebAssembly outside a browser");
-  NEEDS_LAB;
-  Json files = Json::array();
-  std::deque<Scene> scenes;
-  std::vector<std::pair<std::unique_ptr<CellStarts>, RecordedRuns>> maps;
-  TableSet rows;
-  for (const char* name : {"spring", "normal-modes", "cloth-hang"}) {
-    const Scene& scene = scenes.emplace_back(*map_scene(load_scene(name), false));
-    for (const Stepper& rule : steppers()) {
-      const Method& method = find_method(fmt::format("mysim/{}", rule.name));
-      if (!is_mapped(method)) continue;
-      for (const MapKind& kind : map_kinds())
-        // as many cells as on the page, of shorter runs
-        add_map(kind, scene, method, {9, 12, 200, false}, rows, [&](const RecordedRuns& map) {
-          const JsonField file = JsonField::parse(cells_for_page(motions_json(map, {}), true), "cells");
-          files.push_back({{"stage", stage_json(scene, true)}, {"set", file.dump()}});
-          std::vector<Points> rests;
-          for (const RecordedRun& run : map.runs)
-            if (rests.empty() || rests.back() != run.cell->rest) rests.push_back(run.cell->rest);
-          maps.emplace_back(std::make_unique<CellStarts>(map, rests),
-                            RecordedRuns{map.of, scene, map.method, map.runs});
-        });
-    }
-  }
-  ASSERT_EQ(maps.size(), 18u) << "two of each scene and kind of rule";
-  const std::string module = base64(gzipped(content_of_file(lab_module_file())));
-  write_file(
-      folder_ / "lab.js",
-      "globalThis.window = globalThis;\nconst document = {getElementById: () => ({textContent: JSON.stringify('" +
-          module + "')})};\n" + asset("player/unpack.js") + asset("lab/scene_text.js") + asset("lab/engine.js") +
-          asset("lab/live_run.js") + asset("lab/computed_runs.js") + self_test("lab_selftest.js") + "\nrunCells(" +
-          dump(files) + ").then(seen => process.stdout.write(JSON.stringify(seen)));\n");
-  const ProgramResult result = run_program({"node", (folder_ / "lab.js").string()}, folder_);
-  ASSERT_EQ(result.status, 0) << last_lines(result.err, 20);
-  const JsonField seen = JsonField::parse(result.out, "what Node saw");
-  size_t computed = 0, stored = 0;
-  for (size_t m = 0; m < maps.size(); ++m) {
-    auto& [starts, map] = maps[m];
-    for (size_t i = 0; i < map.runs.size(); ++i) {
-      const JsonField cell = seen[m][i];
-      if (cell.is_null()) continue;
-      stored += cell.is_boolean();
-      if (cell.is_boolean()) continue;
-      SCOPED_TRACE(fmt::format("{} by {}, {}, cell {}", map.scene.name, map.method, map.of, i));
-      LiveRun live(starts->scene_of(*map.runs[i].cell));
-      live.start({map.method.substr(6), map.runs[i].cell->step, 1e-6, live.scene().duration, false});
-      live.advance(map.runs[i].cell->step * cell["until"].number(), 1 << 30);
-      EXPECT_EQ(cell["fingerprint"].text(), live.fingerprint());
-      ++computed;
-    }
-  }
-  EXPECT_GT(computed, 1500u);
-  EXPECT_LT(stored, computed / 50) << "what rounding of the start changes visibly";
 }
 
 TEST_F(LabModule, GivesTheNativeBitsInABrowser) {

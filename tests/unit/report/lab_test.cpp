@@ -111,7 +111,7 @@ TEST(LiveRun, RefusesWhatTheEngineRefuses) {
 }
 
 TEST(Words, HaveTheQuestionOfEveryShippedScene) {
-  const std::string words = asset("lab/words.js");
+  const std::string words = asset("page/lab/words.ts");
   for (const std::string_view name : shipped_scenes()) {
     const Scene scene = load_scene(std::string(name));
     EXPECT_NE(words.find(fmt::format("'question.{}': ['{}', ", name, scene.question)), std::string::npos)

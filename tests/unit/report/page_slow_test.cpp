@@ -277,7 +277,7 @@ class PlayerPage : public testing_tools::InBrowser {
         script_json(fmt::format("class=\"motion\" data-scene=\"{}\"", scene.name), played.motions);
     const std::string test = scripts({"stage_selftest.js", "player_selftest.js"});
     return write("page.html", page_head(scene.name, test + player_styles()) + player + motions +
-                                  runs_html(played.runs(folder_)) + player_scripts() + "</body></html>");
+                                  runs_html(played.runs(folder_)) + script_element("app.js") + "</body></html>");
   }
 };
 
@@ -487,7 +487,7 @@ TEST(PlayerSize, TwoDrapesOf4096ParticlesFitInto2Point2Megabytes) {
   text += stage;
   EXPECT_EQ(data["particles"].number(), 4096);
   EXPECT_EQ(data["times"].size(), 151u);
-  EXPECT_LE(text.size() + player_styles().size() + player_scripts().size(), 2'200'000u);
+  EXPECT_LE(text.size() + player_styles().size() + script_element("app.js").size(), 2'200'000u);
   RecordProperty("bytes", static_cast<int>(text.size()));
 }
 

@@ -88,16 +88,6 @@ void expect_links_lead_somewhere(const std::string& html) {
         << id;
 }
 
-TEST(Smaller, ScriptsLoseTheirCommentsAndKeepTheirTexts) {
-  EXPECT_EQ(script_without_comments(
-                "// Why.\n/** What. */\nfunction f() {\n  /**\n   * More.\n   */\n  return 1;  // here\n}\n"),
-            "function f() {\nreturn 1;  // here\n}\n");
-  const std::string shader = "const s = `\n  // of the shader\n  x = 1;\n`;\n";
-  EXPECT_EQ(script_without_comments(shader), shader);
-  EXPECT_EQ(script_without_comments("const t = `one ${1} line`;\n  const u = 2;"),
-            "const t = `one ${1} line`;\nconst u = 2;\n");
-}
-
 TEST(Smaller, DrawingsKeepTheirNumbersAndTheirWords) {
   EXPECT_EQ(
       svg_element("<?xml?>\n<svg\n width='10.00'>\n\n<path d='M1.50,20.00 L3.07,.40'/><text>1.00</text></svg>\n",

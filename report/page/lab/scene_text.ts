@@ -1,0 +1,146 @@
+// A scene's text, TOML: numbers are read from it and changed in it, comments and order stay as they are.
+// @ts-nocheck
+
+/** What a number that must lie above zero becomes at zero: its line is left out, and can come back. */
+const leftOutMark = '# left out: ';
+
+/**
+ * The numbers of a text: {path ("grid.stiffness.bend"), value (a number or a list of three), line, begin, end (of the
+ * value in its line), out (whether the line is left out)}. Texts, tables in a line and lists over several lines are
+ * passed over.
+ */
+export function numbersOf(toml) {
+  const found = [];
+  let section = '';
+  toml.split('\n').forEach((whole, line) => {
+    const out = whole.startsWith(leftOutMark), shift = out ? leftOutMark.length : 0, text = whole.slice(shift);
+    const head = /^\s*\[\[?\s*([\w.-]+)\s*\]\]?/.exec(text);
+    if (head) return void (section = head[1]);
+    const entry = /^(\s*([\w.-]+)\s*=\s*)([-+]?[\d.][\d_.eE+-]*|\[[^\]]*\])/.exec(text);
+    if (!entry) return;
+    const [, before, key, written] = entry;
+    const list = written.startsWith('[');
+    const value = list ? written.slice(1, -1).split(',').map(Number) : Number(written.replace(/_/g, ''));
+    if (list ? value.length !== 3 || value.some(Number.isNaN) : Number.isNaN(value)) return;
+    const begin = shift + before.length;
+    found.push(
+        {path: section ? `${section}.${key}` : key, section, value, line, begin, end: begin + written.length, out});
+  });
+  return found;
+}
+
+/** A number as TOML writes it: the shortest text that gives the same double again. */
+export const tomlNumber = value =>
+    (Array.isArray(value) ? `[${value.map(tomlNumber).join(', ')}]` :
+         Object.is(value, -0) ? '-0.0' :
+                                String(value));
+
+/** The first number at a path; 0 where it is left out, undefined where there is none. */
+export function numberAt(toml, path) {
+  const entry = numbersOf(toml).find(e => e.path === path);
+  return entry && (entry.out ? (Array.isArray(entry.value) ? entry.value.map(() => 0) : 0) : entry.value);
+}
+
+/** What zero means at a path: the line goes, its whole section goes, or it is a number as any other. */
+const zeroOf = path =>
+    (/^(grid\.(stiffness\.(shear|bend)|bending|dashpot)|spring\.dashpot)$/.test(path) ? 'line' :
+         /^drag\./.test(path)                                                         ? 'section' :
+                                                                                        'number');
+
+/** The text with another number at a path, in all tables of that name ([[sphere]], [[spring]]). */
+function withNumber(toml, path, value) {
+  const lines = toml.split('\n'), zero = zeroOf(path), gone = value === 0 && zero !== 'number';
+  const leave = line => (line.startsWith(leftOutMark) ? line : leftOutMark + line);
+  const bring = line => (line.startsWith(leftOutMark) ? line.slice(leftOutMark.length) : line);
+  for (const {path: own, section, line, begin, end} of numbersOf(toml)) {
+    if (own !== path) continue;
+    if (!gone)
+      lines[line] = bring(lines[line].slice(0, begin) + tomlNumber(value) + lines[line].slice(end));
+    else if (zero === 'line')
+      lines[line] = leave(lines[line]);
+    if (zero !== 'section') continue;
+    // the head of the section and all that belongs to it, up to the next head
+    let first = line, last = line;
+    const isHead = text => /^\s*\[/.test(bring(text));
+    while (first > 0 && !isHead(lines[first])) --first;
+    while (last + 1 < lines.length && !isHead(lines[last + 1])) ++last;
+    for (let i = first; i <= last; ++i)
+      if (bring(lines[i]).trim() && section) lines[i] = gone ? leave(lines[i]) : bring(lines[i]);
+  }
+  return lines.join('\n');
+}
+
+/** The text with several changes: {path: value}. */
+export const withNumbers = (toml, changes) =>
+    Object.entries(changes).reduce((text, [path, value]) => withNumber(text, path, value), toml);
+
+/** The changes that lead from one text to another: {path: value}; null where they are more than numbers. */
+export function changesBetween(from, to) {
+  const changes = {};
+  for (const path of new Set(numbersOf(from).map(e => e.path))) {
+    const before = numberAt(from, path), after = numberAt(to, path);
+    if (after !== undefined && tomlNumber(before) !== tomlNumber(after)) changes[path] = after;
+  }
+  return withNumbers(from, changes) === to ? changes : null;
+}
+
+/** The text with a method and its step or tolerance as the scene's own. */
+export function withMethod(toml, {method, step, tolerance}) {
+  const text = toml.replace(/^(\s*method\s*=\s*)"[^"]*"/m, (_, before) => `${before}"${method}"`);
+  return tolerance ? text : withNumber(text, 'time.step', step);
+}
+
+/** A text of the scene, as "question"; empty where there is none. */
+export const textAt = (toml, key) =>
+    new RegExp(`^\\s*${key}\\s*=\\s*"((?:[^"\\\\]|\\\\.)*)"`, 'm').exec(toml)?.[1] ?? '';
+
+/** The shortest step, s, in three or more digits, with which a run takes `count` steps between two samples. */
+export function stepOf(interval, count) {
+  const exact = interval / count;
+  for (let digits = 3; digits < 16; ++digits) {
+    const unit = 10 ** (Math.floor(Math.log10(exact)) - digits + 1);
+    const step = Number((Math.ceil(exact / unit * (1 - 1e-12)) * unit).toPrecision(digits));
+    if (Math.ceil(interval / step * (1 - 1e-9)) === count) return step;
+  }
+  return exact;
+}
+
+/** The section [start] of places and velocities. */
+export function startSection(x, v) {
+  const list = values => {
+    const lines = [];
+    for (let i = 0; i < values.length; i += 3)
+      lines.push(`  ${[...values.slice(i, i + 3)].map(tomlNumber).join(', ')},`);
+    return `[\n${lines.join('\n')}\n]`;
+  };
+  return `[start]\npositions = ${list(x)}\n${v.length ? `velocities = ${list(v)}\n` : ''}`;
+}
+
+/** The text with the state that a run starts from, its pins, and its spheres where they start. */
+export function withStart(toml, simulation) {
+  const {pins} = simulation.scene, {positions: x, velocities: v, centres} = simulation.begun;
+  const pinned = `particles = [${[...pins].join(', ')}]`;
+  let text = /^\[pins\]/m.test(toml) ?
+      toml.replace(/(^\[pins\][^[]*?)particles\s*=\s*\[[^\]]*\]/m, (_, before) => before + pinned) :
+      pins.length ? `${toml.trimEnd()}\n\n[pins]\n${pinned}\n` :
+                    toml;
+  if (!pins.length) text = withoutSection(withoutSection(text, 'pins.motion'), 'pins');
+  let sphere = 0;
+  text = text.replace(/^(\s*centre\s*=\s*)\[[^\]]*\]/gm, (whole, before) => {
+    const at = 3 * sphere++;
+    return at < centres.length ? `${before}[${[...centres.slice(at, at + 3)].map(tomlNumber).join(', ')}]` : whole;
+  });
+  return `${text.trimEnd()}\n\n${startSection(x, v)}`;
+}
+
+/** The text without a section, from its head to the next. */
+export function withoutSection(toml, name) {
+  let inside = false;
+  return toml.split('\n')
+      .filter(line => {
+        const head = /^\s*\[\[?\s*([\w.-]+)\s*\]/.exec(line);
+        if (head) inside = head[1] === name;
+        return !inside;
+      })
+      .join('\n');
+}

@@ -1,0 +1,8 @@
+// Entry of the page that holds the lab alone.
+import {startGuide} from './lab/guide';
+import {startLab} from './lab/lab';
+import {startPlayers} from './player/player';
+
+startPlayers();
+startLab();
+startGuide();

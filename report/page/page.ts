@@ -1,0 +1,292 @@
+// Behaviour of the page: charts, folds, scene cards, sortable tables, highlighted methods.
+// @ts-nocheck
+
+import {charts} from './chart/chart';
+import {listRuns} from './player/runs';
+
+/** Starts everything on the page but the players and the lab. */
+export function startPage() {
+  /** Text that was packed as gzip in base64. */
+  const unpacked = async element => {
+    const bytes = Uint8Array.from(atob(element.textContent), sign => sign.charCodeAt(0));
+    const stream = new Blob([bytes]).stream().pipeThrough(new DecompressionStream('gzip'));
+    return new Response(stream).text();
+  };
+  const methods = JSON.parse(document.getElementById('methods-data')?.textContent ?? '{}');
+  // the charts in sight at once; the others are unpacked when the first of them is asked for
+  const openCharts = JSON.parse(document.getElementById('open-charts')?.textContent ?? '{}');
+  // Contents of folds and cards may be packed: unpack them into their templates before searching there.
+  const held = document.getElementById('held');
+  const putBack = held ? unpacked(held).then(text => {
+    const all = JSON.parse(text);
+    for (const template of document.querySelectorAll('template[data-held]'))
+      template.innerHTML = all[template.dataset.held];
+    held.remove();
+  }) :
+                         Promise.resolve();
+
+  const packed = document.getElementById('charts');
+  let unpacking = null;
+  const others = () => unpacking ??= packed ? unpacked(packed).then(JSON.parse) : Promise.resolve({});
+
+  // Charts: drawn when they come near the window, again when it changes its width.
+
+  const draw = async box => {
+    if (!box.clientWidth) return;
+    // without a pause: a page that is printed as it opens does not wait
+    const chart = openCharts[box.dataset.chart] ?? (await others())[box.dataset.chart];
+    if (chart) charts.draw(box, chart, methods);
+  };
+  const seen = new IntersectionObserver(entries => {
+    for (const entry of entries)
+      if (entry.isIntersecting) draw(entry.target);
+  }, {rootMargin: '300px'});
+  const resized = new ResizeObserver(entries => {
+    for (const entry of entries)
+      if (entry.target.drawnWidth) draw(entry.target);
+  });
+  const watchCharts = root => root.querySelectorAll('.drawn').forEach(box => (seen.observe(box), resized.observe(box)));
+  addEventListener('beforeprint', () => document.querySelectorAll('.drawn').forEach(draw));
+
+  // A run under the pointer says what it is; its method lights up everywhere.
+
+  const tip = document.createElement('div');
+  tip.className = 'tip';
+  tip.setAttribute('role', 'status');
+  tip.hidden = true;
+  document.body.append(tip);
+
+  const show = marker => {
+    const method = marker.dataset.run?.replace(/ \d+$/, ''), words = marker.dataset.words;
+    tip.textContent = method && !words.startsWith(method) ? `${method}, ${words}` : words;
+    tip.hidden = false;
+    const box = marker.getBoundingClientRect();
+    const left = Math.min(box.left + box.width / 2 + 12, innerWidth - tip.offsetWidth - 8);
+    const above = box.top - tip.offsetHeight - 8;
+    tip.style.left = `${Math.max(8, left)}px`;
+    tip.style.top = `${above > 8 ? above : box.bottom + 8}px`;
+  };
+
+  let lit = null;
+  const light = method => {
+    if (method === lit) return;
+    lit = method;
+    for (const each of document.querySelectorAll('.lit')) each.classList.remove('lit');
+    for (const each of document.querySelectorAll('svg.chart.lighting')) each.classList.remove('lighting');
+    if (!method) return;
+    for (const each of document.querySelectorAll(`[data-method="${CSS.escape(method)}"]`)) {
+      each.classList.add('lit');
+      each.closest('svg.chart')?.classList.add('lighting');
+    }
+  };
+
+  const point = event => {
+    const marker = event.target.closest?.('[data-words]');
+    if (marker)
+      show(marker);
+    else
+      tip.hidden = true;
+    light(event.target.closest?.('[data-method]')?.dataset.method ?? null);
+  };
+  document.addEventListener('pointerover', point);
+  document.addEventListener('focusin', point);
+  addEventListener('scroll', () => {
+    tip.hidden = true;
+  }, {passive: true});
+  document.addEventListener('keydown', event => {
+    if (event.key === 'Enter' && event.target.dataset?.run)
+      event.target.dispatchEvent(new MouseEvent('click', {bubbles: true}));
+  });
+
+  // Tables: sorted by a click on a head, cut down to rows with a word, saved with numbers and units in the head.
+
+  const units = {m: 1, mm: 1e-3, 'µm': 1e-6, nm: 1e-9, s: 1, ms: 1e-3, 'µs': 1e-6, 'mm/s': 1e-3, '%': 1};
+  const base = {m: 'm', mm: 'm', 'µm': 'm', nm: 'm', s: 's', ms: 's', 'µs': 's', 'mm/s': 'm/s', '%': '%'};
+
+  /** A cell as a number in its base unit; null where it is text. */
+  const number = text => {
+    const plain = text.replace(/\s×\s10([−-]?\d+)/, (_, power) => `e${power.replace('−', '-')}`);
+    const found = /^[<±]?\s*(-?[\d.]+(?:e[+-]?\d+)?)\s*(%|[a-zµ/]*)$/.exec(plain);
+    return found && (found[2] === '' || found[2] in units) ?
+        {value: parseFloat(found[1]) * (units[found[2]] ?? 1), unit: base[found[2]] ?? ''} :
+        null;
+  };
+
+  /** Of what is folded away a browser knows the text, but not how it would stand there. */
+  const wordsIn = element => (element.innerText || element.textContent).trim().replace(/\s+/g, ' ');
+  const textOf = (row, column) => (row.cells[column] ? wordsIn(row.cells[column]) : '');
+
+  const sortBy = (table, column, head) => {
+    const down = head.getAttribute('aria-sort') === 'ascending';
+    for (const other of table.tHead.rows[0].cells) other.removeAttribute('aria-sort');
+    head.setAttribute('aria-sort', down ? 'descending' : 'ascending');
+    const rows = [...table.tBodies[0].rows].map((row, place) => {
+      const text = textOf(row, column);
+      return {row, place, text, value: number(text)?.value ?? null};
+    });
+    const order = (a, b) => {
+      if (a.value !== null && b.value !== null) return a.value - b.value;
+      if (a.value !== null || b.value !== null) return a.value !== null ? -1 : 1;  // words below numbers, always
+      return a.text.localeCompare(b.text);
+    };
+    rows.sort((a, b) => {
+      const mixed = (a.value === null) !== (b.value === null);
+      return (down && !mixed ? -order(a, b) : order(a, b)) || a.place - b.place;
+    });
+    table.tBodies[0].append(...rows.map(entry => entry.row));
+  };
+
+  /** Columns whose cells have one unit are numbers under a head that names it. */
+  const csvOf = table => {
+    const rows = [...table.rows].filter(row => !row.hidden), head = table.tHead.rows[0],
+          body = rows.filter(row => row !== head);
+    const columns = [...head.cells].map((cell, c) => {
+      const cells = body.map(row => textOf(row, c)), numbers = cells.map(number);
+      const known = numbers.filter(Boolean), unit = known.find(n => n.unit)?.unit ?? '';
+      const plain = known.length > 0 &&
+          cells.every(
+              (text, i) => numbers[i] ? numbers[i].unit === unit || !numbers[i].value : text === '–' || text === '');
+      return plain ?
+          [
+            wordsIn(cell).replace(/ \/ .*/, '') + (unit ? ` [${unit}]` : ''),
+            ...numbers.map(n => (n ? String(Number(n.value.toPrecision(12))) : ''))
+          ] :
+          [wordsIn(cell), ...cells];
+    });
+    const quoted = text => (/[",\n]/.test(text) ? `"${text.replaceAll('"', '""')}"` : text);
+    return columns[0].map((_, r) => columns.map(column => quoted(column[r])).join(',')).join('\n') + '\n';
+  };
+
+  const save = table => {
+    const part = table.closest('[id]'), link = document.createElement('a');
+    link.href = URL.createObjectURL(new Blob([csvOf(table)], {type: 'text/csv'}));
+    link.download = `${part ? part.id : 'crosscheck'}-table.csv`;
+    link.click();
+    setTimeout(() => URL.revokeObjectURL(link.href), 1000);
+  };
+
+  const equip = table => {
+    if (!table.tHead || !table.tBodies.length || table.tBodies[0].rows.length < 2 ||
+        table.matches('.parity, .provenance, .changes'))
+      return;
+    [...table.tHead.rows[0].cells].forEach((head, column) => {
+      head.tabIndex = 0;
+      head.classList.add('sortable');
+      head.title ||= 'sort by this column';
+      head.addEventListener('click', () => sortBy(table, column, head));
+      head.addEventListener('keydown', event => {
+        if (event.key !== 'Enter' && event.key !== ' ') return;
+        event.preventDefault();
+        sortBy(table, column, head);
+      });
+    });
+    const bar = document.createElement('div');
+    bar.className = 'table-tools';
+    if (table.tBodies[0].rows.length > 12) {
+      const word = document.createElement('input');
+      word.type = 'search';
+      word.placeholder = 'only rows with …';
+      word.setAttribute('aria-label', 'show only rows that contain this');
+      word.addEventListener('input', () => {
+        for (const row of table.tBodies[0].rows)
+          row.hidden = !wordsIn(row).toLowerCase().includes(word.value.toLowerCase());
+      });
+      bar.append(word);
+    }
+    const button = document.createElement('button');
+    button.type = 'button';
+    button.textContent = 'save as CSV';
+    button.addEventListener('click', () => save(table));
+    bar.append(button);
+    (table.closest('.scroll') ?? table).after(bar);
+  };
+
+  const equipAll = root => {
+    watchCharts(root);
+    root.querySelectorAll('table').forEach(equip);
+    root.querySelectorAll('figure[data-runs]').forEach(figure => listRuns(figure));
+  };
+
+  // Folds: what is in them comes when they are opened first.
+
+  const unfold = async fold => {
+    await putBack;
+    const template = fold.querySelector(':scope > template');
+    if (!template) return;
+    template.replaceWith(template.content);
+    equipAll(fold);
+  };
+  document.addEventListener(
+      'toggle', event => event.target.matches?.('.fold') && event.target.open && unfold(event.target), true);
+
+  // Scenes: a card opens its scene in place of the others; the address says which, so that links and "back" work.
+
+  const open = document.createElement('article');
+  open.className = 'open-scene';
+  const show_scene = name => {
+    const template = name && document.querySelector(`template[data-scene="${CSS.escape(name)}"]`);
+    for (const card of document.querySelectorAll('.card')) card.classList.toggle('here', card.dataset.scene === name);
+    if (!template) {
+      open.remove();
+      return false;
+    }
+    if (open.id === name && open.isConnected) return true;
+    open.id = name;
+    open.replaceChildren(template.content.cloneNode(true));
+    document.querySelector('.cards').after(open);
+    const poster = document.querySelector(`.card[data-scene="${CSS.escape(name)}"] img`),
+          stage = open.querySelector('.stage');
+    if (poster && stage && !stage.firstChild) stage.append(poster.cloneNode());
+    equipAll(open);
+    return true;
+  };
+
+  // Buttons above a chapter's figure choose whose it is.
+
+  const choose = button => {
+    for (const each of button.parentElement.children) {
+      each.setAttribute('aria-pressed', each === button);
+      document.getElementById(each.dataset.figure)?.toggleAttribute('hidden', each !== button);
+    }
+  };
+  document.addEventListener('click', event => event.target.dataset?.figure && choose(event.target));
+
+  /** Goes to what the address names: a scene, a fold, a figure inside one. */
+  const goTo = async () => {
+    await putBack;
+    const id = decodeURIComponent(location.hash.slice(1));
+    if (id === 'scenes' || id === '') show_scene(null);
+    if (show_scene(id)) return open.scrollIntoView();
+    let target = document.getElementById(id);
+    if (!target)
+      for (const template of document.querySelectorAll('template')) {
+        if (!id || !template.content.getElementById?.(id)) continue;
+        const fold = template.closest('.fold');
+        if (fold)
+          fold.open = true, await unfold(fold);
+        else
+          show_scene(template.dataset.scene);
+        target = document.getElementById(id);
+        break;
+      }
+    const hidden = target?.closest('[hidden]'),
+          chooses = hidden && document.querySelector(`[data-figure="${CSS.escape(hidden.id)}"]`);
+    if (chooses) choose(chooses);
+    if (target?.matches('.fold')) target.open = true, await unfold(target);
+    target?.scrollIntoView();
+  };
+  addEventListener('hashchange', goTo);
+
+  // The line of contents says where one is.
+
+  const ways = [...document.querySelectorAll('nav a[href^="#"]:not(.name)')];
+  const sections = ways.map(way => document.getElementById(way.hash.slice(1)));
+  const mark = () => {
+    const here = sections.findLastIndex(section => section && section.getBoundingClientRect().top < 120);
+    ways.forEach((way, i) => way.classList.toggle('here', i === here));
+  };
+  addEventListener('scroll', mark, {passive: true});
+
+  equipAll(document);
+  if (location.hash) goTo();
+}

@@ -1,0 +1,138 @@
+// Programs, buffers and textures of one WebGL2 context.
+// @ts-nocheck
+
+import {header, vertexCommon} from './shaders';
+
+export const noContext = new Error('no WebGL2 context');
+
+export class Gl {
+  /** Throws `noContext` where the context cannot be had. */
+  constructor(canvas, antialias) {
+    this.gl = canvas.getContext('webgl2', {antialias, alpha: false, powerPreference: 'low-power'});
+    if (!this.gl) throw noContext;
+  }
+
+  program(vertex, fragment, define = '') {
+    const gl = this.gl, program = gl.createProgram();
+    const parts = [[gl.VERTEX_SHADER, vertexCommon + vertex], [gl.FRAGMENT_SHADER, fragment]];
+    for (const [kind, text] of parts) {
+      const shader = gl.createShader(kind);
+      gl.shaderSource(shader, header + define + text);
+      gl.compileShader(shader);
+      gl.attachShader(program, shader);
+    }
+    ['corner', 'which', 'ends'].forEach((name, i) => gl.bindAttribLocation(program, i, name));
+    gl.linkProgram(program);
+    // without this check a mistake is a blank canvas and no message
+    if (!gl.getProgramParameter(program, gl.LINK_STATUS) && !gl.isContextLost())
+      throw new Error([
+        gl.getProgramInfoLog(program), ...gl.getAttachedShaders(program).map(s => gl.getShaderInfoLog(s))
+      ].join(' '));
+    const places = {};
+    for (let i = 0; i < gl.getProgramParameter(program, gl.ACTIVE_UNIFORMS); ++i) {
+      const {name, type, size} = gl.getActiveUniform(program, i);
+      places[name.replace('[0]', '')] = {at: gl.getUniformLocation(program, name), type, size};
+    }
+    return {program, places};
+  }
+
+  /** Makes the program current and sets what it has of these uniforms; textures are bound to units in order. */
+  use({program, places}, uniforms) {
+    const gl = this.gl;
+    gl.useProgram(program);
+    let unit = 0;
+    for (const [name, {at, type}] of Object.entries(places)) {
+      const value = uniforms[name];
+      if (value === undefined) continue;
+      if (type === gl.FLOAT_MAT4)
+        gl.uniformMatrix4fv(at, false, value);
+      else if (type === gl.FLOAT_VEC3)
+        gl.uniform3fv(at, value);
+      else if (type === gl.FLOAT_VEC4)
+        gl.uniform4fv(at, value);
+      else if (type === gl.FLOAT)
+        gl.uniform1f(at, value);
+      else {
+        gl.activeTexture(gl.TEXTURE0 + unit);
+        gl.bindTexture(gl.TEXTURE_2D, value);
+        gl.uniform1i(at, unit++);
+      }
+    }
+  }
+
+  buffer(target, data) {
+    const gl = this.gl, buffer = gl.createBuffer();
+    gl.bindBuffer(target, buffer);
+    gl.bufferData(target, data, gl.STATIC_DRAW);
+    return buffer;
+  }
+
+  /** Vertex arrays: corners (floats) shared by all instances, one row of whole numbers per instance, and an index. */
+  shape({corners, size, instances, slot, ints, index}) {
+    const gl = this.gl, array = gl.createVertexArray();
+    gl.bindVertexArray(array);
+    if (corners) {
+      this.buffer(gl.ARRAY_BUFFER, corners);
+      gl.enableVertexAttribArray(0);
+      gl.vertexAttribPointer(0, size, gl.FLOAT, false, 0, 0);
+    }
+    if (instances) {
+      this.buffer(gl.ARRAY_BUFFER, instances);
+      gl.enableVertexAttribArray(slot);
+      gl.vertexAttribIPointer(slot, ints, gl.INT, 0, 0);
+      gl.vertexAttribDivisor(slot, 1);
+    }
+    if (index) this.buffer(gl.ELEMENT_ARRAY_BUFFER, index);
+    gl.bindVertexArray(null);
+    return {array, indexed: index ? index.length : 0, instances: instances ? instances.length / ints : 1};
+  }
+
+  draw({array, indexed, instances}, mode, count = instances) {
+    this.gl.bindVertexArray(array);
+    if (count > 0) this.gl.drawElementsInstanced(mode, indexed, this.gl.UNSIGNED_SHORT, 0, count);
+  }
+
+  /** A texture that is read texel by texel: four floats for each of `count` entries. */
+  table(count) {
+    const gl = this.gl, wide = Math.min(count, 1024), high = Math.ceil(count / wide);
+    const texture = gl.createTexture();
+    gl.bindTexture(gl.TEXTURE_2D, texture);
+    gl.texStorage2D(gl.TEXTURE_2D, 1, gl.RGBA32F, wide, high);
+    for (const key of [gl.TEXTURE_MIN_FILTER, gl.TEXTURE_MAG_FILTER]) gl.texParameteri(gl.TEXTURE_2D, key, gl.NEAREST);
+    return {texture, wide, high, data: new Float32Array(4 * wide * high)};
+  }
+
+  fill({texture, wide, high, data}) {
+    const gl = this.gl;
+    gl.bindTexture(gl.TEXTURE_2D, texture);
+    gl.texSubImage2D(gl.TEXTURE_2D, 0, 0, 0, wide, high, gl.RGBA, gl.FLOAT, data);
+  }
+
+  /** A row of colours (bytes, four each), read with interpolation. */
+  colours(bytes) {
+    const gl = this.gl, texture = gl.createTexture();
+    gl.bindTexture(gl.TEXTURE_2D, texture);
+    gl.texImage2D(gl.TEXTURE_2D, 0, gl.RGBA8, bytes.length / 4, 1, 0, gl.RGBA, gl.UNSIGNED_BYTE, bytes);
+    for (const [key, value] of [
+             [gl.TEXTURE_MIN_FILTER, gl.LINEAR], [gl.TEXTURE_MAG_FILTER, gl.LINEAR],
+             [gl.TEXTURE_WRAP_S, gl.CLAMP_TO_EDGE], [gl.TEXTURE_WRAP_T, gl.CLAMP_TO_EDGE]])
+      gl.texParameteri(gl.TEXTURE_2D, key, value);
+    return texture;
+  }
+
+  /** A depth texture that compares, and the frame that draws into it. */
+  shadowMap(size) {
+    const gl = this.gl, texture = gl.createTexture(), frame = gl.createFramebuffer();
+    gl.bindTexture(gl.TEXTURE_2D, texture);
+    gl.texStorage2D(gl.TEXTURE_2D, 1, gl.DEPTH_COMPONENT24, size, size);
+    for (const [key, value] of [
+             [gl.TEXTURE_MIN_FILTER, gl.LINEAR], [gl.TEXTURE_MAG_FILTER, gl.LINEAR],
+             [gl.TEXTURE_COMPARE_MODE, gl.COMPARE_REF_TO_TEXTURE], [gl.TEXTURE_COMPARE_FUNC, gl.LEQUAL],
+             [gl.TEXTURE_WRAP_S, gl.CLAMP_TO_EDGE], [gl.TEXTURE_WRAP_T, gl.CLAMP_TO_EDGE]])
+      gl.texParameteri(gl.TEXTURE_2D, key, value);
+    gl.bindFramebuffer(gl.FRAMEBUFFER, frame);
+    gl.framebufferTexture2D(gl.FRAMEBUFFER, gl.DEPTH_ATTACHMENT, gl.TEXTURE_2D, texture, 0);
+    gl.bindFramebuffer(gl.FRAMEBUFFER, null);
+    return {texture, frame, size};
+  }
+}

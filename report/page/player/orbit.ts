@@ -1,0 +1,62 @@
+// The camera of all panels: turns about a point, so far away that everything is seen.
+// @ts-nocheck
+
+import {cross, dot, minus, norm, perspective, plus, times, toEye} from './vectors';
+
+const fieldOfView = 25 * Math.PI / 180;  // vertical
+export const tangent = Math.tan(fieldOfView / 2);
+
+export class Orbit {
+  constructor(from) {
+    this.home = {yaw: Math.atan2(from[0], from[2]), pitch: Math.asin(from[1] / norm(from))};
+    this.reset();
+  }
+
+  reset() { Object.assign(this, this.home, {zoom: 1}); }
+
+  turn(yaw, pitch) {
+    this.yaw += yaw;
+    this.pitch = Math.max(-1.5, Math.min(1.5, this.pitch + pitch));
+  }
+
+  magnify(factor) { this.zoom = Math.max(0.15, Math.min(4, this.zoom / factor)); }
+
+  /** Right, up and backwards. */
+  axes({yaw, pitch} = this) {
+    const back = [Math.sin(yaw) * Math.cos(pitch), Math.sin(pitch), Math.cos(yaw) * Math.cos(pitch)];
+    const right = [Math.cos(yaw), 0, -Math.sin(yaw)];
+    return [right, cross(back, right), back];
+  }
+
+  /**
+   * Point looked at and least distance at which the balls {at, radius, margin} lie within a panel of this shape, seen
+   * from home; the point lies near their `middle`. A margin is the part of the view that stays free.
+   */
+  fit(balls, middle, aspect) {
+    const [right, up, back] = this.axes(this.home);
+    const half = (axis, slope) => {
+      const most = [-Infinity, -Infinity];
+      for (const {at, radius, margin} of balls) {
+        const from = minus(at, middle);
+        const s = slope * (1 - 2 * margin);
+        // the edge of the view is a plane that slants by s
+        const reach = radius * Math.sqrt(1 + s * s), deep = s * dot(back, from);
+        most[0] = Math.max(most[0], (dot(axis, from) + deep + reach) / s);
+        most[1] = Math.max(most[1], (-dot(axis, from) + deep + reach) / s);
+      }
+      return {distance: (most[0] + most[1]) / 2, shift: slope * (most[0] - most[1]) / 2};
+    };
+    const wide = half(right, tangent * aspect), high = half(up, tangent);
+    return {
+      target: plus(plus(middle, wide.shift, right), high.shift, up),
+      distance: Math.max(wide.distance, high.distance)
+    };
+  }
+
+  /** Eye and clip matrix for a fit. */
+  view({target, distance}, aspect) {
+    const axes = this.axes(), far = distance * this.zoom;
+    const eye = plus(target, far, axes[2]);
+    return {eye, toClip: times(perspective(tangent, aspect, far / 30, far * 8), toEye(axes, eye))};
+  }
+}

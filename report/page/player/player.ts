@@ -1,0 +1,472 @@
+// <motion-player>: the motions of a scene's methods in lock-step. It stands behind the figure with the poster and the
+// scene's data, and puts its canvas over the poster while it is in sight. Without WebGL2 the poster stays alone, but
+// for the first screen, which needs none.
+// @ts-nocheck
+
+import {Controls, inTwo, length, make, roundUp, settingOf, short} from './controls';
+import {LabError} from '../lab/engine';
+import {Orbit} from './orbit';
+import {RasterStage} from './raster_stage';
+import {Stage} from './stage';
+import {attachPointerInput} from './pointer_input';
+import {distances, motionOf, parts, rms, runOf, stretchOf} from './motion';
+import {lookOf} from './colours';
+import {noContext} from './gl';
+import {say} from '../lab/words';
+import {unpack} from './unpack';
+
+export const mostStages = 3;  // drawn scenes alive at once: browsers allow few contexts
+export const alive = [];
+
+export const stillWanted = matchMedia('(prefers-reduced-motion: reduce)');
+export const dark = matchMedia('(prefers-color-scheme: dark)');
+
+/** Whether this browser can play at all, by what it knows: to start WebGL takes long where it draws in software. */
+export let plays = 'DecompressionStream' in window && 'WebGL2RenderingContext' in window;
+document.documentElement.classList.toggle('plays', plays);
+
+/** Whether WebGL starts, for what is made of several parts that need it. */
+export function startsWebGl() {
+  const gl = document.createElement('canvas').getContext('webgl2');
+  gl?.getExtension('WEBGL_lose_context')?.loseContext();
+  return Boolean(gl);
+}
+
+/** At its first use WebGL turned out not to start: the posters stay, without controls. */
+function playNothing() {
+  plays = false;
+  document.documentElement.classList.remove('plays');
+  document.querySelector('dialog.run')?.close();
+}
+
+/** A scene's stage, as it stands at the end of the page. */
+const sceneData = (() => {
+  const known = new Map();
+  return name => {
+    if (!known.has(name))
+      known.set(
+          name, JSON.parse(document.querySelector(`script.motion[data-scene="${CSS.escape(name)}"]`).textContent));
+    return known.get(name);
+  };
+})();
+
+/** Controls of a player that has none: of the first screen, where one clock drives several. */
+const noControls = {
+  setLook() {},
+  setPlaying() {},
+  setTime() {},
+  setPlots() {},
+  setPicks() {},
+  setHint() {}
+};
+
+/** A motion's own look, and what it is called. */
+const viewOf = (motion, letter) => ({motion, letter, method: motion.run.method, look: lookOf(motion.run.method)});
+
+/** The series of a plot that stands for a motion. */
+const seriesOf = ({motion, letter, look}, list, dash) =>
+    ({name: letter, css: look.css, dash, well: motion.well, points: motion.times.map((t, f) => [t, list[f] ?? null])});
+
+class MotionPlayer extends HTMLElement {
+  connectedCallback() {
+    if (!plays || this.scene) return;
+    const root = this.parentElement, scene = this.scene = this.given?.scene ?? sceneData(this.dataset.scene);
+    this.hero = this.dataset.shown ? JSON.parse(this.dataset.shown) : null;
+    this.picks = this.dataset.a ? {a: this.dataset.a, b: this.dataset.b} : null;
+    this.box = root.querySelector('.stage');
+    this.soft = this.hero && RasterStage.takes(scene);
+    Object.assign(this, {
+      time: 0,
+      begin: 0,
+      end: scene.times[scene.times.length - 1],
+      untouched: true,
+      speed: 1,
+      pace: 1,
+      playing: false,
+      seen: false,
+      orbit: new Orbit(scene.from),
+      views: []
+    });
+    this.look = {colour: 'plain', springs: !scene.triangles};
+    root.classList.toggle('comparing', Boolean(this.picks));
+    this.controls = this.hero ? noControls : new Controls(this, scene, this.look, {
+      toggle: () => (this.playing ? this.pause() : this.play()),
+      seek: time => (this.pause(), this.seek(time), this.wake()),
+      speed: speed => (this.speed = speed),
+      look: change => this.setLook(change),
+      reset: () => (this.orbit.reset(), this.draw()),
+      pick: this.picks && ((letter, key) => this.pick({[letter]: key}))
+    });
+    if (this.picks) {
+      this.controls.setPicks([this.picks.a, this.picks.b], null);
+      this.controls.setHint(this.words());
+    }
+    this.controls.setPlaying(false);
+    new IntersectionObserver(([entry]) => this.setSeen(entry.isIntersecting), {threshold: 0.3}).observe(this.box);
+    new ResizeObserver(() => this.draw()).observe(this.box);
+    dark.addEventListener('change', () => this.views.length && this.arrange());
+  }
+
+  /** Comes into sight or leaves it: plays once, unless reduced motion is preferred, and pauses out of sight. */
+  async setSeen(seen) {
+    this.seen = seen;
+    if (!seen) {
+      this.resume = this.wanted;
+      this.pause();
+      return;
+    }
+    // with reduced motion the poster stays until a control is used
+    if (stillWanted.matches && !this.dataset.state) return;
+    await this.wake();
+    if (this.seen && !stillWanted.matches && !this.dataset.shown && (this.resume ?? true)) this.play();
+  }
+
+  /** Unpacks what is shown (once) and opens a stage; one that is out of sight gives way. */
+  async wake() {
+    const shared = this.scene.shared ??=
+        Promise.all([this.scene.triangles, this.scene.springs.ends, this.scene.springs.rests].map(unpack))
+            .then(([triangles, springs, rests]) => ({triangles, springs, rests}));
+    this.loaded ??= this.load();
+    const given = await shared;
+    await this.loaded;
+    if (this.stage) return;
+    while (!this.soft && alive.length >= mostStages) (alive.find(player => !player.seen) ?? alive[0]).sleep();
+    const canvas = make('canvas', {'aria-hidden': 'true'});
+    canvas.addEventListener('webglcontextlost', () => this.stage?.canvas === canvas && this.sleep());
+    if (!plays && !this.soft) return;
+    try {
+      this.stage = new (this.soft ? RasterStage : Stage)(canvas, this.scene, given);
+    } catch (problem) {
+      this.hidden = true;
+      if (problem !== noContext) throw problem;
+      return playNothing();
+    }
+    this.titles = make('div', {class: 'titles', 'aria-hidden': 'true'});
+    this.layer = make(
+        'div', {
+          class: 'layer',
+          tabindex: 0,
+          role: 'group',
+          'aria-label':
+              `${this.scene.scene} in three dimensions; arrow keys turn, plus and minus zoom, 0 resets the view`
+        },
+        canvas, this.titles);
+    attachPointerInput(this.layer, this.orbit, () => this.draw());
+    this.box.append(this.layer);
+    if (!this.soft) alive.push(this);
+    this.showViews();
+    this.dataset.state = 'ready';
+    if (!performance.getEntriesByName('first-motion').length) performance.mark('first-motion');
+  }
+
+  /** Gathers the motions that are shown. */
+  async load() {
+    const keys = this.hero ?? (this.picks ? [this.picks.a, this.picks.b] : []), letters = this.hero ? [] : ['A', 'B'];
+    const turn = this.turn = {}, missing = [];
+    const awaited = keys.filter(key => runOf(this.scene, key)?.run.computed && !runOf(this.scene, key).run.there);
+    if (awaited.length) this.tellComputing(awaited);
+    const motions = this.given?.motion ? [this.given.motion] :
+                                         await Promise.all(keys.map(key => motionOf(this.scene, key).catch(problem => {
+                                           if (!(problem instanceof LabError)) throw problem;
+                                           missing.push(problem.message);
+                                           return null;
+                                         })));
+    const truth = this.picks && await motionOf(this.scene, 'truth');
+    if (turn !== this.turn) return;  // other runs were chosen meanwhile
+    this.motions = motions.filter(Boolean);
+    this.letters = letters.filter((_, i) => motions[i]);
+    this.missing = [...new Set(missing)];
+    this.truth = truth;
+    delete this.dataset.computing;
+    this.arrange();
+  }
+
+  /** Says which runs are being computed. */
+  tellComputing(keys) {
+    this.dataset.computing = '';
+    this.controls.setHint(
+        say('computingRuns', {methods: [...new Set(keys.map(key => inTwo(parts(key).method).join(' ')))].join(', ')}));
+  }
+
+  /** Chooses other runs. */
+  async pick(change) {
+    Object.assign(this.picks, change);
+    this.loaded = this.load();
+    await this.loaded;
+    await this.wake();
+    this.dispatchEvent(new Event('picked'));
+  }
+
+  /** Lays out views, difference and plots of the motions. */
+  arrange() {
+    const {scene, letters} = this;
+    this.views = this.motions.map((motion, i) => viewOf(motion, letters[i] ?? ''));
+    const pictures = this.motions.find(motion => motion.run.times);
+    [this.begin, this.end] = pictures ? [pictures.begin, pictures.end] : [0, scene.times[scene.times.length - 1]];
+    this.pace = pictures ? (this.end - this.begin) / 6 : 1;  // pictures of a moment take six seconds
+    const plots = [], [a, b] = this.views, purple = 'var(--difference)';
+    if (this.picks && b) {
+      const times = Array.from({length: 101}, (_, i) => this.begin + i / 100 * (this.end - this.begin));
+      const apart = times.map(
+          t => (t <= Math.min(a.motion.end, b.motion.end) + 1e-9 ? distances(a.motion.apartAt(t, b.motion)) : null));
+      const largest = apart.reduce((top, metres) => metres?.reduce((x, y) => Math.max(x, y), top) ?? top, 0);
+      this.top = largest > 0 ? roundUp(largest) : 0;
+      this.views.push(
+          {motion: a.motion, other: b.motion, top: this.top || 1, letter: 'A − B', look: a.look, method: ''});
+      const dash = b.look.css === a.look.css ? '5 3' : '';
+      const both = kind => [seriesOf(a, a.motion[kind]), seriesOf(b, b.motion[kind], dash)];
+      const known = s => s.points.some(p => p[1] !== null);
+      plots.push(
+          {
+            title: scene.truth?.rule ? 'difference from the contact limit' : 'RMS error',
+            unit: 'm',
+            series: both('error').filter(known),
+            none: 'No truth is known here.'
+          },
+          {
+            title: 'kinetic energy',
+            unit: 'J',
+            series: both('energy').filter(known),
+            none: 'No velocities are known here.'
+          },
+          {
+            title: 'difference',
+            unit: 'm',
+            series:
+                [{name: 'A − B', css: purple, well: true, points: times.map((t, i) => [t, apart[i] && rms(apart[i])])}]
+          });
+      this.controls.setPicks([this.picks.a, this.picks.b], this.top);
+      for (const cell of this.closest('article')?.querySelectorAll('.choose') ?? [])
+        for (const button of cell.querySelectorAll('[data-as="a"], [data-as="b"]'))
+          button.setAttribute('aria-pressed', this.picks[button.dataset.as] === cell.dataset.key);
+      this.controls.setHint(this.words());
+    } else if (this.given) {
+      const off = a.motion.times.map(
+          (t, f) =>
+              [t,
+               a.motion.apart.subarray(f * a.motion.wide, (f + 1) * a.motion.wide)
+                   .reduce((x, y) => Math.max(x, Math.abs(y)), 0)]);
+      plots.push(
+          {title: 'departure from rest', unit: 'm', series: [{name: '', css: a.look.css, well: false, points: off}]});
+      this.controls.setHint(this.given.caption);
+    }
+    if (this.missing.length && this.picks) this.controls.setPicks([this.picks.a, this.picks.b], null);
+    if (this.missing.length) this.controls.setHint([...this.missing, this.picks ? this.words() : ''].join(' '));
+    this.controls.setPlots(plots, this.begin, this.end);
+    if (this.untouched && !this.hero)
+      this.time = this.picks && !pictures ? Math.min(this.end, scene.at ?? this.end) : this.begin;
+    this.time = Math.max(this.begin, Math.min(this.end, this.time));
+    this.controls.setTime(this.time);
+    if (this.stage) this.showViews();
+  }
+
+  /** What has to be said of the two runs. */
+  words() {
+    const said = [];
+    for (const letter of ['a', 'b']) {
+      const {set, run} = runOf(this.scene, this.picks[letter]) ?? {}, name = letter.toUpperCase();
+      if (!run) continue;
+      if (run.failure) said.push(`${name}: ${run.failure}: ${run.reason}.`);
+      if (run.times)
+        said.push(`${name}: the last ${run.frames} pictures of the run, from ${short(run.times[0])} s on.`);
+      if (set.note) said.push(`${name} follows a different law: ${set.note}.`);
+      if (set === this.scene.known && run.stops < this.scene.times[this.scene.times.length - 1] - 1e-9)
+        said.push(`${name}: ${run.end}.`);
+    }
+    return said.join(' ');
+  }
+
+  /** Puts the views on the stage, their titles over it. */
+  showViews() {
+    this.stage.show(this.views);
+    this.titles.replaceChildren(...this.views.map(view => {
+      const [engine, rule] =
+          view.method === 'truth' ? ['truth', this.scene.truth.name.replace(/^truth, /, '')] : inTwo(view.method);
+      const {run} = view.motion, setting = settingOf(run),
+            name = make(
+                'b', {style: `--own: ${view.other ? 'var(--difference)' : view.look.css}`},
+                this.hero ? engine : view.letter);
+      const words = make(
+          'span', {},
+          this.hero ? [rule, run.step ? `step ${setting}` : setting].filter(Boolean).join(', ') :
+              view.other || !view.letter? '' :
+                      [engine, rule, setting].filter(Boolean).join(' '));
+      view.state = make('span', {});
+      return make(
+          'div', view.method ? {'data-method': view.method} : {}, name, ...(words.textContent ? [words] : []),
+          view.state);
+    }));
+    this.setLook({});
+  }
+
+  /** Gives its context back; the poster is there again. */
+  sleep() {
+    this.pause();
+    if (!this.soft) alive.splice(alive.indexOf(this), 1);
+    const {stage} = this;
+    this.stage = null;
+    stage.release();
+    this.layer.remove();
+    this.dataset.state = 'asleep';
+  }
+
+  async play() {
+    this.wanted = true;
+    await this.wake();
+    if (this.playing || !this.wanted) return;
+    if (this.untouched || this.time >= this.end) this.seek(this.begin);  // at first the player shows the poster's time
+    this.playing = true;
+    this.controls.setPlaying(true);
+    let last = null;
+    const tick = now => {
+      if (!this.playing) return;
+      // after a pause of the whole page the motion continues where it was
+      const passed = Math.min(0.1, last === null ? 0 : (now - last) / 1000);
+      last = now;
+      this.seek(this.time + this.speed * this.pace * passed);
+      if (this.time >= this.end)
+        this.pause();
+      else
+        requestAnimationFrame(tick);
+    };
+    requestAnimationFrame(tick);
+  }
+
+  pause() {
+    this.playing = this.wanted = false;
+    this.controls.setPlaying(false);
+  }
+
+  /** Shows a time, s. */
+  seek(time) {
+    this.untouched = false;
+    this.time = Math.max(this.begin, Math.min(this.end, time));
+    this.controls.setTime(this.time);
+    this.draw();
+  }
+
+  setLook(change) {
+    Object.assign(this.look, change);
+    const {colour} = this.look, {scene} = this;
+    this.colouring = {name: colour, top: 1};
+    let scale = null;
+    if (this.stage && colour !== 'plain') {
+      const most = of => Math.max(
+          1e-12,
+          ...this.motions.filter(m => m.well)
+              .flatMap(
+                  motion => [0.1, 0.25, 0.5, 0.75, 1].map(
+                      part => of(motion, this.begin + part * (this.end - this.begin))
+                                  .reduce((a, b) => Math.max(a, b), 0))));
+      const from = colour === 'distance' ? this.truth : null;
+      this.colouring.from = from;
+      this.colouring.top = roundUp(most(
+          from ? (m, t) => distances(m.apartAt(Math.min(t, from.end), from)) :
+                 (m, t) => stretchOf(scene, this.stage.shared, m.placesAt(t))));
+      scale = from ? length(this.colouring.top) : `${this.colouring.top} %`;
+    }
+    this.controls.setLook(this.look, scale);
+    if (this.stage)
+      this.draw();
+    else if (Object.keys(change).length)
+      this.wake();
+  }
+
+  draw() {
+    if (!this.stage || !this.views.length) return;
+    const {canvas} = this.stage, ratio = this.soft ? RasterStage.finer : Math.min(2, window.devicePixelRatio || 1);
+    const wide = Math.round(this.box.clientWidth * ratio), high = Math.round(this.box.clientHeight * ratio);
+    if (!wide || !high) return;
+    if (canvas.width !== wide || canvas.height !== high) Object.assign(canvas, {width: wide, height: high});
+    const background = getComputedStyle(this.box).backgroundColor.match(/[\d.]+/g).slice(0, 3).map(v => v / 255);
+    const title = this.hero ? (this.box.clientWidth < 420 ? 58 : 46) :
+        this.given          ? 0 :
+                              24;  // pixels above each picture
+    const panels = this.stage.draw(
+        {colour: this.colouring, springs: this.look.springs, time: this.time, orbit: this.orbit, background, title});
+    panels.forEach((panel, i) => {
+      const {motion, state, other} = this.views[i], {run} = motion, over = this.time > motion.end - 1e-9;
+      Object.assign(
+          this.titles.children[i].style,
+          {left: `${100 * panel.left}%`, top: `${100 * panel.top}%`, width: `${100 * panel.wide}%`});
+      const failed = over && run.failure && !other;
+      state.className = failed ? 'failed' : '';
+      state.textContent = failed ? run.failure : !other && this.time > motion.end + 1e-9 ? run.end ?? '' : '';
+    });
+  }
+}
+
+/** The first screen: its players on one clock, over and over; a still picture where motion is unwanted. */
+function runHero(hero) {
+  const players = [...hero.querySelectorAll('motion-player')].filter(player => player.scene);
+  const [button, slider, clock] = ['button', 'input', '.clock'].map(name => hero.querySelector(name));
+  const ends = players.map(player => player.end), end = Math.max(...ends);
+  let time = 0, last = null, playing = false, seen = false;
+  // below each view its error at the time, in place of the largest
+  const readouts = players.map(player => {
+    const spans = [...(player.closest('.views').nextElementSibling?.querySelectorAll('[data-key]') ?? [])];
+    return spans.map(span => ({span, still: [...span.childNodes]}));
+  });
+  const tell = (player, spans) => {
+    for (const {span, still} of spans) {
+      const motion = player.motions?.find(m => m.run.key === span.dataset.key),
+            error = motion?.valueAt(motion.error, player.time);
+      const part = player.scene.truth?.motion;
+      if (error === null || error === undefined)
+        span.replaceChildren(...still);
+      else
+        span.replaceChildren(
+            make('b', {}, length(error)),
+            player.scene.truth.rule || !part ? ' off now' :
+                                               ` ${Number((100 * error / part).toPrecision(2))} % off now`);
+    }
+  };
+  const show = () => {
+    players.forEach((player, i) => {
+      if (!player.stage) return;
+      player.seek(Math.min(time, ends[i]));
+      tell(player, readouts[i]);
+    });
+    slider.value = 1000 * time / end;
+    clock.textContent = `${time.toFixed(2)} s`;
+  };
+  const tick = now => {
+    if (!playing || !seen) return void (last = null);
+    time += last === null ? 0 : Math.min(0.1, (now - last) / 1000);
+    last = now;
+    if (time > end + 0.6) time = 0;  // it rests a moment at its end
+    show();
+    requestAnimationFrame(tick);
+  };
+  const set = on => {
+    playing = on;
+    button.textContent = on ? '❚❚' : '▶';
+    button.setAttribute('aria-label', on ? 'Pause' : 'Play');
+    if (on) requestAnimationFrame(tick);
+  };
+  button.addEventListener('click', async () => {
+    await Promise.all(players.map(player => player.wake()));
+    set(!playing);
+  });
+  slider.addEventListener('input', async () => {
+    await Promise.all(players.map(player => player.wake()));
+    set(false);
+    time = slider.value / 1000 * end;
+    show();
+  });
+  new IntersectionObserver(([entry]) => {
+    seen = entry.isIntersecting;
+    if (seen && playing) requestAnimationFrame(tick);
+  }).observe(hero);
+  if (stillWanted.matches) return;
+  Promise.all(players.map(player => player.wake())).then(() => set(true));
+}
+
+/** Defines <motion-player>, and plays the scenes of the first screen when the page is there. */
+export function startPlayers() {
+  customElements.define('motion-player', MotionPlayer);
+  document.addEventListener('DOMContentLoaded', () => {
+    for (const hero of document.querySelectorAll('.hero'))
+      if (plays && hero.querySelector('motion-player')) runHero(hero);
+  });
+}

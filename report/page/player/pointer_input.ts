@@ -1,0 +1,37 @@
+// Pointer, wheel and keys that turn and zoom a view.
+// @ts-nocheck
+
+/**
+   `changed` is called after each change of the orbit. The wheel zooms only where the view has the focus (or with
+    Control), so that a page still scrolls over it; a finger that moves up or down scrolls, sideways it turns.
+ */
+export function attachPointerInput(layer, orbit, changed) {
+  layer.addEventListener('pointerdown', event => layer.setPointerCapture(event.pointerId));
+  layer.addEventListener('pointermove', event => {
+    if (!event.buttons) return;
+    orbit.turn(-0.008 * event.movementX, 0.008 * event.movementY);
+    changed();
+  });
+  layer.addEventListener('wheel', event => {
+    if (!event.ctrlKey && document.activeElement !== layer) return;
+    event.preventDefault();
+    orbit.magnify(Math.exp(-0.0015 * event.deltaY));
+    changed();
+  }, {passive: false});
+  const keys = {
+    ArrowLeft: () => orbit.turn(-0.12, 0),
+    ArrowRight: () => orbit.turn(0.12, 0),
+    ArrowUp: () => orbit.turn(0, 0.1),
+    ArrowDown: () => orbit.turn(0, -0.1),
+    '+': () => orbit.magnify(1.15),
+    '=': () => orbit.magnify(1.15),
+    '-': () => orbit.magnify(1 / 1.15),
+    0: () => orbit.reset()
+  };
+  layer.addEventListener('keydown', event => {
+    if (!keys[event.key] || event.ctrlKey || event.metaKey || event.altKey) return;
+    event.preventDefault();
+    keys[event.key]();
+    changed();
+  });
+}

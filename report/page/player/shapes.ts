@@ -1,0 +1,51 @@
+// Corners and instances of what is drawn: cloth, threads, rods, balls, floor.
+// @ts-nocheck
+
+/** A ball of radius 1 as corners and triangles. */
+export function ballMesh(around, along) {
+  const corners = [], index = [];
+  for (let j = 0; j <= along; ++j)
+    for (let i = 0; i <= around; ++i) {
+      const a = 2 * Math.PI * i / around, b = Math.PI * j / along;
+      corners.push(Math.sin(b) * Math.cos(a), Math.cos(b), Math.sin(b) * Math.sin(a));
+      const here = j * (around + 1) + i, below = here + around + 1;
+      if (i < around && j < along) index.push(here, below, here + 1, here + 1, below, below + 1);
+    }
+  return {corners: new Float32Array(corners), size: 3, index: new Uint16Array(index)};
+}
+
+/** Rows (a, b, family) of the springs; `counts` says how many there are of each family, in order. */
+function springRows(ends, counts) {
+  const rows = new Int32Array(ends.length / 2 * 3);
+  let row = 0;
+  counts.forEach((count, family) => {
+    for (let k = 0; k < count; ++k, ++row) rows.set([ends[2 * row], ends[2 * row + 1], family], 3 * row);
+  });
+  return rows;
+}
+
+export function shapesOf(tools, scene, {triangles, springs}) {
+  const strip = {
+    corners: new Float32Array([0, -1, 1, -1, 0, 1, 1, 1]),
+    size: 2,
+    slot: 2,
+    ints: 3,
+    index: new Uint16Array([0, 1, 2, 2, 1, 3])
+  };
+  const rods = rows => tools.shape({...strip, instances: rows});
+  const balls = (mesh, list) => tools.shape({...mesh, instances: Int32Array.from(list), slot: 1, ints: 1});
+  const small = scene.particles > 60 ? ballMesh(10, 6) : ballMesh(24, 16);
+  const steps = scene.times.slice(1).flatMap((_, f) => [f, f + 1, 0]);
+  const threads = springs.subarray(0, 2 * scene.springs.threads);
+  return {
+    cloth: tools.shape({index: triangles}),
+    threads: tools.shape({index: threads}),
+    rods: rods(springRows(springs, scene.springs.families.map(f => f.count))),
+    path: rods(Int32Array.from(steps)),
+    beads: balls(small, Array.from({length: scene.particles}, (_, i) => i)),
+    pins: balls(small, scene.pins),
+    obstacle: balls(ballMesh(72, 48), [0]),
+    floor: tools.shape(
+        {corners: new Float32Array([-1, -1, 1, -1, -1, 1, 1, 1]), size: 2, index: new Uint16Array([0, 1, 2, 2, 1, 3])}),
+  };
+}
