@@ -14,7 +14,7 @@
 #include "mysim/base/json.h"
 #include "report/commands/junit.h"
 #include "report/commands/regress_failure.h"
-#include "report/page/page.h"
+#include "report/page/page_parts.h"
 
 namespace crosscheck {
 namespace {
@@ -199,30 +199,30 @@ std::string some_of(size_t shown, size_t all, const std::string& what) {
                      : fmt::format("{} {}", all, what);
 }
 
+/// A section's table for the page; null where it has no rows.
+Json section(const PageTable& table) { return table.rows.empty() ? Json() : table_data(table); }
+
 std::string headline(const VerdictPage& page) {
-  const auto wrong = std::count_if(page.result.rows.begin(), page.result.rows.end(),
-                                   [](const auto& row) { return failed(row.state); });
+  const auto rows = [&](auto state) { return std::ranges::count_if(page.result.rows, state); };
   if (!page.blessed.empty()) return fmt::format("{} quantities blessed: {}", page.result.rows.size(), page.blessed);
-  if (page.result.passed() && !page.speeds.passed()) return "The answers are the same, and something is slower";
-  const auto same = std::count_if(page.result.rows.begin(), page.result.rows.end(),
-                                  [](const auto& row) { return row.state == Status::same; });
-  if (page.result.passed()) return fmt::format("Nothing moved: {} quantities are the same", same);
-  return fmt::format("{} of {} quantities failed", wrong, page.result.rows.size());
+  if (!page.result.passed())
+    return fmt::format("{} of {} quantities failed", rows([](const auto& row) { return failed(row.state); }),
+                       page.result.rows.size());
+  if (!page.speeds.passed()) return "The results are the same, and something is slower";
+  return fmt::format("Nothing moved: {} quantities are the same",
+                     rows([](const auto& row) { return row.state == Status::same; }));
 }
 
-/// The section on new methods; empty without one.
-std::string new_methods_section(const RegressionResult& result) {
+PageTable new_methods_table(const RegressionResult& result) {
   PageTable table{"Methods without baselines", {"method", "scenes", "quantities", "bless with"}, {}};
   for (const NewMethod& m : new_methods(result.rows))
     table.rows.push_back({m.method, std::to_string(m.scenes), std::to_string(m.quantities),
                           fmt::format("crosscheck regress --filter '*/{}' --bless --reason TEXT", m.method)});
-  if (table.rows.empty()) return "";
-  return "<section class=\"chapter\"><h2>New methods</h2>\n" + page_table_html(table) + "</section>\n";
+  return table;
 }
 
-/// The section on speed: CPU times over those of a plain loop; empty where none was measured.
-std::string speed_section(const Speeds& speeds) {
-  if (speeds.rows.empty() && speeds.notes.empty()) return "";
+/// CPU times over those of a plain loop.
+PageTable speed_table(const Speeds& speeds) {
   PageTable table{fmt::format("Speed of {} runs: CPU time over that of a plain loop of springs and gravity, in turns",
                               speeds.rows.size()),
                   {"run", "was", "is", "is / was", "90 % interval", "noise", "verdict", "change of accuracy"},
@@ -233,27 +233,7 @@ std::string speed_section(const Speeds& speeds) {
                           row.was ? fmt::format("{:.3f} to {:.3f}", row.change.low, row.change.high) : "",
                           row.was ? fmt::format("{:.0f} %", 100 * row.noise) : "", std::string(name_of(row.state)),
                           row.sentence.empty() ? row.note : row.sentence});
-  std::string out = "<section class=\"chapter\"><h2>Speed and accuracy</h2>\n";
-  for (const std::string& note : speeds.notes) out += fmt::format("<p class=\"note\">{}</p>\n", escaped(note));
-  return out + (table.rows.empty() ? "" : page_table_html(table)) + "</section>\n";
-}
-
-void first_screen(const VerdictPage& page, std::string& out) {
-  out += fmt::format(
-      "<header><h1>{}</h1></header>\n<main>\n<p class=\"question\">Beside {}.</p>\n<ul class=\"findings\">\n",
-      escaped(headline(page)), escaped(page.beside));
-  const auto say = [&out](const std::string& topic, const std::string& sentence) {
-    out += fmt::format("<li class=\"{}\">{}</li>\n", topic, escaped(sentence));
-  };
-  for (const FailedPoint& f : page.result.failures) say("failure", fmt::format("No answer: {}: {}", f.name, f.why));
-  const auto added = std::count_if(page.result.rows.begin(), page.result.rows.end(),
-                                   [](const auto& row) { return row.state == Status::added; });
-  if (added > 0)
-    say("contact", fmt::format("New, with nothing to stand beside yet: {}.",
-                               added == 1 ? "one quantity" : fmt::format("{} quantities", added)));
-  out += "</ul>\n";
-  for (const std::string& problem : page.problems)
-    out += fmt::format("<p class=\"problem\">Missing: {}</p>\n", escaped(problem));
+  return table;
 }
 
 }  // namespace
@@ -296,38 +276,37 @@ std::vector<FailurePart> failure_parts(const std::vector<Case>& cases, const Reg
 }
 
 std::string verdict_html(const VerdictPage& page) {
-  std::string out = page_head("Crosscheck: what moved");
-  first_screen(page, out);
   const std::vector<Comparison> worst = worst_comparisons(page.result.rows);
-  if (!worst.empty())
-    out +=
-        "<section class=\"chapter\"><h2>Failed quantities</h2>\n<p class=\"note\">Of each case the quantity that is "
-        "off "
-        "most. All quantities: <code>regress.csv</code> beside this page.</p>\n" +
-        page_table_html(
-            table_of(some_of(std::min<size_t>(worst.size(), 15), worst.size(), "cases"), by_size(worst, 15), true)) +
-        "</section>\n";
-  if (page.blessed.empty()) out += new_methods_section(page.result);
-  out += speed_section(page.speeds);
-  if (!page.parts.empty() && page.parts.size() < worst.size())
-    out += fmt::format(
-        "<p class=\"note\">Drawn below: {} of {} cases, of each scene that which is off most first "
-        "(more with --figures N).</p>\n",
-        page.parts.size(), worst.size());
+  const auto added = std::ranges::count(page.result.rows, Status::added, &Comparison::state);
+  Json data{{"title", "Crosscheck: what moved"},
+            {"styles", page_styles()},
+            {"headline", headline(page)},
+            {"beside", page.beside},
+            {"unanswered", Json::array()},
+            {"added", added > 0 ? fmt::format("{} quantit{}", added, added == 1 ? "y" : "ies") : ""},
+            {"problems", page.problems},
+            {"worst", section(table_of(some_of(std::min<size_t>(worst.size(), 15), worst.size(), "cases"),
+                                       by_size(worst, 15), true))},
+            {"added_methods", page.blessed.empty() ? section(new_methods_table(page.result)) : Json()},
+            {"speed", nullptr},
+            {"drawn", page.parts.size() < worst.size() && !page.parts.empty()
+                          ? fmt::format("{} of {}", page.parts.size(), worst.size())
+                          : ""},
+            {"parts", Json::array()},
+            {"provenance", provenance_data(page.lines)}};
+  for (const FailedPoint& f : page.result.failures) data["unanswered"].push_back(f.name + ": " + f.why);
+  if (!page.speeds.rows.empty() || !page.speeds.notes.empty())
+    data["speed"] = {{"notes", page.speeds.notes}, {"table", section(speed_table(page.speeds))}};
   for (const FailurePart& part : page.parts) {
-    out += fmt::format("<section class=\"scene\"><h2>{}</h2>\n<p class=\"question\">{}</p>\n<div class=\"figures\">\n",
-                       escaped(part.heading), escaped(part.text));
+    Json& one = data["parts"].emplace_back(Json{{"heading", part.heading},
+                                                {"text", part.text},
+                                                {"charts", Json::array()},
+                                                {"renders", Json::array()},
+                                                {"table", table_data(part.table)}});
     for (const PageImage& image : part.images)
-      if (image.file.extension() == ".svg") out += image_html(image, "chart");
-    out += "</div>\n";
-    for (const PageImage& image : part.images)
-      if (image.file.extension() == ".png") out += image_html(image, "render");
-    out += "<div class=\"chapter\">" + page_table_html(part.table) + "</div></section>\n";
+      one[image.file.extension() == ".svg" ? "charts" : "renders"].push_back(image_data(image));
   }
-  return out +
-         "<section class=\"made\"><h2>How this was made</h2>\n<p>A tolerance is what rounding can do to the "
-         "quantity in that engine, measured by moving the start a little; each row of a baseline says how.</p>\n" +
-         provenance_html(page.lines) + "</section>\n</main></body></html>\n";
+  return filled("regress", data);
 }
 
 }  // namespace

@@ -19,7 +19,6 @@
 #include "report/page/lab_html.h"
 #include "report/page/player_html.h"
 #include "report/page/shown_runs.h"
-#include "report/page/smaller.h"
 #include "report/pictures/scene_picture.h"
 #include "report/player/motions.h"
 
@@ -160,7 +159,7 @@ class Assembly {
     draw(workers);
     page_.lab = lab_data_html(data_.scenes);
     write_file(folder_ / "report.json", report_json(page_, findings_, charts_, data_.rows, name_of(data_.extent)));
-    write_file(folder_ / "index.html", with_folds_packed(page_html(page_)));
+    write_file(folder_ / "index.html", page_html(page_));
     bool agree = true;  // where the same rule must agree, it does
     for (const SceneData& facts : findings_.facts)
       for (const MethodData& method : facts.methods) agree &= !same_rule_differs(facts, method);

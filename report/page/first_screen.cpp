@@ -1,4 +1,4 @@
-// The first screen: what moves, and an answer to each question.
+// The first screen as data: scenes that move, and an answer to each question.
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
@@ -7,9 +7,7 @@
 #include "experiments/speed_accuracy/work_precision.h"
 #include "report/figures/plot_layout.h"
 #include "report/findings/findings_text.h"
-#include "report/page/lab_html.h"
 #include "report/page/page_parts.h"
-#include "report/page/shown_runs.h"
 
 namespace crosscheck {
 
@@ -29,53 +27,44 @@ std::vector<const ScenePart*> first_scenes(const PageContent& c) {
 namespace {
 
 /// Whose view it is, and its error: the largest, which the player replaces by that of its time.
-std::string readouts(const ScenePart& part) {
+Json readouts_data(const ScenePart& part) {
   const SceneData& facts = *part.facts;
-  std::string out = "<div class=\"readouts\">";
-  const auto add = [&](const std::string& whose, const std::string& value) {
-    out += fmt::format("<span><span class=\"whose\">{}</span>{}</span>", prose(whose), value);
+  Json all = Json::array();
+  const auto add = [&](const std::string& whose, const std::string& value, const std::string& note) -> Json& {
+    return all.emplace_back(Json{{"whose", whose}, {"value", value}, {"note", note}, {"key", ""}, {"method", ""}});
   };
   std::vector<std::string> methods;
   for (const ShownRun& run : part.runs) methods.push_back(run.method);
-  for (const ShownRun& run : part.runs)
-    if (run.beside)
-      add(fmt::format("{}{}, {}", family_of(run.method).is_subject() ? "mysim " : "", reader_name(run.method, methods),
-                      run.setting),
-          !run.error ? "–"
-                     : fmt::format("<span data-key=\"{}\" data-method=\"{}\"><b>{}</b> {}</span>", escaped(run.key),
-                                   escaped(run.method), prose(nice_length(*run.error)),
-                                   facts.tier.empty() ? "from that limit"
-                                   : facts.motion > 0 ? percent(*run.error, facts.motion) + " off"
-                                                      : "off"));
+  for (const ShownRun& run : part.runs) {
+    if (!run.beside) continue;
+    Json& readout = add(fmt::format("{}{}, {}", family_of(run.method).is_subject() ? "mysim " : "",
+                                    reader_name(run.method, methods), run.setting),
+                        run.error ? nice_length(*run.error) : "",
+                        !run.error           ? "–"
+                        : facts.tier.empty() ? "from that limit"
+                        : facts.motion > 0   ? percent(*run.error, facts.motion) + " off"
+                                             : "off");
+    if (run.error) readout["key"] = run.key, readout["method"] = run.method;
+  }
   if (!facts.tier.empty())
-    add("truth", fmt::format("<b>± {}</b> {}{}", prose(nice_length(facts.error_bar)), escaped(facts.tier),
-                             facts.truth_until ? ", until " + step_text(*facts.truth_until) : ""));
+    add("reference solution", "± " + nice_length(facts.error_bar),
+        facts.tier + (facts.truth_until ? ", until " + step_text(*facts.truth_until) : ""));
   else if (facts.contact_until)
-    add("the contact rule's limit", "as the step goes to zero");
-  return out + "</div>\n";
+    add("the contact rule's limit", "", "as the step goes to zero");
+  return all;
 }
 
-std::string hero_html(const PageContent& c) {
-  std::string out;
-  for (const ScenePart* part : first_scenes(c)) {
-    Json keys = Json::array();
-    std::vector<std::string> names;
-    for (const ShownRun& run : part->runs)
-      if (run.beside) keys.push_back(run.key), names.push_back(run.method);
-    if (!part->facts->tier.empty() || part->facts->contact_until) keys.push_back("truth"), names.emplace_back("truth");
-    out += fmt::format(
-        "<div class=\"views\"><div class=\"stage\">{}</div><span class=\"where\">{}</span><motion-player "
-        "data-scene=\"{}\" data-shown=\"{}\"></motion-player></div>\n{}",
-        image_tag({part->hero.empty() ? part->thumbnail : part->hero,
-                   fmt::format("{} by {}", part->scene->name, joined(names)), ""}),
-        escaped(part->scene->name), escaped(part->scene->name), escaped(dump(keys)), readouts(*part));
-  }
-  if (out.empty()) return "";
-  return "<figure class=\"hero\">" + out +
-         "<div class=\"clockwork\"><button type=\"button\" aria-label=\"Play\">▶</button><input type=\"range\" "
-         "min=\"0\" "
-         "max=\"1000\" value=\"0\" aria-label=\"time\"><span class=\"clock\"></span></div>" +
-         live_lab_html(c.main_scene) + "</figure>\n";
+Json view_data(const ScenePart& part) {
+  Json keys = Json::array();
+  std::vector<std::string> names;
+  for (const ShownRun& run : part.runs)
+    if (run.beside) keys.push_back(run.key), names.push_back(run.method);
+  if (!part.facts->tier.empty() || part.facts->contact_until) keys.push_back("truth"), names.emplace_back("truth");
+  return {{"scene", part.scene->name},
+          {"shown", dump(keys)},
+          {"still", image_data({part.hero.empty() ? part.thumbnail : part.hero,
+                                fmt::format("{} by {}", part.scene->name, joined(names)), ""})},
+          {"readouts", readouts_data(part)}};
 }
 
 std::string certificates_matched(const PageContent& c) {
@@ -85,12 +74,6 @@ std::string certificates_matched(const PageContent& c) {
     for (const Certificate* certificate : part.certificates)
       ++all, matched += !certificate->mismatch() && std::ranges::any_of(certificate->rows, read_back);
   return all == 0 ? "chapter" : fmt::format("certificate, {} of {}", matched, all);
-}
-
-/// Whether that chapter shows anything; the first one has the certificates.
-bool has_contents(const PageContent& c, std::string_view chapter) {
-  const auto at = std::ranges::find(c.chapters, chapter, &Chapter::id);
-  return chapter == "same-answer" || (at != c.chapters.end() && !at->entries.empty());
 }
 
 }  // namespace
@@ -105,22 +88,24 @@ std::string beside_mysim(const PageContent& c) {
   return names.empty() ? "" : " beside " + joined(names);
 }
 
-std::string first_screen_html(const PageContent& c) {
-  std::string out = "<section class=\"first\" id=\"top\">\n" + hero_html(c) +
-                    "<div class=\"questions\"><h1>One scene, several engines: which answer can you trust?</h1>\n"
-                    "<p>Crosscheck runs its engine mysim" +
-                    escaped(beside_mysim(c)) +
-                    ", from the same particles and springs, against a "
-                    "known answer.</p>\n";
-  for (const Question& question : questions())
-    if (const Finding* answer = answer_to(question, c.findings))
-      out += fmt::format("<div class=\"question\"><h3><span>{}</span><a href=\"#{}\">{} →</a></h3><p>{}</p></div>\n",
-                         question.text_before(*answer), has_contents(c, question.chapter) ? question.chapter : "scenes",
-                         question.chapter == "same-answer" ? certificates_matched(c) : std::string(question.link),
-                         prose_with_bold_numbers(sentence_of(*answer)));
-  for (const std::string& problem : c.problems)
-    out += fmt::format("<p class=\"problem\">Missing: {}</p>\n", escaped(problem));
-  return out + "</div></section>\n";
+Json first_screen_data(const PageContent& c) {
+  Json views = Json::array(), asked = Json::array();
+  for (const ScenePart* part : first_scenes(c)) views.push_back(view_data(*part));
+  for (const Question& question : questions()) {
+    const Finding* answer = answer_to(question, c.findings);
+    if (!answer) continue;
+    const auto chapter = std::ranges::find(c.chapters, question.chapter, &Chapter::id);
+    const bool leads = chapter != c.chapters.end() && has_contents(*chapter);
+    asked.push_back({{"text", question.text_before(*answer)},
+                     {"target", leads ? question.chapter : "scenes"},
+                     {"link", question.chapter == "same-answer" ? certificates_matched(c) : std::string(question.link)},
+                     {"answer", sentence_of(*answer)}});
+  }
+  return {{"views", std::move(views)},
+          {"main_scene", c.main_scene},
+          {"beside", beside_mysim(c)},
+          {"questions", std::move(asked)},
+          {"problems", c.problems}};
 }
 
 }  // namespace crosscheck

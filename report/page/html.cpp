@@ -1,9 +1,9 @@
-// Text and images as HTML: a number and its unit stay on one line.
+// Text as HTML, in which a number and its unit stay on one line; images inside the page.
 
 #include <fmt/format.h>
+#include <nlohmann/json.hpp>
 
-#include <stdexcept>
-
+#include "mysim/base/pattern.h"
 #include "mysim/base/text.h"
 #include "report/base/assets.h"
 #include "report/page/page.h"
@@ -70,7 +70,7 @@ std::string prose(const std::string& text) {
 
 std::string escaped(const std::string& text) {
   std::string out;
-  for (char c : text) {
+  for (const char c : text) {
     if (c == '&')
       out += "&amp;";
     else if (c == '<')
@@ -85,32 +85,53 @@ std::string escaped(const std::string& text) {
   return out;
 }
 
+std::string prose_with_bold_numbers(const std::string& text) {
+  // a number that stands by itself, with its unit
+  static const Pattern number(
+      "(^|[ (±])(\\d+(?:\\.\\d+)?(?:<span "
+      "class=\"n\">[^/]*</sup></span>)?(?:\u00a0(?:%|mm|µm|nm|ms|µs|m|s|times))?)(?![\\w</])");
+  return number.replaced_in(prose(text), "$1<b>$2</b>");
+}
+
+std::string narrow_prose(const std::string& text) {
+  static const Pattern slash("/(?![^<]*>)");
+  return slash.replaced_in(prose(text), "/<wbr>");
+}
+
+std::string markdown_html(const std::string& text) {
+  static const Pattern strong("\\*\\*([^*]+)\\*\\*"), emphasis("\\*([^*]+)\\*"), code("`([^`]+)`"), gap("\\n\\s*\\n"),
+      end("\\s+$");
+  const std::string inside =
+      code.replaced_in(emphasis.replaced_in(strong.replaced_in(end.replaced_in(text, ""), "<b>$1</b>"), "<em>$1</em>"),
+                       "<code>$1</code>");
+  return "<p>" + gap.replaced_in(inside, "</p>\n<p>") + "</p>\n";
+}
+
+std::string json_for_script(const std::string& json) {
+  std::string safe;
+  for (const char sign : json) sign == '<' ? safe += "\\u003c" : safe += sign;
+  return safe;
+}
+
 namespace {
 
-/// A number of a PNG's head: at byte 16 its width, at byte 20 its height. Throws std::runtime_error where there is
-/// none.
+/// A number in the head of a PNG: its width at byte 16, its height at byte 20.
 unsigned png_number(const std::string& bytes, size_t at) {
-  if (bytes.size() < at + 4) throw std::runtime_error("a picture that is no PNG");
   unsigned number = 0;
-  for (size_t i = at; i < at + 4; ++i) number = number << 8 | static_cast<unsigned char>(bytes[i]);
+  for (size_t i = at; i < at + 4; ++i) number = number << 8 | static_cast<unsigned char>(bytes.at(i));
   return number;
 }
 
 }  // namespace
 
-std::string image_tag(const PageImage& image) {
-  if (image.file.extension() == ".svg")
-    return fmt::format("<img src=\"data:image/svg+xml;base64,{}\" alt=\"{}\">", base64(content_of_file(image.file)),
-                       escaped(image.alt));
-  const std::string bytes = render::with_few_colours(image.file);
-  // so that a page does not move while it loads
-  return fmt::format("<img src=\"data:image/png;base64,{}\" width=\"{}\" height=\"{}\" alt=\"{}\">", base64(bytes),
-                     png_number(bytes, 16), png_number(bytes, 20), escaped(image.alt));
-}
-
-std::string image_html(const PageImage& image, const std::string& css_class) {
-  return fmt::format("<figure class=\"{}\">{}<figcaption>{}</figcaption></figure>\n", css_class, image_tag(image),
-                     prose(image.caption));
+Json image_data(const PageImage& image) {
+  const bool vectors = image.file.extension() == ".svg";
+  const std::string bytes = vectors ? content_of_file(image.file) : render::with_few_colours(image.file);
+  return {{"src", fmt::format("data:image/{};base64,{}", vectors ? "svg+xml" : "png", base64(bytes))},
+          {"width", vectors ? 0 : png_number(bytes, 16)},  // so that a page does not move while it loads
+          {"height", vectors ? 0 : png_number(bytes, 20)},
+          {"alt", image.alt},
+          {"caption", image.caption}};
 }
 
 }  // namespace crosscheck

@@ -17,6 +17,7 @@
 #include "report/lab/live_run.h"
 #include "report/page/page.h"
 #include "report/page/player_html.h"
+#include "report/page/template.h"
 #include "report/player/packed_numbers.h"
 
 namespace crosscheck {
@@ -79,14 +80,6 @@ LabFingerprints lab_fingerprints(const std::vector<Scene>& scenes) {
   return all;
 }
 
-std::string live_lab_html(const std::string& scene) {
-  return scene.empty() ? "" : fmt::format("<live-lab data-scene=\"{}\"></live-lab>\n", escaped(scene));
-}
-
-std::string lab_styles() {
-  return "<style>\n" + asset("page/lab/lab.css") + asset("page/lab/guide.css") + "</style>\n";
-}
-
 std::string lab_data_html(const std::vector<Scene>& given) {
   if (!has_lab_module()) return "";
   std::vector<Scene> scenes = given;
@@ -113,12 +106,11 @@ std::string lab_page_html(const std::vector<Scene>& scenes) {
                     lab_packages));
   std::vector<std::string> methods;
   for (const Stepper& rule : steppers()) methods.push_back(fmt::format("mysim/{}", rule.name));
-  return page_head("Crosscheck: the lab", player_styles() + lab_styles()) +
-         "<nav><div><a class=\"name\" href=\"#top\">Crosscheck</a><span class=\"made\">the engine mysim, live in "
-         "this page</span></div></nav>\n<main id=\"top\" class=\"lab-page\">\n<live-lab data-alone></live-lab>\n"
-         "</main>\n" +
-         lab_data_html(scenes) + script_json("id=\"methods-data\"", dump(method_looks_json(methods))) +
-         script_element("lab_page.js") + "</body></html>\n";
+  return filled("lab",
+                {{"title", "Crosscheck: the lab"},
+                 {"styles", page_styles()},
+                 {"data", lab_data_html(scenes) + script_json("id=\"methods-data\"", dump(method_looks_json(methods)))},
+                 {"script", page_script("lab_page")}});
 }
 
 }  // namespace crosscheck

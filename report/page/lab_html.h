@@ -29,10 +29,6 @@ LabFingerprints lab_fingerprints(const std::vector<Scene>& scenes);
 Json lab_fingerprints_json(const std::vector<Scene>& scenes);
 constexpr int fingerprinted_steps = 50;
 
-/// Where the lab of a scene stands: nothing of it is there before it is opened.
-std::string live_lab_html(const std::string& scene);
-/// Styles for the head of a page.
-std::string lab_styles();
 /// The module and the scenes for the end of a page: those given, and those of the guided experiments. Empty where there
 /// is no module.
 std::string lab_data_html(const std::vector<Scene>& scenes);

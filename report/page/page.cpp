@@ -1,199 +1,53 @@
-// The page from top to bottom, and report.json.
-#include "report/page/page_parts.h"
-
-#include <fmt/ranges.h>
-#include <nlohmann/json.hpp>
+// The page as data, from top to bottom, and report.json.
+#include <fmt/format.h>
 
 #include <algorithm>
 #include <map>
 #include <set>
 
-#include "mysim/base/pattern.h"
+#include "mysim/base/installation.h"
 #include "mysim/base/text.h"
 #include "mysim/model/moduli.h"
 #include "report/base/assets.h"
-#include "report/base/provenance.h"
 #include "report/figures/chart_json.h"
 #include "report/findings/findings_text.h"
 #include "report/page/lab_html.h"
+#include "report/page/page_parts.h"
 #include "report/page/player_html.h"
 #include "report/page/shown_runs.h"
-#include "report/page/smaller.h"
 #include "report/player/packed_numbers.h"
 
 namespace crosscheck {
-namespace {
 
-/// The changes against an earlier report.
-std::string changes_html(const PageContent& c) {
-  if (c.against.empty()) return "";
-  std::string out =
-      fmt::format("<section class=\"chapter\" id=\"changes\"><h2>What changed since {}</h2>\n", escaped(c.against));
-  int timed = 0;
-  std::string rows;
-  for (const Change& change : c.changes) {
-    timed += change.timed;
-    if (change.timed) continue;
-    rows += fmt::format("<tr><th scope=\"row\">{}</th><td class=\"text\">{}</td><td class=\"text\">{}</td></tr>\n",
-                        change.scene.empty() ? "all" : escaped(change.scene),
-                        change.before.empty() ? "(nothing)" : prose(change.before),
-                        change.now.empty() ? "(nothing any more)" : prose(change.now));
-  }
-  out += rows.empty()
-             ? fmt::format("<p>Every finding{} reads as it did.</p>\n", timed > 0 ? " that rests on no timing" : "")
-             : "<table class=\"changes\"><thead><tr><th>scene</th><th>before</th><th>now</th></tr></thead><tbody>\n" +
-                   rows + "</tbody></table>\n";
-  if (timed > 0)
-    out += fmt::format(
-        "<p class=\"note\">{} finding{} that rest{} on timings read otherwise, as in every run; "
-        "<code>regress</code> tells changes of speed from noise.</p>\n",
-        timed, timed == 1 ? "" : "s", timed == 1 ? "s" : "");
-  return out + "</section>\n";
+size_t Folds::hold(const std::string& template_name, const Json& data) {
+  held_.push_back(filled(template_name, data));
+  return held_.size() - 1;
 }
 
-// Scenes.
-
-std::string card_html(const ScenePart& part) {
-  const std::string name = escaped(part.scene->name);
-  return fmt::format(
-      "<a class=\"card\" href=\"#{0}\" data-scene=\"{0}\">{1}<b>{0}</b><span>{2}</span>{3}</a>\n", name,
-      part.thumbnail.empty() ? "" : image_tag({part.thumbnail, part.scene->name, ""}), prose(part.scene->question),
-      part.take ? fmt::format("<span class=\"take\"><span>{}, {}</span><span>{}</span></span>",
-                              escaped(name_in_sentence(part.take->method)),
-                              prose(setting_text(std::string(name_of(part.take->setting)), part.take->requested)),
-                              prose(percent(part.take->error, part.take->motion)))
-                : "");
+Json Folds::fold(const std::string& heading, const std::string& kind, const std::string& template_name,
+                 const Json& data, const std::string& id) {
+  return {{"heading", heading}, {"kind", kind}, {"id", id}, {"held", hold(template_name, data)}};
 }
 
-std::string scene_html(const ScenePart& part, const PageContent& c) {
-  const Scene& scene = *part.scene;
-  std::string out =
-      fmt::format("<header><h3>{}</h3><span class=\"soft\">{}</span><a href=\"#scenes\">all scenes</a></header>\n",
-                  escaped(scene.name), prose(scene.question));
-  std::vector<Finding> shown = part.findings;
-  std::erase_if(shown, [](const Finding& f) { return finding_rule(f.rule).topic == recommendation_topic; });
-  out += findings_html(shown);
-  if (!part.motions.empty() && !part.runs.empty()) {
-    // the run recommended beside the first other engine's
-    const auto other = std::ranges::find_if(part.runs, [&](const ShownRun& run) {
-      return run.beside && family_of(run.method).name != family_of(part.runs[0].method).name;
-    });
-    out += player_html(scene.name, part.runs[0].key, other == part.runs.end() ? "truth" : other->key) +
-           shown_runs_html(part, !c.lab.empty());
-  }
-  out += live_lab_html(scene.name);
-  out += "<div class=\"charts\">\n";
-  for (const PageFigure& figure : part.figures) out += figure_html(figure, c);
-  out += "</div>\n" + run_table_html(part);
-  if (part.statistics) out += statistics_html(*part.statistics);
-  for (const Certificate* certificate : part.certificates) out += certificate_html(*certificate);
-  const SceneData& facts = *part.facts;
-  std::string moduli;
-  if (const auto net = moduli_of(scene.model, scene.start).moduli) {
-    moduli = fmt::format(" As a continuum: {}.", prose(fmt::format("{}", fmt::join(sentences_of(*net), ". "))));
-    if (const std::string warning = skip_one_warning(*net); !warning.empty())
-      moduli += fmt::format(" Note: {}.", prose(warning));
-  }
-  if (const auto bending = bending_length_of(scene.model, scene.start))
-    moduli += fmt::format(" Bending: {}.", prose(sentence_of(*bending)));
-  const std::string predictable =
-      facts.measured_window < scene.duration * (1 - 1e-9)
-          ? fmt::format("it passes a thousandfold after {:.3g} s: single positions are not predictable from there on",
-                        facts.measured_window)
-          : "it stays below a thousandfold over the whole run";
-  return out + fmt::format(
-                   "<p class=\"note\">{} Step {}, {:.3g} s of motion; pointwise comparison up to {:.3g} s, where a "
-                   "perturbation of 1e-10 m has grown {}-fold; {}. Scene hash {}.{}</p>\n<p "
-                   "class=\"call\"><code>crosscheck "
-                   "compare {}</code></p>\n",
-                   prose(scene.parameters), own_step_text(scene), scene.duration, scene.window, nice(facts.growth),
-                   predictable, scene.hash, moduli, escaped(scene.name));
+Json provenance_data(const Provenance& lines) {
+  Json all = Json::array();
+  for (const auto& [key, value] : lines) all.push_back({{"key", key}, {"value", value}});
+  return {{"lines", std::move(all)}};
 }
 
-std::string scenes_html(const PageContent& c) {
-  if (c.scenes.empty()) return "";
-  std::string out = fmt::format(
-      "<section class=\"chapter\" id=\"scenes\"><h2>Scenes</h2>\n<p class=\"answer\">{} with one "
-      "question. A card opens its motion, its charts, all its runs and its certificates.</p>\n<div "
-      "class=\"cards\">\n",
-      c.scenes.size() == 1 ? "One scene," : fmt::format("{} scenes, each", c.scenes.size()));
-  for (const ScenePart& part : c.scenes) out += card_html(part);
-  out += "</div>\n";
-  for (const ScenePart& part : c.scenes)
-    out += fmt::format("<template data-scene=\"{}\">{}</template>\n", escaped(part.scene->name), scene_html(part, c));
-  return out + "</section>\n";
+std::string page_styles() {
+  std::string all;
+  for (const char* file : {"page/style.css", "page/player/player.css", "page/lab/lab.css", "page/lab/guide.css"})
+    all += asset(file);
+  return all;
 }
 
-/// "order leaves out slide, bounce: contact": notes of one experiment with the same reason as one.
-std::vector<std::string> with_joined_reasons(const std::vector<std::string>& notes) {
-  constexpr std::string_view verb = " leaves out ";
-  std::vector<std::string> joined_notes;
-  std::map<std::pair<std::string, std::string>, size_t> place;  // by experiment and reason
-  for (const std::string& note : notes) {
-    const size_t begins = note.find(verb), ends = note.find(": ");
-    if (begins == std::string::npos || ends == std::string::npos || ends < begins) {
-      joined_notes.push_back(note);
-      continue;
-    }
-    const auto [at, is_new] = place.emplace(std::pair{note.substr(0, begins), note.substr(ends)}, joined_notes.size());
-    const size_t from = begins + verb.size();
-    if (is_new)
-      joined_notes.push_back(note);
-    else  // before the reason
-      joined_notes[at->second].insert(joined_notes[at->second].size() - (note.size() - ends),
-                                      ", " + note.substr(from, ends - from));
-  }
-  return joined_notes;
+std::string page_script(const std::string& bundle) {
+  return content_of_file(programs_folder() / "page" / (bundle + ".js"));
 }
 
-std::string made_html(const PageContent& c) {
-  std::string out =
-      "<p>The error bar of a converged truth is the difference of its two routes, or, where that is more, three times "
-      "what the order at which refining goes down leaves of the last change. "
-      "The second route is written apart from mysim. Data, figures and scripts lie beside this page in "
-      "<code>data/</code> and <code>figures/</code>; <code>report --verify</code> recomputes every sentence from "
-      "them.</p>\n";
-  size_t left_to_full = 0;
-  for (const std::string& note : with_joined_reasons(c.notes))
-    if (!note.starts_with("this is ") && note.find("--full has ") != std::string::npos)
-      ++left_to_full;
-    else
-      out += fmt::format("<p class=\"note\">{}.</p>\n", prose(note));
-  if (left_to_full > 0)
-    out += fmt::format(
-        "<p class=\"note\">Runs that a report with <code>--full</code> has beside these are named in {} notes of "
-        "<code>report.json</code>.</p>\n",
-        left_to_full);
-  // the hash of each scene stands on its card
-  Provenance lines = c.provenance;
-  std::erase_if(lines, [](const auto& line) { return line.first == "scene"; });
-  return out + provenance_html(lines);
-}
-
-}  // namespace
-
-std::string prose_with_bold_numbers(const std::string& text) {
-  // a number that stands by itself, with its unit
-  static const Pattern number(
-      "(^|[ (±])(\\d+(?:\\.\\d+)?(?:<span "
-      "class=\"n\">[^/]*</sup></span>)?(?:\u00a0(?:%|mm|µm|nm|ms|µs|m|s|times))?)(?![\\w</])");
-  return number.replaced_in(prose(text), "$1<b>$2</b>");
-}
-
-std::string page_head(const std::string& title, const std::string& more) {
-  return fmt::format(
-      "<!DOCTYPE html>\n<html lang=\"en\"><head><meta charset=\"utf-8\"><meta name=\"viewport\" "
-      "content=\"width=device-width, "
-      "initial-scale=1\"><meta name=\"color-scheme\" content=\"light dark\"><title>{}</title>\n<style>\n{}</style>"
-      "{}</head>\n<body>\n",
-      escaped(title), asset("page/style.css"), more);
-}
-
-std::string provenance_html(const Provenance& lines) {
-  std::string out = "<table class=\"provenance\">\n";
-  for (const auto& [key, value] : lines)
-    out += fmt::format("<tr><th scope=\"row\">{}</th><td class=\"text\">{}</td></tr>\n", escaped(key), escaped(value));
-  return out + "</table>";
+std::string page_head(const std::string& title) {
+  return filled("head", {{"title", title}, {"styles", page_styles()}});
 }
 
 std::vector<std::string> figures_of(const PageContent& c) {
@@ -208,32 +62,109 @@ std::vector<std::string> figures_of(const PageContent& c) {
 
 namespace {
 
-/// The numbers of charts: of those in sight when the page opens, or is printed at once, as they are; the others packed.
-std::string chart_numbers_html(const PageContent& c) {
-  Json open = Json::object(), packed = c.charts;
-  for (const std::string& figure : figures_in_sight(c)) {
-    open[figure] = packed[figure];
-    packed.erase(figure);
+/// The changes against an earlier report; null where there is none.
+Json changes_data(const PageContent& c) {
+  if (c.against.empty()) return nullptr;
+  int timed = 0;
+  Json rows = Json::array();
+  for (const Change& change : c.changes) {
+    timed += change.timed;
+    if (!change.timed)
+      rows.push_back({{"scene", change.scene.empty() ? "all" : change.scene},
+                      {"before", change.before.empty() ? "–" : change.before},
+                      {"now", change.now.empty() ? "–" : change.now}});
   }
-  return script_json("id=\"open-charts\"", dump(open)) +
-         fmt::format("<script type=\"text/plain\" id=\"charts\">{}</script>\n", base64(gzipped(dump(packed))));
+  return {{"against", c.against}, {"rows", std::move(rows)}, {"timed", timed}};
 }
 
-}  // namespace
+/// Data of scene.html.
+Json scene_data(const ScenePart& part, const PageContent& c) {
+  const Scene& scene = *part.scene;
+  const SceneData& facts = *part.facts;
+  std::vector<Finding> shown = part.findings;
+  std::erase_if(shown, [](const Finding& f) { return finding_rule(f.rule).topic == recommendation_topic; });
+  Json data = findings_data(shown);
+  data.update({{"name", scene.name},
+               {"question", scene.question},
+               {"parameters", scene.parameters},
+               {"step", own_step_text(scene)},
+               {"duration", fmt::format("{:.3g}", scene.duration)},
+               {"window", fmt::format("{:.3g}", scene.window)},
+               {"growth", nice(facts.growth)},
+               {"predictable", facts.measured_window >= scene.duration * (1 - 1e-9)},
+               {"measured_window", fmt::format("{:.3g}", facts.measured_window)},
+               {"hash", scene.hash},
+               {"player", nullptr},
+               {"figures", Json::array()},
+               {"methods", run_table_data(part)},
+               {"statistics", part.statistics ? statistics_data(*part.statistics) : Json()},
+               {"certificates", Json::array()},
+               {"continuum", Json::array()}});
+  if (!part.motions.empty() && !part.runs.empty()) {
+    // the run recommended beside the first other engine's
+    const auto other = std::ranges::find_if(part.runs, [&](const ShownRun& run) {
+      return run.beside && family_of(run.method).name != family_of(part.runs[0].method).name;
+    });
+    data["player"] = {{"a", part.runs[0].key}, {"b", other == part.runs.end() ? "truth" : other->key}};
+    data["runs"] = shown_runs_html(part, !c.lab.empty());
+  }
+  for (const PageFigure& figure : part.figures) data["figures"].push_back(figure_data(figure, c));
+  for (const Certificate* certificate : part.certificates)
+    data["certificates"].push_back(certificate_data(*certificate));
+  if (const auto net = moduli_of(scene.model, scene.start).moduli) {
+    for (const std::string& sentence : sentences_of(*net)) data["continuum"].push_back(sentence);
+    if (const std::string warning = skip_one_warning(*net); !warning.empty()) data["continuum"].push_back(warning);
+  }
+  if (const auto bending = bending_length_of(scene.model, scene.start))
+    data["continuum"].push_back(sentence_of(*bending));
+  return data;
+}
 
-std::string page_html(const PageContent& c) {
-  std::string out = page_head("Crosscheck: mysim" + beside_mysim(c), player_styles() + lab_styles()) +
-                    contents_html(c) + "<main>\n" + first_screen_html(c) + changes_html(c);
-  for (size_t i = 0; i < c.chapters.size(); ++i)
-    if (!c.chapters[i].entries.empty() || c.chapters[i].id == "same-answer")
-      out += chapter_html(c.chapters[i], i + 1, c);
-  out += recommendation_table_html(c.scenes) + scenes_html(c) +
-         "<section class=\"chapter\" id=\"words\"><h2>Words</h2>\n" +
-         fold_html("The words that this page uses", "explained", glossary_html()) +
-         fold_html("All methods", "table", methods_html(c.methods), "methods") +
-         fold_html("How this was made", "provenance", made_html(c), "made") + "</section>\n</main>\n";
-  out += chart_numbers_html(c);
-  out += script_json("id=\"methods-data\"", dump(method_looks_json(c.methods)));
+Json card_data(const ScenePart& part, const PageContent& c, Folds& folds) {
+  Json card{{"name", part.scene->name},
+            {"question", part.scene->question},
+            {"thumbnail", part.thumbnail.empty() ? Json() : image_data({part.thumbnail, part.scene->name, ""})},
+            {"take", nullptr},
+            {"held", folds.hold("scene", scene_data(part, c))}};
+  if (part.take)
+    card["take"] = {{"method", name_in_sentence(part.take->method)},
+                    {"setting", setting_text(std::string(name_of(part.take->setting)), part.take->requested)},
+                    {"error", percent(part.take->error, part.take->motion)}};
+  return card;
+}
+
+Json words_data(const PageContent& c, Folds& folds) {
+  Provenance lines = c.provenance;
+  std::erase_if(lines, [](const auto& line) { return line.first == "scene"; });  // the hash of each is on its card
+  Json made = provenance_data(lines);
+  made["notes"] = c.notes;
+  return Json::array({folds.fold("Glossary", "explained", "glossary", {{"words", glossary_data()}}),
+                      folds.fold("All methods", "table", "methods", methods_data(c.methods), "methods"),
+                      folds.fold("How this was made", "provenance", "made", made, "made")});
+}
+
+std::string packed(const Json& json) { return base64(gzipped(dump(json))); }
+
+/// Data for scripts, which stands at the page's end. The numbers of charts: of those in sight when the page opens, or
+/// is printed at once, as they are; the others packed.
+Json scripts_data(const PageContent& c, const Folds& folds) {
+  Json open = Json::object(), folded = c.charts;
+  for (const std::string& figure : figures_in_sight(c)) open[figure] = folded[figure], folded.erase(figure);
+  constexpr auto readable = "application/json", compressed = "text/plain";
+  Json all = Json::array();
+  const auto add = [&](const char* type, const char* id, const std::string& text) {
+    all.push_back({{"type", type}, {"id", id}, {"text", text}});
+  };
+  add(readable, "open-charts", json_for_script(dump(open)));
+  add(compressed, "held", packed(folds.held()));
+  add(compressed, "charts", packed(folded));
+  add(readable, "methods-data", json_for_script(dump(method_looks_json(c.methods))));
+  return all;
+}
+
+/// Motions and runs, each in an element of its own.
+std::string motions_html(const PageContent& c) {
+  std::string out;
   for (const ScenePart& part : c.scenes)
     if (!part.motions.empty())
       out += script_json(fmt::format("class=\"motion\" data-scene=\"{}\"", escaped(part.scene->name)),
@@ -242,9 +173,34 @@ std::string page_html(const PageContent& c) {
   for (const ScenePart* part : first_scenes(c))
     for (const ShownRun& run : part->runs)
       if (run.beside) shown[part->scene->name].insert(run.key);
-  out += all_runs_html(c.runs, !c.lab.empty(), shown);
-  out += c.lab;
-  return out + script_element("app.js") + "</body></html>\n";
+  return out + all_runs_html(c.runs, !c.lab.empty(), shown) + c.lab;
+}
+
+}  // namespace
+
+std::string page_html(const PageContent& c) {
+  Folds folds;
+  Json cards = Json::array();
+  std::vector<std::string> untried;
+  for (const ScenePart& part : c.scenes) {
+    cards.push_back(card_data(part, c, folds));
+    const bool tried = std::ranges::any_of(part.runs, [](const ShownRun& run) { return !run.key.ends_with(" own"); });
+    if (!part.take && !tried) untried.push_back(part.scene->name);
+  }
+  const bool recommends = std::ranges::any_of(c.scenes, [](const ScenePart& part) { return part.take.has_value(); });
+  Json data{{"title", "Crosscheck: mysim" + beside_mysim(c)},
+            {"styles", page_styles()},
+            {"first", first_screen_data(c)},
+            {"changes", changes_data(c)},
+            {"chapters", chapters_data(c, folds)},
+            {"recommendations", recommends ? recommendations_data(c.scenes) : Json()},
+            {"untried", joined(untried)},
+            {"cards", std::move(cards)},
+            {"words", words_data(c, folds)}};
+  data["data"] = scripts_data(c, folds);
+  data["motions"] = motions_html(c);
+  data["script"] = page_script("app");
+  return filled("page", data);
 }
 
 namespace {

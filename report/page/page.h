@@ -78,13 +78,18 @@ struct Chapter {
     std::string heading;
     bool titled = false;  // chosen by their titles, else by what stands for the star
   };
-  std::string id, title, label;    // label: in the line of contents
-  std::vector<std::string> joins;  // ids that charts name as their chapter
-  std::vector<std::string> leads;  // figures that open it, "*" for any: the first that there is
-  std::string formula, teaching;   // HTML; what a reader learns from it; "{critical}": the main scene's numbers
-  // guided experiments of the lab: their names (report/lab/experiments.js), and what a reader is shown
-  std::vector<std::pair<std::string, std::string>> experiments = {};
-  std::string contact_formula = {}, contact_teaching = {};  // besides, where a scene has a ball
+  /// A guided experiment of the lab: its name (report/lab/experiments.js), and the text of the link to it.
+  struct Experiment {
+    std::string name, title;
+    bool contact = false;  // only where a scene has a ball
+  };
+  std::string id, title = {}, label = {};  // label: in the line of contents
+  std::vector<std::string> joins = {};     // ids that charts name as their chapter
+  std::vector<std::string> leads = {};     // figures that open it, "*" for any: the first that there is
+  std::vector<std::string> folds = {};     // its other figures in the order of their worth, "*" for any
+  std::string formula = {};                // HTML, and Markdown below: templates of their own
+  std::string teaching = {};
+  std::vector<Experiment> experiments = {};
   std::vector<Group> groups = {};
   std::vector<Entry> entries = {};
 };
@@ -117,53 +122,36 @@ bool opens_a_chapter(const PageContent& content, const std::string& figure);
 /// The whole page. Throws std::runtime_error when an image or motions cannot be read.
 std::string page_html(const PageContent& content);
 
-/// The beginning of a page up to its body, styles included, and what else belongs into its head; and the table of its
-/// provenance.
-std::string page_head(const std::string& title, const std::string& more = "");
-std::string provenance_html(const Provenance& lines);
+/// The style sheets of a page; its script: "app" or, for a page that holds the lab alone, "lab_page". Throws
+/// std::runtime_error if it was not built.
+std::string page_styles();
+std::string page_script(const std::string& bundle);
+/// The beginning of a page, up to its contents.
+std::string page_head(const std::string& title);
 
 /// Text made safe for HTML.
 std::string escaped(const std::string& text);
-/// The same for reading: numbers and their units stay on one line.
+/// Safe HTML for reading: numbers and their units stay on one line.
 std::string prose(const std::string& text);
-/// The same with each number and its unit in bold.
+/// prose() with each number and its unit in bold.
 std::string prose_with_bold_numbers(const std::string& text);
-
-/// The chapters of the report, in order, without entries. A new one is a row.
-std::vector<Chapter> chapters();
-
-/// A long table is folded unless it is to be open.
-std::string page_table_html(const PageTable& table);
-
+/// prose() for narrow columns: names of methods may break behind a slash.
+std::string narrow_prose(const std::string& text);
+/// Paragraphs of Markdown with **bold**, *emphasis* and `code`; HTML in it stays as it is.
+std::string markdown_html(const std::string& text);
+/// JSON for a <script> element: the one sign that could end it is written otherwise.
+std::string json_for_script(const std::string& json);
 /// A terminal's text as a page writes it, without hints at command-line options.
 std::string readable(std::string text);
 
-/// <img> with the image inside the page; and a <figure> of it with its caption.
-std::string image_tag(const PageImage& image);
-std::string image_html(const PageImage& image, const std::string& css_class);
+/// The chapters of the report, in order, without entries: report/page/texts/ID.md.
+std::vector<Chapter> chapters();
+/// True if that chapter shows anything; the first one has the certificates.
+bool has_contents(const Chapter& chapter);
 
-/// The run table of one scene, and its parity certificates.
-std::string run_table_html(const ScenePart& part);
-/// Means and spreads over perturbed runs.
-std::string statistics_html(const Table& statistics);
-std::string certificate_html(const Certificate& certificate);
-/// All certificates in one picture: a dot for each quantity of each scene, in a column for each method.
-std::string parity_html(const std::vector<ScenePart>& scenes);
-/// Relations that need no truth: a row of marks for each engine, and the breaks with their causes; empty without rows.
-std::string relations_html(const std::vector<RelationRow>& rows);
-/// A page of that alone, with pictures of what is broken.
+/// A page of relations that need no reference solution alone, with pictures of what is broken.
 std::string relations_page_html(const std::vector<RelationRow>& rows, const std::vector<PageImage>& pictures,
                                 const Provenance& lines);
-/// One recommendation a scene: the method to take for 1 % of the motion, with step, error, cost and what binds the
-/// step.
-std::string recommendation_table_html(const std::vector<ScenePart>& scenes);
-
-/// The way through the page.
-std::string contents_html(const PageContent& content);
-/// The words that the page uses.
-std::string glossary_html();
-/// Built-in methods of these names, a line each.
-std::string methods_html(const std::vector<std::string>& shown);
 
 // report.json: what a report says, as data, and what each sentence rests on.
 

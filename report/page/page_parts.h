@@ -1,26 +1,66 @@
-// Pieces that the page is put together from.
+// The page as data: what the templates in report/page/templates/ are filled with.
 #pragma once
 
+#include <nlohmann/json.hpp>
 #include <string>
 #include <vector>
 
 #include "report/page/page.h"
+#include "report/page/template.h"
 
 namespace crosscheck {
 
-/// A figure's frame, which chart.js fills; below it what it says, and the ways to its files.
-std::string figure_html(const PageFigure& figure, const PageContent& page);
-/// Contents that stand in the page when they are asked for.
-std::string fold_html(const std::string& heading, const std::string& kind, const std::string& contents,
-                      const std::string& id = "");
-std::string findings_html(const std::vector<Finding>& findings);
+/// Contents of folds and cards. The page keeps them packed until one is opened (page.js); readers without scripts do
+/// not see them.
+class Folds {
+ public:
+  /// Fills a template with what is folded away; returns the number under which the page finds it.
+  size_t hold(const std::string& template_name, const Json& data);
+  /// Data of fold.html.
+  Json fold(const std::string& heading, const std::string& kind, const std::string& template_name, const Json& data,
+            const std::string& id = "");
+  const Json& held() const { return held_; }
 
+ private:
+  Json held_ = Json::array();
+};
+
+/// Data of image.html and picture.html: the image inside the page. Throws std::runtime_error where it cannot be read.
+Json image_data(const PageImage& image);
+/// Data of figure.html.
+Json figure_data(const PageFigure& figure, const PageContent& page);
+/// Data of table.html: a small table; empty columns are left out.
+Json table_data(const PageTable& table);
+Json findings_data(const std::vector<Finding>& findings);
+/// Data of provenance.html.
+Json provenance_data(const Provenance& lines);
+
+/// Data of first-screen.html.
+Json first_screen_data(const PageContent& content);
 /// " beside Bullet and mine": the engines that the scenes were run by.
 std::string beside_mysim(const PageContent& content);
-std::string first_screen_html(const PageContent& content);
-/// `number`: its place among the chapters, from 1.
-std::string chapter_html(const Chapter& chapter, size_t number, const PageContent& content);
+
+/// Chapters with something to show, as data of chapter.html.
+Json chapters_data(const PageContent& content, Folds& folds);
 /// Names of the figures of chapters that are seen without a fold being opened.
 std::vector<std::string> figures_in_sight(const PageContent& content);
+
+/// All runs of one scene; means and spreads over perturbed runs; one recommendation for each scene: data of table.html.
+Json run_table_data(const ScenePart& part);
+Json statistics_data(const Table& statistics);
+Json recommendations_data(const std::vector<ScenePart>& scenes);
+/// Built-in methods of these names, a row each.
+Json methods_data(const std::vector<std::string>& shown);
+/// The parity certificate of one method: data of certificate.html.
+Json certificate_data(const Certificate& certificate);
+/// All certificates in one picture, a dot for each quantity of each scene: data of parity.html. Null without one.
+Json parity_data(const std::vector<ScenePart>& scenes);
+/// Relations that need no reference solution: data of relations.html. Null without rows.
+Json relations_data(const std::vector<RelationRow>& rows);
+
+/// The glossary: data of glossary.html.
+Json glossary_data();
+/// A chapter from its text: a head of "- key: value" lines, then Markdown. Throws std::runtime_error ("ID.md: …").
+Chapter chapter_of_text(const std::string& id, const std::string& text);
 
 }  // namespace crosscheck

@@ -9,31 +9,14 @@
 
 #include "experiments/stability/map.h"
 #include "mysim/base/files.h"
-#include "mysim/base/installation.h"
 #include "mysim/base/json.h"
 #include "report/base/assets.h"
 #include "report/page/lab_html.h"
 #include "report/player/computed_runs.h"
 
 namespace crosscheck {
-std::string player_styles() { return "<style>\n" + asset("page/player/player.css") + "</style>\n"; }
-
-std::string script_element(const char* bundle) {
-  return "<script>" + content_of_file(programs_folder() / "page" / bundle) + "</script>\n";
-}
-
 std::string script_json(const std::string& attributes, const std::string& json) {
-  std::string safe;
-  safe.reserve(json.size());
-  for (const char sign : json) sign == '<' ? safe += "\\u003c" : safe += sign;
-  return fmt::format("<script type=\"application/json\" {}>{}</script>\n", attributes, safe);
-}
-
-std::string player_html(const std::string& scene, const std::string& a, const std::string& b) {
-  return fmt::format(
-      "<div class=\"player\">\n<figure class=\"render\"><div class=\"stage\"></div></figure>\n<motion-player "
-      "data-scene=\"{}\" data-a=\"{}\" data-b=\"{}\"></motion-player>\n</div>\n",
-      escaped(scene), escaped(a), escaped(b));
+  return fmt::format("<script type=\"application/json\" {}>{}</script>\n", attributes, json_for_script(json));
 }
 
 namespace {

@@ -13,17 +13,6 @@
 
 namespace crosscheck {
 
-/// Styles of all players of a page, for its head.
-std::string player_styles();
-
-/// The page's scripts, for its end: `bundle` is "app.js" or, for a page that holds the lab alone, "lab_page.js". Throws
-/// std::runtime_error if it was not built.
-std::string script_element(const char* bundle);
-
-/// The player of a scene's motions, which begins with two of its runs; its stage shows the scene's thumbnail where
-/// nothing can be played.
-std::string player_html(const std::string& scene, const std::string& a, const std::string& b);
-
 /// A script element with JSON: the one sign that could end it is written otherwise.
 std::string script_json(const std::string& attributes, const std::string& json);
 

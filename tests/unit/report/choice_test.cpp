@@ -557,7 +557,7 @@ TEST(StepReadBack, IsTheSameToRoundingInEveryChapter) {
     page.findings = answer_findings(request.scenes, {facts}, rows);
     page.scenes = {{&scene, &facts, all}};
     for (const Certificate& c : rows.certificates) page.scenes[0].certificates.push_back(&c);
-    EXPECT_EQ(contains(first_screen_html(page), "certificate, 1 of 1"), rounded);
+    EXPECT_EQ(contains(filled("first-screen", first_screen_data(page)), "certificate, 1 of 1"), rounded);
     speed_accuracy_on(request, scene, rows);
     const auto runs = crosscheck::rows_of<SpeedAccuracyRow>(rows);
     EXPECT_EQ(std::ranges::any_of(runs, [](const SpeedAccuracyRow& r) { return r.method == "exec:./mine"; }), rounded);

@@ -127,8 +127,8 @@ class LabModule : public InBrowser {
   /// The page with the lab alone, and a self-test in the scope of its scripts: a function that returns what it saw.
   fs::path page_with(const std::vector<Scene>& scenes, const std::string& script, const std::string& call) const {
     std::string page = lab_page_html(scenes);
-    const std::string scripts = script_element("lab_page.js");
-    page.replace(page.rfind(scripts), scripts.size(), script_element("inner.js") + "<script>" + script + "\n</script>");
+    const std::string own = page_script("lab_page");
+    page.replace(page.rfind(own), own.size(), page_script("inner") + "</script><script>" + script + "\n");
     const std::string end = "</body>";
     page.insert(page.rfind(end),
                 "<script>(async () => {\n  let seen;\n  try {\n    seen = await " + call +

@@ -11,9 +11,8 @@
 #include "report/figures/chart_json.h"
 #include "report/figures/figure.h"
 #include "report/page/lab_html.h"
-#include "report/page/page.h"
+#include "report/page/page_parts.h"
 #include "report/page/player_html.h"
-#include "report/page/smaller.h"
 #include "report/pictures/scene_picture.h"
 #include "report/player/motions.h"
 #include "tests/unit/experiments/helpers.h"
@@ -147,7 +146,7 @@ class Page : public InBrowser {
   }
   /// The page, and what uses it as a reader would.
   std::filesystem::path page() {
-    std::string html = with_folds_packed(page_html(content_));
+    std::string html = page_html(content_);
     html.insert(html.find("</head>"), scripts({"stage_selftest.js", "page_selftest.js"}));
     return write("page.html", html);
   }
@@ -270,14 +269,17 @@ class PlayerPage : public testing_tools::InBrowser {
   std::filesystem::path page(const Scene& scene, const std::vector<std::string>& methods) {
     const Played played(scene, methods);
     played.draw(720, 280, folder_ / "poster.png");
-    std::string player = player_html(scene.name, methods.back() + " own", methods.front() + " own");
-    const std::string stage = "<div class=\"stage\">";
-    player.insert(player.find(stage) + stage.size(), image_tag({folder_ / "poster.png", "the poster", ""}));
+    const std::string player = fmt::format(
+        "<div class=\"player\">\n<figure class=\"render\"><div class=\"stage\">{}</div></figure>\n<motion-player "
+        "data-scene=\"{}\" data-a=\"{} own\" data-b=\"{} own\"></motion-player>\n</div>\n",
+        filled("image", image_data({folder_ / "poster.png", "the poster", ""})), scene.name, methods.back(),
+        methods.front());
     const std::string motions =
         script_json(fmt::format("class=\"motion\" data-scene=\"{}\"", scene.name), played.motions);
     const std::string test = scripts({"stage_selftest.js", "player_selftest.js"});
-    return write("page.html", page_head(scene.name, test + player_styles()) + player + motions +
-                                  runs_html(played.runs(folder_)) + script_element("app.js") + "</body></html>");
+    std::string html = page_head(scene.name) + player + motions + runs_html(played.runs(folder_)) + "<script>" +
+                       page_script("app") + "</script></body></html>";
+    return write("page.html", html.insert(html.find("</head>"), test));
   }
 };
 
@@ -487,7 +489,7 @@ TEST(PlayerSize, TwoDrapesOf4096ParticlesFitInto2Point2Megabytes) {
   text += stage;
   EXPECT_EQ(data["particles"].number(), 4096);
   EXPECT_EQ(data["times"].size(), 151u);
-  EXPECT_LE(text.size() + player_styles().size() + script_element("app.js").size(), 2'200'000u);
+  EXPECT_LE(text.size() + page_script("app").size(), 2'200'000u);
   RecordProperty("bytes", static_cast<int>(text.size()));
 }
 

@@ -3,6 +3,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include <cmath>
 #include <map>
 #include <set>
 
@@ -11,12 +12,12 @@
 #include "experiments/tables/certificates.h"
 #include "experiments/tables/speed_accuracy.h"
 #include "mysim/base/files.h"
+#include "mysim/base/text.h"
 #include "report/base/provenance.h"
 #include "report/page/assemble.h"
-#include "report/page/page.h"
+#include "report/page/page_parts.h"
 #include "report/page/player_html.h"
 #include "report/page/shown_runs.h"
-#include "report/page/smaller.h"
 #include "tests/unit/helpers.h"
 #include "tests/unit/reference/helpers.h"
 #include "tests/unit/report/made_up_findings.h"
@@ -48,13 +49,47 @@ TEST(Prose, NumbersWithTheirUnitsAreBoldAndNamesAreNot) {
   EXPECT_EQ(prose_with_bold_numbers("cloth-hang-6, a < b"), "cloth-hang-6, a &lt; b");
 }
 
+TEST(Prose, OfNarrowColumnsBreaksBehindSlashesOfTextsAlone) {
+  EXPECT_EQ(narrow_prose("mysim/rk4, 2.0e-3 m"),
+            "mysim/<wbr>rk4, 2.0<span class=\"n\">\u00a0×\u00a010<sup>−3</sup></span>\u00a0m");
+}
+
+TEST(Markdown, HasParagraphsEmphasisAndCode) {
+  EXPECT_EQ(markdown_html("One **two\nthree**.\n\n*Four* `five/*`, <i>six</i>.\n"),
+            "<p>One <b>two\nthree</b>.</p>\n<p><em>Four</em> <code>five/*</code>, <i>six</i>.</p>\n");
+}
+
 TEST(Glossary, ExplainsEachWordOnce) {
-  const std::string html = glossary_html();
-  EXPECT_TRUE(contains(html, "<div id=\"word-truth\">"));
   std::set<std::string> ids;
-  for (size_t at = html.find("id=\"word-"); at != std::string::npos; at = html.find("id=\"word-", at + 1))
-    EXPECT_TRUE(ids.insert(html.substr(at, html.find('"', at + 4) - at)).second);
+  for (const Json& word : glossary_data()) {
+    EXPECT_TRUE(ids.insert(word["id"].get<std::string>()).second) << word.dump();
+    EXPECT_FALSE(word["term"].get<std::string>().empty()) << word.dump();
+    EXPECT_TRUE(word["meaning"].get<std::string>().ends_with(".</p>\n")) << word.dump();
+  }
   EXPECT_GT(ids.size(), 15u);
+  EXPECT_TRUE(ids.contains("truth"));
+}
+
+TEST(ChapterTexts, HaveAHeadOfKnownKeysAndABody) {
+  const Chapter chapter = chapter_of_text(
+      "probe",
+      "- title: T\n- label: L\n- leads: a, *-b\n- group: *-c | Of c | titled\n- contact experiment: n | N\n\nText.\n");
+  EXPECT_EQ(chapter.leads, (std::vector<std::string>{"a", "*-b"}));
+  ASSERT_EQ(chapter.groups.size(), 1u);
+  EXPECT_TRUE(chapter.groups[0].titled);
+  EXPECT_TRUE(chapter.experiments.at(0).contact);
+  EXPECT_EQ(chapter.teaching, "Text.\n");
+  const auto failure = [](const std::string& text) {
+    try {
+      chapter_of_text("probe", text);
+    } catch (const std::runtime_error& error) {
+      return std::string(error.what());
+    }
+    return std::string();
+  };
+  EXPECT_EQ(failure("- title: T\n- lable: L\n\nText."), "probe.md: unknown line '- lable: L'");
+  EXPECT_TRUE(contains(failure("- title: T\n\nText."), "expected title, label"));
+  EXPECT_TRUE(contains(failure("- title: T\n- label: L\n"), "expected title, label"));
 }
 
 /// The part of a text from one word to another.
@@ -76,6 +111,9 @@ std::string at_load(std::string html) {
   }
   return html;
 }
+/// The page with its folds put back.
+std::string whole(const PageContent& content) { return with_folds_put_back(page_html(content)); }
+
 /// Whether every link inside the page leads to an element or to a scene that it opens.
 void expect_links_lead_somewhere(const std::string& html) {
   std::set<std::string> targets;
@@ -88,29 +126,6 @@ void expect_links_lead_somewhere(const std::string& html) {
         << id;
 }
 
-TEST(Smaller, DrawingsKeepTheirNumbersAndTheirWords) {
-  EXPECT_EQ(
-      svg_element("<?xml?>\n<svg\n width='10.00'>\n\n<path d='M1.50,20.00 L3.07,.40'/><text>1.00</text></svg>\n",
-                  "a & b"),
-      "<svg role=\"img\" aria-label=\"a &amp; b\" width='10'> <path d='M1.5,20 L3.07,.4'/><text>1.00</text></svg> ");
-}
-
-TEST(Smaller, FoldsArePackedWithWhatTheyHold) {
-  const std::string inner = "<p>a</p><template>b</template>",
-                    end = "<script type=\"text/plain\" id=\"charts\"></script>";
-  const std::string page =
-      "<i></i><template data-scene=\"s\">" + inner + "</template><b></b><template>c</template>" + end;
-  const std::string packed = with_folds_packed(page);
-  EXPECT_TRUE(contains(packed,
-                       "<i></i><template data-scene=\"s\" data-held=\"0\"></template><b></b><template "
-                       "data-held=\"1\"></template><script"));
-  const std::string held = between(packed, "id=\"held\">", "</script>").substr(10);
-  const std::string list = dump(Json(std::vector<std::string>{inner, "c"}));
-  EXPECT_EQ(gunzipped(bytes_of_base64(held), list.size()), list);
-  EXPECT_TRUE(contains(packed, end));
-  EXPECT_EQ(with_folds_packed("<b></b>" + end), "<b></b>" + end) << "nothing is folded";
-}
-
 TEST(Contents, LeadToEveryPartThatIsThere) {
   const std::vector<Scene> scenes = load_scenes({"spring", "chain"});
   const SceneData none;
@@ -118,7 +133,7 @@ TEST(Contents, LeadToEveryPartThatIsThere) {
   content.chapters = chapters();
   content.chapters[1].entries = {{"speed-accuracy", "heading", "text", {}, {}, {{"one row", {"a"}, {{"b"}}}}}};
   for (const Scene& scene : scenes) content.scenes.push_back({&scene, &none, {}});
-  const std::string html = page_html(content), nav = contents_html(content);
+  const std::string html = whole(content), nav = between(html, "<nav", "</nav>");
   expect_links_lead_somewhere(html);
   for (const char* id : {"scenes", "same-answer", "speed-accuracy", "words"})
     EXPECT_TRUE(contains(nav, fmt::format("href=\"#{}\"", id))) << id;
@@ -172,7 +187,7 @@ class WholePage : public InFolder {
 };
 
 TEST_F(WholePage, OpensWithFiveAnswersThatLeadToTheirChapters) {
-  const std::string html = page_html(content_), first = between(html, "<section class=\"first\"", "</section>");
+  const std::string html = whole(content_), first = between(html, "<section class=\"first\"", "</section>");
   EXPECT_EQ(count(first, "<div class=\"question\">"), 5);
   for (size_t i = 0; i < 5; ++i) {
     EXPECT_TRUE(contains(first, answers_[i]));
@@ -184,7 +199,7 @@ TEST_F(WholePage, OpensWithFiveAnswersThatLeadToTheirChapters) {
 }
 
 TEST_F(WholePage, AChapterHasItsAnswerItsLeadAndItsFolds) {
-  const std::string html = page_html(content_);
+  const std::string html = whole(content_);
   for (size_t i = 0; i < 5; ++i) {
     const Chapter& chapter = content_.chapters[i];
     SCOPED_TRACE(chapter.id);
@@ -194,10 +209,11 @@ TEST_F(WholePage, AChapterHasItsAnswerItsLeadAndItsFolds) {
     if (i > 0) {
       EXPECT_TRUE(contains(seen, fmt::format("data-chart=\"{}\"", chapter.entries[0].figures[0].name)));
     }
-    EXPECT_TRUE(contains(seen, chapter.teaching));
+    EXPECT_TRUE(contains(seen, "<div class=\"teach\">"));
+    EXPECT_GT(words_in(between(seen, "<div class=\"teach\">", "</section>")), 40u);
     // what was found, the other chart, the table
     EXPECT_EQ(count(part, "<details class=\"fold\""), 3);
-    EXPECT_EQ(count(part, "<template>"), 3);
+    EXPECT_EQ(count(part, "<template"), 3);
     EXPECT_EQ(count(part, fmt::format("data-chart=\"more-{}\"", i)), 1);
     EXPECT_FALSE(contains(seen, "More caption.")) << "folded contents are not there until they are asked for";
     EXPECT_FALSE(contains(seen, others_[i]));
@@ -209,10 +225,11 @@ TEST_F(WholePage, AChapterHasItsAnswerItsLeadAndItsFolds) {
 TEST_F(WholePage, OnlyFiguresThatOpenAChapterAreDrawnForPaper) {
   for (const std::string& name : figures_of(content_))
     EXPECT_EQ(opens_a_chapter(content_, name), !name.starts_with("more-")) << name;
-  const std::string html = page_html(content_);
-  EXPECT_EQ(count(html, "<noscript>"), 1) << "where the drawing is there";
-  EXPECT_TRUE(contains(section(html, "stability"),
-                       "<noscript><svg role=\"img\" aria-label=\"t\"><text>drawn</text></svg></noscript>"));
+  const std::string html = whole(content_);
+  EXPECT_EQ(count(at_load(html), "<noscript><img"), 1) << "where the drawing is there";
+  EXPECT_TRUE(contains(section(html, "stability"), "<noscript><img src=\"data:image/svg+xml;base64," +
+                                                       base64(read(folder_ / "stability-limits.svg")) +
+                                                       "\" alt=\"t\">"));
   for (const char* way : {"stability-limits.pdf", "stability-limits.csv", "stability-limits.gp", "more-2.csv"})
     EXPECT_TRUE(contains(html, fmt::format("href=\"figures/{}\"", way)));
   EXPECT_FALSE(contains(html, "more-2.pdf")) << "there is none";
@@ -231,14 +248,14 @@ TEST_F(WholePage, ButtonsChooseWhoseFigureOpensAChapter) {
   Chapter& chapter = content_.chapters[1];
   chapter.entries.push_back({chapter.id, "Of a cloth", "", {{"cloth-hang-speed-accuracy-cost", "t", "Cloth's."}}});
   content_.main_scene = "cloth-hang";
-  const std::string part = section(page_html(content_), chapter.id), seen = at_load(part);
+  const std::string part = section(whole(content_), chapter.id), seen = at_load(part);
   EXPECT_LT(seen.find("data-figure=\"figure-cloth-hang-speed-accuracy-cost\" aria-pressed=\"true\">cloth-hang<"),
             seen.find("data-figure=\"figure-chain-speed-accuracy-cost\" aria-pressed=\"false\">chain<"))
       << "the main scene first";
-  EXPECT_EQ(count(part, "<figure hidden class=\"chart\""), 1);
-  EXPECT_TRUE(contains(part, "<figure hidden class=\"chart\" id=\"figure-chain-speed-accuracy-cost\""));
+  EXPECT_EQ(count(part, " hidden>\n<div class=\"drawn\""), 1);
+  EXPECT_TRUE(contains(part, "id=\"figure-chain-speed-accuracy-cost\" aria-label=\"t\" hidden>"));
   EXPECT_EQ(count(part, "data-chart=\"cloth-hang-speed-accuracy-cost\""), 1) << "nowhere else";
-  EXPECT_EQ(count(section(page_html(content_), "stability"), "class=\"choices\""), 0) << "nothing to choose";
+  EXPECT_EQ(count(section(whole(content_), "stability"), "class=\"choices\""), 0) << "nothing to choose";
 }
 
 TEST_F(WholePage, WhatIsShownIsNotFoldedAway) {
@@ -249,10 +266,89 @@ TEST_F(WholePage, WhatIsShownIsNotFoldedAway) {
   entry.images = {{picture, "8 ms", "8 ms"}, {folder_ / "missing.png", "m", "m"}};
   entry.shown = true;
   chapter.entries.push_back(entry);
-  const std::string seen = at_load(section(page_html(content_), chapter.id));
+  const std::string seen = at_load(section(whole(content_), chapter.id));
   EXPECT_TRUE(contains(seen, "<h3>One step too large</h3>"));
   EXPECT_TRUE(contains(seen, "data-chart=\"stability-failure\""));
   EXPECT_EQ(count(between(seen, "<div class=\"moments\">", "</figure>\n</div>"), "<img"), 1) << "those that there are";
+}
+
+TEST_F(WholePage, AChapterHasSixFoldsAtMostAndTheLastOneHoldsTheRest) {
+  Chapter& chapter = content_.chapters[2];
+  chapter.folds = {"kept-*"};
+  for (const char* name : {"a", "b", "c", "d", "e", "kept-f"})
+    chapter.entries.push_back({chapter.id, fmt::format("Chart {}", name), "", {{name, "t", "c"}}});
+  const std::string html = whole(content_), part = section(html, chapter.id);
+  EXPECT_EQ(count(part, "<details class=\"fold\""), 6);
+  for (const char* name : {"a", "b", "c", "d", "e", "kept-f", "more-2"})
+    EXPECT_EQ(count(part, fmt::format("data-chart=\"{}\"", name)), 1) << name;
+  EXPECT_LT(part.find("Chart kept-f"), part.find("More &lt; that")) << "by worth";
+  const std::string last = part.substr(part.rfind("<details class=\"fold\""));
+  EXPECT_TRUE(contains(last, "More figures and tables"));
+  EXPECT_EQ(count(last, "<button type=\"button\" data-figure="), 4) << "two of the charts and the table had room";
+  EXPECT_EQ(count(last, "<div id=\"one-"), 4);
+  EXPECT_EQ(count(last, "\" hidden>\n"), 3);
+}
+
+/// The start tags of an element in a page.
+std::vector<std::string> tags(const std::string& html, const std::string& name) {
+  std::vector<std::string> all;
+  for (size_t at = html.find("<" + name); at != std::string::npos; at = html.find("<" + name, at + 1))
+    if (html[at + name.size() + 1] == ' ' || html[at + name.size() + 1] == '>')
+      all.push_back(html.substr(at, html.find('>', at) - at));
+  return all;
+}
+
+TEST_F(WholePage, IsNamedForScreenReaders) {
+  const std::string html = whole(content_);
+  EXPECT_TRUE(contains(html, "<a class=\"skip\" href=\"#main\">"));
+  EXPECT_TRUE(contains(html, "<main id=\"main\">"));
+  EXPECT_GT(tags(html, "figure").size(), 5u);
+  for (const std::string& tag : tags(html, "figure")) EXPECT_TRUE(contains(tag, "aria-label=\"")) << tag;
+  for (const std::string& tag : tags(html, "img"))
+    EXPECT_FALSE(contains(tag, "alt=\"\"")) << tag.substr(tag.size() - 80);
+  int level = 0;
+  for (size_t at = html.find("<h"); at != std::string::npos; at = html.find("<h", at + 1)) {
+    if (html[at + 2] < '1' || html[at + 2] > '6') continue;
+    EXPECT_LE(html[at + 2] - '0', level + 1) << html.substr(at, 60);
+    level = html[at + 2] - '0';
+  }
+  EXPECT_GT(level, 0);
+}
+
+/// Luminance of "#rrggbb" by WCAG 2.
+double luminance(const std::string& colour) {
+  double sum = 0;
+  for (int i = 0; i < 3; ++i) {
+    const double c = std::stoi(colour.substr(1 + 2 * static_cast<size_t>(i), 2), nullptr, 16) / 255.;
+    sum += (i == 0   ? 0.2126
+            : i == 1 ? 0.7152
+                     : 0.0722) *
+           (c <= 0.03928 ? c / 12.92 : std::pow((c + 0.055) / 1.055, 2.4));
+  }
+  return sum;
+}
+
+TEST(Styles, TextsHaveAContrastOf4Point5OnEveryGround) {
+  const std::string css = page_styles();
+  size_t at = 0;
+  for (const char* look : {"light", "dark"}) {
+    SCOPED_TRACE(look);
+    ASSERT_NE(at = css.find(":root {", at), std::string::npos);
+    std::map<std::string, double> colours;
+    const std::string block = css.substr(at, css.find('}', at) - at);
+    for (size_t i = block.find("--"); i != std::string::npos; i = block.find("--", i + 1))
+      colours[block.substr(i + 2, block.find(':', i) - i - 2)] = luminance(block.substr(block.find('#', i), 7));
+    int compared = 0;
+    for (const char* ground : {"back", "panel", "stage"})
+      for (const auto& [name, value] : colours) {
+        if (name == "back" || name == "panel" || name == "stage" || name == "card" || name == "line") continue;
+        const auto [low, high] = std::minmax(colours.at(ground), value);
+        EXPECT_GE((high + 0.05) / (low + 0.05), 4.5) << name << " on " << ground;
+        ++compared;
+      }
+    EXPECT_GT(compared, 40);
+    at += block.size();
+  }
 }
 
 TEST_F(WholePage, TextsOfScenesCannotBecomeMarkup) {
@@ -281,7 +377,7 @@ TEST_F(WholePage, TextsOfScenesCannotBecomeMarkup) {
   content_.changes = {{"<zq>", "<zq>", "<zq>"}};
   content_.methods = {"exec:./<zq>"};
   content_.runs = {{"<zq>", "<zq>", "", {write("runs.json", "\"<zq></script>\"")}}};
-  const std::string html = page_html(content_);
+  const std::string html = whole(content_);
   EXPECT_FALSE(contains(html, "<zq")) << between(html, "<zq", ">");
   EXPECT_FALSE(contains(html, "</zq"));
   EXPECT_TRUE(contains(html, "&lt;zq"));
@@ -434,7 +530,6 @@ TEST_F(Assembled, EveryFigureHasAsManyPointsAsItsTable) {
   }
   EXPECT_GT(compared, 10);
   // those that open a chapter are drawn; others have numbers and script alone
-  EXPECT_FALSE(drawn_.empty());
   for (const std::string& name : drawn_) EXPECT_TRUE(opens_a_chapter(report.page, name)) << name;
 }
 

@@ -9,12 +9,12 @@
 #include "experiments/check/relations.h"
 #include "report/figures/plot_layout.h"
 #include "report/findings/findings_text.h"
-#include "report/page/page.h"
+#include "report/page/page_parts.h"
 
 namespace crosscheck {
 namespace {
 
-/// What is told of a relation that was asked on several scenes: the worst, and that it cannot be asked if that is all.
+/// The mark of a relation that was tested on several scenes: the worst one, or "not applicable" if there is no other.
 RelationMark worse_mark(RelationMark a, RelationMark b) {
   for (const RelationMark mark : {RelationMark::broken, RelationMark::known, RelationMark::holds})
     if (a == mark || b == mark) return mark;
@@ -29,7 +29,7 @@ std::string_view css_class(RelationMark mark) {
 
 std::string sentence_of_relation(const std::string& name) {
   const Relation* relation = relation_named(name);
-  return relation ? std::string(relation->sentence) : name;  // of a report by another version
+  return relation ? std::string(relation->sentence) : name;  // in a report by another version
 }
 
 /// "30", "4.2", "480 000".
@@ -75,7 +75,7 @@ PageTable table_of_breaks(const std::vector<RelationRow>& rows) {
     add_name(said[1], row.relation), add_name(said[2], row.scene);
     if (row.ratio.value_or(0) > largest[at]->ratio.value_or(0)) largest[at] = &row, said[3] = size_of_break(row);
   }
-  // what each name of a relation means, once
+  // the meaning of each relation, once
   std::vector<std::string> told;
   for (std::vector<std::string>& said : breaks.rows)
     if (said[1].find(',') == std::string::npos && std::ranges::find(told, said[1]) == told.end()) {
@@ -87,8 +87,8 @@ PageTable table_of_breaks(const std::vector<RelationRow>& rows) {
 
 }  // namespace
 
-std::string relations_html(const std::vector<RelationRow>& rows) {
-  if (rows.empty()) return "";
+Json relations_data(const std::vector<RelationRow>& rows) {
+  if (rows.empty()) return nullptr;
   std::vector<std::string> methods, names;
   std::map<std::pair<std::string, std::string>, RelationMark> marks;  // by method and relation
   const auto note = [](std::vector<std::string>& list, const std::string& name) {
@@ -99,40 +99,33 @@ std::string relations_html(const std::vector<RelationRow>& rows) {
     const auto [at, is_new] = marks.emplace(std::pair{row.method, row.relation}, row.mark);
     if (!is_new) at->second = worse_mark(at->second, row.mark);
   }
-  std::string out = "<div class=\"scroll\"><table class=\"parity relations\"><thead><tr><th>method</th>";
-  for (const std::string& name : names)
-    out += fmt::format("<th title=\"{}\"><span>{}</span></th>", escaped(sentence_of_relation(name)), escaped(name));
-  out += "</tr></thead><tbody>\n";
+  Json header = Json::array(), engines = Json::array();
+  for (const std::string& name : names) header.push_back({{"text", name}, {"title", sentence_of_relation(name)}});
   for (const std::string& method : methods) {
-    out +=
-        fmt::format("<tr><th scope=\"row\" title=\"{}\">{}</th>", escaped(method), escaped(name_in_sentence(method)));
+    Json cells = Json::array();
     for (const std::string& name : names) {
       const auto at = marks.find({method, name});
       const RelationMark mark = at == marks.end() ? RelationMark::not_asked : at->second;
-      const std::string said = fmt::format("{}: {}", sentence_of_relation(name), name_of(mark));
-      out += mark == RelationMark::not_asked
-                 ? fmt::format("<td class=\"none\" title=\"{}\">–</td>", escaped(said))
-                 : fmt::format("<td><i class=\"{0}\" role=\"img\" aria-label=\"{1}\" title=\"{1}\"></i></td>",
-                               css_class(mark), escaped(said));
+      cells.push_back({{"class", mark == RelationMark::not_asked ? "" : css_class(mark)},
+                       {"says", fmt::format("{}: {}", sentence_of_relation(name), name_of(mark))}});
     }
-    out += "</tr>\n";
+    engines.push_back({{"method", method}, {"name", name_in_sentence(method)}, {"cells", std::move(cells)}});
   }
-  out +=
-      "</tbody></table></div><p class=\"note\">Asked on the smallest scenes that can show "
-      "it. Full: it holds, to within rounding or the rule's order; ring: broken for a known cause; red square: broken; "
-      "–: it cannot be asked.</p>\n";
   const PageTable breaks = table_of_breaks(rows);
-  return out + (breaks.rows.empty() ? "" : "<div class=\"breaks\">" + page_table_html(breaks) + "</div>\n");
+  return {{"header", std::move(header)},
+          {"engines", std::move(engines)},
+          {"breaks", breaks.rows.empty() ? Json() : table_data(breaks)}};
 }
 
 std::string relations_page_html(const std::vector<RelationRow>& rows, const std::vector<PageImage>& pictures,
                                 const Provenance& lines) {
-  std::string drawn;
-  for (const PageImage& picture : pictures) drawn += image_html(picture, "render");
-  return page_head("Crosscheck: what must hold without any truth") +
-         "<main>\n<section class=\"chapter\"><h2>What must hold without any truth</h2>\n" + relations_html(rows) +
-         drawn + "</section>\n<section class=\"chapter\"><h3>How this was made</h3>\n" + provenance_html(lines) +
-         "</section>\n</main></body></html>\n";
+  Json images = Json::array();
+  for (const PageImage& picture : pictures) images.push_back(image_data(picture));
+  return filled("relations-page", {{"title", "Crosscheck: invariants of a method"},
+                                   {"styles", page_styles()},
+                                   {"relations", relations_data(rows)},
+                                   {"pictures", std::move(images)},
+                                   {"provenance", provenance_data(lines)}});
 }
 
 }  // namespace crosscheck

@@ -1,0 +1,266 @@
+// Chapters as data: the answer, the figures that open one, the text that teaches why, and the rest in folds.
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "report/findings/findings_text.h"
+#include "report/page/page_parts.h"
+
+namespace crosscheck {
+
+Json figure_data(const PageFigure& figure, const PageContent& page) {
+  Json ways = Json::array();
+  for (const char* form : {"pdf", "csv", "gp"})
+    if (std::filesystem::exists(page.figures / (figure.name + "." + form))) ways.push_back(form);
+  return {{"name", figure.name}, {"title", figure.title}, {"caption", figure.caption},
+          {"runs", figure.runs}, {"hidden", false},       {"ways", std::move(ways)}};
+}
+
+Json findings_data(const std::vector<Finding>& findings) {
+  Json list = Json::array();
+  for (const Finding& f : findings) {
+    const std::string tier = tier_of(f);
+    const bool against = tier != "measured" && tier != "see each scene";
+    list.push_back({{"sentence", sentence_of(f)}, {"tier", (against ? "against: " : "") + tier}});
+  }
+  return {{"findings", std::move(list)}};
+}
+
+namespace {
+
+constexpr size_t most_folds = 6;  // in one chapter
+
+bool matches(const std::string& name, const std::string& pattern) {
+  const size_t star = pattern.find('*');
+  if (star == std::string::npos) return name == pattern;
+  return name.size() + 1 >= pattern.size() && name.starts_with(pattern.substr(0, star)) &&
+         name.ends_with(pattern.substr(star + 1));
+}
+
+/// The part of a matching name in place of the pattern's star.
+std::string starred_part(const std::string& name, const std::string& pattern) {
+  return name.substr(0, name.size() + 1 - std::min(name.size() + 1, pattern.size()));
+}
+
+/// A figure that opens a chapter.
+struct Lead {
+  const Chapter::Entry* entry;
+  size_t figure;       // its place in the entry
+  std::string choice;  // the part of its name in place of the pattern's star
+  const PageFigure& of() const { return entry->figures[figure]; }
+};
+
+/// The figures of the first pattern that any has; that of the main scene before the others.
+std::vector<Lead> leads_of(const Chapter& chapter, const PageContent& c) {
+  for (const std::string& pattern : chapter.leads) {
+    std::vector<Lead> leads;
+    for (const Chapter::Entry& entry : chapter.entries)
+      for (size_t i = 0; i < entry.figures.size(); ++i)
+        if (const std::string& name = entry.figures[i].name; matches(name, pattern))
+          leads.push_back({&entry, i, starred_part(name, pattern)});
+    std::ranges::stable_partition(leads, [&](const Lead& lead) { return lead.choice == c.main_scene; });
+    if (!leads.empty()) return leads;
+  }
+  return {};
+}
+
+/// Data of choices.html: buttons that choose which of several elements is in sight, at first the first one.
+void add_choice(Json& choices, const std::string& id, const std::string& label) {
+  choices.push_back({{"id", id}, {"label", label}, {"pressed", choices.empty() ? "true" : "false"}});
+}
+
+/// Data of entry.html.
+Json entry_data(const Chapter::Entry& entry, const PageContent& c) {
+  Json figures = Json::array(), images = Json::array(), tables = Json::array();
+  for (const PageFigure& figure : entry.figures) figures.push_back(figure_data(figure, c));
+  for (const PageImage& image : entry.images)
+    if (std::filesystem::exists(image.file)) images.push_back(image_data(image));  // why not, is among the problems
+  for (const PageTable& table : entry.tables) tables.push_back(table_data(table));
+  return {{"heading", entry.heading},
+          {"text", entry.text},
+          {"figures", std::move(figures)},
+          {"images", std::move(images)},
+          {"tables", std::move(tables)}};
+}
+
+/// Contents of a fold: one entry, or several, one of them in sight at a time.
+struct Folded {
+  std::string heading;
+  std::vector<Chapter::Entry> entries;
+  std::vector<std::string> labels = {};  // on the buttons
+  size_t worth = 0;                      // the place among the chapter's patterns; 0: first
+
+  std::string kind() const {
+    const Chapter::Entry& entry = entries[0];
+    const std::string noun = !entry.figures.empty()  ? "chart"
+                             : !entry.images.empty() ? "picture"
+                             : !entry.tables.empty() ? "table"
+                                                     : "text";
+    return entries.size() == 1 ? noun : counted(entries.size(), noun);
+  }
+  Json data(const PageContent& c) const {
+    if (entries.size() == 1) return entry_data(entries[0], c);
+    Json all = Json::array(), choices = Json::array();
+    for (size_t i = 0; i < entries.size(); ++i) {
+      const std::string id =
+          "one-" + (entries[i].figures.empty() ? fmt::format("{}-{}", entries[i].part, i) : entries[i].figures[0].name);
+      Json entry = entry_data(entries[i], c);
+      entry["id"] = id, entry["hidden"] = i > 0;
+      all.push_back(std::move(entry));
+      add_choice(choices, id, labels[i]);
+    }
+    return {{"entries", std::move(all)}, {"choices", std::move(choices)}};
+  }
+};
+
+/// The entries that are folded away, in the order of their worth.
+std::vector<Folded> folded(const Chapter& chapter, const std::vector<Lead>& leads) {
+  std::vector<Folded> all;
+  std::vector<std::pair<const Chapter::Group*, size_t>> grouped;  // groups that have a fold, and which
+  for (const Chapter::Entry& given : chapter.entries) {
+    if (given.shown) continue;
+    const std::string name = given.figures.empty() ? given.heading : given.figures[0].name;
+    const auto pattern = std::ranges::find_if(chapter.folds, [&](const std::string& p) { return matches(name, p); });
+    const auto worth = static_cast<size_t>(pattern - chapter.folds.begin());
+    const auto group = std::ranges::find_if(
+        chapter.groups, [&](const Chapter::Group& g) { return !given.figures.empty() && matches(name, g.figures); });
+    const std::string label =
+        group == chapter.groups.end() || group->titled ? given.heading : starred_part(name, group->figures);
+    Chapter::Entry entry = given;
+    if (const auto lead = std::ranges::find(leads, &given, &Lead::entry); lead != leads.end())
+      entry.figures.erase(entry.figures.begin() + static_cast<long>(lead->figure)), entry.text.clear();
+    if (entry.figures.empty() && entry.images.empty() && entry.tables.empty()) continue;
+    const auto known = group == chapter.groups.end()
+                           ? grouped.end()
+                           : std::ranges::find(grouped, &*group, [](const auto& g) { return g.first; });
+    if (known != grouped.end()) {
+      all[known->second].entries.push_back(entry), all[known->second].labels.push_back(label);
+      continue;
+    }
+    if (group != chapter.groups.end()) grouped.emplace_back(&*group, all.size());
+    all.push_back({group == chapter.groups.end() ? entry.heading : group->heading, {entry}, {label}, worth});
+  }
+  std::ranges::stable_sort(all, {}, &Folded::worth);
+  return all;
+}
+
+/// Data of fold.html for each fold of a chapter: the findings, the relations, then its entries; the least of them share
+/// the last fold.
+Json folds_data(const Chapter& chapter, const std::vector<Lead>& leads, const PageContent& c, Folds& folds) {
+  Json all = Json::array();
+  std::vector<Finding> said;
+  for (const Finding& f : c.findings)
+    if (const FindingRule& rule = finding_rule(f.rule);
+        rule.topic != "answer" &&
+        (rule.chapter == chapter.id || std::ranges::find(chapter.joins, rule.chapter) != chapter.joins.end()))
+      said.push_back(f);
+  if (!said.empty())
+    all.push_back(folds.fold("What was found", counted(said.size(), "finding"), "findings", findings_data(said)));
+  if (chapter.id == "same-answer" && !c.relations.empty())
+    all.push_back(folds.fold("Invariants that need no reference solution", "table", "relations",
+                             relations_data(c.relations), "relations"));
+  std::vector<Folded> rest = folded(chapter, leads);
+  if (const size_t room = most_folds - all.size(); rest.size() > room) {
+    Folded more{"More figures and tables", {}};
+    for (size_t i = room - 1; i < rest.size(); ++i)
+      for (size_t k = 0; k < rest[i].entries.size(); ++k) {
+        more.entries.push_back(std::move(rest[i].entries[k]));
+        more.labels.push_back(rest[i].entries.size() == 1 ? rest[i].heading
+                                                          : rest[i].heading + ": " + rest[i].labels[k]);
+      }
+    rest.resize(room - 1);
+    rest.push_back(std::move(more));
+  }
+  for (const Folded& one : rest)
+    all.push_back(folds.fold(one.heading, one.kind(), one.entries.size() == 1 ? "entry" : "group", one.data(c)));
+  return all;
+}
+
+/// The numbers of the main scene in formulas: data of critical.html. Null where its limit is not known. Leapfrog's is
+/// 2 / omega, whatever the drag.
+Json critical_data(const PageContent& c) {
+  for (const ScenePart& part : c.scenes) {
+    const MethodData* m = part.facts->find(subject_method(is_symplectic_of_second_order));
+    if (part.scene->name == c.main_scene && m && m->limit && *m->limit > 0)
+      return {
+          {"scene", c.main_scene}, {"omega", nice(2 / *m->limit)}, {"step", fmt::format("{:.3g}", 1e3 * *m->limit)}};
+  }
+  return nullptr;
+}
+
+Json chapter_data(const Chapter& chapter, size_t number, const PageContent& c, Folds& folds) {
+  const bool contact =
+      std::ranges::any_of(c.scenes, [](const ScenePart& part) { return part.scene->model.find<Spheres>(); });
+  const bool certificates = chapter.id == "same-answer";
+  const Json known{{"contact", contact}, {"critical", critical_data(c)}};
+  const auto text = [&](const std::string& given) { return Template(chapter.id + ".md", given).filled(known); };
+  const auto question = std::ranges::find(questions(), chapter.id, &Question::chapter);
+  const Finding* answer = question == questions().end() ? nullptr : answer_to(*question, c.findings);
+  const std::vector<Lead> leads = leads_of(chapter, c);
+  Json data{{"id", chapter.id},
+            {"number", number},
+            {"count", c.chapters.size()},
+            {"title", text(chapter.title)},
+            {"label", text(chapter.label)},
+            {"answer", answer ? sentence_of(*answer) : ""},
+            // a certificate of a few scenes is a few lines high: the text stands below it
+            {"short", certificates && leads.empty() && c.scenes.size() <= 4},
+            {"parity", certificates ? parity_data(c.scenes) : Json()},
+            {"choices", Json::array()},
+            {"leads", Json::array()},
+            {"drawing", nullptr},
+            {"formula", text(chapter.formula)},
+            {"teaching", markdown_html(text(chapter.teaching))},
+            {"experiments", Json::array()},
+            {"shown", Json::array()}};
+  for (const Lead& lead : leads) {
+    if (leads.size() > 1) add_choice(data["choices"], "figure-" + lead.of().name, lead.choice);
+    Json figure = figure_data(lead.of(), c);
+    figure["hidden"] = &lead != &leads.front();
+    data["leads"].push_back(std::move(figure));
+  }
+  // for readers without JavaScript
+  if (const auto svg = leads.empty() ? "" : c.figures / (leads[0].of().name + ".svg"); std::filesystem::exists(svg))
+    data["drawing"] = image_data({svg, leads[0].of().title, ""});
+  for (const Chapter::Experiment& experiment : chapter.experiments)
+    if (!c.lab.empty() && (contact || !experiment.contact))
+      data["experiments"].push_back({{"name", experiment.name}, {"title", experiment.title}});
+  for (const Chapter::Entry& entry : chapter.entries)
+    if (entry.shown) data["shown"].push_back(entry_data(entry, c));
+  data["folds"] = folds_data(chapter, leads, c, folds);
+  return data;
+}
+
+}  // namespace
+
+bool has_contents(const Chapter& chapter) { return chapter.id == "same-answer" || !chapter.entries.empty(); }
+
+Json chapters_data(const PageContent& c, Folds& folds) {
+  Json all = Json::array();
+  for (size_t i = 0; i < c.chapters.size(); ++i)
+    if (has_contents(c.chapters[i])) all.push_back(chapter_data(c.chapters[i], i + 1, c, folds));
+  return all;
+}
+
+std::vector<std::string> figures_in_sight(const PageContent& c) {
+  std::vector<std::string> shown;
+  const auto show = [&](const std::string& figure) {
+    if (std::ranges::find(shown, figure) == shown.end()) shown.push_back(figure);
+  };
+  for (const Chapter& chapter : c.chapters) {
+    if (const std::vector<Lead> leads = leads_of(chapter, c); !leads.empty()) show(leads[0].of().name);
+    for (const Chapter::Entry& entry : chapter.entries)
+      for (const PageFigure& figure : entry.figures)
+        if (entry.shown) show(figure.name);
+  }
+  return shown;
+}
+
+bool opens_a_chapter(const PageContent& c, const std::string& figure) {
+  return std::ranges::any_of(c.chapters, [&](const Chapter& chapter) {
+    const std::vector<Lead> leads = leads_of(chapter, c);
+    return !leads.empty() && leads[0].of().name == figure;
+  });
+}
+
+}  // namespace crosscheck

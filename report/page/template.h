@@ -1,0 +1,54 @@
+// Fills templates: text files with placeholders, mostly HTML, in report/page/templates/.
+//
+//   {{key}}                          the value as text, safe for HTML
+//   {{prose key}}                    the same for reading: a number and its unit stay on one line
+//   {{bold key}}  {{narrow key}}     the same with numbers in bold; for narrow columns
+//   {{{key}}}                        the value as it is: HTML that another template made
+//   {{#each key}} … {{/each}}        once for each item of a list; {{this}} is the item
+//   {{#if key}} … {{else}} … {{/if}} unless the value is null, false, 0 or empty
+//   {{> name}}  {{> name key}}       another template, with the same data or with that value
+//
+// A key (`scene.name`) is looked up in the innermost item first, then in what surrounds it. The indentation of lines is
+// dropped, and with it lines that hold nothing but a block's tag.
+#pragma once
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "mysim/base/json.h"
+
+namespace crosscheck {
+
+class Template {
+ public:
+  /// Throws std::runtime_error ("NAME, line 3: …") where a block is not closed or a tag is unknown.
+  Template(std::string name, std::string_view text);
+
+  /// Throws std::runtime_error, with template, line and key, for a key that the data do not have or a value of the
+  /// wrong type.
+  std::string filled(const Json& data) const;
+
+ private:
+  struct Part {
+    enum class Kind { text, value, html, prose, bold, narrow, each, condition, other } kind;
+    std::string key;  // or the text, or the name of the other template
+    int line;
+    std::string item = {};  // key of the other template's data
+    std::vector<Part> inside = {}, otherwise = {};
+  };
+  class Reader;
+  using Scopes = std::vector<const Json*>;
+
+  void fill(const std::vector<Part>& parts, const Scopes& scopes, std::string& out) const;
+  const Json& value(const std::string& key, const Part& part, const Scopes& scopes) const;
+  [[noreturn]] void fail(int line, const std::string& what) const;
+
+  std::string name_;
+  std::vector<Part> parts_;
+};
+
+/// report/page/templates/NAME.html, filled.
+std::string filled(const std::string& name, const Json& data);
+
+}  // namespace crosscheck
