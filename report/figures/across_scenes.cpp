@@ -1,4 +1,4 @@
-// Charts over all scenes: the error of every method, and the fastest method at 1 % error.
+// Over all scenes: the error of every method as a table, and a chart of the fastest method at 1 % error.
 
 #include <fmt/format.h>
 
@@ -16,49 +16,34 @@
 namespace crosscheck {
 
 std::vector<Chart> scoreboard_charts(const ChartInput& input) {
-  constexpr double top = 10;
-  Figure f;
-  f.name = "scoreboard";
-  f.title = "Error of each method at the scene's own time step";
-  f.x = {"", false, -0.6, std::nullopt};
-  f.y = {"RMS position error / motion of the scene", true, std::nullopt, top};
-  double x = 0, lowest = 1;
-  std::set<std::string> methods;
-  std::vector<std::string> cut;
+  PageTable table{
+      "Largest error over time, RMS over the particles, in % of the motion; no less than the error bar of the "
+      "reference solution",
+      {"method"},
+      {}};
+  std::vector<const SceneData*> scenes;
+  std::vector<std::string> methods;
   for (const SceneData& scene : input.facts) {
     if (scene.tier.empty() || !(scene.motion > 0)) continue;
-    f.categories.emplace_back(x, scene.scene);
-    // side by side, so that equal errors stay apart
-    const double apart = 0.7 / static_cast<double>(std::max<size_t>(1, scene.methods.size()));
-    double shift = -0.35;
-    for (const MethodData& m : scene.methods) {
-      auto curve = std::find_if(f.curves.begin(), f.curves.end(), [&](const Curve& c) { return c.title == m.method; });
-      if (curve == f.curves.end())
-        curve = f.curves.insert(f.curves.end(), {m.method, style_of(m.method), {}, false, true});
-      if (m.ok() && m.error) {
-        const double y = std::max(*m.error, scene.error_bar) / scene.motion;
-        if (y > top) cut.push_back(fmt::format("{} on {} ({})", m.method, scene.scene, nice(y)));
-        curve->points.emplace_back(x + shift, std::min(y, top));
-        lowest = std::min(lowest, y);
-        methods.insert(m.method);
-      } else if (m.supported() && !m.ok()) {
-        methods.insert(m.method);
-        f.failures.push_back({m.method + ": " + m.failure(), style_of(m.method), x + shift, 3});
-      }
-      shift += apart;
-    }
-    x += 1;
+    scenes.push_back(&scene), table.header.push_back(scene.scene);
+    for (const MethodData& m : scene.methods)
+      if (m.supported() && std::ranges::find(methods, m.method) == methods.end()) methods.push_back(m.method);
   }
-  if (f.categories.empty()) return {};
-  f.x.high = x - 0.4;
-  f.y.low = std::pow(10, std::floor(std::log10(lowest)));
-  f.caption = "All scenes with a known truth; errors below a truth's error bar are drawn at the bar; commit " +
-              input.commit + ".";
-  if (!cut.empty()) f.caption += fmt::format(" Drawn at {} times the motion, though larger: {}.", top, joined(cut));
-  f.tier = "the truth of each scene, exact or converged, as its part says";
-  f.finding = fmt::format("Error of {} on {} in parts of the motion; runs that failed: {}.",
-                          counted(methods.size(), "method"), counted(f.categories.size(), "scene"), f.failures.size());
-  return {{"", std::move(f)}};
+  if (scenes.empty()) return {};
+  for (const std::string& method : methods) {
+    std::vector<std::string>& row = table.rows.emplace_back(std::vector{method});
+    for (const SceneData* scene : scenes) {
+      const MethodData* m = scene->find(method);
+      row.push_back(!m || !m->supported() ? ""
+                    : m->ok() && m->error ? percent(std::max(*m->error, scene->error_bar), scene->motion)
+                    : m->ok()             ? ""
+                                          : m->failure());
+    }
+  }
+  return {{.figure = std::monostate(),
+           .chapter = "speed-accuracy",
+           .heading = "Error of each method at the scene's own time step",
+           .tables = {std::move(table)}}};
 }
 
 // The fastest method at an accuracy: on every scene the cheapest run of each engine within 1 % of the motion, against

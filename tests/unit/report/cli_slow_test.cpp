@@ -165,7 +165,7 @@ TEST_F(Cli, ReportOfOwnSceneIsWholeAndTheSameTwice) {
   for (size_t at; (at = addresses.find(svg)) != std::string::npos;) addresses.erase(at, svg.size());
   EXPECT_EQ(addresses.find("http://"), std::string::npos) << "the page needs no network";
   EXPECT_EQ(page.find("https://"), std::string::npos);
-  for (const char* figure : {"mine-error", "mine-agreement", "mine-energy", "mine-order", "scoreboard"}) {
+  for (const char* figure : {"mine-error", "mine-agreement", "mine-energy", "mine-order"}) {
     for (const char* ending : {".gp", ".csv"})
       EXPECT_TRUE(fs::exists(folder_ / "one/figures" / (std::string(figure) + ending))) << figure << ending;
     EXPECT_NE(page.find(fmt::format("data-chart=\"{}\"", figure)), std::string::npos) << figure;
