@@ -51,6 +51,16 @@ TEST_F(PythonPackage, ReadsTablesAndItsExamplesAreTrue) {
   expect_good({"Documentation", "Tables"});
 }
 
+TEST_F(PythonPackage, NamesNumPyWhereItIsMissing) {
+  if (!fs::exists(python)) GTEST_SKIP() << "package python3 is not installed";
+  const ProgramResult missing =
+      run_program({python, "-c", "import sys\nsys.modules['numpy'] = None\nimport crosscheck"}, folder_,
+                  environment(package_folder));
+  EXPECT_EQ(missing.status, 1);
+  EXPECT_TRUE(contains(missing.err, "\nImportError: crosscheck needs NumPy: install python3-numpy")) << missing.err;
+  EXPECT_FALSE(contains(missing.err, "During handling")) << missing.err;
+}
+
 TEST_F(PythonPackage, RunsScenesAndSaysWhatTheProgramSays) {
   NEEDS_MODULE("numpy", "python3-numpy", "the package crosscheck for Python is not tried");
   expect_good({"Runs", "Plots"});
