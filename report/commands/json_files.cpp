@@ -34,22 +34,25 @@ Json json_of(const Cell& cell) {
   return nullptr;
 }
 
-Json json_of(const Table& table) {
-  Json columns = Json::array(), rows = Json::array();
-  for (const Column& column : table.columns) columns.push_back({{"name", column.name}, {"unit", column.unit}});
+}  // namespace
+
+Json rows_json(const Table& table) {
+  Json rows = Json::array();
   for (const auto& row : table.rows) {
     Json& object = rows.emplace_back(Json::object());
     for (size_t i = 0; i < row.size(); ++i) object[table.columns[i].name] = json_of(row[i]);
   }
-  return {{"columns", std::move(columns)}, {"rows", std::move(rows)}};
+  return rows;
 }
-
-}  // namespace
 
 std::string tables_json(const TableSet& rows, const Provenance& provenance) {
   Json lines = Json::array(), tables = Json::object();
   for (const auto& [key, value] : provenance) lines.push_back({{"key", key}, {"value", value}});
-  for (const Table& table : rows.tables) tables[table.name] = json_of(table);
+  for (const Table& table : rows.tables) {
+    Json columns = Json::array();
+    for (const Column& column : table.columns) columns.push_back({{"name", column.name}, {"unit", column.unit}});
+    tables[table.name] = {{"columns", std::move(columns)}, {"rows", rows_json(table)}};
+  }
   return dump(Json{{"provenance", lines}, {"notes", rows.notes}, {"tables", std::move(tables)}}, 1) + "\n";
 }
 

@@ -217,11 +217,11 @@ std::string describe_divergence(const FailureDetails& e) {
   if (e.first_divergence) {
     const auto before = std::find_if(e.difference.rbegin(), e.difference.rend(),
                                      [&](const auto& at) { return at.first < *e.first_divergence * (1 - 1e-9); });
-    return fmt::format("They part by more than the tolerance between {:.4g} s and {:.4g} s.",
+    return fmt::format("They differ by more than the tolerance between {:.4g} s and {:.4g} s.",
                        before == e.difference.rend() ? 0 : before->first, *e.first_divergence);
   }
-  return e.difference.empty() ? "There is no common time at which places could be compared."
-                              : "Places stay within their tolerance; what moved is in the table.";
+  return e.difference.empty() ? "There is no common time at which positions can be compared."
+                              : "Positions stay within their tolerance; other quantities moved.";
 }
 
 std::vector<PageImage> failure_figures(const FailureDetails& e, const Provenance& lines, const fs::path& out,

@@ -35,8 +35,9 @@ std::vector<Case> failures_to_draw(const std::vector<Case>& all, const std::vect
 
 // Figures and pictures of a failed case.
 
-/// Draws into OUT/figures the details: both curves, the difference over time with its tolerance, and both
-/// shapes side by side. What cannot be drawn is added to `problems`.
+/// Draws into OUT/figures the details: both curves, the difference over time with its tolerance, and both shapes side
+/// by side. What cannot be drawn is added to
+/// `problems`.
 std::vector<PageImage> failure_figures(const FailureDetails& details, const Provenance& lines,
                                        const std::filesystem::path& out, std::vector<std::string>& problems);
 

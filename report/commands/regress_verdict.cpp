@@ -12,6 +12,7 @@
 #include "experiments/regress/comparison.h"
 #include "mysim/base/files.h"
 #include "mysim/base/json.h"
+#include "report/commands/json_files.h"
 #include "report/commands/junit.h"
 #include "report/commands/regress_failure.h"
 #include "report/page/page_parts.h"
@@ -21,20 +22,16 @@ namespace {
 
 bool was_compared(const SpeedComparison& row) { return row.change.repetitions > 0; }
 
+std::vector<Column> plain_columns(const std::vector<std::string>& names) {
+  std::vector<Column> columns;
+  for (const std::string& name : names) columns.push_back({name, "1"});
+  return columns;
+}
+
 Table table_of(const Speeds& speeds) {
   Table table{"speed-cost",
-              {{"scene", "1"},
-               {"method", "1"},
-               {"was", "1"},
-               {"is", "1"},
-               {"change", "1"},
-               {"change low", "1"},
-               {"change high", "1"},
-               {"noise", "1"},
-               {"measurements", "1"},
-               {"state", "1"},
-               {"sentence", "1"},
-               {"note", "1"}},
+              plain_columns({"scene", "method", "was", "is", "change", "change low", "change high", "noise",
+                             "measurements", "state", "sentence", "note"}),
               {}};
   for (const SpeedComparison& row : speeds.rows) {
     const auto where_compared = [&](double value) { return was_compared(row) ? Cell(value) : Cell(); };
@@ -46,64 +43,22 @@ Table table_of(const Speeds& speeds) {
   return table;
 }
 
-void add_speeds(Json& verdict, const Speeds& speeds) {
-  verdict["speed"] = Json::array();
-  for (const SpeedComparison& row : speeds.rows) {
-    Json json{{"scene", row.scene}, {"method", row.method}, {"state", name_of(row.state)}};
-    if (row.was) json["was"] = *row.was;
-    if (row.state != SpeedStatus::gone) json["is"] = row.is;
-    if (was_compared(row))
-      json["change"] = row.change.median, json["change_low"] = row.change.low, json["change_high"] = row.change.high,
-      json["noise"] = row.noise, json["measurements"] = row.seen;
-    if (!row.sentence.empty()) json["sentence"] = row.sentence;
-    if (!row.note.empty()) json["note"] = row.note;
-    verdict["speed"].push_back(json);
-  }
-  verdict["speed_notes"] = speeds.notes;
-  verdict["speed_failures"] = Json::array();
-  for (const FailedPoint& f : speeds.failures) verdict["speed_failures"].push_back({{"what", f.name}, {"why", f.why}});
-}
-
 Cell cell(const std::optional<double>& value, const std::string& word) {
   return value ? Cell(*value) : word.empty() ? Cell() : Cell(word);
 }
 
 Table table_of(const RegressionResult& result) {
   Table table{"regress",
-              {{"scene", "1"},
-               {"method", "1"},
-               {"without", "1"},
-               {"quantity", "1"},
-               {"unit", "1"},
-               {"was", "unit"},
-               {"is", "unit"},
-               {"tolerance", "unit"},
-               {"tolerances off", "1"},
-               {"state", "1"},
-               {"note", "1"}},
+              plain_columns({"scene", "method", "without", "quantity", "unit", "was", "is", "tolerance",
+                             "tolerances off", "state", "note"}),
               {}};
+  for (const char* name : {"was", "is", "tolerance"})
+    std::ranges::find(table.columns, name, &Column::name)->unit = "unit";
   for (const Comparison& row : result.rows)
     table.add({row.scene, row.method, row.without, row.quantity, row.unit, cell(row.was, row.was_word),
                cell(row.is, row.is_word), row.was && row.is ? Cell(row.tolerance) : Cell(),
                row.was && row.is ? Cell(row.off()) : Cell(), std::string(name_of(row.state)), row.note});
   return table;
-}
-
-Json number(double value) {
-  if (std::isfinite(value)) return value;
-  return std::isnan(value) ? "nan" : "inf";
-}
-
-Json json_of(const Comparison& row) {
-  Json json{{"scene", row.scene},       {"method", row.method}, {"without", row.without},
-            {"quantity", row.quantity}, {"unit", row.unit},     {"state", name_of(row.state)}};
-  if (row.was) json["was"] = number(*row.was);
-  if (!row.was_word.empty()) json["was"] = row.was_word;
-  if (row.is) json["is"] = number(*row.is);
-  if (!row.is_word.empty()) json["is"] = row.is_word;
-  if (row.was && row.is) json["tolerance"] = row.tolerance, json["tolerances_off"] = number(row.off());
-  if (!row.note.empty()) json["note"] = row.note;
-  return json;
 }
 
 std::string junit(const RegressionResult& result, const Speeds& speeds) {
@@ -133,21 +88,30 @@ std::string junit(const RegressionResult& result, const Speeds& speeds) {
 
 void write_verdict(const RegressionResult& result, const Speeds& speeds, const Provenance& lines,
                    const std::filesystem::path& folder) {
-  write_csv(table_of(result), lines, folder);
-  Json json{{"passed", result.passed() && speeds.passed()},
-            {"quantities", result.rows.size()},
-            {"failures", Json::array()},
-            {"new_methods", Json::array()},
-            {"without_answer", Json::array()}};
-  for (const Comparison& row : result.rows)
-    if (failed(row.state)) json["failures"].push_back(json_of(row));
+  const Table rows = table_of(result), timed = table_of(speeds);
+  write_csv(rows, lines, folder);
+  if (!speeds.rows.empty()) write_csv(timed, lines, folder);
+  Table wrong{rows.name, rows.columns, {}};
+  for (size_t i = 0; i < rows.rows.size(); ++i)
+    if (failed(result.rows[i].state)) wrong.add(rows.rows[i]);
+  const auto unanswered = [](const std::vector<FailedPoint>& points) {
+    Json list = Json::array();
+    for (const FailedPoint& f : points) list.push_back({{"question", f.name}, {"why", f.why}});
+    return list;
+  };
+  Json added = Json::array();
   for (const NewMethod& m : new_methods(result.rows))
-    json["new_methods"].push_back({{"method", m.method}, {"scenes", m.scenes}, {"quantities", m.quantities}});
-  for (const FailedPoint& f : result.failures) json["without_answer"].push_back({{"question", f.name}, {"why", f.why}});
-  add_speeds(json, speeds);
+    added.push_back({{"method", m.method}, {"scenes", m.scenes}, {"quantities", m.quantities}});
+  const Json json{{"passed", result.passed() && speeds.passed()},
+                  {"quantities", result.rows.size()},
+                  {"failures", rows_json(wrong)},
+                  {"new_methods", std::move(added)},
+                  {"without_answer", unanswered(result.failures)},
+                  {"speed", rows_json(timed)},
+                  {"speed_notes", speeds.notes},
+                  {"speed_failures", unanswered(speeds.failures)}};
   write_file(folder / "regress.json", dump(json, 1) + "\n");
   write_file(folder / "junit.xml", junit(result, speeds));
-  if (!speeds.rows.empty()) write_csv(table_of(speeds), lines, folder);
 }
 
 namespace {
@@ -168,35 +132,22 @@ std::string where(const Comparison& row) {
   return text;
 }
 
-PageTable table_of(const std::string& caption, const std::vector<Comparison>& rows, bool with_question) {
-  PageTable table{caption, {"quantity", "was", "is", "unit", "tolerance", "difference / tolerance", "verdict"}, {}};
-  if (with_question) table.header.insert(table.header.begin(), "case");
-  for (const Comparison& row : rows) {
-    std::vector<std::string> cells{row.quantity,
-                                   shown(row.was, row.was_word),
-                                   row.note.empty() ? shown(row.is, row.is_word) : row.note,
-                                   row.unit == "word" ? "" : row.unit,
-                                   row.was && row.is ? fmt::format("{:.2g}", row.tolerance) : "",
-                                   off_in_words(row),
-                                   std::string(name_of(row.state))};
-    if (with_question) cells.insert(cells.begin(), where(row));
-    table.rows.push_back(std::move(cells));
+/// The 15 largest deviations.
+PageTable worst_table(std::vector<Comparison> rows) {
+  std::ranges::stable_sort(rows, std::greater(), &Comparison::rank);
+  const size_t shown_rows = std::min<size_t>(rows.size(), 15);
+  PageTable table{fmt::format("{} of {} cases, the largest deviations first", shown_rows, rows.size()),
+                  {"case", "quantity", "was", "is", "unit", "tolerance", "difference / tolerance", "verdict"},
+                  {}};
+  for (size_t i = 0; i < shown_rows; ++i) {
+    const Comparison& row = rows[i];
+    const bool numbers = row.was && row.is;
+    table.rows.push_back({where(row), row.quantity, shown(row.was, row.was_word),
+                          row.note.empty() ? shown(row.is, row.is_word) : row.note, row.unit == "word" ? "" : row.unit,
+                          numbers ? fmt::format("{:.2g}", row.tolerance) : "", off_in_words(row),
+                          std::string(name_of(row.state))});
   }
   return table;
-}
-
-/// The cases with the largest deviations first.
-std::vector<Comparison> by_size(std::vector<Comparison> rows, size_t most) {
-  std::stable_sort(rows.begin(), rows.end(),
-                   [](const Comparison& a, const Comparison& b) { return a.rank() > b.rank(); });
-  if (rows.size() > most) rows.erase(rows.begin() + static_cast<long>(most), rows.end());
-  return rows;
-}
-
-/// "12 of 39 cases, those that are off most"
-std::string some_of(size_t shown, size_t all, const std::string& what) {
-  return shown < all ? fmt::format("{} of {} {}: those that are off most", shown, all, what)
-                     : fmt::format("{} {}", all, what);
 }
 
 /// A section's table for the page; null where it has no rows.
@@ -265,11 +216,6 @@ std::vector<FailurePart> failure_parts(const std::vector<Case>& cases, const Reg
     part.scene = q.scene.name, part.heading = q.in_words();
     part.text = describe_divergence(details);
     part.images = failure_figures(details, lines, regression.out, problems);
-    std::vector<Comparison> wrong;
-    std::copy_if(details.rows.begin(), details.rows.end(), std::back_inserter(wrong),
-                 [](const Comparison& row) { return failed(row.state); });
-    const std::vector<Comparison> worst = by_size(wrong, 6);
-    part.table = table_of(some_of(worst.size(), wrong.size(), "quantities that failed"), worst, false);
     parts.push_back(std::move(part));
   }
   return parts;
@@ -285,8 +231,7 @@ std::string verdict_html(const VerdictPage& page) {
             {"unanswered", Json::array()},
             {"added", added > 0 ? fmt::format("{} quantit{}", added, added == 1 ? "y" : "ies") : ""},
             {"problems", page.problems},
-            {"worst", section(table_of(some_of(std::min<size_t>(worst.size(), 15), worst.size(), "cases"),
-                                       by_size(worst, 15), true))},
+            {"worst", section(worst_table(worst))},
             {"added_methods", page.blessed.empty() ? section(new_methods_table(page.result)) : Json()},
             {"speed", nullptr},
             {"drawn", page.parts.size() < worst.size() && !page.parts.empty()
@@ -298,11 +243,8 @@ std::string verdict_html(const VerdictPage& page) {
   if (!page.speeds.rows.empty() || !page.speeds.notes.empty())
     data["speed"] = {{"notes", page.speeds.notes}, {"table", section(speed_table(page.speeds))}};
   for (const FailurePart& part : page.parts) {
-    Json& one = data["parts"].emplace_back(Json{{"heading", part.heading},
-                                                {"text", part.text},
-                                                {"charts", Json::array()},
-                                                {"renders", Json::array()},
-                                                {"table", table_data(part.table)}});
+    Json& one = data["parts"].emplace_back(
+        Json{{"heading", part.heading}, {"text", part.text}, {"charts", Json::array()}, {"renders", Json::array()}});
     for (const PageImage& image : part.images)
       one[image.file.extension() == ".svg" ? "charts" : "renders"].push_back(image_data(image));
   }

@@ -17,11 +17,10 @@ void write_verdict(const RegressionResult& result, const Speeds& speeds, const P
 
 // The page of a regression run: each move with its size, and pictures.
 
-/// A failed case with its figures.
+/// A failed case with its pictures.
 struct FailurePart {
   std::string scene, heading, text;
   std::vector<PageImage> images;
-  PageTable table;
 };
 
 struct VerdictPage {

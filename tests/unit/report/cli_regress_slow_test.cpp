@@ -159,7 +159,7 @@ TEST_F(CliRegress, AFailureHasItsCurvesItsPicturesAndTheTimeAtWhichTheyPart) {
       regress({"--filter", "chain", "--method", "symplectic-euler", "--against", "leapfrog", "--figures", "1"});
   EXPECT_EQ(result.status, 1) << result.out;
   const std::string page = read(folder_ / "out/regress/index.html");
-  EXPECT_NE(page.find("They part by more than the tolerance between 0 s and"), std::string::npos);
+  EXPECT_NE(page.find("They differ by more than the tolerance between 0 s and"), std::string::npos);
   EXPECT_NE(page.find("quantities failed"), std::string::npos);
   EXPECT_NE(page.find("data:image/png"), std::string::npos) << "a picture of both";
   for (const char* figure : {"curve.svg", "difference.svg", "shape.png"})
