@@ -83,69 +83,56 @@ Json entry_data(const Chapter::Entry& entry, const PageContent& c) {
           {"tables", std::move(tables)}};
 }
 
-/// Contents of a fold: one entry, or several, one of them in sight at a time.
+/// An entry that is folded away. Entries of one fold have buttons, one of them in sight at a time.
 struct Folded {
-  std::string heading;
-  std::vector<Chapter::Entry> entries;
-  std::vector<std::string> labels = {};  // on the buttons
-  size_t worth = 0;                      // the place among the chapter's patterns; 0: first
-
-  std::string kind() const {
-    const Chapter::Entry& entry = entries[0];
-    const std::string noun = !entry.figures.empty()  ? "chart"
-                             : !entry.images.empty() ? "picture"
-                             : !entry.tables.empty() ? "table"
-                                                     : "text";
-    return entries.size() == 1 ? noun : counted(entries.size(), noun);
-  }
-  Json data(const PageContent& c) const {
-    if (entries.size() == 1) return entry_data(entries[0], c);
-    Json all = Json::array(), choices = Json::array();
-    for (size_t i = 0; i < entries.size(); ++i) {
-      const std::string id =
-          "one-" + (entries[i].figures.empty() ? fmt::format("{}-{}", entries[i].part, i) : entries[i].figures[0].name);
-      Json entry = entry_data(entries[i], c);
-      entry["id"] = id, entry["hidden"] = i > 0;
-      all.push_back(std::move(entry));
-      add_choice(choices, id, labels[i]);
-    }
-    return {{"entries", std::move(all)}, {"choices", std::move(choices)}};
-  }
+  std::string fold, label;  // the fold's heading, and the text of the entry's button
+  size_t worth;             // its place among the chapter's patterns
+  Chapter::Entry entry;
 };
 
-/// The entries that are folded away, in the order of their worth.
+/// In the order of their worth.
 std::vector<Folded> folded(const Chapter& chapter, const std::vector<Lead>& leads) {
   std::vector<Folded> all;
-  std::vector<std::pair<const Chapter::Group*, size_t>> grouped;  // groups that have a fold, and which
   for (const Chapter::Entry& given : chapter.entries) {
     if (given.shown) continue;
     const std::string name = given.figures.empty() ? given.heading : given.figures[0].name;
     const auto pattern = std::ranges::find_if(chapter.folds, [&](const std::string& p) { return matches(name, p); });
-    const auto worth = static_cast<size_t>(pattern - chapter.folds.begin());
-    const auto group = std::ranges::find_if(
-        chapter.groups, [&](const Chapter::Group& g) { return !given.figures.empty() && matches(name, g.figures); });
-    const std::string label =
-        group == chapter.groups.end() || group->titled ? given.heading : starred_part(name, group->figures);
-    Chapter::Entry entry = given;
+    Folded one{given.heading, given.heading, static_cast<size_t>(pattern - chapter.folds.begin()), given};
+    for (const Chapter::Group& group : chapter.groups)
+      if (!given.figures.empty() && matches(name, group.figures)) {
+        one.fold = group.heading;
+        if (!group.titled) one.label = starred_part(name, group.figures);
+      }
     if (const auto lead = std::ranges::find(leads, &given, &Lead::entry); lead != leads.end())
-      entry.figures.erase(entry.figures.begin() + static_cast<long>(lead->figure)), entry.text.clear();
-    if (entry.figures.empty() && entry.images.empty() && entry.tables.empty()) continue;
-    const auto known = group == chapter.groups.end()
-                           ? grouped.end()
-                           : std::ranges::find(grouped, &*group, [](const auto& g) { return g.first; });
-    if (known != grouped.end()) {
-      all[known->second].entries.push_back(entry), all[known->second].labels.push_back(label);
-      continue;
-    }
-    if (group != chapter.groups.end()) grouped.emplace_back(&*group, all.size());
-    all.push_back({group == chapter.groups.end() ? entry.heading : group->heading, {entry}, {label}, worth});
+      one.entry.figures.erase(one.entry.figures.begin() + static_cast<long>(lead->figure)), one.entry.text.clear();
+    if (!one.entry.figures.empty() || !one.entry.images.empty() || !one.entry.tables.empty()) all.push_back(one);
   }
   std::ranges::stable_sort(all, {}, &Folded::worth);
   return all;
 }
 
-/// Data of fold.html for each fold of a chapter: the findings, the relations, then its entries; the least of them share
-/// the last fold.
+std::string kind_of(const Chapter::Entry& entry) {
+  return !entry.figures.empty() ? "chart" : !entry.images.empty() ? "picture" : "table";
+}
+
+/// Data of fold.html.
+Json fold_data(const std::string& heading, const std::vector<Folded>& all, const PageContent& c, Folds& folds) {
+  Json entries = Json::array(), choices = Json::array();
+  for (const Folded& one : all) {
+    if (one.fold != heading) continue;
+    Json entry = entry_data(one.entry, c);
+    entry["id"] = fmt::format("one-{}-{}", one.entry.part, &one - all.data());
+    entry["hidden"] = !entries.empty();
+    add_choice(choices, entry["id"], one.label);
+    entries.push_back(std::move(entry));
+  }
+  const std::string kind = kind_of(std::ranges::find(all, heading, &Folded::fold)->entry);
+  if (entries.size() == 1) return folds.fold(heading, kind, "entry", entries[0]);
+  return folds.fold(heading, counted(entries.size(), kind), "group",
+                    {{"entries", std::move(entries)}, {"choices", std::move(choices)}});
+}
+
+/// The folds of a chapter: the findings, the relations, then its entries; the least of them share the last fold.
 Json folds_data(const Chapter& chapter, const std::vector<Lead>& leads, const PageContent& c, Folds& folds) {
   Json all = Json::array();
   std::vector<Finding> said;
@@ -160,19 +147,20 @@ Json folds_data(const Chapter& chapter, const std::vector<Lead>& leads, const Pa
     all.push_back(folds.fold("Invariants that need no reference solution", "table", "relations",
                              relations_data(c.relations), "relations"));
   std::vector<Folded> rest = folded(chapter, leads);
-  if (const size_t room = most_folds - all.size(); rest.size() > room) {
-    Folded more{"More figures and tables", {}};
-    for (size_t i = room - 1; i < rest.size(); ++i)
-      for (size_t k = 0; k < rest[i].entries.size(); ++k) {
-        more.entries.push_back(std::move(rest[i].entries[k]));
-        more.labels.push_back(rest[i].entries.size() == 1 ? rest[i].heading
-                                                          : rest[i].heading + ": " + rest[i].labels[k]);
-      }
-    rest.resize(room - 1);
-    rest.push_back(std::move(more));
-  }
+  std::vector<std::string> headings;
   for (const Folded& one : rest)
-    all.push_back(folds.fold(one.heading, one.kind(), one.entries.size() == 1 ? "entry" : "group", one.data(c)));
+    if (std::ranges::find(headings, one.fold) == headings.end()) headings.push_back(one.fold);
+  if (const size_t room = most_folds - all.size(); headings.size() > room) {
+    const std::string more = "More figures and tables";
+    for (Folded& one : rest) {
+      if (std::ranges::find(headings, one.fold) - headings.begin() < static_cast<long>(room) - 1) continue;
+      if (one.fold != one.label) one.label = one.fold + ": " + one.label;
+      one.fold = more;
+    }
+    headings.resize(room - 1);
+    headings.push_back(more);
+  }
+  for (const std::string& heading : headings) all.push_back(fold_data(heading, rest, c, folds));
   return all;
 }
 

@@ -10,62 +10,16 @@
 #include "report/pictures/png_file.h"
 
 namespace crosscheck {
-namespace {
-
-constexpr std::string_view no_break_space = "\u00a0";
-
-bool is_digit(char c) { return c >= '0' && c <= '9'; }
-bool is_letter(char c) {
-  return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || static_cast<unsigned char>(c) > 127;
-}
-
-/// Whether a unit, three digits of a longer number or "±" stand at the beginning.
-bool holds_on(std::string_view rest) {
-  static constexpr std::string_view units[] = {"%",  "mm/s", "m/s", "mm", "µm", "ms", "µs", "m", "s",     "J",
-                                               "Hz", "kg",   "N/m", "N",  "MB", "ω",  "±",  "x", "times", "degrees"};
-  for (const std::string_view unit : units)
-    if (rest.starts_with(unit) && (rest.size() == unit.size() || !is_letter(rest[unit.size()]))) return true;
-  return rest.size() >= 3 && is_digit(rest[0]) && is_digit(rest[1]) && is_digit(rest[2]) &&
-         (rest.size() == 3 || !(is_digit(rest[3]) || rest[3] == '.'));
-}
-
-/// The text in front stays attached, too: "8 x 8", "0.32 ± 0.01".
-bool holds_what_follows(std::string_view before) {
-  return before.ends_with(" x") || before.ends_with("(of") || before.ends_with("±") || before.ends_with("<");
-}
-
-/// "e-4" in one piece, where a browser would break behind the hyphen. Of escaped text.
-std::string with_whole_exponents(const std::string& text) {
-  std::string out;
-  for (size_t i = 0; i < text.size();) {
-    size_t end = i + 2;
-    if (i > 0 && is_digit(text[i - 1]) && text.compare(i, 2, "e-") == 0)
-      while (end < text.size() && is_digit(text[end])) ++end;
-    if (end == i + 2) {
-      out += text[i++];
-      continue;
-    }
-    out += "<span class=\"n\">\u00a0×\u00a010<sup>−" + text.substr(i + 2, end - i - 2) + "</sup></span>";
-    i = end;
-  }
-  return out;
-}
-
-}  // namespace
-
 std::string prose(const std::string& text) {
-  std::string out;
-  for (size_t i = 0; i < text.size(); ++i) {
-    const std::string_view before = std::string_view(text).substr(0, i), rest = std::string_view(text).substr(i + 1);
-    const bool holds = text[i] == ' ' && i > 0 &&
-                       ((is_digit(text[i - 1]) && holds_on(rest)) ||
-                        (holds_what_follows(before) && !rest.empty() && is_digit(rest[0])));
-    if (holds)
-      out += no_break_space;
-    else
-      out += text[i];
-  }
-  return with_whole_exponents(escaped(out));
+  // "8 x 8", "0.32 ± 0.01", "< 3"; then units and thousands; then "1.0e-12"
+  static const Pattern following("( x|\\(of|±|<) (?=\\d)"),
+      unit(
+          "(\\d) (?=(?:%|mm/s|m/s|mm|µm|ms|µs|m|s|J|Hz|kg|N/m|N|MB|ω|±|x|times|degrees)(?![A-Za-z])|\\d{3}(?![\\d.]))"),
+      negative("(\\d)e-0*(\\d+)"), positive("(\\d)e\\+0*(\\d+)");
+  const std::string whole = unit.replaced_in(following.replaced_in(text, "$1\u00a0"), "$1\u00a0");
+  return positive.replaced_in(
+      negative.replaced_in(escaped(whole), "$1<span class=\"n\">\u00a0×\u00a010<sup>−$2</sup></span>"),
+      "$1<span class=\"n\">\u00a0×\u00a010<sup>$2</sup></span>");
 }
 
 std::string escaped(const std::string& text) {

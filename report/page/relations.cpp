@@ -32,56 +32,35 @@ std::string sentence_of_relation(const std::string& name) {
   return relation ? std::string(relation->sentence) : name;  // in a report by another version
 }
 
-/// "30", "4.2", "480 000".
-std::string grouped_times(double factor) {
-  const std::string plain = times_text(factor);
-  return factor >= 1e4 && factor < 1e12 ? count_text(std::stol(plain)) : plain;
-}
-
-/// "140 times what is allowed, 2e-5 J, since 0.4 s"; where the run failed, when it did.
+/// "3e-3 J, 140 times the tolerance, since 0.4 s"; for a run that failed, its time.
 std::string size_of_break(const RelationRow& row) {
-  const std::string unit = row.unit == "1" ? "" : " " + row.unit;
   std::string text;
-  if (row.ratio)
-    text =
-        fmt::format("{} times what is allowed, {}{}", grouped_times(*row.ratio), nice(row.tolerance.value_or(0)), unit);
-  else if (row.measured)
-    text = fmt::format("{}{}, where nothing is allowed", nice(*row.measured), unit);
+  if (row.measured) text = nice(*row.measured) + (row.unit == "1" ? "" : " " + row.unit);
+  if (row.measured)
+    text += row.ratio ? fmt::format(", {} times the tolerance", times_text(*row.ratio)) : ", tolerance 0";
   if (row.since) text += fmt::format("{}{:.2g} s", text.empty() ? "fails at " : ", since ", *row.since);
   return readable(text);
 }
 
-/// A row for each method and cause of its breaks, with the largest of them.
+/// The breaks, the largest of each method and cause.
 PageTable table_of_breaks(const std::vector<RelationRow>& rows) {
-  PageTable breaks{
-      "What is broken, by how much at most, and why", {"method", "what must hold", "scene", "by how much", "why"}, {}};
   std::vector<const RelationRow*> largest;
   for (const RelationRow& row : rows) {
     if (row.mark != RelationMark::broken && row.mark != RelationMark::known) continue;
-    size_t at = 0;
-    while (at < largest.size() && (row.reason.empty() || largest[at]->method != row.method ||
-                                   largest[at]->reason != row.reason || largest[at]->mark != row.mark))
-      ++at;
-    if (at == largest.size()) {
+    const auto same = std::ranges::find_if(largest, [&](const RelationRow* other) {
+      return !row.reason.empty() && other->method == row.method && other->reason == row.reason;
+    });
+    if (same == largest.end())
       largest.push_back(&row);
-      breaks.rows.push_back({row.method, row.relation, row.scene, size_of_break(row),
-                             row.reason.empty() ? "not known" : readable(row.reason)});
-      continue;
-    }
-    std::vector<std::string>& said = breaks.rows[at];
-    const auto add_name = [](std::string& names, const std::string& name) {
-      if ((", " + names + ", ").find(", " + name + ", ") == std::string::npos) names += ", " + name;
-    };
-    add_name(said[1], row.relation), add_name(said[2], row.scene);
-    if (row.ratio.value_or(0) > largest[at]->ratio.value_or(0)) largest[at] = &row, said[3] = size_of_break(row);
+    else if (row.ratio.value_or(0) > (*same)->ratio.value_or(0))
+      *same = &row;
   }
-  // the meaning of each relation, once
-  std::vector<std::string> told;
-  for (std::vector<std::string>& said : breaks.rows)
-    if (said[1].find(',') == std::string::npos && std::ranges::find(told, said[1]) == told.end()) {
-      told.push_back(said[1]);
-      said[1] = fmt::format("{}: {}", said[1], sentence_of_relation(said[1]));
-    }
+  PageTable breaks{"The largest break of each cause (relations.csv has all)",
+                   {"method", "invariant", "scene", "by how much", "why"},
+                   {}};
+  for (const RelationRow* row : largest)
+    breaks.rows.push_back({row->method, fmt::format("{}: {}", row->relation, sentence_of_relation(row->relation)),
+                           row->scene, size_of_break(*row), row->reason.empty() ? "not known" : readable(row->reason)});
   return breaks;
 }
 

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 
 #include "report/findings/findings_text.h"
 #include "report/page/page_parts.h"
@@ -111,38 +112,21 @@ Json run_table_data(const ScenePart& part) {
 
 Json statistics_data(const Table& given) {
   std::vector<std::string> quantities, methods;
-  for (size_t i = 0; i < given.rows.size(); ++i)
-    if (number_at(given, i, "deviation"))
-      note(quantities, text_at(given, i, "quantity")), note(methods, text_at(given, i, "method"));
+  std::map<std::pair<std::string, std::string>, std::string> texts;  // by quantity and method
+  for (size_t i = 0; i < given.rows.size(); ++i) {
+    const auto spread = number_at(given, i, "deviation");
+    if (!spread) continue;  // a single run
+    const std::string quantity = text_at(given, i, "quantity"), method = text_at(given, i, "method"),
+                      unit = text_at(given, i, "unit");
+    note(quantities, quantity), note(methods, method);
+    texts[{quantity, method}] = fmt::format("{} {} ± {}", with_digits_of(*number_at(given, i, "mean"), *spread), unit,
+                                            unit == "m" ? nice_length(*spread) : nice(*spread) + " " + unit);
+  }
   Json all = table("", cells({"mean ± standard deviation of 16 perturbed runs"}));
   for (const std::string& m : methods) all["header"].push_back(cell(m));
-  all["header"].push_back(cell("furthest method", "text"));
   for (const std::string& quantity : quantities) {
     Json row = Json::array();
-    std::optional<double> of_first;
-    // a method's rows come in one order, so that its cells stand below its name
-    for (const std::string& m : methods)
-      for (size_t i = 0; i < given.rows.size(); ++i) {
-        if (text_at(given, i, "quantity") != quantity || text_at(given, i, "method") != m) continue;
-        const double mean = *number_at(given, i, "mean"), spread = *number_at(given, i, "deviation");
-        const std::string unit = text_at(given, i, "unit");
-        row.push_back(cell(fmt::format("{} {} ± {}", with_digits_of(mean, spread), unit,
-                                       unit == "m" ? nice_length(spread) : nice(spread) + " " + unit)));
-        if (!of_first) of_first = mean;
-      }
-    // among single runs, the one that is furthest from the first method's mean
-    double furthest = 0;
-    std::string where;
-    for (size_t i = 0; i < given.rows.size() && of_first; ++i) {
-      if (text_at(given, i, "quantity") != quantity || text_at(given, i, "method") == sticky_sphere) continue;
-      const double off = *number_at(given, i, "mean") - *of_first;
-      if (!(std::abs(off) > std::max(furthest, 1e-12))) continue;
-      furthest = std::abs(off);
-      const std::string unit = text_at(given, i, "unit");
-      where = fmt::format("{}{}, {}", off > 0 ? "+" : "", unit == "m" ? nice_length(off) : nice(off) + " " + unit,
-                          name_in_sentence(text_at(given, i, "method")));
-    }
-    row.push_back(cell(where, "text"));
+    for (const std::string& m : methods) row.push_back(cell(texts[{quantity, m}]));
     add_row(all, "", cell(quantity), std::move(row));
   }
   return all;

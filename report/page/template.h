@@ -31,8 +31,8 @@ class Template {
 
  private:
   struct Part {
-    enum class Kind { text, value, html, prose, bold, narrow, each, condition, other } kind;
-    std::string key;  // or the text, or the name of the other template
+    std::string kind;  // "text", "{" for {{{key}}}, or the tag's first word: "", "prose", "#each", ">"
+    std::string key;   // or the text, or the name of the other template
     int line;
     std::string item = {};  // key of the other template's data
     std::vector<Part> inside = {}, otherwise = {};
@@ -41,7 +41,7 @@ class Template {
   using Scopes = std::vector<const Json*>;
 
   void fill(const std::vector<Part>& parts, const Scopes& scopes, std::string& out) const;
-  const Json& value(const std::string& key, const Part& part, const Scopes& scopes) const;
+  const Json& value(const std::string& key, int line, const Scopes& scopes) const;
   [[noreturn]] void fail(int line, const std::string& what) const;
 
   std::string name_;

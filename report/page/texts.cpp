@@ -3,8 +3,10 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include <map>
 #include <stdexcept>
 
+#include "mysim/base/pattern.h"
 #include "mysim/base/text.h"
 #include "report/base/assets.h"
 #include "report/page/page_parts.h"
@@ -14,14 +16,10 @@ namespace {
 
 constexpr const char* chapter_ids[] = {"same-answer", "speed-accuracy", "stability", "energy", "adequacy"};
 
-std::string trimmed(std::string_view text) {
-  const size_t begin = text.find_first_not_of(' ');
-  return begin == std::string_view::npos ? "" : std::string(text.substr(begin, text.find_last_not_of(' ') + 1 - begin));
-}
-
 std::vector<std::string> trimmed_parts(std::string_view text, char separator) {
+  static const Pattern blanks("^ +| +$");
   std::vector<std::string> parts;
-  for (const std::string& part : split(text, separator)) parts.push_back(trimmed(part));
+  for (const std::string& part : split(text, separator)) parts.push_back(blanks.replaced_in(part, ""));
   return parts;
 }
 
@@ -29,33 +27,29 @@ std::vector<std::string> trimmed_parts(std::string_view text, char separator) {
 
 Chapter chapter_of_text(const std::string& id, const std::string& text) {
   Chapter chapter{.id = id};
-  const size_t end = text.find("\n\n");
+  const std::map<std::string, std::string*> texts{
+      {"title", &chapter.title}, {"label", &chapter.label}, {"formula", &chapter.formula}};
+  const std::map<std::string, std::vector<std::string>*> lists{
+      {"joins", &chapter.joins}, {"leads", &chapter.leads}, {"folds", &chapter.folds}};
+  static const Pattern head("- ([a-z ]+): *(.*)");
+  const size_t end = std::min(text.find("\n\n"), text.size());
   for (const std::string& line : split(std::string_view(text).substr(0, end), '\n')) {
     if (line.empty()) continue;
-    const size_t colon = std::min(line.find(": "), line.size());
-    const std::string key = line.substr(std::min<size_t>(2, colon), colon - std::min<size_t>(2, colon)),
-                      value = trimmed(line.substr(std::min(colon + 1, line.size())));
-    const std::vector<std::string> parts = trimmed_parts(value, '|');
-    if (key == "title")
-      chapter.title = value;
-    else if (key == "label")
-      chapter.label = value;
-    else if (key == "formula")
-      chapter.formula = value;
-    else if (key == "joins")
-      chapter.joins = trimmed_parts(value, ',');
-    else if (key == "leads")
-      chapter.leads = trimmed_parts(value, ',');
-    else if (key == "folds")
-      chapter.folds = trimmed_parts(value, ',');
-    else if (key.ends_with("experiment") && parts.size() == 2)
-      chapter.experiments.push_back({parts[0], parts[1], key.starts_with("contact ")});
-    else if (key == "group" && parts.size() >= 2)
-      chapter.groups.push_back({parts[0], parts[1], parts.size() > 2});
+    const auto parts = head.match(line);
+    const std::string key = parts ? (*parts)[1] : "", value = parts ? (*parts)[2] : "";
+    const std::vector<std::string> bars = trimmed_parts(value, '|');
+    if (texts.contains(key))
+      *texts.at(key) = value;
+    else if (lists.contains(key))
+      *lists.at(key) = trimmed_parts(value, ',');
+    else if (key.ends_with("experiment") && bars.size() == 2)
+      chapter.experiments.push_back({bars[0], bars[1], key.starts_with("contact ")});
+    else if (key == "group" && bars.size() >= 2)
+      chapter.groups.push_back({bars[0], bars[1], bars.size() > 2});
     else
       throw std::runtime_error(fmt::format("{}.md: unknown line '{}'", id, line));
   }
-  if (chapter.title.empty() || chapter.label.empty() || end == std::string::npos)
+  if (chapter.title.empty() || chapter.label.empty() || end == text.size())
     throw std::runtime_error(id + ".md: expected title, label and a text behind an empty line");
   chapter.teaching = text.substr(end + 2);
   return chapter;

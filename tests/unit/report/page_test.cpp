@@ -37,6 +37,9 @@ TEST(Prose, NumbersHoldOnToWhatBelongsToThem) {
   EXPECT_EQ(prose("2 of 13"), "2 of 13");
   EXPECT_EQ(prose("a < b & 1.0e-12 m"),
             "a &lt; b &amp; 1.0<span class=\"n\">\u00a0×\u00a010<sup>−12</sup></span>\u00a0m");
+  EXPECT_EQ(prose("5.6e+10, 9e-06"),
+            "5.6<span class=\"n\">\u00a0×\u00a010<sup>10</sup></span>, 9<span "
+            "class=\"n\">\u00a0×\u00a010<sup>−6</sup></span>");
   EXPECT_EQ(prose(""), "");
   EXPECT_EQ(prose("5 "), "5 ");
 }

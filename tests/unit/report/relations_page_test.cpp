@@ -42,7 +42,7 @@ TEST(RelationsOnThePage, SayByHowMuchAndWhy) {
   const std::string html = relations_html(rows_of_two_engines());
   const std::string breaks = html.substr(html.find("</table>"));
   EXPECT_TRUE(contains(breaks, "one pass goes through the springs in turn"));
-  EXPECT_TRUE(contains(breaks, "30\u00a0times what is allowed")) << breaks;
+  EXPECT_TRUE(contains(breaks, "30\u00a0times the tolerance")) << breaks;
   EXPECT_TRUE(contains(breaks, "since 0.25\u00a0s"));
   EXPECT_TRUE(contains(breaks, "not known"));
   RelationRow gone = row("exec:./mine", "turned", RelationMark::broken);
