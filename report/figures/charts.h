@@ -59,7 +59,7 @@ struct Chart {
   std::string scene;  // the scene whose part shows it; empty: the first screen, or a chapter
   std::variant<Figure, StackedBars, DotPlot, HeatMap, StepLimits, std::monostate>
       figure;                // a new kind of figure is a struct and its drawing_of()
-  std::string chapter = {};  // of the report, by its id (report/page/contents.cpp); empty: none
+  std::string chapter = {};  // id of the chapter (report/page/texts/); empty: none
   std::string text = {};     // in a chapter: the text before it
   std::string heading = {};  // in a chapter; empty: the figure's title
   std::vector<PageTable> tables = {};
