@@ -46,6 +46,42 @@ std::vector<Chart> scoreboard_charts(const ChartInput& input) {
            .tables = {std::move(table)}}};
 }
 
+std::vector<Chart> same_rule_charts(const ChartInput& input) {
+  DotPlot f;
+  f.name = "same-rule-differences";
+  f.title = "mysim and other engines under the same rule";
+  f.label = "largest RMS position difference / m";
+  std::vector<const MethodData*> shown;
+  for (const MethodFamily* peer : default_peers()) {
+    const std::string method(peer->representative);
+    DotPlot::Series difference{method, style_of(method), {}}, bound{"round-off bound", style_of("truth/converged"), {}};
+    for (const SceneData& scene : input.facts) {
+      const MethodData* m = scene.find(method);
+      if (!m || !m->ok() || !m->same_rule.value_or(false) || !m->difference || !(*m->difference > 0)) continue;
+      const std::string name = scene.touched() ? scene.scene + " (contact)" : scene.scene;
+      if (std::ranges::find(f.names, name) == f.names.end()) f.names.push_back(name);
+      const auto dot = [](double value) { return DotPlot::Dot{value, value, value}; };
+      difference.dots.resize(f.names.size()), bound.dots.resize(f.names.size());
+      difference.dots.back() = dot(*m->difference);
+      if (m->round_off && !scene.touched()) bound.dots.back() = dot(*m->round_off);
+      shown.push_back(m);
+    }
+    f.series.push_back(std::move(difference)), f.series.push_back(std::move(bound));
+  }
+  if (shown.empty()) return {};
+  for (DotPlot::Series& series : f.series) series.dots.resize(f.names.size());
+  const auto agreeing =
+      std::ranges::count_if(shown, [](const MethodData* m) { return m->round_off && *m->difference <= *m->round_off; });
+  f.finding = fmt::format("Differences below the round-off bound: {} of {} scenes.", agreeing, shown.size());
+  f.caption = fmt::format(
+      "Largest difference over time, up to the end of each scene's predictable window. Filled: the difference; grey: "
+      "the most that round-off can make, from the growth of perturbations. With contact the engines apply different "
+      "contact rules, so that no bound is drawn; commit {}.",
+      input.commit);
+  f.tier = "another engine, so that these are differences and no errors";
+  return {{.figure = std::move(f), .chapter = "same-answer", .heading = "", .shown = true}};
+}
+
 // The fastest method at an accuracy: on every scene the cheapest run of each engine within 1 % of the motion, against
 // mysim's.
 
