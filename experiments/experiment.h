@@ -49,20 +49,11 @@ std::string content_of(const Scene& scene);
 
 // Experiments: drivers that run methods over scenes and write tables. The table of them is in experiment.cpp.
 
-/// What made the run of a map's cell.
-struct MapCell {
-  double value;  // stiffness over the scene's own, or drag rate, 1/s
-  double step;   // s
-  long steps;    // of the run, unless it ends earlier
-  State start;   // the base state, perturbed
-  Points rest;   // N (3 x n), m, of the base state
-};
-
 /// A run, recorded for playback.
 struct RecordedRun {
   Outcome outcome;
   Trajectory path;  // its samples; of one that failed, and of a map's cell, its last pictures; no frames: refused
-  std::optional<MapCell> cell = {};
+  std::optional<Points> rest = {};  // m, of a map's cell: its base state
 };
 /// Runs of one method, in the order of the rows that the driver writes of them.
 struct RecordedRuns {

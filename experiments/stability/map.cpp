@@ -59,7 +59,6 @@ void add_map(const MapKind& kind, const Scene& scene, const Method& method, cons
     const BaseState base = base_state_of(kind.with(scene, value));
     const PredictedLimit predicted = predicted_limit(method, base.spectrum);
     const Perturbation perturbation{predicted.mode, visible};
-    const State start = on_runs ? perturbed_scene(base, perturbation).start : State{};
     double held = 0, failed = 0;  // the last cell that held before the first that failed
     for (int c = 0; c < size.columns; ++c) {
       const double h = step_at(static_cast<double>(c) / (size.columns - 1), omega);
@@ -68,10 +67,7 @@ void add_map(const MapKind& kind, const Scene& scene, const Method& method, cons
                                                on_runs ? std::vector<Observer*>{&pictures} : std::vector<Observer*>{});
       const bool refused = trial.without_answer();
       if (on_runs)
-        recorded.runs.push_back(
-            {{.verdict = trial.verdict, .end = trial.end},
-             pictures.path(),
-             MapCell{value, h, std::lround(run_of_perturbed(h, size.steps).duration / h), start, base.scene.start.x}});
+        recorded.runs.push_back({{.verdict = trial.verdict, .end = trial.end}, pictures.path(), base.scene.start.x});
       MapRow cell{scene.name, method.name, map, value, h, trial.effective_verdict(), {}, {}};
       if (!refused) cell.end = trial.end;
       if (!refused && std::isfinite(trial.growth)) cell.growth = trial.growth;

@@ -15,6 +15,7 @@
 #include "mysim/base/files.h"
 #include "mysim/base/names.h"
 #include "mysim/base/output_folder.h"
+#include "mysim/base/text.h"
 #include "report/base/provenance.h"
 #include "report/commands/command_line.h"
 #include "report/commands/commands.h"
@@ -22,8 +23,8 @@
 #include "report/findings/findings_text.h"
 #include "report/findings/verify.h"
 #include "report/page/assemble.h"
-#include "report/page/player_html.h"
 #include "report/pictures/scene_picture.h"
+#include "report/player/runs.h"
 
 namespace crosscheck {
 namespace fs = std::filesystem;
@@ -55,15 +56,14 @@ std::vector<Point> picture_points(const Request& request, const fs::path& folder
   std::vector<Point> points;
   for (const Scene& scene : request.scenes)
     points.push_back({"picture: " + scene.name, content_of(request, scene), [&request, &scene, folder](TableSet&) {
+                        RunsWriter(folder).keep_truth(scene, run_of(request, scene));
                         MethodResults results;
-                        const MethodResult* shown = nullptr;  // a thumbnail has one
                         for (const std::string& name : methods_pictured(request, scene)) {
                           const MethodResult& r = result_of(request, scene, find_method(name), results);
                           if (r.outcome.verdict != Verdict::ok || r.trajectory.frames() == 0) continue;
-                          shown = &r;
+                          draw_scene(scene, r, request.full, folder);
                           break;
                         }
-                        draw_scene(scene, shown, base_of(scene, run_of(request, scene)), request.full, folder);
                       }});
   return points;
 }
@@ -102,7 +102,7 @@ ReportData data_of_runs(const ReportOptions& options, Request& request, const fs
   data.scenes = data.all = request.scenes;
   data.extent = options.full ? Extent::full : options.scenes.empty() ? Extent::quick : Extent::named;
   fs::create_directories(folder / "figures");
-  RunsFolder runs(folder / "data" / "runs");
+  RunsWriter runs(folder);
   request.on_runs = [&](const RecordedRuns& recorded) { runs.keep(recorded, run_of(request, recorded.scene)); };
   std::vector<const Experiment*> chosen;
   std::deque<Request> requests;  // one for each experiment, with its scenes
@@ -131,8 +131,19 @@ ReportData data_of_runs(const ReportOptions& options, Request& request, const fs
       data.problems.push_back(fmt::format("{} on {}: it built another scene, see its certificate", c.method, c.scene));
   if (!data.rows.certificates.empty()) data.rows.tables.push_back(certificate_table(data.rows.certificates));
   if (!options.full) data.rows.notes.insert(data.rows.notes.begin(), left_out(request));
+  data.runs = take_index(folder);
   write_data(data, folder / "data");
   return data;
+}
+
+/// One line: what the page weighs, block by block.
+std::string weight_of_page(const WrittenReport& report) {
+  std::vector<std::string> parts;
+  double sum = 0;
+  for (const auto& [name, bytes] : report.blocks)
+    parts.push_back(fmt::format("{} {}", name, format_bytes(static_cast<double>(bytes)))),
+        sum += static_cast<double>(bytes);
+  return fmt::format("{} ({})", format_bytes(sum), fmt::join(parts, ", "));
 }
 
 int finish(ReportData& data, const ReportOptions& options, OutputFolder& folder, const Store& store,
@@ -143,7 +154,7 @@ int finish(ReportData& data, const ReportOptions& options, OutputFolder& folder,
   for (const std::string& problem : report.page.problems)
     fmt::print(stderr, "crosscheck: missing in the report: {}\n", problem);
   for (const Finding& f : report.page.findings) fmt::print("- {}\n", sentence_of(f));
-  fmt::print("{}\n", (options.out / "index.html").string());
+  fmt::print("page: {}\n{}\n", weight_of_page(report), (options.out / "index.html").string());
   return report.page.problems.empty() && report.agree ? 0 : 1;
 }
 
@@ -153,7 +164,8 @@ int remake_command(const fs::path& from, const ReportOptions& options) {
   const fs::path kept = fs::weakly_canonical(from);
   require_plain_files(path_inside(kept, "figures"));
   OutputFolder folder(options.out, "report");
-  fs::copy(kept / "data", folder.path() / "data", fs::copy_options::recursive);
+  for (const char* part : {"data", "runs"})
+    if (fs::exists(kept / part)) fs::copy(kept / part, folder.path() / part, fs::copy_options::recursive);
   for (const auto& file : fs::directory_iterator(kept / "figures"))
     if (file.path().extension() == ".png") {
       fs::create_directories(folder.path() / "figures");

@@ -19,11 +19,16 @@ namespace crosscheck {
 namespace fs = std::filesystem;
 namespace {
 
-JsonField read_json(const fs::path& file) {
+JsonField read_json(const fs::path& folder) {
+  const fs::path file = path_inside(folder, "report.json");
   if (!fs::exists(file)) throw InputError(fmt::format("{}: expected a report", file.string()));
+  const JsonField json = JsonField::parse_file(file.string());
+  const auto format = json.find("format");
+  if (!format || format->dump() != std::to_string(report_format))
+    throw InputError(fmt::format("{}: expected a report of format {}, got {}; run `report` again with this version",
+                                 file.string(), report_format, format ? format->dump() : "one without a format"));
   try {
-    const JsonField json = JsonField::parse_file(file.string());
-    for (const char* part : {"findings", "scenes", "tables"}) json[part];
+    for (const char* part : {"findings", "scenes", "tables", "runs"}) json[part];
     return json;
   } catch (const InputError& error) {
     throw InputError(fmt::format("expected a finished report: {}", error.what()));
@@ -81,7 +86,7 @@ void compare(const JsonField& claimed, const Finding& now, const TableSet& rows,
 
 Verification verify_report(const fs::path& folder) {
   Verification found;
-  const JsonField report = read_json(path_inside(folder, "report.json"));
+  const JsonField report = read_json(folder);
   require_plain_files(path_inside(folder, "data"));
   const TableSet rows = read_tables(report, folder / "data", found);
   const std::vector<Scene> scenes = read_scenes(report, folder / "data", found);
@@ -104,8 +109,8 @@ using SentencesByKey = std::map<Key, std::vector<std::string>>;
 
 SentencesByKey findings_in(const fs::path& old) {
   SentencesByKey by_key;
+  const JsonField json = read_json(old);
   try {
-    const JsonField json = JsonField::parse_file(path_inside(old, "report.json").string());
     for (const JsonField& finding : json["findings"].elements()) {
       const auto text_or_none = [&](const char* key) {  // reports of older versions do not have all
         const auto found = finding.find(key);

@@ -9,6 +9,9 @@
 
 namespace crosscheck {
 
+/// The number of the contract between `report` and what reads its folders (CONTRACT.md).
+inline constexpr int report_format = 2;
+
 // Whether a report's sentences still follow from its data.
 
 struct Verification {
@@ -22,7 +25,7 @@ struct Verification {
 /// holds it against what report.json says: sentence, tier, value and interval, and the fingerprints of the rows that
 /// it rests on. A row
 /// that no finding rests on is held against its table's fingerprint. Throws InputError where a file is missing or
-/// cannot be read.
+/// cannot be read, or the report has another format.
 Verification verify_report(const std::filesystem::path& folder);
 
 // Changes of a report against an earlier one.
@@ -34,7 +37,7 @@ struct Change {
 };
 
 /// Findings of OLD/report.json compared with these, those of one rule, scene and method in their order; what stayed is
-/// left out. Throws InputError where OLD holds no finished report.
+/// left out. Throws InputError where OLD holds no finished report of this format.
 std::vector<Change> changes_since(const std::filesystem::path& old, const AllFindings& now);
 
 }  // namespace crosscheck

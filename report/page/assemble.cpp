@@ -11,6 +11,7 @@
 #include "experiments/tables/dictionary.h"
 #include "mysim/base/errors.h"
 #include "mysim/base/files.h"
+#include "mysim/base/names.h"
 #include "mysim/base/pattern.h"
 #include "report/base/assets.h"
 #include "report/base/provenance.h"
@@ -20,7 +21,6 @@
 #include "report/page/player_html.h"
 #include "report/page/shown_runs.h"
 #include "report/pictures/scene_picture.h"
-#include "report/player/motions.h"
 
 namespace crosscheck {
 namespace fs = std::filesystem;
@@ -75,6 +75,9 @@ ReportData read_report(const fs::path& folder) {
   const auto at = std::ranges::find(extents, extent);
   if (at == std::end(extents)) throw InputError(fmt::format("{}: extent: unknown word '{}'", folder.string(), extent));
   data.extent = static_cast<Extent>(at - std::begin(extents));
+  data.runs = report["runs"].json();
+  if (const fs::path runs = path_inside(folder, "runs"); fs::exists(runs)) require_plain_files(runs);
+  run_files(report["runs"], folder, true);
   data.received = true;
   data.all = data.scenes;
   if (data.extent != Extent::named)
@@ -85,10 +88,6 @@ ReportData read_report(const fs::path& folder) {
 
 fs::path picture_file(const fs::path& folder, const Scene& scene, const char* which) {
   return folder / "figures" / (file_name_of(scene.name) + which + ".png");
-}
-
-fs::path motions_file(const fs::path& folder, const Scene& scene) {
-  return folder / "data" / (file_name_of(scene.name) + "-motions.json");
 }
 
 namespace {
@@ -114,11 +113,8 @@ void write_bare(const Scene& scene, const std::vector<const MethodResult*>& show
 
 }  // namespace
 
-void draw_scene(const Scene& scene, const MethodResult* shown, const MotionBase& base, bool full,
-                const fs::path& folder) {
-  const auto motions = stage_json(scene, base);
-  if (!motions.empty()) write_file(motions_file(folder, scene), motions);
-  if (shown) write_bare(scene, {shown}, 304, 171, full, picture_file(folder, scene, "-thumbnail"));
+void draw_scene(const Scene& scene, const MethodResult& shown, bool full, const fs::path& folder) {
+  write_bare(scene, {&shown}, 304, 171, full, picture_file(folder, scene, "-thumbnail"));
 }
 
 namespace {
@@ -134,7 +130,10 @@ std::string without_commit(std::string caption) {
 class Assembly {
  public:
   Assembly(ReportData& data, const fs::path& folder, const fs::path& against)
-      : data_(data), folder_(folder), figures_(folder / "figures"), runs_(folder / "data" / "runs") {
+      : data_(data),
+        folder_(folder),
+        figures_(folder / "figures"),
+        runs_(run_files(JsonField::parse(dump(data.runs), "runs"), folder, false)) {
     findings_ = all_findings(data.scenes, data.rows);
     page_.findings = findings_.overall;
     page_.notes = data.rows.notes, page_.problems = data.problems, page_.provenance = data.provenance;
@@ -154,16 +153,21 @@ class Assembly {
   WrittenReport write(const Workers& workers) {
     fs::create_directories(figures_);
     write_file(figures_ / "style.gp", asset("figures/style.gp"));
+    // first what moves first: the page may have no room for all
+    for (const ScenePart* part : first_scenes(page_)) add_own_runs(*part);
+    for (const ScenePart& part : page_.scenes) add_own_runs(part);
     for (const Chart& chart : charts_) add(chart);
-    for (ScenePart& part : page_.scenes) add_motions(part);
+    for (ScenePart& part : page_.scenes) add_shown_runs(part);
     draw(workers);
     page_.lab = lab_data_html(data_.scenes);
-    write_file(folder_ / "report.json", report_json(page_, findings_, charts_, data_.rows, name_of(data_.extent)));
-    write_file(folder_ / "index.html", page_html(page_));
+    write_file(folder_ / "report.json",
+               report_json(page_, findings_, charts_, data_.rows, name_of(data_.extent), data_.runs));
+    const std::string html = page_html(page_);
+    write_file(folder_ / "index.html", html);
     bool agree = true;  // where the same rule must agree, it does
     for (const SceneData& facts : findings_.facts)
       for (const MethodData& method : facts.methods) agree &= !same_rule_differs(facts, method);
-    return {std::move(page_), agree};
+    return {std::move(page_), page_blocks(html), agree};
   }
 
  private:
@@ -180,7 +184,7 @@ class Assembly {
       return fs::exists(file) ? file : fs::path();
     };
     part.thumbnail = given("-thumbnail"), part.hero = given("-hero");
-    if (fs::exists(motions_file(folder_, scene))) part.motions = motions_file(folder_, scene);
+    part.motions = stage_of(scene, *part.facts, runs_);
   }
 
   /// Its pictures, each with its caption.
@@ -258,18 +262,18 @@ class Assembly {
       write_picture(without_letters(picture_of(s.scene, shown, shots[i], common)), images[i].file);
   }
 
-  /// The runs that a figure plays, once for all figures that play them; false where there are none.
+  /// The runs of a set, once for all that play them; false where there are none.
   bool add_runs(const std::string& key, const std::string& only = "") {
     if (std::ranges::find(page_.runs, key, &PlayableRuns::key) != page_.runs.end()) return true;
-    auto runs = runs_.of(key, only, page_.notes);
+    auto runs = key.empty() ? std::nullopt : runs_.take(key, only, page_.notes);
     if (!runs) return false;
     runs->stage = stage_of_map(key, data_.all, data_.extent == Extent::full);
-    for (const Scene& scene : data_.scenes)
-      if ((key == scene.name + "-speed-accuracy" || key == scene.name + "-engines") &&
-          fs::exists(motions_file(folder_, scene)))
-        runs->scene = scene.name;
+    for (const ScenePart& part : page_.scenes)
+      if (key.starts_with(part.scene->name + "-") && runs->files[0].scene == part.scene->name && !part.motions.empty())
+        runs->scene = part.scene->name;
     if (runs->stage.empty() && runs->scene.empty()) return false;
-    for (const std::string& method : runs->names) note_method(method);
+    for (const RunFile& file : runs->files)
+      if (file.method != "truth") note_method(file.method);
     page_.runs.push_back(std::move(*runs));
     return true;
   }
@@ -303,21 +307,24 @@ class Assembly {
     if (std::ranges::find(page_.methods, method) == page_.methods.end()) page_.methods.push_back(method);
   }
 
-  /// The runs of a scene that its player has, and those that it begins with.
-  void add_motions(ScenePart& part) {
-    const std::string& name = part.scene->name;
+  void add_own_runs(const ScenePart& part) {
+    for (const char* set : {"-truth", "-engines"})
+      if (!part.motions.empty()) add_runs(part.scene->name + set);
+  }
+  /// The runs that the player of a scene begins with.
+  void add_shown_runs(ScenePart& part) {
     if (part.motions.empty()) return;
-    add_runs(name + "-engines");
-    if (part.take) add_runs(name + "-speed-accuracy", part.take->method);  // all of them where a chart plays them
+    const std::string marks = part.scene->name + "-speed-accuracy";
+    if (part.take) add_runs(marks, part.take->method);  // all of them where a chart plays them
     part.runs = shown_runs(part, data_.rows, [&](const std::string& method) {
-      const auto set = std::ranges::find(page_.runs, name + "-speed-accuracy", &PlayableRuns::key);
-      return set != page_.runs.end() && std::ranges::find(set->names, method) != set->names.end();
+      const auto set = std::ranges::find(page_.runs, marks, &PlayableRuns::key);
+      return set != page_.runs.end() && std::ranges::find(set->files, method, &RunFile::method) != set->files.end();
     });
   }
 
   ReportData& data_;
   fs::path folder_, figures_;
-  RunsFolder runs_;
+  PageRuns runs_;
   AllFindings findings_;
   std::vector<Chart> charts_;
   PageContent page_;

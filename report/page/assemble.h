@@ -10,7 +10,6 @@
 #include "reference/certificate/certificate.h"
 #include "report/findings/evidence.h"
 #include "report/page/page.h"
-#include "report/player/motions.h"
 
 namespace crosscheck {
 
@@ -26,6 +25,7 @@ struct ReportData {
   Provenance provenance;
   Extent extent = Extent::quick;
   std::vector<std::string> problems;  // what failed to be made
+  Json runs = Json::array();          // the index of recorded runs (report/player/runs.h)
   bool received = false;              // read from a folder: no program that it names may be run
 
   /// Whether each scene has charts of its own.
@@ -47,17 +47,16 @@ using Workers = std::function<std::vector<std::string>(const std::vector<Point>&
 /// Returns what the page says.
 struct WrittenReport {
   PageContent page;
-  bool agree;  // the same rule agrees where it must
+  std::vector<std::pair<std::string, size_t>> blocks;  // bytes of the page's parts
+  bool agree;                                          // engines with one rule agree where they must
 };
 WrittenReport write_report(ReportData& data, const std::filesystem::path& folder, const std::filesystem::path& against,
                            const Workers& workers);
 
 /// Where the pictures of a scene stand: "-thumbnail", "-hero".
 std::filesystem::path picture_file(const std::filesystem::path& folder, const Scene& scene, const char* which);
-std::filesystem::path motions_file(const std::filesystem::path& folder, const Scene& scene);
 
-/// Writes the stage of a scene's motions, and draws its thumbnail from a run; null: none is drawn.
-void draw_scene(const Scene& scene, const MethodResult* shown, const MotionBase& base, bool full,
-                const std::filesystem::path& folder);
+/// Draws a scene's thumbnail from a run.
+void draw_scene(const Scene& scene, const MethodResult& shown, bool full, const std::filesystem::path& folder);
 
 }  // namespace crosscheck

@@ -1,9 +1,7 @@
 // The page as data, from top to bottom, and report.json.
-#include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
-#include <map>
-#include <set>
 
 #include "mysim/base/installation.h"
 #include "mysim/base/text.h"
@@ -162,20 +160,6 @@ Json scripts_data(const PageContent& c, const Folds& folds) {
   return all;
 }
 
-/// Motions and runs, each in an element of its own.
-std::string motions_html(const PageContent& c) {
-  std::string out;
-  for (const ScenePart& part : c.scenes)
-    if (!part.motions.empty())
-      out += script_json(fmt::format("class=\"motion\" data-scene=\"{}\"", escaped(part.scene->name)),
-                         content_of_file(part.motions));
-  std::map<std::string, std::set<std::string>> shown;
-  for (const ScenePart* part : first_scenes(c))
-    for (const ShownRun& run : part->runs)
-      if (run.beside) shown[part->scene->name].insert(run.key);
-  return out + all_runs_html(c.runs, !c.lab.empty(), shown) + c.lab;
-}
-
 }  // namespace
 
 std::string page_html(const PageContent& c) {
@@ -198,7 +182,7 @@ std::string page_html(const PageContent& c) {
             {"cards", std::move(cards)},
             {"words", words_data(c, folds)}};
   data["data"] = scripts_data(c, folds);
-  data["motions"] = motions_html(c);
+  data["motions"] = motions_html(c) + c.lab;
   data["script"] = page_script("app");
   return filled("page", data);
 }
@@ -218,8 +202,9 @@ Json finding_json(const Finding& f, const TableSet& result, const std::vector<st
 }  // namespace
 
 std::string report_json(const PageContent& page, const AllFindings& findings, const std::vector<Chart>& charts,
-                        const TableSet& result, std::string_view extent) {
+                        const TableSet& result, std::string_view extent, const Json& runs) {
   Json json;
+  json["format"] = report_format;
   json["extent"] = extent;
   for (const auto& [key, value] : page.provenance)
     if (key != "scene") json["provenance"][key] = value;
@@ -242,7 +227,11 @@ std::string report_json(const PageContent& page, const AllFindings& findings, co
           {{"name", f->name}, {"scene", c.scene}, {"caption", f->caption}, {"tier", f->tier}, {"finding", f->finding}});
   json["notes"] = page.notes;
   json["problems"] = page.problems;
-  return dump(json, 1) + "\n";
+  std::vector<std::string> entries;  // each on one line
+  for (const Json& entry : runs) entries.push_back("  " + dump(entry));
+  std::string text = dump(json, 1);
+  text.erase(text.rfind('\n'));
+  return text + fmt::format(",\n \"runs\": [\n{}\n ]\n}}\n", fmt::join(entries, ",\n"));
 }
 
 }  // namespace crosscheck

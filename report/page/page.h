@@ -16,6 +16,7 @@
 #include "report/findings/findings.h"
 #include "report/findings/recommendation.h"
 #include "report/findings/verify.h"
+#include "report/player/runs.h"
 
 namespace crosscheck {
 
@@ -31,13 +32,12 @@ struct PageFigure {
   std::string runs = {};  // which runs its markers or cells play: the key of PlayableRuns; empty: none
 };
 
-/// The runs of a figure, as the player has them: one file of JSON for each method (report/player/motions.h).
+/// The runs of one set, as the player has them.
 struct PlayableRuns {
-  std::string key;
+  std::string key;    // the set: "SCENE-engines", "SCENE-speed-accuracy", "SCENE-stiffness-map"
   std::string scene;  // the scene of the player's data that they are added to
-  std::string stage;  // or JSON of a stage of their own (report/player/motions.h)
-  std::vector<std::filesystem::path> methods;
-  std::vector<std::string> names = {};  // of them
+  std::string stage;  // or JSON of a stage of their own (report/player/stage.h)
+  std::vector<RunFile> files;
 };
 
 /// A run that the page shows by itself.
@@ -53,7 +53,7 @@ struct ScenePart {
   const Scene* scene;
   const SceneData* facts;
   std::vector<Finding> findings;
-  std::filesystem::path motions;          // what the player shows (report/player/motions.h); empty: pictures alone
+  std::string motions;                    // its stage as JSON (report/player/stage.h); empty: pictures alone
   std::filesystem::path thumbnail, hero;  // .png, or empty
   std::vector<PageFigure> figures;
   std::vector<const Certificate*> certificates;
@@ -155,8 +155,9 @@ std::string relations_page_html(const std::vector<RelationRow>& rows, const std:
 
 // report.json: what a report says, as data, and what each sentence rests on.
 
-/// Findings with formula, rows and fingerprints; scenes; tables with their fingerprints; figures, notes, problems.
+/// The format, findings with formula, rows and fingerprints; scenes; tables with their fingerprints; figures, notes,
+/// problems; the index of runs.
 std::string report_json(const PageContent& page, const AllFindings& findings, const std::vector<Chart>& charts,
-                        const TableSet& result, std::string_view extent);
+                        const TableSet& result, std::string_view extent, const Json& runs = Json::array());
 
 }  // namespace crosscheck

@@ -6,13 +6,16 @@
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
+#include <set>
 
 #include "experiments/stability/map.h"
 #include "mysim/base/files.h"
 #include "mysim/base/json.h"
+#include "mysim/base/text.h"
 #include "report/base/assets.h"
 #include "report/page/lab_html.h"
-#include "report/player/computed_runs.h"
+#include "report/page/template.h"
+#include "report/player/stage.h"
 
 namespace crosscheck {
 std::string script_json(const std::string& attributes, const std::string& json) {
@@ -21,80 +24,133 @@ std::string script_json(const std::string& attributes, const std::string& json) 
 
 namespace {
 
-std::string runs_html(const PlayableRuns& runs, const std::vector<std::string>& files) {
-  const std::string base =
-      runs.stage.empty() ? fmt::format("\"scene\":{}", dump(Json(runs.scene))) : "\"stage\":" + runs.stage;
-  return script_json(fmt::format("class=\"runs\" data-runs=\"{}\"", escaped(runs.key)),
-                     fmt::format("{{{},\"methods\":[{}]}}", base, fmt::join(files, ",")));
+/// The bytes that a file's runs take in the page.
+size_t weight_of(const RunFile& file) {
+  return (std::filesystem::file_size(file.file) + 2) / 3 * 4 + dump(file.entry).size();
 }
 
-std::vector<std::string> contents_of(const PlayableRuns& runs) {
-  std::vector<std::string> files;
-  for (const auto& file : runs.methods) files.push_back(content_of_file(file));
-  return files;
+/// An element of the page with runs of a set, by these methods.
+Json runs_data(const PlayableRuns& runs, const std::vector<RunFile>& files, const char* block) {
+  std::vector<std::string> methods;
+  for (const RunFile& file : files) {
+    Json entry = file.entry;
+    entry["data"] = base64(read_file(file.file, "packed runs"));
+    methods.push_back(dump(entry));
+  }
+  const std::string text = fmt::format("{{\"scene\":{},\"stage\":{},\"methods\":[{}]}}", dump(Json(runs.scene)),
+                                       runs.stage.empty() ? "null" : runs.stage, fmt::join(methods, ","));
+  return {
+      {"class", "runs"}, {"scene", runs.scene}, {"set", runs.key}, {"block", block}, {"text", json_for_script(text)}};
 }
 
 }  // namespace
 
-std::string runs_html(const PlayableRuns& runs) { return runs_html(runs, contents_of(runs)); }
-
-std::string all_runs_html(const std::vector<PlayableRuns>& runs, bool lab,
-                          const std::map<std::string, std::set<std::string>>& shown) {
-  std::vector<std::vector<std::string>> files;
-  for (const PlayableRuns& each : runs) files.push_back(contents_of(each));
-  std::set<std::string> scenes;
-  for (const PlayableRuns& each : runs)
-    if (lab && each.stage.empty()) scenes.insert(each.scene);
-  for (const std::string& scene : scenes) {
-    std::vector<FileOfRuns> own;
-    for (size_t i = 0; i < runs.size(); ++i)
-      for (std::string& file : files[i])
-        if (runs[i].stage.empty() && runs[i].scene == scene) own.push_back({runs[i].key.ends_with("-engines"), &file});
-    const auto stay = shown.find(scene);
-    leave_out_computed(own, stay == shown.end() ? std::set<std::string>() : stay->second);
+std::string motions_html(const PageContent& content) {
+  Json all = Json::array();
+  for (const ScenePart& part : content.scenes)
+    if (!part.motions.empty())
+      all.push_back({{"class", "motion"},
+                     {"scene", part.scene->name},
+                     {"set", ""},
+                     {"block", "scenes"},
+                     {"text", json_for_script(part.motions)}});
+  std::set<std::pair<std::string, std::string>> first;  // scene and method
+  for (const ScenePart* part : first_scenes(content)) {
+    first.emplace(part->scene->name, "truth");
+    for (const ShownRun& run : part->runs)
+      if (run.beside) first.emplace(part->scene->name, run.method);
   }
-  for (size_t i = 0; i < runs.size(); ++i)
-    if (!runs[i].stage.empty())
-      for (std::string& file : files[i]) file = cells_for_page(file, lab);
-  std::string out;
-  for (size_t i = 0; i < runs.size(); ++i) out += runs_html(runs[i], files[i]);
-  return out;
+  for (const PlayableRuns& runs : content.runs) {
+    const bool own = runs.key.ends_with("-engines") || runs.key.ends_with("-truth");
+    std::vector<RunFile> now, later;
+    for (const RunFile& file : runs.files)
+      (own && first.contains({file.scene, file.method}) ? now : later).push_back(file);
+    if (!now.empty()) all.push_back(runs_data(runs, now, "runs of the first screen"));
+    if (!later.empty())
+      all.push_back(runs_data(runs, later, own ? "own runs" : runs.stage.empty() ? "runs of marks" : "stills"));
+  }
+  return filled("motions", {{"motions", std::move(all)}});
 }
 
-namespace fs = std::filesystem;
-
-void RunsFolder::keep(const RecordedRuns& recorded, const Run& run) {
-  const bool cells = recorded.of.ends_with("-map");
-  const std::string& scene = recorded.scene.name;
-  if (!cells && !bases_.contains(scene)) bases_.emplace(scene, base_of(recorded.scene, run));
-  const std::string json = motions_json(recorded, cells ? MotionBase{} : bases_.at(scene));
-  if (json.empty()) return;
-  const std::string key = scene + "-" + recorded.of;
-  write_file(folder_ / file_name_of(key) / (file_name_of(recorded.method) + ".json"), json);
+std::vector<std::pair<std::string, size_t>> page_blocks(const std::string& html) {
+  // by what the tag of an element holds; a tag of no row is a script
+  constexpr std::pair<std::string_view, std::string_view> names[] = {
+      {"runs of the first screen", "runs of the first screen"},
+      {"own runs", "own runs"},
+      {"runs of marks", "runs of marks"},
+      {"stills", "stills"},
+      {"data-block=\"scenes\"", "scenes"},
+      {"charts\"", "charts"},
+      {"id=\"lab-", "lab"},
+      {"id=\"held\"", "folds"},
+      {"src=\"data:image", "pictures"},
+      {"<script", "scripts"}};
+  std::vector<std::pair<std::string, size_t>> blocks;
+  for (const auto& [mark, name] : names) blocks.emplace_back(name, 0);
+  size_t text = html.size();
+  for (const auto& [begin, end] :
+       {std::pair<std::string_view, std::string_view>{"<script", "</script>"}, {"<img", ">"}})
+    for (size_t at = html.find(begin); at != std::string::npos; at = html.find(begin, at + 1)) {
+      const size_t to = std::min(html.find(end, at), html.size() - end.size()) + end.size();
+      const std::string_view tag = std::string_view(html).substr(at, std::min(html.find('>', at) - at, size_t{200}));
+      for (size_t i = 0; i < std::size(names); ++i)
+        if (tag.find(names[i].first) != std::string_view::npos) {
+          blocks[i].second += to - at, text -= to - at;
+          break;
+        }
+      at = to - 1;
+    }
+  blocks.emplace_back("text", text);
+  return blocks;
 }
 
-std::optional<PlayableRuns> RunsFolder::of(const std::string& key, const std::string& only,
-                                           std::vector<std::string>& notes) const {
-  constexpr std::uintmax_t most = 700'000;  // bytes: no set of a quick report weighs as much
-  const fs::path own = folder_ / file_name_of(key);
-  if (key.empty() || !fs::exists(own)) return std::nullopt;
+std::optional<PlayableRuns> PageRuns::take(const std::string& key, const std::string& only,
+                                           std::vector<std::string>& notes) {
   PlayableRuns runs{key, "", "", {}};
-  for (const auto& file : fs::directory_iterator(own))
-    if (only.empty() || file.path().stem() == file_name_of(only)) runs.methods.push_back(file.path());
-  const auto weight = [](const fs::path& file) { return std::pair(fs::file_size(file), file); };
-  std::ranges::sort(runs.methods, {}, weight);
-  std::uintmax_t sum = 0;
-  const auto too_much =
-      std::ranges::find_if(runs.methods, [&](const fs::path& f) { return (sum += file_size(f)) > most; });
-  if (const auto count = runs.methods.end() - too_much; count > 0) {
-    const auto note = fmt::format("of {} the runs of {} methods are too large for the page to play", key, count);
-    if (std::ranges::find(notes, note) == notes.end()) notes.push_back(note);
+  for (const RunFile& file : files_)
+    if (file.set == key && (only.empty() || file.method == only)) runs.files.push_back(file);
+  // representatives of the engines come first
+  std::ranges::stable_partition(runs.files, [](const RunFile& file) {
+    return file.method == "truth" || file.method == family_of(file.method).representative;
+  });
+  const size_t count = runs.files.size();
+  std::erase_if(runs.files, [&](const RunFile& file) {
+    const size_t weight = weight_of(file);
+    if (weight > room_) return true;
+    room_ -= weight;
+    return false;
+  });
+  if (runs.files.size() < count) {
+    const auto note =
+        fmt::format("of {} the runs of {} methods are too large for the page to play", key, count - runs.files.size());
+    if (std::ranges::find(notes, note) == notes.end()) notes.push_back(note);  // a report read again has it
   }
-  runs.methods.erase(too_much, runs.methods.end());
-  if (runs.methods.empty()) return std::nullopt;
-  std::ranges::sort(runs.methods);
-  for (const auto& file : runs.methods) runs.names.push_back(JsonField::parse_file(file.string())["name"].text());
+  if (runs.files.empty()) return std::nullopt;
   return runs;
+}
+
+std::vector<Points> PageRuns::seen_in(const Scene& scene) const {
+  std::vector<Points> seen;
+  const RunFile* whole = nullptr;  // that of a representative, else the first
+  for (const RunFile& file : files_) {
+    if (file.scene != scene.name || file.particles != scene.model.particles.size()) continue;
+    if (file.set == scene.name + "-truth") seen = positions_of(file, 0);
+    const Json& run = file.entry["runs"][0];
+    if (file.set == scene.name + "-engines" && run.is_object() && run["verdict"] == name_of(Verdict::ok))
+      if (!whole || file.method == family_of(file.method).representative) whole = &file;
+  }
+  if (whole) std::ranges::move(positions_of(*whole, 0), std::back_inserter(seen));
+  return seen;
+}
+
+std::string stage_of(const Scene& scene, const SceneData& facts, const PageRuns& runs) {
+  const std::vector<Points> seen = runs.seen_in(scene);
+  if (seen.empty()) return "";
+  const bool rule = facts.tier.empty();
+  std::optional<StageTruth> truth;
+  if (!rule || facts.contact_until)
+    truth = {rule ? "converged contact rule" : "truth, " + facts.tier, rule, facts.error_bar, facts.motion};
+  return stage_json(scene, seen, truth);
 }
 
 std::string stage_of_map(const std::string& key, const std::vector<Scene>& scenes, bool full) {

@@ -7,8 +7,9 @@
 
 #include "experiments/speed_accuracy/speed_accuracy.h"
 #include "experiments/tables/speed_accuracy.h"
+#include "mysim/base/text.h"
+#include "mysim/run/contacts.h"
 #include "report/findings/findings_text.h"
-#include "report/player/computed_runs.h"
 
 namespace crosscheck {
 namespace {
@@ -31,17 +32,13 @@ class Chooser {
   }
 
   std::vector<ShownRun> all() {
-    const auto& take = part_.take;
-    bool taken = false;
-    if (take && family_of(take->method).is_subject()) taken = add_recommended(true);
-    if (!taken) add_own(ours, true);
-    if (take) add_recommended(false);
-    for (const MethodFamily* peer : default_peers()) add_beside(std::string(peer->representative), taken);
+    add_own(ours, true);
+    for (const MethodFamily* peer : default_peers()) add_own(std::string(peer->representative), true);
     for (const MethodData& m : part_.facts->methods)
-      if (family_of(m.method).role == Role::outside) add_beside(m.method, taken);
-    if (none_of(true)) add_first(true);
-    if (none_of(false)) add_first(false);
-    add_own(ours, false);
+      if (family_of(m.method).role == Role::outside) add_own(m.method, true);
+    for (const bool of_subject : {true, false})
+      if (none_of(of_subject)) add_first(of_subject);
+    if (part_.take) add_charted(part_.take->method, part_.take->setting, part_.take->requested);
     // the others in the order of what they cost
     std::vector<const ShownRun*> best;
     for (const ShownRun& run : charted_) {
@@ -79,23 +76,9 @@ class Chooser {
         return charted_[i].cpu;
     return std::nullopt;
   }
-  /// A run of the chart; false where there is none.
-  bool add_charted(const std::string& method, SettingKind setting, double requested, bool beside) {
+  void add_charted(const std::string& method, SettingKind setting, double requested) {
     for (size_t i = 0; i < charted_.size(); ++i)
-      if (charted_[i].method == method && requested_[i] == std::pair{setting, requested}) {
-        charted_[i].beside = beside;
-        add(charted_[i]);
-        return true;
-      }
-    return false;
-  }
-  bool add_recommended(bool beside) {
-    return add_charted(part_.take->method, part_.take->setting, part_.take->requested, beside);
-  }
-  /// Beside a recommended run the one at the same step, where the chart has it: otherwise steps would be compared.
-  void add_beside(const std::string& method, bool taken) {
-    const bool fixed = taken && part_.take->setting == SettingKind::step;
-    if (!fixed || !add_charted(method, SettingKind::step, part_.take->requested, true)) add_own(method, true);
+      if (charted_[i].method == method && requested_[i] == std::pair{setting, requested}) add(charted_[i]);
   }
   /// The subject's, or another's, where the representative did not run.
   void add_first(bool of_subject) {
@@ -126,6 +109,14 @@ class Chooser {
   std::vector<ShownRun> charted_, chosen_;
   std::vector<std::pair<SettingKind, double>> requested_;
 };
+
+/// True if the lab runs a method: a rule of mysim without options that a browser lacks.
+bool is_of_lab(const std::string& method) {
+  const std::vector<std::string> words = split(method, '+');
+  return family_of(method).is_subject() && std::all_of(words.begin() + 1, words.end(), [](const std::string& word) {
+           return contact_rule_of_option(word) || word == "linear";
+         });
+}
 
 /// Engine and rule; an outside program goes by its own name.
 std::string engine_and_rule(const std::string& method, const std::vector<std::string>& beside) {
@@ -161,7 +152,7 @@ std::string shown_runs_html(const ScenePart& part, bool lab) {
         run.error && motion > 0 ? prose(percent(*run.error, motion)) : "–",
         run.error ? prose(nice_length(*run.error)) : "–", run.cpu ? prose(step_text(*run.cpu)) : "–",
         run.cpu ? prose(nice(part.scene->duration / *run.cpu)) : "–", escaped(run.key),
-        lab && is_computed_in_page(run.method) ? "<button type=\"button\" data-as=\"lab\">lab</button>" : "");
+        lab && is_of_lab(run.method) ? "<button type=\"button\" data-as=\"lab\">lab</button>" : "");
   return out + "</tbody></table></div>\n";
 }
 

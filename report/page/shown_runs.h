@@ -6,9 +6,9 @@
 
 namespace crosscheck {
 
-/// The run recommended, each peer's and outside engine's at the same step, or at the scene's own where the chart has no
-/// such run, the subject's there, then the cheapest run within 1 % of each other method: at most nine. `holds` says
-/// whether the page has a method's runs of the chart.
+/// The representatives of all engines at the scene's own step, which take one rule, and stand beside each other; the
+/// recommended run, then the cheapest run within 1 % of each other method: at most nine. `holds` says whether the page
+/// has a method's runs of the chart.
 std::vector<ShownRun> shown_runs(const ScenePart& part, const TableSet& rows,
                                  const std::function<bool(const std::string& method)>& holds);
 

@@ -106,7 +106,7 @@ export function stepOf(interval, count) {
 }
 
 /** The section [start] of places and velocities. */
-export function startSection(x, v) {
+function startSection(x, v) {
   const list = values => {
     const lines = [];
     for (let i = 0; i < values.length; i += 3)

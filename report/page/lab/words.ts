@@ -17,11 +17,6 @@ export const labWords = {
   madeOf: ['the engine mysim, live in this page', '引擎 mysim，就在本页中运行'],
   close: ['Close', '关闭'],
   openInLab: ['Open in the lab', '在实验室中打开'],
-  computingRuns: ['mysim is computing {methods} …', 'mysim 正在计算 {methods} ……'],
-  noWasmForRun: [
-    'This browser does not run WebAssembly: runs of mysim, which this page computes when they are wanted, cannot be shown. Those of other engines are stored and can.',
-    '此浏览器不能运行 WebAssembly：本页在需要时才计算的 mysim 运行无法显示；其他引擎的运行已保存，可以播放。'
-  ],
   waiting: ['The engine is being unpacked …', '正在解包引擎……'],
   noModule: [
     'The live lab is not in this page: it was made without the packages that compile mysim to WebAssembly (clang, lld, wasi-libc, libc++; see crosscheck doctor).',

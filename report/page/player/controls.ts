@@ -2,7 +2,7 @@
 // @ts-nocheck
 
 import {lookOf, looksOfPage} from './colours';
-import {keysOf, parts, runOf} from './motion';
+import {failureOf, keysOf, parts, runOf} from './motion';
 import {Plot} from './plot';
 
 export const make = (name, attributes = {}, ...children) => {
@@ -98,10 +98,10 @@ class Picker {
     this.method.value = method;
     this.step.hidden = method === 'truth';
     this.step.replaceChildren(...(this.keys.get(method) ?? []).map(each => {
-      const {run} = runOf(this.scene, each), own = parts(each).place === 'own';
+      const {run} = runOf(this.scene, each), own = parts(each).place === 'own', failure = failureOf(run, short);
       return make(
           'option', each === key ? {value: each, selected: ''} : {value: each},
-          `${settingOf(run)}${own ? ' (own)' : ''}${run.failure ? `: ${run.failure}` : ''}`);
+          `${settingOf(run)}${own ? ' (own)' : ''}${failure ? `: ${failure}` : ''}`);
     }));
     this.box.style.setProperty('--own', lookOf(method).css);
     this.box.dataset.method = method;
@@ -118,7 +118,7 @@ export class Controls {
     this.clock = make('span', {class: 'clock'});
     const [speedLabel, speed] = dropdown('speed', [0.1, 0.25, 0.5, 1, 2].map(v => [String(v), `${v} ×`]), '1');
     const colours = [['plain', 'engine'], ['stretch', 'stretch'], ['distance', 'distance to the truth']].filter(
-        ([name]) => name === 'plain' || (name === 'stretch' ? scene.springs.rests?.count : scene.known?.runs[0]));
+        ([name]) => name === 'plain' || (name === 'stretch' ? scene.springs.rests.count : runOf(scene, 'truth')));
     const [colourLabel, colour] = dropdown('colour by', colours, look.colour);
     const [springLabel, springs] = check('springs', look.springs);
     const reset = make('button', {type: 'button', 'aria-label': `Reset view of ${scene.scene}`}, 'reset view');
@@ -141,7 +141,7 @@ export class Controls {
     this.slider.addEventListener(
         'input', () => act.seek(this.begin + this.slider.value / 300 * (this.end - this.begin)));
     Object.assign(this, {colour, springs, seek: act.seek, curves: []});
-    this.addPlots(act.pick ? 3 : 1);  // their room is there before they are
+    this.addPlots(act.pick ? 3 : 0);  // their room is there before they are
     speed.addEventListener('change', () => act.speed(Number(speed.value)));
     colour.addEventListener('change', () => act.look({colour: colour.value}));
     springs.addEventListener('change', () => act.look({springs: springs.checked}));
@@ -153,13 +153,13 @@ export class Controls {
     this.play.setAttribute('aria-label', `${playing ? 'Pause' : 'Play'} ${this.scene.scene}`);
   }
 
-  /** `top`: the largest difference, m; null where it is not known. */
-  setPicks(picks, top) {
+  /** `top`: the largest difference, m, 0 below the resolution `least` (m); null where it is not known. */
+  setPicks(picks, top, least) {
     this.pickers.forEach((picker, i) => picker.show(picks[i]));
     this.scale.replaceChildren(
         make('b', {}, 'A − B'),
         ...(top > 0       ? ['0', make('i', {class: 'ramp'}), length(top)] :
-                top === 0 ? ['no difference'] :
+                top === 0 ? [`below ${length(least)}`] :
                             []));
   }
 
@@ -185,7 +185,7 @@ export class Controls {
 
   setTime(time) {
     const {begin = 0, end = 1} = this, text = `${seconds(time, end - begin)} s`;
-    this.slider.value = 300 * (time - begin) / (end - begin);
+    this.slider.value = 300 * (time - begin) / (end - begin || 1);
     this.slider.setAttribute('aria-valuetext', text);
     this.clock.textContent = `${seconds(time, end - begin)} / ${seconds(end, end - begin)} s`;
     for (const curve of this.curves) curve.moveHead(time);

@@ -1,27 +1,73 @@
-// A run's motion between its frames, and where its frames come from.
-// @ts-nocheck
+// Runs of the page (report/CONTRACT.md), and a run's motion between its frames.
 
-import {cellDepartures, computedDepartures} from '../lab/computed_runs';
+import {bytesOf, Packed, unpackedBytes} from './unpack';
 
-import {departuresOf, valuesOf} from './unpack';
-
-/** The frames of a base: frames x coordinates, m. */
-async function baseOf(set, wide) {
-  const places = await departuresOf(set, set.base, wide), {centre} = set.base;
-  return places.map((d, i) => centre[i % 3] + d);
+/** A run as report.json has it. */
+export interface Run {
+  step?: number;
+  tolerance?: number;
+  verdict: string;
+  failed?: number;  // s
+  reason?: string;
+  frames: number;
+  times: (number|null)[];  // s, of all frames, or of the first and the last
+  last_pictures?: boolean;
+  low: number[];  // m
+  unit: number;   // m
+  offset: number;
+  bytes: number;
+  error?: (number|null)[];   // m
+  energy?: (number|null)[];  // J
 }
 
-/** The runs of a file of the page (motions.h), by its key: "SCENE-engines", "SCENE-speed-accuracy", a map's. */
+/** The runs of one method; `data`: their bytes in base64, which are decoded once. */
+export interface RunFile {
+  method: string;
+  note?: string;
+  runs: (Run|null)[];
+  data: string;
+  content?: Uint8Array;
+}
+
+/** A scene, or a map's small scene, as stage.cpp describes it. */
+export interface SceneStage {
+  scene: string;
+  particles: number;
+  times: number[];
+  from: number[];
+  floor: number|null;
+  triangles: Packed|null;
+  springs: {
+    ends: Packed,
+    rests: Packed,
+    rest_unit: number,
+    threads: number,
+    families: {name: string, count: number}[],
+  };
+  pins: number[];
+  spheres: {radius: number, centres: number[][]}[];
+  at?: number;  // s, of the poster
+  truth?: {name: string, rule: boolean, bar: number, motion: number};
+  toml?: string;
+}
+
+interface RunSet {
+  scene: string;
+  stage: SceneStage|null;
+  methods: Map<string, RunFile>;
+}
+
+/** The runs of a set of the page: "SCENE-engines", "SCENE-speed-accuracy", "SCENE-truth", a map's; null if none is. */
 export const runsOf = (() => {
-  const known = new Map();
-  return key => {
+  const known = new Map<string, RunSet|null>();
+  return (key: string) => {
     if (!known.has(key)) {
-      const script = [...document.querySelectorAll('script.runs')].find(s => s.dataset.runs === key);
-      const file = script ? JSON.parse(script.textContent) : null;
-      if (file) file.sets = new Map(file.methods.map(set => [set.name, set]));
-      known.set(key, file);
+      const scripts = [...document.querySelectorAll<HTMLElement>('script.runs')].filter(s => s.dataset.runs === key);
+      const parts = scripts.map(script => JSON.parse(script.textContent!));
+      const files: RunFile[] = parts.flatMap(part => part.methods);
+      known.set(key, parts.length ? {...parts[0], methods: new Map(files.map(file => [file.method, file]))} : null);
     }
-    return known.get(key);
+    return known.get(key)!;
   };
 })();
 
@@ -29,133 +75,131 @@ export const runsOf = (() => {
  * A key as method and place: "mysim/leapfrog 5" is the method's sixth run of the chart, "own" the one at the scene's
  * own step.
  */
-export const parts = key => {
+export const parts = (key: string) => {
   const at = key.lastIndexOf(' ');
   return {method: key.slice(0, at < 0 ? undefined : at), place: at < 0 ? '' : key.slice(at + 1)};
 };
 
 /** The file and the entry of a run; null where the page does not hold it. */
-export function runOf(scene, key) {
-  if (key === 'truth') return scene.known?.runs[0] ? {set: scene.known, run: scene.known.runs[0]} : null;
-  const {method, place} = parts(key), own = place === 'own';
-  const set = runsOf(`${scene.scene}-${own ? 'engines' : 'speed-accuracy'}`)?.sets.get(method);
-  const run = set?.runs[own ? 0 : Number(place)];
-  return run ? {set, run} : null;
+export function runOf(scene: {scene: string}, key: string) {
+  const {method, place} = parts(key), chosen = key === 'truth' || place === 'own' ? 0 : Number(place);
+  const set = key === 'truth' ? 'truth' : place === 'own' ? 'engines' : 'speed-accuracy';
+  const file = runsOf(`${scene.scene}-${set}`)?.methods.get(method), run = file?.runs[chosen];
+  return file && run ? {file, run} : null;
 }
 
 /** All runs of a scene that the page holds: their keys by method, in the order of the steps. */
-export function keysOf(scene) {
-  const all = new Map();
-  for (const [file, own] of [['engines', true], ['speed-accuracy', false]])
-    for (const [name, set] of runsOf(`${scene.scene}-${file}`)?.sets ?? [])
-      set.runs.forEach(
-          (run, i) => run && all.set(name, [...(all.get(name) ?? []), own ? `${name} own` : `${name} ${i}`]));
-  if (scene.known?.runs[0]) all.set('truth', ['truth']);
+export function keysOf(scene: {scene: string}) {
+  const all = new Map<string, string[]>();
+  for (const [set, own] of [['engines', true], ['speed-accuracy', false]])
+    for (const [method, file] of runsOf(`${scene.scene}-${set}`)?.methods ?? [])
+      file.runs.forEach((run, i) => {
+        if (run) all.set(method, [...(all.get(method) ?? []), own ? `${method} own` : `${method} ${i}`]);
+      });
+  if (runOf(scene, 'truth')) all.set('truth', ['truth']);
   return all;
 }
 
-/**
- * Where the frames of a run come from: the page's files, or the engine (computed_runs.js). Throws LabError where it
- * cannot compute them.
- */
-export async function motionOf(scene, key) {
-  const found = runOf(scene, key);
-  if (!found) return null;
-  const wide = 3 * scene.particles, {set, run} = found;
-  scene.base ??= baseOf(scene.known, wide);
-  const departures = run.computed ? computedDepartures(scene, set, run, wide) : departuresOf(set, run, wide);
-  const [base, apart, values] = await Promise.all([scene.base, departures, valuesOf(set, run, wide)]);
-  return new Motion(scene, {key, method: set.name, note: set.note, ...run}, {base, apart, ...values});
+/** "blew up at 0.31 s" of a run that failed. */
+export function failureOf({verdict, failed}: Run, short: (value: number) => string) {
+  if (verdict === 'ok' || failed === undefined) return '';
+  const words: Record<string, string> = {
+    stretch: 'overstretched',
+    solver: 'solver gave up',
+    frozen: 'froze',
+    timeout: 'out of time',
+    crash: 'program failed'
+  };
+  return `${words[verdict] ?? 'blew up'} at ${short(failed)} s`;
 }
 
-/** The same of a map's cell, on the map's own stage. Throws LabError where it cannot be computed. */
-export async function cellOf(stage, set, run) {
-  const wide = 3 * stage.particles,
-        [base, apart] = await Promise.all(
-            [baseOf(set, wide), run.computed ? cellDepartures(stage, set, run) : departuresOf(set, run, wide)]);
-  return new Motion(stage, {key: '', method: set.name, ...run}, {base, apart, error: [], energy: []});
+const numbersOf = ({particles}: SceneStage, file: RunFile, {offset, bytes}: Run) =>
+    unpackedBytes((file.content ??= bytesOf(file.data)).subarray(offset, offset + bytes), 3 * particles);
+
+/** The motion of a run of a scene; null where the page does not hold it. */
+export async function motionOf(scene: SceneStage, key: string) {
+  const found = runOf(scene, key);
+  if (!found) return null;
+  const {file, run} = found;
+  return new Motion(run, key, file.method, scene.particles, await numbersOf(scene, file, run));
+}
+
+/** The last picture of a map's cell, as a motion of one frame; null where there is none. */
+export async function cellOf(stage: SceneStage, file: RunFile, place: number) {
+  const [run] = file.runs, time = run?.times[place] ?? null, wide = 3 * stage.particles;
+  if (!run || time === null) return null;
+  const numbers = (await numbersOf(stage, file, run)).subarray(place * wide, (place + 1) * wide);
+  return new Motion({...run, frames: 1, times: [time]}, '', file.method, stage.particles, numbers);
 }
 
 export class Motion {
-  /** `base` and `apart`: frames x coordinates, m. */
-  constructor(scene, run, {base, apart, error, energy}) {
-    const {frames, times} = run, end = scene.times[scene.times.length - 1], last = scene.times.length - 1;
-    Object.assign(this, {run, base, apart, error, energy, wide: 3 * scene.particles});
-    // frames of the scene in a second; frames of the run at their times
-    this.rate = last > 0 ? last / end : 0;
-    const even = times && times.length < frames;
-    this.times = Array.from(
-        {length: frames},
-        (_, f) =>
-            (!times   ? f * run.every / (this.rate || 1) :
-                 even ? times[0] + f * (times[1] - times[0]) / (frames - 1) :
-                        times[f]));
-    this.begin = times ? this.times[0] : 0;
-    this.end = this.times[frames - 1];
+  readonly times: number[];  // s, of the frames
+  readonly begin: number;
+  readonly end: number;
+  readonly error: (number|null)[];   // m, of the frames
+  readonly energy: (number|null)[];  // J
+
+  /** `numbers`: frames x 3 x particles. */
+  constructor(
+      readonly run: Run, readonly key: string, readonly method: string, private readonly particles: number,
+      private readonly numbers: Uint16Array) {
+    const {frames, times} = run, [first, last] = times as number[];
+    this.times = times.length === frames ?
+        times as number[] :
+        Array.from({length: frames}, (_, f) => first + f * (last - first) / (frames - 1));
+    this.begin = this.times[0], this.end = this.times[frames - 1];
+    this.error = run.error ?? [], this.energy = run.energy ?? [];
   }
 
-  get well() { return !this.run.failure; }
+  get well() { return this.run.verdict === 'ok' || this.run.verdict === undefined; }
 
-  /** Two rows of `count` and the part of the way between them. */
-  static between(frame, count) {
-    const at = Math.max(0, Math.min(count - 1, frame)), first = Math.floor(at);
-    return {first, next: Math.min(count - 1, first + 1), part: at - first};
-  }
+  /** The largest error of a particle's place, m: half a unit in each direction. */
+  get bound() { return Math.sqrt(3) / 2 * this.run.unit; }
 
-  /** Row of the base, with fraction, at a time; a run that ended earlier stays at its end. */
-  baseRow(time) { return this.run.at ?? this.rate * Math.min(time, this.end); }
-  row(time) {
+  /** The frame at a time, with its fraction. */
+  private frameAt(time: number) {
     const {times} = this, t = Math.max(times[0], Math.min(this.end, time));
     const next = Math.max(1, times.findIndex(other => other >= t - 1e-12));
     return times.length < 2 ? 0 : next - 1 + (t - times[next - 1]) / (times[next] - times[next - 1]);
   }
 
-  /** A row of numbers with fraction, each added to what is there `size` times. */
-  add(rows, row, size, into) {
-    const {wide} = this, {first, next, part} = Motion.between(row, rows.length / wide);
-    for (let i = 0, a = first * wide, b = next * wide; i < wide; ++i, ++a, ++b)
-      into[i] +=
-          size * Math.fround(rows[a] + part * (rows[b] - rows[a]));  // rounded, so that the same less the same is 0
-  }
-
-  /** Places at a time, or what they are apart from those of another motion: coordinates, m. */
-  placesAt(time, into = new Float32Array(this.wide)) {
-    into.fill(0);
-    this.add(this.base, this.baseRow(time), 1, into);
-    this.add(this.apart, this.row(time), this.run.larger ?? 1, into);
+  /** Places at a time, between frames on a straight line; a run that ended earlier stays at its end: coordinates, m. */
+  placesAt(time: number, into = new Float32Array(3 * this.particles)) {
+    const {particles, numbers, run} = this, frame = this.frameAt(time), first = Math.floor(frame), part = frame - first;
+    const a = 3 * particles * first, b = part > 0 ? a + 3 * particles : a;
+    for (let axis = 0; axis < 3; ++axis)
+      for (let i = 0, from = axis * particles; i < particles; ++i, ++from)
+        into[3 * i + axis] =
+            run.low[axis] + run.unit * (numbers[a + from] + part * (numbers[b + from] - numbers[a + from]));
     return into;
   }
-  apartAt(time, other, into = new Float32Array(this.wide)) {
-    if (this.base === other.base && this.baseRow(time) === other.baseRow(time)) {
-      // the base falls out: what is left may be far smaller than its numbers can tell
-      into.fill(0);
-      this.add(this.apart, this.row(time), 1, into);
-      other.add(other.apart, other.row(time), -1, into);
-      return into;
-    }
+
+  /** What places are apart from those of another motion: coordinates, m. */
+  apartAt(time: number, other: Motion, into = new Float32Array(3 * this.particles)) {
     const theirs = other.placesAt(time);
     this.placesAt(time, into);
-    for (let i = 0; i < this.wide; ++i) into[i] -= theirs[i];
+    for (let i = 0; i < into.length; ++i) into[i] -= theirs[i];
     return into;
   }
 
   /** A value of the list of its frames at a time: between two that are there. */
-  valueAt(list, time) {
-    const {first, next, part} = Motion.between(this.row(time), this.times.length), a = list[first], b = list[next];
-    return time > this.end + 1e-9 || a === null || a === undefined ? null : b === null ? a : a + part * (b - a);
+  valueAt(list: (number|null)[], time: number) {
+    const frame = this.frameAt(time), first = Math.floor(frame), a = list[first] ?? null, b = list[first + 1] ?? null;
+    return time > this.end + 1e-9 || a === null ? null : b === null ? a : a + (frame - first) * (b - a);
   }
 }
 
 /** Distances of particles from departures, m. */
-export const distances = apart => {
+export const distances = (apart: Float32Array) => {
   const out = new Float32Array(apart.length / 3);
   for (let i = 0; i < out.length; ++i) out[i] = Math.hypot(apart[3 * i], apart[3 * i + 1], apart[3 * i + 2]);
   return out;
 };
-export const rms = values => Math.sqrt(values.reduce((sum, v) => sum + v * v, 0) / values.length);
+export const rms = (values: Float32Array) => Math.sqrt(values.reduce((sum, v) => sum + v * v, 0) / values.length);
 
 /** Mean extension of the springs at each particle, %, without those that shear and bend. */
-export function stretchOf(scene, {springs, rests}, places) {
+export function stretchOf(
+    scene: SceneStage, {springs, rests}: {springs: Uint16Array, rests: Uint16Array}, places: Float32Array) {
   const sum = new Float32Array(scene.particles), count = new Float32Array(scene.particles);
   let s = 0;
   for (const {name, count: many} of scene.springs.families)

@@ -1,18 +1,14 @@
 // <motion-player>: the motions of a scene's methods in lock-step. It stands behind the figure with the poster and the
-// scene's data, and puts its canvas over the poster while it is in sight. Without WebGL2 the poster stays alone, but
-// for the first screen, which needs none.
+// scene's data, and puts its canvas over the poster while it is in sight. Without WebGL2 the poster stays alone.
 // @ts-nocheck
 
 import {Controls, inTwo, length, make, roundUp, settingOf, short} from './controls';
-import {LabError} from '../lab/engine';
 import {Orbit} from './orbit';
-import {RasterStage} from './raster_stage';
 import {Stage} from './stage';
 import {attachPointerInput} from './pointer_input';
-import {distances, motionOf, parts, rms, runOf, stretchOf} from './motion';
+import {distances, failureOf, motionOf, rms, runOf, stretchOf} from './motion';
 import {lookOf} from './colours';
 import {noContext} from './gl';
-import {say} from '../lab/words';
 import {unpack} from './unpack';
 
 export const mostStages = 3;  // drawn scenes alive at once: browsers allow few contexts
@@ -61,7 +57,7 @@ const noControls = {
 };
 
 /** A motion's own look, and what it is called. */
-const viewOf = (motion, letter) => ({motion, letter, method: motion.run.method, look: lookOf(motion.run.method)});
+const viewOf = (motion, letter) => ({motion, letter, method: motion.method, look: lookOf(motion.method)});
 
 /** The series of a plot that stands for a motion. */
 const seriesOf = ({motion, letter, look}, list, dash) =>
@@ -74,7 +70,6 @@ class MotionPlayer extends HTMLElement {
     this.hero = this.dataset.shown ? JSON.parse(this.dataset.shown) : null;
     this.picks = this.dataset.a ? {a: this.dataset.a, b: this.dataset.b} : null;
     this.box = root.querySelector('.stage');
-    this.soft = this.hero && RasterStage.takes(scene);
     Object.assign(this, {
       time: 0,
       begin: 0,
@@ -89,6 +84,7 @@ class MotionPlayer extends HTMLElement {
     });
     this.look = {colour: 'plain', springs: !scene.triangles};
     root.classList.toggle('comparing', Boolean(this.picks));
+    this.classList.toggle('still', Boolean(this.given));
     this.controls = this.hero ? noControls : new Controls(this, scene, this.look, {
       toggle: () => (this.playing ? this.pause() : this.play()),
       seek: time => (this.pause(), this.seek(time), this.wake()),
@@ -130,12 +126,12 @@ class MotionPlayer extends HTMLElement {
     const given = await shared;
     await this.loaded;
     if (this.stage) return;
-    while (!this.soft && alive.length >= mostStages) (alive.find(player => !player.seen) ?? alive[0]).sleep();
+    while (alive.length >= mostStages) (alive.find(player => !player.seen) ?? alive[0]).sleep();
     const canvas = make('canvas', {'aria-hidden': 'true'});
     canvas.addEventListener('webglcontextlost', () => this.stage?.canvas === canvas && this.sleep());
-    if (!plays && !this.soft) return;
+    if (!plays) return;
     try {
-      this.stage = new (this.soft ? RasterStage : Stage)(canvas, this.scene, given);
+      this.stage = new Stage(canvas, this.scene, given);
     } catch (problem) {
       this.hidden = true;
       if (problem !== noContext) throw problem;
@@ -153,7 +149,7 @@ class MotionPlayer extends HTMLElement {
         canvas, this.titles);
     attachPointerInput(this.layer, this.orbit, () => this.draw());
     this.box.append(this.layer);
-    if (!this.soft) alive.push(this);
+    alive.push(this);
     this.showViews();
     this.dataset.state = 'ready';
     if (!performance.getEntriesByName('first-motion').length) performance.mark('first-motion');
@@ -162,30 +158,14 @@ class MotionPlayer extends HTMLElement {
   /** Gathers the motions that are shown. */
   async load() {
     const keys = this.hero ?? (this.picks ? [this.picks.a, this.picks.b] : []), letters = this.hero ? [] : ['A', 'B'];
-    const turn = this.turn = {}, missing = [];
-    const awaited = keys.filter(key => runOf(this.scene, key)?.run.computed && !runOf(this.scene, key).run.there);
-    if (awaited.length) this.tellComputing(awaited);
-    const motions = this.given?.motion ? [this.given.motion] :
-                                         await Promise.all(keys.map(key => motionOf(this.scene, key).catch(problem => {
-                                           if (!(problem instanceof LabError)) throw problem;
-                                           missing.push(problem.message);
-                                           return null;
-                                         })));
+    const turn = this.turn = {};
+    const motions = this.given ? [this.given.motion] : await Promise.all(keys.map(key => motionOf(this.scene, key)));
     const truth = this.picks && await motionOf(this.scene, 'truth');
     if (turn !== this.turn) return;  // other runs were chosen meanwhile
     this.motions = motions.filter(Boolean);
     this.letters = letters.filter((_, i) => motions[i]);
-    this.missing = [...new Set(missing)];
     this.truth = truth;
-    delete this.dataset.computing;
     this.arrange();
-  }
-
-  /** Says which runs are being computed. */
-  tellComputing(keys) {
-    this.dataset.computing = '';
-    this.controls.setHint(
-        say('computingRuns', {methods: [...new Set(keys.map(key => inTwo(parts(key).method).join(' ')))].join(', ')}));
   }
 
   /** Chooses other runs. */
@@ -201,7 +181,7 @@ class MotionPlayer extends HTMLElement {
   arrange() {
     const {scene, letters} = this;
     this.views = this.motions.map((motion, i) => viewOf(motion, letters[i] ?? ''));
-    const pictures = this.motions.find(motion => motion.run.times);
+    const pictures = this.given?.motion ?? this.motions.find(motion => motion.run.last_pictures);
     [this.begin, this.end] = pictures ? [pictures.begin, pictures.end] : [0, scene.times[scene.times.length - 1]];
     this.pace = pictures ? (this.end - this.begin) / 6 : 1;  // pictures of a moment take six seconds
     const plots = [], [a, b] = this.views, purple = 'var(--difference)';
@@ -210,7 +190,9 @@ class MotionPlayer extends HTMLElement {
       const apart = times.map(
           t => (t <= Math.min(a.motion.end, b.motion.end) + 1e-9 ? distances(a.motion.apartAt(t, b.motion)) : null));
       const largest = apart.reduce((top, metres) => metres?.reduce((x, y) => Math.max(x, y), top) ?? top, 0);
-      this.top = largest > 0 ? roundUp(largest) : 0;
+      // below the resolution of both runs their difference is none of motion
+      this.least = a.motion.bound + b.motion.bound, this.bound = Math.max(a.motion.bound, b.motion.bound);
+      this.top = largest > this.least ? roundUp(largest) : 0;
       this.views.push(
           {motion: a.motion, other: b.motion, top: this.top || 1, letter: 'A − B', look: a.look, method: ''});
       const dash = b.look.css === a.look.css ? '5 3' : '';
@@ -232,26 +214,21 @@ class MotionPlayer extends HTMLElement {
           {
             title: 'difference',
             unit: 'm',
-            series:
-                [{name: 'A − B', css: purple, well: true, points: times.map((t, i) => [t, apart[i] && rms(apart[i])])}]
+            series: this.top ?
+                [
+                  {name: 'A − B', css: purple, well: true, points: times.map((t, i) => [t, apart[i] && rms(apart[i])])}
+                ] :
+                [],
+            none: `Below the resolution of ${length(this.least)}.`
           });
-      this.controls.setPicks([this.picks.a, this.picks.b], this.top);
+      this.controls.setPicks([this.picks.a, this.picks.b], this.top, this.least);
       for (const cell of this.closest('article')?.querySelectorAll('.choose') ?? [])
         for (const button of cell.querySelectorAll('[data-as="a"], [data-as="b"]'))
           button.setAttribute('aria-pressed', this.picks[button.dataset.as] === cell.dataset.key);
       this.controls.setHint(this.words());
     } else if (this.given) {
-      const off = a.motion.times.map(
-          (t, f) =>
-              [t,
-               a.motion.apart.subarray(f * a.motion.wide, (f + 1) * a.motion.wide)
-                   .reduce((x, y) => Math.max(x, Math.abs(y)), 0)]);
-      plots.push(
-          {title: 'departure from rest', unit: 'm', series: [{name: '', css: a.look.css, well: false, points: off}]});
       this.controls.setHint(this.given.caption);
     }
-    if (this.missing.length && this.picks) this.controls.setPicks([this.picks.a, this.picks.b], null);
-    if (this.missing.length) this.controls.setHint([...this.missing, this.picks ? this.words() : ''].join(' '));
     this.controls.setPlots(plots, this.begin, this.end);
     if (this.untouched && !this.hero)
       this.time = this.picks && !pictures ? Math.min(this.end, scene.at ?? this.end) : this.begin;
@@ -264,16 +241,24 @@ class MotionPlayer extends HTMLElement {
   words() {
     const said = [];
     for (const letter of ['a', 'b']) {
-      const {set, run} = runOf(this.scene, this.picks[letter]) ?? {}, name = letter.toUpperCase();
+      const {file, run} = runOf(this.scene, this.picks[letter]) ?? {}, name = letter.toUpperCase();
       if (!run) continue;
-      if (run.failure) said.push(`${name}: ${run.failure}: ${run.reason}.`);
-      if (run.times)
+      if (failureOf(run, short)) said.push(`${name}: ${failureOf(run, short)}: ${run.reason}.`);
+      if (run.last_pictures)
         said.push(`${name}: the last ${run.frames} pictures of the run, from ${short(run.times[0])} s on.`);
-      if (set.note) said.push(`${name} follows a different law: ${set.note}.`);
-      if (set === this.scene.known && run.stops < this.scene.times[this.scene.times.length - 1] - 1e-9)
-        said.push(`${name}: ${run.end}.`);
+      if (file.note) said.push(`${name} follows a different law: ${file.note}.`);
+      if (this.endOf(file.method, run)) said.push(`${name}: ${this.endOf(file.method, run)}.`);
     }
+    if (this.bound) said.push(`Positions are drawn to within ${length(this.bound)}.`);
     return said.join(' ');
+  }
+
+  /** What is said where a truth ends before its scene. */
+  endOf(method, {times}) {
+    const end = times[times.length - 1];
+    return method === 'truth' && end < this.scene.times[this.scene.times.length - 1] - 1e-9 ?
+        `known up to ${short(end)} s` :
+        '';
   }
 
   /** Puts the views on the stage, their titles over it. */
@@ -302,7 +287,7 @@ class MotionPlayer extends HTMLElement {
   /** Gives its context back; the poster is there again. */
   sleep() {
     this.pause();
-    if (!this.soft) alive.splice(alive.indexOf(this), 1);
+    alive.splice(alive.indexOf(this), 1);
     const {stage} = this;
     this.stage = null;
     stage.release();
@@ -374,7 +359,7 @@ class MotionPlayer extends HTMLElement {
 
   draw() {
     if (!this.stage || !this.views.length) return;
-    const {canvas} = this.stage, ratio = this.soft ? RasterStage.finer : Math.min(2, window.devicePixelRatio || 1);
+    const {canvas} = this.stage, ratio = Math.min(2, window.devicePixelRatio || 1);
     const wide = Math.round(this.box.clientWidth * ratio), high = Math.round(this.box.clientHeight * ratio);
     if (!wide || !high) return;
     if (canvas.width !== wide || canvas.height !== high) Object.assign(canvas, {width: wide, height: high});
@@ -389,9 +374,9 @@ class MotionPlayer extends HTMLElement {
       Object.assign(
           this.titles.children[i].style,
           {left: `${100 * panel.left}%`, top: `${100 * panel.top}%`, width: `${100 * panel.wide}%`});
-      const failed = over && run.failure && !other;
+      const failed = over && !other && failureOf(run, short);
       state.className = failed ? 'failed' : '';
-      state.textContent = failed ? run.failure : !other && this.time > motion.end + 1e-9 ? run.end ?? '' : '';
+      state.textContent = failed || (!other && this.time > motion.end + 1e-9 ? this.endOf(motion.method, run) : '');
     });
   }
 }
@@ -409,7 +394,7 @@ function runHero(hero) {
   });
   const tell = (player, spans) => {
     for (const {span, still} of spans) {
-      const motion = player.motions?.find(m => m.run.key === span.dataset.key),
+      const motion = player.motions?.find(m => m.key === span.dataset.key),
             error = motion?.valueAt(motion.error, player.time);
       const part = player.scene.truth?.motion;
       if (error === null || error === undefined)
@@ -459,7 +444,7 @@ function runHero(hero) {
     if (seen && playing) requestAnimationFrame(tick);
   }).observe(hero);
   if (stillWanted.matches) return;
-  Promise.all(players.map(player => player.wake())).then(() => set(true));
+  Promise.all(players.map(player => player.wake())).then(() => plays && set(true));
 }
 
 /** Defines <motion-player>, and plays the scenes of the first screen when the page is there. */

@@ -2,13 +2,13 @@
 // same runs stand in a list, for who has no pointer.
 // @ts-nocheck
 
-import {cellOf, parts, runsOf} from './motion';
-import {dropdown, make, short} from './controls';
-import {labStateOf} from '../lab/computed_runs';
+import {labStateOf, labStateOfRun} from '../lab/doors';
 import {openLab} from '../lab/lab';
-import {opened} from './unpack';
-import {plays} from './player';
 import {say} from '../lab/words';
+
+import {dropdown, make, short} from './controls';
+import {cellOf, parts, runsOf} from './motion';
+import {plays} from './player';
 
 /** What a marker says: whose run it is first. */
 const tipOf = ({dataset}) => {
@@ -16,25 +16,12 @@ const tipOf = ({dataset}) => {
   return dataset.words.startsWith(method) ? dataset.words : `${method}, ${dataset.words}`;
 };
 
-/** What the window of a map's cell says of its pictures. */
-function captionOf({frames, times, left, larger}) {
-  const end = short(times[times.length - 1]);
-  return (left ? `${frames} pictures up to ${end} s, when the run leaves the frame; it ended at ${short(left)} s. ` :
-                 `The last ${frames} pictures of the run, up to ${end} s. `) +
-      (larger ? `Departures from rest are drawn ${short(larger)} times as large as they are.` :
-                'Departures are drawn in true size.');
-}
-
-/** Opens the window with the run of a marker: beside the truth, or a cell's alone. */
+/** Opens the window with the run of a marker: beside the truth; of a map's cell the last picture alone. */
 async function playRun(key, marker) {
-  const file = runsOf(key), [head, ...lines] = tipOf(marker).split('\n'), {method, place} = parts(marker.dataset.run);
-  const set = file.sets.get(method), scene = file.scene ?? file.stage.scene;
-  if (set && file.stage) await opened(set, 3 * file.stage.particles);
-  let run = set?.runs[Number(place)], motion = null, problem = null;
-  if (run && file.stage) {
-    motion = await cellOf(file.stage, set, run).catch(({message}) => void (problem = message));
-    if (problem) run = null;
-  }
+  const set = runsOf(key), [head, ...lines] = tipOf(marker).split('\n'), {method, place} = parts(marker.dataset.run);
+  const file = set.methods.get(method), {stage} = set, scene = stage?.scene ?? set.scene;
+  const cell = stage && file ? await cellOf(stage, file, Number(place)) : null;
+  const run = file?.runs[Number(place)], shown = stage ? cell : run;
   const close = make('button', {type: 'button', class: 'close', 'aria-label': 'Close'}, '✕');
   const box = make('div', {class: 'player'});
   const dialog = make(
@@ -42,16 +29,16 @@ async function playRun(key, marker) {
       make('p', {}, lines.join('; ')), box);
   document.body.append(dialog);
   const player = make(
-      'motion-player', run && file.scene ? {'data-scene': scene, 'data-a': marker.dataset.run, 'data-b': 'truth'} : {});
-  if (run) {
-    if (file.stage) player.given = {scene: file.stage, motion, caption: captionOf(run)};
+      'motion-player', shown && !stage ? {'data-scene': scene, 'data-a': marker.dataset.run, 'data-b': 'truth'} : {});
+  if (shown) {
+    const caption = `The last picture of the run, at ${short(cell?.end ?? 0)} s, or the last in which it is in sight.`;
+    if (cell) player.given = {scene: stage, motion: cell, caption};
     box.append(make('figure', {class: 'render'}, make('div', {class: 'stage'})), player);
   } else {
     box.append(make(
         'p', {class: 'none'},
-        problem ??
-            (set ? 'It ended before there was a second picture of it to show.' :
-                   'The runs of this method are too large for the page; the command run plays them.')));
+        file ? 'It ended before there was a picture of it to show.' :
+               'The runs of this method are too large for the page; the command run plays them.'));
   }
   const state = labStateOf(key, marker);
   if (state) {
@@ -59,7 +46,7 @@ async function playRun(key, marker) {
     door.addEventListener('click', () => (shut(), openLab(state)));
     box.append(make('p', {class: 'door'}, door));
   }
-  if (run && file.scene)
+  if (shown && !stage)
     box.append(make(
         'p', {class: 'hint'}, 'The same run: ',
         make(
@@ -76,7 +63,7 @@ async function playRun(key, marker) {
   dialog.addEventListener('click', event => event.target === dialog && shut());
   dialog.addEventListener('close', shut);  // by Escape
   dialog.showModal();
-  if (run) await player.wake();  // also where nothing moves by itself: who clicks wants to see it
+  if (shown) await player.wake();  // also where nothing moves by itself: who clicks wants to see it
 }
 
 /**
@@ -116,11 +103,7 @@ export function listRuns(figure) {
 /** A button of the table of runs: puts its run into A or B, plays it, or opens it in the lab. */
 async function choose(button) {
   const {key} = button.parentElement.dataset;
-  if (button.dataset.as === 'lab') {
-    const scene = button.closest('table').dataset.scene, {method, place} = parts(key), own = place === 'own';
-    const run = runsOf(`${scene}-${own ? 'engines' : 'speed-accuracy'}`).sets.get(method).runs[own ? 0 : Number(place)];
-    return openLab({scene, method, step: run.step, tolerance: run.tolerance});
-  }
+  if (button.dataset.as === 'lab') return openLab(labStateOfRun(button.closest('table').dataset.scene, key));
   const player = button.closest('article, section').querySelector('motion-player[data-a]');
   if (!player?.picks) return;
   await player.pick({[button.dataset.as === 'b' ? 'b' : 'a']: key});

@@ -186,7 +186,8 @@ TEST_F(Cli, ReportOfOwnSceneIsWholeAndTheSameTwice) {
   EXPECT_TRUE(fs::exists(folder_ / "one/figures/circle-speed-accuracy-cost.svg")) << "the last scene stands for others";
   EXPECT_FALSE(fs::exists(folder_ / "one/figures/mine-agreement.svg"));
   EXPECT_TRUE(fs::exists(folder_ / "one/figures/mine-thumbnail.png"));
-  EXPECT_TRUE(fs::exists(folder_ / "one/data/mine-motions.json"));
+  EXPECT_TRUE(fs::exists(folder_ / "one/runs/mine-engines/mysim-symplectic-euler.u16.gz"));
+  EXPECT_FALSE(fs::exists(folder_ / "one/runs/mine-engines/mysim-symplectic-euler.json")) << "it is in report.json";
   EXPECT_NE(page.find("<motion-player data-scene=\"mine\""), std::string::npos);
   EXPECT_NE(page.find("<script type=\"application/json\" class=\"motion\" data-scene=\"mine\">"), std::string::npos);
   // the answers of the first screen
@@ -234,8 +235,7 @@ TEST_F(Cli, ReportOfOwnSceneIsWholeAndTheSameTwice) {
     if (ending == ".csv") {
       EXPECT_EQ(rows(file), rows(other)) << file;
       ++compared;
-    } else if (ending == ".svg" || ending == ".png" || ending == ".pdf" || ending == ".gp" ||
-               file.stem().string().ends_with("-motions")) {
+    } else if (ending == ".svg" || ending == ".png" || ending == ".pdf" || ending == ".gp" || ending == ".gz") {
       EXPECT_TRUE(read(file) == read(other)) << file;
       ++compared;
     }

@@ -4,6 +4,9 @@ addEventListener('load', async () => {
   try {
     const hero = document.querySelector('.hero'), player = hero.querySelector('motion-player'), slider = hero.querySelector('input');
     await player.wake();
+    const poster = () => !hero.querySelector('canvas') && hero.querySelector('img').getBoundingClientRect().height > 50;
+    seen.able = Boolean(player.stage);
+    if (!seen.able) return tell({...seen, poster: poster(), button: hero.querySelector('button').textContent});
     const at = async part => {
       slider.value = 1000 * part;
       slider.dispatchEvent(new Event('input'));
@@ -16,7 +19,7 @@ addEventListener('load', async () => {
     seen.turns = lookAt(player).picture !== again.picture;
     seen.panels = player.titles.children.length;
     player.sleep();
-    seen.poster = !hero.querySelector('canvas') && hero.querySelector('img').getBoundingClientRect().height > 50;
+    seen.poster = poster();
   } catch (problem) {
     complaints.push(String(problem.stack));
   }

@@ -14,7 +14,8 @@
 #include "report/page/page_parts.h"
 #include "report/page/player_html.h"
 #include "report/pictures/scene_picture.h"
-#include "report/player/motions.h"
+#include "report/player/runs.h"
+#include "report/player/stage.h"
 #include "tests/unit/experiments/helpers.h"
 #include "tests/unit/helpers.h"
 #include "tests/unit/reference/helpers.h"
@@ -34,33 +35,51 @@ struct Played {
   Scene scene;
   std::string motions;
   std::vector<const MethodResult*> shown;
-  std::vector<std::string> files = {};  // of runs, as JSON
+  std::vector<RunFile> files = {};
   std::vector<std::string> names = {};
   MethodResults results = {};
+  TemporaryFolder folder{"played"};
 
   Played(Scene of, const std::vector<std::string>& methods) : scene(std::move(of)) {
     Request request;
     request.scenes = {scene};
-    const MotionBase base = base_of(scene, run_of(request, scene));
-    motions = stage_json(scene, base);
+    RunsWriter writer(folder.path);
+    const Run run = run_of(request, scene);
+    writer.keep_truth(scene, run);
     const auto add = [&](const std::string& name, const MethodResult& r) {
       names.push_back(name);
-      files.push_back(motions_json({"engines", scene, name, {{r.outcome, r.trajectory}}}, base));
+      writer.keep({"engines", scene, name, {{r.outcome, r.trajectory}}}, run);
     };
     for (const std::string& name : methods) {
       shown.push_back(&result_of(request, scene, find_method(name), results));
       add(name, *shown.back());
     }
     add(outside, *shown[0]);
+    files = run_files(JsonField::parse(dump(take_index(folder.path)), "index"), folder.path, true);
+    const auto truth = truth_of(scene, run);
+    motions = stage_json(
+        scene, shown[0]->trajectory.x,
+        truth ? std::optional(StageTruth{"truth, converged", false, truth->error_bar, motion_of(truth->trajectory)})
+              : std::nullopt);
   }
-  /// The runs as the page takes them, with files in the folder.
-  PlayableRuns runs(const std::filesystem::path& folder) const {
-    PlayableRuns all{scene.name + "-engines", scene.name, "", {}, names};
-    for (size_t i = 0; i < files.size(); ++i) {
-      all.methods.push_back(folder / fmt::format("run-{}.json", i));
-      write_file(all.methods.back(), files[i]);
+  /// The runs as the page takes them.
+  std::vector<PlayableRuns> runs() const {
+    std::vector<PlayableRuns> all;
+    for (const RunFile& file : files) {
+      if (all.empty() || all.back().key != file.set) all.push_back({file.set, scene.name, "", {}});
+      all.back().files.push_back(file);
     }
     return all;
+  }
+  /// HTML of the scene and the runs.
+  std::string html() const {
+    const SceneData facts{};
+    ScenePart part{&scene, &facts, {}};
+    part.motions = motions;
+    PageContent content;
+    content.scenes = {part};
+    content.runs = runs();
+    return motions_html(content);
   }
   void draw(int width, int height, const std::filesystem::path& file) const {
     render::write_png(picture_of(scene, shown, {.quality = render::Quality::fast, .width = width, .height = height}),
@@ -135,11 +154,11 @@ class Page : public InBrowser {
     }
     ScenePart part{&chain_.scene, &facts_, {made_up(finding_rule("nearest"), "chain")}};
     part.thumbnail = part.hero = poster;
-    part.motions = write("motions.json", chain_.motions);
+    part.motions = chain_.motions;
     part.figures = {{"chain-speed-accuracy-cost", "t", "c"}};
     for (const std::string& method : {std::string("mysim/symplectic-euler"), std::string("bullet/deformable-explicit")})
       part.runs.push_back({method + " own", method, "1 ms", 2e-3, {}, true});
-    content_.runs = {chain_.runs(folder_)};
+    content_.runs = chain_.runs();
     for (const std::string& method : chain_.names)
       if (std::ranges::find(content_.methods, method) == content_.methods.end()) content_.methods.push_back(method);
     content_.scenes = {part};
@@ -274,11 +293,9 @@ class PlayerPage : public testing_tools::InBrowser {
         "data-scene=\"{}\" data-a=\"{} own\" data-b=\"{} own\"></motion-player>\n</div>\n",
         filled("image", image_data({folder_ / "poster.png", "the poster", ""})), scene.name, methods.back(),
         methods.front());
-    const std::string motions =
-        script_json(fmt::format("class=\"motion\" data-scene=\"{}\"", scene.name), played.motions);
     const std::string test = scripts({"stage_selftest.js", "player_selftest.js"});
-    std::string html = page_head(scene.name) + player + motions + runs_html(played.runs(folder_)) + "<script>" +
-                       page_script("app") + "</script></body></html>";
+    std::string html =
+        page_head(scene.name) + player + played.html() + "<script>" + page_script("app") + "</script></body></html>";
     return write("page.html", html.insert(html.find("</head>"), test));
   }
 };
@@ -313,26 +330,27 @@ TEST_F(PlayerPage, AClothIsDrawnWithItsSphere) {
 /// A page with a chart whose first marker came to its end, whose second blew up; and a map with a cell.
 class RunsPage : public PlayerPage {
  protected:
-  std::filesystem::path charts(bool lab = false, const std::string& head = "") {
+  std::filesystem::path charts(bool lab = false) {
     Request request;
     request.scenes = {load_scene("chain")};
     request.methods = find_methods("mysim/leapfrog,mysim/explicit-euler");
     const Scene& scene = request.scenes[0];
-    const MotionBase base = base_of(scene, run_of(request, scene));
-    PageContent content;
-    content.runs = {{"chain-speed-accuracy", "chain", "", {}}, {"map", "", stage_json(scene, lab), {}}};
-    request.on_runs = [&](const RecordedRuns& w) {
-      content.runs[0].methods.push_back(write(file_name_of(w.method) + ".json", motions_json(w, base)));
-    };
+    const Played played(scene, {"mysim/leapfrog"});
+    RunsWriter writer(folder_);
+    const RunCallback keep = [&](const RecordedRuns& w) { writer.keep(w, run_of(request, scene)); };
+    request.on_runs = keep;
     TableSet rows;
     speed_accuracy_on(request, scene, rows);
-    add_map(map_kinds()[0], scene, find_method("mysim/leapfrog"), {2, 4, 300, false}, rows, [&](const RecordedRuns& w) {
-      content.runs[1].methods.push_back(write("cells.json", motions_json(w, {})));
-    });
-    const Played played(scene, {"mysim/leapfrog"});
+    add_map(map_kinds()[0], scene, find_method("mysim/leapfrog"), {2, 4, 300, false}, rows, keep);
+    PageContent content;
+    content.runs = played.runs();
+    content.runs.push_back({"chain-speed-accuracy", "chain", "", {}});
+    content.runs.push_back({"map", "", stage_json(scene, lab), {}});
+    for (RunFile& file : run_files(JsonField::parse(dump(take_index(folder_)), "index"), folder_, true))
+      content.runs[content.runs.size() - (file.set == "chain-speed-accuracy" ? 2 : 1)].files.push_back(file);
     const SceneData facts{};
     ScenePart part{&scene, &facts, {}};
-    part.motions = write("motions.json", played.motions);
+    part.motions = played.motions;
     content.scenes.push_back(part);
     content.chapters = chapters();
     Chapter& chapter = content.chapters[1];
@@ -368,7 +386,7 @@ class RunsPage : public PlayerPage {
     content.methods = {"mysim/leapfrog", "mysim/explicit-euler"};
     if (lab) content.lab = lab_data_html({scene});
     std::string html = page_html(content);
-    html.insert(html.find("</head>"), head + scripts({"stage_selftest.js", "runs_selftest.js"}));
+    html.insert(html.find("</head>"), scripts({"stage_selftest.js", "runs_selftest.js"}));
     return write("runs.html", html);
   }
 };
@@ -380,50 +398,29 @@ TEST_F(RunsPage, AClickOnAMarkerOrAChoiceInTheListPlaysItsRun) {
   ASSERT_EQ(saw["windows"].size(), 4u) << saw.dump();
   for (const JsonField& w : saw["windows"].elements()) {
     EXPECT_GT(w["drawn"].number(), 0.001) << w.dump();
-    EXPECT_TRUE(w["moves"].boolean()) << w.dump();
     EXPECT_TRUE(w["closed"].boolean()) << w.dump();
+    EXPECT_EQ(w["says"].text().find("Open in the lab"), std::string::npos) << "no door without a lab";
   }
+  for (const size_t run : {0, 1, 3}) EXPECT_TRUE(saw["windows"][run]["moves"].boolean()) << run;
   EXPECT_EQ(saw["windows"][0]["panels"].number(), 3) << "the run beside the truth, and their difference";
   EXPECT_NE(saw["windows"][0]["says"].text().find("crosscheck run chain --method mysim/leapfrog --step"),
             std::string::npos)
       << saw["windows"][0]["says"].dump();
   EXPECT_LT(saw["windows"][0]["apart"].number(), 1e-3) << "m: as near to the truth as the run is, with its lattice";
   EXPECT_EQ(saw["windows"][2]["panels"].number(), 1);
+  EXPECT_FALSE(saw["windows"][2]["moves"].boolean()) << "a still";
   EXPECT_NE(saw["windows"][1]["says"].text().find("last"), std::string::npos) << saw["windows"][1]["says"].dump();
-  EXPECT_NE(saw["windows"][2]["says"].text().find("Departures"), std::string::npos) << saw["windows"][2]["says"].dump();
   EXPECT_EQ(saw["windows"][3]["says"].text(), saw["windows"][1]["says"].text()) << "the list has the same runs";
 }
 
-TEST_F(RunsPage, WhereTheLabIsARunIsComputedWhenItIsClicked) {
+TEST_F(RunsPage, WithTheLabEachRunOfMysimHasADoorToIt) {
   NEEDS_CHROMIUM;
   if (!has_lab_module()) GTEST_SKIP() << "mysim was not compiled to WebAssembly";
-  const auto stored = charts();
-  EXPECT_EQ(read(stored).find("\"computed\":true"), std::string::npos);
-  EXPECT_EQ(read(stored).find("id=\"lab-module\""), std::string::npos);
-  const JsonField before = seen(stored, {}), saw = seen(charts(true), {});
-  const std::string html = read(folder_ / "runs.html");
-  EXPECT_NE(html.find("\"computed\":true"), std::string::npos);
-  EXPECT_NE(html.find("\"starts\":"), std::string::npos) << "of the map's cells";
+  const JsonField saw = seen(charts(true), {});
   EXPECT_EQ(saw["complaints"].dump(), "[]");
   ASSERT_EQ(saw["windows"].size(), 4u) << saw.dump();
-  for (const JsonField& w : saw["windows"].elements()) {
-    EXPECT_GT(w["drawn"].number(), 0.001) << w.dump();
-    EXPECT_TRUE(w["moves"].boolean()) << w.dump();
+  for (const JsonField& w : saw["windows"].elements())
     EXPECT_NE(w["says"].text().find("Open in the lab"), std::string::npos) << w["says"].dump();
-  }
-  const double apart = before["windows"][0]["apart"].number();
-  EXPECT_NEAR(saw["windows"][0]["apart"].number(), apart, 0.06 * apart) << "m, from the truth: as it was stored";
-  for (const JsonField& w : before["windows"].elements())
-    EXPECT_EQ(w["says"].text().find("Open in the lab"), std::string::npos) << "no door without a lab";
-}
-
-TEST_F(RunsPage, WithoutWebAssemblyItSaysSo) {
-  NEEDS_CHROMIUM;
-  if (!has_lab_module()) GTEST_SKIP() << "mysim was not compiled to WebAssembly";
-  const JsonField saw = seen(charts(true, "<script>delete window.WebAssembly;</script>"), {});
-  ASSERT_EQ(saw["hints"].size(), 4u) << saw.dump();
-  for (const size_t computed : {0, 2})  // a run of the scene, and a map's cell
-    EXPECT_NE(saw["hints"][computed].text().find("does not run WebAssembly"), std::string::npos) << saw.dump();
 }
 
 TEST_F(RunsPage, WithoutWebGlNothingPretendsToPlay) {
@@ -445,7 +442,7 @@ TEST_F(PlayerPage, WithoutWebGlThePosterStays) {
   EXPECT_EQ(saw["complaints"].dump(), "[]");
 }
 
-TEST_F(PlayerPage, TheFirstScreenOfAClothNeedsNoWebGl) {
+TEST_F(PlayerPage, TheFirstScreenOfAClothMoves) {
   NEEDS_CHROMIUM;
   const Played played(load_scene("cloth-sphere"), {"mysim/symplectic-euler", "mysim/leapfrog"});
   played.draw(304, 171, folder_ / "poster.png");
@@ -455,14 +452,20 @@ TEST_F(PlayerPage, TheFirstScreenOfAClothNeedsNoWebGl) {
   const SceneData facts{.scene = played.scene.name, .tier = "converged"};
   ScenePart part{&played.scene, &facts, {}};
   part.thumbnail = part.hero = folder_ / "poster.png";
-  part.motions = write("motions.json", played.motions);
+  part.motions = played.motions;
   for (const char* method : {"mysim/symplectic-euler", "mysim/leapfrog"})
     part.runs.push_back({std::string(method) + " own", method, "1 ms", 2e-3, {}, true});
   content.scenes = {part};
-  content.runs = {played.runs(folder_)};
+  content.runs = played.runs();
   std::string html = page_html(content);
   html.insert(html.find("</head>"), scripts({"stage_selftest.js", "hero_selftest.js"}));
-  const JsonField saw = seen(write("page.html", html), {"--disable-3d-apis"});
+  const auto page = write("page.html", html);
+  const JsonField still = seen(page, {"--disable-3d-apis"});
+  EXPECT_EQ(still["complaints"].dump(), "[]");
+  EXPECT_FALSE(still["able"].boolean());
+  EXPECT_TRUE(still["poster"].boolean()) << "without WebGL the still picture stays";
+  EXPECT_EQ(still["button"].text(), "▶") << "and no clock runs";
+  const JsonField saw = seen(page, {});
   EXPECT_EQ(saw["complaints"].dump(), "[]");
   EXPECT_GT(saw["drawn"].number(), 0.05) << "part of the picture that is not background";
   EXPECT_EQ(saw["panels"].number(), 3) << "both runs, and the truth";
@@ -470,27 +473,16 @@ TEST_F(PlayerPage, TheFirstScreenOfAClothNeedsNoWebGl) {
 }
 
 /// Two engines' drapes of 64 x 64 particles in 150 frames, as the page holds them.
-TEST(PlayerSize, TwoDrapesOf4096ParticlesFitInto2Point2Megabytes) {
+TEST(PlayerSize, TwoDrapesOf4096ParticlesFitIntoTheHalfOfAPage) {
   Scene scene = testing_tools::with_grid("cloth-sphere", 64);
   scene.duration = 1.5;  // s: the fall, the impact and the sliding; at rest nothing is left to be packed
-  Request request;
-  request.scenes = {scene};
-  MethodResults answers;
-  MotionBase base;
-  std::string text;
-  for (const char* name : {"mysim/symplectic-euler", "bullet/deformable-explicit"}) {
-    const MethodResult& r = result_of(request, scene, find_method(name), answers);
-    ASSERT_EQ(r.outcome.verdict, Verdict::ok) << r.outcome.reason;
-    if (base.x.empty()) base.t = r.trajectory.t, base.x = r.trajectory.x;
-    text += motions_json({"engines", scene, name, {{r.outcome, r.trajectory}}}, base);
-  }
-  const std::string stage = stage_json(scene, base);
-  const JsonField data = JsonField::parse(stage, "player");
-  text += stage;
-  EXPECT_EQ(data["particles"].number(), 4096);
-  EXPECT_EQ(data["times"].size(), 151u);
-  EXPECT_LE(text.size() + page_script("app").size(), 2'200'000u);
-  RecordProperty("bytes", static_cast<int>(text.size()));
+  const Played played(scene, {"mysim/symplectic-euler", "bullet/deformable-explicit"});
+  const JsonField stage = JsonField::parse(played.motions, "player");
+  EXPECT_EQ(stage["particles"].number(), 4096);
+  EXPECT_EQ(stage["times"].size(), 151u);
+  const size_t bytes = played.html().size();
+  EXPECT_LE(bytes, 4'000'000u);
+  RecordProperty("bytes", static_cast<int>(bytes));
 }
 
 }  // namespace

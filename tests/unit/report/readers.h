@@ -57,7 +57,7 @@ inline std::set<double> letters_of(const std::string& pdf) {
   return sizes;
 }
 
-// The page's way back from packed numbers, written apart from the way there.
+// The way back from packed numbers, written apart from the way there.
 
 inline std::string bytes_of_base64(const std::string& text) {
   static const std::string alphabet = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
@@ -111,17 +111,16 @@ inline std::string with_folds_put_back(std::string page) {
   return page;
 }
 
-inline std::vector<std::uint16_t> unpacked(size_t count, size_t lag, int order, const std::string& data) {
-  const std::string planes = gunzipped(bytes_of_base64(data), 2 * count);
+/// Rows of numbers from bytes of gzip, as report/CONTRACT.md describes them.
+inline std::vector<std::uint16_t> unpacked(const std::string& gzip, size_t count, size_t columns) {
+  const std::string planes = gunzipped(gzip, 2 * count);
   std::vector<std::uint16_t> numbers(count);
   for (size_t i = 0; i < count; ++i) {
     const unsigned low = static_cast<unsigned char>(planes[i]), high = static_cast<unsigned char>(planes[count + i]);
     const unsigned zigzag = low | high << 8;
     numbers[i] = static_cast<std::uint16_t>(zigzag % 2 ? -static_cast<int>((zigzag + 1) / 2) : zigzag / 2);
+    if (i >= columns) numbers[i] = static_cast<std::uint16_t>(numbers[i] + numbers[i - columns]);
   }
-  for (int k = order; k > 0; --k)
-    for (size_t i = static_cast<size_t>(k) * lag; i < count; ++i)
-      numbers[i] = static_cast<std::uint16_t>(numbers[i] + numbers[i - lag]);
   return numbers;
 }
 

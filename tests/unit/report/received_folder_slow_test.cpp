@@ -91,9 +91,9 @@ TEST_F(ReceivedReport, WithPathsOutsideOrLinksIsRefused) {
   write("secret", "mine");
   const ProgramResult made = call({"report", "circle", "--quick", "--methods", "rk4,leapfrog", "--out", "rep"});
   ASSERT_EQ(made.status, 0) << made.err;
-  const std::vector<std::vector<std::string>> readers{{"report", "--verify", "rep"},
-                                                      {"report", "--from", "rep", "--out", "a"},
-                                                      {"figures", "--from", "rep", "--out", "b"}};
+  std::vector<std::vector<std::string>> readers{{"report", "--verify", "rep"},
+                                                {"report", "--from", "rep", "--out", "a"},
+                                                {"figures", "--from", "rep", "--out", "b"}};
   const auto expect_refused = [&](const char* said) {
     for (const std::vector<std::string>& words : readers) {
       const ProgramResult refused = call(words);
@@ -107,6 +107,17 @@ TEST_F(ReceivedReport, WithPathsOutsideOrLinksIsRefused) {
   change(file, "\"name\": \"", "\"name\": \"../../");
   expect_refused("report.json: tables: expected a name");
   write_file(file, before);
+  change(file, "\"format\": 2", "\"format\": 3");
+  expect_refused("report.json: expected a report of format 2, got 3");
+  EXPECT_EQ(call({"report", "circle", "--against", "rep", "--out", "a"}).status, 2);
+  write_file(file, before);
+  change(file, "\"file\":\"runs/", "\"file\":\"../runs/");
+  readers.erase(readers.begin());  // --verify reads no runs
+  expect_refused("../runs/");
+  write_file(file, before);
+  for (const auto& runs : fs::recursive_directory_iterator(folder_ / "rep/runs"))
+    if (runs.is_regular_file()) write_file(runs, std::string(fs::file_size(runs), 'x'));
+  expect_refused(".u16.gz");
   fs::create_symlink("../../secret", folder_ / "rep/data/link.json");
   expect_refused("link.json: expected a file or folder, got a symbolic link");
 }

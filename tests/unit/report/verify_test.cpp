@@ -226,7 +226,7 @@ TEST_F(Verify, ReportsOfOlderVersionsAreHeldAgainstTheDataToo) {
 TEST_F(Verify, MissingPartsAreErrors) {
   std::filesystem::remove(folder_ / "data/engines.csv");
   EXPECT_THROW(verify_report(folder_), InputError);
-  write_file(folder_ / "report.json", "{\"problems\": [\"the report was not finished\"]}");
+  write_file(folder_ / "report.json", "{\"format\": 2, \"problems\": [\"the report was not finished\"]}");
   try {
     verify_report(folder_);
     FAIL();

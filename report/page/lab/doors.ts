@@ -1,0 +1,48 @@
+// The doors from a run of a chart, or a cell of a map, to the lab.
+
+import {parts, runOf, runsOf} from '../player/motion';
+
+import {sceneText} from './lab';
+import {numberAt, numbersOf, tomlNumber, withNumbers, withoutSection} from './scene_text';
+
+/** Whether the lab runs a method, options and all. */
+const isOfLab = (method: string) =>
+    Boolean(document.getElementById('lab-module')) && /^mysim\/[a-z0-9-]+(\+(events|sticky|linear))*$/.test(method);
+
+/** The small scene of a map with a row's stiffness (over its own) or drag rate, and a cell's step. */
+function textOfCell(toml: string, kind: string, value: number, step: number) {
+  let text = `${withoutSection(toml, 'drag').trimEnd()}\n\n[drag]\ngamma = ${tomlNumber(value)}  # 1/s\n`;
+  if (kind === 'stiffness') {
+    const lines = toml.split('\n');
+    for (const {path, value: own, line, begin, end} of numbersOf(toml))
+      if (/(^|\.)stiffness(\.|$)/.test(path))
+        lines[line] =
+            lines[line].slice(0, begin) + tomlNumber(Number((own * value).toPrecision(6))) + lines[line].slice(end);
+    text = lines.join('\n');
+  }
+  // whole steps from one sample to the next, so that it is not shortened
+  const samples = numberAt(text, 'time.samples'), interval = numberAt(text, 'time.duration') / samples;
+  const duration = samples * Math.max(1, Math.ceil(interval / step)) * step;
+  return withNumbers(text, {'time.duration': duration, 'time.step': step});
+}
+
+/**
+ * The state of the lab in which a mark of a figure opens: {scene, method, step or tolerance, toml}; null where the lab
+ * has none.
+ */
+export function labStateOf(key: string, marker: HTMLElement) {
+  const {run: chosen = '', step, value} = marker.dataset, {method} = parts(chosen), set = runsOf(key);
+  if (!set || !isOfLab(method)) return null;
+  if (set.stage) {
+    const {scene, toml} = set.stage, kind = key.endsWith('-drag-map') ? 'drag' : 'stiffness';
+    if (!toml || !step) return null;
+    return {scene, method, step: Number(step), toml: textOfCell(toml, kind, Number(value), Number(step))};
+  }
+  return sceneText(set.scene) ? labStateOfRun(set.scene, chosen) : null;
+}
+
+/** The same of a run of a scene. */
+export function labStateOfRun(scene: string, key: string) {
+  const found = runOf({scene}, key);
+  return found && {scene, method: found.file.method, step: found.run.step, tolerance: found.run.tolerance};
+}
