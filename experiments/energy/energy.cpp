@@ -144,7 +144,7 @@ void long_run(const Request& request, const Scene& scene, const Method& method, 
 
 std::vector<Point> energy_points(const Request& request) {
   std::vector<Scene> scenes = request.scenes;
-  scenes.push_back(everything());
+  if (!request.scenes_only) scenes.push_back(everything());
   std::vector<Point> points;
   for (const Scene& scene : scenes) {
     if (scene.model.first_order()) {
@@ -161,6 +161,7 @@ std::vector<Point> energy_points(const Request& request) {
                         [=](TableSet& tables) { long_run(alone, scene, method, tables); }});
     }
   }
+  if (request.scenes_only) return points;
   const Scene oscillator = undamped_oscillator();
   for (const Method& method : methods_of(request, oscillator)) {
     if (method.adaptive) continue;  // it has no step to be set

@@ -63,6 +63,20 @@ TEST(EnergyExperiment, TakesImplicitRulesAndTheirClosedFormsAtTenTimesTheStep) {
     EXPECT_NEAR(number(energy, i, "step"), i < 2 ? 1e-2 : 1e-3, 1e-9) << text_at(energy, i, "method");
 }
 
+TEST(EnergyExperiment, OfNamedScenesRunsTheseAlone) {
+  Request request;
+  request.scenes = {load_scene("spring")};
+  request.methods = find_methods("symplectic-euler,leapfrog");
+  const auto names = [&] {
+    std::string all;
+    for (const Point& point : energy_points(request)) all += point.name + ";";
+    return all;
+  };
+  EXPECT_TRUE(contains(names(), "all-at-once by") && contains(names(), "numerical damping of")) << names();
+  request.scenes_only = true;
+  EXPECT_EQ(names(), "energy: spring by mysim/symplectic-euler;energy: spring by mysim/leapfrog;");
+}
+
 TEST(EnergyExperiment, ClaimsClosureOnlyWhereLossesAreTold) {
   Request request;
   request.scenes = {load_scene("spring"), load_scene("circle")};
