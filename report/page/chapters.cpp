@@ -128,8 +128,8 @@ Json fold_data(const std::string& heading, const std::vector<Folded>& all, const
   }
   const std::string kind = kind_of(std::ranges::find(all, heading, &Folded::fold)->entry);
   if (entries.size() == 1) return folds.fold(heading, kind, "entry", entries[0]);
-  return folds.fold(heading, counted(entries.size(), kind), "group",
-                    {{"entries", std::move(entries)}, {"choices", std::move(choices)}});
+  const std::string many = counted(entries.size(), kind);
+  return folds.fold(heading, many, "group", {{"entries", std::move(entries)}, {"choices", std::move(choices)}});
 }
 
 /// The folds of a chapter: the findings, the relations, then its entries; the least of them share the last fold.

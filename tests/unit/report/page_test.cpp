@@ -288,6 +288,7 @@ TEST_F(WholePage, AChapterHasSixFoldsAtMostAndTheLastOneHoldsTheRest) {
   const std::string last = part.substr(part.rfind("<details class=\"fold\""));
   EXPECT_TRUE(contains(last, "More figures and tables"));
   EXPECT_EQ(count(last, "<button type=\"button\" data-figure="), 4) << "two of the charts and the table had room";
+  EXPECT_TRUE(contains(last, "<span class=\"kind\">4 charts</span>"));
   EXPECT_EQ(count(last, "<div id=\"one-"), 4);
   EXPECT_EQ(count(last, "\" hidden>\n"), 3);
 }
