@@ -240,8 +240,11 @@ std::optional<Chart> failure_chart(const ChartInput& input, const std::string& p
   f.finding += f.finding.empty() ? "It fails." : ".";
   f.caption = fmt::format("Beside it the same run at a quarter of the step. Scene {}; commit {}.", name, input.commit);
   f.tier = "measured";
-  Snapshot s{
-      .name = "stability-failure", .caption = "", .scene = *scene, .panels = {}, .shot = usual_shot(*scene, false)};
+  Snapshot s{.name = "stability-failure",
+             .caption = fmt::format("{} blowing up by {}", name, name_in_sentence(first.method)),
+             .scene = *scene,
+             .panels = {},
+             .shot = usual_shot(*scene, false)};
   const int last = static_cast<int>(rows.back().step);
   s.panels.push_back({first.method, {first.h, first.h * last, last}});
   s.shot.mode = Mode::shaded, s.shot.width = 240, s.shot.height = 176;

@@ -192,8 +192,12 @@ class Assembly {
     const auto file = [&](const std::string& name) { return figures_ / (file_name_of(name) + ".png"); };
     if (s.moments.empty()) return {{file(s.name), s.caption, s.caption}};
     std::vector<PageImage> images;
-    for (const auto& [t, caption] : s.moments)
-      images.push_back({file(fmt::format("{}-{}", s.name, images.size() + 1)), caption, caption});
+    for (const auto& [t, caption] : s.moments) {
+      std::string moment = caption;
+      if (const size_t line = moment.find('\n'); line != std::string::npos) moment.replace(line, 1, ", ");
+      images.push_back(
+          {file(fmt::format("{}-{}", s.name, images.size() + 1)), fmt::format("{}: {}", s.caption, moment), caption});
+    }
     return images;
   }
 

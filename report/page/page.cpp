@@ -121,7 +121,7 @@ Json scene_data(const ScenePart& part, const PageContent& c) {
 Json card_data(const ScenePart& part, const PageContent& c, Folds& folds) {
   Json card{{"name", part.scene->name},
             {"question", part.scene->question},
-            {"thumbnail", part.thumbnail.empty() ? Json() : image_data({part.thumbnail, part.scene->name, ""})},
+            {"thumbnail", part.thumbnail.empty() ? Json() : image_data({part.thumbnail, "", ""})},
             {"take", nullptr},
             {"held", folds.hold("scene", scene_data(part, c))}};
   if (part.take)
