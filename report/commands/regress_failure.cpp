@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <set>
+#include <tuple>
 
 #include "experiments/metrics.h"
 #include "experiments/regress/baseline.h"
@@ -106,29 +107,17 @@ FailureDetails failure_details(const Case& test_case, const std::vector<Comparis
 }
 
 std::vector<Case> failures_to_draw(const std::vector<Case>& all, const std::vector<Comparison>& rows, int most) {
-  struct Ranked {
-    const Case* test_case;
-    double off;
-  };
-  std::vector<Ranked> ranked;
-  for (const Comparison& row : worst_comparisons(rows)) {
-    const auto at = std::find_if(all.begin(), all.end(), [&](const Case& q) {
-      return q.scene.name == row.scene && q.method.name == row.method && q.without == row.without;
-    });
-    if (at == all.end() ||
-        std::any_of(ranked.begin(), ranked.end(), [&](const Ranked& r) { return r.test_case == &*at; }))
-      continue;
-    ranked.push_back({&*at, row.rank()});
-  }
-  std::stable_sort(ranked.begin(), ranked.end(), [](const Ranked& a, const Ranked& b) {
-    if (a.test_case->without.empty() != b.test_case->without.empty()) return a.test_case->without.empty();
-    if (owns(*a.test_case) != owns(*b.test_case)) return owns(*a.test_case);  // of these the old shape is kept
-    return a.off > b.off;
-  });
-  std::vector<Case> first, others;
+  using Rank = std::tuple<bool, bool, double>;  // less comes first
+  std::vector<std::pair<Rank, const Case*>> ranked;
+  for (const Comparison& row : worst_comparisons(rows))
+    for (const Case& q : all)
+      if (q.scene.name == row.scene && q.method.name == row.method && q.without == row.without &&
+          std::ranges::find(ranked, &q, &std::pair<Rank, const Case*>::second) == ranked.end())
+        ranked.push_back({{!q.without.empty(), !owns(q), -row.rank()}, &q});  // the old shape is kept of owned ones
+  std::ranges::stable_sort(ranked, {}, &std::pair<Rank, const Case*>::first);
   std::set<std::string> scenes;
-  for (const Ranked& r : ranked)
-    (scenes.insert(r.test_case->scene.name).second ? first : others).push_back(*r.test_case);
+  std::vector<Case> first, others;
+  for (const auto& [rank, q] : ranked) (scenes.insert(q->scene.name).second ? first : others).push_back(*q);
   first.insert(first.end(), others.begin(), others.end());
   if (static_cast<int>(first.size()) > most) first.erase(first.begin() + most, first.end());
   return first;
