@@ -1,22 +1,29 @@
 // The colours of scales, families and methods.
-// @ts-nocheck
 
 export const heat = ['F3F0E8', 'F6D9A6', 'F3B466', 'E8853B', 'CF5246', 'A02C5D', '5F1A5C'];  // as colour.cpp
 export const purple = ['F4F2F7', 'D9CBE6', 'B28FCF', '8A55B0', '5E2A86', '3B1260'];          // differences
 export const palette = ['0072B2', 'D55E00', '009E73', 'CC79A7', 'E69F00', '56B4E9', '333333'];
-export const rgb = hex => [0, 2, 4].map(i => parseInt(hex.replace('#', '').slice(i, i + 2), 16) / 255);
-export const mixed = (a, b, part) => a.map((v, k) => v + part * (b[k] - v));
+export const rgb = (hex: string) => [0, 2, 4].map(i => parseInt(hex.replace('#', '').slice(i, i + 2), 16) / 255);
+export const mixed = (a: number[], b: number[], part: number) => a.map((v, k) => v + part * (b[k] - v));
 
 /** The looks of methods on this page (chart_json.h). */
-export const looksOfPage = JSON.parse(document.getElementById('methods-data')?.textContent ?? '{}');
+interface Look {
+  title: string;
+  colour: string;
+  engine?: string;
+  rule?: string;
+}
+export const looksOfPage: Record<string, Look> =
+    JSON.parse(document.getElementById('methods-data')?.textContent ?? '{}');
 
 /**
  * A method's title, and its colours as they are now, as numbers from 0 to 1: plain, and dark, middle and light for
  * cloth; each engine has one tint of cloth.
  */
-export function lookOf(method) {
+export function lookOf(method: string) {
   const known = looksOfPage[method], name = method === 'truth' ? 'truth' : known?.colour ?? 'grey';
-  const style = getComputedStyle(document.documentElement), read = key => style.getPropertyValue(`--${key}`).trim();
+  const style = getComputedStyle(document.documentElement),
+        read = (key: string) => style.getPropertyValue(`--${key}`).trim();
   const colour = read(name) || '#707880', own = rgb(colour);
   const cloth = rgb(read(`${name.replace(/2$/, '')}2`) || colour);
   const tint = method === 'truth' ? rgb('8A9099') : cloth;
@@ -29,7 +36,7 @@ export function lookOf(method) {
 }
 
 /** 256 colours between the stops, four bytes each. */
-export function scaleBytes(stops) {
+export function scaleBytes(stops: string[]) {
   const bytes = new Uint8Array(4 * 256), colours = stops.map(rgb);
   for (let i = 0; i < 256; ++i) {
     const at = i / 255 * (stops.length - 1), a = Math.min(Math.floor(at), stops.length - 2);

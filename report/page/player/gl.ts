@@ -1,22 +1,50 @@
 // Programs, buffers and textures of one WebGL2 context.
-// @ts-nocheck
 
 import {header, vertexCommon} from './shaders';
 
 export const noContext = new Error('no WebGL2 context');
 
+/** Corners (floats) shared by all instances, one row of whole numbers per instance, and an index. */
+export interface Mesh {
+  corners?: Float32Array;
+  size?: number;  // numbers of a corner
+  instances?: Int32Array;
+  slot?: number;
+  ints?: number;  // numbers of an instance
+  index: Uint16Array;
+}
+export interface Shape {
+  array: WebGLVertexArrayObject;
+  indexed: number;
+  instances: number;
+}
+export interface Program {
+  program: WebGLProgram;
+  places: Record<string, {at: WebGLUniformLocation | null, type: number}>;
+}
+export interface Table {
+  texture: WebGLTexture;
+  wide: number;
+  high: number;
+  data: Float32Array;
+}
+export type Uniforms = Record<string, unknown>;
+
 export class Gl {
+  readonly gl: WebGL2RenderingContext;
+
   /** Throws `noContext` where the context cannot be had. */
-  constructor(canvas, antialias) {
-    this.gl = canvas.getContext('webgl2', {antialias, alpha: false, powerPreference: 'low-power'});
-    if (!this.gl) throw noContext;
+  constructor(canvas: HTMLCanvasElement, antialias: boolean) {
+    const gl = canvas.getContext('webgl2', {antialias, alpha: false, powerPreference: 'low-power'});
+    if (!gl) throw noContext;
+    this.gl = gl;
   }
 
-  program(vertex, fragment, define = '') {
-    const gl = this.gl, program = gl.createProgram();
-    const parts = [[gl.VERTEX_SHADER, vertexCommon + vertex], [gl.FRAGMENT_SHADER, fragment]];
+  program(vertex: string, fragment: string, define = ''): Program {
+    const gl = this.gl, program = gl.createProgram()!;
+    const parts: [number, string][] = [[gl.VERTEX_SHADER, vertexCommon + vertex], [gl.FRAGMENT_SHADER, fragment]];
     for (const [kind, text] of parts) {
-      const shader = gl.createShader(kind);
+      const shader = gl.createShader(kind)!;
       gl.shaderSource(shader, header + define + text);
       gl.compileShader(shader);
       gl.attachShader(program, shader);
@@ -26,23 +54,23 @@ export class Gl {
     // without this check a mistake is a blank canvas and no message
     if (!gl.getProgramParameter(program, gl.LINK_STATUS) && !gl.isContextLost())
       throw new Error([
-        gl.getProgramInfoLog(program), ...gl.getAttachedShaders(program).map(s => gl.getShaderInfoLog(s))
+        gl.getProgramInfoLog(program), ...gl.getAttachedShaders(program)!.map(s => gl.getShaderInfoLog(s))
       ].join(' '));
-    const places = {};
+    const places: Program['places'] = {};
     for (let i = 0; i < gl.getProgramParameter(program, gl.ACTIVE_UNIFORMS); ++i) {
-      const {name, type, size} = gl.getActiveUniform(program, i);
-      places[name.replace('[0]', '')] = {at: gl.getUniformLocation(program, name), type, size};
+      const {name, type} = gl.getActiveUniform(program, i)!;
+      places[name.replace('[0]', '')] = {at: gl.getUniformLocation(program, name), type};
     }
     return {program, places};
   }
 
   /** Makes the program current and sets what it has of these uniforms; textures are bound to units in order. */
-  use({program, places}, uniforms) {
+  use({program, places}: Program, uniforms: Uniforms) {
     const gl = this.gl;
     gl.useProgram(program);
     let unit = 0;
     for (const [name, {at, type}] of Object.entries(places)) {
-      const value = uniforms[name];
+      const value = uniforms[name] as number[];
       if (value === undefined) continue;
       if (type === gl.FLOAT_MAT4)
         gl.uniformMatrix4fv(at, false, value);
@@ -51,25 +79,24 @@ export class Gl {
       else if (type === gl.FLOAT_VEC4)
         gl.uniform4fv(at, value);
       else if (type === gl.FLOAT)
-        gl.uniform1f(at, value);
+        gl.uniform1f(at, uniforms[name] as number);
       else {
         gl.activeTexture(gl.TEXTURE0 + unit);
-        gl.bindTexture(gl.TEXTURE_2D, value);
+        gl.bindTexture(gl.TEXTURE_2D, uniforms[name] as WebGLTexture);
         gl.uniform1i(at, unit++);
       }
     }
   }
 
-  buffer(target, data) {
+  private buffer(target: number, data: ArrayBufferView) {
     const gl = this.gl, buffer = gl.createBuffer();
     gl.bindBuffer(target, buffer);
     gl.bufferData(target, data, gl.STATIC_DRAW);
     return buffer;
   }
 
-  /** Vertex arrays: corners (floats) shared by all instances, one row of whole numbers per instance, and an index. */
-  shape({corners, size, instances, slot, ints, index}) {
-    const gl = this.gl, array = gl.createVertexArray();
+  shape({corners, size = 3, instances, slot = 1, ints = 1, index}: Mesh): Shape {
+    const gl = this.gl, array = gl.createVertexArray()!;
     gl.bindVertexArray(array);
     if (corners) {
       this.buffer(gl.ARRAY_BUFFER, corners);
@@ -82,35 +109,35 @@ export class Gl {
       gl.vertexAttribIPointer(slot, ints, gl.INT, 0, 0);
       gl.vertexAttribDivisor(slot, 1);
     }
-    if (index) this.buffer(gl.ELEMENT_ARRAY_BUFFER, index);
+    this.buffer(gl.ELEMENT_ARRAY_BUFFER, index);
     gl.bindVertexArray(null);
-    return {array, indexed: index ? index.length : 0, instances: instances ? instances.length / ints : 1};
+    return {array, indexed: index.length, instances: instances ? instances.length / ints : 1};
   }
 
-  draw({array, indexed, instances}, mode, count = instances) {
+  draw({array, indexed, instances}: Shape, mode: number, count = instances) {
     this.gl.bindVertexArray(array);
     if (count > 0) this.gl.drawElementsInstanced(mode, indexed, this.gl.UNSIGNED_SHORT, 0, count);
   }
 
   /** A texture that is read texel by texel: four floats for each of `count` entries. */
-  table(count) {
+  table(count: number): Table {
     const gl = this.gl, wide = Math.min(count, 1024), high = Math.ceil(count / wide);
-    const texture = gl.createTexture();
+    const texture = gl.createTexture()!;
     gl.bindTexture(gl.TEXTURE_2D, texture);
     gl.texStorage2D(gl.TEXTURE_2D, 1, gl.RGBA32F, wide, high);
     for (const key of [gl.TEXTURE_MIN_FILTER, gl.TEXTURE_MAG_FILTER]) gl.texParameteri(gl.TEXTURE_2D, key, gl.NEAREST);
     return {texture, wide, high, data: new Float32Array(4 * wide * high)};
   }
 
-  fill({texture, wide, high, data}) {
+  fill({texture, wide, high, data}: Table) {
     const gl = this.gl;
     gl.bindTexture(gl.TEXTURE_2D, texture);
     gl.texSubImage2D(gl.TEXTURE_2D, 0, 0, 0, wide, high, gl.RGBA, gl.FLOAT, data);
   }
 
   /** A row of colours (bytes, four each), read with interpolation. */
-  colours(bytes) {
-    const gl = this.gl, texture = gl.createTexture();
+  colours(bytes: Uint8Array) {
+    const gl = this.gl, texture = gl.createTexture()!;
     gl.bindTexture(gl.TEXTURE_2D, texture);
     gl.texImage2D(gl.TEXTURE_2D, 0, gl.RGBA8, bytes.length / 4, 1, 0, gl.RGBA, gl.UNSIGNED_BYTE, bytes);
     for (const [key, value] of [
@@ -121,8 +148,8 @@ export class Gl {
   }
 
   /** A depth texture that compares, and the frame that draws into it. */
-  shadowMap(size) {
-    const gl = this.gl, texture = gl.createTexture(), frame = gl.createFramebuffer();
+  shadowMap(size: number) {
+    const gl = this.gl, texture = gl.createTexture()!, frame = gl.createFramebuffer()!;
     gl.bindTexture(gl.TEXTURE_2D, texture);
     gl.texStorage2D(gl.TEXTURE_2D, 1, gl.DEPTH_COMPONENT24, size, size);
     for (const [key, value] of [

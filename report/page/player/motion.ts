@@ -51,6 +51,13 @@ export interface SceneStage {
   toml?: string;
 }
 
+/** What is unpacked of a scene once. */
+export interface Shared {
+  triangles: Uint16Array;
+  springs: Uint16Array;
+  rests: Uint16Array;
+}
+
 interface RunSet {
   scene: string;
   stage: SceneStage|null;
@@ -198,8 +205,7 @@ export const distances = (apart: Float32Array) => {
 export const rms = (values: Float32Array) => Math.sqrt(values.reduce((sum, v) => sum + v * v, 0) / values.length);
 
 /** Mean extension of the springs at each particle, %, without those that shear and bend. */
-export function stretchOf(
-    scene: SceneStage, {springs, rests}: {springs: Uint16Array, rests: Uint16Array}, places: Float32Array) {
+export function stretchOf(scene: SceneStage, {springs, rests}: Shared, places: Float32Array) {
   const sum = new Float32Array(scene.particles), count = new Float32Array(scene.particles);
   let s = 0;
   for (const {name, count: many} of scene.springs.families)

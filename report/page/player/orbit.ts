@@ -1,40 +1,56 @@
 // The camera of all panels: turns about a point, so far away that everything is seen.
-// @ts-nocheck
 
-import {cross, dot, minus, norm, perspective, plus, times, toEye} from './vectors';
+import {cross, dot, minus, norm, perspective, plus, times, toEye, Vector} from './vectors';
 
 const fieldOfView = 25 * Math.PI / 180;  // vertical
 export const tangent = Math.tan(fieldOfView / 2);
 
+/** A ball that has to be seen; `margin`: the part of the view that stays free. */
+export interface Held {
+  at: Vector;
+  radius: number;
+  margin: number;
+}
+
+export interface Fit {
+  target: number[];
+  distance: number;
+}
+
 export class Orbit {
-  constructor(from) {
+  private readonly home: {yaw: number, pitch: number};
+  private yaw = 0;
+  private pitch = 0;
+  zoom = 1;
+
+  constructor(from: Vector) {
     this.home = {yaw: Math.atan2(from[0], from[2]), pitch: Math.asin(from[1] / norm(from))};
     this.reset();
   }
 
   reset() { Object.assign(this, this.home, {zoom: 1}); }
 
-  turn(yaw, pitch) {
+  turn(yaw: number, pitch: number) {
     this.yaw += yaw;
     this.pitch = Math.max(-1.5, Math.min(1.5, this.pitch + pitch));
   }
 
-  magnify(factor) { this.zoom = Math.max(0.15, Math.min(4, this.zoom / factor)); }
+  magnify(factor: number) { this.zoom = Math.max(0.15, Math.min(4, this.zoom / factor)); }
 
   /** Right, up and backwards. */
-  axes({yaw, pitch} = this) {
+  private axes({yaw, pitch}: {yaw: number, pitch: number} = {yaw: this.yaw, pitch: this.pitch}) {
     const back = [Math.sin(yaw) * Math.cos(pitch), Math.sin(pitch), Math.cos(yaw) * Math.cos(pitch)];
     const right = [Math.cos(yaw), 0, -Math.sin(yaw)];
     return [right, cross(back, right), back];
   }
 
   /**
-   * Point looked at and least distance at which the balls {at, radius, margin} lie within a panel of this shape, seen
-   * from home; the point lies near their `middle`. A margin is the part of the view that stays free.
+   * Point looked at and least distance at which the balls lie within a panel of this shape, seen from home; the point
+   * lies near their `middle`.
    */
-  fit(balls, middle, aspect) {
+  fit(balls: Held[], middle: Vector, aspect: number): Fit {
     const [right, up, back] = this.axes(this.home);
-    const half = (axis, slope) => {
+    const half = (axis: Vector, slope: number) => {
       const most = [-Infinity, -Infinity];
       for (const {at, radius, margin} of balls) {
         const from = minus(at, middle);
@@ -54,7 +70,7 @@ export class Orbit {
   }
 
   /** Eye and clip matrix for a fit. */
-  view({target, distance}, aspect) {
+  view({target, distance}: Fit, aspect: number) {
     const axes = this.axes(), far = distance * this.zoom;
     const eye = plus(target, far, axes[2]);
     return {eye, toClip: times(perspective(tangent, aspect, far / 30, far * 8), toEye(axes, eye))};

@@ -1,27 +1,45 @@
 // A quantity of all methods over time, with a play head; a click or a drag in it moves the head.
-// @ts-nocheck
 
 import {make, short, unitOf} from './controls';
+
+/** A value at a time (s); null where it is not known. */
+export type Point = [number, number | null];
+export interface Series {
+  name: string;
+  css: string;
+  dash?: string;
+  points: Point[];
+  well: boolean;
+}
+/** What a plot shows: lengths in the unit that suits the largest; `none` where nothing is known. */
+export interface Shown {
+  title: string;
+  unit: string;
+  series: Series[];
+  begin: number;
+  end: number;
+  none?: string;
+}
 
 // the name space is taken from the parser, as the page holds no address
 const vectorSpace = (() => {
   const holder = document.createElement('div');
   holder.innerHTML = '<svg></svg>';
-  return holder.firstChild.namespaceURI;
+  return (holder.firstChild as Element).namespaceURI;
 })();
 
-export const svg = (name, attributes = {}, ...children) => {
+export const svg = (name: string, attributes: Record<string, string|number> = {}, ...children: (Node|string)[]) => {
   const element = document.createElementNS(vectorSpace, name);
-  for (const [key, value] of Object.entries(attributes)) element.setAttribute(key, value);
+  for (const [key, value] of Object.entries(attributes)) element.setAttribute(key, String(value));
   element.append(...children);
   return element;
 };
 
 /** Round numbers between low and high, about `count` of them. */
-function ticks(low, high, count) {
+function ticks(low: number, high: number, count: number) {
   const rough = (high - low) / count, power = 10 ** Math.floor(Math.log10(rough));
-  const step = [1, 2, 5, 10].find(s => s * power >= rough * 0.999) * power;
-  const list = [];
+  const step = [1, 2, 5, 10].find(s => s * power >= rough * 0.999)! * power;
+  const list: number[] = [];
   for (let k = Math.ceil(low / step - 1e-9); k * step <= high + 1e-9 * step; ++k) list.push(k * step);
   const digits = Math.max(0, -Math.floor(Math.log10(step) + 1e-9));
   return list.map(value => ({
@@ -33,22 +51,41 @@ function ticks(low, high, count) {
 }
 
 /** Whole powers of ten between two exponents, at most about `count` of them. */
-function powerTicks(low, high, count) {
-  const step = Math.max(1, Math.ceil((high - low) / count)), list = [];
+function powerTicks(low: number, high: number, count: number) {
+  const step = Math.max(1, Math.ceil((high - low) / count)), list: {value: number, text: string}[] = [];
   for (let n = Math.ceil(low / step) * step; n <= high; n += step) {
-    const digits = String(Math.abs(n)).split('').map(d => '⁰¹²³⁴⁵⁶⁷⁸⁹'[d]).join('');
+    const digits = String(Math.abs(n)).split('').map(d => '⁰¹²³⁴⁵⁶⁷⁸⁹'[Number(d)]).join('');
     list.push({value: n, text: `10${n < 0 ? '⁻' : ''}${digits}`});
   }
   return list;
 }
 
 export class Plot {
+  protected readonly head = make('p', {class: 'head'});
+  protected readonly area = make('div', {class: 'area'});
+  protected readonly high = 140;
+  protected left = 44;
+  protected wide = 0;
+  protected span = 1;
+  protected title = '';
+  protected none = '';
+  protected unit = '';
+  protected size = 1;  // of the unit
+  protected series: Series[] = [];
+  protected begin = 0;
+  protected end = 1;
+  protected low = 0;
+  protected most = 1;
+  protected powers = false;
+  protected known = false;
+  private time?: number;
+  private x?: (time: number) => number;
+  private cursor: Element|null = null;
+
   /** A box for one quantity; `seek` is called with a time in s. */
-  constructor(box, seek) {
-    this.head = make('p', {class: 'head'}), this.area = make('div', {class: 'area'});
-    Object.assign(this, {box, high: 140, left: 44, series: []});
+  constructor(box: HTMLElement, seek: (time: number) => void) {
     box.append(this.head, this.area);
-    const at = event => seek(
+    const at = (event: PointerEvent) => seek(
         this.begin +
         (event.clientX - this.area.getBoundingClientRect().left - this.left) / this.span * (this.end - this.begin));
     this.area.addEventListener('pointerdown', event => (this.area.setPointerCapture(event.pointerId), at(event)));
@@ -58,17 +95,16 @@ export class Plot {
   }
 
   /**
-   * `series`: {name, css, dash, points: [s, value or null], well} of each run. Lengths are told in the unit that suits
-   * the largest. Where a run grows a hundredfold the axis counts powers of ten. `none` is said where nothing is known.
+   * Where a run grows a hundredfold the axis counts powers of ten.
    */
-  show(shown) {
+  show(shown: Shown) {
     this.take(shown);
     this.draw();
   }
 
   /** What is shown, with the range of its axis. */
-  take({title, unit, series, begin, end, none}) {
-    const all = of => of.flatMap(s => s.points.map(p => p[1])).filter(v => v !== null);
+  take({title, unit, series, begin, end, none = ''}: Shown) {
+    const all = (of: Series[]) => of.flatMap(s => s.points.map(p => p[1])).filter((v): v is number => v !== null);
     const well = series.filter(s => s.well), values = all(well.length ? well : series), most = Math.max(...values, 0);
     const third = values.slice(0, Math.ceil(values.length / 3));
     Object.assign(
@@ -84,15 +120,15 @@ export class Plot {
     this.known = values.length > 0;
   }
 
-  at(value) { return this.powers ? Math.log10(Math.max(1e-300, value)) : value / this.size; }
+  private at(value: number) { return this.powers ? Math.log10(Math.max(1e-300, value)) : value / this.size; }
 
   draw() {
     const wide = this.wide ||= this.area.clientWidth, {high, left, begin, end, low, most, series} = this;
     if (!wide || !this.title) return;
     const names = series.length ? 14 + 8 * series.map(s => s.name).join(', ').length : 0;
     this.span = wide - left - Math.max(12, names);
-    const top = 6, foot = high - 22, x = t => left + (t - begin) / ((end - begin) || 1) * this.span;
-    const y = v => foot - (v - low) / (most - low || 1) * (foot - top);
+    const top = 6, foot = high - 22, x = (t: number) => left + (t - begin) / ((end - begin) || 1) * this.span;
+    const y = (v: number) => foot - (v - low) / (most - low || 1) * (foot - top);
     this.x = x;
     const root = svg('svg', {width: wide, height: high, role: 'img', 'aria-label': `${this.title} over time`});
     this.area.replaceChildren(root);
@@ -111,7 +147,7 @@ export class Plot {
             'text', {x: x(value), y: foot + 17, 'text-anchor': 'middle'}, i === last.length - 1 ? `${text} s` : text)));
     const inside =
         svg('svg', {x: 0, y: top, width: wide, height: foot - top, viewBox: `0 ${top} ${wide} ${foot - top}`});
-    const ends = [];
+    const ends: {name: string, css: string, x: number, y: number}[] = [];
     for (const s of series) {
       let d = '', pen = 'M';
       for (const [t, v] of s.points) {
@@ -120,7 +156,7 @@ export class Plot {
         else
           d += `${pen}${x(t).toFixed(1)} ${Math.max(-1e4, Math.min(1e4, y(this.at(v)))).toFixed(1)}`, pen = 'L';
       }
-      const final = s.points.findLast(p => p[1] !== null);
+      const final = [...s.points].reverse().find((p): p is[number, number] => p[1] !== null);
       inside.append(svg('path', {d, class: 'curve', style: `--own: ${s.css}`, 'stroke-dasharray': s.dash ?? ''}));
       if (!final) continue;
       const spot = {
@@ -144,20 +180,22 @@ export class Plot {
   }
 
   /** The cursor and the values at its time. */
-  moveHead(time) {
+  moveHead(time: number) {
     this.time = time;
     if (this.cursor && this.x)
-      for (const end of ['x1', 'x2']) this.cursor.setAttribute(end, this.x(time));
+      for (const end of ['x1', 'x2']) this.cursor.setAttribute(end, String(this.x(time)));
     if (!this.title) return;
-    const values = this.series.map(s => [s, valueAt(s.points, time)]).filter(([, v]) => v !== null);
+    const values = this.series.map(series => ({series, value: valueAt(series.points, time)}));
     this.head.replaceChildren(
         make('b', {}, this.title), this.known ? ` / ${this.unit}` : '',
-        ...values.flatMap(([s, v]) => [make('span', {style: `color: ${s.css}`}, `${s.name} ${short(v / this.size)}`)]));
+        ...values.flatMap(
+            ({series: {css, name}, value}) =>
+                value === null ? [] : [make('span', {style: `color: ${css}`}, `${name} ${short(value / this.size)}`)]));
   }
 }
 
 /** Between two points of a list: linearly; null beyond it. */
-function valueAt(points, time) {
+function valueAt(points: Point[], time: number) {
   const next = points.findIndex(([t]) => t >= time - 1e-9);
   if (next < 0) return null;
   const [t, v] = points[next], [before, was] = points[Math.max(0, next - 1)];

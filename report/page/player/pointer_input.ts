@@ -1,11 +1,12 @@
 // Pointer, wheel and keys that turn and zoom a view.
-// @ts-nocheck
+
+import {Orbit} from './orbit';
 
 /**
-   `changed` is called after each change of the orbit. The wheel zooms only where the view has the focus (or with
-    Control), so that a page still scrolls over it; a finger that moves up or down scrolls, sideways it turns.
+ * `changed` is called after each change of the orbit. The wheel zooms only where the view has the focus (or with
+ * Control), so that a page still scrolls over it; a finger that moves up or down scrolls, sideways it turns.
  */
-export function attachPointerInput(layer, orbit, changed) {
+export function attachPointerInput(layer: HTMLElement, orbit: Orbit, changed: () => void) {
   layer.addEventListener('pointerdown', event => layer.setPointerCapture(event.pointerId));
   layer.addEventListener('pointermove', event => {
     if (!event.buttons) return;
@@ -18,7 +19,7 @@ export function attachPointerInput(layer, orbit, changed) {
     orbit.magnify(Math.exp(-0.0015 * event.deltaY));
     changed();
   }, {passive: false});
-  const keys = {
+  const keys: Record<string, () => void> = {
     ArrowLeft: () => orbit.turn(-0.12, 0),
     ArrowRight: () => orbit.turn(0.12, 0),
     ArrowUp: () => orbit.turn(0, 0.1),

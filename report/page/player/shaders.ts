@@ -1,5 +1,4 @@
 // GLSL: where things are, and how light falls on them. Light is linear; one key light with a shadow map, and a sky.
-// @ts-nocheck
 
 export const header = `#version 300 es
 precision highp float;

@@ -1,9 +1,11 @@
 // Corners and instances of what is drawn: cloth, threads, rods, balls, floor.
-// @ts-nocheck
+
+import {Gl, Mesh} from './gl';
+import {SceneStage, Shared} from './motion';
 
 /** A ball of radius 1 as corners and triangles. */
-export function ballMesh(around, along) {
-  const corners = [], index = [];
+export function ballMesh(around: number, along: number) {
+  const corners: number[] = [], index: number[] = [];
   for (let j = 0; j <= along; ++j)
     for (let i = 0; i <= around; ++i) {
       const a = 2 * Math.PI * i / around, b = Math.PI * j / along;
@@ -15,7 +17,7 @@ export function ballMesh(around, along) {
 }
 
 /** Rows (a, b, family) of the springs; `counts` says how many there are of each family, in order. */
-function springRows(ends, counts) {
+function springRows(ends: Uint16Array, counts: number[]) {
   const rows = new Int32Array(ends.length / 2 * 3);
   let row = 0;
   counts.forEach((count, family) => {
@@ -24,7 +26,7 @@ function springRows(ends, counts) {
   return rows;
 }
 
-export function shapesOf(tools, scene, {triangles, springs}) {
+export function shapesOf(tools: Gl, scene: SceneStage, {triangles, springs}: Shared) {
   const strip = {
     corners: new Float32Array([0, -1, 1, -1, 0, 1, 1, 1]),
     size: 2,
@@ -32,8 +34,9 @@ export function shapesOf(tools, scene, {triangles, springs}) {
     ints: 3,
     index: new Uint16Array([0, 1, 2, 2, 1, 3])
   };
-  const rods = rows => tools.shape({...strip, instances: rows});
-  const balls = (mesh, list) => tools.shape({...mesh, instances: Int32Array.from(list), slot: 1, ints: 1});
+  const rods = (rows: Int32Array) => tools.shape({...strip, instances: rows});
+  const balls = (mesh: Mesh, list: number[]) =>
+      tools.shape({...mesh, instances: Int32Array.from(list), slot: 1, ints: 1});
   const small = scene.particles > 60 ? ballMesh(10, 6) : ballMesh(24, 16);
   const steps = scene.times.slice(1).flatMap((_, f) => [f, f + 1, 0]);
   const threads = springs.subarray(0, 2 * scene.springs.threads);

@@ -1,17 +1,16 @@
 // Draws the methods of one scene side by side, seen by one camera, into one canvas.
-// @ts-nocheck
 
 import {boundsOf, footOf} from './bounds';
 import {heat, palette, purple, rgb, scaleBytes} from './colours';
-import {Gl} from './gl';
-import {distances, stretchOf} from './motion';
-import {tangent} from './orbit';
+import {Gl, Program, Table, Uniforms} from './gl';
+import {distances, Motion, SceneStage, Shared, stretchOf} from './motion';
+import {Held, Orbit, tangent} from './orbit';
 import {ballVertex, clothFragment, clothVertex, floorFragment, floorVertex, fragmentCommon, rodVertex, solidFragment, threadFragment} from './shaders';
 import {shapesOf} from './shapes';
 import {lightMatrix, minus, plus, sumNormals} from './vectors';
 
 /** Panels in rows and columns so that the smaller side of each picture is as long as can be; `title` is above each. */
-export function gridOf(count, wide, high, title) {
+export function gridOf(count: number, wide: number, high: number, title: number) {
   let best = {columns: 1, least: 0};
   for (let columns = 1; columns <= count; ++columns) {
     const least = Math.min(wide / columns, high / Math.ceil(count / columns) - title);
@@ -20,13 +19,71 @@ export function gridOf(count, wide, high, title) {
   return {columns: best.columns, rows: Math.ceil(count / best.columns)};
 }
 
+/** What stands side by side: a motion in its own colours, or its difference from another one up to `top` (m). */
+export interface View {
+  motion: Motion;
+  look: {plain: number[], ramp: number[][]};
+  other?: Motion;
+  top?: number;
+}
+interface Panel extends View {
+  points: Table;
+  normals: Table|null;
+  path: Table|null;
+}
+/** What colours mean; `from`: the motion from which distances are told, `top`: the value of the last colour. */
+export interface Colouring {
+  name: string;
+  top: number;
+  from?: Motion|null;
+}
+export interface Drawing {
+  time: number;  // s
+  colour: Colouring;
+  springs: boolean;
+  orbit: Orbit;
+  background: number[];
+  title: number;  // pixels above each panel that stay free
+}
+/** A panel's drawing. */
+interface PanelLook {
+  toClip: number[];
+  eye: number[];
+  time: number;
+  springs: boolean;
+  background: number[];
+  pixel: number;  // m
+  panel: Panel;
+  valued: boolean;
+  surface: boolean;
+  toKey?: number[];
+}
+type Programs = Record<string, Program>;
+
 export class Stage {
+  protected readonly tools: Gl;
+  protected readonly triangles: Uint16Array;
+  protected panels: Panel[] = [];
+  protected readonly programs: Programs;
+  protected readonly casts: Programs;
+  protected readonly shapes: ReturnType<typeof shapesOf>;
+  protected readonly map: ReturnType<Gl['shadowMap']>;
+  protected readonly scales: {heat: WebGLTexture, apart: WebGLTexture};
+  // of boundsOf
+  protected held: Held[] = [];
+  protected key: number[] = [];
+  protected middle: number[] = [];
+  protected size = 1;
+  protected reach = 1;
+
   /**
    * `shared`: triangles, springs and rests of the scene; `coarse`: drawn for speed, with edges and shadows less
    * smooth.
    */
-  constructor(canvas, scene, shared, coarse = false) {
-    Object.assign(this, {canvas, scene, shared, coarse, triangles: shared.triangles, panels: []});
+  constructor(
+      readonly canvas: HTMLCanvasElement, readonly scene: SceneStage, readonly shared: Shared,
+      private readonly coarse = false) {
+    this.triangles = shared.triangles;
     const tools = this.tools = new Gl(canvas, !coarse), gl = tools.gl;
     const shade = fragmentCommon;
     this.programs = {
@@ -47,8 +104,7 @@ export class Stage {
     gl.blendFunc(gl.SRC_ALPHA, gl.ONE_MINUS_SRC_ALPHA);
   }
 
-  /** What stands side by side: {motion, look (own colours), other (of which it shows the difference), top (m)}. */
-  show(views) {
+  show(views: View[]) {
     const {tools, scene, triangles} = this, n = scene.particles, {times} = scene;
     for (const panel of this.panels)
       for (const table of [panel.points, panel.normals, panel.path])
@@ -59,7 +115,8 @@ export class Stage {
                               normals: triangles.length ? tools.table(n) : null,
                               path: triangles.length || times.length < 2 ? null : tools.table(times.length)
                             }));
-    for (const {motion, path} of this.panels.filter(p => p.path)) {
+    for (const {motion, path} of this.panels) {
+      if (!path) continue;
       const places = new Float32Array(3 * n);
       times.forEach((t, f) => path.data.set([...motion.placesAt(t, places).subarray(3 * n - 3), -1], 4 * f));
       tools.fill(path);
@@ -71,13 +128,13 @@ export class Stage {
   release() { this.tools.gl.getExtension('WEBGL_lose_context')?.loseContext(); }
 
   /** Writes places and values of a panel's particles (0 to 1, negative for none), four numbers each. */
-  write({motion, other, top, points, normals}, time, colour) {
+  write({motion, other, top, points, normals}: Panel, time: number, colour: Colouring) {
     const {scene, triangles} = this, places = motion.placesAt(time), into = points.data;
     const metres = other ? distances(motion.apartAt(time, other)) :
         colour.from      ? distances(motion.apartAt(time, colour.from)) :
                            null;
     const values = metres ?? (colour.name === 'stretch' ? stretchOf(scene, this.shared, places) : null);
-    const most = other ? top : colour.top;
+    const most = other ? top ?? 1 : colour.top;
     for (let i = 0; i < scene.particles; ++i) {
       into.set(places.subarray(3 * i, 3 * i + 3), 4 * i);
       into[4 * i + 3] = values ? Math.min(1, values[i] / most) : -1;
@@ -88,11 +145,8 @@ export class Stage {
     this.tools.fill(normals);
   }
 
-  /**
-   * Draws the panels at a time (s), coloured by `colour`: {name: 'plain', 'stretch' or 'distance', top, from (a
-   * motion)}; `title` pixels above each stay free. Returns the panels' places in the canvas, parts of its size.
-   */
-  draw({time, colour, springs, orbit, background, title}) {
+  /** Draws the panels. Returns their places in the canvas, parts of its size. */
+  draw({time, colour, springs, orbit, background, title}: Drawing) {
     const {gl} = this.tools, {canvas, scene, panels} = this;
     const ratio = canvas.width / canvas.clientWidth, room = Math.round(title * ratio);
     const {columns, rows} = gridOf(panels.length, canvas.width, canvas.height, room),
@@ -100,24 +154,24 @@ export class Stage {
     const wide = Math.floor(canvas.width / columns), high = cell - room, aspect = wide / high;
     const fit = orbit.fit(this.held, this.middle, aspect), view = orbit.view(fit, aspect);
     gl.scissor(0, 0, canvas.width, canvas.height);
-    gl.clearColor(...background, 1);
+    gl.clearColor(background[0], background[1], background[2], 1);
     gl.clear(gl.COLOR_BUFFER_BIT | gl.DEPTH_BUFFER_BIT);
     return panels.map((panel, i) => {
       const column = i % columns, row = Math.floor(i / columns);
       this.write(panel, time, colour);
       const pixel = 2 * tangent * fit.distance * orbit.zoom / high * ratio;
-      const look = {
+      const look: PanelLook = {
         ...view,
         time,
         springs,
         background,
         pixel,
         panel,
-        valued: panel.other || colour.name !== 'plain',
-        surface: this.triangles.length && !springs,
+        valued: Boolean(panel.other) || colour.name !== 'plain',
+        surface: this.triangles.length > 0 && !springs,
       };
       if (scene.floor !== null) this.castShadows(look);
-      const box = [column * wide, canvas.height - (row + 1) * cell, wide, high];
+      const box: [number, number, number, number] = [column * wide, canvas.height - (row + 1) * cell, wide, high];
       gl.viewport(...box);
       gl.scissor(...box);
       this.drawPanel(look, box);
@@ -125,7 +179,7 @@ export class Stage {
     });
   }
 
-  castShadows(look) {
+  private castShadows(look: PanelLook) {
     const {gl} = this.tools, {map} = this;
     const toKey = lightMatrix(this.key, this.middle, 1.03 * this.reach);
     look.toKey = toKey;
@@ -140,8 +194,8 @@ export class Stage {
     gl.bindFramebuffer(gl.FRAMEBUFFER, null);
   }
 
-  drawPanel(look, box) {
-    const {gl} = this.tools, {scene} = this, flat = scene.floor === null;
+  private drawPanel(look: PanelLook, box: number[]) {
+    const {gl} = this.tools, {floor} = this.scene, flat = floor === null;
     const light = {
       to_clip: look.toClip,
       eye: look.eye,
@@ -161,15 +215,14 @@ export class Stage {
     this.drawBodies(this.programs, look, light);
     if (flat) return;
     gl.depthMask(false);
-    const foot = footOf(this.middle, scene.floor, this.key);
-    this.tools.use(
-        this.programs.floor, {...light, floor_at: [foot[0], scene.floor, foot[2], 2.2 * this.reach], panel: box});
+    const foot = footOf(this.middle, floor, this.key);
+    this.tools.use(this.programs.floor, {...light, floor_at: [foot[0], floor, foot[2], 2.2 * this.reach], panel: box});
     this.tools.draw(this.shapes.floor, gl.TRIANGLES);
     gl.depthMask(true);
   }
 
   /** Cloth or springs, beads, pins, path and obstacles, with the programs given. */
-  drawBodies(programs, look, light) {
+  private drawBodies(programs: Programs, look: PanelLook, light: Uniforms) {
     const {gl} = this.tools, {tools, scene, shapes} = this, {panel, pixel} = look;
     const lit = programs === this.programs;
     const all = {
@@ -216,12 +269,12 @@ export class Stage {
   }
 
   /** Frame of the scene at a time, with its fraction. */
-  frame(time) {
+  private frame(time: number) {
     const {times} = this.scene, last = times.length - 1;
     return last > 0 ? last * Math.min(1, time / times[last]) : 0;
   }
 
-  drawObstacles(programs, time, all) {
+  private drawObstacles(programs: Programs, time: number, all: Uniforms) {
     const {tools, scene} = this, last = scene.times.length - 1;
     const at = this.frame(time), first = Math.floor(at), next = Math.min(first + 1, last);
     for (const {radius, centres} of scene.spheres) {

@@ -1,23 +1,25 @@
 // Vectors as arrays of three numbers, matrices as arrays of sixteen, column by column.
-// @ts-nocheck
 
-export const minus = (a, b) => [a[0] - b[0], a[1] - b[1], a[2] - b[2]];
+export type Vector = ArrayLike<number>;
+
+export const minus = (a: Vector, b: Vector) => [a[0] - b[0], a[1] - b[1], a[2] - b[2]];
 /** a + s b */
-export const plus = (a, s, b) => [a[0] + s * b[0], a[1] + s * b[1], a[2] + s * b[2]];
-export const dot = (a, b) => a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
-export const cross = (a, b) => [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]];
-export const norm = a => Math.sqrt(dot(a, a));
-export const unit = a => plus([0, 0, 0], 1 / (norm(a) || 1), a);
+export const plus = (a: Vector, s: number, b: Vector) => [a[0] + s * b[0], a[1] + s * b[1], a[2] + s * b[2]];
+export const dot = (a: Vector, b: Vector) => a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+export const cross =
+    (a: Vector, b: Vector) => [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]];
+export const norm = (a: Vector) => Math.sqrt(dot(a, a));
+export const unit = (a: Vector) => plus([0, 0, 0], 1 / (norm(a) || 1), a);
 
 /** Rigid motion that puts the eye at the origin, the axes along x, y and z. */
-export function toEye([right, up, back], eye) {
+export function toEye([right, up, back]: Vector[], eye: Vector) {
   return [
     right[0], up[0], back[0], 0, right[1], up[1], back[1], 0, right[2], up[2], back[2], 0, -dot(right, eye),
     -dot(up, eye), -dot(back, eye), 1
   ];
 }
 
-export function times(a, b) {
+export function times(a: number[], b: number[]): number[] {
   const m = new Array(16).fill(0);
   for (let c = 0; c < 4; ++c)
     for (let r = 0; r < 4; ++r)
@@ -26,7 +28,7 @@ export function times(a, b) {
 }
 
 /** Clip space of an eye at the origin that looks along -z; `tangent` of half the vertical field of view. */
-export function perspective(tangent, aspect, near, far) {
+export function perspective(tangent: number, aspect: number, near: number, far: number) {
   const depth = near - far;
   return [
     1 / (tangent * aspect), 0, 0, 0, 0, 1 / tangent, 0, 0, 0, 0, (far + near) / depth, -1, 0, 0,
@@ -35,7 +37,7 @@ export function perspective(tangent, aspect, near, far) {
 }
 
 /** Sums of the triangles' normals at each corner, as long as twice their areas; `stride` numbers for each point. */
-export function sumNormals(places, triangles, sums, stride) {
+export function sumNormals(places: Vector, triangles: Vector, sums: Float32Array, stride: number) {
   sums.fill(0);
   for (let t = 0; t < triangles.length; t += 3) {
     const a = 3 * triangles[t], b = 3 * triangles[t + 1], c = 3 * triangles[t + 2];
@@ -50,7 +52,7 @@ export function sumNormals(places, triangles, sums, stride) {
 }
 
 /** Clip space of a light far away: a box that holds the ball around `centre`. */
-export function lightMatrix(direction, centre, radius) {
+export function lightMatrix(direction: Vector, centre: Vector, radius: number) {
   const right = unit(cross(Math.abs(direction[1]) > 0.99 ? [1, 0, 0] : [0, 1, 0], direction));
   const up = cross(direction, right);
   const s = 1 / radius;
