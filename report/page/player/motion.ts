@@ -181,11 +181,22 @@ export class Motion {
     return into;
   }
 
-  /** What places are apart from those of another motion: coordinates, m. */
+  /**
+   * Differences of places from those of another motion: coordinates, m. They are taken in the frames of the run that
+   * has fewer, which the other one has as well: between frames a straight line is further off than two good runs
+   * differ.
+   */
   apartAt(time: number, other: Motion, into = new Float32Array(3 * this.particles)) {
-    const theirs = other.placesAt(time);
-    this.placesAt(time, into);
-    for (let i = 0; i < into.length; ++i) into[i] -= theirs[i];
+    const {times} = this.times.length < other.times.length ? this : other;
+    const next = times.findIndex(t => t >= time - 1e-12), last = times.length - 1;
+    const [before, after] = next <= 0 ? [times[next < 0 ? last : 0], 0] : [times[next - 1], times[next]];
+    const part = next <= 0 ? 0 : (time - before) / (after - before);
+    into.fill(0);
+    for (const [t, size] of [[before, 1 - part], [after, part]]) {
+      if (size < 1e-9) continue;
+      const mine = this.placesAt(t), theirs = other.placesAt(t);
+      for (let i = 0; i < into.length; ++i) into[i] += size * (mine[i] - theirs[i]);
+    }
     return into;
   }
 

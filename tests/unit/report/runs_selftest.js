@@ -22,7 +22,7 @@ async function look() {
     moves: early.picture !== late.picture,
     panels: player.titles.children.length,
     says: [...dialog.querySelectorAll('h3, p')].map(part => part.textContent).join(' | '),
-    apart: motions.length > 1 ? Math.max(...motions[0].apartAt(0.3 * end, motions[1]).map(Math.abs)) : null
+    apart: motions.length > 1 ? Math.max(...motions[0].apartAt(0.315 * end, motions[1]).map(Math.abs)) : null
   };
   hints.push(player.querySelector('.hint').textContent);
   dialog.querySelector('.close').click();
