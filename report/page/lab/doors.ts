@@ -2,10 +2,12 @@
 
 import {parts, runOf, runsOf} from '../player/motion';
 
-import {sceneText} from './lab';
+import {openLab, sceneText} from './lab';
 import {numberAt, numbersOf, tomlNumber, withNumbers, withoutSection} from './scene_text';
 
-/** Whether the lab runs a method, options and all. */
+type LabState = Parameters<typeof openLab>[0];
+
+/** True if the lab runs a method, options and all. */
 const isOfLab = (method: string) =>
     Boolean(document.getElementById('lab-module')) && /^mysim\/[a-z0-9-]+(\+(events|sticky|linear))*$/.test(method);
 
@@ -30,19 +32,22 @@ function textOfCell(toml: string, kind: string, value: number, step: number) {
  * The state of the lab in which a mark of a figure opens: {scene, method, step or tolerance, toml}; null where the lab
  * has none.
  */
-export function labStateOf(key: string, marker: HTMLElement) {
+export function labStateOf(key: string, marker: HTMLElement): LabState|null {
   const {run: chosen = '', step, value} = marker.dataset, {method} = parts(chosen), set = runsOf(key);
   if (!set || !isOfLab(method)) return null;
   if (set.stage) {
     const {scene, toml} = set.stage, kind = key.endsWith('-drag-map') ? 'drag' : 'stiffness';
     if (!toml || !step) return null;
-    return {scene, method, step: Number(step), toml: textOfCell(toml, kind, Number(value), Number(step))};
+    const text = textOfCell(toml, kind, Number(value), Number(step));
+    return {scene, method, step: Number(step), tolerance: undefined, experiment: undefined, toml: text};
   }
   return sceneText(set.scene) ? labStateOfRun(set.scene, chosen) : null;
 }
 
-/** The same of a run of a scene. */
-export function labStateOfRun(scene: string, key: string) {
+/** The state of the lab in which a run of a scene opens; null where the page does not hold the run. */
+export function labStateOfRun(scene: string, key: string): LabState|null {
   const found = runOf({scene}, key);
-  return found && {scene, method: found.file.method, step: found.run.step, tolerance: found.run.tolerance};
+  if (!found) return null;
+  const {file: {method}, run: {step, tolerance}} = found;
+  return {scene, method, step, tolerance, experiment: undefined};
 }

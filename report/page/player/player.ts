@@ -1,18 +1,18 @@
 // <motion-player>: the motions of a scene's methods in lock-step. It stands behind the figure with the poster and the
 // scene's data, and puts its canvas over the poster while it is in sight. Without WebGL2 the poster stays alone.
-// @ts-nocheck
 
-import {Controls, inTwo, length, make, roundUp, settingOf, short} from './controls';
+import {Acts, Controls, inTwo, length, Look, make, roundUp, settingOf, short} from './controls';
 import {Orbit} from './orbit';
-import {Stage} from './stage';
+import {Point, Series, Shown} from './plot';
+import {Colouring, Stage, View} from './stage';
 import {attachPointerInput} from './pointer_input';
-import {distances, failureOf, motionOf, rms, runOf, stretchOf} from './motion';
+import {distances, failureOf, Motion, motionOf, rms, Run, runOf, SceneStage, Shared, stretchOf} from './motion';
 import {lookOf} from './colours';
 import {noContext} from './gl';
 import {unpack} from './unpack';
 
 export const mostStages = 3;  // drawn scenes alive at once: browsers allow few contexts
-export const alive = [];
+export const alive: MotionPlayer[] = [];
 
 export const stillWanted = matchMedia('(prefers-reduced-motion: reduce)');
 export const dark = matchMedia('(prefers-color-scheme: dark)');
@@ -32,22 +32,21 @@ export function startsWebGl() {
 function playNothing() {
   plays = false;
   document.documentElement.classList.remove('plays');
-  document.querySelector('dialog.run')?.close();
+  document.querySelector<HTMLDialogElement>('dialog.run')?.close();
 }
 
 /** A scene's stage, as it stands at the end of the page. */
 const sceneData = (() => {
-  const known = new Map();
-  return name => {
-    if (!known.has(name))
-      known.set(
-          name, JSON.parse(document.querySelector(`script.motion[data-scene="${CSS.escape(name)}"]`).textContent));
-    return known.get(name);
+  const known = new Map<string, SceneStage>();
+  return (name: string) => {
+    const script = () => document.querySelector(`script.motion[data-scene="${CSS.escape(name)}"]`);
+    if (!known.has(name)) known.set(name, JSON.parse(script()!.textContent!));
+    return known.get(name)!;
   };
 })();
 
 /** Controls of a player that has none: of the first screen, where one clock drives several. */
-const noControls = {
+const noControls: Pick<Controls, 'setLook'|'setPlaying'|'setTime'|'setPlots'|'setPicks'|'setHint'> = {
   setLook() {},
   setPlaying() {},
   setTime() {},
@@ -56,43 +55,81 @@ const noControls = {
   setHint() {}
 };
 
+const rmsOf = (metres: Float32Array|null) => metres && rms(metres);
+
 /** A motion's own look, and what it is called. */
-const viewOf = (motion, letter) => ({motion, letter, method: motion.method, look: lookOf(motion.method)});
+interface PlayerView extends View {
+  letter: string;
+  method: string;
+  look: ReturnType<typeof lookOf>;
+  state?: HTMLElement;  // in the title
+}
+const viewOf = (motion: Motion, letter: string): PlayerView =>
+    ({motion, letter, method: motion.method, look: lookOf(motion.method)});
 
 /** The series of a plot that stands for a motion. */
-const seriesOf = ({motion, letter, look}, list, dash) =>
-    ({name: letter, css: look.css, dash, well: motion.well, points: motion.times.map((t, f) => [t, list[f] ?? null])});
+const seriesOf = ({motion, letter, look}: PlayerView, list: (number|null)[], dash = ''): Series => ({
+  name: letter,
+  css: look.css,
+  dash,
+  well: motion.well,
+  points: motion.times.map((t, f): Point => [t, list[f] ?? null])
+});
 
-class MotionPlayer extends HTMLElement {
+export class MotionPlayer extends HTMLElement {
+  given?: {scene: SceneStage, motion: Motion, caption: string};  // the picture of a map's cell
+  scene!: SceneStage;
+  picks: {a: string, b: string}|null = null;  // keys of the runs that are compared
+  hero: string[]|null = null;                 // those of the first screen
+  stage: Stage|null = null;
+  motions: Motion[] = [];
+  views: PlayerView[] = [];
+  box!: HTMLElement;
+  titles!: HTMLElement;
+  time = 0;  // s
+  begin = 0;
+  end = 0;
+  top = 0;  // m, of the scale of differences; 0: none is above the resolution
+  seen = false;
+  private controls: typeof noControls = noControls;
+  private orbit!: Orbit;
+  private layer!: HTMLElement;
+  private look: Look = {colour: 'plain', springs: false};
+  private colouring: Colouring = {name: 'plain', top: 1};
+  private truth: Motion|null = null;
+  private letters: string[] = [];
+  private loaded?: Promise<void>;
+  private shared?: Promise<Shared>;
+  private turn = {};
+  private least = 0;  // m: the resolution of differences
+  private bound = 0;  // m: of positions
+  private untouched = true;
+  private speed = 1;
+  private pace = 1;
+  private playing = false;
+  private wanted = false;
+  private resume?: boolean;
+
   connectedCallback() {
     if (!plays || this.scene) return;
-    const root = this.parentElement, scene = this.scene = this.given?.scene ?? sceneData(this.dataset.scene);
+    const root = this.parentElement!, scene = this.scene = this.given?.scene ?? sceneData(this.dataset.scene!);
     this.hero = this.dataset.shown ? JSON.parse(this.dataset.shown) : null;
-    this.picks = this.dataset.a ? {a: this.dataset.a, b: this.dataset.b} : null;
-    this.box = root.querySelector('.stage');
-    Object.assign(this, {
-      time: 0,
-      begin: 0,
-      end: scene.times[scene.times.length - 1],
-      untouched: true,
-      speed: 1,
-      pace: 1,
-      playing: false,
-      seen: false,
-      orbit: new Orbit(scene.from),
-      views: []
-    });
+    this.picks = this.dataset.a ? {a: this.dataset.a, b: this.dataset.b!} : null;
+    this.box = root.querySelector('.stage')!;
+    this.end = scene.times[scene.times.length - 1];
+    this.orbit = new Orbit(scene.from);
     this.look = {colour: 'plain', springs: !scene.triangles};
     root.classList.toggle('comparing', Boolean(this.picks));
     this.classList.toggle('still', Boolean(this.given));
-    this.controls = this.hero ? noControls : new Controls(this, scene, this.look, {
-      toggle: () => (this.playing ? this.pause() : this.play()),
-      seek: time => (this.pause(), this.seek(time), this.wake()),
-      speed: speed => (this.speed = speed),
+    const acts: Acts = {
+      toggle: () => void (this.playing ? this.pause() : this.play()),
+      seek: time => (this.pause(), this.seek(time), void this.wake()),
+      speed: speed => void (this.speed = speed),
       look: change => this.setLook(change),
       reset: () => (this.orbit.reset(), this.draw()),
-      pick: this.picks && ((letter, key) => this.pick({[letter]: key}))
-    });
+    };
+    if (this.picks) acts.pick = (letter, key) => void this.pick({[letter]: key});
+    if (!this.hero) this.controls = new Controls(this, scene, this.look, acts);
     if (this.picks) {
       this.controls.setPicks([this.picks.a, this.picks.b], null);
       this.controls.setHint(this.words());
@@ -104,7 +141,7 @@ class MotionPlayer extends HTMLElement {
   }
 
   /** Comes into sight or leaves it: plays once, unless reduced motion is preferred, and pauses out of sight. */
-  async setSeen(seen) {
+  private async setSeen(seen: boolean) {
     this.seen = seen;
     if (!seen) {
       this.resume = this.wanted;
@@ -119,7 +156,7 @@ class MotionPlayer extends HTMLElement {
 
   /** Unpacks what is shown (once) and opens a stage; one that is out of sight gives way. */
   async wake() {
-    const shared = this.scene.shared ??=
+    const shared = this.shared ??=
         Promise.all([this.scene.triangles, this.scene.springs.ends, this.scene.springs.rests].map(unpack))
             .then(([triangles, springs, rests]) => ({triangles, springs, rests}));
     this.loaded ??= this.load();
@@ -156,21 +193,21 @@ class MotionPlayer extends HTMLElement {
   }
 
   /** Gathers the motions that are shown. */
-  async load() {
+  private async load() {
     const keys = this.hero ?? (this.picks ? [this.picks.a, this.picks.b] : []), letters = this.hero ? [] : ['A', 'B'];
     const turn = this.turn = {};
     const motions = this.given ? [this.given.motion] : await Promise.all(keys.map(key => motionOf(this.scene, key)));
     const truth = this.picks && await motionOf(this.scene, 'truth');
     if (turn !== this.turn) return;  // other runs were chosen meanwhile
-    this.motions = motions.filter(Boolean);
+    this.motions = motions.filter((motion): motion is Motion => motion !== null);
     this.letters = letters.filter((_, i) => motions[i]);
     this.truth = truth;
     this.arrange();
   }
 
   /** Chooses other runs. */
-  async pick(change) {
-    Object.assign(this.picks, change);
+  async pick(change: {a?: string, b?: string}) {
+    Object.assign(this.picks!, change);
     this.loaded = this.load();
     await this.loaded;
     await this.wake();
@@ -178,13 +215,13 @@ class MotionPlayer extends HTMLElement {
   }
 
   /** Lays out views, difference and plots of the motions. */
-  arrange() {
+  private arrange() {
     const {scene, letters} = this;
     this.views = this.motions.map((motion, i) => viewOf(motion, letters[i] ?? ''));
     const pictures = this.given?.motion ?? this.motions.find(motion => motion.run.last_pictures);
     [this.begin, this.end] = pictures ? [pictures.begin, pictures.end] : [0, scene.times[scene.times.length - 1]];
     this.pace = pictures ? (this.end - this.begin) / 6 : 1;  // pictures of a moment take six seconds
-    const plots = [], [a, b] = this.views, purple = 'var(--difference)';
+    const plots: Omit<Shown, 'begin'|'end'>[] = [], [a, b] = this.views, purple = 'var(--difference)';
     if (this.picks && b) {
       const times = Array.from({length: 101}, (_, i) => this.begin + i / 100 * (this.end - this.begin));
       const apart = times.map(
@@ -196,8 +233,8 @@ class MotionPlayer extends HTMLElement {
       this.views.push(
           {motion: a.motion, other: b.motion, top: this.top || 1, letter: 'A − B', look: a.look, method: ''});
       const dash = b.look.css === a.look.css ? '5 3' : '';
-      const both = kind => [seriesOf(a, a.motion[kind]), seriesOf(b, b.motion[kind], dash)];
-      const known = s => s.points.some(p => p[1] !== null);
+      const both = (kind: 'error'|'energy') => [seriesOf(a, a.motion[kind]), seriesOf(b, b.motion[kind], dash)];
+      const known = (s: Series) => s.points.some(p => p[1] !== null);
       plots.push(
           {
             title: scene.truth?.rule ? 'difference from the contact limit' : 'RMS error',
@@ -215,16 +252,14 @@ class MotionPlayer extends HTMLElement {
             title: 'difference',
             unit: 'm',
             series: this.top ?
-                [
-                  {name: 'A − B', css: purple, well: true, points: times.map((t, i) => [t, apart[i] && rms(apart[i])])}
-                ] :
+                [{name: 'A − B', css: purple, well: true, points: times.map((t, i): Point => [t, rmsOf(apart[i])])}] :
                 [],
             none: `Below the resolution of ${length(this.least)}.`
           });
       this.controls.setPicks([this.picks.a, this.picks.b], this.top, this.least);
-      for (const cell of this.closest('article')?.querySelectorAll('.choose') ?? [])
-        for (const button of cell.querySelectorAll('[data-as="a"], [data-as="b"]'))
-          button.setAttribute('aria-pressed', this.picks[button.dataset.as] === cell.dataset.key);
+      for (const cell of this.closest('article')?.querySelectorAll<HTMLElement>('.choose') ?? [])
+        for (const button of cell.querySelectorAll<HTMLElement>('[data-as="a"], [data-as="b"]'))
+          button.setAttribute('aria-pressed', String(this.picks[button.dataset.as as 'a' | 'b'] === cell.dataset.key));
       this.controls.setHint(this.words());
     } else if (this.given) {
       this.controls.setHint(this.given.caption);
@@ -238,14 +273,15 @@ class MotionPlayer extends HTMLElement {
   }
 
   /** What has to be said of the two runs. */
-  words() {
-    const said = [];
-    for (const letter of ['a', 'b']) {
-      const {file, run} = runOf(this.scene, this.picks[letter]) ?? {}, name = letter.toUpperCase();
-      if (!run) continue;
+  private words() {
+    const said: string[] = [];
+    for (const letter of ['a', 'b'] as const) {
+      const found = runOf(this.scene, this.picks![letter]), name = letter.toUpperCase();
+      if (!found) continue;
+      const {file, run} = found;
       if (failureOf(run, short)) said.push(`${name}: ${failureOf(run, short)}: ${run.reason}.`);
       if (run.last_pictures)
-        said.push(`${name}: the last ${run.frames} pictures of the run, from ${short(run.times[0])} s on.`);
+        said.push(`${name}: the last ${run.frames} pictures of the run, from ${short(run.times[0] ?? 0)} s on.`);
       if (file.note) said.push(`${name} follows a different law: ${file.note}.`);
       if (this.endOf(file.method, run)) said.push(`${name}: ${this.endOf(file.method, run)}.`);
     }
@@ -254,19 +290,19 @@ class MotionPlayer extends HTMLElement {
   }
 
   /** What is said where a truth ends before its scene. */
-  endOf(method, {times}) {
-    const end = times[times.length - 1];
+  private endOf(method: string, {times}: Run) {
+    const end = times[times.length - 1] ?? 0;
     return method === 'truth' && end < this.scene.times[this.scene.times.length - 1] - 1e-9 ?
         `known up to ${short(end)} s` :
         '';
   }
 
   /** Puts the views on the stage, their titles over it. */
-  showViews() {
-    this.stage.show(this.views);
+  private showViews() {
+    this.stage!.show(this.views);
     this.titles.replaceChildren(...this.views.map(view => {
       const [engine, rule] =
-          view.method === 'truth' ? ['truth', this.scene.truth.name.replace(/^truth, /, '')] : inTwo(view.method);
+          view.method === 'truth' ? ['truth', this.scene.truth!.name.replace(/^truth, /, '')] : inTwo(view.method);
       const {run} = view.motion, setting = settingOf(run),
             name = make(
                 'b', {style: `--own: ${view.other ? 'var(--difference)' : view.look.css}`},
@@ -290,7 +326,7 @@ class MotionPlayer extends HTMLElement {
     alive.splice(alive.indexOf(this), 1);
     const {stage} = this;
     this.stage = null;
-    stage.release();
+    stage!.release();
     this.layer.remove();
     this.dataset.state = 'asleep';
   }
@@ -302,8 +338,8 @@ class MotionPlayer extends HTMLElement {
     if (this.untouched || this.time >= this.end) this.seek(this.begin);  // at first the player shows the poster's time
     this.playing = true;
     this.controls.setPlaying(true);
-    let last = null;
-    const tick = now => {
+    let last: number|null = null;
+    const tick = (now: number) => {
       if (!this.playing) return;
       // after a pause of the whole page the motion continues where it was
       const passed = Math.min(0.1, last === null ? 0 : (now - last) / 1000);
@@ -323,20 +359,20 @@ class MotionPlayer extends HTMLElement {
   }
 
   /** Shows a time, s. */
-  seek(time) {
+  seek(time: number) {
     this.untouched = false;
     this.time = Math.max(this.begin, Math.min(this.end, time));
     this.controls.setTime(this.time);
     this.draw();
   }
 
-  setLook(change) {
+  private setLook(change: Partial<Look>) {
     Object.assign(this.look, change);
-    const {colour} = this.look, {scene} = this;
+    const {colour} = this.look, {scene, stage} = this;
     this.colouring = {name: colour, top: 1};
-    let scale = null;
-    if (this.stage && colour !== 'plain') {
-      const most = of => Math.max(
+    let scale: string|null = null;
+    if (stage && colour !== 'plain') {
+      const most = (of: (motion: Motion, time: number) => Float32Array) => Math.max(
           1e-12,
           ...this.motions.filter(m => m.well)
               .flatMap(
@@ -347,7 +383,7 @@ class MotionPlayer extends HTMLElement {
       this.colouring.from = from;
       this.colouring.top = roundUp(most(
           from ? (m, t) => distances(m.apartAt(Math.min(t, from.end), from)) :
-                 (m, t) => stretchOf(scene, this.stage.shared, m.placesAt(t))));
+                 (m, t) => stretchOf(scene, stage.shared, m.placesAt(t))));
       scale = from ? length(this.colouring.top) : `${this.colouring.top} %`;
     }
     this.controls.setLook(this.look, scale);
@@ -363,16 +399,18 @@ class MotionPlayer extends HTMLElement {
     const wide = Math.round(this.box.clientWidth * ratio), high = Math.round(this.box.clientHeight * ratio);
     if (!wide || !high) return;
     if (canvas.width !== wide || canvas.height !== high) Object.assign(canvas, {width: wide, height: high});
-    const background = getComputedStyle(this.box).backgroundColor.match(/[\d.]+/g).slice(0, 3).map(v => v / 255);
+    const background =
+        getComputedStyle(this.box).backgroundColor.match(/[\d.]+/g)!.slice(0, 3).map(v => Number(v) / 255);
     const title = this.hero ? (this.box.clientWidth < 420 ? 58 : 46) :
         this.given          ? 0 :
                               24;  // pixels above each picture
     const panels = this.stage.draw(
         {colour: this.colouring, springs: this.look.springs, time: this.time, orbit: this.orbit, background, title});
     panels.forEach((panel, i) => {
-      const {motion, state, other} = this.views[i], {run} = motion, over = this.time > motion.end - 1e-9;
+      const {motion, other} = this.views[i], state = this.views[i].state!, {run} = motion,
+                     over = this.time > motion.end - 1e-9;
       Object.assign(
-          this.titles.children[i].style,
+          (this.titles.children[i] as HTMLElement).style,
           {left: `${100 * panel.left}%`, top: `${100 * panel.top}%`, width: `${100 * panel.wide}%`});
       const failed = over && !other && failureOf(run, short);
       state.className = failed ? 'failed' : '';
@@ -382,19 +420,20 @@ class MotionPlayer extends HTMLElement {
 }
 
 /** The first screen: its players on one clock, over and over; a still picture where motion is unwanted. */
-function runHero(hero) {
-  const players = [...hero.querySelectorAll('motion-player')].filter(player => player.scene);
-  const [button, slider, clock] = ['button', 'input', '.clock'].map(name => hero.querySelector(name));
+function runHero(hero: HTMLElement) {
+  const players = [...hero.querySelectorAll<MotionPlayer>('motion-player')].filter(player => player.scene);
+  const button = hero.querySelector('button')!, slider = hero.querySelector('input')!;
+  const clock = hero.querySelector('.clock')!;
   const ends = players.map(player => player.end), end = Math.max(...ends);
-  let time = 0, last = null, playing = false, seen = false;
+  let time = 0, last: number|null = null, playing = false, seen = false;
   // below each view its error at the time, in place of the largest
   const readouts = players.map(player => {
-    const spans = [...(player.closest('.views').nextElementSibling?.querySelectorAll('[data-key]') ?? [])];
+    const spans = [...player.closest('.views')!.nextElementSibling?.querySelectorAll<HTMLElement>('[data-key]') ?? []];
     return spans.map(span => ({span, still: [...span.childNodes]}));
   });
-  const tell = (player, spans) => {
+  const tell = (player: MotionPlayer, spans: {span: HTMLElement, still: ChildNode[]}[]) => {
     for (const {span, still} of spans) {
-      const motion = player.motions?.find(m => m.key === span.dataset.key),
+      const motion = player.motions.find(m => m.key === span.dataset.key),
             error = motion?.valueAt(motion.error, player.time);
       const part = player.scene.truth?.motion;
       if (error === null || error === undefined)
@@ -402,8 +441,8 @@ function runHero(hero) {
       else
         span.replaceChildren(
             make('b', {}, length(error)),
-            player.scene.truth.rule || !part ? ' off now' :
-                                               ` ${Number((100 * error / part).toPrecision(2))} % off now`);
+            player.scene.truth?.rule || !part ? ' off now' :
+                                                ` ${Number((100 * error / part).toPrecision(2))} % off now`);
     }
   };
   const show = () => {
@@ -412,10 +451,10 @@ function runHero(hero) {
       player.seek(Math.min(time, ends[i]));
       tell(player, readouts[i]);
     });
-    slider.value = 1000 * time / end;
+    slider.value = String(1000 * time / end);
     clock.textContent = `${time.toFixed(2)} s`;
   };
-  const tick = now => {
+  const tick = (now: number) => {
     if (!playing || !seen) return void (last = null);
     time += last === null ? 0 : Math.min(0.1, (now - last) / 1000);
     last = now;
@@ -423,7 +462,7 @@ function runHero(hero) {
     show();
     requestAnimationFrame(tick);
   };
-  const set = on => {
+  const set = (on: boolean) => {
     playing = on;
     button.textContent = on ? '❚❚' : '▶';
     button.setAttribute('aria-label', on ? 'Pause' : 'Play');
@@ -436,7 +475,7 @@ function runHero(hero) {
   slider.addEventListener('input', async () => {
     await Promise.all(players.map(player => player.wake()));
     set(false);
-    time = slider.value / 1000 * end;
+    time = Number(slider.value) / 1000 * end;
     show();
   });
   new IntersectionObserver(([entry]) => {
@@ -451,7 +490,7 @@ function runHero(hero) {
 export function startPlayers() {
   customElements.define('motion-player', MotionPlayer);
   document.addEventListener('DOMContentLoaded', () => {
-    for (const hero of document.querySelectorAll('.hero'))
+    for (const hero of document.querySelectorAll<HTMLElement>('.hero'))
       if (plays && hero.querySelector('motion-player')) runHero(hero);
   });
 }

@@ -70,7 +70,7 @@ export class Plot {
   protected title = '';
   protected none = '';
   protected unit = '';
-  protected size = 1;  // of the unit
+  protected size = 1;  // the unit in m or J
   protected series: Series[] = [];
   protected begin = 0;
   protected end = 1;

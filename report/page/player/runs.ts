@@ -1,6 +1,5 @@
 // A click on a marker of a chart, or on a cell of a map, plays that run in a window over the page; below the figure the
 // same runs stand in a list, for who has no pointer.
-// @ts-nocheck
 
 import {labStateOf, labStateOfRun} from '../lab/doors';
 import {openLab} from '../lab/lab';
@@ -8,17 +7,19 @@ import {say} from '../lab/words';
 
 import {dropdown, make, short} from './controls';
 import {cellOf, parts, runsOf} from './motion';
-import {plays} from './player';
+import {MotionPlayer, plays} from './player';
 
 /** What a marker says: whose run it is first. */
-const tipOf = ({dataset}) => {
-  const {method} = parts(dataset.run);
-  return dataset.words.startsWith(method) ? dataset.words : `${method}, ${dataset.words}`;
+const tipOf = ({dataset: {run = '', words = ''}}: HTMLElement) => {
+  const {method} = parts(run);
+  return words.startsWith(method) ? words : `${method}, ${words}`;
 };
 
 /** Opens the window with the run of a marker: beside the truth; of a map's cell the last picture alone. */
-async function playRun(key, marker) {
-  const set = runsOf(key), [head, ...lines] = tipOf(marker).split('\n'), {method, place} = parts(marker.dataset.run);
+async function playRun(key: string, marker: HTMLElement) {
+  const set = runsOf(key), [head, ...lines] = tipOf(marker).split('\n'), chosen = marker.dataset.run ?? '';
+  if (!set) return;
+  const {method, place} = parts(chosen);
   const file = set.methods.get(method), {stage} = set, scene = stage?.scene ?? set.scene;
   const cell = stage && file ? await cellOf(stage, file, Number(place)) : null;
   const run = file?.runs[Number(place)], shown = stage ? cell : run;
@@ -28,11 +29,11 @@ async function playRun(key, marker) {
       'dialog', {class: 'run', 'aria-label': `Run: ${head}`}, close, make('h3', {}, `${scene}: ${head}`),
       make('p', {}, lines.join('; ')), box);
   document.body.append(dialog);
-  const player = make(
-      'motion-player', shown && !stage ? {'data-scene': scene, 'data-a': marker.dataset.run, 'data-b': 'truth'} : {});
+  const player = document.createElement('motion-player') as MotionPlayer;
+  if (shown && !stage) Object.assign(player.dataset, {scene, a: chosen, b: 'truth'});
   if (shown) {
     const caption = `The last picture of the run, at ${short(cell?.end ?? 0)} s, or the last in which it is in sight.`;
-    if (cell) player.given = {scene: stage, motion: cell, caption};
+    if (cell && stage) player.given = {scene: stage, motion: cell, caption};
     box.append(make('figure', {class: 'render'}, make('div', {class: 'stage'})), player);
   } else {
     box.append(make(
@@ -46,7 +47,7 @@ async function playRun(key, marker) {
     door.addEventListener('click', () => (shut(), openLab(state)));
     box.append(make('p', {class: 'door'}, door));
   }
-  if (shown && !stage)
+  if (run && !stage)
     box.append(make(
         'p', {class: 'hint'}, 'The same run: ',
         make(
@@ -70,21 +71,22 @@ async function playRun(key, marker) {
  * Below a figure the choice of one of its runs: by method, on a map by row, by what the run was asked; made when it is
  * opened first.
  */
-export function listRuns(figure) {
+export function listRuns(figure: HTMLElement) {
   if (!plays) return;
   const list = make('details', {class: 'run-list'}, make('summary', {}, 'Play a run'));
   list.addEventListener('toggle', () => {
-    const markers = [...figure.querySelectorAll('[data-run]')];
+    const markers = [...figure.querySelectorAll<HTMLElement>('[data-run]')];
     if (list.querySelector('select') || markers.length === 0) return;  // a figure is drawn when it comes into sight
     const ways = markers.map(marker => {
-      const {method} = parts(marker.dataset.run), [head, outcome = ''] = tipOf(marker).split('\n');
+      const {method} = parts(marker.dataset.run!), [head, outcome = ''] = tipOf(marker).split('\n');
       const [asked, ...row] = head.replace(`${method}, `, '').split(', ');
       return [method, ...row, `${asked}: ${outcome}`];
     });
     const chosen =
         ways[0].map((_, level) => dropdown(['method', ...ways[0].length > 2 ? ['row'] : [], 'run'][level], []));
-    const fits = (way, levels) => way.every((part, level) => level >= levels || part === chosen[level][1].value);
-    const fill = level => {
+    const fits = (way: string[], levels: number) =>
+        way.every((part, level) => level >= levels || part === chosen[level][1].value);
+    const fill = (level: number) => {
       if (level === chosen.length) return;
       const texts = new Set(ways.filter(way => fits(way, level)).map(way => way[level]));
       chosen[level][1].replaceChildren(...[...texts].map(text => make('option', {}, text)));
@@ -94,17 +96,20 @@ export function listRuns(figure) {
     fill(0);
     const play = make('button', {type: 'button'}, '▶ Play');
     play.addEventListener(
-        'click', () => playRun(figure.dataset.runs, markers[ways.findIndex(way => fits(way, way.length))]));
+        'click', () => playRun(figure.dataset.runs!, markers[ways.findIndex(way => fits(way, way.length))]));
     list.append(...chosen.flatMap(([label]) => [label, ' ']), play);
   });
   figure.append(list);
 }
 
 /** A button of the table of runs: puts its run into A or B, plays it, or opens it in the lab. */
-async function choose(button) {
-  const {key} = button.parentElement.dataset;
-  if (button.dataset.as === 'lab') return openLab(labStateOfRun(button.closest('table').dataset.scene, key));
-  const player = button.closest('article, section').querySelector('motion-player[data-a]');
+async function choose(button: HTMLElement) {
+  const {key = ''} = button.parentElement!.dataset;
+  if (button.dataset.as === 'lab') {
+    const state = labStateOfRun(button.closest('table')!.dataset.scene!, key);
+    return state && openLab(state);
+  }
+  const player = button.closest('article, section')!.querySelector<MotionPlayer>('motion-player[data-a]');
   if (!player?.picks) return;
   await player.pick({[button.dataset.as === 'b' ? 'b' : 'a']: key});
   if (button.dataset.as !== 'play') return;
@@ -118,9 +123,10 @@ export function startRuns() {
   if (!plays) return;
   document.addEventListener('click', event => {
     if (!plays) return;
-    const marker = event.target.closest?.('[data-run]'), figure = marker?.closest('figure[data-runs]');
-    if (figure) playRun(figure.dataset.runs, marker);
-    const button = event.target.closest?.('.choose button');
+    const target = event.target as Element, marker = target.closest?.<HTMLElement>('[data-run]');
+    const figure = marker?.closest<HTMLElement>('figure[data-runs]');
+    if (marker && figure) playRun(figure.dataset.runs!, marker);
+    const button = target.closest?.<HTMLElement>('.choose button');
     if (button) choose(button);
   });
 }

@@ -69,7 +69,7 @@ export class Stage {
   protected readonly shapes: ReturnType<typeof shapesOf>;
   protected readonly map: ReturnType<Gl['shadowMap']>;
   protected readonly scales: {heat: WebGLTexture, apart: WebGLTexture};
-  // of boundsOf
+  // results of boundsOf
   protected held: Held[] = [];
   protected key: number[] = [];
   protected middle: number[] = [];
