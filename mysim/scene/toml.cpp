@@ -12,7 +12,6 @@
 #pragma pop_macro("NDEBUG")
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 #include <cstdlib>
 #include <map>
@@ -69,9 +68,9 @@ std::string mended_number(const toml::node& n) {
     const std::string& text = word->get();
     const auto from = text.find_first_not_of(" +");
     if (from == std::string::npos) return "";
-    double value = 0;
-    const auto rest = std::from_chars(text.data() + from, text.data() + text.size(), value);
-    const auto used = static_cast<std::size_t>(rest.ptr - text.data());
+    char* rest = nullptr;
+    std::strtod(text.c_str() + from, &rest);
+    const auto used = static_cast<std::size_t>(rest - text.c_str());
     if (used == from) return "; a number stands without quotes";
     const std::string number = text.substr(from, used - from), unit = text.substr(used);
     if (unit.find_first_not_of(' ') == std::string::npos)

@@ -1,7 +1,5 @@
 // What a browser lacks, or lends: one thread, one instruction set, no clock of its own, its regular expressions, and
 // exceptions that end the instance.
-#include <cstdarg>
-#include <cstdio>
 #include <cstdlib>
 #include <cstring>
 #include <exception>
@@ -11,7 +9,6 @@
 #include "mysim/base/errors.h"
 #include "mysim/base/pattern.h"
 #include "mysim/base/this_process.h"
-#include "mysim/portable_trigonometry.h"
 #include "mysim/simd/instruction_sets.h"
 #include "mysim/simd/thread_pool.h"
 
@@ -21,22 +18,6 @@
 IMPORT(fail) __attribute__((noreturn)) void page_fail(const char* kind, const char* message);
 /// 1 where a part of the text is a match of the expression (ECMAScript's grammar).
 IMPORT(matches) int page_matches(const char* expression, const char* text, int whole);
-
-/// Math.pow().
-IMPORT(power) double page_power(double base, double exponent);
-
-// The C library's part that would bring its files and its large tables along.
-extern "C" {
-/// fmt prints hexadecimal floats with it alone, which nothing here writes.
-int vsnprintf(char*, size_t, const char*, va_list) { std::abort(); }
-int snprintf(char*, size_t, const char*, ...) { std::abort(); }
-int vfprintf(FILE*, const char*, va_list) { std::abort(); }
-/// Adaptive steps alone take a power, whose tables are 6 kB.
-double pow(double base, double exponent) { return page_power(base, exponent); }
-/// Rules' limits and gusts take small angles.
-double sin(double x) { return crosscheck::portable_sin(x); }
-double cos(double x) { return crosscheck::portable_cos(x); }
-}
 
 // The runtime's own part of `throw`: everything that mysim and its libraries throw is a std::exception first of all.
 extern "C" {
