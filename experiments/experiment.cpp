@@ -42,6 +42,18 @@ std::string Point::hash() const {
   return fmt::format("{:016x}", Fnv1a::of(fmt::format("{}\n{}\n{}", build_id(), name, content)));
 }
 
+Point timed_after(const Point& first, std::string name, std::function<void(const TableSet&, TableSet&)> compute_from) {
+  Point point{std::move(name), first.content, {}, true};
+  point.after = std::make_shared<const Point>(first);
+  point.compute = [after = point.after, compute_from](TableSet& tables) {
+    TableSet rows;
+    after->compute(rows);
+    compute_from(rows, tables);
+  };
+  point.compute_from = std::move(compute_from);
+  return point;
+}
+
 std::string content_of(const Scene& scene) {
   return fmt::format("{} {} duration={} samples={} step={} window={} tolerance={} method={}", scene.name, scene.hash,
                      exact_text(scene.duration), scene.samples, exact_text(scene.step), exact_text(scene.window),

@@ -3,6 +3,7 @@
 
 #include <deque>
 #include <functional>
+#include <memory>
 #include <span>
 #include <string>
 #include <string_view>
@@ -39,10 +40,17 @@ struct Point {
   std::function<void(TableSet&)> compute;
   bool timed = false;    // measures time: is run alone, pinned to one core, after all others
   bool is_long = false;  // takes seconds: begins before the others, so that no core waits for it at the end
+  /// An untimed point whose rows this one needs: where they are kept, compute_from() is given them; compute() computes
+  /// them first.
+  std::shared_ptr<const Point> after = {};
+  std::function<void(const TableSet&, TableSet&)> compute_from = {};
 
   /// Fingerprint of name, content and program: 16 hexadecimal digits. The same point of another build is another point.
   std::string hash() const;
 };
+
+/// A timed point that is computed from the rows of another one.
+Point timed_after(const Point& first, std::string name, std::function<void(const TableSet&, TableSet&)> compute_from);
 
 /// The data that a scene's rows depend on: its name, its hash, its times, its tolerance and its default method.
 std::string content_of(const Scene& scene);

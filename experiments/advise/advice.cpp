@@ -1,4 +1,4 @@
-// Bisection over steps and tolerances for each model and method; the cheapest sound one, its file, its check.
+// The search over models and methods, the file of the run that is chosen, and the check of that.
 #include "experiments/advise/advice.h"
 
 #include <fmt/ranges.h>
@@ -8,7 +8,6 @@
 
 #include "experiments/adequacy/ablation.h"
 #include "experiments/metrics.h"
-#include "experiments/stability/limit.h"
 #include "mysim/base/errors.h"
 #include "mysim/model/system.h"
 #include "mysim/run/contacts.h"
@@ -26,132 +25,12 @@ double written_tolerance(const Scene& scene, double relative) {
   return std::ldexp(std::round(std::ldexp(part, 20)), exponent - 20);
 }
 
-}  // namespace
-
-void Search::try_all(const Candidate& model, const Method& method) {
-  model_ = &model;
-  method_ = &method;
-  limit_.reset();
-  if (const Stepper* rule = stepper_of(method); rule && !method.adaptive && !model.scene.model.first_order()) {
-    const double omega = highest_frequency(model.scene.model, model.scene.start);
-    const double gamma = uniform_drag_rate(model.scene.model).value_or(0);
-    if (const double limit = rule->limit(omega, gamma); std::isfinite(limit)) limit_ = limit;
-  }
-  method.adaptive ? search_tolerances() : search_steps();
-}
-
-const Trial& Search::run(const Run& run) {
-  for (const Trial& t : advice_.trials)  // done before
-    if (t.model == model_->name && t.method == method_->name &&
-        (method_->adaptive ? t.relative == run.tolerance : std::abs(t.step - run.step) < 1e-9 * run.step))
-      return t;
-  MaxErrorObserver farthest(path_);
-  Trial t{model_->name, method_->name, 0, 0, {}, {}, springs_of(model_->scene.model), limit_};
-  t.outcome = run_method(*method_, model_->scene, run, {&farthest});
-  t.step = t.outcome.step > 0 ? t.outcome.step : run.step;
-  if (method_->adaptive) t.relative = run.tolerance;
-  if (t.outcome.verdict == Verdict::ok) {
-    t.error = farthest.distance();
-    t.meets = *t.error + advice_.error_bar <= advice_.tolerance;
-  }
-  advice_.trials.push_back(std::move(t));
-  return advice_.trials.back();
-}
-const Trial& Search::trial_at(long steps) {
-  Run r = default_run(model_->scene);
-  r.step = r.duration / r.samples / static_cast<double>(steps);
-  return run(r);
-}
-const Trial& Search::trial_at_tolerance(double relative) {
-  Run r = observed_run(*method_, model_->scene, path_);
-  r.tolerance = 0.01 * written_tolerance(model_->scene, relative) / model_->scene.size();  // as default_run reads it
-  return run(r);
-}
-/// 1e9 spring evaluations take some seconds; a run that doubles them again and again would never end.
-bool Search::hopeless(const Trial& t) const {
-  return t.outcome.verdict == Verdict::unsupported || t.cost() > cost_limit();
-}
-/// The least cost of so many steps between two samples, without a run.
-bool Search::too_costly(long steps) const {
-  const int evaluations = method_->stepper ? std::max(1, method_->stepper->evaluations) : 1;
-  return static_cast<double>(steps) * advice_.scene.samples * evaluations *
-             static_cast<double>(springs_of(model_->scene.model)) >
-         cost_limit();
-}
-
-void Search::search_steps() {
-  const double interval = advice_.scene.duration / advice_.scene.samples;
-  // from twice the stable step on
-  long meets = 1, fails = 0;
-  if (limit_ && *limit_ > 0) meets = std::max(1l, static_cast<long>(interval / *limit_ / 2));
-  constexpr long most = 1l << 22;  // where a run fails at once, however short its steps
-  double cost = 0;
-  for (bool confirmed = false; !confirmed;) {
-    if (too_costly(meets)) return;
-    const Trial& t = trial_at(meets);
-    if (t.meets) {
-      cost = t.cost();
-      // a smaller step must do as well: an accidental success is none
-      const bool accidental = !trial_at(2 * meets).meets;
-      if (!accidental) confirmed = true;
-      if (accidental) fails = meets, meets *= 4;
-    } else {
-      if (hopeless(t) || meets >= most) return;
-      fails = meets, meets *= 2;
-    }
-  }
-  while (fails == 0 && meets > 1) {
-    const Trial& t = trial_at(meets / 2);
-    if (t.meets)
-      meets /= 2, cost = t.cost();
-    else
-      fails = meets / 2;
-  }
-  while (meets > fails + 1 && static_cast<double>(meets) > 1.05 * static_cast<double>(fails) &&
-         may_improve(cost, static_cast<double>(fails) / static_cast<double>(meets))) {
-    const long middle = std::clamp(std::lround(std::sqrt(static_cast<double>(meets) * static_cast<double>(fails))),
-                                   fails + 1, meets - 1);
-    const Trial& t = trial_at(middle);
-    (t.meets ? meets : fails) = middle;
-    if (t.meets) cost = t.cost();
-  }
-  record_cost(cost);
-}
-
-void Search::search_tolerances() {
-  constexpr double loosest = 1e-1, tightest = 1e-13;
-  double meets = loosest, fails = 0, cost = 0;
-  for (bool confirmed = false; !confirmed;) {
-    const Trial& t = trial_at_tolerance(meets);
-    if (t.meets) {
-      cost = t.cost();
-      confirmed = trial_at_tolerance(meets / 4).meets;
-      if (!confirmed) fails = meets, meets /= 16;
-    } else {
-      if (hopeless(t)) return;
-      fails = meets, meets /= 4;
-    }
-    if (meets < tightest) return;
-  }
-  // the cost of a fifth-order rule goes as the fifth root of its tolerance
-  while (fails > 0 && fails / meets > 1.28 && may_improve(cost, std::pow(meets / fails, 0.2))) {
-    const double middle = std::sqrt(meets * fails);
-    const Trial& t = trial_at_tolerance(middle);
-    (t.meets ? meets : fails) = middle;
-    if (t.meets) cost = t.cost();
-  }
-  record_cost(cost);
-}
-
-// Advice: the search over all models and methods, the cheapest confirmed trial, its scene file, and the check of that.
-
-namespace {
-
-/// Rules of high order first: they set the cost at which the others are given up.
-int search_order(const Method& m) {
-  if (!m.stepper) return 20;
-  return (m.stepper->evaluations == 0 ? 10 : 0) - m.stepper->order;
-}
+/// A model of the scene, and what it leaves out.
+struct Candidate {
+  std::string name;  // "full", or "without ..."
+  Scene scene;
+  std::vector<Ingredient> out;
+};
 
 /// The least model that a scene file can express and that leaves half of the tolerance.
 std::optional<Candidate> least_of(const Scene& scene, double tolerance) {
@@ -219,9 +98,13 @@ void caveats_of(Advice& a, const Trial& t) {
 /// The advice without its trials; throws CannotGuarantee where the truth allows none.
 Advice guarantee_of(const Scene& scene, double tolerance, const DenseTruth& path) {
   const Truth& truth = path.truth();
-  Advice a{
-      scene, tolerance, truth.tier, truth.how, path.error_bar(), truth.under_contact_rule, path.until(), {}, 0, {}, {},
-      "",    0,         {},         {}};
+  Advice a{.scene = scene,
+           .tolerance = tolerance,
+           .tier = truth.tier,
+           .truth = truth.how,
+           .error_bar = path.error_bar(),
+           .under_contact_rule = truth.under_contact_rule,
+           .until = path.until()};
   // a third: what is left for the run's own error is then at least twice the bar
   if (!(a.error_bar <= tolerance / 3))
     throw CannotGuarantee(
@@ -235,97 +118,127 @@ Advice guarantee_of(const Scene& scene, double tolerance, const DenseTruth& path
   return a;
 }
 
-/// Whether a trial takes shorter steps, or a tighter tolerance, than another of the same method and model.
-bool finer(const Trial& x, const Trial& y) {
-  if (x.model != y.model || x.method != y.method) return false;
-  return y.relative > 0 ? x.relative < y.relative : x.step < y.step * (1 - 1e-9);
+/// The distance of a run from the truth, m, and its outcome.
+using Measured = std::function<std::pair<Outcome, double>(const Method&, const Scene&, const Setting&)>;
+
+/// Distances at the samples, as a report has them.
+Measured at_samples(const Truth& truth, double until) {
+  return [&truth, until](const Method& method, const Scene& scene, const Setting& setting) {
+    Recorder recorder;
+    Run run = setting.applied_to(default_run(scene));
+    Outcome out = run_method(method, scene, run, {&recorder});
+    return std::pair(std::move(out), distance_over_time(recorder.trajectory, truth.trajectory, until).largest);
+  };
 }
 
-/// Marks trials that a finer one does not confirm.
-void mark_accidental(std::vector<Trial>& trials) {
-  for (Trial& t : trials)
-    for (const Trial& o : trials) t.accidental |= t.meets && !o.meets && !o.accidental && finer(o, t);
-  for (Trial& t : trials) t.meets &= !t.accidental;
+/// Distances after every step.
+Measured after_steps(const DenseTruth& path) {
+  return [&path](const Method& method, const Scene& scene, const Setting& setting) {
+    MaxErrorObserver farthest(path);
+    Outcome out = run_method(method, scene, setting.applied_to(observed_run(method, scene, path)), {&farthest});
+    return std::pair(std::move(out), farthest.distance());
+  };
 }
 
-/// Whether the tolerance is met by the trial and by all finer ones, of which there is one at least.
-bool is_confirmed(const std::vector<Trial>& trials, const Trial& t) {
-  bool confirmed = false;
-  for (const Trial& o : trials)
-    if (finer(o, t)) {
-      if (!o.meets) return false;
-      confirmed = true;
-    }
-  return t.meets && confirmed;
+/// Tries all methods on all models, and chooses; throws CannotGuarantee where none meets the tolerance.
+void search(Advice& a, const std::vector<Candidate>& models, const std::vector<Method>& methods, double bound,
+            const Measured& measured) {
+  a.trials.clear();
+  std::vector<TriedRun> runs;
+  for (const Candidate& model : models) {
+    const long springs = springs_of(model.scene.model);
+    const auto trial = [&](const Method& method, const Setting& setting) -> std::optional<TriedRun> {
+      auto [out, distance] = measured(method, model.scene, setting);
+      const double limit = stability_limit(method, model.scene);
+      Trial t{model.name,
+              method.name,
+              out.step > 0 ? out.step : setting.value,
+              setting.tolerance ? setting.value : 0,
+              {},
+              {},
+              springs,
+              method.adaptive || !std::isfinite(limit) ? std::nullopt : std::optional(limit)};
+      if (out.verdict == Verdict::ok) t.error = distance;
+      t.outcome = std::move(out);
+      a.trials.push_back(std::move(t));
+      const Trial& done = a.trials.back();
+      return TriedRun{.verdict = done.outcome.verdict, .error = done.error, .cost = done.cost()};
+    };
+    StepSearch search(model.scene, default_run(model.scene), bound, trial, runs, 4,
+                      model.name);  // what costs more is no alternative
+    search.search(methods);
+  }
+  for (size_t i = 0; i < runs.size(); ++i) {
+    Trial& t = a.trials[i];
+    t.meets = runs[i].is_within(bound);
+    t.accidental = t.meets && std::ranges::any_of(runs, [&](const TriedRun& other) {
+                     return other.method == runs[i].method && other.model == runs[i].model &&
+                            other.setting.value < runs[i].setting.value * (1 - 1e-9) && !other.is_within(bound);
+                   });
+    t.meets &= !t.accidental;
+  }
+  const auto chosen = recommend(runs, bound);
+  if (!chosen) throw CannotGuarantee(fmt::format("no method that was tried comes within {:.2g} m", a.tolerance));
+  a.chosen = chosen->run, a.tied = chosen->tied, a.second = chosen->second, a.bound = chosen->bound;
+  a.of_full.reset();
+  if (a.trials[a.chosen].model == "full") return;
+  std::erase_if(runs, [](const TriedRun& run) { return run.model != "full"; });  // the last ones
+  if (const auto full = recommend(runs, bound)) a.of_full = a.trials.size() - runs.size() + full->run;
 }
 
-/// The cheapest confirmed trial, of another method than that where one is given.
-std::optional<size_t> cheapest(const std::vector<Trial>& trials, const std::string& but = "") {
-  std::optional<size_t> best;
-  for (size_t i = 0; i < trials.size(); ++i)
-    if (trials[i].method != but && is_confirmed(trials, trials[i]) &&
-        (!best || trials[i].cost() < trials[*best].cost()))
-      best = i;
-  return best;
+/// Writes the scene file of the chosen run, and runs it as `crosscheck run` does, its error looked for after every
+/// step. Returns false where that is beyond the tolerance.
+bool written_and_checked(Advice& a, const std::vector<Candidate>& models, const DenseTruth& path) {
+  const Trial& chosen = a.trials[a.chosen];
+  const Candidate& model = *std::ranges::find(models, chosen.model, &Candidate::name);
+  const Method method = find_method(chosen.method);
+  a.left_out.clear();
+  for (const Ingredient& i : model.out) a.left_out.push_back(i.name);
+  a.toml = file_of(a, model, chosen, method);
+  Scene written = parse_scene(a.toml, a.scene.name);
+  a.wishes = keep_wishes(a.scene, written);
+  Trial last = chosen;
+  if (written.step < chosen.step && !method.adaptive) {
+    last.step = written.step;
+    a.toml = file_of(a, model, last, method);
+    written = parse_scene(a.toml, a.scene.name);
+    a.caveats.push_back("the step is shorter than the tolerance needs: it keeps the wishes");
+  }
+  MaxErrorObserver farthest(path);
+  last.outcome = run_method(method, written, observed_run(method, written, path), {&farthest});
+  a.checked = farthest.distance();
+  if (method.adaptive) last.relative = default_run(written).tolerance;
+  last.error = a.checked;
+  const bool kept = last.outcome.verdict == Verdict::ok && a.checked + a.error_bar <= a.tolerance;
+  a.trials[a.chosen] = std::move(last);
+  return kept;
 }
 
 }  // namespace
 
-std::vector<Method> advisable_methods(const Scene& scene) {
-  std::vector<Method> methods;
-  for (Method& m : all_methods()) {
-    if (!m.family().is_subject()) continue;
-    if (scene.model.find<Spheres>() && m.stepper && locates_events(*m.stepper))
-      methods.push_back(find_method(m.name + "+events"));
-    methods.push_back(std::move(m));
-  }
-  return methods;
-}
-
 Advice advise(const Scene& scene, double tolerance, std::vector<Method> methods) {
   const DenseTruth path(scene, tolerance);
   Advice a = guarantee_of(scene, tolerance, path);
-
   std::vector<Candidate> models{{"full", scene, {}}};
   if (auto least = least_of(path.dense(), tolerance)) {
     least->scene.samples = scene.samples;  // what is tried is run as its file will be
     models.insert(models.begin(), std::move(*least));
   }
-  std::stable_sort(methods.begin(), methods.end(),
-                   [](const Method& x, const Method& y) { return search_order(x) < search_order(y); });
-  Search search(a, path);
-  for (const Candidate& model : models)
-    for (const Method& method : methods) search.try_all(model, method);
-
-  mark_accidental(a.trials);
-  const auto best = cheapest(a.trials);
-  if (!best) throw CannotGuarantee(fmt::format("no method that was tried comes within {:.2g} m", tolerance));
-  a.chosen = *best;
-  const Trial& chosen = a.trials[a.chosen];
-  a.second = cheapest(a.trials, chosen.method);
-
-  const Candidate& model =
-      *std::find_if(models.begin(), models.end(), [&](const auto& m) { return m.name == chosen.model; });
-  const Method method = find_method(chosen.method);
-  for (const Ingredient& i : model.out) a.left_out.push_back(i.name);
-  a.toml = file_of(a, model, chosen, method);
-  Scene written = parse_scene(a.toml, scene.name);
-  a.wishes = keep_wishes(scene, written);
-  Trial last = chosen;
-  if (written.step < chosen.step && !method.adaptive) {
-    last.step = written.step;
-    a.toml = file_of(a, model, last, method);
-    written = parse_scene(a.toml, scene.name);
-    a.caveats.push_back("the step is shorter than the tolerance needs: it keeps the wishes");
+  // samples that are too far apart show a truth less well than dense ones
+  const auto sampled = truth_of(scene, default_run(scene));
+  bool kept = false;
+  if (sampled && sampled->error_bar < tolerance) try {
+      search(a, models, methods, tolerance - sampled->error_bar,
+             at_samples(*sampled, std::min(scene.window, sampled->until)));
+      kept = written_and_checked(a, models, path);
+    } catch (const CannotGuarantee&) {
+    }
+  if (!kept) {
+    a.between_samples = true, a.caveats.clear();
+    search(a, models, methods, tolerance - a.error_bar, after_steps(path));
+    if (!written_and_checked(a, models, path))
+      throw CannotGuarantee(fmt::format("the advised file, run again, errs by {:.3g} m", a.checked));
   }
-  // the very file, by the run that `crosscheck run` makes
-  MaxErrorObserver farthest(path);
-  last.outcome = run_method(method, written, observed_run(method, written, path), {&farthest});
-  a.checked = farthest.distance();
-  if (last.outcome.verdict != Verdict::ok || !(a.checked + a.error_bar <= tolerance))
-    throw CannotGuarantee(fmt::format("the advised file, run again, errs by {:.3g} m", a.checked));
-  last.error = a.checked;
-  a.trials[a.chosen] = std::move(last);
   caveats_of(a, a.trials[a.chosen]);
   return a;
 }

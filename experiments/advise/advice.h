@@ -10,6 +10,7 @@
 #include "experiments/advise/dense_truth.h"
 #include "experiments/advise/fit.h"
 #include "experiments/scenes/ingredients.h"
+#include "experiments/speed_accuracy/step_search.h"
 #include "reference/method.h"
 #include "reference/truth/truth.h"
 
@@ -26,7 +27,7 @@ struct Trial {
   std::string method;
   double step;                  // s, as used; the mean of adaptive methods
   double relative;              // relative tolerance of adaptive methods; 0 elsewhere
-  std::optional<double> error;  // m, largest RMS distance from the truth in the window, after any step; none: failed
+  std::optional<double> error;  // m, largest RMS distance from the truth in the window; none: failed
   Outcome outcome;
   long springs;
   std::optional<double> limit;  // s, the largest stable step that theory predicts; empty where none does
@@ -40,65 +41,30 @@ struct Advice {
   Scene scene;       // as given
   double tolerance;  // m
   Tier tier;
-  std::string truth;             // how it was found
-  double error_bar;              // m, the truth's, in the window
-  bool under_contact_rule;       // the tolerance bounds a difference, no error
-  double until;                  // s, the guarantee ends here
-  std::vector<Trial> trials;     // everything tried, in order
-  size_t chosen;                 // of the trials
-  std::optional<size_t> second;  // the cheapest other method that meets it
-  std::vector<std::string> left_out;
-  std::string toml;                // a scene file that runs as advised
-  double checked;                  // m, the error of that file's own run
-  std::vector<WishResult> wishes;  // and their values in that run
-  std::vector<std::string> caveats;
+  std::string truth;                   // how it was found
+  double error_bar;                    // m, the truth's, in the window
+  bool under_contact_rule;             // the tolerance bounds a difference, no error
+  double until;                        // s, the guarantee ends here
+  std::vector<Trial> trials = {};      // everything tried, in order
+  size_t chosen = 0;                   // of the trials
+  std::vector<size_t> tied = {};       // other methods that meet it at the same cost, less accurate
+  std::optional<size_t> second = {};   // the cheapest other method that meets it
+  std::optional<size_t> of_full = {};  // the choice for the whole scene, where a lesser model is cheaper
+  StepBound bound = StepBound::none;   // what keeps the step from being longer
+  bool between_samples = false;        // the errors at the samples alone would have misled
+  std::vector<std::string> left_out = {};
+  std::string toml = {};                // a scene file that runs as advised
+  double checked = 0;                   // m, the error of that file's own run
+  std::vector<WishResult> wishes = {};  // and their values in that run
+  std::vector<std::string> caveats = {};
 };
 
-/// All of mysim; beside spheres their `+events` too, where there is one.
-std::vector<Method> advisable_methods(const Scene& scene);
-
-/// Tries each method on the scene, and on the least model whose own error is half the tolerance at most. A step is
-/// taken when it meets the tolerance, every smaller one that was tried does so too, and among them one of half its
-/// length; steps are refined to 5 %. Errors are looked for after every step, not at the samples alone (dense_truth.h).
-/// Methods that already cost four times the best are given up. Throws CannotGuarantee where no truth is known, its bar
-/// is above a third of the tolerance, the tolerance is above the scene's motion, or no method meets it.
+/// Searches the whole scene and the least model whose own error is half the tolerance at most (StepSearch), and takes
+/// the run that recommend() chooses: with the whole scene and 1 % of its motion, the one that a report recommends. The
+/// errors of the search are those at the samples, as in a report. The chosen run's file is then run once more with its
+/// error looked for after every step (dense_truth.h); where that breaks the tolerance, all is searched again with such
+/// errors. Throws CannotGuarantee where no truth is known, its bar is above a third of the tolerance, the tolerance is
+/// above the scene's motion, or no method meets it.
 Advice advise(const Scene& scene, double tolerance, std::vector<Method> methods);
-
-// The search for the cheapest run of a model by a method that meets a tolerance.
-
-struct Candidate {
-  std::string name;  // "full", or "without ..."
-  Scene scene;
-  std::vector<Ingredient> out;
-};
-
-/// Longest steps first, halved until they meet the tolerance, then refined. What is tried goes to the advice's trials;
-/// a method that already costs four times the best of those before it is given up.
-class Search {
- public:
-  Search(Advice& advice, const DenseTruth& path) : advice_(advice), path_(path) {}
-
-  void try_all(const Candidate& model, const Method& method);
-
- private:
-  /// The run with that step, or with that relative tolerance; one that was done before is not done again.
-  const Trial& run(const Run& run);
-  const Trial& trial_at(long steps);  // so many between two samples
-  const Trial& trial_at_tolerance(double relative);
-  bool hopeless(const Trial& t) const;
-  bool too_costly(long steps) const;
-  bool may_improve(double cost, double ratio) const { return cost * ratio < best_; }
-  double cost_limit() const { return std::min(4 * best_, 1e9); }
-  void search_steps();
-  void search_tolerances();
-  void record_cost(double cost) { best_ = std::min(best_, cost); }
-
-  Advice& advice_;
-  const DenseTruth& path_;
-  const Candidate* model_ = nullptr;
-  const Method* method_ = nullptr;
-  std::optional<double> limit_;
-  double best_ = INFINITY;
-};
 
 }  // namespace crosscheck

@@ -44,10 +44,10 @@ const Kind* kind_of(std::string_view path) {
   return nullptr;
 }
 
-using Measure = std::function<std::optional<double>(const Scene&, MeasuredBy)>;
+using Measurement = std::function<std::optional<double>(const Scene&, MeasuredBy)>;
 struct Objective {
   WishResult wished;
-  Measure measure;
+  Measurement measure;
 };
 
 /// The desired behaviour of a scene in plain measures (experiments/measures.h): section [wish] of its file.
@@ -274,7 +274,7 @@ class Fit {
 
 std::vector<WishResult> keep_wishes(const Scene& scene, Scene& file) {
   std::vector<WishResult> wishes;
-  std::vector<Measure> measures;
+  std::vector<Measurement> measures;
   for (const Objective& objective : objectives_of(scene))
     if (const auto reached = objective.measure(scene, MeasuredBy::converged_runs)) {
       wishes.push_back(objective.wished);

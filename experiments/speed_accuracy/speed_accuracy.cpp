@@ -6,18 +6,20 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <map>
 
 #include "experiments/estimate.h"
 #include "experiments/metrics.h"
 #include "experiments/observers.h"
+#include "experiments/scenes/ingredients.h"
+#include "experiments/speed_accuracy/step_search.h"
+#include "experiments/speed_accuracy/work_precision.h"
 #include "experiments/timing/timing.h"
 #include "mysim/model/system.h"
 
 namespace crosscheck {
-namespace {
 
-/// The longest step at which the method's rule holds by theory when the scene begins, s; infinite where none is known.
-double limit_of(const Method& method, const Scene& scene) {
+double stability_limit(const Method& method, const Scene& scene) {
   const Stepper* rule = stepper_of(method);
   if (!rule || !std::isfinite(rule->limit(1, 0.1)) || scene.model.first_order())
     return std::numeric_limits<double>::infinity();
@@ -26,12 +28,17 @@ double limit_of(const Method& method, const Scene& scene) {
                    : std::numeric_limits<double>::infinity();
 }
 
-}  // namespace
-
 Run Setting::applied_to(Run run) const {
   (tolerance ? run.tolerance : run.step) = value;
   return run;
 }
+
+namespace {
+
+/// The CPU time, s, that a run may take by the estimate.
+double most_seconds(bool full) { return full ? 1.8 : 0.72; }
+
+}  // namespace
 
 std::vector<Setting> settings_of(const Method& method, const Scene& scene, const Run& run, bool full, int* dropped) {
   std::vector<Setting> settings;
@@ -48,13 +55,12 @@ std::vector<Setting> settings_of(const Method& method, const Scene& scene, const
     return settings;
   }
   double last = 0;
-  const double limit = limit_of(method, scene);
-  for (int halving = 6; halving >= -4; --halving) {
+  const double limit = stability_limit(method, scene);
+  for (int halving = longest_halving; halving >= -4; --halving) {
     const Setting setting{false, time_grid({run.step * std::pow(2, halving), run.duration, run.samples}).h};
-    // one or two that fail show where the others end
-    if (setting.value == last || (halving > 3 && setting.value > 2 * limit)) continue;
+    if (setting.value == last || is_beyond(limit, halving, setting.value)) continue;
     last = setting.value;
-    const double most = (halving >= 0 ? 1.8 : 0.35) * (full ? 1 : 0.4);  // s
+    const double most = halving >= 0 ? most_seconds(full) : 0.2 * most_seconds(full);
     if (estimated_seconds(method, scene, setting.applied_to(run)) > most) {
       if (dropped) ++*dropped;
       continue;
@@ -64,11 +70,12 @@ std::vector<Setting> settings_of(const Method& method, const Scene& scene, const
   return settings;
 }
 
-TimedPart part_of(const Method& method, const Scene& scene, const Run& base, const Setting& setting, bool full) {
+TimedPart part_of(const Method& method, const Scene& scene, const Run& base, const Setting& setting, bool full,
+                  bool whole) {
   Run run = setting.applied_to(base);
   if (!method.fingerprint.empty()) return {run};     // a program of its own: what its start costs is not known
   const bool touches = scene.model.find<Spheres>();  // that may cost more than falling
-  if (method.adaptive && touches) return {run};
+  if (method.adaptive && (touches || whole)) return {run};
   const double enough = full ? 0.02 : 0.006;  // s: thousands of ticks of the clock
   // s: shorter runs are timed whole. Most of a quick report's runs are; to time the others whole takes half a minute on
   // one core
@@ -76,7 +83,7 @@ TimedPart part_of(const Method& method, const Scene& scene, const Run& base, con
   const double all_of_it =
       method.adaptive ? estimated_as_it_begins(method, scene, run) : estimated_seconds(method, scene, run);
   const double share = std::min(1., enough / all_of_it);
-  const bool whole = all_of_it < cheap || touches;
+  whole |= all_of_it < cheap || touches;
   if (method.adaptive) {
     if (whole) return {run};
     run.samples = std::max(1, static_cast<int>(std::ceil(share * run.samples)));
@@ -168,32 +175,163 @@ std::string why_not(const Scene& scene, double motion) {
 
 }  // namespace
 
+namespace {
+
+/// A scene as the experiment runs it, with what is known of it.
+struct Judged {
+  const Scene& scene;
+  Run base;
+  std::optional<Truth> truth;
+  double motion = 0, until = 0;  // m, s
+  bool under_contact_rule() const { return truth && truth->under_contact_rule; }
+  /// m, within which a run is recommended; nothing where no error is known.
+  std::optional<double> bound() const {
+    if (!truth || under_contact_rule()) return std::nullopt;
+    const double left = recommended_part * motion - truth->error_bar;
+    return left > 0 ? std::optional(left) : std::nullopt;
+  }
+};
+
+TriedRun tried_run(const Judged& of, const Outcome& out, const Trajectory& path) {
+  TriedRun run{.verdict = out.verdict,
+               .cost = static_cast<double>(out.evaluations) * static_cast<double>(springs_of(of.scene.model))};
+  if (out.verdict == Verdict::ok) run.error = distance_over_time(path, of.truth->trajectory, of.until).largest;
+  return run;
+}
+
+bool is_affordable(const Method& method, const Judged& of, const Setting& setting, bool full) {
+  const Run run = setting.applied_to(of.base);
+  return (method.adaptive ? estimated_as_it_begins(method, of.scene, run) : estimated_seconds(method, of.scene, run)) <=
+         most_seconds(full);
+}
+
+/// The settings at which the search for the cheapest run tries the candidates, by method.
+std::map<std::string, std::vector<Setting>> searched_settings(const Request& request, const Judged& of,
+                                                              MotionBoundsCache& bounds) {
+  std::map<std::string, std::vector<Setting>> settings;
+  const auto bound = of.bound();
+  if (!bound) return settings;
+  std::vector<Method> methods = request.methods.empty() ? candidates(of.scene) : request.methods;
+  std::erase_if(methods, [](const Method& m) { return !is_candidate(m.name); });
+  std::vector<TriedRun> runs;
+  StepSearch search(
+      of.scene, of.base, *bound,
+      [&](const Method& method, const Setting& setting) -> std::optional<TriedRun> {
+        if (!is_affordable(method, of, setting, request.full)) return std::nullopt;
+        Recorder recorder;
+        const Outcome out = run_method(method, of.scene, setting.applied_to(of.base), {&recorder}, std::ref(bounds));
+        if (!method.stepper && certify(method.name, of.scene, out).mismatch()) return std::nullopt;
+        return tried_run(of, out, recorder.trajectory);
+      },
+      runs);
+  search.search(methods);
+  for (const TriedRun& run : runs)
+    if (run.verdict != Verdict::unsupported) settings[run.method].push_back(run.setting);
+  return settings;
+}
+
+/// Settings of both lists, from coarse to fine.
+std::vector<Setting> merged(std::vector<Setting> settings, const std::vector<Setting>& more) {
+  for (const Setting& each : more)
+    if (std::ranges::none_of(settings, [&](const Setting& s) { return std::abs(s.value / each.value - 1) < 1e-9; }))
+      settings.push_back(each);
+  std::ranges::stable_sort(settings, std::greater{}, &Setting::value);
+  return settings;
+}
+
+/// Adds the runs of another engine between the last step that misses the bound and the first that does not, so that its
+/// cheapest is found as closely as the subject's.
+void refine(const Method& method, const Judged& of, const Request& request, MotionBoundsCache& bounds,
+            std::vector<SettingRun>& tries, std::vector<std::string>& notes) {
+  const auto bound = of.bound();
+  if (!bound || method.family().is_subject() || method.family().role == Role::integrator) return;
+  std::vector<TriedRun> runs;
+  const auto add = [&](const SettingRun& run) {
+    TriedRun tried = tried_run(of, run.outcome, run.trajectory);
+    tried.method = method.name, tried.setting = run.setting;
+    // an engine need not count its evaluations: each of its steps costs as much as any other
+    tried.cost = static_cast<double>(run.outcome.steps);
+    return tried;
+  };
+  for (const SettingRun& run : tries) runs.push_back(add(run));
+  if (!recommend(runs, *bound)) return;
+  StepSearch search(
+      of.scene, of.base, *bound,
+      [&](const Method& m, const Setting& setting) -> std::optional<TriedRun> {
+        if (!is_affordable(m, of, setting, request.full)) return std::nullopt;
+        auto more = runs_at(m, of.scene, of.base, {setting}, bool(request.on_runs), bounds, notes);
+        if (more.empty()) return std::nullopt;
+        tries.push_back(std::move(more[0]));
+        return add(tries.back());
+      },
+      runs);
+  search.search({method});
+  std::ranges::stable_sort(tries, std::greater{}, [](const SettingRun& run) { return run.setting.value; });
+}
+
+std::string tier_text(const Judged& of) {
+  return !of.truth ? ""
+                   : std::string(name_of(of.truth->tier)) + (of.under_contact_rule() ? ", in-house contact rule" : "");
+}
+
+SpeedAccuracyRow row_of(const Judged& of, const std::string& method, const SettingRun& run,
+                        const std::vector<SettingRun>& tries) {
+  const Outcome& out = run.outcome;
+  SpeedAccuracyRow row{.scene = of.scene.name,
+                       .method = method,
+                       .setting = run.setting.kind(),
+                       .requested = run.setting.value,
+                       .step = out.step,
+                       .steps = out.steps,
+                       .evaluations = out.evaluations,
+                       .verdict = out.verdict,
+                       .end = out.end,
+                       .motion = of.motion,
+                       .until = of.until,
+                       .different_law = fmt::format("{}", fmt::join(out.different_law, "; "))};
+  if (run.ok() && of.truth) {
+    const TrajectoryDistance distance = distance_over_time(run.trajectory, of.truth->trajectory, of.until);
+    (of.under_contact_rule() ? row.difference : row.error) = distance.largest;
+    (of.under_contact_rule() ? row.difference_over_time : row.error_over_time) = distance.over_time;
+  }
+  if (run.ok() && tries.back().ok() && &run != &tries.back())
+    row.to_own_finest = distance_over_time(run.trajectory, tries.back().trajectory, of.scene.window).largest;
+  if (of.truth) row.truth = tier_text(of), row.truth_bar = of.truth->error_bar;
+  return row;
+}
+
+}  // namespace
+
 void speed_accuracy_on(const Request& request, const Scene& scene, TableSet& tables) {
   Run base = run_of(request, scene);
   base.timed = false;  // time_speed_accuracy() does that
-  const auto truth = truth_of(scene, base);
-  const bool of_rule = truth && truth->under_contact_rule;
+  Judged of{scene, base, truth_of(scene, base)};
   Recorder plain;
-  if (!truth) run_method(find_method(scene.method), scene, base, {&plain});
-  const double motion = motion_of(truth ? truth->trajectory : plain.trajectory);
-  if (const std::string why = why_not(scene, motion); !why.empty()) {
+  if (!of.truth) run_method(find_method(scene.method), scene, base, {&plain});
+  of.motion = motion_of(of.truth ? of.truth->trajectory : plain.trajectory);
+  if (const std::string why = why_not(scene, of.motion); !why.empty()) {
     tables.notes.push_back(fmt::format("speed-accuracy leaves out {}: {}", scene.name, why));
     return;
   }
-  if (!truth)
+  if (!of.truth)
     tables.notes.push_back(
         fmt::format("speed-accuracy knows no truth of {}: only distances to each method's own finest run", scene.name));
-  const double until = truth ? std::min(scene.window, truth->until) : scene.window;
-  const std::string tier = truth ? std::string(name_of(truth->tier)) + (of_rule ? ", in-house contact rule" : "") : "";
+  of.until = of.truth ? std::min(scene.window, of.truth->until) : scene.window;
 
   Table table = table_of<SpeedAccuracyRow>();
   std::vector<std::string> shortened;
   MotionBoundsCache bounds;
-  for (const Method& method : methods_for(request, scene)) {
+  auto searched = searched_settings(request, of, bounds);
+  std::vector<Method> methods = methods_for(request, scene);
+  for (const auto& [name, settings] : searched)
+    if (std::ranges::find(methods, name, &Method::name) == methods.end()) methods.push_back(find_method(name));
+  for (const Method& method : methods) {
     int dropped = 0;
-    const auto settings = settings_of(method, scene, base, request.full, &dropped);
-    const std::vector<SettingRun> tries =
-        runs_at(method, scene, base, settings, bool(request.on_runs), bounds, tables.notes);
+    const bool has_ladder = request.methods.empty() ? !method.name.ends_with("+events") : true;
+    const auto ladder = has_ladder ? settings_of(method, scene, base, request.full, &dropped) : std::vector<Setting>();
+    const auto settings = merged(ladder, searched[method.name]);
+    std::vector<SettingRun> tries = runs_at(method, scene, base, settings, bool(request.on_runs), bounds, tables.notes);
+    refine(method, of, request, bounds, tries, tables.notes);
     if (dropped > 0 && (!tries.empty() || settings.empty()))
       shortened.push_back(fmt::format("{} ({})", method.name, dropped));
     if (request.on_runs && !tries.empty()) {
@@ -201,33 +339,7 @@ void speed_accuracy_on(const Request& request, const Scene& scene, TableSet& tab
       for (const SettingRun& run : tries) recorded.runs.push_back({run.outcome, run.ok() ? run.trajectory : run.end});
       request.on_runs(recorded);
     }
-    for (const SettingRun& run : tries) {
-      const Outcome& out = run.outcome;
-      std::optional<double> largest, over_time, own;
-      if (run.ok() && truth) {
-        const TrajectoryDistance distance = distance_over_time(run.trajectory, truth->trajectory, until);
-        largest = distance.largest, over_time = distance.over_time;
-      }
-      if (run.ok() && tries.back().ok() && &run != &tries.back())
-        own = distance_over_time(run.trajectory, tries.back().trajectory, scene.window).largest;
-      SpeedAccuracyRow row{.scene = scene.name,
-                           .method = method.name,
-                           .setting = run.setting.kind(),
-                           .requested = run.setting.value,
-                           .step = out.step,
-                           .steps = out.steps,
-                           .evaluations = out.evaluations,
-                           .verdict = out.verdict,
-                           .end = out.end,
-                           .to_own_finest = own,
-                           .motion = motion,
-                           .until = until,
-                           .different_law = fmt::format("{}", fmt::join(out.different_law, "; "))};
-      (of_rule ? row.difference : row.error) = largest;
-      (of_rule ? row.difference_over_time : row.error_over_time) = over_time;
-      if (truth) row.truth = tier, row.truth_bar = truth->error_bar;
-      add(table, row);
-    }
+    for (const SettingRun& run : tries) add(table, row_of(of, method.name, run, tries));
   }
   if (!shortened.empty())
     tables.notes.push_back(fmt::format("speed-accuracy on {} leaves out runs that would cost much{}: {}", scene.name,
@@ -235,51 +347,114 @@ void speed_accuracy_on(const Request& request, const Scene& scene, TableSet& tab
   tables.add(table);
 }
 
-void time_speed_accuracy(const Request& request, const Scene& scene, TableSet& tables) {
-  const Run base = run_of(request, scene);
-  struct Timed {
-    std::string method;
-    Setting setting;
-    double share;
-    long evaluations = 0;
+namespace {
+
+/// A run that is timed, whole or in its first part.
+struct TimedRow {
+  const SpeedAccuracyRow* row;
+  const Method* method;
+  TimedPart part;
+  long evaluations = 0;
+  /// Of the whole run, s.
+  Timing scaled(const Timing& t) const {
+    const auto measured = static_cast<double>(evaluations), all = static_cast<double>(row->evaluations);
+    return t.times(measured > 0 && all > 0 ? all / measured : 1 / part.share);
+  }
+};
+
+/// The rows that a recommendation compares: the recommended run, its ties, and each other engine's cheapest.
+std::vector<size_t> compared_rows(const std::vector<TimedRow>& timed, const std::vector<Timing>& times) {
+  std::map<std::string, size_t> cheapest;  // by engine
+  std::vector<size_t> compared;
+  if (timed.empty()) return compared;
+  const SpeedAccuracyRow& any = *timed[0].row;
+  const double bound = recommended_part * any.motion - any.truth_bar.value_or(INFINITY);
+  std::vector<SpeedAccuracyRow> rows;
+  for (const TimedRow& run : timed) rows.push_back(*run.row);
+  const auto at = [&](const TriedRun& run) {
+    return std::ranges::find_if(timed,
+                                [&](const TimedRow& t) {
+                                  return t.row->method == run.method && t.row->requested == run.setting.value;
+                                }) -
+           timed.begin();
   };
-  std::vector<Timed> timed;
-  std::vector<std::function<double()>> runs;
+  const std::vector<TriedRun> tried = tried_runs(rows, any.scene);
+  if (const auto recommended = recommend(tried, bound)) {
+    compared.push_back(static_cast<size_t>(at(tried[recommended->run])));
+    for (const size_t tie : recommended->tied) compared.push_back(static_cast<size_t>(at(tried[tie])));
+  }
+  for (size_t i = 0; i < timed.size(); ++i) {
+    const SpeedAccuracyRow& row = *timed[i].row;
+    if (family_of(row.method).is_subject() || family_of(row.method).role == Role::integrator || !row.error ||
+        *row.error > bound)
+      continue;
+    const auto [best, is_new] = cheapest.try_emplace(engine_of(row.method), i);
+    if (!is_new && timed[i].scaled(times[i]).median < timed[best->second].scaled(times[best->second]).median)
+      best->second = i;
+  }
+  for (const auto& [engine, i] : cheapest) compared.push_back(i);
+  return compared;
+}
+
+}  // namespace
+
+void time_speed_accuracy(const Request& request, const Scene& scene, const TableSet& rows, TableSet& tables) {
+  const Table* table_of_runs = rows.table(std::string(SpeedAccuracyRow::table));
+  if (!table_of_runs) return;
+  const std::vector<SpeedAccuracyRow> runs = rows_of<SpeedAccuracyRow>(*table_of_runs);
+  const Run base = run_of(request, scene);
+  std::map<std::string, Method> methods;
+  for (Method& method : methods_for(request, scene)) methods.emplace(method.name, method);
+  std::vector<TimedRow> timed;
+  for (const SpeedAccuracyRow& row : runs) {
+    const auto known = methods.find(row.method);
+    const Method& method = known != methods.end() ? known->second : methods[row.method] = find_method(row.method);
+    const Setting setting{row.setting == SettingKind::tolerance, row.requested};
+    timed.push_back({&row, &method, part_of(method, scene, base, setting, request.full)});
+  }
   MotionBoundsCache bounds;  // short runs are repeated a thousand times
-  const std::vector<Method> methods = methods_for(request, scene);
-  for (const Method& method : methods)
-    for (const Setting& setting : settings_of(method, scene, base, request.full)) {
-      const TimedPart part = part_of(method, scene, base, setting, request.full);
-      // run until it accepts the scene once: it may refuse the longest steps alone
-      if (timed.empty() || timed.back().method != method.name)
-        if (run_method(method, scene, part.run, {}, std::ref(bounds)).verdict == Verdict::unsupported) continue;
-      timed.push_back({method.name, setting, part.share});
-      runs.push_back([&method, &scene, &bounds, part, &timed, at = timed.size() - 1] {
-        // monitored: after a blow-up a step of Bullet's worlds takes many times as long
-        const Outcome out = run_method(method, scene, part.run, {}, std::ref(bounds));
-        timed[at].evaluations = out.evaluations;
-        return out.cpu_seconds;
-      });
-    }
+  const auto run_once = [&](TimedRow& run) {
+    // monitored: after a blow-up a step of Bullet's worlds takes many times as long
+    const Outcome out = run_method(*run.method, scene, run.part.run, {}, std::ref(bounds));
+    run.evaluations = out.evaluations;
+    return out.cpu_seconds;
+  };
+  std::vector<std::function<double()>> turns;
+  for (TimedRow& run : timed) turns.push_back([&] { return run_once(run); });
   // the dear ones are most of the work, and their times spread least. A first run of more than 0.2 ms takes what the
   // second does, to 1 % on average (measured, 934 runs)
-  const auto times =
-      time_round_robin(runs, request.full ? TimingOptions{.least = 3, .most = 9, .enough = 0.05, .warm = 0.05}
-                                          : TimingOptions{.least = 2, .most = 7, .enough = 0.005, .warm = 0.0005});
-  const double noise = times.empty() ? 0 : noise_floor(times);
+  const auto samples =
+      time_round_robin(turns, request.full ? TimingOptions{.least = 3, .most = 9, .enough = 0.05, .warm = 0.05}
+                                           : TimingOptions{.least = 2, .most = 7, .enough = 0.005, .warm = 0.0005});
+  const double noise = samples.empty() ? 0 : noise_floor(samples);
+  std::vector<Timing> times;
+  for (const std::vector<double>& each : samples) times.push_back(timing_of(each));
+
+  std::vector<size_t> in_parts = compared_rows(timed, times);
+  std::erase_if(in_parts, [&](size_t i) { return timed[i].part.share == 1; });
+  turns.clear();
+  for (const size_t i : in_parts) {
+    TimedRow& run = timed[i];
+    const Setting setting{run.row->setting == SettingKind::tolerance, run.row->requested};
+    run.part = part_of(*run.method, scene, base, setting, request.full, true);
+    turns.push_back([&] { return run_once(run); });
+  }
+  const auto whole = time_round_robin(turns, {.least = 3, .most = 7, .enough = 0.1, .warm = 0.0005});
+  for (size_t i = 0; i < in_parts.size(); ++i) times[in_parts[i]] = timing_of(whole[i]);
+
   Table table = table_of<SpeedAccuracyTimingRow>();
   for (size_t i = 0; i < timed.size(); ++i) {
-    const Timing t = timing_of(times[i]);
+    const Timing& t = times[i];
     if (!(t.median > 0)) {
       if (timed[i].evaluations > 0)
-        tables.notes.push_back(fmt::format("{} does not tell what CPU time it took", timed[i].method));
+        tables.notes.push_back(fmt::format("{} does not tell what CPU time it took", timed[i].row->method));
       continue;
     }
     add(table, SpeedAccuracyTimingRow{.scene = scene.name,
-                                      .method = timed[i].method,
-                                      .setting = timed[i].setting.kind(),
-                                      .requested = timed[i].setting.value,
-                                      .part = timed[i].share,
+                                      .method = timed[i].row->method,
+                                      .setting = timed[i].row->setting,
+                                      .requested = timed[i].row->requested,
+                                      .part = timed[i].part.share,
                                       .evaluations = timed[i].evaluations,
                                       .cpu = t.median,
                                       .cpu_low = t.low,
@@ -294,9 +469,13 @@ std::string build_of(const std::string& method) { return std::string(family_of(m
 
 std::vector<Point> speed_accuracy_points(const Request& request) {
   std::vector<Point> points = one_point_per_scene(request, "speed-accuracy", speed_accuracy_on);
-  for (Point& point : one_point_per_scene(request, "speed-accuracy, timed", time_speed_accuracy)) {
-    point.timed = true;
-    points.push_back(std::move(point));
+  for (size_t i = 0; i < request.scenes.size(); ++i) {
+    Request alone = request;
+    alone.scenes = {request.scenes[i]};
+    points.push_back(timed_after(points[i], "speed-accuracy, timed: " + alone.scenes[0].name,
+                                 [alone](const TableSet& rows, TableSet& tables) {
+                                   time_speed_accuracy(alone, alone.scenes[0], rows, tables);
+                                 }));
   }
   return points;
 }

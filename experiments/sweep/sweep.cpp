@@ -117,7 +117,8 @@ class Batch {
       const MachineLock lock(point.timed ? MachineLock::Mode::exclusive : MachineLock::Mode::shared, patience_);
       try {
         TableSet tables;
-        point.compute(tables);
+        const auto rows = point.after ? store_.find(point.after->hash()) : std::nullopt;
+        rows ? point.compute_from(*rows, tables) : point.compute(tables);
         if (point.timed && !lock.held())
           tables.notes.push_back(fmt::format("{} was timed beside other work: its times may be disturbed", point.name));
         store_.keep(point.hash(), tables);

@@ -35,8 +35,22 @@ struct AdviseOptions {
   std::string command_line;
 };
 
-/// The length that a text asks for: metres, or per cent of the motion, which the scene's own method at its own step
-/// knows well enough to say what is asked. Throws InputError.
+/// The motion of a scene as a report has it, m: that of its truth, else of its own method at its own step up to the
+/// window. Throws InputError where neither is known.
+double motion_of_scene(const Scene& scene) {
+  if (const auto truth = truth_of(scene, default_run(scene))) return motion_of(truth->trajectory);
+  Recorder recorder;
+  const Outcome own = run_method(find_method(scene.method), scene, default_run(scene), {&recorder});
+  if (own.verdict != Verdict::ok)
+    throw InputError(
+        fmt::format("--tolerance: the motion of {} is not known, as its own method fails ({}): give metres", scene.name,
+                    in_words(own.verdict)));
+  Trajectory& path = recorder.trajectory;
+  while (path.t.back() > scene.window * (1 + 1e-9)) path.t.pop_back(), path.x.pop_back(), path.v.pop_back();
+  return motion_of(path);
+}
+
+/// The length that a text asks for: metres, or per cent of the motion. Throws InputError.
 double tolerance_of(const std::string& text, const Scene& scene) {
   double value = 0;
   const char* end = text.data() + text.size();
@@ -52,15 +66,7 @@ double tolerance_of(const std::string& text, const Scene& scene) {
                     "as 1%, got '{}'",
                     text.substr(0, 60)));
   if (!of_motion) return value * length->second;
-  Recorder recorder;
-  const Outcome own = run_method(find_method(scene.method), scene, default_run(scene), {&recorder});
-  if (own.verdict != Verdict::ok)
-    throw InputError(
-        fmt::format("--tolerance: the motion of {} is not known, as its own method fails ({}): give metres", scene.name,
-                    in_words(own.verdict)));
-  Trajectory& path = recorder.trajectory;
-  while (path.t.back() > scene.window * (1 + 1e-9)) path.t.pop_back(), path.x.pop_back(), path.v.pop_back();
-  const double motion = motion_of(path), tolerance = value / 100 * motion;
+  const double motion = motion_of_scene(scene), tolerance = value / 100 * motion;
   fmt::print("{:g} % of the motion, {}, is {}\n", value, nice_length(motion), nice_length(tolerance));
   return tolerance;
 }
@@ -153,6 +159,20 @@ std::string how_of(const Trial& t) {
                         : fmt::format("{} at a step of {:.6g} s", t.method, t.step);
 }
 
+std::string_view bound_text(StepBound bound) {
+  switch (bound) {
+    case StepBound::stability:
+      return "stability: the next longer step that was tried blew up";
+    case StepBound::accuracy:
+      return "accuracy: the next longer step that was tried misses the tolerance";
+    case StepBound::failure:
+      return "a failure of the next longer step that was tried";
+    case StepBound::none:
+      break;
+  }
+  return "the time between samples";
+}
+
 std::string margin_text(const Trial& t) {
   if (t.relative > 0) return "its steps follow the tolerance";
   if (!t.limit) return "no limit is predicted";
@@ -183,6 +203,8 @@ std::string json_of(const Advice& a) {
             {"left_out", a.left_out},
             {"advised", json_of(a.trials[a.chosen])},
             {"second", a.second ? json_of(a.trials[*a.second]) : Json()},
+            {"full_model", a.of_full ? json_of(a.trials[*a.of_full]) : Json()},
+            {"bound_by", std::string(name_of(a.bound))},
             {"error_of_the_file", a.checked},
             {"caveats", a.caveats}};
   return dump(json, 1) + "\n";
@@ -208,12 +230,18 @@ void print(const Advice& a) {
              a.under_contact_rule ? "differs  " : "error    ", nice_length(a.checked),
              a.under_contact_rule ? "the in-house contact rule" : name_of(a.tier), nice_length(a.error_bar));
   fmt::print("  margin    stability limit: {}\n", margin_text(t));
+  if (t.relative == 0) fmt::print("  bound by  {}\n", bound_text(a.bound));
   fmt::print("  cost      {} force evaluations x {} springs; {:.2g} s of CPU time here\n", t.outcome.evaluations,
              t.springs, t.outcome.cpu_seconds);
   if (a.second) {
     const Trial& s = a.trials[*a.second];
     fmt::print("  next best {}, {:.3g} times the cost\n", how_of(s), s.cost() / t.cost());
   }
+  if (a.of_full) {
+    const Trial& full = a.trials[*a.of_full];
+    fmt::print("  full      {} with the whole scene, {:.3g} times the cost\n", how_of(full), full.cost() / t.cost());
+  }
+  if (a.between_samples) fmt::print("  note: errors are largest between the samples, which a report does not see\n");
   print(a.wishes);
   for (const std::string& c : a.caveats) fmt::print("  note: {}\n", c);
 }
@@ -249,7 +277,7 @@ int advised(const AdviseOptions& options, OutputFolder& folder) {
   if (!toml.empty()) write_file(file, toml);
   if (!options.tolerance.empty()) {
     const double tolerance = tolerance_of(options.tolerance, *scene);
-    std::vector<Method> methods = options.methods.empty() ? advisable_methods(*scene) : find_methods(options.methods);
+    std::vector<Method> methods = options.methods.empty() ? candidates(*scene) : find_methods(options.methods);
     // the truth's run, and that of each method; each of them is tried at several steps
     require_resources_to_keep({find_method(scene->method), find_method(scene->method)}, *scene, default_run(*scene));
     Progress progress(0);

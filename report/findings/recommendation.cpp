@@ -2,10 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
-#include "experiments/speed_accuracy/work_precision.h"
-#include "mysim/base/text.h"
+#include "experiments/speed_accuracy/step_search.h"
 #include "report/findings/findings_text.h"
 
 namespace crosscheck {
@@ -26,74 +24,47 @@ const Scene* main_scene(const std::vector<Scene>& scenes, const TableSet& rows) 
 
 namespace {
 
-bool is_part(double part, double asked) { return std::abs(part / asked - 1) < 1e-9; }
-
 std::vector<EngineBeside> engines_beside(const std::string& scene, double part_of_motion, const TableSet& rows) {
   std::vector<EngineBeside> all;
   for (const EngineSpeedRow& row : rows_of<EngineSpeedRow>(rows))
-    if (row.scene == scene && is_part(row.part_of_motion, part_of_motion) && row.measure == Measure::error &&
-        row.times_mysim && is_rival(row.method))
+    if (row.scene == scene && std::abs(row.part_of_motion / part_of_motion - 1) < 1e-9 &&
+        row.measure == Measure::error && row.times_mysim && is_rival(row.method))
       all.push_back({row.engine, row.method, *row.times_mysim, row.times_mysim_low.value_or(*row.times_mysim),
-                     row.times_mysim_high.value_or(*row.times_mysim)});
+                     row.times_mysim_high.value_or(*row.times_mysim), row.part_timed == 1});
   return all;
 }
 
 }  // namespace
 
 std::optional<RecommendedRun> recommended_run(const std::string& scene, double part_of_motion, const TableSet& rows) {
-  const auto cheapest = rows_of<CheapestRow<Cost::cpu>>(rows);
-  const auto row = std::ranges::find_if(cheapest, [&](const auto& r) {
-    return r.scene == scene && is_part(r.part_of_motion, part_of_motion) && r.measure == Measure::error;
-  });
-  if (row == cheapest.end() || row->method.value_or("").empty()) return std::nullopt;
-  const std::vector<SpeedAccuracyRow> runs = rows_of<SpeedAccuracyRow>(rows);
-  const std::vector<SpeedAccuracyCostRow> costs = rows_of<SpeedAccuracyCostRow>(rows);
-  RecommendedRun best{.method = *row->method,
-                      .setting = *row->setting,
-                      .requested = *row->requested,
-                      .error = *row->distance,
-                      .tier = {},
-                      .cost = *row->cost,
-                      .tied = {},
-                      .beside = engines_beside(scene, part_of_motion, rows),
-                      .bound = "sampling"};
-  // of those that the clock cannot tell apart the nearest
-  const auto cost_of = [&](const SpeedAccuracyRow& run) -> std::optional<double> {
-    for (const SpeedAccuracyCostRow& cost : costs)
-      if (cost.scene == run.scene && cost.method == run.method && cost.setting == run.setting &&
-          cost.requested == run.requested)
-        return cost.cpu;
-    return std::nullopt;
-  };
-  std::vector<std::string> tied{best.method};
-  if (!row->tied.value_or("").empty())
-    for (const std::string& name : split(*row->tied, ','))
-      tied.push_back(name.substr(std::min(name.size(), name.find_first_not_of(' '))));
-  for (const std::string& method : tied) {
-    const SpeedAccuracyRow* own = nullptr;
-    for (const SpeedAccuracyRow& run : runs) {
-      if (run.scene != scene || run.method != method || run.verdict != Verdict::ok || !run.error) continue;
-      best.motion = run.motion, best.error_bar = run.truth_bar.value_or(0), best.tier = run.truth.value_or("");
-      const auto cost = cost_of(run);
-      if (*run.error <= row->bound && cost && (!own || *cost < *cost_of(*own))) own = &run;
-    }
-    if (!own || method == best.method) continue;
-    if (*own->error < best.error) {
-      best.tied.push_back(best.method);
-      best.method = method, best.setting = own->setting, best.requested = own->requested, best.error = *own->error;
-      best.cost = *cost_of(*own);
-    } else {
-      best.tied.push_back(method);
-    }
+  const std::vector<SpeedAccuracyRow> table = rows_of<SpeedAccuracyRow>(rows);
+  const auto any = std::ranges::find(table, scene, &SpeedAccuracyRow::scene);
+  if (any == table.end() || !any->truth_bar) return std::nullopt;
+  const std::vector<TriedRun> runs = tried_runs(table, scene);
+  const auto chosen = recommend(runs, part_of_motion * any->motion - *any->truth_bar);
+  if (!chosen) return std::nullopt;
+  const TriedRun& run = runs[chosen->run];
+  const auto setting = run.setting.kind();
+  for (const SpeedAccuracyCostRow& cost : rows_of<SpeedAccuracyCostRow>(rows)) {
+    if (cost.scene != scene || cost.method != run.method || cost.setting != setting ||
+        cost.requested != run.setting.value)
+      continue;
+    RecommendedRun out{.method = run.method,
+                       .setting = setting,
+                       .requested = run.setting.value,
+                       .error = *run.error,
+                       .motion = any->motion,
+                       .error_bar = *any->truth_bar,
+                       .tier = any->truth.value_or(""),
+                       .evaluations = std::lround(run.cost),
+                       .cost = cost.cpu,
+                       .timed_whole = cost.part == 1,
+                       .beside = engines_beside(scene, part_of_motion, rows),
+                       .bound = name_of(chosen->bound)};
+    for (const size_t tie : chosen->tied) out.tied.push_back(runs[tie].method);
+    return out;
   }
-  // the next longer step of the same method that does not meet the bound
-  double next = std::numeric_limits<double>::infinity();
-  for (const SpeedAccuracyRow& run : runs)
-    if (run.scene == scene && run.method == best.method && run.setting == best.setting &&
-        run.requested > best.requested && run.requested < next &&
-        !(run.verdict == Verdict::ok && run.error && *run.error <= row->bound))
-      next = run.requested, best.bound = run.verdict == Verdict::ok ? "accuracy" : "stability";
-  return best;
+  return std::nullopt;
 }
 
 std::string setting_of(const RecommendedRun& run) {

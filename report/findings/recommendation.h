@@ -18,7 +18,8 @@ const Scene* main_scene(const std::vector<Scene>& scenes, const TableSet& rows);
 /// The cheapest run of another engine within the same accuracy.
 struct EngineBeside {
   std::string engine, method;
-  double times = 0, low = 0, high = 0;  // its CPU time over that of mysim's cheapest, and what both intervals allow
+  double times = 0, low = 0, high = 0;  // its CPU time over that of mysim's run, and what both intervals allow
+  bool timed_whole = true;              // else its time is scaled from a part of the run
 };
 
 /// A run to take for a scene.
@@ -29,14 +30,16 @@ struct RecommendedRun {
   double error = 0, motion = 0;      // m
   double error_bar = 0;              // m, of the truth
   std::string tier;                  // of the truth
+  long evaluations = 0;              // of forces, the cost that it is chosen by
   double cost = 0;                   // s of CPU time
-  std::vector<std::string> tied;     // others that the clock cannot tell from it, each further from the truth
+  bool timed_whole = true;           // else scaled from a part of the run
+  std::vector<std::string> tied;     // others of the same cost, each further from the truth
   std::vector<EngineBeside> beside;  // where mysim has a run within the accuracy, too
-  std::string_view bound;            // what keeps the step from being longer: stability, accuracy or sampling
+  std::string_view bound;            // what keeps the step from being longer: stability, accuracy, failure or sampling
 };
 
-/// The cheapest run within a part of the motion (0.1, 0.01, 0.001), in CPU time; of runs that the clock cannot tell
-/// apart the nearest to the truth. Empty where there is none, or no truth.
+/// The run that recommend() chooses within a part of the motion, 0.01 or, from the steps of the ladder alone, another.
+/// Empty where there is none, no truth, or no time of it.
 std::optional<RecommendedRun> recommended_run(const std::string& scene, double part_of_motion, const TableSet& rows);
 
 /// "step 2 ms", or "tolerance 1.0e-6".

@@ -182,22 +182,24 @@ Json recommendations_data(const std::vector<ScenePart>& scenes) {
     if (part.take)
       for (const EngineBeside& other : part.take->beside) note(engines, other.engine);
   const std::string others = engines.size() == 1 ? name_in_sentence(engines[0]) : "others";
-  Json all = table(
-      "", Json::array({cell("scene"), cell("take", "text"), cell("step or tolerance"), cell("error"), cell("CPU time"),
-                       cell("× real time"), cell(others + " / mysim"), cell("step bound by", "text")}));
+  Json all = table("", Json::array({cell("scene"), cell("take", "text"), cell("step or tolerance"), cell("error"),
+                                    cell("force evaluations"), cell("CPU time"), cell("× real time"),
+                                    cell(others + " / mysim"), cell("step bound by", "text")}));
   for (const ScenePart& part : scenes) {
     if (!part.take) continue;
     const RecommendedRun& run = *part.take;
     std::vector<std::string> tied, beside;
     for (const std::string& method : run.tied) tied.push_back(name_in_sentence(method));
     for (const EngineBeside& other : run.beside)
-      beside.push_back((engines.size() == 1 ? "" : name_in_sentence(other.engine) + " ") + times_text(other.times));
+      beside.push_back((engines.size() == 1 ? "" : name_in_sentence(other.engine) + " ") +
+                       (other.timed_whole && run.timed_whole ? "" : "≈ ") + times_text(other.times));
     const double factor = part.scene->duration / run.cost;
     add_row(all, run.method, cell(part.scene->name, "", "link", part.scene->name),
             Json::array({cell(name_in_sentence(run.method), "text best", "note",
-                              tied.empty() ? "" : "tied in speed: " + joined(tied)),
+                              tied.empty() ? "" : "tied in cost: " + joined(tied)),
                          cell(setting_text(std::string(name_of(run.setting)), run.requested), "number"),
-                         cell(percent(run.error, run.motion)), cell(step_text(run.cost), "number"),
+                         cell(percent(run.error, run.motion)), cell(count_text(run.evaluations), "number"),
+                         cell((run.timed_whole ? "" : "≈ ") + step_text(run.cost), "number"),
                          cell(factor >= 10 ? times_text(factor) : fmt::format("{:.2g}", factor)),
                          cell(fmt::format("{}", fmt::join(beside, ", "))), cell(std::string(run.bound), "text")}));
   }

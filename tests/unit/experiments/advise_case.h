@@ -68,7 +68,7 @@ inline ContactCase contact_case(const Scene& scene, double part) {
   run_method(find_method("leapfrog"), scene, default_run(scene), {&plain});
   c.tolerance = part * motion_of(plain.trajectory);
   try {
-    const Advice a = advise(scene, c.tolerance, advisable_methods(scene));
+    const Advice a = advise(scene, c.tolerance, candidates(scene));
     c.promised = true, c.until = a.until, c.bar = a.error_bar, c.step = a.trials[a.chosen].step;
     const Scene written = parse_scene(a.toml, scene.name);
     const Method method = find_method(written.method);

@@ -9,6 +9,7 @@
 #include "experiments/advise/fit.h"
 #include "experiments/measures.h"
 #include "experiments/scenes/scenes.h"
+#include "experiments/tables/speed_accuracy.h"
 #include "mysim/scene/toml.h"
 #include "tests/unit/helpers.h"
 #include "tests/unit/reference/helpers.h"
@@ -311,6 +312,29 @@ TEST(Advise, LeavesOutOfTheModelWhatTheToleranceAllows) {
   EXPECT_FALSE(parse_scene(a.toml, "less").model.find<Wind>());
   EXPECT_TRUE(advise(scene, 1e-6, {find_method("leapfrog"), find_method("rk4")}).left_out.empty());
   EXPECT_TRUE(a.second);
+}
+
+TEST(Advise, TakesTheRunThatAReportRecommends) {
+  for (const char* name : {"spring", "pendulum", "chain", "slide", "cloth-student"}) {
+    SCOPED_TRACE(name);
+    const Scene scene = load_scene(name);
+    Request request;
+    request.scenes = {scene};
+    TableSet rows;
+    speed_accuracy_on(request, scene, rows);
+    const auto table = rows_of<SpeedAccuracyRow>(*rows.table("speed-accuracy"));
+    const std::vector<TriedRun> runs = tried_runs(table, name);
+    const auto recommended = recommend(runs, 0.01 * table[0].motion - *table[0].truth_bar);
+    ASSERT_TRUE(recommended);
+    const TriedRun& run = runs[recommended->run];
+    const Advice a = advise(scene, 0.01 * table[0].motion, candidates(scene));
+    ASSERT_FALSE(a.between_samples);
+    const Trial& advised = a.trials[a.of_full.value_or(a.chosen)];
+    EXPECT_EQ(advised.method, run.method);
+    EXPECT_NEAR((run.setting.tolerance ? advised.relative : advised.step) / run.setting.value, 1, 1e-5);
+    EXPECT_EQ(a.bound, recommended->bound);
+    EXPECT_EQ(static_cast<double>(advised.outcome.evaluations), run.cost);
+  }
 }
 
 TEST(Advise, SaysWhyItCannotPromise) {

@@ -3,6 +3,7 @@
 #include "experiments/speed_accuracy/speed_accuracy.h"
 #include "experiments/estimate.h"
 #include "experiments/scenes/scenes.h"
+#include "experiments/speed_accuracy/step_search.h"
 #include "experiments/speed_accuracy/work_precision.h"
 #include "experiments/sweep/sweep.h"
 #include "experiments/tables/speed_accuracy.h"
@@ -122,6 +123,84 @@ TEST(SpeedAccuracy, TheCheapestWithinABoundOnBothSidesOfIt) {
   EXPECT_EQ(statistically_tied(points, *cheapest(points, 0.01), 0.01, 0.01), std::vector<std::string>{"mysim/d"});
 }
 
+TriedRun tried(const std::string& method, double step, double cost, std::optional<double> error,
+               Verdict verdict = Verdict::ok) {
+  return {.method = method, .setting = {false, step}, .verdict = verdict, .error = error, .cost = cost};
+}
+
+TEST(Recommendation, IsTheCheapestConfirmedRunAndOfEqualsTheMostAccurate) {
+  std::vector<TriedRun> runs{tried("mysim/a", 4, 100, {}, Verdict::energy),
+                             tried("mysim/a", 2, 200, 9e-3),
+                             tried("mysim/a", 1, 400, 4e-3),
+                             tried("mysim/b", 2, 205, 2e-3),
+                             tried("mysim/b", 1, 410, 1e-3),
+                             tried("mysim/c", 8, 50, 5e-3),  // by accident: the finer one misses
+                             tried("mysim/c", 4, 100, 0.02),
+                             tried("mysim/d", 8, 50, 5e-3),  // nothing confirms it
+                             tried("mysim/e", 1, 300, 1e-3),
+                             tried("mysim/e", 0.5, 600, 1e-3)};
+  const auto chosen = recommend(runs, 0.01);
+  ASSERT_TRUE(chosen);
+  EXPECT_EQ(runs[chosen->run].method, "mysim/b") << "costs 2.5 % more, which the search does not resolve";
+  EXPECT_EQ(chosen->tied, std::vector<size_t>{1});
+  EXPECT_EQ(chosen->second, std::optional<size_t>(1));
+  EXPECT_EQ(chosen->bound, StepBound::none);
+  runs[3].cost = 230;  // no tie any more
+  EXPECT_EQ(recommend(runs, 0.01)->run, 1u);
+  EXPECT_EQ(recommend(runs, 0.01)->bound, StepBound::stability);
+  runs[0].verdict = Verdict::ok, runs[0].error = 0.5;
+  EXPECT_EQ(recommend(runs, 0.01)->bound, StepBound::accuracy);
+  runs[0].verdict = Verdict::timeout;
+  EXPECT_EQ(recommend(runs, 0.01)->bound, StepBound::failure) << "no word of stability";
+  EXPECT_FALSE(recommend(runs, 1e-4));
+  EXPECT_FALSE(recommend({}, 1));
+}
+
+TEST(StepSearch, FindsTheSameStepWithTheLadderAndWithout) {
+  const Scene scene = load_scene("cloth-hang");
+  const crosscheck::Run base = default_run(scene);
+  const double interval = base.duration / base.samples, limit = 1.12e-3;
+  // rk4 is bound by accuracy above its rivals' cost, leapfrog by its limit, explicit Euler by nothing that is tried
+  const auto trial = [&](const Method& m, const Setting& s) -> std::optional<TriedRun> {
+    const double evaluations = m.stepper->evaluations * base.duration / s.value;
+    const bool fails = m.name == "mysim/leapfrog" ? s.value > limit : m.name == "mysim/explicit-euler";
+    const double error = m.name == "mysim/rk4" ? 1e8 * std::pow(s.value, 3) : 100 * s.value * s.value;
+    return TriedRun{.verdict = fails ? Verdict::energy : Verdict::ok,
+                    .error = fails ? std::optional<double>() : error,
+                    .cost = evaluations * 3000};
+  };
+  const std::vector<Method> methods = find_methods("explicit-euler,leapfrog,rk4");
+  std::vector<TriedRun> alone, seeded;
+  StepSearch(scene, base, 0.01, trial, alone).search(methods);
+  for (const Method& m : methods)
+    for (const Setting& s : settings_of(m, scene, base, false)) {
+      seeded.push_back(*trial(m, s));
+      seeded.back().method = m.name, seeded.back().setting = s;
+    }
+  const size_t ladder = seeded.size();
+  StepSearch(scene, base, 0.01, trial, seeded).search(methods);
+  for (const auto& runs : {alone, seeded}) {
+    const auto chosen = recommend(runs, 0.01);
+    ASSERT_TRUE(chosen);
+    const TriedRun& run = runs[chosen->run];
+    EXPECT_EQ(run.method, "mysim/leapfrog");
+    EXPECT_DOUBLE_EQ(run.setting.value, interval / 30) << "the longest that divides the time between samples";
+    EXPECT_EQ(chosen->bound, StepBound::stability);
+  }
+  EXPECT_LE(seeded.size() - ladder, 6u);
+  EXPECT_LE(std::ranges::count(alone, "mysim/rk4", &TriedRun::method), 7) << "given up once it cannot win";
+}
+
+TEST(Point, ATimedOneIsGivenTheRowsOfItsOwn) {
+  Point first{"first", "content", [](TableSet& tables) { tables.notes.push_back("computed"); }};
+  const Point timed = timed_after(first, "timed", [](const TableSet& rows, TableSet& tables) {
+    tables.notes.push_back(rows.notes.empty() ? "nothing" : rows.notes[0] + " before");
+  });
+  EXPECT_TRUE(timed.timed);
+  EXPECT_NE(timed.hash(), first.hash());
+  EXPECT_EQ(computed({&timed, 1}).notes, std::vector<std::string>{"computed before"});
+}
+
 TEST(SpeedAccuracy, DistancesOverTimeAreLargestAndRms) {
   Trajectory a{{0, 1, 2}, {}, {}}, b = a;
   for (const double d : {0., 3., 4.}) {
@@ -199,7 +278,7 @@ TEST(SpeedAccuracy, AMethodThatRefusesTheLongestStepIsTimedAtTheOthers) {
   };
   TableSet tables;
   speed_accuracy_on(request, scene, tables);
-  time_speed_accuracy(request, scene, tables);
+  time_speed_accuracy(request, scene, tables, tables);
   const Table &errors = *tables.table("speed-accuracy"), &times = *tables.table("speed-accuracy-timing-cost");
   const auto settings = settings_of(request.methods[0], scene, default_run(scene), false);
   const auto all = std::ssize(settings),
