@@ -165,7 +165,7 @@ void search(Advice& a, const std::vector<Candidate>& models, const std::vector<M
       return TriedRun{.verdict = done.outcome.verdict, .error = done.error, .cost = done.cost()};
     };
     StepSearch search(model.scene, default_run(model.scene), bound, trial, runs, 4,
-                      model.name);  // what costs more is no alternative
+                      model.name);  // four times the best: dearer methods are no alternative
     search.search(methods);
   }
   for (size_t i = 0; i < runs.size(); ++i) {

@@ -41,16 +41,16 @@ struct Advice {
   Scene scene;       // as given
   double tolerance;  // m
   Tier tier;
-  std::string truth;                   // how it was found
+  std::string truth;                   // description of its origin
   double error_bar;                    // m, the truth's, in the window
   bool under_contact_rule;             // the tolerance bounds a difference, no error
   double until;                        // s, the guarantee ends here
   std::vector<Trial> trials = {};      // everything tried, in order
-  size_t chosen = 0;                   // of the trials
+  size_t chosen = 0;                   // index of a trial
   std::vector<size_t> tied = {};       // other methods that meet it at the same cost, less accurate
   std::optional<size_t> second = {};   // the cheapest other method that meets it
   std::optional<size_t> of_full = {};  // the choice for the whole scene, where a lesser model is cheaper
-  StepBound bound = StepBound::none;   // what keeps the step from being longer
+  StepBound bound = StepBound::none;   // reason why the step is not longer
   bool between_samples = false;        // the errors at the samples alone would have misled
   std::vector<std::string> left_out = {};
   std::string toml = {};                // a scene file that runs as advised

@@ -355,7 +355,7 @@ struct TimedRow {
   const Method* method;
   TimedPart part;
   long evaluations = 0;
-  /// Of the whole run, s.
+  /// Time of the whole run, s.
   Timing scaled(const Timing& t) const {
     const auto measured = static_cast<double>(evaluations), all = static_cast<double>(row->evaluations);
     return t.times(measured > 0 && all > 0 ? all / measured : 1 / part.share);

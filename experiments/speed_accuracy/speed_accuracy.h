@@ -25,7 +25,7 @@ double stability_limit(const Method& method, const Scene& scene);
 
 /// The ladder of steps begins with 2^longest_halving times the run's step.
 inline constexpr int longest_halving = 6;
-/// Whether the ladder passes over a step h (s): one or two that fail show where the others end.
+/// True if the ladder passes over a step h (s): one or two that fail show where the others end.
 inline bool is_beyond(double limit, int halving, double h) { return halving > 3 && h > 2 * limit; }
 
 /// Fixed steps, halved from 64 times the run's step down to a 16th of it; of those above 8 times only what is at most

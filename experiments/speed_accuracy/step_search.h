@@ -31,7 +31,7 @@ enum class StepBound { stability, accuracy, failure, none };
 std::string_view name_of(StepBound bound);
 
 struct Recommendation {
-  size_t run;                         // of those given
+  size_t run;                         // index of a run
   std::vector<size_t> tied = {};      // other methods' cheapest runs of the same cost
   std::optional<size_t> second = {};  // cheapest run of another method
   StepBound bound = StepBound::none;
@@ -45,7 +45,7 @@ inline constexpr double step_resolution = 1.05;
 /// accurate one. Nothing where there is none. Independent of any clock.
 std::optional<Recommendation> recommend(const std::vector<TriedRun>& runs, double bound);
 
-/// Whether the method is recommended at all: it is the subject's, or a program of the reader's, and no demonstration.
+/// True if the method can be recommended: it is the subject's, or a program of the reader's, and no demonstration.
 bool is_candidate(const std::string& method);
 /// The runs of candidates on a scene that table `speed-accuracy` has; the scene's springs are left out of their cost.
 std::vector<TriedRun> tried_runs(const std::vector<SpeedAccuracyRow>& rows, const std::string& scene);
@@ -75,9 +75,9 @@ class StepSearch {
   void search(std::vector<Method> methods);
 
  private:
-  using Runs = std::vector<const TriedRun*>;  // of one method, from coarse to fine
+  using Runs = std::vector<const TriedRun*>;  // one method's, from coarse to fine
   struct Step {
-    double value = 0, cost = 0;  // of the run to try, and the least that it costs
+    double value = 0, cost = 0;  // next run, and the least that it costs
     double reach = 0;            // the least cost that the method's search can end at
   };
   Runs known(const Method& method) const;

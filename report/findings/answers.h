@@ -1,4 +1,4 @@
-// The answers that the page opens with: one sentence of at most 25 words to each question that a reader asks first.
+// The answers that the page opens with: a sentence to each question that a reader asks first.
 #pragma once
 
 #include <string_view>
@@ -10,18 +10,17 @@ namespace crosscheck {
 
 /// A question of the first screen, and the chapter that shows its answer; a new one is a row in answers.cpp.
 struct Question {
-  std::string_view text;     // as the reader asks it
-  std::string_view chapter;  // by its id, also of its answer: a finding of topic "answer"
-  std::string_view link;     // to that chapter
-  // what is asked instead where the scenes leave that question open, and the rule of its answer
-  std::string_view other_rule = {}, other_text = {};
-
-  std::string_view text_before(const Finding& answer) const { return answer.rule == other_rule ? other_text : text; }
+  std::string_view text;                // as the reader asks it
+  std::string_view chapter;             // by its id, also of its answer
+  std::string_view link;                // to that chapter
+  std::vector<std::string_view> rules;  // keys of its answers
 };
 const std::vector<Question>& questions();
 
 /// The one of these findings that answers it; null where the tables say nothing of it.
 const Finding* answer_to(const Question& question, const std::vector<Finding>& findings);
+/// The answers to the questions of a chapter, one after the other.
+std::string answers_of_chapter(std::string_view chapter, const std::vector<Finding>& findings);
 
 /// The findings that answer them, in their order; a question that the tables say nothing of has none.
 std::vector<Finding> answer_findings(const std::vector<Scene>& scenes, const std::vector<SceneData>& data,

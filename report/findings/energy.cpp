@@ -1,8 +1,9 @@
 // Findings of experiment `energy`.
 
+#include <fmt/ranges.h>
+
 #include <algorithm>
 #include <cmath>
-#include <map>
 
 #include "experiments/tables/energy.h"
 #include "experiments/tables/engines.h"
@@ -23,33 +24,31 @@ std::optional<double> share_of(const EnergyRow& row) {
 void symplectic(const std::vector<EnergyRow>& table, std::vector<Finding>& out) {
   double worst = -1;
   long fewest = 0, most = 0;
-  size_t drifting = 0;
+  size_t bounded = 0, all = 0;
   std::vector<Finding> exceptions;
   for (const EnergyRow& row : table) {
     const auto share = share_of(row);
     if (!row.undamped || !row.closure_claimed || !row.symplectic || !share) continue;
+    ++all;
     const std::string what = residual_class(row);
-    if (row.verdict != Verdict::ok) {
-      exceptions.push_back({.rule = "symplectic-failed",
-                            .method = row.method,
-                            .value = row.end,
-                            .words = {{"where", row.scene}, {"how", what}}});
-      continue;
+    const bool ok = row.verdict == Verdict::ok;
+    if (ok) {
+      fewest = worst < 0 ? row.steps : std::min(fewest, row.steps), most = std::max(most, row.steps);
+      worst = std::max(worst, *share);
     }
-    fewest = worst < 0 ? row.steps : std::min(fewest, row.steps), most = std::max(most, row.steps);
-    worst = std::max(worst, *share);
-    if (is_bounded(what)) continue;
-    ++drifting;
-    exceptions.push_back({.rule = "symplectic-drift",
-                          .method = row.method,
-                          .value = row.growth.value_or(0),
-                          .words = {{"where", row.scene}, {"how", what}}});
+    bounded += ok && is_bounded(what);
+    if (!ok || !is_bounded(what))
+      exceptions.push_back({.rule = ok ? "symplectic-drift" : "energy-failed.symplectic",
+                            .method = row.method,
+                            .value = ok ? row.growth.value_or(0) : row.end,
+                            .words = {{"where", row.scene}, {"how", what}}});
   }
   if (worst >= 0)
     out.push_back({.rule = "symplectic-energy",
                    .value = 100 * worst,
                    .words = {{"steps", range(count_text(fewest), count_text(most))},
-                             {"drift", drifting == 0 ? ", without drift" : ""}}});
+                             {"bounded", std::to_string(bounded)},
+                             {"all", std::to_string(all)}}});
   out.insert(out.end(), exceptions.begin(), exceptions.end());
 }
 
@@ -65,38 +64,25 @@ void drift(const std::vector<EnergyRow>& table, std::vector<Finding>& out) {
     if (first == table.end() || row.scene != first->scene || !share || row.symplectic ||
         (!std::ranges::count(shown, row.method) && family_of(row.method).role != Role::outside))
       continue;
-    Finding f{.rule = "energy-adds", .method = row.method, .value = 100 * *share};
-    f.words = {{"where", row.scene}, {"step", step_text(row.step)}};
+    const bool damps = row.residual.value_or(0) < 0 && row.equivalent_drag.value_or(0) > 0;
     if (row.verdict != Verdict::ok)
-      f.rule = "energy-failed", f.value = row.end, f.words["how"] = failure_class(row.verdict);
-    else if (row.residual.value_or(0) < 0 && row.equivalent_drag.value_or(0) > 0)
-      f.rule = "energy-damps", f.value = *row.equivalent_drag;
-    out.push_back(f);
+      out.push_back({.rule = "energy-failed",
+                     .method = row.method,
+                     .value = row.end,
+                     .words = {{"where", row.scene}, {"how", failure_class(row.verdict)}}});
+    else if (damps)
+      out.push_back({.rule = "energy-damps",
+                     .method = row.method,
+                     .value = *row.equivalent_drag,
+                     .words = {{"where", row.scene}, {"step", step_text(row.step)}}});
   }
 }
 
-/// How far the balance of symplectic rules stays open where drag or contact act, in parts of their energy.
-void open_balances(const std::vector<EnergyRow>& table, std::vector<Finding>& out) {
-  std::map<std::string, Finding> by_scene;
-  for (const EnergyRow& row : table) {
-    const double took =
-        std::abs(row.drag.value_or(0)) + std::abs(row.dashpots.value_or(0)) + std::abs(row.contact.value_or(0));
-    if (row.undamped || !row.symplectic || !row.closure_claimed || row.verdict != Verdict::ok ||
-        row.method == sticky_sphere || !(took > 0))
-      continue;
-    const double open = 100 * row.largest_residual.value_or(0) / took;
-    Finding& f = by_scene.try_emplace(row.scene, Finding{.rule = "open-balance", .value = -1}).first->second;
-    f.low = std::min(f.low.value_or(open), open);
-    if (open > f.value) f.value = open, f.high = open, f.method = row.method, f.words = {{"where", row.scene}};
-  }
-  for (const auto& [scene, finding] : by_scene) out.push_back(finding);
-}
-
-/// "1.8 % more", "5.8 % less", "as much" where the error bar hides the difference.
+/// "+1.8 %", or "0 ± 0.45 %" where the error bar hides the difference.
 std::string off_text(double taken, double in_truth, double bar) {
-  const double off = taken - in_truth;
-  if (std::abs(off) <= bar) return "as much";
-  return fmt::format("{} {}", percent(std::abs(off), std::abs(in_truth)), off * in_truth > 0 ? "more" : "less");
+  const double off = std::abs(taken) - std::abs(in_truth);
+  if (std::abs(off) <= bar) return "0 ± " + percent(bar, std::abs(in_truth));
+  return (off > 0 ? "+" : "−") + percent(std::abs(off), std::abs(in_truth));
 }
 
 /// What contact takes on scenes whose truth says it: of the methods that stand for the engines, and of mysim's the one
@@ -123,9 +109,9 @@ void taken_by_contact(const TableSet& rows, std::vector<Finding>& out) {
     if (!first || *first->contact_bar > 0.1 * std::abs(*first->contact_in_truth)) continue;
     if (furthest) others.insert(others.begin(), furthest);
     const double in_truth = *first->contact_in_truth, bar = *first->contact_bar;
-    std::string words;
+    std::vector<std::string> words;
     for (const EngineEnergyRow* row : others)
-      words += fmt::format(", {} {}", name_in_sentence(row->method), off_text(*row->contact, in_truth, bar));
+      words.push_back(fmt::format("{} {}", name_in_sentence(row->method), off_text(*row->contact, in_truth, bar)));
     const auto share = [&](double off) { return 100 * off / std::abs(in_truth); };
     const double off = *first->contact - in_truth;
     // as many digits as the bar allows
@@ -137,10 +123,10 @@ void taken_by_contact(const TableSet& rows, std::vector<Finding>& out) {
                    .low = share(std::max(0., std::abs(off) - bar)),
                    .high = share(std::abs(off) + bar),
                    .words = {{"until", step_text(*first->contact_until)},
-                             {"takes", fmt::format("{} {:.{}f} ± {:.1g} J", in_truth < 0 ? "gives" : "takes",
-                                                   std::abs(in_truth), digits, bar)},
+                             {"taken", fmt::format("{:.{}f}", in_truth, digits)},
+                             {"bar", fmt::format("{:.1g}", bar)},
                              {"off", off_text(*first->contact, in_truth, bar)},
-                             {"others", words}}});
+                             {"others", fmt::format("{}", fmt::join(words, ", "))}}});
   }
 }
 
@@ -157,20 +143,20 @@ void damping(const std::vector<DampingRow>& table, std::vector<Finding>& out) {
       f = all.insert(all.end(), {.rule = "numerical-damping", .method = row.method, .words = {{"rate", ""}}});
     f->value = std::max(f->value, 100 * std::abs(*row.equivalent_drag / *row.by_theory - 1));
     if (std::abs(row.h_omega - 0.1) < 1e-9)
-      f->words["rate"] =
-          fmt::format(", like a drag of {:.2f} ω at hω = 0.1", *row.equivalent_drag * row.step / row.h_omega);
+      f->words["rate"] = fmt::format("{:.2f}", *row.equivalent_drag * row.step / row.h_omega);
   }
   out.insert(out.end(), all.begin(), all.end());
 }
 
 }  // namespace
 
-std::vector<Finding> energy_findings(const TableSet& rows) {
+std::vector<Finding> energy_findings(const Facts& facts) {
   std::vector<Finding> out;
-  const std::vector<EnergyRow> table = rows_of<EnergyRow>(rows);
-  for (const auto part : {symplectic, drift, open_balances}) part(table, out);
-  taken_by_contact(rows, out);
-  damping(rows_of<DampingRow>(rows), out);
+  const std::vector<EnergyRow> table = rows_of<EnergyRow>(facts.rows);
+  symplectic(table, out);
+  drift(table, out);
+  taken_by_contact(facts.rows, out);
+  damping(rows_of<DampingRow>(facts.rows), out);
   return out;
 }
 

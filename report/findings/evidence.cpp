@@ -57,8 +57,12 @@ std::vector<Evidence> evidence_of(const Finding& finding, const TableSet& result
 AllFindings all_findings(const std::vector<Scene>& scenes, const TableSet& result) {
   AllFindings all;
   for (const Scene& scene : scenes) all.facts.push_back(scene_data(scene.name, result));
-  all.overall = overall_findings(scenes, all.facts, result);
-  for (size_t i = 0; i < scenes.size(); ++i) all.of_scenes.push_back(findings_of(scenes[i], all.facts[i], result));
+  Facts facts(result, scenes, all.facts);
+  all.overall = found_by_rules(facts, false);
+  for (size_t i = 0; i < scenes.size(); ++i) {
+    facts.scene = &scenes[i], facts.of = &all.facts[i];
+    all.of_scenes.push_back(found_by_rules(facts, true));
+  }
   return all;
 }
 

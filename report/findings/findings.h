@@ -1,8 +1,9 @@
-// Findings: rows of data, each with the rule that it follows from; its sentence is the rule's template, filled in.
+// Findings: numbers from the tables, each with the rule that it follows from and a sentence for the reader.
 #pragma once
 
 #include <map>
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -12,30 +13,20 @@
 
 namespace crosscheck {
 
-/// A kind of finding: how it comes from the tables, and how a reader is told. The table is in rules.cpp; a new kind is
-/// a row.
-struct FindingRule {
-  std::string_view name;
-  std::string_view topic;     // answer, agreement, accuracy, failure, cost, contact, order, energy, adequacy, choice
-  std::string_view chapter;   // of the report, by its id, that shows it; empty: the part of its scene
-  std::string_view quantity;  // what the value is
-  std::string_view unit;      // of value, low and high: "m", "s", "%", "1", "m/s", "1/s" or "degrees"
-  std::string_view tier;      // of the truth that it rests on; empty: each finding has its own
-  /// At most 25 words when filled in. {value}, {low} and {high} are written in their unit, {range} is low to high,
-  /// {value±} an exponent with its standard error; {scene}, {method} and {other} are names, all else are words of the
-  /// finding.
-  std::string_view sentence;
-  std::string_view formula;  // over columns of the tables, for a reader with the tables at hand
-  std::vector<std::string_view> tables;
-  std::string_view figure = {};  // that shows it: "{}" is the finding's scene, "*" any; empty: a table shows it
+/// The data that findings are made from: all tables, and of a report its scenes. `scene` and `of` are set where one
+/// scene is the subject.
+struct Facts {
+  const TableSet& rows;
+  std::span<const Scene> scenes = {};
+  std::span<const SceneData> data = {};  // one for each scene
+  const Scene* scene = nullptr;
+  const SceneData* of = nullptr;
+  Facts(const TableSet& all, std::span<const Scene> shown = {}, std::span<const SceneData> their_data = {})
+      : rows(all), scenes(shown), data(their_data) {}
 };
 
-const std::vector<FindingRule>& finding_rules();
-/// The rule of that name. Throws std::logic_error with the name where there is none.
-const FindingRule& finding_rule(std::string_view name);
-
 struct Finding {
-  std::string rule;
+  std::string rule;                // key of its text: a rule's key, or "rule.variant"
   std::string scene = {};          // or empty: of the whole report
   std::string method = {};         // or engine that it is about
   std::string other = {};          // and the one that this is compared with
@@ -43,43 +34,83 @@ struct Finding {
   std::optional<double> low = {};  // interval: an error bar, what a search could tell, or the range over scenes
   std::optional<double> high = {};
   std::string tier = {};                          // where the rule names none
-  std::map<std::string, std::string> words = {};  // that its template names besides
+  std::map<std::string, std::string> words = {};  // names, numbers and lists that its text asks for besides
 };
 
-/// For a reader who has never seen the code. Throws std::logic_error where the template names what is not there.
+/// A kind of finding. The table is in rules.cpp; a new kind is a row there and a text in texts/.
+struct FindingRule {
+  std::string_view key;
+  std::vector<Finding> (*find)(const Facts&);  // several rows may share a function, which is called once
+  std::string_view topic;     // answer, agreement, accuracy, failure, cost, contact, order, energy, adequacy, choice
+  std::string_view chapter;   // id of the chapter that shows it; empty: the part of its scene
+  std::string_view quantity;  // name of the value
+  std::string_view unit;      // of value, low and high: "m", "s", "%", "1", "m/s", "1/s" or "degrees"
+  std::string_view tier;      // tier of its truth; empty: each finding has its own
+  std::string_view words;     // that its findings may have, separated by blanks
+  std::vector<std::string_view> tables;  // that it rests on
+  std::string_view figure = {};          // that shows it: "{}" is the finding's scene, "*" any; empty: a table shows it
+};
+
+const std::vector<FindingRule>& finding_rules();
+/// The rule of a key, with a variant or without. Throws std::logic_error with the key where there is none.
+const FindingRule& finding_rule(std::string_view key);
+
+/// The findings of the rules with a chapter (`of_scene`: without one), in the order of the table.
+std::vector<Finding> found_by_rules(const Facts& facts, bool of_scene);
+
+// Texts, from texts/*.md: "## KEY", a sentence, and "Formula: " with how the value follows from the columns of the
+// tables. In a sentence {value}, {low} and {high} are written in the rule's unit, {range} is low to high, {value±} an
+// exponent with its standard error; {scene}, {method} and {other} are names, all else are words of the finding. A part
+// in square brackets is left out where one of its words is empty.
+
+struct FindingText {
+  std::string sentence, formula;
+};
+/// All texts by key. Throws std::runtime_error that names file and line where one is not of that form.
+const std::map<std::string, FindingText>& finding_texts();
+/// The names in braces of a sentence.
+std::vector<std::string> placeholders_of(const std::string& sentence);
+
+/// Throws std::logic_error where the text names what the finding does not have.
 std::string sentence_of(const Finding& finding);
+/// Their sentences, one after the other.
+std::string sentences_of(const std::vector<Finding>& findings);
 std::string tier_of(const Finding& finding);
 /// All of it but its rows, as report.json has it.
 Json json_of(const Finding& finding);
 
-// Who is told of: each function is a part of the report.
+// Functions of the rules, by the file that they are in. Some also describe a figure, from its table alone.
 
-/// Findings of one scene.
-std::vector<Finding> findings_of(const Scene& scene, const SceneData& data, const TableSet& rows);
-/// Findings of all scenes together, the most important first.
-std::vector<Finding> overall_findings(const std::vector<Scene>& scenes, const std::vector<SceneData>& data,
-                                      const TableSet& rows);
-
-/// The cheapest runs within 1 % of the motion, by engine.
-std::vector<Finding> speed_findings(const TableSet& rows);
-/// The cost of a step in several engines.
-std::vector<Finding> cost_findings(const TableSet& rows);
-/// Of experiment `stability`: limits beside theory, and methods without a stable step.
-std::vector<Finding> limit_findings(const TableSet& rows);
-std::vector<Finding> stability_findings(const TableSet& rows);
-/// Of experiment `stiffness`: how soft position-based methods make a cloth at the step of a game.
-std::vector<Finding> stiffness_findings(const TableSet& rows);
-/// Of experiment `energy`.
-std::vector<Finding> energy_findings(const TableSet& rows);
-/// Of experiment `sphere`: all of them, those on where particles leave a ball, and on the cloth that slides off.
-std::vector<Finding> sphere_findings(const TableSet& rows);
+// answers.cpp: one finding or none each
+std::vector<Finding> agreement_answer(const Facts&);
+std::vector<Finding> method_answer(const Facts&);
+std::vector<Finding> failure_answer(const Facts&);
+std::vector<Finding> ball_answer(const Facts&);
+std::vector<Finding> energy_answer(const Facts&);
+std::vector<Finding> model_answer(const Facts&);
+// overall.cpp
+std::vector<Finding> relation_findings(const Facts&);
+std::vector<Finding> failure_findings(const Facts&);
+std::vector<Finding> order_findings(const Facts&);
+// speed.cpp
+std::vector<Finding> speed_findings(const Facts&);
+std::vector<Finding> cost_findings(const Facts&);
+// stability.cpp
+std::vector<Finding> limit_findings(const Facts&);
+std::vector<Finding> stability_findings(const Facts&);
+// energy.cpp
+std::vector<Finding> energy_findings(const Facts&);
+// sphere.cpp
+std::vector<Finding> contact_findings(const Facts&);
+std::vector<Finding> probe_findings(const Facts&);
 std::vector<Finding> leaving_findings(const Table& leaving);
 std::vector<Finding> drape_findings(const Table& drapes);
-/// The least models; and what stiffness must become on a finer grid: of all springs, and of bend springs.
-std::vector<Finding> adequacy_findings(const TableSet& rows);
-std::vector<Finding> bend_findings(const TableSet& rows);
-
-/// Their sentences, one after the other.
-std::string sentences_of(const std::vector<Finding>& findings);
+// adequacy.cpp
+std::vector<Finding> adequacy_findings(const Facts&);
+std::vector<Finding> bend_findings(const Facts&);
+// scene.cpp: of one scene
+std::vector<Finding> scene_findings(const Facts&);
+// recommendation.cpp: of one scene
+std::vector<Finding> recommendation_findings(const Facts&);
 
 }  // namespace crosscheck

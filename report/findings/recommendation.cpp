@@ -8,7 +8,7 @@
 
 namespace crosscheck {
 
-const Scene* main_scene(const std::vector<Scene>& scenes, const TableSet& rows) {
+const Scene* main_scene(std::span<const Scene> scenes, const TableSet& rows) {
   const auto cheapest = rows_of<CheapestRow<Cost::cpu>>(rows);
   const Scene *any = nullptr, *cloth = nullptr;
   for (const Scene& scene : scenes) {
@@ -72,42 +72,24 @@ std::string setting_of(const RecommendedRun& run) {
          setting_text(std::string(name_of(run.setting)), run.requested);
 }
 
-std::string speed_text(const RecommendedRun& run, const Scene& scene) {
-  const double factor = scene.duration / run.cost;
-  return factor >= 1 ? times_text(factor) + " times faster" : times_text(1 / factor) + " times slower";
-}
-
-std::vector<Finding> recommendation_findings(const Scene& scene, const TableSet& rows) {
-  const auto run = recommended_run(scene.name, 0.01, rows);
+std::vector<Finding> recommendation_findings(const Facts& facts) {
+  const auto run = recommended_run(facts.scene->name, recommended_part, facts.rows);
   if (!run) return {};
   const double to_percent = 100 / run->motion;
-  std::vector<Finding> out{
-      {.rule = "take",
-       .scene = scene.name,
-       .method = run->method,
-       .value = run->error * to_percent,
-       .low = std::max(0., run->error - run->error_bar) * to_percent,
-       .high = (run->error + run->error_bar) * to_percent,
-       .tier = run->tier,
-       .words = {
-           {"setting", setting_of(*run)}, {"speed", speed_text(*run, scene)}, {"bound", std::string(run->bound)}}}};
   std::vector<std::string> tied;
   for (const std::string& method : run->tied) tied.push_back(name_in_sentence(method));
-  if (!tied.empty())
-    out.push_back({.rule = "take-tied",
-                   .scene = scene.name,
-                   .method = run->method,
-                   .value = static_cast<double>(tied.size()),
-                   .words = {{"which", listed(tied)}}});
-  for (const EngineBeside& engine : run->beside)
-    out.push_back({.rule = "take-beside",
-                   .scene = scene.name,
-                   .method = std::string(subject().name),
-                   .other = engine.engine,
-                   .value = engine.times,
-                   .low = engine.low,
-                   .high = engine.high});
-  return out;
+  return {{.rule = "take",
+           .scene = facts.scene->name,
+           .method = run->method,
+           .value = run->error * to_percent,
+           .low = std::max(0., run->error - run->error_bar) * to_percent,
+           .high = (run->error + run->error_bar) * to_percent,
+           .tier = run->tier,
+           .words = {{"setting", setting_of(*run)},
+                     {"evaluations", count_text(run->evaluations)},
+                     {"cpu", step_text(run->cost)},
+                     {"bound", std::string(run->bound)},
+                     {"tied", listed(tied)}}}};
 }
 
 }  // namespace crosscheck

@@ -6,6 +6,7 @@
 #include <string_view>
 #include <vector>
 
+#include "experiments/speed_accuracy/speed_accuracy.h"
 #include "experiments/tables/speed_accuracy.h"
 #include "report/findings/findings.h"
 
@@ -13,7 +14,7 @@ namespace crosscheck {
 
 /// The scene that stands for the others where one must: the last cloth without contact that was timed, else the last
 /// scene that was; null where none was.
-const Scene* main_scene(const std::vector<Scene>& scenes, const TableSet& rows);
+const Scene* main_scene(std::span<const Scene> scenes, const TableSet& rows);
 
 /// The cheapest run of another engine within the same accuracy.
 struct EngineBeside {
@@ -30,12 +31,12 @@ struct RecommendedRun {
   double error = 0, motion = 0;      // m
   double error_bar = 0;              // m, of the truth
   std::string tier;                  // of the truth
-  long evaluations = 0;              // of forces, the cost that it is chosen by
+  long evaluations = 0;              // force evaluations, the cost that it is chosen by
   double cost = 0;                   // s of CPU time
   bool timed_whole = true;           // else scaled from a part of the run
   std::vector<std::string> tied;     // others of the same cost, each further from the truth
   std::vector<EngineBeside> beside;  // where mysim has a run within the accuracy, too
-  std::string_view bound;            // what keeps the step from being longer: stability, accuracy, failure or sampling
+  std::string_view bound;            // stability, accuracy, failure or sampling keeps the step from being longer
 };
 
 /// The run that recommend() chooses within a part of the motion, 0.01 or, from the steps of the ladder alone, another.
@@ -44,12 +45,7 @@ std::optional<RecommendedRun> recommended_run(const std::string& scene, double p
 
 /// "step 2 ms", or "tolerance 1.0e-6".
 std::string setting_of(const RecommendedRun& run);
-/// "160 times faster", than real time.
-std::string speed_text(const RecommendedRun& run, const Scene& scene);
-
-/// What is said of it in the part of its scene; the page shows it as a row of a table.
-std::vector<Finding> recommendation_findings(const Scene& scene, const TableSet& rows);
-/// The topic of these.
+/// The topic of its finding in the part of its scene; the page shows it as a row of a table.
 inline constexpr std::string_view recommendation_topic = "choice";
 
 }  // namespace crosscheck

@@ -88,10 +88,10 @@ SceneData scene_data(const std::string& scene, const TableSet& result) {
   return facts;
 }
 
-const MethodData* most_accurate(const SceneData& scene, const FamilyFilter& asked) {
+const MethodData* most_accurate(const SceneData& scene) {
   const MethodData* best = nullptr;
   for (const MethodData& m : scene.methods)
-    if (m.judged() && (!asked || asked(family_of(m.method))) && (!best || *m.error < *best->error)) best = &m;
+    if (m.judged() && (!best || *m.error < *best->error)) best = &m;
   return best;
 }
 
@@ -147,18 +147,6 @@ std::string own_step_text(const Scene& scene) {
 
 std::string setting_text(const std::string& setting, double value) {
   return setting.starts_with("tolerance") ? "tolerance " + nice(value) : step_text(value);
-}
-
-std::string scene_class(const Scene& scene) {
-  const Model& model = scene.model;
-  const std::pair<bool, const char*> table[] = {{model.find<Spheres>(), "ball"},
-                                                {model.find<Constraints>(), "hard lengths"},
-                                                {!scene.triangles.empty(), "cloth"},
-                                                {model.find<Springs>(), "springs"},
-                                                {model.find<Rotation>(), "rotation"}};
-  for (const auto& [is, kind] : table)
-    if (is) return kind;
-  return "free flight";
 }
 
 }  // namespace crosscheck

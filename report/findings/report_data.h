@@ -46,10 +46,6 @@ struct MethodData {
   bool gave_no_answer() const { return verdict == Verdict::crash || verdict == Verdict::timeout; }
   /// Whether it came to its end and is no truth itself, and how far it is from the truth is known.
   bool judged() const { return ok() && error && family_of(method).role != Role::truth; }
-  /// Whether it takes one force evaluation a step.
-  bool single_evaluation(const Scene& scene) const {
-    return static_cast<double>(evaluations) * step / scene.duration < 1.5;
-  }
   /// "blew up", "solver gave up" and so on, of a run that failed.
   std::string failure() const { return failure_class(verdict); }
 };
@@ -72,8 +68,8 @@ struct SceneData {
   bool touched() const;
 };
 
-/// The most accurate run of the selected families, or null.
-const MethodData* most_accurate(const SceneData& scene, const FamilyFilter& asked = {});
+/// The most accurate run, or null.
+const MethodData* most_accurate(const SceneData& scene);
 /// Whether a run is as near to the truth as another: errs by at most 5 % more, or below the truth's error bar.
 bool ties_with(const MethodData& run, const MethodData& other, const SceneData& scene);
 
@@ -99,10 +95,5 @@ std::string step_text(double seconds);
 std::string own_step_text(const Scene& scene);
 /// "2 ms", or "tolerance 1.0e-6": a run's setting, "step [s]" or "tolerance [1]".
 std::string setting_text(const std::string& setting, double value);
-
-// The class of a scene, in a word for tables and sentences.
-
-/// "ball", "hard lengths", "cloth", "springs", "rotation" or "free flight": by what is hardest in it.
-std::string scene_class(const Scene& scene);
 
 }  // namespace crosscheck

@@ -5,8 +5,6 @@
 
 #include "experiments/speed_accuracy/work_precision.h"
 #include "experiments/tables/cost.h"
-#include "experiments/tables/engines.h"
-#include "mysim/base/text.h"
 #include "report/findings/findings.h"
 #include "report/findings/findings_text.h"
 
@@ -32,25 +30,6 @@ struct Span {
 
 Finding finding_of(const std::string& rule, const Span& span) {
   return {.rule = rule, .value = span.high, .low = span.low, .high = span.high, .words = {{"where", span.where}}};
-}
-
-/// Engines by the number of scenes on which a run of theirs is the cheapest, or cannot be told from it.
-void cheapest(const TableSet& rows, std::vector<Finding>& out) {
-  std::map<std::string, double> wins;
-  size_t scenes = 0;
-  for (const auto& row : rows_of<CheapestRow<Cost::cpu>>(rows)) {
-    if (!is_asked(row) || row.method.value_or("").empty()) continue;
-    ++scenes;
-    std::vector<std::string> engines{engine_of(*row.method)};
-    for (const std::string& tied : split(row.tied.value_or(""), ','))
-      if (const size_t at = tied.find_first_not_of(' '); at != std::string::npos)
-        if (const std::string engine = engine_of(tied.substr(at)); std::ranges::find(engines, engine) == engines.end())
-          engines.push_back(engine);
-    for (const std::string& engine : engines) ++wins[engine];
-  }
-  for (const auto& [engine, count] : wins)
-    out.push_back(
-        {.rule = "cheapest", .method = engine, .value = count, .words = {{"scenes", counted(scenes, "scene")}}});
 }
 
 /// What the other engines take for the same accuracy; and those none of whose runs is within it.
@@ -80,7 +59,6 @@ void engines_beside(const TableSet& rows, std::vector<Finding>& out) {
   for (const auto& [engine, span] : times) {
     Finding f = finding_of("engine-times", span);
     f.method = engine, f.other = std::string(subject().name);
-    f.words["where"] = (span.count > 1 ? "most on " : "on ") + span.where;
     out.push_back(std::move(f));
   }
   for (const auto& [engine, scenes] : without)
@@ -91,62 +69,32 @@ void engines_beside(const TableSet& rows, std::vector<Finding>& out) {
                      .words = {{"where", listed(scenes)}}});
 }
 
-/// The same comparison in force evaluations, which tells a slow method from a slow engine.
-void evaluations_beside(const TableSet& rows, std::vector<Finding>& out) {
-  Span span;
-  for (const auto& row : rows_of<CheapestRow<Cost::evaluations>>(rows))
-    if (is_asked(row) && row.bullet_over_mysim) span.take(*row.bullet_over_mysim, row.scene);
-  if (span.count == 0) return;
-  Finding f = finding_of("engine-evaluations", span);
-  f.method = std::string(default_peers().front()->name), f.other = std::string(subject().name);
-  out.push_back(std::move(f));
-}
-
-/// Methods with less than two runs on a scene that they take, as far as experiment `engines` ran it.
-void hardly_tried(const TableSet& rows, std::vector<Finding>& out) {
-  std::map<std::string, std::map<std::string, int>> runs;  // by scene and method
-  std::vector<std::string> methods;
-  for (const SpeedAccuracyRow& run : rows_of<SpeedAccuracyRow>(rows)) {
-    ++runs[run.scene][run.method];
-    if (!std::ranges::count(methods, run.method)) methods.push_back(run.method);
-  }
-  std::vector<std::string> seldom;
-  for (const EngineRow& run : rows_of<EngineRow>(rows))
-    if (const auto at = runs.find(run.scene); at != runs.end() && run.verdict != Verdict::unsupported &&
-                                              std::ranges::count(methods, run.method) && at->second[run.method] < 2)
-      seldom.push_back(fmt::format("{} on {}", name_in_sentence(run.method), run.scene));
-  if (!seldom.empty())
-    out.push_back(
-        {.rule = "hardly-tried", .value = static_cast<double>(seldom.size()), .words = {{"which", listed(seldom, 2)}}});
-}
-
 }  // namespace
 
-std::vector<Finding> speed_findings(const TableSet& rows) {
+std::vector<Finding> speed_findings(const Facts& facts) {
   std::vector<Finding> out;
-  for (const auto part : {cheapest, engines_beside, evaluations_beside, hardly_tried}) part(rows, out);
+  engines_beside(facts.rows, out);
   return out;
 }
 
 /// The same rule in both engines, over the sizes: by kernels for any spring graph on both sides, and by mysim's fused
 /// step on regular cloths.
-std::vector<Finding> cost_findings(const TableSet& rows) {
+std::vector<Finding> cost_findings(const Facts& facts) {
   std::map<long, std::map<std::string, double>> per_side;  // s per step
-  for (const SizeCostRow& row : rows_of<SizeCostRow>(rows)) per_side[row.side][row.method] = row.cpu;
+  for (const SizeCostRow& row : rows_of<SizeCostRow>(facts.rows)) per_side[row.side][row.method] = row.cpu;
   std::vector<Finding> out;
   for (const MethodFamily* peer : default_peers()) {
     const Method* standing = builtin_method(peer->representative);
     if (!standing || rule_of(*standing) != rule_of(*builtin_method(ours))) continue;
     const std::string its(peer->representative);
-    for (const auto& [rule, method] : {std::pair{"size-cost-any", ours + "+plain"}, {"size-cost-grid", ours}}) {
+    for (const auto& [rule, method] : {std::pair{"size-cost.any", ours + "+plain"}, {"size-cost.grid", ours}}) {
       Span span;
       for (auto& [side, times] : per_side)
         if (times[method] > 0 && times[its] > 0) span.take(times[its] / times[method], fmt::format("{0} x {0}", side));
       if (span.count == 0) continue;
       Finding f = finding_of(rule, span);
       f.method = method, f.other = std::string(peer->name);
-      f.words["lacks"] = peer->grid_kernel ? "" : fmt::format(", which {} lacks,", peer->title);
-      f.words["build"] = peer->build == Build::debian ? "Debian's build" : std::string(peer->build_text);
+      f.words["build"] = peer->build_text;
       out.push_back(std::move(f));
     }
   }

@@ -23,115 +23,59 @@ void cone(const TableSet& rows, std::vector<Finding>& out) {
                      .words = {{"cases", std::to_string(count.all)}}});
 }
 
-/// Largest difference from mysim/symplectic-euler that each method's rows of a scene show, m, by method.
-std::map<std::string, double> differences_over_run(const Table& rows) {
-  std::map<std::string, double> largest;
+/// Difference from mysim/symplectic-euler at the end that each method's rows of a scene show, m, by method.
+std::map<std::string, double> differences_at_end(const Table& rows) {
+  std::map<std::string, double> last;
   for (const EngineTimeRow& row : rows_of<EngineTimeRow>(rows))
-    if (row.difference) largest[row.method] = std::max(largest[row.method], *row.difference);
-  return largest;
+    if (row.difference) last[row.method] = *row.difference;
+  return last;
 }
 
-/// The lengths of a motion's end, of perturbed runs of mysim's representative and of all methods: where positions can
-/// be held against nothing. None without a spread.
-std::optional<Finding> final_lengths(const TableSet& rows, const std::string& scene, const std::string& why) {
-  const Table* table = rows.table(scene + "-statistics");
-  if (!table) return std::nullopt;
-  const std::vector<StatisticRow> all = rows_of<StatisticRow>(*table);
-  Finding f{.rule = "final-lengths", .scene = scene, .other = ours, .value = 0};
-  double spread = 0;
-  for (const StatisticRow& of_ours : all) {
-    if (of_ours.method != ours || of_ours.unit != "m" || !of_ours.quantity.ends_with(" at the end")) continue;
-    spread = std::max(spread, of_ours.deviation.value_or(0));
-    for (const StatisticRow& row : all)
-      if (const double apart = std::abs(row.mean - of_ours.mean);
-          row.quantity == of_ours.quantity && row.method != sticky_sphere && apart > f.value)
-        f.value = apart, f.method = row.method;
-  }
-  if (!(spread > 0) || f.method.empty()) return std::nullopt;
-  f.words = {{"why", why}, {"spread", nice_length(spread)}};
-  return f;
-}
+}  // namespace
 
-/// Single positions after the window: mysim's own rules of an order above one, which share its contact
-/// rule, say whether they can be predicted. They part by what their steps err and by what grows of it; where that stays
-/// small against the difference of another engine, it is its result that differs, and no chance. Otherwise, and where
-/// there is no truth, the end's lengths are held against those of perturbed runs.
-void after_contact(const TableSet& rows, std::vector<Finding>& out) {
+/// Positions after the window: each other engine's at the end beside those of mysim's own rules of an order above one,
+/// which share its contact rule and show how far positions can be predicted.
+std::vector<Finding> contact_findings(const Facts& facts) {
   std::map<std::string, std::vector<EngineRow>> runs;  // by scene
   std::vector<std::string> scenes;
-  for (EngineRow& run : rows_of<EngineRow>(rows))
+  for (EngineRow& run : rows_of<EngineRow>(facts.rows))
     if (run.verdict == Verdict::ok) {
       if (!runs.contains(run.scene)) scenes.push_back(run.scene);
       runs[run.scene].push_back(std::move(run));
     }
+  std::vector<Finding> out;
   for (const std::string& scene : scenes) {
-    const Table* over_time = rows.table(scene + "-engines");
-    double duration = 0, own = 0;
+    const Table* over_time = facts.rows.table(scene + "-engines");
+    double duration = 0;
     bool touched = false;
-    size_t rules = 0;
     for (const EngineRow& run : runs[scene])
       duration = std::max(duration, run.end), touched |= run.clearance.value_or(1) < 1e-3;
-    const double window = runs[scene][0].window;
-    if (!over_time || !touched) continue;
     const EngineRow& any = runs[scene][0];
-    if (!(window < duration * (1 - 1e-9))) {
-      if (const auto f = any.truth ? std::nullopt : final_lengths(rows, scene, "no truth is known")) out.push_back(*f);
-      continue;
-    }
-    const auto apart = differences_over_run(*over_time);
+    if (!over_time || !touched || !(any.window < duration * (1 - 1e-9))) continue;
+    const auto apart = differences_at_end(*over_time);
+    double least = INFINITY, most = 0;
+    size_t rules = 0;
     for (const EngineRow& run : runs[scene])
-      if (const Method* m = builtin_method(run.method); m && m->stepper && m->stepper->order >= 2) {
+      if (const Method* m = builtin_method(run.method);
+          m && m->stepper && m->stepper->order >= 2 && apart.contains(run.method)) {
         ++rules;
-        if (const auto found = apart.find(run.method); found != apart.end()) own = std::max(own, found->second);
+        least = std::min(least, apart.at(run.method)), most = std::max(most, apart.at(run.method));
       }
     if (rules < 2) continue;
-    std::vector<Finding> said;
-    bool differ = false;
     for (const EngineRow& run : runs[scene])
-      if (const auto other = apart.find(run.method); other != apart.end() && is_another_engine(run.method) &&
-                                                     stands_for_its_engine(run.method) &&
-                                                     run.method != position_based(family_of(run.method))) {
-        // three times: beyond what one more rule of the kind might add
-        const bool differs = other->second > 3 * own;
-        differ |= differs;
-        said.push_back(
-            {.rule = differs ? "after-contact" : "after-contact-open",
-             .scene = scene,
-             .method = ours,
-             .other = run.method,
-             .value = other->second,
-             .words = {{"window", step_text(window)}, {"rules", std::to_string(rules)}, {"own", nice_length(own)}}});
-      }
-    const bool known_to_the_end = any.truth && !any.truth_until;
-    if (const auto f = final_lengths(rows, scene, "beyond " + step_text(window) + " positions say nothing");
-        f && !differ && !known_to_the_end)
-      said = {*f};
-    out.insert(out.end(), said.begin(), said.end());
+      if (apart.contains(run.method) && is_another_engine(run.method) && stands_for_its_engine(run.method) &&
+          run.method != position_based(family_of(run.method)))
+        out.push_back({.rule = "after-contact",
+                       .scene = scene,
+                       .method = ours,
+                       .other = run.method,
+                       .value = apart.at(run.method),
+                       .words = {{"window", step_text(any.window)},
+                                 {"rules", std::to_string(rules)},
+                                 {"own", range(nice_length(least), nice_length(most))}}});
   }
+  return out;
 }
-
-/// By engine, the deepest of its methods.
-void penetration(const TableSet& rows, std::vector<Finding>& out) {
-  std::vector<Finding> all;
-  std::vector<double> triangles;
-  for (const PenetrationRow& row : rows_of<PenetrationRow>(rows)) {
-    if (row.verdict != Verdict::ok || !row.particles || row.method == sticky_sphere) continue;
-    auto f = std::ranges::find_if(
-        all, [&](const Finding& other) { return engine_of(other.method) == engine_of(row.method); });
-    if (f == all.end()) f = all.insert(all.end(), {.rule = "penetration", .value = -1}), triangles.push_back(0);
-    double& deepest = triangles[static_cast<size_t>(f - all.begin())];
-    deepest = std::max(deepest, row.triangles.value_or(0));
-    const double depth = *row.particles < 1e-9 ? 0 : *row.particles;  // round-off
-    if (depth > f->value) f->value = depth, f->method = row.method;
-    f->words = {{"triangles", percent(deepest, 100)}};
-  }
-  for (size_t i = 0; i < all.size(); ++i)
-    if (all[i].value == 0)
-      all[i] = {.rule = "penetration-of-triangles", .method = engine_of(all[i].method), .value = triangles[i]};
-  out.insert(out.end(), all.begin(), all.end());
-}
-
-}  // namespace
 
 std::vector<Finding> leaving_findings(const Table& table) {
   std::map<std::string, std::map<double, double>> offs;  // by method and step: degrees
@@ -146,13 +90,11 @@ std::vector<Finding> leaving_findings(const Table& table) {
   std::vector<Finding> out;
   for (const std::string& method : methods) {
     const auto [step, off] = *offs[method].begin();
-    const double at_longest = offs[method].rbegin()->second;
     if (step != finest) continue;
     Finding f{.rule = "leaving", .method = method, .value = off};
     f.words = {{"step", step_text(step)},
-               {"off", fmt::format("{:.2g} degrees too {}", std::abs(off), off < 0 ? "early" : "late")},
-               {"which", family_of(method).is_subject() ? ", the furthest of mysim" : ""},
-               {"worse", std::abs(off) > std::abs(at_longest) ? ": shorter steps make it worse" : ""}};
+               {"longest", step_text(offs[method].rbegin()->first)},
+               {"off", fmt::format("{:.2g} degrees", offs[method].rbegin()->second)}};
     // of mysim's the furthest
     const auto same = std::ranges::find_if(
         out, [&](const Finding& g) { return family_of(method).is_subject() && family_of(g.method).is_subject(); });
@@ -183,15 +125,13 @@ std::vector<Finding> drape_findings(const Table& table) {
   return out;
 }
 
-std::vector<Finding> sphere_findings(const TableSet& rows) {
+std::vector<Finding> probe_findings(const Facts& facts) {
   std::vector<Finding> out;
-  after_contact(rows, out);
-  cone(rows, out);
+  cone(facts.rows, out);
   for (const auto& [name, findings_of_table] :
        {std::pair{LeavingRow::table, &leaving_findings}, {DrapeRow::table, &drape_findings}})
-    if (const Table* table = rows.table(std::string(name)))
+    if (const Table* table = facts.rows.table(std::string(name)))
       for (Finding& f : findings_of_table(*table)) out.push_back(std::move(f));
-  penetration(rows, out);
   return out;
 }
 

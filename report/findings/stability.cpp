@@ -10,35 +10,28 @@
 
 namespace crosscheck {
 
-std::vector<Finding> limit_findings(const TableSet& rows) {
-  const std::vector<LimitRow> table = rows_of<LimitRow>(rows);
+std::vector<Finding> limit_findings(const Facts& facts) {
+  const std::vector<LimitRow> table = rows_of<LimitRow>(facts.rows);
+  const auto count = [](size_t n) { return std::to_string(n); };
   const StepLimitCounts rest = step_limit_counts(table, LimitState::rest),
                         start = step_limit_counts(table, LimitState::start);
-  const auto limits = [](size_t count, const char* lies, const char* lie) {
-    return fmt::format("{} {}", count, count == 1 ? lies : lie);
-  };
   std::vector<Finding> out;
   if (rest.agreeing > 0)
     out.push_back({.rule = "step-limits",
-                   .value = 100 * rest.within,
-                   .words = {{"limits", limits(rest.agreeing, "measured largest stable step lies",
-                                               "measured largest stable steps lie")},
+                   .value = 100 * rest.deviation,
+                   .words = {{"confirmed", count(rest.agreeing + rest.coarse)},
+                             {"all", count(rest.all())},
+                             {"bracket", percent(rest.widest, 1)},
                              {"scenes", listed(rest.scenes)}}});
-  if (rest.coarse > 0)
-    out.push_back({.rule = "step-limits-coarse",
-                   .value = 100 * rest.widest,
-                   .words = {{"limits", limits(rest.coarse, "lies", "lie")}}});
   if (rest.apart > 0)
-    out.push_back(
-        {.rule = "step-limits-apart",
-         .method = rest.method,
-         .value = static_cast<double>(rest.apart),
-         .words = {
-             {"limits", limits(rest.apart, "limit lies", "limits lie")}, {"where", rest.where}, {"how", rest.how}}});
-  if (const size_t all = start.agreeing + start.coarse + start.apart; all > 0)
-    out.push_back({.rule = "step-limits-at-start",
+    out.push_back({.rule = "step-limits-apart",
+                   .method = rest.method,
+                   .value = static_cast<double>(rest.apart),
+                   .words = {{"all", count(rest.all())}, {"where", rest.where}, {"how", rest.how}}});
+  if (start.all() > 0)
+    out.push_back({.rule = "step-limits-apart.start",
                    .value = static_cast<double>(start.apart),
-                   .words = {{"all", counted(all, "limit")}}});
+                   .words = {{"all", count(start.all())}}});
   return out;
 }
 
@@ -56,21 +49,18 @@ void limits_by_truth(const TableSet& rows, std::vector<Finding>& out) {
     const LimitRow &off = *std::ranges::max_element(limits, {}, below),
                    &near = *std::ranges::min_element(limits, {}, above);
     const auto confirmed = std::ranges::count_if(limits, confirmed_by_truth);
-    Finding f{.rule = "limits-by-truth", .scene = scene, .value = static_cast<double>(confirmed)};
-    const auto exception = [&](const LimitRow& row, const char* called, double step, double error) {
-      f.method = row.method;
-      return fmt::format("{}, {} at {}, is {} of the motion off", name_in_sentence(row.method), called, step_text(step),
-                         percent(error, 1));
-    };
-    if (confirmed == std::ssize(limits))
-      f.words["how"] = fmt::format("below, errors are at most {} of the motion, above at least {}",
-                                   percent(below(off), 1), percent(above(near), 1));
-    else if (below(off) > useless_from)
-      f.words["how"] = exception(off, "stable", *off.step_below, below(off));
-    else
-      f.words["how"] = exception(near, "failed", *near.step_above, above(near));
-    f.words["all"] = counted(limits.size(), "limit");
-    out.push_back(f);
+    const bool all = confirmed == std::ssize(limits), stable = below(off) > useless_from;
+    const LimitRow& exception = stable ? off : near;
+    out.push_back({.rule = "limits-by-truth",
+                   .scene = scene,
+                   .method = all ? "" : exception.method,
+                   .value = static_cast<double>(confirmed),
+                   .words = {{"all", std::to_string(limits.size())},
+                             {"below", all ? percent(below(off), 1) : ""},
+                             {"above", percent(above(near), 1)},
+                             {"name", all ? "" : name_in_sentence(exception.method)},
+                             {"step", step_text(stable ? *exception.step_below : *exception.step_above)},
+                             {"error", percent(stable ? below(exception) : above(exception), 1)}}});
   }
 }
 
@@ -100,11 +90,9 @@ void growth(const TableSet& rows, std::vector<Finding>& out) {
 
 }  // namespace
 
-std::vector<Finding> stability_findings(const TableSet& rows) {
-  std::vector<Finding> out = limit_findings(rows);
-  limits_by_truth(rows, out);
-  without_stable_step(rows, out);
-  growth(rows, out);
+std::vector<Finding> stability_findings(const Facts& facts) {
+  std::vector<Finding> out;
+  for (const auto part : {limits_by_truth, without_stable_step, growth}) part(facts.rows, out);
   return out;
 }
 

@@ -142,7 +142,8 @@ StepLimitCounts step_limit_counts(const std::vector<LimitRow>& rows, LimitState 
     } else if (found->kind == StepLimitComparison::coarse) {
       ++counts.coarse, counts.widest = std::max(counts.widest, bracket);
     } else if (found->off) {
-      ++counts.agreeing, counts.within = std::max({counts.within, std::abs(*found->off), bracket});
+      ++counts.agreeing, counts.deviation = std::max(counts.deviation, std::abs(*found->off));
+      counts.widest = std::max(counts.widest, bracket);
       if (std::ranges::find(counts.scenes, row.scene) == counts.scenes.end()) counts.scenes.push_back(row.scene);
     }
   }

@@ -63,12 +63,13 @@ std::vector<ConeCount> cone_counts(const TableSet& rows);
 /// The rows of one state that theory speaks of, unless it has its limit beyond what was tried.
 struct StepLimitCounts {
   size_t agreeing = 0;              // within 1 %
-  double within = 0;                // to this part of the predicted ones, or to what the search can resolve
+  double deviation = 0;             // largest deviation of these, over the predicted step
   std::vector<std::string> scenes;  // of these
   size_t coarse = 0;                // further off, but theory's limit lies between what held and what failed
-  double widest = 0;                // bracket of these, over what held
+  double widest = 0;                // bracket of both kinds, over what held
   size_t apart = 0;                 // all others
   std::string method, where;        // of these the one that is furthest off
+  size_t all() const { return agreeing + coarse + apart; }
   std::string how;  // "stable at 47 times the step", "holds at every step tried, by theory up to 1.2 ms"
 };
 StepLimitCounts step_limit_counts(const std::vector<LimitRow>& rows, LimitState state);

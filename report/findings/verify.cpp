@@ -125,11 +125,11 @@ SentencesByKey findings_in(const fs::path& old) {
   return by_key;
 }
 
-bool rests_on_timings(const std::string& rule) {
-  const auto& rules = finding_rules();
-  const auto found = std::find_if(rules.begin(), rules.end(), [&](const FindingRule& r) { return r.name == rule; });
-  return found != rules.end() && std::any_of(found->tables.begin(), found->tables.end(),
-                                             [](std::string_view table) { return table.ends_with("-cost"); });
+bool rests_on_timings(const std::string& key) {
+  const auto found =
+      std::ranges::find(finding_rules(), std::string_view(key).substr(0, key.find('.')), &FindingRule::key);
+  return found != finding_rules().end() &&
+         std::ranges::any_of(found->tables, [](std::string_view table) { return table.ends_with("-cost"); });
 }
 
 }  // namespace

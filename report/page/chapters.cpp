@@ -182,15 +182,13 @@ Json chapter_data(const Chapter& chapter, size_t number, const PageContent& c, F
   const bool certificates = chapter.id == "same-answer";
   const Json known{{"contact", contact}, {"critical", critical_data(c)}};
   const auto text = [&](const std::string& given) { return Template(chapter.id + ".md", given).filled(known); };
-  const auto question = std::ranges::find(questions(), chapter.id, &Question::chapter);
-  const Finding* answer = question == questions().end() ? nullptr : answer_to(*question, c.findings);
   const std::vector<Lead> leads = leads_of(chapter, c);
   Json data{{"id", chapter.id},
             {"number", number},
             {"count", c.chapters.size()},
             {"title", text(chapter.title)},
             {"label", text(chapter.label)},
-            {"answer", answer ? sentence_of(*answer) : ""},
+            {"answer", answers_of_chapter(chapter.id, c.findings)},
             // a certificate of a few scenes is a few lines high: the text stands below it
             {"short", certificates && leads.empty() && c.scenes.size() <= 4},
             {"parity", certificates ? parity_data(c.scenes) : Json()},

@@ -96,7 +96,7 @@ Json first_screen_data(const PageContent& c) {
     if (!answer) continue;
     const auto chapter = std::ranges::find(c.chapters, question.chapter, &Chapter::id);
     const bool leads = chapter != c.chapters.end() && has_contents(*chapter);
-    asked.push_back({{"text", question.text_before(*answer)},
+    asked.push_back({{"text", std::string(question.text)},
                      {"target", leads ? question.chapter : "scenes"},
                      {"link", question.chapter == "same-answer" ? certificates_matched(c) : std::string(question.link)},
                      {"answer", sentence_of(*answer)}});

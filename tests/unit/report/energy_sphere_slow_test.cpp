@@ -167,18 +167,16 @@ TEST(SphereExperiment, HasRowsForWhoFailsAndNotesForWhoHasNoBall) {
   EXPECT_GT(number(depth, pbd, "particles"), 0.1);
   EXPECT_GT(number(depth, pbd, "triangles"), number(depth, pbd, "particles"));
 
-  const std::vector<Finding> findings = sphere_findings(rows);
+  const std::vector<Finding> findings = probe_findings(rows);
   expect_short(findings);
   const Finding cone_of_ours = of_rule(findings, "cone").at(0);
   EXPECT_EQ(cone_of_ours.method, "mysim/symplectic-euler");
   EXPECT_EQ(cone_of_ours.value, 72);
-  EXPECT_TRUE(contains(sentence_of(of_rule(findings, "leaving").back()), "shorter steps make it worse"));
+  EXPECT_GT(std::abs(of_rule(findings, "leaving").back().value), 1) << "degrees, of pbd";
   EXPECT_EQ(the(findings, "slides-off").method, "mysim/symplectic-euler");
   const auto touching = of_rule(findings, "still-touches");
   ASSERT_EQ(touching.size(), 2u);
   for (const Finding& f : touching) EXPECT_GT(f.value, 0) << f.method;
-  EXPECT_EQ(the(findings, "penetration").method, "bullet/pbd");
-  EXPECT_EQ(the(findings, "penetration-of-triangles").method, "mysim");
   EXPECT_TRUE(energy_findings(rows).empty());
 
   const Table& cone = *rows.table("sphere-cone");

@@ -5,6 +5,7 @@
 
 #include <sstream>
 
+#include "mysim/base/text.h"
 #include "report/findings/findings.h"
 
 namespace crosscheck::testing_tools {
@@ -21,9 +22,9 @@ inline int count(const std::string& text, const std::string& part) {
   return n;
 }
 
-/// A finding of a rule, with this word wherever its template asks for one.
+/// A finding of a rule, with its first text, and this word wherever that asks for one.
 inline Finding made_up(const FindingRule& rule, const std::string& word) {
-  Finding f{.rule = std::string(rule.name),
+  Finding f{.rule = std::string(rule.key),
             .scene = word,
             .method = "mysim/rk4",
             .other = "bullet/pbd",
@@ -31,8 +32,9 @@ inline Finding made_up(const FindingRule& rule, const std::string& word) {
             .low = 4e-3,
             .high = 6e-3,
             .tier = "converged"};
-  for (size_t at = rule.sentence.find('{'); at != std::string_view::npos; at = rule.sentence.find('{', at + 1))
-    f.words[std::string(rule.sentence.substr(at + 1, rule.sentence.find('}', at) - at - 1))] = word;
+  for (const auto& [key, text] : finding_texts())
+    if (!finding_texts().contains(f.rule) && key.starts_with(f.rule + ".")) f.rule = key;
+  for (const std::string& name : split(rule.words, ' ')) f.words[name] = word;
   return f;
 }
 

@@ -98,7 +98,7 @@ class Page : public InBrowser {
     content_.figures = folder_;
     content_.provenance = {{"commit", "abc"}};
     for (const Question& question : questions())
-      content_.findings.push_back(made_up(rule_of_chapter(question.chapter, true), "5 mm on 3 scenes"));
+      content_.findings.push_back(made_up(finding_rule(question.rules[0]), "5 mm on 3 scenes"));
     // a chart of each kind: curves open the chapter, the others are folded
     Figure curves;
     curves.name = "chain-speed-accuracy-cost", curves.x = {"CPU time / s", true}, curves.y = {"error / m", true};

@@ -55,7 +55,7 @@ TEST(RelationsOnThePage, AreToldEngineByEngine) {
   Table table = table_of<RelationRow>();
   for (const RelationRow& r : rows_of_two_engines()) add(table, r);
   tables.add(table);
-  const std::vector<Finding> all = overall_findings({}, {}, tables);
+  const std::vector<Finding> all = relation_findings(tables);
   const std::vector<Finding> held = of_rule(all, "relations"), broken = of_rule(all, "relations-broken");
   ASSERT_EQ(held.size(), 2u);
   EXPECT_EQ(held[0].method, "mysim");
