@@ -57,11 +57,16 @@ Json readouts_data(const ScenePart& part) {
 Json view_data(const ScenePart& part) {
   Json keys = Json::array();
   std::vector<std::string> names;
+  std::string difference;
   for (const ShownRun& run : part.runs)
-    if (run.beside) keys.push_back(run.key), names.push_back(run.method);
+    if (run.beside) {
+      keys.push_back(run.key), names.push_back(run.method);
+      if (difference.empty()) difference = run.difference;
+    }
   if (!part.facts->tier.empty() || part.facts->contact_until) keys.push_back("truth"), names.emplace_back("truth");
   return {{"scene", part.scene->name},
           {"shown", dump(keys)},
+          {"difference", difference},
           {"still", image_data({part.hero.empty() ? part.thumbnail : part.hero,
                                 fmt::format("{} by {}", part.scene->name, joined(names)), ""})},
           {"readouts", readouts_data(part)}};

@@ -192,6 +192,16 @@ export class MotionPlayer extends HTMLElement {
     if (!performance.getEntriesByName('first-motion').length) performance.mark('first-motion');
   }
 
+  /** Time (s) from which on all motions keep below 2 % of their largest kinetic energy; the end without energies. */
+  get settled() {
+    const known = this.motions.filter(motion => motion.energy.some(e => e !== null));
+    if (known.length === 0) return this.end;
+    return Math.max(...known.map(motion => {
+      const least = 0.02 * Math.max(...motion.energy.map(e => e ?? 0));
+      return motion.times[motion.energy.reduce((last: number, e, i) => ((e ?? 0) > least ? i : last), 0)];
+    }));
+  }
+
   /** Gathers the motions that are shown. */
   private async load() {
     const keys = this.hero ?? (this.picks ? [this.picks.a, this.picks.b] : []), letters = this.hero ? [] : ['A', 'B'];
@@ -452,11 +462,13 @@ function runHero(hero: HTMLElement) {
       tell(player, readouts[i]);
     });
     slider.value = String(1000 * time / end);
-    clock.textContent = `${time.toFixed(2)} s`;
+    clock.textContent = `${time.toFixed(2)} s, ${pace() < 1 ? '½' : '2'}× speed`;
   };
+  // half speed while something moves, then twice as fast as it happened
+  const pace = () => (players.some((player, i) => time < Math.min(ends[i], player.settled)) ? 0.5 : 2);
   const tick = (now: number) => {
     if (!playing || !seen) return void (last = null);
-    time += last === null ? 0 : Math.min(0.1, (now - last) / 1000);
+    time += last === null ? 0 : pace() * Math.min(0.1, (now - last) / 1000);
     last = now;
     if (time > end + 0.6) time = 0;  // it rests a moment at its end
     show();
