@@ -159,15 +159,15 @@ class Assembly {
     for (const Chart& chart : charts_) add(chart);
     for (ScenePart& part : page_.scenes) add_shown_runs(part);
     draw(workers);
-    page_.lab = lab_data_html(data_.scenes);
+    page_.lab = lab_data(data_.scenes);
     write_file(folder_ / "report.json",
                report_json(page_, findings_, charts_, data_.rows, name_of(data_.extent), data_.runs));
-    const std::string html = page_html(page_);
-    write_file(folder_ / "index.html", html);
+    std::vector<std::pair<std::string, size_t>> blocks;
+    write_file(folder_ / "index.html", page_html(page_, &blocks));
     bool agree = true;  // where the same rule must agree, it does
     for (const SceneData& facts : findings_.facts)
       for (const MethodData& method : facts.methods) agree &= !same_rule_differs(facts, method);
-    return {std::move(page_), page_blocks(html), agree};
+    return {std::move(page_), std::move(blocks), agree};
   }
 
  private:

@@ -15,9 +15,7 @@
 #include "report/base/assets.h"
 #include "report/figures/chart_json.h"
 #include "report/lab/live_run.h"
-#include "report/page/page.h"
-#include "report/page/player_html.h"
-#include "report/page/template.h"
+#include "report/page/page_parts.h"
 #include "report/player/packed_numbers.h"
 
 namespace crosscheck {
@@ -80,8 +78,8 @@ LabFingerprints lab_fingerprints(const std::vector<Scene>& scenes) {
   return all;
 }
 
-std::string lab_data_html(const std::vector<Scene>& given) {
-  if (!has_lab_module()) return "";
+Json lab_data(const std::vector<Scene>& given) {
+  if (!has_lab_module()) return Json::array();
   std::vector<Scene> scenes = given;
   for (const std::string_view name : guided_scenes)
     if (std::ranges::none_of(scenes, [&](const Scene& scene) { return scene.name == name; }))
@@ -94,8 +92,8 @@ std::string lab_data_html(const std::vector<Scene>& given) {
     if (const auto known = fingerprints.find(scene.name); known != fingerprints.end())
       for (const auto& [rule, digits] : known->second) own["fingerprint"][rule] = digits;
   }
-  return script_json("id=\"lab-module\"", dump(base64(gzipped(content_of_file(lab_module_file()))))) +
-         script_json("id=\"lab-scenes\"", dump(json));
+  return Json::array({data_element("lab", "lab-module", dump(base64(gzipped(content_of_file(lab_module_file()))))),
+                      data_element("lab", "lab-scenes", dump(json))});
 }
 
 std::string lab_page_html(const std::vector<Scene>& scenes) {
@@ -106,11 +104,12 @@ std::string lab_page_html(const std::vector<Scene>& scenes) {
                     lab_packages));
   std::vector<std::string> methods;
   for (const Stepper& rule : steppers()) methods.push_back(fmt::format("mysim/{}", rule.name));
-  return filled("lab",
-                {{"title", "Crosscheck: the lab"},
-                 {"styles", page_styles()},
-                 {"data", lab_data_html(scenes) + script_json("id=\"methods-data\"", dump(method_looks_json(methods)))},
-                 {"script", page_script("lab_page")}});
+  Json data = lab_data(scenes);
+  data.push_back(data_element("lab", "methods-data", dump(method_looks_json(methods))));
+  return filled("lab", {{"title", "Crosscheck: the lab"},
+                        {"styles", page_styles()},
+                        {"data", std::move(data)},
+                        {"script", page_script("lab_page")}});
 }
 
 }  // namespace crosscheck

@@ -31,7 +31,7 @@ constexpr int fingerprinted_steps = 50;
 
 /// The module and the scenes for the end of a page: those given, and those of the guided experiments. Empty where there
 /// is no module.
-std::string lab_data_html(const std::vector<Scene>& scenes);
+Json lab_data(const std::vector<Scene>& scenes);
 
 /// A page with the lab alone. Throws InputError, with what to install, where there is no module.
 std::string lab_page_html(const std::vector<Scene>& scenes);

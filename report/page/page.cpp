@@ -104,7 +104,7 @@ Json scene_data(const ScenePart& part, const PageContent& c) {
       return run.beside && family_of(run.method).name != family_of(part.runs[0].method).name;
     });
     data["player"] = {{"a", part.runs[0].key}, {"b", other == part.runs.end() ? "truth" : other->key}};
-    data["runs"] = shown_runs_html(part, !c.lab.empty());
+    data["runs"] = shown_runs_data(part, !c.lab.empty());
   }
   for (const PageFigure& figure : part.figures) data["figures"].push_back(figure_data(figure, c));
   for (const Certificate* certificate : part.certificates)
@@ -148,21 +148,41 @@ std::string packed(const Json& json) { return base64(gzipped(dump(json))); }
 Json scripts_data(const PageContent& c, const Folds& folds) {
   Json open = Json::object(), folded = c.charts;
   for (const std::string& figure : figures_in_sight(c)) open[figure] = folded[figure], folded.erase(figure);
-  constexpr auto readable = "application/json", compressed = "text/plain";
-  Json all = Json::array();
-  const auto add = [&](const char* type, const char* id, const std::string& text) {
-    all.push_back({{"type", type}, {"id", id}, {"text", text}});
-  };
-  add(readable, "open-charts", json_for_script(dump(open)));
-  add(compressed, "held", packed(folds.held()));
-  add(compressed, "charts", packed(folded));
-  add(readable, "methods-data", json_for_script(dump(method_looks_json(c.methods))));
+  Json all = Json::array({data_element("charts", "open-charts", dump(open)),
+                          data_element("folds", "held", packed(folds.held()), "text/plain"),
+                          data_element("charts", "charts", packed(folded), "text/plain"),
+                          data_element("charts", "methods-data", dump(method_looks_json(c.methods)))});
+  for (const Json& more : {motions_data(c), c.lab})
+    for (const Json& element : more) all.push_back(element);
   return all;
+}
+
+/// Bytes of the page by block.
+std::vector<std::pair<std::string, size_t>> blocks_of(const Json& page, const std::string& html) {
+  std::vector<std::pair<std::string, size_t>> blocks{{"text and pictures", html.size()}};
+  const auto count = [&](const std::string& block, size_t bytes) {
+    blocks[0].second -= bytes;
+    const auto known = std::ranges::find(blocks, block, &std::pair<std::string, size_t>::first);
+    if (known == blocks.end())
+      blocks.emplace_back(block, bytes);
+    else
+      known->second += bytes;
+  };
+  for (const Json& element : page["data"])
+    count(element["block"], element["text"].get_ref<const std::string&>().size());
+  count("scripts", page["script"].get_ref<const std::string&>().size());
+  count("styles", page["styles"].get_ref<const std::string&>().size());
+  return blocks;
 }
 
 }  // namespace
 
-std::string page_html(const PageContent& c) {
+Json data_element(const std::string& block, const std::string& id, const std::string& text, const char* type) {
+  return {{"block", block}, {"id", id},    {"type", type}, {"text", json_for_script(text)},
+          {"class", ""},    {"scene", ""}, {"set", ""}};
+}
+
+std::string page_html(const PageContent& c, std::vector<std::pair<std::string, size_t>>* blocks) {
   Folds folds;
   Json cards = Json::array();
   std::vector<std::string> untried;
@@ -182,9 +202,10 @@ std::string page_html(const PageContent& c) {
             {"cards", std::move(cards)},
             {"words", words_data(c, folds)}};
   data["data"] = scripts_data(c, folds);
-  data["motions"] = motions_html(c) + c.lab;
   data["script"] = page_script("app");
-  return filled("page", data);
+  std::string html = filled("page", data);
+  if (blocks) *blocks = blocks_of(data, html);
+  return html;
 }
 
 namespace {

@@ -103,7 +103,7 @@ struct PageContent {
   std::vector<std::string> methods;    // that stand in it
   std::vector<RelationRow> relations;  // that were asked
   std::vector<PlayableRuns> runs;      // that figures play
-  std::string lab;                     // its module and its scenes, for the page's end
+  Json lab = Json::array();            // its module and its scenes, for the page's end (data.html)
   std::string main_scene;              // stands for the others; empty: none
   std::filesystem::path figures;       // the folder of the figures for paper
   std::vector<std::string> notes;      // what was left out, and why
@@ -120,8 +120,9 @@ std::vector<const ScenePart*> first_scenes(const PageContent& content);
 /// Whether the figure of that name opens a chapter, so that it is drawn for paper and for readers without scripts.
 bool opens_a_chapter(const PageContent& content, const std::string& figure);
 
-/// The whole page. Throws std::runtime_error when an image or motions cannot be read.
-std::string page_html(const PageContent& content);
+/// The whole page; `blocks` receives the bytes of its parts. Throws std::runtime_error if an image or motions cannot be
+/// read.
+std::string page_html(const PageContent& content, std::vector<std::pair<std::string, size_t>>* blocks = nullptr);
 
 /// The style sheets of a page; its script: "app" or, for a page that holds the lab alone, "lab_page". Throws
 /// std::runtime_error if it was not built.

@@ -35,6 +35,10 @@ Json findings_data(const std::vector<Finding>& findings);
 /// Data of provenance.html.
 Json provenance_data(const Provenance& lines);
 
+/// Data for scripts: an element of the list that data.html writes. `block`: what its bytes are counted as.
+Json data_element(const std::string& block, const std::string& id, const std::string& text,
+                  const char* type = "application/json");
+
 /// Data of first-screen.html.
 Json first_screen_data(const PageContent& content);
 /// " beside Bullet and mine": the engines that the scenes were run by.

@@ -14,14 +14,10 @@
 #include "mysim/base/text.h"
 #include "report/base/assets.h"
 #include "report/page/lab_html.h"
-#include "report/page/template.h"
+#include "report/page/page_parts.h"
 #include "report/player/stage.h"
 
 namespace crosscheck {
-std::string script_json(const std::string& attributes, const std::string& json) {
-  return fmt::format("<script type=\"application/json\" {}>{}</script>\n", attributes, json_for_script(json));
-}
-
 namespace {
 
 /// The bytes that a file's runs take in the page.
@@ -39,21 +35,21 @@ Json runs_data(const PlayableRuns& runs, const std::vector<RunFile>& files, cons
   }
   const std::string text = fmt::format("{{\"scene\":{},\"stage\":{},\"methods\":[{}]}}", dump(Json(runs.scene)),
                                        runs.stage.empty() ? "null" : runs.stage, fmt::join(methods, ","));
-  return {
-      {"class", "runs"}, {"scene", runs.scene}, {"set", runs.key}, {"block", block}, {"text", json_for_script(text)}};
+  Json element = data_element(block, "", text);
+  element["class"] = "runs", element["scene"] = runs.scene, element["set"] = runs.key;
+  return element;
 }
 
 }  // namespace
 
-std::string motions_html(const PageContent& content) {
+Json motions_data(const PageContent& content) {
   Json all = Json::array();
   for (const ScenePart& part : content.scenes)
-    if (!part.motions.empty())
-      all.push_back({{"class", "motion"},
-                     {"scene", part.scene->name},
-                     {"set", ""},
-                     {"block", "scenes"},
-                     {"text", json_for_script(part.motions)}});
+    if (!part.motions.empty()) {
+      Json element = data_element("scenes", "", part.motions);
+      element["class"] = "motion", element["scene"] = part.scene->name;
+      all.push_back(std::move(element));
+    }
   std::set<std::pair<std::string, std::string>> first;  // scene and method
   for (const ScenePart* part : first_scenes(content)) {
     first.emplace(part->scene->name, "truth");
@@ -69,39 +65,7 @@ std::string motions_html(const PageContent& content) {
     if (!later.empty())
       all.push_back(runs_data(runs, later, own ? "own runs" : runs.stage.empty() ? "runs of marks" : "stills"));
   }
-  return filled("motions", {{"motions", std::move(all)}});
-}
-
-std::vector<std::pair<std::string, size_t>> page_blocks(const std::string& html) {
-  // by what the tag of an element holds; a tag of no row is a script
-  constexpr std::pair<std::string_view, std::string_view> names[] = {
-      {"runs of the first screen", "runs of the first screen"},
-      {"own runs", "own runs"},
-      {"runs of marks", "runs of marks"},
-      {"stills", "stills"},
-      {"data-block=\"scenes\"", "scenes"},
-      {"charts\"", "charts"},
-      {"id=\"lab-", "lab"},
-      {"id=\"held\"", "folds"},
-      {"src=\"data:image", "pictures"},
-      {"<script", "scripts"}};
-  std::vector<std::pair<std::string, size_t>> blocks;
-  for (const auto& [mark, name] : names) blocks.emplace_back(name, 0);
-  size_t text = html.size();
-  for (const auto& [begin, end] :
-       {std::pair<std::string_view, std::string_view>{"<script", "</script>"}, {"<img", ">"}})
-    for (size_t at = html.find(begin); at != std::string::npos; at = html.find(begin, at + 1)) {
-      const size_t to = std::min(html.find(end, at), html.size() - end.size()) + end.size();
-      const std::string_view tag = std::string_view(html).substr(at, std::min(html.find('>', at) - at, size_t{200}));
-      for (size_t i = 0; i < std::size(names); ++i)
-        if (tag.find(names[i].first) != std::string_view::npos) {
-          blocks[i].second += to - at, text -= to - at;
-          break;
-        }
-      at = to - 1;
-    }
-  blocks.emplace_back("text", text);
-  return blocks;
+  return all;
 }
 
 std::optional<PlayableRuns> PageRuns::take(const std::string& key, const std::string& only,

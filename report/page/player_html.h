@@ -11,14 +11,9 @@
 
 namespace crosscheck {
 
-/// A script element with JSON: the one sign that could end it is written otherwise.
-std::string script_json(const std::string& attributes, const std::string& json);
-
-/// The scenes and runs of the page's player, for its end. Throws InputError if a file cannot be read.
-std::string motions_html(const PageContent& content);
-
-/// Bytes of a page by block: runs, scenes, charts, lab, pictures, scripts, text.
-std::vector<std::pair<std::string, size_t>> page_blocks(const std::string& html);
+/// The scenes and runs of the page's player, for its end: data of data.html. Throws InputError if a file cannot be
+/// read.
+Json motions_data(const PageContent& content);
 
 /// Chooses the runs that fit into the page.
 class PageRuns {

@@ -1,6 +1,7 @@
 #include "report/page/shown_runs.h"
 
 #include <fmt/format.h>
+#include <nlohmann/json.hpp>
 
 #include <algorithm>
 #include <map>
@@ -150,25 +151,22 @@ std::vector<ShownRun> shown_runs(const ScenePart& part, const TableSet& rows,
   return Chooser(part, rows, holds).all();
 }
 
-std::string shown_runs_html(const ScenePart& part, bool lab) {
+Json shown_runs_data(const ScenePart& part, bool lab) {
   const double motion = part.facts->motion;
-  std::string out =
-      fmt::format("<div class=\"scroll\"><table class=\"main-runs\" data-scene=\"{}\">", escaped(part.scene->name)) +
-      "<thead><tr><th>method</th><th>step</th><th>error / % of "
-      "motion</th><th>largest error</th><th>CPU time</th><th>× real time</th><th></th></tr></thead><tbody>\n";
   std::vector<std::string> methods;
   for (const ShownRun& run : part.runs) methods.push_back(run.method);
+  Json all = Json::array();
   for (const ShownRun& run : part.runs)
-    out += fmt::format(
-        "<tr data-method=\"{0}\"><th scope=\"row\">{1}</th><td>{2}</td><td>{3}</td><td>{4}</td><td>{5}</td><td>{6}</td>"
-        "<td class=\"choose\" data-key=\"{7}\"><button type=\"button\" data-as=\"a\">A</button><button type=\"button\" "
-        "data-as=\"b\">B</button><button type=\"button\" data-as=\"play\">play</button>{8}</td></tr>\n",
-        escaped(run.method), escaped(engine_and_rule(run.method, methods)), prose(run.setting),
-        run.error && motion > 0 ? prose(percent(*run.error, motion)) : "–",
-        run.error ? prose(nice_length(*run.error)) : "–", run.cpu ? prose(step_text(*run.cpu)) : "–",
-        run.cpu ? prose(nice(part.scene->duration / *run.cpu)) : "–", escaped(run.key),
-        lab && is_of_lab(run.method) ? "<button type=\"button\" data-as=\"lab\">lab</button>" : "");
-  return out + "</tbody></table></div>\n";
+    all.push_back({{"method", run.method},
+                   {"name", engine_and_rule(run.method, methods)},
+                   {"setting", run.setting},
+                   {"percent", run.error && motion > 0 ? percent(*run.error, motion) : "–"},
+                   {"error", run.error ? nice_length(*run.error) : "–"},
+                   {"cpu", run.cpu ? step_text(*run.cpu) : "–"},
+                   {"speed", run.cpu ? nice(part.scene->duration / *run.cpu) : "–"},
+                   {"key", run.key},
+                   {"lab", lab && is_of_lab(run.method)}});
+  return all;
 }
 
 }  // namespace crosscheck

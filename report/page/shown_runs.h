@@ -12,7 +12,7 @@ namespace crosscheck {
 std::vector<ShownRun> shown_runs(const ScenePart& part, const TableSet& rows,
                                  const std::function<bool(const std::string& method)>& holds);
 
-/// The table of them, with buttons that choose A and B; `lab`: and that open mysim's in the lab.
-std::string shown_runs_html(const ScenePart& part, bool lab);
+/// Rows of their table in scene.html; `lab`: mysim's have a button that opens them in the lab.
+Json shown_runs_data(const ScenePart& part, bool lab);
 
 }  // namespace crosscheck

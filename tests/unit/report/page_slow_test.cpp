@@ -79,7 +79,7 @@ struct Played {
     PageContent content;
     content.scenes = {part};
     content.runs = runs();
-    return motions_html(content);
+    return filled("data", {{"data", motions_data(content)}});
   }
   void draw(int width, int height, const std::filesystem::path& file) const {
     render::write_png(picture_of(scene, shown, {.quality = render::Quality::fast, .width = width, .height = height}),
@@ -384,7 +384,7 @@ class RunsPage : public PlayerPage {
            {fmt::format("mysim/leapfrog {}\nholds", i + 1), fmt::format("mysim/leapfrog {}", i + 1)}});
     show(map);
     content.methods = {"mysim/leapfrog", "mysim/explicit-euler"};
-    if (lab) content.lab = lab_data_html({scene});
+    if (lab) content.lab = lab_data({scene});
     std::string html = page_html(content);
     html.insert(html.find("</head>"), scripts({"stage_selftest.js", "runs_selftest.js"}));
     return write("runs.html", html);
