@@ -166,6 +166,7 @@ std::vector<Chart> cheapest_charts(const ChartInput& input) {
   f.name = "cheapest-1-percent-cost";
   f.title = "CPU time for 1 % error, relative to mysim";
   f.label = "CPU time / CPU time of mysim";
+  f.right_of_one = "mysim is faster";
   f.from_costs = true;
   for (const std::string& engine : engines)
     f.series.push_back({style_of_engine(engine).name, style_of_engine(engine).style, {}});

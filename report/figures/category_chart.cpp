@@ -125,6 +125,9 @@ Drawing drawing_of(const DotPlot& dots) {
                     layout.y_range(lines) +
                     layout.commands(dots, ticks_of(low, high, true, layout.box.right - layout.box.left, false)) +
                     "set arrow from 1, graph 0 to 1, graph 1 nohead lc rgb \"#333333\" lw 1.5 back\n";
+  if (!dots.right_of_one.empty())
+    out += fmt::format("set label {} at 1, graph 1 left offset 0.5,-0.8 noenhanced tc rgb \"#333333\"\n",
+                       single_quoted(dots.right_of_one + " →"));
   for (size_t i = 0; i < dots.names.size(); ++i)
     out += layout.name(place_of(dots, i), reader_name(dots.names[i], dots.names));
   for (const auto& [line, heading] : dots.headings) out += layout.name(place_of(dots, line) - 1, heading, true);

@@ -6,8 +6,11 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
+#include <map>
 #include <ranges>
 #include <set>
+
+#include "report/figures/curve_plot.h"
 
 namespace crosscheck {
 namespace {
@@ -50,18 +53,73 @@ class Fineness {
   double unit_ = 0;  // of a linear axis
 };
 
-/// Whether what stands behind the slash is a unit, and not the lower part of a ratio.
-bool is_unit(std::string_view text) { return text.size() <= 6 && text.find_first_of(" ()") == std::string_view::npos; }
+/// Tells a unit after a slash from the lower part of a ratio.
+bool is_unit(std::string_view text) {
+  constexpr std::string_view units[] = {"s", "ms", "ns",  "m",    "cm", "mm",      "µm",   "J",    "N",    "kg",
+                                        "°", "%",  "rad", "mrad", "1",  "degrees", "flop", "byte", "Gflop"};
+  if (text.starts_with("% of ")) return true;
+  if (text.starts_with('(') && text.ends_with(')')) text = text.substr(1, text.size() - 2);
+  for (size_t begin = 0; begin <= text.size();) {
+    const size_t end = std::min(text.find('/', begin), text.size());
+    if (std::ranges::find(units, text.substr(begin, end - begin)) == std::end(units)) return false;
+    begin = end + 1;
+  }
+  return true;
+}
 
 Json axis_json(const Axis& axis) {
-  size_t unit = axis.label.rfind(" / ");
-  if (unit != std::string::npos && !is_unit(std::string_view(axis.label).substr(unit + 3))) unit = std::string::npos;
-  Json json{{"label", axis.label.substr(0, unit)}};
-  if (unit != std::string::npos) json["unit"] = axis.label.substr(unit + 3);
+  size_t slash = axis.label.rfind(" / ");
+  if (slash != std::string::npos && !is_unit(std::string_view(axis.label).substr(slash + 3))) slash = std::string::npos;
+  Json json{{"label", axis.label.substr(0, slash)}};
+  if (slash != std::string::npos) {
+    const std::string unit = axis.label.substr(slash + 3);
+    json["unit"] = unit.starts_with('(') ? unit.substr(1, unit.size() - 2) : unit;
+  }
   if (axis.logarithmic) json["log"] = true;
   if (axis.low) json["low"] = short_number(*axis.low);
   if (axis.high) json["high"] = short_number(*axis.high);
   return json;
+}
+
+/// The page's name of a colour that style.css has for both modes, or the colour itself.
+std::string colour_name(const std::string& colour) {
+  constexpr std::pair<std::string_view, const char*> named[] = {{"#1D6FB5", "mysim2"},
+                                                                {"#0B4F94", "mysim"},
+                                                                {"#803500", "bullet"},
+                                                                {"#B05200", "bullet2"},
+                                                                {"#0A7D5A", "outside"}};
+  const auto* found = std::ranges::find(named, colour, &std::pair<std::string_view, const char*>::first);
+  return found == std::end(named) ? colour : found->second;
+}
+
+/// Adds the name of gnuplot's point type, if it is one.
+void add_mark(Json& json, int marker) {
+  constexpr const char* names[] = {"plus",     "cross", "star",    "square",  "circle",
+                                   "triangle", "down",  "diamond", "pentagon"};
+  if (marker <= 0 || marker > 15) return;
+  json["mark"] = names[marker <= 3 ? marker - 1 : marker / 2 + 1];
+  if (marker > 3 && marker % 2 == 0) json["open"] = true;
+}
+
+/// Adds the lengths of dashes and gaps, in widths of the line, unless it is whole.
+void add_dash(Json& json, const std::string& dash) {
+  if (!dash.starts_with('(')) return;
+  std::string lengths = dash.substr(1, dash.size() - 2);
+  std::ranges::replace(lengths, ',', ' ');
+  json["dash"] = lengths;
+}
+
+/// A name for readers, and the method that it is of.
+Json name_json(const std::string& title, const std::vector<std::string>& beside) {
+  Json json{{"name", reader_name(title, beside)}};
+  if (const std::string method = method_named(title); !method.empty()) json["method"] = method;
+  return json;
+}
+
+Json names_json(const std::vector<std::string>& titles) {
+  Json list = Json::array();
+  for (const std::string& title : titles) list.push_back(name_json(title, titles));
+  return list;
 }
 
 /// Places of the points that stay of a curve.
@@ -93,14 +151,12 @@ void add_tooltip(Json& json, const Tooltip& tip) {
 
 Json series_json(const Curve& curve, const std::set<std::pair<double, double>>& scaled, const Fineness& x,
                  const Fineness& y) {
-  Json json{{"name", curve.title}};
-  const std::string named = method_in(curve.title), &method = named.empty() ? curve.method : named;
-  if (!method.empty()) json["method"] = method;
-  if (!curve.method.empty()) json["hero"] = true;
-  if (!curve.line) json["line"] = false;
-  if (!curve.markers) json["marks"] = false;
-  const bool law = method.empty() && curve.style.marker < 0;  // a line of theory
-  if (curve.style.marker == no_marker || law) json["beside"] = true;
+  Json json{{"title", curve.title}};
+  if (curve.line) json["line"] = true;
+  add_dash(json, curve.style.dash);
+  add_mark(json, curve.style.marker);
+  // marks that tell lines apart, not runs
+  if (curve.line && !curve.markers) json["few"] = true;
   const std::vector<size_t> kept = thinned(curve.points);
   Json points = Json::array(), open = Json::array(), tips = Json::array();
   bool any_open = false;
@@ -110,56 +166,101 @@ Json series_json(const Curve& curve, const std::set<std::pair<double, double>>& 
     if (i < curve.tooltips.size()) add_tooltip(tips.emplace_back(Json::object()), curve.tooltips[i]);
   }
   json["points"] = std::move(points);
-  if (any_open) json["open"] = std::move(open);
+  if (any_open) json["scaled"] = std::move(open);
   if (!curve.tooltips.empty()) json["tips"] = std::move(tips);
   return json;
 }
 
+/// Parts of a figure, each with the look that its curves and crosses share, and what they are.
+Json parts_json(const Figure& f, const std::vector<NamedCurves>& named,
+                const std::set<std::pair<double, double>>& scaled) {
+  const Fineness x(f.x, f.curves, &std::pair<double, double>::first),
+      y(f.y, f.curves, &std::pair<double, double>::second);
+  std::vector<std::string> titles;
+  for (const NamedCurves& part : named) titles.push_back(part.title);
+  Json parts = Json::array();
+  for (const NamedCurves& part : named) {
+    Json json = name_json(part.title, titles);
+    if (!json.contains("method") && !part.curves.empty() && !part.curves[0]->method.empty())
+      json["method"] = part.curves[0]->method;
+    json["colour"] = colour_name(part.style.colour);
+    if (part.coloured) json["hero"] = true;
+    if (named_in_key(f, named, part)) json["keyed"] = true;
+    json["series"] = Json::array(), json["failures"] = Json::array();
+    for (const Curve* curve : part.curves) json["series"].push_back(series_json(*curve, scaled, x, y));
+    for (const FailureMark* mark : part.failures) {
+      Json failure{{"x", short_number(mark->x)}, {"kind", kind_of(*mark)}};
+      add_mark(failure, mark->cross);
+      add_tooltip(failure, mark->tooltips);
+      json["failures"].push_back(std::move(failure));
+    }
+    parts.push_back(std::move(json));
+  }
+  return parts;
+}
+
+/// The meaning of marks that are of no part.
+Json key_json(const Figure& f, const std::vector<NamedCurves>& named, const PlotRange& range, bool scaled) {
+  Json key = Json::array();
+  const auto add = [&](const std::string& text, int marker) {
+    Json entry{{"text", text}};
+    add_mark(entry, marker);
+    key.push_back(std::move(entry));
+  };
+  std::map<std::string, int> kinds;
+  for (const FailureMark& mark : f.failures) kinds.emplace(kind_of(mark), mark.cross);
+  for (const auto& [kind, cross] : kinds) add(kind, cross);
+  if (scaled) add("time scaled from a part", 6);
+  const bool lower = std::ranges::any_of(named, [&](const NamedCurves& part) {
+    return std::ranges::any_of(part.curves, [&](const Curve* c) {
+      return std::ranges::any_of(c->points, [&](const auto& p) { return p.second < range.y_floor; });
+    });
+  });
+  if (lower) add("lower than the axis", 11);
+  if (!f.pareto.empty()) key.push_back({{"text", pareto_title}, {"line", true}});
+  return key;
+}
+
 Json numbers_of(const Figure& f) {
-  Json json{{"kind", "curves"}, {"x", axis_json(f.x)}, {"y", axis_json(f.y)}};
-  if (f.cut && (!f.y.low || *f.y.low < *f.cut)) json["y"]["low"] = short_number(*f.cut);
+  const std::vector<NamedCurves> named = named_parts(f);
+  const PlotRange range = plot_range(f, named);
+  Axis x = f.x, y = f.y;
+  x.low = range.x_low, x.high = range.x_high, y.low = range.y_low, y.high = range.y_high;
+  Json json{{"kind", "curves"}, {"x", axis_json(x)}, {"y", axis_json(y)}};
   std::set<std::pair<double, double>> scaled;
   for (const Curve& curve : f.curves)
     if (curve.title == scaled_times) scaled.insert(curve.points.begin(), curve.points.end());
   // what is ringed on paper is open here
   if (!scaled.empty()) json["x"]["label"] = f.x.label.substr(0, f.x.label.find(", ringed"));
-  json["series"] = Json::array();
-  const Fineness x(f.x, f.curves, &std::pair<double, double>::first),
-      y(f.y, f.curves, &std::pair<double, double>::second);
-  for (const Curve& curve : f.curves)
-    if (curve.title != scaled_times && !curve.points.empty())
-      json["series"].push_back(series_json(curve, scaled, x, y));
-  if (!f.failures.empty()) json["failures"] = Json::array();
-  for (const FailureMark& mark : f.failures) {
-    Json failure{{"x", short_number(mark.x)}, {"kind", mark.kind}, {"method", method_in(mark.title)}};
-    add_tooltip(failure, mark.tooltips);
-    json["failures"].push_back(std::move(failure));
-  }
+  json["parts"] = parts_json(f, named, scaled);
+  json["key"] = key_json(f, named, range, !scaled.empty());
   if (!f.pareto.empty()) json["pareto"] = pairs_json(f.pareto);
-  if (f.floor) json["floor"] = Json{{"text", f.floor->first}, {"y", short_number(f.floor->second)}};
-  if (f.window) json["window"] = Json{{"x", short_number(f.window->first)}, {"text", f.window->second}};
+  if (f.window) json["window"] = short_number(f.window->first);
   if (!f.categories.empty()) json["categories"] = Json::array();
-  for (const auto& [at, text] : f.categories) json["categories"].push_back(Json::array({short_number(at), text}));
-  for (const Guide& guide : f.guides) {
-    if (json["guides"].is_null()) json["guides"] = Json::array();
-    json["guides"].push_back({{"axis", guide.of_x ? "x" : "y"}, {"at", short_number(guide.at)}, {"text", guide.text}});
-  }
+  std::vector<std::string> texts;
+  for (const auto& [at, text] : f.categories) texts.push_back(text);
+  for (const auto& [at, text] : f.categories)
+    json["categories"].push_back(Json::array({short_number(at), reader_name(text, texts)}));
+  json["guides"] = Json::array();
+  const auto add_guide = [&](bool of_x, double at, const std::string& text) {
+    json["guides"].push_back({{"axis", of_x ? "x" : "y"}, {"at", short_number(at)}, {"text", text}});
+  };
+  for (const Guide& guide : f.guides) add_guide(guide.of_x, guide.at, guide.text);
+  if (f.window) add_guide(true, f.window->first, f.window->second);
+  if (f.floor) add_guide(false, f.floor->second, f.floor->first), json["guides"].back()["kind"] = "floor";
   const OnPage& page = f.on_page;
-  if (page.motion) json["motion"] = short_number(*page.motion);
-  if (page.duration) json["duration"] = short_number(*page.duration);
   if (page.flat) json["flat"] = true;
   if (const auto& take = page.take)
     json["take"] =
         Json{{"x", short_number(take->x)}, {"y", short_number(take->y)}, {"name", take->name}, {"more", take->more}};
-  if (const auto& critical = page.critical)
-    json["critical"] = Json{{"x", short_number(critical->x)}, {"name", critical->name}, {"beyond", critical->beyond}};
   return json;
 }
 
 Json numbers_of(const StackedBars& bars) {
-  Json json{{"kind", "bars"}, {"x", axis_json({bars.label})}, {"names", bars.names}};
+  Json json{{"kind", "bars"}, {"x", axis_json({bars.label})}, {"names", names_json(bars.names)}};
   json["parts"] = Json::array();
   for (const StackedBars::Part& part : bars.parts) {
+    if (std::ranges::all_of(part.height, [](double height) { return height == 0; })) continue;
     Json heights = Json::array();
     for (const double height : part.height) heights.push_back(short_number(height));
     json["parts"].push_back(
@@ -169,7 +270,9 @@ Json numbers_of(const StackedBars& bars) {
 }
 
 Json numbers_of(const DotPlot& plot) {
-  Json json{{"kind", "dots"}, {"x", axis_json({plot.label, true})}, {"names", plot.names}};
+  Json json{{"kind", "dots"}, {"x", axis_json({plot.label, true})}, {"names", names_json(plot.names)}};
+  std::vector<std::string> titles;
+  for (const DotPlot::Series& series : plot.series) titles.push_back(series.title);
   json["headings"] = Json::array();
   for (const auto& [line, heading] : plot.headings) json["headings"].push_back(Json::array({line, heading}));
   json["series"] = Json::array();
@@ -178,10 +281,13 @@ Json numbers_of(const DotPlot& plot) {
     for (const auto& dot : series.dots)
       dots.push_back(dot ? Json::array({short_number(dot->value), short_number(dot->low), short_number(dot->high)})
                          : Json());
-    Json own{{"name", series.title}, {"dots", std::move(dots)}};
-    if (const std::string method = method_in(series.title); !method.empty()) own["method"] = method;
+    Json own = name_json(series.title, titles);
+    own["colour"] = colour_name(series.style.colour), own["dots"] = std::move(dots);
+    add_mark(own, series.style.marker);
     json["series"].push_back(std::move(own));
   }
+  if (!plot.right_of_one.empty())
+    json["guides"] = Json::array({{{"axis", "x"}, {"at", 1}, {"text", plot.right_of_one}}});
   return json;
 }
 
@@ -189,36 +295,42 @@ Json numbers_of(const HeatMap& map) {
   Json json{{"kind", "map"}, {"x", axis_json({map.x_label, true})}, {"y", axis_json({map.y_label, true})}};
   json["kinds"] = Json::array();
   for (const CellKind& kind : map.kinds) json["kinds"].push_back({{"title", kind.title}, {"colour", kind.colour}});
+  std::vector<std::string> titles;
+  for (const HeatMap::Panel& panel : map.panels) titles.push_back(panel.title);
   json["panels"] = Json::array();
   for (const HeatMap::Panel& panel : map.panels) {
     Json cells = Json::array();
     for (const HeatMap::HeatCell& cell : panel.cells)
       cells.push_back(
           Json::array({short_number(cell.x), short_number(cell.y), cell.kind, cell.tooltips.words, cell.tooltips.run}));
-    json["panels"].push_back({{"title", panel.title},
-                              {"cells", std::move(cells)},
-                              {"predicted", pairs_json(panel.predicted)},
-                              {"measured", pairs_json(panel.measured)}});
+    Json own = name_json(panel.title, titles);
+    own["cells"] = std::move(cells);
+    own["predicted"] = pairs_json(panel.predicted), own["measured"] = pairs_json(panel.measured);
+    json["panels"].push_back(std::move(own));
   }
   return json;
 }
 
 Json numbers_of(const StepLimits& limits) {
-  Json json{{"kind", "limits"}, {"names", limits.names}, {"columns", limits.columns_of}};
+  Json json{{"kind", "limits"}, {"columns", limits.columns_of}};
   json["scenes"] = Json::array();
   for (const auto& [name, omega] : limits.scenes) json["scenes"].push_back(Json::array({name, short_number(omega)}));
   json["rows"] = Json::array();
-  for (const StepLimits::Row& row : limits.rows) {
+  for (size_t i = 0; i < limits.rows.size(); ++i) {
+    const StepLimits::Row& row = limits.rows[i];
     Json marks = Json::array();
     for (const StepLimits::Mark& mark : row.marks)
       marks.push_back(Json::array({mark.scene, short_number(mark.measured),
                                    mark.predicted ? short_number(*mark.predicted) : Json(), mark.words}));
-    json["rows"].push_back({{"held", short_number(row.held)},
-                            {"open", row.open},
-                            {"words", row.words},
-                            {"marks", std::move(marks)},
-                            {"measured", row.measured},
-                            {"predicted", row.predicted}});
+    Json own = name_json(limits.names[i], limits.names);
+    own.update({{"colour", colour_name(style_of(limits.names[i]).colour)},
+                {"held", short_number(row.held)},
+                {"open", row.open},
+                {"words", row.words},
+                {"marks", std::move(marks)},
+                {"measured", row.measured},
+                {"predicted", row.predicted}});
+    json["rows"].push_back(std::move(own));
   }
   return json;
 }
@@ -229,7 +341,8 @@ Json chart_json(const Chart& chart) {
   return std::visit(
       []<class F>(const F& figure) -> Json {
         if constexpr (std::derived_from<F, FigureInfo>) {
-          Json json{{"name", figure.name}, {"title", figure.title}, {"finding", figure.finding}};
+          Json json{
+              {"name", figure.name}, {"title", figure.title}, {"finding", figure.finding}, {"caption", figure.caption}};
           json.update(numbers_of(figure));
           return json;
         }

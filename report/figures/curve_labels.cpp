@@ -9,12 +9,6 @@
 namespace crosscheck {
 namespace {
 
-/// The kind of a failure in a word.
-std::string kind_of(const FailureMark& mark) {
-  const size_t colon = mark.title.rfind(": ");
-  return mark.kind == "failed" && colon != std::string::npos ? mark.title.substr(colon + 2) : mark.kind;
-}
-
 double distance(const Rect& r, Place p) {
   return std::hypot(std::max({0., r.left - p.x, p.x - r.right}), std::max({0., r.bottom - p.y, p.y - r.top}));
 }
@@ -29,6 +23,11 @@ double nearest(const Rect& r, const std::vector<std::vector<Place>>& paths) {
 }
 
 }  // namespace
+
+std::string kind_of(const FailureMark& mark) {
+  const size_t colon = mark.title.rfind(": ");
+  return mark.kind == "failed" && colon != std::string::npos ? mark.title.substr(colon + 2) : mark.kind;
+}
 
 std::vector<std::vector<Place>> CurvePlot::paths_of(const NamedCurves& part) const {
   std::vector<std::vector<Place>> paths;
@@ -136,12 +135,11 @@ bool CurvePlot::place_names() {
       if (is_short(parts_[i]) && std::ranges::any_of(paths, [&](const auto& p) { return p.back().x > edge; }))
         ending_right_.push_back(i);
     }
-  const bool by_key = lines == 0 && (parts_.size() > 1 || !f_.categories.empty());
   bool others_named = std::ranges::any_of(done_, [&](size_t i) { return !parts_[i].coloured; });
   for (const size_t i : order) {
     const NamedCurves& part = parts_[i];
     if (done_.contains(i) || (!part.coloured && others_named)) continue;
-    if (!by_key && is_short(part)) {
+    if (!named_in_key(f_, parts_, part) && is_short(part)) {
       std::vector<std::vector<Place>> others;
       for (size_t j = 0; j < parts_.size(); ++j)
         if (j != i && (part.coloured || parts_[j].coloured))

@@ -30,11 +30,25 @@ struct NamedCurves {
 
 std::vector<NamedCurves> named_parts(const Figure& f);
 
+/// Ends of both axes. `y_high` is below the strip of failures; values below `y_floor` lie on the axis.
+struct PlotRange {
+  double x_low, x_high, y_low, y_high, y_floor = -INFINITY;
+};
+PlotRange plot_range(const Figure& f, const std::vector<NamedCurves>& parts);
+
+/// Returns true if the key names the part: scattered marks have no end for a name.
+bool named_in_key(const Figure& f, const std::vector<NamedCurves>& parts, const NamedCurves& part);
+
+/// The kind of a failure in a word.
+std::string kind_of(const FailureMark& mark);
+
 /// A figure of curves laid out on paper; its script draws it with gnuplot. Keeps a reference to the figure.
 class CurvePlot {
  public:
   explicit CurvePlot(const Figure& f) : f_(f), parts_(named_parts(f)), wide_(f.size.units()) {
-    set_ranges();
+    const PlotRange range = plot_range(f, parts_);
+    x_low_ = range.x_low, x_high_ = range.x_high, y_low_ = range.y_low, y_data_ = range.y_high;
+    y_floor_ = range.y_floor;
     frame(0);
     fill_board();
     if (!place_names()) {
@@ -78,7 +92,6 @@ class CurvePlot {
   /// Where the mark of a part stands that says whose crosses stand beside it, so that colour alone need not: left of
   /// them, or right of them where the frame is near. None where one part only failed, or the part has no mark.
   std::optional<Place> sign_of(const NamedCurves& part, size_t row) const;
-  void set_ranges();
   void assign_rows();
   void frame(double right_column);
   void frame_numbers();

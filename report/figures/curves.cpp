@@ -70,6 +70,13 @@ int place_in_line(const NamedCurves& named) {
   return rule && rule->symplectic ? 3 : 4;
 }
 
+bool has_recommended_run(const Figure& f, const NamedCurves& named) {
+  const auto& take = f.on_page.take;
+  return take && std::ranges::any_of(named.curves, [&](const Curve* c) {
+           return std::ranges::find(c->points, std::pair(take->x, take->y)) != c->points.end();
+         });
+}
+
 }  // namespace
 
 std::vector<NamedCurves> named_parts(const Figure& f) {
@@ -83,8 +90,10 @@ std::vector<NamedCurves> named_parts(const Figure& f) {
     });
     if (it == all.end())
       it = all.insert(all.end(), {curve.title, "", curve.style, {}, {}});
+    else if (const std::string common = common_words(it->title, curve.title); !common.empty() || method.empty())
+      it->title = common;
     else
-      it->title = common_words(it->title, curve.title);
+      it->title = method;
     if (it->style.marker < 0) it->style.marker = curve.style.marker;
     it->curves.push_back(&curve);
   }
@@ -100,7 +109,8 @@ std::vector<NamedCurves> named_parts(const Figure& f) {
   }
   std::vector<size_t> order(all.size());
   for (size_t i = 0; i < order.size(); ++i) order[i] = i;
-  std::ranges::stable_sort(order, {}, [&](size_t i) { return place_in_line(all[i]); });
+  std::ranges::stable_sort(order, {},
+                           [&](size_t i) { return has_recommended_run(f, all[i]) ? -1 : place_in_line(all[i]); });
   for (size_t i = 0; i < std::min(order.size(), most_in_colour); ++i) all[order[i]].coloured = true;
   const auto left = std::ranges::count_if(all, [](const NamedCurves& n) { return !n.coloured; });
   std::vector<std::string> titles;
@@ -109,17 +119,19 @@ std::vector<NamedCurves> named_parts(const Figure& f) {
     n.name = n.coloured || left == 1 ? reader_name(n.title, titles) : fmt::format("{} others", left);
   return all;
 }
-void CurvePlot::set_ranges() {
+
+PlotRange plot_range(const Figure& f, const std::vector<NamedCurves>& parts) {
+  PlotRange range{};
   double left = 1e300, right = -1e300, low = 1e300, high = -1e300;
-  for (const NamedCurves& part : parts_)
+  for (const NamedCurves& part : parts)
     for (const Curve* curve : part.curves)
       for (const auto& [x, y] : curve->points)
         left = std::min(left, x), right = std::max(right, x), low = std::min(low, y), high = std::max(high, y);
   const bool any = low <= high;
   // where curves rise from rounding in a moment, the axis begins where they stay
-  if (f_.y.logarithmic && any) {
+  if (f.y.logarithmic && any) {
     double stay = 1e300;
-    for (const NamedCurves& part : parts_)
+    for (const NamedCurves& part : parts)
       for (const Curve* curve : part.curves) {
         std::vector<double> values;
         for (const auto& point : curve->points) values.push_back(point.second);
@@ -129,18 +141,18 @@ void CurvePlot::set_ranges() {
       }
     low = std::max(low, stay);
   }
-  for (const FailureMark& mark : f_.failures) {
+  for (const FailureMark& mark : f.failures) {
     left = std::min(left, mark.x), right = std::max(right, mark.x);
     if (!any) low = std::min(low, mark.y), high = std::max(high, mark.y);
   }
-  for (const auto& [x, y] : f_.pareto) left = std::min(left, x), right = std::max(right, x);
-  if (f_.cut && f_.y.logarithmic && low < *f_.cut) low = y_floor_ = *f_.cut;
-  if (f_.floor && f_.floor->second > low / 30 && f_.floor->second < 30 * high) {
-    if (f_.y.logarithmic) low = std::min(low, f_.floor->second);
-    high = std::max(high, f_.floor->second);
+  for (const auto& [x, y] : f.pareto) left = std::min(left, x), right = std::max(right, x);
+  if (f.cut && f.y.logarithmic && low < *f.cut) low = range.y_floor = *f.cut;
+  if (f.floor && f.floor->second > low / 30 && f.floor->second < 30 * high) {
+    if (f.y.logarithmic) low = std::min(low, f.floor->second);
+    high = std::max(high, f.floor->second);
   }
-  for (const Guide& guide : f_.guides)
-    if (guide.of_x && f_.x.logarithmic && guide.at > left / 4 && guide.at < right * 4)
+  for (const Guide& guide : f.guides)
+    if (guide.of_x && f.x.logarithmic && guide.at > left / 4 && guide.at < right * 4)
       left = std::min(left, guide.at), right = std::max(right, guide.at);
   const auto padded = [](double& a, double& b, bool logarithmic, double part) {
     if (logarithmic) {
@@ -151,16 +163,23 @@ void CurvePlot::set_ranges() {
       a -= room, b += room;
     }
   };
-  x_low_ = left, x_high_ = right;
-  padded(x_low_, x_high_, f_.x.logarithmic, f_.x.logarithmic ? 0.04 : 0.01);
-  if (f_.x.low) x_low_ = *f_.x.low;
-  if (f_.x.high) x_high_ = *f_.x.high;
-  y_low_ = low, y_data_ = high;
-  padded(y_low_, y_data_, f_.y.logarithmic, 0.04);
+  range.x_low = left, range.x_high = right;
+  padded(range.x_low, range.x_high, f.x.logarithmic, f.x.logarithmic ? 0.04 : 0.01);
+  if (f.x.low) range.x_low = *f.x.low;
+  if (f.x.high) range.x_high = *f.x.high;
+  range.y_low = low, range.y_high = high;
+  padded(range.y_low, range.y_high, f.y.logarithmic, 0.04);
   // an axis goes to where something happens, and no further than the figure asks
-  if (f_.y.low && (!f_.y.logarithmic || y_low_ < *f_.y.low)) y_low_ = *f_.y.low;
-  if (f_.y.high && (!f_.y.logarithmic || y_data_ > *f_.y.high)) y_data_ = *f_.y.high;
-  if (std::isfinite(y_floor_)) y_low_ = y_floor_;
+  if (f.y.low && (!f.y.logarithmic || range.y_low < *f.y.low)) range.y_low = *f.y.low;
+  if (f.y.high && (!f.y.logarithmic || range.y_high > *f.y.high)) range.y_high = *f.y.high;
+  if (std::isfinite(range.y_floor)) range.y_low = range.y_floor;
+  return range;
+}
+
+bool named_in_key(const Figure& f, const std::vector<NamedCurves>& parts, const NamedCurves& part) {
+  if (parts.size() < 2 && f.categories.empty()) return false;
+  if (std::ranges::none_of(parts, [](const NamedCurves& n) { return n.coloured && n.has_line(); })) return true;
+  return !part.curves.empty() && std::ranges::none_of(part.curves, [](const Curve* c) { return c->line; });
 }
 
 std::optional<Place> CurvePlot::sign_of(const NamedCurves& part, size_t row) const {

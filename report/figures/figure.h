@@ -91,15 +91,8 @@ struct OnPage {
     double x = 0, y = 0;
     std::string name, more;
   };
-  struct Critical {
-    double x = 0;
-    std::string name, beyond;  // beyond: in the shade left of it
-  };
-  std::optional<double> motion;    // m: y stands in % of it
-  std::optional<double> duration;  // s: x stands in times real time too
-  std::optional<Take> take;        // the run to take, ringed
-  std::optional<Critical> critical;
-  bool flat = false;  // beside pictures: less high than wide
+  std::optional<Take> take;      // the run to take, ringed
+  bool flat = false;             // beside pictures: less high than wide
 };
 
 /// Curves, points and crosses over two axes.
@@ -167,6 +160,7 @@ struct DotPlot : FigureInfo {
   /// Headings, each above the line of that index.
   std::vector<std::pair<size_t, std::string>> headings;
   std::vector<Series> series;
+  std::string right_of_one = {};  // the meaning of values above 1: stands beside a line there
 };
 
 /// Throws std::runtime_error that names the figure when there is nothing to draw or a value is not above zero.

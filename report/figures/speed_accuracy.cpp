@@ -42,6 +42,8 @@ struct SceneRows {
   double motion = 0;
   std::optional<double> error_bar;
   bool difference() const { return truth.find("contact rule") != std::string::npos; }
+  /// Length that counts as one on the axis, m: a percent of the motion where a truth is known.
+  double unit() const { return error_bar && motion > 0 ? motion / 100 : 1; }
   /// The quantity drawn over the cost.
   const char* column() const {
     return !error_bar     ? "distance to own finest"
@@ -112,33 +114,29 @@ std::string over_omega(double h_omega) {
   return (std::abs(h_omega - 2) < 0.005 ? std::string("2") : nice(h_omega)) + "/ω";
 }
 
-/// Where the page puts the run to take, the critical step of its rule, and its two units of each axis.
-OnPage on_page(const SceneRows& s, const CostAxis& kind, const ChartInput& input) {
-  OnPage page;
-  page.motion = s.motion;
+/// Marks the recommended run, the cost of the critical step of its rule, and real time.
+void add_recommendation(Figure& f, const SceneRows& s, const CostAxis& kind, const ChartInput& input) {
   const auto scene = std::ranges::find(input.scenes, s.scene, &Scene::name);
-  if (kind.time && scene != input.scenes.end()) page.duration = scene->duration;
+  if (kind.time && scene != input.scenes.end()) f.guides.push_back({true, scene->duration, "real time"});
   const auto run = recommended_run(s.scene, 0.01, input.result);
-  if (!run) return page;
+  if (!run) return;
   for (const size_t i : s.rows) {
     const std::string setting(name_of(run->setting));
     const auto cost = s.cost_of(i, kind);
     if (!cost || text_or_none(s.runs, i, "method") != run->method || text_or_none(s.runs, i, "setting") != setting ||
         number_at(s.runs, i, "asked") != run->requested)
       continue;
-    page.take = {*cost, std::max(run->error, s.error_bar.value_or(0)),
-                 "take this: " + setting_text(setting, run->requested),
-                 fmt::format("{}, {}", percent(run->error, run->motion), kind.text_of(*cost))};
-    if (!kind.time) page.take->more += " evaluations";
+    f.on_page.take = {*cost, std::max(run->error, s.error_bar.value_or(0)) / s.unit(),
+                      "take this: " + setting_text(setting, run->requested),
+                      fmt::format("{}, {}", percent(run->error, run->motion), kind.text_of(*cost))};
+    if (!kind.time) f.on_page.take->more += " evaluations";
     for (const LimitRow& limit : rows_of<LimitRow>(input.result))
       if (run->setting == SettingKind::step && limit.scene == s.scene && limit.method == run->method &&
           limit.predicted && *limit.predicted > 0 && limit.omega)
-        page.critical = {
-            *cost * run->requested / *limit.predicted,
-            fmt::format("h = {} = {}", over_omega(*limit.predicted * *limit.omega), step_text(*limit.predicted)),
-            fmt::format("{} is unstable here", short_name(run->method))};
+        f.guides.push_back({true, *cost * run->requested / *limit.predicted,
+                            fmt::format("{} blows up left of here: h > {} = {}", short_name(run->method),
+                                        over_omega(*limit.predicted * *limit.omega), step_text(*limit.predicted))});
   }
-  return page;
 }
 
 Figure figure_of(const SceneRows& s, const CostAxis& kind, const ChartInput& input) {
@@ -148,8 +146,8 @@ Figure figure_of(const SceneRows& s, const CostAxis& kind, const ChartInput& inp
   f.runs = s.scene + "-speed-accuracy";
   f.title = fmt::format("{}: work-precision diagram over {}", s.scene, kind.time ? "CPU time" : "force evaluations");
   f.x = {kind.time ? "CPU time of the run / s" : "force evaluations of the run", true, std::nullopt, std::nullopt};
-  const double top = 10 * s.motion, highest = 3 * s.motion;
-  double lowest = s.error_bar ? std::max(*s.error_bar, 1e-16) : 1, furthest = 0;
+  const double unit = s.unit(), top = 10 * s.motion / unit, highest = 3 * s.motion / unit;
+  double lowest = s.error_bar ? std::max(*s.error_bar, 1e-16) / unit : 1, furthest = 0;
   int failed = 0, good = 0, beyond = 0, uncounted = 0;
   // in a style of its own, and beneath all methods, so that a pointer meets the run
   Curve scaled{scaled_times, {"#777777", "1", scaled_ring}, {}, false, true};
@@ -165,9 +163,9 @@ Figure figure_of(const SceneRows& s, const CostAxis& kind, const ChartInput& inp
     furthest = std::max(furthest, *cost);
     const bool part = kind.time && is_scaled(s, i);
     if (verdict != "ok") {
-      if (part) scaled.points.emplace_back(*cost, 4 * s.motion);
+      if (part) scaled.points.emplace_back(*cost, 4 * s.motion / unit);
       const std::string word = failure_class(verdict);
-      f.failures.push_back({method + ": " + word, style_of(method), *cost, 4 * s.motion, word, cross_of(word),
+      f.failures.push_back({method + ": " + word, style_of(method), *cost, 4 * s.motion / unit, word, cross_of(word),
                             tooltips(s, i, fmt::format("{} at {:.3g} s", word, *number_at(s.runs, i, "end")))});
       ++failed;
       continue;
@@ -177,39 +175,40 @@ Figure figure_of(const SceneRows& s, const CostAxis& kind, const ChartInput& inp
     auto curve = std::find_if(f.curves.begin(), f.curves.end(), [&](const Curve& c) { return c.title == method; });
     if (curve == f.curves.end()) curve = f.curves.insert(f.curves.end(), {method, style_of(method), {}, true, true});
     // errors below the truth's error bar are not known
-    const double y = std::min(highest, s.error_bar ? std::max(*apart, *s.error_bar) : *apart);
-    beyond += *apart > highest;
+    const double y = std::min(highest, (s.error_bar ? std::max(*apart, *s.error_bar) : *apart) / unit);
+    beyond += *apart > highest * unit;
     curve->points.emplace_back(*cost, y);
     if (part) scaled.points.emplace_back(*cost, y);
     curve->tooltips.push_back(tooltips(s, i, s.measure() + " " + nice_length(*apart)));
     lowest = std::min(lowest, y);
     ++good;
   }
-  f.y = {fmt::format("largest RMS position {} / m", s.error_bar && !s.difference() ? "error" : "difference"), true,
-         lowest / 3, top};
+  f.y = {fmt::format("largest RMS position {} / {}", s.error_bar && !s.difference() ? "error" : "difference",
+                     s.error_bar && s.motion > 0 ? "% of the motion" : "m"),
+         true, lowest / 3, top};
   std::vector<std::string> best;  // methods of the line, from the cheapest run to the most accurate
   if (const Table* pareto = input.result.table("speed-accuracy-pareto" + kind.suffix()))
     for (size_t i = 0; i < pareto->rows.size(); ++i)
       if (text_or_none(*pareto, i, "scene") == s.scene) {
         f.pareto.emplace_back(*number_at(*pareto, i, kind.column().c_str()),
-                              std::min(highest, *number_at(*pareto, i, "distance")));
+                              std::min(highest, *number_at(*pareto, i, "distance") / unit));
         const std::string name = name_in_sentence(text_at(*pareto, i, "method"));
         if (std::ranges::find(best, name) == best.end()) best.push_back(name);
       }
   if (!f.pareto.empty()) f.pareto.emplace_back(furthest, f.pareto.back().second);
   if (s.error_bar && s.motion > 0) {
-    f.cut = 2e-6 * s.motion;
-    f.on_page = on_page(s, kind, input);
-    if (f.on_page.duration) f.guides.push_back({true, *f.on_page.duration, "real time"});
+    f.cut = 2e-6 * s.motion / unit;
+    add_recommendation(f, s, kind, input);
   }
   if (s.error_bar)
-    f.floor = {s.difference() ? "error bar of the converged contact rule" : "error bar of the truth", *s.error_bar};
+    f.floor = {s.difference() ? "error bar of the converged contact rule" : "error bar of the truth",
+               *s.error_bar / unit};
   f.finding = fmt::format("{}{} runs of {} methods; {} failed.",
                           best.empty() ? "" : fmt::format("Pareto front: {}. ", fmt::join(best, ", ")), good + failed,
                           methods.size(), failed);
   std::string drawn;
   if (beyond > 0)
-    drawn = fmt::format("{} above three times the motion ({}), drawn there; ", beyond, nice_length(highest));
+    drawn = fmt::format("{} above three times the motion ({}), drawn there; ", beyond, nice_length(3 * s.motion));
   if (!scaled.points.empty()) {
     f.x.label = "CPU time of the run, ringed: scaled from a part of it / s";
     drawn +=
@@ -217,7 +216,7 @@ Figure figure_of(const SceneRows& s, const CostAxis& kind, const ChartInput& inp
     f.curves.insert(f.curves.begin(), std::move(scaled));
   }
   if (uncounted > 0) drawn += fmt::format("{} of unknown cost, not drawn; ", uncounted);
-  f.caption = fmt::format("Scene {}; {}{}commit {}.", s.scene,
+  f.caption = fmt::format("Scene {}, motion {}; {}{}commit {}.", s.scene, nice_length(s.motion),
                           kind.time ? "CPU time, medians of runs in turns on one core; " +
                                           builds_text({methods.begin(), methods.end()}) + "; "
                                     : "",

@@ -248,11 +248,15 @@ std::string report_json(const PageContent& page, const AllFindings& findings, co
           {{"name", f->name}, {"scene", c.scene}, {"caption", f->caption}, {"tier", f->tier}, {"finding", f->finding}});
   json["notes"] = page.notes;
   json["problems"] = page.problems;
-  std::vector<std::string> entries;  // each on one line
-  for (const Json& entry : runs) entries.push_back("  " + dump(entry));
+  // each entry on one line: numbers on lines of their own would be most of the file
+  std::vector<std::string> chart_lines, run_lines;
+  for (const auto& [name, chart] : page.charts.items())
+    chart_lines.push_back(fmt::format("  {}: {}", dump(Json(name)), dump(chart)));
+  for (const Json& entry : runs) run_lines.push_back("  " + dump(entry));
   std::string text = dump(json, 1);
   text.erase(text.rfind('\n'));
-  return text + fmt::format(",\n \"runs\": [\n{}\n ]\n}}\n", fmt::join(entries, ",\n"));
+  return text + fmt::format(",\n \"charts\": {{\n{}\n }},\n \"runs\": [\n{}\n ]\n}}\n", fmt::join(chart_lines, ",\n"),
+                            fmt::join(run_lines, ",\n"));
 }
 
 }  // namespace crosscheck

@@ -1,7 +1,7 @@
 // Behaviour of the page: charts, folds, scene cards, sortable tables, highlighted methods.
 // @ts-nocheck
 
-import {charts} from './chart/chart';
+import {drawChart, isDrawn} from './chart/chart';
 import {listRuns} from './player/runs';
 
 /** Starts everything on the page but the players and the lab. */
@@ -35,7 +35,7 @@ export function startPage() {
     if (!box.clientWidth) return;
     // without a pause: a page that is printed as it opens does not wait
     const chart = openCharts[box.dataset.chart] ?? (await others())[box.dataset.chart];
-    if (chart) charts.draw(box, chart, methods);
+    if (chart) drawChart(box, chart, methods);
   };
   const seen = new IntersectionObserver(entries => {
     for (const entry of entries)
@@ -43,7 +43,7 @@ export function startPage() {
   }, {rootMargin: '300px'});
   const resized = new ResizeObserver(entries => {
     for (const entry of entries)
-      if (entry.target.drawnWidth) draw(entry.target);
+      if (isDrawn(entry.target)) draw(entry.target);
   });
   const watchCharts = root => root.querySelectorAll('.drawn').forEach(box => (seen.observe(box), resized.observe(box)));
   addEventListener('beforeprint', () => document.querySelectorAll('.drawn').forEach(draw));

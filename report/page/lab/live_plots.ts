@@ -1,46 +1,9 @@
 // Plots over time: error, energy, residual of the energy balance.
-// @ts-nocheck
 
 import {make} from '../player/controls';
-import {Plot, svg} from '../player/plot';
+import {Plot, Point, Series} from '../player/plot';
 
 import {say} from './words';
-
-/** A plot that grows; values may lie below zero. */
-class LivePlot extends Plot {
-  constructor(box) {
-    super(box, () => {});
-    this.left = 56;
-    box.classList.add('live');
-  }
-
-  show(shown) {
-    this.take(shown);
-    // a plot without curves is not redrawn
-    const words = this.known ? null : [shown.title, shown.none, this.wide].join();
-    if (words !== null && words === this.words) return;
-    this.words = words;
-    const well = shown.series.filter(s => s.well),
-          values = (well.length ? well : shown.series).flatMap(s => s.points.map(p => p[1] ?? 0));
-    const least = Math.min(0, ...values);
-    // powers of ten have no place for what lies below zero, and of a burst the last eight tell enough
-    if (least < 0)
-      Object.assign(
-          this, {powers: false, low: 1.08 * least / this.size, most: 1.08 * Math.max(0, ...values) / this.size});
-    else if (this.powers)
-      this.low = Math.max(this.low, this.most - 8);
-    this.draw();
-  }
-
-  draw() {
-    super.draw();
-    if (!this.title || !this.known || this.powers || !(this.low < 0)) return;
-    // the line of zero, where it is not the lower edge
-    const root = this.area.firstChild, foot = this.high - 22,
-          y = foot - (0 - this.low) / (this.most - this.low) * (foot - 6);
-    root?.append(svg('line', {class: 'base', x1: this.left, x2: this.left + this.span, y1: y, y2: y}));
-  }
-}
 
 const energyKinds = {
   total: 'energyTotal',
@@ -48,52 +11,65 @@ const energyKinds = {
   elastic: 'energyElastic',
   gravitational: 'energyGravitational'
 };
+type Quantity = 'error'|'residual'|keyof typeof energyKinds;
+
+/** The parts of a run of the lab that are plotted. */
+interface PlottedRun {
+  letter: string;
+  look: {css: string, dash?: string};
+  failed?: unknown;
+  errorWord?: string;
+  sim: {scene: {firstOrder?: boolean}};
+  samples: ({t: number}&Record<Quantity, number|null>)[];
+}
+
+type Absent = Record<'error'|'energy'|'residual', string>;
 
 /** The plots of a lab, below the picture. */
 export class LivePlots {
+  readonly box = make('div', {class: 'plots'});
+  private readonly choice = document.createElement('select');
+  private readonly plots = [0, 1, 2].map(() => {
+    const box = make('div', {class: 'plot live'});
+    this.box.append(box);
+    return new Plot(box);
+  });
+  private shown: [PlottedRun[], number, number, Absent]|null = null;
+
   constructor() {
-    this.box = make('div', {class: 'plots'});
-    this.plots = [0, 1, 2].map(() => {
-      const box = make('div', {class: 'plot'});
-      this.box.append(box);
-      return new LivePlot(box);
-    });
-    this.kind = 'total';
-    this.choice = make('select');
     this.plots[1].box.prepend(this.choice);
-    this.choice.addEventListener('change', () => (this.kind = this.choice.value, this.show(...this.shown)));
+    this.choice.addEventListener('change', () => this.shown && this.show(...this.shown));
   }
 
   /** The names of energies, in the reader's language. */
   name() {
+    const kind = this.choice.value || 'total';
     this.choice.setAttribute('aria-label', say('quantity'));
     this.choice.replaceChildren(
         ...Object.entries(energyKinds).map(([value, key]) => make('option', {value}, say(key))));
-    this.choice.value = this.kind;
+    this.choice.value = kind;
     if (this.shown) this.show(...this.shown);
   }
 
-  /** `runs` with samples, up to `end` (s); `none`: what is said in place of curves, {error, energy, residual}. */
-  show(runs, end, time, none) {
+  /** `runs` with samples, up to `end` (s); `none`: the words in place of curves. */
+  show(runs: PlottedRun[], end: number, time: number, none: Absent) {
     this.shown = [runs, end, time, none];
-    const series = key =>
-        runs.filter(run => run.samples.some(s => s[key] !== null && s.t > 0)).map(run => ({
-                                                                                    name: run.letter,
-                                                                                    css: run.look.css,
-                                                                                    dash: run.look.dash,
-                                                                                    well: !run.failed,
-                                                                                    points: run.samples.map(
-                                                                                        s => [s.t, s[key]])
-                                                                                  }));
-    const firstOrder = runs[0]?.sim.scene.firstOrder, [error, energy, residual] = this.plots;
-    const show = (plot, shown) => (plot.show({...shown, begin: 0, end}), plot.moveHead(time));
-    show(error, {title: say(runs[0]?.errorWord ?? 'error'), unit: 'm', series: series('error'), none: none.error});
-    show(energy, {title: say(energyKinds[this.kind]), unit: 'J', series: series(this.kind), none: none.energy});
+    const kind = (this.choice.value || 'total') as keyof typeof energyKinds, [error, energy, residual] = this.plots;
+    const series = (key: Quantity, factor = 1): Series[] =>
+        runs.filter(run => run.samples.some(s => s[key] !== null && s.t > 0)).map(({letter, look, failed, samples}) => {
+          const value = (v: number|null) => (v === null ? null : factor * v);
+          return {name: letter, ...look, well: !failed, points: samples.map((s): Point => [s.t, value(s[key])])};
+        });
+    const show = (plot: Plot, title: string, unit: string, curves: Series[], words: string) => {
+      plot.show({title, unit, series: curves, begin: 0, end, none: words});
+      plot.moveHead(time);
+    };
+    show(error, say(runs[0]?.errorWord ?? 'error'), 'm', series('error'), none.error);
+    show(energy, say(energyKinds[kind]), 'J', series(kind), none.energy);
+    show(residual, say('residual'), '%', series('residual', 100), none.residual);
+    const firstOrder = Boolean(runs[0]?.sim.scene.firstOrder);
     energy.box.classList.add('named');
-    energy.box.hidden = residual.box.hidden = Boolean(firstOrder);
-    this.box.classList.toggle('single', Boolean(firstOrder));
-    const percent =
-        series('residual').map(s => ({...s, points: s.points.map(([t, v]) => [t, v === null ? null : 100 * v])}));
-    show(residual, {title: say('residual'), unit: '%', series: percent, none: none.residual});
+    energy.box.hidden = residual.box.hidden = firstOrder;
+    this.box.classList.toggle('single', firstOrder);
   }
 }

@@ -134,9 +134,9 @@ bool same(const MethodStyle& a, const MethodStyle& b) {
 }
 
 TEST(Styles, StandInTheMethodsRows) {
-  EXPECT_TRUE(same(style_of("mysim/symplectic-euler"), {"#2A86D0", "(12,3,2,3)", 7}));
+  EXPECT_TRUE(same(style_of("mysim/symplectic-euler"), {"#1D6FB5", "(12,3,2,3)", 7}));
   EXPECT_TRUE(same(style_of("mysim/symplectic-euler+sticky"), {"#666666", "(3,3)", 8}));
-  EXPECT_TRUE(same(style_of("bullet/pbd"), {"#D66A08", "(8,4)", 13}));
+  EXPECT_TRUE(same(style_of("bullet/pbd"), {"#B05200", "(8,4)", 13}));
   EXPECT_TRUE(same(style_of("bullet32/pbd"), {"#B08050", "(4,2,1,2)", 6}));
   EXPECT_TRUE(same(style_of("sundials/cvode"), {"#7A6A4A", "(4,2,2,2)", 13}));
   std::vector<MethodStyle> all;
@@ -266,7 +266,7 @@ Chart swinging(int count) {
 TEST(ChartJson, CurvesOfUpTo600PointsAreWhole) {
   for (const int count : {1, 2, 599, 600}) {
     const Chart chart = swinging(count);
-    const JsonField points = json_of(chart)["series"][0]["points"];
+    const JsonField points = json_of(chart)["parts"][0]["series"][0]["points"];
     ASSERT_EQ(points.size(), static_cast<size_t>(count));
     const auto& drawn = std::get<Figure>(chart.figure).curves[0].points;
     for (int i = 0; i < count; ++i) {
@@ -283,7 +283,7 @@ TEST(ChartJson, LongerCurvesKeepTheirEndsAndExtremes) {
     Chart chart = swinging(count);
     auto& drawn = std::get<Figure>(chart.figure).curves[0].points;
     drawn[static_cast<size_t>(count) / 2].second = 90, drawn[static_cast<size_t>(count) / 3].second = 1e-4;
-    const JsonField points = json_of(chart)["series"][0]["points"];
+    const JsonField points = json_of(chart)["parts"][0]["series"][0]["points"];
     EXPECT_LE(points.size(), 600u);
     EXPECT_GT(points.size(), 300u);
     double low = INFINITY, high = 0, last = -1;
@@ -304,7 +304,7 @@ TEST(ChartJson, OfCurvesSaysWhatIsDrawnBesideThem) {
   f.name = "all", f.title = "everything", f.caption = "c", f.finding = "It falls.";
   f.x = {"CPU time, ringed: scaled from a part of it / s", true}, f.y = {"error / m", true, 1e-6, 1.};
   f.curves = {{"mysim/leapfrog, twice", style_of("mysim/leapfrog"), {{1, 0.1}, {2, 0.05}}, true, true},
-              {"theory", style_of("mysim/rk4"), {{1, 1}, {2, 0.5}}},
+              {"theory", style_of("mysim/rk4"), {{1, 1}, {2, 1e-5}}},
               {scaled_times, style_of("mysim/rk4"), {{2, 0.05}}, false},
               {"nothing", style_of("mysim/rk4"), {}}};
   f.curves[0].tooltips = {{"first", "mysim/leapfrog 0"}, {"second"}};
@@ -315,52 +315,122 @@ TEST(ChartJson, OfCurvesSaysWhatIsDrawnBesideThem) {
   f.categories = {{1, "spring"}};
   f.guides = {{true, 1.5, "limit"}, {false, 0.2, "1 %"}};
   f.cut = 1e-4;
-  f.on_page = {.motion = 0.893,
-               .duration = 3.,
-               .take = OnPage::Take{1, 0.1, "take this: 1 ms", "11 %"},
-               .critical = OnPage::Critical{0.5, "h = 2/ω", "beyond"}};
+  f.on_page = {.take = OnPage::Take{1, 0.1, "take this: 1 ms", "11 %"}};
   const JsonField json = json_of({"", f});
   EXPECT_EQ(json["kind"].text(), "curves");
   EXPECT_EQ(json["name"].text(), "all");
   EXPECT_EQ(json["title"].text(), "everything");
   EXPECT_EQ(json["finding"].text(), "It falls.");
+  EXPECT_EQ(json["caption"].text(), "c");
   EXPECT_EQ(json["x"]["label"].text(), "CPU time") << "what is ringed on paper is open here";
   EXPECT_EQ(json["x"]["unit"].text(), "s");
   EXPECT_TRUE(json["x"]["log"].boolean());
   EXPECT_EQ(json["y"]["low"].number(), 1e-4) << "lower values lie on the axis";
   EXPECT_EQ(json["y"]["high"].number(), 1);
-  ASSERT_EQ(json["series"].size(), 2u) << "neither rings around other marks nor empty curves";
-  const JsonField first = json["series"][0];
-  EXPECT_EQ(first["method"].text(), "mysim/leapfrog");
+  ASSERT_EQ(json["parts"].size(), 3u) << "neither rings around other marks nor empty curves";
+  const JsonField leapfrog = json["parts"][0], first = leapfrog["series"][0], theory = json["parts"][1];
+  EXPECT_EQ(leapfrog["method"].text(), "mysim/leapfrog");
+  EXPECT_EQ(leapfrog["colour"].text(), "mysim") << "style.css has it for both modes";
+  EXPECT_TRUE(leapfrog["hero"].boolean());
+  EXPECT_EQ(first["mark"].text(), "circle");
+  EXPECT_FALSE(first.find("open"));
+  EXPECT_FALSE(first.find("dash"));
   EXPECT_EQ(first["tips"][0]["words"].text(), "first");
   EXPECT_EQ(first["tips"][0]["run"].text(), "mysim/leapfrog 0");
   EXPECT_FALSE(first["tips"][1].find("run"));
-  EXPECT_EQ(first["open"].dump(), "[0,1]") << "its second time is scaled";
-  EXPECT_FALSE(json["series"][1].find("method")) << "theory is no method";
-  EXPECT_FALSE(json["series"][1].find("open"));
-  EXPECT_FALSE(json["series"][1]["marks"].boolean());
-  EXPECT_EQ(json["failures"][0]["method"].text(), "mysim/rk4");
-  EXPECT_EQ(json["failures"][0]["run"].text(), "mysim/rk4 3");
-  EXPECT_EQ(json["failures"][0]["kind"].text(), "blew up");
+  EXPECT_EQ(first["scaled"].dump(), "[0,1]") << "its second time is scaled";
+  EXPECT_FALSE(theory.find("method")) << "theory is no method";
+  EXPECT_EQ(theory["series"][0]["dash"].text(), "6 3");
+  EXPECT_TRUE(theory["series"][0]["few"].boolean());
+  const JsonField failed = json["parts"][2];
+  EXPECT_EQ(failed["method"].text(), "mysim/rk4");
+  EXPECT_EQ(failed["failures"][0]["run"].text(), "mysim/rk4 3");
+  EXPECT_EQ(failed["failures"][0]["kind"].text(), "blew up");
+  EXPECT_EQ(failed["failures"][0]["mark"].text(), "cross");
+  std::set<std::string> key;
+  for (const JsonField& entry : json["key"].elements()) key.insert(entry["text"].text());
+  EXPECT_EQ(key, (std::set<std::string>{"Pareto front", "blew up", "time scaled from a part", "lower than the axis"}));
   EXPECT_EQ(json["pareto"].size(), 2u);
-  EXPECT_EQ(json["floor"]["y"].number(), 1e-5);
-  EXPECT_EQ(json["window"]["x"].number(), 3);
+  EXPECT_EQ(json["window"].number(), 3);
   EXPECT_EQ(json["categories"][0][1].text(), "spring");
-  ASSERT_EQ(json["guides"].size(), 2u);
+  ASSERT_EQ(json["guides"].size(), 4u) << "with the names of the window and the floor";
   EXPECT_EQ(json["guides"][0]["axis"].text(), "x");
   EXPECT_EQ(json["guides"][1]["text"].text(), "1 %");
-  EXPECT_EQ(json["motion"].number(), 0.893);
-  EXPECT_EQ(json["duration"].number(), 3);
+  EXPECT_EQ(json["guides"][3]["kind"].text(), "floor");
   EXPECT_EQ(json["take"]["name"].text(), "take this: 1 ms");
-  EXPECT_EQ(json["critical"]["x"].number(), 0.5);
   EXPECT_FALSE(json.find("flat"));
+}
+
+/// The marks of the only series of a figure's parts, with "open" before those that are.
+std::vector<std::string> marks_of(const JsonField& chart) {
+  std::vector<std::string> marks;
+  for (const JsonField& part : chart["parts"].elements())
+    for (const JsonField& series : part["series"].elements())
+      marks.push_back((series.find("open") ? "open " : "") + series["mark"].text());
+  return marks;
+}
+
+TEST(ChartJson, MarksAreThoseOfThePaperWithTheirFilling) {
+  Figure f;
+  f.name = "marks", f.title = "t", f.x = {"slope / degrees"}, f.y = {"friction"};
+  for (const int marker : {7, 6, 9})
+    f.curves.push_back({fmt::format("bullet/pbd kind {}", marker), {"#B05200", "1", marker}, {{1, 1}}, false, true});
+  f.curves.push_back({"mysim/rk4 sticks", {"#009E73", "1", 12}, {{1, 2}}, false, true});
+  const JsonField json = json_of({"", f});
+  EXPECT_EQ(marks_of(json), (std::vector<std::string>{"circle", "open circle", "triangle", "open diamond"}));
+  ASSERT_EQ(json["parts"].size(), 2u) << "one name for each method";
+  EXPECT_EQ(json["parts"][0]["name"].text(), "Bullet pbd");
+  EXPECT_TRUE(json["parts"][0]["keyed"].boolean()) << "scattered marks have no end that could bear a name";
+  EXPECT_TRUE(contains(drawing_of(f).script, "Bullet pbd"));
+}
+
+TEST(ChartJson, UnitsAreNotTheLowerPartsOfRatios) {
+  for (const auto& [label, unit] : {std::pair{"time step / s", "s"},
+                                    {"sliding speed / (mm/s)", "mm/s"},
+                                    {"drag rate / (1/s)", "1/s"},
+                                    {"effective stiffness by sag / % of that asked", "% of that asked"},
+                                    {"dimensionless stiffness k h² / μ", ""},
+                                    {"equivalent drag rate / ω", ""},
+                                    {"CPU time / CPU time of mysim", ""}}) {
+    Figure f;
+    f.name = "unit", f.x = {label}, f.y = {"y"}, f.curves = {{"a", style_of("mysim/rk4"), {{1, 1}, {2, 2}}}};
+    const JsonField x = json_of({"", f})["x"];
+    EXPECT_EQ(x.find("unit") ? x["unit"].text() : "", unit) << label;
+    EXPECT_EQ(x["label"].text() == label, !*unit) << label;
+  }
+}
+
+TEST(ChartJson, EnginesHaveTheSameColoursInEveryChartOnPaperAndOnThePage) {
+  const std::string styles = asset("page/style.css");
+  for (const auto& [method, name] : {std::pair{"mysim/leapfrog", "mysim"},
+                                     {"mysim/symplectic-euler", "mysim2"},
+                                     {"bullet/deformable-explicit", "bullet"},
+                                     {"bullet/pbd", "bullet2"},
+                                     {"odeint/rk4", "outside"}}) {
+    std::string paper = style_of(method).colour;
+    std::ranges::transform(paper, paper.begin(), [](unsigned char c) { return std::tolower(c); });
+    EXPECT_TRUE(contains(styles, fmt::format("--{}: {};", name, paper))) << method;
+    Figure curve;
+    curve.name = "curve", curve.x = {"t / s"}, curve.y = {"y"}, curve.curves = {{method, style_of(method), {{1, 1}}}};
+    EXPECT_EQ(json_of({"", curve})["parts"][0]["colour"].text(), name);
+    DotPlot dots;
+    dots.name = "dots", dots.label = "CPU time", dots.names = {"rod"};
+    dots.series = {{"an engine", style_of(method), {DotPlot::Dot{2, 1, 3}}}};
+    EXPECT_EQ(json_of({"", dots})["series"][0]["colour"].text(), name);
+  }
+}
+
+std::vector<std::string> names_in(const JsonField& chart) {
+  std::vector<std::string> names;
+  for (const JsonField& name : chart["names"].elements()) names.push_back(name["name"].text());
+  return names;
 }
 
 TEST(ChartJson, OfBarsHasAHeightForEachPartOfEachBar) {
   const StackedBars bars = two_bars();
   const JsonField json = json_of({"", bars, "energy"});
   EXPECT_EQ(json["kind"].text(), "bars");
-  EXPECT_EQ(json["names"].texts(), bars.names);
+  EXPECT_EQ(names_in(json), bars.names);
   ASSERT_EQ(json["parts"].size(), bars.parts.size());
   for (size_t i = 0; i < bars.parts.size(); ++i) {
     EXPECT_EQ(json["parts"][i]["height"].numbers(), bars.parts[i].height);
@@ -373,9 +443,12 @@ TEST(ChartJson, OfDotsHasAnIntervalOrNothingForEachName) {
   dots.name = "dots", dots.title = "t", dots.caption = "c", dots.finding = "f", dots.label = "CPU time of mysim's";
   dots.names = {"cloth", "rod"}, dots.headings = {{1, "without cloth"}};
   dots.series = {{"Bullet", style_of("bullet/pbd"), {DotPlot::Dot{30, 22.5, 40}, std::nullopt}}};
+  dots.right_of_one = "mysim is faster";
   const JsonField json = json_of({"", dots});
   EXPECT_EQ(json["kind"].text(), "dots");
-  EXPECT_EQ(json["names"].texts(), dots.names);
+  EXPECT_EQ(names_in(json), dots.names);
+  EXPECT_EQ(json["guides"][0]["text"].text(), "mysim is faster");
+  EXPECT_TRUE(contains(drawing_of(dots).script, "mysim is faster")) << "beside its line on paper too";
   EXPECT_EQ(json["headings"][0][1].text(), "without cloth");
   EXPECT_EQ(json["series"][0]["dots"].size(), 2u);
   EXPECT_EQ(json["series"][0]["dots"][0].numbers(), (std::vector<double>{30, 22.5, 40}));
@@ -479,7 +552,7 @@ TEST(StepLimits, AreTheSameOnPaperAndOnThePage) {
   const JsonField json = json_of({"", f, "stability"});
   const Drawing drawing = drawing_of(f);
   EXPECT_EQ(json["kind"].text(), "limits");
-  EXPECT_EQ(json["names"].texts(), f.names);
+  for (size_t i = 0; i < f.names.size(); ++i) EXPECT_EQ(json["rows"][i]["method"].text(), f.names[i]);
   EXPECT_EQ(json["columns"].text(), "cloth");
   EXPECT_EQ(json["scenes"][1][0].text(), "cloth");
   size_t measured = 0, predicted = 0;

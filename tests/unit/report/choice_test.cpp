@@ -309,27 +309,27 @@ TEST_F(Take, IsRingedInItsChartBesideTheCriticalStepOfItsRule) {
   TableSet all = rows();
   const auto drawn = [&] {
     for (const Chart& chart : speed_accuracy_charts({scenes, facts, all, "commit"}))
-      if (const auto* f = std::get_if<Figure>(&chart.figure); f && f->from_costs) return f->on_page;
-    return OnPage{};
+      if (const auto* f = std::get_if<Figure>(&chart.figure); f && f->from_costs) return *f;
+    return Figure{};
   };
-  const OnPage page = drawn();
-  EXPECT_EQ(page.motion, 1);
-  EXPECT_EQ(page.duration, scenes[0].duration);
+  const Figure free = drawn();
+  const OnPage& page = free.on_page;
+  ASSERT_EQ(free.guides.size(), 1u) << "no limit is known";
+  EXPECT_EQ(free.guides[0].at, scenes[0].duration) << "real time";
   ASSERT_TRUE(page.take);
   EXPECT_EQ(page.take->x, 0.2);
-  EXPECT_EQ(page.take->y, 1e-3);
+  EXPECT_DOUBLE_EQ(page.take->y, 0.1) << "% of the motion";
   EXPECT_EQ(page.take->name, "take this: 1 ms");
   EXPECT_EQ(page.take->more, "0.1 %, 200 ms");
-  EXPECT_FALSE(page.critical) << "no limit is known";
   Table limits = table_of<LimitRow>();
   LimitRow row;
   row.scene = scene, row.method = "mysim/leapfrog", row.predicted = 2e-3, row.omega = 1000;
   add(limits, row);
   all.add(limits);
-  const OnPage bound = drawn();
-  ASSERT_TRUE(bound.critical);
-  EXPECT_DOUBLE_EQ(bound.critical->x, 0.1) << "at twice the step half of the cost";
-  EXPECT_EQ(bound.critical->name, "h = 2/ω = 2 ms");
+  const Figure bound = drawn();
+  ASSERT_EQ(bound.guides.size(), 2u);
+  EXPECT_DOUBLE_EQ(bound.guides[1].at, 0.1) << "at twice the step half of the cost";
+  EXPECT_TRUE(contains(bound.guides[1].text, "2/ω = 2 ms")) << bound.guides[1].text;
 }
 
 /// What a report of several scenes would say: with tables of every kind, or with the engines' runs alone.

@@ -39,7 +39,7 @@
       height: box.height,
       unseen: [...chart.querySelectorAll('rect, path, circle, line')].filter(shape => getComputedStyle(shape).display === 'none').length,
       shapes: chart.querySelectorAll('path, rect, line').length,
-      marks: chart.querySelectorAll('.mark').length,
+      marks: chart.querySelectorAll('.mark[data-words]').length,
       cells: chart.querySelectorAll('.cell[data-words]').length,
       letters: Math.min(...texts.map(text => scale * parseFloat(getComputedStyle(text).fontSize))),
       outside: texts.filter(beyond).length,
@@ -55,7 +55,7 @@
       const chart = box.querySelector('svg');
       if (chart) seen.charts[box.dataset.chart] = lookAtChart(chart);
     }
-    const marker = document.querySelector('.mark[data-words]'), tip = document.querySelector('.tip');
+    const marker = document.querySelector('.mark[data-words="first run"]'), tip = document.querySelector('.tip');
     seen.colour = getComputedStyle(marker).fill;
     pointAt(marker);
     seen.tip = tip.hidden ? '' : tip.innerText.replace(/^.*, /, '');

@@ -108,10 +108,8 @@ class Page : public InBrowser {
     curves.curves[1].tooltips = {{"fourth run"}, {"fifth run"}};
     curves.failures = {{"mysim/rk4: blew up", style_of("mysim/rk4"), 5e-3, 0.5, "blew up", 2, {"at 2 s"}}};
     curves.pareto = {{1e-3, 3}, {1e-2, 2}, {1e-1, 1}};
-    curves.on_page = {.motion = 4.,
-                      .duration = 3.,
-                      .take = OnPage::Take{1e-2, 2, "take this: 1 ms", "50 %, 10 ms"},
-                      .critical = OnPage::Critical{5e-3, "h = 2/ω = 2 ms", "beyond the critical step of leapfrog"}};
+    curves.on_page = {.take = OnPage::Take{1e-2, 2, "take this: 1 ms", "50 %, 10 ms"}};
+    curves.guides = {{true, 5e-3, "leapfrog blows up left of here"}};
     Figure other = curves;
     other.name = "rod-speed-accuracy-cost";
     StepLimits limits;
@@ -190,7 +188,7 @@ void expect_charts_are_drawn_and_speak(const JsonField& saw) {
   }
   EXPECT_EQ(charts["chain-speed-accuracy-cost"]["marks"].number(), 3 + 2 + 1) << "every run, and the one that failed";
   EXPECT_EQ(charts["map"]["cells"].number(), 16);
-  EXPECT_EQ(charts["limits"]["marks"].number(), 2 + 2) << "one for each scene, and those of the key";
+  EXPECT_EQ(charts["limits"]["marks"].number(), 2) << "one for each scene";
   EXPECT_EQ(saw["walked"].texts(), (std::vector<std::string>{"first run", "second run", "fourth run", "third run"}));
   EXPECT_EQ(saw["played"].number(), 1);
   EXPECT_EQ(saw["chosen"].texts(), (std::vector<std::string>{"rod", "true", "true", "true"}));

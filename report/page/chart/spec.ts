@@ -1,0 +1,120 @@
+// Chart specs as C++ writes them (report/figures/chart_json.h): all that a figure shows, in numbers and words.
+
+export type Pair = [number, number];
+
+export type AxisSpec = {
+  label: string,
+  unit?: string,
+  log?: boolean,
+  low?: number,
+  high?: number
+};
+
+export type MarkName = 'circle'|'square'|'diamond'|'triangle'|'down'|'pentagon'|'plus'|'cross'|'star';
+
+/** A mark of gnuplot's; open ones are hollow. */
+export type MarkSpec = {
+  mark?: MarkName,
+  open?: boolean
+};
+
+/** The words of a mark, and the run that it plays. */
+export type Tip = {
+  words?: string,
+  run?: string
+};
+
+export type Named = {
+  name: string,
+  method?: string
+};
+
+type Info = {
+  name: string,
+  title: string,
+  finding?: string,
+  caption?: string
+};
+
+export interface SeriesSpec extends MarkSpec {
+  title: string;
+  line?: boolean;
+  dash?: string;  // lengths of dashes and gaps, in widths of the line
+  few?: boolean;  // a mark on a few points, to tell lines apart
+  points: Pair[];
+  scaled?: number[];  // 1: open mark
+  tips?: Tip[];
+}
+
+export type FailureSpec = MarkSpec&Tip&{x: number, kind: string};
+
+/** Curves and failures that share a name and a colour. */
+export interface PartSpec extends Named {
+  colour: string;   // name in style.css, or #RRGGBB
+  hero?: boolean;   // has its colour and its name; the others are grey until they are pointed at
+  keyed?: boolean;  // has its name in the key
+  series: SeriesSpec[];
+  failures: FailureSpec[];
+}
+
+export interface GuideSpec {
+  axis: 'x'|'y';
+  at: number;
+  text: string;
+  kind?: 'guide'|'floor';  // floor: the error bar of the truth
+}
+
+export interface CurvesSpec extends Info {
+  kind: 'curves';
+  x: AxisSpec;
+  y: AxisSpec;
+  parts: PartSpec[];
+  key: (MarkSpec&{text: string, line?: boolean})[];
+  pareto?: Pair[];
+  window?: number;  // shaded from this x on
+  categories?: [number, string][];
+  guides?: GuideSpec[];
+  flat?: boolean;
+  take?: {x: number, y: number, name: string, more: string};
+}
+
+export interface BarsSpec extends Info {
+  kind: 'bars';
+  x: AxisSpec;
+  names: Named[];
+  parts: {title: string, colour: string, hatched: boolean, height: number[]}[];
+}
+
+export interface DotsSpec extends Info {
+  kind: 'dots';
+  x: AxisSpec;
+  names: Named[];
+  headings: [number, string][];
+  series: (Named&MarkSpec&{colour: string, dots: ([number, number, number]|null)[]})[];
+  guides?: GuideSpec[];
+}
+
+export interface MapSpec extends Info {
+  kind: 'map';
+  x: AxisSpec;
+  y: AxisSpec;
+  kinds: {title: string, colour: string}[];
+  panels: (Named&{cells: [number, number, number, string, string][], predicted: Pair[], measured: Pair[]})[];
+}
+
+export interface LimitsSpec extends Info {
+  kind: 'limits';
+  columns: string;
+  scenes: [string, number][];
+  rows: (Named&{
+    colour: string,
+    held: number,
+    open: boolean,
+    words: string,
+    marks: [number, number, number|null, string][],
+    measured: string,
+    predicted: string
+  })[];
+}
+
+export type ChartSpec = CurvesSpec|BarsSpec|DotsSpec|MapSpec|LimitsSpec;
