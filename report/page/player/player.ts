@@ -204,7 +204,7 @@ export class MotionPlayer extends HTMLElement {
 
   /** Gathers the motions that are shown. */
   private async load() {
-    const keys = this.hero ?? (this.picks ? [this.picks.a, this.picks.b] : []), letters = this.hero ? [] : ['A', 'B'];
+    const keys = this.hero ?? (this.picks ? [this.picks.a, this.picks.b] : []), letters = this.picks ? ['A', 'B'] : [];
     const turn = this.turn = {};
     const motions = this.given ? [this.given.motion] : await Promise.all(keys.map(key => motionOf(this.scene, key)));
     const truth = this.picks && await motionOf(this.scene, 'truth');
