@@ -47,7 +47,7 @@ struct ShownRun {
   std::optional<double> error, cpu;  // m, s
   bool beside = false;               // the others on the first screen
   Run run = {};
-  std::string difference = {};  // of another engine's run of the same rule beside the subject's, for readers
+  std::string difference = {};  // text: difference from the subject's run, if another engine ran its rule
 };
 
 struct ScenePart {
