@@ -1,6 +1,6 @@
-// The engine as a WebAssembly module: one instance is one scene and one run of it (engine.js is its other side).
-// Texts are UTF-8 in a buffer of the module's; numbers stand in arrays that are valid until the next call. What is
-// thrown ends the instance (browser.cpp).
+// The engine as a WebAssembly module: one instance is one scene and one run of it (page/lab/engine.ts is its other
+// side). Texts are UTF-8 in a buffer of the module's; numbers stand in arrays that are valid until the next call. What
+// is thrown ends the instance (browser.cpp).
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 

@@ -107,7 +107,7 @@ Json first_screen_data(const PageContent& c) {
                      {"answer", sentence_of(*answer)}});
   }
   return {{"views", std::move(views)},
-          {"main_scene", c.main_scene},
+          {"lab_scene", c.lab.empty() ? "" : c.main_scene},
           {"beside", beside_mysim(c)},
           {"questions", std::move(asked)},
           {"problems", c.problems}};

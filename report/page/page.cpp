@@ -93,6 +93,7 @@ Json scene_data(const ScenePart& part, const PageContent& c) {
                {"measured_window", fmt::format("{:.3g}", facts.measured_window)},
                {"hash", scene.hash},
                {"player", nullptr},
+               {"lab", !c.lab.empty()},
                {"figures", Json::array()},
                {"methods", run_table_data(part)},
                {"statistics", part.statistics ? statistics_data(*part.statistics) : Json()},

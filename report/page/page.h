@@ -79,7 +79,7 @@ struct Chapter {
     std::string heading;
     bool titled = false;  // chosen by their titles, else by what stands for the star
   };
-  /// A guided experiment of the lab: its name (report/lab/experiments.js), and the text of the link to it.
+  /// A guided experiment of the lab: its name (report/page/lab/experiments.ts), and the text of the link to it.
   struct Experiment {
     std::string name, title;
     bool contact = false;  // only where a scene has a ball

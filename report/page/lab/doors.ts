@@ -2,7 +2,8 @@
 
 import {parts, runOf, runsOf} from '../player/motion';
 
-import {openLab, sceneText} from './lab';
+import {openLab} from './lab';
+import {sceneText} from './lab_runs';
 import {numberAt, numbersOf, tomlNumber, withNumbers, withoutSection} from './scene_text';
 
 type LabState = Parameters<typeof openLab>[0];
@@ -18,8 +19,8 @@ function textOfCell(toml: string, kind: string, value: number, step: number) {
     const lines = toml.split('\n');
     for (const {path, value: own, line, begin, end} of numbersOf(toml))
       if (/(^|\.)stiffness(\.|$)/.test(path))
-        lines[line] =
-            lines[line].slice(0, begin) + tomlNumber(Number((own * value).toPrecision(6))) + lines[line].slice(end);
+        lines[line] = lines[line].slice(0, begin) + tomlNumber(Number((Number(own) * value).toPrecision(6))) +
+            lines[line].slice(end);
     text = lines.join('\n');
   }
   // whole steps from one sample to the next, so that it is not shortened

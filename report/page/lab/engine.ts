@@ -1,24 +1,86 @@
 // mysim in the page: the WebAssembly module, one instance of it for each scene and run (module.cpp is its other side).
-// @ts-nocheck
 
 import {inflated} from '../player/unpack';
+import {Vec3} from '../player/vectors';
 
-import {withMethod, withStart} from './scene_text';
+import {Start, withMethod, withStart} from './scene_text';
 
-/** What the engine refused, in its own words. `kind`: "input", "unsupported", "solver", or "fault". */
+type FaultKind = 'input'|'unsupported'|'solver'|'fault';
+
+/** What the engine refused, in its own words. */
 export class LabError extends Error {
-  constructor(kind, message) {
-    super(message);
-    this.kind = kind;
-  }
+  constructor(readonly kind: FaultKind, message: string) { super(message); }
 }
+
+/** A row of the engine's table of steppers. */
+export interface Stepper {
+  name: string;
+  evaluations: number;  // force evaluations per step
+  firstOrder: boolean;
+  adaptive: boolean;
+  hard: boolean;
+  linear: boolean;
+}
+
+interface Outcome {
+  verdict: string;
+  reason: string;
+  step: number;  // s
+  steps: number;
+}
+
+/** Single numbers and words of a scene. */
+interface SceneHead {
+  duration: number;  // s
+  samples: number;
+  step: number;  // s
+  method: string;
+  particles: number;
+  springCount: number;
+  constraintCount: number;
+  triangleCount: number;
+  pinCount: number;
+  firstOrder: boolean;
+  spheres: {radius: number}[];
+  camera: {eye: Vec3, target: Vec3}|null;
+}
+export interface EngineScene extends SceneHead {
+  pins: Int32Array;
+  springs: Int32Array;  // both ends of each
+  constraints: Int32Array;
+  constraintLengths: Float64Array;  // m
+  families: Int32Array;
+  rests: Float64Array;  // m
+  triangles: Int32Array;
+}
+
+/** Energies now, losses and work since the start, J. */
+export interface Energies {
+  kinetic: number;
+  elastic: number;
+  gravitational: number;
+  total: number;
+  balance: number;
+}
+
+export interface RunSettings {
+  stepper: string;
+  options?: string;  // "+sticky"
+  step?: number;     // s
+  tolerance?: number;
+  duration?: number;  // s
+  observe?: boolean;
+}
+
+type Call = (...values: number[]) => number;
+type Calls = Record<string, Call>&{memory: WebAssembly.Memory, _initialize: () => void};
 
 /** The module of the page, compiled at the first call; null where there is none, or where the browser runs none. */
 export const labModule = (() => {
-  let compiled;
+  let compiled: Promise<Lab|null>|undefined;
   const compile = async () => {
     const packed = document.getElementById('lab-module');
-    if (!packed || !('WebAssembly' in window) || !('DecompressionStream' in window)) return null;
+    if (!packed?.textContent || !('WebAssembly' in window) || !('DecompressionStream' in window)) return null;
     try {
       return new Lab(await WebAssembly.compile(await inflated(JSON.parse(packed.textContent)).arrayBuffer()));
     } catch {
@@ -30,127 +92,136 @@ export const labModule = (() => {
 
 /** An instance of the module: its calls, its memory, and its texts. */
 class Instance {
-  constructor(module) {
+  readonly calls: Calls;
+
+  constructor(module: WebAssembly.Module) {
     // the runtime's files: nothing is ever read or written, and nothing needs the rest
     const none = () => 0, files = new Proxy({}, {get: () => none});
     const page = {
-      fail: (kind, message) => {
-        throw new LabError(this.text(kind), this.text(message));
+      fail: (kind: number, message: number) => {
+        throw new LabError(this.text(kind) as FaultKind, this.text(message));
       },
-      matches: (expression, text) => Number(new RegExp(this.text(expression)).test(this.text(text)))
+      matches: (expression: number, text: number) => Number(new RegExp(this.text(expression)).test(this.text(text)))
     };
-    this.calls = new WebAssembly.Instance(module, {page, wasi_snapshot_preview1: files}).exports;
+    const {exports} = new WebAssembly.Instance(module, {page, wasi_snapshot_preview1: files});
+    this.calls = exports as unknown as Calls;
     this.calls._initialize();
   }
 
   /** The text that ends with a zero byte at a place of the memory. */
-  text(at) {
+  text(at: number) {
     const bytes = new Uint8Array(this.calls.memory.buffer, at);
     return new TextDecoder().decode(bytes.subarray(0, bytes.indexOf(0)));
   }
 
   /** Hands a text in, for the next call. */
-  give(text) {
-    const bytes = new TextEncoder().encode(text),
-          at = this.calls.text_buffer(bytes.length);  // which may grow the memory
+  give(text: string) {
+    const bytes = new TextEncoder().encode(text), at = this.calls.text_buffer(bytes.length);  // may grow the memory
     new Uint8Array(this.calls.memory.buffer, at, bytes.length).set(bytes);
   }
 
   // Places are asked for before the memory is: a call may grow it, and its old buffer is then empty.
-  doubles(at, count) { return new Float64Array(this.calls.memory.buffer, at, count); }
-  integers(at, count) { return new Int32Array(this.calls.memory.buffer, at, count); }
+  doubles(at: number, count: number) { return new Float64Array(this.calls.memory.buffer, at, count); }
+  integers(at: number, count: number) { return new Int32Array(this.calls.memory.buffer, at, count); }
 }
 
-class Lab {
-  constructor(module) {
-    this.module = module;
+export class Lab {
+  readonly steppers: Stepper[];
+
+  constructor(readonly module: WebAssembly.Module) {
     const instance = new Instance(module);
     this.steppers = JSON.parse(instance.text(instance.calls.steppers()));
   }
 
+  /** The stepper of a method, "implicit-euler+linear". */
+  stepperOf(method: string) {
+    const [name] = method.split('+');
+    return this.steppers.find(stepper => stepper.name === name);
+  }
+
   /** The scene of a TOML text, ready to be run. Throws LabError where it is not read. */
-  open(toml) { return new Simulation(this, toml); }
+  open(toml: string) { return new Simulation(this, toml); }
 }
 
 const growthBudget = 50;  // ms
 
 /** Arrows with the longest of them 1; null where there is none. */
-function longestOne(arrows) {
+function longestOne(arrows: Float64Array) {
   let most = 0;
   for (let i = 0; i < arrows.length; i += 3) most = Math.max(most, Math.hypot(arrows[i], arrows[i + 1], arrows[i + 2]));
-  return most > 0 && Number.isFinite(most) ? Float64Array.from(arrows, part => part / most) : null;
+  return most > 0 && Number.isFinite(most) ? arrows.map(part => part / most) : null;
 }
 
 /** A scene and one run of it. After an error that is not the scene's or a setting's the simulation is broken. */
-class Simulation {
-  constructor(lab, toml) {
-    Object.assign(this, {lab, toml, broken: false, byHand: false, failure: null});
+export class Simulation {
+  readonly scene: EngineScene;
+  byHand = false;
+  begun: Start|null = null;  // start of the run since the last change by hand
+  private readonly instance: Instance;
+  private broken = false;
+  private failure: (Outcome&{t: number})|null = null;
+  private outcome: Outcome|null = null;
+  private grown: Float64Array|null = null;
+  private going = true;
+  private limits = new Map<number, number>();
+  private fastest: number|null = null;
+  private run!: {rule: string, step: number, tolerance: number, duration: number};
+  private last!: {positions: Float64Array, velocities: Float64Array, t: number};
+
+  constructor(readonly lab: Lab, readonly toml: string) {
     this.instance = new Instance(lab.module);
     this.instance.give(toml);
     this.call('open');
-    this.readScene();
-  }
-
-  /** Calls the engine. What it throws has ended the instance. */
-  call(name, ...values) {
-    if (this.broken) throw new LabError('fault', 'the run has ended');
-    try {
-      return this.instance.calls[name](...values);
-    } catch (problem) {
-      this.broken = true;
-      if (problem instanceof LabError) throw problem;
-      throw new LabError(
-          'fault', problem instanceof RangeError ? 'not enough memory' : String(problem.message ?? problem));
-    }
-  }
-
-  readScene() {
-    const {instance} = this, scene = JSON.parse(instance.text(this.call('scene')));
-    const {particles, springCount, constraintCount, triangleCount, pinCount} = scene;
-    const integers = (name, count) => instance.integers(this.call(name), count).slice();
-    const doubles = (name, count) => instance.doubles(this.call(name), count).slice();
+    const scene: SceneHead = JSON.parse(this.instance.text(this.call('scene')));
+    const {springCount, constraintCount, triangleCount, pinCount} = scene;
+    const integers = (name: string, count: number) => this.instance.integers(this.call(name), count).slice();
+    const doubles = (name: string, count: number) => this.instance.doubles(this.call(name), count).slice();
     this.scene = {
       ...scene,
       pins: integers('pins', pinCount),
       springs: integers('spring_ends', 2 * springCount),
       constraints: integers('constraint_ends', 2 * constraintCount),
       constraintLengths: doubles('constraint_lengths', constraintCount),
-      families: Uint8Array.from(integers('spring_families', springCount)),
+      families: integers('spring_families', springCount),
       rests: doubles('spring_rests', springCount),
-      triangles: integers('triangles', 3 * triangleCount),
-      mass: doubles('masses', particles)
+      triangles: integers('triangles', 3 * triangleCount)
     };
-    this.limits = new Map();
-    const call = name => this.call(name);
-    let omega = null;
-    Object.defineProperty(
-        this.scene, 'omega', {get: () => (omega ??= call('omega'))});  // found when it is asked for first
   }
+
+  /** Calls the engine. What it throws has ended the instance. */
+  call(name: string, ...values: number[]): number {
+    if (this.broken) throw new LabError('fault', 'the run has ended');
+    try {
+      return this.instance.calls[name](...values);
+    } catch (problem) {
+      this.broken = true;
+      if (problem instanceof LabError) throw problem;
+      throw new LabError('fault', problem instanceof RangeError ? 'not enough memory' : String(problem));
+    }
+  }
+
+  /** The fastest vibration at the start, rad/s; 0 where nothing vibrates. Computed when it is first asked for. */
+  get omega() { return (this.fastest ??= this.call('omega')); }
 
   /**
    * The predicted critical step of a stepper, s: 0 where no step is stable, Infinity where all are, null where it
    * cannot be told.
    */
-  limit(rule) {
-    const name = rule.split('+')[0], row = this.lab.steppers.findIndex(stepper => stepper.name === name);
+  limit(rule: string) {
+    const row = this.lab.steppers.indexOf(this.lab.stepperOf(rule)!);
     if (row < 0) return null;
-    if (!this.limits.has(row)) this.limits.set(row, this.call('critical_step', row));
-    const limit = this.limits.get(row);
+    const limit = this.limits.get(row) ?? this.call('critical_step', row);
+    this.limits.set(row, limit);
     return Number.isNaN(limit) ? null : limit;
   }
 
   /**
-   * Begins a run at the scene's start. Without `observe` what is lost and what work is done is not added up, which
-   * large scenes are faster without. Throws LabError where the rule does not take the scene.
+   * Begins a run at the scene's start. Without `observe` losses and work are not added up, which large scenes are
+   * faster without. Throws LabError where the rule does not take the scene.
    */
-  start({
-    stepper,
-    options = '',
-    step = this.scene.step,
-    tolerance = 1e-6,
-    duration = this.scene.duration,
-    observe = true
-  }) {
+  start(
+      {stepper, options = '', step = this.scene.step, tolerance = 1e-6, duration = this.scene.duration, observe = true}:
+          RunSettings) {
     this.run = {rule: stepper + options, step, tolerance, duration};
     this.failure = this.grown = null;
     this.instance.give(this.run.rule);
@@ -160,7 +231,7 @@ class Simulation {
   }
 
   /** Steps until the time t (s), or so many ms of computing have passed. True while the run goes on. */
-  advance(t, budget = Infinity) {
+  advance(t: number, budget = Infinity) {
     const until = performance.now() + budget;
     let most = 1;  // steps between two looks at the clock
     try {
@@ -172,8 +243,8 @@ class Simulation {
         most = Math.max(1, Math.min(4096, Math.floor(most * Math.min(4, 2 / Math.max(0.1, now - begin)))));
       }
     } catch (problem) {
-      if (problem.kind !== 'solver') throw problem;
-      this.failure = {verdict: 'solver', reason: problem.message, t: this.t, h: this.h, steps: this.steps};
+      if (!(problem instanceof LabError) || problem.kind !== 'solver') throw problem;
+      this.failure = {verdict: 'solver', reason: problem.message, t: this.t, step: this.h, steps: this.steps};
       this.going = false;
     }
     this.outcome = null;
@@ -182,19 +253,21 @@ class Simulation {
   }
 
   /** Keeps the state, for when the next is not finite. */
-  remember() {
+  private remember() {
     this.outcome = null;
     this.last = {positions: this.positions.slice(), velocities: this.velocities.slice(), t: this.t};
   }
 
   /** What the run has come to. */
-  get result() { return (this.outcome ??= JSON.parse(this.instance.text(this.call('outcome')))); }
+  private get result(): Outcome {
+    return this.failure ?? (this.outcome ??= JSON.parse(this.instance.text(this.call('outcome'))) as Outcome);
+  }
   get t() { return this.broken ? this.last.t : this.call('time'); }
-  get h() { return this.failure?.h ?? this.result.step; }
-  get steps() { return this.failure?.steps ?? this.result.steps; }
+  get h() { return this.result.step; }
+  get steps() { return this.result.steps; }
   get ended() { return !this.going; }
-  get verdict() { return this.failure?.verdict ?? this.result.verdict; }
-  get reason() { return this.failure?.reason ?? this.result.reason; }
+  get verdict() { return this.result.verdict; }
+  get reason() { return this.result.reason; }
 
   get positions() {
     return this.broken ? this.last.positions : this.instance.doubles(this.call('positions'), 3 * this.scene.particles);
@@ -206,34 +279,22 @@ class Simulation {
   }
 
   /** Centres of the spheres at a time, m. */
-  centres(t) {
-    return this.broken ? new Float64Array(3 * this.scene.spheres.length) :
-                         this.instance.doubles(this.call('centres', t), 3 * this.scene.spheres.length).slice();
+  centres(t: number) {
+    const count = 3 * this.scene.spheres.length;
+    return this.broken ? new Float64Array(count) : this.instance.doubles(this.call('centres', t), count).slice();
   }
 
-  /** Energies now, losses and work since the start, J; null in first-order scenes. */
-  get energy() {
+  /** Energies and their balance (losses and work added up); null in first-order scenes. */
+  get energy(): Energies|null {
     const at = this.broken ? 0 : this.call('energies');
     if (!at) return null;
-    const [kinetic, elastic, gravitational, drag, dashpots, contact, wind, pins, balance] =
-        this.instance.doubles(at, 9);
-    return {
-      kinetic,
-      elastic,
-      gravitational,
-      total: kinetic + elastic + gravitational,
-      drag,
-      dashpots,
-      contact,
-      wind,
-      pins,
-      balance
-    };
+    const [kinetic, elastic, gravitational, , , , , , balance] = this.instance.doubles(at, 9);
+    return {kinetic, elastic, gravitational, total: kinetic + elastic + gravitational, balance};
   }
 
   /**
    * The mode that grows in a run that failed, its longest arrow 1. A run that failed late is not run once more, as no
-   * frame may take that long: its last velocities that are finite stand for the mode.
+   * frame may take that long: its last finite velocities stand for the mode.
    */
   get growth() {
     if (this.going || this.verdict === 'ok' || this.scene.firstOrder) return null;
@@ -250,13 +311,13 @@ class Simulation {
   growingMode(budget = Infinity) {
     const until = performance.now() + budget;
     const {rule, step, tolerance, duration} = this.run, [stepper, ...options] = rule.split('+');
-    const twin = this.lab.open(this.sceneText()),
-          small = 0.1 * this.scene.rests.reduce((a, b) => Math.min(a, b), Infinity);
-    let mode = null, before = null, places = null;
+    const twin = this.lab.open(this.sceneText()), small = 0.1 * this.scene.rests.reduce((a, b) => Math.min(a, b));
+    let mode: Float64Array|null = null, before: Float64Array|null = null, places = this.last.positions;
     twin.start({stepper, options: options.map(word => `+${word}`).join(''), step, tolerance, duration, observe: false});
     for (let going = true, count = 0; going && count < 20000; ++count) {
       going = twin.advance(twin.t + 0.5 * step);
-      const now = twin.velocities.slice(), change = before?.map((v, i) => now[i] - v);
+      const now = twin.velocities.slice(), was: Float64Array|null = before;
+      const change: Float64Array|null = was && now.map((v, i) => v - was[i]);
       if (change && !change.every(v => Math.abs(v) * step < small)) break;
       if (performance.now() > until) {
         mode = null;
@@ -273,38 +334,31 @@ class Simulation {
 
   // By hand: the present state becomes the start of another scene, and the run goes on from there.
 
-  hold(particle, [x, y, z]) { this.change('hold', particle, x, y, z); }
+  hold(particle: number, [x, y, z]: Vec3) { this.change('hold', particle, x, y, z); }
   release() { this.change('release'); }
-  pin(particle) { this.change('set_pinned', particle, 1); }
-  unpin(particle) { this.change('set_pinned', particle, 0); }
+  pin(particle: number, pinned: boolean) { this.change('set_pinned', particle, Number(pinned)); }
 
-  change(name, ...values) {
+  private change(name: string, ...values: number[]) {
     this.call(name, ...values);
     this.byHand = true;
     this.going = true;
-    this.failure = this.grown = null;
+    this.failure = this.grown = this.fastest = null;
     this.limits.clear();
     this.remember();
     this.begun = {...this.last, centres: this.centres(0)};
-    const {pinCount} = JSON.parse(this.instance.text(this.call('scene')));
+    const {pinCount}: SceneHead = JSON.parse(this.instance.text(this.call('scene')));
     this.scene.pins = this.instance.integers(this.call('pins'), pinCount).slice();
   }
 
   /**
-   * The scene as it is now, with this run's method and step as its own; what was changed by hand stands in [start]. A
-   * run of it by the command line gives the same bits.
+   * The scene as it is now, with this run's method and step as its own; changes by hand are in [start]. A run of it by
+   * the command line gives the same bits.
    */
   sceneText() {
-    const {rule, step, tolerance} = this.run;
-    const own = withMethod(
-        this.toml,
-        this.lab.steppers.find(s => s.name === rule.split('+')[0]).adaptive ? {method: rule, tolerance} :
-                                                                              {method: rule, step});
-    return this.byHand ? withStart(own, this) : own;
+    const {rule, step, tolerance} = this.run, adaptive = this.lab.stepperOf(rule)?.adaptive;
+    const own = withMethod(this.toml, adaptive ? {method: rule, tolerance} : {method: rule, step});
+    return this.begun ? withStart(own, this.scene.pins, this.begun) : own;
   }
 
-  close() {
-    this.broken = true;
-    this.instance = null;
-  }
+  close() { this.broken = true; }
 }

@@ -1,17 +1,29 @@
 // Sliders of the lab, with units: the scene's numbers, and each method's step with its predicted critical step.
-// @ts-nocheck
 
 import {check, make} from '../player/controls';
-import {norm} from '../player/vectors';
 
-import {numberAt, numbersOf, stepOf, tomlNumber} from './scene_text';
+import {Stepper} from './engine';
+import {LiveRun} from './live_run';
+import {Changes, MethodSpec, numberAt, numbersOf, stepOf, tomlNumber, Value, valueAt} from './scene_text';
 import {labLanguage, labWords, say} from './words';
 
-/**
- * The numbers that have a slider: where they stand in the text, and how far it reaches, in parts of the scene's own
- * value.
- */
-const knobTable = [
+/** A number with a slider, and how far it reaches in parts of the scene's own value. */
+interface KnobRow {
+  path: string;
+  scales?: string[];  // paths below that go along
+  word: string;
+  unit: string;
+  from?: number;
+  to?: number;
+  most?: number;  // in the number's own unit
+  zero?: boolean;
+  even?: boolean;  // linear, from 0 where there is no `from`
+}
+
+const shownKnobs = 4;  // beside the step; the others are folded
+
+/** Those that teach most come first. */
+const knobTable: KnobRow[] = [
   {
     path: 'grid.stiffness',
     scales: ['structural', 'shear', 'bend'],
@@ -20,208 +32,221 @@ const knobTable = [
     from: 1 / 50,
     to: 50
   },
-  {path: 'grid.stiffness.structural', word: 'structural', unit: 'N/m', from: 1 / 50, to: 50},
-  {path: 'grid.stiffness.shear', word: 'shear', unit: 'N/m', from: 1 / 50, to: 50, zero: true},
-  {path: 'grid.stiffness.bend', word: 'bend', unit: 'N/m', from: 1 / 50, to: 50, zero: true},
   {path: 'spring.stiffness', word: 'stiffness', unit: 'N/m', from: 1 / 50, to: 50},
+  {path: 'rotation.rate', word: 'rate', unit: 'rad/s', to: 4, even: true},
+  {path: 'sphere.friction', word: 'friction', unit: '', to: 2, even: true},
   {path: 'grid.mass', word: 'mass', unit: 'kg', from: 1 / 10, to: 10},
-  {path: 'grid.bending', word: 'bending', unit: 'N m', from: 1 / 50, to: 50, zero: true},
-  {path: 'grid.dashpot', word: 'dashpot', unit: 'N s/m', from: 1 / 50, to: 50, zero: true},
+  {path: 'grid.stiffness.bend', word: 'bend', unit: 'N/m', from: 1 / 50, to: 50, zero: true},
   {path: 'drag.gamma', word: 'drag', unit: '1/s', from: 1 / 100, to: 10, zero: true},
   {path: 'drag.coefficient', word: 'drag', unit: 'N s/m', from: 1 / 100, to: 10, zero: true},
-  {path: 'gravity.acceleration', word: 'gravity', unit: 'm/s²', to: 2, even: true},
+  {path: 'grid.bending', word: 'bending', unit: 'N m', from: 1 / 50, to: 50, zero: true},
   {path: 'wind.acceleration', word: 'wind', unit: 'm/s²', to: 4, even: true},
-  {path: 'wind.gusts.variation', word: 'gusts', unit: 'm/s²', to: 4, even: true},
   {path: 'aerodynamics.velocity', word: 'airSpeed', unit: 'm/s', to: 4, even: true},
-  {path: 'aerodynamics.gusts.variation', word: 'gusts', unit: 'm/s', to: 4, even: true},
+  {path: 'grid.dashpot', word: 'dashpot', unit: 'N s/m', from: 1 / 50, to: 50, zero: true},
+  {path: 'gravity.acceleration', word: 'gravity', unit: 'm/s²', to: 2, even: true},
   {path: 'sphere.radius', word: 'ballRadius', unit: 'm', from: 0.3, to: 1.1, even: true},
-  {path: 'sphere.friction', word: 'friction', unit: '', to: 2, even: true},
   {path: 'sphere.restitution', word: 'restitution', unit: '', most: 1, even: true},
+  {path: 'grid.stiffness.structural', word: 'structural', unit: 'N/m', from: 1 / 50, to: 50},
+  {path: 'grid.stiffness.shear', word: 'shear', unit: 'N/m', from: 1 / 50, to: 50, zero: true},
+  {path: 'wind.gusts.variation', word: 'gusts', unit: 'm/s²', to: 4, even: true},
+  {path: 'aerodynamics.gusts.variation', word: 'gusts', unit: 'm/s', to: 4, even: true},
   {path: 'pins.motion.frequency', word: 'frequency', unit: 'Hz', from: 1 / 10, to: 10},
-  {path: 'rotation.rate', word: 'rate', unit: 'rad/s', to: 4, even: true},
 ];
 
 const knobSteps = 1000;  // positions of a slider
-export const sizeOf = value => (Array.isArray(value) ? norm(value) : value);
-const rounded = (value, digits = 3) => Number(value.toPrecision(digits));
+const rounded = (value: number, digits = 3) => Number(value.toPrecision(digits));
 let knobCount = 0;
+
+type Changed = (value: number, done: boolean) => void;
+
+/** Reach of a slider; `snap` makes of a value one that can be taken. */
+interface Reach {
+  low: number;
+  high: number;
+  even?: boolean;
+  zero?: boolean;
+  snap?: (value: number) => number;
+}
 
 /** A slider and a field for one number; `changed(value, done)` is called as it moves, and when it stands. */
 class Slider {
-  constructor({label, unit, name, changed}) {
+  readonly box: HTMLElement;
+  readonly rail: HTMLElement;
+  private readonly field: HTMLInputElement;
+  private readonly range: HTMLInputElement;
+  private value = 0;
+  private reached: Reach = {low: 0, high: 1};
+
+  constructor(label: string, private readonly unit: string, name: string, private readonly changed: Changed) {
     const id = `lab-number-${++knobCount}`;
-    Object.assign(this, {unit, changed});
-    this.field = make('input', {type: 'number', id, step: 'any', inputmode: 'decimal'});
-    this.range = make('input', {type: 'range', min: 0, max: knobSteps, step: 1, 'aria-label': label});
-    this.rail = make('div', {class: 'rail'}, this.range);
-    this.box =
-        make('div', {class: 'knob', 'data-knob': name}, make('label', {for: id
-             }, label), make('span', {class: 'field'}, this.field, make('span', {class: 'unit'}, unit)), this.rail);
-    this.range.addEventListener('input', () => this.take(this.valueAt(Number(this.range.value)), false));
-    this.range.addEventListener('change', () => this.changed(this.value, true));
-    this.field.addEventListener('change', () => {
-      const value = Number(this.field.value);
-      if (this.field.value === '' || !Number.isFinite(value) || value < 0 || (value === 0 && !this.zero && !this.even))
+    const field: HTMLInputElement = make('input', {type: 'number', id, step: 'any', inputmode: 'decimal'});
+    const range: HTMLInputElement =
+        make('input', {type: 'range', min: 0, max: knobSteps, step: 1, 'aria-label': label});
+    this.field = field, this.range = range;
+    this.rail = make('div', {class: 'rail'}, range);
+    this.box = make('div', {class: 'knob', 'data-knob': name}, make('label', {for: id
+                    }, label), make('span', {class: 'field'}, field, make('span', {class: 'unit'}, unit)), this.rail);
+    range.addEventListener('input', () => this.take(this.valueAt(Number(range.value)), false));
+    range.addEventListener('change', () => this.changed(this.value, true));
+    field.addEventListener('change', () => {
+      const value = Number(field.value), {zero, even} = this.reached;
+      if (field.value === '' || !Number.isFinite(value) || value < 0 || (value === 0 && !zero && !even))
         return this.show(this.value);
       this.take(value, true);
     });
   }
 
-  /** `snap` makes of a value one that can be taken. */
-  reach({low, high, even, zero, snap}) {
-    Object.assign(this, {low, high, even, zero, snap: snap ?? (v => rounded(v))});
-  }
+  reach(reached: Reach) { this.reached = reached; }
 
-  valueAt(place) {
-    if (this.zero && place === 0) return 0;
-    const part = place / knobSteps, {low, high} = this;
-    return this.snap(this.even ? low + part * (high - low) : low * (high / low) ** part);
+  private valueAt(place: number) {
+    const part = place / knobSteps, {low, high, even, zero, snap = rounded} = this.reached;
+    if (zero && place === 0) return 0;
+    return snap(even ? low + part * (high - low) : low * (high / low) ** part);
   }
 
   /** Part of the way along the slider at which a value stands. */
-  partOf(value) {
-    const {low, high} = this;
-    return Math.min(
-        1,
-        Math.max(
-            0,
-            this.even     ? (value - low) / (high - low) :
-                value > 0 ? Math.log(value / low) / Math.log(high / low) :
-                            0));
+  partOf(value: number) {
+    const {low, high, even} = this.reached;
+    const part = even ? (value - low) / (high - low) : value > 0 ? Math.log(value / low) / Math.log(high / low) : 0;
+    return Math.min(1, Math.max(0, part));
   }
 
-  take(value, done) {
+  private take(value: number, done: boolean) {
     this.show(value);
     this.changed(value, done);
   }
 
-  show(value) {
+  show(value: number) {
     this.value = value;
-    this.field.value = Number(value.toPrecision(4));
-    const place = Math.round(knobSteps * this.partOf(value));
-    this.range.value = this.zero && value > 0 ? Math.max(1, place) : place;
-    this.range.setAttribute(
-        'aria-valuetext',
-        value === 0 && this.zero && !this.even ? say('leftOut') : `${Number(value.toPrecision(4))} ${this.unit}`);
-    this.box.classList.toggle('out', value === 0 && Boolean(this.zero));
+    const {zero, even} = this.reached, place = Math.round(knobSteps * this.partOf(value)), words = rounded(value, 4);
+    this.field.value = String(words);
+    this.range.value = String(zero && value > 0 ? Math.max(1, place) : place);
+    this.range.setAttribute('aria-valuetext', value === 0 && zero && !even ? say('leftOut') : `${words} ${this.unit}`);
+    this.box.classList.toggle('out', value === 0 && Boolean(zero));
   }
 }
 
-/** The sliders of a scene's own numbers. `changed({path: value}, done)`. */
+/** The sliders of a scene's own numbers: the first few in sight, the others folded. */
 export class SceneKnobs {
-  constructor(changed) {
-    this.changed = changed;
-    this.box = make('div', {class: 'knobs'});
-  }
+  readonly box: HTMLElement = make('div', {class: 'knobs'});
+  private knobs: {row: KnobRow, slider: Slider}[] = [];
+  private original = '';
+  private toml = '';
+
+  constructor(private readonly changed: (changes: Changes, done: boolean) => void) {}
 
   /** Makes the sliders that the text has; `original` says how far they reach. */
-  build(toml, original) {
+  build(toml: string, original: string) {
+    const unfolded = this.box.querySelector('details')?.open;
     this.original = original;
     this.knobs = knobTable.filter(row => this.has(row, original)).map(row => {
-      const own = sizeOf(numberAt(original, this.pathOf(row)));
-      const slider = new Slider({
-        label: say(row.word),
-        unit: row.unit,
-        name: row.path,
-        changed: (value, done) => this.changed(this.changesOf(row, value), done)
-      });
+      const own = numberAt(original, this.pathOf(row)), {from, to = 1, most, even} = row;
+      const slider = new Slider(
+          say(row.word), row.unit, row.path, (value, done) => this.changed(this.changesOf(row, value), done));
       slider.reach({
-        low: row.from ? row.from * own : 0,
-        high: row.most ?? Math.max(row.to * own, row.unit === '' ? 1 : 0),
-        even: row.even,
-        zero: row.zero || (row.even && !row.from)
+        low: from ? from * own : 0,
+        high: most ?? Math.max(to * own, row.unit === '' ? 1 : 0),
+        even,
+        zero: row.zero || (even && !from)
       });
       return {row, slider};
     });
-    this.box.replaceChildren(...this.knobs.map(k => k.slider.box));
+    const boxes = this.knobs.map(k => k.slider.box), more = boxes.splice(shownKnobs);
+    const fold = make('details', {}, make('summary', {}, say('more')), ...more);
+    fold.open = Boolean(unfolded);
+    this.box.replaceChildren(...boxes, ...(more.length ? [fold] : []));
     this.show(toml);
   }
 
-  pathOf({path, scales}) { return scales ? `${path}.${scales[0]}` : path; }
+  private pathOf({path, scales}: KnobRow) { return scales ? `${path}.${scales[0]}` : path; }
 
   /** Whether the text has the number, once or everywhere the same, and not zero. */
-  has(row, toml) {
+  private has(row: KnobRow, toml: string) {
     if (row.scales && row.scales.filter(k => numberAt(toml, `${row.path}.${k}`)).length < 2) return false;
-    const all = numbersOf(toml).filter(e => e.path === this.pathOf(row));
-    return all.length > 0 && sizeOf(all[0].value) > 0 &&
-        all.every(e => tomlNumber(e.value) === tomlNumber(all[0].value));
+    const path = this.pathOf(row), all = numbersOf(toml).filter(e => e.path === path).map(e => tomlNumber(e.value));
+    return numberAt(toml, path) > 0 && all.every(value => value === all[0]);
   }
 
-  /** What a slider's value changes in the text. */
-  changesOf({path, scales}, value) {
+  /** What a value of a slider changes in the text. */
+  private changesOf(row: KnobRow, value: number): Changes {
+    const {path, scales} = row;
     if (scales) {
-      const was = numberAt(this.toml, `${path}.${scales[0]}`);
-      return Object.fromEntries(scales.map(k => `${path}.${k}`)
-                                    .filter(p => numberAt(this.toml, p))
-                                    .map(p => [p, rounded(numberAt(this.toml, p) * value / was, 6)]));
+      const was = numberAt(this.toml, this.pathOf(row)), paths = scales.map(k => `${path}.${k}`);
+      return Object.fromEntries(
+          paths.filter(p => numberAt(this.toml, p)).map(p => [p, rounded(numberAt(this.toml, p) * value / was, 6)]));
     }
-    const own = numberAt(this.original, path);
-    return {[path]: Array.isArray(own) ? own.map(v => rounded(v * value / norm(own), 9)) : value};
+    const own: Value = valueAt(this.original, path) ?? 0, size = numberAt(this.original, path);
+    return {[path]: Array.isArray(own) ? own.map(v => rounded(v * value / size, 9)) : value};
   }
 
-  show(toml) {
+  show(toml: string) {
     this.toml = toml;
-    for (const {row, slider} of this.knobs) slider.show(sizeOf(numberAt(toml, this.pathOf(row)) ?? 0));
+    for (const {row, slider} of this.knobs) slider.show(numberAt(toml, this.pathOf(row)));
   }
 }
 
-/** A time, s, in the unit that suits it. */
-export const timeText = s => {
-  const [name, size] = s < 1e-3 ? ['µs', 1e-6] : s < 1 ? ['ms', 1e-3] : ['s', 1];
-  return `${Number((s / size).toPrecision(3))} ${name}`;
-};
+/** A time (s) in ms, the unit of the step's slider. */
+export const msText = (s: number) => `${Number((1000 * s).toPrecision(3))} ms`;
 
-/** One method: its stepper, its step or tolerance, the predicted critical step. `changed(spec, done)`. */
+/** One method: its stepper, its step or tolerance, the predicted critical step. */
 export class MethodKnobs {
-  constructor(letter, changed, removed) {
-    Object.assign(this, {letter, changed});
+  readonly box: HTMLElement;
+  private readonly select: HTMLSelectElement;
+  private readonly sticky: HTMLInputElement;
+  private readonly linear: HTMLInputElement;
+  private readonly stickyLabel: HTMLElement;
+  private readonly linearLabel: HTMLElement;
+  private readonly step: Slider;
+  private readonly tolerance: Slider;
+  private readonly tick: HTMLElement = make('i', {class: 'tick', 'aria-hidden': 'true'});
+  private readonly mark: HTMLElement = make('span', {class: 'mark-words'});
+  private readonly note: HTMLElement = make('p', {class: 'note', role: 'status'});
+  private steppers: Stepper[] = [];
+  private spec: MethodSpec = {method: ''};
+  private own = 0;  // the scene's own step, s
+  private balls = 0;
+
+  constructor(
+      letter: string, private readonly changed: (spec: MethodSpec, done: boolean) => void, removed: () => void) {
     this.select = make('select', {'aria-label': say('stepperOf', {letter}), 'data-stepper': letter});
-    this.remove = make('button', {type: 'button', class: 'remove', 'aria-label': say('removeSecond', {letter})}, '✕');
+    const remove: HTMLElement =
+        make('button', {type: 'button', class: 'remove', 'aria-label': say('removeSecond', {letter})}, '✕');
     [this.stickyLabel, this.sticky] = check(say('sticky'), false);
     [this.linearLabel, this.linear] = check(say('linear'), false);
-    this.step = new Slider({
-      label: say('stepOf', {letter}),
-      unit: 'ms',
-      name: `step-${letter}`,
-      changed: (value, done) => this.take({step: value / 1000}, done)
-    });
-    this.tolerance = new Slider({
-      label: say('toleranceOf', {letter}),
-      unit: '',
-      name: `tolerance-${letter}`,
-      changed: (value, done) => this.take({tolerance: value}, done)
-    });
+    const take = (key: 'step'|'tolerance', size: number) => (value: number, done: boolean) =>
+        this.take({[key]: value * size}, done);
+    this.step = new Slider(say('stepOf', {letter}), 'ms', `step-${letter}`, take('step', 1e-3));
+    this.tolerance = new Slider(say('toleranceOf', {letter}), '', `tolerance-${letter}`, take('tolerance', 1));
     this.tolerance.reach({low: 1e-10, high: 1e-2, snap: v => rounded(v, 1)});
-    this.tick = make('i', {class: 'tick', 'aria-hidden': 'true'});
-    this.mark = make('span', {class: 'mark-words'});
     this.step.rail.append(this.tick);
     this.step.box.append(this.mark);
-    this.note = make('p', {class: 'note', role: 'status'});
     this.box = make(
         'div', {class: 'method', 'data-letter': letter},
-        make('div', {class: 'who'}, make('b', {}, letter), this.select, ...(letter === 'B' ? [this.remove] : [])),
+        make('div', {class: 'who'}, make('b', {}, letter), this.select, ...(letter === 'B' ? [remove] : [])),
         make('div', {class: 'options'}, this.stickyLabel, this.linearLabel), this.step.box, this.tolerance.box,
         this.note);
     for (const each of [this.select, this.sticky, this.linear])
       each.addEventListener('change', () => this.take({}, true));
-    this.remove.addEventListener('click', removed);
+    remove.addEventListener('click', removed);
   }
 
   /** The method as the controls say it, with a step or tolerance that was moved. */
-  take(moved, done) {
+  private take(moved: Partial<MethodSpec>, done: boolean) {
     const stepper = this.steppers.find(s => s.name === this.select.value);
+    if (!stepper) return;
     const events = this.spec.method === `${stepper.name}+events` ? '+events' : '';
     const options = (this.linear.checked && stepper.linear ? '+linear' : '') +
         (this.sticky.checked && this.balls ? '+sticky' : events);
-    const {step, tolerance} = {...this.spec, ...moved};
-    const spec = {method: stepper.name + options, step: step || this.own};
-    this.changed(stepper.adaptive ? {method: spec.method, tolerance: tolerance || 1e-6} : spec, done);
+    const {step, tolerance} = {...this.spec, ...moved}, method = stepper.name + options;
+    this.changed(stepper.adaptive ? {method, tolerance: tolerance || 1e-6} : {method, step: step || this.own}, done);
   }
 
   /** Shows a method beside its run; `scale`: critical step, s, by which the slider's range goes. */
-  show(spec, run, steppers, scale) {
-    const {scene} = run.sim, [name, ...options] = spec.method.split('+'), stepper = steppers.find(s => s.name === name);
-    const interval = scene.duration / scene.samples, limit = run.limit, known = Number.isFinite(limit) && limit > 0;
+  show(spec: MethodSpec, run: LiveRun, steppers: Stepper[], scale: number|null) {
+    const {scene} = run.sim, [name, ...options] = spec.method.split('+'), {limit} = run;
+    const h = run.refusal ? 0 : run.sim.h;
+    const stepper = steppers.find(s => s.name === name), interval = scene.duration / scene.samples;
+    const known = limit !== null && Number.isFinite(limit) && limit > 0;
     const bound = known && limit <= interval;  // no step is longer than the time between two samples
     Object.assign(this, {spec, steppers, own: scene.step, balls: scene.spheres.length});
     const usable = steppers.filter(s => !scene.firstOrder || s.firstOrder);
@@ -231,30 +256,28 @@ export class MethodKnobs {
     this.sticky.checked = options.includes('sticky'), this.linear.checked = options.includes('linear');
     this.stickyLabel.hidden = !this.balls, this.linearLabel.hidden = !stepper?.linear;
     this.step.box.hidden = Boolean(stepper?.adaptive), this.tolerance.box.hidden = !stepper?.adaptive;
-    const taken = !run.refusal && !stepper?.adaptive && run.sim.h && Math.abs(run.sim.h / spec.step - 1) > 0.012 ?
-        say('taken', {h: timeText(run.sim.h)}) :
-        '';
-    this.note.textContent =
-        run.refusal ? say('refused', {method: nameOfMethod(spec.method), reason: run.refusal}) : taken;
+    const step = spec.step ?? 0, shortened = !stepper?.adaptive && h && msText(h) !== msText(step);
+    this.note.textContent = run.refusal ? say('refused', {method: nameOfMethod(spec.method), reason: run.refusal}) :
+        shortened ? say('taken', {h: msText(h), n: Math.round(interval / h), interval: msText(interval)}) :
+                    '';
     this.note.classList.toggle('failed', Boolean(run.refusal));
-    if (stepper?.adaptive) return void this.tolerance.show(spec.tolerance);
-    const base = Number.isFinite(scale) && scale > 0 ? scale : 4 * scene.step;
-    const high = limit === Infinity ? interval : Math.min(interval, Math.max(2.5 * base, bound ? 2.2 * limit : 0)),
-          low = Math.min(base / 40, bound ? limit / 4 : Infinity, high / 10);
+    if (stepper?.adaptive) return this.tolerance.show(spec.tolerance ?? 1e-6);
+    const base = scale !== null && Number.isFinite(scale) && scale > 0 ? scale : 4 * scene.step;
+    const high = limit === Infinity ? interval : Math.min(interval, Math.max(2.5 * base, bound ? 2.2 * limit : 0));
+    const low = Math.min(base / 40, bound ? limit / 4 : Infinity, high / 10);
     this.step.reach({
-      low: 1000 * Math.min(low, spec.step),
-      high: 1000 * Math.max(high, spec.step),
+      low: 1000 * Math.min(low, step),
+      high: 1000 * Math.max(high, step),
       snap: ms => 1000 * stepOf(interval, Math.max(1, Math.round(interval / (ms / 1000))))
     });
-    this.step.show(1000 * spec.step);
-    const part = bound ? this.step.partOf(1000 * limit) : limit === 0 ? 0 : 1;
-    this.box.style.setProperty('--at', part);
+    this.step.show(1000 * step);
+    this.box.style.setProperty('--at', String(bound ? this.step.partOf(1000 * limit) : limit === 0 ? 0 : 1));
     this.tick.hidden = !bound;
     this.box.classList.toggle('bound', bound || limit === 0);
-    this.box.classList.toggle('past', (bound && !run.refusal && run.sim.h > limit) || limit === 0);
+    this.box.classList.toggle('past', (bound && h > limit) || limit === 0);
     this.mark.classList.toggle('placed', bound);
     this.mark.textContent = known ?
-        say(bound ? 'limitMark' : 'limitBeyond', {h: timeText(limit), interval: timeText(interval)}) :
+        say(bound ? 'limitMark' : 'limitBeyond', {h: msText(limit), interval: msText(interval)}) :
         say(limit === 0            ? 'limitNone' :
                 limit === Infinity ? 'limitAll' :
                                      'limitUnknown');
@@ -262,19 +285,17 @@ export class MethodKnobs {
 }
 
 /** A method's name in words: "symplectic Euler, sticky". A stepper without words goes by its name. */
-export function nameOfMethod(method) {
-  const [name, ...options] = method.split('+'), known = (key, otherwise) => (key in labWords ? say(key) : otherwise);
+export function nameOfMethod(method: string) {
+  const [name, ...options] = method.split('+');
+  const known = (key: string, otherwise: string) => (key in labWords.en ? say(key) : otherwise);
   return [
     known(`method.${name}`, name.replace(/-/g, ' ').replace('euler', 'Euler')),
     ...options.map(option => known(`option.${option}`, option))
   ].join(say('comma'));
 }
 
-/**
- * A stepper in the list to choose from: in words, and, where these are not English, with the name for the command
- * line.
- */
-const chosenAs = name => {
+/** A stepper in the list to choose from: in words, with the name for the command line where these are not English. */
+const chosenAs = (name: string) => {
   const words = nameOfMethod(name);
   return labLanguage === 'en' || words === name ? words : [words, name].join(say('comma'));
 };

@@ -1,54 +1,59 @@
 // <live-lab>: mysim itself in the page, the truth beside it. Nothing of it is laid out, compiled or computed before it
-// is opened: by its button, by an address, or by openLab().
-//
-// Its state is a scene's text (TOML), one or two methods with a step or tolerance each, and a look. Sliders change
-// numbers in the text; then the scene is opened anew and the runs start again. Runs share one clock.
-// @ts-nocheck
-
-import {dark, startsWebGl} from '../player/player';
-
-import {LabError, labModule} from './engine';
-import {Hand} from './hand';
-import {labActs} from './lab_acts';
-import {labButton, LabView, lookOfRun} from './lab_view';
-import {LiveRun, Truth} from './live_run';
-import {changesBetween, numberAt, textAt, withNumbers} from './scene_text';
+// is opened: by its button, by an address, or by openLab(); with data-part="step", the picture with the step's slider,
+// when it comes in sight. Its state is a scene's text (TOML), one or two methods with a step or tolerance each, and a
+// look. Sliders change numbers in the text; then the scene is opened anew and the runs start again.
 
 import {make, short} from '../player/controls';
-import {openExperiment} from './guide';
-import {say} from './words';
-import {stateOf} from './lab_link';
+import {dark, startsWebGl, stillWanted} from '../player/player';
+import {Vec3} from '../player/vectors';
 
-const computingBudget = 0.5;       // part of a frame's time, for the methods together
-const truthBudget = 0.45;          // part of a frame's time
-const shortestFrame = 17;          // ms
-const longestFrame = 120;          // ms, by which budgets go where drawing is slow
-const slowestPace = 0.1;           // minimum clock rate while waiting for the reference solution
-const longestWait = 2500;          // ms of waiting for the truth
-export const smallScene = 1500;    // particles; larger ones have no truth, and no energy balance unless asked
-export const previewBudget = 150;  // ms for finding out how far a scene moves
-const slowDrawing = 40;            // ms between frames beyond what their scripts take: then drawing is what takes it
-export const coarseRatio = 0.7;    // share of the pixels per side while moving, where drawing is slow
+import {labModule, Simulation} from './engine';
+import {openExperiment, openGuide} from './guide';
+import {Hand} from './hand';
+import {nameOfMethod, msText} from './knobs';
+import {addressOf, commandOf, copyText, LabState, saveText, stateOf} from './lab_link';
+import {LabPicture} from './lab_picture';
+import {labScenes, sceneText, shortestFrame, smallScene} from './lab_runs';
+import {labButton, LabView} from './lab_view';
+import {LiveRun, messageOf} from './live_run';
+import {Changes, changesBetween, MethodSpec, textAt, withMethod, withNumbers} from './scene_text';
+import {labLanguage, questionInLanguage, say} from './words';
 
-/** The scenes of the page: {name: {toml, fingerprint (of each rule, after so many steps), steps}}. */
-export const labScenes = (() => {
-  let scenes;
-  return () => (scenes ??= JSON.parse(document.getElementById('lab-scenes')?.textContent || '{}'));
-})();
-/** The text of a scene of the page as it is shipped. */
-export const sceneText = name => labScenes()[name]?.toml;
+const longestFrame = 120;  // ms, by which budgets go where drawing is slow
+const pauseAtEnd = 1200;   // ms, before a run that loops starts again
 
-class LiveLab extends HTMLElement {
+export class LiveLab extends LabPicture {
+  link = '';                                             // the last that was copied
+  waiting: {particle: number, place: Vec3}|null = null;  // a move for the next frame
+  private opening: Promise<boolean>|null = null;
+  private source: LiveRun|null = null;  // the run that the hand has
+  private loops = false;                // the run starts again at its end, until the reader does something
+  private again = 0;                    // timers
+  private later = 0;
+  private asked = false;
+  private lastFrame: number|null = null;
+  private told = 0;
+  private frames: number[] = [];
+  private average: number|null = null;  // ms of computing in a frame
+
+  get alone() { return this.dataset.alone !== undefined; }
+  get isPart() { return this.dataset.part !== undefined; }
+
   connectedCallback() {
     if (this.dataset.state) return;
-    this.dataset.state = 'closed';
-    this.showDoor();
+    const there = Boolean(document.getElementById('lab-module'));
+    this.dataset.state = there ? 'closed' : 'unavailable';
+    if (!there) return;
     document.addEventListener('lab-language', () => this.relabel());
-    const head = this.dataset.alone === undefined ? null : document.querySelector('nav .made');
-    const sayHead = () => head?.replaceChildren(say('madeOf'));
-    sayHead();
-    document.addEventListener('lab-language', sayHead);
-    if (this.dataset.alone !== undefined && !/^#lab=/.test(location.hash)) this.open();
+    this.relabel();
+    if (this.isPart)
+      new IntersectionObserver(([entry], observer) => {
+        if (!entry.isIntersecting) return;
+        observer.disconnect();
+        this.open();
+      }).observe(this);
+    else if (this.alone && !/^#lab=/.test(location.hash))
+      this.open();
   }
 
   disconnectedCallback() {
@@ -56,72 +61,56 @@ class LiveLab extends HTMLElement {
   }
 
   /** The button that opens the lab. */
-  showDoor() {
+  private showDoor() {
     const button = labButton('open', `▶ ${say('open')}`, () => this.open(), `▶ ${say('open')}`);
     this.replaceChildren(make('div', {class: 'lab-door'}, button, make('span', {}, say('openHint'))));
   }
 
-  /** Opens the lab, in a state where one is given; resolves when it stands. */
-  async open(state = {}) {
-    if (this.view) return this.setState(state);
+  /**
+   * Opens the lab, in a state where one is given, else with its own scene running; resolves when it can be seen.
+   */
+  async open(state?: LabState) {
+    if (this.view) return this.setState(state ?? {});
     this.opening ??= this.begin();
-    if (await this.opening) return this.setState({scene: this.dataset.scene || Object.keys(labScenes())[0], ...state});
+    if (!await this.opening || (!state && this.sceneName)) return;  // a state was set meanwhile
+    this.loops = !state && !stillWanted.matches;
+    const names = Object.keys(labScenes()),
+          own = this.dataset.scene || (names.includes('cloth-hang') ? 'cloth-hang' : names[0]);
+    await this.setState({running: this.loops, ...state, scene: state?.scene ?? own});
   }
 
-  async begin() {
+  private async begin() {
     this.dataset.state = 'opening';
-    this.replaceChildren(make('p', {class: 'lab-plain', role: 'status'}, say('waiting')));
+    if (!this.isPart) this.replaceChildren(make('p', {class: 'lab-plain', role: 'status'}, say('waiting')));
     await new Promise(done => setTimeout(done));  // the words are there before the compiler takes the thread
-    this.lab = await labModule();
-    const missing = !document.getElementById('lab-module') ? 'noModule' :
-        !this.lab                                          ? 'noWasm' :
-        !startsWebGl()                                     ? 'noWebgl' :
-                                                             null;
-    if (missing) {
+    const lab = await labModule(), missing = !lab ? 'noWasm' : !startsWebGl() ? 'noWebgl' : null;
+    if (!lab || missing) {
       this.dataset.state = 'unavailable';
-      this.dataset.missing = missing;
-      this.replaceChildren(make('p', {class: 'lab-plain'}, say(missing)));
+      this.dataset.missing = missing ?? '';
+      this.relabel();
       return false;
     }
-    Object.assign(this, {
-      runs: [],
-      clock: 0,
-      speed: 1,
-      playing: false,
-      seen: true,
-      drawing: 0,
-      drawsSlowly: false,
-      frameTime: shortestFrame,
-      frames: [],
-      passed: [],
-      pictures: []
-    });
-    this.look = {view: 'over', colour: 'plain', springs: false, truth: false};
-    const bind = name => (...given) => this[name](...given);
-    this.view = new LabView(Object.fromEntries([
-      'toggle', 'step', 'restart', 'speed', 'method', 'second', 'removeSecond', 'numbers', 'scene', 'original', 'close',
-      'look', 'ledger', 'pin', 'resetView', 'copyLink', 'saveToml', 'copyCommand', 'file'
-    ].map(name => [name, bind(`act_${name}`)])));
-    this.replaceChildren(this.view.root);
-    this.hand = new Hand(this.view.layer, {
+    this.lab = lab;
+    const view = this.view = new LabView(this.acts);
+    this.replaceChildren(view.root);
+    this.hand = new Hand(view.layer, {
       stage: () => this.stage,
-      orbit: null,
-      runs: () => this.drawn?.map(view => view.run) ?? [],
+      orbit: () => this.orbit!,
+      runs: () => this.drawn.map(each => each.run),
       draw: () => this.draw(),
-      hover: hit => this.view.layer.classList.toggle('on-particle', Boolean(hit)),
+      hover: on => view.layer.classList.toggle('on-particle', on),
       hold: (particle, place, run) => this.hold(particle, place, run),
       release: () => this.release(),
       choose: particle => this.choose(particle),
-      pin: particle => this.act_pin(particle),
-      toggle: () => this.act_toggle(),
-      step: () => this.act_step(),
-      restart: () => this.act_restart()
+      pin: particle => this.pin(particle),
+      toggle: () => this.acts.toggle(),
+      step: () => this.acts.step(),
+      restart: () => this.acts.restart()
     });
-    const {stage} = this.view;
     new IntersectionObserver(([entry]) => (this.seen = entry.isIntersecting, this.wake())).observe(this);
-    new ResizeObserver(() => (this.draw(), this.wake())).observe(stage);
+    new ResizeObserver(() => (this.draw(), this.wake())).observe(view.stage);
     dark.addEventListener('change', () => this.runs.length && this.showViews());
-    for (const name of ['dragenter', 'dragover', 'dragleave', 'drop'])
+    for (const name of ['dragenter', 'dragover', 'dragleave', 'drop'] as const)
       this.addEventListener(name, event => this.dragged(event));
     this.dataset.state = 'ready';
     return true;
@@ -130,33 +119,28 @@ class LiveLab extends HTMLElement {
   // State.
 
   /**
-   * Sets what is given: `scene` (its shipped text and method), `toml` (a text, or {path: number} to change),
-   * `methods` [{method, step or tolerance}], `view`, `colour`, `springs`, `truth`, `speed`, `running`. Resolves when
-   * shown.
+   * Sets what is given: a scene with its shipped text and method, a text or numbers to change in it, methods, a look.
+   * Resolves when it is shown.
    */
-  async setState({scene, toml, changes, methods, view, colour, springs, truth, speed, running} = {}) {
-    if (!this.view)
-      return this.open(
-          {scene: scene ?? this.dataset.scene, toml, changes, methods, view, colour, springs, truth, speed, running});
-    const text = typeof toml === 'string' ? toml : null, edits = {...changes, ...(text === null ? toml : {})};
-    const other = scene !== undefined && scene !== this.sceneName;
-    if (scene !== undefined && text === null && !sceneText(scene))
+  async setState(state: LabState): Promise<void> {
+    if (!this.view) return this.open({scene: this.dataset.scene, ...state});
+    const {scene, toml, changes, methods, speed, running} = state, other = scene !== undefined;
+    if (other && toml === undefined && !sceneText(scene))
       return this.view.say(say('unknownScene', {name: scene}), true);
     const before = {sceneName: this.sceneName, original: this.original, toml: this.toml, methods: this.methods};
-    if (scene !== undefined || text !== null) {
+    if (other || toml !== undefined) {
       this.sceneName = scene ?? this.sceneName;
-      this.original = sceneText(this.sceneName) ?? text;
-      this.toml = text ?? this.original;
+      this.original = sceneText(this.sceneName) ?? toml ?? '';
+      this.toml = toml ?? this.original;
     }
-    this.toml = withNumbers(this.toml, edits);
+    this.toml = withNumbers(this.toml, changes ?? {});
     if (methods)
       this.methods = methods.slice(0, 2).map(m => ({...m}));
-    else if (scene !== undefined)
+    else if (other)
       this.methods = null;
-    for (const [name, value] of Object.entries({view, colour, springs, truth}))
-      if (value !== undefined) this.look[name] = value;
-    if (speed) this.speed = speed, this.view.speed.value = String(speed);
-    if (!this.load(other || scene !== undefined)) {
+    this.setLookOf(state);
+    if (speed) this.setSpeed(speed);
+    if (!this.load(other)) {
       Object.assign(this, before);
       if (before.toml) this.load(other);
       return;
@@ -167,16 +151,13 @@ class LiveLab extends HTMLElement {
   }
 
   /** What a link holds. */
-  get state() {
-    const {sceneName: scene, original, toml, methods, look} = this, state = {scene, methods};
+  get state(): LabState {
+    const {sceneName: scene, original, toml, methods, look} = this, state: LabState = {scene, methods};
     if (this.byHand)
       state.toml = this.runs[0].sim.sceneText();
     else if (toml !== original || !sceneText(scene)) {
       const changes = sceneText(scene) ? changesBetween(original, toml) : null;
-      if (changes)
-        state.changes = changes;
-      else
-        state.toml = toml;
+      Object.assign(state, changes ? {changes} : {toml});
     }
     if (look.view !== 'over') state.view = look.view;
     if (look.colour !== 'plain') state.colour = look.colour;
@@ -185,9 +166,8 @@ class LiveLab extends HTMLElement {
 
   /** Numbers of the present, for the guide and for tests. */
   get reading() {
-    const {runs} = this, [a] = runs ?? [];
+    const {runs} = this, [a] = runs;
     if (!a) return null;
-    const last = a.samples[a.samples.length - 1];
     return {
       scene: this.sceneName,
       toml: this.toml,
@@ -195,210 +175,49 @@ class LiveLab extends HTMLElement {
       t: this.clock,
       running: this.playing,
       ended: a.ended,
-      verdict: a.verdict,
-      reason: a.reason,
       byHand: this.byHand,
-      steps: runs.map(run => (run.refusal ? null : run.sim.h)),
       limitA: a.limit,
-      error: last?.error ?? null,
-      bar: last?.bar ?? null,
-      energies: a.refusal || a.fault ? null : a.sim.energy,
-      residual: last?.residual ?? null,
-      framesPerSecond: this.framesPerSecond,
-      factor: a.factor,
+      error: a.lastSample?.error ?? null,
       chosen: this.hand.chosen
     };
   }
 
-  tell() { this.dispatchEvent(new Event('reading', {bubbles: true})); }
+  private tell() { this.dispatchEvent(new Event('reading', {bubbles: true})); }
 
-  // The engine.
+  protected refused(words: string) { this.view?.say(words, true); }
 
-  /**
-   * Opens the scene for every method and starts again; false, with the reason said, where it is not taken. `fresh`:
-   * another scene.
-   */
-  load(fresh = false) {
-    let opened = [];
-    if (fresh) this.keepLedger = null;
-    try {
-      this.methods ??= [this.ownMethod()];
-      for (const spec of this.methods) {
-        const stepper = this.lab.steppers.find(s => s.name === spec.method.split('+')[0]);
-        if (!stepper) throw new LabError('input', spec.method);
-        if (stepper.adaptive)
-          spec.tolerance ||= 1e-6;
-        else
-          spec.step ||= numberAt(this.toml, 'time.step');
-      }
-      for (const [i, spec] of this.methods.entries())
-        opened.push(new LiveRun(
-            this.lab, this.toml, 'AB'[i], spec, scene => this.keepLedger ??= scene.particles <= smallScene));
-    } catch (problem) {
-      opened.forEach(run => run.close());
-      this.view.say(say('sceneRefused', {reason: problem.message}), true);
-      return false;
-    }
-    this.good = this.toml;
-    this.runs.forEach(run => run.close());
-    this.runs = opened;
-    this.start(fresh);
-    return true;
-  }
-
-  /** The method that the scene's text names, where it is one of mysim's. */
-  ownMethod() {
-    const name = textAt(this.toml, 'method').replace(/^mysim\//, '');
-    return {
-      method: this.lab.steppers.some(s => s.name === name.split('+')[0]) ? name : 'leapfrog',
-      step: numberAt(this.toml, 'time.step')
-    };
-  }
-
-  /** After runs were opened: clock, truth, stage and words stand at the beginning. */
-  start(fresh) {
-    const [a] = this.runs, {scene} = a.sim;
-    Object.assign(
-        this, {clock: 0, end: scene.duration, byHand: false, growth: null, waiting: null, passed: [], average: null});
-    this.dropTruth();
-    this.bits = this.bitsOf(a);
-    for (const run of this.runs) run.look = lookOfRun(run.letter);
+  protected opened(fresh: boolean) {
+    this.waiting = this.average = null;
     this.hand.held = this.hand.grabbed = null;
     if (fresh) {
       this.hand.forget();
-      this.scale = a.sim.limit('leapfrog');
-      this.view.knobs.build(this.toml, this.original);
+      this.view?.knobs.build(this.toml, this.original);
     }
-    this.view.ledger.checked = this.keepLedger;
+    if (this.view) this.view.ledger.checked = Boolean(this.keepLedger);
     this.setStage(fresh);
     this.sample();
     this.showViews();
     this.showState();
   }
 
-  /**
-   * Whether the first steps of a scene of the page are here what the native engine made of them, bit for bit: the page
-   * holds their fingerprint. Null where it holds none: other scenes, and rules that need not give the same bits.
-   */
-  bitsOf({spec}) {
-    const {toml, fingerprint, steps} = labScenes()[this.sceneName] ?? {}, expected = fingerprint?.[spec.method];
-    if (!expected || this.toml !== toml) return null;
-    const key = `${this.sceneName} ${spec.method}`;
-    this.knownBits ??= new Map();
-    if (!this.knownBits.has(key)) {
-      const sim = this.lab.open(toml);
-      sim.start({stepper: spec.method, observe: false});
-      sim.call('advance', Infinity, steps);
-      this.knownBits.set(key, sim.fingerprint() === expected);
-      sim.close();
-    }
-    return this.knownBits.get(key);
-  }
-
-  restart() {
-    if (this.byHand) return this.load();
-    this.runs.forEach(run => run.start());
-    this.start(false);
-  }
-
-  /** The truth is opened when it is needed first. */
-  findTruth() {
-    if (this.truth || this.truthGone) return;
-    const run = this.runs.find(r => !r.refusal && !r.failed);
-    if (!run) return;
-    if (run.sim.scene.particles > smallScene) return void (this.truthGone = 'large');
-    try {
-      this.truth =
-          new Truth(this.lab, this.byHand ? run.sim.sceneText() : this.toml, run, run.sim.scene.spheres.length > 0);
-    } catch {
-      this.truth = null;
-    }
-    if (!this.truth?.known) this.truth = null, this.truthGone = 'none';
-    this.late = 0;
-  }
-
-  dropTruth() {
-    this.truth?.close();
-    this.truth = this.truthGone = null;
-    this.late = this.slow = 0, this.pace = 1, this.pending = false;
-  }
-
-  /**
-   * Lets time pass: runs go on up to the clock, as far as the frame's computing allows. `wanted`: at the speed chosen.
-   */
-  advance(passed, wanted = passed) {
-    const before = this.clock;
-    let aim = Math.min(this.end, before + passed), left = computingBudget * this.frameTime;
-    for (const run of [...this.runs].sort((x, y) => y.last - x.last)) {
-      const was = run.failed, there = run.advance(aim, Math.max(1, left)), fails = run.failed && !was;
-      left -= run.last;
-      if (!there || fails) aim = Math.max(before, Math.min(aim, run.time + (fails ? 0 : run.sim.h || 0)));
-    }
-    this.clock = aim;
-    if (!this.runs.some(run => run.bursting)) this.passed.push(wanted > 0 ? (aim - before) / wanted : 1);
-    if (this.passed.length > 30) this.passed.shift();
-    this.sample();
-    this.judge();
-    if (this.runs.every(run => run.ended) ||
-        (this.clock >= this.end - 1e-9 && this.runs.every(run => run.ended || run.time >= this.end - 1e-6)))
-      this.pause();
-  }
-
-  /**
-   * Compares runs that moved on with the truth, and keeps what they have come to. Where the truth is not there within
-   * the frame's computing, `pending` makes the clock wait for it, and go more slowly from then on; but not for ever.
-   */
-  sample() {
-    // at the start nothing is off yet, and while a slider moves no truth is begun
-    const free = !this.hand.held && this.clock > 0 && performance.now() > (this.settled ?? 0);
-    if (free) this.findTruth();
-    const begin = performance.now(),
-          left = () => Math.max(1, truthBudget * this.frameTime - (performance.now() - begin));
-    this.pending = false;
-    for (const run of [...this.runs].sort((x, y) => x.time - y.time)) {
-      const last = run.samples[run.samples.length - 1];
-      if (run.refusal || last?.t === run.time || (last && run.time < last.t + this.end / 500 && !run.ended)) continue;
-      const found = this.clock === 0        ? {error: 0, bar: null} :
-          this.truth && free && !run.failed ? this.truth.compare(run.places, run.time, left()) :
-                                              null;
-      if (!found && this.truth && free && !run.failed && this.truth.isBefore(run.time))
-        this.pending = true;
-      else
-        run.sample(found?.error ?? null, found?.bar ?? null);
-    }
-    this.pace = this.pending ? Math.max(slowestPace, 0.8 * this.pace) : Math.min(1, 1.04 * this.pace);
-    this.late = this.pending ? this.late + this.frameTime : 0;
-    this.slow = this.pace > 2 * slowestPace ? 0 : this.slow + this.frameTime;
-    if (!this.pending || (this.late < longestWait && this.slow < longestWait)) return;
-    this.truthCost = this.truth.cost * this.speed * this.frameTime / 1000;
-    this.late = this.slow = 0, this.pace = 1;
-    if (!this.truth.shed()) this.truth.close(), this.truth = null, this.truthGone = 'slow';
-  }
-
   /** Says which runs have failed, and shows the mode that grows in the first that did. */
   judge() {
-    const failed = this.runs.filter(run => run.failed);
+    const failed = this.runs.filter(run => run.failed), {stage} = this;
     for (const run of failed)
-      if (!run.shown && this.stage) run.shown = true, run.stepBack(places => this.stage.sees(places, 0.1));
-    if (!this.growth && failed.length) {
-      const mode = failed[0].fault ? null : failed[0].sim.growth;
-      this.growth = mode && {letter: failed[0].letter, mode: Float64Array.from(mode)};
+      if (!run.shown && stage) run.shown = true, run.stepBack(places => stage.sees(places, 0.1));
+    if (!this.growth && failed.length && !failed[0].fault) {
+      const mode = failed[0].sim.growth;
+      this.growth = mode && {letter: failed[0].letter, mode: mode.slice()};
     }
     this.dataset.verdict = failed.length ? failed[0].verdict : 'ok';
-    this.view.setVerdict([...failed.map(run => this.verdictOf(run)), ...(this.growth ? [say('growth')] : [])]);
+    this.view?.setVerdict([...failed.map(run => this.verdictOf(run)), ...(this.growth ? [say('growth')] : [])]);
   }
 
-  verdictOf(run) {
-    const key = {
-      energy: 'verdictEnergy',
-      nan: 'verdictNan',
-      stretch: 'verdictStretch',
-      solver: 'verdictSolver',
-      frozen: 'verdictFrozen'
-    }[run.verdict] ??
-        'verdictOther';
-    const words = say(key, {letter: run.letter, t: short(run.time), reason: run.reason}), {limit} = run, h = run.sim.h;
-    if (!Number.isFinite(limit) || !(limit > 0) || !h) return words;
+  private verdictOf(run: LiveRun) {
+    const {verdict, limit, sim: {h}} = run, known = /^(energy|nan|stretch|solver|frozen)$/.test(verdict);
+    const key = known ? `verdict${verdict[0].toUpperCase()}${verdict.slice(1)}` : 'verdictOther';
+    const words = say(key, {letter: run.letter, t: short(run.time), reason: run.reason});
+    if (limit === null || !Number.isFinite(limit) || !(limit > 0) || !h) return words;
     const x = Number((h / limit).toPrecision(3));
     return `${words} ${say(x > 1 ? 'verdictPast' : 'verdictBelow', {x})}`;
   }
@@ -406,10 +225,11 @@ class LiveLab extends HTMLElement {
   // The loop.
 
   play() {
+    clearTimeout(this.again);
     if (this.runs.every(run => run.ended) || this.clock >= this.end - 1e-9) this.restart();
     this.playing = true;
     this.dataset.running = '';
-    this.view.setRunning(true);
+    this.view?.setRunning(true);
     this.wake();
   }
 
@@ -417,8 +237,10 @@ class LiveLab extends HTMLElement {
     if (!this.playing) return;
     this.playing = false;
     delete this.dataset.running;
-    this.view.setRunning(false);
+    this.view?.setRunning(false);
     this.showNow(true);
+    if (this.loops && !this.runs.some(run => run.failed))
+      this.again = window.setTimeout(() => this.loops && this.play(), pauseAtEnd);
     this.wake();
   }
 
@@ -429,27 +251,23 @@ class LiveLab extends HTMLElement {
     requestAnimationFrame(now => this.frame(now));
   }
 
-  frame(now) {
+  frame(now: number) {
     this.asked = false;
     if (!this.isConnected || !this.view) return;
     const begin = performance.now(), apart = this.lastFrame ? now - this.lastFrame : 0;  // ms
     const passed = Math.min(0.1, apart / 1000);  // a page that was away goes on where it was
     this.lastFrame = now;
     this.frameTime = Math.max(shortestFrame, Math.min(longestFrame, 0.8 * this.frameTime + 200 * passed));
-    if (this.playing) {
-      this.frames.push(now);
-      while (this.frames[0] < now - 1000) this.frames.shift();
-    } else
-      this.frames = [];
+    this.frames = this.playing ? [...this.frames.filter(time => time >= now - 1000), now] : [];
     if (!this.stage) this.showViews();
     if (this.stage && this.hand.grabbed?.pointer) this.hand.lead(this.hand.grabbed.pointer);
     if (this.waiting) this.moveHeld();
     const was = this.pending;
-    if (was)
+    if (was) {
       this.sample();
-    else if (this.playing)
+      if (this.playing) this.passed.push(0);
+    } else if (this.playing)
       this.advance(this.speed * this.pace * passed, this.speed * passed);
-    if (was && this.playing) this.passed.push(0);
     const eased = this.draw();
     this.showNow(was && !this.pending && !this.playing, now);
     this.watchDrawing(apart, performance.now() - begin);
@@ -459,37 +277,394 @@ class LiveLab extends HTMLElement {
       this.lastFrame = null;
   }
 
-  /**
-   * Without a graphics processor drawing may take many times what computing does: then the stage becomes a coarse one.
-   */
-  watchDrawing(apart, script) {
-    if (!this.playing || !this.stage || this.stage.coarse) return void (this.drawing = 0);
-    this.drawing += 0.2 * (Math.min(100, apart - (this.scripted ?? 0)) - this.drawing);
-    this.scripted = script;
-    if (this.drawing < slowDrawing) return;
-    this.drawsSlowly = true;
-    this.sleep();
-    this.showViews();
+  private get framesPerSecond() {
+    const {frames} = this, count = frames.length - 1;
+    return count > 1 ? Math.round(1000 * count / (frames[count] - frames[0])) : null;
   }
 
-  get framesPerSecond() {
-    const {frames} = this;
-    return frames.length > 2 ? Math.round(1000 * (frames.length - 1) / (frames[frames.length - 1] - frames[0])) : null;
+  // Controls.
+
+  setSpeed(speed: number) {
+    this.speed = speed;
+    if (this.view) this.view.speed.value = String(speed);
+  }
+
+  /** Runs after a change that the reader made: where it ran, or where a run had come to its end by itself. */
+  private goOn(change: () => void) {
+    const over = this.runs.some(run => run.ended && !run.refusal) && !stillWanted.matches;
+    const runs = this.playing || over;
+    if (!this.isPart) this.loops = false;
+    change();
+    if (runs) this.play();
+  }
+
+  /** Loads again and goes on running. */
+  private reload() {
+    let well = false;
+    this.goOn(() => (well = this.load()));
+    return well;
+  }
+
+  private readonly acts = {
+    toggle: () => {
+      this.loops = !this.playing && this.isPart;
+      this.playing ? this.pause() : this.play();
+    },
+    restart:
+        () => {
+          const runs = this.playing || this.view?.verdict.contains(document.activeElement);
+          this.restart();
+          if (runs) this.play();
+        },
+    /** One step of the first method that still runs. */
+    step:
+        () => {
+          this.loops = false;
+          this.pause();
+          if (this.runs.every(run => run.ended)) this.restart();
+          const run = this.runs.find(r => !r.ended);
+          if (!run) return;
+          const begin = run.sim.steps, {step} = run.sim.scene;
+          this.advance(Math.max(0, run.time + run.step - this.clock) + 1e-9 * step);
+          if (run.sim.steps === begin && !run.ended) this.advance(run.step);
+          this.draw();
+          this.showNow(true);
+          this.wake();
+        },
+    speed: (speed: number) => this.setSpeed(speed),
+    /** A method was changed: its run starts again at once, and in the same scene if the rule is the same. */
+    method:
+        (i: number, spec: MethodSpec, done: boolean) => {
+          if (!this.methods) return;
+          const same = this.methods[i].method === spec.method && !this.byHand;
+          this.methods[i] = spec;
+          this.settle(done);
+          if (!same) return void this.reload();
+          this.runs[i].spec = spec;
+          this.goOn(() => this.restart());
+        },
+    second:
+        () => {
+          const [{method, step}] = this.methods ?? [{method: '', step: 0}], {scene} = this.runs[0].sim;
+          const other = ['symplectic-euler', 'leapfrog', 'rk4', 'trapezoidal'].find(
+              name => name !== method && (!scene.firstOrder || this.lab.stepperOf(name)?.firstOrder));
+          this.methods = [...this.methods ?? [], {method: other ?? 'rk4', step: step ?? scene.step}];
+          this.reload();
+        },
+    removeSecond:
+        () => {
+          this.methods = this.methods?.slice(0, 1) ?? null;
+          this.reload();
+        },
+    /** Numbers of the scene were moved. Large scenes are opened when the slider stands. */
+    numbers:
+        (changes: Changes, done: boolean) => {
+          this.toml = withNumbers(this.toml, changes);
+          this.settle(done);
+          clearTimeout(this.later);
+          const act = () => {
+            this.view?.say('');
+            if (!this.reload()) this.view?.knobs.show(this.toml = this.good);
+          };
+          const wait = this.runs[0].sim.scene.particles > smallScene ? 250 : 60;  // ms
+          if (done)
+            act();
+          else
+            this.later = window.setTimeout(act, wait);
+        },
+    scene: (scene: string) => void this.setState({scene, running: this.playing && !stillWanted.matches}),
+    original: () => void this.setState({toml: this.original, running: this.playing}),
+    look:
+        (change: LabState) => {
+          this.setLookOf(change);
+          this.showViews();
+        },
+    ledger:
+        (on: boolean) => {
+          this.keepLedger = on;
+          this.reload();
+        },
+    resetView:
+        () => {
+          this.orbit?.reset();
+          this.draw();
+        },
+    guide: () => openGuide(this),
+    /** The whole lab in place of its part. */
+    more:
+        () => {
+          delete this.dataset.part;
+          this.draw();
+          this.view?.layer.focus({preventScroll: true});
+        },
+    close:
+        () => {
+          const dialog = this.closest('dialog');
+          if (dialog) return dialog.close();
+          this.shut();
+          this.showDoor();
+          this.querySelector('button')?.focus();
+        },
+    pin: () => this.pin(),
+    copyLink:
+        async () => {
+          this.link = `${location.href.split('#')[0]}#lab=${await addressOf(this.state)}`;
+          this.view?.say(await copyText(this.link) ? say('linkCopied') : say('notCopied', {text: this.link}));
+        },
+    saveToml:
+        () => {
+          const file = `${this.sceneName}${this.isShipped ? '' : '-lab'}.toml`;
+          saveText(file, this.tomlNow);
+          this.view?.say(say('savedToml', {file}));
+        },
+    copyCommand:
+        async () => {
+          const scene = this.isShipped ? this.sceneName : `${this.sceneName}-lab.toml`;
+          const command = commandOf(scene, this.methods?.[0] ?? {method: ''});
+          this.view?.say(await copyText(command) ? say('commandCopied', {command}) : say('notCopied', {text: command}));
+        },
+    file:
+        async (file: File) => {
+          const toml = await file.text(), scene = file.name.replace(/\.toml$/i, '').replace(/[^\w-]/g, '-');
+          const own = sceneText(scene) && toml !== sceneText(scene);
+          this.view?.say('');
+          await this.setState({scene: own ? `${scene}-own` : scene, toml, running: false});
+        }
+  };
+
+  /** Gives everything back. */
+  private shut() {
+    this.loops = this.playing = false;
+    delete this.dataset.running;
+    this.classList.remove('guided');
+    this.sleep();
+    this.dropTruth();
+    this.runs.forEach(run => run.close());
+    Object.assign(this, {view: null, opening: null, runs: [], sceneName: '', methods: null, orbit: null});
+    this.dataset.state = 'closed';
+  }
+
+  /** The scene's text with the method of A. */
+  get tomlNow() {
+    return this.byHand ? this.runs[0].sim.sceneText() : withMethod(this.toml, this.methods?.[0] ?? {method: ''});
+  }
+
+  /** Whether the scene is the page's own, unchanged. */
+  private get isShipped() { return !this.byHand && this.toml === sceneText(this.sceneName); }
+
+  private dragged(event: DragEvent) {
+    const {dataTransfer: given} = event;
+    if (!this.view || !given?.types.includes('Files')) return;
+    event.preventDefault();
+    const leaves = event.type === 'dragleave' && !this.contains(event.relatedTarget as Node | null),
+          [file] = given.files;
+    this.view.dropHere.hidden = event.type === 'drop' || leaves;
+    if (event.type === 'drop' && file) this.acts.file(file);
+  }
+
+  // The hand.
+
+  private hold(particle: number, place: Vec3, run: LiveRun) {
+    if (run.ended && (run.failed || run.refusal)) return false;
+    this.loops = false;
+    this.waiting = {particle, place};
+    this.source = run;
+    if (!this.playing && !stillWanted.matches) {
+      this.moveHeld();
+      this.play();
+    }
+    this.wake();
+    return true;
+  }
+
+  /** Moves what is held; once a frame, as the engine goes on from there as another scene. */
+  private moveHeld() {
+    if (!this.waiting) return;
+    const {particle, place} = this.waiting;
+    this.waiting = null;
+    this.changeRuns(sim => sim.hold(particle, place));
+    this.draw();
+  }
+
+  /** Changes by hand what every run has come to. */
+  private changeRuns(act: (sim: Simulation) => void) {
+    for (const run of this.runs) {
+      if (run.refusal || run.failed) continue;
+      try {
+        run.change(act);
+      } catch (problem) {
+        run.fault = messageOf(problem);
+      }
+    }
+    this.byHand = true;
+    this.stage?.setCourse([]);
+    this.end = Math.max(...this.runs.map(run => (run.refusal ? 0 : run.end)));
+  }
+
+  private release() {
+    this.moveHeld();
+    this.changeRuns(sim => sim.release());
+    this.together();
+  }
+
+  /** After a change by hand all runs, and the truth, go on from the state of one of them. */
+  private together() {
+    const {source} = this, well = source && this.runs.includes(source) && !source.failed;
+    const from = well ? source : this.runs.find(run => !run.failed && !run.refusal);
+    this.dropTruth();
+    if (!from) return;
+    const text = from.sim.sceneText(), {time} = from;
+    this.runs = this.runs.map(run => {
+      if (run === from || run.refusal || run.failed) return run;
+      const other = new LiveRun(this.lab, text, run.letter, run.spec, () => Boolean(this.keepLedger));
+      const {samples, trail, since, look, handWork} = run;
+      Object.assign(other, {samples, trail, since, look, handWork, offset: time});
+      run.close();
+      return other;
+    });
+    this.clock = time;
+    this.end = from.end;
+    this.stage?.setPins([...from.sim.scene.pins]);
+    this.showViews();
+    this.wake();
+  }
+
+  private pin(particle = this.hand.chosen) {
+    const run = this.runs.find(r => !r.refusal && !r.failed);
+    if (particle === null || !run) return;
+    const pinned = run.sim.scene.pins.includes(particle);
+    this.loops = false;
+    this.source = run;
+    this.changeRuns(sim => sim.pin(particle, !pinned));
+    this.together();
+    this.choose(particle);
+  }
+
+  private choose(particle: number|null) {
+    const run = this.runs.find(r => !r.refusal);
+    const pinned = particle !== null && Boolean(run?.sim.scene.pins.includes(particle));
+    this.view?.setChosen(particle, pinned, Boolean(this.hand.held));
+    this.draw();
+    this.tell();
+  }
+
+  // Words.
+
+  /** Everything in the language that was chosen. */
+  private relabel() {
+    const {state, missing} = this.dataset, {view} = this;
+    this.lang = labLanguage;
+    if (this.alone) {
+      document.documentElement.lang = labLanguage;
+      document.querySelector('nav .made')?.replaceChildren(say('madeOf'));
+    }
+    if (this.isPart && !view) return;  // a still, if any, stands there
+    if (state === 'closed') return this.showDoor();
+    if (state === 'unavailable') return this.replaceChildren(make('p', {class: 'lab-plain'}, say(missing ?? '')));
+    if (!view) return;
+    view.build();
+    view.speed.value = String(this.speed);
+    view.knobs.build(this.toml, this.original);
+    view.ledger.checked = Boolean(this.keepLedger);
+    view.setRunning(this.playing);
+    this.showLook();
+    this.showState();
+  }
+
+  /** Shows all that depends on scene and methods. */
+  private showState() {
+    const {view, hand: {chosen}, runs: [a]} = this;
+    if (!view || !this.methods) return;
+    view.setScene(
+        Object.keys(labScenes()), this.sceneName, questionInLanguage(textAt(this.toml, 'question')),
+        this.toml !== this.original || this.byHand, this.alone);
+    view.setMethods(this.methods, this.runs, this.lab.steppers, this.scale);
+    view.knobs.show(this.toml);
+    view.setChosen(chosen, chosen !== null && a.sim.scene.pins.includes(chosen), false);
+    this.judge();
+    this.showNow(true);
+  }
+
+  /** The numbers of the present: the clock each frame, curves and readings about ten times a second. */
+  showNow(all: boolean, now = performance.now()) {
+    const {view, runs} = this;
+    if (!view) return;
+    view.setTime(this.clock, this.end, this.byHand);
+    if (!all && now - this.told < 110) return;
+    this.told = now;
+    // curves end where the last run failed
+    const over = runs.every(run => run.failed) ? 1.1 * Math.max(...runs.map(run => run.time)) : 0;
+    view.plots.show(
+        runs.filter(run => run.look), over || Math.max(this.clock, this.end), this.clock, this.withoutCurves());
+    if (this.look.colour === 'error') this.showLook();
+    this.showReadout(view);
+    this.tell();
+  }
+
+  /** Words in place of curves. */
+  private withoutCurves() {
+    const soon = say('beforeRun'), begins = this.clock === 0 || this.runs.every(run => run.ended);
+    return {
+      energy: soon,
+      residual: this.keepLedger ? soon : say('noResidual'),
+      error: this.truthGone ? say('noError') :
+          begins            ? soon :
+          this.hand.held    ? say('noErrorHeld') :
+                              say('truthLate')
+    };
+  }
+
+  private showReadout(view: LabView) {
+    const {runs} = this, words: string[] = [], fps = this.framesPerSecond, [{handWork}] = runs;
+    const digits = (value: number) => Number(value.toPrecision(2));
+    if (handWork !== null) words.push(say('handWork', {energy: short(handWork)}));
+    if (this.playing && fps) words.push(say('frames', {n: fps}));
+    const computing = runs.reduce((sum, run) => sum + run.last, 0);
+    if (this.playing) this.average = 0.8 * (this.average ?? computing) + 0.2 * computing;
+    if (this.average) words.push(say('computing', {ms: digits(this.average)}));
+    for (const {factor, letter} of runs) {
+      if (!factor) continue;
+      const x = say('realTime', {x: factor >= 10 ? Math.round(factor) : digits(factor)});
+      words.push(runs.length > 1 ? `${letter} ${x}` : x);
+    }
+    const pace = this.passed.reduce((sum, v) => sum + v, 0) / (this.passed.length || 1);
+    if (this.playing && this.passed.length > 20 && pace < 0.9) words.push(say('behind', {x: digits(pace)}));
+    if (!this.playing && this.clock >= this.end - 1e-9 && !runs.some(run => run.failed)) words.push(say('endReached'));
+    view.readout.textContent = words.join(' · ');
+    const {bits} = this, stepper = this.methods?.[0].method;
+    view.truthWords.textContent =
+        [this.truthWords(), bits === null ? '' : say(bits ? 'sameBits' : 'otherBits', {stepper})].join(' ').trim();
+  }
+
+  /** What the truth is here, or why there is none. */
+  private truthWords() {
+    const {truth, truthGone} = this;
+    if (truthGone === 'slow') return say('truthSlow', {ms: Number(this.truthCost.toPrecision(2))});
+    if (truthGone) return say(truthGone === 'large' ? 'truthLarge' : 'truthNone');
+    if (!truth?.known) return '';
+    if (truth.same) return say('truthSame');
+    const stepper = nameOfMethod(truth.spec.method), h = msText(truth.followers[0].step);
+    const words = say(this.byHand ? 'truthByHand' : 'truthIs', {stepper, h});
+    return this.late > 200 ? `${words} ${say('truthLate')}` : words;
   }
 }
 
+/** A state with one method written short, and an experiment to open. */
+type LabWish = LabState&{method?: string, step?: number, tolerance?: number, experiment?: string};
+
 /**
- * Opens the lab in a state: {scene, method and step, or methods, toml, changes, experiment, ...} as setState() takes
- * it. The scene's own lab on the page, another that is there, or one in a window over the page.
+ * Opens the lab in a state: the scene's own lab on the page, another that is there, or one in a window over the page.
  */
-export async function openLab({method, step, tolerance, experiment, ...state}) {
+export async function openLab({method, step, tolerance, experiment, ...state}: LabWish) {
+  if (!document.getElementById('lab-module')) return null;
   if (method) state.methods = [{method: method.replace(/^mysim\//, ''), step, tolerance}];
-  let lab = document.querySelector(`live-lab[data-scene="${CSS.escape(state.scene ?? '')}"]`) ??
-      document.querySelector('live-lab[data-alone]');
+  const own = `live-lab[data-scene="${CSS.escape(state.scene ?? '')}"]`;
+  let lab = document.querySelector<LiveLab>(`${own}:not([data-part])`) ??
+      document.querySelector<LiveLab>('live-lab[data-alone]');
   if (!lab) {
-    const dialog = make(
-        'dialog', {class: 'run lab-window', 'aria-label': say('labTitle')},
-        lab = make('live-lab', {'data-scene': state.scene}));
+    lab = document.createElement('live-lab') as LiveLab;
+    lab.dataset.scene = state.scene;
+    const dialog: HTMLDialogElement = make('dialog', {class: 'run lab-window', 'aria-label': say('labTitle')}, lab);
     document.body.append(dialog);
     dialog.addEventListener('close', () => dialog.remove());
     dialog.showModal();
@@ -506,12 +681,11 @@ async function followLabAddress() {
   if (state)
     await openLab(state);
   else if (/^#lab=/.test(location.hash))
-    document.querySelector('live-lab[data-alone]')?.open();
+    document.querySelector<LiveLab>('live-lab[data-alone]')?.open();
 }
 
 /** Defines <live-lab> and opens the lab in the state that the address names. */
 export function startLab() {
-  Object.defineProperties(LiveLab.prototype, Object.getOwnPropertyDescriptors(labActs));
   customElements.define('live-lab', LiveLab);
   addEventListener('hashchange', followLabAddress);
   if (document.readyState === 'loading')

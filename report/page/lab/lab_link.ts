@@ -1,32 +1,50 @@
 // Doors of the lab: its state in an address, as a file, as a command line.
-// @ts-nocheck
 
 import {make} from '../player/controls';
 import {bytesOf} from '../player/unpack';
 
-const inBase64 = bytes => btoa(Array.from(bytes, b => String.fromCharCode(b)).join(''))
-                              .replace(/\+/g, '-')
-                              .replace(/\//g, '_')
-                              .replace(/=+$/, '');
-const fromBase64 = text => bytesOf(text.replace(/-/g, '+').replace(/_/g, '/'));
+import {Changes, MethodSpec} from './scene_text';
 
-const through = (bytes, stream) =>
-    new Response(new Blob([bytes]).stream().pipeThrough(stream)).arrayBuffer().then(b => new Uint8Array(b));
+// not in TypeScript's library yet
+declare const CompressionStream: new (format: 'gzip') => GenericTransformStream;
+declare const DecompressionStream: typeof CompressionStream;
+
+/** A state of the lab, as links hold it and setState() takes it; everything is optional. */
+export interface LabState {
+  scene?: string;
+  toml?: string;      // default: the shipped text
+  changes?: Changes;  // numbers to change in the text
+  methods?: MethodSpec[]|null;
+  view?: 'over'|'side';
+  colour?: 'plain'|'stretch'|'error';
+  springs?: boolean;
+  truth?: boolean;
+  speed?: number;
+  running?: boolean;
+}
+
+const inBase64 = (bytes: Uint8Array) => btoa(Array.from(bytes, b => String.fromCharCode(b)).join(''))
+                                            .replace(/\+/g, '-')
+                                            .replace(/\//g, '_')
+                                            .replace(/=+$/, '');
+const fromBase64 = (text: string): Uint8Array => bytesOf(text.replace(/-/g, '+').replace(/_/g, '/'));
+
+const through = async (bytes: Uint8Array, stream: GenericTransformStream) =>
+    new Uint8Array(await new Response(new Blob([bytes]).stream().pipeThrough(stream)).arrayBuffer());
 
 /** A state as the part of an address behind "#lab=": JSON in base64, gzipped where it is long. */
-export async function addressOf(state) {
+export async function addressOf(state: LabState) {
   const bytes = new TextEncoder().encode(JSON.stringify(state));
   return inBase64(bytes.length > 900 ? await through(bytes, new CompressionStream('gzip')) : bytes);
 }
 
 /** The state of an address; null where it has none, or cannot be read. */
-export async function stateOf(hash) {
+export async function stateOf(hash: string): Promise<LabState|null> {
   const packed = /^#lab=([\w-]+)/.exec(hash)?.[1];
   if (!packed) return null;
   try {
-    const bytes = fromBase64(packed);
-    const plain =
-        bytes[0] === 0x1f && bytes[1] === 0x8b ? await through(bytes, new DecompressionStream('gzip')) : bytes;
+    const bytes = fromBase64(packed), gzip = bytes[0] === 0x1f && bytes[1] === 0x8b;
+    const plain = gzip ? await through(bytes, new DecompressionStream('gzip')) : bytes;
     return JSON.parse(new TextDecoder().decode(plain));
   } catch {
     return null;
@@ -34,14 +52,14 @@ export async function stateOf(hash) {
 }
 
 /** Hands a text to the reader as a file. */
-export function saveText(name, text) {
+export function saveText(name: string, text: string) {
   const link = make('a', {download: name, href: URL.createObjectURL(new Blob([text], {type: 'application/toml'}))});
   link.click();
   setTimeout(() => URL.revokeObjectURL(link.href), 1000);
 }
 
 /** Copies a text; false where the browser does not allow it. */
-export async function copyText(text) {
+export async function copyText(text: string) {
   try {
     await navigator.clipboard.writeText(text);
     return true;
@@ -58,5 +76,5 @@ export async function copyText(text) {
 }
 
 /** The native program's command line of a method in a scene. */
-export const commandOf = (scene, {method, step, tolerance}) =>
+export const commandOf = (scene: string, {method, step, tolerance}: MethodSpec) =>
     `crosscheck run ${scene} --method ${method} ${tolerance ? `--tol ${tolerance}` : `--step ${step}`}`;

@@ -1,136 +1,226 @@
 // View of the lab: picture, controls and words; lab.ts holds their behaviour.
-// @ts-nocheck
 
-import {mixed, rgb} from '../player/colours';
+import {Look, rampOf, rgb} from '../player/colours';
 import {check, dropdown, make} from '../player/controls';
+import {PanelPlace} from '../player/stage';
 
+import {Stepper} from './engine';
 import {MethodKnobs, SceneKnobs} from './knobs';
+import {LabState} from './lab_link';
 import {LivePlots} from './live_plots';
+import {LiveRun} from './live_run';
+import {Changes, MethodSpec} from './scene_text';
 import {labLanguage, say, setLabLanguage} from './words';
 
 export const titleHeight = 26;  // CSS pixels, of methods over one another
 
+/** Colours of a run, with the dash of its curves. */
+export type RunLook = Look&{dash: string};
+
 /** The colours of a run: A and B apart in light and dark, B dashed; the truth grey. */
-export function lookOfRun(letter) {
-  const names = {A: ['mysim2', ''], B: ['second', '5 3'], T: ['truth', '']}, [name, dash] = names[letter];
+export function lookOfRun(letter: string): RunLook {
+  const name = letter === 'A' ? 'mysim2' : letter === 'B' ? 'second' : 'truth';
   const style = getComputedStyle(document.querySelector('live-lab') ?? document.documentElement);
-  const plain = rgb(style.getPropertyValue(`--${name}`).trim() || '#707880'),
-        tint = letter === 'T' ? rgb('8A9099') : plain;
+  const plain = rgb(style.getPropertyValue(`--${name}`).trim() || '#707880');
   return {
     css: `var(--${name})`,
-    dash,
+    dash: letter === 'B' ? '5 3' : '',
     plain,
-    ramp: [mixed(tint, [0, 0, 0], 0.15), mixed(tint, [1, 1, 1], 0.4), mixed(tint, [1, 1, 1], 0.84)]
+    ramp: rampOf(letter === 'T' ? rgb('8A9099') : plain)
   };
 }
 
-export const labButton = (name, text, act, words = say(name)) => {
-  const button = make(
-      'button', {type: 'button', 'data-act': name, ...(text === words ? {} : {'aria-label': words, title: words})},
-      text);
+/** What is chosen of the picture. */
+export interface LabLook {
+  view: 'over'|'side';
+  colour: 'plain'|'stretch'|'error';
+  springs: boolean;
+  truth: boolean;
+}
+
+/** What the controls call. */
+export interface LabActs {
+  toggle(): void;
+  step(): void;
+  restart(): void;
+  speed(speed: number): void;
+  method(i: number, spec: MethodSpec, done: boolean): void;
+  second(): void;
+  removeSecond(): void;
+  numbers(changes: Changes, done: boolean): void;
+  scene(name: string): void;
+  original(): void;
+  guide(): void;
+  more(): void;
+  close(): void;
+  look(change: LabState): void;
+  ledger(on: boolean): void;
+  pin(): void;
+  resetView(): void;
+  copyLink(): void;
+  saveToml(): void;
+  copyCommand(): void;
+  file(file: File): Promise<void>;
+}
+
+/** Title of a panel: the method in words, and its error or failure. */
+export interface PanelTitle {
+  name: string;
+  words: string;
+  state: string;
+  look: RunLook;
+  failed: boolean;
+}
+
+export const labButton = (name: string, text: string, act: () => void, words = say(name)): HTMLElement => {
+  const named: Record<string, string> = text === words ? {} : {'aria-label': words, title: words};
+  const button: HTMLElement = make('button', {type: 'button', 'data-act': name, ...named}, text);
   button.addEventListener('click', () => act());
   return button;
 };
 
+const selectOf = (words: string, options: [string, string][], chosen: string, changed: (value: string) => void):
+    [HTMLElement, HTMLSelectElement] => {
+      const [label, select] = dropdown(words, options, chosen);
+      select.addEventListener('change', () => changed(select.value));
+      return [label, select];
+    };
+const checkOf = (words: string, on: boolean, changed: (on: boolean) => void): [HTMLElement, HTMLInputElement] => {
+  const [label, box] = check(words, on);
+  box.addEventListener('change', () => changed(box.checked));
+  return [label, box];
+};
+
 export class LabView {
-  /** `act`: what the controls call (lab.js). */
-  constructor(act) {
-    this.act = act;
-    this.layer = make('div', {class: 'layer', tabindex: 0, role: 'group'});
-    this.titles = make('div', {class: 'titles'});
-    this.verdict = make('div', {class: 'verdict', role: 'alert'});
-    this.dropHere = make('div', {class: 'drop'});
-    this.chosen = make('span', {class: 'chosen none'});
-    this.stage = make('div', {class: 'stage'}, this.layer, this.titles, this.chosen, this.verdict, this.dropHere);
-    this.plots = new LivePlots();
-    this.knobs = new SceneKnobs(act.numbers);
-    this.verdict.hidden = this.dropHere.hidden = true;
-    this.methods = [];
-    this.root = make('div', {class: 'lab'});
+  readonly root: HTMLElement = make('div', {class: 'lab'});
+  readonly layer: HTMLElement = make('div', {class: 'layer', tabindex: 0, role: 'group'});
+  readonly verdict: HTMLElement = make('div', {class: 'verdict', role: 'alert', hidden: ''});
+  readonly dropHere: HTMLElement = make('div', {class: 'drop', hidden: ''});
+  readonly plots = new LivePlots();
+  readonly knobs: SceneKnobs;
+  readonly stage: HTMLElement;
+  private readonly titles: HTMLElement = make('div', {class: 'titles'});
+  private readonly chosen: HTMLElement = make('span', {class: 'chosen none'});
+  private readonly prompt: HTMLElement = make('p', {class: 'prompt'});
+  private readonly otherPlots: HTMLDetailsElement = make('details', {class: 'other-plots'});
+  private methods: MethodKnobs[] = [];
+  // made anew in another language
+  sceneChoice!: HTMLSelectElement;
+  particle!: HTMLElement;
+  pin!: HTMLElement;
+  said!: HTMLElement;
+  readout!: HTMLElement;
+  truthWords!: HTMLElement;
+  speed!: HTMLSelectElement;
+  ledger!: HTMLInputElement;
+  private changed!: HTMLElement;
+  private close!: HTMLElement;
+  private question!: HTMLElement;
+  private play!: HTMLElement;
+  private clock!: HTMLElement;
+  private progress!: HTMLProgressElement;
+  private viewChoice!: [HTMLElement, HTMLSelectElement];
+  private colour!: HTMLSelectElement;
+  private springs!: [HTMLElement, HTMLInputElement];
+  private truth!: HTMLInputElement;
+  private ledgerLabel!: HTMLElement;
+  private scale!: HTMLElement;
+  private second!: HTMLElement;
+  private methodList!: HTMLElement;
+
+  constructor(private readonly act: LabActs) {
+    this.stage = make('div', {class: 'stage'}, this.layer, this.titles, this.chosen, this.dropHere);
+    this.knobs = new SceneKnobs((changes, done) => act.numbers(changes, done));
     this.build();
   }
 
-  /** Everything with words in it; again in another language. */
+  /** Makes everything with words in it; again in another language. */
   build() {
-    const {act} = this;
-    this.root.lang = labLanguage;
+    const {act} = this, button = (name: string, run: () => void) => labButton(name, say(name), run);
     this.sceneChoice = make('select', {'data-act': 'scene', 'aria-label': say('scene')});
     this.sceneChoice.addEventListener('change', () => act.scene(this.sceneChoice.value));
-    this.changed =
-        make('span', {class: 'changed'}, say('changed'), labButton('original', say('original'), act.original));
-    const language = labButton(
-        'language', labLanguage === 'zh' ? 'English' : '中文', () => setLabLanguage(labLanguage === 'zh' ? 'en' : 'zh'),
-        say('language'));
-    language.lang = labLanguage === 'zh' ? 'en' : 'zh';
-    this.close = labButton('close', '✕', act.close);
+    this.changed = make('span', {class: 'changed'}, say('changed'), button('original', () => act.original()));
+    const other = labLanguage === 'zh' ? 'en' : 'zh';
+    const language =
+        labButton('language', other === 'en' ? 'English' : '中文', () => setLabLanguage(other), say('language'));
+    language.lang = other;
+    this.close = labButton('close', '✕', () => act.close());
     this.question = make('p', {class: 'question'});
     const head = make(
         'header', {}, make('b', {}, say('labTitle')),
         make('label', {}, make('span', {}, say('scene')), this.sceneChoice), this.changed,
-        make('span', {class: 'right'}, language, this.close));
+        make('span', {class: 'right'}, button('guide', () => act.guide()), language, this.close));
 
-    this.play = labButton('run', '▶', act.toggle);
+    this.play = labButton('run', '▶', () => act.toggle());
     this.play.classList.add('play');
     this.clock = make('span', {class: 'clock'});
-    const [speedLabel, speed] =
-        dropdown(say('speed'), [0.02, 0.05, 0.1, 0.25, 0.5, 1, 2, 5, 10].map(v => [String(v), `${v} ×`]), '1');
+    const speeds = [0.02, 0.05, 0.1, 0.25, 0.5, 1, 2, 5, 10].map((v): [string, string] => [String(v), `${v} ×`]);
+    const [speedLabel, speed] = selectOf(say('speed'), speeds, '1', value => act.speed(Number(value)));
     this.speed = speed;
-    speed.addEventListener('change', () => act.speed(Number(speed.value)));
     this.progress = make('progress', {max: 1, value: 0, 'aria-label': say('time')});
     const time = make(
-        'div', {class: 'time'}, this.play, labButton('step', say('step'), act.step),
-        labButton('restart', say('restart'), act.restart), this.progress, this.clock, speedLabel);
+        'div', {class: 'time'}, this.play, button('step', () => act.step()), button('restart', () => act.restart()),
+        this.progress, this.clock, speedLabel, button('wholeLab', () => act.more()));
 
-    const [viewLabel, view] = dropdown(say('view'), [['over', say('over')], ['side', say('side')]], 'over');
-    const [colourLabel, colour] = dropdown(
-        say('colour'), [['plain', say('byMethod')], ['stretch', say('byStretch')], ['error', say('byError')]], 'plain');
-    const [springLabel, springs] = check(say('springs'), false), [truthLabel, truth] = check(say('truth'), false),
-                        [ledgerLabel, ledger] = check(say('ledger'), true);
-    Object.assign(this, {view, colour, springs, truth, ledger, springLabel, viewLabel, ledgerLabel});
+    this.viewChoice = selectOf(
+        say('view'), [['over', say('over')], ['side', say('side')]], 'over',
+        view => act.look({view: view as LabLook['view']}));
+    const colours: [string, string][] =
+        [['plain', say('byMethod')], ['stretch', say('byStretch')], ['error', say('byError')]];
+    const [colourLabel, colour] =
+        selectOf(say('colour'), colours, 'plain', value => act.look({colour: value as LabLook['colour']}));
+    this.springs = checkOf(say('springs'), false, springs => act.look({springs}));
+    const [truthLabel, truth] = checkOf(say('truth'), false, on => act.look({truth: on}));
+    const [ledgerLabel, ledger] = checkOf(say('ledger'), true, on => act.ledger(on));
+    Object.assign(this, {colour, truth, ledger, ledgerLabel});
     this.scale = make('span', {class: 'bar'});
-    view.addEventListener('change', () => act.look({view: view.value}));
-    colour.addEventListener('change', () => act.look({colour: colour.value}));
-    for (const [name, box] of Object.entries({springs, truth}))
-      box.addEventListener('change', () => act.look({[name]: box.checked}));
-    ledger.addEventListener('change', () => act.ledger(ledger.checked));
-    this.pin = labButton('pin', say('pin'), act.pin);
+    this.pin = button('pin', () => act.pin());
     this.particle = make('span', {class: 'particle'});
     this.chosen.replaceChildren(this.particle, this.pin);
     const looks = make(
-        'div', {class: 'looks'}, viewLabel, colourLabel, this.scale, springLabel, truthLabel, ledgerLabel,
-        labButton('resetView', say('resetView'), act.resetView));
+        'div', {class: 'looks'}, this.viewChoice[0], colourLabel, this.scale, this.springs[0], truthLabel, ledgerLabel,
+        button('resetView', () => act.resetView()));
     this.readout = make('p', {class: 'readout'});
     this.truthWords = make('p', {class: 'readout truth', role: 'status'});
+    const line = make('div', {class: 'line'}, this.verdict, this.prompt);
 
-    this.second = labButton('second', say('second'), act.second);
+    this.second = button('second', () => act.second());
     this.methodList = make('div', {class: 'methods'});
     const side = make(
         'div', {class: 'controls'}, make('h4', {}, say('methods')), this.methodList, this.second,
         make('h4', {}, say('numbers')), this.knobs.box);
 
-    const file = make('input', {type: 'file', accept: '.toml,application/toml', hidden: ''});
-    file.addEventListener('change', () => file.files[0] && act.file(file.files[0]).then(() => (file.value = '')));
-    const door = (name, run) => labButton(name, say(name), run);
+    const file: HTMLInputElement = make('input', {type: 'file', accept: '.toml,application/toml', hidden: ''});
+    file.addEventListener('change', () => {
+      const [chosen] = file.files ?? [];
+      if (chosen) act.file(chosen).then(() => (file.value = ''));
+    });
     this.said = make('p', {class: 'said', role: 'status'});
     const doors = make(
-        'div', {class: 'doors'}, door('copyLink', act.copyLink), door('saveToml', act.saveToml),
-        door('copyCommand', act.copyCommand), door('openToml', () => file.click()), file, this.said);
-    const hint = make('p', {class: 'hint'}, matchMedia('(pointer: coarse)').matches ? say('touchHint') : say('hint'));
+        'div', {class: 'doors'}, button('copyLink', () => act.copyLink()), button('saveToml', () => act.saveToml()),
+        button('copyCommand', () => act.copyCommand()), button('openToml', () => file.click()), file, this.said);
+    const hint = make('p', {class: 'hint'}, say(matchMedia('(pointer: coarse)').matches ? 'touchHint' : 'hint'));
 
+    const plots = this.plots as unknown as {box: HTMLElement, plots: {box: HTMLElement}[]};
     this.methods = [];
     this.root.replaceChildren(
         head, this.question,
         make(
             'div', {class: 'bench'},
-            make('div', {class: 'picture'}, this.stage, time, looks, this.readout, this.truthWords, this.plots.box),
+            make(
+                'div', {class: 'picture'}, this.stage, line, time, looks, this.readout, this.truthWords, plots.box,
+                this.otherPlots),
             side),
         doors, hint);
     this.dropHere.textContent = say('drop');
+    const [error, , residual] = plots.plots.map(plot => plot.box);
+    this.otherPlots.replaceChildren(
+        make('summary', {}, say('otherPlots')), make('div', {class: 'plots'}, error, residual));
     this.plots.name();
   }
 
   /** The scenes to choose from; `own` is one that the page does not have. */
-  setScene(names, name, question, changed, alone) {
+  setScene(names: string[], name: string, question: string, changed: boolean, alone: boolean) {
     const own = names.includes(name) ? [] : [name];
     this.sceneChoice.replaceChildren(...[...names, ...own].map(
         each => make('option', {value: each}, own.includes(each) ? `${each} (${say('ownScene')})` : each)));
@@ -142,71 +232,72 @@ export class LabView {
   }
 
   /** The boxes of the methods. */
-  setMethods(specs, runs, steppers, scale) {
-    while (this.methods.length > specs.length) this.methods.pop().box.remove();
+  setMethods(specs: MethodSpec[], runs: LiveRun[], steppers: Stepper[], scale: number|null) {
+    while (this.methods.length > specs.length) this.methods.pop()?.box.remove();
     while (this.methods.length < specs.length) {
-      const i = this.methods.length,
-            knobs = new MethodKnobs('AB'[i], (spec, done) => this.act.method(i, spec, done), this.act.removeSecond);
+      const i = this.methods.length, {act} = this;
+      const knobs = new MethodKnobs('AB'[i], (spec, done) => act.method(i, spec, done), () => act.removeSecond());
       this.methods.push(knobs);
       this.methodList.append(knobs.box);
     }
     this.methods.forEach((knobs, i) => knobs.show(specs[i], runs[i], steppers, scale));
     this.second.hidden = specs.length > 1;
+    this.prompt.textContent = this.methods[0].box.matches('.bound') ? say('prompt') : '';
   }
 
-  /** What is chosen of the picture. */
-  setLook({view, colour, springs, truth}, count, cloth, scale, firstOrder) {
-    this.view.value = view, this.colour.value = colour;
-    this.springs.checked = springs, this.truth.checked = truth;
-    this.viewLabel.hidden = count < 2;
-    this.springLabel.hidden = !cloth;
+  setLook({view, colour, springs, truth}: LabLook, count: number, cloth: boolean, scale: string, firstOrder: boolean) {
+    this.viewChoice[1].value = view, this.colour.value = colour;
+    this.springs[1].checked = springs, this.truth.checked = truth;
+    this.viewChoice[0].hidden = count < 2;
+    this.springs[0].hidden = !cloth;
+    if (this.ledgerLabel.hidden !== firstOrder) this.otherPlots.open = firstOrder;  // errors alone are known there
     this.ledgerLabel.hidden = firstOrder;
     this.scale.replaceChildren(...(scale ? ['0', make('i', {class: 'scale'}), scale] : []));
   }
 
-  setRunning(running) {
+  setRunning(running: boolean) {
     this.play.textContent = running ? '❚❚' : '▶';
     for (const name of ['aria-label', 'title']) this.play.setAttribute(name, say(running ? 'pause' : 'run'));
   }
 
-  setTime(time, end, byHand) {
+  setTime(time: number, end: number, byHand: boolean) {
     const t = time.toFixed(end < 3 ? 3 : 2);
     this.clock.textContent = byHand ? say('byHandTime', {t}) : say('timeOf', {t, end: Number(end.toPrecision(4))});
     this.progress.value = byHand ? 0 : Math.min(1, time / end);
     this.progress.hidden = byHand;
   }
 
-  /** Names of the panels, with what is known of each run now; laid out by `places`. */
-  setTitles(shown, places, over) {
-    while (this.titles.childElementCount > shown.length) this.titles.lastChild.remove();
-    shown.forEach((view, i) => {
-      const box = this.titles.children[i] ??
-          this.titles.appendChild(make('div', {}, make('b'), make('span'), make('span', {class: 'state'})));
-      const [name, words, state] = box.children, parts = [[name, view.name], [words, view.words], [state, view.state]];
-      for (const [part, text] of parts)
+  /** Names of the panels, with what is known of each run now. */
+  setTitles(titles: PanelTitle[], places: PanelPlace[], over: boolean) {
+    while (this.titles.childElementCount > titles.length) this.titles.lastChild?.remove();
+    titles.forEach((title, i) => {
+      const box = (this.titles.children[i] ??
+                   this.titles.appendChild(make('div', {}, make('b'), make('span'), make('span', {class: 'state'})))) as
+          HTMLElement;
+      const [name, words, state] = box.children as unknown as HTMLElement[], place = places[i];
+      for (const [part, text] of [[name, title.name], [words, title.words], [state, title.state]] as const)
         if (part.textContent !== text) part.textContent = text;
-      name.style.setProperty('--own', view.look.css);
-      state.classList.toggle('failed', view.failed);
-      const place = over ? {left: 0, top: 0, wide: 1} : places[i];
-      if (place)
-        Object.assign(box.style, {
-          left: `${100 * place.left}%`,
-          top: over ? `${titleHeight * i}px` : `${100 * place.top}%`,
-          width: `${100 * place.wide}%`
-        });
+      name.style.setProperty('--own', title.look.css);
+      state.classList.toggle('failed', title.failed);
+      Object.assign(
+          box.style,
+          over ? {left: '0', top: `${titleHeight * i}px`, width: '100%'} :
+                 {left: `${100 * place.left}%`, top: `${100 * place.top}%`, width: `${100 * place.wide}%`});
     });
     this.stage.classList.toggle('over', over);
   }
 
-  setVerdict(lines) {
+  setVerdict(lines: string[]) {
     const text = lines.join(' ');
     this.verdict.hidden = !lines.length;
+    this.prompt.hidden = !this.verdict.hidden;
     if (this.verdict.dataset.text === text) return;
     this.verdict.dataset.text = text;
-    this.verdict.replaceChildren(make('span', {}, text), labButton('restart', say('restart'), this.act.restart));
+    this.verdict.replaceChildren(
+        make('span', {}, text), labButton('restart', say('restart'), () => this.act.restart()));
   }
 
-  setChosen(particle, pinned, held) {
+  setChosen(particle: number|null, pinned: boolean, held: boolean) {
     this.chosen.classList.toggle('none', particle === null);
     if (particle === null) return;
     this.particle.textContent = say(held ? 'held' : pinned ? 'pinnedAt' : 'particle', {i: particle});
@@ -214,7 +305,7 @@ export class LabView {
     this.pin.hidden = held;
   }
 
-  say(text, failed = false) {
+  say(text: string, failed = false) {
     this.said.textContent = text;
     this.said.classList.toggle('failed', failed);
   }

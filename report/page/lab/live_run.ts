@@ -1,10 +1,16 @@
 // Runs of the engine in this page: a method's own, and the truth beside it.
-// @ts-nocheck
 
+import {placeOf, Places, Vec3} from '../player/vectors';
+
+import {Energies, EngineScene, Lab, RunSettings, Simulation, Stepper} from './engine';
+import {RunLook} from './lab_view';
 import {trailPoints} from './live_stage';
+import {MethodSpec} from './scene_text';
 
-/** A method as the engine's start() takes it: stepper and options. */
-export function startOf({method, step, tolerance}, duration, observe) {
+export const messageOf = (problem: unknown) => problem instanceof Error ? problem.message : String(problem);
+
+/** A method as the engine's start() takes it. */
+export function startOf({method, step, tolerance}: MethodSpec, duration: number, observe: boolean): RunSettings {
   const [stepper, ...options] = method.split('+');
   return {
     stepper,
@@ -16,10 +22,15 @@ export function startOf({method, step, tolerance}, duration, observe) {
   };
 }
 
-/**
- * The places at a time between two states: the cubic through both with their velocities, a line where there are none.
- */
-function between(from, to, t, into) {
+/** State of a run: time (s), places, velocities. */
+interface State {
+  t: number;
+  x: Float64Array;
+  v: Float64Array;
+}
+
+/** Places at a time between two states: the cubic through both with their velocities, a line where there are none. */
+function between(from: State, to: State, t: number, into: Float64Array) {
   const h = to.t - from.t, u = h > 0 ? Math.min(1, Math.max(0, (t - from.t) / h)) : 1, a = from.x, b = to.x;
   if (u === 1)
     into.set(b);
@@ -33,89 +44,115 @@ function between(from, to, t, into) {
 }
 
 /** RMS distance of the particles of two sets of places, m. */
-export function rmsDistance(a, b) {
+export function rmsDistance(a: Places, b: Places) {
   let sum = 0;
   for (let i = 0; i < a.length; ++i) sum += (a[i] - b[i]) ** 2;
   return Math.sqrt(sum / (a.length / 3));
 }
 
-export const isFinite3 = places => {
+export const isFinite3 = (places: Places) => {
   let sum = 0;
   for (let i = 0; i < places.length; ++i) sum += places[i];
   return Number.isFinite(sum);
 };
 
-/**
- * One method's run, with what it has come to as samples: {t, error, bar, kinetic, elastic, gravitational, total,
- * residual}.
- */
+/** What a run has come to at a time (s): error and its bar (m), energies (J), relative residual. */
+export interface Sample {
+  t: number;
+  error: number|null;
+  bar: number|null;
+  total: number|null;
+  kinetic: number|null;
+  elastic: number|null;
+  gravitational: number|null;
+  residual: number|null;
+}
+
+/** One method's run. */
 export class LiveRun {
+  readonly stepper: Stepper|undefined;
+  sim: Simulation;
+  look: RunLook|null = null;
+  places: Float64Array|null = null;  // the last that are numbers
+  samples: Sample[] = [];
+  trail: Vec3[] = [];  // way of the last particle
+  bursting = false;
+  shown = false;                 // a failure was shown
+  offset = 0;                    // s, when the engine's clock was 0
+  since = 0;                     // s, of the last change by hand
+  last = 0;                      // ms of computing in the last frame
+  handWork: number|null = null;  // J, put in by the hand
+  refusal: string|null = null;
+  fault: string|null = null;
+  first: Energies|null = null;  // start of the balance
+  private readonly observe: boolean;
+  private recent: Float64Array[] = [];
+  private lost = 0;
+  private spent = 0;    // ms
+  private stepped = 0;  // s
+  private scale = 0;    // J
+  private trails = false;
+  private past = false;  // beyond the critical step
+
   /**
    * Throws the engine's LabError where the scene is not read; a refused method leaves `refusal` instead. `observe` says
    * of a scene whether its energy balance is kept.
    */
-  constructor(lab, toml, letter, spec, observe) {
-    const sim = lab.open(toml);
-    Object.assign(this, {letter, spec, sim, observe: observe(sim.scene)});
-    this.stepper = lab.steppers.find(s => s.name === spec.method.split('+')[0]);
+  constructor(
+      lab: Lab, toml: string, readonly letter: string, public spec: MethodSpec,
+      observe: (scene: EngineScene) => boolean) {
+    this.sim = lab.open(toml);
+    this.observe = observe(this.sim.scene);
+    this.stepper = lab.stepperOf(spec.method);
     this.start();
   }
 
-  start(spec = this.spec) {
-    Object.assign(this, {
-      spec,
-      samples: [],
-      trail: [],
-      recent: [],
-      bursting: false,
-      lost: 0,
-      shown: false,
-      offset: 0,
-      spent: 0,
-      stepped: 0,
-      last: 0,
-      refusal: null,
-      fault: null,
-      scale: 0,
-      since: 0
-    });
+  start() {
+    this.samples = [], this.trail = [], this.recent = [];
+    this.bursting = this.shown = false;
+    this.lost = this.offset = this.since = this.spent = this.stepped = this.last = this.scale = 0;
+    this.refusal = this.fault = this.handWork = null;
     try {
-      this.sim.start(startOf(spec, this.sim.scene.duration, this.observe));
+      this.sim.start(startOf(this.spec, this.sim.scene.duration, this.observe));
       this.keepPlaces();
-      this.begin();
+      this.first = this.sim.energy;
     } catch (problem) {
-      this.refusal = problem.message;
-      this.sim = this.sim.lab.open(
-          this.sim.toml);  // an exception ends the instance, but its scene and limits are still needed
+      this.refusal = messageOf(problem);
+      this.sim = this.sim.lab.open(this.sim.toml);  // an exception ends the instance; its scene and limits are needed
     }
     const {limit} = this;
     this.trails = !this.sim.scene.triangles.length;
     this.past = !this.refusal && limit !== null && this.sim.h > limit;
   }
 
-  /** What the balance of a run that starts here is measured from. */
-  begin() { this.first = this.sim.energy; }
-
   get time() { return this.offset + (this.refusal ? 0 : this.sim.t); }  // s
   get ended() { return Boolean(this.refusal || this.fault || this.sim.ended); }
   get verdict() { return this.fault ? 'solver' : this.refusal ? 'unsupported' : this.sim.verdict; }
   get failed() { return !this.refusal && this.verdict !== 'ok'; }
   get reason() { return this.refusal ?? this.fault ?? this.sim.reason; }
-  get limit() { return this.sim.limit(this.stepper?.name ?? this.spec.method); }
+  get limit() { return this.sim.limit(this.spec.method); }
+  get lastSample(): Sample|undefined { return this.samples[this.samples.length - 1]; }
+  /** The step that the run takes, s: the one asked for where it has not begun. */
+  get step() { return (this.refusal ? 0 : this.sim.h) || this.spec.step || this.sim.scene.step; }
+  /** Time at which the run will have ended, s. */
+  get end() { return this.offset + this.sim.scene.duration; }
+  /** Real time over computing time, of the whole run so far. */
+  get factor() { return this.spent > 0 ? 1000 * this.stepped / this.spent : null; }
+  /** Name of a distance from the truth: where balls are touched the truth is that of the same contact rule. */
+  get errorWord() { return this.sim.scene.spheres.length ? 'difference' : 'error'; }
 
-  /**
-   * Takes the steps that end by a time (s), as far as so many ms of computing allow; false where they do not suffice.
-   */
-  advance(time, budget) {
+  /** Takes the steps that end by a time (s), as far as so many ms of computing allow; false where they do not. */
+  advance(time: number, budget: number) {
     this.last = 0;
     if (this.ended) return true;
     const from = this.time, begin = performance.now(), {sim} = this, last = time >= this.end - 1e-9;
     const h = sim.h || 0, aim = time - this.offset - (last ? 1e-6 : 1 - 1e-6) * h;
+    const goes = () => !sim.ended && sim.t < aim && performance.now() - begin < budget;
     if (sim.t >= aim) return true;
     try {
       // beyond the critical step each step is looked at: once the balance is lost quickly, a frame shows one step
       if (this.past) {
-        while (!sim.ended && sim.t < aim && performance.now() - begin < budget) {
+        while (goes()) {
           sim.advance(sim.t + 0.5 * h, budget);
           this.keepPlaces();
           const residual = this.residual();
@@ -126,24 +163,20 @@ export class LiveRun {
       } else if (this.trails) {
         // small scenes leave a trail, which has its own times
         const piece = sim.scene.duration / (trailPoints - 1);
-        for (let to = sim.t + piece; !sim.ended && sim.t < aim && performance.now() - begin < budget;
-             to = Math.max(to, sim.t) + piece) {
+        for (let to = sim.t + piece; goes(); to = Math.max(to, sim.t) + piece) {
           sim.advance(Math.min(aim, to), budget);
           this.keepPlaces();
         }
       } else
         sim.advance(aim, budget);
     } catch (problem) {
-      this.fault = problem.message;
+      this.fault = messageOf(problem);
     }
     this.last = performance.now() - begin;
     this.spent += this.last, this.stepped += this.fault ? 0 : this.time - from;
     if (!this.past && !this.trails) this.keepPlaces();
     return this.ended || (!this.bursting && sim.t >= aim - 1e-9 * (h || 1));
   }
-
-  /** Time at which the run will have ended, s. */
-  get end() { return this.offset + this.sim.scene.duration; }
 
   /** Keeps the last places that are numbers. */
   keepPlaces() {
@@ -152,85 +185,85 @@ export class LiveRun {
     if (!isFinite3(positions)) return;
     if (this.places?.length !== positions.length) this.places = new Float64Array(positions.length);
     this.places.set(positions);
-    this.recent.push(Float64Array.from(positions));
+    this.recent.push(positions.slice());
     if (this.recent.length > 24) this.recent.shift();
     // the way of the last particle, at even times
     if (this.trail.length <= (this.time - this.since) / this.sim.scene.duration * (trailPoints - 1))
-      this.trail.push([...positions.slice(-3)]);
+      this.trail.push(placeOf(positions, positions.length / 3 - 1));
   }
 
-  /** Real time over computing time, of the whole run so far. */
-  get factor() { return this.spent > 0 ? 1000 * this.stepped / this.spent : null; }
-
-  /** After a failure: the last places that `good` finds fit to be shown. */
-  stepBack(good) {
-    const found = this.recent.findLast(good);
-    if (found) this.places.set(found);
+  /** After a failure: goes back to the last places that `good` finds fit to be shown. */
+  stepBack(good: (places: Float64Array) => boolean) {
+    const found = [...this.recent].reverse().find(good);
+    if (found) this.places?.set(found);
   }
 
   /** The relative energy residual now; 0 where none is known. */
-  residual(energy = this.sim.energy) {
-    if (!energy || !this.first || !Number.isFinite(energy.balance)) return 0;
-    const {kinetic, elastic, gravitational, balance} = energy, {first} = this;
+  private residual(energy = this.sim.energy) {
+    const {first} = this;
+    if (!energy || !first || !Number.isFinite(energy.balance)) return 0;
+    const {kinetic, elastic, gravitational, balance} = energy;
     this.scale =
         Math.max(this.scale, kinetic, Math.abs(gravitational - first.gravitational), Math.abs(elastic - first.elastic));
     return this.scale > 0 ? Math.abs(balance - first.balance) / this.scale : 0;
   }
 
   /** Adds a sample of the present state. */
-  sample(error, bar) {
+  sample(error: number|null, bar: number|null) {
     if (this.fault || this.refusal) return;
-    const {
-        energy} = this.sim,
-       row = {t: this.time, error, bar, total: null, kinetic: null, elastic: null, gravitational: null, residual: null};
-    if (energy && this.first) {
-      const {kinetic, elastic} = energy, gravitational = energy.gravitational - this.first.gravitational,
-                      residual = this.residual(energy);
-      Object.assign(row, {
-        kinetic,
-        elastic,
-        gravitational,
-        total: kinetic - this.first.kinetic + elastic - this.first.elastic + gravitational
-      });
+    const {first, sim: {energy}} = this, none = null;
+    const row: Sample =
+        {t: this.time, error, bar, total: none, kinetic: none, elastic: none, gravitational: none, residual: none};
+    if (energy && first) {
+      const residual = this.residual(energy), {kinetic, elastic} = energy;
+      const gravitational = energy.gravitational - first.gravitational, total = energy.total - first.total;
+      Object.assign(row, {kinetic, elastic, gravitational, total});
       if (Number.isFinite(energy.balance)) row.residual = residual;
     }
     this.samples.push(row);
   }
 
   /** A change by hand: the engine goes on as a new scene whose clock starts at 0. */
-  change(act) {
-    const time = this.time;
-    act(this.sim);
-    this.offset = time - this.sim.t;
+  change(act: (sim: Simulation) => void) {
+    const {time, sim} = this, before = sim.energy?.total;
+    act(sim);
+    const after = sim.energy?.total;
+    if (before !== undefined && after !== undefined) this.handWork = (this.handWork ?? 0) + after - before;
+    this.offset = time - sim.t;
     this.since = time, this.trail = [];
     this.keepPlaces();
-    this.begin();
+    this.first = sim.energy;
   }
-
-  /** What a distance from the truth is called: where balls are touched the truth is that of the same contact rule. */
-  get errorWord() { return this.sim.scene.spheres.length ? 'difference' : 'error'; }
 
   close() { this.sim.close(); }
 }
 
 /** A run that is asked for its places at given times, each later than the one before. */
 class Follower {
-  constructor(lab, toml, spec, offset) {
+  readonly sim: Simulation;
+  readonly out: Float64Array;
+  spent = 0;    // ms
+  stepped = 0;  // s
+  now: State;
+  private before: State|null = null;
+
+  constructor(lab: Lab, toml: string, readonly spec: MethodSpec, private readonly offset: number) {
     this.sim = lab.open(toml);
     this.sim.start(startOf(spec, this.sim.scene.duration, false));
-    Object.assign(
-        this, {spec, offset, spent: 0, stepped: 0, before: null, out: new Float64Array(this.sim.positions.length)});
+    this.out = new Float64Array(this.sim.positions.length);
     this.now = this.state();
   }
 
-  state() {
+  get step() { return this.sim.h || this.spec.step || 0; }
+
+  private state(): State {
     const {sim} = this;
-    return {t: this.offset + sim.t, x: Float64Array.from(sim.positions), v: Float64Array.from(sim.velocities ?? [])};
+    return {t: this.offset + sim.t, x: sim.positions.slice(), v: sim.velocities.slice()};
   }
 
   /** Places at a time; null where they are not there within so many ms. */
-  placesAt(time, budget) {
-    const {sim} = this, h = sim.h || this.spec.step, begin = performance.now(), from = this.now.t;
+  placesAt(time: number, budget: number) {
+    const {sim} = this, h = this.step, begin = performance.now(), from = this.now.t;
     const tiny = 1e-6 * h, left = () => budget - (performance.now() - begin);
     if (this.now.t < time - tiny) {
       // up to the last step before the time, then over it
@@ -253,35 +286,40 @@ class Follower {
  * the error bar. Its steps divide those of the first method, so that their times meet.
  */
 export class Truth {
-  constructor(lab, toml, run, contact) {
-    const {h} = run.sim, offset = run.offset, step = h || run.spec.step;
-    const finest = (name, limit, part) => {
-      const aim = Math.min(
-          step, Number.isFinite(limit) && limit > 0 ? part * limit : step / (run.sim.scene.firstOrder ? 20 : 4));
+  spec: MethodSpec = {method: ''};
+  same = false;  // it is the run's own stepper at a finer step
+  readonly followers: Follower[] = [];
+  private readonly whole: boolean;  // the whole difference is the error bar
+
+  constructor(lab: Lab, toml: string, run: LiveRun, contact: boolean) {
+    const {offset, step, sim, spec: {method}} = run;
+    const finest = (name: string) => {
+      const limit = sim.limit(name), part = step / (sim.scene.firstOrder ? 20 : 4);
+      const aim = Math.min(step, limit !== null && Number.isFinite(limit) && limit > 0 ? 0.25 * limit : part);
       return step / (2 * Math.ceil(step / aim / 2 - 1e-9));
     };
-    this.followers = [];
-    for (const name of ['suzuki4', 'rk4', run.spec.method]) {
-      const same = name === run.spec.method && name !== 'suzuki4' && name !== 'rk4';
-      const spec = {method: name, step: same ? step / 100 : finest(name, run.sim.limit(name), 0.25)};
+    for (const name of ['suzuki4', 'rk4', method]) {
+      const same = name === method && name !== 'suzuki4' && name !== 'rk4';
+      const spec = {method: name, step: same ? step / 100 : finest(name)};
       try {
-        this.followers = [new Follower(lab, toml, spec, offset)];
+        this.followers.push(new Follower(lab, toml, spec, offset));
       } catch {
         continue;
       }
-      Object.assign(this, {spec, same, order: same ? 0 : 4});
+      Object.assign(this, {spec, same});
+      this.followers.push(new Follower(lab, toml, {...spec, step: 2 * spec.step}, offset));
       break;
     }
-    if (!this.followers.length) return;
     this.whole = contact || this.same;
-    this.followers.push(new Follower(lab, toml, {...this.spec, step: 2 * this.spec.step}, offset));
   }
 
   get known() { return this.followers.length > 0; }
   get places() { return this.followers[0].out; }
+  /** Whether places of the truth are there yet. */
+  get begun() { return this.followers[0].spent > 0; }
 
   /** Error and error bar of places at a time, m; null where the truth is not there within so many ms. */
-  compare(places, time, budget) {
+  compare(places: Places, time: number, budget: number) {
     const begin = performance.now(), [fine, coarse] = this.followers, truth = fine.placesAt(time, budget);
     if (!truth || !isFinite3(truth)) return null;
     const check = coarse?.placesAt(time, Math.max(1, budget - (performance.now() - begin)));
@@ -290,7 +328,7 @@ export class Truth {
   }
 
   /** Whether a time is still to come for the truth. */
-  isBefore(time) {
+  isBefore(time: number) {
     const {now, sim} = this.followers[0];
     return !sim.ended && now.t < time - 1e-6 * (sim.h || 1);
   }

@@ -1,16 +1,34 @@
 // A scene's text, TOML: numbers are read from it and changed in it, comments and order stay as they are.
-// @ts-nocheck
+
+import {norm, Places} from '../player/vectors';
+
+/** A number of a text, or a list of three. */
+export type Value = number|number[];
+/** Numbers to change: {path: value}. */
+export type Changes = Record<string, Value>;
+/** A method with its step (s) or, of adaptive steppers, its tolerance. */
+export interface MethodSpec {
+  method: string;
+  step?: number;
+  tolerance?: number;
+}
+
+interface NumberEntry {
+  path: string;  // "grid.stiffness.bend"
+  section: string;
+  value: Value;
+  line: number;
+  begin: number;  // extent of the value in its line
+  end: number;
+  out: boolean;  // the line is left out
+}
 
 /** What a number that must lie above zero becomes at zero: its line is left out, and can come back. */
 const leftOutMark = '# left out: ';
 
-/**
- * The numbers of a text: {path ("grid.stiffness.bend"), value (a number or a list of three), line, begin, end (of the
- * value in its line), out (whether the line is left out)}. Texts, tables in a line and lists over several lines are
- * passed over.
- */
-export function numbersOf(toml) {
-  const found = [];
+/** The numbers of a text. Strings, inline tables and lists over several lines are skipped. */
+export function numbersOf(toml: string) {
+  const found: NumberEntry[] = [];
   let section = '';
   toml.split('\n').forEach((whole, line) => {
     const out = whole.startsWith(leftOutMark), shift = out ? leftOutMark.length : 0, text = whole.slice(shift);
@@ -19,9 +37,9 @@ export function numbersOf(toml) {
     const entry = /^(\s*([\w.-]+)\s*=\s*)([-+]?[\d.][\d_.eE+-]*|\[[^\]]*\])/.exec(text);
     if (!entry) return;
     const [, before, key, written] = entry;
-    const list = written.startsWith('[');
-    const value = list ? written.slice(1, -1).split(',').map(Number) : Number(written.replace(/_/g, ''));
-    if (list ? value.length !== 3 || value.some(Number.isNaN) : Number.isNaN(value)) return;
+    const list = written.startsWith('[') ? written.slice(1, -1).split(',').map(Number) : null;
+    const value = list ?? Number(written.replace(/_/g, ''));
+    if (Array.isArray(value) ? value.length !== 3 || value.some(Number.isNaN) : Number.isNaN(value)) return;
     const begin = shift + before.length;
     found.push(
         {path: section ? `${section}.${key}` : key, section, value, line, begin, end: begin + written.length, out});
@@ -30,28 +48,33 @@ export function numbersOf(toml) {
 }
 
 /** A number as TOML writes it: the shortest text that gives the same double again. */
-export const tomlNumber = value =>
-    (Array.isArray(value) ? `[${value.map(tomlNumber).join(', ')}]` :
-         Object.is(value, -0) ? '-0.0' :
-                                String(value));
+export const tomlNumber = (value: Value): string => Array.isArray(value) ? `[${value.map(tomlNumber).join(', ')}]` :
+    Object.is(value, -0) ? '-0.0' :
+                           String(value);
 
-/** The first number at a path; 0 where it is left out, undefined where there is none. */
-export function numberAt(toml, path) {
+/** The first value at a path; 0 where it is left out, undefined where there is none. */
+export function valueAt(toml: string, path: string): Value|undefined {
   const entry = numbersOf(toml).find(e => e.path === path);
   return entry && (entry.out ? (Array.isArray(entry.value) ? entry.value.map(() => 0) : 0) : entry.value);
 }
 
+/** The first value at a path as a number: the length of a list, 0 where there is none. */
+export function numberAt(toml: string, path: string) {
+  const value = valueAt(toml, path) ?? 0;
+  return Array.isArray(value) ? norm(value) : value;
+}
+
 /** What zero means at a path: the line goes, its whole section goes, or it is a number as any other. */
-const zeroOf = path =>
+const zeroOf = (path: string) =>
     (/^(grid\.(stiffness\.(shear|bend)|bending|dashpot)|spring\.dashpot)$/.test(path) ? 'line' :
          /^drag\./.test(path)                                                         ? 'section' :
                                                                                         'number');
 
 /** The text with another number at a path, in all tables of that name ([[sphere]], [[spring]]). */
-function withNumber(toml, path, value) {
+function withNumber(toml: string, path: string, value: Value) {
   const lines = toml.split('\n'), zero = zeroOf(path), gone = value === 0 && zero !== 'number';
-  const leave = line => (line.startsWith(leftOutMark) ? line : leftOutMark + line);
-  const bring = line => (line.startsWith(leftOutMark) ? line.slice(leftOutMark.length) : line);
+  const leave = (line: string) => (line.startsWith(leftOutMark) ? line : leftOutMark + line);
+  const bring = (line: string) => (line.startsWith(leftOutMark) ? line.slice(leftOutMark.length) : line);
   for (const {path: own, section, line, begin, end} of numbersOf(toml)) {
     if (own !== path) continue;
     if (!gone)
@@ -61,7 +84,7 @@ function withNumber(toml, path, value) {
     if (zero !== 'section') continue;
     // the head of the section and all that belongs to it, up to the next head
     let first = line, last = line;
-    const isHead = text => /^\s*\[/.test(bring(text));
+    const isHead = (text: string) => /^\s*\[/.test(bring(text));
     while (first > 0 && !isHead(lines[first])) --first;
     while (last + 1 < lines.length && !isHead(lines[last + 1])) ++last;
     for (let i = first; i <= last; ++i)
@@ -71,31 +94,31 @@ function withNumber(toml, path, value) {
 }
 
 /** The text with several changes: {path: value}. */
-export const withNumbers = (toml, changes) =>
+export const withNumbers = (toml: string, changes: Changes) =>
     Object.entries(changes).reduce((text, [path, value]) => withNumber(text, path, value), toml);
 
 /** The changes that lead from one text to another: {path: value}; null where they are more than numbers. */
-export function changesBetween(from, to) {
-  const changes = {};
+export function changesBetween(from: string, to: string) {
+  const changes: Changes = {};
   for (const path of new Set(numbersOf(from).map(e => e.path))) {
-    const before = numberAt(from, path), after = numberAt(to, path);
-    if (after !== undefined && tomlNumber(before) !== tomlNumber(after)) changes[path] = after;
+    const before = valueAt(from, path), after = valueAt(to, path);
+    if (before !== undefined && after !== undefined && tomlNumber(before) !== tomlNumber(after)) changes[path] = after;
   }
   return withNumbers(from, changes) === to ? changes : null;
 }
 
 /** The text with a method and its step or tolerance as the scene's own. */
-export function withMethod(toml, {method, step, tolerance}) {
+export function withMethod(toml: string, {method, step = 0, tolerance}: MethodSpec) {
   const text = toml.replace(/^(\s*method\s*=\s*)"[^"]*"/m, (_, before) => `${before}"${method}"`);
   return tolerance ? text : withNumber(text, 'time.step', step);
 }
 
 /** A text of the scene, as "question"; empty where there is none. */
-export const textAt = (toml, key) =>
+export const textAt = (toml: string, key: string) =>
     new RegExp(`^\\s*${key}\\s*=\\s*"((?:[^"\\\\]|\\\\.)*)"`, 'm').exec(toml)?.[1] ?? '';
 
 /** The shortest step, s, in three or more digits, with which a run takes `count` steps between two samples. */
-export function stepOf(interval, count) {
+export function stepOf(interval: number, count: number) {
   const exact = interval / count;
   for (let digits = 3; digits < 16; ++digits) {
     const unit = 10 ** (Math.floor(Math.log10(exact)) - digits + 1);
@@ -106,9 +129,9 @@ export function stepOf(interval, count) {
 }
 
 /** The section [start] of places and velocities. */
-function startSection(x, v) {
-  const list = values => {
-    const lines = [];
+function startSection(x: Places, v: Places) {
+  const list = (values: Places) => {
+    const lines: string[] = [];
     for (let i = 0; i < values.length; i += 3)
       lines.push(`  ${[...values.slice(i, i + 3)].map(tomlNumber).join(', ')},`);
     return `[\n${lines.join('\n')}\n]`;
@@ -116,9 +139,15 @@ function startSection(x, v) {
   return `[start]\npositions = ${list(x)}\n${v.length ? `velocities = ${list(v)}\n` : ''}`;
 }
 
+/** The state that a scene starts from: places and velocities of particles, centres of spheres. */
+export interface Start {
+  positions: Places;
+  velocities: Places;
+  centres: Places;
+}
+
 /** The text with the state that a run starts from, its pins, and its spheres where they start. */
-export function withStart(toml, simulation) {
-  const {pins} = simulation.scene, {positions: x, velocities: v, centres} = simulation.begun;
+export function withStart(toml: string, pins: Int32Array, {positions: x, velocities: v, centres}: Start) {
   const pinned = `particles = [${[...pins].join(', ')}]`;
   let text = /^\[pins\]/m.test(toml) ?
       toml.replace(/(^\[pins\][^[]*?)particles\s*=\s*\[[^\]]*\]/m, (_, before) => before + pinned) :
@@ -134,7 +163,7 @@ export function withStart(toml, simulation) {
 }
 
 /** The text without a section, from its head to the next. */
-export function withoutSection(toml, name) {
+export function withoutSection(toml: string, name: string) {
   let inside = false;
   return toml.split('\n')
       .filter(line => {

@@ -1,55 +1,54 @@
 // The bounds of a scene: the bodies that the camera has to hold, and the ball around them for light and shadow.
 
-import {Held} from './orbit';
-import {minus, norm, plus, unit, Vector} from './vectors';
+import {HeldBall} from './orbit';
+import {StageScene} from './stage';
+import {minus, norm, Numbers, placeOf, plus, unit, Vec3} from './vectors';
 
-/** A scene as far as its bounds need it, and a motion in it. */
-export interface Placed {
-  particles: number;
-  spheres: {radius: number, centres: Vector[]}[];
-  from: Vector;
-  floor: number|null;
-}
-export interface Moving {
+/** Places of a run over time, from `begin` to `end` (s); `well`: it did not fail. */
+export interface MovingPlaces {
   well: boolean;
   begin: number;
   end: number;
-  placesAt(time: number, into: Float32Array): unknown;
+  placesAt(time: number, into?: Float32Array): Float32Array;
+}
+
+export interface Bounds {
+  held: HeldBall[];  // bodies and their shadows
+  key: Vec3;         // towards the light
+  size: number;      // diagonal of the box around the bodies, m
+  middle: Vec3;
+  reach: number;  // radius of the ball around them, m
 }
 
 /** Towards the key light, from the left behind the viewer, for a viewer in this direction. */
-function keyDirection(from: Vector) {
-  const back = Math.hypot(from[0], from[2]) > 1e-9 ? unit([from[0], 0, from[2]]) : [0, 0, 1];
+function keyDirection(from: Numbers) {
+  const back: Vec3 = Math.hypot(from[0], from[2]) > 1e-9 ? unit([from[0], 0, from[2]]) : [0, 0, 1];
   const right = [back[2], 0, -back[0]];
   return unit(plus(plus([0, 1, 0], -0.3, right), 0.44, back));
 }
 
 /** The point in which the light's ray through a position meets the ground. */
-export const footOf = (at: Vector, floor: number, key: Vector) => plus(at, -(at[1] - floor) / key[1], key);
+export const footOf = (at: Numbers, floor: number, key: Vec3) => plus(at, -(at[1] - floor) / key[1], key);
 
-/**
- * Bounds of some particles in some frames of the runs that went well, of obstacles and of shadows: `held` for
- * Orbit.fit, `key` towards the light, `size`, `middle` and `reach` (m) of the box and ball around.
- */
-export function boundsOf(scene: Placed, motions: Moving[]) {
-  const held: Held[] = [], well = motions.filter(motion => motion.well);
+/** Bounds of some particles in some frames of the runs that went well, of obstacles, and of shadows. */
+export function boundsOf(scene: StageScene, motions: MovingPlaces[]): Bounds {
+  const held: HeldBall[] = [], well = motions.filter(motion => motion.well);
   const stride = Math.max(1, Math.floor(scene.particles / 300)), places = new Float32Array(3 * scene.particles);
   for (const motion of well.length ? well : motions)
     for (let f = 0; f <= 12; ++f) {
       motion.placesAt(motion.begin + f / 12 * (motion.end - motion.begin), places);
-      for (let i = 0; i < scene.particles; i += stride)
-        held.push({at: [...places.subarray(3 * i, 3 * i + 3)], radius: 0, margin: 0.07});
+      for (let i = 0; i < scene.particles; i += stride) held.push({at: placeOf(places, i), radius: 0, margin: 0.07});
     }
   for (const sphere of scene.spheres)
     for (const at of sphere.centres) held.push({at, radius: sphere.radius, margin: 0.07});
-  const most = (of: (ball: Held) => number) => held.reduce((far, h) => Math.max(far, of(h)), -Infinity);
-  const low = [0, 1, 2].map(k => -most(h => h.radius - h.at[k]));
+  const most = (of: (ball: HeldBall) => number) => held.reduce((far, h) => Math.max(far, of(h)), -Infinity);
+  const low = [0, 1, 2].map(k => -most(h => h.radius - h.at[k])) as Vec3;
   const high = [0, 1, 2].map(k => most(h => h.at[k] + h.radius));
   const size = norm(minus(high, low)) || 1, key = keyDirection(scene.from);
   // a single particle at rest gets a view one metre wide
   if (norm(minus(high, low)) === 0) held.push({at: low, radius: 0.5, margin: 0});
-  const middle = low.map((a, k) => (a + high[k]) / 2), reach = most(h => norm(minus(h.at, middle)) + h.radius);
-  const {floor} = scene;
+  const middle = low.map((a, k) => (a + high[k]) / 2) as Vec3;
+  const reach = most(h => norm(minus(h.at, middle)) + h.radius), {floor} = scene;
   const shadows =
       floor === null ? [] : held.map(({at, radius}) => ({at: footOf(at, floor, key), radius, margin: 0.015}));
   return {held: held.concat(shadows), key, size, middle, reach};

@@ -1,37 +1,47 @@
-// The colours of scales, families and methods.
+// Colours of scales, families and methods.
+
+export type Colour = [number, number, number];  // 0 to 1 each
 
 export const heat = ['F3F0E8', 'F6D9A6', 'F3B466', 'E8853B', 'CF5246', 'A02C5D', '5F1A5C'];  // as colour.cpp
 export const purple = ['F4F2F7', 'D9CBE6', 'B28FCF', '8A55B0', '5E2A86', '3B1260'];          // differences
 export const palette = ['0072B2', 'D55E00', '009E73', 'CC79A7', 'E69F00', '56B4E9', '333333'];
-export const rgb = (hex: string) => [0, 2, 4].map(i => parseInt(hex.replace('#', '').slice(i, i + 2), 16) / 255);
-export const mixed = (a: number[], b: number[], part: number) => a.map((v, k) => v + part * (b[k] - v));
+export const rgb =
+    (hex: string) => [0, 2, 4].map(i => parseInt(hex.replace('#', '').slice(i, i + 2), 16) / 255) as Colour;
+export const mixed = (a: Colour, b: Colour, part: number) => a.map((v, k) => v + part * (b[k] - v)) as Colour;
 
-/** The looks of methods on this page (chart_json.h). */
-interface Look {
-  title: string;
-  colour: string;
+/** Dark, middle and light tones of cloth in a tint. */
+export const rampOf = (tint: Colour):
+    Colour[] => [mixed(tint, [0, 0, 0], 0.15), mixed(tint, [1, 1, 1], 0.4), mixed(tint, [1, 1, 1], 0.84)];
+
+/** A method's name and colour on this page (chart_json.h). */
+interface MethodLook {
+  title?: string;
+  colour?: string;
   engine?: string;
   rule?: string;
 }
-export const looksOfPage: Record<string, Look> =
+export const looksOfPage: Record<string, MethodLook> =
     JSON.parse(document.getElementById('methods-data')?.textContent ?? '{}');
 
-/**
- * A method's title, and its colours as they are now, as numbers from 0 to 1: plain, and dark, middle and light for
- * cloth; each engine has one tint of cloth.
- */
-export function lookOf(method: string) {
+/** Colours of a drawn run: plain, and dark, middle and light for cloth. */
+export interface Look {
+  title?: string;
+  css: string;
+  plain: Colour;
+  ramp: Colour[];
+}
+
+/** A method's title and its present colours; each engine has one tint of cloth. */
+export function lookOf(method: string): Look {
   const known = looksOfPage[method], name = method === 'truth' ? 'truth' : known?.colour ?? 'grey';
-  const style = getComputedStyle(document.documentElement),
-        read = (key: string) => style.getPropertyValue(`--${key}`).trim();
-  const colour = read(name) || '#707880', own = rgb(colour);
-  const cloth = rgb(read(`${name.replace(/2$/, '')}2`) || colour);
-  const tint = method === 'truth' ? rgb('8A9099') : cloth;
+  const style = getComputedStyle(document.documentElement);
+  const read = (key: string) => style.getPropertyValue(`--${key}`).trim();
+  const colour = read(name) || '#707880', cloth = rgb(read(`${name.replace(/2$/, '')}2`) || colour);
   return {
     title: known?.title ?? method,
     css: `var(--${name}, #707880)`,
-    plain: own,
-    ramp: [mixed(tint, [0, 0, 0], 0.15), mixed(tint, [1, 1, 1], 0.4), mixed(tint, [1, 1, 1], 0.84)]
+    plain: rgb(colour),
+    ramp: rampOf(method === 'truth' ? rgb('8A9099') : cloth)
   };
 }
 
@@ -40,9 +50,7 @@ export function scaleBytes(stops: string[]) {
   const bytes = new Uint8Array(4 * 256), colours = stops.map(rgb);
   for (let i = 0; i < 256; ++i) {
     const at = i / 255 * (stops.length - 1), a = Math.min(Math.floor(at), stops.length - 2);
-    bytes.set(
-        [0, 1, 2].map(k => Math.round(255 * (colours[a][k] + (at - a) * (colours[a + 1][k] - colours[a][k])))), 4 * i);
-    bytes[4 * i + 3] = 255;
+    bytes.set([...mixed(colours[a], colours[a + 1], at - a).map(v => Math.round(255 * v)), 255], 4 * i);
   }
   return bytes;
 }

@@ -4,31 +4,33 @@ import {header, vertexCommon} from './shaders';
 
 export const noContext = new Error('no WebGL2 context');
 
-/** Corners (floats) shared by all instances, one row of whole numbers per instance, and an index. */
+export interface Program {
+  program: WebGLProgram;
+  places: Record<string, {at: WebGLUniformLocation, type: number}>;
+}
+export type Uniforms = Record<string, number|number[]|WebGLTexture|undefined|null>;
+
+/** Corners shared by all instances, one row of `ints` whole numbers per instance, and an index. */
 export interface Mesh {
   corners?: Float32Array;
   size?: number;  // numbers of a corner
   instances?: Int32Array;
-  slot?: number;
-  ints?: number;  // numbers of an instance
+  slot?: number;  // attribute of the instances
+  ints?: number;
   index: Uint16Array;
 }
 export interface Shape {
-  array: WebGLVertexArrayObject;
+  array: WebGLVertexArrayObject|null;
   indexed: number;
   instances: number;
 }
-export interface Program {
-  program: WebGLProgram;
-  places: Record<string, {at: WebGLUniformLocation | null, type: number}>;
-}
+/** A texture of four floats for each entry, with the numbers to fill it. */
 export interface Table {
   texture: WebGLTexture;
   wide: number;
   high: number;
   data: Float32Array;
 }
-export type Uniforms = Record<string, unknown>;
 
 export class Gl {
   readonly gl: WebGL2RenderingContext;
@@ -39,6 +41,8 @@ export class Gl {
     if (!gl) throw noContext;
     this.gl = gl;
   }
+
+  // A context that is lost creates nothing and draws nothing: its nulls are passed on.
 
   program(vertex: string, fragment: string, define = ''): Program {
     const gl = this.gl, program = gl.createProgram()!;
@@ -54,12 +58,12 @@ export class Gl {
     // without this check a mistake is a blank canvas and no message
     if (!gl.getProgramParameter(program, gl.LINK_STATUS) && !gl.isContextLost())
       throw new Error([
-        gl.getProgramInfoLog(program), ...gl.getAttachedShaders(program)!.map(s => gl.getShaderInfoLog(s))
+        gl.getProgramInfoLog(program), ...(gl.getAttachedShaders(program) ?? []).map(s => gl.getShaderInfoLog(s))
       ].join(' '));
     const places: Program['places'] = {};
     for (let i = 0; i < gl.getProgramParameter(program, gl.ACTIVE_UNIFORMS); ++i) {
       const {name, type} = gl.getActiveUniform(program, i)!;
-      places[name.replace('[0]', '')] = {at: gl.getUniformLocation(program, name), type};
+      places[name.replace('[0]', '')] = {at: gl.getUniformLocation(program, name)!, type};
     }
     return {program, places};
   }
@@ -70,33 +74,33 @@ export class Gl {
     gl.useProgram(program);
     let unit = 0;
     for (const [name, {at, type}] of Object.entries(places)) {
-      const value = uniforms[name] as number[];
-      if (value === undefined) continue;
-      if (type === gl.FLOAT_MAT4)
-        gl.uniformMatrix4fv(at, false, value);
-      else if (type === gl.FLOAT_VEC3)
-        gl.uniform3fv(at, value);
-      else if (type === gl.FLOAT_VEC4)
-        gl.uniform4fv(at, value);
-      else if (type === gl.FLOAT)
-        gl.uniform1f(at, uniforms[name] as number);
+      const value = uniforms[name];
+      if (value === undefined || value === null) continue;
+      if (Array.isArray(value)) {
+        if (type === gl.FLOAT_MAT4)
+          gl.uniformMatrix4fv(at, false, value);
+        else if (type === gl.FLOAT_VEC3)
+          gl.uniform3fv(at, value);
+        else
+          gl.uniform4fv(at, value);
+      } else if (typeof value === 'number')
+        gl.uniform1f(at, value);
       else {
         gl.activeTexture(gl.TEXTURE0 + unit);
-        gl.bindTexture(gl.TEXTURE_2D, uniforms[name] as WebGLTexture);
+        gl.bindTexture(gl.TEXTURE_2D, value);
         gl.uniform1i(at, unit++);
       }
     }
   }
 
-  private buffer(target: number, data: ArrayBufferView) {
+  private buffer(target: number, data: Float32Array|Int32Array|Uint16Array) {
     const gl = this.gl, buffer = gl.createBuffer();
     gl.bindBuffer(target, buffer);
     gl.bufferData(target, data, gl.STATIC_DRAW);
-    return buffer;
   }
 
-  shape({corners, size = 3, instances, slot = 1, ints = 1, index}: Mesh): Shape {
-    const gl = this.gl, array = gl.createVertexArray()!;
+  shape({corners, size = 1, instances, slot = 0, ints = 1, index}: Mesh): Shape {
+    const gl = this.gl, array = gl.createVertexArray();
     gl.bindVertexArray(array);
     if (corners) {
       this.buffer(gl.ARRAY_BUFFER, corners);
@@ -149,7 +153,7 @@ export class Gl {
 
   /** A depth texture that compares, and the frame that draws into it. */
   shadowMap(size: number) {
-    const gl = this.gl, texture = gl.createTexture()!, frame = gl.createFramebuffer()!;
+    const gl = this.gl, texture = gl.createTexture()!, frame = gl.createFramebuffer();
     gl.bindTexture(gl.TEXTURE_2D, texture);
     gl.texStorage2D(gl.TEXTURE_2D, 1, gl.DEPTH_COMPONENT24, size, size);
     for (const [key, value] of [

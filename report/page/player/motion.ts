@@ -1,6 +1,8 @@
 // Runs of the page (report/CONTRACT.md), and a run's motion between its frames.
 
+import {SharedGeometry, StageScene} from './stage';
 import {bytesOf, Packed, unpackedBytes} from './unpack';
+import {Places} from './vectors';
 
 /** A run as report.json has it. */
 export interface Run {
@@ -216,7 +218,7 @@ export const distances = (apart: Float32Array) => {
 export const rms = (values: Float32Array) => Math.sqrt(values.reduce((sum, v) => sum + v * v, 0) / values.length);
 
 /** Mean extension of the springs at each particle, %, without those that shear and bend. */
-export function stretchOf(scene: SceneStage, {springs, rests}: Shared, places: Float32Array) {
+export function stretchOf(scene: StageScene, {springs, rests}: SharedGeometry, places: Places) {
   const sum = new Float32Array(scene.particles), count = new Float32Array(scene.particles);
   let s = 0;
   for (const {name, count: many} of scene.springs.families)

@@ -1,29 +1,29 @@
 // The camera of all panels: turns about a point, so far away that everything is seen.
 
-import {cross, dot, minus, norm, perspective, plus, times, toEye, Vector} from './vectors';
+import {cross, dot, minus, norm, Numbers, perspective, plus, times, toEye, Vec3} from './vectors';
 
 const fieldOfView = 25 * Math.PI / 180;  // vertical
 export const tangent = Math.tan(fieldOfView / 2);
 
-/** A ball that has to be seen; `margin`: the part of the view that stays free. */
-export interface Held {
-  at: Vector;
+/** A ball that lies in view; `margin`: part of the view that stays free around it. */
+export interface HeldBall {
+  at: Numbers;
   radius: number;
   margin: number;
 }
 
 export interface Fit {
-  target: number[];
-  distance: number;
+  target: Vec3;
+  distance: number;  // m
 }
 
 export class Orbit {
-  private readonly home: {yaw: number, pitch: number};
-  private yaw = 0;
-  private pitch = 0;
+  private readonly home: {yaw: number; pitch: number};
+  yaw = 0;
+  pitch = 0;
   zoom = 1;
 
-  constructor(from: Vector) {
+  constructor(from: Numbers) {
     this.home = {yaw: Math.atan2(from[0], from[2]), pitch: Math.asin(from[1] / norm(from))};
     this.reset();
   }
@@ -38,19 +38,19 @@ export class Orbit {
   magnify(factor: number) { this.zoom = Math.max(0.15, Math.min(4, this.zoom / factor)); }
 
   /** Right, up and backwards. */
-  private axes({yaw, pitch}: {yaw: number, pitch: number} = {yaw: this.yaw, pitch: this.pitch}) {
-    const back = [Math.sin(yaw) * Math.cos(pitch), Math.sin(pitch), Math.cos(yaw) * Math.cos(pitch)];
-    const right = [Math.cos(yaw), 0, -Math.sin(yaw)];
+  axes({yaw, pitch}: {yaw: number, pitch: number} = this): Vec3[] {
+    const back: Vec3 = [Math.sin(yaw) * Math.cos(pitch), Math.sin(pitch), Math.cos(yaw) * Math.cos(pitch)];
+    const right: Vec3 = [Math.cos(yaw), 0, -Math.sin(yaw)];
     return [right, cross(back, right), back];
   }
 
   /**
-   * Point looked at and least distance at which the balls lie within a panel of this shape, seen from home; the point
-   * lies near their `middle`.
+   * Target and least distance at which the balls lie within a panel of this shape, seen from home; the target lies near
+   * their `middle`.
    */
-  fit(balls: Held[], middle: Vector, aspect: number): Fit {
+  fit(balls: HeldBall[], middle: Vec3, aspect: number): Fit {
     const [right, up, back] = this.axes(this.home);
-    const half = (axis: Vector, slope: number) => {
+    const half = (axis: Vec3, slope: number) => {
       const most = [-Infinity, -Infinity];
       for (const {at, radius, margin} of balls) {
         const from = minus(at, middle);

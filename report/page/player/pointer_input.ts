@@ -2,9 +2,31 @@
 
 import {Orbit} from './orbit';
 
+/** Keys that turn and zoom. */
+export const orbitKeys = (orbit: Orbit): Record<string, () => void> => ({
+  ArrowLeft: () => orbit.turn(-0.12, 0),
+  ArrowRight: () => orbit.turn(0.12, 0),
+  ArrowUp: () => orbit.turn(0, 0.1),
+  ArrowDown: () => orbit.turn(0, -0.1),
+  '+': () => orbit.magnify(1.15),
+  '=': () => orbit.magnify(1.15),
+  '-': () => orbit.magnify(1 / 1.15),
+  0: () => orbit.reset()
+});
+
+/** Lets the wheel zoom where the view has the focus, or with Control: elsewhere the page scrolls over it. */
+export function attachWheel(layer: HTMLElement, orbit: () => Orbit, changed: () => void) {
+  layer.addEventListener('wheel', event => {
+    if (!event.ctrlKey && document.activeElement !== layer) return;
+    event.preventDefault();
+    orbit().magnify(Math.exp(-0.0015 * event.deltaY));
+    changed();
+  }, {passive: false});
+}
+
 /**
- * `changed` is called after each change of the orbit. The wheel zooms only where the view has the focus (or with
- * Control), so that a page still scrolls over it; a finger that moves up or down scrolls, sideways it turns.
+ * Calls `changed` after each change of the orbit. A finger that moves up or down scrolls the page; sideways it turns
+ * the view.
  */
 export function attachPointerInput(layer: HTMLElement, orbit: Orbit, changed: () => void) {
   layer.addEventListener('pointerdown', event => layer.setPointerCapture(event.pointerId));
@@ -13,22 +35,8 @@ export function attachPointerInput(layer: HTMLElement, orbit: Orbit, changed: ()
     orbit.turn(-0.008 * event.movementX, 0.008 * event.movementY);
     changed();
   });
-  layer.addEventListener('wheel', event => {
-    if (!event.ctrlKey && document.activeElement !== layer) return;
-    event.preventDefault();
-    orbit.magnify(Math.exp(-0.0015 * event.deltaY));
-    changed();
-  }, {passive: false});
-  const keys: Record<string, () => void> = {
-    ArrowLeft: () => orbit.turn(-0.12, 0),
-    ArrowRight: () => orbit.turn(0.12, 0),
-    ArrowUp: () => orbit.turn(0, 0.1),
-    ArrowDown: () => orbit.turn(0, -0.1),
-    '+': () => orbit.magnify(1.15),
-    '=': () => orbit.magnify(1.15),
-    '-': () => orbit.magnify(1 / 1.15),
-    0: () => orbit.reset()
-  };
+  attachWheel(layer, () => orbit, changed);
+  const keys = orbitKeys(orbit);
   layer.addEventListener('keydown', event => {
     if (!keys[event.key] || event.ctrlKey || event.metaKey || event.altKey) return;
     event.preventDefault();

@@ -1,7 +1,7 @@
 // Corners and instances of what is drawn: cloth, threads, rods, balls, floor.
 
-import {Gl, Mesh} from './gl';
-import {SceneStage, Shared} from './motion';
+import {Gl, Mesh, Shape} from './gl';
+import {SharedGeometry, StageScene} from './stage';
 
 /** A ball of radius 1 as corners and triangles. */
 export function ballMesh(around: number, along: number) {
@@ -16,6 +16,18 @@ export function ballMesh(around: number, along: number) {
   return {corners: new Float32Array(corners), size: 3, index: new Uint16Array(index)};
 }
 
+const square = new Uint16Array([0, 1, 2, 2, 1, 3]);
+
+/** Strips that are shaded as rods, one for each row of two particles and a family. */
+export const rods = (tools: Gl, rows: Int32Array) => tools.shape(
+    {corners: new Float32Array([0, -1, 1, -1, 0, 1, 1, 1]), size: 2, slot: 2, ints: 3, index: square, instances: rows});
+
+/** Balls at particles; coarse ones where there are many. */
+export const balls = (tools: Gl, particles: number, list: number[]) =>
+    ballsOf(tools, particles > 60 ? ballMesh(10, 6) : ballMesh(24, 16), list);
+const ballsOf = (tools: Gl, mesh: Mesh, list: number[]) =>
+    tools.shape({...mesh, instances: Int32Array.from(list), slot: 1, ints: 1});
+
 /** Rows (a, b, family) of the springs; `counts` says how many there are of each family, in order. */
 function springRows(ends: Uint16Array, counts: number[]) {
   const rows = new Int32Array(ends.length / 2 * 3);
@@ -26,29 +38,18 @@ function springRows(ends: Uint16Array, counts: number[]) {
   return rows;
 }
 
-export function shapesOf(tools: Gl, scene: SceneStage, {triangles, springs}: Shared) {
-  const strip = {
-    corners: new Float32Array([0, -1, 1, -1, 0, 1, 1, 1]),
-    size: 2,
-    slot: 2,
-    ints: 3,
-    index: new Uint16Array([0, 1, 2, 2, 1, 3])
-  };
-  const rods = (rows: Int32Array) => tools.shape({...strip, instances: rows});
-  const balls = (mesh: Mesh, list: number[]) =>
-      tools.shape({...mesh, instances: Int32Array.from(list), slot: 1, ints: 1});
-  const small = scene.particles > 60 ? ballMesh(10, 6) : ballMesh(24, 16);
+export type ShapeName = 'cloth'|'threads'|'rods'|'path'|'beads'|'pins'|'obstacle'|'floor';
+
+export function shapesOf(tools: Gl, scene: StageScene, {triangles, springs}: SharedGeometry): Record<ShapeName, Shape> {
   const steps = scene.times.slice(1).flatMap((_, f) => [f, f + 1, 0]);
-  const threads = springs.subarray(0, 2 * scene.springs.threads);
   return {
     cloth: tools.shape({index: triangles}),
-    threads: tools.shape({index: threads}),
-    rods: rods(springRows(springs, scene.springs.families.map(f => f.count))),
-    path: rods(Int32Array.from(steps)),
-    beads: balls(small, Array.from({length: scene.particles}, (_, i) => i)),
-    pins: balls(small, scene.pins),
-    obstacle: balls(ballMesh(72, 48), [0]),
-    floor: tools.shape(
-        {corners: new Float32Array([-1, -1, 1, -1, -1, 1, 1, 1]), size: 2, index: new Uint16Array([0, 1, 2, 2, 1, 3])}),
+    threads: tools.shape({index: springs.subarray(0, 2 * scene.springs.threads)}),
+    rods: rods(tools, springRows(springs, scene.springs.families.map(f => f.count))),
+    path: rods(tools, Int32Array.from(steps)),
+    beads: balls(tools, scene.particles, Array.from({length: scene.particles}, (_, i) => i)),
+    pins: balls(tools, scene.particles, scene.pins),
+    obstacle: ballsOf(tools, ballMesh(72, 48), [0]),
+    floor: tools.shape({corners: new Float32Array([-1, -1, 1, -1, -1, 1, 1, 1]), size: 2, index: square}),
   };
 }

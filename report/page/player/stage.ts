@@ -1,13 +1,75 @@
 // Draws the methods of one scene side by side, seen by one camera, into one canvas.
 
-import {boundsOf, footOf} from './bounds';
-import {heat, palette, purple, rgb, scaleBytes} from './colours';
-import {Gl, Program, Table, Uniforms} from './gl';
-import {distances, Motion, SceneStage, Shared, stretchOf} from './motion';
-import {Held, Orbit, tangent} from './orbit';
+import {Bounds, boundsOf, footOf} from './bounds';
+import {heat, Look, palette, purple, rgb, scaleBytes} from './colours';
+import {Gl, Program, Shape, Table, Uniforms} from './gl';
+import {distances, Motion, stretchOf} from './motion';
+import {Fit, Orbit, tangent} from './orbit';
 import {ballVertex, clothFragment, clothVertex, floorFragment, floorVertex, fragmentCommon, rodVertex, solidFragment, threadFragment} from './shaders';
-import {shapesOf} from './shapes';
-import {lightMatrix, minus, plus, sumNormals} from './vectors';
+import {ShapeName, shapesOf} from './shapes';
+import {lightMatrix, minus, Numbers, placeOf, Places, plus, sumNormals, Vec3} from './vectors';
+
+/** A scene as it is drawn. */
+export interface StageScene {
+  scene: string;
+  particles: number;
+  times: number[];  // s, of its frames
+  from: Numbers;    // direction of the viewer
+  floor: number|null;
+  triangles: unknown;  // null or false where there is no cloth
+  pins: number[];
+  /** Families in the order of the springs; `threads`: springs that are drawn on a cloth, the first ones. */
+  springs: {families: {name: string, count: number}[], threads: number, rest_unit: number};
+  spheres: {radius: number, centres: Numbers[]}[];  // centres at even times
+}
+export interface SharedGeometry {
+  triangles: Uint16Array;
+  springs: Uint16Array;  // both ends of each
+  rests: Numbers;        // rest lengths, in `rest_unit`
+}
+
+/** What stands in one panel. */
+export interface Panel {
+  look: Pick<Look, 'plain'|'ramp'>;
+  points: Table;        // place and value of each particle
+  normals: Table|null;  // cloth only
+  scale: 'heat'|'apart';
+}
+/** Colouring: by the method, or by a value up to `top`; `from`: the motion that distances are measured from. */
+export interface Colouring {
+  name: string;
+  top: number;
+  from?: Motion|null;
+}
+export interface Shown {
+  time: number;  // s
+  colour: Colouring;
+  springs: boolean;
+  orbit: Orbit;
+  background: number[];
+  title: number;  // CSS pixels that stay free above each panel
+}
+/** Part of the canvas that a panel takes, and its title with it. */
+export interface PanelPlace {
+  left: number;
+  top: number;
+  wide: number;
+  high: number;
+}
+/** A panel as it is drawn now. */
+export interface PanelView<P> {
+  panel: P;
+  time: number;
+  springs: boolean;
+  background: number[];
+  eye: Vec3;
+  toClip: number[];
+  toKey: number[]|null;  // clip space of the light
+  pixel: number;         // m
+  valued: boolean;
+  surface: boolean;
+  ghost: boolean;  // drawn over the panel before it
+}
 
 /** Panels in rows and columns so that the smaller side of each picture is as long as can be; `title` is above each. */
 export function gridOf(count: number, wide: number, high: number, title: number) {
@@ -19,269 +81,264 @@ export function gridOf(count: number, wide: number, high: number, title: number)
   return {columns: best.columns, rows: Math.ceil(count / best.columns)};
 }
 
-/** What stands side by side: a motion in its own colours, or its difference from another one up to `top` (m). */
-export interface View {
-  motion: Motion;
-  look: {plain: number[], ramp: number[][]};
-  other?: Motion;
-  top?: number;
-}
-interface Panel extends View {
-  points: Table;
-  normals: Table|null;
-  path: Table|null;
-}
-/** What colours mean; `from`: the motion from which distances are told, `top`: the value of the last colour. */
-export interface Colouring {
-  name: string;
-  top: number;
-  from?: Motion|null;
-}
-export interface Drawing {
-  time: number;  // s
-  colour: Colouring;
-  springs: boolean;
-  orbit: Orbit;
-  background: number[];
-  title: number;  // pixels above each panel that stay free
-}
-/** A panel's drawing. */
-interface PanelLook {
-  toClip: number[];
-  eye: number[];
-  time: number;
-  springs: boolean;
-  background: number[];
-  pixel: number;  // m
-  panel: Panel;
-  valued: boolean;
-  surface: boolean;
-  toKey?: number[];
-}
-type Programs = Record<string, Program>;
+export type BodyPrograms = Record<'cloth'|'ball'|'rod', Program>;
 
-export class Stage {
+/** Programs, shapes and light of a scene; classes derived from it know where its particles are. */
+export class BaseStage<P extends Panel> {
+  panels: P[] = [];
   protected readonly tools: Gl;
+  protected readonly programs: BodyPrograms&Record<'thread'|'floor', Program>;
+  private readonly casts: BodyPrograms;
+  protected readonly shapes: Record<ShapeName, Shape>;
+  private readonly map: ReturnType<Gl['shadowMap']>;
+  private readonly scales: Record<'heat'|'apart', WebGLTexture>;
   protected readonly triangles: Uint16Array;
-  protected panels: Panel[] = [];
-  protected readonly programs: Programs;
-  protected readonly casts: Programs;
-  protected readonly shapes: ReturnType<typeof shapesOf>;
-  protected readonly map: ReturnType<Gl['shadowMap']>;
-  protected readonly scales: {heat: WebGLTexture, apart: WebGLTexture};
-  // results of boundsOf
-  protected held: Held[] = [];
-  protected key: number[] = [];
-  protected middle: number[] = [];
-  protected size = 1;
-  protected reach = 1;
+  protected bounds: Bounds;
 
-  /**
-   * `shared`: triangles, springs and rests of the scene; `coarse`: drawn for speed, with edges and shadows less
-   * smooth.
-   */
+  /** `coarse`: drawn for speed, with edges and shadows less smooth. */
   constructor(
-      readonly canvas: HTMLCanvasElement, readonly scene: SceneStage, readonly shared: Shared,
-      private readonly coarse = false) {
+      readonly canvas: HTMLCanvasElement, readonly scene: StageScene, readonly shared: SharedGeometry,
+      readonly coarse = false) {
     this.triangles = shared.triangles;
     const tools = this.tools = new Gl(canvas, !coarse), gl = tools.gl;
-    const shade = fragmentCommon;
     this.programs = {
-      cloth: tools.program(clothVertex, shade + clothFragment),
+      cloth: tools.program(clothVertex, fragmentCommon + clothFragment),
       thread: tools.program(clothVertex, threadFragment),
-      ball: tools.program(ballVertex, shade + solidFragment),
-      rod: tools.program(rodVertex, shade + solidFragment, '#define ROD\n'),
-      floor: tools.program(floorVertex, shade + floorFragment),
+      ball: tools.program(ballVertex, fragmentCommon + solidFragment),
+      rod: tools.program(rodVertex, fragmentCommon + solidFragment, '#define ROD\n'),
+      floor: tools.program(floorVertex, fragmentCommon + floorFragment),
     };
-    this.casts = Object.fromEntries(Object.entries({cloth: clothVertex, ball: ballVertex, rod: rodVertex})
-                                        .map(([name, text]) => [name, tools.program(text, 'void main() {}')]));
+    const cast = (vertex: string) => tools.program(vertex, 'void main() {}');
+    this.casts = {cloth: cast(clothVertex), ball: cast(ballVertex), rod: cast(rodVertex)};
     this.shapes = shapesOf(tools, scene, shared);
     this.map = tools.shadowMap(1024);
     this.scales = {heat: tools.colours(scaleBytes(heat)), apart: tools.colours(scaleBytes(purple))};
+    this.bounds = boundsOf(scene, []);
     gl.enable(gl.DEPTH_TEST);
     gl.depthFunc(gl.LEQUAL);
     gl.enable(gl.SCISSOR_TEST);
     gl.blendFunc(gl.SRC_ALPHA, gl.ONE_MINUS_SRC_ALPHA);
   }
 
-  show(views: View[]) {
-    const {tools, scene, triangles} = this, n = scene.particles, {times} = scene;
-    for (const panel of this.panels)
-      for (const table of [panel.points, panel.normals, panel.path])
-        if (table) tools.gl.deleteTexture(table.texture);
-    this.panels = views.map(view => ({
-                              ...view,
-                              points: tools.table(n),
-                              normals: triangles.length ? tools.table(n) : null,
-                              path: triangles.length || times.length < 2 ? null : tools.table(times.length)
-                            }));
-    for (const {motion, path} of this.panels) {
-      if (!path) continue;
-      const places = new Float32Array(3 * n);
-      times.forEach((t, f) => path.data.set([...motion.placesAt(t, places).subarray(3 * n - 3), -1], 4 * f));
-      tools.fill(path);
-    }
-    Object.assign(this, boundsOf(scene, this.panels.map(p => p.motion)));
-  }
+  /** Length of the diagonal of what is in view, m. */
+  get size() { return this.bounds.size; }
 
   /** Gives the context back. */
   release() { this.tools.gl.getExtension('WEBGL_lose_context')?.loseContext(); }
 
-  /** Writes places and values of a panel's particles (0 to 1, negative for none), four numbers each. */
-  write({motion, other, top, points, normals}: Panel, time: number, colour: Colouring) {
-    const {scene, triangles} = this, places = motion.placesAt(time), into = points.data;
-    const metres = other ? distances(motion.apartAt(time, other)) :
-        colour.from      ? distances(motion.apartAt(time, colour.from)) :
-                           null;
-    const values = metres ?? (colour.name === 'stretch' ? stretchOf(scene, this.shared, places) : null);
-    const most = other ? top ?? 1 : colour.top;
-    for (let i = 0; i < scene.particles; ++i) {
-      into.set(places.subarray(3 * i, 3 * i + 3), 4 * i);
-      into[4 * i + 3] = values ? Math.min(1, values[i] / most) : -1;
+  protected dropTables(...tables: (Table|null)[]) {
+    for (const table of tables)
+      if (table) this.tools.gl.deleteTexture(table.texture);
+  }
+
+  /** Writes places and values (0 to 1 of `top`, none where there is no list) of a panel's particles. */
+  protected fill({points, normals}: P, places: Numbers, values: Numbers|null, top: number) {
+    const into = points.data;
+    for (let i = 0; i < this.scene.particles; ++i) {
+      into[4 * i] = places[3 * i], into[4 * i + 1] = places[3 * i + 1], into[4 * i + 2] = places[3 * i + 2];
+      into[4 * i + 3] = values ? Math.min(1, values[i] / top) : -1;
     }
     this.tools.fill(points);
     if (!normals) return;
-    sumNormals(places, triangles, normals.data, 4);
+    sumNormals(places, this.triangles, normals.data, 4);
     this.tools.fill(normals);
   }
 
-  /** Draws the panels. Returns their places in the canvas, parts of its size. */
-  draw({time, colour, springs, orbit, background, title}: Drawing) {
+  /**
+   * Draws the panels in a grid, or over one another; `fitted` may hold the camera back, `prepare` writes a panel's
+   * places and says whether they have values. Returns the panels' places, pictures without titles in CSS pixels, and
+   * the camera.
+   */
+  protected drawPanels(
+      {time, springs, orbit, background, title}: Omit<Shown, 'colour'>, over: boolean, fitted: (fit: Fit) => Fit,
+      prepare: (panel: P, ghost: boolean) => boolean) {
     const {gl} = this.tools, {canvas, scene, panels} = this;
     const ratio = canvas.width / canvas.clientWidth, room = Math.round(title * ratio);
-    const {columns, rows} = gridOf(panels.length, canvas.width, canvas.height, room),
-                    cell = Math.floor(canvas.height / rows);
-    const wide = Math.floor(canvas.width / columns), high = cell - room, aspect = wide / high;
-    const fit = orbit.fit(this.held, this.middle, aspect), view = orbit.view(fit, aspect);
+    const {columns, rows} = over ? {columns: 1, rows: 1} : gridOf(panels.length, canvas.width, canvas.height, room);
+    const cell = Math.floor(canvas.height / rows), wide = Math.floor(canvas.width / columns), high = cell - room;
+    const aspect = wide / high, fit = fitted(orbit.fit(this.bounds.held, this.bounds.middle, aspect));
+    const camera = orbit.view(fit, aspect), pixel = 2 * tangent * fit.distance * orbit.zoom / high * ratio;
     gl.scissor(0, 0, canvas.width, canvas.height);
     gl.clearColor(background[0], background[1], background[2], 1);
     gl.clear(gl.COLOR_BUFFER_BIT | gl.DEPTH_BUFFER_BIT);
-    return panels.map((panel, i) => {
-      const column = i % columns, row = Math.floor(i / columns);
-      this.write(panel, time, colour);
-      const pixel = 2 * tangent * fit.distance * orbit.zoom / high * ratio;
-      const look: PanelLook = {
-        ...view,
-        time,
-        springs,
-        background,
-        pixel,
-        panel,
-        valued: Boolean(panel.other) || colour.name !== 'plain',
-        surface: this.triangles.length > 0 && !springs,
-      };
-      if (scene.floor !== null) this.castShadows(look);
-      const box: [number, number, number, number] = [column * wide, canvas.height - (row + 1) * cell, wide, high];
+    let toKey: number[]|null = null;
+    const places: PanelPlace[] = [], boxes: PanelPlace[] = [];
+    panels.forEach((panel, i) => {
+      const ghost = over && i > 0, column = over ? 0 : i % columns, row = over ? 0 : Math.floor(i / columns);
+      const valued = prepare(panel, ghost), surface = this.triangles.length > 0 && !springs;
+      const view: PanelView<P> = {...camera, panel, time, springs, background, toKey, pixel, valued, surface, ghost};
+      if (scene.floor !== null && !ghost) toKey = view.toKey = this.castShadows(view);
+      const box = [column * wide, canvas.height - (row + 1) * cell, wide, high] as const;
       gl.viewport(...box);
       gl.scissor(...box);
-      this.drawPanel(look, box);
-      return {left: column / columns, top: row / rows, wide: 1 / columns, high: 1 / rows};
+      this.drawPanel(view, [...box]);
+      places.push({left: column / columns, top: row / rows, wide: 1 / columns, high: 1 / rows});
+      boxes.push({left: box[0] / ratio, top: (row * cell + room) / ratio, wide: wide / ratio, high: high / ratio});
     });
+    return {places, boxes, aspect, fit, ...camera};
   }
 
-  private castShadows(look: PanelLook) {
-    const {gl} = this.tools, {map} = this;
-    const toKey = lightMatrix(this.key, this.middle, 1.03 * this.reach);
-    look.toKey = toKey;
+  private castShadows(view: PanelView<P>) {
+    const {gl} = this.tools, {map} = this, {key, middle, reach} = this.bounds;
+    const toKey = lightMatrix(key, middle, 1.03 * reach);
     gl.bindFramebuffer(gl.FRAMEBUFFER, map.frame);
     gl.viewport(0, 0, map.size, map.size);
     gl.scissor(0, 0, map.size, map.size);
     gl.clear(gl.DEPTH_BUFFER_BIT);
     gl.enable(gl.POLYGON_OFFSET_FILL);
     gl.polygonOffset(2, 4);
-    this.drawBodies(this.casts, look, {to_clip: toKey, eye: plus(this.middle, 100 * this.reach, this.key)});
+    this.drawBodies(this.casts, view, {to_clip: toKey, eye: plus(middle, 100 * reach, key)});
     gl.disable(gl.POLYGON_OFFSET_FILL);
     gl.bindFramebuffer(gl.FRAMEBUFFER, null);
+    return toKey;
   }
 
-  private drawPanel(look: PanelLook, box: number[]) {
-    const {gl} = this.tools, {floor} = this.scene, flat = floor === null;
-    const light = {
-      to_clip: look.toClip,
-      eye: look.eye,
-      key: this.key,
-      to_key: look.toKey || look.toClip,
+  private drawPanel(view: PanelView<P>, box: number[]) {
+    const {gl} = this.tools, {floor} = this.scene, {key, middle, reach} = this.bounds;
+    const shadows = floor !== null && !view.ghost;
+    const light: Uniforms = {
+      to_clip: view.toClip,
+      eye: view.eye,
+      key,
+      to_key: view.toKey ?? view.toClip,
       key_map: this.map.texture,
-      lift: 0.006 * this.reach,
-      shadowed: flat ? 0 : 1,
+      lift: 0.006 * reach,
+      shadowed: shadows ? 1 : 0,
       taps: this.coarse ? 4 : 12,
-      scale_map: look.panel.other ? this.scales.apart : this.scales.heat,
-      by_value: look.valued ? 1 : 0,
-      ramp: look.panel.look.ramp.flat(),
-      background: look.background,
-      by_family: look.surface ? 0 : 1,
+      scale_map: this.scales[view.panel.scale],
+      by_value: view.valued ? 1 : 0,
+      ramp: view.panel.look.ramp.flat(),
+      background: view.background,
+      by_family: view.surface ? 0 : 1,
       families: palette.flatMap(rgb)
     };
-    this.drawBodies(this.programs, look, light);
-    if (flat) return;
+    this.drawBodies(this.programs, view, light);
+    if (floor === null || view.ghost) return;
     gl.depthMask(false);
-    const foot = footOf(this.middle, floor, this.key);
-    this.tools.use(this.programs.floor, {...light, floor_at: [foot[0], floor, foot[2], 2.2 * this.reach], panel: box});
+    const foot = footOf(middle, floor, key);
+    this.tools.use(this.programs.floor, {...light, floor_at: [foot[0], floor, foot[2], 2.2 * reach], panel: box});
     this.tools.draw(this.shapes.floor, gl.TRIANGLES);
     gl.depthMask(true);
   }
 
-  /** Cloth or springs, beads, pins, path and obstacles, with the programs given. */
-  private drawBodies(programs: Programs, look: PanelLook, light: Uniforms) {
-    const {gl} = this.tools, {tools, scene, shapes} = this, {panel, pixel} = look;
-    const lit = programs === this.programs;
-    const all = {
+  /** Uniforms of a panel's bodies. */
+  protected uniformsOf({panel}: PanelView<P>, light: Uniforms): Uniforms {
+    return {
       ...light,
       points: panel.points.texture,
-      normals: panel.normals && panel.normals.texture,
-      plain: look.panel.look.plain,
+      normals: panel.normals?.texture,
+      plain: panel.look.plain,
       nearer: 0,
       ball: [0, 0, 0, 0]
     };
+  }
+
+  /** Cloth or springs, beads, pins, path and obstacles, with the programs given. */
+  protected drawBodies(programs: BodyPrograms, view: PanelView<P>, light: Uniforms) {
+    const {gl} = this.tools, {tools, scene, shapes} = this, {pixel} = view, lit = programs === this.programs;
+    const all = this.uniformsOf(view, light), many = scene.particles > 60;
     const thin = 0.9 * pixel, bead = Math.min(8 * pixel, 0.03 * this.size);
-    if (look.surface) {
+    if (view.surface) {
       tools.use(programs.cloth, all);
       tools.draw(shapes.cloth, gl.TRIANGLES);
       if (lit) {
         gl.enable(gl.BLEND);
-        tools.use(programs.thread, {...all, nearer: 4e-5, ink: look.valued ? 0.3 : 0.42});
+        tools.use(this.programs.thread, {...all, nearer: 4e-5, ink: view.valued ? 0.3 : 0.42});
         tools.draw(shapes.threads, gl.LINES);
         gl.disable(gl.BLEND);
       }
     } else {
-      if (look.springs) {
+      if (view.springs) {
         const own = scene.triangles ? {} : {plain: rgb('8E9196'), by_family: 0};
-        tools.use(programs.rod, {...all, ...own, radius: scene.particles > 60 ? thin : 0.3 * bead});
+        tools.use(programs.rod, {...all, ...own, radius: many ? thin : 0.3 * bead});
         tools.draw(shapes.rods, gl.TRIANGLES);
       }
-      tools.use(programs.ball, {...all, radius: scene.particles > 60 ? 0.4 * bead : bead});
+      tools.use(programs.ball, {...all, radius: many ? 0.4 * bead : bead});
       if (!scene.triangles) tools.draw(shapes.beads, gl.TRIANGLES);
     }
     tools.use(programs.ball, {
       ...all,
       radius: 1.25 * Math.max(2.2 * pixel, scene.triangles ? 0 : bead),
-      plain: rgb(look.background[0] > 0.5 ? '34363B' : 'A9AFB6'),
+      plain: rgb(view.background[0] > 0.5 ? '34363B' : 'A9AFB6'),
       by_value: 0
     });
     tools.draw(shapes.pins, gl.TRIANGLES);
-    if (lit && panel.path) {
-      tools.use(
-          programs.rod,
-          {...all, points: panel.path.texture, radius: 0.7 * pixel, plain: rgb('6C7A91'), by_value: 0, by_family: 0});
-      tools.draw(shapes.path, gl.TRIANGLES, Math.max(0, Math.floor(this.frame(Math.min(look.time, panel.motion.end)))));
+    if (lit) this.drawPath(view, {...all, by_value: 0, by_family: 0});
+    for (const [radius, centre] of this.obstaclesAt(view.time)) {
+      tools.use(programs.ball, {...all, ball: [...centre, radius], plain: rgb('B6BBC3'), by_value: 0});
+      tools.draw(shapes.obstacle, gl.TRIANGLES);
     }
-    this.drawObstacles(programs, look.time, all);
   }
 
+  /** The way that a particle has gone. */
+  protected drawPath(_view: PanelView<P>, _all: Uniforms) {}
+
   /** Frame of the scene at a time, with its fraction. */
-  private frame(time: number) {
+  protected frame(time: number) {
     const {times} = this.scene, last = times.length - 1;
     return last > 0 ? last * Math.min(1, time / times[last]) : 0;
   }
 
-  private drawObstacles(programs: Programs, time: number, all: Uniforms) {
-    const {tools, scene} = this, last = scene.times.length - 1;
+  /** Radius and centre of each sphere at a time. */
+  protected obstaclesAt(time: number): [number, Vec3][] {
+    const {scene} = this, last = scene.times.length - 1;
     const at = this.frame(time), first = Math.floor(at), next = Math.min(first + 1, last);
-    for (const {radius, centres} of scene.spheres) {
+    return scene.spheres.map(({radius, centres}) => {
       const a = centres[Math.min(first, centres.length - 1)], b = centres[Math.min(next, centres.length - 1)];
-      const ball = [...plus(a, at - first, minus(b, a)), radius];
-      tools.use(programs.ball, {...all, ball, plain: rgb('B6BBC3'), by_value: 0});
-      tools.draw(this.shapes.obstacle, tools.gl.TRIANGLES);
+      return [radius, plus(a, at - first, minus(b, a))];
+    });
+  }
+}
+
+/** A stored run to be shown; with `other` its difference from that run in colours up to `top` (m). */
+export interface View {
+  motion: Motion;
+  look: Pick<Look, 'plain'|'ramp'>;
+  other?: Motion|null;
+  top?: number;
+}
+type MotionPanel = Panel&View&{path: Table | null};
+
+/** The stage of stored runs. */
+export class Stage extends BaseStage<MotionPanel> {
+  /** Sets the runs that stand side by side. */
+  show(views: View[]) {
+    const {tools, scene} = this, cloth = this.triangles.length > 0, n = scene.particles, {times} = scene;
+    for (const {points, normals, path} of this.panels) this.dropTables(points, normals, path);
+    this.panels = views.map(view => ({
+                              ...view,
+                              points: tools.table(n),
+                              normals: cloth ? tools.table(n) : null,
+                              path: cloth || times.length < 2 ? null : tools.table(times.length),
+                              scale: view.other ? 'apart' : 'heat'
+                            }));
+    const places = new Float32Array(3 * n);
+    for (const {motion, path} of this.panels) {
+      if (!path) continue;
+      times.forEach((t, f) => path.data.set([...placeOf(motion.placesAt(t, places), n - 1), -1], 4 * f));
+      tools.fill(path);
     }
+    this.bounds = boundsOf(scene, this.panels.map(p => p.motion));
+  }
+
+  /** Draws the panels; returns their places. */
+  draw(shown: Shown): PanelPlace[] {
+    const {time, colour} = shown;
+    const prepare = (panel: MotionPanel) => {
+      const {motion, other, top = 1} = panel, from = other ?? colour.from, places: Places = motion.placesAt(time);
+      const values = from           ? distances(motion.apartAt(time, from)) :
+          colour.name === 'stretch' ? stretchOf(this.scene, this.shared, places) :
+                                      null;
+      this.fill(panel, places, values, other ? top : colour.top);
+      return Boolean(other) || colour.name !== 'plain';
+    };
+    return this.drawPanels(shown, false, fit => fit, prepare).places;
+  }
+
+  protected drawPath({panel, time, pixel}: PanelView<MotionPanel>, all: Uniforms) {
+    if (!panel.path) return;
+    const steps = Math.max(0, Math.floor(this.frame(Math.min(time, panel.motion.end))));
+    this.tools.use(this.programs.rod, {...all, points: panel.path.texture, radius: 0.7 * pixel, plain: rgb('6C7A91')});
+    this.tools.draw(this.shapes.path, this.tools.gl.TRIANGLES, steps);
   }
 }

@@ -1,26 +1,33 @@
 // Vectors as arrays of three numbers, matrices as arrays of sixteen, column by column.
 
-export type Vector = ArrayLike<number>;
+export type Vec3 = [number, number, number];
+/** A vector, or a row of coordinates of a larger array. */
+export type Numbers = ArrayLike<number>;
+/** Coordinates of particles, three each, m. */
+export type Places = Float32Array|Float64Array;
 
-export const minus = (a: Vector, b: Vector) => [a[0] - b[0], a[1] - b[1], a[2] - b[2]];
+export const minus = (a: Numbers, b: Numbers): Vec3 => [a[0] - b[0], a[1] - b[1], a[2] - b[2]];
 /** a + s b */
-export const plus = (a: Vector, s: number, b: Vector) => [a[0] + s * b[0], a[1] + s * b[1], a[2] + s * b[2]];
-export const dot = (a: Vector, b: Vector) => a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+export const plus = (a: Numbers, s: number, b: Numbers): Vec3 => [a[0] + s * b[0], a[1] + s * b[1], a[2] + s * b[2]];
+export const dot = (a: Numbers, b: Numbers) => a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
 export const cross =
-    (a: Vector, b: Vector) => [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]];
-export const norm = (a: Vector) => Math.sqrt(dot(a, a));
-export const unit = (a: Vector) => plus([0, 0, 0], 1 / (norm(a) || 1), a);
+    (a: Numbers, b: Numbers): Vec3 => [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]];
+export const norm = (a: Numbers) => Math.sqrt(dot(a, a));
+export const unit = (a: Numbers) => plus([0, 0, 0], 1 / (norm(a) || 1), a);
+/** Coordinates of one particle. */
+export const placeOf = (places: Numbers, particle: number):
+    Vec3 => [places[3 * particle], places[3 * particle + 1], places[3 * particle + 2]];
 
 /** Rigid motion that puts the eye at the origin, the axes along x, y and z. */
-export function toEye([right, up, back]: Vector[], eye: Vector) {
+export function toEye([right, up, back]: Numbers[], eye: Numbers) {
   return [
     right[0], up[0], back[0], 0, right[1], up[1], back[1], 0, right[2], up[2], back[2], 0, -dot(right, eye),
     -dot(up, eye), -dot(back, eye), 1
   ];
 }
 
-export function times(a: number[], b: number[]): number[] {
-  const m = new Array(16).fill(0);
+export function times(a: Numbers, b: Numbers) {
+  const m: number[] = new Array(16).fill(0);
   for (let c = 0; c < 4; ++c)
     for (let r = 0; r < 4; ++r)
       for (let k = 0; k < 4; ++k) m[4 * c + r] += a[4 * k + r] * b[4 * c + k];
@@ -37,7 +44,7 @@ export function perspective(tangent: number, aspect: number, near: number, far: 
 }
 
 /** Sums of the triangles' normals at each corner, as long as twice their areas; `stride` numbers for each point. */
-export function sumNormals(places: Vector, triangles: Vector, sums: Float32Array, stride: number) {
+export function sumNormals(places: Numbers, triangles: Numbers, sums: Float32Array|Float64Array, stride: number) {
   sums.fill(0);
   for (let t = 0; t < triangles.length; t += 3) {
     const a = 3 * triangles[t], b = 3 * triangles[t + 1], c = 3 * triangles[t + 2];
@@ -52,7 +59,7 @@ export function sumNormals(places: Vector, triangles: Vector, sums: Float32Array
 }
 
 /** Clip space of a light far away: a box that holds the ball around `centre`. */
-export function lightMatrix(direction: Vector, centre: Vector, radius: number) {
+export function lightMatrix(direction: Numbers, centre: Numbers, radius: number) {
   const right = unit(cross(Math.abs(direction[1]) > 0.99 ? [1, 0, 0] : [0, 1, 0], direction));
   const up = cross(direction, right);
   const s = 1 / radius;

@@ -23,6 +23,7 @@ const labGuideTest = (() => {
   async function quickLab(picture) {
     const lab = document.querySelector('live-lab');
     await until(() => lab.dataset.state === 'ready' && lab.reading, 'the lab');
+    lab.querySelector('[data-act=guide]').click();
     let now = performance.now();
     lab.wake = () => {};
     lab.draw = () => false;
@@ -127,9 +128,9 @@ const labGuideTest = (() => {
   /** The table of words by itself: both languages of every key, with the same places to fill in. */
   function table() {
     const lines = [], places = text => [...text.matchAll(/\{\w+\}/g)].map(m => m[0]).sort().join();
-    for (const [key, words] of Object.entries(labWords)) {
-      const [english, chinese] = words;
-      if (words.length !== 2 || !english.trim() || !chinese.trim()) lines.push(`${key} has not two languages`);
+    for (const key of Object.keys({...labWords.en, ...labWords.zh})) {
+      const english = labWords.en[key] ?? '', chinese = labWords.zh[key] ?? '';
+      if (!english.trim() || !chinese.trim()) lines.push(`${key} has not two languages`);
       if (places(english) !== places(chinese)) lines.push(`${key} fills in ${places(english)} and ${places(chinese)}`);
       const letters = /[A-Za-z]{2}/.test(english.replace(/\{\w+\}/g, ''));
       if (letters && (english === chinese || !/[\u4e00-\u9fff]/.test(chinese))) lines.push(`${key} is not in Chinese: ${chinese}`);
@@ -137,8 +138,8 @@ const labGuideTest = (() => {
     }
     for (const experiment of labExperiments)
       for (const key of ['title', 'about', 'remember', ...experiment.steps.flatMap(s => ['question', 'task', 'why', 'formula', ...s.choices ?? []].map(k => `${s.name}.${k}`))])
-        if (!labWords[`${experiment.name}.${key}`]) lines.push(`${experiment.name}.${key} has no words`);
-    return {lines, keys: Object.keys(labWords).length};
+        if (!labWords.en[`${experiment.name}.${key}`]) lines.push(`${experiment.name}.${key} has no words`);
+    return {lines, keys: Object.keys(labWords.en).length};
   }
 
   return {run, table};

@@ -389,7 +389,7 @@ TEST_F(LabModule, TabReachesEveryControl) {
   auto from = stops.begin();
   for (const char* next :
        {"scene", "language", "picture", "run", "step", "restart", "resetView", "A", "step-A range", "B", "step-B range",
-        "grid.mass range", "sphere.friction range", "copyLink", "saveToml", "copyCommand", "openToml"}) {
+        "sphere.friction range", "grid.mass range", "copyLink", "saveToml", "copyCommand", "openToml"}) {
     from = std::find(from, stops.end(), next);
     ASSERT_NE(from, stops.end()) << next << " is not reached behind the one before, in " << fmt::format("{}", stops);
   }
@@ -408,18 +408,30 @@ TEST_F(LabModule, SaysPlainlyThatThereIsNoWebAssembly) {
   EXPECT_NE(all["chinese"].text(), all["words"].text());
 }
 
-TEST_F(LabModule, SaysPlainlyThatTheModuleIsNotThere) {
+TEST_F(LabModule, ShowsNothingWhereThePageHasNoModule) {
   NEEDS_LAB;
   NEEDS_CHROMIUM;
-  const JsonField all = use(scenes_of({"spring"}), "labUse.unavailable()", [](std::string& page) {
+  const JsonField all = use(scenes_of({"spring"}), "labUse.absent()", [](std::string& page) {
     const size_t begin = page.find("<script type=\"application/json\" id=\"lab-module\">");
     page.erase(begin, page.find("</script>", begin) + 9 - begin);
   });
-  EXPECT_EQ(all["missing"].text(), "noModule");
-  EXPECT_NE(all["words"].text().find("clang, lld, wasi-libc"), std::string::npos) << all["words"].text();
-  EXPECT_EQ(all["still"].text(), "unavailable");
-  EXPECT_EQ(all["controls"].number(), 0);
-  EXPECT_NE(all["chinese"].text(), all["words"].text());
+  EXPECT_EQ(all["state"].text(), "unavailable");
+  EXPECT_EQ(all["children"].number(), 0);
+  EXPECT_EQ(all["dialogs"].number(), 0);
+}
+
+TEST_F(LabModule, APartRunsWhenItIsInSightAndOpensTheWholeLab) {
+  NEEDS_LAB;
+  NEEDS_CHROMIUM;
+  EXPECT_GT(use(scenes_of({"cloth-hang"}), "labUse.part()",
+                [](std::string& page) {
+                  const std::string whole = "<live-lab data-alone>";
+                  page.replace(
+                      page.find(whole), whole.size(),
+                      "<div style=\"height: 3000px\"></div><live-lab data-scene=\"cloth-hang\" data-part=\"step\">");
+                })["checked"]
+                .number(),
+            4);
 }
 
 TEST_F(LabModule, AFingerDragsAParticleAndMovesASlider) {
@@ -439,8 +451,9 @@ TEST_F(LabModule, AFingerDragsAParticleAndMovesASlider) {
   EXPECT_GT(drag["to"][1].number(), drag["from"][1].number() + 15);
   EXPECT_TRUE(drag["byHand"].boolean());
   EXPECT_LT(slider["is"].number(), 0.8 * slider["was"].number());
+  // words above may take another pixel; a finger that scrolls moves the page by 40
   for (const JsonField& each : {drag, slider})
-    EXPECT_EQ(each["scrolled"][0].dump(), each["scrolled"][1].dump()) << "the page does not scroll meanwhile";
+    EXPECT_NEAR(each["scrolled"][0][1].number(), each["scrolled"][1][1].number(), 3) << "the page scrolls meanwhile";
 }
 
 TEST_F(LabModule, WordsAreThereInBothLanguages) {

@@ -5,6 +5,7 @@
 
 #include "experiments/scenes/scenes.h"
 #include "mysim/base/errors.h"
+#include "mysim/base/json.h"
 #include "report/base/assets.h"
 #include "report/lab/live_run.h"
 #include "tests/unit/helpers.h"
@@ -111,16 +112,11 @@ TEST(LiveRun, RefusesWhatTheEngineRefuses) {
 }
 
 TEST(Words, HaveTheQuestionOfEveryShippedScene) {
-  const auto without_blanks = [](std::string text) {  // clang-format breaks lines where it likes
-    std::erase_if(text, [](char sign) { return sign == ' ' || sign == '\n'; });
-    return text;
-  };
-  const std::string words = without_blanks(asset("page/lab/words.ts"));
+  const JsonField words = JsonField::parse(asset("page/lab/words/en.json"), "en.json");
   for (const std::string_view name : shipped_scenes()) {
     const Scene scene = load_scene(std::string(name));
-    EXPECT_NE(words.find(without_blanks(fmt::format("'question.{}': ['{}',", name, scene.question))), std::string::npos)
-        << name
-        << ": the lab shows its question in Chinese where the table of words has it as the scene's file asks it";
+    EXPECT_EQ(words[fmt::format("question.{}", name)].text(), scene.question)
+        << "the lab shows a question in Chinese only if its words have it as the scene's file asks it";
   }
 }
 

@@ -134,7 +134,7 @@ const labUse = (() => {
           if (ofMethod) well(part === null || run.sim.h <= lab.methods[0].step * (1 + 1e-9), 'takes a longer step');
           else if (part !== null) well(places.length > 0, 'changes nothing');
           if (part === null && !ofMethod) {
-            const now = sizeOf(numberAt(lab.toml, numberAt(lab.toml, name) === undefined ? `${name}.structural` : name));
+            const now = numberAt(lab.toml, valueAt(lab.toml, name) === undefined ? `${name}.structural` : name);
             well(Math.abs(now / own - 1) < 1e-2, 'comes back to', now, 'for', own);
           }
           lab.advance(2.5 * (run.sim.h || run.sim.scene.step));
@@ -172,7 +172,7 @@ const labUse = (() => {
         choose(select(), value);
         const [run] = lab.runs, note = lab.querySelector('.method .note').textContent;
         all.check(lab.methods[0].method === value && run.spec.method === value && lab.view.said.textContent === '', scene, value, 'is not chosen:', lab.view.said.textContent);
-        all.check(run.refusal ? note.includes(run.refusal) : !/does not take/.test(note), scene, value, 'says', note, 'as', run.refusal);
+        all.check(run.refusal ? note.includes(run.refusal) : !/cannot run/.test(note), scene, value, 'says', note, 'as', run.refusal);
         if (run.refusal) {
           refused.push(`${scene} ${value}`);
           button('run').click();
@@ -502,7 +502,7 @@ const labUse = (() => {
     const again = restored.refusal ? '' : steps(restored.sim, countedSteps);
     check(again === fingerprint, 'comes back to', again, 'for', fingerprint);
     // and by the file, as it is opened here
-    await lab.act_file(new File([file.text], 'saved.toml'));
+    await lab.acts.file(new File([file.text], 'saved.toml'));
     check(lab.reading.scene === 'saved' && lab.methods[0].method === method, 'is opened as', lab.reading.scene, JSON.stringify(lab.methods), lab.view.said.textContent);
     const opened = lab.runs[0].refusal ? lab.runs[0].refusal : steps(lab.runs[0].sim, countedSteps);
     check(opened === fingerprint, 'is opened as', opened, 'for', fingerprint);
@@ -570,11 +570,11 @@ const labUse = (() => {
 
   /** The state in which a page stands that was opened by an address. */
   async function byAddress() {
-    const lab = theLab(), guide = document.querySelector('lab-guide');
+    const lab = theLab(), guide = () => document.querySelector('lab-guide');
     await until(() => lab.dataset.state === 'ready' && lab.reading, 'the lab of the address');
     await pause(200);
     const {scene, t, running} = lab.reading, [{method, step}] = lab.methods;
-    return {scene, t, running, method, step, stiffness: numberAt(lab.toml, 'spring.stiffness'), experiment: guide.dataset.experiment, phase: guide.dataset.phase};
+    return {scene, t, running, method, step, stiffness: numberAt(lab.toml, 'spring.stiffness'), experiment: guide()?.dataset.experiment, phase: guide()?.dataset.phase};
   }
 
   /** Drops a file on the lab. */
@@ -633,6 +633,30 @@ const labUse = (() => {
     await lab.setState({scene: 'spring'});
     await openLab({scene: 'spring'});
     return {...seen, still: lab.dataset.state, controls: lab.querySelectorAll('canvas, input, select').length};
+  }
+
+  /** A page without the module: nothing stands where the lab would be, and nothing opens. */
+  async function absent() {
+    await openLab({scene: 'spring'});
+    return {state: theLab().dataset.state, children: theLab().childElementCount, dialogs: document.querySelectorAll('dialog').length};
+  }
+
+  /** The picture with the step's slider alone, far down a page. */
+  async function part() {
+    const all = new Complaints(), lab = theLab(), shown = name => [...lab.querySelectorAll(name)].some(each => each.checkVisibility());
+    await pause(300);
+    all.check(lab.dataset.state === 'closed' && lab.childElementCount === 0, 'is', lab.dataset.state, 'out of sight');
+    lab.scrollIntoView();
+    await until(() => lab.dataset.state === 'ready' && lab.reading, 'the part to open');
+    all.check(shown('canvas') && shown('[data-knob=step-A] input[type=range]') && shown('[data-act=run]'), 'lacks picture, slider or button');
+    all.check(!shown('[data-act=copyLink]') && !shown('[data-act=scene]') && !shown('.knobs'), 'shows more than the step');
+    slide(knobOf('step-A'), 1);
+    button('run').click();
+    await until(() => lab.dataset.verdict !== 'ok', 'the burst');
+    all.check(shown('.verdict') && !lab.reading.running, 'does not say that it burst');
+    button('wholeLab').click();
+    all.check(shown('[data-act=copyLink]') && shown('[data-act=scene]') && !shown('[data-act=wholeLab]'), 'does not become the whole lab');
+    return all;
   }
 
   /** Under reduced motion nothing moves before the reader presses run. */
@@ -760,13 +784,13 @@ const labUse = (() => {
       const name = each.getAttribute('aria-label') ?? (each.labels?.[0]?.textContent || each.textContent);
       all.check(name.trim().length > 0, each.outerHTML.slice(0, 120), 'has no name');
     }
-    const nameOf = each => each.dataset.act ?? each.dataset.stepper ?? (each.classList.contains('layer') ? 'picture' : each.closest('[data-knob]') ? `${each.closest('[data-knob]').dataset.knob} ${each.type}` : each.closest('label')?.textContent.trim() || each.getAttribute('aria-label'));
+    const nameOf = each => each.dataset.act ?? each.dataset.stepper ?? (each.classList.contains('layer') ? 'picture' : each.closest('[data-knob]') ? `${each.closest('[data-knob]').dataset.knob} ${each.type}` : each.closest('label')?.textContent.trim() || (each.getAttribute('aria-label') ?? each.textContent.trim()));
     return {...all, stops: stops.map(nameOf)};
   }
 
   return {
     theLab, button, knobOf, pause, until, frame, Complaints, opened, slide, type, choose, steps, timeIn, say3,
     firstSteps, sliders, marks, bursts, burstsInFrames, handByPointer, keysOfPicture,
-    changedScenes, changedByHand, byAddress, drops, unavailable, reducedMotion, tabOrder, courseFromTheStart, dragsCoarsely, chineseNames
+    changedScenes, changedByHand, byAddress, drops, unavailable, absent, part, reducedMotion, tabOrder, courseFromTheStart, dragsCoarsely, chineseNames
   };
 })();

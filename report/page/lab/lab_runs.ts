@@ -1,0 +1,211 @@
+// The runs of a lab: they share one clock, and the truth follows them. The first part of <live-lab> (lab.ts).
+
+import {EngineScene, Lab, LabError} from './engine';
+import {Hand} from './hand';
+import {LiveRun, messageOf, Truth} from './live_run';
+import {Growth} from './live_stage';
+import {MethodSpec, numberAt, textAt} from './scene_text';
+import {say} from './words';
+
+const computingBudget = 0.5;      // part of a frame's time, for the methods together
+const truthBudget = 0.45;         // part of a frame's time
+export const shortestFrame = 17;  // ms
+const slowestPace = 0.1;          // minimum clock rate while waiting for the reference solution
+const longestWait = 2500;         // ms of waiting for the truth
+export const smallScene = 1500;   // particles; larger ones have no truth, and no energy balance unless asked
+const beginsRuns = 200;           // ms after a slider moved, before a truth is begun
+
+/** The scenes of the page: their text, and each rule's fingerprint after so many steps. */
+interface PageScene {
+  toml: string;
+  fingerprint: Record<string, string>;
+  steps: number;
+}
+export const labScenes = (() => {
+  let scenes: Record<string, PageScene>|undefined;
+  return () =>
+             (scenes ??=
+                  JSON.parse(document.getElementById('lab-scenes')?.textContent || '{}') as Record<string, PageScene>);
+})();
+/** The text of a scene of the page as it is shipped. */
+export const sceneText = (name: string): string|undefined => labScenes()[name]?.toml;
+
+export abstract class LabRuns extends HTMLElement {
+  lab!: Lab;
+  hand!: Hand;
+  runs: LiveRun[] = [];
+  sceneName = '';
+  toml = '';
+  original = '';  // the text that changes are measured from
+  good = '';      // the last text that was taken
+  methods: MethodSpec[]|null = null;
+  clock = 0;  // s
+  end = 0;    // s
+  speed = 1;
+  playing = false;
+  byHand = false;
+  keepLedger: boolean|null = null;
+  truth: Truth|null = null;
+  truthGone: 'large'|'none'|'slow'|null = null;  // why there is no truth
+  truthCost = 0;                                 // ms a frame
+  growth: Growth|null = null;                    // the mode that grows in a run that failed
+  pending = false;                               // the clock waits for the truth
+  pace = 1;
+  late = 0;               // ms that the truth has been waited for
+  passed: number[] = [];  // rates of the clock, of those wanted
+  frameTime = shortestFrame;
+  bits: boolean|null = null;
+  scale: number|null = null;  // critical step of the scene as it was opened, s
+  private slow = 0;           // ms at the slowest pace
+  private settled = 0;        // when sliders stand
+  private readonly knownBits = new Map<string, boolean>();
+
+  /** Runs were opened anew, of another scene (`fresh`) or of the same. */
+  protected abstract opened(fresh: boolean): void;
+  protected abstract refused(words: string): void;
+  protected abstract judge(): void;
+  abstract pause(): void;
+
+  /** A slider moves, or stands: while it moves no truth is begun. */
+  protected settle(done: boolean) { this.settled = done ? 0 : performance.now() + beginsRuns; }
+
+  /** Opens the scene for every method and starts again; false, with the reason said, where it is not taken. */
+  load(fresh = false) {
+    const opened: LiveRun[] = [];
+    if (fresh) this.keepLedger = null;
+    const observe = (scene: EngineScene) => this.keepLedger ??= scene.particles <= smallScene;
+    try {
+      this.methods ??= [this.ownMethod()];
+      for (const spec of this.methods) {
+        const stepper = this.lab.stepperOf(spec.method);
+        if (!stepper) throw new LabError('input', spec.method);
+        if (stepper.adaptive)
+          spec.tolerance ||= 1e-6;
+        else
+          spec.step ||= numberAt(this.toml, 'time.step');
+      }
+      for (const [i, spec] of this.methods.entries())
+        opened.push(new LiveRun(this.lab, this.toml, 'AB'[i], spec, observe));
+    } catch (problem) {
+      opened.forEach(run => run.close());
+      this.refused(say('sceneRefused', {reason: messageOf(problem)}));
+      return false;
+    }
+    this.good = this.toml;
+    this.runs.forEach(run => run.close());
+    this.runs = opened;
+    this.start(fresh);
+    return true;
+  }
+
+  /** The method that the scene's text names, where it is one of mysim's. */
+  private ownMethod(): MethodSpec {
+    const name = textAt(this.toml, 'method').replace(/^mysim\//, '');
+    return {method: this.lab.stepperOf(name) ? name : 'leapfrog', step: numberAt(this.toml, 'time.step')};
+  }
+
+  /** After runs were opened: clock and truth are at the beginning. */
+  private start(fresh: boolean) {
+    const [a] = this.runs;
+    this.clock = 0, this.end = a.sim.scene.duration, this.byHand = false, this.growth = null, this.passed = [];
+    this.dropTruth();
+    this.bits = this.bitsOf(a);
+    if (fresh) this.scale = a.sim.limit('leapfrog');
+    this.opened(fresh);
+  }
+
+  /**
+   * Whether the first steps of a scene of the page are here what the native engine made of them, bit for bit: the page
+   * holds their fingerprint. Null where it holds none: other scenes, and rules that need not give the same bits.
+   */
+  private bitsOf({spec: {method}}: LiveRun) {
+    const {toml, fingerprint, steps} = labScenes()[this.sceneName] ?? {}, expected = fingerprint?.[method];
+    if (!expected || this.toml !== toml) return null;
+    const key = `${this.sceneName} ${method}`;
+    if (!this.knownBits.has(key)) {
+      const sim = this.lab.open(toml);
+      sim.start({stepper: method, observe: false});
+      sim.call('advance', Infinity, steps);
+      this.knownBits.set(key, sim.fingerprint() === expected);
+      sim.close();
+    }
+    return this.knownBits.get(key) ?? null;
+  }
+
+  restart() {
+    if (this.byHand) return void this.load();
+    this.runs.forEach(run => run.start());
+    this.start(false);
+  }
+
+  /** The truth is opened when it is needed first. */
+  private findTruth() {
+    if (this.truth || this.truthGone) return;
+    const run = this.runs.find(r => !r.refusal && !r.failed);
+    if (!run) return;
+    if (run.sim.scene.particles > smallScene) return void (this.truthGone = 'large');
+    try {
+      const toml = this.byHand ? run.sim.sceneText() : this.toml;
+      const truth = new Truth(this.lab, toml, run, run.sim.scene.spheres.length > 0);
+      if (truth.known) this.truth = truth;
+    } catch {
+      // a state that cannot be read again has no truth
+    }
+    if (!this.truth) this.truthGone = 'none';
+    this.late = 0;
+  }
+
+  protected dropTruth() {
+    this.truth?.close();
+    this.truth = this.truthGone = null;
+    this.late = this.slow = 0, this.pace = 1, this.pending = false;
+  }
+
+  /** Lets time pass: runs go on up to the clock, as far as the frame's computing allows. `wanted`: at full speed. */
+  advance(passed: number, wanted = passed) {
+    const before = this.clock;
+    let aim = Math.min(this.end, before + passed), left = computingBudget * this.frameTime;
+    for (const run of [...this.runs].sort((x, y) => y.last - x.last)) {
+      const was = run.failed, there = run.advance(aim, Math.max(1, left)), fails = run.failed && !was;
+      left -= run.last;
+      if (!there || fails) aim = Math.max(before, Math.min(aim, run.time + (fails ? 0 : run.sim.h || 0)));
+    }
+    this.clock = aim;
+    if (!this.runs.some(run => run.bursting)) this.passed.push(wanted > 0 ? (aim - before) / wanted : 1);
+    if (this.passed.length > 30) this.passed.shift();
+    this.sample();
+    this.judge();
+    const over = this.clock >= this.end - 1e-9;
+    if (this.runs.every(run => run.ended || (over && run.time >= this.end - 1e-6))) this.pause();
+  }
+
+  /**
+   * Compares runs that moved on with the truth, and keeps what they have come to. Where the truth is not there within
+   * the frame's computing, `pending` makes the clock wait for it, and go more slowly from then on; but not for ever.
+   */
+  sample() {
+    // at the start nothing is off yet, and while a slider moves no truth is begun
+    const free = !this.hand.held && this.clock > 0 && performance.now() > this.settled;
+    if (free) this.findTruth();
+    const begin = performance.now(), truth = free ? this.truth : null;
+    const left = () => Math.max(1, truthBudget * this.frameTime - (performance.now() - begin));
+    this.pending = false;
+    for (const run of [...this.runs].sort((x, y) => x.time - y.time)) {
+      const last = run.lastSample;
+      if (run.refusal || last?.t === run.time || (last && run.time < last.t + this.end / 500 && !run.ended)) continue;
+      const compared = !run.failed && run.places ? truth?.compare(run.places, run.time, left()) : null;
+      const found = this.clock === 0 ? {error: 0, bar: null} : compared;
+      if (!found && truth && !run.failed && truth.isBefore(run.time))
+        this.pending = true;
+      else
+        run.sample(found?.error ?? null, found?.bar ?? null);
+    }
+    this.pace = this.pending ? Math.max(slowestPace, 0.8 * this.pace) : Math.min(1, 1.04 * this.pace);
+    this.late = this.pending ? this.late + this.frameTime : 0;
+    this.slow = this.pace > 2 * slowestPace ? 0 : this.slow + this.frameTime;
+    if (!this.pending || !this.truth || (this.late < longestWait && this.slow < longestWait)) return;
+    this.truthCost = this.truth.cost * this.speed * this.frameTime / 1000;
+    this.late = this.slow = 0, this.pace = 1;
+    if (!this.truth.shed()) this.truth.close(), this.truth = null, this.truthGone = 'slow';
+  }
+}
