@@ -77,11 +77,12 @@ class Slider {
   private value = 0;
   private reached: Reach = {low: 0, high: 1};
 
-  constructor(label: string, private readonly unit: string, name: string, private readonly changed: Changed) {
+  constructor(
+      label: string, private readonly unit: string, name: string, private readonly changed: Changed, spoken = label) {
     const id = `lab-number-${++knobCount}`;
     const field: HTMLInputElement = make('input', {type: 'number', id, step: 'any', inputmode: 'decimal'});
     const range: HTMLInputElement =
-        make('input', {type: 'range', min: 0, max: knobSteps, step: 1, 'aria-label': label});
+        make('input', {type: 'range', min: 0, max: knobSteps, step: 1, 'aria-label': spoken});
     this.field = field, this.range = range;
     this.rail = make('div', {class: 'rail'}, range);
     this.box = make('div', {class: 'knob', 'data-knob': name}, make('label', {for: id
@@ -215,8 +216,9 @@ export class MethodKnobs {
     [this.linearLabel, this.linear] = check(say('linear'), false);
     const take = (key: 'step'|'tolerance', size: number) => (value: number, done: boolean) =>
         this.take({[key]: value * size}, done);
-    this.step = new Slider(say('stepOf', {letter}), 'ms', `step-${letter}`, take('step', 1e-3));
-    this.tolerance = new Slider(say('toleranceOf', {letter}), '', `tolerance-${letter}`, take('tolerance', 1));
+    this.step = new Slider(say('timeStep'), 'ms', `step-${letter}`, take('step', 1e-3), say('stepOf', {letter}));
+    this.tolerance =
+        new Slider(say('tolerance'), '', `tolerance-${letter}`, take('tolerance', 1), say('toleranceOf', {letter}));
     this.tolerance.reach({low: 1e-10, high: 1e-2, snap: v => rounded(v, 1)});
     this.step.rail.append(this.tick);
     this.step.box.append(this.mark);

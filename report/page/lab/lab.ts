@@ -145,6 +145,7 @@ export class LiveLab extends LabPicture {
       if (before.toml) this.load(other);
       return;
     }
+    if (running === false) this.loops = false;
     if (running !== undefined) running ? this.play() : this.pause();
     await new Promise(done => setTimeout(done));
     this.tell();
