@@ -18,15 +18,10 @@ namespace {
 struct LabOptions {
   std::vector<std::string> scenes;
   std::string file;
-  bool fingerprints = false;
 };
 
 int lab_command(const LabOptions& options) {
   const std::vector<Scene> scenes = load_scenes(options.scenes);
-  if (options.fingerprints) {
-    fmt::print("{}\n", dump(lab_fingerprints_json(scenes), 1));
-    return 0;
-  }
   if (!options.file.ends_with(".html"))
     throw InputError(fmt::format("lab: -o: expected the name of a page, as in lab.html, got '{}'", options.file));
   write_file(options.file, lab_page_html(scenes));
@@ -41,8 +36,6 @@ void add_lab(CLI::App& app, Invocation& call) {
   auto* lab = app.add_subcommand("lab", "writes a page that runs mysim live, next to the reference solution");
   lab->add_option("SCENE", options->scenes, "shipped scenes or TOML files")->required();
   lab->add_option("-o", options->file, "the page, FILE.html");
-  lab->add_flag("--fingerprints", options->fingerprints,
-                "prints, as JSON, fingerprints of the first 50 steps instead: the page compares its own with them");
   lab->callback([options, &call] { call.status = lab_command(*options); });
 }
 

@@ -64,7 +64,6 @@ std::string quoted(std::string_view text) {
 }
 
 std::string list_of(const Vec3& v) { return fmt::format("[{},{},{}]", v[0], v[1], v[2]); }
-std::string known(std::optional<double> value) { return value ? fmt::format("{}", *value) : "null"; }
 
 /// The list of a term that has one, or an empty list.
 template <class T>
@@ -95,10 +94,9 @@ EXPORT(text_buffer) char* text_buffer(int bytes) {
 EXPORT(steppers) const char* steppers_json() {
   std::string out;
   for (const Stepper& s : steppers())
-    out += fmt::format(
-        R"({}{{"name":{},"order":{},"evaluations":{},"firstOrder":{},"symplectic":{},"adaptive":{},"hard":{},"linear":{},"formula":{},"what":{}}})",
-        out.empty() ? "" : ",", quoted(s.name), s.order, s.evaluations, s.first_order, s.symplectic, s.adaptive,
-        s.hard_constraints, s.linear != nullptr, quoted(s.limit_formula), quoted(s.what));
+    out += fmt::format(R"({}{{"name":{},"evaluations":{},"firstOrder":{},"adaptive":{},"hard":{}}})",
+                       out.empty() ? "" : ",", quoted(s.name), s.evaluations, s.first_order, s.adaptive,
+                       s.hard_constraints);
   return hand_out("[" + out + "]");
 }
 
@@ -108,22 +106,15 @@ EXPORT(open) void open() { instance().run.emplace(parse_scene(std::string(instan
 /// The scene's single numbers and words as JSON.
 EXPORT(scene) const char* scene_json() {
   const Scene& s = run().scene();
-  std::string terms, spheres, camera = "null";
-  for (const Term& term : s.model.terms) terms += (terms.empty() ? "" : ",") + quoted(name_of(term));
+  std::string spheres, camera = "null";
   if (const auto* list = s.model.find<Spheres>())
     for (const Sphere& sphere : list->list)
-      spheres +=
-          fmt::format(R"({}{{"radius":{},"margin":{},"friction":{},"restitution":{}}})", spheres.empty() ? "" : ",",
-                      sphere.radius, sphere.margin, sphere.friction, sphere.restitution);
-  if (s.camera)
-    camera = fmt::format(R"({{"eye":{},"target":{},"at":{}}})", list_of(s.camera->eye), list_of(s.camera->target),
-                         known(s.camera->at));
+      spheres += fmt::format(R"({}{{"radius":{}}})", spheres.empty() ? "" : ",", sphere.radius);
+  if (s.camera) camera = fmt::format(R"({{"eye":{},"target":{}}})", list_of(s.camera->eye), list_of(s.camera->target));
   return hand_out(fmt::format(
-      R"({{"question":{},"parameters":{},"duration":{},"samples":{},"step":{},"window":{},"tolerance":{},"method":{},"particles":{},"springCount":{},"constraintCount":{},"triangleCount":{},"pinCount":{},"firstOrder":{},"hash":{},"gamma":{},"terms":[{}],"spheres":[{}],"camera":{}}})",
-      quoted(s.question), quoted(s.parameters), s.duration, s.samples, s.step, s.window, s.tolerance, quoted(s.method),
-      s.model.particles.size(), springs().size(), constraints().size(), s.triangles.size(),
-      s.model.particles.pins.size(), s.model.first_order(), quoted(s.hash), known(uniform_drag_rate(s.model)), terms,
-      spheres, camera));
+      R"({{"duration":{},"samples":{},"step":{},"method":{},"particles":{},"springCount":{},"constraintCount":{},"triangleCount":{},"pinCount":{},"firstOrder":{},"spheres":[{}],"camera":{}}})",
+      s.duration, s.samples, s.step, quoted(s.method), s.model.particles.size(), springs().size(), constraints().size(),
+      s.triangles.size(), s.model.particles.pins.size(), s.model.first_order(), spheres, camera));
 }
 
 EXPORT(pins) const int* pins() { return hand_out(run().scene().model.particles.pins); }
@@ -158,12 +149,6 @@ EXPORT(triangles) const int* triangles() {
   return hand_out(std::move(corners));
 }
 
-/// kg.
-EXPORT(masses) const double* masses() {
-  const Eigen::VectorXd& mass = run().scene().model.particles.mass;
-  return hand_out(std::vector<double>(mass.begin(), mass.end()));
-}
-
 /// rad/s.
 EXPORT(omega) double omega() { return run().omega(); }
 
@@ -183,9 +168,8 @@ EXPORT(time) double time() { return run().time(); }
 /// What the run has come to, as JSON.
 EXPORT(outcome) const char* outcome_json() {
   const Outcome out = run().outcome();
-  return hand_out(fmt::format(R"({{"verdict":{},"words":{},"reason":{},"step":{},"steps":{},"evaluations":{}}})",
-                              quoted(name_of(out.verdict)), quoted(in_words(out.verdict)), quoted(out.reason),
-                              std::isfinite(out.step) ? out.step : 0, out.steps, out.evaluations));
+  return hand_out(fmt::format(R"({{"verdict":{},"reason":{},"step":{},"steps":{}}})", quoted(name_of(out.verdict)),
+                              quoted(out.reason), std::isfinite(out.step) ? out.step : 0, out.steps));
 }
 
 /// m.

@@ -19,16 +19,6 @@ inline constexpr std::string_view lab_packages = "clang lld libc++-dev-wasm32 li
 bool has_lab_module();
 std::filesystem::path lab_module_file();
 
-/// Fingerprints of the first steps of each scene, by scene and rule: of the rules whose bits are the same everywhere,
-/// as the instruction set of 128 bits computes them.
-using LabFingerprints = std::map<std::string, std::map<std::string, std::string>>;
-/// Computed in a program of its own, which runs on that instruction set alone. Throws std::runtime_error where it
-/// fails.
-LabFingerprints lab_fingerprints(const std::vector<Scene>& scenes);
-/// The same in this process, on the instruction set that it has.
-Json lab_fingerprints_json(const std::vector<Scene>& scenes);
-constexpr int fingerprinted_steps = 50;
-
 /// The module and the scenes for the end of a page: those given, and those of the guided experiments. Empty where there
 /// is no module.
 Json lab_data(const std::vector<Scene>& scenes);

@@ -19,7 +19,6 @@ export interface Stepper {
   firstOrder: boolean;
   adaptive: boolean;
   hard: boolean;
-  linear: boolean;
 }
 
 interface Outcome {

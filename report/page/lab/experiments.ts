@@ -3,7 +3,7 @@
 
 import {Places} from '../player/vectors';
 
-import {Energies, labModule, Simulation} from './engine';
+import {Energies, Simulation} from './engine';
 import {msText} from './knobs';
 import {Changes, MethodSpec} from './scene_text';
 
@@ -17,8 +17,8 @@ interface RunReading {
   ended: boolean;
   failed: boolean;
   energy: Energies|null;
-  gain: number|null;  // energy since the start that nothing explains, J
-  x: Float64Array;    // places, m
+  gain: number;     // energy since the start that nothing explains, J; NaN where none is known
+  x: Float64Array;  // places, m
   sim: Simulation;
 }
 
@@ -26,6 +26,7 @@ interface RunReading {
 export interface Reading {
   scene: string;
   toml: string;
+  run: RunReading;  // the first one
   runs: RunReading[];
   t: number;         // s
   duration: number;  // s
@@ -81,9 +82,10 @@ export interface GuideStep {
   enough?: (r: Reading) => boolean;
   watch?: (r: Reading, seen: Seen) => void;  // keeps what matters of each reading
   done: (r: Reading, seen: Seen) => boolean;
-  shown?: (seen: Seen) => Values;  // numbers in question and task
-  values: (r: Reading, seen: Seen) => Values | Promise<Values>;
-  arrows?: (r: Reading) => Promise<Mode>;  // a motion that the lab shows in the end
+  // numbers in its words, besides those that all words may name
+  shown?: (before: Before) => Values;           // in question and task
+  values?: (r: Reading, seen: Seen) => Values;  // in the reason
+  arrows?: (r: Reading) => Mode;                // a motion that the lab shows in the end
 }
 
 export interface GuideExperiment {
@@ -154,16 +156,22 @@ const rk4Factor = (a: number) => Math.sqrt(1 - a ** 6 / 72 + a ** 8 / 576);
 // Numbers as text
 
 const digits = (value: number, count = 3) => (value < 0 ? '−' : '') + Number(Math.abs(value).toPrecision(count));
-const timeText = (time: number) => `${Number(time.toPrecision(3))} s`;
 const degrees = (value: number) => String(Math.round(value));
 
 // Readings
 
-const runOfMethod = (r: Reading, method: string) => r.runs.find(run => run.method === method);
-const finished = (run?: RunReading) => Boolean(run?.ended && !run.failed);
+/** Whether a run of this method, or of any, came to its end. */
+const finished = (run: RunReading|undefined, method = run?.method) =>
+    Boolean(run?.ended && !run.failed && run.method === method);
 const holds = (run: RunReading, time: number) => !run.failed && run.t >= time;
-const farthest = (seen: Memory, name: string, value: number) => (seen[name] = Math.max(seen[name] ?? -Infinity, value));
-const nearest = (seen: Memory, name: string, value: number) => (seen[name] = Math.min(seen[name] ?? Infinity, value));
+const farthest = (seen: Memory, name: string, value: number) => {
+  if (Number.isFinite(value)) seen[name] = Math.max(seen[name] ?? -Infinity, value);
+};
+const nearest = (seen: Memory, name: string, value: number) => {
+  if (Number.isFinite(value)) seen[name] = Math.min(seen[name] ?? Infinity, value);
+};
+/** Distance of the first particle from where it started, m. */
+const movedBy = (r: Reading, {x}: RunReading) => Math.hypot(...r.vector('particle.position').map((c, k) => x[k] - c));
 
 // States: a scene with other numbers and the methods in it. With one sample any step may be taken.
 
@@ -171,15 +179,16 @@ type Row = [method: string, step: number];
 const state = (scene: string, numbers: Changes, ...methods: Row[]): GuideState =>
     ({scene, numbers: {'time.samples': 1, ...numbers}, methods: methods.map(([method, step]) => ({method, step}))});
 const circle = (numbers: Changes, ...methods: Row[]) => ({...state('circle', numbers, ...methods), speed: 2});
-const pendulum = (...methods: Row[]) => state('pendulum', {'time.samples': 200}, ...methods);
+const pendulum = (...method: Row) => state('pendulum', {'time.samples': 200}, method);
 const hangingCloth = (step: number, numbers: Changes = {}) => state('cloth-hang', numbers, ['leapfrog', step]);
+const heavyCloth = (step: number, {mass}: Before) => hangingCloth(step, {'grid.mass': 4 * mass});
 /** The same in slow motion: a burst takes less than a tenth of a second. */
 const slowly = (speed: number, what: GuideState) => ({...what, speed});
 /** The same from above, where motions within the cloth are seen. */
 const fromAbove = (what: GuideState) => ({...what, from: {yaw: 0, pitch: 1.3, zoom: 0.75}});
 const allSprings = (k: number) =>
     ({'grid.stiffness.structural': k, 'grid.stiffness.shear': k, 'grid.stiffness.bend': k});
-const slowCircle = {}, fastCircle = {
+const fastCircle = {
   'rotation.rate': 4,
   'time.duration': Math.PI,
   'time.window': Math.PI
@@ -192,21 +201,11 @@ const longCircle = {
   'time.step': 0.3
 };
 
-const watchFold = (r: Reading, seen: Seen) => {
-  const [run] = r.runs;
-  if (r.columns && !run.failed) farthest(seen.run, 'fold', sharpestFold(run.x, r.columns, r.rows));
+const watchFold = ({run, columns, rows}: Reading, seen: Seen) => {
+  if (columns && !run.failed) farthest(seen.run, 'fold', sharpestFold(run.x, columns, rows));
 };
-const foldValues = (r: Reading, seen: Seen) =>
-    ({fold: degrees(seen.run.fold), centre: digits(-centreOf(r.runs[0].x)[1])});
-
-/** Keeps the smallest step that failed and the largest that held for half a second. */
-const watchSteps = (r: Reading, {all}: Seen) => {
-  const [run] = r.runs;
-  if (run.failed)
-    nearest(all, 'burst', run.step);
-  else if (run.t >= 0.5)
-    farthest(all, 'held', run.step);
-};
+const foldValues = ({run}: Reading, seen: Seen) =>
+    ({fold: degrees(seen.run.fold), centre: digits(-centreOf(run.x)[1])});
 
 /** Angle from the top at which a particle starts on a ball, rad. */
 export const startAngle = (r: Reading) => {
@@ -224,15 +223,14 @@ const resting = (friction: number) => state(
 const slidingCloth = (friction: number) =>
     state('cloth-sphere', {'time.samples': 150, 'sphere.friction': friction}, ['leapfrog', 1e-3]);
 
-/** Where the particle of `slide` has its last contact: the same run once more, looked at after every step. */
-async function lastContact(r: Reading) {
-  const [run] = r.runs, sim = (await labModule())!.open(r.toml), reach = r.at('sphere.radius') + r.at('sphere.margin');
-  const last = {angle: 0, v: 0, r: 0};
-  sim.start({stepper: run.method, step: run.step, duration: r.duration, observe: false});
-  for (let going = true; going;) {
-    const x = Array.from(sim.positions), v = Array.from(sim.velocities);
-    if (radiusOf(x) > reach + 1e-10) break;
-    Object.assign(last, {angle: Math.atan2(x[0], x[1]), v: Math.hypot(...v), r: radiusOf(x)});
+/** Angle, speed and distance from the centre at the last contact in `slide`: the run again, looked at in every step. */
+function lastContact({run, at, toml, duration}: Reading) {
+  const sim = run.sim.lab.open(toml), reach = at('sphere.radius') + at('sphere.margin');
+  const last = {angle: 0, v: 0, away: 0};
+  sim.start({stepper: run.method, step: run.step, duration, observe: false});
+  for (let going = true; going && radiusOf(sim.positions) <= reach + 1e-10;) {
+    const [x, y] = sim.positions;
+    Object.assign(last, {angle: Math.atan2(x, y), v: radiusOf(sim.velocities), away: radiusOf(sim.positions)});
     going = sim.advance(sim.t + 0.5 * run.step, 10);
   }
   sim.close();
@@ -247,9 +245,9 @@ function finerCloth(toml: string) {
 }
 
 /** The mode that grows in the lab's run A. */
-async function growingMode(r: Reading): Promise<Mode> {
-  const {mode, places} = r.runs[0].sim.growingMode();
-  return {mode: mode ?? new Float64Array(places.length), places, by: 0.7 * Math.min(...r.runs[0].sim.scene.rests)};
+function growingMode({run: {sim}}: Reading): Mode {
+  const {mode, places} = sim.growingMode();
+  return {mode: mode ?? new Float64Array(places.length), places, by: 0.7 * Math.min(...sim.scene.rests)};
 }
 
 export const labExperiments: GuideExperiment[] = [
@@ -262,20 +260,11 @@ export const labExperiments: GuideExperiment[] = [
         choices: ['inexact', 'slow', 'bursts'],
         right: 'bursts',
         start: slowly(0.1, hangingCloth(1e-3)),
-        acts: [r => slowly(0.1, hangingCloth(1.03 * r.runs[0].limit))],
-        shown: ({before}) =>
-            ({particles: before.particles, omega: digits(before.omega, 4), limit: msText(before.limit)}),
-        done: r => Boolean(r.runs[0].failed && r.runs[0].step > r.runs[0].limit),
-        values: r => {
-          const {step, t, steps} = r.runs[0], a = step * r.omega, factor = leapfrogFactor(a);
-          return {
-            h: msText(step),
-            product: digits(a),
-            factor: digits(factor),
-            t: timeText(t),
-            n: steps,
-            power: Math.round(steps * Math.log10(factor))
-          };
+        acts: [({run}) => slowly(0.1, hangingCloth(1.03 * run.limit))],
+        done: ({run}) => run.failed && run.step > run.limit,
+        values: ({run, omega}) => {
+          const product = run.step * omega, factor = leapfrogFactor(product);
+          return {product: digits(product), factor: digits(factor), power: Math.round(run.steps * Math.log10(factor))};
         }
       },
       {
@@ -283,13 +272,12 @@ export const labExperiments: GuideExperiment[] = [
         choices: ['swing', 'folds', 'zigzag'],
         right: 'zigzag',
         start: fromAbove(slowly(0.05, hangingCloth(1e-3))),
-        acts: [r => fromAbove(slowly(0.05, hangingCloth(1.05 * r.runs[0].limit)))],
-        done: r => Boolean(r.runs[0].failed && r.runs[0].step > r.runs[0].limit && r.columns),
+        acts: [({run}) => fromAbove(slowly(0.05, hangingCloth(1.05 * run.limit)))],
+        done: ({run, columns}) => run.failed && run.step > run.limit && columns > 0,
         arrows: growingMode,
-        values: async r => ({
-          percent: Math.round(100 * opposedPart((await growingMode(r)).mode, r.columns, r.rows)),
-          period: msText(2 * Math.PI / r.omega),
-          limit: msText(r.runs[0].limit)
+        values: r => ({
+          percent: Math.round(100 * opposedPart(growingMode(r).mode, r.columns, r.rows)),
+          period: msText(2 * Math.PI / r.omega)
         })
       },
       {
@@ -299,42 +287,28 @@ export const labExperiments: GuideExperiment[] = [
         start: hangingCloth(1e-3),
         then: (_, {before}) => hangingCloth(1e-3, allSprings(before.k / 4)),
         acts: [(_, {before}) => hangingCloth(1.9 * before.limit, allSprings(before.k / 4))],
-        shown: ({before}) => ({kBefore: before.k, k: before.k / 4, limitBefore: msText(before.limit)}),
-        done: (r, {before}) => {
-          const [run] = r.runs;
-          return r.at('grid.stiffness.structural') < before.k && run.step >= 1.795 * before.limit && holds(run, 0.5);
-        },
-        values: (r, {before}) => ({
-          omegaBefore: digits(before.omega, 4),
-          omega: digits(r.omega, 4),
-          limitBefore: msText(before.limit),
-          limit: msText(r.runs[0].limit),
-          h: msText(r.runs[0].step)
-        })
+        shown: before => ({k: before.k / 4}),
+        done: ({run, at}, {before}) =>
+            at('grid.stiffness.structural') < before.k && run.step >= 1.795 * before.limit && holds(run, 0.5)
       },
       {
         name: 'heavier',
-        guess: {unit: 'ms', within: 0.1, read: r => 1000 * r.runs[0].limit},
+        guess: {unit: 'ms', within: 0.1, read: ({run}) => 1000 * run.limit},
         start: hangingCloth(1e-3),
-        then: (_, {before}) => hangingCloth(1e-3, {'grid.mass': 4 * before.mass}),
+        then: (_, {before}) => heavyCloth(1e-3, before),
         acts: [
-          (r, {before}) => hangingCloth(1.04 * r.runs[0].limit, {'grid.mass': 4 * before.mass}),
-          (r, {before}) => hangingCloth(0.96 * r.runs[0].limit, {'grid.mass': 4 * before.mass})
+          ({run}, {before}) => heavyCloth(1.04 * run.limit, before),
+          ({run}, {before}) => heavyCloth(0.96 * run.limit, before)
         ],
-        enough: r => r.runs[0].t >= 0.5,
-        shown: ({before}) =>
-            ({k: before.k, limitBefore: msText(before.limit), massBefore: before.mass, mass: 4 * before.mass}),
-        watch: (r, seen) => {
-          if (r.at('grid.mass') === 4 * seen.before.mass) watchSteps(r, seen);
+        enough: ({run}) => run.t >= 0.5,
+        shown: before => ({mass: 4 * before.mass}),
+        watch: ({run, at}, {before, all}) => {
+          if (at('grid.mass') !== 4 * before.mass) return;
+          if (run.failed) nearest(all, 'burst', run.step);
+          if (holds(run, 0.5)) farthest(all, 'held', run.step);
         },
-        done: (r, seen) => r.at('grid.mass') === 4 * seen.before.mass && seen.all.burst > seen.all.held &&
-            seen.all.burst <= 1.115 * seen.all.held,
-        values: (r, seen) => ({
-          burst: msText(seen.all.burst),
-          held: msText(seen.all.held),
-          omega: digits(r.omega, 4),
-          limit: msText(r.runs[0].limit)
-        })
+        done: (_, {all}) => all.burst > all.held && all.burst <= 1.115 * all.held,
+        values: (_, {all}) => ({burst: msText(all.burst), held: msText(all.held)})
       },
       {
         name: 'finer',
@@ -342,12 +316,10 @@ export const labExperiments: GuideExperiment[] = [
         right: 'half',
         start: hangingCloth(1e-3),
         then: () => ({...hangingCloth(1e-3), edit: finerCloth}),
-        acts: [r => ({...hangingCloth(0.95 * r.runs[0].limit), edit: finerCloth})],
-        enough: r => r.runs[0].t >= 0.5,
-        shown: ({before}) => ({massBefore: before.mass}),
-        done: (r, {before}) => r.particles > 2 * before.particles && holds(r.runs[0], 0.5),
-        values: (r, {before}) =>
-            ({omega: digits(r.omega, 4), limit: msText(r.runs[0].limit), ratio: digits(r.runs[0].limit / before.limit)})
+        acts: [({run}) => ({...hangingCloth(0.95 * run.limit), edit: finerCloth})],
+        enough: ({run}) => run.t >= 0.5,
+        done: (r, {before}) => r.particles > 2 * before.particles && holds(r.run, 0.5),
+        values: ({run}, {before}) => ({ratio: digits(run.limit / before.limit)})
       }
     ]
   },
@@ -359,25 +331,20 @@ export const labExperiments: GuideExperiment[] = [
         name: 'tangent',
         choices: ['outside', 'on', 'inside'],
         right: 'outside',
-        start: circle(slowCircle, ['explicit-euler', 0.1]),
-        done: r => finished(runOfMethod(r, 'explicit-euler')),
-        values: r => {
-          const {step, steps, x} = runOfMethod(r, 'explicit-euler')!, a = step * r.at('rotation.rate');
-          return {
-            n: steps,
-            h: msText(step),
-            predicted: digits((1 + a * a) ** (steps / 2), 4),
-            radius: `${digits(radiusOf(x), 4)} m`
-          };
+        start: circle({}, ['explicit-euler', 0.1]),
+        done: ({run}) => finished(run, 'explicit-euler'),
+        values: ({run, at}) => {
+          const a = run.step * at('rotation.rate');
+          return {predicted: digits((1 + a * a) ** (run.steps / 2), 4), radius: `${digits(radiusOf(run.x), 4)} m`};
         }
       },
       {
         name: 'half',
         choices: ['same', 'half', 'none'],
         right: 'half',
-        start: circle(slowCircle, ['explicit-euler', 0.05], ['explicit-euler', 0.1]),
-        done: r => r.runs.length === 2 && r.runs.every(run => run.method === 'explicit-euler' && finished(run)) &&
-            r.runs[0].step < 0.6 * r.runs[1].step,
+        start: circle({}, ['explicit-euler', 0.05], ['explicit-euler', 0.1]),
+        done: ({runs: [fine, coarse]}) =>
+            finished(fine, 'explicit-euler') && finished(coarse, 'explicit-euler') && fine.step < 0.6 * coarse.step,
         values: ({runs: [fine, coarse]}) => ({
           fine: digits(radiusOf(fine.x) - 1),
           hFine: msText(fine.step),
@@ -389,18 +356,13 @@ export const labExperiments: GuideExperiment[] = [
         name: 'mean',
         choices: ['far', 'hardly', 'never'],
         right: 'hardly',
-        start: circle(slowCircle, ['explicit-euler', 0.1], ['trapezoidal', 0.1]),
-        done: r => finished(runOfMethod(r, 'explicit-euler')) && finished(runOfMethod(r, 'trapezoidal')),
-        values: r => {
-          const {step, steps, x} = runOfMethod(r, 'trapezoidal')!, a = step * r.at('rotation.rate');
-          return {
-            n: steps,
-            h: msText(step),
-            radius: digits(radiusOf(x), 6),
-            predicted: digits((1 + a ** 4 / 4) ** (steps / 2), 6),
-            euler: digits(radiusOf(runOfMethod(r, 'explicit-euler')!.x), 4)
-          };
-        }
+        start: circle({}, ['explicit-euler', 0.1], ['trapezoidal', 0.1]),
+        done: ({runs: [euler, mean]}) => finished(euler, 'explicit-euler') && finished(mean, 'trapezoidal'),
+        values: ({runs: [euler, mean], at}) => ({
+          radius: digits(radiusOf(mean.x), 6),
+          predicted: digits((1 + (mean.step * at('rotation.rate')) ** 4 / 4) ** (mean.steps / 2), 6),
+          euler: digits(radiusOf(euler.x), 4)
+        })
       },
       {
         name: 'faster',
@@ -408,13 +370,10 @@ export const labExperiments: GuideExperiment[] = [
         right: 'quarter',
         start: circle(fastCircle, ['explicit-euler', 0.1]),
         acts: [circle(fastCircle, ['explicit-euler', 0.025])],
-        done: r => {
-          const run = runOfMethod(r, 'explicit-euler');
-          return Boolean(run && r.at('rotation.rate') === 4 && finished(run) && radiusOf(run.x) < 1.9);
-        },
-        values: r => {
-          const {step, x} = runOfMethod(r, 'explicit-euler')!, omega = r.at('rotation.rate');
-          return {h: msText(step), omega, product: digits(step * omega), radius: digits(radiusOf(x), 4)};
+        done: ({run, at}) => at('rotation.rate') === 4 && finished(run, 'explicit-euler') && radiusOf(run.x) < 1.9,
+        values: ({run, at}) => {
+          const omega = at('rotation.rate');
+          return {omega, product: digits(run.step * omega), radius: digits(radiusOf(run.x), 4)};
         }
       },
       {
@@ -423,19 +382,11 @@ export const labExperiments: GuideExperiment[] = [
         right: 'some',
         start: circle(longCircle, ['rk4', 0.6]),
         acts: [circle(longCircle, ['rk4', 0.73])],
-        done: r => {
-          const run = runOfMethod(r, 'rk4');
-          return Boolean(
-              run && rk4Factor(run.step * r.at('rotation.rate')) > 1 && (run.failed || radiusOf(run.x) > 1.5));
-        },
-        values: r => {
-          const {step} = runOfMethod(r, 'rk4')!, omega = r.at('rotation.rate');
-          return {
-            omega,
-            limit: msText(2 * Math.SQRT2 / omega),
-            h: msText(step),
-            factor: digits(rk4Factor(step * omega))
-          };
+        done: ({run, at}) => run.method === 'rk4' && rk4Factor(run.step * at('rotation.rate')) > 1 &&
+            (run.failed || radiusOf(run.x) > 1.5),
+        values: ({run, at}) => {
+          const omega = at('rotation.rate');
+          return {omega, limit: msText(2 * Math.SQRT2 / omega), factor: digits(rk4Factor(run.step * omega))};
         }
       }
     ]
@@ -448,87 +399,48 @@ export const labExperiments: GuideExperiment[] = [
         name: 'explicit',
         choices: ['gains', 'keeps', 'loses'],
         right: 'gains',
-        start: pendulum(['explicit-euler', 5e-3]),
-        watch: (r, seen) => {
-          const run = runOfMethod(r, 'explicit-euler');
-          if (run && run.gain !== null && Number.isFinite(run.gain)) farthest(seen.run, 'gain', run.gain);
-        },
-        done: (r, seen) => {
-          const run = runOfMethod(r, 'explicit-euler');
-          return Boolean(run && (run.failed || run.ended) && seen.run.gain > 0);
-        },
-        values: (r, seen) => {
-          const {step, t} = runOfMethod(r, 'explicit-euler')!, a = step * r.omega;
-          return {
-            omega: digits(r.omega),
-            h: msText(step),
-            percent: digits(100 * (Math.sqrt(1 + a * a) - 1), 2),
-            t: timeText(t),
-            energy: digits(seen.run.gain)
-          };
+        start: pendulum('explicit-euler', 5e-3),
+        watch: ({run}, seen) => farthest(seen.run, 'gain', run.gain),
+        done: ({run}, seen) => run.method === 'explicit-euler' && (run.failed || run.ended) && seen.run.gain > 0,
+        values: ({run, omega}, seen) => {
+          const a = run.step * omega;
+          return {percent: digits(100 * (Math.sqrt(1 + a * a) - 1), 2), energy: digits(seen.run.gain)};
         }
       },
       {
         name: 'implicit',
         choices: ['gains', 'keeps', 'loses'],
         right: 'loses',
-        start: pendulum(['implicit-euler', 0.01]),
-        watch: (r, seen) => {
-          const run = runOfMethod(r, 'implicit-euler');
-          if (!run?.energy) return;
-          farthest(seen.run, 'top', run.energy.gravitational);
-          nearest(seen.run, 'bottom', run.energy.gravitational);
+        start: pendulum('implicit-euler', 0.01),
+        watch: ({run: {energy}}, seen) => {
+          farthest(seen.run, 'top', energy?.gravitational ?? NaN);
+          nearest(seen.run, 'bottom', energy?.gravitational ?? NaN);
         },
-        done: r => finished(runOfMethod(r, 'implicit-euler')),
-        values: (r, seen) => {
-          const {t, gain} = runOfMethod(r, 'implicit-euler')!;
-          return {t: timeText(t), energy: digits(-(gain ?? 0)), swing: digits(seen.run.top - seen.run.bottom, 2)};
-        }
+        done: ({run}) => finished(run, 'implicit-euler'),
+        values: ({run}, seen) => ({energy: digits(-run.gain), swing: digits(seen.run.top - seen.run.bottom, 2)})
       },
       {
         name: 'leapfrog',
         choices: ['grows', 'falls', 'swings'],
         right: 'swings',
-        start: pendulum(['leapfrog', 0.01]),
-        watch: (r, seen) => {
-          const run = runOfMethod(r, 'leapfrog');
-          if (!run || run.gain === null) return;
+        start: pendulum('leapfrog', 0.01),
+        watch: ({run}, seen) => {
           farthest(seen.run, 'high', run.gain);
           nearest(seen.run, 'low', run.gain);
         },
-        done: r => finished(runOfMethod(r, 'leapfrog')),
-        values: (r, seen) => {
-          const {t, gain} = runOfMethod(r, 'leapfrog')!;
-          return {
-            t: timeText(t),
-            low: digits(seen.run.low, 2),
-            high: digits(seen.run.high, 2),
-            end: digits(gain ?? 0, 2)
-          };
-        }
+        done: ({run}) => finished(run, 'leapfrog'),
+        values: ({run}, seen) =>
+            ({low: digits(seen.run.low, 2), high: digits(seen.run.high, 2), end: digits(run.gain, 2)})
       },
       {
         name: 'which',
         choices: ['swing', 'spring', 'gravity'],
         right: 'spring',
         start: state('pendulum', {}, ['leapfrog', 0.06]),
-        acts: [r => state('pendulum', {}, ['leapfrog', 1.1 * r.runs[0].limit])],
-        shown: ({before}) => ({period: msText(2 * Math.PI / before.omega)}),
-        done: r => {
-          const run = runOfMethod(r, 'leapfrog');
-          return Boolean(run?.failed && run.step > run.limit);
-        },
-        values: r => {
-          const {step, limit, t} = runOfMethod(r, 'leapfrog')!;
-          return {
-            k: r.at('spring.stiffness'),
-            m: r.at('particle.mass'),
-            omega: digits(r.omega),
-            limit: msText(limit),
-            h: msText(step),
-            t: timeText(t)
-          };
-        }
+        acts: [({run}) => state('pendulum', {}, ['leapfrog', 1.1 * run.limit])],
+        shown: before => ({period: msText(2 * Math.PI / before.omega)}),
+        done: ({run}) => run.method === 'leapfrog' && run.failed && run.step > run.limit,
+        values: ({at}) => ({k: at('spring.stiffness'), m: at('particle.mass')})
       }
     ]
   },
@@ -541,32 +453,18 @@ export const labExperiments: GuideExperiment[] = [
         choices: ['off', 'part', 'stays'],
         right: 'stays',
         start: state('slide', {'time.samples': 100}, ['leapfrog+sticky', 1e-3], ['leapfrog', 1e-3]),
-        shown: ({before}) => ({mu: before.friction}),
-        done: r => finished(runOfMethod(r, 'leapfrog+sticky')) && finished(runOfMethod(r, 'leapfrog')),
-        values: r => {
-          const home = r.vector('particle.position');
-          const moved = ({x}: RunReading) => Math.hypot(...home.map((c, k) => x[k] - c));
-          const free = runOfMethod(r, 'leapfrog')!;
-          return {
-            moved: digits(moved(runOfMethod(r, 'leapfrog+sticky')!)),
-            away: digits(moved(free)),
-            t: timeText(free.t)
-          };
-        }
+        done: ({runs: [sticky, free]}) => finished(sticky, 'leapfrog+sticky') && finished(free, 'leapfrog'),
+        values: r => ({moved: digits(movedBy(r, r.run)), away: digits(movedBy(r, r.runs[1]))})
       },
       {
         name: 'leaves',
         choices: ['early', 'middle', 'late'],
         right: 'middle',
         start: state('slide', {'time.samples': 100}, ['leapfrog', 1e-3]),
-        shown: ({before}) => ({mu: before.friction}),
-        done: (r, {before}) => {
-          const [run] = r.runs;
-          return r.at('sphere.friction') === before.friction && run.method === 'leapfrog' && !run.failed &&
-              radiusOf(run.x) > 1.005 * (r.at('sphere.radius') + r.at('sphere.margin'));
-        },
-        values: async r => {
-          const {angle, v, r: away} = await lastContact(r), g = r.at('gravity.acceleration');
+        done: ({run, at}, {before}) => at('sphere.friction') === before.friction && run.method === 'leapfrog' &&
+            !run.failed && radiusOf(run.x) > 1.005 * (at('sphere.radius') + at('sphere.margin')),
+        values: r => {
+          const {angle, v, away} = lastContact(r), g = r.at('gravity.acceleration');
           return {
             angle: digits(angle * 180 / Math.PI),
             v: digits(v),
@@ -580,23 +478,15 @@ export const labExperiments: GuideExperiment[] = [
         guess: {unit: 'μ', within: 0.1, read: r => Math.tan(startAngle(r))},
         start: resting(0.3),
         acts: [resting(0.55), resting(0.6)],
-        shown: ({before}) => ({angle: degrees(before.angle * 180 / Math.PI)}),
-        watch: (r, seen) => {
-          const [run] = r.runs, home = r.vector('particle.position'), mu = r.at('sphere.friction');
-          if (run.failed || Math.abs(startAngle(r) - seen.before.angle) > 1e-9) return;
-          const moved = Math.hypot(...home.map((c, k) => run.x[k] - c));
-          if (moved > 0.02)
-            farthest(seen.all, 'slid', mu);
-          else if (run.ended && moved < 0.002)
-            nearest(seen.all, 'held', mu);
+        shown: before => ({angle: degrees(before.angle * 180 / Math.PI)}),
+        watch: (r, {before, all}) => {
+          const mu = r.at('sphere.friction'), moved = movedBy(r, r.run);
+          if (r.run.failed || Math.abs(startAngle(r) - before.angle) > 1e-9) return;
+          if (moved > 0.02) farthest(all, 'slid', mu);
+          if (r.run.ended && moved < 0.002) nearest(all, 'held', mu);
         },
         done: (_, {all}) => all.held > all.slid && all.held - all.slid < 0.1001,
-        values: (r, seen) => ({
-          angle: degrees(startAngle(r) * 180 / Math.PI),
-          tangent: digits(Math.tan(startAngle(r))),
-          held: seen.all.held,
-          slid: seen.all.slid
-        })
+        values: (r, {all: {held, slid}}) => ({tangent: digits(Math.tan(startAngle(r))), held, slid})
       },
       {
         name: 'cloth',
@@ -604,19 +494,15 @@ export const labExperiments: GuideExperiment[] = [
         right: 'slides',
         start: slidingCloth(0.5),
         then: slidingCloth(0.1),
-        shown: ({before}) => ({mu: before.friction, small: 0.1}),
-        done: r => r.scene === 'cloth-sphere' && r.at('sphere.friction') <= 0.1 && finished(r.runs[0]),
-        values: (r, {before}) => {
-          const now = centreOf(r.runs[0].x),
-                angle = Math.asin(before.centre[0] / (r.at('sphere.radius') + r.at('sphere.margin')));
+        shown: () => ({small: 0.1}),
+        done: ({scene, run, at}) => scene === 'cloth-sphere' && at('sphere.friction') <= 0.1 && finished(run),
+        values: ({run, at}, {before: {centre}}) => {
+          const now = centreOf(run.x), angle = Math.asin(centre[0] / (at('sphere.radius') + at('sphere.margin')));
           return {
-            sideways: digits(now[0] - before.centre[0]),
-            down: digits(before.centre[1] - now[1]),
-            t: timeText(r.t),
+            sideways: digits(now[0] - centre[0]),
+            down: digits(centre[1] - now[1]),
             angle: degrees(angle * 180 / Math.PI),
-            tangent: digits(Math.tan(angle), 2),
-            mu: before.friction,
-            small: r.at('sphere.friction')
+            tangent: digits(Math.tan(angle), 2)
           };
         }
       }
@@ -633,7 +519,7 @@ export const labExperiments: GuideExperiment[] = [
         start: hangingCloth(5e-4),
         then: hangingCloth(5e-4, {'grid.stiffness.bend': 0}),
         watch: watchFold,
-        done: r => r.at('grid.stiffness.bend') === 0 && finished(r.runs[0]),
+        done: ({run, at}) => at('grid.stiffness.bend') === 0 && finished(run),
         values: foldValues
       },
       {
@@ -641,9 +527,8 @@ export const labExperiments: GuideExperiment[] = [
         choices: ['same', 'half', 'flat'],
         right: 'flat',
         start: hangingCloth(5e-4),
-        shown: ({before}) => ({bend: before.bend}),
         watch: watchFold,
-        done: (r, {before}) => r.at('grid.stiffness.bend') === before.bend && finished(r.runs[0]),
+        done: ({run, at}, {before}) => at('grid.stiffness.bend') === before.bend && finished(run),
         values: foldValues
       },
       {
@@ -652,14 +537,8 @@ export const labExperiments: GuideExperiment[] = [
         right: 'half',
         start: hangingCloth(1e-3),
         then: (_, {before}) => hangingCloth(1e-3, {'grid.stiffness.bend': 10 * before.bend}),
-        shown: ({before}) => ({bend: 10 * before.bend}),
-        done: (r, {before}) => r.at('grid.stiffness.bend') >= 10 * before.bend && r.runs[0].failed,
-        values: (r, {before}) => ({
-          omegaBefore: digits(before.omega, 4),
-          omega: digits(r.omega, 4),
-          limitBefore: msText(before.limit),
-          limit: msText(r.runs[0].limit)
-        })
+        shown: before => ({bend: 10 * before.bend}),
+        done: ({run, at}, {before}) => at('grid.stiffness.bend') >= 10 * before.bend && run.failed
       },
       {
         name: 'enough',
@@ -667,19 +546,38 @@ export const labExperiments: GuideExperiment[] = [
         right: 'tenth',
         start: hangingCloth(5e-4, {'grid.stiffness.bend': 0}),
         acts: [(_, {before}) => hangingCloth(5e-4, {'grid.stiffness.bend': before.k / 10})],
-        shown: ({before}) => ({k: before.k, most: before.k / 10}),
+        shown: before => ({most: before.k / 10}),
         watch: watchFold,
-        done: (r, {before, run}) => {
-          const bend = r.at('grid.stiffness.bend');
-          return bend > 0 && bend <= before.k / 10 && finished(r.runs[0]) && run.fold < 30;
+        done: ({run, at}, seen) => {
+          const bend = at('grid.stiffness.bend');
+          return bend > 0 && bend <= seen.before.k / 10 && finished(run) && seen.run.fold < 30;
         },
-        values: (r, seen) => ({
-          bend: r.at('grid.stiffness.bend'),
-          fold: degrees(seen.run.fold),
-          limit: msText(r.runs[0].limit),
-          without: msText(seen.before.limit)
-        })
+        values: foldValues
       }
     ]
   }
 ];
+
+/** Numbers that every question and task may name. */
+export const shownNumbers = (step: GuideStep, before: Before): Values => ({
+  particles: before.particles,
+  omegaBefore: digits(before.omega, 4),
+  limitBefore: msText(before.limit),
+  kBefore: before.k,
+  bendBefore: before.bend,
+  massBefore: before.mass,
+  muBefore: before.friction,
+  ...step.shown?.(before)
+});
+
+/** Numbers that every reason may name. */
+export const foundNumbers = (step: GuideStep, r: Reading, seen: Seen): Values => ({
+  h: msText(r.run.step),
+  n: r.run.steps,
+  t: `${Number(r.run.t.toPrecision(3))} s`,
+  omega: digits(r.omega, 4),
+  limit: msText(r.run.limit),
+  bend: r.at('grid.stiffness.bend'),
+  ...shownNumbers(step, seen.before),
+  ...step.values?.(r, seen)
+});

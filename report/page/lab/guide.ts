@@ -4,7 +4,7 @@
 import {make} from '../player/controls';
 import {stillWanted} from '../player/player';
 
-import {Before, centreOf, GuideExperiment, GuideStep, labExperiments, Mode, Reading, Seen, startAngle, Wanted} from './experiments';
+import {Before, centreOf, foundNumbers, GuideExperiment, GuideStep, labExperiments, Mode, Reading, Seen, shownNumbers, startAngle, Wanted} from './experiments';
 import {LiveLab, openLab} from './lab';
 import {labScenes, sceneText} from './lab_runs';
 import {numberAt, valueAt, withNumbers} from './scene_text';
@@ -27,15 +27,16 @@ export function readingOf(lab: LiveLab): Reading|null {
       failed: run.failed,
       x: run.places!,
       energy,
-      gain: energy && run.first ? energy.balance - run.first.balance : null,
+      gain: energy && run.first ? energy.balance - run.first.balance : NaN,
       sim: run.sim
     };
   });
   if (!runs.length) return null;
-  const [{sim}] = runs;
+  const [run] = runs, {sim} = run;
   return {
     scene,
     toml,
+    run,
     runs,
     t,
     duration: sim.scene.duration,
@@ -240,16 +241,16 @@ class LabGuide extends HTMLElement {
     if (this.acting !== null && over) this.act(this.acting + 1);
   }
 
-  private async complete(r: Reading, step: GuideStep) {
+  private complete(r: Reading, step: GuideStep) {
     const {experiment, guess} = this, seen = this.seen as Seen, acted = this.acting !== null;
     this.phase = 'why', this.acting = this.result = null;
-    const values = {...step.shown?.(seen), ...await step.values(r, seen)};
+    const values = foundNumbers(step, r, seen);
     const result = {guess, read: step.guess?.read(r), values, before: seen.before};
     if (experiment) guideProgress.keep(experiment, step, result);
     if (this.step !== step) return;
     this.result = result;
     this.render();
-    if (step.arrows) this.showMode(await step.arrows(r), r);
+    if (step.arrows) this.showMode(step.arrows(r), r);
     if (acted) setTimeout(() => this.step === step && this.showLab(this, '.why'), 1500);
     this.dispatchEvent(
         new CustomEvent('step-done', {bubbles: true, detail: {experiment: experiment?.name, step: step.name}}));
@@ -331,7 +332,7 @@ class LabGuide extends HTMLElement {
 
   private stepParts(experiment: GuideExperiment, step: GuideStep): HTMLElement[] {
     const {number, phase, seen} = this, count = experiment.steps.length, why = phase === 'why';
-    const values = why ? this.result?.values : seen.before ? step.shown?.(seen as Seen) ?? {} : undefined;
+    const values = why ? this.result?.values : seen.before ? shownNumbers(step, seen.before) : undefined;
     const ticks = experiment.steps.map((each, i) => {
       const done = guideProgress.of(experiment, each), name = say('guide.step', {number: i + 1, count});
       return make('li', {}, guideButton(`tick-${i}`, done ? '✓' : String(i + 1), () => this.begin(experiment, i), {
@@ -344,7 +345,7 @@ class LabGuide extends HTMLElement {
       make('div', {class: 'over'}, this.allButton(), make('ol', {class: 'ticks'}, ...ticks)),
       make(
           'h3', {}, say(`${experiment.name}.title`), make('small', {}, say('guide.step', {number: number + 1, count}))),
-      make('p', {class: 'asked', tabindex: -1}, step.shown && !values ? '…' : this.words('question', values)),
+      make('p', {class: 'asked', tabindex: -1}, values ? this.words('question', values) : '…'),
       step.guess ? this.numberGuess(step.guess.unit) : this.choiceGuess(step)
     ];
     if (phase === 'ask')

@@ -194,9 +194,7 @@ export class MethodKnobs {
   readonly box: HTMLElement;
   private readonly select: HTMLSelectElement;
   private readonly sticky: HTMLInputElement;
-  private readonly linear: HTMLInputElement;
   private readonly stickyLabel: HTMLElement;
-  private readonly linearLabel: HTMLElement;
   private readonly step: Slider;
   private readonly tolerance: Slider;
   private readonly tick: HTMLElement = make('i', {class: 'tick', 'aria-hidden': 'true'});
@@ -213,7 +211,6 @@ export class MethodKnobs {
     const remove: HTMLElement =
         make('button', {type: 'button', class: 'remove', 'aria-label': say('removeSecond', {letter})}, '✕');
     [this.stickyLabel, this.sticky] = check(say('sticky'), false);
-    [this.linearLabel, this.linear] = check(say('linear'), false);
     const take = (key: 'step'|'tolerance', size: number) => (value: number, done: boolean) =>
         this.take({[key]: value * size}, done);
     this.step = new Slider(say('timeStep'), 'ms', `step-${letter}`, take('step', 1e-3), say('stepOf', {letter}));
@@ -225,10 +222,8 @@ export class MethodKnobs {
     this.box = make(
         'div', {class: 'method', 'data-letter': letter},
         make('div', {class: 'who'}, make('b', {}, letter), this.select, ...(letter === 'B' ? [remove] : [])),
-        make('div', {class: 'options'}, this.stickyLabel, this.linearLabel), this.step.box, this.tolerance.box,
-        this.note);
-    for (const each of [this.select, this.sticky, this.linear])
-      each.addEventListener('change', () => this.take({}, true));
+        make('div', {class: 'options'}, this.stickyLabel), this.step.box, this.tolerance.box, this.note);
+    for (const each of [this.select, this.sticky]) each.addEventListener('change', () => this.take({}, true));
     remove.addEventListener('click', removed);
   }
 
@@ -236,10 +231,12 @@ export class MethodKnobs {
   private take(moved: Partial<MethodSpec>, done: boolean) {
     const stepper = this.steppers.find(s => s.name === this.select.value);
     if (!stepper) return;
-    const events = this.spec.method === `${stepper.name}+events` ? '+events' : '';
-    const options = (this.linear.checked && stepper.linear ? '+linear' : '') +
-        (this.sticky.checked && this.balls ? '+sticky' : events);
-    const {step, tolerance} = {...this.spec, ...moved}, method = stepper.name + options;
+    // what the state asked for besides, +events or +linear, stays with its stepper
+    const [name, ...options] = this.spec.method.split('+');
+    const kept = this.sticky.checked && this.balls ? ['sticky'] :
+        name === stepper.name                      ? options.filter(option => option !== 'sticky') :
+                                                     [];
+    const {step, tolerance} = {...this.spec, ...moved}, method = [stepper.name, ...kept].join('+');
     this.changed(stepper.adaptive ? {method, tolerance: tolerance || 1e-6} : {method, step: step || this.own}, done);
   }
 
@@ -255,8 +252,8 @@ export class MethodKnobs {
     if (this.select.childElementCount !== usable.length)
       this.select.replaceChildren(...usable.map(s => make('option', {value: s.name}, chosenAs(s.name))));
     this.select.value = name;
-    this.sticky.checked = options.includes('sticky'), this.linear.checked = options.includes('linear');
-    this.stickyLabel.hidden = !this.balls, this.linearLabel.hidden = !stepper?.linear;
+    this.sticky.checked = options.includes('sticky');
+    this.stickyLabel.hidden = !this.balls;
     this.step.box.hidden = Boolean(stepper?.adaptive), this.tolerance.box.hidden = !stepper?.adaptive;
     const step = spec.step ?? 0, shortened = !stepper?.adaptive && h && msText(h) !== msText(step);
     this.note.textContent = run.refusal ? say('refused', {method: nameOfMethod(spec.method), reason: run.refusal}) :

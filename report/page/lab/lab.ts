@@ -194,7 +194,6 @@ export class LiveLab extends LabPicture {
       this.hand.forget();
       this.view?.knobs.build(this.toml, this.original);
     }
-    if (this.view) this.view.ledger.checked = Boolean(this.keepLedger);
     this.setStage(fresh);
     this.sample();
     this.showViews();
@@ -380,11 +379,6 @@ export class LiveLab extends LabPicture {
           this.setLookOf(change);
           this.showViews();
         },
-    ledger:
-        (on: boolean) => {
-          this.keepLedger = on;
-          this.reload();
-        },
     resetView:
         () => {
           this.orbit?.reset();
@@ -517,7 +511,7 @@ export class LiveLab extends LabPicture {
     const text = from.sim.sceneText(), {time} = from;
     this.runs = this.runs.map(run => {
       if (run === from || run.refusal || run.failed) return run;
-      const other = new LiveRun(this.lab, text, run.letter, run.spec, () => Boolean(this.keepLedger));
+      const other = new LiveRun(this.lab, text, run.letter, run.spec, scene => this.observes(scene));
       const {samples, trail, since, look, handWork} = run;
       Object.assign(other, {samples, trail, since, look, handWork, offset: time});
       run.close();
@@ -566,7 +560,6 @@ export class LiveLab extends LabPicture {
     view.build();
     view.speed.value = String(this.speed);
     view.knobs.build(this.toml, this.original);
-    view.ledger.checked = Boolean(this.keepLedger);
     view.setRunning(this.playing);
     this.showLook();
     this.showState();
@@ -607,7 +600,7 @@ export class LiveLab extends LabPicture {
     const soon = say('beforeRun'), begins = this.clock === 0 || this.runs.every(run => run.ended);
     return {
       energy: soon,
-      residual: this.keepLedger ? soon : say('noResidual'),
+      residual: this.observes(this.runs[0].sim.scene) ? soon : say('noResidual'),
       error: this.truthGone ? say('noError') :
           begins            ? soon :
           this.hand.held    ? say('noErrorHeld') :
@@ -632,9 +625,7 @@ export class LiveLab extends LabPicture {
     if (this.playing && this.passed.length > 20 && pace < 0.9) words.push(say('behind', {x: digits(pace)}));
     if (!this.playing && this.clock >= this.end - 1e-9 && !runs.some(run => run.failed)) words.push(say('endReached'));
     view.readout.textContent = words.join(' · ');
-    const {bits} = this, stepper = this.methods?.[0].method;
-    view.truthWords.textContent =
-        [this.truthWords(), bits === null ? '' : say(bits ? 'sameBits' : 'otherBits', {stepper})].join(' ').trim();
+    view.truthWords.textContent = this.truthWords();
   }
 
   /** What the truth is here, or why there is none. */

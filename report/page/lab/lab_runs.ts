@@ -12,23 +12,18 @@ const truthBudget = 0.45;         // part of a frame's time
 export const shortestFrame = 17;  // ms
 const slowestPace = 0.1;          // minimum clock rate while waiting for the reference solution
 const longestWait = 2500;         // ms of waiting for the truth
-export const smallScene = 1500;   // particles; larger ones have no truth, and no energy balance unless asked
+export const smallScene = 1500;   // particles; larger ones have no truth and no energy balance
 const beginsRuns = 200;           // ms after a slider moved, before a truth is begun
 
-/** The scenes of the page: their text, and each rule's fingerprint after so many steps. */
-interface PageScene {
-  toml: string;
-  fingerprint: Record<string, string>;
-  steps: number;
-}
+/** The scenes of the page by their names: texts as they are shipped. */
 export const labScenes = (() => {
-  let scenes: Record<string, PageScene>|undefined;
+  let scenes: Record<string, string>|undefined;
   return () =>
              (scenes ??=
-                  JSON.parse(document.getElementById('lab-scenes')?.textContent || '{}') as Record<string, PageScene>);
+                  JSON.parse(document.getElementById('lab-scenes')?.textContent || '{}') as Record<string, string>);
 })();
 /** The text of a scene of the page as it is shipped. */
-export const sceneText = (name: string): string|undefined => labScenes()[name]?.toml;
+export const sceneText = (name: string): string|undefined => labScenes()[name];
 
 export abstract class LabRuns extends HTMLElement {
   lab!: Lab;
@@ -44,7 +39,6 @@ export abstract class LabRuns extends HTMLElement {
   speed = 1;
   playing = false;
   byHand = false;
-  keepLedger: boolean|null = null;
   truth: Truth|null = null;
   truthGone: 'large'|'none'|'slow'|null = null;  // why there is no truth
   truthCost = 0;                                 // ms a frame
@@ -54,11 +48,9 @@ export abstract class LabRuns extends HTMLElement {
   late = 0;               // ms that the truth has been waited for
   passed: number[] = [];  // rates of the clock, of those wanted
   frameTime = shortestFrame;
-  bits: boolean|null = null;
   scale: number|null = null;  // critical step of the scene as it was opened, s
   private slow = 0;           // ms at the slowest pace
   private settled = 0;        // when sliders stand
-  private readonly knownBits = new Map<string, boolean>();
 
   /** Runs were opened anew, of another scene (`fresh`) or of the same. */
   protected abstract opened(fresh: boolean): void;
@@ -69,11 +61,12 @@ export abstract class LabRuns extends HTMLElement {
   /** A slider moves, or stands: while it moves no truth is begun. */
   protected settle(done: boolean) { this.settled = done ? 0 : performance.now() + beginsRuns; }
 
+  /** Whether the energy balance of a scene is kept. */
+  protected observes(scene: EngineScene) { return scene.particles <= smallScene; }
+
   /** Opens the scene for every method and starts again; false, with the reason said, where it is not taken. */
   load(fresh = false) {
     const opened: LiveRun[] = [];
-    if (fresh) this.keepLedger = null;
-    const observe = (scene: EngineScene) => this.keepLedger ??= scene.particles <= smallScene;
     try {
       this.methods ??= [this.ownMethod()];
       for (const spec of this.methods) {
@@ -85,7 +78,7 @@ export abstract class LabRuns extends HTMLElement {
           spec.step ||= numberAt(this.toml, 'time.step');
       }
       for (const [i, spec] of this.methods.entries())
-        opened.push(new LiveRun(this.lab, this.toml, 'AB'[i], spec, observe));
+        opened.push(new LiveRun(this.lab, this.toml, 'AB'[i], spec, scene => this.observes(scene)));
     } catch (problem) {
       opened.forEach(run => run.close());
       this.refused(say('sceneRefused', {reason: messageOf(problem)}));
@@ -109,27 +102,8 @@ export abstract class LabRuns extends HTMLElement {
     const [a] = this.runs;
     this.clock = 0, this.end = a.sim.scene.duration, this.byHand = false, this.growth = null, this.passed = [];
     this.dropTruth();
-    this.bits = this.bitsOf(a);
     if (fresh) this.scale = a.sim.limit('leapfrog');
     this.opened(fresh);
-  }
-
-  /**
-   * Whether the first steps of a scene of the page are here what the native engine made of them, bit for bit: the page
-   * holds their fingerprint. Null where it holds none: other scenes, and rules that need not give the same bits.
-   */
-  private bitsOf({spec: {method}}: LiveRun) {
-    const {toml, fingerprint, steps} = labScenes()[this.sceneName] ?? {}, expected = fingerprint?.[method];
-    if (!expected || this.toml !== toml) return null;
-    const key = `${this.sceneName} ${method}`;
-    if (!this.knownBits.has(key)) {
-      const sim = this.lab.open(toml);
-      sim.start({stepper: method, observe: false});
-      sim.call('advance', Infinity, steps);
-      this.knownBits.set(key, sim.fingerprint() === expected);
-      sim.close();
-    }
-    return this.knownBits.get(key) ?? null;
   }
 
   restart() {

@@ -54,7 +54,6 @@ export interface LabActs {
   more(): void;
   close(): void;
   look(change: LabState): void;
-  ledger(on: boolean): void;
   pin(): void;
   resetView(): void;
   copyLink(): void;
@@ -112,7 +111,6 @@ export class LabView {
   readout!: HTMLElement;
   truthWords!: HTMLElement;
   speed!: HTMLSelectElement;
-  ledger!: HTMLInputElement;
   private changed!: HTMLElement;
   private close!: HTMLElement;
   private question!: HTMLElement;
@@ -123,7 +121,6 @@ export class LabView {
   private colour!: HTMLSelectElement;
   private springs!: [HTMLElement, HTMLInputElement];
   private truth!: HTMLInputElement;
-  private ledgerLabel!: HTMLElement;
   private scale!: HTMLElement;
   private second!: HTMLElement;
   private methodList!: HTMLElement;
@@ -171,14 +168,13 @@ export class LabView {
         selectOf(say('colour'), colours, 'plain', value => act.look({colour: value as LabLook['colour']}));
     this.springs = checkOf(say('springs'), false, springs => act.look({springs}));
     const [truthLabel, truth] = checkOf(say('truth'), false, on => act.look({truth: on}));
-    const [ledgerLabel, ledger] = checkOf(say('ledger'), true, on => act.ledger(on));
-    Object.assign(this, {colour, truth, ledger, ledgerLabel});
+    Object.assign(this, {colour, truth});
     this.scale = make('span', {class: 'bar'});
     this.pin = button('pin', () => act.pin());
     this.particle = make('span', {class: 'particle'});
     this.chosen.replaceChildren(this.particle, this.pin);
     const looks = make(
-        'div', {class: 'looks'}, this.viewChoice[0], colourLabel, this.scale, this.springs[0], truthLabel, ledgerLabel,
+        'div', {class: 'looks'}, this.viewChoice[0], colourLabel, this.scale, this.springs[0], truthLabel,
         button('resetView', () => act.resetView()));
     this.readout = make('p', {class: 'readout'});
     this.truthWords = make('p', {class: 'readout truth', role: 'status'});
@@ -250,8 +246,7 @@ export class LabView {
     this.springs[1].checked = springs, this.truth.checked = truth;
     this.viewChoice[0].hidden = count < 2;
     this.springs[0].hidden = !cloth;
-    if (this.ledgerLabel.hidden !== firstOrder) this.otherPlots.open = firstOrder;  // errors alone are known there
-    this.ledgerLabel.hidden = firstOrder;
+    if (firstOrder) this.otherPlots.open = true;  // errors alone are known there
     this.scale.replaceChildren(...(scale ? ['0', make('i', {class: 'scale'}), scale] : []));
   }
 

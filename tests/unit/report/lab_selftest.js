@@ -4,7 +4,7 @@
 async function runAll(runs) {
   const lab = await labModule(), scenes = labScenes(), seen = [];
   for (const {scene, stepper, steps, exact, duration} of runs) {
-    const sim = lab.open(scenes[scene].toml), entry = {scene, stepper};
+    const sim = lab.open(scenes[scene]), entry = {scene, stepper};
     try {
       sim.start({stepper, tolerance: 1e-6, duration, observe: false});
       sim.call('advance', Infinity, steps);

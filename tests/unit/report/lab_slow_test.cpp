@@ -195,7 +195,7 @@ TEST_F(LabModule, GivesTheNativeBitsInNode) {
   // Chromium's engine of WebAssembly is Node's: where it is there, long runs are its own test's
   const std::vector<NativeRun> native = native_runs(scenes, on_path("chromium") ? 100 : 1000);
   Json texts = Json::object();
-  for (const Scene& scene : scenes) texts[scene.name]["toml"] = scene.source;
+  for (const Scene& scene : scenes) texts[scene.name] = scene.source;
   const std::string module = base64(gzipped(content_of_file(lab_module_file())));
   write_file(
       folder_ / "lab.js",
@@ -215,25 +215,6 @@ TEST_F(LabModule, GivesTheNativeBitsInABrowser) {
   const std::vector<NativeRun> native = native_runs(scenes, 1000);
   const JsonField all = seen(page_with(scenes, self_test("lab_selftest.js"), "runAll(" + json_of(native) + ")"), {});
   compare(native, all);
-}
-
-TEST_F(LabModule, FingerprintsAreThoseOfAnyInstructionSet) {
-  const std::vector<Scene> scenes{load_scene("chain"), load_scene("cloth-hang")};
-  const Json own = lab_fingerprints_json(scenes);
-  unsetenv("CROSSCHECK_INSTRUCTIONS");
-  const LabFingerprints all = lab_fingerprints(scenes);
-  const JsonField expected = JsonField::parse(dump(own), "fingerprints");
-  for (const Scene& scene : scenes) {
-    EXPECT_GE(all.at(scene.name).size(), 7u);
-    for (const auto& [rule, digits] : all.at(scene.name)) EXPECT_EQ(digits, expected[scene.name][rule].text()) << rule;
-  }
-}
-
-TEST_F(LabModule, FirstStepsHaveTheFingerprintsOfThePage) {
-  NEEDS_LAB;
-  NEEDS_CHROMIUM;
-  const JsonField all = use(shipped(), fmt::format("labUse.firstSteps({})", fingerprinted_steps));
-  EXPECT_GT(all["checked"].number(), 100);  // 20 scenes, most of which take seven such rules
 }
 
 TEST_F(LabModule, SlidersChangeTheirNumberAlone) {

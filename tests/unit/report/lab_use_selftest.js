@@ -71,22 +71,6 @@ const labUse = (() => {
     return value === undefined ? NaN : Number(value) * {µs: 1e-6, ms: 1e-3, s: 1}[unit];
   }
 
-  // The first steps.
-
-  /** The fingerprints that the page holds, against the engine's own first steps here. */
-  async function firstSteps(count) {
-    const engine = await labModule(), all = new Complaints();
-    for (const [scene, {toml, fingerprint}] of Object.entries(labScenes()))
-      for (const [stepper, digits] of Object.entries(fingerprint)) {
-        const sim = engine.open(toml);
-        sim.start({stepper, observe: false});
-        const own = steps(sim, count);
-        all.check(own === digits, scene, stepper, own, 'for', digits);
-        sim.close();
-      }
-    return all;
-  }
-
   // Sliders.
 
   /** The places at which two texts differ, "section.key", by a reading of its own; a head of a section is "section". */
@@ -790,7 +774,7 @@ const labUse = (() => {
 
   return {
     theLab, button, knobOf, pause, until, frame, Complaints, opened, slide, type, choose, steps, timeIn, say3,
-    firstSteps, sliders, marks, bursts, burstsInFrames, handByPointer, keysOfPicture,
+    sliders, marks, bursts, burstsInFrames, handByPointer, keysOfPicture,
     changedScenes, changedByHand, byAddress, drops, unavailable, absent, part, reducedMotion, tabOrder, courseFromTheStart, dragsCoarsely, chineseNames
   };
 })();
