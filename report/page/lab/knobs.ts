@@ -231,7 +231,7 @@ export class MethodKnobs {
   private take(moved: Partial<MethodSpec>, done: boolean) {
     const stepper = this.steppers.find(s => s.name === this.select.value);
     if (!stepper) return;
-    // what the state asked for besides, +events or +linear, stays with its stepper
+    // other options of the state, +events or +linear, stay with their stepper
     const [name, ...options] = this.spec.method.split('+');
     const kept = this.sticky.checked && this.balls ? ['sticky'] :
         name === stepper.name                      ? options.filter(option => option !== 'sticky') :

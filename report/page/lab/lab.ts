@@ -253,7 +253,7 @@ export class LiveLab extends LabPicture {
 
   frame(now: number) {
     this.asked = false;
-    if (!this.isConnected || !this.view) return;
+    if (!this.isConnected || !this.view || !this.runs.length) return;
     const begin = performance.now(), apart = this.lastFrame ? now - this.lastFrame : 0;  // ms
     const passed = Math.min(0.1, apart / 1000);  // a page that was away goes on where it was
     this.lastFrame = now;
