@@ -145,6 +145,17 @@ TEST(Contents, LeadToEveryPartThatIsThere) {
   for (const Chapter& chapter : chapters()) EXPECT_FALSE(chapter.label.empty()) << chapter.id;
 }
 
+TEST(Contents, HaveALabOnlyWhereThePageHasItsModule) {
+  const Scene scene = load_scene("spring");
+  const SceneData none;
+  PageContent content;
+  content.chapters = chapters();
+  content.scenes.push_back({&scene, &none, {}});
+  EXPECT_FALSE(contains(whole(content), "<live-lab"));
+  content.lab = "<script></script>";
+  EXPECT_TRUE(contains(whole(content), "<live-lab data-scene=\"spring\">"));
+}
+
 TEST(Chapters, AreFiveAndEachAnswersAQuestion) {
   std::vector<std::string> ids, asked;
   for (const Chapter& chapter : chapters()) {
