@@ -588,8 +588,7 @@ export class LiveLab extends LabPicture {
     this.told = now;
     // curves end where the last run failed
     const over = runs.every(run => run.failed) ? 1.1 * Math.max(...runs.map(run => run.time)) : 0;
-    view.plots.show(
-        runs.filter(run => run.look), over || Math.max(this.clock, this.end), this.clock, this.withoutCurves());
+    view.plots.show(runs, over || Math.max(this.clock, this.end), this.clock, this.withoutCurves());
     if (this.look.colour === 'error') this.showLook();
     this.showReadout(view);
     this.tell();

@@ -197,7 +197,7 @@ export class LabView {
         button('copyCommand', () => act.copyCommand()), button('openToml', () => file.click()), file, this.said);
     const hint = make('p', {class: 'hint'}, say(matchMedia('(pointer: coarse)').matches ? 'touchHint' : 'hint'));
 
-    const plots = this.plots as unknown as {box: HTMLElement, plots: {box: HTMLElement}[]};
+    const {plots} = this;
     this.methods = [];
     this.root.replaceChildren(
         head, this.question,

@@ -29,7 +29,7 @@ type Absent = Record<'error'|'energy'|'residual', string>;
 export class LivePlots {
   readonly box = make('div', {class: 'plots'});
   private readonly choice = document.createElement('select');
-  private readonly plots = [0, 1, 2].map(() => {
+  readonly plots = [0, 1, 2].map(() => {
     const box = make('div', {class: 'plot live'});
     this.box.append(box);
     return new Plot(box);

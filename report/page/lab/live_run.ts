@@ -3,7 +3,7 @@
 import {placeOf, Places, Vec3} from '../player/vectors';
 
 import {Energies, EngineScene, Lab, RunSettings, Simulation, Stepper} from './engine';
-import {RunLook} from './lab_view';
+import {lookOfRun, RunLook} from './lab_view';
 import {trailPoints} from './live_stage';
 import {MethodSpec} from './scene_text';
 
@@ -72,7 +72,7 @@ export interface Sample {
 export class LiveRun {
   readonly stepper: Stepper|undefined;
   sim: Simulation;
-  look: RunLook|null = null;
+  look: RunLook;
   places: Float64Array|null = null;  // the last that are numbers
   samples: Sample[] = [];
   trail: Vec3[] = [];  // way of the last particle
@@ -101,6 +101,7 @@ export class LiveRun {
   constructor(
       lab: Lab, toml: string, readonly letter: string, public spec: MethodSpec,
       observe: (scene: EngineScene) => boolean) {
+    this.look = lookOfRun(letter);
     this.sim = lab.open(toml);
     this.observe = observe(this.sim.scene);
     this.stepper = lab.stepperOf(spec.method);

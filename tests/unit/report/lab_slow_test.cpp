@@ -1,6 +1,7 @@
 // mysim as WebAssembly gives what it gives natively: in Node and in a browser, for every shipped scene and stepper. And
 // the lab as its readers use it, in a browser.
 
+#include <fmt/ranges.h>
 #include <nlohmann/json.hpp>
 
 #include <cstdlib>

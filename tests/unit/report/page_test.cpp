@@ -152,7 +152,7 @@ TEST(Contents, HaveALabOnlyWhereThePageHasItsModule) {
   content.chapters = chapters();
   content.scenes.push_back({&scene, &none, {}});
   EXPECT_FALSE(contains(whole(content), "<live-lab"));
-  content.lab = "<script></script>";
+  content.lab.push_back(data_element("lab", "lab-module", "\"\""));
   EXPECT_TRUE(contains(whole(content), "<live-lab data-scene=\"spring\">"));
 }
 
