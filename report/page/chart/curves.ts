@@ -249,7 +249,7 @@ class CurvesLayout {
   private drawTake() {
     const {take, parts} = this.chart;
     if (!take) return;
-    const near = (a: number, b: number) => Math.abs(a - b) <= 1e-4 * Math.abs(b);
+    const near = (a: number, b: number) => Math.abs(a - b) <= 1e-3 * Math.abs(b);
     const own =
         parts.find(part => part.series.some(s => s.points.some(([x, y]) => near(x, take.x) && near(y, take.y))));
     const colour = own ? this.colours(own) : 'var(--ink)', at: Pair = [this.x.at(take.x), this.y.at(take.y)];
