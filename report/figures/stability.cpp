@@ -233,9 +233,10 @@ std::optional<Chart> failure_chart(const ChartInput& input, const std::string& p
     most = std::max(most, row.kinetic / rows[i - 1].kinetic);
   }
   if (f.curves[0].points.empty()) return std::nullopt;
-  if (first.growth) f.finding = fmt::format("Energy grows {} times in a step by theory", times_text(*first.growth));
+  if (first.growth)
+    f.finding = fmt::format("By theory for small motion, energy grows {} times in a step", times_text(*first.growth));
   if (most > 0)
-    f.finding += fmt::format("{} {} to {} times here at the end", f.finding.empty() ? "Energy grows" : ",",
+    f.finding += fmt::format("{} {} to {} times here at the end", f.finding.empty() ? "Energy grows" : ";",
                              times_text(least), times_text(most));
   f.finding += f.finding.empty() ? "It fails." : ".";
   f.caption = fmt::format("Beside it the same run at a quarter of the step. Scene {}; commit {}.", name, input.commit);

@@ -39,7 +39,7 @@ void least_models(const Facts& facts, std::vector<Finding>& out) {
       if (found.empty() || found.back().rule != f->rule || found.back().value != f->value ||
           found.back().words != f->words)
         found.push_back(*f), tolerances.emplace_back();
-      tolerances.back().push_back(least.of_motion(1) ? "1 %" : least.of_motion(10) ? "10 %" : "its tolerance");
+      tolerances.back().push_back(least.of_motion(1) ? "1 %" : least.of_motion(10) ? "10 %" : "the scene's tolerance");
     }
     if (found.size() == 1 && found[0].rule == "least-model.full") {
       whole.push_back(scene);

@@ -94,7 +94,7 @@ std::vector<Finding> cost_findings(const Facts& facts) {
       if (span.count == 0) continue;
       Finding f = finding_of(rule, span);
       f.method = method, f.other = std::string(peer->name);
-      f.words["build"] = peer->build_text;
+      f.words["build"] = peer->build == Build::debian ? "Debian's build" : std::string(peer->build_text);
       out.push_back(std::move(f));
     }
   }

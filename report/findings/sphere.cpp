@@ -33,8 +33,9 @@ std::map<std::string, double> differences_at_end(const Table& rows) {
 
 }  // namespace
 
-/// Positions after the window: each other engine's at the end beside those of mysim's own rules of an order above one,
-/// which share its contact rule and show how far positions can be predicted.
+/// Positions after the window: each other engine's at the end beside those of mysim's own rules, which share its
+/// contact rule and show how far positions can be predicted. These are of an order above one and stable without
+/// damping: Heun adds energy.
 std::vector<Finding> contact_findings(const Facts& facts) {
   std::map<std::string, std::vector<EngineRow>> runs;  // by scene
   std::vector<std::string> scenes;
@@ -57,7 +58,7 @@ std::vector<Finding> contact_findings(const Facts& facts) {
     size_t rules = 0;
     for (const EngineRow& run : runs[scene])
       if (const Method* m = builtin_method(run.method);
-          m && m->stepper && m->stepper->order >= 2 && apart.contains(run.method)) {
+          m && m->stepper && m->stepper->order >= 2 && m->stepper->limit(1, 0) > 0 && apart.contains(run.method)) {
         ++rules;
         least = std::min(least, apart.at(run.method)), most = std::max(most, apart.at(run.method));
       }

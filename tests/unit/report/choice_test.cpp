@@ -193,7 +193,7 @@ TEST(LeastModels, WhatHoldsAtSeveralTolerancesIsSaidOnce) {
   TableSet rows;
   rows.add(least({least_row(ToleranceKind::hundredth_of_motion, 0.01, "bend springs", 5e-3, true),
                   least_row(ToleranceKind::tenth_of_motion, 0.1, "bend springs", 5e-3, true)}));
-  EXPECT_TRUE(contains(sentence_of(the(adequacy_findings(rows), "least-model")), "an error of 1 % and 10 %"));
+  EXPECT_TRUE(contains(sentence_of(the(adequacy_findings(rows), "least-model")), "within 1 % and 10 %"));
   EXPECT_EQ(ingredients_text("shear springs, bend springs, drag"), "shear, bend springs and drag");
   EXPECT_EQ(ingredients_text("shear springs, bend springs"), "shear and bend springs");
   EXPECT_EQ(ingredients_text("a, b, c, d"), "4 ingredients");

@@ -64,11 +64,11 @@ inline std::vector<std::string> rules_of(const std::vector<Finding>& findings) {
   return rules;
 }
 
-/// Each has at most 25 words and all that its template names.
+/// Each has at most 30 words and all that its template names.
 inline void expect_short(const std::vector<Finding>& findings) {
   for (const Finding& f : findings) {
     const std::string sentence = sentence_of(f);
-    EXPECT_LE(words_in(sentence), 25u) << sentence;
+    EXPECT_LE(words_in(sentence), 30u) << sentence;
     EXPECT_TRUE(sentence.ends_with('.')) << sentence;
     EXPECT_FALSE(tier_of(f).empty()) << sentence;
   }
