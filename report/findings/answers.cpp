@@ -294,7 +294,7 @@ std::vector<Finding> ball_answer(const Facts& facts) {
   counts.resize(std::min<size_t>(counts.size(), 2));
   std::vector<std::string> others;
   for (const ConeCount& count : counts)
-    others.push_back(fmt::format("{} in {}{}", name_in_sentence(count.method), count.right,
+    others.push_back(fmt::format("{} {}{}", name_in_sentence(count.method), count.right,
                                  count.all == first.all ? "" : fmt::format("/{}", count.all)));
   return {{.rule = "answer-ball",
            .method = std::string(subject().name),

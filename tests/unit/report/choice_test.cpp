@@ -186,7 +186,7 @@ TEST(LeastModels, HaveARowForEachThingThatIsSaid) {
   EXPECT_DOUBLE_EQ(findings[2].value, 33);
   EXPECT_EQ(findings[2].scene, "cloth-hang");
   EXPECT_EQ(findings[3].value, 1);
-  EXPECT_TRUE(says(sentence_of(findings[2]), {"cloth-hang", "10 %", "bend springs", "33 %"}));
+  EXPECT_TRUE(says(sentence_of(findings[2]), {"cloth-hang", "bend springs", "10 %", "33 %"}));
 }
 
 TEST(LeastModels, WhatHoldsAtSeveralTolerancesIsSaidOnce) {
@@ -414,7 +414,7 @@ TEST_F(Answers, AreOneToEachQuestion) {
   EXPECT_EQ(all[2].high, 2.515e-3);
   EXPECT_TRUE(says(sentence_of(all[2]), {"2 of 2", "at most 0.14 %"}));
   EXPECT_EQ(all[3].value, 72);
-  EXPECT_TRUE(contains(sentence_of(all[3]), "pbd in 36. On cloth-sphere"));
+  EXPECT_TRUE(contains(sentence_of(all[3]), "pbd 36. On cloth-sphere"));
   EXPECT_TRUE(contains(sentence_of(all[3]), "480 ms, 2.8 mm at the end."));
   EXPECT_EQ(all[4].method, "mysim/leapfrog") << "rk4 keeps it better here, and not for long";
   EXPECT_DOUBLE_EQ(all[4].value, 2e-3);
@@ -477,7 +477,7 @@ TEST_F(Answers, OfAProgramThatFellOverSayNothingOfItsPhysics) {
     return at == all.end() ? std::string() : sentence_of(*at);
   };
   EXPECT_TRUE(says(said("failed-of-all.crashed"), {"mine", "no answer", "chain"}));
-  EXPECT_TRUE(says(said("failed-of-all"), {"mine", "failed", "cloth-hang"}));
+  EXPECT_TRUE(says(said("failed-of-all"), {"mine", "fails", "cloth-hang"}));
 }
 
 TEST_F(Answers, OfAQuestionThatNoTableSpeaksOfThereAreNone) {
@@ -533,7 +533,7 @@ TEST_F(Answers, RunsThatFailedAreCountedWhereNoLimitWasMeasured) {
   facts_[2].methods[2].verdict = Verdict::unsupported;
   const Finding failed = the(answers({}), "answer-failed");
   EXPECT_EQ(failed.value, 1);
-  EXPECT_TRUE(says(sentence_of(failed), {"1 of 8", "failed", "symplectic-euler"}));
+  EXPECT_TRUE(says(sentence_of(failed), {"Failed", "1 of 8", "symplectic-euler"}));
 }
 
 TEST(StepReadBack, IsTheSameToRoundingInEveryChapter) {

@@ -111,7 +111,7 @@ TEST(FindingRules, TextsAreFilledInWithTheUnitOfTheirQuantity) {
   EXPECT_THROW(sentence_of(f), std::logic_error) << "a word is missing";
   const std::pair<const char*, const char*> written[] = {{"answer-contact", "differ by 5 mm until"},      // m
                                                          {"energy-failed", "after 5 ms ("},               // s
-                                                         {"families", "0.005 % of the motion"},           // %
+                                                         {"numerical-damping", "within 0.005 %."},        // %
                                                          {"still-touches", "sliding at 5 mm/s."},         // m/s
                                                          {"energy-damps", "a drag of 0.005 per second"},  // 1/s
                                                          {"leaving", "off by 0.005 degrees"},
