@@ -92,11 +92,6 @@ fs::path picture_file(const fs::path& folder, const Scene& scene, const char* wh
 
 namespace {
 
-void write_picture(const render::Picture& picture, const fs::path& file) {
-  render::OffscreenRenderer renderer;
-  render::write_png(picture, file, renderer);
-}
-
 /// The page has its own letters.
 render::Picture without_letters(render::Picture picture) {
   for (auto& row : picture.rows)
@@ -108,7 +103,7 @@ void write_bare(const Scene& scene, const std::vector<const MethodResult*>& show
                 const fs::path& file) {
   Shot shot = usual_shot(scene, full);
   shot.mode = Mode::shaded, shot.width = width, shot.height = height;
-  write_picture(without_letters(picture_of(scene, shown, shot)), file);
+  render::write_png(without_letters(picture_of(scene, shown, shot)), file);
 }
 
 }  // namespace
@@ -256,14 +251,14 @@ class Assembly {
       shown.push_back(&results.back());
     }
     const std::vector<PageImage> images = images_of(s);
-    if (s.moments.empty()) return write_picture(picture_of(s.scene, shown, s.shot), images[0].file);
+    if (s.moments.empty()) return render::write_png(picture_of(s.scene, shown, s.shot), images[0].file);
     // one camera for all moments: that of the first, before anything strays, and a little further off
     std::vector<Shot> shots(s.moments.size(), s.shot);
     for (size_t i = 0; i < shots.size(); ++i) shots[i].at = s.moments[i].first;
     CommonView common = common_view(s.scene, shown, {shots.front()});
     common.view.eye += 0.08 * (common.view.eye - common.view.target);
     for (size_t i = 0; i < shots.size(); ++i)
-      write_picture(without_letters(picture_of(s.scene, shown, shots[i], common)), images[i].file);
+      render::write_png(without_letters(picture_of(s.scene, shown, shots[i], common)), images[i].file);
   }
 
   /// The runs of a set, once for all that play them; false where there are none.

@@ -7,7 +7,7 @@
 #include "mysim/base/text.h"
 #include "report/base/assets.h"
 #include "report/page/page.h"
-#include "report/pictures/png_file.h"
+#include "report/pictures/image_file.h"
 
 namespace crosscheck {
 std::string prose(const std::string& text) {
@@ -67,23 +67,13 @@ std::string json_for_script(const std::string& json) {
   return safe;
 }
 
-namespace {
-
-/// A number in the head of a PNG: its width at byte 16, its height at byte 20.
-unsigned png_number(const std::string& bytes, size_t at) {
-  unsigned number = 0;
-  for (size_t i = at; i < at + 4; ++i) number = number << 8 | static_cast<unsigned char>(bytes.at(i));
-  return number;
-}
-
-}  // namespace
-
 Json image_data(const PageImage& image) {
   const bool vectors = image.file.extension() == ".svg";
-  const std::string bytes = vectors ? content_of_file(image.file) : render::with_few_colours(image.file);
-  return {{"src", fmt::format("data:image/{};base64,{}", vectors ? "svg+xml" : "png", base64(bytes))},
-          {"width", vectors ? 0 : png_number(bytes, 16)},  // so that a page does not move while it loads
-          {"height", vectors ? 0 : png_number(bytes, 20)},
+  const render::Image pixels = vectors ? render::Image() : render::read_png(image.file);
+  const std::string bytes = vectors ? content_of_file(image.file) : render::webp_bytes(pixels);
+  return {{"src", fmt::format("data:image/{};base64,{}", vectors ? "svg+xml" : "webp", base64(bytes))},
+          {"width", pixels.width},  // so that a page does not move while it loads
+          {"height", pixels.height},
           {"alt", image.alt},
           {"caption", image.caption}};
 }

@@ -38,38 +38,29 @@ Eigen::Matrix4f perspective(float tan_half, float aspect, float near, float far)
 
 }  // namespace
 
-Eigen::Matrix3d upright_axes(const Vec3& towards_eye, const Vec3& up) {
-  const Vec3 y = up.normalized();
-  Vec3 z = towards_eye - y * y.dot(towards_eye);
-  if (z.norm() < 1e-6 * towards_eye.norm()) {
-    Vec3::Index least;
-    y.cwiseAbs().minCoeff(&least);
-    z = Vec3::Unit(least) - y * y[least];
-  }
-  z.normalize();
+Eigen::Matrix3d upright_axes(const Vec3& towards_eye) {
+  const bool from_above = std::hypot(towards_eye.x(), towards_eye.z()) < 1e-6 * towards_eye.norm();
+  const Vec3 z = from_above ? Vec3(0, 0, 1) : Vec3(towards_eye.x(), 0, towards_eye.z()).normalized();
   Eigen::Matrix3d axes;
-  axes << y.cross(z).transpose(), y.transpose(), z.transpose();
+  axes << Vec3::UnitY().cross(z).transpose(), 0, 1, 0, z.transpose();
   return axes;
 }
 
 Frame frame_of(const View& view, double aspect) {
   const Vec3 towards = view.eye - view.target;
-  const bool usable = view.eye.allFinite() && view.target.allFinite() && view.up.allFinite() && view.up.norm() > 0 &&
-                      towards.norm() > 0 && view.field_of_view > 0 && view.field_of_view < 170;
-  if (!usable) throw std::runtime_error("render: the view has no finite eye, target, up and field of view");
+  if (!view.eye.allFinite() || !view.target.allFinite() || !(towards.norm() > 0))
+    throw std::runtime_error("render: the view has no finite eye and target");
 
   Frame frame;
-  const double tan_half = std::tan(view.field_of_view * std::numbers::pi / 360);
-  frame.axes = upright_axes(towards, view.up);
+  const double tan_half = std::tan(field_of_view * std::numbers::pi / 360);
+  frame.axes = upright_axes(towards);
   frame.origin = view.target;
   frame.size = 2 * towards.norm() * tan_half;
   frame.eye = frame.place(view.eye);
   const float distance = frame.eye.norm();
   frame.to_clip =
       perspective(float(tan_half), float(aspect), 0.02f * distance, 40 * distance) * look_at_origin(frame.eye);
-  if (view.floor) {
-    frame.floor = float((*view.floor - view.up.normalized().dot(view.target)) / frame.size);
-  }
+  if (view.floor) frame.floor = float((*view.floor - view.target.y()) / frame.size);
   return frame;
 }
 
@@ -133,6 +124,7 @@ std::vector<Sample> light_samples(int passes) {
 namespace {
 
 constexpr double body_part = 1 - 2 * 0.06;  // of the view that bodies and balls may fill: a margin of 6 % on each side
+constexpr double least_part = 0.7;          // that they fill at least, though their shadows be cut
 constexpr double shadow_part = 1 - 2 * 0.015;  // of the view that shadows may fill
 constexpr double clearance = 0.08;             // of the size: height of the lowest point above the ground
 
@@ -147,34 +139,30 @@ struct Wedge {
     upper = std::max(upper, a + slope * c + reach);
     lower = std::max(lower, -a + slope * c + reach);
   }
-  double least_distance(const Wedge& other) const { return (upper + other.lower) / (slope + other.slope); }
+  double least_distance() const { return (upper + lower) / (2 * slope); }
 };
 
-/// Bodies and shadows along one axis of the picture.
+/// Bodies and shadows along one axis of the picture. `body` is for the largest part of the view that bodies may fill,
+/// `least` for the smallest.
 struct Axis {
-  Wedge body, shadow;
+  Wedge body, least, shadow;
   /// Half the width of the view at distance 1 along this axis, and what beads may stick out beyond their middle.
-  Axis(double tangent, double bead) : body{tangent * body_part - bead}, shadow{tangent * shadow_part} {}
+  Axis(double tangent, double bead)
+      : body{tangent * body_part - bead}, least{tangent * least_part - bead}, shadow{tangent * shadow_part} {}
 
-  double least_distance() const {
-    return std::max({body.least_distance(body), body.least_distance(shadow), shadow.least_distance(body),
-                     shadow.least_distance(shadow)});
-  }
-  /// Where to put the eye at a distance: bodies in the middle if the shadows allow it.
-  double middle(double distance) const {
-    const double least = std::max(body.upper - body.slope * distance, shadow.upper - shadow.slope * distance);
-    const double most = std::min(body.slope * distance - body.lower, shadow.slope * distance - shadow.lower);
-    const double wanted = (body.upper - body.lower) / 2;
-    return least < most ? std::clamp(wanted, least, most) : (least + most) / 2;
-  }
+  void hold(double a, double c, double radius) { body.hold(a, c, radius), least.hold(a, c, radius); }
+  /// Coordinate of the eye with the bodies in the middle.
+  double middle() const { return (body.upper - body.lower) / 2; }
+  double nearest() const { return body.least_distance(); }
+  double farthest() const { return least.least_distance(); }
+  /// Distance at which the shadows are seen whole while the bodies are in the middle.
+  double shadows_seen() const { return std::max(shadow.upper - middle(), shadow.lower + middle()) / shadow.slope; }
 };
 
 }  // namespace
 
 View fit_view(const std::vector<Points>& points, const std::vector<Ball>& balls, const Vec3& direction, double aspect,
-              const Vec3& up) {
-  View view;
-  view.up = up.normalized();
+              bool ground) {
   std::vector<Ball> all = balls;
   for (const Points& set : points) {
     for (Eigen::Index i = 0; i < set.cols(); ++i) all.push_back({set.col(i), 0});
@@ -186,41 +174,46 @@ View fit_view(const std::vector<Points>& points, const std::vector<Ball>& balls,
   double lowest = std::numeric_limits<double>::infinity();
   for (const Ball& b : all) {
     box.extend(b.centre - Vec3::Constant(b.radius)), box.extend(b.centre + Vec3::Constant(b.radius));
-    lowest = std::min(lowest, view.up.dot(b.centre) - b.radius);
+    lowest = std::min(lowest, b.centre.y() - b.radius);
   }
   double size = box.diagonal().norm();
   if (!(size > 0)) {  // a single point: show it in a view of 1 m
     size = 1;
     all.push_back({box.center(), 0.5});
   }
-  view.floor = lowest - clearance * size;
+  const double floor = lowest - clearance * size;
 
   const Vec3 back = direction.norm() > 0 ? direction.normalized() : Vec3(0, 0, 1);
-  const Eigen::Matrix3d upright = upright_axes(back, view.up);
+  const Eigen::Matrix3d upright = upright_axes(back);
   const Vec3 right = upright.row(0).transpose(), top = back.cross(right);
   const Vec3 key = upright.transpose() * key_direction().cast<double>();
 
-  const double tangent = std::tan(view.field_of_view * std::numbers::pi / 360);
-  Axis horizontal(tangent * (aspect > 0 ? aspect : 1), 0.03 * tangent), vertical(tangent, 0.03 * tangent);
+  const double tangent = std::tan(field_of_view * std::numbers::pi / 360);
+  if (!(aspect > 0)) aspect = 1;
+  const double bead = 0.03 * tangent * std::min(1.0, aspect);
+  Axis horizontal(tangent * aspect, bead), vertical(tangent, bead);
   const Vec3 origin = box.center();
   for (const Ball& b : all) {
     const Vec3 x = b.centre - origin;
-    horizontal.body.hold(right.dot(x), back.dot(x), b.radius);
-    vertical.body.hold(top.dot(x), back.dot(x), b.radius);
+    horizontal.hold(right.dot(x), back.dot(x), b.radius);
+    vertical.hold(top.dot(x), back.dot(x), b.radius);
 
     // its shadow on the ground: a point, or a circle of a few points
-    const Vec3 foot = x - key * ((view.up.dot(b.centre) - *view.floor) / view.up.dot(key));
-    for (int i = 0; i < (b.radius > 0 ? 8 : 1); ++i) {
+    const Vec3 foot = x - key * ((b.centre.y() - floor) / key.y());
+    for (int i = 0; ground && i < (b.radius > 0 ? 8 : 1); ++i) {
       const double angle = i * std::numbers::pi / 4;
-      const Vec3 rim =
-          foot + 1.1 * b.radius * (std::cos(angle) * upright.row(0) + std::sin(angle) * upright.row(2)).transpose();
+      const Vec3 rim = foot + 1.1 * b.radius * Vec3(std::cos(angle), 0, std::sin(angle));
       horizontal.shadow.hold(right.dot(rim), back.dot(rim), 0);
       vertical.shadow.hold(top.dot(rim), back.dot(rim), 0);
     }
   }
-  const double distance = std::max(horizontal.least_distance(), vertical.least_distance());
-  view.eye = origin + right * horizontal.middle(distance) + top * vertical.middle(distance) + back * distance;
+  const double nearest = std::max(horizontal.nearest(), vertical.nearest());
+  const double farthest = std::max(horizontal.farthest(), vertical.farthest());
+  const double distance = std::clamp(std::max(horizontal.shadows_seen(), vertical.shadows_seen()), nearest, farthest);
+  View view;
+  view.eye = origin + right * horizontal.middle() + top * vertical.middle() + back * distance;
   view.target = view.eye - back * distance;
+  if (ground) view.floor = floor;
   return view;
 }
 

@@ -29,7 +29,7 @@ struct Frame {
 Frame frame_of(const View& view, double aspect);
 
 /// Horizontal right and towards-the-viewer for a look along -towards, as rows 0 and 2; up is row 1.
-Eigen::Matrix3d upright_axes(const Vec3& towards_eye, const Vec3& up);
+Eigen::Matrix3d upright_axes(const Vec3& towards_eye);
 
 /// Direction to the middle of the key light in the frame: steep, from the left behind the viewer.
 Eigen::Vector3f key_direction();

@@ -1,4 +1,4 @@
-// A run as a clip: all methods side by side in one view and one scale, in the scene's own time.
+// A run as a clip (H.264 in MP4, by ffmpeg): all methods side by side in one view and one scale, in the scene's time.
 #pragma once
 
 #include <filesystem>
@@ -11,13 +11,13 @@ namespace crosscheck {
 /// Its step divides the time between two frames.
 Run clip_run(const Scene& scene);
 
+/// Throws InputError for mode strip and sizes of odd numbers, Unsupported that names the package without ffmpeg.
+void require_clip(const Shot& shot);
+
 /// Writes the results of clip_run() as an MP4; `shot.at` has no meaning. Failed runs stand still and say so. Shows
-/// progress. Throws InputError for mode strip, sizes of odd numbers, and where nothing can be shown; Unsupported
-/// without ffmpeg.
+/// progress. Throws like require_clip(), InputError where nothing can be shown, and std::runtime_error with ffmpeg's
+/// words.
 void write_clip(const Scene& scene, const std::vector<const MethodResult*>& answers, const Shot& shot,
                 const std::filesystem::path& file);
-
-/// Whether a clip of this shot is possible: throws as write_clip() does, before any run.
-void require_clip(const Shot& shot);
 
 }  // namespace crosscheck

@@ -1,6 +1,6 @@
 // The only file that knows the off-screen context: OSMesa where the build found it, else EGL's surfaceless platform
 // (Mesa removed OSMesa in version 25.1).
-#include "report/pictures/context.h"
+#include "report/pictures/gl.h"
 
 #ifdef CROSSCHECK_WITH_OSMesa
 #include <GL/osmesa.h>
@@ -22,17 +22,8 @@ struct Context::Handle {
   OSMesaContext context = nullptr;
   std::array<unsigned char, 16 * 16 * 4> pixels{};  // OSMesa wants a buffer; all drawing goes to own framebuffers
   Handle() {
-    const int attributes[] = {OSMESA_FORMAT,
-                              OSMESA_RGBA,
-                              OSMESA_DEPTH_BITS,
-                              0,
-                              OSMESA_PROFILE,
-                              OSMESA_CORE_PROFILE,
-                              OSMESA_CONTEXT_MAJOR_VERSION,
-                              3,
-                              OSMESA_CONTEXT_MINOR_VERSION,
-                              3,
-                              0};
+    const int attributes[] = {
+        OSMESA_PROFILE, OSMESA_CORE_PROFILE, OSMESA_CONTEXT_MAJOR_VERSION, 3, OSMESA_CONTEXT_MINOR_VERSION, 3, 0};
     context = OSMesaCreateContextAttribs(attributes, nullptr);
   }
   ~Handle() {
@@ -41,7 +32,6 @@ struct Context::Handle {
     OSMesaDestroyContext(context);
   }
   bool make_current() { return context && OSMesaMakeCurrent(context, pixels.data(), GL_UNSIGNED_BYTE, 16, 16); }
-  static GlAddress address(const char* name) { return reinterpret_cast<GlAddress>(OSMesaGetProcAddress(name)); }
 };
 
 #else
@@ -67,7 +57,6 @@ struct Context::Handle {
   bool make_current() {
     return context != EGL_NO_CONTEXT && eglMakeCurrent(display, EGL_NO_SURFACE, EGL_NO_SURFACE, context);
   }
-  static GlAddress address(const char* name) { return reinterpret_cast<GlAddress>(eglGetProcAddress(name)); }
 };
 
 #endif
@@ -77,14 +66,12 @@ Context::Context() {
   setenv("MESA_SHADER_CACHE_DISABLE", "true", 1);
   handle_ = std::make_unique<Handle>();
   make_current();
-  gl_ = load_gl(&Handle::address);
 
   // a libGL linked next to OSMesa would swallow every call in silence
-  const auto* name = reinterpret_cast<const char*>(gl_.GetString(GL_RENDERER));
+  const auto* name = reinterpret_cast<const char*>(glGetString(GL_RENDERER));
   const std::string renderer = name ? name : "nothing";
-  if (renderer.rfind("llvmpipe", 0) != 0 && renderer.rfind("softpipe", 0) != 0) {
+  if (!renderer.starts_with("llvmpipe") && !renderer.starts_with("softpipe"))
     throw std::runtime_error("Mesa's software renderer does not answer (GL_RENDERER: " + renderer + ")");
-  }
 }
 
 Context::~Context() = default;

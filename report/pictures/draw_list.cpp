@@ -1,15 +1,12 @@
 // Turns the bodies of a panel into what the painter draws.
 #include "report/pictures/draw_list.h"
 
-#include <fmt/format.h>
 #include <Eigen/Geometry>
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <set>
-#include <stdexcept>
-#include <vector>
 
 namespace crosscheck::render {
 namespace {
@@ -32,31 +29,10 @@ struct TransformedBody {
   float median_length(const std::vector<std::array<int, 2>>& edges) const;
 };
 
-constexpr float absurd = 200;  // heights of the view: a particle beyond this counts as blown up
+constexpr float absurd = 200;      // heights of the view: a particle beyond this counts as blown up
+constexpr float near_view = 2.5f;  // limit in the same unit beyond which nothing throws a shadow
 
-void check(const Body& body) {
-  const auto inside = [&](const auto& indices, const char* what) {
-    for (const int i : indices) {
-      if (i >= 0 && i < body.x.cols()) continue;
-      throw std::runtime_error(fmt::format("render: a {} names particle {} of {}", what, i, body.x.cols()));
-    }
-  };
-  for (const auto& triangle : body.triangles) inside(triangle, "triangle");
-  for (const auto& edge : body.threads) inside(edge, "thread");
-  for (const auto& edge : body.tubes) inside(edge, "tube");
-  inside(body.pinned, "pin");
-
-  const auto as_many = [](std::size_t have, std::size_t want, const char* what) {
-    if (have != 0 && have != want) throw std::runtime_error(fmt::format("render: {} {} for {}", have, what, want));
-  };
-  as_many(body.value.size(), std::size_t(body.x.cols()), "particle values");
-  as_many(body.tube_value.size(), body.tubes.size(), "tube values");
-  as_many(body.tube_colour.size(), body.tubes.size(), "tube colours");
-}
-
-/// Throws std::runtime_error for an index that no particle has, or for values of the wrong number.
 TransformedBody transform_body(const Body& body, const Frame& frame, const Scale* scale) {
-  check(body);
   TransformedBody placed{body, scale, {}, {}};
   for (Eigen::Index i = 0; i < body.x.cols(); ++i) {
     placed.x.push_back(frame.place(body.x.col(i)));
@@ -243,7 +219,7 @@ void add_trail(const Body& body, const Frame& frame, DrawList& list) {
   std::vector<Eigen::Vector3f> path;
   for (const Vec3& point : body.trail) {
     const Eigen::Vector3f x = frame.place(point);
-    if (!x.allFinite() || x.cwiseAbs().maxCoeff() > 200) continue;
+    if (!x.allFinite() || x.cwiseAbs().maxCoeff() > absurd) continue;
     if (path.empty() || (x - path.back()).norm() > least_step || &point == &body.trail.back()) path.push_back(x);
   }
   for (std::size_t i = 1; i < path.size(); ++i) {
@@ -269,26 +245,21 @@ float longest_edge_near(const DrawList& list, const Sphere& ball) {
 
 /// A sphere around what is not absurdly far out of view: the shadow maps are spread over it.
 void enclose(DrawList& list) {
-  constexpr float near_view = 2.5f;
+  std::vector<std::pair<Eigen::Vector3f, float>> all;
+  for (const ClothVertex& c : list.cloth) all.emplace_back(c.x, 0);
+  for (const auto* spheres : {&list.balls, &list.beads})
+    for (const Sphere& s : *spheres) all.emplace_back(s.centre, s.radius);
+  for (const Capsule& r : list.rods) all.emplace_back(r.a, r.radius), all.emplace_back(r.b, r.radius);
+  std::erase_if(all, [](const auto& each) { return each.first.cwiseAbs().maxCoeff() > near_view; });
+  if (all.empty()) return;
   Eigen::AlignedBox3f box;
-  const auto add = [&](const Eigen::Vector3f& x, float radius) {
-    if (x.cwiseAbs().maxCoeff() > near_view) return;
-    box.extend(x - Eigen::Vector3f::Constant(radius)), box.extend(x + Eigen::Vector3f::Constant(radius));
-  };
-  for (const ClothVertex& c : list.cloth) add(c.x, 0);
-  for (const Sphere& s : list.balls) add(s.centre, s.radius);
-  for (const Sphere& s : list.beads) add(s.centre, s.radius);
-  for (const Capsule& r : list.rods) add(r.a, r.radius), add(r.b, r.radius);
-  if (box.isEmpty()) return;
+  for (const auto& [x, radius] : all) {
+    box.extend((x.array() - radius).matrix());
+    box.extend((x.array() + radius).matrix());
+  }
   list.centre = box.center();
-  const auto reach = [&](const Eigen::Vector3f& x, float radius) {
-    if (x.cwiseAbs().maxCoeff() <= near_view) list.radius = std::max(list.radius, (x - list.centre).norm() + radius);
-  };
   list.radius = 0.01f;
-  for (const ClothVertex& c : list.cloth) reach(c.x, 0);
-  for (const Sphere& s : list.balls) reach(s.centre, s.radius);
-  for (const Sphere& s : list.beads) reach(s.centre, s.radius);
-  for (const Capsule& r : list.rods) reach(r.a, r.radius), reach(r.b, r.radius);
+  for (const auto& [x, radius] : all) list.radius = std::max(list.radius, (x - list.centre).norm() + radius);
   list.radius *= 1.03f;  // the outermost texels of a shadow map stay empty
 }
 

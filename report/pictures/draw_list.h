@@ -42,8 +42,21 @@ struct DrawList {
   float radius = 0.5f;
 };
 
-/// Leaves out whatever has a vertex that is not finite or absurdly far away. Throws std::runtime_error for an index
-/// that no particle has, or for values of the wrong number.
+/// Leaves out whatever has a vertex that is not finite or absurdly far away.
 DrawList draw_list_of(const Panel& panel, const Frame& frame, const std::optional<Scale>& scale);
+
+// in mesh.cpp: the two shapes that are drawn many times, a unit sphere and a rod with round ends
+
+struct Mesh {
+  std::vector<Eigen::Vector4f> corner;  // sphere: unit normal, 0; rod: unit normal in the rod's axes, end (0 or 1)
+  std::vector<unsigned> index;          // three per triangle, counter-clockwise from outside
+};
+
+/// A sphere of `around` slices and around / 2 stacks: its chords dip 1 - cos(pi / around) of the radius below the
+/// surface.
+Mesh sphere_mesh(int around);
+
+/// A rod along its third axis with `around` sides and round ends of `rings` rings each.
+Mesh capsule_mesh(int around, int rings);
 
 }  // namespace crosscheck::render

@@ -9,9 +9,7 @@
 
 namespace crosscheck::render {
 
-// The width of a text, so that it can be made to fit before it is set.
-
-/// Width of a UTF-8 text in DejaVu Sans (or its bold), in units of the font size; letters outside ASCII are guessed.
+/// Width of a text in DejaVu Sans (or its bold), in units of the font size; defined in lettering.cpp.
 double text_width(const std::string& text, bool bold);
 
 inline constexpr double line_height = 1.25;  // from one line of a text to the next, in units of the font size

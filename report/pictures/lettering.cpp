@@ -1,122 +1,135 @@
-// Labels, swatches and the colour bar as gnuplot commands at places given in pixels.
+// Nothing here depends on the user's font settings but which files hold DejaVu Sans.
 #include "report/pictures/lettering.h"
 
+#include <cairo-pdf.h>
+#include <cairo.h>
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
-#include <fstream>
+#include <cstdint>
+#include <memory>
 #include <stdexcept>
 
-#include "mysim/base/files.h"
-#include "report/base/gnuplot.h"
+#include "mysim/base/names.h"
 #include "report/pictures/colour.h"
-#include "report/pictures/layout.h"
-#include "report/pictures/png_file.h"
 
 namespace crosscheck::render {
 namespace {
 
-/// Letters, boxes and lines as gnuplot commands, at places in pixels from the top left of a page.
-class GnuplotPage {
+struct Release {
+  void operator()(cairo_t* c) const { cairo_destroy(c); }
+  void operator()(cairo_surface_t* s) const { cairo_surface_destroy(s); }
+  void operator()(cairo_pattern_t* p) const { cairo_pattern_destroy(p); }
+  void operator()(cairo_font_options_t* o) const { cairo_font_options_destroy(o); }
+};
+template <class T>
+using Owned = std::unique_ptr<T, Release>;
+
+void check(cairo_status_t status) {
+  if (status != CAIRO_STATUS_SUCCESS)
+    throw std::runtime_error(fmt::format("Cairo: {}", cairo_status_to_string(status)));
+}
+
+/// The pixels as Cairo keeps them.
+Owned<cairo_surface_t> surface_of(const Image& image) {
+  Owned<cairo_surface_t> surface(cairo_image_surface_create(CAIRO_FORMAT_RGB24, image.width, image.height));
+  check(cairo_surface_status(surface.get()));
+  auto* to = reinterpret_cast<std::uint32_t*>(cairo_image_surface_get_data(surface.get()));
+  for (std::size_t i = 0; i < image.rgb.size(); i += 3)
+    *to++ = std::uint32_t(image.rgb[i] << 16 | image.rgb[i + 1] << 8 | image.rgb[i + 2]);
+  cairo_surface_mark_dirty(surface.get());
+  return surface;
+}
+
+/// Letters, boxes and lines at places in pixels from the top left.
+class Page {
  public:
-  GnuplotPage(int width, int height, const PageFormat& paper, const std::string& output);
+  explicit Page(cairo_surface_t* surface) : cairo_(cairo_create(surface)) {
+    const Owned<cairo_font_options_t> options(cairo_font_options_create());
+    cairo_font_options_set_hint_style(options.get(), CAIRO_HINT_STYLE_NONE);
+    cairo_font_options_set_hint_metrics(options.get(), CAIRO_HINT_METRICS_OFF);
+    cairo_font_options_set_antialias(options.get(), CAIRO_ANTIALIAS_GRAY);
+    cairo_set_font_options(cairo_.get(), options.get());
+  }
 
-  void line(const std::string& command) { text_ += command + "\n"; }
-  /// Text with the middle of its first line at height y, further ones (after line feeds) below; `side` is left, center
-  /// or right. Size in pixels.
-  void label(double x, double y, const char* side, const std::string& text, double size, bool bold, unsigned colour);
-  void box(double left, double top, double right, double bottom, unsigned colour);
-  void stroke(double x0, double y0, double x1, double y1, unsigned colour, double width);
-  /// Ends the page: below all of it the raw pixels in this file, or nothing.
-  void finish(const std::string& pixels);
-
-  const std::string& text() const { return text_; }
+  /// Width of the text in units of its size.
+  double width(const std::string& text, bool bold) {
+    cairo_text_extents_t extents;
+    set_font(bold, 100);
+    cairo_text_extents(cairo_.get(), printable(text).c_str(), &extents);
+    return extents.x_advance / 100;
+  }
+  /// Text with the middle of its first line at height y, further ones below; it begins at x (`before` 0) or has its
+  /// middle there (0.5). Size in pixels.
+  void label(double x, double y, double before, const std::string& text, double size, bool bold, unsigned colour) {
+    for (const std::string& line : lines_of(text)) {
+      const double start = x - before * size * width(line, bold);
+      set_font(bold, size), set_ink(colour);
+      cairo_move_to(cairo_.get(), start, y + 0.35 * size);
+      cairo_show_text(cairo_.get(), printable(line).c_str());
+      y += line_height * size;
+    }
+  }
+  void box(double left, double top, double width, double height, unsigned colour) {
+    set_ink(colour);
+    cairo_rectangle(cairo_.get(), left, top, width, height);
+    cairo_fill(cairo_.get());
+  }
+  void stroke(double x0, double y0, double x1, double y1, unsigned colour) {
+    set_ink(colour);
+    cairo_set_line_width(cairo_.get(), 0.8);
+    cairo_move_to(cairo_.get(), x0, y0), cairo_line_to(cairo_.get(), x1, y1);
+    cairo_stroke(cairo_.get());
+  }
+  /// A box with the colours of a scale from left to right.
+  void gradient(double left, double top, double width, double height, bool diverging) {
+    const Owned<cairo_pattern_t> colours(cairo_pattern_create_linear(left, 0, left + width, 0));
+    for (int i = 0; i <= 24; ++i) {  // four pieces between two stops of the map
+      const Colour c = scale_colour(diverging, float(i) / 24);
+      cairo_pattern_add_color_stop_rgb(colours.get(), i / 24.0, c.x(), c.y(), c.z());
+    }
+    cairo_set_source(cairo_.get(), colours.get());
+    cairo_rectangle(cairo_.get(), left, top, width, height);
+    cairo_fill(cairo_.get());
+  }
+  cairo_t* cairo() const { return cairo_.get(); }
 
  private:
-  std::string at(double x, double y) const;
+  void set_font(bool bold, double size) {
+    cairo_select_font_face(cairo_.get(), "DejaVu Sans", CAIRO_FONT_SLANT_NORMAL,
+                           bold ? CAIRO_FONT_WEIGHT_BOLD : CAIRO_FONT_WEIGHT_NORMAL);
+    cairo_set_font_size(cairo_.get(), size);
+  }
+  void set_ink(unsigned colour) {
+    const Colour c = from_hex(colour);
+    cairo_set_source_rgb(cairo_.get(), c.x(), c.y(), c.z());
+  }
 
-  int width_, height_;
-  double points_;  // of a pixel
-  std::string text_;
+  Owned<cairo_t> cairo_;
 };
 
-GnuplotPage::GnuplotPage(int width, int height, const PageFormat& paper, const std::string& output)
-    : width_(width), height_(height), points_(72 / paper.pixels_per_inch) {
-  line("set encoding utf8");
-  const std::string look = fmt::format("font 'DejaVu Sans,10' background rgb '#{:06X}'", background_hex);
-  // a scale of 0.75 makes its points of letters points of the page
-  if (paper.pdf)
-    line(fmt::format("set terminal pdfcairo size {:.6f}in,{:.6f}in {} fontscale 0.75 linewidth {:.4f}",
-                     width / paper.pixels_per_inch, height / paper.pixels_per_inch, look, points_ / 0.75));
-  else
-    line(fmt::format("set terminal pngcairo size {},{} {}", width, height, look));
-  line(fmt::format("set output '{}'", output));
-  line("set lmargin at screen 0; set rmargin at screen 1; set bmargin at screen 0; set tmargin at screen 1");
-  line("unset border; unset tics; unset key");
-  line(fmt::format("set xrange [-0.5:{}]; set yrange [{}:-0.5]", width - 0.5, height - 0.5));
-}
+constexpr unsigned title_ink = 0x111111, ink = 0x333333, subtitle_ink = 0x666666, note_ink = 0x9A1F2E, edge = 0x777777;
 
-void GnuplotPage::label(double x, double y, const char* side, const std::string& text, double size, bool bold,
-                        unsigned colour) {
-  if (text.empty()) return;
-  for (const std::string& words : lines_of(text)) {
-    line(fmt::format("set label {} at {} {} noenhanced front font 'DejaVu Sans{},{:.2f}' textcolor rgb '#{:06X}'",
-                     single_quoted(words), at(x, y), side, bold ? ":Bold" : "", points_ * size, colour));
-    y += line_height * size;
-  }
-}
-
-void GnuplotPage::box(double left, double top, double right, double bottom, unsigned colour) {
-  line(fmt::format("set object rectangle from {} to {} front fillcolor rgb '#{:06X}' fillstyle solid noborder",
-                   at(left, bottom), at(right, top), colour));
-}
-
-void GnuplotPage::stroke(double x0, double y0, double x1, double y1, unsigned colour, double width) {
-  line(fmt::format("set arrow from {} to {} nohead front linecolor rgb '#{:06X}' linewidth {:.2f}", at(x0, y0),
-                   at(x1, y1), colour, width));
-}
-
-void GnuplotPage::finish(const std::string& pixels) {
-  if (pixels.empty())
-    line("plot NaN");
-  else
-    line(fmt::format("plot '{}' binary array=({},{}) format='%uchar' using 1:2:3 with rgbimage", pixels, width_,
-                     height_));
-}
-
-std::string GnuplotPage::at(double x, double y) const {
-  return fmt::format("screen {:.6f}, screen {:.6f}", x / width_, 1 - y / height_);
-}
-
-constexpr unsigned title_ink = 0x111111, ink = 0x333333, subtitle_ink = 0x666666, note_ink = 0x9A1F2E;
-
-double middle_of_column(const Layout& layout, std::size_t column) {
-  return layout.left + (double(column) + 0.5) * layout.panel_width;
-}
-
-void add_titles(GnuplotPage& page, const Picture& picture, const Layout& layout) {
+void add_titles(Page& page, const Picture& picture, const Layout& layout) {
   for (std::size_t r = 0; r < picture.rows.size(); ++r) {
     const auto& row = picture.rows[r];
     for (std::size_t c = 0; c < row.size(); ++c) {
-      const double middle = middle_of_column(layout, c), left = middle - 0.5 * layout.panel_width;
+      const double left = layout.left + double(c) * layout.panel_width, middle = left + 0.5 * layout.panel_width;
       const double above = line_height * layout.title * double(lines_of(row[c].title).size() - 1);
-      const double y = layout.title_y[r] - above;
-      if (is_strip(row) && c == 0) {
-        page.label(left + 0.8 * layout.text, y, "left", row[c].title, layout.title, true, title_ink);
-      } else {
-        page.label(middle, y, "center", row[c].title, layout.title, true, title_ink);
-      }
-      page.label(middle, layout.subtitle_y[r], "center", row[c].subtitle, layout.subtitle, false, subtitle_ink);
+      const bool heads_row = is_strip(row) && c == 0;
+      page.label(heads_row ? left + 0.8 * layout.text : middle, layout.title_y[r] - above, heads_row ? 0 : 0.5,
+                 row[c].title, layout.title, true, title_ink);
+      page.label(middle, layout.subtitle_y[r], 0.5, row[c].subtitle, layout.subtitle, false, subtitle_ink);
       const double foot = layout.panel_top[r] + layout.panel_height - 1.1 * layout.text;
       const double note =
           std::min(layout.text, 0.94 * layout.panel_width / std::max(text_width(row[c].note, false), 1.0));
-      page.label(middle, foot, "center", row[c].note, note, false, note_ink);
+      page.label(middle, foot, 0.5, row[c].note, note, false, note_ink);
     }
   }
 }
 
-void add_legend(GnuplotPage& page, const Picture& picture, const Layout& layout) {
+void add_legend(Page& page, const Picture& picture, const Layout& layout) {
   const double font = layout.text;
   for (std::size_t l = 0; l < layout.legend.size(); ++l) {
     double width = 0;
@@ -125,8 +138,8 @@ void add_legend(GnuplotPage& page, const Picture& picture, const Layout& layout)
     const double y = layout.legend_y + 1.7 * font * double(l);
     for (const int i : layout.legend[l]) {
       const std::string& name = picture.legend[std::size_t(i)];
-      page.box(x, y - 0.28 * font, x + 1.5 * font, y + 0.28 * font, palette_hex(i));
-      page.label(x + 2.0 * font, y, "left", name, font, false, ink);
+      page.box(x, y - 0.28 * font, 1.5 * font, 0.56 * font, palette_hex(i));
+      page.label(x + 2.0 * font, y, 0, name, font, false, ink);
       x += legend_entry_width(name, font);
     }
   }
@@ -146,98 +159,73 @@ std::string number(double value, double step) {
   return text;
 }
 
-void add_bar(GnuplotPage& page, const Scale& scale, const Layout& layout) {
+void add_bar(Page& page, const Scale& scale, const Layout& layout) {
   const double font = layout.text, top = layout.bar_top, bottom = top + layout.bar_height;
   const double left = layout.bar_left, right = left + layout.bar_width;
-  // edges drawn once around the bar, which has its colours in the pixels
-  for (const double y : {top, bottom}) page.stroke(left, y, right, y, 0x777777, 0.8);
-  for (const double x : {left, right}) page.stroke(x, top, x, bottom, 0x777777, 0.8);
-  page.label((left + right) / 2, bottom + 2.25 * font, "center", scale.label, font, false, title_ink);
+  page.gradient(left, top, layout.bar_width, layout.bar_height, scale.diverging);
+  for (const double y : {top, bottom}) page.stroke(left, y, right, y, edge);
+  for (const double x : {left, right}) page.stroke(x, top, x, bottom, edge);
+  page.label((left + right) / 2, bottom + 2.25 * font, 0.5, scale.label, font, false, title_ink);
 
   const double span = scale.high - scale.low;
   if (!(span > 0) || !std::isfinite(span)) return;
   const double step = tick_step(span);
   for (double i = std::ceil(scale.low / step - 1e-6); i * step <= scale.high + 1e-6 * span; ++i) {
     const double x = left + layout.bar_width * std::clamp((i * step - scale.low) / span, 0.0, 1.0);
-    page.stroke(x, bottom, x, bottom + 0.3 * font, 0x777777, 0.8);
-    page.label(x, bottom + 0.95 * font, "center", number(i * step, step), 0.92 * font, false, ink);
+    page.stroke(x, bottom, x, bottom + 0.3 * font, edge);
+    page.label(x, bottom + 0.95 * font, 0.5, number(i * step, step), 0.92 * font, false, ink);
   }
 }
 
-}  // namespace
-
-std::string lettering_script(const Picture& picture, const Layout& layout, const PageFormat& paper,
-                             const std::string& pixels, const std::string& output) {
-  GnuplotPage page(picture.width, picture.height, paper, output);
+void add_letters(Page& page, const Picture& picture, const Layout& layout) {
   add_titles(page, picture, layout);
   add_legend(page, picture, layout);
   if (picture.scale) add_bar(page, *picture.scale, layout);
-  page.finish(pixels);
-  return page.text();
-}
-
-std::string subtitles_script(const std::vector<std::vector<std::string>>& bands, const Layout& layout, int width,
-                             int height, double middle, const std::string& output) {
-  GnuplotPage page(width, height * int(bands.size()), {}, output);
-  for (std::size_t b = 0; b < bands.size(); ++b)
-    for (std::size_t c = 0; c < bands[b].size(); ++c)
-      page.label(middle_of_column(layout, c), double(b) * height + middle, "center", bands[b][c], layout.subtitle,
-                 false, subtitle_ink);
-  page.finish("");
-  return page.text();
-}
-
-namespace {
-
-namespace fs = std::filesystem;
-
-void write(const fs::path& file, const void* data, std::size_t bytes) {
-  std::ofstream out(file, std::ios::binary);
-  out.write(static_cast<const char*>(data), std::streamsize(bytes));
-  if (!out.flush()) throw std::runtime_error("cannot write " + file.string());
-}
-
-void draw_letters(const std::string& script, const fs::path& folder, const std::string& drawn,
-                  const std::string& what) {
-  write(folder / "letters.gp", script.data(), script.size());
-  print_warnings(run_gnuplot("letters.gp", folder, {drawn}, what), what);
+  check(cairo_status(page.cairo()));
 }
 
 }  // namespace
 
-void paint_bar(const Picture& picture, const Layout& layout, Image& image) {
-  if (!picture.scale) return;
-  const int left = int(layout.bar_left), right = int(layout.bar_left + layout.bar_width);
-  const int top = int(layout.bar_top), bottom = int(layout.bar_top + layout.bar_height);
-  for (int x = left; x < right; ++x) {
-    const Colour colour = scale_colour(picture.scale->diverging, (float(x - left) + 0.5f) / float(right - left));
-    for (int y = top; y < bottom; ++y) {
-      unsigned char* pixel = &image.rgb[3 * (std::size_t(y) * std::size_t(image.width) + std::size_t(x))];
-      for (int channel = 0; channel < 3; ++channel)
-        pixel[channel] = static_cast<unsigned char>(std::lround(255 * colour[channel]));
-    }
-  }
-}
-
-void write_lettered(const Picture& picture, const Layout& layout, const Image& image, const PageFormat& paper,
-                    const std::string& what, const fs::path& file) {
-  const TemporaryFolder folder("render");
-  write(folder.path / "pixels", image.rgb.data(), image.rgb.size());
-  draw_letters(lettering_script(picture, layout, paper, "pixels", "picture"), folder.path, "picture", what);
-  fs::copy_file(folder.path / "picture", file, fs::copy_options::overwrite_existing);
+double text_width(const std::string& text, bool bold) {
+  const Owned<cairo_surface_t> surface(cairo_image_surface_create(CAIRO_FORMAT_A8, 1, 1));
+  return Page(surface.get()).width(text, bold);
 }
 
 Image lettered(const Picture& picture, const Layout& layout, const Image& image) {
-  const TemporaryFolder folder("letters");
-  const fs::path file = folder.path / "picture.png";
-  write_lettered(picture, layout, image, {}, "the letters of a clip", file);
-  return read_png(file);
+  const Owned<cairo_surface_t> surface = surface_of(image);
+  Page page(surface.get());
+  add_letters(page, picture, layout);
+  cairo_surface_flush(surface.get());
+  Image out{image.width, image.height, {}};
+  out.rgb.reserve(image.rgb.size());
+  const auto* from = reinterpret_cast<const std::uint32_t*>(cairo_image_surface_get_data(surface.get()));
+  for (int i = 0; i < image.width * image.height; ++i)
+    for (const unsigned shift : {16u, 8u, 0u}) out.rgb.push_back(static_cast<unsigned char>(from[i] >> shift));
+  return out;
 }
 
-Image drawn_letters(const std::string& script) {
-  const TemporaryFolder folder("letters");
-  draw_letters(script, folder.path, "picture.png", "the letters of a clip");
-  return read_png(folder.path / "picture.png");
+std::string pdf_page(const Picture& picture, const Layout& layout, const Image& image, double pixels_per_inch) {
+  std::string bytes;
+  const auto append = [](void* to, const unsigned char* data, unsigned size) {
+    static_cast<std::string*>(to)->append(reinterpret_cast<const char*>(data), size);
+    return CAIRO_STATUS_SUCCESS;
+  };
+  const double points = 72 / pixels_per_inch;  // size of a pixel
+  const Owned<cairo_surface_t> surface(
+      cairo_pdf_surface_create_for_stream(append, &bytes, points * image.width, points * image.height));
+  // a fixed date, so that two runs write the same bytes
+  cairo_pdf_surface_set_metadata(surface.get(), CAIRO_PDF_METADATA_CREATE_DATE, "1970-01-01T00:00:00Z");
+  {
+    Page page(surface.get());
+    cairo_scale(page.cairo(), points, points);
+    const Owned<cairo_surface_t> pixels = surface_of(image);
+    cairo_set_source_surface(page.cairo(), pixels.get(), 0, 0);
+    cairo_paint(page.cairo());
+    add_letters(page, picture, layout);
+  }
+  cairo_surface_finish(surface.get());
+  check(cairo_surface_status(surface.get()));
+  return bytes;
 }
 
 }  // namespace crosscheck::render

@@ -1,8 +1,7 @@
-// Sphere and rod as surfaces of revolution; vertex arrays and buffers.
-#include "report/pictures/mesh.h"
+// Sphere and rod as surfaces of revolution.
+#include "report/pictures/draw_list.h"
 
 #include <cmath>
-#include <cstddef>
 #include <numbers>
 
 namespace crosscheck::render {
@@ -48,71 +47,6 @@ Mesh capsule_mesh(int around, int rings) {
   }
   join_rows(mesh, 2 * rings + 2, around);
   return mesh;
-}
-
-Batch::Batch(const Gl& gl, const std::vector<ClothVertex>& cloth, const std::vector<unsigned>& index) : gl_(gl) {
-  begin(index);
-  upload(GL_ARRAY_BUFFER, cloth.data(), cloth.size() * sizeof(ClothVertex));
-  attribute(0, 3, sizeof(ClothVertex), offsetof(ClothVertex, x), false);
-  attribute(1, 3, sizeof(ClothVertex), offsetof(ClothVertex, normal), false);
-  attribute(2, 3, sizeof(ClothVertex), offsetof(ClothVertex, rim), false);
-  attribute(3, 2, sizeof(ClothVertex), offsetof(ClothVertex, value), false);
-  instances_ = 1;
-}
-
-Batch::Batch(const Gl& gl, const Mesh& mesh, const std::vector<Sphere>& spheres) : gl_(gl) {
-  upload_mesh(mesh);
-  upload(GL_ARRAY_BUFFER, spheres.data(), spheres.size() * sizeof(Sphere));
-  attribute(1, 4, sizeof(Sphere), offsetof(Sphere, centre), true);
-  attribute(2, 3, sizeof(Sphere), offsetof(Sphere, colour), true);
-  instances_ = GLsizei(spheres.size());
-}
-
-Batch::Batch(const Gl& gl, const Mesh& mesh, const std::vector<Capsule>& rods) : gl_(gl) {
-  upload_mesh(mesh);
-  upload(GL_ARRAY_BUFFER, rods.data(), rods.size() * sizeof(Capsule));
-  attribute(1, 4, sizeof(Capsule), offsetof(Capsule, a), true);
-  attribute(2, 3, sizeof(Capsule), offsetof(Capsule, b), true);
-  attribute(3, 3, sizeof(Capsule), offsetof(Capsule, colour), true);
-  instances_ = GLsizei(rods.size());
-}
-
-Batch::~Batch() {
-  gl_.DeleteVertexArrays(1, &array_);
-  gl_.DeleteBuffers(GLsizei(buffers_.size()), buffers_.data());
-}
-
-void Batch::draw() const {
-  if (empty()) return;
-  gl_.BindVertexArray(array_);
-  gl_.DrawElementsInstanced(GL_TRIANGLES, corners_, GL_UNSIGNED_INT, nullptr, instances_);
-}
-
-void Batch::upload(GLenum kind, const void* data, std::size_t bytes) {
-  GLuint buffer = 0;
-  gl_.GenBuffers(1, &buffer);
-  buffers_.push_back(buffer);
-  gl_.BindBuffer(kind, buffer);
-  gl_.BufferData(kind, GLsizeiptr(bytes), data, GL_STATIC_DRAW);
-}
-
-void Batch::begin(const std::vector<unsigned>& index) {
-  gl_.GenVertexArrays(1, &array_);
-  gl_.BindVertexArray(array_);
-  upload(GL_ELEMENT_ARRAY_BUFFER, index.data(), index.size() * sizeof(unsigned));
-  corners_ = GLsizei(index.size());
-}
-
-void Batch::upload_mesh(const Mesh& mesh) {
-  begin(mesh.index);
-  upload(GL_ARRAY_BUFFER, mesh.corner.data(), mesh.corner.size() * sizeof(Eigen::Vector4f));
-  attribute(0, 4, sizeof(Eigen::Vector4f), 0, false);
-}
-
-void Batch::attribute(GLuint index, GLint numbers, std::size_t stride, std::size_t offset, bool per_instance) {
-  gl_.EnableVertexAttribArray(index);
-  gl_.VertexAttribPointer(index, numbers, GL_FLOAT, GL_FALSE, GLsizei(stride), reinterpret_cast<const void*>(offset));
-  gl_.VertexAttribDivisor(index, per_instance ? 1 : 0);
 }
 
 }  // namespace crosscheck::render

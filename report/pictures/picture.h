@@ -44,13 +44,12 @@ struct Panel {
   std::vector<Ball> balls;
 };
 
-/// One camera for all panels, so that what looks different is different.
+/// One camera for all panels, so that what looks different is different. Up is +y.
 struct View {
   Vec3 eye, target;             // m
-  Vec3 up{0, 1, 0};             // unit vector; the ground is perpendicular to it
-  double field_of_view = 25;    // degrees, vertical
-  std::optional<double> floor;  // height along up of the shadow-catching ground, m; none: no ground
+  std::optional<double> floor;  // height of the shadow-catching ground, m; none: no ground
 };
+inline constexpr double field_of_view = 25;  // degrees, vertical
 
 /// Maps a value to a colour; drawn as a bar below the panels.
 struct Scale {
@@ -71,6 +70,7 @@ struct Picture {
   Legend legend;
   int width = 1280, height = 720;  // pixels, of the whole picture
   double text = 0;                 // height of all letters, pixels; 0: as the size needs them, titles larger
+  double subtitle = 0;             // largest height of subtitles, pixels; 0: that of all letters
   Quality quality = Quality::still;
 };
 
@@ -80,14 +80,8 @@ struct Image {
   std::vector<unsigned char> rgb;  // 3 * width * height
 };
 
-/// Background alone.
-Image blank(int width, int height);
-
-/// Draws the panels (no letters) off screen. Same input, same bytes. Throws std::runtime_error with the cause.
-Image draw(const Picture& picture);
-
 /// Draws like draw(), but keeps the OpenGL context and its compiled shaders for the next picture (of the same size,
-/// quality and kind of scale): for animations, where compiling takes longer than drawing. To be used in one thread.
+/// quality and kind of scale): for clips, where compiling takes longer than drawing. To be used in one thread.
 class OffscreenRenderer {
  public:
   OffscreenRenderer();
@@ -99,11 +93,12 @@ class OffscreenRenderer {
   std::unique_ptr<Parts> parts_;
 };
 
-/// draw(), then titles, colour bar and legend by gnuplot, written to file (PNG) under a temporary name and renamed.
-/// Throws std::runtime_error with the cause (nothing to be seen, gnuplot missing, its picture not whole, file
-/// not writable).
+/// The panels without letters, drawn off screen. Same input, same bytes. Throws std::runtime_error with the cause.
+Image draw(const Picture& picture);
+
+/// Writes the picture with titles, colour bar and legend as PNG. Throws std::runtime_error with the cause (nothing to
+/// be seen, file not writable).
 void write_png(const Picture& picture, const std::filesystem::path& file);
-void write_png(const Picture& picture, const std::filesystem::path& file, OffscreenRenderer& renderer);
 
 /// The same as PNG and as PDF for a page on which so many pixels make an inch; on that page letters are letters.
 void write_print(const Picture& picture, double pixels_per_inch, const std::filesystem::path& png,
@@ -120,9 +115,10 @@ int height_for(const Picture& picture, double aspect);
 /// to keep that size, wraps titles and subtitles, and chooses the height.
 void arrange(Picture& picture, double aspect);
 
-/// A view that holds all the points (and balls) given and their shadow, seen from the direction (from the target to the
-/// eye, need not be of unit length). Points that are not finite are left out; the floor is put below the lowest point.
+/// A view with all the points (and balls) given in its middle, seen from the direction (from the target to the eye, of
+/// any length). They fill 70 to 88 % of its width or height, as much as leaves room for their shadow. Points that are
+/// not finite are left out. The ground is a little below the lowest point.
 View fit_view(const std::vector<Points>& points, const std::vector<Ball>& balls, const Vec3& direction, double aspect,
-              const Vec3& up = {0, 1, 0});
+              bool ground = true);
 
 }  // namespace crosscheck::render

@@ -5,19 +5,24 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "mysim/base/errors.h"
 #include "mysim/base/text.h"
 #include "reference/method.h"
 #include "report/findings/report_data.h"
+#include "report/pictures/layout.h"
 
 namespace crosscheck {
+namespace {
 
+/// Extension of the line between two particles, % of its length at rest; compression counts as zero.
 double extension(const Points& x, int a, int b, double rest) {
   return rest > 0 ? std::max(0.0, (x.col(a) - x.col(b)).norm() / rest - 1) * 100 : 0;
 }
 
-std::vector<double> stretch_of(const Scene& scene, const Points& x, std::vector<double>* per_spring) {
+/// Mean extension of the structural springs and hard distances at each particle, %; that of every spring, on request.
+std::vector<double> stretch_of(const Scene& scene, const Points& x, std::vector<double>* per_spring = nullptr) {
   std::vector<double> sum(x.cols(), 0), count(x.cols(), 0);
   if (const auto* springs = scene.model.find<Springs>())
     for (const Spring& s : springs->list) {
@@ -36,6 +41,7 @@ std::vector<double> stretch_of(const Scene& scene, const Points& x, std::vector<
   return sum;
 }
 
+/// A round number not below the value: 1, 2 or 5 times a power of ten.
 double round_up(double value) {
   if (!(value > 0)) return 1;
   const double power = std::pow(10, std::floor(std::log10(value)));
@@ -44,12 +50,7 @@ double round_up(double value) {
   return value;
 }
 
-namespace {
-
-bool is_thread(const Spring& s) { return s.family == Family::structural; }
-
-}  // namespace
-
+/// The body at one of the result's frames; in mode difference coloured by the distance from `base`.
 render::Body body_of(const Scene& scene, const MethodResult& answer, int frame, Mode mode, const Points* base) {
   render::Body body;
   body.x = answer.trajectory.x[frame];
@@ -61,7 +62,7 @@ render::Body body_of(const Scene& scene, const MethodResult& answer, int frame, 
     body.triangles = scene.triangles;
     if (springs)
       for (const Spring& s : springs->list)
-        if (is_thread(s)) body.threads.push_back({s.a, s.b});
+        if (s.family == Family::structural) body.threads.push_back({s.a, s.b});
     if (constraints)
       for (const auto& [a, b, length] : constraints->list) body.threads.push_back({a, b});
   } else {
@@ -91,6 +92,7 @@ render::Body body_of(const Scene& scene, const MethodResult& answer, int frame, 
   return body;
 }
 
+/// The families that the scene's springs belong to, in the order of the legend.
 std::vector<Family> families_of(const Scene& scene) {
   std::vector<Family> present;
   if (!scene.model.find<Springs>()) return present;
@@ -103,6 +105,8 @@ std::vector<Family> families_of(const Scene& scene) {
   return present;
 }
 
+/// The springs of a cloth as tubes, one body per family: structural ones thick, shear and bend ones thin. Bend springs
+/// lie on the structural ones; they are lifted towards the eye so that both are seen.
 std::vector<render::Body> tubes_of(const Scene& scene, const Points& x, const Vec3& towards_eye) {
   const auto& springs = scene.model.find<Springs>()->list;
   double spacing = 1e300;
@@ -123,14 +127,13 @@ std::vector<render::Body> tubes_of(const Scene& scene, const Points& x, const Ve
   return bodies;
 }
 
+/// The obstacles at time t, s.
 std::vector<render::Ball> balls_of(const Scene& scene, double t) {
   std::vector<render::Ball> balls;
   if (const auto* spheres = scene.model.find<Spheres>())
     for (const Sphere& s : spheres->list) balls.push_back({s.centre_at(t), s.radius});
   return balls;
 }
-
-namespace {
 
 constexpr int strip_columns = 5;
 constexpr double panel_in_print = 1.2;  // width over height
@@ -167,9 +170,7 @@ Vec3 towards_eye(const Scene& scene, bool flat) {
 render::View view_of(const Scene& scene, const std::vector<Points>& shown, const std::vector<render::Ball>& balls,
                      double aspect) {
   const bool flat = is_flat(scene, shown);
-  render::View view = render::fit_view(shown, balls, towards_eye(scene, flat), aspect);
-  if (flat) view.floor.reset();
-  return view;
+  return render::fit_view(shown, balls, towards_eye(scene, flat), aspect, !flat);
 }
 
 /// The method, and its step where another picture is of the same method.
@@ -251,21 +252,17 @@ render::Picture panels_of(const Scene& scene, const std::vector<const MethodResu
   const bool no_stretch =
       shot.mode == Mode::stretch && !scene.model.find<Springs>() && !scene.model.find<Constraints>();
   const Mode mode = strip || no_stretch ? Mode::shaded : shot.mode;
-  Shot when = shot;
-  for (const MethodResult* a : usable)
-    if (shot.at_first_failure && a->outcome.verdict != Verdict::ok)
-      when.at = when.at < 0 ? a->outcome.end : std::min(when.at, a->outcome.end);
-  const auto base_frames = frames_of(scene, usable[0]->trajectory, when);
+  const auto base_frames = frames_of(scene, usable[0]->trajectory, shot);
   seen.trails.clear();  // a later time's hold those of earlier ones
   if (!strip) picture.rows.emplace_back();
   for (const MethodResult* a : usable) {
     if (strip) picture.rows.emplace_back();
-    const std::vector<int> frames = frames_of(scene, a->trajectory, when);
+    const std::vector<int> frames = frames_of(scene, a->trajectory, shot);
     for (size_t c = 0; c < frames.size(); ++c) {
       const Points& base = usable[0]->trajectory.x[base_frames[c]];
       render::Panel panel;
       panel.title = !strip || c == 0 ? title_of(*a, answers) : "";
-      panel.subtitle = time_text(*a, frames[c], when);
+      panel.subtitle = time_text(*a, frames[c], shot);
       panel.balls = balls_of(scene, a->trajectory.t[frames[c]]);
       panel.bodies.push_back(body_of(scene, *a, frames[c], mode, &base));
       seen.add(panel, a->outcome.verdict == Verdict::ok);
@@ -343,21 +340,20 @@ CommonView common_view(const Scene& scene, const std::vector<const MethodResult*
                        const std::vector<Shot>& shots) {
   Seen seen;
   render::Picture last;
-  bool failures_count = false;
+  double subtitle = std::numeric_limits<double>::infinity();
   for (const Shot& shot : shots) {
     last = panels_of(scene, answers, shot, seen);
-    failures_count |= shot.at_first_failure;
+    subtitle = std::min(subtitle, render::layout_of(last).subtitle);
   }
-  failures_count |= seen.healthy.empty();
-  const double most = failures_count ? std::max(seen.most, seen.most_of_failed) : seen.most;
-  return {view_of(scene, seen.shown(), seen.balls, render::panel_aspect(last)), round_up(most)};
+  const double most = seen.healthy.empty() ? seen.most_of_failed : seen.most;
+  return {view_of(scene, seen.shown(), seen.balls, render::panel_aspect(last)), round_up(most), subtitle};
 }
 
 render::Picture picture_of(const Scene& scene, const std::vector<const MethodResult*>& answers, const Shot& shot,
                            const CommonView& common) {
   Seen unused;
   render::Picture picture = panels_of(scene, answers, shot, unused);
-  picture.view = common.view;
+  picture.view = common.view, picture.subtitle = common.subtitle;
   if (picture.scale) picture.scale->high = common.top;
   if (!picture.legend.empty())
     for (auto& row : picture.rows)

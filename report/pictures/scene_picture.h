@@ -10,25 +10,13 @@
 
 namespace crosscheck {
 
-// The stretch of springs, as colours show it.
-
-/// Extension of the line between two particles, % of its length at rest; compression counts as zero.
-double extension(const Points& x, int a, int b, double rest);
-
-/// Mean extension of the structural springs and hard distances at each particle, %; that of every spring, on request.
-std::vector<double> stretch_of(const Scene& scene, const Points& x, std::vector<double>* per_spring = nullptr);
-
-/// A round number not below the value: 1, 2 or 5 times a power of ten.
-double round_up(double value);
-
 enum class Mode { shaded, stretch, springs, difference, strip };
 /// Throws InputError that lists the modes.
 Mode mode_named(const std::string& name);
 
 struct Shot {
   Mode mode = Mode::shaded;
-  double at = -1;                 // s; negative: the end
-  bool at_first_failure = false;  // all at the time at which the first of the runs failed, colours up to its stretch
+  double at = -1;  // s; negative: the end
   render::Quality quality = render::Quality::still;
   int width = 1280, height = 720;
   double text = 0;       // height of letters, pixels; 0: as the size needs. With it the panels choose rows and height
@@ -46,7 +34,8 @@ render::Picture picture_of(const Scene& scene, const std::vector<const MethodRes
 /// The common view of pictures that are to be compared, like those of a clip.
 struct CommonView {
   render::View view;
-  double top;  // of the scale, in its unit
+  double top;       // upper end of the scale, in its unit
+  double subtitle;  // height of the subtitles, pixels
 };
 /// The one that suits all of these shots, which are of one mode and size, in the order of their times.
 CommonView common_view(const Scene& scene, const std::vector<const MethodResult*>& answers,
@@ -68,18 +57,5 @@ int frame_shown(const Scene& scene, const MethodResult& answer, const Shot& shot
 
 /// The methods that a picture of the scene shows when none is named.
 std::vector<std::string> pictured_methods(const Scene& scene);
-
-/// The body at one of the result's frames; in mode difference coloured by the distance from `base`.
-render::Body body_of(const Scene& scene, const MethodResult& answer, int frame, Mode mode, const Points* base);
-
-/// The families that the scene's springs belong to, in the order of the legend.
-std::vector<Family> families_of(const Scene& scene);
-
-/// The springs of a cloth as tubes, one body per family: structural ones thick, shear and bend ones thin. Bend springs
-/// lie on the structural ones; they are lifted towards the eye so that both are seen.
-std::vector<render::Body> tubes_of(const Scene& scene, const Points& x, const Vec3& towards_eye);
-
-/// The obstacles at time t, s.
-std::vector<render::Ball> balls_of(const Scene& scene, double t);
 
 }  // namespace crosscheck

@@ -161,7 +161,7 @@ TEST_F(CliRegress, AFailureHasItsCurvesItsPicturesAndTheTimeAtWhichTheyPart) {
   const std::string page = read(folder_ / "out/regress/index.html");
   EXPECT_NE(page.find("They differ by more than the tolerance between 0 s and"), std::string::npos);
   EXPECT_NE(page.find("quantities failed"), std::string::npos);
-  EXPECT_NE(page.find("data:image/png"), std::string::npos) << "a picture of both";
+  EXPECT_NE(page.find("data:image/webp"), std::string::npos) << "a picture of both";
   for (const char* figure : {"curve.svg", "difference.svg", "shape.png"})
     EXPECT_TRUE(fs::exists(folder_ / "out/regress/figures" / (std::string("chain-mysim-symplectic-euler-") + figure)));
   regress({"--filter", "chain", "--method", "symplectic-euler", "--against", "leapfrog", "--figures", "0"});

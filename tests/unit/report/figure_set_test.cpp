@@ -14,7 +14,7 @@
 #include "reference/method.h"
 #include "report/base/gnuplot.h"
 #include "report/figures/plot_layout.h"
-#include "report/pictures/png_file.h"
+#include "report/pictures/image_file.h"
 #include "tests/unit/helpers.h"
 #include "tests/unit/reference/helpers.h"
 #include "tests/unit/report/readers.h"
@@ -331,35 +331,15 @@ TEST_F(PngFile, LargerThanAnyPictureOfOursIsNotUnpacked) {
   EXPECT_THROW(render::read_png(grey(8193)), std::runtime_error);
 }
 
-TEST_F(PngFile, PacksTightlyAndKeepsEveryPixel) {
-  int smaller = 0;
-  for (const auto& entry : fs::directory_iterator(fs::path(CROSSCHECK_SOURCE) / "tests/unit/report/golden")) {
-    if (entry.path().extension() != ".png") continue;
-    SCOPED_TRACE(entry.path().string());
-    const fs::path copy = folder_ / entry.path().filename();
-    fs::copy_file(entry.path(), copy);
-    render::set_resolution(copy, 300);
-    const auto size = fs::file_size(copy);
-    const std::string told = read(copy).substr(33, 21);
-    render::pack_tightly(copy);
-    EXPECT_LE(fs::file_size(copy), size);
-    smaller += fs::file_size(copy) < size;
-    EXPECT_EQ(render::read_png(copy).rgb, render::read_png(entry.path()).rgb);
-    EXPECT_EQ(read(copy).substr(33, 21), told) << "what else is in it stays";
-    const std::string once = read(copy);
-    render::pack_tightly(copy);
-    EXPECT_EQ(read(copy), once);
-  }
-  EXPECT_GT(smaller, 0);
-}
-
-TEST_F(PngFile, WhatIsNoneIsNamed) {
+TEST_F(PngFile, KeepsEveryPixelAndNamesWhatIsNoPng) {
+  const render::Image image{2, 1, {1, 2, 3, 250, 128, 0}};
+  EXPECT_EQ(render::read_png(write("two.png", render::png_bytes(image, 300))).rgb, image.rgb);
   const fs::path file = write("none.png", "\x89PNG, but not further than that: no chunk of it is whole");
   try {
-    render::pack_tightly(file);
+    render::read_png(file);
     FAIL() << "nothing is said";
   } catch (const std::runtime_error& error) {
-    EXPECT_EQ(error.what(), "cannot read " + file.string());
+    EXPECT_TRUE(std::string(error.what()).starts_with("cannot read " + file.string())) << error.what();
   }
 }
 

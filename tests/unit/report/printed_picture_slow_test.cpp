@@ -5,8 +5,8 @@
 #include "experiments/scenes/scenes.h"
 #include "mysim/base/json.h"
 #include "report/figures/figure_set.h"
+#include "report/pictures/image_file.h"
 #include "report/pictures/layout.h"
-#include "report/pictures/png_file.h"
 #include "tests/unit/report/cli.h"
 #include "tests/unit/report/readers.h"
 #include "tests/unit/report/render_helpers.h"
@@ -80,8 +80,8 @@ TEST(PrintedPicture, LettersOnThePageHaveTheSizeThatWasAsked) {
   render::write_print(picture, 300, folder / "a.png", folder / "a.pdf");
   std::ifstream in(folder / "a.pdf", std::ios::binary);
   const std::string pdf{std::istreambuf_iterator<char>(in), {}};
-  EXPECT_NEAR(page_of(pdf).first, 1200 / 300.0 * 72, 1.01);  // gnuplot's pages are of whole points
-  EXPECT_NEAR(page_of(pdf).second, picture.height / 300.0 * 72, 1.01);
+  EXPECT_NEAR(page_of(pdf).first, 1200 / 300.0 * 72, 0.01);
+  EXPECT_NEAR(page_of(pdf).second, picture.height / 300.0 * 72, 0.01);
   const std::set<double> letters = letters_of(pdf);
   ASSERT_FALSE(letters.empty());
   EXPECT_NEAR(*letters.rbegin(), 8, 0.01);

@@ -1,10 +1,8 @@
-// GLSL: places of corners, light, shadow and the colours of cloth, solids and ground.
-#include "report/pictures/shaders.h"
+// All materials of the pictures. #define chooses between them, because software GL pays for every branch:
+// one of CLOTH, SPHERE, ROD, TRAIL (a rod without light), GROUND, SUM (adds one pass to the sum);
+// VALUES: cloth coloured by value; SHADOW: depth only; VERTEX or FRAGMENT: the stage.
 
-namespace crosscheck::render {
-
-std::string vertex_text() {
-  return R"(
+#ifdef VERTEX
 uniform mat4 to_clip;
 uniform vec3 eye;
 uniform float lift;    // depth that flat cloth may dip into a ball
@@ -64,13 +62,17 @@ void main() {
 #endif
   gl_Position = to_clip * vec4(shown, 1);
 }
-)";
-}
 
-namespace {
+#elif defined(SHADOW)
+void main() {}
 
-// key light and sky: one sample each per pass, or (FAST) filtered maps seen from the key light and from straight above
-const char* const light_text = R"(
+#elif defined(SUM)
+uniform sampler2D pass;
+out vec4 result;
+void main() { result = texelFetch(pass, ivec2(gl_FragCoord.xy), 0); }
+
+#else
+// key light and sky: one sample each per pass
 uniform vec3 eye, key, sky;          // directions are towards the light
 uniform mat4 to_key, to_sky;         // frame to the shadow maps, 0..1
 uniform sampler2DShadow key_map, sky_map;
@@ -83,34 +85,9 @@ const vec3 key_colour = KEY_LIGHT * vec3(1.035, 1.0, 0.955);
 const vec3 sky_colour = SKY_LIGHT * vec3(0.965, 0.99, 1.045);
 const vec3 bounce_colour = vec3(0.215, 0.213, 0.21);
 
-#if defined(FAST) && defined(GROUND)
-const int taps = 7;
-const vec2 disc[7] = vec2[](vec2(0), vec2(-0.30, 0.28), vec2(0.05, -0.58), vec2(0.43, 0.56), vec2(-0.80, -0.14),
-                            vec2(0.77, -0.49), vec2(-0.26, 0.97));
-#elif defined(FAST) || defined(GROUND)
-const int taps = 4;
-const vec2 disc[4] = vec2[](vec2(0.25, 0.75), vec2(-0.75, 0.25), vec2(-0.25, -0.75), vec2(0.75, -0.25));
-#endif
-
-// `spread` is the radius of the filter as a part of the map; the taps follow the plane through p with normal n, as a wide
-// filter of one depth would shade a slope by itself
-float lit(sampler2DShadow map, mat4 to_map, vec3 p, vec3 n, float spread) {
+float lit(sampler2DShadow map, mat4 to_map, vec3 p) {
   vec3 q = (to_map * vec4(p, 1)).xyz;
-  q.z = min(q.z, 1);
-#if defined(FAST) || defined(GROUND)
-  float sum = 0;
-#ifdef FAST
-  vec3 m = transpose(inverse(mat3(to_map))) * n;
-  vec2 slope = clamp(-m.xy / (abs(m.z) > 1e-4 ? m.z : 1e-4), -3, 3);
-#else
-  vec2 slope = vec2(0);
-#endif
-  for (int i = 0; i < taps; ++i)
-    sum += textureLod(map, vec3(q.xy + spread * disc[i], min(q.z + spread * dot(slope, disc[i]), 1)), 0);
-  return sum / float(taps);
-#else
-  return textureLod(map, q, 0);
-#endif
+  return textureLod(map, vec3(q.xy, min(q.z, 1)), 0);
 }
 
 // light falling on a surface; `through` is the part of the key light that passes from the other side
@@ -118,20 +95,14 @@ vec3 light_on(vec3 n, float through) {
   float facing = dot(n, key);
   float side = facing < 0 && through > 0 ? -1 : 1;
   float direct = facing > 0 ? facing : -through * facing;
-  direct *= lit(key_map, to_key, place + side * n * (2.0 * key_texel + lift), n, 0.0045);
+  direct *= lit(key_map, to_key, place + side * n * (2.0 * key_texel + lift));
   vec3 bounce = bounce_colour * (0.62 - 0.38 * n.y);
-#ifdef FAST
-  float open = lit(sky_map, to_sky, place + n * (3.0 * sky_texel + lift), n, 0.035);
-  vec3 from_sky = sky_colour * (0.5 + 0.5 * n.y) * mix(0.35, 1.0, open);
-#else
-  float up = 2 * max(dot(n, sky), 0) * lit(sky_map, to_sky, place + n * (2.0 * sky_texel + lift), n, 0);
+  float up = 2 * max(dot(n, sky), 0) * lit(sky_map, to_sky, place + n * (2.0 * sky_texel + lift));
   vec3 from_sky = sky_colour * up;
-#endif
   return key_colour * direct + from_sky + bounce;
 }
-)";
 
-const char* const cloth_text = R"(
+#if defined(CLOTH)
 uniform sampler2D scale_map;
 uniform vec3 plain, no_value;
 in vec3 rim;
@@ -152,9 +123,36 @@ void main() {
   base *= mix(vec3(1), vec3(0.40, 0.385, 0.385), max(line.x, max(line.y, line.z)));
   result = vec4(base * light_on(n, 0.22), 1);
 }
-)";
 
-const char* const solid_text = R"(
+#elif defined(GROUND)
+// the ground is the background, darkened by what it loses of the light: without shadow it cannot be seen
+uniform vec3 background;
+uniform float unoccluded;  // mean light on the open ground
+uniform vec4 ground;
+uniform vec3 panel;        // width, height, pixels
+uniform float blur;        // 1 for the mean of many passes, more where there are few
+
+// the ground is flat, so that a filter of this radius (part of the map) need not follow its slope
+float soft(sampler2DShadow map, mat4 to_map, float radius) {
+  const vec2 disc[4] = vec2[](vec2(0.25, 0.75), vec2(-0.75, 0.25), vec2(-0.25, -0.75), vec2(0.75, -0.25));
+  vec3 q = (to_map * vec4(place, 1)).xyz;
+  float sum = 0;
+  for (int i = 0; i < 4; ++i) sum += textureLod(map, vec3(q.xy + radius * disc[i], min(q.z, 1)), 0);
+  return sum / 4;
+}
+
+void main() {
+  float key_lost = KEY_LIGHT * key.y * (1 - soft(key_map, to_key, 0.007 * blur));
+  float sky_lost = SKY_LIGHT * 2 * sky.y * (1 - soft(sky_map, to_sky, 0.012 * blur));
+  // both fade far away and before the panel ends: the faint wide shadow of the sky early, the clear one late
+  float away = length(place.xz - ground.xz) / ground.w;
+  vec2 border = (min(gl_FragCoord.xy, panel.xy - gl_FragCoord.xy) - 0.5) / panel.xy;  // 0 in the outermost pixels
+  vec2 sky_fade = smoothstep(vec2(0), vec2(0.25), border), key_fade = smoothstep(vec2(0), vec2(0.06), border);
+  float lost = key_lost * key_fade.x * key_fade.y + sky_lost * sky_fade.x * sky_fade.y;
+  result = vec4(background * (1 - 0.9 * (1 - smoothstep(0.4, 1.0, away)) * lost / unoccluded), 1);
+}
+
+#else
 void main() {
 #ifdef TRAIL
   result = vec4(colour, 1);
@@ -166,44 +164,5 @@ void main() {
   result = vec4(colour * light + gloss, 1);
 #endif
 }
-)";
-
-// the ground is the background, darkened by what it loses of the light: without shadow it cannot be seen
-const char* const ground_text = R"(
-uniform vec3 background;
-uniform float unoccluded;  // mean light on the open ground
-uniform vec4 ground;
-uniform vec3 panel;        // width, height, pixels
-
-void main() {
-#ifdef FAST
-  float key_lost = KEY_LIGHT * key.y * (1 - lit(key_map, to_key, place, vec3(0, 1, 0), 0.0045));
-  float sky_lost = SKY_LIGHT * 0.55 * (1 - lit(sky_map, to_sky, place, vec3(0, 1, 0), 0.05));
-#else
-  float key_lost = KEY_LIGHT * key.y * (1 - lit(key_map, to_key, place, vec3(0, 1, 0), 0.007));
-  float sky_lost = SKY_LIGHT * 2 * sky.y * (1 - lit(sky_map, to_sky, place, vec3(0, 1, 0), 0.012));
 #endif
-  // both fade far away and before the panel ends: the faint wide shadow of the sky early, the clear one late
-  float away = length(place.xz - ground.xz) / ground.w;
-  vec2 border = min(gl_FragCoord.xy / panel.xy, 1 - gl_FragCoord.xy / panel.xy);
-  vec2 sky_fade = smoothstep(vec2(0), vec2(0.25), border), key_fade = smoothstep(vec2(0), vec2(0.06), border);
-  float lost = key_lost * key_fade.x * key_fade.y + sky_lost * sky_fade.x * sky_fade.y;
-  result = vec4(background * (1 - 0.9 * (1 - smoothstep(0.4, 1.0, away)) * lost / unoccluded), 1);
-}
-)";
-
-const char* const sum_text = R"(
-uniform sampler2D pass;
-out vec4 result;
-void main() { result = texelFetch(pass, ivec2(gl_FragCoord.xy), 0); }
-)";
-
-}  // namespace
-
-std::string fragment_text() {
-  return std::string("#if defined(SHADOW)\nvoid main() {}\n#elif defined(SUM)\n") + sum_text + "#else\n" + light_text +
-         "#if defined(CLOTH)\n" + cloth_text + "#elif defined(GROUND)\n" + ground_text + "#else\n" + solid_text +
-         "#endif\n#endif\n";
-}
-
-}  // namespace crosscheck::render
+#endif

@@ -1,0 +1,263 @@
+// The renderer of panels, without letters: for every light sample two shadow maps and the panel, summed and divided at
+// the end.
+//
+// Accumulation (Haeberli and Akeley 1990): each pass shifts the camera within the pixel and takes one point of the key
+// light and one of the sky, each with a shadow map of its own. The mean of the passes has smooth edges, soft shadows
+// and the darkness of covered places at once, and the same samples serve all pixels, so there is no grain.
+#include <cmath>
+#include <cstddef>
+#include <tuple>
+
+#include "report/pictures/draw_list.h"
+#include "report/pictures/gl.h"
+#include "report/pictures/layout.h"
+
+namespace crosscheck::render {
+namespace {
+
+constexpr int still_passes = 48, fast_passes = 8;
+constexpr int key_texels = 512, sky_texels = 256;
+constexpr unsigned plain_cloth = 0xEBDDC6;
+
+using Columns = std::vector<VertexRows::Column>;
+
+const Columns cloth_columns = {{0, 3, offsetof(ClothVertex, x)},
+                               {1, 3, offsetof(ClothVertex, normal)},
+                               {2, 3, offsetof(ClothVertex, rim)},
+                               {3, 2, offsetof(ClothVertex, value)}};
+const Columns sphere_columns = {{1, 4, offsetof(Sphere, centre)}, {2, 3, offsetof(Sphere, colour)}};
+const Columns capsule_columns = {
+    {1, 4, offsetof(Capsule, a)}, {2, 3, offsetof(Capsule, b)}, {3, 3, offsetof(Capsule, colour)}};
+
+template <class T>
+VertexRows rows_of(const std::vector<T>& of, const Columns& columns) {
+  return {of.data(), of.size(), sizeof(T), columns};
+}
+
+Batch batch_of(const Mesh& mesh, const VertexRows& instances) {
+  return {mesh.index, rows_of(mesh.corner, {{0, 4, 0}}), instances};
+}
+
+/// All of a panel's shapes: full detail for the eye, less for the shadows, and less where there are many.
+struct Uploaded {
+  Batch cloth, balls, beads, rods, trail, beads_shadow, rods_shadow;
+  Uploaded(const DrawList& s, bool many)
+      : cloth(s.cloth_index, rows_of(s.cloth, cloth_columns)),
+        balls(batch_of(sphere_mesh(112), rows_of(s.balls, sphere_columns))),
+        beads(batch_of(sphere_mesh(many ? 24 : 48), rows_of(s.beads, sphere_columns))),
+        rods(batch_of(many ? capsule_mesh(8, 1) : capsule_mesh(20, 5), rows_of(s.rods, capsule_columns))),
+        trail(batch_of(capsule_mesh(8, 2), rows_of(s.trail, capsule_columns))),
+        beads_shadow(batch_of(sphere_mesh(16), rows_of(s.beads, sphere_columns))),
+        rods_shadow(batch_of(many ? capsule_mesh(5, 1) : capsule_mesh(12, 2), rows_of(s.rods, capsule_columns))) {}
+};
+
+/// Clip space to the 0..1 of a texture and its depth.
+Eigen::Matrix4f to_texture(const Eigen::Matrix4f& to_clip) {
+  Eigen::Matrix4f half = Eigen::Matrix4f::Identity() * 0.5f;
+  half.col(3) << 0.5f, 0.5f, 0.5f, 1;
+  return half * to_clip;
+}
+
+}  // namespace
+
+/// Draws panels of one size and kind, one after another, while the context lives.
+struct Painter {
+  const int width, height;
+  const std::vector<Sample> samples;
+  const Program cloth{"CLOTH"}, cloth_values{"CLOTH VALUES"}, sphere{"SPHERE"}, rod{"ROD"}, trail{"TRAIL"},
+      ground{"GROUND"}, sum{"SUM"};
+  const Program cloth_shadow{"CLOTH SHADOW"}, sphere_shadow{"SPHERE SHADOW"}, rod_shadow{"ROD SHADOW"};
+  const Target key_map = shadow_map(key_texels), sky_map = shadow_map(sky_texels);
+  const Target pass, total;
+  GLuint scale_map = 0, nothing = 0;
+  float open_ground = 0;  // mean light where nothing throws a shadow
+
+  Painter(int width_, int height_, Quality quality, bool diverging)
+      : width(width_),
+        height(height_),
+        samples(light_samples(quality == Quality::fast ? fast_passes : still_passes)),
+        pass(colour_target(width, height, GL_RGBA16F, true)),
+        total(colour_target(width, height, GL_RGBA32F, false)) {
+    for (const Sample& s : samples) open_ground += key_light * s.key.y() + sky_light * 2 * s.sky.y();
+    open_ground /= float(samples.size());
+    std::vector<float> map;
+    for (int i = 0; i < 256; ++i) {
+      const Colour c = to_linear(scale_colour(diverging, float(i) / 255));
+      map.insert(map.end(), {c.x(), c.y(), c.z()});
+    }
+    glGenTextures(1, &scale_map);
+    glBindTexture(GL_TEXTURE_2D, scale_map);
+    glTexImage2D(GL_TEXTURE_2D, 0, GL_RGB32F, 256, 1, 0, GL_RGB, GL_FLOAT, map.data());
+    glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_LINEAR);
+    glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, GL_LINEAR);
+    glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_S, GL_CLAMP_TO_EDGE);
+    glGenVertexArrays(1, &nothing);
+    const GLuint textures[] = {key_map.texture, sky_map.texture, scale_map, pass.texture};
+    for (GLuint i = 0; i < 4; ++i) glActiveTexture(GL_TEXTURE0 + i), glBindTexture(GL_TEXTURE_2D, textures[i]);
+  }
+
+  void draw_shadow(const Target& map, int texels, const Eigen::Matrix4f& to_clip, const Uploaded& shapes) const {
+    glBindFramebuffer(GL_FRAMEBUFFER, map.framebuffer);
+    glViewport(0, 0, texels, texels);
+    glClear(GL_DEPTH_BUFFER_BIT);
+    glDisable(GL_CULL_FACE);
+    glEnable(GL_DEPTH_CLAMP);
+    const auto cast = [&](const Program& program, std::initializer_list<const Batch*> batches) {
+      program.use();
+      program.set("to_clip", to_clip);
+      for (const Batch* batch : batches) batch->draw();
+    };
+    cast(cloth_shadow, {&shapes.cloth});
+    cast(sphere_shadow, {&shapes.balls, &shapes.beads_shadow});
+    cast(rod_shadow, {&shapes.rods_shadow});
+    glDisable(GL_DEPTH_CLAMP);
+  }
+
+  void draw_panel(const DrawList& list, const Frame& frame, const Sample& sample, const Uploaded& shapes) const {
+    const Eigen::Matrix4f key = light_matrix(sample.key, list.centre, list.radius);
+    const Eigen::Matrix4f sky = light_matrix(sample.sky, list.centre, list.radius);
+    draw_shadow(key_map, key_texels, key, shapes);
+    draw_shadow(sky_map, sky_texels, sky, shapes);
+
+    glBindFramebuffer(GL_FRAMEBUFFER, pass.framebuffer);
+    glViewport(0, 0, width, height);
+    const Colour background = linear(background_hex);
+    glClearColor(background.x(), background.y(), background.z(), 1);
+    glClear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
+    Eigen::Matrix4f shift = Eigen::Matrix4f::Identity();
+    shift(0, 3) = 2 * sample.pixel.x() / float(width), shift(1, 3) = 2 * sample.pixel.y() / float(height);
+
+    const auto begin = [&](const Program& program) {
+      program.use();
+      program.set("to_clip", Eigen::Matrix4f(shift * frame.to_clip));
+      program.set("to_key", to_texture(key)), program.set("to_sky", to_texture(sky));
+      program.set("key_map", 0), program.set("sky_map", 1), program.set("scale_map", 2);
+      program.set("key_texel", 2 * list.radius / float(key_texels));
+      program.set("sky_texel", 2 * list.radius / float(sky_texels));
+      program.set("key", sample.key), program.set("sky", sample.sky), program.set("eye", frame.eye);
+      program.set("lift", list.lift);
+    };
+    if (!shapes.cloth.empty()) {
+      const Program& program = list.coloured ? cloth_values : cloth;
+      begin(program);
+      program.set("plain", linear(plain_cloth)), program.set("no_value", linear(no_value_hex));
+      shapes.cloth.draw();
+    }
+    glEnable(GL_CULL_FACE);
+    begin(sphere), shapes.balls.draw(), shapes.beads.draw();
+    begin(rod), shapes.rods.draw();
+    if (frame.floor && frame.eye.y() > *frame.floor) {
+      begin(ground);
+      ground.set("background", background), ground.set("unoccluded", open_ground);
+      ground.set("blur", std::sqrt(float(still_passes) / float(samples.size())));
+      ground.set("ground", Eigen::Vector4f(list.centre.x(), *frame.floor, list.centre.z(), 3.0f * list.radius));
+      ground.set("panel", Eigen::Vector3f(float(width), float(height), 0));
+      glBindVertexArray(nothing);
+      glDrawArrays(GL_TRIANGLE_STRIP, 0, 4);
+    }
+    // last and without depth of its own: where the trail crosses itself, the newer part covers the older
+    glDepthMask(GL_FALSE);
+    begin(trail), shapes.trail.draw();
+    glDepthMask(GL_TRUE);
+  }
+
+  void add_pass_to_total() const {
+    glBindFramebuffer(GL_FRAMEBUFFER, total.framebuffer);
+    glDisable(GL_DEPTH_TEST), glDisable(GL_CULL_FACE);
+    glEnable(GL_BLEND);
+    glBlendFunc(GL_ONE, GL_ONE);
+    sum.use();
+    sum.set("pass", 3);
+    glBindVertexArray(nothing);
+    glDrawArrays(GL_TRIANGLES, 0, 3);
+    glDisable(GL_BLEND);
+    glEnable(GL_DEPTH_TEST);
+  }
+
+  /// Linear light, 4 floats per pixel (the last is not used), rows from bottom to top.
+  std::vector<float> paint(const DrawList& list, const Frame& frame) const {
+    const Uploaded shapes(list, list.rods.size() > 250);
+    glEnable(GL_DEPTH_TEST);
+    glBindFramebuffer(GL_FRAMEBUFFER, total.framebuffer);
+    glClearColor(0, 0, 0, 0);
+    glClear(GL_COLOR_BUFFER_BIT);
+    for (const Sample& sample : samples) {
+      draw_panel(list, frame, sample, shapes);
+      add_pass_to_total();
+    }
+    std::vector<float> pixels(4 * std::size_t(width) * std::size_t(height));
+    glReadPixels(0, 0, width, height, GL_RGBA, GL_FLOAT, pixels.data());
+    for (float& x : pixels) x /= float(samples.size());
+    return pixels;
+  }
+};
+
+namespace {
+
+/// Puts a panel's linear floats (rows from the bottom) into the image (rows from the top).
+void put(const std::vector<float>& pixels, const Layout& layout, int left, int top, Image& image) {
+  const SrgbEncoder encode;
+  for (int y = 0; y < layout.panel_height; ++y) {
+    const float* from = &pixels[4 * std::size_t(layout.panel_height - 1 - y) * std::size_t(layout.panel_width)];
+    unsigned char* to = &image.rgb[3 * (std::size_t(top + y) * std::size_t(image.width) + std::size_t(left))];
+    for (int x = 0; x < layout.panel_width; ++x) {
+      for (int channel = 0; channel < 3; ++channel) to[3 * x + channel] = encode(from[4 * x + channel]);
+    }
+  }
+}
+
+/// Background alone.
+Image blank(int width, int height) {
+  Image image{width, height, {}};
+  image.rgb.reserve(3 * std::size_t(width) * std::size_t(height));
+  for (int i = 0; i < width * height; ++i) {
+    for (const unsigned shift : {16u, 8u, 0u}) image.rgb.push_back(static_cast<unsigned char>(background_hex >> shift));
+  }
+  return image;
+}
+
+}  // namespace
+
+struct OffscreenRenderer::Parts {
+  std::unique_ptr<Context> context;
+  std::unique_ptr<Painter> painter;  // dies before the context
+  std::tuple<int, int, Quality, bool> painter_for;
+
+  Painter& painter_of(const Picture& picture, const Layout& layout) {
+    const bool diverging = picture.scale && picture.scale->diverging;
+    const std::tuple wanted(layout.panel_width, layout.panel_height, picture.quality, diverging);
+    if (!painter || painter_for != wanted) {
+      // a new context too: the old painter's textures and programs go with the old one
+      painter.reset(), context.reset();
+      context = std::make_unique<Context>();
+      painter = std::make_unique<Painter>(layout.panel_width, layout.panel_height, picture.quality, diverging);
+      painter_for = wanted;
+    }
+    context->make_current();
+    return *painter;
+  }
+};
+
+OffscreenRenderer::OffscreenRenderer() : parts_(std::make_unique<Parts>()) {}
+OffscreenRenderer::~OffscreenRenderer() = default;
+
+Image OffscreenRenderer::draw(const Picture& picture) {
+  const Layout layout = layout_of(picture);
+  const Frame frame = frame_of(picture.view, double(layout.panel_width) / layout.panel_height);
+
+  Image image = blank(picture.width, picture.height);
+
+  Painter& painter = parts_->painter_of(picture, layout);
+  for (std::size_t row = 0; row < picture.rows.size(); ++row) {
+    for (std::size_t column = 0; column < picture.rows[row].size(); ++column) {
+      const DrawList list = draw_list_of(picture.rows[row][column], frame, picture.scale);
+      put(painter.paint(list, frame), layout, layout.left + int(column) * layout.panel_width, layout.panel_top[row],
+          image);
+    }
+  }
+  return image;
+}
+
+Image draw(const Picture& picture) { return OffscreenRenderer().draw(picture); }
+
+}  // namespace crosscheck::render
