@@ -95,7 +95,7 @@ namespace {
 /// The page has its own letters.
 render::Picture without_letters(render::Picture picture) {
   for (auto& row : picture.rows)
-    for (render::Panel& panel : row) panel.title.clear(), panel.subtitle.clear(), panel.note.clear();
+    for (render::Panel& panel : row) panel.title.clear(), panel.subtitle.clear();
   return picture;
 }
 

@@ -1,9 +1,9 @@
-// Colours: sRGB and linear light, the colour maps of a scale, the palette, and the fixed colours of things.
+// Colours: sRGB and linear light, the colour map of a scale, the palette, and the background.
 #pragma once
 
 #include <Eigen/Core>
 
-#include <array>
+#include <vector>
 
 #include "report/pictures/picture.h"
 
@@ -17,25 +17,16 @@ Colour from_hex(unsigned rrggbb);      // sRGB
 Colour to_linear(const Colour& srgb);  // linear light
 inline Colour linear(unsigned rrggbb) { return to_linear(from_hex(rrggbb)); }
 
-/// sRGB byte of a linear intensity, clamped to 0..1; a table of 1/16384 makes it cheap and the same everywhere.
-class SrgbEncoder {
- public:
-  SrgbEncoder();
-  unsigned char operator()(float linear_value) const;
+/// sRGB bytes of the linear intensities i / 16384: quick to look up, and the same everywhere.
+std::vector<unsigned char> srgb_table();
 
- private:
-  std::array<unsigned char, 16385> table_;
-};
-
-/// Place of a value on the scale, clamped to 0..1; NaN stays NaN and infinite values become NaN.
+/// Place of a value on the scale, clamped to 0..1.
 float scale_position(const Scale& scale, double value);
 
-/// sRGB colour at a place in 0..1: sequential light-to-dark, or blue-white-red if diverging; NaN gives a dark grey.
-Colour scale_colour(bool diverging, float position);
+/// sRGB colour at a place in 0..1, from light to dark.
+Colour scale_colour(float position);
 
 /// sRGB of a palette entry (Okabe-Ito, 7 entries); an index outside is grey.
 unsigned palette_hex(int index);
-
-constexpr unsigned no_value_hex = 0x55565A;  // drawn where a value is not finite
 
 }  // namespace crosscheck::render

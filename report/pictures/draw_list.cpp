@@ -1,4 +1,4 @@
-// Turns the bodies of a panel into what the painter draws.
+// Turns the bodies of a panel into what the renderer draws.
 #include "report/pictures/draw_list.h"
 
 #include <Eigen/Geometry>
@@ -6,75 +6,56 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <numbers>
 #include <set>
 
 namespace crosscheck::render {
 namespace {
 
-/// A body's particles in the frame, with the knowledge of which are fit to be drawn.
-struct TransformedBody {
+using Edge = std::array<int, 2>;
+
+/// A body's particles in the frame.
+struct PlacedBody {
   const Body& body;
   const Scale* scale;              // null: nothing is coloured by value
   std::vector<Eigen::Vector3f> x;  // in the frame
-  std::vector<bool> valid;         // finite and not absurdly far away
 
-  bool is_valid(int i) const { return valid[std::size_t(i)]; }
+  PlacedBody(const Body& body_, const Frame& frame, const Scale* scale_) : body(body_), scale(scale_) {
+    for (Eigen::Index i = 0; i < body.x.cols(); ++i) x.push_back(frame.place(body.x.col(i)));
+  }
   const Eigen::Vector3f& at(int i) const { return x[std::size_t(i)]; }
   bool coloured() const { return scale && !body.value.empty(); }
 
   /// Place on the scale of a particle's value; 0 if the body has no values.
   float position(int i) const { return coloured() ? scale_position(*scale, body.value[std::size_t(i)]) : 0; }
 
-  /// Median length of those of the edges given that are sound; 0 if there are none.
-  float median_length(const std::vector<std::array<int, 2>>& edges) const;
+  /// Median length of the edges; 0 if there are none.
+  float median_length(const std::vector<Edge>& edges) const {
+    std::vector<float> lengths;
+    for (const auto& [i, j] : edges) lengths.push_back((at(i) - at(j)).norm());
+    if (lengths.empty()) return 0;
+    const auto middle = lengths.begin() + std::ptrdiff_t(lengths.size() / 2);
+    std::nth_element(lengths.begin(), middle, lengths.end());
+    return *middle;
+  }
+  /// Twice the area of the triangle, along its normal.
+  Eigen::Vector3f area_vector(const std::array<int, 3>& t) const {
+    return (at(t[1]) - at(t[0])).cross(at(t[2]) - at(t[0]));
+  }
 };
 
-constexpr float absurd = 200;      // heights of the view: a particle beyond this counts as blown up
-constexpr float near_view = 2.5f;  // limit in the same unit beyond which nothing throws a shadow
-
-TransformedBody transform_body(const Body& body, const Frame& frame, const Scale* scale) {
-  TransformedBody placed{body, scale, {}, {}};
-  for (Eigen::Index i = 0; i < body.x.cols(); ++i) {
-    placed.x.push_back(frame.place(body.x.col(i)));
-    placed.valid.push_back(placed.x.back().allFinite() && placed.x.back().cwiseAbs().maxCoeff() < absurd);
-  }
-  return placed;
-}
-
-float TransformedBody::median_length(const std::vector<std::array<int, 2>>& edges) const {
-  std::vector<float> lengths;
-  for (const auto& [i, j] : edges) {
-    if (is_valid(i) && is_valid(j)) lengths.push_back((at(i) - at(j)).norm());
-  }
-  if (lengths.empty()) return 0;
-  const auto middle = lengths.begin() + std::ptrdiff_t(lengths.size() / 2);
-  std::nth_element(lengths.begin(), middle, lengths.end());
-  return *middle;
-}
-
-using Edge = std::array<int, 2>;
-
+constexpr float absurd = 200;           // heights of the view: a body that reaches beyond this is left out
+constexpr float near_view = 2.5f;       // limit in the same unit beyond which nothing throws a shadow
 constexpr float no_thread = 1e6f;       // distance to an edge that is no thread
-constexpr float thread_width = 0.075f;  // of the spacing of the threads
+constexpr float thread_width = 0.075f;  // in spacings of the threads
 
 Edge sorted(int i, int j) { return {std::min(i, j), std::max(i, j)}; }
 
-bool is_valid(const TransformedBody& placed, const std::array<int, 3>& triangle) {
-  return placed.is_valid(triangle[0]) && placed.is_valid(triangle[1]) && placed.is_valid(triangle[2]);
-}
-
-/// Twice the area of the triangle, along its normal.
-Eigen::Vector3f area_vector(const TransformedBody& placed, const std::array<int, 3>& t) {
-  return (placed.at(t[1]) - placed.at(t[0])).cross(placed.at(t[2]) - placed.at(t[0]));
-}
-
 /// Mean normal of the triangles around each particle, weighted by their area.
-std::vector<Eigen::Vector3f> smooth_normals(const TransformedBody& placed) {
+std::vector<Eigen::Vector3f> smooth_normals(const PlacedBody& placed) {
   std::vector<Eigen::Vector3f> normal(placed.x.size(), Eigen::Vector3f::Zero());
-  for (const auto& triangle : placed.body.triangles) {
-    if (!is_valid(placed, triangle)) continue;
-    for (const int i : triangle) normal[std::size_t(i)] += area_vector(placed, triangle);
-  }
+  for (const auto& triangle : placed.body.triangles)
+    for (const int i : triangle) normal[std::size_t(i)] += placed.area_vector(triangle);
   for (Eigen::Vector3f& n : normal) n = n.norm() > 1e-20f ? n.normalized() : Eigen::Vector3f(0, 1, 0);
   return normal;
 }
@@ -82,16 +63,15 @@ std::vector<Eigen::Vector3f> smooth_normals(const TransformedBody& placed) {
 /// A point of the curved surface through the three corners (Phong tessellation, Boubekeur and Alexa 2008): half way
 /// from the flat triangle to the corners' tangent planes, which follows a ball to second order.
 ClothVertex curved(const std::array<ClothVertex, 3>& corner, const Eigen::Vector3f& part) {
-  ClothVertex c{Eigen::Vector3f::Zero(), Eigen::Vector3f::Zero(), Eigen::Vector3f::Zero(), 0, 0};
+  ClothVertex c{Eigen::Vector3f::Zero(), Eigen::Vector3f::Zero(), Eigen::Vector3f::Zero(), 0};
   for (std::size_t k = 0; k < 3; ++k) {
     const float share = part[Eigen::Index(k)];
     c.x += share * corner[k].x, c.normal += share * corner[k].normal, c.rim += share * corner[k].rim;
-    c.value += share * corner[k].value, c.no_value += share * corner[k].no_value;
+    c.value += share * corner[k].value;
   }
   Eigen::Vector3f bulge = Eigen::Vector3f::Zero();
-  for (std::size_t k = 0; k < 3; ++k) {
+  for (std::size_t k = 0; k < 3; ++k)
     bulge -= part[Eigen::Index(k)] * (c.x - corner[k].x).dot(corner[k].normal) * corner[k].normal;
-  }
   c.x += 0.5f * bulge;
   c.normal.normalize();
   return c;
@@ -101,115 +81,93 @@ ClothVertex curved(const std::array<ClothVertex, 3>& corner, const Eigen::Vector
 void add_curved(const std::array<ClothVertex, 3>& corner, int pieces, DrawList& list) {
   const unsigned first = unsigned(list.cloth.size());
   // rows of pieces + 1, pieces, ..., 1 corners
-  for (int i = 0; i <= pieces; ++i) {
-    for (int j = 0; i + j <= pieces; ++j) {
+  for (int i = 0; i <= pieces; ++i)
+    for (int j = 0; i + j <= pieces; ++j)
       list.cloth.push_back(curved(corner, Eigen::Vector3f(float(pieces - i - j), float(i), float(j)) / float(pieces)));
-    }
-  }
   const auto at = [&](int i, int j) { return first + unsigned(i * (pieces + 1) - i * (i - 1) / 2 + j); };
-  for (int i = 0; i < pieces; ++i) {
+  for (int i = 0; i < pieces; ++i)
     for (int j = 0; i + j < pieces; ++j) {
       for (const unsigned c : {at(i, j), at(i + 1, j), at(i, j + 1)}) list.cloth_index.push_back(c);
       if (i + j + 1 == pieces) continue;
       for (const unsigned c : {at(i + 1, j), at(i + 1, j + 1), at(i, j + 1)}) list.cloth_index.push_back(c);
     }
-  }
 }
 
 /// Adds the body's triangles to the list; returns the threads that are not an edge of any triangle.
-std::vector<Edge> add_cloth(const TransformedBody& placed, DrawList& list) {
+std::vector<Edge> add_cloth(const PlacedBody& placed, DrawList& list) {
   std::set<Edge> threads;
   for (const auto& [i, j] : placed.body.threads) threads.insert(sorted(i, j));
-  std::set<Edge> apart = threads;
+  std::set<Edge> loose = threads;
 
   const std::vector<Eigen::Vector3f> normal = smooth_normals(placed);
   const float half_width = std::max(0.5f * thread_width * placed.median_length(placed.body.threads), 1e-9f);
   const int pieces = placed.body.triangles.size() < 1000 ? 3 : placed.body.triangles.size() < 12000 ? 2 : 1;
   for (const auto& triangle : placed.body.triangles) {
-    for (std::size_t k = 0; k < 3; ++k) apart.erase(sorted(triangle[k], triangle[(k + 1) % 3]));
-    if (!is_valid(placed, triangle)) continue;
-
     std::array<ClothVertex, 3> corner;
     for (std::size_t k = 0; k < 3; ++k) {
       const int i = triangle[k];
-      const float value = placed.position(i);
-      const bool none = std::isnan(value);
-      corner[k] = {placed.at(i), normal[std::size_t(i)], Eigen::Vector3f::Constant(no_thread), none ? 0 : value,
-                   none ? 1.f : 0.f};
+      corner[k] = {placed.at(i), normal[std::size_t(i)], Eigen::Vector3f::Constant(no_thread), placed.position(i)};
     }
     // the distance to the edge opposite to corner k is linear: the height at corner k, 0 at the other two
     for (std::size_t k = 0; k < 3; ++k) {
       const int i = triangle[(k + 1) % 3], j = triangle[(k + 2) % 3];
+      loose.erase(sorted(i, j));
       if (!threads.count(sorted(i, j))) continue;
       const float length = std::max((placed.at(i) - placed.at(j)).norm(), 1e-12f);
       for (ClothVertex& c : corner) c.rim[Eigen::Index(k)] = 0;
-      corner[k].rim[Eigen::Index(k)] = area_vector(placed, triangle).norm() / length / half_width;
+      corner[k].rim[Eigen::Index(k)] = placed.area_vector(triangle).norm() / length / half_width;
     }
     add_curved(corner, pieces, list);
   }
-  return {apart.begin(), apart.end()};
+  return {loose.begin(), loose.end()};
 }
 
 // A cloth triangle is flat, a ball is not: with all three corners exactly on a ball of radius R, the middle of an edge
 // of length l dips l^2 / (8 R) into it and the middle of the triangle l^2 / (6 R): the ball would poke through although
 // no particle is inside. The cloth is therefore drawn as a curved surface through the particles; `lift`
-// is the depth that its smaller flat pieces may still dip. The painter moves the cloth towards the eye by as much, in
+// is the depth that its smaller flat pieces may still dip. The renderer moves the cloth towards the eye by as much, in
 // depth only, and takes its shadows from there. Whatever is deeper inside than `lift` is seen inside.
 
 // sizes chosen by the view, in heights of the view
-constexpr float few_tubes_radius = 0.0075f, bead_radius = 0.027f, pin_radius = 0.0085f, trail_radius = 0.0032f;
+constexpr float few_tubes_radius = 0.0075f, view_bead_radius = 0.027f, pin_radius = 0.0085f, trail_radius = 0.0032f;
 
 constexpr unsigned plain_tube = 0x8E9196, plain_bead = 0xDDA15E, pin_hex = 0x34363B, ball_hex = 0xB6BBC3;
 constexpr unsigned trail_hex = 0x6C7A91, loose_thread = 0x6F6A62;
 
-float tube_radius(const TransformedBody& placed, const Frame& frame) {
+float tube_radius(const PlacedBody& placed, const Frame& frame) {
   if (placed.body.tube_radius > 0) return frame.length(placed.body.tube_radius);
   return std::min(few_tubes_radius, 0.16f * placed.median_length(placed.body.tubes));
 }
 
-float radius_of_beads(const Body& body, const Frame& frame) {
-  return body.bead_radius < 0 ? bead_radius : frame.length(body.bead_radius);
-}
-
-Colour tube_colour(const TransformedBody& placed, std::size_t i) {
+Colour tube_colour(const PlacedBody& placed, std::size_t i) {
   const Body& body = placed.body;
-  if (placed.scale && !body.tube_value.empty()) {
-    return to_linear(scale_colour(placed.scale->diverging, scale_position(*placed.scale, body.tube_value[i])));
-  }
+  if (placed.scale && !body.tube_value.empty())
+    return to_linear(scale_colour(scale_position(*placed.scale, body.tube_value[i])));
   return linear(body.tube_colour.empty() ? plain_tube : palette_hex(body.tube_colour[i]));
 }
 
-void add_rods(const TransformedBody& placed, const std::vector<std::array<int, 2>>& loose, const Frame& frame,
-              DrawList& list) {
+void add_rods(const PlacedBody& placed, const std::vector<Edge>& loose, const Frame& frame, DrawList& list) {
   const float radius = tube_radius(placed, frame);
   for (std::size_t i = 0; i < placed.body.tubes.size(); ++i) {
     const auto [a, b] = placed.body.tubes[i];
-    if (!placed.is_valid(a) || !placed.is_valid(b)) continue;
     list.rods.push_back({placed.at(a), radius, placed.at(b), tube_colour(placed, i)});
   }
   const float thin = std::min(0.3f * few_tubes_radius, 0.04f * placed.median_length(loose));
-  for (const auto& [a, b] : loose) {
-    if (!placed.is_valid(a) || !placed.is_valid(b)) continue;
-    list.rods.push_back({placed.at(a), thin, placed.at(b), linear(loose_thread)});
-  }
+  for (const auto& [a, b] : loose) list.rods.push_back({placed.at(a), thin, placed.at(b), linear(loose_thread)});
 }
 
-void add_beads(const TransformedBody& placed, const Frame& frame, DrawList& list) {
+void add_beads(const PlacedBody& placed, const Frame& frame, DrawList& list) {
   const Body& body = placed.body;
-  const float radius = radius_of_beads(body, frame);
-  std::vector<bool> pinned(placed.x.size(), false);
-  for (const int i : body.pinned) pinned[std::size_t(i)] = true;
+  const float radius = body.bead_radius < 0 ? view_bead_radius : frame.length(body.bead_radius);
+  // a pin must show whatever is drawn around it
+  const float least = std::max(0.8f * radius, body.tubes.empty() ? 0 : 1.7f * tube_radius(placed, frame));
   for (int i = 0; i < int(placed.x.size()); ++i) {
-    if (!placed.is_valid(i)) continue;
-    if (pinned[std::size_t(i)]) {
-      // a pin must show whatever is drawn around it
-      const float least = std::max(0.8f * radius, body.tubes.empty() ? 0 : 1.7f * tube_radius(placed, frame));
-      list.beads.push_back({placed.at(i), std::max(pin_radius, least), linear(pin_hex)});
-    } else if (radius > 0) {
-      const Colour colour =
-          placed.coloured() ? to_linear(scale_colour(placed.scale->diverging, placed.position(i))) : linear(plain_bead);
-      list.beads.push_back({placed.at(i), radius, colour});
-    }
+    const Eigen::Vector3f& x = placed.at(i);
+    if (std::ranges::count(body.pinned, i) > 0)
+      list.beads.push_back({x, std::max(pin_radius, least), x, linear(pin_hex)});
+    else if (radius > 0)
+      list.beads.push_back(
+          {x, radius, x, placed.coloured() ? to_linear(scale_colour(placed.position(i))) : linear(plain_bead)});
   }
 }
 
@@ -231,12 +189,12 @@ void add_trail(const Body& body, const Frame& frame, DrawList& list) {
 }
 
 /// Longest edge of a triangle that has a corner close to the ball.
-float longest_edge_near(const DrawList& list, const Sphere& ball) {
+float longest_edge_near(const DrawList& list, const Rod& ball) {
   float longest = 0;
   for (std::size_t i = 0; i + 2 < list.cloth_index.size(); i += 3) {
     const auto at = [&](std::size_t k) { return list.cloth[list.cloth_index[i + k % 3]].x; };
     for (std::size_t k = 0; k < 3; ++k) {
-      if ((at(k) - ball.centre).norm() > 1.15f * ball.radius) continue;
+      if ((at(k) - ball.a).norm() > 1.15f * ball.radius) continue;
       for (std::size_t m = 0; m < 3; ++m) longest = std::max(longest, (at(m) - at(m + 1)).norm());
     }
   }
@@ -247,16 +205,13 @@ float longest_edge_near(const DrawList& list, const Sphere& ball) {
 void enclose(DrawList& list) {
   std::vector<std::pair<Eigen::Vector3f, float>> all;
   for (const ClothVertex& c : list.cloth) all.emplace_back(c.x, 0);
-  for (const auto* spheres : {&list.balls, &list.beads})
-    for (const Sphere& s : *spheres) all.emplace_back(s.centre, s.radius);
-  for (const Capsule& r : list.rods) all.emplace_back(r.a, r.radius), all.emplace_back(r.b, r.radius);
+  for (const auto* rods : {&list.balls, &list.beads, &list.rods})
+    for (const Rod& r : *rods) all.emplace_back(r.a, r.radius), all.emplace_back(r.b, r.radius);
   std::erase_if(all, [](const auto& each) { return each.first.cwiseAbs().maxCoeff() > near_view; });
   if (all.empty()) return;
   Eigen::AlignedBox3f box;
-  for (const auto& [x, radius] : all) {
-    box.extend((x.array() - radius).matrix());
-    box.extend((x.array() + radius).matrix());
-  }
+  for (const auto& [x, radius] : all)
+    for (const float side : {-radius, radius}) box.extend((x.array() + side).matrix());
   list.centre = box.center();
   list.radius = 0.01f;
   for (const auto& [x, radius] : all) list.radius = std::max(list.radius, (x - list.centre).norm() + radius);
@@ -268,23 +223,45 @@ void enclose(DrawList& list) {
 DrawList draw_list_of(const Panel& panel, const Frame& frame, const std::optional<Scale>& scale) {
   DrawList list;
   for (const Ball& ball : panel.balls) {
-    const Sphere sphere{frame.place(ball.centre), frame.length(ball.radius), linear(ball_hex)};
-    if (sphere.centre.allFinite() && std::isfinite(sphere.radius)) list.balls.push_back(sphere);
+    const Eigen::Vector3f centre = frame.place(ball.centre);
+    if (centre.allFinite() && ball.radius > 0)
+      list.balls.push_back({centre, frame.length(ball.radius), centre, linear(ball_hex)});
   }
   for (const Body& body : panel.bodies) {
-    const TransformedBody placed = transform_body(body, frame, scale ? &*scale : nullptr);
+    const PlacedBody placed(body, frame, scale ? &*scale : nullptr);
+    add_trail(body, frame, list);
+    if (!std::ranges::all_of(placed.x, [](const auto& x) { return x.allFinite() && x.norm() < absurd; })) continue;
     add_rods(placed, add_cloth(placed, list), frame, list);
     add_beads(placed, frame, list);
-    add_trail(body, frame, list);
     list.coloured = list.coloured || placed.coloured();
   }
-  for (const Sphere& ball : list.balls) {
+  for (const Rod& ball : list.balls) {
     const float edge = longest_edge_near(list, ball);
     // the factor is for normals that are only near the ball's
-    if (ball.radius > 0) list.lift = std::max(list.lift, std::min(2 * edge * edge / (6 * ball.radius), 0.006f));
+    list.lift = std::max(list.lift, std::min(2 * edge * edge / (6 * ball.radius), 0.006f));
   }
   enclose(list);
   return list;
+}
+
+RodMesh rod_mesh(int around, int rings) {
+  RodMesh mesh;
+  for (const float end : {0.f, 1.f})
+    for (int ring = 0; ring <= rings; ++ring) {
+      const double latitude = 0.5 * std::numbers::pi * (double(ring) / rings - (end == 0 ? 1 : 0));
+      for (int i = 0; i <= around; ++i) {
+        const double angle = 2 * std::numbers::pi * (i % around) / around;
+        mesh.corner.emplace_back(float(std::cos(latitude) * std::cos(angle)),
+                                 float(std::cos(latitude) * std::sin(angle)), float(std::sin(latitude)), end);
+      }
+    }
+  const auto at = [&](int row, int i) { return unsigned(row * (around + 1) + i); };
+  for (int row = 0; row <= 2 * rings; ++row)
+    for (int i = 0; i < around; ++i)
+      for (const unsigned corner :
+           {at(row, i), at(row, i + 1), at(row + 1, i + 1), at(row, i), at(row + 1, i + 1), at(row + 1, i)})
+        mesh.index.push_back(corner);
+  return mesh;
 }
 
 }  // namespace crosscheck::render

@@ -1,4 +1,4 @@
-// One panel ready to draw: bodies and balls as triangles, spheres and rods in the frame, in single precision.
+// One panel ready to draw: bodies and balls as triangles and rods in the frame, in single precision.
 #pragma once
 
 #include <Eigen/Core>
@@ -13,18 +13,11 @@ namespace crosscheck::render {
 /// Corner of a cloth triangle. `rim` are the distances to the three edges in half widths of a thread; far if no thread.
 struct ClothVertex {
   Eigen::Vector3f x, normal, rim;
-  float value;     // place on the scale, 0..1
-  float no_value;  // 1 where the value is not finite
+  float value;  // place on the scale, 0..1
 };
 
-struct Sphere {
-  Eigen::Vector3f centre;
-  float radius;
-  Colour colour;  // linear
-};
-
-/// A solid rod with round ends.
-struct Capsule {
+/// A solid rod with round ends, or a ball where both ends are one point.
+struct Rod {
   Eigen::Vector3f a;
   float radius;
   Eigen::Vector3f b;
@@ -36,27 +29,21 @@ struct DrawList {
   std::vector<unsigned> cloth_index;  // three per triangle
   bool coloured = false;              // the cloth carries values
   float lift = 0;                     // how far a flat triangle may dip into a ball it follows; see draw_list.cpp
-  std::vector<Sphere> balls, beads;
-  std::vector<Capsule> rods, trail;
+  std::vector<Rod> balls, beads, rods, trail;
   Eigen::Vector3f centre = Eigen::Vector3f::Zero();  // of a sphere around all that throws a shadow
   float radius = 0.5f;
 };
 
-/// Leaves out whatever has a vertex that is not finite or absurdly far away.
+/// Leaves out bodies that are not finite or absurdly far away.
 DrawList draw_list_of(const Panel& panel, const Frame& frame, const std::optional<Scale>& scale);
 
-// in mesh.cpp: the two shapes that are drawn many times, a unit sphere and a rod with round ends
-
-struct Mesh {
-  std::vector<Eigen::Vector4f> corner;  // sphere: unit normal, 0; rod: unit normal in the rod's axes, end (0 or 1)
+struct RodMesh {
+  std::vector<Eigen::Vector4f> corner;  // unit normal in the rod's axes, end (0 or 1)
   std::vector<unsigned> index;          // three per triangle, counter-clockwise from outside
 };
 
-/// A sphere of `around` slices and around / 2 stacks: its chords dip 1 - cos(pi / around) of the radius below the
-/// surface.
-Mesh sphere_mesh(int around);
-
-/// A rod along its third axis with `around` sides and round ends of `rings` rings each.
-Mesh capsule_mesh(int around, int rings);
+/// A rod along its third axis with `around` sides and round ends of `rings` rings each. With around / 4 rings a ball
+/// has chords that dip 1 - cos(pi / around) of the radius below its surface.
+RodMesh rod_mesh(int around, int rings);
 
 }  // namespace crosscheck::render

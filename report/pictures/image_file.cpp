@@ -67,7 +67,7 @@ namespace {
 /// nowhere darker by more than an eye can distinguish.
 Image drawn(const Picture& picture, const std::filesystem::path& file) {
   Image image = draw(picture);
-  constexpr int visible = 24;  // of 255; the ground of an empty picture is one colour
+  constexpr int visible = 24;  // least difference, full scale 255; the ground of an empty picture is one colour
   const auto [darkest, brightest] = std::minmax_element(image.rgb.begin(), image.rgb.end());
   if (darkest == image.rgb.end() || *brightest - *darkest <= visible)
     throw std::runtime_error(file.stem().string() + ": nothing is to be seen in the picture");

@@ -130,13 +130,6 @@ Layout columns_and_fonts(const Picture& picture) {
 
 }  // namespace
 
-int height_for(const Picture& picture, double aspect) {
-  const Layout layout = columns_and_fonts(picture);
-  double height = footer_of(picture, layout) + double(picture.rows.size()) * layout.panel_width / aspect;
-  for (const double band : bands_of(picture, layout)) height += band;
-  return int(std::ceil(height));
-}
-
 Layout layout_of(const Picture& picture) {
   Layout layout = columns_and_fonts(picture);
   // the rows share what titles and footer leave
@@ -184,8 +177,6 @@ double panel_aspect(const Picture& picture) {
 
 namespace {
 
-constexpr double panel_share = 0.92;  // of a panel's width that letters may take
-
 /// Whether all titles fit into panels of this width (in units of the font size) when they are wrapped.
 bool titles_fit(const std::vector<Panel>& panels, double room) {
   return std::all_of(panels.begin(), panels.end(), [room](const Panel& panel) {
@@ -194,11 +185,19 @@ bool titles_fit(const std::vector<Panel>& panels, double room) {
   });
 }
 
+/// The height at which panels are so much wider than high, pixels.
+int height_for(const Picture& picture, double aspect) {
+  const Layout layout = columns_and_fonts(picture);
+  double height = footer_of(picture, layout) + double(picture.rows.size()) * layout.panel_width / aspect;
+  for (const double band : bands_of(picture, layout)) height += band;
+  return int(std::ceil(height));
+}
+
 }  // namespace
 
 void arrange(Picture& picture, double aspect) {
   std::vector<Panel> panels = std::move(picture.rows[0]);
-  const double width = panel_share * picture.width / picture.text;
+  const double width = fill * picture.width / picture.text;
   std::size_t columns = panels.size();
   while (columns > 1 && !titles_fit(panels, width / double(columns))) --columns;
   // as many in each row as can be, so that few places stay empty

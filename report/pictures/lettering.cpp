@@ -83,10 +83,10 @@ class Page {
     cairo_stroke(cairo_.get());
   }
   /// A box with the colours of a scale from left to right.
-  void gradient(double left, double top, double width, double height, bool diverging) {
+  void gradient(double left, double top, double width, double height) {
     const Owned<cairo_pattern_t> colours(cairo_pattern_create_linear(left, 0, left + width, 0));
     for (int i = 0; i <= 24; ++i) {  // four pieces between two stops of the map
-      const Colour c = scale_colour(diverging, float(i) / 24);
+      const Colour c = scale_colour(float(i) / 24);
       cairo_pattern_add_color_stop_rgb(colours.get(), i / 24.0, c.x(), c.y(), c.z());
     }
     cairo_set_source(cairo_.get(), colours.get());
@@ -109,7 +109,7 @@ class Page {
   Owned<cairo_t> cairo_;
 };
 
-constexpr unsigned title_ink = 0x111111, ink = 0x333333, subtitle_ink = 0x666666, note_ink = 0x9A1F2E, edge = 0x777777;
+constexpr unsigned title_ink = 0x111111, ink = 0x333333, subtitle_ink = 0x666666, edge = 0x777777;
 
 void add_titles(Page& page, const Picture& picture, const Layout& layout) {
   for (std::size_t r = 0; r < picture.rows.size(); ++r) {
@@ -121,10 +121,6 @@ void add_titles(Page& page, const Picture& picture, const Layout& layout) {
       page.label(heads_row ? left + 0.8 * layout.text : middle, layout.title_y[r] - above, heads_row ? 0 : 0.5,
                  row[c].title, layout.title, true, title_ink);
       page.label(middle, layout.subtitle_y[r], 0.5, row[c].subtitle, layout.subtitle, false, subtitle_ink);
-      const double foot = layout.panel_top[r] + layout.panel_height - 1.1 * layout.text;
-      const double note =
-          std::min(layout.text, 0.94 * layout.panel_width / std::max(text_width(row[c].note, false), 1.0));
-      page.label(middle, foot, 0.5, row[c].note, note, false, note_ink);
     }
   }
 }
@@ -152,28 +148,20 @@ double tick_step(double span) {
   return power * (ratio < 1.5 ? 1 : ratio < 3.5 ? 2 : ratio < 7.5 ? 5 : 10);
 }
 
-std::string number(double value, double step) {
-  if (std::abs(value) < 1e-9 * step) value = 0;
-  std::string text = fmt::format("{:.6g}", value);
-  if (text[0] == '-') text.replace(0, 1, "\u2212");
-  return text;
-}
-
 void add_bar(Page& page, const Scale& scale, const Layout& layout) {
   const double font = layout.text, top = layout.bar_top, bottom = top + layout.bar_height;
   const double left = layout.bar_left, right = left + layout.bar_width;
-  page.gradient(left, top, layout.bar_width, layout.bar_height, scale.diverging);
+  page.gradient(left, top, layout.bar_width, layout.bar_height);
   for (const double y : {top, bottom}) page.stroke(left, y, right, y, edge);
   for (const double x : {left, right}) page.stroke(x, top, x, bottom, edge);
   page.label((left + right) / 2, bottom + 2.25 * font, 0.5, scale.label, font, false, title_ink);
 
-  const double span = scale.high - scale.low;
-  if (!(span > 0) || !std::isfinite(span)) return;
-  const double step = tick_step(span);
-  for (double i = std::ceil(scale.low / step - 1e-6); i * step <= scale.high + 1e-6 * span; ++i) {
-    const double x = left + layout.bar_width * std::clamp((i * step - scale.low) / span, 0.0, 1.0);
+  if (!(scale.high > 0) || !std::isfinite(scale.high)) return;
+  const double step = tick_step(scale.high);
+  for (int i = 0; i * step <= scale.high * (1 + 1e-6); ++i) {
+    const double x = left + layout.bar_width * std::min(i * step / scale.high, 1.0);
     page.stroke(x, bottom, x, bottom + 0.3 * font, edge);
-    page.label(x, bottom + 0.95 * font, 0.5, number(i * step, step), 0.92 * font, false, ink);
+    page.label(x, bottom + 0.95 * font, 0.5, fmt::format("{:.6g}", i * step), 0.92 * font, false, ink);
   }
 }
 

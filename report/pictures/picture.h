@@ -39,7 +39,6 @@ struct Body {
 struct Panel {
   std::string title;     // e.g. "mysim/leapfrog"; like the subtitle of several lines, with line feeds, or empty
   std::string subtitle;  // e.g. "t = 2.5 s"
-  std::string note;      // e.g. "not finite from t = 0.4 s", written inside the panel at its foot; may be empty
   std::vector<Body> bodies;
   std::vector<Ball> balls;
 };
@@ -54,8 +53,7 @@ inline constexpr double field_of_view = 25;  // degrees, vertical
 /// Maps a value to a colour; drawn as a bar below the panels.
 struct Scale {
   std::string label;  // "stretch / %"
-  double low, high;   // in the unit of the label
-  bool diverging = false;
+  double high;        // in the unit of the label; the low end is 0
 };
 
 /// Names of the palette entries used by tube_colour, drawn as a legend below the panels.
@@ -80,8 +78,8 @@ struct Image {
   std::vector<unsigned char> rgb;  // 3 * width * height
 };
 
-/// Draws like draw(), but keeps the OpenGL context and its compiled shaders for the next picture (of the same size,
-/// quality and kind of scale): for clips, where compiling takes longer than drawing. To be used in one thread.
+/// Draws like draw(), but keeps the OpenGL context and its compiled shaders for the next picture (of the same size
+/// and quality): for clips, where compiling takes longer than drawing. To be used in one thread.
 class OffscreenRenderer {
  public:
   OffscreenRenderer();
@@ -107,9 +105,6 @@ void write_print(const Picture& picture, double pixels_per_inch, const std::file
 /// Width / height of one panel after room for the letters is taken away: the aspect to give to fit_view. Depends
 /// on the size, the rows, whether there are titles, subtitles, a scale and a legend, and not on bodies or view.
 double panel_aspect(const Picture& picture);
-
-/// The height at which panels are so much wider than high, pixels; for pictures that say how large their letters are.
-int height_for(const Picture& picture, double aspect);
 
 /// Puts the panels of a picture of one row, that says how large its letters are, into as many rows as their titles need
 /// to keep that size, wraps titles and subtitles, and chooses the height.

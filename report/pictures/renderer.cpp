@@ -4,6 +4,7 @@
 // Accumulation (Haeberli and Akeley 1990): each pass shifts the camera within the pixel and takes one point of the key
 // light and one of the sky, each with a shadow map of its own. The mean of the passes has smooth edges, soft shadows
 // and the darkness of covered places at once, and the same samples serve all pixels, so there is no grain.
+#include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <tuple>
@@ -21,34 +22,30 @@ constexpr unsigned plain_cloth = 0xEBDDC6;
 
 using Columns = std::vector<VertexRows::Column>;
 
-const Columns cloth_columns = {{0, 3, offsetof(ClothVertex, x)},
-                               {1, 3, offsetof(ClothVertex, normal)},
-                               {2, 3, offsetof(ClothVertex, rim)},
-                               {3, 2, offsetof(ClothVertex, value)}};
-const Columns sphere_columns = {{1, 4, offsetof(Sphere, centre)}, {2, 3, offsetof(Sphere, colour)}};
-const Columns capsule_columns = {
-    {1, 4, offsetof(Capsule, a)}, {2, 3, offsetof(Capsule, b)}, {3, 3, offsetof(Capsule, colour)}};
-
 template <class T>
 VertexRows rows_of(const std::vector<T>& of, const Columns& columns) {
   return {of.data(), of.size(), sizeof(T), columns};
 }
 
-Batch batch_of(const Mesh& mesh, const VertexRows& instances) {
-  return {mesh.index, rows_of(mesh.corner, {{0, 4, 0}}), instances};
+Batch batch_of(const RodMesh& mesh, const std::vector<Rod>& rods) {
+  return {mesh.index, rows_of(mesh.corner, {{0, 4, 0}}),
+          rows_of(rods, {{1, 4, offsetof(Rod, a)}, {2, 3, offsetof(Rod, b)}, {3, 3, offsetof(Rod, colour)}})};
 }
 
 /// All of a panel's shapes: full detail for the eye, less for the shadows, and less where there are many.
 struct Uploaded {
   Batch cloth, balls, beads, rods, trail, beads_shadow, rods_shadow;
   Uploaded(const DrawList& s, bool many)
-      : cloth(s.cloth_index, rows_of(s.cloth, cloth_columns)),
-        balls(batch_of(sphere_mesh(112), rows_of(s.balls, sphere_columns))),
-        beads(batch_of(sphere_mesh(many ? 24 : 48), rows_of(s.beads, sphere_columns))),
-        rods(batch_of(many ? capsule_mesh(8, 1) : capsule_mesh(20, 5), rows_of(s.rods, capsule_columns))),
-        trail(batch_of(capsule_mesh(8, 2), rows_of(s.trail, capsule_columns))),
-        beads_shadow(batch_of(sphere_mesh(16), rows_of(s.beads, sphere_columns))),
-        rods_shadow(batch_of(many ? capsule_mesh(5, 1) : capsule_mesh(12, 2), rows_of(s.rods, capsule_columns))) {}
+      : cloth(s.cloth_index, rows_of(s.cloth, {{0, 3, offsetof(ClothVertex, x)},
+                                               {1, 3, offsetof(ClothVertex, normal)},
+                                               {2, 3, offsetof(ClothVertex, rim)},
+                                               {3, 1, offsetof(ClothVertex, value)}})),
+        balls(batch_of(rod_mesh(112, 28), s.balls)),
+        beads(batch_of(many ? rod_mesh(24, 6) : rod_mesh(48, 12), s.beads)),
+        rods(batch_of(many ? rod_mesh(8, 1) : rod_mesh(20, 5), s.rods)),
+        trail(batch_of(rod_mesh(8, 2), s.trail)),
+        beads_shadow(batch_of(rod_mesh(16, 4), s.beads)),
+        rods_shadow(batch_of(many ? rod_mesh(5, 1) : rod_mesh(12, 2), s.rods)) {}
 };
 
 /// Clip space to the 0..1 of a texture and its depth.
@@ -64,15 +61,15 @@ Eigen::Matrix4f to_texture(const Eigen::Matrix4f& to_clip) {
 struct Painter {
   const int width, height;
   const std::vector<Sample> samples;
-  const Program cloth{"CLOTH"}, cloth_values{"CLOTH VALUES"}, sphere{"SPHERE"}, rod{"ROD"}, trail{"TRAIL"},
-      ground{"GROUND"}, sum{"SUM"};
-  const Program cloth_shadow{"CLOTH SHADOW"}, sphere_shadow{"SPHERE SHADOW"}, rod_shadow{"ROD SHADOW"};
+  const std::vector<unsigned char> srgb = srgb_table();
+  const Program cloth{"CLOTH"}, cloth_values{"CLOTH VALUES"}, rod{"ROD"}, trail{"TRAIL"}, ground{"GROUND"}, sum{"SUM"};
+  const Program cloth_shadow{"CLOTH SHADOW"}, rod_shadow{"ROD SHADOW"};
   const Target key_map = shadow_map(key_texels), sky_map = shadow_map(sky_texels);
   const Target pass, total;
   GLuint scale_map = 0, nothing = 0;
   float open_ground = 0;  // mean light where nothing throws a shadow
 
-  Painter(int width_, int height_, Quality quality, bool diverging)
+  Painter(int width_, int height_, Quality quality)
       : width(width_),
         height(height_),
         samples(light_samples(quality == Quality::fast ? fast_passes : still_passes)),
@@ -82,7 +79,7 @@ struct Painter {
     open_ground /= float(samples.size());
     std::vector<float> map;
     for (int i = 0; i < 256; ++i) {
-      const Colour c = to_linear(scale_colour(diverging, float(i) / 255));
+      const Colour c = to_linear(scale_colour(float(i) / 255));
       map.insert(map.end(), {c.x(), c.y(), c.z()});
     }
     glGenTextures(1, &scale_map);
@@ -108,8 +105,7 @@ struct Painter {
       for (const Batch* batch : batches) batch->draw();
     };
     cast(cloth_shadow, {&shapes.cloth});
-    cast(sphere_shadow, {&shapes.balls, &shapes.beads_shadow});
-    cast(rod_shadow, {&shapes.rods_shadow});
+    cast(rod_shadow, {&shapes.balls, &shapes.beads_shadow, &shapes.rods_shadow});
     glDisable(GL_DEPTH_CLAMP);
   }
 
@@ -140,12 +136,11 @@ struct Painter {
     if (!shapes.cloth.empty()) {
       const Program& program = list.coloured ? cloth_values : cloth;
       begin(program);
-      program.set("plain", linear(plain_cloth)), program.set("no_value", linear(no_value_hex));
+      program.set("plain", linear(plain_cloth));
       shapes.cloth.draw();
     }
     glEnable(GL_CULL_FACE);
-    begin(sphere), shapes.balls.draw(), shapes.beads.draw();
-    begin(rod), shapes.rods.draw();
+    begin(rod), shapes.balls.draw(), shapes.beads.draw(), shapes.rods.draw();
     if (frame.floor && frame.eye.y() > *frame.floor) {
       begin(ground);
       ground.set("background", background), ground.set("unoccluded", open_ground);
@@ -195,13 +190,14 @@ struct Painter {
 namespace {
 
 /// Puts a panel's linear floats (rows from the bottom) into the image (rows from the top).
-void put(const std::vector<float>& pixels, const Layout& layout, int left, int top, Image& image) {
-  const SrgbEncoder encode;
+void put(const std::vector<float>& pixels, const std::vector<unsigned char>& srgb, const Layout& layout, int left,
+         int top, Image& image) {
   for (int y = 0; y < layout.panel_height; ++y) {
     const float* from = &pixels[4 * std::size_t(layout.panel_height - 1 - y) * std::size_t(layout.panel_width)];
     unsigned char* to = &image.rgb[3 * (std::size_t(top + y) * std::size_t(image.width) + std::size_t(left))];
     for (int x = 0; x < layout.panel_width; ++x) {
-      for (int channel = 0; channel < 3; ++channel) to[3 * x + channel] = encode(from[4 * x + channel]);
+      for (int channel = 0; channel < 3; ++channel)
+        to[3 * x + channel] = srgb[std::size_t(std::fmin(std::fmax(from[4 * x + channel], 0.f), 1.f) * 16384 + 0.5f)];
     }
   }
 }
@@ -221,16 +217,15 @@ Image blank(int width, int height) {
 struct OffscreenRenderer::Parts {
   std::unique_ptr<Context> context;
   std::unique_ptr<Painter> painter;  // dies before the context
-  std::tuple<int, int, Quality, bool> painter_for;
+  std::tuple<int, int, Quality> painter_for;
 
   Painter& painter_of(const Picture& picture, const Layout& layout) {
-    const bool diverging = picture.scale && picture.scale->diverging;
-    const std::tuple wanted(layout.panel_width, layout.panel_height, picture.quality, diverging);
+    const std::tuple wanted(layout.panel_width, layout.panel_height, picture.quality);
     if (!painter || painter_for != wanted) {
       // a new context too: the old painter's textures and programs go with the old one
       painter.reset(), context.reset();
       context = std::make_unique<Context>();
-      painter = std::make_unique<Painter>(layout.panel_width, layout.panel_height, picture.quality, diverging);
+      painter = std::make_unique<Painter>(layout.panel_width, layout.panel_height, picture.quality);
       painter_for = wanted;
     }
     context->make_current();
@@ -251,8 +246,8 @@ Image OffscreenRenderer::draw(const Picture& picture) {
   for (std::size_t row = 0; row < picture.rows.size(); ++row) {
     for (std::size_t column = 0; column < picture.rows[row].size(); ++column) {
       const DrawList list = draw_list_of(picture.rows[row][column], frame, picture.scale);
-      put(painter.paint(list, frame), layout, layout.left + int(column) * layout.panel_width, layout.panel_top[row],
-          image);
+      put(painter.paint(list, frame), painter.srgb, layout, layout.left + int(column) * layout.panel_width,
+          layout.panel_top[row], image);
     }
   }
   return image;

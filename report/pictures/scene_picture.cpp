@@ -269,8 +269,8 @@ render::Picture panels_of(const Scene& scene, const std::vector<const MethodResu
       picture.rows.back().push_back(std::move(panel));
     }
   }
-  if (mode == Mode::stretch) picture.scale = render::Scale{"stretch / %", 0, 1};
-  if (mode == Mode::difference) picture.scale = render::Scale{"distance from " + usable[0]->method + " / mm", 0, 1};
+  if (mode == Mode::stretch) picture.scale = render::Scale{"stretch / %", 1};
+  if (mode == Mode::difference) picture.scale = render::Scale{"distance from " + usable[0]->method + " / mm", 1};
   if (mode == Mode::springs && !scene.triangles.empty())
     for (const Family family : families_of(scene)) picture.legend.emplace_back(name_of(family));
   if (shot.text > 0 && !strip) render::arrange(picture, panel_in_print);

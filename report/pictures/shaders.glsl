@@ -1,5 +1,5 @@
 // All materials of the pictures. #define chooses between them, because software GL pays for every branch:
-// one of CLOTH, SPHERE, ROD, TRAIL (a rod without light), GROUND, SUM (adds one pass to the sum);
+// one of CLOTH, ROD, TRAIL (a rod without light), GROUND, SUM (adds one pass to the sum);
 // VALUES: cloth coloured by value; SHADOW: depth only; VERTEX or FRAGMENT: the stage.
 
 #ifdef VERTEX
@@ -12,13 +12,9 @@ uniform vec4 ground;   // centre x, height, centre z, half width
 layout(location = 0) in vec3 corner;
 layout(location = 1) in vec3 corner_normal;
 layout(location = 2) in vec3 corner_rim;
-layout(location = 3) in vec2 corner_value;
+layout(location = 3) in float corner_value;
 out vec3 rim;
-out vec2 value;
-#elif defined(SPHERE)
-layout(location = 0) in vec4 corner;
-layout(location = 1) in vec4 centre_radius;
-layout(location = 2) in vec3 own_colour;
+out float value;
 #elif defined(ROD) || defined(TRAIL)
 layout(location = 0) in vec4 corner;
 layout(location = 1) in vec4 start_radius;
@@ -37,10 +33,6 @@ void main() {
   normal = corner_normal;
   rim = corner_rim;
   value = corner_value;
-#elif defined(SPHERE)
-  normal = corner.xyz;
-  place = centre_radius.xyz + centre_radius.w * normal;
-  colour = own_colour;
 #elif defined(ROD) || defined(TRAIL)
   vec3 axis = end - start_radius.xyz;
   float size = length(axis);
@@ -104,14 +96,14 @@ vec3 light_on(vec3 n, float through) {
 
 #if defined(CLOTH)
 uniform sampler2D scale_map;
-uniform vec3 plain, no_value;
+uniform vec3 plain;
 in vec3 rim;
-in vec2 value;
+in float value;
 
 void main() {
   vec3 n = normalize(gl_FrontFacing ? normal : -normal);
 #ifdef VALUES
-  vec3 base = value.y > 0.001 ? no_value : texture(scale_map, vec2(value.x * (255.0 / 256) + 0.5 / 256, 0.5)).rgb;
+  vec3 base = texture(scale_map, vec2(value * (255.0 / 256) + 0.5 / 256, 0.5)).rgb;
 #else
   vec3 base = plain;
 #endif

@@ -38,7 +38,6 @@ TEST(Arrange, LettersKeepTheirSizeAndPanelsTheirOrder) {
       for (size_t i = 0; i < count; ++i)
         picture.rows[0].push_back({i % 2 ? "bullet/deformable-explicit" : "mysim/symplectic-euler",
                                    fmt::format("t = {} s, blew up at 0.12 s", i),
-                                   "",
                                    {},
                                    {}});
       render::arrange(picture, 1.2);
@@ -56,7 +55,7 @@ TEST(Arrange, LettersKeepTheirSizeAndPanelsTheirOrder) {
 TEST(Arrange, SmallLettersLeaveOneRow) {
   render::Picture picture;
   picture.width = 2000, picture.text = 20;
-  picture.rows = {{{"mysim/rk4", "", "", {}, {}}, {"bullet/pbd", "", "", {}, {}}}};
+  picture.rows = {{{"mysim/rk4", "", {}, {}}, {"bullet/pbd", "", {}, {}}}};
   render::arrange(picture, 1.2);
   EXPECT_EQ(picture.rows.size(), 1u);
 }
@@ -75,7 +74,7 @@ TEST(PrintedPicture, LettersOnThePageHaveTheSizeThatWasAsked) {
   fs::create_directories(folder);
   render::Picture picture = render::small_picture();
   picture.width = 1200, picture.text = 300 * 8 / 72.0;
-  picture.scale = render::Scale{"stretch / %", 0, 5};
+  picture.scale = render::Scale{"stretch / %", 5};
   render::arrange(picture, 1.2);
   render::write_print(picture, 300, folder / "a.png", folder / "a.pdf");
   std::ifstream in(folder / "a.pdf", std::ios::binary);

@@ -36,7 +36,7 @@ inline Picture small_picture(Quality quality = Quality::fast) {
   picture.width = 160, picture.height = 120;
   const Body body = cloth(8, 0.6);
   const Ball ball{{0, 0, 0}, 0.35};
-  picture.rows = {{Panel{"mysim", "", "", {body}, {ball}}}};
+  picture.rows = {{Panel{"mysim", "", {body}, {ball}}}};
   picture.view = fit_view({body.x}, {ball}, {0.3, 0.4, 1}, panel_aspect(picture));
   return picture;
 }

@@ -137,19 +137,16 @@ TEST(Render, SceneOfAnyUnitLooksTheSame) {
   EXPECT_LT(changed(renderer.draw(small_picture()), renderer.draw(scaled)), 0.002);
 }
 
-TEST(Render, BlownUpBodyIsLeftOut) {
+TEST(Render, LeavesOutABodyThatBlewUp) {
   OffscreenRenderer renderer;
+  Picture empty = small_picture();
+  empty.rows[0][0].bodies.clear();
+  const Image without = renderer.draw(empty);
   for (const double bad : {std::nan(""), std::numeric_limits<double>::infinity(), 1e300, 1e30}) {
     Picture picture = small_picture();
-    Body& body = body_of(picture);
-    body.tubes = {{0, 9}, {9, 18}};
-    body.bead_radius = by_view;
-    body.pinned = {9};
-    body.trail = {Vec3(0, 0, 0), Vec3::Constant(bad), Vec3(1, 0, 0)};
-    Picture all_bad = picture;
-    body.x.col(9).setConstant(bad);
-    body_of(all_bad).x.setConstant(bad);
-    EXPECT_GT(changed(renderer.draw(picture), renderer.draw(all_bad)), 0.05) << "the sound part is drawn, " << bad;
+    body_of(picture).trail = {Vec3(0, 0, 0), Vec3::Constant(bad)};
+    body_of(picture).x.col(9).setConstant(bad);
+    EXPECT_EQ(changed(renderer.draw(picture), without), 0) << bad;
   }
 }
 
@@ -159,14 +156,13 @@ TEST(Render, ScaleColoursLowAndHighApart) {
   OffscreenRenderer renderer;
   const auto with_value = [&](double value) {
     Picture picture = small_picture();
-    picture.scale = Scale{"stretch / %", 0, 5};
+    picture.scale = Scale{"stretch / %", 5};
     body_of(picture).value.assign(64, value);
     return renderer.draw(picture);
   };
   const Image low = with_value(0), high = with_value(5);
   EXPECT_GT(changed(low, high), 0.02);
   EXPECT_EQ(changed(high, with_value(50)), 0) << "out of range is the end of the scale";
-  EXPECT_GT(changed(high, with_value(std::nan(""))), 0.02) << "no value has a colour of its own";
 }
 
 TEST(Render, TubesTakePaletteColours) {
@@ -185,7 +181,7 @@ TEST(Render, PngHasLettersAndTheSameBytes) {
   const Scratch scratch;
   Picture picture = small_picture();
   picture.width = 480, picture.height = 270;
-  picture.scale = Scale{"stretch / %", -5, 5, true};
+  picture.scale = Scale{"stretch / %", 5};
   picture.legend = {"structural", "shear", "bend"};
   picture.rows[0][0].subtitle = "it's `ls` @t {x}_y^2 \\n \"5 %\"";
   picture.rows[0].push_back(picture.rows[0][0]);
@@ -205,10 +201,6 @@ TEST(Render, PngHasLettersAndTheSameBytes) {
   for (int y = 0; y < 28; ++y) {
     for (const int x : {0, 1, 239, 240, 478, 479}) EXPECT_GT(lettered.rgb[3 * std::size_t(y * 480 + x)], 0xE0) << x;
   }
-
-  picture.rows[0][1].note = "not finite from t = 0.4 s";
-  write_png(picture, scratch.path / "b.png");
-  EXPECT_GT(changed(lettered, read_png(scratch.path / "b.png")), 0.001);
 }
 
 TEST(Render, UnwritablePlaceIsNamed) {
@@ -237,9 +229,9 @@ TEST(Render, ProgramsAreRunWithoutAShell) {
   EXPECT_THROW(run_program({"no-such-program-anywhere"}, scratch.path), std::runtime_error);
 }
 
-TEST(Render, SphereMeshIsRoundAndClosed) {
+TEST(Render, RodWithoutLengthIsARoundBall) {
   // the picture's balls: no flat piece may dip more than 0.1 % of the radius below the surface
-  const Mesh mesh = sphere_mesh(112);
+  const RodMesh mesh = rod_mesh(112, 28);
   ASSERT_EQ(mesh.index.size() % 3, 0u);
   for (std::size_t i = 0; i < mesh.index.size(); i += 3) {
     Eigen::Vector3f middle = Eigen::Vector3f::Zero();
@@ -335,7 +327,7 @@ bool look_the_same(const Image& a, const Image& b, bool letters = true) {
 Picture drape(Quality quality) {
   Picture picture = small_picture(quality);
   picture.width = 480, picture.height = 270;
-  picture.scale = Scale{"stretch / %", 0, 5};
+  picture.scale = Scale{"stretch / %", 5};
   Panel& panel = picture.rows[0][0];
   panel.title = "mysim/symplectic-euler", panel.subtitle = "t = 1.5 s";
   Body& body = panel.bodies[0];
@@ -390,7 +382,6 @@ TEST_F(GoldenPicture, LooksAsItDidAndChangesAreNoticed) {
              for (double& v : panel.bodies[0].tube_value) v *= 1.2;
            }
          }},
-        {"the bar has other colours", [](Picture& p) { p.scale->diverging = true; }},
         {"a title is another", [](Picture& p) { p.rows[0][1].title = "bullet/pdb"; }},
     };
     for (const auto& [what, change] : changes) {
