@@ -84,28 +84,17 @@ void erase_pdf_date(const std::filesystem::path& pdf) {
 
 namespace {
 
-/// The fault of a file that gnuplot wrote, or nothing. A format that is known by its first bytes must come to its
-/// last ones.
+/// The fault of a file that gnuplot wrote, or nothing. A file of a known beginning must come to its last bytes.
 std::string wrong_with_drawn_file(const std::filesystem::path& file) {
-  struct Format {
-    std::string_view begin, end;
-  };
-  static constexpr std::array<Format, 3> formats{
+  static constexpr std::array<std::pair<std::string_view, std::string_view>, 3> formats{
       {{"\x89PNG", "IEND\xAE\x42\x60\x82"}, {"%PDF-", "%%EOF"}, {"<?xml", "</svg>"}}};
   const std::optional<std::string> content = try_read_file(file);
   if (!content) return "was not written";
   if (content->empty()) return "is empty";
-  for (const Format& format : formats)
-    if (content->starts_with(format.begin)) {
-      const size_t last = content->find_last_not_of("\r\n");
-      return std::string_view(*content).substr(0, last + 1).ends_with(format.end) ? "" : "is cut off";
-    }
+  const std::string_view whole = std::string_view(*content).substr(0, content->find_last_not_of("\r\n") + 1);
+  for (const auto& [begin, end] : formats)
+    if (whole.starts_with(begin) && !whole.ends_with(end)) return "is cut off";
   return "";
-}
-
-std::string without_end_of_line(std::string text) {
-  text.erase(text.find_last_not_of(" \n") + 1);
-  return text;
 }
 
 }  // namespace
@@ -113,7 +102,7 @@ std::string without_end_of_line(std::string text) {
 std::string run_gnuplot(const std::string& script, const std::filesystem::path& folder,
                         const std::vector<std::string>& files, const std::string& what) {
   const ProgramResult drawn = run_program({"gnuplot", "-d", script}, folder);
-  const std::string said = without_end_of_line(drawn.err);
+  const std::string said = drawn.err.substr(0, drawn.err.find_last_not_of(" \n") + 1);
   if (drawn.status != 0)
     throw std::runtime_error(fmt::format("{}: gnuplot (exit code {}): {}", what, drawn.status, said));
   for (const std::string& file : files)

@@ -7,7 +7,7 @@
 #include "mysim/base/text.h"
 #include "report/base/assets.h"
 #include "report/page/page.h"
-#include "report/pictures/image_file.h"
+#include "report/pictures/picture.h"
 
 namespace crosscheck {
 std::string prose(const std::string& text) {

@@ -10,9 +10,8 @@
 
 namespace crosscheck::render {
 
-// The frame all drawing happens in: the view's target at the origin, up = +y, viewer towards +z, the view 1 high there.
-
-/// In this frame every scene is of size one and lit from the same side of the viewer, whatever its unit and direction.
+/// The frame of all drawing, with the view's target at the origin, up = +y, the viewer towards +z and the view 1 high.
+/// In it every scene is of size one and lit from the same side of the viewer, whatever its unit and direction.
 struct Frame {
   Eigen::Matrix3d axes;        // rows: right, up, towards the viewer (both horizontal ones perpendicular to up)
   Vec3 origin;                 // the target, m
@@ -36,8 +35,6 @@ Eigen::Vector3f key_direction();
 
 /// Clip matrix of a light far away in this direction that holds the sphere: depth 0..1 from its near to its far side.
 Eigen::Matrix4f light_matrix(const Eigen::Vector3f& direction, const Eigen::Vector3f& centre, float radius);
-
-// The light and camera samples of an accumulated picture: one point of the key light, sky and pixel per pass.
 
 // light that falls on a surface facing the key light, and on one facing up under an open sky
 constexpr float key_light = 0.66f, sky_light = 0.47f;

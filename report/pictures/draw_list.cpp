@@ -158,14 +158,14 @@ void add_rods(const PlacedBody& placed, const std::vector<Edge>& loose, const Fr
 
 void add_beads(const PlacedBody& placed, const Frame& frame, DrawList& list) {
   const Body& body = placed.body;
-  const float radius = body.bead_radius < 0 ? view_bead_radius : frame.length(body.bead_radius);
+  const float radius = body.beads ? view_bead_radius : 0;
   // a pin must show whatever is drawn around it
   const float least = std::max(0.8f * radius, body.tubes.empty() ? 0 : 1.7f * tube_radius(placed, frame));
   for (int i = 0; i < int(placed.x.size()); ++i) {
     const Eigen::Vector3f& x = placed.at(i);
     if (std::ranges::count(body.pinned, i) > 0)
       list.beads.push_back({x, std::max(pin_radius, least), x, linear(pin_hex)});
-    else if (radius > 0)
+    else if (body.beads)
       list.beads.push_back(
           {x, radius, x, placed.coloured() ? to_linear(scale_colour(placed.position(i))) : linear(plain_bead)});
   }

@@ -1,4 +1,5 @@
-#include "report/pictures/image_file.h"
+// Images as files: libpng, WebP, and pictures with their letters.
+#include "report/pictures/picture.h"
 
 #include <fmt/format.h>
 #include <png.h>

@@ -8,7 +8,6 @@
 #include <stdexcept>
 
 #include "mysim/base/errors.h"
-#include "report/pictures/picture.h"
 
 namespace crosscheck::render {
 
@@ -40,6 +39,13 @@ std::string wrapped(const std::string& text, bool bold, double room) {
   return all + line;
 }
 
+bool is_strip(const std::vector<Panel>& row) {
+  if (row.size() < 2 || row[0].title.empty()) return false;
+  return std::all_of(row.begin() + 1, row.end(), [](const Panel& p) { return p.title.empty(); });
+}
+
+double legend_entry_width(const std::string& name) { return text_width(name, false) + 3.4; }
+
 namespace {
 
 constexpr double fill = 0.92;  // of the room that a text may take
@@ -68,36 +74,13 @@ double fitting(double wanted, const std::string& text, bool bold, double room) {
   return wanted;
 }
 
-std::vector<std::vector<int>> legend_lines(const Legend& legend, double font, double room) {
-  std::vector<std::vector<int>> lines;
-  double used = room;
-  for (int i = 0; i < int(legend.size()); ++i) {
-    const double width = legend_entry_width(legend[std::size_t(i)], font);
-    if (used + width > room) lines.emplace_back(), used = 0;
-    lines.back().push_back(i);
-    used += width;
-  }
-  return lines;
-}
-
-}  // namespace
-
-bool is_strip(const std::vector<Panel>& row) {
-  if (row.size() < 2 || row[0].title.empty()) return false;
-  return std::all_of(row.begin() + 1, row.end(), [](const Panel& p) { return p.title.empty(); });
-}
-
-double legend_entry_width(const std::string& name, double font) { return (text_width(name, false) + 3.4) * font; }
-
-namespace {
-
 double title_line(const Layout& layout) { return 1.75 * layout.title; }
 double subtitle_line(const Layout& layout) { return 1.5 * layout.text; }
 
 /// Height of what stands below the panels: legend, then bar with its ticks and label.
 double footer_of(const Picture& picture, const Layout& layout) {
   double footer = 0;
-  if (!picture.legend.empty()) footer += (1.7 * double(layout.legend.size()) + 0.6) * layout.text;
+  if (!picture.legend.empty()) footer += 2.3 * layout.text;
   if (picture.scale) footer += 4.6 * layout.text;
   return footer;
 }
@@ -117,15 +100,31 @@ std::vector<double> bands_of(const Picture& picture, const Layout& layout) {
 Layout columns_and_fonts(const Picture& picture) {
   const std::size_t columns = columns_of(picture);
   if (columns == 0) throw std::runtime_error("render: the picture has no panels");
-  if (picture.width > 16384 || picture.height > 16384) throw std::runtime_error("render: the picture is too large");
   const double unit = std::sqrt(double(picture.width) * picture.height) / 960;  // 1 at 1280 x 720
   Layout layout;
   layout.title = picture.text > 0 ? picture.text : std::max(22 * unit, 8.0);
   layout.text = picture.text > 0 ? picture.text : std::max(16 * unit, 7.0);
   layout.panel_width = picture.width / int(columns);
   layout.left = (picture.width - layout.panel_width * int(columns)) / 2;
-  layout.legend = legend_lines(picture.legend, layout.text, fill * picture.width);
+  for (const std::string& name : picture.legend) layout.legend_width += legend_entry_width(name);
+  layout.legend = std::min(layout.text, fill * picture.width / std::max(layout.legend_width, 1.0));
   return layout;
+}
+
+/// True if all titles fit into panels of this width (in units of the font size) when they are wrapped.
+bool titles_fit(const std::vector<Panel>& panels, double room) {
+  return std::all_of(panels.begin(), panels.end(), [room](const Panel& panel) {
+    const auto lines = lines_of(wrapped(panel.title, true, room));
+    return std::all_of(lines.begin(), lines.end(), [&](const auto& line) { return text_width(line, true) <= room; });
+  });
+}
+
+/// The height at which panels are so much wider than high, pixels.
+int height_for(const Picture& picture, double aspect) {
+  const Layout layout = columns_and_fonts(picture);
+  double height = footer_of(picture, layout) + double(picture.rows.size()) * layout.panel_width / aspect;
+  for (const double band : bands_of(picture, layout)) height += band;
+  return int(std::ceil(height));
 }
 
 }  // namespace
@@ -174,26 +173,6 @@ double panel_aspect(const Picture& picture) {
   const Layout layout = layout_of(picture);
   return double(layout.panel_width) / layout.panel_height;
 }
-
-namespace {
-
-/// Whether all titles fit into panels of this width (in units of the font size) when they are wrapped.
-bool titles_fit(const std::vector<Panel>& panels, double room) {
-  return std::all_of(panels.begin(), panels.end(), [room](const Panel& panel) {
-    const auto lines = lines_of(wrapped(panel.title, true, room));
-    return std::all_of(lines.begin(), lines.end(), [&](const auto& line) { return text_width(line, true) <= room; });
-  });
-}
-
-/// The height at which panels are so much wider than high, pixels.
-int height_for(const Picture& picture, double aspect) {
-  const Layout layout = columns_and_fonts(picture);
-  double height = footer_of(picture, layout) + double(picture.rows.size()) * layout.panel_width / aspect;
-  for (const double band : bands_of(picture, layout)) height += band;
-  return int(std::ceil(height));
-}
-
-}  // namespace
 
 void arrange(Picture& picture, double aspect) {
   std::vector<Panel> panels = std::move(picture.rows[0]);

@@ -25,20 +25,21 @@ struct Layout {
   double title = 0, text = 0;  // font sizes, pixels
   double subtitle = 0;         // font size of the subtitles, pixels
   int panel_width = 0, panel_height = 0;
-  int left = 0;                          // of the first column
-  std::vector<int> panel_top;            // one per row
-  std::vector<double> title_y;           // middle of the title's last line, one per row
-  std::vector<double> subtitle_y;        // middle of the subtitle's first line, one per row
-  std::vector<std::vector<int>> legend;  // entries of each line of the legend
-  double legend_y = 0;                   // middle of its first line
+  int left = 0;                    // edge of the first column
+  std::vector<int> panel_top;      // one per row
+  std::vector<double> title_y;     // middle of the title's last line, one per row
+  std::vector<double> subtitle_y;  // middle of the subtitle's first line, one per row
+  double legend = 0;               // font size of the legend, pixels
+  double legend_width = 0;         // in units of that size
+  double legend_y = 0;             // middle of its line
   double bar_top = 0, bar_height = 0, bar_left = 0, bar_width = 0;
 };
 
 /// A row with one title, in its first column, is a strip: the title heads the whole row.
 bool is_strip(const std::vector<Panel>& row);
 
-/// Width of a legend entry with its swatch and the gap after it, in pixels.
-double legend_entry_width(const std::string& name, double font);
+/// Width of a legend entry with its swatch and the gap after it, in units of the font size.
+double legend_entry_width(const std::string& name);
 
 /// Throws std::runtime_error if the picture has no panels, InputError where its size has no room for them.
 Layout layout_of(const Picture& picture);

@@ -45,7 +45,8 @@ Owned<cairo_surface_t> surface_of(const Image& image) {
 /// Letters, boxes and lines at places in pixels from the top left.
 class Page {
  public:
-  explicit Page(cairo_surface_t* surface) : cairo_(cairo_create(surface)) {
+  explicit Page(cairo_surface_t* surface)
+      : cairo_(cairo_create(surface)), letters_stay_(cairo_surface_get_type(surface) == CAIRO_SURFACE_TYPE_PDF) {
     const Owned<cairo_font_options_t> options(cairo_font_options_create());
     cairo_font_options_set_hint_style(options.get(), CAIRO_HINT_STYLE_NONE);
     cairo_font_options_set_hint_metrics(options.get(), CAIRO_HINT_METRICS_OFF);
@@ -67,7 +68,10 @@ class Page {
       const double start = x - before * size * width(line, bold);
       set_font(bold, size), set_ink(colour);
       cairo_move_to(cairo_.get(), start, y + 0.35 * size);
-      cairo_show_text(cairo_.get(), printable(line).c_str());
+      if (letters_stay_)
+        cairo_show_text(cairo_.get(), printable(line).c_str());
+      else  // as outlines, whose places are not rounded to pixels
+        cairo_text_path(cairo_.get(), printable(line).c_str()), cairo_fill(cairo_.get());
       y += line_height * size;
     }
   }
@@ -107,6 +111,7 @@ class Page {
   }
 
   Owned<cairo_t> cairo_;
+  bool letters_stay_;
 };
 
 constexpr unsigned title_ink = 0x111111, ink = 0x333333, subtitle_ink = 0x666666, edge = 0x777777;
@@ -126,18 +131,12 @@ void add_titles(Page& page, const Picture& picture, const Layout& layout) {
 }
 
 void add_legend(Page& page, const Picture& picture, const Layout& layout) {
-  const double font = layout.text;
-  for (std::size_t l = 0; l < layout.legend.size(); ++l) {
-    double width = 0;
-    for (const int i : layout.legend[l]) width += legend_entry_width(picture.legend[std::size_t(i)], font);
-    double x = 0.5 * (picture.width - width) + 0.6 * font;
-    const double y = layout.legend_y + 1.7 * font * double(l);
-    for (const int i : layout.legend[l]) {
-      const std::string& name = picture.legend[std::size_t(i)];
-      page.box(x, y - 0.28 * font, 1.5 * font, 0.56 * font, palette_hex(i));
-      page.label(x + 2.0 * font, y, 0, name, font, false, ink);
-      x += legend_entry_width(name, font);
-    }
+  const double font = layout.legend, y = layout.legend_y;
+  double x = 0.5 * (picture.width - layout.legend_width * font) + 0.6 * font;
+  for (std::size_t i = 0; i < picture.legend.size(); ++i) {
+    page.box(x, y - 0.28 * font, 1.5 * font, 0.56 * font, palette_hex(int(i)));
+    page.label(x + 2.0 * font, y, 0, picture.legend[i], font, false, ink);
+    x += legend_entry_width(picture.legend[i]) * font;
   }
 }
 

@@ -18,9 +18,6 @@ struct Ball {
   double radius;  // m
 };
 
-/// A bead radius chosen from the size of the view, so that a scene of a few particles is clearly visible.
-inline constexpr double by_view = -1;
-
 /// One body: the particles of one method at one instant.
 struct Body {
   Points x;                                   // N (3 x n), m
@@ -32,7 +29,7 @@ struct Body {
   std::vector<double> value;                  // one per particle: coloured by the scale; empty: plain cloth
   std::vector<int> pinned;                    // particles drawn as pins
   double tube_radius = 0;                     // m; 0: chosen from the size of the view
-  double bead_radius = 0;                     // m; particles drawn as balls; 0: not drawn; by_view: as the view needs
+  bool beads = false;                         // particles drawn as balls, as large as the view needs
   std::vector<Vec3> trail;                    // path of one particle until now, drawn as a thin fading line
 };
 
@@ -77,6 +74,15 @@ struct Image {
   int width = 0, height = 0;
   std::vector<unsigned char> rgb;  // 3 * width * height
 };
+
+/// Throws std::runtime_error that names the file.
+Image read_png(const std::filesystem::path& file);
+
+/// The bytes of a PNG file that says how many of its pixels make an inch, if that is given.
+std::string png_bytes(const Image& image, double pixels_per_inch = 0);
+
+/// The bytes of a lossy WebP file, half as large as a PNG of 128 colours: for small pictures on a page.
+std::string webp_bytes(const Image& image);
 
 /// Draws like draw(), but keeps the OpenGL context and its compiled shaders for the next picture (of the same size
 /// and quality): for clips, where compiling takes longer than drawing. To be used in one thread.

@@ -66,7 +66,7 @@ render::Body body_of(const Scene& scene, const MethodResult& answer, int frame, 
     if (constraints)
       for (const auto& [a, b, length] : constraints->list) body.threads.push_back({a, b});
   } else {
-    if (scene.triangles.empty()) body.bead_radius = render::by_view;
+    if (scene.triangles.empty()) body.beads = true;
     std::vector<double> strain;
     if (mode == Mode::stretch) stretch_of(scene, body.x, &strain);
     if (springs)
@@ -292,15 +292,9 @@ int frame_shown(const Scene& scene, const MethodResult& answer, const Shot& shot
 }
 
 Mode mode_named(const std::string& name) {
-  constexpr std::pair<const char*, Mode> table[] = {{"shaded", Mode::shaded},
-                                                    {"stretch", Mode::stretch},
-                                                    {"springs", Mode::springs},
-                                                    {"difference", Mode::difference},
-                                                    {"strip", Mode::strip}};
-  for (const auto& [known, mode] : table)
-    if (name == known) return mode;
-  std::vector<std::string> names;
-  for (const auto& [known, mode] : table) names.emplace_back(known);
+  const std::vector<std::string> names{"shaded", "stretch", "springs", "difference", "strip"};  // in the order of Mode
+  const auto found = std::ranges::find(names, name);
+  if (found != names.end()) return static_cast<Mode>(found - names.begin());
   throw InputError(fmt::format("--mode {}: expected shaded, stretch, springs, difference or strip{}", name,
                                did_you_mean(name, names)));
 }

@@ -14,7 +14,7 @@
 #include "reference/method.h"
 #include "report/base/gnuplot.h"
 #include "report/figures/plot_layout.h"
-#include "report/pictures/image_file.h"
+#include "report/pictures/picture.h"
 #include "tests/unit/helpers.h"
 #include "tests/unit/reference/helpers.h"
 #include "tests/unit/report/readers.h"

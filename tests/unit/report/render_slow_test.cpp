@@ -17,7 +17,7 @@
 #include "render_helpers.h"
 #include "report/pictures/camera.h"
 #include "report/pictures/draw_list.h"
-#include "report/pictures/image_file.h"
+#include "report/pictures/picture.h"
 #include "tests/unit/temporary.h"
 
 namespace crosscheck::render {
