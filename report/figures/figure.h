@@ -91,8 +91,8 @@ struct OnPage {
     double x = 0, y = 0;
     std::string name, more;
   };
-  std::optional<Take> take;      // the run to take, ringed
-  bool flat = false;             // beside pictures: less high than wide
+  std::optional<Take> take;  // the run to take, ringed
+  bool flat = false;         // beside pictures: less high than wide
 };
 
 /// Curves, points and crosses over two axes.
