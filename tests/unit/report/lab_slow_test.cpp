@@ -109,7 +109,9 @@ class LabModule : public InBrowser {
       ASSERT_FALSE(entry.find("refused")) << entry["refused"].text();
       if (run.exact) {
         EXPECT_EQ(entry["fingerprint"].text(), run.fingerprint);
-        if (run.steps == golden_steps) EXPECT_EQ(run.fingerprint, golden.at({run.scene, run.stepper}));
+        if (run.steps == golden_steps) {
+          EXPECT_EQ(run.fingerprint, golden.at({run.scene, run.stepper}));
+        }
         ++exact;
         continue;
       }
