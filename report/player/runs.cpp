@@ -1,7 +1,6 @@
 // Positions on lattices, entries of the index, and their way back.
 #include "report/player/runs.h"
 
-#include <fmt/format.h>
 #include <fmt/ranges.h>
 #include <nlohmann/json.hpp>
 
@@ -28,18 +27,16 @@ constexpr double of_shown = INFINITY, of_own_run = 8192, of_mark = 4096, of_cell
 
 double rounded(double value) { return std::strtod(fmt::format("{:.4g}", value).c_str(), nullptr); }
 
-/// The frames of a run, as far as they are finite.
 struct Frames {
   std::vector<double> t;  // s
   std::vector<Points> x, v;
 };
 
+/// The frames of a run, as far as they are finite.
 Frames every(const Trajectory& path, int stride) {
   Frames out;
-  for (size_t i = 0; i < path.x.size() && path.x[i].allFinite(); i += static_cast<size_t>(stride)) {
-    out.t.push_back(path.t[i]), out.x.push_back(path.x[i]);
-    out.v.push_back(i < path.v.size() ? path.v[i] : Points());
-  }
+  for (size_t i = 0; i < path.x.size() && path.x[i].allFinite(); i += static_cast<size_t>(stride))
+    out.t.push_back(path.t[i]), out.x.push_back(path.x[i]), out.v.push_back(i < path.v.size() ? path.v[i] : Points());
   return out;
 }
 
@@ -80,9 +77,8 @@ Json packed_run(const std::vector<Points>& x, double unit, std::string& bytes) {
 /// Times (s): the first and the last of frames that are evenly apart, else all.
 Json times_json(const std::vector<double>& t) {
   const double apart = (t.back() - t.front()) / static_cast<double>(std::max<size_t>(1, t.size() - 1));
-  const auto off = [&](size_t i) { return std::abs(t[i] - t[0] - apart * static_cast<double>(i)); };
   for (size_t i = 0; i < t.size(); ++i)
-    if (off(i) > 1e-3 * apart) return t;
+    if (std::abs(t[i] - t[0] - apart * static_cast<double>(i)) > 1e-3 * apart) return t;
   return {t.front(), t.back()};
 }
 
@@ -117,13 +113,13 @@ std::string why_failed(const Outcome& out) {
 }
 
 void add_outcome(Json& json, const Outcome& out) {
-  out.tolerance > 0 ? json["tolerance"] = out.tolerance : json["step"] = out.step;
+  json[out.tolerance > 0 ? "tolerance" : "step"] = out.tolerance > 0 ? out.tolerance : out.step;
   json["verdict"] = name_of(out.verdict);
   if (out.verdict != Verdict::ok) json["failed"] = out.end, json["reason"] = why_failed(out);
 }
 
-/// The smallest multiple of the stride that leaves at most so many frames after the first; a divisor of the samples, so
-/// that the last one is a frame, unless that is twice as much.
+/// The smallest multiple of the stride that leaves at most so many frames after the first; a divisor of the samples,
+/// unless that is twice as much.
 int thinned(const Scene& scene, int stride, int most) {
   const int least = std::max(1, (scene.samples + stride * most - 1) / (stride * most));
   for (int times = least; times < 2 * least; ++times)
@@ -166,7 +162,6 @@ Json cells_of_map(const RecordedRuns& recorded, std::string& bytes) {
   return json;
 }
 
-fs::path runs_folder(const fs::path& report) { return report / "runs"; }
 std::string path_of(const std::string& set, const std::string& method, const char* ending) {
   return fmt::format("runs/{}/{}{}", file_name_of(set), file_name_of(method), ending);
 }
@@ -177,8 +172,8 @@ void write_runs(const fs::path& report, const Scene& scene, const std::string& o
                 const std::string& note, const Json& runs, const std::string& bytes) {
   if (bytes.empty()) return;
   const std::string set = scene.name + "-" + of, file = path_of(set, method, ending);
-  Json entry{{"set", set}, {"scene", scene.name}, {"method", method}, {"file", file}};
-  entry["particles"] = scene.model.particles.size();
+  const int n = scene.model.particles.size();
+  Json entry{{"set", set}, {"scene", scene.name}, {"method", method}, {"file", file}, {"particles", n}};
   if (!note.empty()) entry["note"] = note;
   entry["runs"] = runs;
   write_file(report / file, bytes);
@@ -221,9 +216,7 @@ void RunsWriter::keep_truth(const Scene& scene, const Run& run) {
   const std::optional<Truth>& truth = truth_on(scene, run);
   if (!truth || frame_stride(scene) == 0) return;
   std::string bytes;
-  Outcome known;
-  known.verdict = Verdict::ok;
-  Json json = scene_run(scene, truth, {known, truth->trajectory}, true, scene.size() / of_shown, bytes);
+  Json json = scene_run(scene, truth, {Outcome{}, truth->trajectory}, true, scene.size() / of_shown, bytes);
   if (json.is_null()) return;
   json.erase("step"), json.erase("error");
   write_runs(report_, scene, "truth", "truth", "", Json::array({json}), bytes);
@@ -231,8 +224,8 @@ void RunsWriter::keep_truth(const Scene& scene, const Run& run) {
 
 Json take_index(const fs::path& report) {
   std::vector<fs::path> entries;
-  if (fs::exists(runs_folder(report)))
-    for (const auto& file : fs::recursive_directory_iterator(runs_folder(report)))
+  if (const fs::path runs = report / "runs"; fs::exists(runs))
+    for (const auto& file : fs::recursive_directory_iterator(runs))
       if (file.path().extension() == ending_of_entry) entries.push_back(file.path());
   std::ranges::sort(entries);
   Json index = Json::array();

@@ -6,7 +6,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "mysim/base/json.h"
 #include "mysim/base/text.h"
 #include "report/pictures/scene_picture.h"
 #include "report/player/packed_numbers.h"
