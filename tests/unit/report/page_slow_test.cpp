@@ -241,7 +241,7 @@ void expect_a_card_opens_its_scene_and_back_closes_it(const JsonField& saw) {
 
 void expect_the_first_screen_moves(const JsonField& saw) {
   SCOPED_TRACE("TheFirstScreenMoves");
-  EXPECT_EQ(saw["questions"].number(), 5);
+  EXPECT_EQ(saw["questions"].number(), 6);
   EXPECT_TRUE(saw["still"].boolean()) << "with reduced motion the picture stands until it is asked to move";
   EXPECT_TRUE(saw["heroMoves"].boolean());
   EXPECT_EQ(saw["heroPanels"].number(), 3) << "both engines and the truth";

@@ -163,8 +163,7 @@ TEST_F(CliValidate, PathsThatCannotBeAreBadInput) {
   expect_refusal({"run", "chain", "--out", std::string(5000, 'x')}, {"--out", "expected a folder"});
   expect_refusal({"run", std::string(5000, 'x')}, {"xxx"});
   const ProgramResult nowhere =
-      run_program({CROSSCHECK_PROGRAM, "check", fmt::format("exec:{}", CROSSCHECK_EXAMPLE), "--protocol"}, folder_,
-                  {"TMPDIR=/nowhere/at/all"});
+      run_program({CROSSCHECK_PROGRAM, "check", "--protocol", CROSSCHECK_EXAMPLE}, folder_, {"TMPDIR=/nowhere/at/all"});
   EXPECT_EQ(nowhere.status, 2) << nowhere.err;
   EXPECT_NE(nowhere.err.find("/nowhere/at/all"), std::string::npos) << nowhere.err;
   EXPECT_EQ(nowhere.err.find("filesystem error"), std::string::npos) << nowhere.err;
