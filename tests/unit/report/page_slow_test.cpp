@@ -470,18 +470,5 @@ TEST_F(PlayerPage, TheFirstScreenOfAClothMoves) {
   for (const char* what : {"moves", "returns", "turns", "poster"}) EXPECT_TRUE(saw[what].boolean()) << what;
 }
 
-/// Two engines' drapes of 64 x 64 particles in 150 frames, as the page holds them.
-TEST(PlayerSize, TwoDrapesOf4096ParticlesFitIntoTheHalfOfAPage) {
-  Scene scene = testing_tools::with_grid("cloth-sphere", 64);
-  scene.duration = 1.5;  // s: the fall, the impact and the sliding; at rest nothing is left to be packed
-  const Played played(scene, {"mysim/symplectic-euler", "bullet/deformable-explicit"});
-  const JsonField stage = JsonField::parse(played.motions, "player");
-  EXPECT_EQ(stage["particles"].number(), 4096);
-  EXPECT_EQ(stage["times"].size(), 151u);
-  const size_t bytes = played.html().size();
-  EXPECT_LE(bytes, 4'000'000u);
-  RecordProperty("bytes", static_cast<int>(bytes));
-}
-
 }  // namespace
 }  // namespace crosscheck

@@ -462,6 +462,23 @@ TEST_F(ShownRuns, AreNineAtMost) {
   EXPECT_EQ(shown({}).size(), 9u);
 }
 
+using PageRoom = InFolder;
+
+TEST_F(PageRoom, IsGivenToTheEnginesRepresentativesFirst) {
+  const auto file = [&](const std::string& method, size_t bytes) {
+    return RunFile{"a-engines", "a", method, write(file_name_of(method), std::string(bytes, 'x')), 1, Json::object()};
+  };
+  PageRuns runs({file("mysim/leapfrog", 3'000'000), file("mysim/rk4", 5'000'000), file("mysim/symplectic-euler", 10)});
+  std::vector<std::string> notes;
+  const auto taken = runs.take("a-engines", "", notes);
+  ASSERT_TRUE(taken);
+  ASSERT_EQ(taken->files.size(), 2u);
+  EXPECT_EQ(taken->files[0].method, "mysim/symplectic-euler");
+  EXPECT_EQ(taken->files[1].method, "mysim/leapfrog");
+  EXPECT_EQ(notes, std::vector<std::string>{"of a-engines the runs of 1 methods are too large for the page to play"});
+  EXPECT_FALSE(runs.take("b-engines", "", notes));
+}
+
 /// A small report, assembled as the program does it: two scenes under a few methods, their data in the folder.
 class Assembled : public InFolder {
  protected:
