@@ -54,7 +54,7 @@ std::vector<Chart> same_rule_charts(const ChartInput& input) {
   std::vector<const MethodData*> shown;
   for (const MethodFamily* peer : default_peers()) {
     const std::string method(peer->representative);
-    DotPlot::Series difference{method, style_of(method), {}}, bound{"round-off bound", style_of("truth/converged"), {}};
+    DotPlot::Series difference{method, style_of(method), {}}, bound{"round-off bound", {"#656e78", "1", 6}, {}};
     for (const SceneData& scene : input.facts) {
       const MethodData* m = scene.find(method);
       if (!m || !m->ok() || !m->same_rule.value_or(false) || !m->difference || !(*m->difference > 0)) continue;

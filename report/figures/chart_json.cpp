@@ -362,6 +362,7 @@ const Stepper* usual_rule() {
 
 std::string rule_of(const std::string& name) {
   std::string rule = name.substr(name.find('/') + 1);
+  if (rule.starts_with("trapezoidal")) rule.replace(0, 11, "Heun");  // the name of the literature
   std::ranges::replace(rule, '-', ' ');
   if (const size_t at = rule.find("euler"); at != std::string::npos) rule[at] = 'E';
   if (const size_t at = rule.find('+'); at != std::string::npos) rule.replace(at, 1, ", ");

@@ -256,6 +256,7 @@ std::string reader_name(const std::string& title, const std::vector<std::string>
   if (constexpr std::string_view known = "deformable-"; rule.starts_with(known)) rule.erase(0, known.size());
   std::ranges::replace(rule, '-', ' ');
   if (const size_t at = rule.find("euler"); at != std::string::npos) rule[at] = 'E';
+  if (rule == "trapezoidal") rule = "Heun";  // the name of the literature
   const std::string engine(family.variant_of.empty() ? family.title : family.name);
   return (family.is_subject() ? rule : engine + " " + rule) + option + rest;
 }

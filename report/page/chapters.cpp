@@ -187,6 +187,7 @@ Json chapter_data(const Chapter& chapter, size_t number, const PageContent& c, F
             {"number", number},
             {"count", c.chapters.size()},
             {"title", text(chapter.title)},
+            {"step_lab", chapter.id == "stability" && !c.lab.empty() ? c.main_scene : ""},
             {"label", text(chapter.label)},
             {"answer", answers_of_chapter(chapter.id, c.findings)},
             // a certificate of a few scenes is a few lines high: the text stands below it
