@@ -74,9 +74,8 @@ std::vector<Chart> same_rule_charts(const ChartInput& input) {
       std::ranges::count_if(shown, [](const MethodData* m) { return m->round_off && *m->difference <= *m->round_off; });
   f.finding = fmt::format("Differences below the round-off bound: {} of {} scenes.", agreeing, shown.size());
   f.caption = fmt::format(
-      "Largest difference over time, up to the end of each scene's predictable window. Filled: the difference; grey: "
-      "the most that round-off can make, from the growth of perturbations. With contact the engines apply different "
-      "contact rules, so that no bound is drawn; commit {}.",
+      "Largest difference within each scene's predictable window; grey: the most that round-off can make. With contact "
+      "the engines apply different rules: no bound; commit {}.",
       input.commit);
   f.tier = "another engine, so that these are differences and no errors";
   return {{.figure = std::move(f), .chapter = "same-answer", .heading = "", .shown = true}};
