@@ -5,7 +5,7 @@
 
 #include <algorithm>
 
-#include "experiments/speed_accuracy/step_search.h"
+#include "experiments/speed_accuracy/speed_accuracy.h"
 
 namespace crosscheck {
 
@@ -166,8 +166,7 @@ void conclude_speed_accuracy(TableSet& tables) {
     add_pareto<Cost::cpu>(s, points, pareto_time);
     add_cheapest<Cost::cpu>(s, points, noise, best_time);
     for (const double part : parts_of_motion)
-      if (s.error_bar)
-        add_by_engine(s.scene, part, s.measure, part * s.motion - *s.error_bar, points, engines, s.points);
+      if (s.error_bar) add_by_engine(s.scene, part, s.measure, part * s.motion - *s.error_bar, points, engines);
   }
   for (const Table& table : {pareto, best, cost, pareto_time, best_time, engines}) tables.add(table);
 }
@@ -180,41 +179,18 @@ std::string name_beside_engine(const std::string& method) {
   return family_of(method).role == Role::outside ? method : method.substr(method.find('/') + 1);
 }
 
-namespace {
-
-/// The timed one of mysim's runs that is recommended, else its cheapest; null where none is within the bound.
-const WorkPrecisionPoint* of_subject(const std::vector<WorkPrecisionPoint>& points,
-                                     const std::vector<WorkPrecisionPoint>& counted, double bound) {
-  std::vector<TriedRun> runs;
-  for (const WorkPrecisionPoint& p : counted)
-    if (family_of(p.method).is_subject() && is_candidate(p.method))
-      runs.push_back({.method = p.method,
-                      .setting = {p.setting == SettingKind::tolerance, p.requested},
-                      .verdict = p.ok ? Verdict::ok : Verdict::energy,
-                      .error = p.error,
-                      .cost = p.cost});
-  if (const auto recommended = recommend(runs, bound))
-    for (const WorkPrecisionPoint& p : points)
-      if (const TriedRun& run = runs[recommended->run]; p.method == run.method && p.requested == run.setting.value)
-        return &p;
-  return cheapest(points, bound, &MethodFamily::is_subject);
-}
-
-}  // namespace
-
 void add_by_engine(const std::string& scene, double part_of_motion, Measure measure, double bound,
-                   const std::vector<WorkPrecisionPoint>& points, Table& table,
-                   const std::vector<WorkPrecisionPoint>& counted) {
+                   const std::vector<WorkPrecisionPoint>& points, Table& table) {
   std::vector<std::string> engines;
   for (const WorkPrecisionPoint& p : points)
     if (const std::string engine = engine_of(p.method);
         std::find(engines.begin(), engines.end(), engine) == engines.end())
       engines.push_back(engine);
-  const WorkPrecisionPoint* ours = of_subject(points, counted, bound);
+  const WorkPrecisionPoint* ours = cheapest(points, bound, &MethodFamily::is_subject);
   for (const std::string& engine : engines) {
     std::vector<WorkPrecisionPoint> its = points;
     std::erase_if(its, [&](const WorkPrecisionPoint& p) { return !p.time || engine_of(p.method) != engine; });
-    const WorkPrecisionPoint* best = engine == subject().name ? ours : cheapest(its, bound);
+    const WorkPrecisionPoint* best = cheapest(its, bound);
     if (!best) continue;
     EngineSpeedRow row{.scene = scene,
                        .part_of_motion = part_of_motion,

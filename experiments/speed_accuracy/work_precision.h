@@ -47,12 +47,10 @@ std::string engine_of(const std::string& method);
 std::string name_beside_engine(const std::string& method);
 
 /// Adds an EngineSpeedRow for each engine that has a timed run within `bound` (m), what the truth's bar takes off
-/// included: its cheapest, of mysim the recommended one (step_search.h); and how many times as long as that it takes,
-/// from `low` to `high` the widest that both 90 % intervals allow; and which part of each was timed, the rest being
-/// scaled. `counted` are the same runs with force evaluations as their cost; without them mysim's is its cheapest, too.
-/// Without a run of mysim within the bound no quotient is given.
+/// included: its cheapest, and how many times as long as mysim's cheapest it takes, from `low` to `high` the widest
+/// that both 90 % intervals allow; and which part of each was timed, the rest being scaled. Without a run of mysim
+/// within the bound no quotient is given.
 void add_by_engine(const std::string& scene, double part_of_motion, Measure measure, double bound,
-                   const std::vector<WorkPrecisionPoint>& points, Table& table,
-                   const std::vector<WorkPrecisionPoint>& counted = {});
+                   const std::vector<WorkPrecisionPoint>& points, Table& table);
 
 }  // namespace crosscheck

@@ -24,13 +24,17 @@ const Scene* main_scene(std::span<const Scene> scenes, const TableSet& rows) {
 
 namespace {
 
-std::vector<EngineBeside> engines_beside(const std::string& scene, double part_of_motion, const TableSet& rows) {
+/// The cheapest run of each other engine, compared with a run that takes so much CPU time (s).
+std::vector<EngineBeside> engines_beside(const std::string& scene, double part_of_motion, double cpu,
+                                         const TableSet& rows) {
   std::vector<EngineBeside> all;
   for (const EngineSpeedRow& row : rows_of<EngineSpeedRow>(rows))
     if (row.scene == scene && std::abs(row.part_of_motion / part_of_motion - 1) < 1e-9 &&
-        row.measure == Measure::error && row.times_mysim && is_rival(row.method))
-      all.push_back({row.engine, row.method, *row.times_mysim, row.times_mysim_low.value_or(*row.times_mysim),
-                     row.times_mysim_high.value_or(*row.times_mysim), row.part_timed == 1});
+        row.measure == Measure::error && row.times_mysim && is_rival(row.method)) {
+      const double times = row.cpu / cpu, part = times / *row.times_mysim;
+      all.push_back({row.engine, row.method, times, part * row.times_mysim_low.value_or(*row.times_mysim),
+                     part * row.times_mysim_high.value_or(*row.times_mysim), row.part_timed == 1});
+    }
   return all;
 }
 
@@ -59,7 +63,7 @@ std::optional<RecommendedRun> recommended_run(const std::string& scene, double p
                        .evaluations = std::lround(run.cost),
                        .cost = cost.cpu,
                        .timed_whole = cost.part == 1,
-                       .beside = engines_beside(scene, part_of_motion, rows),
+                       .beside = engines_beside(scene, part_of_motion, cost.cpu, rows),
                        .bound = name_of(chosen->bound)};
     for (const size_t tie : chosen->tied) out.tied.push_back(runs[tie].method);
     return out;

@@ -658,7 +658,9 @@ TEST(MethodLooks, ProgramsHaveNamesWithOptionsAndColoursOfTheirOwn) {
   for (const std::string& name : names) {
     titles.insert(looks[name]["title"].text());
     colours.insert(looks[name]["colour"].text() + looks[name]["mark"].text());
-    if (name != "odeint/rk4") EXPECT_NE(looks[name]["colour"].text(), looks["odeint/rk4"]["colour"].text()) << name;
+    if (name != "odeint/rk4") {
+      EXPECT_NE(looks[name]["colour"].text(), looks["odeint/rk4"]["colour"].text()) << name;
+    }
     EXPECT_TRUE(contains(asset("page/style.css"), "--" + looks[name]["colour"].text() + ":"));
   }
   EXPECT_EQ(titles, (std::set<std::string>{"my-mujoco, n=1", "my-mujoco, n=4", "a/engine", "b/engine", "ode",

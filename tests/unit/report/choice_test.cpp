@@ -231,6 +231,7 @@ class Take : public testing::Test {
       EngineSpeedRow beside;
       beside.scene = scene, beside.part_of_motion = 0.01, beside.engine = beside.method = method_beside;
       if (beside.engine.starts_with("bullet")) beside.engine = "bullet";
+      beside.cpu = times * cpu;
       beside.times_mysim = times, beside.times_mysim_low = 0.9 * times, beside.times_mysim_high = 1.1 * times;
       add(engines_, beside);
     }
@@ -262,7 +263,7 @@ TEST_F(Take, OfRunsOfTheSameCostTheNearestIsTakenWhateverTheClockSays) {
   EXPECT_EQ(run->tied, (std::vector<std::string>{"mysim/symplectic-euler", "mysim/rk4"}));
   ASSERT_EQ(run->beside.size(), 2u) << "integrators on our right-hand side are no engines";
   EXPECT_EQ(run->beside[0].engine, "bullet");
-  EXPECT_EQ(run->beside[0].times, 25);
+  EXPECT_DOUBLE_EQ(run->beside[0].times, 25 * 0.10 / 0.101) << "compared with the recommended run";
   EXPECT_EQ(run->beside[1].engine, "exec:./mine");
 
   const std::vector<Scene> scenes = load_scenes({scene});
