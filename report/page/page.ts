@@ -1,17 +1,13 @@
 // Behaviour of the page: charts, folds, scene cards, sortable tables, highlighted methods.
-// @ts-nocheck
 
 import {drawChart, isDrawn} from './chart/chart';
 import {listRuns} from './player/runs';
+import {inflated} from './player/unpack';
 
 /** Starts everything on the page but the players and the lab. */
 export function startPage() {
   /** Text that was packed as gzip in base64. */
-  const unpacked = async element => {
-    const bytes = Uint8Array.from(atob(element.textContent), sign => sign.charCodeAt(0));
-    const stream = new Blob([bytes]).stream().pipeThrough(new DecompressionStream('gzip'));
-    return new Response(stream).text();
-  };
+  const unpacked = (element: HTMLElement) => inflated(element.textContent ?? '').text();
   const methods = JSON.parse(document.getElementById('methods-data')?.textContent ?? '{}');
   // the charts in sight at once; the others are unpacked when the first of them is asked for
   const openCharts = JSON.parse(document.getElementById('open-charts')?.textContent ?? '{}');
@@ -19,34 +15,35 @@ export function startPage() {
   const held = document.getElementById('held');
   const putBack = held ? unpacked(held).then(text => {
     const all = JSON.parse(text);
-    for (const template of document.querySelectorAll('template[data-held]'))
-      template.innerHTML = all[template.dataset.held];
+    for (const template of document.querySelectorAll<HTMLTemplateElement>('template[data-held]'))
+      template.innerHTML = all[template.dataset.held!];
     held.remove();
   }) :
                          Promise.resolve();
 
   const packed = document.getElementById('charts');
-  let unpacking = null;
+  let unpacking: Promise<Record<string, Parameters<typeof drawChart>[1]>>|null = null;
   const others = () => unpacking ??= packed ? unpacked(packed).then(JSON.parse) : Promise.resolve({});
 
   // Charts: drawn when they come near the window, again when it changes its width.
 
-  const draw = async box => {
+  const draw = async (box: HTMLElement) => {
     if (!box.clientWidth) return;
     // without a pause: a page that is printed as it opens does not wait
-    const chart = openCharts[box.dataset.chart] ?? (await others())[box.dataset.chart];
+    const chart = openCharts[box.dataset.chart!] ?? (await others())[box.dataset.chart!];
     if (chart) drawChart(box, chart, methods);
   };
   const seen = new IntersectionObserver(entries => {
     for (const entry of entries)
-      if (entry.isIntersecting) draw(entry.target);
+      if (entry.isIntersecting) draw(entry.target as HTMLElement);
   }, {rootMargin: '300px'});
   const resized = new ResizeObserver(entries => {
     for (const entry of entries)
-      if (isDrawn(entry.target)) draw(entry.target);
+      if (isDrawn(entry.target as HTMLElement)) draw(entry.target as HTMLElement);
   });
-  const watchCharts = root => root.querySelectorAll('.drawn').forEach(box => (seen.observe(box), resized.observe(box)));
-  addEventListener('beforeprint', () => document.querySelectorAll('.drawn').forEach(draw));
+  const watchCharts = (root: ParentNode) =>
+      root.querySelectorAll<HTMLElement>('.drawn').forEach(box => (seen.observe(box), resized.observe(box)));
+  addEventListener('beforeprint', () => document.querySelectorAll<HTMLElement>('.drawn').forEach(draw));
 
   // A run under the pointer says what it is; its method lights up everywhere.
 
@@ -56,8 +53,8 @@ export function startPage() {
   tip.hidden = true;
   document.body.append(tip);
 
-  const show = marker => {
-    const method = marker.dataset.run?.replace(/ \d+$/, ''), words = marker.dataset.words;
+  const show = (marker: HTMLElement) => {
+    const method = marker.dataset.run?.replace(/ \d+$/, ''), words = marker.dataset.words ?? '';
     tip.textContent = method && !words.startsWith(method) ? `${method}, ${words}` : words;
     tip.hidden = false;
     const box = marker.getBoundingClientRect();
@@ -67,8 +64,8 @@ export function startPage() {
     tip.style.top = `${above > 8 ? above : box.bottom + 8}px`;
   };
 
-  let lit = null;
-  const light = method => {
+  let lit: string|null = null;
+  const light = (method: string|null) => {
     if (method === lit) return;
     lit = method;
     for (const each of document.querySelectorAll('.lit')) each.classList.remove('lit');
@@ -80,13 +77,14 @@ export function startPage() {
     }
   };
 
-  const point = event => {
-    const marker = event.target.closest?.('[data-words]');
+  const point = (event: Event) => {
+    const at = event.target instanceof Element ? event.target : null;
+    const marker = at?.closest<HTMLElement>('[data-words]');
     if (marker)
       show(marker);
     else
       tip.hidden = true;
-    light(event.target.closest?.('[data-method]')?.dataset.method ?? null);
+    light(at?.closest<HTMLElement>('[data-method]')?.dataset.method ?? null);
   };
   document.addEventListener('pointerover', point);
   document.addEventListener('focusin', point);
@@ -94,18 +92,20 @@ export function startPage() {
     tip.hidden = true;
   }, {passive: true});
   document.addEventListener('keydown', event => {
-    if (event.key === 'Enter' && event.target.dataset?.run)
-      event.target.dispatchEvent(new MouseEvent('click', {bubbles: true}));
+    const at = event.target as HTMLElement | null;
+    if (event.key === 'Enter' && at?.dataset?.run) at.dispatchEvent(new MouseEvent('click', {bubbles: true}));
   });
 
   // Tables: sorted by a click on a head, cut down to rows with a word, saved with numbers and units in the head.
 
-  const units = {m: 1, mm: 1e-3, 'µm': 1e-6, nm: 1e-9, s: 1, ms: 1e-3, 'µs': 1e-6, 'mm/s': 1e-3, '%': 1};
-  const base = {m: 'm', mm: 'm', 'µm': 'm', nm: 'm', s: 's', ms: 's', 'µs': 's', 'mm/s': 'm/s', '%': '%'};
+  const units:
+      Record<string, number> = {m: 1, mm: 1e-3, 'µm': 1e-6, nm: 1e-9, s: 1, ms: 1e-3, 'µs': 1e-6, 'mm/s': 1e-3, '%': 1};
+  const base: Record<string, string> =
+      {m: 'm', mm: 'm', 'µm': 'm', nm: 'm', s: 's', ms: 's', 'µs': 's', 'mm/s': 'm/s', '%': '%'};
 
   /** A cell as a number in its base unit; null where it is text. */
-  const number = text => {
-    const plain = text.replace(/\s×\s10([−-]?\d+)/, (_, power) => `e${power.replace('−', '-')}`);
+  const number = (text: string) => {
+    const plain = text.replace(/\s×\s10([−-]?\d+)/, (_, power: string) => `e${power.replace('−', '-')}`);
     const found = /^[<±]?\s*(-?[\d.]+(?:e[+-]?\d+)?)\s*(%|[a-zµ/]*)$/.exec(plain);
     return found && (found[2] === '' || found[2] in units) ?
         {value: parseFloat(found[1]) * (units[found[2]] ?? 1), unit: base[found[2]] ?? ''} :
@@ -113,18 +113,19 @@ export function startPage() {
   };
 
   /** Of what is folded away a browser knows the text, but not how it would stand there. */
-  const wordsIn = element => (element.innerText || element.textContent).trim().replace(/\s+/g, ' ');
-  const textOf = (row, column) => (row.cells[column] ? wordsIn(row.cells[column]) : '');
+  const wordsIn = (element: HTMLElement) =>
+      (element.innerText || element.textContent || '').trim().replace(/\s+/g, ' ');
+  const textOf = (row: HTMLTableRowElement, column: number) => (row.cells[column] ? wordsIn(row.cells[column]) : '');
 
-  const sortBy = (table, column, head) => {
+  const sortBy = (table: HTMLTableElement, column: number, head: HTMLElement) => {
     const down = head.getAttribute('aria-sort') === 'ascending';
-    for (const other of table.tHead.rows[0].cells) other.removeAttribute('aria-sort');
+    for (const other of table.tHead!.rows[0].cells) other.removeAttribute('aria-sort');
     head.setAttribute('aria-sort', down ? 'descending' : 'ascending');
     const rows = [...table.tBodies[0].rows].map((row, place) => {
       const text = textOf(row, column);
       return {row, place, text, value: number(text)?.value ?? null};
     });
-    const order = (a, b) => {
+    const order = (a: typeof rows[0], b: typeof rows[0]) => {
       if (a.value !== null && b.value !== null) return a.value - b.value;
       if (a.value !== null || b.value !== null) return a.value !== null ? -1 : 1;  // words below numbers, always
       return a.text.localeCompare(b.text);
@@ -137,15 +138,16 @@ export function startPage() {
   };
 
   /** Columns whose cells have one unit are numbers under a head that names it. */
-  const csvOf = table => {
-    const rows = [...table.rows].filter(row => !row.hidden), head = table.tHead.rows[0],
+  const csvOf = (table: HTMLTableElement) => {
+    const rows = [...table.rows].filter(row => !row.hidden), head = table.tHead!.rows[0],
           body = rows.filter(row => row !== head);
     const columns = [...head.cells].map((cell, c) => {
       const cells = body.map(row => textOf(row, c)), numbers = cells.map(number);
-      const known = numbers.filter(Boolean), unit = known.find(n => n.unit)?.unit ?? '';
+      const known = numbers.filter((n): n is NonNullable<typeof n> => n !== null),
+            unit = known.find(n => n.unit)?.unit ?? '';
       const plain = known.length > 0 &&
           cells.every(
-              (text, i) => numbers[i] ? numbers[i].unit === unit || !numbers[i].value : text === '–' || text === '');
+              (text, i) => numbers[i] ? numbers[i]!.unit === unit || !numbers[i]!.value : text === '–' || text === '');
       return plain ?
           [
             wordsIn(cell).replace(/ \/ .*/, '') + (unit ? ` [${unit}]` : ''),
@@ -153,11 +155,11 @@ export function startPage() {
           ] :
           [wordsIn(cell), ...cells];
     });
-    const quoted = text => (/[",\n]/.test(text) ? `"${text.replaceAll('"', '""')}"` : text);
+    const quoted = (text: string) => (/[",\n]/.test(text) ? `"${text.replaceAll('"', '""')}"` : text);
     return columns[0].map((_, r) => columns.map(column => quoted(column[r])).join(',')).join('\n') + '\n';
   };
 
-  const save = table => {
+  const save = (table: HTMLTableElement) => {
     const part = table.closest('[id]'), link = document.createElement('a');
     link.href = URL.createObjectURL(new Blob([csvOf(table)], {type: 'text/csv'}));
     link.download = `${part ? part.id : 'crosscheck'}-table.csv`;
@@ -165,7 +167,7 @@ export function startPage() {
     setTimeout(() => URL.revokeObjectURL(link.href), 1000);
   };
 
-  const equip = table => {
+  const equip = (table: HTMLTableElement) => {
     if (!table.tHead || !table.tBodies.length || table.tBodies[0].rows.length < 2 ||
         table.matches('.parity, .provenance, .changes'))
       return;
@@ -201,31 +203,34 @@ export function startPage() {
     (table.closest('.scroll') ?? table).after(bar);
   };
 
-  const equipAll = root => {
+  const equipAll = (root: ParentNode) => {
     watchCharts(root);
-    root.querySelectorAll('table').forEach(equip);
-    root.querySelectorAll('figure[data-runs]').forEach(figure => listRuns(figure));
+    root.querySelectorAll('table').forEach(table => equip(table));
+    root.querySelectorAll<HTMLElement>('figure[data-runs]').forEach(figure => listRuns(figure));
   };
 
   // Folds: what is in them comes when they are opened first.
 
-  const unfold = async fold => {
+  const unfold = async (fold: HTMLElement) => {
     await putBack;
-    const template = fold.querySelector(':scope > template');
+    const template = fold.querySelector<HTMLTemplateElement>(':scope > template');
     if (!template) return;
     template.replaceWith(template.content);
     equipAll(fold);
   };
   document.addEventListener(
-      'toggle', event => event.target.matches?.('.fold') && event.target.open && unfold(event.target), true);
+      'toggle',
+      ({target}) => target instanceof HTMLDetailsElement && target.matches('.fold') && target.open && unfold(target),
+      true);
 
   // Scenes: a card opens its scene in place of the others; the address says which, so that links and "back" work.
 
   const open = document.createElement('article');
   open.className = 'open-scene';
-  const show_scene = name => {
-    const template = name && document.querySelector(`template[data-scene="${CSS.escape(name)}"]`);
-    for (const card of document.querySelectorAll('.card')) card.classList.toggle('here', card.dataset.scene === name);
+  const show_scene = (name: string|null) => {
+    const template = name && document.querySelector<HTMLTemplateElement>(`template[data-scene="${CSS.escape(name)}"]`);
+    for (const card of document.querySelectorAll<HTMLElement>('.card'))
+      card.classList.toggle('here', card.dataset.scene === name);
     if (!template) {
       open.remove();
       return false;
@@ -233,7 +238,7 @@ export function startPage() {
     if (open.id === name && open.isConnected) return true;
     open.id = name;
     open.replaceChildren(template.content.cloneNode(true));
-    document.querySelector('.cards').after(open);
+    document.querySelector('.cards')!.after(open);
     const poster = document.querySelector(`.card[data-scene="${CSS.escape(name)}"] img`),
           stage = open.querySelector('.stage');
     if (poster && stage && !stage.firstChild) stage.append(poster.cloneNode());
@@ -243,46 +248,48 @@ export function startPage() {
 
   // Buttons above a chapter's figure choose whose it is.
 
-  const choose = button => {
-    for (const each of button.parentElement.children) {
-      each.setAttribute('aria-pressed', each === button);
-      document.getElementById(each.dataset.figure)?.toggleAttribute('hidden', each !== button);
+  const choose = (button: HTMLElement) => {
+    for (const each of button.parentElement!.children as HTMLCollectionOf<HTMLElement>) {
+      each.setAttribute('aria-pressed', String(each === button));
+      document.getElementById(each.dataset.figure ?? '')?.toggleAttribute('hidden', each !== button);
     }
   };
-  document.addEventListener('click', event => event.target.dataset?.figure && choose(event.target));
+  document.addEventListener(
+      'click', ({target}) => target instanceof HTMLElement && target.dataset.figure && choose(target));
 
   /** Goes to what the address names: a scene, a fold, a figure inside one. */
   const goTo = async () => {
     await putBack;
     const id = decodeURIComponent(location.hash.slice(1));
     if (id === 'scenes' || id === '') show_scene(null);
-    if (show_scene(id)) return open.scrollIntoView();
+    if (show_scene(id)) return void open.scrollIntoView();
     let target = document.getElementById(id);
     if (!target)
       for (const template of document.querySelectorAll('template')) {
         if (!id || !template.content.getElementById?.(id)) continue;
-        const fold = template.closest('.fold');
+        const fold = template.closest<HTMLDetailsElement>('.fold');
         if (fold)
           fold.open = true, await unfold(fold);
         else
-          show_scene(template.dataset.scene);
+          show_scene(template.dataset.scene ?? null);
         target = document.getElementById(id);
         break;
       }
     const hidden = target?.closest('[hidden]'),
-          chooses = hidden && document.querySelector(`[data-figure="${CSS.escape(hidden.id)}"]`);
+          chooses = hidden && document.querySelector<HTMLElement>(`[data-figure="${CSS.escape(hidden.id)}"]`);
     if (chooses) choose(chooses);
-    if (target?.matches('.fold')) target.open = true, await unfold(target);
+    if (target instanceof HTMLDetailsElement && target.matches('.fold')) target.open = true, await unfold(target);
     target?.scrollIntoView();
   };
   addEventListener('hashchange', goTo);
 
   // The line of contents says where one is.
 
-  const ways = [...document.querySelectorAll('nav a[href^="#"]:not(.name)')];
+  const ways = [...document.querySelectorAll<HTMLAnchorElement>('nav a[href^="#"]:not(.name)')];
   const sections = ways.map(way => document.getElementById(way.hash.slice(1)));
   const mark = () => {
-    const here = sections.findLastIndex(section => section && section.getBoundingClientRect().top < 120);
+    const passed = sections.map(section => section !== null && section.getBoundingClientRect().top < 120);
+    const here = passed.lastIndexOf(true);
     ways.forEach((way, i) => way.classList.toggle('here', i === here));
   };
   addEventListener('scroll', mark, {passive: true});
