@@ -303,9 +303,9 @@ export class Simulation {
   }
 
   /**
-   * What grows in a run like this one: how velocities change in a step while none moves a particle by more than a tenth
-   * of the shortest spring, and the places then. Later the growth is no longer linear, and the mode is lost in others.
-   * No mode where that takes more than so many ms.
+   * Growing mode of a copy of this run: the change of velocities in one step, taken before any particle moves by more
+   * than a tenth of the shortest spring per step (later the growth is no longer linear), and the positions at that
+   * time. The mode is null if the search exceeds the budget (ms).
    */
   growingMode(budget = Infinity) {
     const until = performance.now() + budget;
