@@ -271,7 +271,7 @@ TEST_F(Runs, OfAChartLieInTheOrderOfItsRows) {
       const Json& run = marks.entry["runs"][r];
       const Trajectory& path = k.runs[r].path;
       if (run.is_null()) continue;
-      EXPECT_EQ(std::get<std::string>(table.at(row, "verdict")), run["verdict"]);
+      EXPECT_EQ(std::get<std::string>(table.at(row, "verdict")), run["verdict"].get<std::string>());
       EXPECT_LE(run["frames"], 31);
       const bool last = run.contains("last_pictures");
       EXPECT_EQ(last, run["verdict"] != "ok");
