@@ -42,6 +42,7 @@ RunLoop::RunLoop(World& world, const Run& run, Observer& observer)
       every_step_(observer.every_step()),
       grid_(grid_of(world, run, observer)),
       stride_(stride_of(observer, grid_, world)),
+      chooses_steps_(world.chooses_steps()),
       clock_(run.timed) {
   assert(grid_.h > 0 && grid_.steps_per_sample >= 1 && grid_.samples >= 1);
   out_.step = grid_.h;
@@ -63,7 +64,10 @@ bool RunLoop::step() {
   const bool first = out_.steps++ == 0, sampled = step_ == grid_.steps_per_sample, seen = step_ % stride_ == 0;
   if (!seen && !first) return true;
 
-  clock_.stop();
+  // a world that chooses its steps interpolates most states: only intervals in which it stepped are timed
+  const long evaluations = chooses_steps_ ? world_.work().evaluations : 0;
+  if (!chooses_steps_ || evaluations > evaluations_) clock_.stop();
+  evaluations_ = evaluations;
   if (first && (out_.readback = world_.read_back())) out_.readback->step = grid_.h;
   if (every_step_) world_.report_contact(observer_);
   if (seen) out_.verdict = observer_.observe(world_.state(t_next), sampled);

@@ -60,7 +60,9 @@ class RunLoop {
   const bool every_step_;
   const TimeGrid grid_;
   const int stride_;  // steps between two states that the observer sees
+  const bool chooses_steps_;
   CpuClock clock_;
+  long evaluations_ = 0;       // at the last state seen, of a world that chooses its steps
   int sample_ = 0, step_ = 0;  // samples so far, and steps since the last
   Outcome out_;
 };

@@ -68,7 +68,7 @@ std::vector<Chart> same_rule_charts(const ChartInput& input) {
     }
     f.series.push_back(std::move(difference)), f.series.push_back(std::move(bound));
   }
-  if (shown.empty()) return {};
+  if (f.names.size() < 2) return {};  // a single scene's answer says it
   for (DotPlot::Series& series : f.series) series.dots.resize(f.names.size());
   const auto agreeing =
       std::ranges::count_if(shown, [](const MethodData* m) { return m->round_off && *m->difference <= *m->round_off; });
