@@ -28,9 +28,9 @@ step() { # NAME COMMAND...: runs it; 1 is an answer, anything above ends here
 
 step check crosscheck check "exec:$engine" "${scenes[@]}" --out "$out/check"
 if [ -d "$baselines" ]; then
-  step regress crosscheck regress "${scenes[@]}" --method "exec:$engine" --baselines "$baselines" --no-speed --out "$out/regress"
+  step regress crosscheck regress "${scenes[@]}" --method "exec:$engine" --baselines "$baselines" --out "$out/regress"
 else
   printf 'no results are blessed yet: commit the folder that this writes, where you trust the engine:\n  %s\n' \
-    "crosscheck regress ${scenes[*]} --method exec:$engine --baselines $baselines --no-speed --bless --reason \"first results\""
+    "crosscheck regress ${scenes[*]} --method exec:$engine --baselines $baselines --bless --reason \"first results\""
 fi
 exit "$status"

@@ -1,4 +1,4 @@
-// Affinity masks, the lock file, and what Linux reports of the processor.
+// Affinity masks and the lock file.
 #include "experiments/timing/machine.h"
 
 #include <fcntl.h>
@@ -16,9 +16,7 @@
 #include <cstdlib>
 #include <ctime>
 #include <fstream>
-#include <map>
 #include <new>
-#include <sstream>
 #include <string>
 #include <string_view>
 #include <system_error>
@@ -109,86 +107,5 @@ MachineLock::MachineLock(Mode mode, const LockPatience& patience) {
 MachineLock::~MachineLock() {
   if (handle_ >= 0) close(handle_);
 }
-
-namespace {
-
-namespace fs = std::filesystem;
-
-/// The fields of the first processor; the blank line after it ends them.
-std::map<std::string, std::string> first_processor(const fs::path& cpuinfo) {
-  std::map<std::string, std::string> fields;
-  std::ifstream in(cpuinfo);
-  for (std::string line; std::getline(in, line) && !(line.empty() && !fields.empty());) {
-    const size_t colon = line.find(':');
-    if (colon == std::string::npos) continue;
-    const size_t name_end = line.find_last_not_of(" \t", colon - 1), value = line.find_first_not_of(" \t", colon + 1);
-    if (name_end == std::string::npos || value == std::string::npos) continue;
-    std::string text = line.substr(value);
-    std::replace(text.begin(), text.end(), '|', '/');  // which parts the fields of a file
-    fields.emplace(line.substr(0, name_end + 1), text);
-  }
-  return fields;
-}
-
-/// The instruction sets that arithmetic may use; others come and go with the kernel.
-std::string arithmetic_of(const std::string& flags) {
-  constexpr std::string_view kinds[] = {"sse", "ssse", "avx", "fma", "bmi", "f16c", "adx", "amx", "asimd", "sve"};
-  std::vector<std::string> sets;
-  std::istringstream in(flags);
-  for (std::string flag; in >> flag;)
-    if (std::any_of(std::begin(kinds), std::end(kinds), [&](std::string_view kind) { return flag.starts_with(kind); }))
-      sets.push_back(flag);
-  std::sort(sets.begin(), sets.end());
-  std::string text;
-  for (const std::string& set : sets) text += (text.empty() ? "" : " ") + set;
-  return text;
-}
-
-std::string word_in(const fs::path& file) {
-  std::ifstream in(file);
-  std::string word;
-  in >> word;
-  return word;
-}
-
-/// "L1d 32K, L2 512K, L3 32768K"
-std::string caches_in(const fs::path& folder) {
-  std::vector<std::string> caches;
-  std::error_code none;
-  for (const auto& entry : fs::directory_iterator(folder, none)) {
-    const std::string level = word_in(entry.path() / "level"), type = word_in(entry.path() / "type"),
-                      size = word_in(entry.path() / "size");
-    if (level.empty() || size.empty() || type == "Instruction") continue;
-    caches.push_back(fmt::format("L{}{} {}", level, type == "Data" ? "d" : "", size));
-  }
-  std::sort(caches.begin(), caches.end());
-  std::string text;
-  for (const std::string& cache : caches) text += (text.empty() ? "" : ", ") + cache;
-  return text;
-}
-
-}  // namespace
-
-std::string processor_kind(const fs::path& cpuinfo, const fs::path& caches) {
-  const auto fields = first_processor(cpuinfo);
-  std::string kind;
-  const auto add = [&](const std::string& text) { kind += (kind.empty() ? "" : ", ") + text; };
-  bool numbered = false;
-  if (const auto name = fields.find("model name"); name != fields.end()) add(name->second);
-  // what x86 and what ARM call their make; a name alone identifies nothing
-  for (const char* number :
-       {"cpu family", "model", "stepping", "CPU implementer", "CPU variant", "CPU part", "CPU revision"})
-    if (const auto field = fields.find(number); field != fields.end()) {
-      add(fmt::format("{} {}", number, field->second));
-      numbered = true;
-    }
-  if (!numbered) return "";
-  if (const std::string sizes = caches_in(caches); !sizes.empty()) add(sizes);
-  for (const char* list : {"flags", "Features"})
-    if (const auto field = fields.find(list); field != fields.end()) add(arithmetic_of(field->second));
-  return kind;
-}
-
-std::string processor_kind() { return processor_kind("/proc/cpuinfo", "/sys/devices/system/cpu/cpu0/cache"); }
 
 }  // namespace crosscheck

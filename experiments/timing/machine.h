@@ -59,15 +59,4 @@ class MachineLock {
   bool held_ = true;
 };
 
-// The kind of processor: speeds are compared on one kind only.
-
-/// The processor in one line: its name, its family, model and stepping (which distinguish what providers of virtual
-/// machines sell under one name), its sizes of cache and its instruction sets for arithmetic. From Linux's `cpuinfo`
-/// (usually /proc/cpuinfo) and the folder of the first processor's caches (/sys/devices/system/cpu/cpu0/cache); what
-/// these do not report is left out. Empty where the processor cannot be identified.
-std::string processor_kind(const std::filesystem::path& cpuinfo, const std::filesystem::path& caches);
-
-/// This machine's.
-std::string processor_kind();
-
 }  // namespace crosscheck

@@ -80,26 +80,10 @@ std::vector<std::vector<double>> time_rounds(std::span<const std::function<doubl
   return time_round_robin(runs, {.least = rounds, .most = rounds, .resolution = 0, .warm = INFINITY});
 }
 
-std::vector<double> ratios_of_rounds(const std::vector<double>& a, const std::vector<double>& b) {
+Timing ratio_of_rounds(const std::vector<double>& a, const std::vector<double>& b) {
   std::vector<double> all;
   for (size_t i = 0; i < std::min(a.size(), b.size()); ++i) all.push_back(a[i] / b[i]);
-  return all;
-}
-
-Timing ratio_of_rounds(const std::vector<double>& a, const std::vector<double>& b) {
-  return timing_of(ratios_of_rounds(a, b));
-}
-
-double spread_of(const std::vector<double>& values) {
-  const double middle = median_of(values);
-  std::vector<double> off;
-  for (const double each : values) off.push_back(std::max(each / middle, middle / each) - 1);
-  std::sort(off.begin(), off.end());
-  return off.size() > 1 ? off[off.size() - 2] : 0;
-}
-
-int direction_of(const Timing& ratio, double noise) {
-  return ratio.low > 1 + noise ? 1 : ratio.high < 1 / (1 + noise) ? -1 : 0;
+  return timing_of(std::move(all));
 }
 
 double noise_floor(std::span<const std::vector<double>> times) {

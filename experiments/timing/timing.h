@@ -52,18 +52,10 @@ std::vector<std::vector<double>> time_round_robin(std::span<const std::function<
 /// Times of so many rounds of one repetition each, after one run of each to warm up.
 std::vector<std::vector<double>> time_rounds(std::span<const std::function<double()>> runs, int rounds);
 
-/// Quotients of the times of two runs, round by round, over the rounds that both have: all, and their median with its
-/// interval.
-std::vector<double> ratios_of_rounds(const std::vector<double>& a, const std::vector<double>& b);
+/// Quotient of the times of two runs, round by round, over the rounds that both have: its median with its interval.
 Timing ratio_of_rounds(const std::vector<double>& a, const std::vector<double>& b);
 
 double median_of(std::vector<double> values);
-
-/// The second largest departure from the median, relative: one outlier does not count.
-double spread_of(const std::vector<double>& values);
-
-/// 1 if the whole interval of a ratio is above 1 + noise, -1 if it is below 1 / (1 + noise), else 0.
-int direction_of(const Timing& ratio, double noise);
 
 /// The relative difference of two measurements of the same thing here: the 90 % quantile over the runs of the
 /// difference between the medians of their even and their odd repetitions; at least 1 %.

@@ -9,8 +9,6 @@
 #include <set>
 
 #include "experiments/regress/regress.h"
-#include "experiments/regress/speed_regression.h"
-#include "experiments/timing/machine.h"
 #include "mysim/base/errors.h"
 #include "mysim/base/files.h"
 #include "mysim/base/installation.h"
@@ -28,60 +26,11 @@ struct RegressOptions {
   std::string filter, methods, against, reason;
   std::filesystem::path baselines;  // empty: the shipped ones
   bool full = false, bless = false, bisect = false;
-  std::vector<std::string> scenes;       // names or files; empty: all shipped ones
-  int figures = 6;                       // number of failed cases to draw
-  bool no_speed = false, speed = false;  // speed is measured too, when bisecting only where it is requested
+  std::vector<std::string> scenes;  // names or files; empty: all shipped ones
+  int figures = 6;                  // number of failed cases to draw
   std::filesystem::path out = "out/regress";
   std::string command_line;
 };
-
-bool measures_speed(const RegressOptions& options) { return !options.no_speed && (!options.bisect || options.speed); }
-
-/// This machine and this program.
-Machine machine_of(const Provenance& lines) {
-  std::string compiler = value_of(lines, "compiler");
-  if (const std::string flags = CROSSCHECK_LINK_FLAGS; !flags.empty()) compiler += " " + flags;
-  return {processor_kind(), compiler, PlainLoop::name};
-}
-
-/// Prints one line for each change, and each comparison that was left out.
-void print_speeds(const Speeds& speeds) {
-  const auto count = [&](SpeedStatus state) {
-    return std::count_if(speeds.rows.begin(), speeds.rows.end(),
-                         [&](const SpeedComparison& row) { return row.state == state; });
-  };
-  for (const SpeedComparison& row : speeds.rows)
-    if (row.state == SpeedStatus::slower || row.state == SpeedStatus::faster)
-      fmt::print(
-          "{:<10} {}, {}: {}\n           {:.4g} times the plain loop, was {:.4g}; noise {:.0f} %, seen in {} more "
-          "measurements\n",
-          name_of(row.state), row.scene, row.method, row.sentence, row.is, *row.was, 100 * row.noise, row.seen);
-  for (const SpeedComparison& row : speeds.rows)
-    if (row.state == SpeedStatus::gone) fmt::print("gone       {}, {}: {}\n", row.scene, row.method, row.note);
-  for (const FailedPoint& f : speeds.failures) fmt::print("no speed   {}: {}\n", f.name, f.why);
-  const auto compared = count(SpeedStatus::slower) + count(SpeedStatus::faster) + count(SpeedStatus::same);
-  if (compared > 0)
-    fmt::print("{} speeds: {} the same within the noise, {} slower, {} faster\n", compared, count(SpeedStatus::same),
-               count(SpeedStatus::slower), count(SpeedStatus::faster));
-  for (const std::string& note : speeds.notes) fmt::print("{}\n", note);
-}
-
-void bless_and_print_speeds(const Regression& regression, const Blessing& blessing, const Provenance& lines) {
-  const Machine machine = machine_of(lines);
-  if (machine.cpu.empty()) {
-    fmt::print("no speeds blessed: this processor cannot be told from others\n");
-    return;
-  }
-  Progress progress(0);
-  const std::vector<BlessedSpeed> written = bless_speeds(regression, machine, blessing, progress);
-  progress.done();
-  for (const BlessedSpeed& speed : written)
-    fmt::print("speed      {}, {}: {:.4g} times the plain loop, spread {:.1f} %\n", speed.scene, speed.method,
-               speed.ratio, 100 * speed.spread);
-  fmt::print("{} speeds blessed\n", written.size());
-  if (regression.patience.exhausted()) fmt::print("{}\n", timed_beside_other_work);
-  if (!written.empty()) fmt::print("{}\n", speed_file_in(regression.baselines).string());
-}
 
 constexpr auto nothing_measured =
     "nothing was measured: each case is unsupported or too slow (--full selects slower ones)";
@@ -129,8 +78,7 @@ Figures before_and_after(const Regression& regression, const RegressOptions& opt
   std::copy_if(result.changed.begin(), result.changed.end(), std::back_inserter(changes.rows),
                [](const Comparison& row) { return row.state == Status::moved; });
   if (changes.rows.empty()) return {};  // new quantities have no earlier curve
-  const Speeds none;
-  VerdictPage page{changes, none};
+  VerdictPage page{changes};
   page.blessed = options.reason, page.beside = "what was blessed before";
   page.lines = lines;
   write_verdict_page(page, cases(regression.selection), regression,
@@ -169,7 +117,6 @@ int blessed(const Regression& regression, const RegressOptions& options, const P
   fmt::print("\n{} quantities blessed: {}\n", result.changed.size(), options.reason);
   for (const auto& file : result.files) fmt::print("{}\n", file.first.string());
   for (const auto& figure : drawn) fmt::print("{}\n", figure.second.string());
-  if (measures_speed(options)) bless_and_print_speeds(regression, blessing, lines);
   return 0;
 }
 
@@ -197,22 +144,17 @@ int regressed(const RegressOptions& options) {
 
   Progress progress(0);
   const RegressionResult result = regress(regression, progress);
-  Speeds speeds;
-  if (measures_speed(options)) speeds = compared_speeds(regression, machine_of(lines), progress);
-  add_sentences(speeds.rows, result.rows);
   progress.done();
   const std::vector<Case> selected = cases(regression.selection);
-  write_verdict(result, speeds, lines, regression.out);
+  write_verdict(result, lines, regression.out);
   if (options.figures > 0 && !options.bisect) {
-    VerdictPage page{result, speeds};
+    VerdictPage page{result};
     page.beside = regression.against ? regression.against->name : "the baselines in " + regression.baselines.string();
     page.lines = lines;
     write_verdict_page(page, selected, regression, options.figures);
   }
   folder.finish();
-  const int status = print_result(result, options.out);
-  print_speeds(speeds);
-  return speeds.passed() ? status : 1;
+  return print_result(result, options.out);
 }
 
 /// 0 where every case passes, 1 where one fails; with `bisect` 125 where the build cannot be judged.
@@ -231,7 +173,7 @@ int regress_command(const RegressOptions& options) {
 
 void add_regress(CLI::App& app, Invocation& call) {
   const auto options = std::make_shared<RegressOptions>();
-  auto* regress = app.add_subcommand("regress", "compares the results and speeds of this build with stored baselines");
+  auto* regress = app.add_subcommand("regress", "compares the results of this build with stored baselines");
   regress->add_option("scenes", options->scenes, "scenes or TOML files (default: all that come with Crosscheck)");
   regress->add_option("--filter", options->filter, "GLOB: only cases whose SCENE or SCENE/METHOD it matches");
   regress->add_option("--method", options->methods, "methods to run: A,B,... (default: all of mysim and Bullet)");
@@ -246,8 +188,7 @@ void add_regress(CLI::App& app, Invocation& call) {
       ->check(CLI::Range(0, 100));
   regress->add_flag("--bisect", options->bisect,
                     "exits with 125 where a build cannot be judged, as `git bisect run` expects");
-  auto* no_speed = regress->add_flag("--no-speed", options->no_speed, "compares results only");
-  regress->add_flag("--speed", options->speed, "with --bisect: compares speeds too")->excludes(no_speed);
+  regress->add_flag("--no-speed")->group("");  // scripts of earlier versions say so; bench measures speed
   regress->add_option("--out", options->out, "folder (out/regress)");
   add_quick_and_full(*regress, options->full);
   regress->callback([options, &call] {

@@ -20,27 +20,10 @@
 namespace crosscheck {
 namespace {
 
-bool was_compared(const SpeedComparison& row) { return row.change.repetitions > 0; }
-
 std::vector<Column> plain_columns(const std::vector<std::string>& names) {
   std::vector<Column> columns;
   for (const std::string& name : names) columns.push_back({name, "1"});
   return columns;
-}
-
-Table table_of(const Speeds& speeds) {
-  Table table{"speed-cost",
-              plain_columns({"scene", "method", "was", "is", "change", "change low", "change high", "noise",
-                             "measurements", "state", "sentence", "note"}),
-              {}};
-  for (const SpeedComparison& row : speeds.rows) {
-    const auto where_compared = [&](double value) { return was_compared(row) ? Cell(value) : Cell(); };
-    table.add({row.scene, row.method, cell_of(row.was), row.is > 0 ? Cell(row.is) : Cell(),
-               where_compared(row.change.median), where_compared(row.change.low), where_compared(row.change.high),
-               where_compared(row.noise), static_cast<long>(row.seen), std::string(name_of(row.state)), row.sentence,
-               row.note});
-  }
-  return table;
 }
 
 Cell cell(const std::optional<double>& value, const std::string& word) {
@@ -61,7 +44,7 @@ Table table_of(const RegressionResult& result) {
   return table;
 }
 
-std::string junit(const RegressionResult& result, const Speeds& speeds) {
+std::string junit(const RegressionResult& result) {
   // failed quantities, by scene and method
   std::map<std::pair<std::string, std::string>, std::vector<std::string>> cases;
   for (const Comparison& row : result.rows) {
@@ -77,20 +60,14 @@ std::string junit(const RegressionResult& result, const Speeds& speeds) {
     report.add(name.first, name.second, wrong.empty() ? "" : "failure", fmt::format("{} quantities", wrong.size()),
                fmt::format("{}", fmt::join(wrong, "")));
   for (const FailedPoint& f : result.failures) report.add("no answer", f.name, "error", f.why);
-  for (const SpeedComparison& row : speeds.rows)
-    if (row.was)
-      report.add(row.scene, row.method + ": speed", failed(row.state) ? "failure" : "", row.sentence + row.note);
-  for (const FailedPoint& f : speeds.failures) report.add("speed", f.name, "error", f.why);
   return report.xml();
 }
 
 }  // namespace
 
-void write_verdict(const RegressionResult& result, const Speeds& speeds, const Provenance& lines,
-                   const std::filesystem::path& folder) {
-  const Table rows = table_of(result), timed = table_of(speeds);
+void write_verdict(const RegressionResult& result, const Provenance& lines, const std::filesystem::path& folder) {
+  const Table rows = table_of(result);
   write_csv(rows, lines, folder);
-  if (!speeds.rows.empty()) write_csv(timed, lines, folder);
   Table wrong{rows.name, rows.columns, {}};
   for (size_t i = 0; i < rows.rows.size(); ++i)
     if (failed(result.rows[i].state)) wrong.add(rows.rows[i]);
@@ -102,16 +79,13 @@ void write_verdict(const RegressionResult& result, const Speeds& speeds, const P
   Json added = Json::array();
   for (const NewMethod& m : new_methods(result.rows))
     added.push_back({{"method", m.method}, {"scenes", m.scenes}, {"quantities", m.quantities}});
-  const Json json{{"passed", result.passed() && speeds.passed()},
+  const Json json{{"passed", result.passed()},
                   {"quantities", result.rows.size()},
                   {"failures", rows_json(wrong)},
                   {"new_methods", std::move(added)},
-                  {"without_answer", unanswered(result.failures)},
-                  {"speed", rows_json(timed)},
-                  {"speed_notes", speeds.notes},
-                  {"speed_failures", unanswered(speeds.failures)}};
+                  {"without_answer", unanswered(result.failures)}};
   write_file(folder / "regress.json", dump(json, 1) + "\n");
-  write_file(folder / "junit.xml", junit(result, speeds));
+  write_file(folder / "junit.xml", junit(result));
 }
 
 namespace {
@@ -159,7 +133,6 @@ std::string headline(const VerdictPage& page) {
   if (!page.result.passed())
     return fmt::format("{} of {} quantities failed", rows([](const auto& row) { return failed(row.state); }),
                        page.result.rows.size());
-  if (!page.speeds.passed()) return "The results are the same, and something is slower";
   return fmt::format("Nothing moved: {} quantities are the same",
                      rows([](const auto& row) { return row.state == Status::same; }));
 }
@@ -169,21 +142,6 @@ PageTable new_methods_table(const RegressionResult& result) {
   for (const NewMethod& m : new_methods(result.rows))
     table.rows.push_back({m.method, std::to_string(m.scenes), std::to_string(m.quantities),
                           fmt::format("crosscheck regress --filter '*/{}' --bless --reason TEXT", m.method)});
-  return table;
-}
-
-/// CPU times over those of a plain loop.
-PageTable speed_table(const Speeds& speeds) {
-  PageTable table{fmt::format("Speed of {} runs: CPU time over that of a plain loop of springs and gravity, in turns",
-                              speeds.rows.size()),
-                  {"run", "was", "is", "is / was", "90 % interval", "noise", "verdict", "change of accuracy"},
-                  {}};
-  for (const SpeedComparison& row : speeds.rows)
-    table.rows.push_back({row.scene + " under " + row.method, row.was ? fmt::format("{:.3g}", *row.was) : "",
-                          fmt::format("{:.3g}", row.is), row.was ? fmt::format("{:.3f}", row.change.median) : "",
-                          row.was ? fmt::format("{:.3f} to {:.3f}", row.change.low, row.change.high) : "",
-                          row.was ? fmt::format("{:.0f} %", 100 * row.noise) : "", std::string(name_of(row.state)),
-                          row.sentence.empty() ? row.note : row.sentence});
   return table;
 }
 
@@ -233,15 +191,12 @@ std::string verdict_html(const VerdictPage& page) {
             {"problems", page.problems},
             {"worst", section(worst_table(worst))},
             {"added_methods", page.blessed.empty() ? section(new_methods_table(page.result)) : Json()},
-            {"speed", nullptr},
             {"drawn", page.parts.size() < worst.size() && !page.parts.empty()
                           ? fmt::format("{} of {}", page.parts.size(), worst.size())
                           : ""},
             {"parts", Json::array()},
             {"provenance", provenance_data(page.lines)}};
   for (const FailedPoint& f : page.result.failures) data["unanswered"].push_back(f.name + ": " + f.why);
-  if (!page.speeds.rows.empty() || !page.speeds.notes.empty())
-    data["speed"] = {{"notes", page.speeds.notes}, {"table", section(speed_table(page.speeds))}};
   for (const FailurePart& part : page.parts) {
     Json& one = data["parts"].emplace_back(
         Json{{"heading", part.heading}, {"text", part.text}, {"charts", Json::array()}, {"renders", Json::array()}});

@@ -2,7 +2,6 @@
 #pragma once
 
 #include "experiments/regress/regress.h"
-#include "experiments/regress/speed_regression.h"
 #include "report/commands/regress_failure.h"
 #include "report/page/page.h"
 
@@ -10,10 +9,9 @@ namespace crosscheck {
 
 // The verdict of a regression run for people and programs: CSV, JSON, JUnit.
 
-/// regress.csv (every quantity), regress.json (failures, counts, speeds) and junit.xml (one case for each scene and
-/// method, and one for its speed) in the folder; speed-cost.csv where speeds were measured.
-void write_verdict(const RegressionResult& result, const Speeds& speeds, const Provenance& lines,
-                   const std::filesystem::path& folder);
+/// regress.csv (every quantity), regress.json (failures, counts) and junit.xml (one case for each scene and method) in
+/// the folder.
+void write_verdict(const RegressionResult& result, const Provenance& lines, const std::filesystem::path& folder);
 
 // The page of a regression run: each move with its size, and pictures.
 
@@ -25,7 +23,6 @@ struct FailurePart {
 
 struct VerdictPage {
   const RegressionResult& result;
-  const Speeds& speeds;
   std::string blessed;  // why, where these changes are blessed; empty elsewhere
   std::string beside;   // "baselines in ..." or the other method
   std::vector<FailurePart> parts;

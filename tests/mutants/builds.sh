@@ -43,7 +43,7 @@ for build in "${builds[@]}"; do
   fi
   cmake --build "$folder" --target crosscheck bullet32_engine >/dev/null
   state=passed
-  env "${environment[@]}" "$folder/crosscheck" regress --no-speed --figures 0 --filter "$filter" --out out/builds \
+  env "${environment[@]}" "$folder/crosscheck" regress --figures 0 --filter "$filter" --out out/builds \
     >out/builds.txt || { state=FAILED wrong=1; }
   printf '%-9s %-12s %s\n' "$state" "$name" "$(grep -m1 ' quantities: ' out/builds.txt)"
 done

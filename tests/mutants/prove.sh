@@ -18,7 +18,7 @@ done
 
 caught() { # NAME: true if regress fails
   local status=0
-  CROSSCHECK_MUTANT=$1 build/release/crosscheck-mutants regress --no-speed --figures 0 --filter "${FILTER:-*}" \
+  CROSSCHECK_MUTANT=$1 build/release/crosscheck-mutants regress --figures 0 --filter "${FILTER:-*}" \
     --out out/mutants >out/mutants.txt || status=$?
   [ "$status" -le 1 ] || { printf 'prove.sh: %s: no verdict\n' "$1" >&2; exit 2; }
   [ "$status" -eq 1 ]

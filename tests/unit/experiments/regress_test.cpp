@@ -14,7 +14,6 @@
 #include "experiments/regress/comparison.h"
 #include "experiments/regress/quantities.h"
 #include "experiments/regress/regress.h"
-#include "experiments/regress/speed_regression.h"
 #include "experiments/regress/tolerance.h"
 #include "experiments/scenes/scenes.h"
 #include "mysim/base/errors.h"
@@ -55,13 +54,11 @@ TEST(Baselines, ComeBackToTheSameBits) {
 
 TEST(Baselines, ThatAreLinksOrPipesAreNotRead) {
   const TemporaryFolder folder("baselines");
-  for (const char* file : {"chain.csv", "chain-shape.csv", "speed-cost.csv"})
-    ASSERT_EQ(mkfifo((folder.path / file).c_str(), 0600), 0);
+  for (const char* file : {"chain.csv", "chain-shape.csv"}) ASSERT_EQ(mkfifo((folder.path / file).c_str(), 0600), 0);
   std::filesystem::create_symlink("/dev/zero", folder.path / "spring.csv");
   EXPECT_THROW(read_baseline(folder.path, "chain"), InputError);
   EXPECT_THROW(read_baseline(folder.path, "spring"), InputError);
   EXPECT_THROW(read_shape(folder.path, "chain", 4), InputError);
-  EXPECT_THROW(read_speed_file(folder.path), InputError);
 }
 
 /// Tolerances come from perturbed runs: where these go wrong, a tolerance grows until nothing fails any more.
@@ -181,7 +178,6 @@ TEST(Regression, RefusesScenesOfTheSameNameOrFileName) {
   for (const std::vector<std::string>& scenes : std::vector<std::vector<std::string>>{
            {path("a/s.toml"), path("b/s.toml")}, {path("a/s s.toml"), path("b/s-s.toml")}, {"spring", "spring"}}) {
     EXPECT_THROW(cases({scenes}), InputError);
-    EXPECT_THROW(speed_cases({scenes}, {}), InputError);
   }
   EXPECT_FALSE(cases({{path("a/s.toml"), path("b/s-s.toml")}}).empty());
 }

@@ -152,7 +152,7 @@ TEST(Adding, AThirdEngineIsInTablesChartsFindingsAndMaps) {
 }
 
 TEST(Adding, AThirdEngineIsNewToItsBaselines) {
-  const std::string regress = told({"regress", "spring", "--no-speed", "--figures", "0"});
+  const std::string regress = told({"regress", "spring", "--figures", "0"});
   EXPECT_TRUE(contains(regress, "new        toy/step: "));
   EXPECT_TRUE(contains(regress, ", 0 failed"));
 }
