@@ -165,11 +165,14 @@ Json parity_data(const std::vector<ScenePart>& scenes) {
     for (const std::string& method : methods) {
       const auto own = std::ranges::find(part.certificates, method, &Certificate::method);
       Json dots = Json::array();
+      long same = 0;
       if (own != part.certificates.end())
-        for (const CertificateRow& r : (*own)->rows)
+        for (const CertificateRow& r : (*own)->rows) {
           dots.push_back({{"class", classes[static_cast<int>(r.parity)]},
                           {"says", fmt::format("{}: {}", r.quantity, name_of(r.parity))}});
-      row.push_back({{"says", own == part.certificates.end() ? "" : summary_of(**own)}, {"dots", std::move(dots)}});
+          same += r.parity == Parity::match;
+        }
+      row.push_back({{"matched", same}, {"count", dots.size()}, {"dots", std::move(dots)}});
     }
     rows.push_back({{"scene", part.scene->name}, {"cells", std::move(row)}});
   }
