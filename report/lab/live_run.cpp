@@ -23,22 +23,14 @@ std::optional<double> LiveRun::critical_step(const Stepper& stepper) const {
   return stepper.limit(omega(), *gamma);
 }
 
-const Stepper* stepper_of_rule(std::string_view rule) {
-  const std::string_view name = rule.substr(0, rule.find('+'));
-  for (const Stepper& stepper : steppers())
-    if (stepper.name == name) return &stepper;
-  return nullptr;
-}
-
 void LiveRun::start(const Settings& settings) {
   const std::vector<std::string> words = split(settings.rule, '+');
-  const Stepper* found = stepper_of_rule(settings.rule);
-  if (!found) {
-    std::vector<std::string> names;
-    for (const Stepper& stepper : steppers()) names.emplace_back(stepper.name);
+  std::vector<std::string> names;
+  for (const Stepper& stepper : steppers()) names.emplace_back(stepper.name);
+  const auto found = std::find(names.begin(), names.end(), words[0]);
+  if (found == names.end())
     throw InputError(fmt::format("unknown stepper '{}'{}", words[0], did_you_mean(words[0], names)));
-  }
-  Stepper rule = *found;
+  Stepper rule = steppers()[found - names.begin()];
   ContactRule contact = ContactRule::coulomb;
   for (size_t i = 1; i < words.size(); ++i) {
     if (const auto asked = contact_rule_of_option(words[i]);
@@ -109,7 +101,6 @@ void LiveRun::go_on(const Change& change) {
   particles.pin_home = scene_.start.x(Eigen::seqN(0, 3), particles.pins);
   for (const int pin : particles.pins)
     if (scene_.start.v.cols() > 0) scene_.start.v.col(pin).setZero();
-  changed_ = true;
   omega_.reset(), bounds_ = {};
   begin();
 }

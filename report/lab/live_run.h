@@ -50,8 +50,6 @@ class LiveRun {
   void release();
   /// Pins a particle where it is, or lets it go.
   void set_pinned(int particle, bool pinned);
-  /// Whether the scene is no longer that of its file.
-  bool changed_by_hand() const { return changed_; }
 
   std::string fingerprint() const { return crosscheck::fingerprint(state()); }
 
@@ -65,7 +63,6 @@ class LiveRun {
   mutable std::optional<double> omega_;  // once computed, as the bounds
   MotionBoundsCache bounds_;
   int held_ = -1;  // the particle that a hand has
-  bool changed_ = false;
   Stepper rule_{};
   ContactRule contact_ = ContactRule::coulomb;
   Run run_{};
@@ -77,8 +74,5 @@ class LiveRun {
   std::unique_ptr<World> world_;
   std::unique_ptr<RunLoop> loop_;
 };
-
-/// The stepper of a rule with its options: "leapfrog", "implicit-euler+linear"; null where there is none.
-const Stepper* stepper_of_rule(std::string_view rule);
 
 }  // namespace crosscheck

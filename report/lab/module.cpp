@@ -5,6 +5,7 @@
 #include <fmt/ranges.h>
 
 #include <cmath>
+#include <functional>
 #include <limits>
 #include <optional>
 #include <string>
@@ -82,6 +83,14 @@ std::vector<int> ends_of(const std::vector<Pair>& pairs) {
   return ends;
 }
 
+/// A number of each item of a list.
+template <class Number, class List, class Member>
+std::vector<Number> of_each(const List& list, const Member& member) {
+  std::vector<Number> numbers;
+  for (const auto& item : list) numbers.push_back(static_cast<Number>(std::invoke(member, item)));
+  return numbers;
+}
+
 }  // namespace
 
 /// A buffer of so many bytes for the text that the next call reads.
@@ -107,9 +116,8 @@ EXPORT(open) void open() { instance().run.emplace(parse_scene(std::string(instan
 EXPORT(scene) const char* scene_json() {
   const Scene& s = run().scene();
   std::string spheres, camera = "null";
-  if (const auto* list = s.model.find<Spheres>())
-    for (const Sphere& sphere : list->list)
-      spheres += fmt::format(R"({}{{"radius":{}}})", spheres.empty() ? "" : ",", sphere.radius);
+  for (const Sphere& sphere : list_in_term<Spheres>())
+    spheres += fmt::format(R"({}{{"radius":{}}})", spheres.empty() ? "" : ",", sphere.radius);
   if (s.camera) camera = fmt::format(R"({{"eye":{},"target":{}}})", list_of(s.camera->eye), list_of(s.camera->target));
   return hand_out(fmt::format(
       R"({{"duration":{},"samples":{},"step":{},"method":{},"particles":{},"springCount":{},"constraintCount":{},"triangleCount":{},"pinCount":{},"firstOrder":{},"spheres":[{}],"camera":{}}})",
@@ -123,24 +131,13 @@ EXPORT(pins) const int* pins() { return hand_out(run().scene().model.particles.p
 EXPORT(spring_ends) const int* spring_ends() { return hand_out(ends_of(springs())); }
 EXPORT(constraint_ends) const int* constraint_ends() { return hand_out(ends_of(constraints())); }
 
-EXPORT(spring_families) const int* spring_families() {
-  std::vector<int> families;
-  for (const Spring& s : springs()) families.push_back(static_cast<int>(s.family));
-  return hand_out(std::move(families));
-}
+EXPORT(spring_families) const int* spring_families() { return hand_out(of_each<int>(springs(), &Spring::family)); }
 
 /// Rest lengths, m.
-EXPORT(spring_rests) const double* spring_rests() {
-  std::vector<double> rests;
-  for (const Spring& s : springs()) rests.push_back(s.rest);
-  return hand_out(std::move(rests));
-}
-
+EXPORT(spring_rests) const double* spring_rests() { return hand_out(of_each<double>(springs(), &Spring::rest)); }
 /// m.
 EXPORT(constraint_lengths) const double* constraint_lengths() {
-  std::vector<double> lengths;
-  for (const auto& c : constraints()) lengths.push_back(c.length);
-  return hand_out(std::move(lengths));
+  return hand_out(of_each<double>(constraints(), [](const auto& c) { return c.length; }));
 }
 
 EXPORT(triangles) const int* triangles() {
@@ -180,9 +177,8 @@ EXPORT(velocities) const double* velocities() { return run().state().v.data(); }
 /// Of the spheres at a time, m.
 EXPORT(centres) const double* centres(double t) {
   std::vector<double> places;
-  if (const auto* spheres = run().scene().model.find<Spheres>())
-    for (const Sphere& sphere : spheres->list)
-      for (const double part : sphere.centre_at(t)) places.push_back(part);
+  for (const Sphere& sphere : list_in_term<Spheres>())
+    for (const double part : sphere.centre_at(t)) places.push_back(part);
   return hand_out(std::move(places));
 }
 
