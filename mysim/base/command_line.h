@@ -5,9 +5,11 @@
 #include <CLI/CLI.hpp>
 
 #include <algorithm>
+#include <nlohmann/json.hpp>
 #include <string>
 #include <vector>
 
+#include "mysim/base/json.h"
 #include "mysim/base/text.h"
 
 namespace crosscheck {
@@ -47,28 +49,33 @@ inline std::string usage_error(const std::string& program, const CLI::App& app, 
   return fmt::format("{}{} ({} {}--help shows what is expected)", place, error.what(), program, help);
 }
 
-/// All that --help says, one thing a line, its parts separated by tabs: "command NAME WHAT", and behind each command
-/// "word NAME WHAT" for what has a place and "option NAMES VALUE WHAT", NAMES separated by commas and VALUE empty where
-/// none is taken. What --help hides is left out. The manual and the shell's completions are made of it.
+/// All that --help says, as JSON: a list of commands with `name`, `what`, `words` (what has a place: `name`, `what`)
+/// and `options` (`names`, these in one `title`, `value`, empty where none is taken, and `what`). What --help hides is
+/// left out, and --help itself. The manual and the shell's completions are made of it.
 inline std::string command_table(const CLI::App& app) {
-  std::string table;
+  Json table = Json::array();
   for (const CLI::App* command : app.get_subcommands([](const CLI::App* one) { return !one->get_group().empty(); })) {
-    table += fmt::format("command\t{}\t{}\n", command->get_name(), command->get_description());
-    for (const CLI::Option* option :
-         command->get_options([](const CLI::Option* one) { return !one->get_group().empty(); })) {
+    Json words = Json::array(), options = Json::array();
+    for (const CLI::Option* option : command->get_options(
+             [&](const CLI::Option* one) { return !one->get_group().empty() && one != command->get_help_ptr(); })) {
       if (option->get_positional()) {
-        table += fmt::format("word\t{}\t{}\n", option->get_name(true), option->get_description());
+        words.push_back({{"name", option->get_name(true)}, {"what", option->get_description()}});
         continue;
       }
       std::vector<std::string> names;
       for (const std::string& name : option->get_snames()) names.push_back("-" + name);
       for (const std::string& name : option->get_lnames()) names.push_back("--" + name);
-      const bool takes_value = option->get_items_expected_max() > 0;
-      table += fmt::format("option\t{}\t{}\t{}\n", fmt::join(names, ","), takes_value ? option->get_type_name() : "",
-                           option->get_description());
+      options.push_back({{"names", names},
+                         {"title", fmt::format("{}", fmt::join(names, ", "))},
+                         {"value", option->get_items_expected_max() > 0 ? option->get_type_name() : ""},
+                         {"what", option->get_description()}});
     }
+    table.push_back({{"name", command->get_name()},
+                     {"what", command->get_description()},
+                     {"words", std::move(words)},
+                     {"options", std::move(options)}});
   }
-  return table;
+  return dump(table);
 }
 
 }  // namespace crosscheck
