@@ -5,7 +5,7 @@
 #include "mysim/base/errors.h"
 #include "mysim/base/text.h"
 #include "mysim/base/this_process.h"
-#include "report/commands/command_line.h"
+#include "report/commands/commands.h"
 
 using namespace crosscheck;
 
@@ -37,9 +37,7 @@ constexpr AddCommand commands[] = {
 int run(int argc, char** argv) {
   const std::string word = argc > 1 ? argv[1] : "";
   if (word == "grade" || word == "assignment") return grader_command({argv + 1, argv + argc});
-  return run_command_line(
-      "Crosscheck compares physics engines on mass-spring and cloth scenes: mysim, Bullet, and programs of yours.",
-      version_text(), commands, argc, argv);
+  return run_command_line(commands, argc, argv);
 }
 
 /// Advice for a command that was interrupted; empty for commands that begin anew.

@@ -1,27 +1,10 @@
 // advise: fits values of "fit" to the scene's wishes, then finds the cheapest model, method and step for a tolerance.
 
-#include <fmt/format.h>
-#include <fmt/ranges.h>
-
-#include <CLI/CLI.hpp>
-#include <algorithm>
-#include <charconv>
-#include <cmath>
-#include <memory>
-#include <nlohmann/json.hpp>
-
 #include "experiments/advise/advice.h"
 #include "experiments/advise/fit.h"
-#include "experiments/estimate.h"
 #include "experiments/metrics.h"
-#include "experiments/scenes/scenes.h"
-#include "mysim/base/errors.h"
-#include "mysim/base/files.h"
-#include "mysim/base/json.h"
-#include "mysim/base/output_folder.h"
-#include "report/base/provenance.h"
 #include "report/commands/command_line.h"
-#include "report/commands/commands.h"
+#include "report/commands/json_files.h"
 #include "report/figures/figure.h"
 #include "report/findings/report_data.h"
 
@@ -31,7 +14,7 @@ namespace {
 
 struct AdviseOptions {
   std::string scene, methods, tolerance;  // without a tolerance only parameters are fitted
-  std::filesystem::path out = "out/advise";
+  fs::path out = "out/advise";
   std::string command_line;
 };
 
@@ -52,15 +35,12 @@ double motion_of_scene(const Scene& scene) {
 
 /// The length that a text asks for: metres, or per cent of the motion. Throws InputError.
 double tolerance_of(const std::string& text, const Scene& scene) {
-  double value = 0;
-  const char* end = text.data() + text.size();
-  const auto [rest, failed] = std::from_chars(text.data(), end, value);
-  const std::string unit(std::find_if(rest, end, [](char c) { return c != ' '; }), end);
-  const bool of_motion = unit == "%";
   constexpr std::pair<std::string_view, double> lengths[] = {
       {"", 1}, {"m", 1}, {"cm", 1e-2}, {"mm", 1e-3}, {"um", 1e-6}};
+  const auto [value, unit] = number_and_rest(text).value_or(std::pair{0., std::string()});
   const auto length = std::ranges::find(lengths, std::string_view(unit), &std::pair<std::string_view, double>::first);
-  if (failed != std::errc() || (length == std::end(lengths) && !of_motion) || !(value > 0) || !std::isfinite(value))
+  const bool of_motion = unit == "%";
+  if (!(value > 0) || (length == std::end(lengths) && !of_motion))
     throw InputError(
         fmt::format("--tolerance: expected a length above zero (m), such as 0.001 or 1mm, or a part of the motion such "
                     "as 1%, got '{}'",
@@ -71,24 +51,27 @@ double tolerance_of(const std::string& text, const Scene& scene) {
   return tolerance;
 }
 
+std::string how_of(const Trial& t) {
+  return t.relative > 0 ? fmt::format("{} at a relative tolerance of {:.3g}", t.method, t.relative)
+                        : fmt::format("{} at a step of {:.6g} s", t.method, t.step);
+}
+
 /// A work-precision diagram of all trials, with the requested tolerance as a line and the advised run marked; failed
 /// runs are crosses at the cost they had spent.
 Figure advice_figure(const Advice& a, const std::string& commit) {
   Figure f;
   f.name = a.scene.name + "-advice";
   f.title = fmt::format("{}: work-precision diagram of all trials", a.scene.name);
-  f.x = {"force evaluations × springs", true, std::nullopt, std::nullopt};
-  f.y = {a.under_contact_rule ? "largest RMS position difference / m" : "largest RMS position error / m", true,
-         std::nullopt, std::nullopt};
+  f.x = {"force evaluations × springs", true};
+  f.y = {a.under_contact_rule ? "largest RMS position difference / m" : "largest RMS position error / m", true};
   double highest = a.tolerance;
   for (const Trial& t : a.trials)
     if (t.error && *t.error > a.error_bar) highest = std::max(highest, *t.error);
   for (const Trial& t : a.trials) {
     if (t.outcome.verdict == Verdict::unsupported || t.outcome.evaluations == 0) continue;
-    const bool full = t.model == "full";
-    const std::string title = short_name(t.method) + (full ? "" : ", least model");
+    std::string title = short_name(t.method);
     MethodStyle style = style_of(t.method);
-    if (!full) style.dash = "(1,3)", style.marker = 6;
+    if (t.model != "full") title += ", least model", style.dash = "(1,3)", style.marker = 6;
     if (!t.error) {
       f.failures.push_back(
           {title + ": " + failure_class(std::string(name_of(t.outcome.verdict))), style, t.cost(), 3 * highest});
@@ -99,19 +82,17 @@ Figure advice_figure(const Advice& a, const std::string& commit) {
     if (curve == f.curves.end()) curve = f.curves.insert(f.curves.end(), {title, style, {}, true, true});
     curve->points.emplace_back(t.cost(), *t.error);
   }
-  for (Curve& c : f.curves) std::sort(c.points.begin(), c.points.end());
   const Trial& chosen = a.trials[a.chosen];
   double lowest = *chosen.error;
-  for (const Curve& c : f.curves)
+  for (Curve& c : f.curves) {
+    std::ranges::sort(c.points);
     for (const auto& [x, y] : c.points) lowest = std::min(lowest, y);
+  }
   // a line from the advised run down to the axis is easier to find than a marker
   const double error = std::max(*chosen.error, a.error_bar);
   f.curves.push_back({"advised", {"#000000", "1", 3}, {{chosen.cost(), error}, {chosen.cost(), lowest / 2}}, true});
   f.floor = {fmt::format("tolerance: {}", nice_length(a.tolerance)), a.tolerance};
-  f.finding = fmt::format("{} at {} meets {} at the least cost.", chosen.method,
-                          chosen.relative > 0 ? fmt::format("a relative tolerance of {:.2g}", chosen.relative)
-                                              : fmt::format("a step of {:.4g} s", chosen.step),
-                          nice_length(a.tolerance));
+  f.finding = fmt::format("{} meets {} at the least cost.", how_of(chosen), nice_length(a.tolerance));
   f.caption = fmt::format("Scene {}, until {:.3g} s; truth: {}, error bar {} ({}); commit {}.", a.scene.name, a.until,
                           a.under_contact_rule ? "what the in-house contact rule converges to" : name_of(a.tier),
                           nice_length(a.error_bar), a.truth, commit);
@@ -120,57 +101,33 @@ Figure advice_figure(const Advice& a, const std::string& commit) {
 
 Table trials_table(const Advice& a) {
   Table table{"advice",
-              {{"model", "1"},
-               {"method", "1"},
-               {"step", "s"},
-               {"relative tolerance", "1"},
-               {"error", "m"},
-               {"asked", "m"},
-               {"truth bar", "m"},
-               {"meets", "1"},
-               {"advised", "1"},
-               {"verdict", "1"},
-               {"stability limit", "s"},
-               {"evaluations", "1"},
-               {"springs", "1"},
-               {"cost", "spring evaluations"}},
+              columns_of("model, method, step [s], relative tolerance, error [m], asked [m], truth bar [m], meets, "
+                         "advised, verdict, stability limit [s], evaluations, springs, cost [spring evaluations]"),
               {}};
   for (size_t i = 0; i < a.trials.size(); ++i) {
     const Trial& t = a.trials[i];
-    table.add({t.model, t.method, t.step, t.relative > 0 ? Cell(t.relative) : Cell(), t.error ? Cell(*t.error) : Cell(),
-               a.tolerance, a.error_bar,
+    table.add({t.model, t.method, t.step, t.relative > 0 ? Cell(t.relative) : Cell(), cell_of(t.error), a.tolerance,
+               a.error_bar,
                std::string(t.meets        ? "yes"
                            : t.accidental ? "by luck"
                                           : "no"),
-               i == a.chosen ? 1l : 0l, std::string(name_of(t.outcome.verdict)), t.limit ? Cell(*t.limit) : Cell(),
+               i == a.chosen ? 1l : 0l, std::string(name_of(t.outcome.verdict)), cell_of(t.limit),
                t.outcome.evaluations, t.springs, t.cost()});
   }
   return table;
 }
 
 Table costs_table(const Advice& a) {
-  Table table{"advice-cost", {{"model", "1"}, {"method", "1"}, {"step", "s"}, {"cpu", "s"}}, {}};
+  Table table{"advice-cost", columns_of("model, method, step [s], cpu [s]"), {}};
   for (const Trial& t : a.trials) table.add({t.model, t.method, t.step, t.outcome.cpu_seconds});
   return table;
 }
 
-std::string how_of(const Trial& t) {
-  return t.relative > 0 ? fmt::format("{} at a relative tolerance of {:.3g}", t.method, t.relative)
-                        : fmt::format("{} at a step of {:.6g} s", t.method, t.step);
-}
-
 std::string_view bound_text(StepBound bound) {
-  switch (bound) {
-    case StepBound::stability:
-      return "stability: the next longer step that was tried blew up";
-    case StepBound::accuracy:
-      return "accuracy: the next longer step that was tried misses the tolerance";
-    case StepBound::failure:
-      return "a failure of the next longer step that was tried";
-    case StepBound::none:
-      break;
-  }
-  return "the time between samples";
+  return bound == StepBound::stability  ? "stability: the next longer step that was tried blew up"
+         : bound == StepBound::accuracy ? "accuracy: the next longer step that was tried misses the tolerance"
+         : bound == StepBound::failure  ? "a failure of the next longer step that was tried"
+                                        : "the time between samples";
 }
 
 std::string margin_text(const Trial& t) {
@@ -255,13 +212,13 @@ void print(const FitResult& fitted) {
 int advised(const AdviseOptions& options, OutputFolder& folder) {
   std::optional<Scene> scene;
   std::string toml;
-  if (options.scene.ends_with(".toml") && std::filesystem::exists(options.scene)) {
+  if (options.scene.ends_with(".toml") && fs::exists(options.scene)) {
     const std::string text = read_file(options.scene, "a scene file (TOML)");
     if (has_unknowns(text, options.scene)) {
       Progress progress(1);
       progress.begin(fmt::format("fitting {}", options.scene));
       FitResult fitted = fit_to_wishes(text, options.scene);
-      fitted.scene.name = file_name_of(std::filesystem::path(options.scene).stem().string());
+      fitted.scene.name = file_name_of(fs::path(options.scene).stem().string());
       progress.done();
       print(fitted);
       toml = fitted.toml;
@@ -318,22 +275,17 @@ int advise_command(const AdviseOptions& options) {
 }  // namespace
 
 void add_advise(CLI::App& app, Invocation& call) {
-  const auto options = std::make_shared<AdviseOptions>();
-  auto* advise = app.add_subcommand(
-      "advise", "finds the cheapest model, method and time step within a tolerance, with a verifying run");
+  auto [advise, options] = add_command(
+      app, call, "advise", "finds the cheapest model, method and time step within a tolerance, with a verifying run",
+      advise_command);
   advise
-      ->add_option("SCENE", options->scene,
-                   "a shipped scene or a TOML file; values of \"fit\" are found from its [wish]")
+      .add_option("SCENE", options.scene, "a shipped scene or a TOML file; values of \"fit\" are found from its [wish]")
       ->required();
-  advise->add_option("--tolerance", options->tolerance,
-                     "largest RMS position error, m, or in per cent of the motion (1%); not needed to fit a scene's "
-                     "values alone");
-  advise->add_option("--methods", options->methods, "methods to try: A,B,... (default: all of mysim)");
-  advise->add_option("--out", options->out, "folder (out/advise)");
-  advise->callback([options, &call] {
-    options->command_line = call.line;
-    call.status = advise_command(*options);
-  });
+  advise.add_option("--tolerance", options.tolerance,
+                    "largest RMS position error, m, or in per cent of the motion (1%); not needed to fit a scene's "
+                    "values alone");
+  advise.add_option("--methods", options.methods, "methods to try: A,B,... (default: all of mysim)");
+  advise.add_option("--out", options.out, "folder (out/advise)");
 }
 
 }  // namespace crosscheck

@@ -1,35 +1,17 @@
 // bench: speed, as ratios to other implementations, in one run.
 #include "report/commands/bench.h"
 
-#include <fmt/format.h>
-
-#include <CLI/CLI.hpp>
-#include <algorithm>
-#include <cmath>
-#include <memory>
-
 #include "experiments/bench/bench.h"
-#include "experiments/scenes/scenes.h"
 #include "experiments/tables/bench.h"
-#include "mysim/base/files.h"
-#include "mysim/base/output_folder.h"
 #include "reference/truth/independent/integrators.h"
-#include "report/base/provenance.h"
 #include "report/commands/command_line.h"
-#include "report/commands/commands.h"
 #include "report/commands/json_files.h"
 #include "report/findings/report_data.h"
 
 namespace crosscheck {
-
 namespace {
 
-std::string nice_seconds(double seconds) {
-  if (seconds >= 0.1) return fmt::format("{:.2f} s", seconds);
-  if (seconds >= 1e-4) return fmt::format("{:.3g} ms", 1e3 * seconds);
-  if (seconds >= 1e-7) return fmt::format("{:.3g} µs", 1e6 * seconds);
-  return fmt::format("{:.3g} ns", 1e9 * seconds);
-}
+std::string best_instructions() { return std::string(name_of(simd::active_instruction_set())); }
 
 /// "sheet-32x32-two-stiffnesses" as "32 × 32, two stiffnesses".
 std::string size_text(const std::string& scene) {
@@ -41,7 +23,7 @@ std::string size_text(const std::string& scene) {
 
 std::string detail_of(const BenchRow& row) {
   if (!row.ratio) return row.remark;
-  std::string text = fmt::format("{} : {} per {}", nice_seconds(*row.peer_time), nice_seconds(*row.time), row.unit);
+  std::string text = fmt::format("{} : {} per {}", step_text(*row.peer_time), step_text(*row.time), row.unit);
   if (row.work == bench_work::same_error) text += ", " + short_name(row.mysim);
   if (row.apart) text += fmt::format(", {:.1g} m apart", *row.apart);
   if (row.share)
@@ -117,17 +99,6 @@ std::vector<BenchLine> bench_lines(const std::vector<BenchRow>& rows) {
   return lines;
 }
 
-namespace {
-
-std::optional<DotPlot::Dot> dot_of(const std::optional<Timing>& ratio) {
-  if (!ratio) return std::nullopt;
-  return DotPlot::Dot{ratio->median, ratio->low, ratio->high};
-}
-
-std::string best_instructions() { return std::string(name_of(simd::active_instruction_set())); }
-
-}  // namespace
-
 DotPlot bench_figure(const std::vector<BenchLine>& lines, const std::string& commit) {
   DotPlot f;
   f.name = "bench-ratios";
@@ -136,6 +107,9 @@ DotPlot bench_figure(const std::vector<BenchLine>& lines, const std::string& com
   f.from_costs = true;
   f.series = {{fmt::format("mysim with {}", best_instructions()), {"#0072B2", "1", 7}, {}},
               {"mysim with baseline instructions", {"#D55E00", "1", 6}, {}}};
+  const auto dot_of = [](const std::optional<Timing>& ratio) {
+    return ratio ? std::optional(DotPlot::Dot{ratio->median, ratio->low, ratio->high}) : std::nullopt;
+  };
   std::string heading;
   const BenchLine* least = nullptr;
   for (const BenchLine& line : lines) {
@@ -215,21 +189,25 @@ int bench_command(const BenchOptions& options, const BenchSuite& plan) {
   return 0;
 }
 
+namespace {
+
+int measure(const BenchOptions& options) {
+  std::vector<std::string> beside;
+  if (!options.methods.empty())
+    for (const Method& method : find_methods(options.methods)) beside.push_back(method.name);
+  return bench_command(options, bench_suite(options.full, beside));
+}
+
+}  // namespace
+
 void add_bench(CLI::App& app, Invocation& call) {
-  const auto options = std::make_shared<BenchOptions>();
-  auto* bench = app.add_subcommand("bench", "measures speed as ratios to other implementations, in one run");
-  bench->add_option("--out", options->out, "folder (out/bench)");
-  bench->add_option(
-      "--methods", options->methods,
+  auto [bench, options] =
+      add_command(app, call, "bench", "measures speed as ratios to other implementations, in one run", measure);
+  bench.add_option("--out", options.out, "folder (out/bench)");
+  bench.add_option(
+      "--methods", options.methods,
       "A,B,...: methods to compare with as well, on cloths of 32 and 64 particles a side, with --full 128");
-  add_quick_and_full(*bench, options->full);
-  bench->callback([options, &call] {
-    options->command_line = call.line;
-    std::vector<std::string> beside;
-    if (!options->methods.empty())
-      for (const Method& method : find_methods(options->methods)) beside.push_back(method.name);
-    call.status = bench_command(*options, bench_suite(options->full, beside));
-  });
+  add_quick_and_full(bench, options.full);
 }
 
 }  // namespace crosscheck

@@ -1,64 +1,41 @@
 // check: what can be asked of an engine without any truth; with --protocol, what its adapter still lacks.
 
-#include <fmt/format.h>
-
-#include <CLI/CLI.hpp>
-#include <algorithm>
-#include <memory>
-#include <nlohmann/json.hpp>
-
 #include "experiments/check/check.h"
 #include "experiments/check/protocol_kit.h"
-#include "experiments/scenes/scenes.h"
-#include "mysim/base/errors.h"
-#include "mysim/base/files.h"
-#include "mysim/base/json.h"
-#include "mysim/base/output_folder.h"
-#include "mysim/base/progress.h"
-#include "mysim/base/text.h"
 #include "reference/which_rule.h"
-#include "report/base/provenance.h"
 #include "report/commands/command_line.h"
-#include "report/commands/commands.h"
-#include "report/commands/junit.h"
+#include "report/commands/json_files.h"
 #include "report/page/page.h"
 #include "report/pictures/scene_picture.h"
 
 namespace crosscheck {
 namespace {
 
-void print_conformance(const ConformanceReport& report) {
+/// 0: nothing required lacks.
+int check_protocol(const std::string& program, bool as_json) {
+  const ConformanceReport report = try_adapter(program);
+  Json json{{"format", 1}, {"program", report.program}, {"complete", report.complete()}, {"lines", Json::array()}};
   int ok = 0, lacking = 0, required = 0, refused = 0;
   for (const ConformanceLine& line : report.lines) {
-    const bool lacks = line.state == Conformance::lacks;
-    ok += line.state == Conformance::ok, lacking += lacks, refused += line.state == Conformance::refuses;
-    required += lacks && line.required;
-    fmt::print("{:<8} {:<14} {:<38} {}{}{}\n", name_of(line.state), line.scene, line.topic, line.told,
-               lacks ? fmt::format(" [PROTOCOL.md, {}]", line.section) : "", lacks && line.required ? " REQUIRED" : "");
-  }
-  fmt::print("\n{}: {} ok, {} lacking, of which {} required, {} refused\n", report.program, ok, lacking, required,
-             refused);
-}
-
-Json conformance_json(const ConformanceReport& report) {
-  Json json{{"format", 1}, {"program", report.program}, {"complete", report.complete()}, {"lines", Json::array()}};
-  for (const ConformanceLine& line : report.lines)
     json["lines"].push_back({{"scene", line.scene},
                              {"topic", line.topic},
                              {"state", name_of(line.state)},
                              {"required", line.required},
                              {"told", line.told},
                              {"section", line.section}});
-  return json;
-}
-
-/// 0: nothing required lacks.
-int check_protocol(const std::string& program, bool json) {
-  const ConformanceReport report = try_adapter(program);
-  if (json)
-    fmt::print("{}\n", dump(conformance_json(report), 2));
+    const bool lacks = line.state == Conformance::lacks;
+    ok += line.state == Conformance::ok, lacking += lacks, refused += line.state == Conformance::refuses;
+    required += lacks && line.required;
+    if (!as_json)
+      fmt::print("{:<8} {:<14} {:<38} {}{}{}\n", name_of(line.state), line.scene, line.topic, line.told,
+                 lacks ? fmt::format(" [PROTOCOL.md, {}]", line.section) : "",
+                 lacks && line.required ? " REQUIRED" : "");
+  }
+  if (as_json)
+    fmt::print("{}\n", dump(json, 2));
   else
-    print_conformance(report);
+    fmt::print("\n{}: {} ok, {} lacking, of which {} required, {} refused\n", report.program, ok, lacking, required,
+               refused);
   return report.complete() ? 0 : 1;
 }
 
@@ -68,6 +45,7 @@ struct CheckOptions {
   unsigned seed = 1;
   std::string program;  // of the conformance kit; empty: relations are asked
   bool json = false;
+  std::string command_line;
 };
 
 /// Words become scenes where a shipped one is called so, or a file ends in .toml; else methods.
@@ -91,21 +69,6 @@ void sort_words(const std::vector<std::string>& words, std::vector<Method>& meth
   if (!names.empty()) scenes = load_scenes(names, methods[0].name);
 }
 
-void print_answer(const Answer& a) {
-  fmt::print("{:<16} {:<17} {:<20} {:<20} {}\n", name_of(a.mark), a.relation->name, a.method, a.scene, a.sentence());
-  std::fflush(stdout);
-}
-
-void print_counts(const std::vector<Answer>& answers) {
-  fmt::print("\n");
-  std::string counts;
-  for (const auto mark : {RelationMark::holds, RelationMark::broken, RelationMark::known, RelationMark::not_asked})
-    counts += fmt::format(
-        "{}{} {}", counts.empty() ? "" : ", ",
-        std::count_if(answers.begin(), answers.end(), [&](const Answer& a) { return a.mark == mark; }), name_of(mark));
-  fmt::print("{} answers: {}\n", answers.size(), counts);
-}
-
 Json json_of(const std::vector<Answer>& answers) {
   Json all{{"format", 1}, {"passed", status_of(answers) == 0}, {"relations", Json::array()}};
   for (const Answer& a : answers) {
@@ -126,26 +89,18 @@ Json json_of(const std::vector<Answer>& answers) {
 
 /// A case for each answer: failed where broken, skipped where known or not asked.
 std::string junit_of(const std::vector<Answer>& answers) {
-  JUnitReport report("check");
+  std::vector<TestCase> cases;
   for (const Answer& a : answers)
-    report.add(a.method, fmt::format("{}: {}", a.relation->name, a.scene),
-               a.mark == RelationMark::holds    ? ""
-               : a.mark == RelationMark::broken ? "failure"
-                                                : "skipped",
-               a.sentence());
-  return report.xml();
+    cases.push_back({a.method, fmt::format("{}: {}", a.relation->name, a.scene),
+                     a.mark == RelationMark::holds    ? ""
+                     : a.mark == RelationMark::broken ? "failure"
+                                                      : "skipped",
+                     a.sentence()});
+  return junit_xml("check", cases);
 }
 
-/// Draws the method's run of a scene at the time of the break (s; none: the end) into a PNG file.
-void draw_break(const Method& method, const Scene& scene, std::optional<double> since,
-                const std::filesystem::path& file) {
-  const MethodResult result = recorded_result(method, scene, run_for_relations(scene));
-  Shot shot = usual_shot(scene, false);
-  shot.at = since.value_or(-1);
-  render::write_png(picture_of(scene, {&result}, shot), file);
-}
-
-/// A picture of each break that is not known, of the scene that shows it; those that cannot be drawn are left out.
+/// A picture of each break that is not known: the method's run of the scene that shows it, at the time of the break or
+/// at the end. Those that cannot be drawn are left out.
 std::vector<PageImage> draw_breaks(const std::vector<Answer>& answers, const std::vector<Method>& methods,
                                    const std::vector<Scene>& scenes, const std::filesystem::path& folder,
                                    ResumableOutput& output) {
@@ -158,7 +113,11 @@ std::vector<PageImage> draw_breaks(const std::vector<Answer>& answers, const std
     output.announce({file.filename().string()});
     if (scene == asked.end()) continue;
     try {
-      draw_break(*std::ranges::find(methods, a.method, &Method::name), *scene, a.finding.since, file);
+      const Method& method = *std::ranges::find(methods, a.method, &Method::name);
+      const MethodResult result = recorded_result(method, *scene, run_for_relations(*scene));
+      Shot shot = usual_shot(*scene, false);
+      shot.at = a.finding.since.value_or(-1);
+      render::write_png(picture_of(*scene, {&result}, shot), file);
     } catch (const std::exception&) {
       continue;
     }
@@ -170,7 +129,7 @@ std::vector<PageImage> draw_breaks(const std::vector<Answer>& answers, const std
   return pictures;
 }
 
-int check_relations(const CheckOptions& options, const std::string& line) {
+int check_relations(const CheckOptions& options) {
   std::vector<Method> methods;
   std::vector<Scene> scenes;
   sort_words(options.words, methods, scenes);
@@ -180,12 +139,14 @@ int check_relations(const CheckOptions& options, const std::string& line) {
   if (!options.out.empty()) folder.emplace(options.out, "check");
   Progress progress(static_cast<int>(methods.size() * relations().size()));
   std::vector<Answer> answers;
-  const AboutToAsk begin = [&](const std::string& what) { progress.begin(what); };
-  const Provenance lines = provenance(line);
+  const Provenance lines = provenance(options.command_line);
   Table so_far = table_of(std::vector<Answer>());
   // rows are printed and written as they come: a check that is stopped leaves what it has found
   const OnAnswer on_answer = [&](const Answer& answer) {
-    if (!options.json) print_answer(answer);
+    if (!options.json)
+      fmt::print("{:<16} {:<17} {:<20} {:<20} {}\n", name_of(answer.mark), answer.relation->name, answer.method,
+                 answer.scene, answer.sentence());
+    std::fflush(stdout);
     if (!folder) return;
     so_far.add(table_of(std::vector{answer}).rows[0]);
     write_file(folder->growing(so_far.name + ".csv"), csv(so_far, lines));
@@ -194,7 +155,9 @@ int check_relations(const CheckOptions& options, const std::string& line) {
   for (const Method& method : methods) {
     if (method.identify && !options.json)
       fmt::print("{}: its rule is {}\n", method.name, sentence_of(method.identify()));
-    std::ranges::move(answers_of(method, scenes, options.seed, known, begin, on_answer, only),
+    std::ranges::move(answers_of(
+                          method, scenes, options.seed, known, [&](const std::string& what) { progress.begin(what); },
+                          on_answer, only),
                       std::back_inserter(answers));
   }
   progress.done();
@@ -208,37 +171,40 @@ int check_relations(const CheckOptions& options, const std::string& line) {
     folder->finish();
   }
   if (!options.junit.empty()) write_file(options.junit, junit_of(answers));
+  std::vector<std::string> counts;
+  for (const auto mark : {RelationMark::holds, RelationMark::broken, RelationMark::known, RelationMark::not_asked})
+    counts.push_back(fmt::format("{} {}", std::ranges::count(answers, mark, &Answer::mark), name_of(mark)));
   if (options.json)
     fmt::print("{}\n", dump(json_of(answers), 1));
   else
-    print_counts(answers);
+    fmt::print("\n{} answers: {}\n", answers.size(), fmt::join(counts, ", "));
   return status_of(answers);
+}
+
+int check_command(const CheckOptions& options) {
+  if (!options.program.empty()) return check_protocol(options.program, options.json);
+  if (options.words.empty()) throw InputError("check: expected a method, or --protocol exec:PROGRAM");
+  return check_relations(options);
 }
 
 }  // namespace
 
 void add_check(CLI::App& app, Invocation& call) {
-  const auto options = std::make_shared<CheckOptions>();
-  auto* check = app.add_subcommand(
-      "check", "tests invariants of a method (symmetries, conservation, order); needs no reference solution");
-  auto* words = check->add_option("METHOD", options->words,
-                                  "methods, and the scenes to ask on (default: the smallest scene of each relation)");
+  auto [check, options] = add_command(
+      app, call, "check", "tests invariants of a method (symmetries, conservation, order); needs no reference solution",
+      check_command);
+  auto* words = check.add_option("METHOD", options.words,
+                                 "methods, and the scenes to ask on (default: the smallest scene of each relation)");
   check
-      ->add_option("--protocol", options->program,
-                   "exec:PROGRAM: says line by line what an adapter of the engine protocol still lacks")
+      .add_option("--protocol", options.program,
+                  "exec:PROGRAM: says line by line what an adapter of the engine protocol still lacks")
       ->excludes(words);
-  check->add_option("--known", options->known, "TOML file of known breaks, instead of those that come with Crosscheck");
-  check->add_option("--relation", options->relation, "name of the one relation to ask (default: all)");
-  check->add_option("--seed", options->seed, "seed of turns, shifts and orders (default: 1)");
-  check->add_flag("--json", options->json, "prints JSON");
-  check->add_option("--junit", options->junit, "file for JUnit XML");
-  check->add_option("--out", options->out, "folder for a page and relations.csv (default: none is written)");
-  check->callback([options, &call] {
-    if (options->program.empty() && options->words.empty())
-      throw InputError("check: expected a method, or --protocol exec:PROGRAM");
-    call.status = options->program.empty() ? check_relations(*options, call.line)
-                                           : check_protocol(options->program, options->json);
-  });
+  check.add_option("--known", options.known, "TOML file of known breaks, instead of those that come with Crosscheck");
+  check.add_option("--relation", options.relation, "name of the one relation to ask (default: all)");
+  check.add_option("--seed", options.seed, "seed of turns, shifts and orders (default: 1)");
+  check.add_flag("--json", options.json, "prints JSON");
+  check.add_option("--junit", options.junit, "file for JUnit XML");
+  check.add_option("--out", options.out, "folder for a page and relations.csv (default: none is written)");
 }
 
 }  // namespace crosscheck

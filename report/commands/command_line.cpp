@@ -1,41 +1,15 @@
 // The common part of all programs' command lines.
 #include "report/commands/command_line.h"
 
-#include <fmt/format.h>
-
-#include <CLI/CLI.hpp>
-#include <algorithm>
-#include <cmath>
 #include <cstdlib>
-#include <filesystem>
 #include <map>
-#include <optional>
 
-#include "experiments/scenes/scenes.h"
 #include "mysim/base/command_line.h"
-#include "mysim/base/errors.h"
-#include "mysim/base/text.h"
 #include "reference/method.h"
 #include "reference/truth/cache.h"
 
 namespace crosscheck {
 namespace {
-
-/// The number that a text begins with, a fraction such as 1/1000 included, and the rest of the text without blanks.
-/// Nothing if it begins with no number.
-std::optional<std::pair<double, std::string>> number_and_rest(const std::string& text) {
-  char* end = nullptr;
-  double value = std::strtod(text.c_str(), &end);
-  if (end == text.c_str() || !std::isfinite(value)) return std::nullopt;
-  if (*end == '/') {
-    const char* below = end + 1;
-    value /= std::strtod(below, &end);
-    if (end == below || !std::isfinite(value)) return std::nullopt;
-  }
-  std::string rest(end);
-  std::erase(rest, ' ');
-  return std::pair{value, rest};
-}
 
 /// Accepts a number, or a fraction, with or without a unit of time if `times`, and passes it on as a plain number.
 CLI::Validator number(bool zero_allowed, bool times) {
@@ -139,6 +113,27 @@ void require_known_command(const CLI::App& app, const std::string& word) {
 
 }  // namespace
 
+std::optional<std::pair<double, std::string>> number_and_rest(const std::string& text) {
+  char* end = nullptr;
+  double value = std::strtod(text.c_str(), &end);
+  if (end == text.c_str() || !std::isfinite(value)) return std::nullopt;
+  if (*end == '/') {
+    const char* below = end + 1;
+    value /= std::strtod(below, &end);
+    if (end == below || !std::isfinite(value)) return std::nullopt;
+  }
+  std::string rest(end);
+  std::erase(rest, ' ');
+  return std::pair{value, rest};
+}
+
+void require_output_file(const std::filesystem::path& file) {
+  std::error_code unknown;
+  if (std::filesystem::is_directory(file, unknown))
+    throw InputError(fmt::format("-o {}: expected the name of a file, got a folder", file.string()));
+  require_writable(file.has_parent_path() ? file.parent_path() : ".");
+}
+
 CLI::Validator above_zero() { return number(false, false); }
 CLI::Validator time_above_zero() { return number(false, true); }
 CLI::Validator time_not_below_zero() { return number(true, true); }
@@ -150,19 +145,16 @@ void add_quick_and_full(CLI::App& command, bool& full) {
 
 std::string program_and_version() { return "crosscheck " CROSSCHECK_VERSION; }
 
-std::string version_text() {
-  const std::string id = build_id();
-  return fmt::format("{}{}", program_and_version(), id.empty() ? "" : " (build " + id.substr(0, 12) + ")");
-}
-
-int run_command_line(const std::string& description, const std::string& version, std::span<const AddCommand> commands,
-                     int argc, char** argv) {
+int run_command_line(std::span<const AddCommand> commands, int argc, char** argv) {
   std::vector<std::string> words(argv, argv + argc);
   words[0] = "crosscheck";
   Invocation call{shell_join(words)};
-  CLI::App app{description};
+  CLI::App app{
+      "Crosscheck compares physics engines on mass-spring and cloth scenes: mysim, Bullet, and programs of yours."};
+  const std::string id = build_id();
+  app.set_version_flag("--version", program_and_version() + (id.empty() ? "" : " (build " + id.substr(0, 12) + ")"),
+                       "the version of this program");
   app.require_subcommand(1);
-  if (!version.empty()) app.set_version_flag("--version", version, "the version of this program");
   for (const AddCommand add : commands) add(app, call);
   if (argc > 1 && argv[1][0] != '-') {
     require_known_command(app, argv[1]);

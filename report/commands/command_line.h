@@ -1,28 +1,55 @@
-// The common part of all programs' command lines.
+// The common part of all commands: their place in the command line, and the headers that nearly all of them use.
 #pragma once
 
-#include <span>
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <optional>
 #include <string>
+#include <utility>
+#include <vector>
 
+#include "experiments/estimate.h"
+#include "experiments/scenes/scenes.h"
+#include "mysim/base/errors.h"
+#include "mysim/base/files.h"
+#include "mysim/base/json.h"
+#include "mysim/base/output_folder.h"
+#include "mysim/base/text.h"
+#include "report/base/provenance.h"
 #include "report/commands/commands.h"
-
-namespace CLI {
-class Validator;
-}
 
 namespace crosscheck {
 
-using AddCommand = void (*)(CLI::App&, Invocation&);
-
-/// Reads the command line, runs its command, and returns the exit status. Throws
-/// InputError that names the nearest word. `version`: what --version prints; empty: there is no such option.
-int run_command_line(const std::string& description, const std::string& version, std::span<const AddCommand> commands,
-                     int argc, char** argv);
-
-/// The name of the program and its version, that of the build where it has one.
-std::string version_text();
-/// The two without the build.
+/// The name of the program and its version.
 std::string program_and_version();
+
+/// Adds a command that `run` carries out, and returns it with its options. Options that have a member `command_line`
+/// are given the whole line.
+template <class Options>
+std::pair<CLI::App&, Options&> add_command(CLI::App& app, Invocation& call, const std::string& name,
+                                           const std::string& what, int (*run)(const Options&)) {
+  const auto options = std::make_shared<Options>();
+  CLI::App* command = app.add_subcommand(name, what);
+  command->callback([options, &call, run] {
+    if constexpr (requires { options->command_line; }) options->command_line = call.line;
+    call.status = run(*options);
+  });
+  return {*command, *options};
+}
+
+/// The number that a text begins with, a fraction such as 1/1000 included, and the rest of the text without blanks.
+/// Nothing if it begins with no number.
+std::optional<std::pair<double, std::string>> number_and_rest(const std::string& text);
+
+/// Throws InputError if the file that -o names is a folder or cannot be written.
+void require_output_file(const std::filesystem::path& file);
 
 /// Finite numbers and fractions: CLI11's own range checks let nan through and print 309 digits. Times may have a unit,
 /// and reach the option in seconds. To be given to Option::transform().

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <filesystem>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -18,6 +19,12 @@ struct Invocation {
   std::string line;  // the command line as a person would type it
   int status = 0;    // of the exit: 0 done, 1 a negative result; bad input throws InputError (exit 2)
 };
+
+using AddCommand = void (*)(CLI::App&, Invocation&);
+
+/// Reads the command line, runs its command, and returns the exit status. Throws InputError that names the nearest
+/// word.
+int run_command_line(std::span<const AddCommand> commands, int argc, char** argv);
 
 void add_doctor(CLI::App& app, Invocation& call);
 void add_list(CLI::App& app, Invocation& call);

@@ -1,26 +1,13 @@
 // compare: parity certificates, then the methods side by side; exit 1 on a mismatch, when equal rules differ, or when
 // every method failed.
 
-#include <fmt/format.h>
-
-#include <CLI/CLI.hpp>
-#include <algorithm>
-#include <cmath>
-#include <memory>
-
-#include "experiments/estimate.h"
 #include "experiments/experiment.h"
 #include "experiments/metrics.h"
-#include "experiments/scenes/scenes.h"
 #include "experiments/stability/margin.h"
 #include "experiments/tables/engines.h"
-#include "mysim/base/files.h"
-#include "mysim/base/output_folder.h"
 #include "reference/certificate/certificate.h"
 #include "reference/which_rule.h"
-#include "report/base/provenance.h"
 #include "report/commands/command_line.h"
-#include "report/commands/commands.h"
 #include "report/commands/json_files.h"
 #include "report/findings/report_data.h"
 
@@ -48,33 +35,35 @@ std::string shown(std::optional<double> value) { return value ? fmt::format("{:.
 /// Prints the differences between methods that follow one rule; true where one is larger than allowed.
 bool equal_rules_differ(const Request& request, const Scene& scene, MethodResults& answers) {
   const std::vector<Method> methods = methods_of(request, scene);
-  const TimeGrid grid = time_grid(run_of(request, scene));
+  const Run run = run_of(request, scene);
+  const TimeGrid grid = time_grid(run);
+  const auto judged = [](const MethodResult& r) {  // another law may hold for contact
+    return r.outcome.verdict == Verdict::ok && r.outcome.different_law.empty();
+  };
   bool differ = false;
   for (size_t i = 0; i < methods.size(); ++i)
     for (size_t j = 0; j < i; ++j) {
       const MethodResult &a = result_of(request, scene, methods[i], answers),
                          &b = result_of(request, scene, methods[j], answers);
-      if (methods[i].name == methods[j].name || !same_rule(methods[i], methods[j], scene.model).value_or(false))
+      if (methods[i].name == methods[j].name || !same_rule(methods[i], methods[j], scene.model).value_or(false) ||
+          !judged(a) || !judged(b))
         continue;
-      if (a.outcome.verdict != Verdict::ok || b.outcome.verdict != Verdict::ok) continue;
-      if (!a.outcome.different_law.empty() || !b.outcome.different_law.empty()) continue;  // such as contact
       double largest = 0;
       for (int k = 0;
            k < std::min(a.trajectory.frames(), b.trajectory.frames()) && a.trajectory.t[k] <= scene.window * (1 + 1e-9);
            ++k)
         largest = std::max(largest, largest_column(a.trajectory.x[k] - b.trajectory.x[k]));
-      const double growth = perturbation_growth(methods[j], scene, run_of(request, scene).step, scene.window);
+      const double growth = perturbation_growth(methods[j], scene, run.step, scene.window);
       const auto bound = [&](const Method& method) {
         return round_off_bound_of(method, scene, motion_of(a.trajectory), growth,
                                   1L * grid.steps_per_sample * grid.samples);
       };
       const std::optional<double> allowed = std::max(bound(methods[i]), bound(methods[j]));
       const bool over = allowed && largest > *allowed;
-      fmt::print("\n{} and {} are the same rule: they differ by {:.3g} m, ", b.method, a.method, largest);
-      if (allowed)
-        fmt::print("at most {:.3g} m is round-off: {}\n", *allowed, over ? "NOT THE SAME" : "the same");
-      else
-        fmt::print("but a perturbation grows {:.1g}-fold here: nothing can be said\n", growth);
+      fmt::print("\n{} and {} are the same rule: they differ by {:.3g} m, {}\n", b.method, a.method, largest,
+                 allowed
+                     ? fmt::format("at most {:.3g} m is round-off: {}", *allowed, over ? "NOT THE SAME" : "the same")
+                     : fmt::format("but a perturbation grows {:.1g}-fold here: nothing can be said", growth));
       differ |= over;
     }
   return differ;
@@ -98,15 +87,16 @@ int compare_command(const CompareOptions& options) {
     request.methods.push_back(trajectory_method(options.trajectory, scene, run_of(request, scene)));
   }
   const Scene& scene = request.scenes[0];
-  require_resources_to_keep(methods_of(request, scene), scene, run_of(request, scene));
+  const std::vector<Method> methods = methods_of(request, scene);
+  require_resources_to_keep(methods, scene, run_of(request, scene));
   ResumableOutput folder(options.out, "compare");
   const Provenance lines = with_scenes(provenance(options.command_line), request.scenes);
 
   MethodResults answers;
   TableSet result;
   Table so_far = table_of<EngineRow>();
-  Progress progress(static_cast<int>(methods_of(request, scene).size()) + 1);
-  for (const Method& method : methods_of(request, scene)) {
+  Progress progress(static_cast<int>(methods.size()) + 1);
+  for (const Method& method : methods) {
     Request shown = request;
     shown.methods = {with_progress(method, progress)};
     const Outcome& out = result_of(shown, scene, shown.methods[0], answers).outcome;
@@ -157,18 +147,18 @@ int compare_command(const CompareOptions& options) {
   }
   for (const MethodResult& answer : answers)
     if (!answer.outcome.remark.empty()) fmt::print("\n{}: {}\n", answer.method, answer.outcome.remark);
-  for (const Method& method : methods_of(request, scene))
-    for (const MethodResult& answer : answers)
-      if (answer.method == method.name && answer.outcome.verdict == Verdict::ok)
-        if (const std::string outlook = stability_warning(method, scene, answer.outcome.step); !outlook.empty())
-          fmt::print("\n{}: {}\n", method.name, outlook);
-  if (options.step > 0)
-    for (const Method& method : methods_of(request, scene))
-      if (method.adaptive) fmt::print("\n{} chooses its own steps: --step does not apply to it\n", method.name);
+  for (const Method& method : methods) {
+    const Outcome& out = result_of(request, scene, method, answers).outcome;
+    if (const std::string outlook = out.verdict == Verdict::ok ? stability_warning(method, scene, out.step) : "";
+        !outlook.empty())
+      fmt::print("\n{}: {}\n", method.name, outlook);
+    if (method.adaptive && options.step > 0)
+      fmt::print("\n{} chooses its own steps: --step does not apply to it\n", method.name);
+  }
   fmt::print("\n{}; diff.: from {}; largest RMS over the particles up to {:.3g} s\n",
              of_rule ? "rule: difference from mysim's contact rule, converged" : "error: from the truth",
              request.reference.empty() ? subject().representative : request.reference, scene.window);
-  for (const Method& method : methods_of(request, scene))
+  for (const Method& method : methods)
     if (method.identify) fmt::print("\n{}: its rule is {}\n", method.name, sentence_of(method.identify()));
   const bool differ = equal_rules_differ(request, scene, answers);
   const bool all_failed = std::ranges::none_of(runs, [](const EngineRow& run) { return run.verdict == Verdict::ok; });
@@ -180,21 +170,18 @@ int compare_command(const CompareOptions& options) {
 }  // namespace
 
 void add_compare(CLI::App& app, Invocation& call) {
-  const auto options = std::make_shared<CompareOptions>();
-  auto* compare = app.add_subcommand(
-      "compare", "checks that all methods received the same scene (parity certificate), then compares their results");
-  compare->add_option("SCENE", options->scene, "a shipped scene or a TOML file")->required();
-  compare->add_option("--methods", options->methods, "methods to compare: A,B,...");
-  compare->add_option("--reference", options->reference,
-                      "method from which the others' differences are measured (default: symplectic-euler)");
-  compare->add_option("--step", options->step, "time step, s")->transform(time_above_zero());
-  compare->add_option("--trajectory", options->trajectory,
-                      "FILE.npy: positions computed by another program, compared with the methods");
-  compare->add_option("--out", options->out, "folder (out/compare)");
-  compare->callback([options, &call] {
-    options->command_line = call.line;
-    call.status = compare_command(*options);
-  });
+  auto [compare, options] =
+      add_command(app, call, "compare",
+                  "checks that all methods received the same scene (parity certificate), then compares their results",
+                  compare_command);
+  compare.add_option("SCENE", options.scene, "a shipped scene or a TOML file")->required();
+  compare.add_option("--methods", options.methods, "methods to compare: A,B,...");
+  compare.add_option("--reference", options.reference,
+                     "method from which the others' differences are measured (default: symplectic-euler)");
+  compare.add_option("--step", options.step, "time step, s")->transform(time_above_zero());
+  compare.add_option("--trajectory", options.trajectory,
+                     "FILE.npy: positions computed by another program, compared with the methods");
+  compare.add_option("--out", options.out, "folder (out/compare)");
 }
 
 }  // namespace crosscheck

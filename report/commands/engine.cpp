@@ -1,25 +1,15 @@
 // engine: programs for exec: that put another engine behind the protocol: Bullet's adapter built against another Bullet
 // tree, Jolt's against a tree of Jolt or with npm's build of Jolt inside.
 
-#include <fmt/format.h>
-#include <fmt/ranges.h>
 #include <unistd.h>
 
-#include <CLI/CLI.hpp>
-#include <algorithm>
 #include <cstdint>
-#include <filesystem>
-#include <memory>
 #include <thread>
 
-#include "mysim/base/errors.h"
-#include "mysim/base/files.h"
 #include "mysim/base/hash.h"
 #include "mysim/base/installation.h"
 #include "mysim/base/process.h"
-#include "mysim/base/progress.h"
-#include "mysim/base/text.h"
-#include "report/commands/commands.h"
+#include "report/commands/command_line.h"
 
 namespace crosscheck {
 namespace fs = std::filesystem;
@@ -57,13 +47,6 @@ bool run_tool(const std::vector<std::string>& argv, const fs::path& folder, cons
   fmt::print(stderr, "crosscheck: engine {}: {} failed; the last lines of its output:\n{}\n", options.what, what,
              last_lines(result.out + result.err, 30));
   return false;
-}
-
-/// Throws InputError where the program cannot be written, before it is made.
-void require_program(const fs::path& program) {
-  if (fs::is_directory(program))
-    throw InputError(fmt::format("-o {}: expected the name of a program, got a folder", program.string()));
-  require_writable(program.has_parent_path() ? program.parent_path() : ".");
 }
 
 /// Writes the program under a temporary name and renames it, so that no half program is ever started.
@@ -107,22 +90,17 @@ int build_adapter(const EngineOptions& options, const std::string& folder, const
 
 // Bullet
 
-/// Throws InputError unless the folder holds what the adapter's CMakeLists.txt looks for.
-void require_bullet(const fs::path& prefix) {
-  for (const char* header :
-       {"src/btBulletDynamicsCommon.h", "include/bullet/btBulletDynamicsCommon.h", "include/btBulletDynamicsCommon.h"})
-    if (fs::exists(prefix / header)) return;
-  throw InputError(
-      fmt::format("--prefix {}: expected an installed Bullet (include/bullet/btBulletDynamicsCommon.h or "
-                  "include/btBulletDynamicsCommon.h, and lib*/) or its source tree (src/btBulletDynamicsCommon.h)",
-                  prefix.string()));
-}
-
 int build_bullet(const EngineOptions& options) {
   if (options.prefix.empty())
     throw InputError("engine bullet: expected --prefix DIR, an installation or a source tree of Bullet");
-  require_bullet(options.prefix);
-  require_program(options.program);
+  constexpr const char* folders[] = {"src", "include/bullet", "include"};
+  if (std::ranges::none_of(folders, [&](const char* folder) {
+        return fs::exists(options.prefix / folder / "btBulletDynamicsCommon.h");
+      }))
+    throw InputError(
+        fmt::format("--prefix {}: expected an installed Bullet (include/bullet/btBulletDynamicsCommon.h or "
+                    "include/btBulletDynamicsCommon.h, and lib*/) or its source tree (src/btBulletDynamicsCommon.h)",
+                    options.prefix.string()));
   return build_adapter(options, "reference/bullet/adapter", "BULLET_PREFIX", "bullet_engine", 30);  // s, on two cores
 }
 
@@ -160,7 +138,6 @@ int build_native_jolt(const EngineOptions& options) {
 }
 
 int build_jolt(const EngineOptions& options) {
-  require_program(options.program);
   if (!options.prefix.empty()) return build_native_jolt(options);
   if (!have_tools(options, {{"node", "nodejs"}, {"npm", "npm"}}, "nodejs npm")) return 1;
   // npm holds what it fetches against the checksum in package-lock.json, and keeps it in its own cache; two that are
@@ -182,21 +159,12 @@ int build_jolt(const EngineOptions& options) {
   return fetched ? 0 : 1;
 }
 
-struct EngineKind {
-  std::string_view name;
-  int (*build)(const EngineOptions& options);  // 0, or 1 with a message
-};
-constexpr EngineKind engine_kinds[] = {{"bullet", build_bullet}, {"jolt", build_jolt}};
-
 int engine_command(const EngineOptions& options) {
-  const auto* kind = std::ranges::find(engine_kinds, options.what, &EngineKind::name);
-  if (kind == std::end(engine_kinds)) {
-    std::vector<std::string> names;
-    for (const EngineKind& known : engine_kinds) names.emplace_back(known.name);
-    throw InputError(fmt::format("engine {}: expected {}{}", options.what, fmt::join(names, " or "),
-                                 did_you_mean(options.what, names)));
-  }
-  const int status = kind->build(options);
+  if (options.what != "bullet" && options.what != "jolt")
+    throw InputError(fmt::format("engine {}: expected bullet or jolt{}", options.what,
+                                 did_you_mean(options.what, {"bullet", "jolt"})));
+  require_output_file(options.program);
+  const int status = options.what == "bullet" ? build_bullet(options) : build_jolt(options);
   if (status == 0) fmt::print("{}\n", options.program.string());
   return status;
 }
@@ -204,14 +172,13 @@ int engine_command(const EngineOptions& options) {
 }  // namespace
 
 void add_engine(CLI::App& app, Invocation& call) {
-  const auto options = std::make_shared<EngineOptions>();
-  auto* engine = app.add_subcommand("engine", "builds an external engine for exec: from another Bullet, or from Jolt");
-  engine->add_option("NAME", options->what, "bullet or jolt")->required();
-  engine->add_option(
-      "--prefix", options->prefix,
+  auto [engine, options] = add_command(
+      app, call, "engine", "builds an external engine for exec: from another Bullet, or from Jolt", engine_command);
+  engine.add_option("NAME", options.what, "bullet or jolt")->required();
+  engine.add_option(
+      "--prefix", options.prefix,
       "bullet: an installation or a source tree of Bullet; jolt: a source tree of Jolt, without it npm's build");
-  engine->add_option("-o", options->program, "PROG: the program to write")->required();
-  engine->callback([options, &call] { call.status = engine_command(*options); });
+  engine.add_option("-o", options.program, "PROG: the program to write")->required();
 }
 
 }  // namespace crosscheck

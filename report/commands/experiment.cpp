@@ -1,23 +1,9 @@
 // experiment: runs experiments over scenes and writes their tables; merge: joins the parts of a sweep.
 
-#include <fmt/format.h>
-
-#include <CLI/CLI.hpp>
-#include <algorithm>
-#include <memory>
-
-#include "experiments/disagreements/upstream.h"
-#include "experiments/estimate.h"
 #include "experiments/experiment.h"
-#include "experiments/scenes/scenes.h"
+#include "experiments/disagreements/upstream.h"
 #include "experiments/sweep/sweep.h"
-#include "experiments/tables/dictionary.h"
-#include "mysim/base/errors.h"
-#include "mysim/base/files.h"
-#include "mysim/base/output_folder.h"
-#include "report/base/provenance.h"
 #include "report/commands/command_line.h"
-#include "report/commands/commands.h"
 #include "report/commands/json_files.h"
 
 namespace crosscheck {
@@ -39,15 +25,7 @@ struct MergeOptions {
   std::string command_line;
 };
 
-std::string file_of(const Certificate& c) {
-  return file_name_of(fmt::format("certificate-{}-{}", c.scene, c.method)) + ".json";
-}
-
-/// What is to be sent upstream, where the disagreements were among the experiments.
-std::vector<UpstreamText> texts_of(const TableSet& rows, const Provenance& lines) {
-  return upstream_texts(rows, value_of(lines, "engines"));
-}
-
+/// The files of the tables; with the disagreements also what is to be sent upstream.
 std::vector<std::string> files_of(const TableSet& rows, const std::vector<UpstreamText>& texts) {
   std::vector<std::string> files{"dictionary.csv"};
   for (const Table& table : rows.tables) files.push_back(table.name + ".csv");
@@ -56,18 +34,16 @@ std::vector<std::string> files_of(const TableSet& rows, const std::vector<Upstre
   return files;
 }
 
-void write_tables(const TableSet& rows, const std::vector<UpstreamText>& texts, const Provenance& lines,
-                  const std::filesystem::path& out) {
-  for (const Table& table : rows.tables) write_csv(table, lines, out);
-  write_csv(dictionary(rows.tables), lines, out);
-  for (const Certificate& c : rows.certificates) write_file(out / file_of(c), certificate_json(c));
-  for (const UpstreamText& text : texts) write_file(out / text.file, text.text);
-}
-
-void print_tables(const TableSet& rows, const std::vector<UpstreamText>& texts, const std::filesystem::path& out) {
+/// Writes the files into `folder`, which becomes `out`, and prints their names.
+void write_and_print(const TableSet& rows, const std::vector<UpstreamText>& texts, const Provenance& lines,
+                     const std::filesystem::path& folder, const std::filesystem::path& out) {
+  write_tables(rows, lines, folder);
   for (const Table& table : rows.tables)
     fmt::print("{}  {} rows\n", (out / (table.name + ".csv")).string(), table.rows.size());
-  for (const UpstreamText& text : texts) fmt::print("{}\n", (out / text.file).string());
+  for (const UpstreamText& text : texts) {
+    write_file(folder / text.file, text.text);
+    fmt::print("{}\n", (out / text.file).string());
+  }
   for (const std::string& note : rows.notes) fmt::print("note: {}\n", note);
 }
 
@@ -89,21 +65,21 @@ int experiment_command(const ExperimentOptions& options) {
   Request request;
   request.full = options.full;
   if (!options.methods.empty()) request.methods = find_methods(options.methods);
+  const auto all = experiments();
   for (const std::string& name : options.names) {
-    const auto all = experiments();
-    const auto found = std::find_if(all.begin(), all.end(), [&](const Experiment& e) { return e.name == name; });
-    if (found != all.end())
+    const auto found = std::ranges::find(all, name, &Experiment::name);
+    if (found != all.end()) {
       chosen.push_back(&*found), names.push_back(name);
-    else if (chosen.empty()) {
-      const auto first =
-          std::find_first_of(options.names.begin(), options.names.end(), all.begin(), all.end(),
-                             [](const std::string& word, const Experiment& e) { return word == e.name; });
-      if (first != options.names.end())
-        throw InputError(fmt::format(
-            "experiment: '{0}' is no experiment; did you mean `crosscheck experiment {1} {0}`?", name, *first));
-      find_experiment(name);  // throws: the first word must be an experiment
-    } else
+    } else if (!chosen.empty()) {
       scenes.push_back(name);
+    } else {
+      for (const Experiment& experiment : all)
+        if (std::ranges::count(options.names, experiment.name) > 0)
+          throw InputError(
+              fmt::format("experiment: '{0}' is no experiment; did you mean `crosscheck experiment {1} {0}`?", name,
+                          experiment.name));
+      find_experiment(name);  // throws: the first word must be an experiment
+    }
   }
   SweepOptions sweep{LockPatience(), options.jobs, options.shard.empty() ? Shard{} : shard_from(options.shard)};
   std::vector<Point> points;
@@ -133,11 +109,10 @@ int experiment_command(const ExperimentOptions& options) {
   }
   std::vector<std::string> missing;
   const TableSet rows = joined(plan, {&store, 1}, missing);
-  const std::vector<UpstreamText> texts = texts_of(rows, plan.provenance);
+  const std::vector<UpstreamText> texts = upstream_texts(rows, value_of(plan.provenance, "engines"));
   folder.announce(files_of(rows, texts));
-  write_tables(rows, texts, plan.provenance, options.out);
+  write_and_print(rows, texts, plan.provenance, options.out, options.out);
   folder.finish();
-  print_tables(rows, texts, options.out);
   for (const std::string& name : missing) fmt::print(stderr, "crosscheck: missing in the tables: {}\n", name);
   const bool any = std::ranges::any_of(rows.tables, [](const Table& table) { return !table.rows.empty(); });
   if (!any) fmt::print(stderr, "crosscheck: nothing was measured: no method gave a row on these scenes\n");
@@ -162,44 +137,34 @@ int merge_command(const MergeOptions& options) {
     return 1;
   }
   OutputFolder folder(options.out, "merge");
-  const std::vector<UpstreamText> texts = texts_of(rows, plan.provenance);
-  write_tables(rows, texts, plan.provenance, folder.path());
+  write_and_print(rows, upstream_texts(rows, value_of(plan.provenance, "engines")), plan.provenance, folder.path(),
+                  options.out);
   folder.finish();
-  print_tables(rows, texts, options.out);
   return 0;
 }
 
 }  // namespace
 
 void add_experiment(CLI::App& app, Invocation& call) {
-  const auto options = std::make_shared<ExperimentOptions>();
-  auto* experiment = app.add_subcommand("experiment", "runs experiments and writes their tables");
+  auto [experiment, options] =
+      add_command(app, call, "experiment", "runs experiments and writes their tables", experiment_command);
   experiment
-      ->add_option("NAME", options->names,
-                   "experiments, then scenes (default: representative scenes; with --full all of them)")
+      .add_option("NAME", options.names,
+                  "experiments, then scenes (default: representative scenes; with --full all of them)")
       ->required();
-  experiment->add_option("--methods", options->methods, "methods to run: A,B,...");
-  experiment->add_option("--out", options->out, "folder (out/experiment)");
-  experiment->add_option("--shard", options->shard, "I/N: computes part I of N; `merge` joins the parts");
-  experiment->add_flag("--resume", options->resume, "keeps the results of an earlier run that was stopped");
-  experiment->add_option("--jobs", options->jobs, "number of processes at a time (default: one per core)")
+  experiment.add_option("--methods", options.methods, "methods to run: A,B,...");
+  experiment.add_option("--out", options.out, "folder (out/experiment)");
+  experiment.add_option("--shard", options.shard, "I/N: computes part I of N; `merge` joins the parts");
+  experiment.add_flag("--resume", options.resume, "keeps the results of an earlier run that was stopped");
+  experiment.add_option("--jobs", options.jobs, "number of processes at a time (default: one per core)")
       ->check(CLI::Range(1, 256));
-  add_quick_and_full(*experiment, options->full);
-  experiment->callback([options, &call] {
-    options->command_line = call.line;
-    call.status = experiment_command(*options);
-  });
+  add_quick_and_full(experiment, options.full);
 }
 
 void add_merge(CLI::App& app, Invocation& call) {
-  const auto options = std::make_shared<MergeOptions>();
-  auto* merge = app.add_subcommand("merge", "joins the shards of an experiment");
-  merge->add_option("DIR", options->folders, "output folders of `experiment --shard`")->required();
-  merge->add_option("--out", options->out, "folder")->required();
-  merge->callback([options, &call] {
-    options->command_line = call.line;
-    call.status = merge_command(*options);
-  });
+  auto [merge, options] = add_command(app, call, "merge", "joins the shards of an experiment", merge_command);
+  merge.add_option("DIR", options.folders, "output folders of `experiment --shard`")->required();
+  merge.add_option("--out", options.out, "folder")->required();
 }
 
 }  // namespace crosscheck

@@ -1,9 +1,16 @@
 // One object with an entry per quantity; tables as lists of objects.
 #include "report/commands/json_files.h"
 
+#include <fmt/format.h>
+
+#include <algorithm>
 #include <nlohmann/json.hpp>
 
-#include "mysim/base/json.h"
+#include "experiments/tables/dictionary.h"
+#include "mysim/base/files.h"
+#include "mysim/base/text.h"
+#include "report/base/assets.h"
+#include "report/page/template.h"
 
 namespace crosscheck {
 
@@ -25,22 +32,38 @@ std::string certificate_json(const Certificate& certificate) {
   return dump(json, 1) + "\n";
 }
 
-namespace {
-
-Json json_of(const Cell& cell) {
-  if (const auto* text = std::get_if<std::string>(&cell)) return *text;
-  if (const auto* number = std::get_if<double>(&cell)) return *number;  // null where not finite
-  if (const auto* whole = std::get_if<long>(&cell)) return *whole;
-  return nullptr;
+std::vector<Column> columns_of(const std::string& header) {
+  std::vector<Column> columns;
+  for (const std::string& part : split(header, ',')) {
+    const size_t begin = part.find_first_not_of(' '), unit = part.find(" [");
+    columns.push_back({part.substr(begin, unit - begin), "1"});
+    if (unit != std::string::npos) columns.back().unit = part.substr(unit + 2, part.size() - unit - 3);
+  }
+  return columns;
 }
 
-}  // namespace
+std::string file_of(const Certificate& c) {
+  return file_name_of(fmt::format("certificate-{}-{}", c.scene, c.method)) + ".json";
+}
+
+void write_tables(const TableSet& rows, const Provenance& lines, const std::filesystem::path& folder) {
+  for (const Table& table : rows.tables) write_csv(table, lines, folder);
+  write_csv(dictionary(rows.tables), lines, folder);
+  for (const Certificate& c : rows.certificates) write_file(folder / file_of(c), certificate_json(c));
+}
 
 Json rows_json(const Table& table) {
   Json rows = Json::array();
   for (const auto& row : table.rows) {
     Json& object = rows.emplace_back(Json::object());
-    for (size_t i = 0; i < row.size(); ++i) object[table.columns[i].name] = json_of(row[i]);
+    for (size_t i = 0; i < row.size(); ++i) {
+      Json& member = object[table.columns[i].name];  // null for an empty cell
+      std::visit(
+          [&](const auto& value) {
+            if constexpr (requires { member = value; }) member = value;
+          },
+          row[i]);
+    }
   }
   return rows;
 }
@@ -54,6 +77,16 @@ std::string tables_json(const TableSet& rows, const Provenance& provenance) {
     tables[table.name] = {{"columns", std::move(columns)}, {"rows", rows_json(table)}};
   }
   return dump(Json{{"provenance", lines}, {"notes", rows.notes}, {"tables", std::move(tables)}}, 1) + "\n";
+}
+
+std::string junit_xml(const std::string& suite, const std::vector<TestCase>& cases) {
+  Json data{{"suite", suite}, {"tests", cases.size()}, {"cases", Json::array()}};
+  for (const char* outcome : {"failure", "error", "skipped"})
+    data[outcome] = std::ranges::count(cases, outcome, &TestCase::outcome);
+  for (const TestCase& c : cases)
+    data["cases"].push_back(
+        {{"class", c.group}, {"name", c.name}, {"outcome", c.outcome}, {"message", c.message}, {"text", c.text}});
+  return Template("junit.xml", asset("page/templates/junit.xml")).filled(data);
 }
 
 }  // namespace crosscheck

@@ -1,18 +1,9 @@
 // lab: a page with the live lab alone.
 
-#include <fmt/format.h>
-
-#include <CLI/CLI.hpp>
-#include <memory>
-
-#include "experiments/scenes/scenes.h"
-#include "mysim/base/errors.h"
-#include "mysim/base/files.h"
-#include "report/commands/commands.h"
+#include "report/commands/command_line.h"
 #include "report/page/lab_html.h"
 
 namespace crosscheck {
-
 namespace {
 
 struct LabOptions {
@@ -32,11 +23,10 @@ int lab_command(const LabOptions& options) {
 }  // namespace
 
 void add_lab(CLI::App& app, Invocation& call) {
-  const auto options = std::make_shared<LabOptions>();
-  auto* lab = app.add_subcommand("lab", "writes a page that runs mysim live, next to the reference solution");
-  lab->add_option("SCENE", options->scenes, "shipped scenes or TOML files")->required();
-  lab->add_option("-o", options->file, "the page, FILE.html");
-  lab->callback([options, &call] { call.status = lab_command(*options); });
+  auto [lab, options] =
+      add_command(app, call, "lab", "writes a page that runs mysim live, next to the reference solution", lab_command);
+  lab.add_option("SCENE", options.scenes, "shipped scenes or TOML files")->required();
+  lab.add_option("-o", options.file, "the page, FILE.html");
 }
 
 }  // namespace crosscheck

@@ -1,60 +1,49 @@
 // list and doctor: what there is, what is installed, and what is missing.
 
-#include <fmt/format.h>
-
-#include <CLI/CLI.hpp>
 #include <cstdlib>
-#include <filesystem>
-#include <memory>
-#include <nlohmann/json.hpp>
 
 #include "experiments/disagreements/disagreements.h"
 #include "experiments/experiment.h"
-#include "experiments/scenes/scenes.h"
-#include "mysim/base/errors.h"
 #include "mysim/base/installation.h"
-#include "mysim/base/json.h"
 #include "mysim/base/process.h"
-#include "mysim/base/text.h"
 #include "reference/truth/independent/integrators.h"
-#include "report/commands/commands.h"
+#include "report/commands/command_line.h"
 #include "report/page/lab_html.h"
 
 namespace crosscheck {
 namespace {
 
-/// The methods; without --json also the form of names of outside programs.
-std::vector<std::pair<std::string, std::string>> method_rows(bool json) {
-  std::vector<std::pair<std::string, std::string>> rows;
-  for (const Method& method : all_methods()) rows.emplace_back(method.name, method.what);
-  if (!json)
-    rows.emplace_back(std::string(program_prefix) + "PATH",
-                      "any program that speaks the engine protocol (reference/protocol/PROTOCOL.md)");
-  return rows;
-}
+struct ListOptions {
+  std::string what;
+  bool json = false;
+};
 
-int list_command(const std::string& what, bool json) {
+int list_command(const ListOptions& options) {
+  const auto& [what, json] = options;
   std::vector<std::pair<std::string, std::string>> rows;
   if (what == "scenes") {
     for (const auto name : shipped_scenes()) rows.emplace_back(name, load_scene(std::string(name)).question);
     for (const Disagreement& d : disagreements()) rows.emplace_back(d.name, scene_of(d).question);
-  } else if (what == "methods")
-    rows = method_rows(json);
-  else if (what == "experiments")
+  } else if (what == "methods") {
+    for (const Method& method : all_methods()) rows.emplace_back(method.name, method.what);
+    if (!json)
+      rows.emplace_back(std::string(program_prefix) + "PATH",
+                        "any program that speaks the engine protocol (reference/protocol/PROTOCOL.md)");
+  } else if (what == "experiments") {
     for (const Experiment& experiment : experiments()) rows.emplace_back(experiment.name, experiment.question);
-  else if (what == "assignments")
+  } else if (what == "assignments") {
     grader_command(json ? std::vector<std::string>{"list", "--json"} : std::vector<std::string>{"list"});
-  else
+  } else {
     throw InputError(fmt::format("list {}: expected scenes, methods, experiments or assignments{}", what,
                                  did_you_mean(what, {"scenes", "methods", "experiments", "assignments"})));
-
-  if (json) {
-    Json list = Json::array();
-    for (const auto& [name, text] : rows) list.push_back({{"name", name}, {"what", text}});
-    fmt::print("{}\n", dump(list, 2));
-    return 0;
   }
-  for (const auto& [name, text] : rows) fmt::print("{:<38} {}\n", name, text);
+  Json list = Json::array();
+  for (const auto& [name, text] : rows)
+    if (json)
+      list.push_back({{"name", name}, {"what", text}});
+    else
+      fmt::print("{:<38} {}\n", name, text);
+  if (json) fmt::print("{}\n", dump(list, 2));
   return 0;
 }
 
@@ -67,15 +56,16 @@ struct Tool {
 
 int doctor_command() {
   fmt::print("built with: {}\n", CROSSCHECK_COMPILER);
-  fmt::print("  {:<14} {:<10} {}\n", "Eigen", CROSSCHECK_EIGEN_VERSION, "vectors and matrices");
-  fmt::print("  {:<14} {:<10} {}\n", "Bullet", CROSSCHECK_BULLET_VERSION,
-             "the engine that mysim is compared with (double precision; single in a program of its own)");
-  fmt::print("  {:<14} {:<10} {}\n", "odeint", odeint_version(),
-             "an independent integrator, of Boost: truth's other route");
-  fmt::print("  {:<14} {:<10} {}{}\n", "SUNDIALS", sundials_version().value_or("absent"),
-             "optional: a better one, in odeint's place",
-             sundials_version() ? "" : "; apt-get install libsundials-dev, then build anew");
-  fmt::print("  {:<14} {:<10} {}\n\n", CROSSCHECK_OFFSCREEN, "linked", "renders pictures without a display");
+  const auto line = [](std::string_view name, std::string_view state, std::string_view what, std::string_view install) {
+    fmt::print("  {:<14} {:<10} {}{}\n", name, state, what, install);
+  };
+  line("Eigen", CROSSCHECK_EIGEN_VERSION, "vectors and matrices", "");
+  line("Bullet", CROSSCHECK_BULLET_VERSION,
+       "the engine that mysim is compared with (double precision; single in a program of its own)", "");
+  line("odeint", odeint_version(), "an independent integrator, of Boost: truth's other route", "");
+  line("SUNDIALS", sundials_version().value_or("absent"), "optional: a better one, in odeint's place",
+       sundials_version() ? "" : "; apt-get install libsundials-dev, then build anew");
+  line(CROSSCHECK_OFFSCREEN, "linked", "renders pictures without a display\n", "");
 
   // an installation compiles coursework and adapters alone
   const bool in_source_tree = std::filesystem::exists(data_folder() / "CMakeLists.txt");
@@ -98,9 +88,11 @@ int doctor_command() {
   for (const Tool& tool : tools) {
     const bool found = on_path(tool.name);
     complete &= found || !tool.required;
-    const std::string state = found ? "found" : tool.required ? "MISSING" : "absent";
-    fmt::print("  {:<14} {:<10} {}{}\n", tool.name, state, tool.purpose,
-               found ? "" : fmt::format("; apt-get install --no-install-recommends {}", tool.package));
+    line(tool.name,
+         found           ? "found"
+         : tool.required ? "MISSING"
+                         : "absent",
+         tool.purpose, found ? "" : fmt::format("; apt-get install --no-install-recommends {}", tool.package));
   }
   fmt::print("\n{}\n", complete ? "all that is required is here" : "something required is missing");
   return complete ? 0 : 1;
@@ -109,15 +101,10 @@ int doctor_command() {
 }  // namespace
 
 void add_list(CLI::App& app, Invocation& call) {
-  struct Options {
-    std::string what;
-    bool json = false;
-  };
-  const auto options = std::make_shared<Options>();
-  auto* list = app.add_subcommand("list", "lists scenes, methods, experiments or assignments");
-  list->add_option("WHAT", options->what, "scenes, methods, experiments or assignments")->required();
-  list->add_flag("--json", options->json, "prints JSON");
-  list->callback([options, &call] { call.status = list_command(options->what, options->json); });
+  auto [list, options] =
+      add_command(app, call, "list", "lists scenes, methods, experiments or assignments", list_command);
+  list.add_option("WHAT", options.what, "scenes, methods, experiments or assignments")->required();
+  list.add_flag("--json", options.json, "prints JSON");
 }
 
 void add_doctor(CLI::App& app, Invocation& call) {

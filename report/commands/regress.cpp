@@ -1,25 +1,14 @@
 // regress: results against baselines or against another method's; --bless writes baselines.
-#include <fmt/format.h>
 
-#include <CLI/CLI.hpp>
-#include <algorithm>
-#include <cmath>
 #include <cstdlib>
-#include <memory>
 #include <set>
 
 #include "experiments/regress/regress.h"
-#include "mysim/base/errors.h"
-#include "mysim/base/files.h"
 #include "mysim/base/installation.h"
-#include "mysim/base/output_folder.h"
-#include "report/base/provenance.h"
 #include "report/commands/command_line.h"
-#include "report/commands/commands.h"
 #include "report/commands/regress_verdict.h"
 
 namespace crosscheck {
-
 namespace {
 
 struct RegressOptions {
@@ -36,30 +25,16 @@ constexpr auto nothing_measured =
     "nothing was measured: each case is unsupported or too slow (--full selects slower ones)";
 
 void print_row(const Comparison& row) {
-  std::string where = row.scene;
-  if (!row.method.empty()) where += ", " + row.method;
-  if (!row.without.empty()) where += " without " + row.without;
-  fmt::print("{:<10} {}: {}", name_of(row.state), where, row.quantity);
-  if (!row.note.empty()) {
-    fmt::print(": {}\n", row.note);
-    return;
-  }
-  fmt::print(": {}\n", describe_change(row));
-}
-
-long count_of(const std::vector<Comparison>& rows, Status state) {
-  return std::count_if(rows.begin(), rows.end(), [&](const Comparison& row) { return row.state == state; });
+  fmt::print("{:<10} {}: {}: {}\n", name_of(row.state), case_of(row), row.quantity, describe_change(row));
 }
 
 int print_result(const RegressionResult& result, const std::filesystem::path& out) {
-  const std::vector<Comparison> worst = worst_comparisons(result.rows);
-  for (const Comparison& row : worst) print_row(row);
+  for (const Comparison& row : worst_comparisons(result.rows)) print_row(row);
   for (const FailedPoint& f : result.failures) fmt::print("no answer  {}: {}\n", f.name, f.why);
-  for (const NewMethod& m : new_methods(result.rows))
-    fmt::print("{:<10} {}: {}; bless with --filter '*/{}'\n", name_of(Status::added), m.method, describe(m), m.method);
-  const long added = count_of(result.rows, Status::added), same = count_of(result.rows, Status::same);
-  long wrong = 0;
-  for (const Comparison& row : result.rows) wrong += failed(row.state);
+  for (const NewMethod& m : new_methods(result.rows)) fmt::print("{:<10} {}\n", name_of(Status::added), describe(m));
+  const auto added = std::ranges::count(result.rows, Status::added, &Comparison::state);
+  const auto same = std::ranges::count(result.rows, Status::same, &Comparison::state);
+  const auto wrong = std::ranges::count_if(result.rows, [](const auto& row) { return failed(row.state); });
   fmt::print("\n{} quantities: {} the same, {} failed{}{}\n", result.rows.size(), same, wrong,
              added > 0 ? fmt::format(", {} new (not blessed yet)", added) : "",
              result.failures.empty() ? "" : fmt::format("; {} questions without an answer", result.failures.size()));
@@ -78,14 +53,11 @@ Figures before_and_after(const Regression& regression, const RegressOptions& opt
   std::copy_if(result.changed.begin(), result.changed.end(), std::back_inserter(changes.rows),
                [](const Comparison& row) { return row.state == Status::moved; });
   if (changes.rows.empty()) return {};  // new quantities have no earlier curve
-  VerdictPage page{changes};
-  page.blessed = options.reason, page.beside = "what was blessed before";
-  page.lines = lines;
-  write_verdict_page(page, cases(regression.selection), regression,
-                     std::max(options.figures, static_cast<int>(result.numbers.size())));
   Figures figures;
   std::set<std::string> scenes;
-  for (const FailurePart& part : page.parts)
+  for (const FailurePart& part :
+       write_verdict_page({changes, "what was blessed before", options.reason, lines}, regression,
+                          std::max(options.figures, static_cast<int>(result.numbers.size()))))
     if (!part.images.empty() && scenes.insert(part.scene).second)
       figures.emplace_back(part.images[0].file,
                            regression.baselines / fmt::format("{}-blessing-{}.svg", file_name_of(part.scene),
@@ -140,19 +112,15 @@ int regressed(const RegressOptions& options) {
     folder.finish();
     return status;
   }
-  if (!options.reason.empty()) throw InputError("--reason: expected --bless beside it");
-
   Progress progress(0);
   const RegressionResult result = regress(regression, progress);
   progress.done();
-  const std::vector<Case> selected = cases(regression.selection);
   write_verdict(result, lines, regression.out);
-  if (options.figures > 0 && !options.bisect) {
-    VerdictPage page{result};
-    page.beside = regression.against ? regression.against->name : "the baselines in " + regression.baselines.string();
-    page.lines = lines;
-    write_verdict_page(page, selected, regression, options.figures);
-  }
+  if (options.figures > 0 && !options.bisect)
+    write_verdict_page(
+        {result, regression.against ? regression.against->name : "the baselines in " + regression.baselines.string(),
+         "", lines},
+        regression, options.figures);
   folder.finish();
   return print_result(result, options.out);
 }
@@ -172,29 +140,24 @@ int regress_command(const RegressOptions& options) {
 }  // namespace
 
 void add_regress(CLI::App& app, Invocation& call) {
-  const auto options = std::make_shared<RegressOptions>();
-  auto* regress = app.add_subcommand("regress", "compares the results of this build with stored baselines");
-  regress->add_option("scenes", options->scenes, "scenes or TOML files (default: all that come with Crosscheck)");
-  regress->add_option("--filter", options->filter, "GLOB: only cases whose SCENE or SCENE/METHOD it matches");
-  regress->add_option("--method", options->methods, "methods to run: A,B,... (default: all of mysim and Bullet)");
-  regress->add_option("--against", options->against, "a method that --method is compared with, instead of baselines");
-  regress->add_option("--baselines", options->baselines,
-                      "folder of baselines (default: those that come with Crosscheck)");
-  auto* bless = regress->add_flag("--bless", options->bless, "stores the results of this run as baselines");
-  regress->add_option("--reason", options->reason, "with --bless: why these results are right")->needs(bless);
+  auto [regress, options] =
+      add_command(app, call, "regress", "compares the results of this build with stored baselines", regress_command);
+  regress.add_option("scenes", options.scenes, "scenes or TOML files (default: all that come with Crosscheck)");
+  regress.add_option("--filter", options.filter, "GLOB: only cases whose SCENE or SCENE/METHOD it matches");
+  regress.add_option("--method", options.methods, "methods to run: A,B,... (default: all of mysim and Bullet)");
+  regress.add_option("--against", options.against, "a method that --method is compared with, instead of baselines");
+  regress.add_option("--baselines", options.baselines,
+                     "folder of baselines (default: those that come with Crosscheck)");
+  auto* bless = regress.add_flag("--bless", options.bless, "stores the results of this run as baselines");
+  regress.add_option("--reason", options.reason, "with --bless: why these results are right")->needs(bless);
   regress
-      ->add_option("--figures", options->figures,
-                   "number of failed cases that are drawn (default: 6); 0 writes no page")
+      .add_option("--figures", options.figures, "number of failed cases that are drawn (default: 6); 0 writes no page")
       ->check(CLI::Range(0, 100));
-  regress->add_flag("--bisect", options->bisect,
-                    "exits with 125 where a build cannot be judged, as `git bisect run` expects");
-  regress->add_flag("--no-speed")->group("");  // scripts of earlier versions say so; bench measures speed
-  regress->add_option("--out", options->out, "folder (out/regress)");
-  add_quick_and_full(*regress, options->full);
-  regress->callback([options, &call] {
-    options->command_line = call.line;
-    call.status = regress_command(*options);
-  });
+  regress.add_flag("--bisect", options.bisect,
+                   "exits with 125 where a build cannot be judged, as `git bisect run` expects");
+  regress.add_flag("--no-speed")->group("");  // scripts of earlier versions say so; bench measures speed
+  regress.add_option("--out", options.out, "folder (out/regress)");
+  add_quick_and_full(regress, options.full);
 }
 
 }  // namespace crosscheck

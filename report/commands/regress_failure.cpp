@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <set>
 #include <tuple>
 
@@ -17,11 +18,29 @@
 #include "report/pictures/scene_picture.h"
 
 namespace crosscheck {
+namespace fs = std::filesystem;
 namespace {
 
-const Comparison* row_named(const std::vector<Comparison>& rows, const std::string& name) {
-  const auto at = std::find_if(rows.begin(), rows.end(), [&](const Comparison& row) { return row.quantity == name; });
-  return at == rows.end() ? nullptr : &*at;
+using Series = std::vector<std::pair<double, double>>;  // over time, s
+
+struct FailureDetails {
+  Case test_case;
+  std::vector<Comparison> rows;            // all those of the case
+  Series was, is;                          // RMS displacement of the particles, m
+  bool was_sampled = false;                // the whole old curve is known, not a few points of it
+  Series difference, tolerance;            // positions, m
+  std::optional<double> first_divergence;  // s: the first time at which they differ by more than the tolerance
+  std::optional<MethodResult> old_result, new_result;  // for pictures; of a baseline the scene's own method only
+
+  /// The row of a quantity, or null.
+  const Comparison* find(const std::string& quantity) const {
+    const auto at = std::ranges::find(rows, quantity, &Comparison::quantity);
+    return at == rows.end() ? nullptr : &*at;
+  }
+};
+
+bool is_of(const Comparison& row, const Case& q) {
+  return row.scene == q.scene.name && row.method == q.method.name && row.without == q.without;
 }
 
 std::vector<double> times_of(const Case& test_case) {
@@ -37,8 +56,10 @@ Series offsets_of(const Trajectory& path) {
   return series;
 }
 
-MethodResult result_for_pictures(const Case& test_case, const CaseRun& case_run, const std::string& who) {
-  return {test_case.scene.name, who, case_run.outcome, case_run.trajectory};
+/// The run for pictures; nothing of a refused one.
+std::optional<MethodResult> pictured(const Case& test_case, const CaseRun& case_run, const std::string& was_or_is) {
+  if (case_run.trajectory.x.empty()) return std::nullopt;
+  return MethodResult{test_case.scene.name, was_or_is + test_case.method.name, case_run.outcome, case_run.trajectory};
 }
 
 bool owns(const Case& q) { return q.without.empty() && q.method.name == find_method(q.scene.method).name; }
@@ -46,7 +67,7 @@ bool owns(const Case& q) { return q.without.empty() && q.method.name == find_met
 /// Reads the old run from a baseline, which holds at most eight times of it.
 void beside_baseline(FailureDetails& e, const Regression& regression) {
   for (const double t : times_of(e.test_case)) {
-    const Comparison *offset = row_named(e.rows, offset_at(t)), *places = row_named(e.rows, places_at(t));
+    const Comparison *offset = e.find(offset_at(t)), *places = e.find(places_at(t));
     if (offset && offset->was) e.was.emplace_back(t, *offset->was);
     // positions may differ where means over the particles agree
     if (!places || !places->was || !places->is || !std::isfinite(*places->is)) continue;
@@ -58,8 +79,7 @@ void beside_baseline(FailureDetails& e, const Regression& regression) {
   const auto shape = read_shape(regression.baselines, e.test_case.scene.name, e.test_case.scene.model.particles.size());
   if (!shape) return;
   e.old_result = MethodResult{e.test_case.scene.name, "was: " + e.test_case.method.name, {}, {}};
-  e.old_result->trajectory.t = {shape->t};
-  e.old_result->trajectory.x = {shape->x};
+  e.old_result->trajectory.t = {shape->t}, e.old_result->trajectory.x = {shape->x};
 }
 
 /// Compares both runs at every sample, with the tolerances at the times of the quantities.
@@ -69,9 +89,9 @@ void beside_other(FailureDetails& e, const Method& against) {
   const CaseRun case_run = comparable_part(run_case(old));
   e.was = offsets_of(case_run.trajectory);
   e.was_sampled = true;
-  if (!case_run.trajectory.x.empty()) e.old_result = result_for_pictures(old, case_run, "was: " + against.name);
+  e.old_result = pictured(old, case_run, "was: ");
   for (const double t : times_of(e.test_case))
-    if (const Comparison* offset = row_named(e.rows, offset_at(t))) e.tolerance.emplace_back(t, offset->tolerance);
+    if (const Comparison* offset = e.find(offset_at(t))) e.tolerance.emplace_back(t, offset->tolerance);
   if (!e.new_result || e.tolerance.empty()) return;
   const Trajectory &now = e.new_result->trajectory, &before = case_run.trajectory;
   for (int i = 1; i < std::min(now.frames(), before.frames()); ++i) {
@@ -85,20 +105,14 @@ void beside_other(FailureDetails& e, const Method& against) {
   }
 }
 
-}  // namespace
-
+/// Everything may be empty: a refused run has no curve.
 FailureDetails failure_details(const Case& test_case, const std::vector<Comparison>& rows,
                                const Regression& regression) {
   FailureDetails e{test_case};
-  for (const Comparison& row : rows)
-    if (row.scene == test_case.scene.name && row.method == test_case.method.name && row.without == test_case.without)
-      e.rows.push_back(row);
-  std::stable_sort(e.rows.begin(), e.rows.end(),
-                   [](const Comparison& a, const Comparison& b) { return failed(a.state) && !failed(b.state); });
+  std::ranges::copy_if(rows, std::back_inserter(e.rows), [&](const Comparison& row) { return is_of(row, test_case); });
   const CaseRun case_run = comparable_part(run_case(test_case));
   e.is = offsets_of(case_run.trajectory);
-  if (!case_run.trajectory.x.empty())
-    e.new_result = result_for_pictures(test_case, case_run, "is: " + test_case.method.name);
+  e.new_result = pictured(test_case, case_run, "is: ");
   if (regression.against)
     beside_other(e, *regression.against);
   else
@@ -106,26 +120,17 @@ FailureDetails failure_details(const Case& test_case, const std::vector<Comparis
   return e;
 }
 
-std::vector<Case> failures_to_draw(const std::vector<Case>& all, const std::vector<Comparison>& rows, int most) {
-  using Rank = std::tuple<bool, bool, double>;  // less comes first
-  std::vector<std::pair<Rank, const Case*>> ranked;
-  for (const Comparison& row : worst_comparisons(rows))
-    for (const Case& q : all)
-      if (q.scene.name == row.scene && q.method.name == row.method && q.without == row.without &&
-          std::ranges::find(ranked, &q, &std::pair<Rank, const Case*>::second) == ranked.end())
-        ranked.push_back({{!q.without.empty(), !owns(q), -row.rank()}, &q});  // the old shape is kept of owned ones
-  std::ranges::stable_sort(ranked, {}, &std::pair<Rank, const Case*>::first);
-  std::set<std::string> scenes;
-  std::vector<Case> first, others;
-  for (const auto& [rank, q] : ranked) (scenes.insert(q->scene.name).second ? first : others).push_back(*q);
-  first.insert(first.end(), others.begin(), others.end());
-  if (static_cast<int>(first.size()) > most) first.erase(first.begin() + most, first.end());
-  return first;
+/// When and how the two runs diverge, in a sentence.
+std::string describe_divergence(const FailureDetails& e) {
+  if (e.first_divergence) {
+    const auto before = std::find_if(e.difference.rbegin(), e.difference.rend(),
+                                     [&](const auto& at) { return at.first < *e.first_divergence * (1 - 1e-9); });
+    return fmt::format("They differ by more than the tolerance between {:.4g} s and {:.4g} s.",
+                       before == e.difference.rend() ? 0 : before->first, *e.first_divergence);
+  }
+  return e.difference.empty() ? "There is no common time at which positions can be compared."
+                              : "Positions stay within their tolerance; other quantities moved.";
 }
-
-namespace {
-
-namespace fs = std::filesystem;
 
 const MethodStyle old_style{"#5b6670", "2", 6}, new_style{"#d55e00", "1", 7}, tolerance_style{"#009e73", "3", 1};
 
@@ -148,11 +153,10 @@ std::optional<Figure> curves(const FailureDetails& e, const Provenance& lines) {
   f.y = {"RMS displacement / m"};
   if (!e.was.empty()) f.curves.push_back({"was", old_style, e.was, e.was_sampled, !e.was_sampled});
   if (!e.is.empty()) f.curves.push_back({"is", new_style, e.is});
-  const auto finite = [](const Curve& c) {
-    return std::all_of(c.points.begin(), c.points.end(), [](const auto& p) { return std::isfinite(p.second); });
-  };
-  if (f.curves.empty() || !std::all_of(f.curves.begin(), f.curves.end(), finite)) return std::nullopt;
-  return f;
+  for (const Curve& curve : f.curves)
+    for (const auto& [t, value] : curve.points)
+      if (!std::isfinite(value)) return std::nullopt;
+  return f.curves.empty() ? std::nullopt : std::optional(f);
 }
 
 std::optional<Figure> difference(const FailureDetails& e, const Provenance& lines) {
@@ -195,43 +199,48 @@ std::optional<PageImage> shapes(const FailureDetails& e, const fs::path& folder)
   render::write_png(picture_of(e.test_case.scene, shown, shot), image.file);
   image.alt = e.old_result ? "the last shape as it was and as it is" : "the last shape as it is";
   image.caption = e.old_result ? "The last shape as it was and as it is."
-                               : "The last shape as it is. Of the old run no shape is kept (a baseline has that of the "
-                                 "scene's own method; with --against both are drawn).";
+                               : "The last shape as it is; a baseline keeps that of the scene's own method only.";
   return image;
 }
 
 }  // namespace
 
-std::string describe_divergence(const FailureDetails& e) {
-  if (e.first_divergence) {
-    const auto before = std::find_if(e.difference.rbegin(), e.difference.rend(),
-                                     [&](const auto& at) { return at.first < *e.first_divergence * (1 - 1e-9); });
-    return fmt::format("They differ by more than the tolerance between {:.4g} s and {:.4g} s.",
-                       before == e.difference.rend() ? 0 : before->first, *e.first_divergence);
-  }
-  return e.difference.empty() ? "There is no common time at which positions can be compared."
-                              : "Positions stay within their tolerance; other quantities moved.";
+std::vector<Case> failures_to_draw(const std::vector<Case>& all, const std::vector<Comparison>& rows, int most) {
+  using Rank = std::tuple<bool, bool, double>;  // less comes first
+  std::vector<std::pair<Rank, const Case*>> ranked;
+  for (const Comparison& row : worst_comparisons(rows))
+    for (const Case& q : all)
+      if (is_of(row, q) && std::ranges::find(ranked, &q, &std::pair<Rank, const Case*>::second) == ranked.end())
+        ranked.push_back({{!q.without.empty(), !owns(q), -row.rank()}, &q});  // the old shape is kept of owned ones
+  std::ranges::stable_sort(ranked, {}, &std::pair<Rank, const Case*>::first);
+  std::set<std::string> scenes;
+  std::vector<Case> first, others;
+  for (const auto& [rank, q] : ranked) (scenes.insert(q->scene.name).second ? first : others).push_back(*q);
+  first.insert(first.end(), others.begin(), others.end());
+  if (static_cast<int>(first.size()) > most) first.erase(first.begin() + most, first.end());
+  return first;
 }
 
-std::vector<PageImage> failure_figures(const FailureDetails& e, const Provenance& lines, const fs::path& out,
-                                       std::vector<std::string>& problems) {
-  const fs::path folder = out / "figures";
-  std::vector<PageImage> images;
+FailurePart drawn_failure(const Case& test_case, const std::vector<Comparison>& rows, const Regression& regression,
+                          const Provenance& lines, std::vector<std::string>& problems) {
+  const FailureDetails e = failure_details(test_case, rows, regression);
+  const fs::path folder = regression.out / "figures";
+  FailurePart part{test_case.scene.name, test_case.in_words(), describe_divergence(e), {}};
   for (const auto& figure : {curves(e, lines), difference(e, lines)}) {
     if (!figure) continue;
     try {
       draw(drawing_of(*figure), lines, folder);
-      images.push_back({folder / (figure->name + ".svg"), figure->finding, figure->caption});
+      part.images.push_back({folder / (figure->name + ".svg"), figure->finding, figure->caption});
     } catch (const std::runtime_error& error) {
       problems.push_back(error.what());
     }
   }
   try {
-    if (auto image = shapes(e, folder)) images.push_back(*image);
+    if (auto image = shapes(e, folder)) part.images.push_back(*image);
   } catch (const std::exception& error) {
-    problems.push_back(fmt::format("picture of {}: {}", e.test_case.in_words(), error.what()));
+    problems.push_back(fmt::format("picture of {}: {}", part.heading, error.what()));
   }
-  return images;
+  return part;
 }
 
 }  // namespace crosscheck

@@ -1,18 +1,8 @@
 // render: a picture of a scene, or a clip of its run, methods side by side.
 
-#include <fmt/format.h>
-
-#include <CLI/CLI.hpp>
 #include <cstdio>
-#include <memory>
 
-#include "experiments/estimate.h"
-#include "experiments/scenes/scenes.h"
-#include "mysim/base/errors.h"
-#include "mysim/base/files.h"
-#include "mysim/base/text.h"
 #include "report/commands/command_line.h"
-#include "report/commands/commands.h"
 #include "report/pictures/clip.h"
 #include "report/pictures/scene_picture.h"
 
@@ -77,11 +67,8 @@ int render_command(const RenderOptions& options) {
   const bool clip = options.file.extension() == ".mp4";
   if (!clip && options.file.extension() != ".png")
     throw InputError(fmt::format("-o {}: expected a file name that ends in .png or .mp4", options.file.string()));
-  std::error_code unknown;
-  if (std::filesystem::is_directory(options.file, unknown))
-    throw InputError(fmt::format("-o {}: expected the name of a file, got a folder", options.file.string()));
+  require_output_file(options.file);
   const Shot shot = shot_of(options, scene, clip);
-  require_writable(options.file.has_parent_path() ? options.file.parent_path() : ".");
 
   std::vector<Method> methods;
   if (options.methods.empty())
@@ -108,16 +95,15 @@ int render_command(const RenderOptions& options) {
 }  // namespace
 
 void add_render(CLI::App& app, Invocation& call) {
-  const auto options = std::make_shared<RenderOptions>();
-  auto* render = app.add_subcommand("render", "draws a picture or a video clip of a scene, methods side by side");
-  render->add_option("SCENE", options->scene, "a shipped scene or a TOML file")->required();
-  render->add_option("--methods", options->methods, "methods to draw: A,B,...");
-  render->add_option("--mode", options->mode, "shaded (default), stretch, springs, difference or strip");
-  render->add_option("--at", options->at, "time, s (default: the end)")->transform(time_not_below_zero());
-  render->add_option("--quality", options->quality, "fast or still (default: still for a picture, fast for a clip)");
-  render->add_option("--size", options->size, "WxH in pixels (default: 1280x720)");
-  render->add_option("-o", options->file, "FILE.png, or FILE.mp4: 30 frames for each second of the scene")->required();
-  render->callback([options, &call] { call.status = render_command(*options); });
+  auto [render, options] = add_command(
+      app, call, "render", "draws a picture or a video clip of a scene, methods side by side", render_command);
+  render.add_option("SCENE", options.scene, "a shipped scene or a TOML file")->required();
+  render.add_option("--methods", options.methods, "methods to draw: A,B,...");
+  render.add_option("--mode", options.mode, "shaded (default), stretch, springs, difference or strip");
+  render.add_option("--at", options.at, "time, s (default: the end)")->transform(time_not_below_zero());
+  render.add_option("--quality", options.quality, "fast or still (default: still for a picture, fast for a clip)");
+  render.add_option("--size", options.size, "WxH in pixels (default: 1280x720)");
+  render.add_option("-o", options.file, "FILE.png, or FILE.mp4: 30 frames for each second of the scene")->required();
 }
 
 }  // namespace crosscheck

@@ -1,24 +1,10 @@
 // report: the main job. Runs the experiments, draws figures and pictures, writes data, report.json and the page.
 
-#include <fmt/ranges.h>
-
-#include <CLI/CLI.hpp>
-#include <algorithm>
 #include <deque>
-#include <memory>
 
-#include "experiments/estimate.h"
-#include "experiments/scenes/scenes.h"
 #include "experiments/sweep/sweep.h"
-#include "experiments/tables/dictionary.h"
-#include "mysim/base/errors.h"
-#include "mysim/base/files.h"
 #include "mysim/base/names.h"
-#include "mysim/base/output_folder.h"
-#include "mysim/base/text.h"
-#include "report/base/provenance.h"
 #include "report/commands/command_line.h"
-#include "report/commands/commands.h"
 #include "report/commands/json_files.h"
 #include "report/findings/findings_text.h"
 #include "report/findings/verify.h"
@@ -30,24 +16,13 @@ namespace crosscheck {
 namespace fs = std::filesystem;
 namespace {
 
-void write_data(const ReportData& data, const fs::path& folder) {
-  for (const Table& table : data.rows.tables) write_csv(table, data.provenance, folder);
-  write_csv(dictionary(data.rows.tables), data.provenance, folder);
-  for (const Certificate& c : data.rows.certificates)
-    write_file(folder / (file_name_of(fmt::format("certificate-{}-{}", c.scene, c.method)) + ".json"),
-               certificate_json(c));
-  for (const Scene& scene : data.scenes)
-    write_file(folder / "scenes" / (file_name_of(scene.name) + ".toml"), scene.source);
-}
-
+/// The requested methods in the order in which they are tried for the picture of a scene.
 std::vector<std::string> methods_pictured(const Request& request, const Scene& scene) {
   std::vector<std::string> names, requested;
   for (const Method& m : methods_of(request, scene)) requested.push_back(m.name);
   for (const std::string& name : pictured_methods(scene))
-    if (std::ranges::find(requested, name) != requested.end()) names.push_back(name);
-  for (const std::string& name : requested)
-    if (family_of(name).role == Role::outside) names.push_back(name);
-  if (names.empty()) names.assign(requested.begin(), requested.begin() + std::min<long>(3, std::ssize(requested)));
+    if (std::ranges::count(requested, name) > 0) names.push_back(name);
+  names.insert(names.end(), requested.begin(), requested.end());
   return names;
 }
 
@@ -132,7 +107,9 @@ ReportData data_of_runs(const ReportOptions& options, Request& request, const fs
   if (!data.rows.certificates.empty()) data.rows.tables.push_back(certificate_table(data.rows.certificates));
   if (!options.full) data.rows.notes.insert(data.rows.notes.begin(), left_out(request));
   data.runs = take_index(folder);
-  write_data(data, folder / "data");
+  write_tables(data.rows, data.provenance, folder / "data");
+  for (const Scene& scene : data.scenes)
+    write_file(folder / "data/scenes" / (file_name_of(scene.name) + ".toml"), scene.source);
   return data;
 }
 
@@ -140,9 +117,11 @@ ReportData data_of_runs(const ReportOptions& options, Request& request, const fs
 std::string weight_of_page(const WrittenReport& report) {
   std::vector<std::string> parts;
   double sum = 0;
-  for (const auto& [name, bytes] : report.blocks)
-    parts.push_back(fmt::format("{} {}", name, format_bytes(static_cast<double>(bytes)))),
-        sum += static_cast<double>(bytes);
+  for (const auto& [name, count] : report.blocks) {
+    const auto bytes = static_cast<double>(count);
+    parts.push_back(fmt::format("{} {}", name, format_bytes(bytes)));
+    sum += bytes;
+  }
   return fmt::format("{} ({})", format_bytes(sum), fmt::join(parts, ", "));
 }
 
@@ -206,32 +185,33 @@ int report_command(const ReportOptions& options, OutputFolder& folder) {
   return finish(data, options, folder, store, workers);
 }
 
+namespace {
+
+struct CalledReport : ReportOptions {
+  fs::path verified, from;
+};
+
+int called_report(const CalledReport& options) {
+  if (!options.verified.empty()) return verify_command(options.verified);
+  if (!options.from.empty()) return remake_command(options.from, options);
+  OutputFolder folder(options.out, "report");
+  return report_command(options, folder);
+}
+
+}  // namespace
+
 void add_report(CLI::App& app, Invocation& call) {
-  struct Options : ReportOptions {
-    fs::path verified, from;
-  };
-  const auto options = std::make_shared<Options>();
-  auto* report =
-      app.add_subcommand("report", "writes the comparison report: a page with findings, figures, pictures and data");
-  report->add_option("SCENE", options->scenes, "default: those that stand for the others; all with --full");
-  report->add_option("--methods", options->methods, "A,B,...");
-  report->add_option("--out", options->out, "folder (out/report)");
-  add_quick_and_full(*report, options->full);
-  report->add_option("--against", options->against, "an earlier report: the page says what changed since");
-  report->add_option("--verify", options->verified,
-                     "DIR: recomputes every finding of the report in it from its data, no more");
-  report->add_option("--from", options->from, "DIR: the page of the report in it again from its data, nothing is run");
-  report->callback([options, &call] {
-    options->command_line = call.line;
-    if (!options->verified.empty()) {
-      call.status = verify_command(options->verified);
-    } else if (!options->from.empty()) {
-      call.status = remake_command(options->from, *options);
-    } else {
-      OutputFolder folder(options->out, "report");
-      call.status = report_command(*options, folder);
-    }
-  });
+  auto [report, options] =
+      add_command(app, call, "report", "writes the comparison report: a page with findings, figures, pictures and data",
+                  called_report);
+  report.add_option("SCENE", options.scenes, "default: those that stand for the others; all with --full");
+  report.add_option("--methods", options.methods, "A,B,...");
+  report.add_option("--out", options.out, "folder (out/report)");
+  add_quick_and_full(report, options.full);
+  report.add_option("--against", options.against, "an earlier report: the page says what changed since");
+  report.add_option("--verify", options.verified,
+                    "DIR: recomputes every finding of the report in it from its data, no more");
+  report.add_option("--from", options.from, "DIR: the page of the report in it again from its data, nothing is run");
 }
 
 }  // namespace crosscheck

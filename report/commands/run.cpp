@@ -1,25 +1,11 @@
 // run: one method on one scene; writes trajectory.npy, velocities.npy, energy.csv, run.json, and meshes where asked.
 
-#include <fmt/format.h>
-
-#include <CLI/CLI.hpp>
-#include <memory>
-#include <nlohmann/json.hpp>
-
-#include "experiments/estimate.h"
-#include "experiments/scenes/scenes.h"
 #include "experiments/stability/margin.h"
 #include "experiments/tables/energy.h"
-#include "mysim/base/errors.h"
-#include "mysim/base/files.h"
-#include "mysim/base/json.h"
-#include "mysim/base/output_folder.h"
 #include "mysim/run/crossings.h"
 #include "reference/protocol/trajectory_files.h"
 #include "report/base/mesh_files.h"
-#include "report/base/provenance.h"
 #include "report/commands/command_line.h"
-#include "report/commands/commands.h"
 
 namespace crosscheck {
 namespace {
@@ -125,22 +111,18 @@ int run_command(const RunOptions& options) {
 }  // namespace
 
 void add_run(CLI::App& app, Invocation& call) {
-  const auto options = std::make_shared<RunOptions>();
-  auto* run = app.add_subcommand("run", "runs one method on a scene and writes trajectory, energies and verdict");
-  run->add_option("SCENE", options->scene, "a shipped scene or a TOML file")->required();
-  run->add_option("--method", options->method, "the method (default: the scene's own)");
-  run->add_option("--step", options->step, "time step of fixed-step methods, s")->transform(time_above_zero());
-  run->add_option("--tol", options->tolerance, "relative tolerance of adaptive methods")->transform(above_zero());
-  run->add_option("--duration", options->duration, "simulated time, s")->transform(time_above_zero());
-  run->add_option(
-      "--meshes", options->meshes,
+  auto [run, options] = add_command(
+      app, call, "run", "runs one method on a scene and writes trajectory, energies and verdict", run_command);
+  run.add_option("SCENE", options.scene, "a shipped scene or a TOML file")->required();
+  run.add_option("--method", options.method, "the method (default: the scene's own)");
+  run.add_option("--step", options.step, "time step of fixed-step methods, s")->transform(time_above_zero());
+  run.add_option("--tol", options.tolerance, "relative tolerance of adaptive methods")->transform(above_zero());
+  run.add_option("--duration", options.duration, "simulated time, s")->transform(time_above_zero());
+  run.add_option(
+      "--meshes", options.meshes,
       "obj or ply: writes each sample as a file in DIR/meshes, triangles of cloths and lines of springs, and the "
       "spheres beside them");
-  run->add_option("--out", options->out, "folder (out/run)");
-  run->callback([options, &call] {
-    options->command_line = call.line;
-    call.status = run_command(*options);
-  });
+  run.add_option("--out", options.out, "folder (out/run)");
 }
 
 }  // namespace crosscheck

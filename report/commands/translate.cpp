@@ -1,23 +1,9 @@
 // translate: what the numbers of a scene become in another engine, or an engine's numbers in a scene; exit 1 where the
 // engine has none for it, or refuses to run it.
 
-#include <fmt/format.h>
-
-#include <CLI/CLI.hpp>
-#include <algorithm>
-#include <cmath>
-#include <memory>
-#include <nlohmann/json.hpp>
-
-#include "experiments/estimate.h"
-#include "experiments/scenes/scenes.h"
 #include "experiments/translate/translated_run.h"
-#include "mysim/base/errors.h"
-#include "mysim/base/files.h"
-#include "mysim/base/json.h"
 #include "report/commands/command_line.h"
-#include "report/commands/commands.h"
-#include "report/findings/report_data.h"
+#include "report/findings/findings_text.h"
 
 namespace crosscheck {
 namespace {
@@ -31,14 +17,10 @@ struct TranslateOptions {
   bool json = false;
 };
 
-std::string with_unit(std::string_view number, std::string_view unit) {
-  return unit == "1" ? std::string(number) : fmt::format("{} {}", number, unit);
-}
-
 std::string range(const std::vector<double>& values, std::string_view unit) {
   const auto [least, most] = std::ranges::minmax(values);
-  const std::string low = fmt::format("{:.6g}", least), high = fmt::format("{:.6g}", most);
-  return with_unit(low == high ? low : low + " to " + high, unit);
+  return crosscheck::range(fmt::format("{:.6g}", least), fmt::format("{:.6g}", most)) +
+         (unit == "1" ? "" : fmt::format(" {}", unit));
 }
 
 void print(const TranslatedNumber& number) {
@@ -100,27 +82,12 @@ Json json_of(const TranslatedRun& run) {
           {"different_law", run.outcome.different_law}};
 }
 
-/// Why the numbers were not run.
-std::string not_measured(const TranslationTarget& target) {
-  return fmt::format("not measured here: this build does not run {}; --run exec:PROGRAM measures it by a program",
-                     target.numbers->title);
-}
-
-/// Where the step that was asked does not divide the time between samples: asked and taken. Empty where it does.
-std::string step_taken(const Run& asked) {
-  const TimeGrid taken = time_grid(asked);
-  if (std::abs(taken.h - asked.step) <= 1e-9 * asked.step) return "";
-  return fmt::format("the step asked is {:.6g} s, the step taken {:.6g} s: it must divide the {:.6g} s between samples",
-                     asked.step, taken.h, asked.duration / asked.samples);
-}
-
 int to_engine(const TranslateOptions& options) {
   const Scene scene = load_scene(options.scene);
   const TranslationTarget target = find_target(options.to, options.iterations);
   Run run = default_run(scene);
   if (options.step > 0) run.step = options.step;
-  std::optional<Method> method = target.runs;
-  if (!options.run.empty()) method = find_method(options.run);
+  const std::optional<Method> method = options.run.empty() ? target.runs : find_method(options.run);
   Translation t;
   try {
     t = translate(scene, target, time_grid(run).h);
@@ -161,14 +128,17 @@ int to_engine(const TranslateOptions& options) {
                target.numbers->iterations.empty()
                    ? ""
                    : fmt::format(", n = {} ({})", target.iterations, target.numbers->iterations));
-    if (const std::string told = step_taken(run); !told.empty()) fmt::print("  {}\n", told);
+    if (std::abs(t.h - run.step) > 1e-9 * run.step)
+      fmt::print("  the step asked is {:.6g} s, the step taken {:.6g} s: it must divide the {:.6g} s between samples\n",
+                 run.step, t.h, run.duration / run.samples);
     for (const TranslatedNumber& number : t.numbers) print(number);
     for (const std::string& lost : t.lost) fmt::print("  lost: {}\n", lost);
     if (!target.numbers->source.empty()) fmt::print("  formulas read in {}\n", target.numbers->source);
     if (measured)
       print(*measured);
     else
-      fmt::print("\n{}\n", not_measured(target));
+      fmt::print("\nnot measured here: this build does not run {}; --run exec:PROGRAM measures it by a program\n",
+                 target.numbers->title);
     if (stand_in)
       fmt::print("  {} follows the same rule with the same numbers in double precision; {} itself was not run\n",
                  measured->method, target.numbers->title);
@@ -226,25 +196,25 @@ int translate_command(const TranslateOptions& options) {
 }  // namespace
 
 void add_translate(CLI::App& app, Invocation& call) {
-  const auto options = std::make_shared<TranslateOptions>();
-  auto* translate = app.add_subcommand(
-      "translate", "converts masses, drag, stiffness, dashpots and friction to another engine's parameters, and back");
-  translate->add_option("SCENE", options->scene, "a shipped scene or a TOML file")->required();
-  translate->add_option(
-      "--to", options->to,
+  auto [translate, options] =
+      add_command(app, call, "translate",
+                  "converts masses, drag, stiffness, dashpots and friction to another engine's parameters, and back",
+                  translate_command);
+  translate.add_option("SCENE", options.scene, "a shipped scene or a TOML file")->required();
+  translate.add_option(
+      "--to", options.to,
       "METHOD that is given the scene: a method of mysim or of Bullet, or jolt, godot; +n=N: iterations");
-  translate->add_option("--from", options->from, "METHOD FILE: an engine's numbers (TOML, as --to --out writes them)")
+  translate.add_option("--from", options.from, "METHOD FILE: an engine's numbers (TOML, as --to --out writes them)")
       ->expected(2)
       ->type_name("METHOD FILE");
-  translate->add_option("--step", options->step, "time step, s (the scene's, or the file's)")
+  translate.add_option("--step", options.step, "time step, s (the scene's, or the file's)")
       ->transform(time_above_zero());
-  translate->add_option("--iterations", options->iterations, "iterations or sub-steps in a step (the engine's usual)")
+  translate.add_option("--iterations", options.iterations, "iterations or sub-steps in a step (the engine's usual)")
       ->check(CLI::Range(1, 1000));
-  translate->add_option("--run", options->run,
-                        "METHOD that runs the translated scene, such as exec:PROGRAM (default: that of --to)");
-  translate->add_option("--out", options->out, "FILE.toml: with --to the engine's numbers, with --from the scene");
-  translate->add_flag("--json", options->json, "prints JSON");
-  translate->callback([options, &call] { call.status = translate_command(*options); });
+  translate.add_option("--run", options.run,
+                       "METHOD that runs the translated scene, such as exec:PROGRAM (default: that of --to)");
+  translate.add_option("--out", options.out, "FILE.toml: with --to the engine's numbers, with --from the scene");
+  translate.add_flag("--json", options.json, "prints JSON");
 }
 
 }  // namespace crosscheck

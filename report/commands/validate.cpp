@@ -1,34 +1,21 @@
 // validate: a scene's particles, springs, frequencies, critical steps and demand.
 
-#include <fmt/ranges.h>
-
-#include <CLI/CLI.hpp>
-#include <algorithm>
-#include <cmath>
 #include <map>
-#include <memory>
-#include <nlohmann/json.hpp>
+#include <numbers>
 #include <set>
 
-#include "experiments/estimate.h"
-#include "experiments/scenes/scenes.h"
-#include "mysim/base/errors.h"
-#include "mysim/base/files.h"
-#include "mysim/base/json.h"
-#include "mysim/base/progress.h"
-#include "mysim/base/text.h"
 #include "mysim/base/this_process.h"
 #include "mysim/model/moduli.h"
 #include "mysim/model/pieces.h"
 #include "mysim/model/system.h"
-#include "report/commands/commands.h"
+#include "report/commands/command_line.h"
 
 namespace crosscheck {
 namespace {
 
-/// The summary of a scene.
 struct SceneSummary {
   Scene scene;
+  std::string given;  // as it was typed
   std::map<Family, long> springs;
   double omega = 0;                                      // rad/s
   std::optional<double> gamma;                           // 1/s, of all particles alike
@@ -36,12 +23,10 @@ struct SceneSummary {
   ResourceEstimate demand{};
   NetModuli net;
   std::optional<BendingLength> bending;
-  int evaluations = 0;  // per step of the default method; 0: as its equations take
-  bool adaptive = false;
   std::vector<std::string> warnings;
   int pieces = 0, free_pieces = 0;              // all, and those without a pin
   std::vector<std::pair<int, int>> coincident;  // particles that start at the same place
-  std::optional<double> mass_per_area = {};     // kg/m^2 of a sheet's triangles
+  std::optional<double> mass_per_area;          // kg/m^2 of a sheet's triangles
 };
 
 /// Mass over area of the particles of a sheet; nothing for the closed surface of a block, which has 2 V - 4 triangles
@@ -78,74 +63,37 @@ void add_pieces(SceneSummary& summary) {
   summary.mass_per_area = mass_per_area_of(summary.scene);
 }
 
-SceneSummary summary_of(Scene scene) {
-  SceneSummary summary{std::move(scene), {}, 0, {}, {}, {}, {}, {}, 0, false, {}};
-  const Model& model = summary.scene.model;
+SceneSummary summary_of(const std::string& given) {
+  SceneSummary summary{.scene = load_scene(given), .given = given};
+  const Scene& scene = summary.scene;
+  const Model& model = scene.model;
   if (const auto* springs = model.find<Springs>())
     for (const Spring& spring : springs->list) ++summary.springs[spring.family];
-  if (!model.first_order()) summary.omega = highest_frequency(model, summary.scene.start);
+  if (!model.first_order()) summary.omega = highest_frequency(model, scene.start);
   summary.gamma = uniform_drag_rate(model);
+  const Method method = find_method(scene.method);
+  summary.demand = resource_estimate_of(method, scene, default_run(scene));
+  const auto warn = [&](std::string text) {
+    if (!text.empty()) summary.warnings.push_back(std::move(text));
+  };
   for (const Stepper& rule : steppers()) {
     // rules that solve equations are stable at every step, adaptive ones choose their own
     if (rule.evaluations == 0 || rule.adaptive || !summary.gamma || (summary.omega == 0 && *summary.gamma == 0))
       continue;
-    if (const double limit = rule.limit(summary.omega, *summary.gamma); std::isfinite(limit))
-      summary.critical.emplace_back(rule.name, limit);
+    const double limit = rule.limit(summary.omega, *summary.gamma);
+    if (!std::isfinite(limit)) continue;
+    summary.critical.emplace_back(rule.name, limit);
+    if (const Stepper* own = stepper_of(method); own && own->name == rule.name && scene.step > limit)
+      warn(limit > 0 ? fmt::format("the step of {:.3g} s is above {}'s critical step of {:.3g} s: the run will blow up",
+                                   scene.step, rule.name, limit)
+                     : fmt::format("{} is stable at no step without drag: its energy grows", rule.name));
   }
-  const Method method = find_method(summary.scene.method);
-  summary.demand = resource_estimate_of(method, summary.scene, default_run(summary.scene));
-  summary.adaptive = method.adaptive;
-  if (const Stepper* rule = stepper_of(method)) {
-    summary.evaluations = rule->evaluations;
-    for (const auto& [name, limit] : summary.critical)
-      if (name == rule->name && summary.scene.step > limit)
-        summary.warnings.push_back(
-            limit > 0
-                ? fmt::format("the step of {:.3g} s is above {}'s critical step of {:.3g} s: the run will blow up",
-                              summary.scene.step, name, limit)
-                : fmt::format("{} is stable at no step without drag: its energy grows", name));
-  }
-  summary.bending = bending_length_of(model, summary.scene.start);
-  if (summary.bending)
-    if (std::string warning = coarse_grid_warning(*summary.bending); !warning.empty())
-      summary.warnings.push_back(std::move(warning));
-  summary.net = moduli_of(model, summary.scene.start);
-  if (summary.net.moduli)
-    if (std::string warning = skip_one_warning(*summary.net.moduli); !warning.empty())
-      summary.warnings.push_back(std::move(warning));
+  summary.bending = bending_length_of(model, scene.start);
+  if (summary.bending) warn(coarse_grid_warning(*summary.bending));
+  summary.net = moduli_of(model, scene.start);
+  if (summary.net.moduli) warn(skip_one_warning(*summary.net.moduli));
   add_pieces(summary);
   return summary;
-}
-
-std::string listed_springs(const SceneSummary& summary) {
-  long all = 0;
-  std::vector<std::string> families;
-  for (const auto& [family, count] : summary.springs) {
-    all += count;
-    families.push_back(fmt::format("{} {}", count, name_of(family)));
-  }
-  return families.empty() ? "0" : fmt::format("{} ({})", all, fmt::join(families, ", "));
-}
-
-Json json_of(const NetModuli& net) {
-  if (!net.moduli) return {{"why_not", net.why_not}};
-  const Moduli& m = *net.moduli;
-  Json json = {{"dimension", m.dimension}, {"unit", std::string(unit_of_moduli(m.dimension))}, {"c11", m.c11}};
-  if (m.dimension == 1) return json;
-  json["c22"] = m.c22, json["c12"] = m.c12, json["c66"] = m.c66;
-  if (m.dimension == 2) {
-    const auto [least, largest] = m.young_range();
-    json["c16"] = m.c16, json["c26"] = m.c26, json["young_least"] = least, json["young_largest"] = largest;
-  }
-  json["young"] = m.young(), json["poisson"] = m.poisson(), json["anisotropy"] = m.anisotropy();
-  json["c11_of_skip_one_springs"] = m.c11_of_bend;
-  return json;
-}
-
-Json json_of(const BendingLength& bending) {
-  Json json = {{"rigidity", bending.rigidity}, {"spacing", bending.spacing}};
-  if (std::isfinite(bending.length)) json["length"] = bending.length, json["spacings"] = bending.spacings();
-  return json;
 }
 
 template <class T>
@@ -154,13 +102,17 @@ std::size_t length_of_term(const Model& model) {
   return term ? term->list.size() : 0;
 }
 
-void print_summary(const SceneSummary& s, const std::string& given) {
-  const Model& model = s.scene.model;
+void print(const SceneSummary& s) {
+  const Scene& scene = s.scene;
+  const Model& model = scene.model;
   const auto line = [](const char* name, const std::string& text) { fmt::print("  {:<16} {}\n", name, text); };
-  fmt::print("{}: a good scene\n", given);
+  fmt::print("{}: a good scene\n", s.given);
   line("particles", fmt::format("{}, {} of them pinned{}", model.particles.size(), model.particles.pins.size(),
                                 model.particles.move ? " and moved" : ""));
-  line("springs", listed_springs(s));
+  std::vector<std::string> families, terms;
+  for (const auto& [family, count] : s.springs) families.push_back(fmt::format("{} {}", count, name_of(family)));
+  line("springs",
+       families.empty() ? "0" : fmt::format("{} ({})", length_of_term<Springs>(model), fmt::join(families, ", ")));
   if (!model.first_order()) {
     const Eigen::VectorXd& mass = model.particles.mass;
     const double least = mass.minCoeff(), most = mass.maxCoeff();
@@ -173,10 +125,11 @@ void print_summary(const SceneSummary& s, const std::string& given) {
   if (!s.coincident.empty())
     line("coincident", fmt::format("{} pair{} of particles at the same place, the first {} and {}", s.coincident.size(),
                                    s.coincident.size() > 1 ? "s" : "", s.coincident[0].first, s.coincident[0].second));
-  if (const auto count = length_of_term<Dashpots>(model)) line("dashpots", fmt::format("{}", count));
-  if (const auto count = length_of_term<Constraints>(model)) line("hard distances", fmt::format("{}", count));
-  if (const auto count = length_of_term<Spheres>(model)) line("spheres", fmt::format("{}", count));
-  std::vector<std::string> terms;
+  const std::pair<const char*, std::size_t> lists[] = {{"dashpots", length_of_term<Dashpots>(model)},
+                                                       {"hard distances", length_of_term<Constraints>(model)},
+                                                       {"spheres", length_of_term<Spheres>(model)}};
+  for (const auto& [name, count] : lists)
+    if (count > 0) line(name, std::to_string(count));
   for (const Term& term : model.terms)
     if (!std::holds_alternative<Springs>(term)) terms.emplace_back(name_of(term));
   line("ingredients", terms.empty() ? model.find<Springs>() ? "springs alone" : "none: nothing acts on the particles"
@@ -184,17 +137,13 @@ void print_summary(const SceneSummary& s, const std::string& given) {
   line("largest omega", model.first_order() ? "none: a first-order scene"
                         : s.omega > 0 ? fmt::format("{:.4g} rad/s, of the stiffness at the start with pins held; a "
                                                     "period of {:.3g} s",
-                                                    s.omega, 6.283185307179586 / s.omega)
+                                                    s.omega, 2 * std::numbers::pi / s.omega)
                                       : "0: nothing vibrates");
-  if (!s.gamma)
-    line("critical steps", "not told: the particles' drag rates differ");
-  else if (s.critical.empty())
-    line("critical steps", "none: nothing vibrates");
-  for (std::size_t i = 0; i < s.critical.size(); ++i) {
-    const auto& [name, limit] = s.critical[i];
-    line(i == 0 ? "critical steps" : "",
+  if (s.critical.empty())
+    line("critical steps", s.gamma ? "none: nothing vibrates" : "not told: the particles' drag rates differ");
+  for (const char* title = "critical steps"; const auto& [name, limit] : s.critical)
+    line(std::exchange(title, ""),
          fmt::format("{:<18} {}", name, limit > 0 ? fmt::format("{:.4g} s", limit) : "stable at no step without drag"));
-  }
   if (!s.critical.empty())
     line("", fmt::format("from omega{}; {}longer springs than at the start change omega",
                          *s.gamma > 0 ? fmt::format(" and the drag rate of {:.3g} 1/s", *s.gamma) : "",
@@ -204,55 +153,61 @@ void print_summary(const SceneSummary& s, const std::string& given) {
     line("moduli", fmt::format("{}", fmt::join(sentences_of(*s.net.moduli), fmt::format("\n{:19}", ""))));
   else if (!s.springs.empty())
     line("moduli", "not told: " + s.net.why_not);
-  line("default run",
-       fmt::format("{}, {:.6g} s in {}, {} samples", s.scene.method, s.scene.duration,
-                   s.adaptive ? "steps of its own choice"
-                              : fmt::format("{:.0f} steps of at most {:.4g} s", s.demand.steps, s.scene.step),
-                   s.scene.samples));
-  line("  memory", fmt::format("about {}, from the numbers of particles and springs; {} are free",
-                               format_bytes(s.demand.memory), format_bytes(free_memory())));
+  line("default run", fmt::format("{}, {:.6g} s in {}, {} samples", scene.method, scene.duration,
+                                  find_method(scene.method).adaptive
+                                      ? "steps of its own choice"
+                                      : fmt::format("{:.0f} steps of at most {:.4g} s", s.demand.steps, scene.step),
+                                  scene.samples));
+  line("  memory", fmt::format("about {}; {} are free", format_bytes(s.demand.memory), format_bytes(free_memory())));
   line("  disk", fmt::format("{} of frames", format_bytes(s.demand.frames)));
-  line("  time",
-       fmt::format("about {:.2g} s of CPU time, good to a factor of 3: steps x {} x (particles + springs) x a "
-                   "cost measured once",
-                   s.demand.seconds,
-                   s.evaluations > 0 ? fmt::format("{} force evaluation{}", s.evaluations, s.evaluations > 1 ? "s" : "")
-                                     : "the evaluations that its equations take"));
+  line("  time", fmt::format("about {:.2g} s of CPU time, good to a factor of 3", s.demand.seconds));
   for (const std::string& warning : s.warnings) line("warning", warning);
 }
 
-Json masses_json(const SceneSummary& s) {
-  if (s.scene.model.first_order()) return {};
-  const Eigen::VectorXd& mass = s.scene.model.particles.mass;
-  return {{"least", mass.minCoeff()},
-          {"largest", mass.maxCoeff()},
-          {"total", mass.sum()},
-          {"per_area", s.mass_per_area ? Json(*s.mass_per_area) : Json()}};
+Json json_of(const NetModuli& net) {
+  if (!net.moduli) return {{"why_not", net.why_not}};
+  const Moduli& m = *net.moduli;
+  Json json = {{"dimension", m.dimension}, {"unit", std::string(unit_of_moduli(m.dimension))}, {"c11", m.c11}};
+  if (m.dimension == 1) return json;
+  json.update({{"c22", m.c22}, {"c12", m.c12}, {"c66", m.c66}});
+  if (m.dimension == 2) {
+    const auto [least, largest] = m.young_range();
+    json.update({{"c16", m.c16}, {"c26", m.c26}, {"young_least", least}, {"young_largest", largest}});
+  }
+  json.update({{"young", m.young()},
+               {"poisson", m.poisson()},
+               {"anisotropy", m.anisotropy()},
+               {"c11_of_skip_one_springs", m.c11_of_bend}});
+  return json;
 }
 
-Json json_of(const SceneSummary& s, const std::string& given) {
-  Json coincident = Json::array();
-  for (const auto& [a, b] : s.coincident) {
-    Json pair = Json::array();
-    pair.push_back(a), pair.push_back(b);
-    coincident.push_back(std::move(pair));
-  }
+Json json_of(const SceneSummary& s) {
+  const Model& model = s.scene.model;
+  Json masses, bending;
+  if (const Eigen::VectorXd& mass = model.particles.mass; !model.first_order())
+    masses = {{"least", mass.minCoeff()},
+              {"largest", mass.maxCoeff()},
+              {"total", mass.sum()},
+              {"per_area", s.mass_per_area ? Json(*s.mass_per_area) : Json()}};
+  if (s.bending) bending = {{"rigidity", s.bending->rigidity}, {"spacing", s.bending->spacing}};
+  if (s.bending && std::isfinite(s.bending->length))
+    bending.update({{"length", s.bending->length}, {"spacings", s.bending->spacings()}});
   Json families = Json::object(), critical = Json::object();
   for (const auto& [family, count] : s.springs) families[name_of(family)] = count;
   for (const auto& [name, limit] : s.critical) critical[name] = limit;
-  return {{"scene", given},
+  return {{"scene", s.given},
           {"valid", true},
           {"hash", s.scene.hash},
-          {"particles", s.scene.model.particles.size()},
-          {"pins", s.scene.model.particles.pins.size()},
-          {"masses", masses_json(s)},
+          {"particles", model.particles.size()},
+          {"pins", model.particles.pins.size()},
+          {"masses", std::move(masses)},
           {"pieces", s.pieces},
           {"free_pieces", s.free_pieces},
-          {"coincident", std::move(coincident)},
+          {"coincident", s.coincident},
           {"springs", std::move(families)},
-          {"dashpots", length_of_term<Dashpots>(s.scene.model)},
-          {"constraints", length_of_term<Constraints>(s.scene.model)},
-          {"spheres", length_of_term<Spheres>(s.scene.model)},
+          {"dashpots", length_of_term<Dashpots>(model)},
+          {"constraints", length_of_term<Constraints>(model)},
+          {"spheres", length_of_term<Spheres>(model)},
           {"largest_omega", s.omega},
           {"critical_steps", std::move(critical)},
           {"method", s.scene.method},
@@ -262,12 +217,12 @@ Json json_of(const SceneSummary& s, const std::string& given) {
           {"disk_bytes", std::llround(s.demand.frames)},
           {"cpu_seconds", s.demand.seconds},
           {"moduli", json_of(s.net)},
-          {"bending", s.bending ? json_of(*s.bending) : Json()},
+          {"bending", std::move(bending)},
           {"warning", s.warnings.empty() ? Json() : Json(fmt::format("{}", fmt::join(s.warnings, "; ")))}};
 }
 
 /// One step by the scene's own method, unless that is a program from outside. Throws InputError where it refuses.
-void require_taken(const Scene& scene, const std::string& given) {
+void require_accepted(const Scene& scene, const std::string& given) {
   const Method method = find_method(scene.method);
   if (method.family().role == Role::outside) return;
   const Outcome out = run_method(method, scene, {scene.step, scene.step, 1, 1e-3, false}, {});
@@ -276,49 +231,45 @@ void require_taken(const Scene& scene, const std::string& given) {
                                  method.name, out.reason));
 }
 
-/// Checks every scene and prints what it is: particles, springs by family, pins, the fastest vibration, the critical
-/// time step of each explicit rule, what its default run will take. Faults are reported one line each on standard
-/// error; 2 where there was one, 0 otherwise.
-int validate_command(const std::vector<std::string>& scenes, bool json) {
+struct ValidateOptions {
+  std::vector<std::string> scenes;
+  bool json = false;
+};
+
+/// Describes every scene. Faults are reported one line each on standard error; 2 where there was one, 0 otherwise.
+int validate_command(const ValidateOptions& options) {
   int status = 0;
   Json entries = Json::array();
-  Progress progress(static_cast<int>(scenes.size()));
-  for (const std::string& given : scenes) {
+  Progress progress(static_cast<int>(options.scenes.size()));
+  for (const std::string& given : options.scenes) {
     progress.begin("checking " + given);
-    std::string fault;
-    std::optional<SceneSummary> summary;
     try {
-      summary = summary_of(load_scene(given));
-      require_taken(summary->scene, given);
+      const SceneSummary summary = summary_of(given);
+      require_accepted(summary.scene, given);
+      progress.done();
+      if (options.json)
+        entries.push_back(json_of(summary));
+      else
+        print(summary);
     } catch (...) {
-      summary.reset();
-      fault = in_words(std::current_exception());
+      const std::string fault = in_words(std::current_exception());
+      progress.done();
+      fmt::print(stderr, "crosscheck: {}\n", fault);
+      entries.push_back({{"scene", given}, {"valid", false}, {"fault", fault}});
       status = 2;
     }
-    progress.done();
-    if (!summary) fmt::print(stderr, "crosscheck: {}\n", fault);
-    if (json)
-      entries.push_back(summary ? json_of(*summary, given)
-                                : Json{{"scene", given}, {"valid", false}, {"fault", fault}});
-    else if (summary)
-      print_summary(*summary, given);
   }
-  if (json) fmt::print("{}\n", dump(Json{{"format", 1}, {"scenes", std::move(entries)}}, 2));
+  if (options.json) fmt::print("{}\n", dump(Json{{"format", 1}, {"scenes", std::move(entries)}}, 2));
   return status;
 }
 
 }  // namespace
 
 void add_validate(CLI::App& app, Invocation& call) {
-  struct Options {
-    std::vector<std::string> scenes;
-    bool json = false;
-  };
-  const auto options = std::make_shared<Options>();
-  auto* validate = app.add_subcommand("validate", "checks and describes scene files without running them");
-  validate->add_option("SCENE", options->scenes, "shipped scenes or TOML files")->required();
-  validate->add_flag("--json", options->json, "prints JSON");
-  validate->callback([options, &call] { call.status = validate_command(options->scenes, options->json); });
+  auto [validate, options] =
+      add_command(app, call, "validate", "checks and describes scene files without running them", validate_command);
+  validate.add_option("SCENE", options.scenes, "shipped scenes or TOML files")->required();
+  validate.add_flag("--json", options.json, "prints JSON");
 }
 
 }  // namespace crosscheck

@@ -136,7 +136,8 @@ std::string step_text(double seconds) {
   if (seconds == 0) return "0 s";
   if (seconds >= 1) return nice(seconds) + " s";
   if (seconds >= 1e-3) return nice(1e3 * seconds) + " ms";
-  return nice(1e6 * seconds) + " µs";
+  if (seconds >= 1e-6) return nice(1e6 * seconds) + " µs";
+  return nice(1e9 * seconds) + " ns";
 }
 
 std::string own_step_text(const Scene& scene) {

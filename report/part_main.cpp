@@ -1,0 +1,14 @@
+// Some of the commands, with the options that they have in crosscheck, as a program that is built sooner.
+// CMakeLists.txt names them: those around `report` for crosscheck_report, `run` and `validate` for crosscheck_run.
+
+#include "mysim/base/errors.h"
+#include "mysim/base/this_process.h"
+#include "report/commands/commands.h"
+
+using namespace crosscheck;
+
+int main(int argc, char** argv) {
+  static constexpr AddCommand commands[] = {CROSSCHECK_COMMANDS};
+  return run_supervised(
+      [&] { return run_reporting_errors("crosscheck", [&] { return run_command_line(commands, argc, argv); }); });
+}
