@@ -1,22 +1,7 @@
 // figures: a set of figures fit to print, made from the experiments that they need and no others.
 
-#include <fmt/format.h>
-#include <fmt/ranges.h>
-
-#include <CLI/CLI.hpp>
-#include <algorithm>
-#include <memory>
-
-#include "experiments/estimate.h"
-#include "experiments/scenes/scenes.h"
 #include "experiments/sweep/sweep.h"
-#include "mysim/base/errors.h"
-#include "mysim/base/files.h"
-#include "mysim/base/output_folder.h"
-#include "mysim/base/text.h"
-#include "report/base/provenance.h"
 #include "report/commands/command_line.h"
-#include "report/commands/commands.h"
 #include "report/figures/figure_set.h"
 #include "report/findings/evidence.h"
 #include "report/findings/findings_text.h"
@@ -35,53 +20,22 @@ struct FiguresOptions {
   std::string command_line;
 };
 
-struct PictureRequest {
-  Scene scene;
-  std::string given;  // the scene's name or file, as it was typed
-};
-
 struct FigureSelection {
   std::vector<const Experiment*> experiments;
-  std::vector<PictureRequest> pictures;
+  std::vector<Scene> pictures;
 };
 
 constexpr std::string_view picture_suffix = "-picture";
 
-const Experiment* experiment_named(const std::string& name) {
-  for (const Experiment& e : experiments())
-    if (name == e.name) return &e;
-  return nullptr;
-}
-
-/// The scenes that the user named, or the representative ones.
-std::vector<PictureRequest> requested_pictures(const FiguresOptions& options) {
-  std::vector<PictureRequest> all;
-  const std::vector<Scene> scenes = scenes_for({}, options.scenes, options.full, options.methods);
-  for (size_t i = 0; i < scenes.size(); ++i)
-    all.push_back({scenes[i], options.scenes.empty() ? scenes[i].name : options.scenes[i]});
-  return all;
-}
-
-PictureRequest picture_named(const std::string& name, const FiguresOptions& options) {
-  if (options.scenes.empty()) {
-    const std::string scene = name.substr(0, name.size() - picture_suffix.size());
-    return {load_scene(scene), scene};
-  }
-  const std::vector<PictureRequest> all = requested_pictures(options);
+Scene pictured_scene(const std::string& name, const FiguresOptions& options) {
+  if (options.scenes.empty()) return load_scene(name.substr(0, name.size() - picture_suffix.size()));
   std::vector<std::string> names;
-  for (const PictureRequest& request : all) {
-    if (name == picture_name(request.scene)) return request;
-    names.push_back(picture_name(request.scene));
+  for (const Scene& scene : scenes_for({}, options.scenes, options.full, options.methods)) {
+    names.push_back(picture_name(scene));
+    if (name == names.back()) return scene;
   }
   throw InputError(fmt::format("{}: expected a picture of a scene that --scene names: {}{}", name,
                                fmt::join(names, ", "), did_you_mean(name, names)));
-}
-
-[[noreturn]] void fail(const std::string& name) {
-  std::vector<std::string> known;
-  for (const Experiment& e : experiments()) known.emplace_back(e.name);
-  throw InputError(unknown_name("figure", name, known, "crosscheck list experiments") +
-                   "; pictures are called SCENE-picture");
 }
 
 /// Names are experiments, or SCENE-picture of a scene that --scene names or that comes with Crosscheck; no names are
@@ -91,21 +45,22 @@ FigureSelection select_figures(const FiguresOptions& options) {
   FigureSelection selection;
   if (options.names.empty()) {
     for (const Experiment& e : experiments()) selection.experiments.push_back(&e);
-    selection.pictures = requested_pictures(options);
+    selection.pictures = scenes_for({}, options.scenes, options.full, options.methods);
     // the picture of a bead on a spring says little on paper: it is drawn where it is asked for
     if (options.scenes.empty() && !options.full)
-      std::erase_if(selection.pictures, [](const PictureRequest& picture) { return picture.scene.triangles.empty(); });
+      std::erase_if(selection.pictures, [](const Scene& scene) { return scene.triangles.empty(); });
   }
-  for (size_t i = 0; i < options.names.size(); ++i) {
-    const std::string& name = options.names[i];
-    if (std::count(options.names.begin(), options.names.end(), name) > 1)
-      throw InputError(fmt::format("{}: expected each name once", name));
-    if (const Experiment* experiment = experiment_named(name))
-      selection.experiments.push_back(experiment);
+  for (const std::string& name : options.names) {
+    if (std::ranges::count(options.names, name) > 1) throw InputError(fmt::format("{}: expected each name once", name));
+    std::vector<std::string> known;
+    for (const Experiment& e : experiments()) known.emplace_back(e.name);
+    if (const auto at = std::ranges::find(known, name); at != known.end())
+      selection.experiments.push_back(&experiments()[at - known.begin()]);
     else if (name.ends_with(picture_suffix))
-      selection.pictures.push_back(picture_named(name, options));
+      selection.pictures.push_back(pictured_scene(name, options));
     else
-      fail(name);
+      throw InputError(unknown_name("figure", name, known, "crosscheck list experiments") +
+                       "; pictures are called SCENE-picture");
   }
   return selection;
 }
@@ -141,30 +96,19 @@ Work work_of(const FigureSelection& selection, const FiguresOptions& options, co
   return work;
 }
 
-/// The command that draws a picture again, into a folder of its own.
-std::string script_of(const PictureRequest& picture, const FiguresOptions& options, const FigureSize& size) {
-  const std::string name = picture_name(picture.scene);
-  return fmt::format(
-      "#!/bin/sh\n# Draws {0} again. $1: the folder for it\n"
-      "\"$(command -v crosscheck || echo ./crosscheck)\" figures {0} --scene {1} --set {2} --width {3:g}cm{4} --out "
-      "\"${{1:-{0}}}\"\n",
-      name, shell_single_quote(picture.given), options.set, size.width, options.full ? " --full" : "");
-}
-
 /// Pictures of scenes, drawn into the folder. A scene that `engines` looks at is drawn in the same process, from the
 /// same runs: they are a third of a picture's work.
 class Pictures {
  public:
-  Pictures(const std::vector<PictureRequest>& requests, const FiguresOptions& options, const FigureSize& size,
+  Pictures(const std::vector<Scene>& scenes, const FiguresOptions& options, const FigureSize& size,
            const Provenance& lines)
-      : requests_(requests), options_(options), size_(size), lines_(lines), runs_(std::make_shared<MethodResults>()) {}
+      : scenes_(scenes), options_(options), size_(size), lines_(lines), runs_(std::make_shared<MethodResults>()) {}
 
   /// Keeps those runs that a picture shows.
   RunCallback keeping() const {
     return [this, runs = runs_](const RecordedRuns& recorded) {
-      const bool pictured = std::ranges::any_of(requests_, [&](const PictureRequest& picture) {
-        return content_of(picture.scene) == content_of(recorded.scene);
-      });
+      const bool pictured = std::ranges::any_of(
+          scenes_, [&](const Scene& scene) { return content_of(scene) == content_of(recorded.scene); });
       if (pictured && std::ranges::count(pictured_methods(recorded.scene), recorded.method) > 0)
         runs->push_back({recorded.scene.name, recorded.method, recorded.runs[0].outcome, recorded.runs[0].path});
     };
@@ -173,9 +117,9 @@ class Pictures {
   /// The pictures as points of their own; their rows are their entries of the catalogue.
   std::vector<Point> points() const {
     std::vector<Point> points;
-    for (const PictureRequest& picture : requests_)
-      points.push_back({"picture: " + picture_name(picture.scene), content_of(picture.scene),
-                        [this, &picture](TableSet& rows) { draw(picture, rows); }});
+    for (const Scene& scene : scenes_)
+      points.push_back({"picture: " + picture_name(scene), content_of(scene),
+                        [this, &scene](TableSet& rows) { draw(scene, rows); }});
     return points;
   }
 
@@ -185,7 +129,7 @@ class Pictures {
     const std::vector<Point> own = this->points();
     for (Point& point : points)
       for (size_t i = 0; i < own.size(); ++i)
-        if (point.name == "engines: " + requests_[i].scene.name)
+        if (point.name == "engines: " + scenes_[i].name)
           point.compute = [compute = std::move(point.compute), picture = own[i], &store](TableSet& rows) {
             compute(rows);
             try {
@@ -198,8 +142,7 @@ class Pictures {
   }
 
  private:
-  void draw(const PictureRequest& picture, TableSet& rows) const {
-    const Scene& scene = picture.scene;
+  void draw(const Scene& scene, TableSet& rows) const {
     MethodResults runs = std::exchange(*runs_, {});
     std::vector<const MethodResult*> shown;
     for (const std::string& name : pictured_methods(scene)) {
@@ -209,15 +152,12 @@ class Pictures {
     const FigureInfo words = picture_info(scene, shown, size_, value_of(lines_, "commit"));
     write_printed(scene, shown, shot_for_print(scene, size_, options_.full), words, with_scene(lines_, scene),
                   options_.out);
-    const auto script = options_.out / (words.name + ".sh");
-    write_file(script, script_of(picture, options_, size_));
-    std::filesystem::permissions(script, std::filesystem::perms::owner_exec, std::filesystem::perm_options::add);
     Table table{"words", {{"title", "1"}, {"finding", "1"}, {"caption", "1"}}, {}};
     table.add({words.title, words.finding, words.caption});
     rows.add(table);
   }
 
-  const std::vector<PictureRequest>& requests_;
+  const std::vector<Scene>& scenes_;
   const FiguresOptions& options_;
   const FigureSize& size_;
   const Provenance& lines_;
@@ -242,29 +182,31 @@ class Problems {
   bool any_ = false;
 };
 
-/// The charts of a report that is there, by name; all where none is named. Throws InputError that lists what there is.
-std::vector<Chart> charts_of_report(const ReportData& data, const std::vector<std::string>& names) {
-  const AllFindings findings = all_findings(data.scenes, data.rows);
-  std::vector<Chart> charts =
-      all_charts({data.scenes, findings.facts, data.rows, value_of(data.provenance, "commit"), data.each_has_charts()});
+/// The charts that have a figure.
+std::vector<Chart> charts_of(const std::vector<Scene>& scenes, const TableSet& rows, const Provenance& lines,
+                             bool of_each) {
+  const AllFindings findings = all_findings(scenes, rows);
+  std::vector<Chart> charts = all_charts({scenes, findings.facts, rows, value_of(lines, "commit"), of_each});
   std::erase_if(charts, [](const Chart& chart) { return !figure_info(chart); });
-  if (names.empty()) return charts;
+  return charts;
+}
+
+/// Leaves the charts of these names; all where none is named. Throws InputError that lists what there is.
+void keep_named(std::vector<Chart>& charts, const std::vector<std::string>& names) {
+  if (names.empty()) return;
   std::vector<std::string> known;
   for (const Chart& chart : charts) known.push_back(figure_info(chart)->name);
   for (const std::string& name : names)
     if (std::ranges::find(known, name) == known.end())
       throw InputError(fmt::format("unknown figure '{}'; the report has: {}{}", name, fmt::join(known, ", "),
                                    did_you_mean(name, known)));
-  std::erase_if(charts,
-                [&](const Chart& chart) { return std::ranges::find(names, figure_info(chart)->name) == names.end(); });
-  return charts;
+  std::erase_if(charts, [&](const Chart& chart) { return std::ranges::count(names, figure_info(chart)->name) == 0; });
 }
 
-/// Draws charts, several at a time and after `first`, and returns their entries of the catalogue.
+/// Draws charts, several at a time and after `drawings`, and returns their entries of the catalogue.
 std::vector<FigureInSet> draw_charts(std::vector<Chart>& charts, const FigureSize& size, const Provenance& lines,
                                      const std::filesystem::path& folder, const Store& store, Problems& problems,
-                                     std::vector<Point> first = {}) {
-  std::vector<Point> drawings = std::move(first);
+                                     std::vector<Point> drawings = {}) {
   const size_t begin = drawings.size();
   for (Chart& chart : charts) {
     resize(chart, size);
@@ -296,7 +238,8 @@ int finish(std::vector<FigureInSet>& drawn, const FigureSize& size, const Proven
 int figures_from_report(const FiguresOptions& options) {
   const FigureSize size = figure_size(options.set, options.width);
   const ReportData data = read_report(options.from);
-  std::vector<Chart> charts = charts_of_report(data, options.names);
+  std::vector<Chart> charts = charts_of(data.scenes, data.rows, data.provenance, data.each_has_charts());
+  keep_named(charts, options.names);
   OutputFolder folder(options.out, "figures");
   const Store store(store_in(folder.path()));
   store.clear();
@@ -307,6 +250,7 @@ int figures_from_report(const FiguresOptions& options) {
 }
 
 int figures_command(const FiguresOptions& given) {
+  if (!given.from.empty()) return figures_from_report(given);
   FiguresOptions options = given;
   const FigureSize size = figure_size(options.set, options.width);
   const FigureSelection selection = select_figures(options);
@@ -316,7 +260,7 @@ int figures_command(const FiguresOptions& given) {
   OutputFolder folder(options.out, "figures");
   options.out = folder.path();
   std::vector<Scene> scenes = work.scenes;
-  for (const PictureRequest& picture : selection.pictures) add_missing(scenes, {picture.scene});
+  add_missing(scenes, selection.pictures);
   const Provenance lines = with_scenes(plain, scenes);
   const Store store(store_in(options.out));
   store.clear();
@@ -327,19 +271,15 @@ int figures_command(const FiguresOptions& given) {
   const TableSet rows = joined(point_list_of(work.experiments, work.points, lines), {&store, 1}, missing);
 
   std::vector<Chart> charts;
-  if (!selection.experiments.empty()) {
-    const AllFindings findings = all_findings(work.scenes, rows);
-    charts = all_charts(
-        {work.scenes, findings.facts, rows, value_of(lines, "commit"), options.full || !options.scenes.empty()});
-    std::erase_if(charts, [](const Chart& chart) { return !figure_info(chart); });
-  }
+  if (!selection.experiments.empty())
+    charts = charts_of(work.scenes, rows, lines, options.full || !options.scenes.empty());
   const std::vector<Point> pictured = pictures.points();
   std::vector<FigureInSet> drawn, of_charts = draw_charts(charts, size, lines, options.out, store, problems, pictured);
   for (size_t i = 0; i < pictured.size(); ++i)
     if (const auto found = store.find(pictured[i].hash())) {
       const Table& words = *found->table("words");
       const auto text = [&](const char* column) { return std::get<std::string>(words.at(0, column)); };
-      const Scene& scene = selection.pictures[i].scene;
+      const Scene& scene = selection.pictures[i];
       drawn.push_back({{picture_name(scene), text("title"), text("caption"), "", text("finding"), false, size},
                        scene.name,
                        picture_endings});
@@ -352,23 +292,19 @@ int figures_command(const FiguresOptions& given) {
 }  // namespace
 
 void add_figures(CLI::App& app, Invocation& call) {
-  const auto options = std::make_shared<FiguresOptions>();
-  auto* figures = app.add_subcommand("figures", "draws charts and pictures with captions, for a paper or a lecture");
-  figures->add_option("NAME", options->names,
-                      "experiments whose charts are drawn, or SCENE-picture for a picture of a scene (default: all)");
-  figures->add_option("--scene", options->scenes,
-                      "a shipped scene or a TOML file, whose charts and picture are drawn; may be repeated");
-  auto* methods = figures->add_option("--methods", options->methods, "methods that the experiments run: A,B,...");
-  figures->add_option("--set", options->set, "paper (8.5 cm, 7.5 pt) or lecture (24 cm, 20 pt)");
-  figures->add_option("--width", options->width, "width on paper, such as 8.5cm, 85mm or 3.3in");
-  figures->add_option("--out", options->out, "folder (out/figures)");
-  add_quick_and_full(*figures, options->full);
-  figures->add_option("--from", options->from, "DIR: figures of the report in it, by their names, nothing is run")
+  auto [figures, options] = add_command(
+      app, call, "figures", "draws charts and pictures with captions, for a paper or a lecture", figures_command);
+  figures.add_option("NAME", options.names,
+                     "experiments whose charts are drawn, or SCENE-picture for a picture of a scene (default: all)");
+  figures.add_option("--scene", options.scenes,
+                     "a shipped scene or a TOML file, whose charts and picture are drawn; may be repeated");
+  auto* methods = figures.add_option("--methods", options.methods, "methods that the experiments run: A,B,...");
+  figures.add_option("--set", options.set, "paper (8.5 cm, 7.5 pt) or lecture (24 cm, 20 pt)");
+  figures.add_option("--width", options.width, "width on paper, such as 8.5cm, 85mm or 3.3in");
+  figures.add_option("--out", options.out, "folder (out/figures)");
+  add_quick_and_full(figures, options.full);
+  figures.add_option("--from", options.from, "DIR: figures of the report in it, by their names, nothing is run")
       ->excludes(methods);
-  figures->callback([options, &call] {
-    options->command_line = call.line;
-    call.status = options->from.empty() ? figures_command(*options) : figures_from_report(*options);
-  });
 }
 
 }  // namespace crosscheck

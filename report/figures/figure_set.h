@@ -26,7 +26,7 @@ bool resize(Chart& chart, const FigureSize& size);
 void write_captions(const FigureInfo& figure, const std::filesystem::path& folder);
 
 inline constexpr std::array chart_endings = {"pdf", "svg", "png", "csv", "gp", "txt", "tex"};
-inline constexpr std::array picture_endings = {"pdf", "png", "csv", "sh", "txt", "tex"};
+inline constexpr std::array picture_endings = {"pdf", "png", "csv", "txt", "tex"};
 
 struct FigureInSet {
   FigureInfo words;
