@@ -95,17 +95,13 @@ Target shadow_map(int texels) {
   return target;
 }
 
-Batch::Batch(const std::vector<unsigned>& index, const VertexRows& corners) : corners_(GLsizei(index.size())) {
+Batch::Batch(const std::vector<unsigned>& index, const VertexRows& corners, const std::optional<VertexRows>& instances)
+    : corners_(GLsizei(index.size())), instances_(instances ? GLsizei(instances->count) : 1) {
   glGenVertexArrays(1, &array_);
   glBindVertexArray(array_);
   upload(GL_ELEMENT_ARRAY_BUFFER, index.data(), index.size() * sizeof(unsigned));
   add(corners, 0);
-}
-
-Batch::Batch(const std::vector<unsigned>& index, const VertexRows& corners, const VertexRows& instances)
-    : Batch(index, corners) {
-  instances_ = GLsizei(instances.count);
-  add(instances, 1);
+  if (instances) add(*instances, 1);
 }
 
 Batch::~Batch() {

@@ -5,6 +5,7 @@
 #include <Eigen/Core>
 
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -73,8 +74,7 @@ struct VertexRows {
 /// Triangles ready for one draw call, once or once for each instance. Frees its buffers; must die before the context.
 class Batch {
  public:
-  Batch(const std::vector<unsigned>& index, const VertexRows& corners);
-  Batch(const std::vector<unsigned>& index, const VertexRows& corners, const VertexRows& instances);
+  Batch(const std::vector<unsigned>& index, const VertexRows& corners, const std::optional<VertexRows>& instances = {});
   ~Batch();
   Batch(const Batch&) = delete;
   Batch& operator=(const Batch&) = delete;
@@ -88,7 +88,7 @@ class Batch {
 
   GLuint array_ = 0;
   std::vector<GLuint> buffers_;
-  GLsizei corners_, instances_ = 1;
+  GLsizei corners_, instances_;
 };
 
 }  // namespace crosscheck::render

@@ -8,18 +8,9 @@
 #include <stdexcept>
 
 #include "mysim/base/errors.h"
+#include "mysim/base/text.h"
 
 namespace crosscheck::render {
-
-std::vector<std::string> lines_of(const std::string& text) {
-  std::vector<std::string> lines(1);
-  for (const char letter : text)
-    if (letter == '\n')
-      lines.emplace_back();
-    else
-      lines.back() += letter;
-  return lines;
-}
 
 std::string wrapped(const std::string& text, bool bold, double room) {
   std::vector<std::string> pieces(1);
@@ -51,16 +42,16 @@ namespace {
 constexpr double fill = 0.92;  // of the room that a text may take
 
 std::size_t columns_of(const Picture& picture) {
-  std::size_t columns = 0;
-  for (const auto& row : picture.rows) columns = std::max(columns, row.size());
-  return columns;
+  return picture.rows.empty()
+             ? 0
+             : std::ranges::max_element(picture.rows, {}, [](const auto& row) { return row.size(); })->size();
 }
 
 /// Lines that the row needs for such a text, 0 where no panel has one.
 int lines_in(const std::vector<Panel>& row, std::string Panel::*text) {
   std::size_t most = 0;
   for (const Panel& p : row)
-    if (!(p.*text).empty()) most = std::max(most, lines_of(p.*text).size());
+    if (!(p.*text).empty()) most = std::max(most, split(p.*text, '\n').size());
   return int(most);
 }
 
@@ -69,7 +60,7 @@ double height_of(int lines, double first, double font) { return lines ? first + 
 
 /// The font size not above `wanted` with which the text fits.
 double fitting(double wanted, const std::string& text, bool bold, double room) {
-  for (const std::string& line : lines_of(text))
+  for (const std::string& line : split(text, '\n'))
     wanted = std::min(wanted, room / std::max(text_width(line, bold), 1e-3));
   return wanted;
 }
@@ -113,9 +104,9 @@ Layout columns_and_fonts(const Picture& picture) {
 
 /// True if all titles fit into panels of this width (in units of the font size) when they are wrapped.
 bool titles_fit(const std::vector<Panel>& panels, double room) {
-  return std::all_of(panels.begin(), panels.end(), [room](const Panel& panel) {
-    const auto lines = lines_of(wrapped(panel.title, true, room));
-    return std::all_of(lines.begin(), lines.end(), [&](const auto& line) { return text_width(line, true) <= room; });
+  return std::ranges::all_of(panels, [room](const Panel& panel) {
+    return std::ranges::all_of(split(wrapped(panel.title, true, room), '\n'),
+                               [&](const std::string& line) { return text_width(line, true) <= room; });
   });
 }
 

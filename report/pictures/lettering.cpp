@@ -12,6 +12,7 @@
 #include <stdexcept>
 
 #include "mysim/base/names.h"
+#include "mysim/base/text.h"
 #include "report/pictures/colour.h"
 
 namespace crosscheck::render {
@@ -64,7 +65,7 @@ class Page {
   /// Text with the middle of its first line at height y, further ones below; it begins at x (`before` 0) or has its
   /// middle there (0.5). Size in pixels.
   void label(double x, double y, double before, const std::string& text, double size, bool bold, unsigned colour) {
-    for (const std::string& line : lines_of(text)) {
+    for (const std::string& line : split(text, '\n')) {
       const double start = x - before * size * width(line, bold);
       set_font(bold, size), set_ink(colour);
       cairo_move_to(cairo_.get(), start, y + 0.35 * size);
@@ -121,7 +122,7 @@ void add_titles(Page& page, const Picture& picture, const Layout& layout) {
     const auto& row = picture.rows[r];
     for (std::size_t c = 0; c < row.size(); ++c) {
       const double left = layout.left + double(c) * layout.panel_width, middle = left + 0.5 * layout.panel_width;
-      const double above = line_height * layout.title * double(lines_of(row[c].title).size() - 1);
+      const double above = line_height * layout.title * double(std::ranges::count(row[c].title, '\n'));
       const bool heads_row = is_strip(row) && c == 0;
       page.label(heads_row ? left + 0.8 * layout.text : middle, layout.title_y[r] - above, heads_row ? 0 : 0.5,
                  row[c].title, layout.title, true, title_ink);

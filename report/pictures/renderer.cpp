@@ -204,11 +204,8 @@ void put(const std::vector<float>& pixels, const std::vector<unsigned char>& srg
 
 /// Background alone.
 Image blank(int width, int height) {
-  Image image{width, height, {}};
-  image.rgb.reserve(3 * std::size_t(width) * std::size_t(height));
-  for (int i = 0; i < width * height; ++i) {
-    for (const unsigned shift : {16u, 8u, 0u}) image.rgb.push_back(static_cast<unsigned char>(background_hex >> shift));
-  }
+  Image image{width, height, std::vector<unsigned char>(3 * std::size_t(width) * std::size_t(height))};
+  for (std::size_t i = 0; i < image.rgb.size(); ++i) image.rgb[i] = (background_hex >> (16 - 8 * (i % 3))) & 255;
   return image;
 }
 

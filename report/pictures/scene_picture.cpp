@@ -21,23 +21,22 @@ double extension(const Points& x, int a, int b, double rest) {
   return rest > 0 ? std::max(0.0, (x.col(a) - x.col(b)).norm() / rest - 1) * 100 : 0;
 }
 
-/// Mean extension of the structural springs and hard distances at each particle, %; that of every spring, on request.
-std::vector<double> stretch_of(const Scene& scene, const Points& x, std::vector<double>* per_spring = nullptr) {
-  std::vector<double> sum(x.cols(), 0), count(x.cols(), 0);
-  if (const auto* springs = scene.model.find<Springs>())
-    for (const Spring& s : springs->list) {
-      const double strain = extension(x, s.a, s.b, s.rest);
-      if (per_spring) per_spring->push_back(strain);
-      if (s.family == Family::shear || s.family == Family::bend) continue;
-      for (int end : {s.a, s.b}) sum[end] += strain, count[end] += 1;
-    }
+/// Springs, then hard distances, which count as structural.
+std::vector<Spring> links_of(const Scene& scene) {
+  std::vector<Spring> links;
+  if (const auto* springs = scene.model.find<Springs>()) links = springs->list;
   if (const auto* constraints = scene.model.find<Constraints>())
-    for (const auto& [a, b, length] : constraints->list)
-      for (int end : {a, b}) {
-        sum[end] += extension(x, a, b, length);
-        count[end] += 1;
-      }
-  for (size_t i = 0; i < sum.size(); ++i) sum[i] /= std::max(1.0, count[i]);
+    for (const auto& [a, b, length] : constraints->list) links.push_back({a, b, 0, length, Family::structural});
+  return links;
+}
+
+/// Mean of the links' strains at each particle; shear and bend springs do not count.
+std::vector<double> mean_at_particles(const std::vector<Spring>& links, const std::vector<double>& strain, size_t n) {
+  std::vector<double> sum(n, 0), count(n, 0);
+  for (size_t i = 0; i < links.size(); ++i)
+    if (links[i].family != Family::shear && links[i].family != Family::bend)
+      for (const int end : {links[i].a, links[i].b}) sum[end] += strain[i], count[end] += 1;
+  for (size_t i = 0; i < n; ++i) sum[i] /= std::max(1.0, count[i]);
   return sum;
 }
 
@@ -55,33 +54,20 @@ render::Body body_of(const Scene& scene, const MethodResult& answer, int frame, 
   render::Body body;
   body.x = answer.trajectory.x[frame];
   body.pinned = scene.model.particles.pins;
-  const auto* springs = scene.model.find<Springs>();
-  const auto* constraints = scene.model.find<Constraints>();
-  const bool surface = !scene.triangles.empty() && mode != Mode::springs;
-  if (surface) {
+  const std::vector<Spring> links = links_of(scene);
+  std::vector<double> strain;
+  if (mode == Mode::stretch)
+    for (const Spring& s : links) strain.push_back(extension(body.x, s.a, s.b, s.rest));
+  if (!scene.triangles.empty() && mode != Mode::springs) {
     body.triangles = scene.triangles;
-    if (springs)
-      for (const Spring& s : springs->list)
-        if (s.family == Family::structural) body.threads.push_back({s.a, s.b});
-    if (constraints)
-      for (const auto& [a, b, length] : constraints->list) body.threads.push_back({a, b});
+    for (const Spring& s : links)
+      if (s.family == Family::structural) body.threads.push_back({s.a, s.b});
+    if (mode == Mode::stretch) body.value = mean_at_particles(links, strain, body.x.cols());
   } else {
-    if (scene.triangles.empty()) body.beads = true;
-    std::vector<double> strain;
-    if (mode == Mode::stretch) stretch_of(scene, body.x, &strain);
-    if (springs)
-      for (size_t i = 0; i < springs->list.size(); ++i) {
-        const Spring& s = springs->list[i];
-        body.tubes.push_back({s.a, s.b});
-        if (mode == Mode::stretch) body.tube_value.push_back(strain[i]);
-      }
-    if (constraints)
-      for (const auto& [a, b, length] : constraints->list) {
-        body.tubes.push_back({a, b});
-        if (mode == Mode::stretch) body.tube_value.push_back(extension(body.x, a, b, length));
-      }
+    body.beads = scene.triangles.empty();
+    for (const Spring& s : links) body.tubes.push_back({s.a, s.b});
+    body.tube_value = strain;
   }
-  if (surface && mode == Mode::stretch) body.value = stretch_of(scene, body.x);
   if (mode == Mode::difference && base) {
     body.value.resize(body.x.cols());
     for (int i = 0; i < body.x.cols(); ++i) body.value[i] = 1000 * (body.x.col(i) - base->col(i)).norm();
@@ -97,11 +83,7 @@ std::vector<Family> families_of(const Scene& scene) {
   std::vector<Family> present;
   if (!scene.model.find<Springs>()) return present;
   for (const Family family : {Family::structural, Family::shear, Family::bend, Family::single})
-    for (const Spring& s : scene.model.find<Springs>()->list)
-      if (s.family == family) {
-        present.push_back(family);
-        break;
-      }
+    if (std::ranges::count(scene.model.find<Springs>()->list, family, &Spring::family) > 0) present.push_back(family);
   return present;
 }
 
@@ -186,8 +168,7 @@ std::string time_text(const MethodResult& answer, int frame, const Shot& shot) {
   const bool to_come = shot.in_clip && frame_at(answer.trajectory, shot.at) + 1 < answer.trajectory.frames();
   return answer.outcome.verdict == Verdict::ok || to_come
              ? t
-             : fmt::format("{}, {} at {:.3g} s", t, failure_class(std::string(name_of(answer.outcome.verdict))),
-                           answer.outcome.end);
+             : fmt::format("{}, {} at {:.3g} s", t, failure_class(answer.outcome.verdict), answer.outcome.end);
 }
 
 std::vector<const MethodResult*> usable_of(const Scene& scene, const std::vector<const MethodResult*>& answers,
@@ -249,8 +230,7 @@ render::Picture panels_of(const Scene& scene, const std::vector<const MethodResu
   picture.text = shot.text;
   const bool strip = shot.mode == Mode::strip;
   // without springs there is no stretch to colour by
-  const bool no_stretch =
-      shot.mode == Mode::stretch && !scene.model.find<Springs>() && !scene.model.find<Constraints>();
+  const bool no_stretch = shot.mode == Mode::stretch && links_of(scene).empty();
   const Mode mode = strip || no_stretch ? Mode::shaded : shot.mode;
   const auto base_frames = frames_of(scene, usable[0]->trajectory, shot);
   seen.trails.clear();  // a later time's hold those of earlier ones

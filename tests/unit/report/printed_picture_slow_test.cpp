@@ -20,7 +20,7 @@ TEST(Wrapped, NoLineIsWiderThanItsRoomAndNothingIsLost) {
   for (const std::string text : {"mysim/symplectic-euler+sticky", "t = 0.4 s, blew up at 0.867 s", "rk4", ""})
     for (const double room : {1.0, 8.0, 13.0, 100.0}) {
       std::string joined;
-      for (const std::string& line : render::lines_of(render::wrapped(text, true, room))) {
+      for (const std::string& line : split(render::wrapped(text, true, room), '\n')) {
         const bool divisible = line.find_first_of("/,+", 1) < line.size() - 1;
         EXPECT_TRUE(render::text_width(line, true) <= room || !divisible) << line;
         joined += line + (line.ends_with(',') ? " " : "");
