@@ -63,15 +63,15 @@ std::vector<Chart> same_rule_charts(const ChartInput& input) {
       const auto dot = [](double value) { return DotPlot::Dot{value, value, value}; };
       difference.dots.resize(f.names.size()), bound.dots.resize(f.names.size());
       difference.dots.back() = dot(*m->difference);
-      if (m->round_off && !scene.touched()) bound.dots.back() = dot(*m->round_off);
+      if (m->round_off_bound && !scene.touched()) bound.dots.back() = dot(*m->round_off_bound);
       shown.push_back(m);
     }
     f.series.push_back(std::move(difference)), f.series.push_back(std::move(bound));
   }
   if (f.names.size() < 2) return {};  // a single scene's answer says it
   for (DotPlot::Series& series : f.series) series.dots.resize(f.names.size());
-  const auto agreeing =
-      std::ranges::count_if(shown, [](const MethodData* m) { return m->round_off && *m->difference <= *m->round_off; });
+  const auto agreeing = std::ranges::count_if(
+      shown, [](const MethodData* m) { return m->round_off_bound && *m->difference <= *m->round_off_bound; });
   f.finding = fmt::format("Differences below the round-off bound: {} of {} scenes.", agreeing, shown.size());
   f.caption = fmt::format(
       "Largest difference within each scene's predictable window; grey: the most that round-off can make. With contact "

@@ -64,7 +64,7 @@ std::string motion_sentence(const Table& grids, const TableSet& rows, const std:
   for (const Curve& c : curves)
     if (sag_runs_on(grids, c.title))
       unbounded.push_back(c.title);
-    else if (const auto power = power_of(rows, c.title, motion_against_cells))
+    else if (const auto power = power_of(rows, c.title, ScalingQuantity::error))
       (power->exponent + 2 * power->deviation < 0 && still_falls(c) ? falls : others)
           .push_back(fmt::format("{} on {} ({} grids)", power_text(*power), c.title, c.points.size()));
   std::string text;
@@ -162,7 +162,7 @@ std::optional<Chart> scaling(const Table& t, const TableSet& rows, const std::st
     const double first = c.points.front().second;
     for (auto& [x, y] : c.points) x -= 1, y /= first;
     f.curves.push_back(std::move(c));
-    if (const auto power = power_of(rows, scene, sag_stiffness))
+    if (const auto power = power_of(rows, scene, ScalingQuantity::stiffness_for_sag))
       f.finding += fmt::format("{}: stiffness as cells to the power {}. ", scene, power_text(*power));
   }
   if (const Table* bending = rows.table("adequacy-bending"); bending && !bending->rows.empty()) {

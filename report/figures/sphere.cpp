@@ -44,7 +44,7 @@ std::optional<Chart> depth_chart(const Table& table, const std::string& scene, c
       const auto h = number_at(table, i, "step"), nodes = number_at(table, i, "particles"),
                  triangles = number_at(table, i, "triangles");
       if (const std::string& verdict = text_at(table, i, "verdict"); verdict != "ok") {
-        const std::string which = fmt::format("{} ({})", name_in_sentence(method), failure_class_or_cannot(verdict));
+        const std::string which = fmt::format("{} ({})", name_in_sentence(method), failure_class(verdict));
         if (std::ranges::find(failed, which) == failed.end()) failed.push_back(which);
         continue;
       }

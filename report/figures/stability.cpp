@@ -21,7 +21,7 @@ namespace {
 /// The outcome of a run in a word; empty without a run.
 std::string outcome_text(const std::string& verdict) {
   if (verdict.empty()) return "";
-  return verdict == "ok" ? "stable" : failure_class_or_cannot(verdict);
+  return verdict == "ok" ? "stable" : failure_class(verdict);
 }
 
 /// Half of the bracket in which the search ended, in parts of the limit.

@@ -23,15 +23,17 @@ std::optional<Finding> finding_of(const LeastModel& least, const std::string& sc
   return f;
 }
 
+}  // namespace
+
 /// One for each scene and what its least models are, with the tolerances that it holds at.
-void least_models(const Facts& facts, std::vector<Finding>& out) {
+Findings adequacy_findings(const Facts& facts) {
+  Findings out;
   std::vector<std::string> scenes, whole;
-  for (const LeastModelRow& row : rows_of<LeastModelRow>(facts.rows))
-    if (!std::ranges::count(scenes, row.scene)) scenes.push_back(row.scene);
+  for (const LeastModelRow& row : rows_of<LeastModelRow>(facts.rows)) add_once(scenes, row.scene);
   for (const std::string& scene : scenes) {
     const auto known = std::ranges::find(facts.scenes, scene, &Scene::name);
     const std::string until = known == facts.scenes.end() ? "" : step_text(known->window);
-    std::vector<Finding> found;
+    Findings found;
     std::vector<std::vector<std::string>> tolerances;
     for (const LeastModel& least : least_models_of(facts.rows, scene)) {
       const auto f = finding_of(least, scene, until);
@@ -51,31 +53,24 @@ void least_models(const Facts& facts, std::vector<Finding>& out) {
     }
   }
   if (!whole.empty())
-    out.push_back(
-        {.rule = "least-model-none", .value = static_cast<double>(whole.size()), .words = {{"where", listed(whole)}}});
+    out.push_back({.rule = "least-model-none", .value = double(whole.size()), .words = {{"where", listed(whole)}}});
+  return out;
 }
-
-}  // namespace
 
 /// The power by which bend springs must stiffen, which theory puts at 4 for many cells. It counts as many bend springs
 /// as cells; a line has half a one less, as none crosses the free end: counted in springs the power is nearer to 4.
-std::vector<Finding> bend_findings(const Facts& facts) {
-  const auto of_cells = power_of(facts.rows, "", droop_stiffness);
+Findings bend_findings(const Facts& facts) {
+  const auto of_cells = power_of(facts.rows, "", ScalingQuantity::bend_stiffness_for_droop);
   if (!of_cells) return {};
   std::vector<std::pair<double, double>> points;  // against the number of bend springs in a line instead of its cells
   for (const BendingRow& row : rows_of<BendingRow>(facts.rows))
-    points.emplace_back(static_cast<double>(row.particles) - 2, row.stiffness);
+    points.emplace_back(double(row.particles) - 2, row.stiffness);
   const auto of_springs = power_law(points);
-  Finding f{.rule = "bend-power", .value = of_cells->exponent};
-  f.low = f.value - of_cells->deviation, f.high = f.value + of_cells->deviation;
-  f.words = {{"derived", "4"}, {"springs", of_springs ? power_text(*of_springs) : ""}};
-  return {f};
-}
-
-std::vector<Finding> adequacy_findings(const Facts& facts) {
-  std::vector<Finding> out;
-  least_models(facts, out);
-  return out;
+  return {{.rule = "bend-power",
+           .value = of_cells->exponent,
+           .low = of_cells->exponent - of_cells->deviation,
+           .high = of_cells->exponent + of_cells->deviation,
+           .words = {{"derived", "4"}, {"springs", of_springs ? power_text(*of_springs) : ""}}}};
 }
 
 }  // namespace crosscheck

@@ -28,14 +28,14 @@ const std::vector<Question>& questions() {
   return table;
 }
 
-const Finding* answer_to(const Question& question, const std::vector<Finding>& findings) {
+const Finding* answer_to(const Question& question, const Findings& findings) {
   for (const Finding& f : findings)
     if (std::ranges::count(question.rules, finding_rule(f.rule).key) > 0) return &f;
   return nullptr;
 }
 
-std::string answers_of_chapter(std::string_view chapter, const std::vector<Finding>& findings) {
-  std::vector<Finding> answers;
+std::string answers_of_chapter(std::string_view chapter, const Findings& findings) {
+  Findings answers;
   for (const Question& question : questions())
     if (const Finding* answer = question.chapter == chapter ? answer_to(question, findings) : nullptr)
       answers.push_back(*answer);
@@ -43,8 +43,6 @@ std::string answers_of_chapter(std::string_view chapter, const std::vector<Findi
 }
 
 namespace {
-
-using Found = std::vector<Finding>;
 
 /// The largest difference so far, and the scene of it.
 struct Largest {
@@ -66,18 +64,18 @@ const MethodData* nearest_other(const SceneData& scene) {
 }
 
 /// Without a method of mysim's rule in another engine: how far the nearest other one is.
-Found difference_answer(std::span<const SceneData> data) {
+Findings difference_answer(std::span<const SceneData> data) {
   Largest apart, growth;
   std::string method;
   bool round_off = true;  // no more anywhere
   for (const SceneData& scene : data) {
     const MethodData* other = nearest_other(scene);
     if (!other) continue;
-    if (!other->round_off && !scene.touched()) {
+    if (!other->round_off_bound && !scene.touched()) {
       growth.take(scene.growth, scene.scene);
       continue;
     }
-    round_off &= other->round_off && !scene.touched() && *other->difference <= *other->round_off;
+    round_off &= other->round_off_bound && !scene.touched() && *other->difference <= *other->round_off_bound;
     if (*other->difference > apart.value) apart.take(*other->difference, scene.scene), method = other->method;
   }
   if (apart.any())
@@ -126,7 +124,7 @@ std::vector<std::string> silent_programs(std::span<const SceneData> data) {
 
 }  // namespace
 
-std::vector<Finding> agreement_answer(const Facts& facts) {
+Findings agreement_answer(const Facts& facts) {
   const std::vector<EngineApart> engines = engines_apart(facts.data);
   size_t same = 0;
   Largest worst, in_contact, beyond;
@@ -138,13 +136,13 @@ std::vector<Finding> agreement_answer(const Facts& facts) {
       const auto engine = std::ranges::find(engines, m.method, &EngineApart::method);
       if (!m.same_rule.value_or(false) || !m.ok() || !m.difference || !stands_for_its_engine(m.method)) continue;
       if (scene.touched() && is_another_engine(m.method)) in_contact.take(*m.difference, scene.scene);
-      if (scene.touched() || engine == engines.end() || !m.different_law.empty() || !m.round_off) continue;
+      if (scene.touched() || engine == engines.end() || !m.different_law.empty() || !m.round_off_bound) continue;
       if (same_rule_differs(scene, m)) {
         differing.push_back(scene.scene);
         if (*m.difference > beyond.value) beyond.take(*m.difference, scene.scene), differs = engine_of(m.method);
       } else if (engine->same) {
         compared = true, worst.take(*m.difference, scene.scene);
-        if (std::ranges::find(agreeing, m.method) == agreeing.end()) agreeing.push_back(m.method);
+        add_once(agreeing, m.method);
       }
     }
     same += compared;
@@ -183,7 +181,7 @@ std::vector<Finding> agreement_answer(const Facts& facts) {
                      {"others", listed(others)}}}};
 }
 
-std::vector<Finding> method_answer(const Facts& facts) {
+Findings method_answer(const Facts& facts) {
   const Scene* scene = main_scene(facts.scenes, facts.rows);
   const auto run = scene ? recommended_run(scene->name, recommended_part, facts.rows) : std::nullopt;
   if (!run) return {};
@@ -208,7 +206,7 @@ std::vector<Finding> method_answer(const Facts& facts) {
 namespace {
 
 /// Without an experiment on stability: the runs at the scenes' own steps.
-Found failed_runs_answer(std::span<const SceneData> data) {
+Findings failed_runs_answer(std::span<const SceneData> data) {
   size_t failed = 0, all = 0;
   std::vector<std::string> names;
   for (const SceneData& each : data)
@@ -216,18 +214,17 @@ Found failed_runs_answer(std::span<const SceneData> data) {
       all += m.supported();
       if (!m.supported() || m.ok()) continue;
       ++failed;
-      if (const std::string name = name_in_sentence(m.method); std::ranges::find(names, name) == names.end())
-        names.push_back(name);
+      add_once(names, name_in_sentence(m.method));
     }
   if (all == 0) return {};
   return {{.rule = "answer-failed",
-           .value = static_cast<double>(failed),
+           .value = double(failed),
            .words = {{"runs", std::to_string(all)}, {"which", listed(names)}}}};
 }
 
 /// The limit of the main scene about a state, and how near all limits there are to theory. About a start, where theory
 /// does not see what follows, the truth must have confirmed it.
-Found limit_answer(const Scene& scene, const TableSet& rows, LimitState state) {
+Findings limit_answer(const Scene& scene, const TableSet& rows, LimitState state) {
   const auto run = recommended_run(scene.name, recommended_part, rows);
   std::optional<LimitRow> shown;
   const std::vector<LimitRow> table = rows_of<LimitRow>(rows);
@@ -252,15 +249,15 @@ Found limit_answer(const Scene& scene, const TableSet& rows, LimitState state) {
 
 }  // namespace
 
-std::vector<Finding> failure_answer(const Facts& facts) {
+Findings failure_answer(const Facts& facts) {
   if (const Scene* scene = main_scene(facts.scenes, facts.rows))
     for (const LimitState state : {LimitState::rest, LimitState::start})
-      if (Found answer = limit_answer(*scene, facts.rows, state); !answer.empty()) return answer;
+      if (Findings answer = limit_answer(*scene, facts.rows, state); !answer.empty()) return answer;
   return failed_runs_answer(facts.data);
 }
 
 /// Particles on slopes and the last scene with contact; nothing where no scene has a ball.
-std::vector<Finding> ball_answer(const Facts& facts) {
+Findings ball_answer(const Facts& facts) {
   std::vector<ConeCount> counts = cone_counts(facts.rows);
   std::erase_if(counts, [](const ConeCount& c) { return !stands_for_its_engine(c.method); });
   if (std::ranges::none_of(facts.scenes, [](const Scene& s) { return s.model.find<Spheres>(); })) counts.clear();
@@ -298,7 +295,7 @@ std::vector<Finding> ball_answer(const Facts& facts) {
                                  count.all == first.all ? "" : fmt::format("/{}", count.all)));
   return {{.rule = "answer-ball",
            .method = std::string(subject().name),
-           .value = static_cast<double>(first.right),
+           .value = double(first.right),
            .words = {{"cases", std::to_string(first.all)},
                      {"others", fmt::format("{}", fmt::join(others, ", "))},
                      {"drape", same_rule ? scene->scene : ""},
@@ -309,7 +306,7 @@ std::vector<Finding> ball_answer(const Facts& facts) {
 
 /// The rule of mysim that keeps the balance best, of those that keep it for long: symplectic ones; and beside it
 /// implicit Euler on the same scene.
-std::vector<Finding> energy_answer(const Facts& facts) {
+Findings energy_answer(const Facts& facts) {
   std::optional<Finding> best;
   const std::vector<EnergyRow> table = rows_of<EnergyRow>(facts.rows);
   for (const EnergyRow& row : table) {
@@ -329,7 +326,7 @@ std::vector<Finding> energy_answer(const Facts& facts) {
   return {*best};
 }
 
-std::vector<Finding> model_answer(const Facts& facts) {
+Findings model_answer(const Facts& facts) {
   const Scene* scene = main_scene(facts.scenes, facts.rows);
   if (!scene) scene = facts.scenes.empty() ? nullptr : &facts.scenes.back();
   if (!scene) return {};
@@ -345,14 +342,6 @@ std::vector<Finding> model_answer(const Facts& facts) {
            .scene = scene->name,
            .value = 100 * (1 - cost),
            .words = {{"one", one}, {"ten", ten}, {"until", step_text(scene->window)}}}};
-}
-
-std::vector<Finding> answer_findings(const std::vector<Scene>& scenes, const std::vector<SceneData>& data,
-                                     const TableSet& rows) {
-  Found all;
-  for (const auto answer : {agreement_answer, method_answer, failure_answer, ball_answer, energy_answer, model_answer})
-    for (Finding& f : answer({rows, scenes, data})) all.push_back(std::move(f));
-  return all;
 }
 
 }  // namespace crosscheck

@@ -18,12 +18,8 @@ struct Question {
 const std::vector<Question>& questions();
 
 /// The one of these findings that answers it; null where the tables say nothing of it.
-const Finding* answer_to(const Question& question, const std::vector<Finding>& findings);
+const Finding* answer_to(const Question& question, const Findings& findings);
 /// The answers to the questions of a chapter, one after the other.
-std::string answers_of_chapter(std::string_view chapter, const std::vector<Finding>& findings);
-
-/// The findings that answer them, in their order; a question that the tables say nothing of has none.
-std::vector<Finding> answer_findings(const std::vector<Scene>& scenes, const std::vector<SceneData>& data,
-                                     const TableSet& rows);
+std::string answers_of_chapter(std::string_view chapter, const Findings& findings);
 
 }  // namespace crosscheck

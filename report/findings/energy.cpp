@@ -21,11 +21,11 @@ std::optional<double> share_of(const EnergyRow& row) {
 }
 
 /// Symplectic rules on the undamped scenes.
-void symplectic(const std::vector<EnergyRow>& table, std::vector<Finding>& out) {
+void symplectic(const std::vector<EnergyRow>& table, Findings& out) {
   double worst = -1;
   long fewest = 0, most = 0;
   size_t bounded = 0, all = 0;
-  std::vector<Finding> exceptions;
+  Findings exceptions;
   for (const EnergyRow& row : table) {
     const auto share = share_of(row);
     if (!row.undamped || !row.closure_claimed || !row.symplectic || !share) continue;
@@ -54,7 +54,7 @@ void symplectic(const std::vector<EnergyRow>& table, std::vector<Finding>& out) 
 
 /// Rules that are not symplectic, on the first undamped scene: those that are position-based, stable at no step, or
 /// implicit, and programs of the reader's.
-void drift(const std::vector<EnergyRow>& table, std::vector<Finding>& out) {
+void drift(const std::vector<EnergyRow>& table, Findings& out) {
   std::vector<std::string> shown{subject_method(never_stable_undamped), subject_method(is_implicit)};
   for (const MethodFamily* peer : default_peers()) shown.push_back(position_based(*peer));
   const auto first = std::ranges::find_if(
@@ -87,11 +87,11 @@ std::string off_text(double taken, double in_truth, double bar) {
 
 /// What contact takes on scenes whose truth says it: of the methods that stand for the engines, and of mysim's the one
 /// that is furthest off.
-void taken_by_contact(const TableSet& rows, std::vector<Finding>& out) {
+void taken_by_contact(const TableSet& rows, Findings& out) {
   const std::vector<EngineEnergyRow> table = rows_of<EngineEnergyRow>(rows);
   std::vector<std::string> scenes;
   for (const EngineEnergyRow& row : table)
-    if (row.contact && std::ranges::find(scenes, row.scene) == scenes.end()) scenes.push_back(row.scene);
+    if (row.contact) add_once(scenes, row.scene);
   for (const std::string& scene : scenes) {
     const EngineEnergyRow *first = nullptr, *furthest = nullptr;
     std::vector<const EngineEnergyRow*> others;
@@ -100,9 +100,7 @@ void taken_by_contact(const TableSet& rows, std::vector<Finding>& out) {
       const auto off = [](const EngineEnergyRow* of) { return std::abs(*of->contact - *of->contact_in_truth); };
       if (row.method == ours) first = &row;
       // what an engine does not tell is what its balance lacks, and of a rule that damps by itself more than contact
-      if (is_another_engine(row.method) && stands_for_its_engine(row.method) &&
-          row.method != position_based(family_of(row.method)))
-        others.push_back(&row);
+      if (may_move_alike(row.method)) others.push_back(&row);
       if (!row.contact_inferred && row.method != ours && (!furthest || off(&row) > off(furthest))) furthest = &row;
     }
     // a tenth: beyond that the truth knows no share of it
@@ -131,8 +129,8 @@ void taken_by_contact(const TableSet& rows, std::vector<Finding>& out) {
 }
 
 /// Numerical damping against the closed form.
-void damping(const std::vector<DampingRow>& table, std::vector<Finding>& out) {
-  std::vector<Finding> all;
+void damping(const std::vector<DampingRow>& table, Findings& out) {
+  Findings all;
   for (const DampingRow& row : table) {
     const Method* m = builtin_method(row.method);
     if (!m || (m->on_one_spring.empty() ? m->rule : m->on_one_spring) != "implicit-euler" ||
@@ -150,8 +148,8 @@ void damping(const std::vector<DampingRow>& table, std::vector<Finding>& out) {
 
 }  // namespace
 
-std::vector<Finding> energy_findings(const Facts& facts) {
-  std::vector<Finding> out;
+Findings energy_findings(const Facts& facts) {
+  Findings out;
   const std::vector<EnergyRow> table = rows_of<EnergyRow>(facts.rows);
   symplectic(table, out);
   drift(table, out);

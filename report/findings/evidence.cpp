@@ -2,6 +2,7 @@
 #include "report/findings/evidence.h"
 
 #include <fmt/format.h>
+#include <nlohmann/json.hpp>
 
 #include <algorithm>
 
@@ -23,10 +24,6 @@ std::string figure_of(std::string_view name, const std::string& scene, const std
 
 namespace {
 
-bool has_column(const Table& table, const char* name) {
-  return std::any_of(table.columns.begin(), table.columns.end(), [&](const Column& c) { return c.name == name; });
-}
-
 template <class Keep>
 Evidence rows_of(const Table& table, Keep keep) {
   Evidence evidence{table.name, {}, {}};
@@ -39,6 +36,8 @@ Evidence rows_of(const Table& table, Keep keep) {
 
 }  // namespace
 
+Json json_of(const Evidence& e) { return {{"table", e.table}, {"rows", e.rows}, {"fingerprint", e.fingerprint}}; }
+
 Evidence evidence_of(const Table& table) {
   return rows_of(table, [](size_t) { return true; });
 }
@@ -47,7 +46,7 @@ std::vector<Evidence> evidence_of(const Finding& finding, const TableSet& result
   std::vector<Evidence> all;
   for (const std::string_view name : finding_rule(finding.rule).tables)
     if (const Table* table = result.table(std::string(name))) {
-      const bool by_scene = !finding.scene.empty() && has_column(*table, "scene");
+      const bool by_scene = !finding.scene.empty() && std::ranges::count(table->columns, "scene", &Column::name) > 0;
       all.push_back(
           rows_of(*table, [&](size_t i) { return !by_scene || text_or_none(*table, i, "scene") == finding.scene; }));
     }

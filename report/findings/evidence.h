@@ -18,6 +18,9 @@ struct Evidence {
   std::string fingerprint;  // 16 hexadecimal digits (FNV-1a), of these rows as the CSV file has them
 };
 
+/// As in report.json.
+Json json_of(const Evidence& evidence);
+
 /// Rows of the tables of the finding's rule: those of its scene, or all where it speaks of all scenes.
 std::vector<Evidence> evidence_of(const Finding& finding, const TableSet& result);
 /// The evidence of a whole table.
@@ -26,8 +29,8 @@ Evidence evidence_of(const Table& table);
 /// All findings of a report: those on all scenes together, then those of each scene.
 struct AllFindings {
   std::vector<SceneData> facts;  // of each scene
-  std::vector<Finding> overall;
-  std::vector<std::vector<Finding>> of_scenes;
+  Findings overall;
+  std::vector<Findings> of_scenes;
   /// Of all of them, in this order.
   std::vector<const Finding*> each() const;
 };

@@ -37,10 +37,12 @@ struct Finding {
   std::map<std::string, std::string> words = {};  // names, numbers and lists that its text asks for besides
 };
 
+using Findings = std::vector<Finding>;
+
 /// A kind of finding. The table is in rules.cpp; a new kind is a row there and a text in texts/.
 struct FindingRule {
   std::string_view key;
-  std::vector<Finding> (*find)(const Facts&);  // several rows may share a function, which is called once
+  Findings (*find)(const Facts&);  // several rows may share a function, which is called once
   std::string_view topic;     // answer, agreement, accuracy, failure, cost, contact, order, energy, adequacy, choice
   std::string_view chapter;   // id of the chapter that shows it; empty: the part of its scene
   std::string_view quantity;  // name of the value
@@ -56,7 +58,7 @@ const std::vector<FindingRule>& finding_rules();
 const FindingRule& finding_rule(std::string_view key);
 
 /// The findings of the rules with a chapter (`of_scene`: without one), in the order of the table.
-std::vector<Finding> found_by_rules(const Facts& facts, bool of_scene);
+Findings found_by_rules(const Facts& facts, bool of_scene);
 
 // Texts, from texts/*.md: "## KEY", a sentence, and "Formula: " with how the value follows from the columns of the
 // tables. In a sentence {value}, {low} and {high} are written in the rule's unit, {range} is low to high, {value±} an
@@ -74,43 +76,43 @@ std::vector<std::string> placeholders_of(const std::string& sentence);
 /// Throws std::logic_error where the text names what the finding does not have.
 std::string sentence_of(const Finding& finding);
 /// Their sentences, one after the other.
-std::string sentences_of(const std::vector<Finding>& findings);
+std::string sentences_of(const Findings& findings);
 std::string tier_of(const Finding& finding);
 /// All of it but its rows, as report.json has it.
 Json json_of(const Finding& finding);
 
-// Functions of the rules, by the file that they are in. Some also describe a figure, from its table alone.
+// Functions of the rules, by the file that they are in.
 
 // answers.cpp: one finding or none each
-std::vector<Finding> agreement_answer(const Facts&);
-std::vector<Finding> method_answer(const Facts&);
-std::vector<Finding> failure_answer(const Facts&);
-std::vector<Finding> ball_answer(const Facts&);
-std::vector<Finding> energy_answer(const Facts&);
-std::vector<Finding> model_answer(const Facts&);
+Findings agreement_answer(const Facts&);
+Findings method_answer(const Facts&);
+Findings failure_answer(const Facts&);
+Findings ball_answer(const Facts&);
+Findings energy_answer(const Facts&);
+Findings model_answer(const Facts&);
 // overall.cpp
-std::vector<Finding> relation_findings(const Facts&);
-std::vector<Finding> failure_findings(const Facts&);
-std::vector<Finding> order_findings(const Facts&);
+Findings relation_findings(const Facts&);
+Findings failure_findings(const Facts&);
+Findings order_findings(const Facts&);
 // speed.cpp
-std::vector<Finding> speed_findings(const Facts&);
-std::vector<Finding> cost_findings(const Facts&);
+Findings speed_findings(const Facts&);
+Findings cost_findings(const Facts&);
 // stability.cpp
-std::vector<Finding> limit_findings(const Facts&);
-std::vector<Finding> stability_findings(const Facts&);
+Findings limit_findings(const Facts&);
+Findings stability_findings(const Facts&);
 // energy.cpp
-std::vector<Finding> energy_findings(const Facts&);
+Findings energy_findings(const Facts&);
 // sphere.cpp
-std::vector<Finding> contact_findings(const Facts&);
-std::vector<Finding> probe_findings(const Facts&);
-std::vector<Finding> leaving_findings(const Table& leaving);
-std::vector<Finding> drape_findings(const Table& drapes);
+Findings contact_findings(const Facts&);
+Findings cone_findings(const Facts&);
+Findings leaving_findings(const Facts&);
+Findings drape_findings(const Facts&);
 // adequacy.cpp
-std::vector<Finding> adequacy_findings(const Facts&);
-std::vector<Finding> bend_findings(const Facts&);
+Findings adequacy_findings(const Facts&);
+Findings bend_findings(const Facts&);
 // scene.cpp: of one scene
-std::vector<Finding> scene_findings(const Facts&);
+Findings scene_findings(const Facts&);
 // recommendation.cpp: of one scene
-std::vector<Finding> recommendation_findings(const Facts&);
+Findings recommendation_findings(const Facts&);
 
 }  // namespace crosscheck

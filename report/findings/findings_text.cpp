@@ -37,6 +37,10 @@ bool is_rival(const std::string& method) {
   return is_another_engine(method) && family_of(method).role != Role::integrator;
 }
 
+bool may_move_alike(const std::string& method) {
+  return is_another_engine(method) && stands_for_its_engine(method) && method != position_based(family_of(method));
+}
+
 std::string name_in_sentence(const std::string& name) {
   const MethodFamily& family = family_of(name);
   const bool is_program = name.starts_with(program_prefix);
@@ -46,6 +50,12 @@ std::string name_in_sentence(const std::string& name) {
   // the name of the literature; commands and tables keep the assignment's
   if (family.is_subject()) return name == "mysim/trapezoidal" ? "Heun" : short_name(name);
   return family.by_default() ? fmt::format("{}'s {}", family.title, name.substr(slash + 1)) : name;
+}
+
+std::vector<std::string> names_in_sentence(const std::vector<std::string>& names) {
+  std::vector<std::string> all;
+  std::ranges::transform(names, std::back_inserter(all), name_in_sentence);
+  return all;
 }
 
 std::string percent(double part, double whole) {
@@ -81,9 +91,14 @@ std::string listed(std::vector<std::string> words, size_t most) {
   return joined(words);
 }
 
+void add_once(std::vector<std::string>& words, const std::string& word) {
+  if (std::ranges::find(words, word) == words.end()) words.push_back(word);
+}
+
 bool same_rule_differs(const SceneData& data, const MethodData& method) {
   return method.same_rule.value_or(false) && is_another_engine(method.method) && method.ok() && method.difference &&
-         !data.touched() && method.different_law.empty() && method.round_off && *method.difference > *method.round_off;
+         !data.touched() && method.different_law.empty() && method.round_off_bound &&
+         *method.difference > *method.round_off_bound;
 }
 
 }  // namespace crosscheck

@@ -28,16 +28,17 @@ std::vector<std::string> representatives_in_contact();
 bool stands_for_its_engine(const std::string& method);
 /// Whether it belongs to another engine than mysim, and is no truth.
 bool is_another_engine(const std::string& method);
-
 /// The same without others' integrators on our right-hand side.
 bool is_rival(const std::string& method);
-
+/// Whether it stands for another engine by a rule that is not position-based, so that its motion may be the same.
+bool may_move_alike(const std::string& method);
 inline bool is_implicit(const Stepper& s) { return s.evaluations == 0; }
 inline bool never_stable_undamped(const Stepper& s) { return s.order == 1 && s.limit(1, 0) == 0; }
 inline bool is_symplectic_of_second_order(const Stepper& s) { return s.symplectic && s.order == 2 && !is_implicit(s); }
 
 /// A method or an engine: "leapfrog", "Bullet's pbd", "Bullet", "odeint/dopri5", and of programs the base name.
 std::string name_in_sentence(const std::string& name);
+std::vector<std::string> names_in_sentence(const std::vector<std::string>& names);
 
 std::string percent(double part, double whole);
 /// "100 000"
@@ -60,6 +61,9 @@ std::string listed(std::vector<std::string> words, size_t most = 3);
 inline std::string range(const std::string& low, const std::string& high) {
   return low == high ? low : low + " to " + high;
 }
+
+/// Appends a word that is not there yet.
+void add_once(std::vector<std::string>& words, const std::string& word);
 
 /// True where no contact, no other law and no chaos excuses it: a method of the same rule, more than round-off apart.
 bool same_rule_differs(const SceneData& data, const MethodData& method);

@@ -13,7 +13,7 @@
 namespace crosscheck {
 
 /// Methods that failed where others held, programs that gave no answer, and scenes on which all failed.
-std::vector<Finding> failure_findings(const Facts& facts) {
+Findings failure_findings(const Facts& facts) {
   std::map<std::string, std::vector<std::string>> failed, crashed;
   std::vector<std::string> all;
   for (const SceneData& scene : facts.data) {
@@ -23,12 +23,9 @@ std::vector<Finding> failure_findings(const Facts& facts) {
     for (const MethodData& m : scene.methods)
       if (held && m.supported() && !m.ok()) (m.gave_no_answer() ? crashed : failed)[m.method].push_back(scene.scene);
   }
-  std::vector<Finding> out;
+  Findings out;
   const auto add = [&](const char* rule, const std::string& method, const std::vector<std::string>& where) {
-    out.push_back({.rule = rule,
-                   .method = method,
-                   .value = static_cast<double>(where.size()),
-                   .words = {{"where", listed(where)}}});
+    out.push_back({.rule = rule, .method = method, .value = double(where.size()), .words = {{"where", listed(where)}}});
   };
   for (const auto& [method, where] : crashed) add("failed-of-all.crashed", method, where);
   for (const auto& [method, where] : failed) add("failed-of-all", method, where);
@@ -36,18 +33,15 @@ std::vector<Finding> failure_findings(const Facts& facts) {
   return out;
 }
 
-std::vector<Finding> order_findings(const Facts& facts) {
+Findings order_findings(const Facts& facts) {
   std::vector<OrderSlopeRow> slopes = rows_of<OrderSlopeRow>(facts.rows);
   std::erase_if(slopes, [](const OrderSlopeRow& row) { return !row.declared_order; });
   if (slopes.empty()) return {};
-  const auto off = [](const OrderSlopeRow& row) {
-    return std::abs(row.measured_order - static_cast<double>(*row.declared_order));
-  };
+  const auto off = [](const OrderSlopeRow& row) { return std::abs(row.measured_order - double(*row.declared_order)); };
   const OrderSlopeRow& worst = *std::ranges::max_element(slopes, {}, off);
   std::vector<std::string> methods, scenes;
   for (const OrderSlopeRow& row : slopes) {
-    if (!std::ranges::count(methods, row.method)) methods.push_back(row.method);
-    if (!std::ranges::count(scenes, row.scene)) scenes.push_back(row.scene);
+    add_once(methods, row.method), add_once(scenes, row.scene);
   }
   // 0.1: what the finest three steps of a smooth scene still carry of the next order
   const bool differs = off(worst) > 0.1;
@@ -62,7 +56,7 @@ std::vector<Finding> order_findings(const Facts& facts) {
 }
 
 /// Invariants that hold in an engine, over all its methods; a break without a known cause is a finding.
-std::vector<Finding> relation_findings(const Facts& facts) {
+Findings relation_findings(const Facts& facts) {
   struct Counts {
     size_t asked = 0, held = 0, known = 0;
     std::vector<std::string> broken;  // names of relations
@@ -75,22 +69,20 @@ std::vector<Finding> relation_findings(const Facts& facts) {
     if (at == engines.end()) at = engines.insert(at, {name, {}});
     Counts& counts = at->second;
     ++counts.asked, counts.held += row.mark == RelationMark::holds;
-    if (row.mark != RelationMark::broken)
-      counts.known += row.mark != RelationMark::holds;
-    else if (!std::ranges::count(counts.broken, row.relation))
-      counts.broken.push_back(row.relation);
+    counts.known += row.mark == RelationMark::known;
+    if (row.mark == RelationMark::broken) add_once(counts.broken, row.relation);
   }
-  std::vector<Finding> out;
+  Findings out;
   for (const auto& [engine, counts] : engines) {
     out.push_back({.rule = "relations",
                    .method = engine,
-                   .value = static_cast<double>(counts.held),
+                   .value = double(counts.held),
                    .words = {{"asked", std::to_string(counts.asked)},
                              {"known", counts.known > 0 ? std::to_string(counts.known) : ""}}});
     if (!counts.broken.empty())
       out.push_back({.rule = "relations-broken",
                      .method = engine,
-                     .value = static_cast<double>(counts.broken.size()),
+                     .value = double(counts.broken.size()),
                      .words = {{"which", listed(counts.broken)}}});
   }
   return out;

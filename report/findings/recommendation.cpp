@@ -30,11 +30,8 @@ std::vector<EngineBeside> engines_beside(const std::string& scene, double part_o
   std::vector<EngineBeside> all;
   for (const EngineSpeedRow& row : rows_of<EngineSpeedRow>(rows))
     if (row.scene == scene && std::abs(row.part_of_motion / part_of_motion - 1) < 1e-9 &&
-        row.measure == Measure::error && row.times_mysim && is_rival(row.method)) {
-      const double times = row.cpu / cpu, part = times / *row.times_mysim;
-      all.push_back({row.engine, row.method, times, part * row.times_mysim_low.value_or(*row.times_mysim),
-                     part * row.times_mysim_high.value_or(*row.times_mysim), row.part_timed == 1});
-    }
+        row.measure == Measure::error && row.times_mysim && is_rival(row.method))
+      all.push_back({row.engine, row.method, row.cpu / cpu, row.part_timed == 1});
   return all;
 }
 
@@ -72,16 +69,13 @@ std::optional<RecommendedRun> recommended_run(const std::string& scene, double p
 }
 
 std::string setting_of(const RecommendedRun& run) {
-  return (run.setting == SettingKind::step ? "step " : "") +
-         setting_text(std::string(name_of(run.setting)), run.requested);
+  return (run.setting == SettingKind::step ? "step " : "") + setting_text(name_of(run.setting), run.requested);
 }
 
-std::vector<Finding> recommendation_findings(const Facts& facts) {
+Findings recommendation_findings(const Facts& facts) {
   const auto run = recommended_run(facts.scene->name, recommended_part, facts.rows);
   if (!run) return {};
   const double to_percent = 100 / run->motion;
-  std::vector<std::string> tied;
-  for (const std::string& method : run->tied) tied.push_back(name_in_sentence(method));
   return {{.rule = "take",
            .scene = facts.scene->name,
            .method = run->method,
@@ -93,7 +87,7 @@ std::vector<Finding> recommendation_findings(const Facts& facts) {
                      {"evaluations", count_text(run->evaluations)},
                      {"cpu", step_text(run->cost)},
                      {"bound", std::string(run->bound)},
-                     {"tied", listed(tied)}}}};
+                     {"tied", listed(names_in_sentence(run->tied))}}}};
 }
 
 }  // namespace crosscheck

@@ -19,8 +19,8 @@ const Scene* main_scene(std::span<const Scene> scenes, const TableSet& rows);
 /// The cheapest run of another engine within the same accuracy.
 struct EngineBeside {
   std::string engine, method;
-  double times = 0, low = 0, high = 0;  // its CPU time over that of mysim's run, and what both intervals allow
-  bool timed_whole = true;              // else its time is scaled from a part of the run
+  double times = 0;         // its CPU time over that of mysim's run
+  bool timed_whole = true;  // else its time is scaled from a part of the run
 };
 
 /// A run to take for a scene.
@@ -45,7 +45,5 @@ std::optional<RecommendedRun> recommended_run(const std::string& scene, double p
 
 /// "step 2 ms", or "tolerance 1.0e-6".
 std::string setting_of(const RecommendedRun& run);
-/// The topic of its finding in the part of its scene; the page shows it as a row of a table.
-inline constexpr std::string_view recommendation_topic = "choice";
 
 }  // namespace crosscheck

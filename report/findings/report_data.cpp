@@ -6,23 +6,15 @@
 #include <algorithm>
 #include <cmath>
 
-#include "experiments/tables/engines.h"
-
 namespace crosscheck {
 
-std::string failure_class(const std::string& verdict) {
-  static constexpr std::pair<std::string_view, const char*> table[] = {{"stretch", "overstretched"},
-                                                                       {"solver", "solver gave up"},
-                                                                       {"frozen", "froze"},
-                                                                       {"timeout", "out of time"},
-                                                                       {"crash", "program failed"}};
+std::string failure_class(std::string_view verdict) {
+  static constexpr std::pair<std::string_view, const char*> table[] = {
+      {"stretch", "overstretched"}, {"solver", "solver gave up"}, {"frozen", "froze"},
+      {"timeout", "out of time"},   {"crash", "program failed"},  {"unsupported", "cannot"}};
   for (const auto& [name, word] : table)
     if (verdict == name) return word;
   return "blew up";
-}
-
-std::string failure_class_or_cannot(const std::string& verdict) {
-  return verdict == "unsupported" ? "cannot" : failure_class(verdict);
 }
 
 const MethodData* SceneData::find(const std::string& method) const {
@@ -34,7 +26,7 @@ const MethodData* SceneData::find(const std::string& method) const {
 std::optional<double> SceneData::round_off() const {
   std::optional<double> least;
   for (const MethodData& m : methods)
-    if (m.round_off && !(least <= m.round_off && least)) least = m.round_off;
+    if (m.round_off_bound && (!least || *m.round_off_bound < *least)) least = m.round_off_bound;
   return least;
 }
 
@@ -52,7 +44,7 @@ SceneData scene_data(const std::string& scene, const TableSet& result) {
   SceneData facts;
   facts.scene = scene;
   // where no run of any scene came to a row, the page says why among what is missing
-  for (const EngineRow& run : rows_of<EngineRow>(result)) {
+  for (EngineRow& run : rows_of<EngineRow>(result)) {
     if (run.scene != scene) continue;
     facts.motion = run.motion, facts.window = run.window;
     facts.measured_window = run.measured_window, facts.growth = run.growth;
@@ -63,40 +55,13 @@ SceneData scene_data(const std::string& scene, const TableSet& result) {
     else if (run.truth_kind)
       facts.tier = name_of(run.truth_kind->tier);
     facts.error_bar = run.truth_bar.value_or(0);
-    facts.methods.push_back({.method = run.method,
-                             .reason = run.reason,
-                             .different_law = run.different_law,
-                             .verdict = run.verdict,
-                             .end = run.end,
-                             .step = run.step,
-                             .evaluations = run.evaluations,
-                             .degenerate_springs = run.coincident,
-                             .error = run.error,
-                             .from_contact = run.contact_difference,
-                             .difference = run.difference,
-                             .centres = run.centre_difference,
-                             .clearance = run.clearance,
-                             .creep = run.creep,
-                             .limit = run.step_limit,
-                             .round_off = run.round_off_bound,
-                             .same_rule = run.same_rule});
+    facts.methods.push_back({std::move(run)});
   }
   const auto energies = rows_of<EngineEnergyRow>(result);
   for (MethodData& m : facts.methods)
     for (const EngineEnergyRow& row : energies)
       if (row.scene == scene && row.method == m.method) m.energy_error = row.relative_balance_error;
   return facts;
-}
-
-const MethodData* most_accurate(const SceneData& scene) {
-  const MethodData* best = nullptr;
-  for (const MethodData& m : scene.methods)
-    if (m.judged() && (!best || *m.error < *best->error)) best = &m;
-  return best;
-}
-
-bool ties_with(const MethodData& run, const MethodData& other, const SceneData& scene) {
-  return *run.error <= std::max(1.05 * *other.error, scene.error_bar);
 }
 
 bool is_adaptive(const std::string& method) {
@@ -146,7 +111,7 @@ std::string own_step_text(const Scene& scene) {
   return text == requested ? requested : fmt::format("{} (of the {} asked for)", text, requested);
 }
 
-std::string setting_text(const std::string& setting, double value) {
+std::string setting_text(std::string_view setting, double value) {
   return setting.starts_with("tolerance") ? "tolerance " + nice(value) : step_text(value);
 }
 

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "experiments/experiment.h"
+#include "experiments/tables/engines.h"
 #include "experiments/tables/typed.h"
 #include "mysim/scene/scene.h"
 #include "reference/method.h"
@@ -20,26 +21,13 @@ std::vector<Row> rows_of(const TableSet& rows) {
   return table ? rows_of<Row>(*table) : std::vector<Row>();
 }
 
-/// "blew up", "solver gave up", "froze": what a verdict other than ok says of a run, as the table writes it.
-std::string failure_class(const std::string& verdict);
-inline std::string failure_class(Verdict verdict) { return failure_class(std::string(name_of(verdict))); }
-/// "cannot" where the method does not take the scene, else the word for its failure.
-std::string failure_class_or_cannot(const std::string& verdict);
+/// "blew up", "solver gave up", "froze", "cannot": what a verdict other than ok says of a run, as the table writes it.
+std::string failure_class(std::string_view verdict);
+inline std::string failure_class(Verdict verdict) { return failure_class(name_of(verdict)); }
 
-struct MethodData {
-  std::string method, reason, different_law;
-  Verdict verdict = Verdict::ok;
-  double end = 0, step = 0;  // s
-  long evaluations = 0, degenerate_springs = 0;
-  std::optional<double> error;             // m, largest RMS error from the truth in the window
-  std::optional<double> from_contact;      // m, the same from what the in-house contact rule converges to: no error
-  std::optional<double> difference;        // m, largest RMS difference from mysim/symplectic-euler in the window
-  std::optional<double> centres;           // m, largest difference of the centres of mass over the run
-  std::optional<double> clearance, creep;  // m, m/s
-  std::optional<double> energy_error;      // relative
-  std::optional<double> limit;             // s, largest stable step by theory, for the scene's fastest vibration
-  std::optional<double> round_off;         // m, what the same rule may differ by; empty where nothing can be predicted
-  std::optional<bool> same_rule;           // its runs show mysim's symplectic Euler; empty: not known
+/// A method's run of a scene. Its error, difference and clearance are the largest in the window.
+struct MethodData : EngineRow {
+  std::optional<double> energy_error = {};  // relative
   bool supported() const { return verdict != Verdict::unsupported; }
   bool ok() const { return verdict == Verdict::ok; }
   /// Whether its program died or took too long, which says nothing of its physics.
@@ -68,11 +56,6 @@ struct SceneData {
   bool touched() const;
 };
 
-/// The most accurate run, or null.
-const MethodData* most_accurate(const SceneData& scene);
-/// Whether a run is as near to the truth as another: errs by at most 5 % more, or below the truth's error bar.
-bool ties_with(const MethodData& run, const MethodData& other, const SceneData& scene);
-
 /// Whether a run came to its end so far from the truth, more than a tenth of the motion, that it is of no use.
 bool is_useless(const MethodData& run, const SceneData& scene);
 /// The part of the motion beyond which it is.
@@ -94,6 +77,6 @@ std::string step_text(double seconds);
 /// for)".
 std::string own_step_text(const Scene& scene);
 /// "2 ms", or "tolerance 1.0e-6": a run's setting, "step [s]" or "tolerance [1]".
-std::string setting_text(const std::string& setting, double value);
+std::string setting_text(std::string_view setting, double value);
 
 }  // namespace crosscheck

@@ -63,10 +63,10 @@ const std::vector<FindingRule>& finding_rules() {
        "until taken bar off others", {"engines-energy"}, "{}-energy"},
       {"numerical-damping", energy_findings, "energy", energy, "deviation of the numerical damping from theory", "%", "exact", "rate",
        {"energy-damping"}, "energy-damping"},
-      {"cone", probe_findings, "contact", energy, "cases in agreement with Coulomb's law", "1", coulomb, "cases", {"sphere-cone"}, "sphere-cone"},
-      {"leaving", probe_findings, "contact", energy, "deviation of the separation angle", "degrees", "exact", "step longest off", {"sphere-leaving"}},
-      {"slides-off", probe_findings, "contact", energy, "height of the centre of mass", "m", other_engine, "end", {"sphere-drape"}, "drop-aside-sliding"},
-      {"still-touches", probe_findings, "contact", energy, "mean sliding speed", "m/s", other_engine, "end", {"sphere-drape"}, "drop-aside-sliding"},
+      {"cone", cone_findings, "contact", energy, "cases in agreement with Coulomb's law", "1", coulomb, "cases", {"sphere-cone"}, "sphere-cone"},
+      {"leaving", leaving_findings, "contact", energy, "deviation of the separation angle", "degrees", "exact", "step longest off", {"sphere-leaving"}},
+      {"slides-off", drape_findings, "contact", energy, "height of the centre of mass", "m", other_engine, "end", {"sphere-drape"}, "drop-aside-sliding"},
+      {"still-touches", drape_findings, "contact", energy, "mean sliding speed", "m/s", other_engine, "end", {"sphere-drape"}, "drop-aside-sliding"},
       {"after-contact", contact_findings, "contact", energy, "RMS position difference at the end", "m", other_engine, "window rules own", {"engines"}, "{}-agreement"},
 
       // how little model is enough
@@ -98,9 +98,9 @@ const FindingRule& finding_rule(std::string_view key) {
   return *found;
 }
 
-std::vector<Finding> found_by_rules(const Facts& facts, bool of_scene) {
-  std::vector<Finding> all;
-  std::vector<std::vector<Finding> (*)(const Facts&)> called;
+Findings found_by_rules(const Facts& facts, bool of_scene) {
+  Findings all;
+  std::vector<Findings (*)(const Facts&)> called;
   for (const FindingRule& rule : finding_rules()) {
     if (rule.chapter.empty() != of_scene || std::ranges::count(called, rule.find) > 0) continue;
     called.push_back(rule.find);

@@ -32,8 +32,11 @@ Finding finding_of(const std::string& rule, const Span& span) {
   return {.rule = rule, .value = span.high, .low = span.low, .high = span.high, .words = {{"where", span.where}}};
 }
 
+}  // namespace
+
 /// What the other engines take for the same accuracy; and those none of whose runs is within it.
-void engines_beside(const TableSet& rows, std::vector<Finding>& out) {
+Findings speed_findings(const Facts& facts) {
+  const TableSet& rows = facts.rows;
   std::map<std::string, Span> times;
   std::map<std::string, std::vector<std::string>> within, without;  // scenes, by engine
   for (const EngineSpeedRow& row : rows_of<EngineSpeedRow>(rows)) {
@@ -52,37 +55,30 @@ void engines_beside(const TableSet& rows, std::vector<Finding>& out) {
     const std::string engine = engine_of(run.method);
     if (!is_another_engine(run.method) || run.verdict == Verdict::unsupported || run.verdict == Verdict::crash ||
         run.verdict == Verdict::timeout || !std::ranges::count(asked, run.scene) ||
-        std::ranges::count(within[engine], run.scene) || std::ranges::count(without[engine], run.scene))
+        std::ranges::count(within[engine], run.scene))
       continue;
-    without[engine].push_back(run.scene);
+    add_once(without[engine], run.scene);
   }
+  Findings out;
   for (const auto& [engine, span] : times) {
     Finding f = finding_of("engine-times", span);
     f.method = engine, f.other = std::string(subject().name);
     out.push_back(std::move(f));
   }
   for (const auto& [engine, scenes] : without)
-    if (!scenes.empty())
-      out.push_back({.rule = "engine-without-run",
-                     .method = engine,
-                     .value = static_cast<double>(scenes.size()),
-                     .words = {{"where", listed(scenes)}}});
-}
-
-}  // namespace
-
-std::vector<Finding> speed_findings(const Facts& facts) {
-  std::vector<Finding> out;
-  engines_beside(facts.rows, out);
+    out.push_back({.rule = "engine-without-run",
+                   .method = engine,
+                   .value = double(scenes.size()),
+                   .words = {{"where", listed(scenes)}}});
   return out;
 }
 
 /// The same rule in both engines, over the sizes: by kernels for any spring graph on both sides, and by mysim's fused
 /// step on regular cloths.
-std::vector<Finding> cost_findings(const Facts& facts) {
+Findings cost_findings(const Facts& facts) {
   std::map<long, std::map<std::string, double>> per_side;  // s per step
   for (const SizeCostRow& row : rows_of<SizeCostRow>(facts.rows)) per_side[row.side][row.method] = row.cpu;
-  std::vector<Finding> out;
+  Findings out;
   for (const MethodFamily* peer : default_peers()) {
     const Method* standing = builtin_method(peer->representative);
     if (!standing || rule_of(*standing) != rule_of(*builtin_method(ours))) continue;

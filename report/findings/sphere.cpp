@@ -12,31 +12,22 @@
 #include "report/findings/summaries.h"
 
 namespace crosscheck {
-namespace {
 
-void cone(const TableSet& rows, std::vector<Finding>& out) {
-  for (const ConeCount& count : cone_counts(rows))
+Findings cone_findings(const Facts& facts) {
+  Findings out;
+  for (const ConeCount& count : cone_counts(facts.rows))
     if (count.method == sticky_sphere || stands_for_its_engine(count.method))
       out.push_back({.rule = "cone",
                      .method = count.method,
-                     .value = static_cast<double>(count.right),
+                     .value = double(count.right),
                      .words = {{"cases", std::to_string(count.all)}}});
+  return out;
 }
-
-/// Difference from mysim/symplectic-euler at the end that each method's rows of a scene show, m, by method.
-std::map<std::string, double> differences_at_end(const Table& rows) {
-  std::map<std::string, double> last;
-  for (const EngineTimeRow& row : rows_of<EngineTimeRow>(rows))
-    if (row.difference) last[row.method] = *row.difference;
-  return last;
-}
-
-}  // namespace
 
 /// Positions after the window: each other engine's at the end beside those of mysim's own rules, which share its
 /// contact rule and show how far positions can be predicted. These are of an order above one and stable without
 /// damping: Heun adds energy.
-std::vector<Finding> contact_findings(const Facts& facts) {
+Findings contact_findings(const Facts& facts) {
   std::map<std::string, std::vector<EngineRow>> runs;  // by scene
   std::vector<std::string> scenes;
   for (EngineRow& run : rows_of<EngineRow>(facts.rows))
@@ -44,7 +35,7 @@ std::vector<Finding> contact_findings(const Facts& facts) {
       if (!runs.contains(run.scene)) scenes.push_back(run.scene);
       runs[run.scene].push_back(std::move(run));
     }
-  std::vector<Finding> out;
+  Findings out;
   for (const std::string& scene : scenes) {
     const Table* over_time = facts.rows.table(scene + "-engines");
     double duration = 0;
@@ -53,7 +44,9 @@ std::vector<Finding> contact_findings(const Facts& facts) {
       duration = std::max(duration, run.end), touched |= run.clearance.value_or(1) < 1e-3;
     const EngineRow& any = runs[scene][0];
     if (!over_time || !touched || !(any.window < duration * (1 - 1e-9))) continue;
-    const auto apart = differences_at_end(*over_time);
+    std::map<std::string, double> apart;  // m, at the end, by method
+    for (const EngineTimeRow& row : rows_of<EngineTimeRow>(*over_time))
+      if (row.difference) apart[row.method] = *row.difference;
     double least = INFINITY, most = 0;
     size_t rules = 0;
     for (const EngineRow& run : runs[scene])
@@ -64,8 +57,7 @@ std::vector<Finding> contact_findings(const Facts& facts) {
       }
     if (rules < 2) continue;
     for (const EngineRow& run : runs[scene])
-      if (apart.contains(run.method) && is_another_engine(run.method) && stands_for_its_engine(run.method) &&
-          run.method != position_based(family_of(run.method)))
+      if (apart.contains(run.method) && may_move_alike(run.method))
         out.push_back({.rule = "after-contact",
                        .scene = scene,
                        .method = ours,
@@ -78,17 +70,17 @@ std::vector<Finding> contact_findings(const Facts& facts) {
   return out;
 }
 
-std::vector<Finding> leaving_findings(const Table& table) {
+Findings leaving_findings(const Facts& facts) {
   std::map<std::string, std::map<double, double>> offs;  // by method and step: degrees
   std::vector<std::string> methods;
   double finest = INFINITY;
-  for (const LeavingRow& row : rows_of<LeavingRow>(table)) {
+  for (const LeavingRow& row : rows_of<LeavingRow>(facts.rows)) {
     finest = std::min(finest, row.step);
     if (!row.angle) continue;
     if (!offs.contains(row.method)) methods.push_back(row.method);
     offs[row.method][row.step] = *row.angle - row.angle_by_theory;
   }
-  std::vector<Finding> out;
+  Findings out;
   for (const std::string& method : methods) {
     const auto [step, off] = *offs[method].begin();
     if (step != finest) continue;
@@ -107,8 +99,8 @@ std::vector<Finding> leaving_findings(const Table& table) {
   return out;
 }
 
-std::vector<Finding> drape_findings(const Table& table) {
-  std::vector<DrapeRow> ends = rows_of<DrapeRow>(table);
+Findings drape_findings(const Facts& facts) {
+  std::vector<DrapeRow> ends = rows_of<DrapeRow>(facts.rows);
   std::erase_if(ends, [](const DrapeRow& row) {
     return row.scene != "drop-aside" || row.verdict != Verdict::ok ||
            (row.method != sticky_sphere && !stands_for_its_engine(row.method));
@@ -116,23 +108,13 @@ std::vector<Finding> drape_findings(const Table& table) {
   double finest = INFINITY;
   for (const DrapeRow& row : ends)
     if (row.method == ours) finest = std::min(finest, row.step);
-  std::vector<Finding> out;
+  Findings out;
   for (const DrapeRow& row : ends)
     if (std::abs(row.step / finest - 1) < 1e-6)
       out.push_back({.rule = row.creep ? "still-touches" : "slides-off",
                      .method = row.method,
                      .value = row.creep ? (*row.creep < 1e-6 ? 0 : *row.creep) : row.centre_height.value_or(0),
                      .words = {{"end", step_text(row.end)}}});
-  return out;
-}
-
-std::vector<Finding> probe_findings(const Facts& facts) {
-  std::vector<Finding> out;
-  cone(facts.rows, out);
-  for (const auto& [name, findings_of_table] :
-       {std::pair{LeavingRow::table, &leaving_findings}, {DrapeRow::table, &drape_findings}})
-    if (const Table* table = facts.rows.table(std::string(name)))
-      for (Finding& f : findings_of_table(*table)) out.push_back(std::move(f));
   return out;
 }
 

@@ -10,12 +10,12 @@
 
 namespace crosscheck {
 
-std::vector<Finding> limit_findings(const Facts& facts) {
+Findings limit_findings(const Facts& facts) {
   const std::vector<LimitRow> table = rows_of<LimitRow>(facts.rows);
   const auto count = [](size_t n) { return std::to_string(n); };
   const StepLimitCounts rest = step_limit_counts(table, LimitState::rest),
                         start = step_limit_counts(table, LimitState::start);
-  std::vector<Finding> out;
+  Findings out;
   if (rest.agreeing > 0)
     out.push_back({.rule = "step-limits",
                    .value = 100 * rest.deviation,
@@ -26,12 +26,11 @@ std::vector<Finding> limit_findings(const Facts& facts) {
   if (rest.apart > 0)
     out.push_back({.rule = "step-limits-apart",
                    .method = rest.method,
-                   .value = static_cast<double>(rest.apart),
+                   .value = double(rest.apart),
                    .words = {{"all", count(rest.all())}, {"where", rest.where}, {"how", rest.how}}});
   if (start.all() > 0)
-    out.push_back({.rule = "step-limits-apart.start",
-                   .value = static_cast<double>(start.apart),
-                   .words = {{"all", count(start.all())}}});
+    out.push_back(
+        {.rule = "step-limits-apart.start", .value = double(start.apart), .words = {{"all", count(start.all())}}});
   return out;
 }
 
@@ -39,7 +38,7 @@ namespace {
 
 /// Limits of scenes without rest, held against the truth on both sides. Where it does not confirm all, the one that is
 /// furthest off though it is called stable is named, or the one that is nearest though it is called failed.
-void limits_by_truth(const TableSet& rows, std::vector<Finding>& out) {
+void limits_by_truth(const TableSet& rows, Findings& out) {
   std::map<std::string, std::vector<LimitRow>> by_scene;
   for (LimitRow& row : rows_of<LimitRow>(rows))
     if (row.error_below && row.error_above && *row.motion > 0) by_scene[row.scene].push_back(std::move(row));
@@ -54,7 +53,7 @@ void limits_by_truth(const TableSet& rows, std::vector<Finding>& out) {
     out.push_back({.rule = "limits-by-truth",
                    .scene = scene,
                    .method = all ? "" : exception.method,
-                   .value = static_cast<double>(confirmed),
+                   .value = double(confirmed),
                    .words = {{"all", std::to_string(limits.size())},
                              {"below", all ? percent(below(off), 1) : ""},
                              {"above", percent(above(near), 1)},
@@ -65,7 +64,7 @@ void limits_by_truth(const TableSet& rows, std::vector<Finding>& out) {
 }
 
 /// Methods that fail at every step, as theory says.
-void without_stable_step(const TableSet& rows, std::vector<Finding>& out) {
+void without_stable_step(const TableSet& rows, Findings& out) {
   std::map<std::string, std::vector<std::string>> scenes_of;  // by method
   for (const LimitRow& row : rows_of<LimitRow>(rows))
     if (row.state == LimitState::rest && row.prediction == PredictionKind::no_step &&
@@ -74,12 +73,12 @@ void without_stable_step(const TableSet& rows, std::vector<Finding>& out) {
   for (const auto& [method, scenes] : scenes_of)
     out.push_back({.rule = "no-stable-step",
                    .method = method,
-                   .value = static_cast<double>(scenes.size()),
+                   .value = double(scenes.size()),
                    .words = {{"where", listed(scenes)}}});
 }
 
 /// The rates at which vibrations grow.
-void growth(const TableSet& rows, std::vector<Finding>& out) {
+void growth(const TableSet& rows, Findings& out) {
   Finding f{.rule = "growth", .value = -1};
   for (const GrowthRow& row : rows_of<GrowthRow>(rows))
     // growth near a limit is measured elsewhere
@@ -90,8 +89,8 @@ void growth(const TableSet& rows, std::vector<Finding>& out) {
 
 }  // namespace
 
-std::vector<Finding> stability_findings(const Facts& facts) {
-  std::vector<Finding> out;
+Findings stability_findings(const Facts& facts) {
+  Findings out;
   for (const auto part : {limits_by_truth, without_stable_step, growth}) part(facts.rows, out);
   return out;
 }

@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "experiments/tables/adequacy.h"
 #include "experiments/tables/sphere.h"
 #include "mysim/base/text.h"
 #include "report/findings/findings_text.h"
@@ -24,10 +23,9 @@ std::string residual_class(const EnergyRow& run) {
   return residual_bounded;
 }
 
-std::optional<PowerLaw> power_of(const TableSet& rows, const std::string& scene, const std::string& quantity) {
-  if (const Table* table = rows.table(std::string(ScalingRow::table)))
-    for (const ScalingRow& row : rows_of<ScalingRow>(*table))
-      if (row.scene == scene && name_of(row.quantity) == quantity) return PowerLaw{row.exponent, row.standard_error};
+std::optional<PowerLaw> power_of(const TableSet& rows, const std::string& scene, ScalingQuantity quantity) {
+  for (const ScalingRow& row : rows_of<ScalingRow>(rows))
+    if (row.scene == scene && row.quantity == quantity) return PowerLaw{row.exponent, row.standard_error};
   return std::nullopt;
 }
 
@@ -37,9 +35,7 @@ std::string power_text(const PowerLaw& power) {
 
 std::vector<LeastModel> least_models_of(const TableSet& rows, const std::string& scene) {
   std::vector<LeastModel> all;
-  const Table* table = rows.table(std::string(LeastModelRow::table));
-  if (!table) return all;
-  for (const LeastModelRow& row : rows_of<LeastModelRow>(*table)) {
+  for (const LeastModelRow& row : rows_of<LeastModelRow>(rows)) {
     if (row.scene != scene) continue;
     LeastModel least{std::string(name_of(row.tolerance_is)), row.left_out, row.holds, 0, 0, row.cost_of_full};
     for (const auto& error : {row.unseen_error_1, row.unseen_error_2, row.unseen_error_3}) {
@@ -144,7 +140,7 @@ StepLimitCounts step_limit_counts(const std::vector<LimitRow>& rows, LimitState 
     } else if (found->off) {
       ++counts.agreeing, counts.deviation = std::max(counts.deviation, std::abs(*found->off));
       counts.widest = std::max(counts.widest, bracket);
-      if (std::ranges::find(counts.scenes, row.scene) == counts.scenes.end()) counts.scenes.push_back(row.scene);
+      add_once(counts.scenes, row.scene);
     }
   }
   return counts;

@@ -7,6 +7,7 @@
 
 #include "experiments/adequacy/resolution.h"
 #include "experiments/experiment.h"
+#include "experiments/tables/adequacy.h"
 #include "experiments/tables/energy.h"
 #include "experiments/tables/stability.h"
 #include "report/findings/report_data.h"
@@ -23,12 +24,8 @@ inline bool is_bounded(const std::string& word) { return word == residual_bounde
 
 // Grids, from experiment `adequacy`: powers of the number of cells.
 
-inline constexpr auto motion_against_cells = "error of the motion against cells along a side",
-                      sag_stiffness = "stiffness of all springs for the same sag",
-                      droop_stiffness = "stiffness of bend springs for the same droop";
-
 /// The fitted power of a quantity from table `adequacy-scaling`; `scene` is empty for bend springs.
-std::optional<PowerLaw> power_of(const TableSet& rows, const std::string& scene, const std::string& quantity);
+std::optional<PowerLaw> power_of(const TableSet& rows, const std::string& scene, ScalingQuantity quantity);
 /// "4.24 ± 0.03"
 std::string power_text(const PowerLaw& power);
 

@@ -127,7 +127,7 @@ std::string sentence_of(const Finding& f) {
   return out;
 }
 
-std::string sentences_of(const std::vector<Finding>& findings) {
+std::string sentences_of(const Findings& findings) {
   std::string out;
   for (const Finding& f : findings) out += (out.empty() ? "" : " ") + sentence_of(f);
   return out;

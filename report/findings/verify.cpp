@@ -77,8 +77,7 @@ void compare(const JsonField& claimed, const Finding& now, const TableSet& rows,
   const std::vector<JsonField> rests_on = claimed["evidence"].elements();
   if (rests_on.size() != evidence.size()) return differs("it rests on other tables");
   for (size_t i = 0; i < evidence.size(); ++i)
-    if (rests_on[i]["table"].text() != evidence[i].table || rests_on[i]["rows"].json() != Json(evidence[i].rows) ||
-        rests_on[i]["fingerprint"].text() != evidence[i].fingerprint)
+    if (rests_on[i].json() != json_of(evidence[i]))
       differs(fmt::format("rows of table {} are not those that were reported", evidence[i].table));
 }
 
@@ -111,14 +110,9 @@ SentencesByKey findings_in(const fs::path& old) {
   SentencesByKey by_key;
   const JsonField json = read_json(old);
   try {
-    for (const JsonField& finding : json["findings"].elements()) {
-      const auto text_or_none = [&](const char* key) {  // reports of older versions do not have all
-        const auto found = finding.find(key);
-        return found ? found->text() : std::string();
-      };
-      by_key[{finding["scene"].text(), finding["rule"].text(), text_or_none("method"), text_or_none("other_method")}]
-          .push_back(finding["sentence"].text());
-    }
+    for (const JsonField& f : json["findings"].elements())
+      by_key[{f["scene"].text(), f["rule"].text(), f["method"].text(), f["other_method"].text()}].push_back(
+          f["sentence"].text());
   } catch (const InputError& error) {
     throw InputError(fmt::format("expected a finished report whose findings name their rules: {}", error.what()));
   }
@@ -126,8 +120,8 @@ SentencesByKey findings_in(const fs::path& old) {
 }
 
 bool rests_on_timings(const std::string& key) {
-  const auto found =
-      std::ranges::find(finding_rules(), std::string_view(key).substr(0, key.find('.')), &FindingRule::key);
+  const std::string_view rule = std::string_view(key).substr(0, key.find('.'));
+  const auto found = std::ranges::find(finding_rules(), rule, &FindingRule::key);  // none of an older version's
   return found != finding_rules().end() &&
          std::ranges::any_of(found->tables, [](std::string_view table) { return table.ends_with("-cost"); });
 }
@@ -135,24 +129,18 @@ bool rests_on_timings(const std::string& key) {
 }  // namespace
 
 std::vector<Change> changes_since(const fs::path& old, const AllFindings& now) {
-  const SentencesByKey before = findings_in(old);
-  SentencesByKey after;
+  SentencesByKey before = findings_in(old), after;
   std::vector<Key> order;  // of this report, then what is gone
   for (const Finding* f : now.each()) {
-    auto& sentences = after[{f->scene, f->rule, f->method, f->other}];
-    if (sentences.empty()) order.push_back({f->scene, f->rule, f->method, f->other});
-    sentences.push_back(sentence_of(*f));
+    const Key key{f->scene, f->rule, f->method, f->other};
+    if (!after.contains(key)) order.push_back(key);
+    after[key].push_back(sentence_of(*f));
   }
   for (const auto& [key, sentences] : before)
     if (!after.contains(key)) order.push_back(key);
-
   std::vector<Change> changes;
   for (const Key& key : order) {
-    const auto of = [&](const SentencesByKey& by_key) {
-      const auto found = by_key.find(key);
-      return found == by_key.end() ? std::vector<std::string>() : found->second;
-    };
-    std::vector<std::string> was = of(before), is = of(after);
+    std::vector<std::string>&was = before[key], &is = after[key];
     const size_t count = std::max(was.size(), is.size());
     was.resize(count), is.resize(count);
     for (size_t i = 0; i < count; ++i)

@@ -272,7 +272,7 @@ class Assembly {
         runs->scene = part.scene->name;
     if (runs->stage.empty() && runs->scene.empty()) return false;
     for (const RunFile& file : runs->files)
-      if (file.method != "truth") note_method(file.method);
+      if (file.method != "truth") add_once(page_.methods, file.method);
     page_.runs.push_back(std::move(*runs));
     return true;
   }
@@ -283,7 +283,7 @@ class Assembly {
       if (entry.heading.empty()) entry.heading = figure->title;
       write_figure_data(chart, page_.provenance, figures_);
       page_.charts[figure->name] = chart_json(chart);
-      note_methods(chart);
+      for (const std::string& method : methods_in(chart)) add_once(page_.methods, method);
       entry.figures.push_back({figure->name, figure->title, figure->finding + " " + without_commit(figure->caption)});
       if (add_runs(figure->runs)) entry.figures.back().runs = figure->runs;
     }
@@ -297,13 +297,6 @@ class Assembly {
     for (ScenePart& part : page_.scenes)
       if (part.scene->name == chart.scene)
         part.figures.insert(part.figures.end(), entry.figures.begin(), entry.figures.end());
-  }
-
-  void note_methods(const Chart& chart) {
-    for (const std::string& method : methods_in(chart)) note_method(method);
-  }
-  void note_method(const std::string& method) {
-    if (std::ranges::find(page_.methods, method) == page_.methods.end()) page_.methods.push_back(method);
   }
 
   void add_own_runs(const ScenePart& part) {

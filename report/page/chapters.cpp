@@ -16,7 +16,7 @@ Json figure_data(const PageFigure& figure, const PageContent& page) {
           {"runs", figure.runs}, {"hidden", false},       {"ways", std::move(ways)}};
 }
 
-Json findings_data(const std::vector<Finding>& findings) {
+Json findings_data(const Findings& findings) {
   Json list = Json::array();
   for (const Finding& f : findings) {
     const std::string tier = tier_of(f);
@@ -30,16 +30,13 @@ namespace {
 
 constexpr size_t most_folds = 6;  // in one chapter
 
-bool matches(const std::string& name, const std::string& pattern) {
+/// The part of a name in place of the pattern's star, empty without one; nothing where the name does not match.
+std::optional<std::string> starred_part(const std::string& name, const std::string& pattern) {
   const size_t star = pattern.find('*');
-  if (star == std::string::npos) return name == pattern;
-  return name.size() + 1 >= pattern.size() && name.starts_with(pattern.substr(0, star)) &&
-         name.ends_with(pattern.substr(star + 1));
-}
-
-/// The part of a matching name in place of the pattern's star.
-std::string starred_part(const std::string& name, const std::string& pattern) {
-  return name.substr(0, name.size() + 1 - std::min(name.size() + 1, pattern.size()));
+  if (star == std::string::npos) return name == pattern ? std::optional("") : std::nullopt;
+  const std::string before = pattern.substr(0, star), after = pattern.substr(star + 1);
+  if (name.size() < before.size() + after.size() || !name.starts_with(before) || !name.ends_with(after)) return {};
+  return name.substr(star, name.size() - before.size() - after.size());
 }
 
 /// A figure that opens a chapter.
@@ -56,8 +53,7 @@ std::vector<Lead> leads_of(const Chapter& chapter, const PageContent& c) {
     std::vector<Lead> leads;
     for (const Chapter::Entry& entry : chapter.entries)
       for (size_t i = 0; i < entry.figures.size(); ++i)
-        if (const std::string& name = entry.figures[i].name; matches(name, pattern))
-          leads.push_back({&entry, i, starred_part(name, pattern)});
+        if (const auto part = starred_part(entry.figures[i].name, pattern)) leads.push_back({&entry, i, *part});
     std::ranges::stable_partition(leads, [&](const Lead& lead) { return lead.choice == c.main_scene; });
     if (!leads.empty()) return leads;
   }
@@ -96,12 +92,13 @@ std::vector<Folded> folded(const Chapter& chapter, const std::vector<Lead>& lead
   for (const Chapter::Entry& given : chapter.entries) {
     if (given.shown) continue;
     const std::string name = given.figures.empty() ? given.heading : given.figures[0].name;
-    const auto pattern = std::ranges::find_if(chapter.folds, [&](const std::string& p) { return matches(name, p); });
+    const auto pattern =
+        std::ranges::find_if(chapter.folds, [&](const std::string& p) { return starred_part(name, p).has_value(); });
     Folded one{given.heading, given.heading, static_cast<size_t>(pattern - chapter.folds.begin()), given};
     for (const Chapter::Group& group : chapter.groups)
-      if (!given.figures.empty() && matches(name, group.figures)) {
+      if (const auto part = given.figures.empty() ? std::nullopt : starred_part(name, group.figures)) {
         one.fold = group.heading;
-        if (!group.titled) one.label = starred_part(name, group.figures);
+        if (!group.titled) one.label = *part;
       }
     if (const auto lead = std::ranges::find(leads, &given, &Lead::entry); lead != leads.end())
       one.entry.figures.erase(one.entry.figures.begin() + static_cast<long>(lead->figure)), one.entry.text.clear();
@@ -135,7 +132,7 @@ Json fold_data(const std::string& heading, const std::vector<Folded>& all, const
 /// The folds of a chapter: the findings, the relations, then its entries; the least of them share the last fold.
 Json folds_data(const Chapter& chapter, const std::vector<Lead>& leads, const PageContent& c, Folds& folds) {
   Json all = Json::array();
-  std::vector<Finding> said;
+  Findings said;
   for (const Finding& f : c.findings)
     if (const FindingRule& rule = finding_rule(f.rule);
         rule.topic != "answer" &&
@@ -148,8 +145,7 @@ Json folds_data(const Chapter& chapter, const std::vector<Lead>& leads, const Pa
                              relations_data(c.relations), "relations"));
   std::vector<Folded> rest = folded(chapter, leads);
   std::vector<std::string> headings;
-  for (const Folded& one : rest)
-    if (std::ranges::find(headings, one.fold) == headings.end()) headings.push_back(one.fold);
+  for (const Folded& one : rest) add_once(headings, one.fold);
   if (const size_t room = most_folds - all.size(); headings.size() > room) {
     const std::string more = "More figures and tables";
     for (Folded& one : rest) {
@@ -169,9 +165,10 @@ Json folds_data(const Chapter& chapter, const std::vector<Lead>& leads, const Pa
 Json critical_data(const PageContent& c) {
   for (const ScenePart& part : c.scenes) {
     const MethodData* m = part.facts->find(subject_method(is_symplectic_of_second_order));
-    if (part.scene->name == c.main_scene && m && m->limit && *m->limit > 0)
-      return {
-          {"scene", c.main_scene}, {"omega", nice(2 / *m->limit)}, {"step", fmt::format("{:.3g}", 1e3 * *m->limit)}};
+    if (part.scene->name == c.main_scene && m && m->step_limit && *m->step_limit > 0)
+      return {{"scene", c.main_scene},
+              {"omega", nice(2 / *m->step_limit)},
+              {"step", fmt::format("{:.3g}", 1e3 * *m->step_limit)}};
   }
   return nullptr;
 }
@@ -231,14 +228,11 @@ Json chapters_data(const PageContent& c, Folds& folds) {
 
 std::vector<std::string> figures_in_sight(const PageContent& c) {
   std::vector<std::string> shown;
-  const auto show = [&](const std::string& figure) {
-    if (std::ranges::find(shown, figure) == shown.end()) shown.push_back(figure);
-  };
   for (const Chapter& chapter : c.chapters) {
-    if (const std::vector<Lead> leads = leads_of(chapter, c); !leads.empty()) show(leads[0].of().name);
+    if (const std::vector<Lead> leads = leads_of(chapter, c); !leads.empty()) add_once(shown, leads[0].of().name);
     for (const Chapter::Entry& entry : chapter.entries)
       for (const PageFigure& figure : entry.figures)
-        if (entry.shown) show(figure.name);
+        if (entry.shown) add_once(shown, figure.name);
   }
   return shown;
 }

@@ -37,8 +37,7 @@ Json readouts_data(const ScenePart& part) {
   for (const ShownRun& run : part.runs) methods.push_back(run.method);
   for (const ShownRun& run : part.runs) {
     if (!run.beside) continue;
-    Json& readout = add(fmt::format("{}{}, {}", family_of(run.method).is_subject() ? "mysim " : "",
-                                    reader_name(run.method, methods), run.setting),
+    Json& readout = add(fmt::format("{}, {}", engine_and_reader_name(run.method, methods), run.setting),
                         run.error ? nice_length(*run.error) : "",
                         !run.error           ? "–"
                         : facts.tier.empty() ? "from that limit"
@@ -83,13 +82,15 @@ std::string certificates_matched(const PageContent& c) {
 
 }  // namespace
 
+std::string engine_and_reader_name(const std::string& method, const std::vector<std::string>& among) {
+  return (family_of(method).is_subject() ? "mysim " : "") + reader_name(method, among);
+}
+
 std::string beside_mysim(const PageContent& c) {
   std::vector<std::string> names;
   for (const ScenePart& part : c.scenes)
     for (const MethodData& m : part.facts->methods)
-      if (const std::string name = name_in_sentence(engine_of(m.method));
-          is_rival(m.method) && std::ranges::find(names, name) == names.end())
-        names.push_back(name);
+      if (is_rival(m.method)) add_once(names, name_in_sentence(engine_of(m.method)));
   return names.empty() ? "" : " beside " + joined(names);
 }
 

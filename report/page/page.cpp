@@ -79,8 +79,8 @@ Json changes_data(const PageContent& c) {
 Json scene_data(const ScenePart& part, const PageContent& c) {
   const Scene& scene = *part.scene;
   const SceneData& facts = *part.facts;
-  std::vector<Finding> shown = part.findings;
-  std::erase_if(shown, [](const Finding& f) { return finding_rule(f.rule).topic == recommendation_topic; });
+  Findings shown = part.findings;
+  std::erase_if(shown, [](const Finding& f) { return f.rule == "take"; });  // a row of a table
   Json data = findings_data(shown);
   data.update({{"name", scene.name},
                {"question", scene.question},
@@ -127,7 +127,7 @@ Json card_data(const ScenePart& part, const PageContent& c, Folds& folds) {
             {"held", folds.hold("scene", scene_data(part, c))}};
   if (part.take)
     card["take"] = {{"method", name_in_sentence(part.take->method)},
-                    {"setting", setting_text(std::string(name_of(part.take->setting)), part.take->requested)},
+                    {"setting", setting_text(name_of(part.take->setting), part.take->requested)},
                     {"error", percent(part.take->error, part.take->motion)}};
   return card;
 }
@@ -163,11 +163,9 @@ std::vector<std::pair<std::string, size_t>> blocks_of(const Json& page, const st
   std::vector<std::pair<std::string, size_t>> blocks{{"text and pictures", html.size()}};
   const auto count = [&](const std::string& block, size_t bytes) {
     blocks[0].second -= bytes;
-    const auto known = std::ranges::find(blocks, block, &std::pair<std::string, size_t>::first);
-    if (known == blocks.end())
-      blocks.emplace_back(block, bytes);
-    else
-      known->second += bytes;
+    auto known = std::ranges::find(blocks, block, &std::pair<std::string, size_t>::first);
+    if (known == blocks.end()) known = blocks.insert(known, {block, 0});
+    known->second += bytes;
   };
   for (const Json& element : page["data"])
     count(element["block"], element["text"].get_ref<const std::string&>().size());
@@ -211,13 +209,11 @@ std::string page_html(const PageContent& c, std::vector<std::pair<std::string, s
 
 namespace {
 
-Json evidence_json(const Evidence& e) { return {{"table", e.table}, {"rows", e.rows}, {"fingerprint", e.fingerprint}}; }
-
 Json finding_json(const Finding& f, const TableSet& result, const std::vector<std::string>& figures) {
   Json json = json_of(f);
   json["figure"] = figure_of(f.rule, f.scene, figures);
   json["evidence"] = Json::array();
-  for (const Evidence& e : evidence_of(f, result)) json["evidence"].push_back(evidence_json(e));
+  for (const Evidence& e : evidence_of(f, result)) json["evidence"].push_back(json_of(e));
   return json;
 }
 

@@ -53,7 +53,7 @@ struct ShownRun {
 struct ScenePart {
   const Scene* scene;
   const SceneData* facts;
-  std::vector<Finding> findings;
+  Findings findings;
   std::string motions;                    // its stage as JSON (report/player/stage.h); empty: pictures alone
   std::filesystem::path thumbnail, hero;  // .png, or empty
   std::vector<PageFigure> figures;
@@ -96,7 +96,7 @@ struct Chapter {
 };
 
 struct PageContent {
-  std::vector<Finding> findings;  // of the whole report
+  Findings findings;  // of the whole report
   std::vector<ScenePart> scenes;
   std::vector<Chapter> chapters;
   Json charts = Json::object();        // by the names of figures: what they draw (report/figures/chart_json.h)

@@ -31,13 +31,16 @@ Json image_data(const PageImage& image);
 Json figure_data(const PageFigure& figure, const PageContent& page);
 /// Data of table.html: a small table; empty columns are left out.
 Json table_data(const PageTable& table);
-Json findings_data(const std::vector<Finding>& findings);
+Json findings_data(const Findings& findings);
 /// Data of provenance.html.
 Json provenance_data(const Provenance& lines);
 
 /// Data for scripts: an element of the list that data.html writes. `block`: what its bytes are counted as.
 Json data_element(const std::string& block, const std::string& id, const std::string& text,
                   const char* type = "application/json");
+
+/// "mysim leapfrog": a method's name for readers behind that of its engine, among these.
+std::string engine_and_reader_name(const std::string& method, const std::vector<std::string>& among);
 
 /// Data of first-screen.html.
 Json first_screen_data(const PageContent& content);

@@ -13,6 +13,7 @@
 #include "mysim/base/json.h"
 #include "mysim/base/text.h"
 #include "report/base/assets.h"
+#include "report/findings/findings_text.h"
 #include "report/page/lab_html.h"
 #include "report/page/page_parts.h"
 #include "report/player/stage.h"
@@ -84,11 +85,9 @@ std::optional<PlayableRuns> PageRuns::take(const std::string& key, const std::st
     room_ -= weight;
     return false;
   });
-  if (runs.files.size() < count) {
-    const auto note =
-        fmt::format("of {} the runs of {} methods are too large for the page to play", key, count - runs.files.size());
-    if (std::ranges::find(notes, note) == notes.end()) notes.push_back(note);  // a report read again has it
-  }
+  if (runs.files.size() < count)  // once, as a report read again has it
+    add_once(notes, fmt::format("of {} the runs of {} methods are too large for the page to play", key,
+                                count - runs.files.size()));
   if (runs.files.empty()) return std::nullopt;
   return runs;
 }

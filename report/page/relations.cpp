@@ -35,9 +35,9 @@ std::string sentence_of_relation(const std::string& name) {
 /// "3e-3 J, 140 times the tolerance, since 0.4 s"; for a run that failed, its time.
 std::string size_of_break(const RelationRow& row) {
   std::string text;
-  if (row.measured) text = nice(*row.measured) + (row.unit == "1" ? "" : " " + row.unit);
   if (row.measured)
-    text += row.ratio ? fmt::format(", {} times the tolerance", times_text(*row.ratio)) : ", tolerance 0";
+    text = nice(*row.measured) + (row.unit == "1" ? "" : " " + row.unit) +
+           (row.ratio ? fmt::format(", {} times the tolerance", times_text(*row.ratio)) : ", tolerance 0");
   if (row.since) text += fmt::format("{}{:.2g} s", text.empty() ? "fails at " : ", since ", *row.since);
   return readable(text);
 }
@@ -70,11 +70,8 @@ Json relations_data(const std::vector<RelationRow>& rows) {
   if (rows.empty()) return nullptr;
   std::vector<std::string> methods, names;
   std::map<std::pair<std::string, std::string>, RelationMark> marks;  // by method and relation
-  const auto note = [](std::vector<std::string>& list, const std::string& name) {
-    if (std::ranges::find(list, name) == list.end()) list.push_back(name);
-  };
   for (const RelationRow& row : rows) {
-    note(methods, row.method), note(names, row.relation);
+    add_once(methods, row.method), add_once(names, row.relation);
     const auto [at, is_new] = marks.emplace(std::pair{row.method, row.relation}, row.mark);
     if (!is_new) at->second = worse_mark(at->second, row.mark);
   }

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <map>
+#include <set>
 
 #include "experiments/speed_accuracy/speed_accuracy.h"
 #include "experiments/tables/engines.h"
@@ -12,6 +13,7 @@
 #include "mysim/base/text.h"
 #include "mysim/run/contacts.h"
 #include "report/findings/findings_text.h"
+#include "report/page/page_parts.h"
 
 namespace crosscheck {
 namespace {
@@ -26,10 +28,9 @@ class Chooser {
       const int place = places[row.method]++;
       if (row.verdict != Verdict::ok || !holds(row.method)) continue;
       charted_.push_back({fmt::format("{} {}", row.method, place), row.method,
-                          setting_text(std::string(name_of(row.setting)), row.requested),
-                          row.error ? row.error : row.difference, cost_of(row), false,
+                          setting_text(name_of(row.setting), row.requested), row.error ? row.error : row.difference,
+                          cost_of(row), false,
                           Setting{row.setting == SettingKind::tolerance, row.requested}.applied_to(base_)});
-      requested_.push_back({row.setting, row.requested});
     }
   }
 
@@ -38,24 +39,27 @@ class Chooser {
     for (const MethodFamily* peer : default_peers()) add_own(std::string(peer->representative), true);
     for (const MethodData& m : part_.facts->methods)
       if (family_of(m.method).role == Role::outside) add_own(m.method, true);
+    // the subject's, or another's, where the representative did not run
     for (const bool of_subject : {true, false})
-      if (none_of(of_subject)) add_first(of_subject);
-    if (part_.take) add_charted(part_.take->method, part_.take->setting, part_.take->requested);
-    // the others in the order of what they cost
-    std::vector<const ShownRun*> best;
-    for (const ShownRun& run : charted_) {
-      if (std::ranges::any_of(chosen_, [&](const ShownRun& c) { return c.method == run.method; })) continue;
-      const auto same = std::ranges::find(best, run.method, [](const ShownRun* r) { return r->method; });
-      if (same == best.end())
-        best.push_back(&run);
-      else if (better(run, **same))
-        *same = &run;
+      for (const MethodData& m : part_.facts->methods)
+        if (family_of(m.method).is_subject() == of_subject && std::ranges::none_of(chosen_, [&](const ShownRun& run) {
+              return family_of(run.method).is_subject() == of_subject;
+            }))
+          add_own(m.method, true);
+    if (const auto& take = part_.take) {
+      const Run run = Setting{take->setting == SettingKind::tolerance, take->requested}.applied_to(base_);
+      for (const ShownRun& each : charted_)
+        if (each.method == take->method && each.run.step == run.step && each.run.tolerance == run.tolerance) add(each);
     }
-    std::ranges::sort(best, {}, [](const ShownRun* r) { return r->cpu.value_or(INFINITY); });
-    for (const ShownRun* run : best) add(*run);
+    std::vector<ShownRun> best = charted_;  // of each other method, in the order of what they cost
+    std::ranges::stable_sort(best, [this](const ShownRun& a, const ShownRun& b) { return better(a, b); });
+    std::set<std::string> methods;
+    for (const ShownRun& run : chosen_) methods.insert(run.method);
+    std::erase_if(best, [&](const ShownRun& run) { return !methods.insert(run.method).second; });
+    std::ranges::stable_sort(best, {}, [](const ShownRun& run) { return run.cpu.value_or(INFINITY); });
+    for (const ShownRun& run : best) add(run);
     for (const MethodData& m : part_.facts->methods)
-      if (m.ok() && std::ranges::none_of(chosen_, [&](const ShownRun& c) { return c.method == m.method; }))
-        add_own(m.method, false);
+      if (!methods.contains(m.method)) add_own(m.method, false);
     if (chosen_.size() > 9) chosen_.resize(9);
     return std::move(chosen_);
   }
@@ -68,7 +72,7 @@ class Chooser {
     const MethodData* m = part_.facts->find(method);
     if (m && m->ok() && family_of(method).role != Role::truth)
       add({method + " own", method, is_adaptive(method) ? "own tolerance" : step_text(m->step),
-           m->error ? m->error : m->from_contact, cost_at(*m), beside, base_, beside ? difference_of(*m) : ""});
+           m->error ? m->error : m->contact_difference, cost_at(*m), beside, base_, beside ? difference_of(*m) : ""});
   }
   /// "0.81 mm until 480 ms, 2.8 mm at the end"; empty unless another engine ran the subject's rule.
   std::string difference_of(const MethodData& m) const {
@@ -85,24 +89,10 @@ class Chooser {
   }
   /// Where a run of the chart took the same step, it was timed.
   std::optional<double> cost_at(const MethodData& m) const {
-    for (size_t i = 0; i < charted_.size(); ++i)
-      if (charted_[i].method == m.method && requested_[i].first == SettingKind::step &&
-          std::abs(requested_[i].second / m.step - 1) < 1e-9)
-        return charted_[i].cpu;
+    for (const ShownRun& run : charted_)
+      if (run.method == m.method && !is_adaptive(m.method) && std::abs(run.run.step / m.step - 1) < 1e-9)
+        return run.cpu;
     return std::nullopt;
-  }
-  void add_charted(const std::string& method, SettingKind setting, double requested) {
-    for (size_t i = 0; i < charted_.size(); ++i)
-      if (charted_[i].method == method && requested_[i] == std::pair{setting, requested}) add(charted_[i]);
-  }
-  /// The subject's, or another's, where the representative did not run.
-  void add_first(bool of_subject) {
-    for (const MethodData& m : part_.facts->methods)
-      if (family_of(m.method).is_subject() == of_subject && none_of(of_subject)) add_own(m.method, true);
-  }
-  bool none_of(bool of_subject) const {
-    return std::ranges::none_of(
-        chosen_, [&](const ShownRun& run) { return run.beside && family_of(run.method).is_subject() == of_subject; });
   }
   bool better(const ShownRun& run, const ShownRun& than) const {
     const auto within = [&](const ShownRun& r) { return r.error && *r.error <= 0.01 * part_.facts->motion; };
@@ -123,7 +113,6 @@ class Chooser {
   Run base_;  // at the scene's own step
   std::vector<SpeedAccuracyCostRow> costs_;
   std::vector<ShownRun> charted_, chosen_;
-  std::vector<std::pair<SettingKind, double>> requested_;
 };
 
 /// True if the lab runs a method: a rule of mysim without options that a browser lacks.
@@ -132,16 +121,6 @@ bool is_of_lab(const std::string& method) {
   return family_of(method).is_subject() && std::all_of(words.begin() + 1, words.end(), [](const std::string& word) {
            return contact_rule_of_option(word) || word == "linear";
          });
-}
-
-/// Engine and rule; an outside program goes by its own name.
-std::string engine_and_rule(const std::string& method, const std::vector<std::string>& beside) {
-  const MethodFamily& family = family_of(method);
-  if (family.role == Role::outside) return program_title(method, beside);
-  std::string rule = method.substr(method.find('/') + 1);
-  std::ranges::replace(rule, '-', ' ');
-  if (const size_t at = rule.find("euler"); at != std::string::npos) rule[at] = 'E';
-  return fmt::format("{} {}", family.title, rule);
 }
 
 }  // namespace
@@ -158,7 +137,7 @@ Json shown_runs_data(const ScenePart& part, bool lab) {
   Json all = Json::array();
   for (const ShownRun& run : part.runs)
     all.push_back({{"method", run.method},
-                   {"name", engine_and_rule(run.method, methods)},
+                   {"name", engine_and_reader_name(run.method, methods)},
                    {"setting", run.setting},
                    {"percent", run.error && motion > 0 ? percent(*run.error, motion) : "–"},
                    {"error", run.error ? nice_length(*run.error) : "–"},

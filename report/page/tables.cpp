@@ -67,10 +67,6 @@ bool is_number(const std::string& text) {
   return text.size() <= 12 && text.find_first_of("0123456789") <= 2 && !text.starts_with("1/");
 }
 
-void note(std::vector<std::string>& list, const std::string& name) {
-  if (std::ranges::find(list, name) == list.end()) list.push_back(name);
-}
-
 }  // namespace
 
 Json table_data(const PageTable& given) {
@@ -100,7 +96,7 @@ Json run_table_data(const ScenePart& part) {
     Json row = Json::array({verdict_cell(m, *part.facts), cell(length_text(m.error, part.facts->error_bar)),
                             cell(length_text(m.difference))});
     if (contact)
-      for (const std::string& text : {length_text(m.centres), m.clearance ? signed_length(*m.clearance) : "",
+      for (const std::string& text : {length_text(m.centre_difference), m.clearance ? signed_length(*m.clearance) : "",
                                       m.creep ? nice(1e3 * *m.creep) + " mm/s" : ""})
         row.push_back(cell(text));
     row.push_back(cell(m.energy_error ? nice(100 * *m.energy_error) + " %" : ""));
@@ -118,7 +114,7 @@ Json statistics_data(const Table& given) {
     if (!spread) continue;  // a single run
     const std::string quantity = text_at(given, i, "quantity"), method = text_at(given, i, "method"),
                       unit = text_at(given, i, "unit");
-    note(quantities, quantity), note(methods, method);
+    add_once(quantities, quantity), add_once(methods, method);
     texts[{quantity, method}] = fmt::format("{} {} ± {}", with_digits_of(*number_at(given, i, "mean"), *spread), unit,
                                             unit == "m" ? nice_length(*spread) : nice(*spread) + " " + unit);
   }
@@ -153,7 +149,7 @@ Json parity_data(const std::vector<ScenePart>& scenes) {
   size_t all = 0, matched = 0;
   for (const ScenePart& part : scenes)
     for (const Certificate* certificate : part.certificates) {
-      note(methods, certificate->method);
+      add_once(methods, certificate->method);
       for (const CertificateRow& row : certificate->rows) ++all, matched += row.parity == Parity::match;
     }
   if (methods.empty()) return nullptr;
@@ -183,7 +179,7 @@ Json recommendations_data(const std::vector<ScenePart>& scenes) {
   std::vector<std::string> engines;  // beside mysim; where there is one, the column is named after it
   for (const ScenePart& part : scenes)
     if (part.take)
-      for (const EngineBeside& other : part.take->beside) note(engines, other.engine);
+      for (const EngineBeside& other : part.take->beside) add_once(engines, other.engine);
   const std::string others = engines.size() == 1 ? name_in_sentence(engines[0]) : "others";
   Json all = table("", Json::array({cell("scene"), cell("take", "text"), cell("step or tolerance"), cell("error"),
                                     cell("force evaluations"), cell("CPU time"), cell("× real time"),
@@ -191,16 +187,15 @@ Json recommendations_data(const std::vector<ScenePart>& scenes) {
   for (const ScenePart& part : scenes) {
     if (!part.take) continue;
     const RecommendedRun& run = *part.take;
-    std::vector<std::string> tied, beside;
-    for (const std::string& method : run.tied) tied.push_back(name_in_sentence(method));
+    std::vector<std::string> beside;
     for (const EngineBeside& other : run.beside)
       beside.push_back((engines.size() == 1 ? "" : name_in_sentence(other.engine) + " ") +
                        (other.timed_whole && run.timed_whole ? "" : "≈ ") + times_text(other.times));
     const double factor = part.scene->duration / run.cost;
     add_row(all, run.method, cell(part.scene->name, "", "link", part.scene->name),
             Json::array({cell(name_in_sentence(run.method), "text best", "note",
-                              tied.empty() ? "" : "tied in cost: " + joined(tied)),
-                         cell(setting_text(std::string(name_of(run.setting)), run.requested), "number"),
+                              run.tied.empty() ? "" : "tied in cost: " + joined(names_in_sentence(run.tied))),
+                         cell(setting_text(name_of(run.setting), run.requested), "number"),
                          cell(percent(run.error, run.motion)), cell(count_text(run.evaluations), "number"),
                          cell((run.timed_whole ? "" : "≈ ") + step_text(run.cost), "number"),
                          cell(factor >= 10 ? times_text(factor) : fmt::format("{:.2g}", factor)),

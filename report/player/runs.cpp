@@ -76,9 +76,9 @@ Json packed_run(const std::vector<Points>& x, double unit, std::string& bytes) {
 
 /// Times (s): the first and the last of frames that are evenly apart, else all.
 Json times_json(const std::vector<double>& t) {
-  const double apart = (t.back() - t.front()) / static_cast<double>(std::max<size_t>(1, t.size() - 1));
+  const double apart = (t.back() - t.front()) / double(std::max<size_t>(1, t.size() - 1));
   for (size_t i = 0; i < t.size(); ++i)
-    if (std::abs(t[i] - t[0] - apart * static_cast<double>(i)) > 1e-3 * apart) return t;
+    if (std::abs(t[i] - t[0] - apart * double(i)) > 1e-3 * apart) return t;
   return {t.front(), t.back()};
 }
 

@@ -89,7 +89,8 @@ export class MotionPlayer extends HTMLElement {
   time = 0;  // s
   begin = 0;
   end = 0;
-  top = 0;  // m, of the scale of differences; 0: none is above the resolution
+  settled = Infinity;  // s: from then on all motions keep below 2 % of their largest kinetic energy
+  top = 0;             // m, of the scale of differences; 0: none is above the resolution
   seen = false;
   private controls: typeof noControls = noControls;
   private orbit!: Orbit;
@@ -192,16 +193,6 @@ export class MotionPlayer extends HTMLElement {
     if (!performance.getEntriesByName('first-motion').length) performance.mark('first-motion');
   }
 
-  /** Time (s) from which on all motions keep below 2 % of their largest kinetic energy; the end without energies. */
-  get settled() {
-    const known = this.motions.filter(motion => motion.energy.some(e => e !== null));
-    if (known.length === 0) return this.end;
-    return Math.max(...known.map(motion => {
-      const least = 0.02 * Math.max(...motion.energy.map(e => e ?? 0));
-      return motion.times[motion.energy.reduce((last: number, e, i) => ((e ?? 0) > least ? i : last), 0)];
-    }));
-  }
-
   /** Gathers the motions that are shown. */
   private async load() {
     const keys = this.hero ?? (this.picks ? [this.picks.a, this.picks.b] : []), letters = this.picks ? ['A', 'B'] : [];
@@ -212,6 +203,11 @@ export class MotionPlayer extends HTMLElement {
     this.motions = motions.filter((motion): motion is Motion => motion !== null);
     this.letters = letters.filter((_, i) => motions[i]);
     this.truth = truth;
+    const known = this.motions.filter(motion => motion.energy.some(e => e !== null));
+    this.settled = known.length === 0 ? Infinity : Math.max(...known.map(motion => {
+      const least = 0.02 * Math.max(...motion.energy.map(e => e ?? 0));
+      return motion.times[motion.energy.reduce((last: number, e, i) => ((e ?? 0) > least ? i : last), 0)];
+    }));
     this.arrange();
   }
 

@@ -33,8 +33,14 @@ MethodData run(const std::string& method, std::optional<double> error, Verdict v
   return m;
 }
 
+Findings answer_findings(const std::vector<Scene>& scenes, const std::vector<SceneData>& data, const TableSet& rows) {
+  Findings all = found_by_rules({rows, scenes, data}, false);
+  std::erase_if(all, [](const Finding& f) { return finding_rule(f.rule).topic != "answer"; });
+  return all;
+}
+
 void set_round_off(SceneData& f, std::optional<double> bound) {
-  for (MethodData& m : f.methods) m.round_off = bound;
+  for (MethodData& m : f.methods) m.round_off_bound = bound;
 }
 
 SceneData facts(std::vector<MethodData> methods) {
@@ -90,7 +96,7 @@ TEST_F(OfAScene, NothingIsSaidBelowTheErrorBar) {
 TEST_F(OfAScene, FailuresAreCountedAndTheFirstIsNamed) {
   SceneData f = facts({run("mysim/rk4", 1e-4), run("mysim/explicit-euler", {}, Verdict::energy),
                        run("mysim/trapezoidal", {}, Verdict::stretch), run("bullet/pbd", {}, Verdict::unsupported)});
-  f.methods[1].end = 2, f.methods[2].end = 1, f.methods[2].limit = 1e-4;
+  f.methods[1].end = 2, f.methods[2].end = 1, f.methods[2].step_limit = 1e-4;
   const Finding failed = the(said(f), "failed");
   EXPECT_EQ(failed.value, 2);
   EXPECT_EQ(failed.method, "mysim/trapezoidal");
@@ -131,7 +137,7 @@ TEST_F(OfAScene, AgreementOfAProgramIsJudgedByTheRuleFound) {
   EXPECT_EQ(the(said(f), "same-rule.unknown").value, 1e-9);
   f.methods[1].same_rule = true;
   EXPECT_EQ(the(said(f), "same-rule.differs").value, 1e-9);
-  f.methods[1].round_off = 1e-8;  // in single precision
+  f.methods[1].round_off_bound = 1e-8;  // in single precision
   EXPECT_EQ(the(said(f), "same-rule").value, 1e-9);
   f.methods[1].same_rule = false;
   EXPECT_EQ(the(said(f), "same-rule.different").other, "exec:./mine");
@@ -454,7 +460,7 @@ TEST_F(Answers, NameTheReadersProgram) {
     std::vector<SceneData> facts = facts_;
     facts[1].methods.push_back(run("exec:./mine", 1e-3));
     facts[1].methods.back().difference = difference, facts[1].methods.back().same_rule = same_rule;
-    facts[1].methods.back().round_off = 1e-9;
+    facts[1].methods.back().round_off_bound = 1e-9;
     const std::vector<Finding> all = answer_findings(scenes_, facts, full());
     EXPECT_EQ(all[0].rule,
               same_rule && difference > 1e-9 && *same_rule ? "answer-agreement.no" : "answer-agreement.yes");
@@ -494,7 +500,7 @@ TEST_F(Answers, WithoutBulletTheyAreOfTheEngineThatIsThere) {
     std::erase_if(each.methods,
                   [](const MethodData& m) { return family_of(m.method).by_default() && m.method != ours; });
     each.methods.push_back(run("exec:./bin/mine", 2e-3));
-    each.methods.back().difference = 1e-4, each.methods.back().round_off = 1e-9;
+    each.methods.back().difference = 1e-4, each.methods.back().round_off_bound = 1e-9;
   }
   const std::vector<Finding> all = answers({});
   expect_short(all);
@@ -595,7 +601,7 @@ TEST(SphereFindings, LeavingAnglesByEngineAndWhoGetsWorse) {
     for (const auto& [step, angle] : {std::pair{1e-3, coarse}, {1e-4, fine}})
       add(t, LeavingRow{.method = method, .reason = "", .step = step, .angle = angle, .angle_by_theory = 55});
   add(t, LeavingRow{.method = sticky_sphere, .reason = "", .step = 1e-4, .angle_by_theory = 55});
-  const auto all = leaving_findings(t);
+  const auto all = leaving_findings(TableSet{{t}});
   expect_short(all);
   ASSERT_EQ(all.size(), 2u);
   EXPECT_EQ(all[0].method, "mysim/rk4") << "the furthest of mysim";
@@ -603,7 +609,7 @@ TEST(SphereFindings, LeavingAnglesByEngineAndWhoGetsWorse) {
   EXPECT_NEAR(all[1].value, -1.6, 1e-9);
   EXPECT_TRUE(says(sentence_of(all[1]), {"pbd", "-1.6 degrees", "100 µs", "-0.2 degrees", "1 ms"}));
   t.rows.clear();
-  EXPECT_TRUE(leaving_findings(t).empty());
+  EXPECT_TRUE(leaving_findings(TableSet{{t}}).empty());
 }
 
 TEST(SphereFindings, TheDrapeSaysWhoLeftTheBallAndWhoTouchesIt) {
@@ -621,14 +627,14 @@ TEST(SphereFindings, TheDrapeSaysWhoLeftTheBallAndWhoTouchesIt) {
   };
   end(ours, 2e-3, -0.7, {}), end(ours, 1e-3, -0.7, {}), end(theirs, 1e-3, 0, {}, Verdict::energy);
   end(position_based(), 1e-3, 0.3, 0.0208), end(sticky_sphere, 1e-3, 0.3, 0.);
-  const auto all = drape_findings(t);
+  const auto all = drape_findings(TableSet{{t}});
   expect_short(all);
   EXPECT_EQ(rules_of(all), (std::vector<std::string>{"slides-off", "still-touches", "still-touches"}));
   EXPECT_EQ(all[0].value, -0.7);
   EXPECT_EQ(all[1].method, position_based());
   EXPECT_EQ(all[1].value, 0.0208);
   EXPECT_EQ(all[2].value, 0);
-  EXPECT_TRUE(drape_findings(table_of<DrapeRow>()).empty());
+  EXPECT_TRUE(drape_findings(TableSet{{table_of<DrapeRow>()}}).empty());
 }
 
 TEST(SharedWords, NumbersHaveOneStyle) {
