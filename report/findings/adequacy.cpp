@@ -12,15 +12,24 @@ namespace crosscheck {
 namespace {
 
 /// A scene's least model at one tolerance; nothing where other starts may need less.
-std::optional<Finding> finding_of(const LeastModel& least, const std::string& scene, const std::string& until) {
+std::optional<Finding> finding_of(const LeastModelRow& least, const std::string& until) {
   if (least.left_out.empty() && !least.holds) return std::nullopt;
-  Finding f{.rule = least.left_out.empty() ? "least-model.full"
-                    : least.holds          ? "least-model"
-                                           : "least-model-fails",
-            .scene = scene};
-  f.value = least.holds ? 100 * (1 - least.cost) : least.failing;
-  f.words = {{"gone", ingredients_text(least.left_out)}, {"starts", std::to_string(least.starts)}, {"until", until}};
-  return f;
+  const auto unseen = {least.unseen_error_1, least.unseen_error_2, least.unseen_error_3};
+  const auto fails = [&](const auto& error) { return !(error.value_or(INFINITY) <= least.tolerance); };
+  return Finding{
+      .rule = least.left_out.empty() ? "least-model.full"
+              : least.holds          ? "least-model"
+                                     : "least-model-fails",
+      .scene = least.scene,
+      .value = least.holds ? 100 * (1 - least.cost_of_full) : double(std::ranges::count_if(unseen, fails)),
+      .words = {
+          {"gone", ingredients_text(least.left_out)}, {"starts", std::to_string(unseen.size())}, {"until", until}}};
+}
+
+std::string text_of(ToleranceKind tolerance) {
+  return tolerance == ToleranceKind::of_scene              ? "the scene's tolerance"
+         : tolerance == ToleranceKind::hundredth_of_motion ? "1 %"
+                                                           : "10 %";
 }
 
 }  // namespace
@@ -29,19 +38,20 @@ std::optional<Finding> finding_of(const LeastModel& least, const std::string& sc
 Findings adequacy_findings(const Facts& facts) {
   Findings out;
   std::vector<std::string> scenes, whole;
-  for (const LeastModelRow& row : rows_of<LeastModelRow>(facts.rows)) add_once(scenes, row.scene);
+  const std::vector<LeastModelRow> table = rows_of<LeastModelRow>(facts.rows);
+  for (const LeastModelRow& row : table) add_once(scenes, row.scene);
   for (const std::string& scene : scenes) {
     const auto known = std::ranges::find(facts.scenes, scene, &Scene::name);
     const std::string until = known == facts.scenes.end() ? "" : step_text(known->window);
     Findings found;
     std::vector<std::vector<std::string>> tolerances;
-    for (const LeastModel& least : least_models_of(facts.rows, scene)) {
-      const auto f = finding_of(least, scene, until);
+    for (const LeastModelRow& least : table) {
+      const auto f = least.scene == scene ? finding_of(least, until) : std::nullopt;
       if (!f) continue;
       if (found.empty() || found.back().rule != f->rule || found.back().value != f->value ||
           found.back().words != f->words)
         found.push_back(*f), tolerances.emplace_back();
-      tolerances.back().push_back(least.of_motion(1) ? "1 %" : least.of_motion(10) ? "10 %" : "the scene's tolerance");
+      tolerances.back().push_back(text_of(least.tolerance_is));
     }
     if (found.size() == 1 && found[0].rule == "least-model.full") {
       whole.push_back(scene);

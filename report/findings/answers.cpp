@@ -332,10 +332,11 @@ Findings model_answer(const Facts& facts) {
   if (!scene) return {};
   std::string one, ten;
   double cost = 1;
-  for (const LeastModel& least : least_models_of(facts.rows, scene->name)) {
-    if (!least.holds) continue;
-    if (least.of_motion(1)) one = ingredients_text(least.left_out, 1);
-    if (least.of_motion(10)) ten = ingredients_text(least.left_out, 2), cost = least.cost;
+  for (const LeastModelRow& least : rows_of<LeastModelRow>(facts.rows)) {
+    if (least.scene != scene->name || !least.holds) continue;
+    if (least.tolerance_is == ToleranceKind::hundredth_of_motion) one = ingredients_text(least.left_out, 1);
+    if (least.tolerance_is == ToleranceKind::tenth_of_motion)
+      ten = ingredients_text(least.left_out, 2), cost = least.cost_of_full;
   }
   if (one.empty() || ten.empty()) return {};
   return {{.rule = ten == "nothing" ? "answer-model.none" : "answer-model.some",

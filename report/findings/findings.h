@@ -70,8 +70,6 @@ struct FindingText {
 };
 /// All texts by key. Throws std::runtime_error that names file and line where one is not of that form.
 const std::map<std::string, FindingText>& finding_texts();
-/// The names in braces of a sentence.
-std::vector<std::string> placeholders_of(const std::string& sentence);
 
 /// Throws std::logic_error where the text names what the finding does not have.
 std::string sentence_of(const Finding& finding);

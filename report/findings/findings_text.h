@@ -30,7 +30,7 @@ bool stands_for_its_engine(const std::string& method);
 bool is_another_engine(const std::string& method);
 /// The same without others' integrators on our right-hand side.
 bool is_rival(const std::string& method);
-/// Whether it stands for another engine by a rule that is not position-based, so that its motion may be the same.
+/// True if it stands for another engine by a rule that is not position-based, so that its motion may be the same.
 bool may_move_alike(const std::string& method);
 inline bool is_implicit(const Stepper& s) { return s.evaluations == 0; }
 inline bool never_stable_undamped(const Stepper& s) { return s.order == 1 && s.limit(1, 0) == 0; }

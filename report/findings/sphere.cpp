@@ -28,42 +28,36 @@ Findings cone_findings(const Facts& facts) {
 /// contact rule and show how far positions can be predicted. These are of an order above one and stable without
 /// damping: Heun adds energy.
 Findings contact_findings(const Facts& facts) {
-  std::map<std::string, std::vector<EngineRow>> runs;  // by scene
   std::vector<std::string> scenes;
-  for (EngineRow& run : rows_of<EngineRow>(facts.rows))
-    if (run.verdict == Verdict::ok) {
-      if (!runs.contains(run.scene)) scenes.push_back(run.scene);
-      runs[run.scene].push_back(std::move(run));
-    }
+  for (const EngineRow& run : rows_of<EngineRow>(facts.rows)) add_once(scenes, run.scene);
   Findings out;
   for (const std::string& scene : scenes) {
-    const Table* over_time = facts.rows.table(scene + "-engines");
+    SceneData data = scene_data(scene, facts.rows);
+    std::erase_if(data.methods, [](const MethodData& m) { return !m.ok(); });
     double duration = 0;
-    bool touched = false;
-    for (const EngineRow& run : runs[scene])
-      duration = std::max(duration, run.end), touched |= run.clearance.value_or(1) < 1e-3;
-    const EngineRow& any = runs[scene][0];
-    if (!over_time || !touched || !(any.window < duration * (1 - 1e-9))) continue;
+    for (const MethodData& run : data.methods) duration = std::max(duration, run.end);
+    const Table* over_time = facts.rows.table(scene + "-engines");
+    if (!over_time || !data.touched() || !(data.window < duration * (1 - 1e-9))) continue;
     std::map<std::string, double> apart;  // m, at the end, by method
     for (const EngineTimeRow& row : rows_of<EngineTimeRow>(*over_time))
       if (row.difference) apart[row.method] = *row.difference;
     double least = INFINITY, most = 0;
     size_t rules = 0;
-    for (const EngineRow& run : runs[scene])
+    for (const MethodData& run : data.methods)
       if (const Method* m = builtin_method(run.method);
           m && m->stepper && m->stepper->order >= 2 && m->stepper->limit(1, 0) > 0 && apart.contains(run.method)) {
         ++rules;
         least = std::min(least, apart.at(run.method)), most = std::max(most, apart.at(run.method));
       }
     if (rules < 2) continue;
-    for (const EngineRow& run : runs[scene])
+    for (const MethodData& run : data.methods)
       if (apart.contains(run.method) && may_move_alike(run.method))
         out.push_back({.rule = "after-contact",
                        .scene = scene,
                        .method = ours,
                        .other = run.method,
                        .value = apart.at(run.method),
-                       .words = {{"window", step_text(any.window)},
+                       .words = {{"window", step_text(data.window)},
                                  {"rules", std::to_string(rules)},
                                  {"own", range(nice_length(least), nice_length(most))}}});
   }

@@ -33,20 +33,6 @@ std::string power_text(const PowerLaw& power) {
   return fmt::format("{:.2f} ± {:.2f}", power.exponent, power.deviation);
 }
 
-std::vector<LeastModel> least_models_of(const TableSet& rows, const std::string& scene) {
-  std::vector<LeastModel> all;
-  for (const LeastModelRow& row : rows_of<LeastModelRow>(rows)) {
-    if (row.scene != scene) continue;
-    LeastModel least{std::string(name_of(row.tolerance_is)), row.left_out, row.holds, 0, 0, row.cost_of_full};
-    for (const auto& error : {row.unseen_error_1, row.unseen_error_2, row.unseen_error_3}) {
-      ++least.starts;
-      least.failing += !(error.value_or(INFINITY) <= row.tolerance);
-    }
-    all.push_back(std::move(least));
-  }
-  return all;
-}
-
 std::string ingredients_text(const std::string& left_out, size_t most) {
   if (left_out.empty()) return "nothing";
   std::vector<std::string> all;

@@ -29,20 +29,6 @@ std::optional<PowerLaw> power_of(const TableSet& rows, const std::string& scene,
 /// "4.24 ± 0.03"
 std::string power_text(const PowerLaw& power);
 
-// The least models of scenes, from table `adequacy-least`.
-
-/// The least model that was found within one tolerance.
-struct LeastModel {
-  std::string tolerance;  // "the scene's own", "1 % of its motion", "10 % of its motion"
-  std::string left_out;   // "shear springs, bend springs"; empty: nothing
-  bool holds;             // from starts that the search had not seen, too
-  int failing, starts;    // of these starts, how many are beyond the tolerance, of how many
-  double cost;            // of the full model's
-  bool of_motion(int percent) const { return tolerance.starts_with(std::to_string(percent) + " %"); }
-};
-/// From the strictest tolerance of the table on, in its order; empty where the scene was not run.
-std::vector<LeastModel> least_models_of(const TableSet& rows, const std::string& scene);
-
 /// "bend and shear springs" of "bend springs, shear springs", "nothing", or of more than `most` "4 ingredients".
 std::string ingredients_text(const std::string& left_out, size_t most = 3);
 

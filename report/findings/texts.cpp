@@ -106,13 +106,6 @@ const std::map<std::string, FindingText>& finding_texts() {
   return texts;
 }
 
-std::vector<std::string> placeholders_of(const std::string& sentence) {
-  std::vector<std::string> names;
-  for (size_t at = sentence.find('{'); at != std::string::npos; at = sentence.find('{', at + 1))
-    names.push_back(sentence.substr(at + 1, sentence.find('}', at) - at - 1));
-  return names;
-}
-
 std::string sentence_of(const Finding& f) {
   const std::string& text = text_of(f).sentence;
   std::string out;

@@ -44,10 +44,6 @@ std::string page_script(const std::string& bundle) {
   return content_of_file(programs_folder() / "page" / (bundle + ".js"));
 }
 
-std::string page_head(const std::string& title) {
-  return filled("head", {{"title", title}, {"styles", page_styles()}});
-}
-
 std::vector<std::string> figures_of(const PageContent& c) {
   std::vector<std::string> names;
   for (const Chapter& chapter : c.chapters)

@@ -96,7 +96,7 @@ struct Chapter {
 };
 
 struct PageContent {
-  Findings findings;  // of the whole report
+  Findings findings;  // on all scenes together
   std::vector<ScenePart> scenes;
   std::vector<Chapter> chapters;
   Json charts = Json::object();        // by the names of figures: what they draw (report/figures/chart_json.h)
@@ -128,8 +128,6 @@ std::string page_html(const PageContent& content, std::vector<std::pair<std::str
 /// std::runtime_error if it was not built.
 std::string page_styles();
 std::string page_script(const std::string& bundle);
-/// The beginning of a page, up to its contents.
-std::string page_head(const std::string& title);
 
 /// Text made safe for HTML.
 std::string escaped(const std::string& text);

@@ -51,7 +51,7 @@ class Chooser {
       for (const ShownRun& each : charted_)
         if (each.method == take->method && each.run.step == run.step && each.run.tolerance == run.tolerance) add(each);
     }
-    std::vector<ShownRun> best = charted_;  // of each other method, in the order of what they cost
+    std::vector<ShownRun> best = charted_;  // one of each other method, in the order of their costs
     std::ranges::stable_sort(best, [this](const ShownRun& a, const ShownRun& b) { return better(a, b); });
     std::set<std::string> methods;
     for (const ShownRun& run : chosen_) methods.insert(run.method);

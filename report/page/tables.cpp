@@ -18,8 +18,7 @@ Json cell(const std::string& text, const std::string& css_class = "") {
           {"class", text.empty() ? "none" : css_class},
           {"link", ""},
           {"note", ""},  // beside the text, in grey
-          {"law", ""},   // which other law the method has
-          {"title", ""}};
+          {"law", ""}};  // which other law the method has
 }
 Json cell(const std::string& text, const std::string& css_class, const char* key, const std::string& value) {
   Json made = cell(text, css_class);

@@ -162,22 +162,19 @@ Json cells_of_map(const RecordedRuns& recorded, std::string& bytes) {
   return json;
 }
 
-std::string path_of(const std::string& set, const std::string& method, const char* ending) {
-  return fmt::format("runs/{}/{}{}", file_name_of(set), file_name_of(method), ending);
-}
-
-constexpr const char *ending = ".u16.gz", *ending_of_entry = ".json";
+constexpr auto ending_of_entry = ".json";
 
 void write_runs(const fs::path& report, const Scene& scene, const std::string& of, const std::string& method,
                 const std::string& note, const Json& runs, const std::string& bytes) {
   if (bytes.empty()) return;
-  const std::string set = scene.name + "-" + of, file = path_of(set, method, ending);
+  const std::string set = scene.name + "-" + of,
+                    path = fmt::format("runs/{}/{}", file_name_of(set), file_name_of(method)), file = path + ".u16.gz";
   const int n = scene.model.particles.size();
   Json entry{{"set", set}, {"scene", scene.name}, {"method", method}, {"file", file}, {"particles", n}};
   if (!note.empty()) entry["note"] = note;
   entry["runs"] = runs;
   write_file(report / file, bytes);
-  write_file(report / path_of(set, method, ending_of_entry), dump(entry));
+  write_file(report / (path + ending_of_entry), dump(entry));
 }
 
 }  // namespace

@@ -292,8 +292,8 @@ class PlayerPage : public testing_tools::InBrowser {
         filled("image", image_data({folder_ / "poster.png", "the poster", ""})), scene.name, methods.back(),
         methods.front());
     const std::string test = scripts({"stage_selftest.js", "player_selftest.js"});
-    std::string html =
-        page_head(scene.name) + player + played.html() + "<script>" + page_script("app") + "</script></body></html>";
+    std::string html = filled("head", {{"title", scene.name}, {"styles", page_styles()}}) + player + played.html() +
+                       "<script>" + page_script("app") + "</script></body></html>";
     return write("page.html", html.insert(html.find("</head>"), test));
   }
 };

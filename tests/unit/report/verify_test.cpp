@@ -67,6 +67,14 @@ TEST_F(ReadCsv, SaysWhatIsWrongAndWhere) {
   }
 }
 
+/// The names in braces of a sentence.
+std::vector<std::string> placeholders_of(const std::string& sentence) {
+  std::vector<std::string> names;
+  for (size_t at = sentence.find('{'); at != std::string::npos; at = sentence.find('{', at + 1))
+    names.push_back(sentence.substr(at + 1, sentence.find('}', at) - at - 1));
+  return names;
+}
+
 TEST(FindingRules, HaveTextsAndTheseAskForNothingElse) {
   std::set<std::string_view> keys, of_texts;
   for (const FindingRule& rule : finding_rules()) {
