@@ -13,6 +13,7 @@
 #include "mysim/base/files.h"
 #include "mysim/base/json.h"
 #include "mysim/base/text.h"
+#include "report/base/assets.h"
 #include "report/base/provenance.h"
 #include "report/figures/charts.h"
 #include "report/figures/figure.h"
@@ -46,52 +47,15 @@ FigureSize figure_size(const std::string& set, const std::string& width) {
 }
 
 std::string latex(const std::string& text) {
-  constexpr std::pair<const char*, const char*> table[] = {{"\\", "\\textbackslash{}"},
-                                                           {"%", "\\%"},
-                                                           {"_", "\\_"},
-                                                           {"&", "\\&"},
-                                                           {"#", "\\#"},
-                                                           {"$", "\\$"},
-                                                           {"{", "\\{"},
-                                                           {"}", "\\}"},
-                                                           {"~", "\\textasciitilde{}"},
-                                                           {"^", "\\textasciicircum{}"},
-                                                           {"<", "$<$"},
-                                                           {">", "$>$"},
-                                                           {"µ", "$\\mu$"},
-                                                           {"ω", "$\\omega$"},
-                                                           {"±", "$\\pm$"},
-                                                           {"×", "$\\times$"},
-                                                           {"Δ", "$\\Delta$"},
-                                                           {"μ", "$\\mu$"},
-                                                           {"β", "$\\beta$"},
-                                                           {"θ", "$\\theta$"},
-                                                           {"·", "$\\cdot$"},
-                                                           {"°", "$^\\circ$"},
-                                                           {"−", "$-$"},
-                                                           {"⁻", "$^-$"},
-                                                           {"⁰", "$^0$"},
-                                                           {"¹", "$^1$"},
-                                                           {"²", "$^2$"},
-                                                           {"³", "$^3$"},
-                                                           {"⁴", "$^4$"},
-                                                           {"⁵", "$^5$"},
-                                                           {"⁶", "$^6$"},
-                                                           {"⁷", "$^7$"},
-                                                           {"⁸", "$^8$"},
-                                                           {"⁹", "$^9$"},
-                                                           {"ⁿ", "$^n$"},
-                                                           {"…", "\\dots{}"},
-                                                           {"–", "--"}};
+  // "CHARACTER LATEX" in each line
+  static const std::vector<std::string> table = split(asset("figures/latex.txt"), '\n');
   std::string out;
   for (size_t i = 0; i < text.size();) {
-    bool found = false;
-    for (const auto& [from, to] : table)
-      if (const std::string_view word(from); text.compare(i, word.size(), word) == 0) {
-        out += to, i += word.size(), found = true;
-        break;
-      }
-    if (!found) out += text[i++];
+    const std::string character = text.substr(i, std::max<size_t>(1, utf8_length(text, i)));
+    const auto line =
+        std::ranges::find_if(table, [&](const std::string& each) { return each.starts_with(character + " "); });
+    out += line == table.end() ? character : line->substr(character.size() + 1);
+    i += character.size();
   }
   return out;
 }
