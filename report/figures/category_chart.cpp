@@ -19,14 +19,12 @@ Table data_of(const StackedBars& bars) {
   for (const StackedBars::Part& part : bars.parts)
     for (size_t i = 0; i < bars.names.size(); ++i) {
       const double height = part.height.at(i);
-      if (!std::isfinite(height)) throw std::runtime_error(fmt::format("figure {}: a value is not finite", bars.name));
       if (height == 0) continue;
       double& at = height > 0 ? up[i] : down[i];
       table.add({part.title, bars.names[i], static_cast<double>(i + 1), at, at + height});
       at += height;
     }
-  if (table.rows.empty()) throw std::runtime_error(fmt::format("figure {}: nothing to draw", bars.name));
-  return table;
+  return checked(std::move(table));
 }
 
 }  // namespace
@@ -35,7 +33,7 @@ Drawing drawing_of(const StackedBars& bars) {
   Drawing drawing{bars.name, data_of(bars), ""};
   std::vector<KeyEntry> key;
   std::vector<std::string> parts;
-  double low = 0, high = 0, widest = 0;
+  double low = 0, high = 0;
   for (size_t i = 0; i < drawing.data.rows.size(); ++i)
     low = std::min(low, std::get<double>(drawing.data.at(i, "to"))),
     high = std::max(high, std::get<double>(drawing.data.at(i, "to")));
@@ -49,15 +47,13 @@ Drawing drawing_of(const StackedBars& bars) {
         single_quoted(bars.name + ".csv"), single_quoted(part.title), part.colour, fill,
         part.hatched ? part.colour : "#FFFFFF"));
   }
-  for (const std::string& name : bars.names) widest = std::max(widest, width_of(reader_name(name, bars.names)));
   const double lines = static_cast<double>(bars.names.size()), room = 0.03 * (high - low);
-  const NamedLines layout(bars, bars.label, widest, lines, key);
+  const NamedLines layout(bars, bars.label, bars.names, lines, key);
   low -= low < 0 ? room : 0, high += room;
   std::string out = script_head(bars) + fmt::format("set xrange [{:.8g}:{:.8g}]\n", low, high) + layout.y_range(lines) +
                     "set yzeroaxis lt 1 lc rgb \"#333333\" lw 1.5\n" +
                     layout.commands(bars, ticks_of(low, high, false, layout.box.right - layout.box.left, false));
-  for (size_t i = 0; i < bars.names.size(); ++i)
-    out += layout.name(static_cast<double>(i + 1), reader_name(bars.names[i], bars.names));
+  for (size_t i = 0; i < bars.names.size(); ++i) out += layout.name(static_cast<double>(i + 1), i);
   drawing.script = out + terminals(bars, layout.tall, joined_plot(parts));
   return drawing;
 }
@@ -79,16 +75,10 @@ Table data_of(const DotPlot& dots) {
       const auto& dot = series.dots.at(i);
       if (!dot) continue;
       for (const double value : {dot->value, dot->low, dot->high})
-        if (!(value > 0) || !std::isfinite(value))
-          throw std::runtime_error(fmt::format("figure {}: a value is not above zero", dots.name));
+        if (!(value > 0)) throw std::runtime_error(fmt::format("figure {}: a value is not above zero", dots.name));
       table.add({series.title, dots.names[i], place_of(dots, i), dot->value, dot->low, dot->high});
     }
-  if (table.rows.empty()) throw std::runtime_error(fmt::format("figure {}: nothing to draw", dots.name));
-  return table;
-}
-
-bool drawn(const DotPlot::Series& series) {
-  return std::any_of(series.dots.begin(), series.dots.end(), [](const auto& dot) { return dot.has_value(); });
+  return checked(std::move(table));
 }
 
 /// The series lie a little above and below the middle of their line, so that they do not hide each other.
@@ -102,12 +92,12 @@ Drawing drawing_of(const DotPlot& dots) {
   Drawing drawing{dots.name, data_of(dots), ""};
   std::vector<KeyEntry> key;
   std::vector<std::string> parts;
-  double low = 1, high = 1, widest = 0;
+  double low = 1, high = 1;
   std::vector<std::string> titles;
   for (const DotPlot::Series& series : dots.series) titles.push_back(series.title);
   for (size_t i = 0; i < dots.series.size(); ++i) {
     const DotPlot::Series& series = dots.series[i];
-    if (!drawn(series)) continue;
+    if (std::ranges::none_of(series.dots, [](const auto& dot) { return dot.has_value(); })) continue;
     for (const auto& dot : series.dots)
       if (dot) low = std::min(low, dot->low), high = std::max(high, dot->high);
     key.push_back({reader_name(series.title, titles), KeyEntry::Kind::mark, series.style});
@@ -118,9 +108,8 @@ Drawing drawing_of(const DotPlot& dots) {
         series.style.colour, series.style.marker));
   }
   low /= 1.3, high *= 1.3;
-  for (const std::string& name : dots.names) widest = std::max(widest, width_of(reader_name(name, dots.names)));
   const double lines = static_cast<double>(dots.names.size() + dots.headings.size());
-  const NamedLines layout(dots, dots.label, widest, lines, key);
+  const NamedLines layout(dots, dots.label, dots.names, lines, key);
   std::string out = script_head(dots) + fmt::format("set logscale x 10\nset xrange [{:.8g}:{:.8g}]\n", low, high) +
                     layout.y_range(lines) +
                     layout.commands(dots, ticks_of(low, high, true, layout.box.right - layout.box.left, false)) +
@@ -128,9 +117,8 @@ Drawing drawing_of(const DotPlot& dots) {
   if (!dots.right_of_one.empty())
     out += fmt::format("set label {} at 1, graph 1 left offset 0.5,-0.8 noenhanced tc rgb \"#333333\"\n",
                        single_quoted(dots.right_of_one + " →"));
-  for (size_t i = 0; i < dots.names.size(); ++i)
-    out += layout.name(place_of(dots, i), reader_name(dots.names[i], dots.names));
-  for (const auto& [line, heading] : dots.headings) out += layout.name(place_of(dots, line) - 1, heading, true);
+  for (size_t i = 0; i < dots.names.size(); ++i) out += layout.name(place_of(dots, i), i);
+  for (const auto& [line, heading] : dots.headings) out += layout.heading(place_of(dots, line) - 1, heading);
   drawing.script = out + terminals(dots, layout.tall, joined_plot(parts));
   return drawing;
 }

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <cstdlib>
 #include <map>
+#include <numeric>
 #include <ranges>
 #include <set>
 
@@ -18,13 +19,9 @@ namespace {
 /// Six digits are more than a screen shows.
 Json short_number(double value) { return std::strtod(fmt::format("{:.6g}", value).c_str(), nullptr); }
 
-Json pair_json(const std::pair<double, double>& p) {
-  return Json::array({short_number(p.first), short_number(p.second)});
-}
-
 Json pairs_json(const std::vector<std::pair<double, double>>& pairs) {
   Json list = Json::array();
-  for (const auto& p : pairs) list.push_back(pair_json(p));
+  for (const auto& [x, y] : pairs) list.push_back(Json::array({short_number(x), short_number(y)}));
   return list;
 }
 
@@ -125,11 +122,10 @@ Json names_json(const std::vector<std::string>& titles) {
 /// Places of the points that stay of a curve.
 std::vector<size_t> thinned(const std::vector<std::pair<double, double>>& points) {
   constexpr size_t most = 600, of_each = 4;
-  std::vector<size_t> kept;
-  if (points.size() <= most) {
-    for (size_t i = 0; i < points.size(); ++i) kept.push_back(i);
-    return kept;
-  }
+  std::vector<size_t> kept(points.size());
+  std::iota(kept.begin(), kept.end(), size_t{0});
+  if (points.size() <= most) return kept;
+  kept.clear();
   const size_t stretches = most / of_each;
   for (size_t s = 0; s < stretches; ++s) {
     const size_t begin = s * points.size() / stretches, end = (s + 1) * points.size() / stretches;
@@ -199,28 +195,6 @@ Json parts_json(const Figure& f, const std::vector<NamedCurves>& named,
   return parts;
 }
 
-/// The meaning of marks that are of no part.
-Json key_json(const Figure& f, const std::vector<NamedCurves>& named, const PlotRange& range, bool scaled) {
-  Json key = Json::array();
-  const auto add = [&](const std::string& text, int marker) {
-    Json entry{{"text", text}};
-    add_mark(entry, marker);
-    key.push_back(std::move(entry));
-  };
-  std::map<std::string, int> kinds;
-  for (const FailureMark& mark : f.failures) kinds.emplace(kind_of(mark), mark.cross);
-  for (const auto& [kind, cross] : kinds) add(kind, cross);
-  if (scaled) add("time scaled from a part", 6);
-  const bool lower = std::ranges::any_of(named, [&](const NamedCurves& part) {
-    return std::ranges::any_of(part.curves, [&](const Curve* c) {
-      return std::ranges::any_of(c->points, [&](const auto& p) { return p.second < range.y_floor; });
-    });
-  });
-  if (lower) add("lower than the axis", 11);
-  if (!f.pareto.empty()) key.push_back({{"text", pareto_title}, {"line", true}});
-  return key;
-}
-
 Json numbers_of(const Figure& f) {
   const std::vector<NamedCurves> named = named_parts(f);
   const PlotRange range = plot_range(f, named);
@@ -233,7 +207,10 @@ Json numbers_of(const Figure& f) {
   // what is ringed on paper is open here
   if (!scaled.empty()) json["x"]["label"] = f.x.label.substr(0, f.x.label.find(", ringed"));
   json["parts"] = parts_json(f, named, scaled);
-  json["key"] = key_json(f, named, range, !scaled.empty());
+  json["key"] = Json::array();
+  for (const auto& [text, marker] : mark_meanings(f, range.y_floor))
+    add_mark(json["key"].emplace_back(Json{{"text", text}}), marker);
+  if (!f.pareto.empty()) json["key"].push_back({{"text", pareto_title}, {"line", true}});
   if (!f.pareto.empty()) json["pareto"] = pairs_json(f.pareto);
   if (f.window) json["window"] = short_number(f.window->first);
   if (!f.categories.empty()) json["categories"] = Json::array();
@@ -360,21 +337,6 @@ const Stepper* usual_rule() {
   return nullptr;
 }
 
-std::string rule_of(const std::string& name) {
-  std::string rule = name.substr(name.find('/') + 1);
-  if (rule.starts_with("trapezoidal")) rule.replace(0, 11, "Heun");  // the name of the literature
-  std::ranges::replace(rule, '-', ' ');
-  if (const size_t at = rule.find("euler"); at != std::string::npos) rule[at] = 'E';
-  if (const size_t at = rule.find('+'); at != std::string::npos) rule.replace(at, 1, ", ");
-  return rule;
-}
-
-std::string title_of(const std::string& name, std::span<const std::string> beside) {
-  const MethodFamily& family = family_of(name);
-  if (family.role == Role::outside) return program_title(name, beside);
-  return family.is_subject() ? rule_of(name) : fmt::format("{} {}", family.title, rule_of(name));
-}
-
 /// Two shades for each engine: its representative, and what else of it is in question.
 const char* colour_of(const MethodFamily& family, bool representative) {
   switch (family.role) {
@@ -402,14 +364,14 @@ Json method_looks_json(std::span<const std::string> methods) {
   for (const std::string& name : methods) {
     const MethodFamily& family = family_of(name);
     const bool program = family.role == Role::outside;
-    const std::string title = title_of(name, methods);
+    const std::string title = reader_name(name, methods);
     const Method* method = builtin_method(name);
     const bool representative = name == family.representative;
     const bool positions = method && method->position_based && !family.is_subject();
     const bool usual = method && method->stepper && method->stepper == usual_rule();
     json[name] = {{"title", title},
                   {"engine", program ? title : std::string(family.title)},
-                  {"rule", program ? "" : rule_of(name)},
+                  {"rule", program ? "" : rule_name(name)},
                   {"colour", program ? colours[programs % std::size(colours)] : colour_of(family, representative)},
                   {"mark", program                     ? marks[programs % std::size(marks)]
                            : family.is_subject()       ? "circle"

@@ -29,6 +29,19 @@ std::string kind_of(const FailureMark& mark) {
   return mark.kind == "failed" && colon != std::string::npos ? mark.title.substr(colon + 2) : mark.kind;
 }
 
+std::vector<std::pair<std::string, int>> mark_meanings(const Figure& f, double y_floor) {
+  std::map<std::string, int> kinds;
+  for (const FailureMark& mark : f.failures) kinds.emplace(kind_of(mark), mark.cross);
+  std::vector<std::pair<std::string, int>> meanings(kinds.begin(), kinds.end());
+  const auto has_scaled = [](const Curve& c) { return c.title == scaled_times && !c.points.empty(); };
+  if (std::ranges::any_of(f.curves, has_scaled)) meanings.emplace_back("time scaled from a part", 6);
+  const auto has_lower = [&](const Curve& c) {
+    return c.title != scaled_times && std::ranges::any_of(c.points, [&](const auto& p) { return p.second < y_floor; });
+  };
+  if (std::ranges::any_of(f.curves, has_lower)) meanings.emplace_back("lower than the axis", 11);
+  return meanings;
+}
+
 std::vector<std::vector<Place>> CurvePlot::paths_of(const NamedCurves& part) const {
   std::vector<std::vector<Place>> paths;
   for (const Curve* curve : part.curves) {
@@ -274,34 +287,24 @@ void CurvePlot::place_lines() {
   }
 }
 
-/// What crosses mean: beside the last of the first row where there is room, else above the frame.
+/// Explains the marks above the frame; crosses of one kind beside the last of the first row where there is room.
 void CurvePlot::place_kinds() {
-  std::map<std::string, std::pair<int, Place>> kinds;  // the cross, and the rightmost of the highest row
+  for (const auto& [words, marker] : mark_meanings(f_, y_floor_))
+    remarks_.push_back({words, KeyEntry::Kind::mark, {"#444444", "1", marker}});
+  std::set<std::string> kinds;
+  Place last{0, -INFINITY};  // the rightmost of the highest row
   for (const auto& [mark, row] : rows_) {
     const Place at{place(mark->x, y_low_).x, y_of_row(row)};
-    const auto [it, is_new] = kinds.try_emplace(kind_of(*mark), mark->cross, at);
-    Place& last = it->second.second;
-    if (!is_new && (at.y > last.y + 1 || (std::abs(at.y - last.y) < 1 && at.x > last.x))) last = at;
+    kinds.insert(kind_of(*mark));
+    if (at.y > last.y + 1 || (std::abs(at.y - last.y) < 1 && at.x > last.x)) last = at;
   }
-  for (const auto& [kind, cross] : kinds) {
-    const double width = width_of(kind);
-    const Place at{cross.second.x + 8, cross.second.y};
-    const Rect r{at.x, at.x + width, at.y - 5, at.y + 5};
-    if (kinds.size() == 1 && board_->cost(r)) {
-      labels_.push_back({at, kind, "left", "#444444"});
-      board_->add(r);
-    } else {
-      remarks_.push_back({kind, KeyEntry::Kind::mark, {"#444444", "1", cross.first}});
-    }
-  }
-  for (const Curve& curve : f_.curves)
-    if (curve.title == scaled_times && !curve.points.empty())
-      remarks_.push_back({"time scaled from a part", KeyEntry::Kind::mark, {"#444444", "1", 6}});
-  const auto lower = [&](const Curve* c) {
-    return std::ranges::any_of(c->points, [&](const auto& p) { return p.second < y_floor_; });
-  };
-  if (std::ranges::any_of(parts_, [&](const NamedCurves& n) { return std::ranges::any_of(n.curves, lower); }))
-    remarks_.push_back({"lower than the axis", KeyEntry::Kind::mark, {"#444444", "1", 11}});
+  if (kinds.size() != 1) return;
+  const Place at{last.x + 8, last.y};
+  const Rect r{at.x, at.x + width_of(*kinds.begin()), at.y - 5, at.y + 5};
+  if (!board_->cost(r)) return;
+  labels_.push_back({at, *kinds.begin(), "left", "#444444"});
+  board_->add(r);
+  remarks_.erase(remarks_.begin());
 }
 
 }  // namespace crosscheck

@@ -41,6 +41,8 @@ bool named_in_key(const Figure& f, const std::vector<NamedCurves>& parts, const 
 
 /// The kind of a failure in a word.
 std::string kind_of(const FailureMark& mark);
+/// Meanings of the marks that belong to no part (failures, scaled times, low values), and their gnuplot point types.
+std::vector<std::pair<std::string, int>> mark_meanings(const Figure& f, double y_floor);
 
 /// A figure of curves laid out on paper; its script draws it with gnuplot. Keeps a reference to the figure.
 class CurvePlot {

@@ -26,20 +26,15 @@ std::string id_of(std::string title) {
   return title;
 }
 
-/// Every point as a row: curve, x, y. Throws where there is no point, or one that is not finite.
+/// Every point as a row: curve, x, y.
 Table data_of(const Figure& f) {
   Table table{f.name, {{"curve", "1"}, {f.x.label, "see name"}, {f.y.label, "see name"}}, {}};
-  auto add = [&](const std::string& curve, double x, double y) {
-    if (!std::isfinite(x) || !std::isfinite(y))
-      throw std::runtime_error(fmt::format("figure {}: a value is not finite", f.name));
-    table.add({id_of(curve), x, y});
-  };
+  const auto add = [&](const std::string& curve, double x, double y) { table.add({id_of(curve), x, y}); };
   for (const auto& [x, y] : f.pareto) add(pareto_title, x, y);
   for (const Curve& curve : f.curves)
     for (const auto& [x, y] : curve.points) add(curve.title, x, y);
   for (const FailureMark& mark : f.failures) add("failed: " + mark.title, mark.x, mark.y);
-  if (table.rows.empty()) throw std::runtime_error(fmt::format("figure {}: nothing to draw", f.name));
-  return table;
+  return checked(std::move(table));
 }
 
 std::string common_words(const std::string& a, const std::string& b) {
@@ -319,9 +314,8 @@ std::string CurvePlot::elements() const {
         parts.push_back(
             rows("failed: " + m->title, fmt::format("({:.6g})", value_at(y_of_row(rows_.at(m))))) +
             fmt::format("points lc rgb \"{}\" pt {} ps 0.9 lw 2.2", part.coloured ? m->style.colour : grey, m->cross));
-  std::string out = "plot ";
-  for (size_t i = 0; i < parts.size(); ++i) out += (i ? " notitle, \\\n     " : "") + parts[i];
-  return out + " notitle\n";
+  for (std::string& part : parts) part += " notitle";
+  return joined_plot(parts);
 }
 
 std::string CurvePlot::script() const {

@@ -98,9 +98,7 @@ std::string panel_plot(const HeatMap& map, const HeatMap::Panel& p) {
   if (!p.measured.empty())
     for (const char* style : {"lc rgb \"#FFFFFF\" pt 7 ps 0.9", "lc rgb \"#000000\" pt 7 ps 0.6"})
       parts.push_back(fmt::format("{} with points {} notitle", rows_of(map, p.title, "measured limit"), style));
-  std::string out = "plot ";
-  for (size_t i = 0; i < parts.size(); ++i) out += (i ? ", \\\n     " : "") + parts[i];
-  return out + "\n";
+  return joined_plot(parts);
 }
 
 /// The classes that occur, and the limits.

@@ -157,6 +157,18 @@ std::string Sheet::margins(const Rect& box) const {
       box.left / wide_, box.right / wide_, (box.bottom + up_) / tall_, (box.top + up_) / tall_);
 }
 
+Table checked(Table data) {
+  const auto not_finite = [](const Cell& cell) {
+    const auto* number = std::get_if<double>(&cell);
+    return number && !std::isfinite(*number);
+  };
+  if (data.rows.empty()) throw std::runtime_error(fmt::format("figure {}: nothing to draw", data.name));
+  for (const std::vector<Cell>& row : data.rows)
+    if (std::ranges::any_of(row, not_finite))
+      throw std::runtime_error(fmt::format("figure {}: a value is not finite", data.name));
+  return data;
+}
+
 std::string script_head(const FigureInfo& figure) {
   return fmt::format("# {}\n# Draw again: gnuplot {}.gp\nreset\nload \"style.gp\"\n", one_line(figure.title),
                      figure.name);
@@ -232,7 +244,18 @@ std::string method_named(const std::string& title) {
   return "";
 }
 
-std::string reader_name(const std::string& title, const std::vector<std::string>& beside) {
+std::string rule_name(const std::string& method) {
+  const size_t plus = method.find('+');
+  std::string rule = method.substr(0, plus).substr(method.find('/') + 1);
+  // an engine's worlds are told apart by their rule: that their bodies deform goes without saying
+  if (constexpr std::string_view known = "deformable-"; rule.starts_with(known)) rule.erase(0, known.size());
+  std::ranges::replace(rule, '-', ' ');
+  if (const size_t at = rule.find("euler"); at != std::string::npos) rule[at] = 'E';
+  if (rule == "trapezoidal") rule = "Heun";  // the name of the literature
+  return plus == std::string::npos ? rule : rule + ", " + method.substr(plus + 1);
+}
+
+std::string reader_name(const std::string& title, std::span<const std::string> beside) {
   const std::string method = method_named(title);
   if (method.empty()) return title;
   // what follows a colon, as an order, has no room on paper
@@ -245,20 +268,11 @@ std::string reader_name(const std::string& title, const std::vector<std::string>
   const MethodFamily& family = family_of(method);
   if (family.role == Role::outside) {
     std::vector<std::string> methods;
-    for (const std::string& other : beside)
-      if (const std::string named = method_named(other); !named.empty()) methods.push_back(named);
+    for (const std::string& other : beside) methods.push_back(method_named(other));
     return program_title(method, methods) + rest;
   }
-  const size_t plus = method.find('+');
-  std::string rule = method.substr(0, plus).substr(method.find('/') + 1), option;
-  if (plus != std::string::npos) option = ", " + method.substr(plus + 1);
-  // an engine's worlds are told apart by their rule: that their bodies deform goes without saying
-  if (constexpr std::string_view known = "deformable-"; rule.starts_with(known)) rule.erase(0, known.size());
-  std::ranges::replace(rule, '-', ' ');
-  if (const size_t at = rule.find("euler"); at != std::string::npos) rule[at] = 'E';
-  if (rule == "trapezoidal") rule = "Heun";  // the name of the literature
-  const std::string engine(family.variant_of.empty() ? family.title : family.name);
-  return (family.is_subject() ? rule : engine + " " + rule) + option + rest;
+  const std::string_view engine = family.variant_of.empty() ? family.title : family.name;
+  return (family.is_subject() ? "" : fmt::format("{} ", engine)) + rule_name(method) + rest;
 }
 
 namespace {
@@ -328,11 +342,13 @@ std::optional<double> Board::cost(const Rect& text) const {
   return sum;
 }
 
-NamedLines::NamedLines(const FigureInfo& figure, const std::string& label, double widest_name, double lines,
-                       const std::vector<KeyEntry>& key, double right)
+NamedLines::NamedLines(const FigureInfo& figure, const std::string& label, const std::vector<std::string>& titles,
+                       double lines, const std::vector<KeyEntry>& key, double right)
     : wide(figure.size.units()), entries(key), words(label) {
-  const double left = std::min(0.46 * wide, 12 + widest_name);
-  box = {left, wide - right, 36, 36 + 4 + line_of_names * lines};
+  double widest = 0;
+  for (const std::string& title : titles)
+    widest = std::max(widest, width_of(names.emplace_back(reader_name(title, titles))));
+  box = {std::min(0.46 * wide, 12 + widest), wide - right, 36, 36 + 4 + line_of_names * lines};
   below = key_height(entries, wide - 16) + 4;
   tall = below + box.top + (figure.size.titled ? 24 : 6);
 }
@@ -349,11 +365,14 @@ std::string NamedLines::commands(const FigureInfo& figure, const std::vector<Tic
          key_commands(sheet, entries, {8, -2}, wide - 16) + title_command(sheet, figure, {wide / 2, box.top + 11});
 }
 
-std::string NamedLines::name(double place, const std::string& text, bool heading) const {
-  const Sheet sheet(wide, tall, below);
-  return heading ? sheet.text({6, y_of(place)}, shortened(text, wide - 12), "left", "#111111",
-                              "font \"DejaVu Sans:Bold,12\"")
-                 : sheet.text({box.left - 6, y_of(place)}, shortened(text, box.left - 10), "right", "#222222");
+std::string NamedLines::name(double place, size_t index) const {
+  return Sheet(wide, tall, below)
+      .text({box.left - 6, y_of(place)}, shortened(names[index], box.left - 10), "right", "#222222");
+}
+
+std::string NamedLines::heading(double place, const std::string& text) const {
+  return Sheet(wide, tall, below)
+      .text({6, y_of(place)}, shortened(text, wide - 12), "left", "#111111", "font \"DejaVu Sans:Bold,12\"");
 }
 
 std::string NamedLines::y_range(double lines) const {

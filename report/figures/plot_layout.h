@@ -3,6 +3,7 @@
 #pragma once
 
 #include <optional>
+#include <span>
 #include <string>
 #include <utility>
 #include <vector>
@@ -60,6 +61,9 @@ class Sheet {
   double wide_, tall_, up_;
 };
 
+/// A figure's data. Throws std::runtime_error that names it when there is no row or a number is not finite.
+Table checked(Table data);
+
 /// The first lines of a script.
 std::string script_head(const FigureInfo& figure);
 /// Its title above the plot, or nothing.
@@ -85,19 +89,23 @@ std::string method_named(const std::string& title);
 
 /// A title as a reader knows it: the name of an engine, a blank, its rule. Programs differ from those in the titles
 /// `beside` it.
-std::string reader_name(const std::string& title, const std::vector<std::string>& beside = {});
+std::string reader_name(const std::string& title, std::span<const std::string> beside = {});
+/// The method's rule as the literature names it, and its options: "symplectic Euler", "Heun, events".
+std::string rule_name(const std::string& method);
 
 inline constexpr double line_of_names = 17;  // from one name to the next
 
 /// Names at the left, one below the other, and an axis under the plot: what bars, dots and limits have in common.
 struct NamedLines {
   /// `right`: the room right of the plot.
-  NamedLines(const FigureInfo& figure, const std::string& label, double widest_name, double lines,
+  NamedLines(const FigureInfo& figure, const std::string& label, const std::vector<std::string>& titles, double lines,
              const std::vector<KeyEntry>& key, double right = 14);
   double y_of(double place) const { return box.top - 2 - line_of_names * (place - 0.5); }
   std::string commands(const FigureInfo& figure, const std::vector<Tick>& ticks) const;
-  /// A name at its line, or a heading from the sheet's left edge on.
-  std::string name(double place, const std::string& text, bool heading = false) const;
+  /// The name of that index at a line.
+  std::string name(double place, size_t index) const;
+  /// From the sheet's left edge on.
+  std::string heading(double place, const std::string& text) const;
   /// A text at a line that ends there.
   std::string ending_at(double x, double place, const std::string& text) const {
     return Sheet(wide, tall, below).text({x, y_of(place)}, text, "right", "#222222");
@@ -106,6 +114,7 @@ struct NamedLines {
 
   double wide, tall, below;
   Rect box;
+  std::vector<std::string> names;
   std::vector<KeyEntry> entries;
   std::string words;
 };

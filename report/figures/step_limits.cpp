@@ -162,8 +162,7 @@ Table data_of(const StepLimits& f) {
         table.add({std::string("predicted"), f.names[i], place, name, *mark.predicted, *mark.predicted / omega});
     }
   }
-  if (table.rows.empty()) throw std::runtime_error(fmt::format("figure {}: nothing to draw", f.name));
-  return table;
+  return checked(std::move(table));
 }
 
 /// Where the axis ends.
@@ -184,15 +183,13 @@ Drawing drawing_of(const StepLimits& f) {
   const bool columns = f.size.units() > 560;
   const double shift = columns ? 1 : 0;  // a line for the heads of the columns
   const auto lines = static_cast<double>(f.rows.size()) + shift;
-  double widest = 0;
-  for (const std::string& name : f.names) widest = std::max(widest, width_of(reader_name(name, f.names)));
   constexpr int points[] = {7, 5, 13, 9};
   std::vector<KeyEntry> key{{"theory", KeyEntry::Kind::line, {"#111111", "1", -1}}};
   for (size_t s = 0; s < f.scenes.size(); ++s)
     key.push_back({fmt::format("{}, ω = {} rad/s", f.scenes[s].name, nice(f.scenes[s].omega)),
                    KeyEntry::Kind::mark,
                    {"#0072B2", "1", points[s % 4]}});
-  const NamedLines layout(f, "time step × fastest frequency, h ω", widest, lines, key, columns ? 150 : 14);
+  const NamedLines layout(f, "time step × fastest frequency, h ω", f.names, lines, key, columns ? 150 : 14);
   std::string out = script_head(f) + fmt::format("set xrange [0:{:.6g}]\n", top) + layout.y_range(lines) +
                     layout.commands(f, ticks_of(0, top, false, layout.box.right - layout.box.left, false));
   const double ends[] = {layout.wide - 78, layout.wide - 10};
@@ -203,7 +200,7 @@ Drawing drawing_of(const StepLimits& f) {
     const StepLimits::Row& row = f.rows[i];
     const double place = static_cast<double>(i + 1) + shift;
     const std::string colour = style_of(f.names[i]).colour;
-    out += layout.name(place, reader_name(f.names[i], f.names));
+    out += layout.name(place, i);
     const bool said = i > 0 && row.open && f.rows[i - 1].words == row.words;
     const std::string words = columns    ? row.words
                               : row.open ? fmt::format("h ω > {}", nice(row.held))
