@@ -3,13 +3,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
-#include <map>
 #include <optional>
-#include <set>
 
-#include "experiments/speed_accuracy/work_precision.h"
-#include "experiments/tables/table.h"
+#include "experiments/tables/speed_accuracy.h"
 #include "report/figures/charts.h"
 #include "report/findings/findings_text.h"
 
@@ -48,9 +44,6 @@ std::vector<Chart> scoreboard_charts(const ChartInput& input) {
 
 std::vector<Chart> same_rule_charts(const ChartInput& input) {
   DotPlot f;
-  f.name = "same-rule-differences";
-  f.title = "mysim and other engines under the same rule";
-  f.label = "largest RMS position difference / m";
   std::vector<const MethodData*> shown;
   for (const MethodFamily* peer : default_peers()) {
     const std::string method(peer->representative);
@@ -72,13 +65,10 @@ std::vector<Chart> same_rule_charts(const ChartInput& input) {
   for (DotPlot::Series& series : f.series) series.dots.resize(f.names.size());
   const auto agreeing = std::ranges::count_if(
       shown, [](const MethodData* m) { return m->round_off_bound && *m->difference <= *m->round_off_bound; });
-  f.finding = fmt::format("Differences below the round-off bound: {} of {} scenes.", agreeing, shown.size());
-  f.caption = fmt::format(
-      "Largest difference within each scene's predictable window; grey: the most that round-off can make. With contact "
-      "the engines apply different rules: no bound; commit {}.",
-      input.commit);
-  f.tier = "another engine, so that these are differences and no errors";
-  return {{.figure = std::move(f), .chapter = "same-answer", .heading = "", .shown = true}};
+  Chart chart = described("same-rule-differences", std::move(f), "agreeing"_a = agreeing, "all"_a = shown.size(),
+                          "commit"_a = input.commit);
+  chart.shown = true;
+  return {std::move(chart)};
 }
 
 // The fastest method at an accuracy: on every scene the cheapest run of each engine within 1 % of the motion, against
@@ -87,46 +77,21 @@ std::vector<Chart> same_rule_charts(const ChartInput& input) {
 namespace {
 
 /// An engine's name, and its style.
-struct EngineStyle {
-  std::string name;
-  MethodStyle style;
-};
-EngineStyle style_of_engine(const std::string& engine) {
+std::pair<std::string, MethodStyle> style_of_engine(const std::string& engine) {
   const MethodFamily& family = family_of(engine);
-  return family.representative.empty()
-             ? EngineStyle{engine, style_of(engine)}
-             : EngineStyle{std::string(family.title), style_of(std::string(family.representative))};
+  if (family.representative.empty()) return {engine, style_of(engine)};
+  return {std::string(family.title), style_of(std::string(family.representative))};
 }
 
 /// Says how many quotients have a time that was scaled from a part of its run; empty where none has.
-std::string scaled_text(const Table& t) {
+std::string scaled_text(const std::vector<EngineSpeedRow>& rows) {
   int all = 0, scaled = 0;
-  for (size_t i = 0; i < t.rows.size(); ++i) {
-    if (number_at(t, i, "part of motion") != 0.01 || text_at(t, i, "measure") != "error" ||
-        family_of(text_at(t, i, "engine")).is_subject() || !number_at(t, i, "times mysim"))
-      continue;
-    ++all;
-    scaled += number_at(t, i, "part timed", 1) < 1 || number_at(t, i, "part timed of mysim", 1) < 1;
-  }
+  for (const EngineSpeedRow& row : rows)
+    if (!family_of(row.engine).is_subject() && row.times_mysim)
+      ++all, scaled += row.part_timed < 1 || row.part_timed_of_mysim.value_or(1) < 1;
   return scaled == 0
              ? ""
              : fmt::format("in {} of {} quotients a time is scaled from the first part of its run; ", scaled, all);
-}
-
-/// The engines that have a marker, and mysim, each as the first part of a method's name.
-std::vector<std::string> drawn_engines(const std::vector<std::string>& engines) {
-  std::vector<std::string> methods{std::string(subject().name) + "/"};
-  for (const std::string& engine : engines) methods.push_back(engine + "/");
-  return methods;
-}
-
-/// The row at 1 % of the motion.
-std::optional<size_t> row_of(const Table& t, const std::string& scene, const std::string& engine) {
-  for (size_t i = 0; i < t.rows.size(); ++i)
-    if (text_at(t, i, "scene") == scene && number_at(t, i, "part of motion") == 0.01 &&
-        text_at(t, i, "engine") == engine)
-      return i;
-  return std::nullopt;
 }
 
 /// "Within 1 % of the motion mysim is the fastest on 10 of 11 scenes; Bullet takes 6.5 (rod) to 78 (spring) times its
@@ -134,8 +99,7 @@ std::optional<size_t> row_of(const Table& t, const std::string& scene, const std
 std::string summary_of(const DotPlot& f) {
   size_t first = 0;
   for (size_t i = 0; i < f.names.size(); ++i)
-    first += std::none_of(f.series.begin(), f.series.end(),
-                          [i](const DotPlot::Series& s) { return s.dots[i] && s.dots[i]->low < 1; });
+    first += std::ranges::none_of(f.series, [i](const DotPlot::Series& s) { return s.dots[i] && s.dots[i]->low < 1; });
   std::string others;
   for (const DotPlot::Series& series : f.series) {
     std::optional<size_t> least, most;
@@ -156,49 +120,38 @@ std::string summary_of(const DotPlot& f) {
 }  // namespace
 
 std::vector<Chart> cheapest_charts(const ChartInput& input) {
-  const Table* t = input.result.table("speed-accuracy-engines-cost");
-  if (!t) return {};
-  std::vector<std::string> engines = distinct(*t, "engine");
+  const auto table = rows_of<EngineSpeedRow>(input.result);
+  std::vector<std::string> engines = distinct(table, &EngineSpeedRow::engine);
   std::erase(engines, subject().name);
   std::ranges::stable_partition(engines, [](const std::string& engine) { return family_of(engine).is_engine(); });
+  std::vector<EngineSpeedRow> rows;
+  std::ranges::copy_if(table, std::back_inserter(rows), [](const EngineSpeedRow& row) {
+    return row.part_of_motion == 0.01 && row.measure == Measure::error;
+  });
   DotPlot f;
-  f.name = "cheapest-1-percent-cost";
-  f.title = "CPU time for 1 % error, relative to mysim";
-  f.label = "CPU time / CPU time of mysim";
   f.right_of_one = "mysim is faster";
   f.from_costs = true;
-  for (const std::string& engine : engines)
-    f.series.push_back({style_of_engine(engine).name, style_of_engine(engine).style, {}});
-  bool any = false;
-  for (const std::string& scene : distinct(*t, "scene")) {
-    std::vector<std::optional<DotPlot::Dot>> dots;
-    for (const std::string& engine : engines) {
-      const auto row = row_of(*t, scene, engine);
-      const auto times =
-          row && text_at(*t, *row, "measure") == "error" ? number_at(*t, *row, "times mysim") : std::nullopt;
-      dots.push_back(times ? std::optional(DotPlot::Dot{*times, *number_at(*t, *row, "times mysim low"),
-                                                        *number_at(*t, *row, "times mysim high")})
-                           : std::nullopt);
-    }
-    if (std::none_of(dots.begin(), dots.end(), [](const auto& dot) { return dot.has_value(); })) continue;
-    any = true;
-    f.names.push_back(scene);
-    for (size_t i = 0; i < engines.size(); ++i) f.series[i].dots.push_back(dots[i]);
+  std::vector<std::string> built{std::string(subject().name) + "/"};
+  for (const EngineSpeedRow& row : rows)
+    if (row.times_mysim && row.engine != subject().name && std::ranges::find(f.names, row.scene) == f.names.end())
+      f.names.push_back(row.scene);
+  if (f.names.empty()) return {};
+  for (const std::string& engine : engines) {
+    built.push_back(engine + "/");
+    const auto [name, style] = style_of_engine(engine);
+    DotPlot::Series series{name, style, std::vector<std::optional<DotPlot::Dot>>(f.names.size())};
+    bool any = false;
+    for (const EngineSpeedRow& row : rows | with(&EngineSpeedRow::engine, engine))
+      if (row.times_mysim) {
+        const auto line = std::ranges::find(f.names, row.scene) - f.names.begin();
+        series.dots[static_cast<size_t>(line)] = {*row.times_mysim, *row.times_mysim_low, *row.times_mysim_high};
+        any = true;
+      }
+    if (any) f.series.push_back(std::move(series));
   }
-  if (!any) return {};
-  std::erase_if(f.series, [](const DotPlot::Series& s) {
-    return std::none_of(s.dots.begin(), s.dots.end(), [](const auto& dot) { return dot.has_value(); });
-  });
   f.finding = summary_of(f);
-  f.caption = fmt::format(
-      "Right of the line mysim is faster. Of each engine the cheapest run, whatever its method, step or tolerance: "
-      "some "
-      "are far nearer than asked for, as none steps over a sampling interval; medians of thread CPU time, and the "
-      "widest "
-      "that both 90 % intervals allow; {}a scene without a marker has no such run of that engine; {}; commit {}.",
-      scaled_text(*t), builds_text(drawn_engines(engines)), input.commit);
-  f.tier = "each scene's truth, its error bar taken off the 1 %";
-  return {{"", f, "speed-accuracy", "", "CPU time for 1 % error"}};
+  return {described("cheapest-1-percent-cost", std::move(f), "scaled"_a = scaled_text(rows),
+                    "builds"_a = builds_text(built), "commit"_a = input.commit)};
 }
 
 }  // namespace crosscheck

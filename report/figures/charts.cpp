@@ -9,6 +9,8 @@
 #include <stdexcept>
 
 #include "mysim/base/files.h"
+#include "mysim/base/text.h"
+#include "report/base/assets.h"
 #include "report/findings/findings_text.h"
 
 namespace crosscheck {
@@ -54,6 +56,69 @@ std::vector<Chart> all_charts(const ChartInput& input) {
         adequacy_charts, cost_charts, stiffness_charts, fabric_charts, disagreement_charts})
     for (Chart& chart : make(input)) append_tier(chart), all.push_back(std::move(chart));
   return all;
+}
+
+namespace {
+
+using Words = std::map<std::string, std::string>;
+
+const std::map<std::string, Words>& figure_texts() {
+  static const std::map<std::string, Words> texts = [] {
+    std::map<std::string, Words> all;
+    Words* words = nullptr;
+    for (const std::string& line : split(asset("figures/texts.md"), '\n')) {
+      const size_t colon = line.find(": ");
+      if (line.starts_with("## "))
+        words = &all[line.substr(3)];
+      else if (words && colon != std::string::npos)
+        words->emplace(line.substr(0, colon), line.substr(colon + 2));
+    }
+    return all;
+  }();
+  return texts;
+}
+
+}  // namespace
+
+std::string filled_text(const std::string& key, const std::string& word, fmt::format_args values) {
+  const Words& words = figure_texts().at(key);
+  const auto found = words.find(word);
+  return found == words.end() ? "" : fmt::vformat(found->second, values);
+}
+
+Chart described_chart(const std::string& key, AnyFigure drawn, fmt::format_args values) {
+  const auto text = [&](const char* word) { return filled_text(key, word, values); };
+  const auto add = [&](std::string& to, const char* word) {
+    if (std::string words = text(word); !words.empty()) to = std::move(words);
+  };
+  const auto add_axis = [&](Axis& axis, const char* letter, const char* log_letter) {
+    add(axis.label, letter), add(axis.label, log_letter);
+    axis.logarithmic |= !text(log_letter).empty();
+  };
+  Chart chart{"", std::move(drawn), text("chapter"), text("text"), text("heading")};
+  std::visit(
+      [&]<class F>(F& f) {
+        if constexpr (std::derived_from<F, FigureInfo>) {
+          if (f.name.empty()) f.name = fmt::vformat(key, values);
+          add(f.title, "title"), add(f.caption, "caption"), add(f.tier, "tier"), add(f.finding, "finding");
+        }
+        if constexpr (std::same_as<F, Figure>) add_axis(f.x, "x", "log x"), add_axis(f.y, "y", "log y");
+        if constexpr (std::same_as<F, HeatMap>) add(f.x_label, "log x"), add(f.y_label, "log y");
+        if constexpr (requires { f.label; }) add(f.label, "x"), add(f.label, "log x");
+      },
+      chart.figure);
+  if (const Figure* figure = std::get_if<Figure>(&chart.figure);
+      figure && figure->curves.empty() && figure->failures.empty()) {
+    if (chart.text.empty()) chart.text = figure->caption;
+    chart.figure = std::monostate{};
+  }
+  if (std::holds_alternative<std::monostate>(chart.figure) && chart.heading.empty()) chart.heading = text("title");
+  return chart;
+}
+
+Curve& curve_of(Figure& figure, const std::string& title, const MethodStyle& style) {
+  const auto found = std::ranges::find(figure.curves, title, &Curve::title);
+  return found != figure.curves.end() ? *found : figure.curves.emplace_back(Curve{title, style, {}, true, true});
 }
 
 const FigureInfo* figure_info(const Chart& chart) {

@@ -1,6 +1,9 @@
 // Charts: figures made from the experiments' tables.
 #pragma once
 
+#include <fmt/format.h>
+
+#include <ranges>
 #include <string>
 #include <variant>
 #include <vector>
@@ -54,11 +57,13 @@ struct Snapshot {
   std::vector<std::pair<double, std::string>> moments = {};
 };
 
+/// A new kind of figure is a struct and its drawing_of().
+using AnyFigure = std::variant<Figure, StackedBars, DotPlot, HeatMap, StepLimits, std::monostate>;
+
 /// A piece of a scene's part, of a chapter, or of the front: a figure, a small table, renders, or several of these.
 struct Chart {
   std::string scene;  // the scene whose part shows it; empty: the first screen, or a chapter
-  std::variant<Figure, StackedBars, DotPlot, HeatMap, StepLimits, std::monostate>
-      figure;                // a new kind of figure is a struct and its drawing_of()
+  AnyFigure figure;
   std::string chapter = {};  // id of the chapter (report/page/texts/); empty: none
   std::string text = {};     // in a chapter: the text before it
   std::string heading = {};  // in a chapter; empty: the figure's title
@@ -66,6 +71,40 @@ struct Chart {
   std::vector<Snapshot> snapshots = {};
   bool shown = false;  // in its chapter, not folded away
 };
+
+// Words of figures, from texts.md: below "## KEY" a line "WORD: text" for each, with {values}. The key is the figure's
+// name; the words are title, x and y ("log x" makes the axis logarithmic), caption, tier, finding, and of its chart
+// chapter, heading and text.
+
+using fmt::literals::operator""_a;
+
+/// The text of a word with its values; empty where the figure has none.
+std::string filled_text(const std::string& key, const std::string& word, fmt::format_args values = {});
+Chart described_chart(const std::string& key, AnyFigure figure, fmt::format_args values);
+/// The chart of a figure that has its name and words, except those that are not in texts.md. Of a figure without curves
+/// and failures the chart keeps the text, or else the caption.
+template <class... Values>
+Chart described(const std::string& key, AnyFigure figure, const Values&... values) {
+  return described_chart(key, std::move(figure), fmt::make_format_args(values...));
+}
+
+/// The curve of this title, which is added where there is none.
+Curve& curve_of(Figure& figure, const std::string& title, const MethodStyle& style);
+
+/// Selects the rows with this value.
+template <class Row, class T>
+auto with(T Row::*member, const std::type_identity_t<T>& value) {
+  return std::views::filter([=](const Row& row) { return row.*member == value; });
+}
+/// The values of a member, each once, in the order in which they come first.
+template <class Row, class T>
+std::vector<T> distinct(const std::vector<Row>& rows, T Row::*member) {
+  std::vector<T> all;
+  for (const Row& row : rows)
+    if (std::ranges::find(all, row.*member) == all.end()) all.push_back(row.*member);
+  return all;
+}
+
 /// Name, title and texts of the chart's figure, or null.
 const FigureInfo* figure_info(const Chart& chart);
 /// Writes and draws its figure, if it has one, as draw() does.

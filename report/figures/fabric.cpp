@@ -21,12 +21,7 @@ MethodStyle style_at(size_t place) {
   return {colours[place % std::size(colours)], place < 5 ? "1" : "(6,3)", 4 + static_cast<int>(place)};
 }
 
-Curve& curve_of(Figure& f, const std::string& title) {
-  for (Curve& curve : f.curves)
-    if (curve.title == title) return curve;
-  f.curves.push_back({title, style_at(f.curves.size()), {}, true, true});
-  return f.curves.back();
-}
+Curve& curve_of(Figure& f, const std::string& title) { return curve_of(f, title, style_at(f.curves.size())); }
 
 /// By how much a halving of the cells divides the deviation, as a power of two, from the last two points.
 double order_at_end(const Curve& curve) {
@@ -43,10 +38,6 @@ bool is_drawn(const CantileverRow& row) {
 Chart deviations(const std::vector<CantileverRow>& cantilevers, const std::vector<StripVibrationRow>& vibrations,
                  const std::string& commit) {
   Figure f;
-  f.name = "fabric-grid";
-  f.title = "A strip of cloth with a bending rigidity, against the elastica and a clamped beam";
-  f.x = {"cells along the strip", true, std::nullopt, std::nullopt};
-  f.y = {"deviation / %", true, std::nullopt, std::nullopt};
   std::set<std::string> drawn;
   for (const CantileverRow& row : cantilevers) {
     const std::string title = row.tip_load > 0 ? fmt::format("drop, P L² / B = {:g}", row.tip_load)
@@ -67,55 +58,26 @@ Chart deviations(const std::vector<CantileverRow>& cantilevers, const std::vecto
   }
   std::erase_if(f.curves, [&](const Curve& curve) { return !drawn.contains(curve.title); });
   for (size_t i = 0; i < f.curves.size(); ++i) f.curves[i].style = style_at(i);
-  f.finding = fmt::format(
-      "On the finest grid drops and frequencies are right to {} %, and the deviation falls with the "
-      "power {:.2f} to {:.2f} of the cells.",
-      nice(worst), low, high);
-  f.caption = fmt::format(
-      "Strips of 20 cm clamped level, at rest under their weight or a load, or vibrating without "
-      "weight; commit {}.",
-      commit);
-  f.tier = "two-point problem of the elastica, and roots of cos β cosh β = −1";
-  return {"", std::move(f), "fabric",
-          "A rigidity B in N m means the same on every grid, as a beam's does. A clamp is two columns of pins, half a "
-          "cell before and behind the edge."};
+  return described("fabric-grid", std::move(f), "worst"_a = nice(worst), "low"_a = low, "high"_a = high,
+                   "commit"_a = commit);
 }
 
 Chart skip_one(const std::vector<SkipOneRow>& rows, const std::string& commit) {
   Figure f;
-  f.name = "fabric-skip-one";
-  f.title = "Skip-one springs fitted on one grid, and the bending term, over the grid";
-  f.x = {"cells along the strip", true, std::nullopt, std::nullopt};
-  f.y = {"drop of the tip over the length / %", false, 0, std::nullopt};
+  f.y.low = 0;
   for (const SkipOneRow& row : rows)
     curve_of(f, row.net).points.emplace_back(static_cast<double>(row.cells), 100 * row.drop);
   f.floor = {"elastica", 100 * rows.front().truth};
   double low = INFINITY, high = 0;
   for (const SkipOneRow& row : rows)
     if (row.skip_one > 0) low = std::min(low, row.drop), high = std::max(high, row.drop);
-  f.finding = fmt::format(
-      "With the same skip-one springs the strip's tip hangs {} % to {} % of its length below the "
-      "clamp, by the grid; the elastica's hangs {} %.",
-      nice(100 * low), nice(100 * high), nice(100 * rows.front().truth));
-  f.caption = fmt::format(
-      "A strip of w L³ / B = 5 at rest under its own weight; skip-one springs are as stiff on every grid as the "
-      "elastica's drop asks on 16 cells; commit {}.",
-      commit);
-  f.tier = "two-point problem of the elastica";
-  return {
-      "", std::move(f), "fabric",
-      "Skip-one springs do not resist the bending of a flat sheet to first order: their energy goes with the fourth "
-      "power of the angle, so that what they do depends on the grid and on the bend. They stiffen the sheet in its "
-      "plane instead."};
+  return described("fabric-skip-one", std::move(f), "low"_a = nice(100 * low), "high"_a = nice(100 * high),
+                   "truth"_a = nice(100 * rows.front().truth), "commit"_a = commit);
 }
 
 Chart hanging(const std::vector<HangingStripRow>& rows, const std::vector<HangingShapeRow>& shapes,
               const std::string& commit) {
   Figure f;
-  f.name = "fabric-hanging";
-  f.title = "A strip of cloth between two hinges, with and without a bending rigidity";
-  f.x = {"place / cm", false, std::nullopt, std::nullopt};
-  f.y = {"height / cm", false, std::nullopt, std::nullopt};
   for (const HangingShapeRow& row : shapes)
     curve_of(f, row.gamma > 0 ? fmt::format("elastica, w L³ / B = {:g}", row.gamma) : "catenary")
         .points.emplace_back(100 * row.x, 100 * row.height);
@@ -131,13 +93,8 @@ Chart hanging(const std::vector<HangingStripRow>& rows, const std::vector<Hangin
     const double order = std::log2(rows[i - 1].deviation / rows[i].deviation);
     worst = std::max(worst, std::abs(rows[i].deviation)), low = std::min(low, order), high = std::max(high, order);
   }
-  f.finding = fmt::format(
-      "On the finest grid the sag is right to {} %, and the deviation falls with the power {:.2f} to {:.2f} of the "
-      "cells.",
-      nice(100 * worst), low, high);
-  f.caption = fmt::format("A strip of 20 cm between hinges 14 cm apart; commit {}.", commit);
-  f.tier = "closed form of the catenary, and two-point problem of the elastica";
-  return {"", std::move(f), "fabric"};
+  return described("fabric-hanging", std::move(f), "worst"_a = nice(100 * worst), "low"_a = low, "high"_a = high,
+                   "commit"_a = commit);
 }
 
 /// The drape itself, from above and from the side: a scene that rests there.
@@ -169,11 +126,9 @@ Snapshot draped(const std::vector<DrapedParticleRow>& rows, const std::string& n
 Chart drape(const std::vector<DrapedDiscRow>& rows, const std::vector<DrapedParticleRow>& shape,
             const std::string& commit) {
   Figure f;
-  f.name = "fabric-drape";
-  f.title = "A round cloth over a disc: the drape coefficient of states of rest";
-  f.x = {"nodes (folds of the cloth)", false, 3.5, 9.5};
+  f.x.low = 3.5, f.x.high = 9.5;
   for (int nodes = 4; nodes < 10; ++nodes) f.categories.emplace_back(nodes, std::to_string(nodes));
-  f.y = {"drape coefficient / %", false, 64, 80};
+  f.y.low = 64, f.y.high = 80;
   f.floor = {"cotton, measured", 68.4};
   // on the finest net; of the same cloth as the first
   const DrapedDiscRow& lowest = *std::find_if(
@@ -191,20 +146,11 @@ Chart drape(const std::vector<DrapedDiscRow>& rows, const std::vector<DrapedPart
     if (2 * row.rings == lowest.rings && row.start == lowest.start) before = row.coefficient;
   }
   for (Curve& curve : f.curves) std::ranges::sort(curve.points);
-  f.finding = fmt::format(
-      "The state of lowest energy has {} nodes and a coefficient of {:.1f} %, {:.1f} points from that on {} rings; the "
-      "states of all starts have {:.0f} to {:.0f} %.",
-      lowest.nodes, lowest.coefficient, std::abs(lowest.coefficient - before), lowest.rings / 2, least, most);
-  f.caption = fmt::format(
-      "30 cm over 18 cm (ISO 9073-9), B = {:g} µN m, 0.15 kg/m², C66 = {:g} N/m; with four times as much {:.1f} % "
-      "on {} rings. Cotton: 68.4 measured, 71.0 by finite elements (Gan, Ly, Steven 1991), 60 to 76 elsewhere; commit "
-      "{}.",
-      1e6 * lowest.rigidity, lowest.shear, sheared, rows.front().rings, commit);
-  f.tier = "difference from net to net; the fabric measured is another";
-  Chart chart{
-      "", std::move(f), "fabric",
-      "How the cloth was laid down decides its folds: the spread over the starts is the error bar. Folds do not "
-      "touch here."};
+  Chart chart =
+      described("fabric-drape", std::move(f), "nodes"_a = lowest.nodes, "coefficient"_a = lowest.coefficient,
+                "change"_a = std::abs(lowest.coefficient - before), "coarse"_a = lowest.rings / 2, "least"_a = least,
+                "most"_a = most, "rigidity"_a = 1e6 * lowest.rigidity, "shear"_a = lowest.shear, "sheared"_a = sheared,
+                "rings"_a = rows.front().rings, "commit"_a = commit);
   if (!shape.empty()) {
     chart.snapshots.push_back(draped(shape, "fabric-drape-above", {0.02, 1, 0}, "The drape, from above"));
     chart.snapshots.push_back(draped(shape, "fabric-drape-side", {0.3, 0.45, 1}, "and from the side"));

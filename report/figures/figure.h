@@ -52,7 +52,7 @@ struct FailureMark {
 struct Axis {
   std::string label;  // "quantity / unit"
   bool logarithmic = false;
-  std::optional<double> low, high;
+  std::optional<double> low = {}, high = {};
 };
 
 /// The size of a figure on paper. Its layout follows its width over its font.

@@ -5,9 +5,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <utility>
 
-#include "experiments/tables/table.h"
+#include "experiments/tables/order.h"
 #include "report/figures/charts.h"
 #include "report/findings/findings_text.h"
 
@@ -15,37 +14,22 @@ namespace crosscheck {
 namespace {
 
 /// "rk4: order 4, measured 3.99", or "my-engine: order measured 1.02" where the rule is unknown.
-std::string title_of(const Table& slopes, const std::string& scene, const std::string& method) {
+std::string title_of(const std::vector<OrderSlopeRow>& slopes, const std::string& method) {
   const std::string shown = short_name(method);
-  for (size_t i = 0; i < slopes.rows.size(); ++i)
-    if (text_at(slopes, i, "scene") == scene && text_at(slopes, i, "method") == method) {
-      const auto declared = number_at(slopes, i, "declared order");
-      return fmt::format("{}: order {}measured {:.2f}", shown, declared ? fmt::format("{:g}, ", *declared) : "",
-                         *number_at(slopes, i, "measured order"));
-    }
-  return method == shown ? shown : shown + ": no order seen";
+  const auto slope = std::ranges::find(slopes, method, &OrderSlopeRow::method);
+  if (slope == slopes.end()) return method == shown ? shown : shown + ": no order seen";
+  return fmt::format("{}: order {}measured {:.2f}", shown,
+                     slope->declared_order ? fmt::format("{}, ", *slope->declared_order) : "", slope->measured_order);
 }
 
 using Points2 = std::vector<std::pair<double, double>>;
 
 /// Step and value of one method's rows, in the order of the table: from long steps to short ones.
-Points2 column_of(const Table& points, const std::string& scene, const std::string& method, const char* column) {
+Points2 column_of(const std::vector<OrderRow>& rows, const std::string& method, OptionalNumber OrderRow::*value) {
   Points2 out;
-  for (size_t row = 0; row < points.rows.size(); ++row)
-    if (text_at(points, row, "scene") == scene && text_at(points, row, "method") == method)
-      if (const auto value = number_at(points, row, column); value && *value > 0)
-        out.emplace_back(*number_at(points, row, "step"), *value);
+  for (const OrderRow& row : rows | with(&OrderRow::method, method))
+    if (row.*value && *(row.*value) > 0) out.emplace_back(row.step, *(row.*value));
   return out;
-}
-
-/// The methods that have rows of this scene, in the order of the table.
-std::vector<std::string> methods_in(const Table& points, const std::string& scene) {
-  std::vector<std::string> names;
-  for (size_t i = 0; i < points.rows.size(); ++i)
-    if (const std::string& name = text_at(points, i, "method");
-        text_at(points, i, "scene") == scene && std::ranges::find(names, name) == names.end())
-      names.push_back(name);
-  return names;
 }
 
 /// The error at the smallest step over the difference of the last two steps: about 1 for a method that converges to the
@@ -55,25 +39,25 @@ double error_over_difference(const Points2& errors, const Points2& own) {
 }
 
 /// Compares the measured orders on a scene with the declared ones.
-std::string slopes_sentence(const Table& slopes, const std::string& scene) {
+std::string slopes_sentence(const std::vector<OrderSlopeRow>& slopes) {
   constexpr double close = 0.1;  // contribution of the next order at the finest three steps of a smooth scene
   std::vector<std::string> other;
-  int seen = 0;
+  size_t seen = 0;
   double off = 0;
-  for (size_t i = 0; i < slopes.rows.size(); ++i) {
-    if (text_at(slopes, i, "scene") != scene || !number_at(slopes, i, "declared order")) continue;
-    const double declared = *number_at(slopes, i, "declared order"), measured = *number_at(slopes, i, "measured order");
+  for (const OrderSlopeRow& row : slopes) {
+    if (!row.declared_order) continue;
+    const double apart = std::abs(row.measured_order - static_cast<double>(*row.declared_order));
     ++seen;
-    if (std::abs(measured - declared) > close)
-      other.push_back(fmt::format("{} ({:.2f} instead of {:g})", text_at(slopes, i, "method"), measured, declared));
+    if (apart > close)
+      other.push_back(fmt::format("{} ({:.2f} instead of {})", row.method, row.measured_order, *row.declared_order));
     else
-      off = std::max(off, std::abs(measured - declared));
+      off = std::max(off, apart);
   }
   if (seen == 0) return "No order is read off here: no error of a method that promises one falls as a steady power.";
   std::string text;
-  if (seen > static_cast<int>(other.size()))
-    text = fmt::format("The measured order of {} method{} is the declared one, within {:.2g}.", seen - other.size(),
-                       seen - other.size() == 1 ? "" : "s", off);
+  if (const size_t agreeing = seen - other.size(); agreeing > 0)
+    text =
+        fmt::format("The measured order of {} is the declared one, within {:.2g}.", counted(agreeing, "method"), off);
   if (!other.empty())
     text += fmt::format("{}By another power falls that of {}.", text.empty() ? "" : " ", joined(other));
   return text;
@@ -83,24 +67,21 @@ std::string slopes_sentence(const Table& slopes, const std::string& scene) {
 
 std::vector<Chart> order_charts(const ChartInput& input) {
   std::vector<Chart> charts;
-  const Table* points = input.result.table("order");
-  const Table* slopes = input.result.table("order-slopes");
-  for (size_t i = 0; i < input.scenes.size() && points && slopes; ++i) {
-    const Scene& scene = input.scenes[i];
+  const auto all = rows_of<OrderRow>(input.result);
+  const auto all_slopes = rows_of<OrderSlopeRow>(input.result);
+  for (const Scene& scene : input.scenes) {
+    std::vector<OrderRow> rows;
+    std::vector<OrderSlopeRow> slopes;
+    std::ranges::copy(all | with(&OrderRow::scene, scene.name), std::back_inserter(rows));
+    std::ranges::copy(all_slopes | with(&OrderSlopeRow::scene, scene.name), std::back_inserter(slopes));
+    if (rows.empty()) continue;
     Figure f;
-    f.title = scene.name + ": error against time step";
-    f.x = {"time step / s", true, std::nullopt, std::nullopt};
-    f.y = {"largest RMS position error / m", true, std::nullopt, std::nullopt};
-    f.name = scene.name + "-order";
     std::vector<std::string> elsewhere;
-    size_t first = 0;  // row of this scene
-    while (first < points->rows.size() && text_at(*points, first, "scene") != scene.name) ++first;
-    if (first == points->rows.size()) continue;
-    const double error_bar = *number_at(*points, first, "truth bar");
-    for (const std::string& method : methods_in(*points, scene.name)) {
-      Curve curve{title_of(*slopes, scene.name, method), style_of(method), {}, true, true};
-      Points2 errors = column_of(*points, scene.name, method, "error");
-      Points2 own = column_of(*points, scene.name, method, "distance to own finest");
+    const double error_bar = rows[0].truth_bar;
+    for (const std::string& method : distinct(rows, &OrderRow::method)) {
+      Curve curve{title_of(slopes, method), style_of(method), {}, true, true};
+      Points2 errors = column_of(rows, method, &OrderRow::error),
+              own = column_of(rows, method, &OrderRow::distance_to_finest);
       // 4: a rule of first order with last two errors e and 2 e is at 1; a slower start may make it 2
       const bool converges_elsewhere = error_over_difference(errors, own) > 4 && errors.back().second > 10 * error_bar;
       // errors below the truth's error bar are not known
@@ -108,18 +89,14 @@ std::vector<Chart> order_charts(const ChartInput& input) {
       curve.points = std::move(errors);
       // a mark is named after its curve, if there is one
       const std::string& marked = curve.points.empty() ? method : curve.title;
-      for (size_t row = 0; row < points->rows.size(); ++row)
-        if (text_at(*points, row, "scene") == scene.name && text_at(*points, row, "method") == method)
-          if (const std::string& verdict = text_at(*points, row, "verdict"); verdict != "ok")
-            f.failures.push_back({marked + ": " + failure_class(verdict), style_of(method),
-                                  *number_at(*points, row, "step"), 10 * scene.size(), failure_class(verdict)});
+      for (const OrderRow& row : rows | with(&OrderRow::method, method))
+        if (const std::string word = failure_class(row.verdict); row.verdict != Verdict::ok)
+          f.failures.push_back({marked + ": " + word, style_of(method), row.step, 10 * scene.size(), word});
       if (!curve.points.empty()) f.curves.push_back(std::move(curve));
       // where a method converges to the truth both curves are nearly one: only the others' are drawn
       if (converges_elsewhere) {
         elsewhere.push_back(method);
-        MethodStyle open = style_of(method);
-        open.dash = "(1,3)";
-        open.marker = 6;
+        const MethodStyle open{style_of(method).colour, "(1,3)", 6};
         f.curves.push_back({method + ": difference from its own finest run", open, std::move(own), true, true});
       }
     }
@@ -127,16 +104,16 @@ std::vector<Chart> order_charts(const ChartInput& input) {
     f.floor = {"error bar of the truth", error_bar};
     f.caption = caption_of(scene, input.commit);
     SceneData truth;  // from this table alone: other experiments may not have run
-    truth.tier = text_at(*points, first, "truth tier"), truth.truth = text_at(*points, first, "truth"),
-    truth.error_bar = error_bar;
+    truth.tier = name_of(rows[0].truth_tier), truth.truth = rows[0].truth, truth.error_bar = error_bar;
     f.tier = tier_of(truth);
-    f.finding = slopes_sentence(*slopes, scene.name);
+    f.finding = slopes_sentence(slopes);
     if (!elsewhere.empty())
       f.finding +=
           fmt::format(" With shorter steps {} {} own finest run and not the truth: what {} to is something else.",
                       joined(elsewhere), elsewhere.size() == 1 ? "nears its" : "near their",
                       elsewhere.size() == 1 ? "it converges" : "they converge");
-    charts.push_back({scene.name, std::move(f)});
+    charts.push_back(described("{scene}-order", std::move(f), "scene"_a = scene.name));
+    charts.back().scene = scene.name;
   }
   return charts;
 }

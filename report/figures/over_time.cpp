@@ -10,163 +10,131 @@
 #include "report/findings/findings_text.h"
 
 namespace crosscheck {
-
-std::vector<Chart> error_charts(const ChartInput& input) {
-  std::vector<Chart> charts;
-  for (size_t i = 0; i < input.scenes.size(); ++i) {
-    const Scene& scene = input.scenes[i];
-    const SceneData& facts = input.facts[i];
-    const Table* table = input.result.table(scene.name + "-engines");
-    if (facts.tier.empty() || !(facts.motion > 0) || !table) continue;
-    Figure f;
-    f.name = scene.name + "-error";
-    f.title = scene.name + ": error against the truth";
-    f.caption = caption_of(scene, input.commit);
-    f.tier = tier_of(facts);
-    const double end = facts.truth_until.value_or(scene.duration);
-    f.x = {"t / s", false, 0.0, end};
-    const double top = 10 * facts.motion;
-    f.y = {"RMS position error / m", true, std::max(facts.error_bar, 1e-16) / 3, top};
-    std::vector<std::string> failed, cut;
-    for (const MethodData& m : facts.methods) {
-      if (!m.supported()) continue;
-      Curve curve{m.method, style_of(m.method), {}};
-      bool above = false;
-      for (const auto& [t, error] : points_of(*table, m.method, "error", true)) {
-        above |= error >= top;
-        if (error < top)
-          curve.points.emplace_back(t, std::max(error, facts.error_bar));  // errors below the bar are not known
-      }
-      if (above) cut.push_back(m.method);
-      if (!m.ok()) {
-        if (m.end <= end)
-          f.failures.push_back({m.method + ": " + m.failure(), style_of(m.method), m.end,
-                                curve.points.empty() ? top / 3 : std::min(top / 3, curve.points.back().second * 3)});
-        failed.push_back(m.method);
-      }
-      if (!curve.points.empty()) f.curves.push_back(std::move(curve));
-    }
-    f.floor = {"error bar of the truth", facts.error_bar};
-    f.finding = fmt::format("Errors of {} methods over {:.3g} s{}.", f.curves.size(), end,
-                            failed.empty() ? "" : fmt::format("; failed: {}", failed.size()));
-    if (!cut.empty())
-      f.caption += fmt::format(" Not drawn: errors above ten times the motion ({}), which {} {}.", nice_length(top),
-                               joined(cut), cut.size() == 1 ? "has" : "have");
-    if (f.curves.empty() && f.failures.empty()) continue;
-    charts.push_back({scene.name, std::move(f)});
-  }
-  return charts;
-}
-
-std::vector<Chart> agreement_charts(const ChartInput& input) {
-  std::vector<Chart> charts;
-  for (size_t i = 0; i < input.scenes.size(); ++i) {
-    const Scene& scene = input.scenes[i];
-    const SceneData& facts = input.facts[i];
-    const Table* table = input.result.table(scene.name + "-engines");
-    if (!table) continue;
-    Figure f;
-    f.name = scene.name + "-agreement";
-    f.title = scene.name + ": difference from mysim/symplectic-euler";
-    f.caption = caption_of(scene, input.commit);
-    f.tier = another_engine(facts);
-    f.x = {"t / s", false, 0.0, scene.duration};
-    f.y = {"RMS position difference / m", true, 1e-17,
-           std::nullopt};  // the least difference that is more than round-off
-    for (const MethodData& m : facts.methods) {
-      if (!m.ok() || family_of(m.method).is_subject()) continue;
-      Curve curve{m.method, style_of(m.method), points_of(*table, m.method, "difference", true)};
-      if (!curve.points.empty()) f.curves.push_back(std::move(curve));
-    }
-    if (f.curves.empty()) continue;
-    if (scene.window < scene.duration) f.window = {scene.window, "end of pointwise comparison"};
-    for (const MethodFamily* peer : default_peers()) {
-      const MethodData* its = facts.find(std::string(peer->representative));
-      if (!its || !its->difference) continue;
-      f.finding += fmt::format("{}{} stays within {} of mysim until {:.3g} s.", f.finding.empty() ? "" : " ",
-                               peer->representative_title.empty() ? peer->representative : peer->representative_title,
-                               nice_length(*its->difference), scene.window);
-    }
-    if (f.finding.empty()) f.finding = "Differences from mysim over time.";
-    charts.push_back({scene.name, std::move(f)});
-  }
-  return charts;
-}
-
 namespace {
 
+/// Makes the charts of one scene from its table of samples.
+using Make = std::vector<Chart> (*)(const ChartInput& input, const Scene& scene, const SceneData& facts,
+                                    const Table& table);
+
+/// The charts of all scenes that have a table with this ending.
+std::vector<Chart> of_all_scenes(const ChartInput& input, const char* ending, Make make) {
+  std::vector<Chart> charts;
+  for (size_t i = 0; i < input.scenes.size(); ++i) {
+    const Scene& scene = input.scenes[i];
+    if (const Table* table = input.result.table(scene.name + ending))
+      for (Chart& chart : make(input, scene, input.facts[i], *table)) {
+        chart.scene = scene.name;
+        charts.push_back(std::move(chart));
+      }
+  }
+  return charts;
+}
+
+std::vector<Chart> error_charts_of(const ChartInput& input, const Scene& scene, const SceneData& facts,
+                                   const Table& table) {
+  if (facts.tier.empty() || !(facts.motion > 0)) return {};
+  Figure f;
+  f.caption = caption_of(scene, input.commit);
+  f.tier = tier_of(facts);
+  const double end = facts.truth_until.value_or(scene.duration), top = 10 * facts.motion;
+  f.x.low = 0, f.x.high = end;
+  f.y.low = std::max(facts.error_bar, 1e-16) / 3, f.y.high = top;
+  std::vector<std::string> cut;
+  size_t failed = 0;
+  for (const MethodData& m : facts.methods) {
+    if (!m.supported()) continue;
+    Curve curve{m.method, style_of(m.method), {}};
+    bool above = false;
+    for (const auto& [t, error] : points_of(table, m.method, "error", true)) {
+      above |= error >= top;
+      if (error < top)
+        curve.points.emplace_back(t, std::max(error, facts.error_bar));  // errors below the bar are not known
+    }
+    if (above) cut.push_back(m.method);
+    failed += !m.ok();
+    if (!m.ok() && m.end <= end)
+      f.failures.push_back({m.method + ": " + m.failure(), style_of(m.method), m.end,
+                            curve.points.empty() ? top / 3 : std::min(top / 3, curve.points.back().second * 3)});
+    if (!curve.points.empty()) f.curves.push_back(std::move(curve));
+  }
+  f.floor = {"error bar of the truth", facts.error_bar};
+  f.finding = fmt::format("Errors of {} methods over {:.3g} s{}.", f.curves.size(), end,
+                          failed == 0 ? "" : fmt::format("; failed: {}", failed));
+  if (!cut.empty())
+    f.caption += fmt::format(" Not drawn: errors above ten times the motion ({}), which {} {}.", nice_length(top),
+                             joined(cut), cut.size() == 1 ? "has" : "have");
+  if (f.curves.empty() && f.failures.empty()) return {};
+  return {described("{scene}-error", std::move(f), "scene"_a = scene.name)};
+}
+
+std::vector<Chart> agreement_charts_of(const ChartInput& input, const Scene& scene, const SceneData& facts,
+                                       const Table& table) {
+  Figure f;
+  f.caption = caption_of(scene, input.commit);
+  f.tier = another_engine(facts);
+  f.x.low = 0, f.x.high = scene.duration;
+  f.y.low = 1e-17;  // the least difference that is more than round-off
+  for (const MethodData& m : facts.methods) {
+    if (!m.ok() || family_of(m.method).is_subject()) continue;
+    Curve curve{m.method, style_of(m.method), points_of(table, m.method, "difference", true)};
+    if (!curve.points.empty()) f.curves.push_back(std::move(curve));
+  }
+  if (f.curves.empty()) return {};
+  if (scene.window < scene.duration) f.window = {scene.window, "end of pointwise comparison"};
+  for (const MethodFamily* peer : default_peers()) {
+    const MethodData* its = facts.find(std::string(peer->representative));
+    if (!its || !its->difference) continue;
+    f.finding += fmt::format("{}{} stays within {} of mysim until {:.3g} s.", f.finding.empty() ? "" : " ",
+                             peer->representative_title.empty() ? peer->representative : peer->representative_title,
+                             nice_length(*its->difference), scene.window);
+  }
+  if (f.finding.empty()) f.finding = "Differences from mysim over time.";
+  return {described("{scene}-agreement", std::move(f), "scene"_a = scene.name)};
+}
+
+/// A quantity of table SCENE-engines on scenes with contact.
 struct Quantity {
-  const char* column;
-  const char* name;
-  const char* title;
-  const char* label;
+  const char *column, *name;
   double factor;  // from SI to the label's unit
-  bool logarithmic;
-  const char* finding;
-  const char* tier;  // null: another engine
+  bool positive;  // on a logarithmic axis
 };
+constexpr Quantity quantities[] = {{"difference from converged contact", "{scene}-converged", 1e3, true},
+                                   {"difference of centres", "{scene}-centres", 1e3, true},
+                                   {"clearance", "{scene}-clearance", 1e3, false},
+                                   {"creep", "{scene}-creep", 1e3, true}};
 
-constexpr Quantity quantities[] = {
-    {"difference from converged contact", "converged", "difference from the converged in-house contact rule",
-     "RMS position difference / mm", 1e3, true,
-     "How far each method is from what the in-house contact rule converges to in the step. Other rules converge to "
-     "something else: these are differences, no errors.",
-     "what the in-house contact rule converges to in the step"},
-    {"difference of centres", "centres", "distance of the centre of mass from mysim/symplectic-euler",
-     "distance of centres of mass / mm", 1e3, true, "How far the centres of mass of the engines are apart over time.",
-     nullptr},
-    {"clearance", "clearance", "smallest distance from the contact surface", "clearance / mm", 1e3, false,
-     "How far the lowest particle stays off the contact surface, or sinks into it.",
-     "exact (zero where it touches), from each method's own positions"},
-    {"creep", "creep", "mean sliding speed of the touching particles", "sliding speed / (mm/s)", 1e3, true,
-     "How fast the touching particles slide, and whether they come to rest.",
-     "another engine; exact where all must rest: zero"},
-};
-
-}  // namespace
-
-std::vector<Chart> contact_charts(const ChartInput& input) {
+std::vector<Chart> contact_charts_of(const ChartInput& input, const Scene& scene, const SceneData& facts,
+                                     const Table& table) {
   std::vector<Chart> charts;
-  for (size_t i = 0; i < input.scenes.size(); ++i) {
-    const Scene& scene = input.scenes[i];
-    const Table* table = input.result.table(scene.name + "-engines");
-    if (!input.facts[i].touched() || !table) continue;
-    for (const Quantity& q : quantities) {
-      Figure f;
-      f.name = scene.name + "-" + q.name;
-      f.title = scene.name + ": " + q.title;
-      f.caption = caption_of(scene, input.commit);
-      f.tier = q.tier ? q.tier : "another engine, so that these are differences and no errors";
-      f.finding = q.finding;
-      f.x = {"t / s", false, 0.0, scene.duration};
-      f.y = {q.label, q.logarithmic, std::nullopt, std::nullopt};
-      for (const MethodData& m : input.facts[i].methods) {
-        if (!m.ok()) continue;
-        Curve curve{m.method, style_of(m.method), points_of(*table, m.method, q.column, q.logarithmic)};
-        for (auto& point : curve.points) point.second *= q.factor;
-        // a falling cloth is not shown
-        if (std::string(q.column) == "clearance")
-          std::erase_if(curve.points, [](const auto& p) { return p.second > 1; });
-        if (!curve.points.empty()) f.curves.push_back(std::move(curve));
-      }
-      if (!f.curves.empty() && std::string(q.column) == "difference from converged contact") {
-        const SceneData& facts = input.facts[i];
-        f.x.high = *facts.contact_until;
-        f.floor = {"error bar of the converged contact rule", facts.error_bar * q.factor};
-        f.tier += fmt::format(", known until {:.3g} s to {} ({})", *facts.contact_until, nice_length(facts.error_bar),
-                              facts.truth);
-      }
-      // curves that are zero throughout are left to the text
-      const bool flat = std::ranges::all_of(f.curves, [](const Curve& c) {
-        return std::ranges::all_of(c.points, [](const auto& p) { return std::abs(p.second) < 1e-9; });
-      });
-      if (!flat) charts.push_back({scene.name, std::move(f)});
+  if (!facts.touched()) return {};
+  for (const Quantity& q : quantities) {
+    Figure f;
+    f.caption = caption_of(scene, input.commit);
+    f.x.low = 0, f.x.high = scene.duration;
+    for (const MethodData& m : facts.methods) {
+      if (!m.ok()) continue;
+      Curve curve{m.method, style_of(m.method), points_of(table, m.method, q.column, q.positive)};
+      for (auto& point : curve.points) point.second *= q.factor;
+      // a falling cloth is not shown
+      if (&q == &quantities[2]) std::erase_if(curve.points, [](const auto& p) { return p.second > 1; });
+      if (!curve.points.empty()) f.curves.push_back(std::move(curve));
     }
+    if (!f.curves.empty() && &q == &quantities[0]) {
+      f.x.high = *facts.contact_until;
+      f.floor = {"error bar of the converged contact rule", facts.error_bar * q.factor};
+    }
+    // curves that are zero throughout are left to the text
+    const bool flat = std::ranges::all_of(f.curves, [](const Curve& c) {
+      return std::ranges::all_of(c.points, [](const auto& p) { return std::abs(p.second) < 1e-9; });
+    });
+    if (!flat)
+      charts.push_back(described(q.name, std::move(f), "scene"_a = scene.name,
+                                 "until"_a = facts.contact_until.value_or(0), "bar"_a = nice_length(facts.error_bar),
+                                 "truth"_a = facts.truth));
   }
+
   return charts;
 }
-
-namespace {
 
 /// Largest energy turned over by any method that held, J: the scale of the balance error.
 double turned_over(const std::vector<EngineEnergyRow>& rows, const std::string& scene) {
@@ -176,12 +144,9 @@ double turned_over(const std::vector<EngineEnergyRow>& rows, const std::string& 
   return most;
 }
 
-Figure balance_figure(const Scene& scene, const SceneData& facts, const Table& table, double scale) {
+Figure balance_figure(const SceneData& facts, const Table& table, double scale) {
   Figure f;
-  f.name = scene.name + "-energy";
-  f.title = scene.name + ": relative energy residual";
-  f.x = {"t / s", false, 0.0, scene.duration};
-  f.y = {"relative energy residual", true, 1e-16, 10};
+  f.y.high = 10;
   constexpr double top = 3;
   double lowest = 1;
   bool above = false;
@@ -199,10 +164,6 @@ Figure balance_figure(const Scene& scene, const SceneData& facts, const Table& t
     if (!curve.points.empty()) f.curves.push_back(std::move(curve));
   }
   f.y.low = std::pow(10, std::floor(std::log10(lowest)));
-  f.tier = "exact (what is gained, lost and turned over adds up to zero), to the rounding of the sums";
-  f.finding =
-      "Kinetic, elastic and gravitational energy plus what drag and dashpots took, less what wind and moved pins gave: "
-      "its change should be zero.";
   if (above) f.caption = fmt::format(" Not drawn: changes of more than {} times the energy turned over.", top);
   return f;
 }
@@ -217,16 +178,12 @@ double largest_fall(const std::vector<std::pair<double, double>>& points) {
 Figure contact_figure(const Scene& scene, const SceneData& facts, const Table& table,
                       const std::vector<EngineEnergyRow>& energies) {
   Figure f;
-  f.name = scene.name + "-energy";
-  f.title = scene.name + ": energy dissipated in contact";
-  f.x = {"t / s", false, 0.0, scene.duration};
   const auto known = std::ranges::find_if(
       energies, [&](const EngineEnergyRow& row) { return row.scene == scene.name && row.contact_in_truth; });
   f.tier = known == energies.end() ? "another engine; contact with a still ball takes and never gives"
                                    : fmt::format("converged until {:.3g} s: {:.5g} ± {:.1g} J; later another engine",
                                                  known->contact_until.value_or(0), *known->contact_in_truth,
                                                  known->contact_bar.value_or(0));
-  f.y = {"energy dissipated in contact / J", false, std::nullopt, std::nullopt};
   std::vector<std::string> guessed, left_out, gave;
   for (const MethodData& m : facts.methods) {
     if (!m.supported()) continue;
@@ -256,23 +213,33 @@ Figure contact_figure(const Scene& scene, const SceneData& facts, const Table& t
   return f;
 }
 
+std::vector<Chart> balance_charts_of(const ChartInput& input, const Scene& scene, const SceneData& facts,
+                                     const Table& table) {
+  const auto energies = rows_of<EngineEnergyRow>(input.result);
+
+  const double scale = turned_over(energies, scene.name);
+  if (!(scale > 0)) return {};
+  const bool touched = facts.touched();
+  Figure f = touched ? contact_figure(scene, facts, table, energies) : balance_figure(facts, table, scale);
+  if (f.curves.empty() && f.failures.empty()) return {};
+  f.x.low = 0, f.x.high = scene.duration;
+  // the caption ends with what is not drawn
+  f.caption = caption_of(scene, input.commit) + f.caption;
+  f.name = scene.name + "-energy";
+  return {described(touched ? "contact {scene}-energy" : "{scene}-energy", std::move(f), "scene"_a = scene.name)};
+}
+
 }  // namespace
 
+std::vector<Chart> error_charts(const ChartInput& input) { return of_all_scenes(input, "-engines", error_charts_of); }
+std::vector<Chart> agreement_charts(const ChartInput& input) {
+  return of_all_scenes(input, "-engines", agreement_charts_of);
+}
+std::vector<Chart> contact_charts(const ChartInput& input) {
+  return of_all_scenes(input, "-engines", contact_charts_of);
+}
 std::vector<Chart> balance_charts(const ChartInput& input) {
-  std::vector<Chart> charts;
-  const auto energies = rows_of<EngineEnergyRow>(input.result);
-  for (size_t i = 0; i < input.scenes.size(); ++i) {
-    const Scene& scene = input.scenes[i];
-    const Table* table = input.result.table(scene.name + "-energy");
-    const double scale = turned_over(energies, scene.name);
-    if (!table || !(scale > 0)) continue;
-    Figure f = input.facts[i].touched() ? contact_figure(scene, input.facts[i], *table, energies)
-                                        : balance_figure(scene, input.facts[i], *table, scale);
-    // the caption ends with what is not drawn
-    f.caption = caption_of(scene, input.commit) + f.caption;
-    if (!f.curves.empty() || !f.failures.empty()) charts.push_back({scene.name, std::move(f)});
-  }
-  return charts;
+  return of_all_scenes(input, "-energy", balance_charts_of);
 }
 
 }  // namespace crosscheck

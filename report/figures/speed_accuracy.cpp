@@ -7,8 +7,8 @@
 #include <cmath>
 #include <set>
 
+#include "experiments/tables/speed_accuracy.h"
 #include "experiments/tables/stability.h"
-#include "experiments/tables/table.h"
 #include "report/figures/charts.h"
 #include "report/findings/answers.h"
 #include "report/findings/findings_text.h"
@@ -17,92 +17,79 @@
 namespace crosscheck {
 namespace {
 
-bool same_run(const Table& a, size_t i, const Table& b, size_t j) {
-  for (const char* column : {"scene", "method", "setting", "asked"})
-    if (a.at(i, column) != b.at(j, column)) return false;
-  return true;
-}
+using Row = SpeedAccuracyRow;
 
-/// The cost on the x axis of a chart: CPU time or force evaluations.
-struct CostAxis {
-  bool time;
-  std::string suffix() const { return time ? "-cost" : ""; }
-  std::string column() const { return time ? "cpu" : "evaluations"; }
-  std::string text_of(double value) const {
-    return time ? step_text(value) : value < 1e6 ? fmt::format("{:.0f}", value) : nice(value);
-  }
-};
-
-/// The rows of one scene, and its truth.
-struct SceneRows {
-  const Table& runs;
-  const Table* cost;  // of CPU times
+/// The runs of one scene with their CPU times, and its truth.
+struct SceneRuns {
+  std::vector<Row> runs;
+  std::vector<SpeedAccuracyCostRow> costs;
   std::string scene, truth;
-  std::vector<size_t> rows;
   double motion = 0;
   std::optional<double> error_bar;
+
   bool difference() const { return truth.find("contact rule") != std::string::npos; }
   /// Length that counts as one on the axis, m: a percent of the motion where a truth is known.
   double unit() const { return error_bar && motion > 0 ? motion / 100 : 1; }
   /// The quantity drawn over the cost.
-  const char* column() const {
-    return !error_bar     ? "distance to own finest"
-           : difference() ? "largest difference from converged contact"
-                          : "largest error";
+  OptionalNumber drawn(const Row& run) const {
+    return !error_bar ? run.to_own_finest : difference() ? run.difference : run.error;
   }
   std::string measure() const {
     return !error_bar     ? "difference from own finest run"
            : difference() ? "difference from the in-house contact rule"
                           : "error";
   }
-  std::optional<double> cost_of(size_t row, const CostAxis& kind) const {
-    if (!kind.time) return number_at(runs, row, "evaluations");
-    for (size_t i = 0; cost && i < cost->rows.size(); ++i)
-      if (same_run(runs, row, *cost, i)) return number_at(*cost, i, "cpu");
-    return std::nullopt;
+  const SpeedAccuracyCostRow* timing(const Row& run) const {
+    const auto found = std::ranges::find_if(costs, [&](const SpeedAccuracyCostRow& c) {
+      return c.method == run.method && c.setting == run.setting && c.requested == run.requested;
+    });
+    return found == costs.end() ? nullptr : &*found;
+  }
+  /// CPU time or force evaluations.
+  std::optional<double> cost(const Row& run, bool time) const {
+    if (!time) return static_cast<double>(run.evaluations);
+    const SpeedAccuracyCostRow* timed = timing(run);
+    return timed ? std::optional(timed->cpu) : std::nullopt;
+  }
+  /// Returns true if only a part of the run was timed, and scaled by its evaluations (of Bullet's worlds: steps).
+  bool is_scaled(const Row& run) const {
+    const SpeedAccuracyCostRow* timed = timing(run);
+    return timed && timed->part < 1;
   }
 };
 
-/// Whether the time was taken of a part of the run only, and scaled by its evaluations (of Bullet's worlds: steps).
-bool is_scaled(const SceneRows& s, size_t row) {
-  for (size_t i = 0; s.cost && i < s.cost->rows.size(); ++i)
-    if (same_run(s.runs, row, *s.cost, i)) return number_at(*s.cost, i, "part timed", 1) < 1;
-  return false;
+std::string cost_text(double value, bool time) {
+  return time ? step_text(value) : value < 1e6 ? fmt::format("{:.0f}", value) : nice(value);
 }
 
-SceneRows rows_of(const ChartInput& input, const Table& runs, const std::string& scene) {
-  SceneRows s{runs, input.result.table("speed-accuracy-cost"), scene, "", {}};
-  for (size_t i = 0; i < runs.rows.size(); ++i)
-    if (text_or_none(runs, i, "scene") == scene) {
-      s.rows.push_back(i);
-      s.motion = *number_at(runs, i, "motion");
-      s.error_bar = number_at(runs, i, "truth bar");
-      s.truth = text_or_none(runs, i, "truth");
-    }
+SceneRuns runs_of(const ChartInput& input, const std::string& scene) {
+  SceneRuns s;
+  s.scene = scene;
+  std::ranges::copy(rows_of<Row>(input.result) | with(&Row::scene, scene), std::back_inserter(s.runs));
+  std::ranges::copy(rows_of<SpeedAccuracyCostRow>(input.result) | with(&SpeedAccuracyCostRow::scene, scene),
+                    std::back_inserter(s.costs));
+  for (const Row& run : s.runs) s.motion = run.motion, s.error_bar = run.truth_bar, s.truth = run.truth.value_or("");
   return s;
 }
 
 /// "mysim/rk4 3": the fourth row of its method in this scene.
-std::string run_of(const SceneRows& s, size_t row) {
-  size_t place = 0;
-  for (const size_t i : s.rows) place += i < row && s.runs.at(i, "method") == s.runs.at(row, "method");
-  return fmt::format("{} {}", text_or_none(s.runs, row, "method"), place);
+std::string name_of_run(const SceneRuns& s, const Row& run) {
+  const auto place = std::count_if(s.runs.data(), &run, [&](const Row& other) { return other.method == run.method; });
+  return fmt::format("{} {}", run.method, place);
 }
 
 /// The tooltip of a run, in three lines.
-Tooltip tooltips(const SceneRows& s, size_t row, const std::string& outcome) {
-  std::string cost;
-  for (const CostAxis kind : {CostAxis{false}, CostAxis{true}})
-    if (const auto value = s.cost_of(row, kind); value && *value > 0)
-      cost += fmt::format("{}{} {}", cost.empty() ? "" : ", ", kind.text_of(*value),
-                          !kind.time          ? "evaluations"
-                          : is_scaled(s, row) ? "of CPU (scaled from a part of the run)"
+Tooltip tooltip(const SceneRuns& s, const Row& run, const std::string& outcome) {
+  std::string costs;
+  for (const bool time : {false, true})
+    if (const auto value = s.cost(run, time); value && *value > 0)
+      costs += fmt::format("{}{} {}", costs.empty() ? "" : ", ", cost_text(*value, time),
+                           !time              ? "evaluations"
+                           : s.is_scaled(run) ? "of CPU (scaled from a part of the run)"
                                               : "of CPU");
-  const std::string setting = text_or_none(s.runs, row, "setting");
-  return {
-      fmt::format("{}, {}{}\n{}\n{}", text_or_none(s.runs, row, "method"), setting.starts_with("step") ? "step " : "",
-                  setting_text(setting, *number_at(s.runs, row, "asked")), outcome, cost),
-      run_of(s, row)};
+  return {fmt::format("{}, {}{}\n{}\n{}", run.method, run.setting == SettingKind::step ? "step " : "",
+                      setting_text(std::string(name_of(run.setting)), run.requested), outcome, costs),
+          name_of_run(s, run)};
 }
 
 constexpr int scaled_ring = 6;  // gnuplot's open circle
@@ -115,90 +102,91 @@ std::string over_omega(double h_omega) {
 }
 
 /// Marks the recommended run, the cost of the critical step of its rule, and real time.
-void add_recommendation(Figure& f, const SceneRows& s, const CostAxis& kind, const ChartInput& input) {
+void add_recommendation(Figure& f, const SceneRuns& s, bool time, const ChartInput& input) {
   const auto scene = std::ranges::find(input.scenes, s.scene, &Scene::name);
-  if (kind.time && scene != input.scenes.end()) f.guides.push_back({true, scene->duration, "real time"});
-  const auto run = recommended_run(s.scene, 0.01, input.result);
-  if (!run) return;
-  for (const size_t i : s.rows) {
-    const std::string setting(name_of(run->setting));
-    const auto cost = s.cost_of(i, kind);
-    if (!cost || text_or_none(s.runs, i, "method") != run->method || text_or_none(s.runs, i, "setting") != setting ||
-        number_at(s.runs, i, "asked") != run->requested)
+  if (time && scene != input.scenes.end()) f.guides.push_back({true, scene->duration, "real time"});
+  const auto best = recommended_run(s.scene, 0.01, input.result);
+  if (!best) return;
+  for (const Row& run : s.runs) {
+    const auto cost = s.cost(run, time);
+    if (!cost || run.method != best->method || run.setting != best->setting || run.requested != best->requested)
       continue;
-    f.on_page.take = {*cost, std::max(run->error, s.error_bar.value_or(0)) / s.unit(),
-                      "take this: " + setting_text(setting, run->requested),
-                      fmt::format("{}, {}", percent(run->error, run->motion), kind.text_of(*cost))};
-    if (!kind.time) f.on_page.take->more += " evaluations";
+    f.on_page.take = {*cost, std::max(best->error, s.error_bar.value_or(0)) / s.unit(),
+                      "take this: " + setting_text(std::string(name_of(run.setting)), run.requested),
+                      fmt::format("{}, {}{}", percent(best->error, best->motion), cost_text(*cost, time),
+                                  time ? "" : " evaluations")};
     for (const LimitRow& limit : rows_of<LimitRow>(input.result))
-      if (run->setting == SettingKind::step && limit.scene == s.scene && limit.method == run->method &&
-          limit.predicted && *limit.predicted > 0 && limit.omega)
-        f.guides.push_back({true, *cost * run->requested / *limit.predicted,
-                            fmt::format("{} blows up left of here: h > {} = {}", short_name(run->method),
+      if (run.setting == SettingKind::step && limit.scene == s.scene && limit.method == run.method && limit.predicted &&
+          *limit.predicted > 0 && limit.omega)
+        f.guides.push_back({true, *cost * run.requested / *limit.predicted,
+                            fmt::format("{} blows up left of here: h > {} = {}", short_name(run.method),
                                         over_omega(*limit.predicted * *limit.omega), step_text(*limit.predicted))});
   }
 }
 
-Figure figure_of(const SceneRows& s, const CostAxis& kind, const ChartInput& input) {
+/// Draws the Pareto front; returns its methods, from the cheapest run to the most accurate.
+template <Cost kind>
+std::vector<std::string> add_front(Figure& f, const SceneRuns& s, const ChartInput& input) {
+  std::vector<std::string> methods;
+  for (const auto& row : rows_of<ParetoRow<kind>>(input.result) | with(&ParetoRow<kind>::scene, s.scene)) {
+    f.pareto.emplace_back(row.cost, std::min(3 * s.motion, row.distance) / s.unit());
+    const std::string name = name_in_sentence(row.method);
+    if (std::ranges::find(methods, name) == methods.end()) methods.push_back(name);
+  }
+  return methods;
+}
+
+std::optional<Chart> chart_of(const SceneRuns& s, bool time, const ChartInput& input) {
   Figure f;
-  f.name = s.scene + "-speed-accuracy" + kind.suffix();
-  f.from_costs = kind.time;
+  f.from_costs = time;
   f.runs = s.scene + "-speed-accuracy";
-  f.title = fmt::format("{}: work-precision diagram over {}", s.scene, kind.time ? "CPU time" : "force evaluations");
-  f.x = {kind.time ? "CPU time of the run / s" : "force evaluations of the run", true, std::nullopt, std::nullopt};
+  f.x = {"CPU time of the run / s", true};
   const double unit = s.unit(), top = 10 * s.motion / unit, highest = 3 * s.motion / unit;
   double lowest = s.error_bar ? std::max(*s.error_bar, 1e-16) / unit : 1, furthest = 0;
-  int failed = 0, good = 0, beyond = 0, uncounted = 0;
+  size_t good = 0;
+  int beyond = 0, uncounted = 0;
   // in a style of its own, and beneath all methods, so that a pointer meets the run
   Curve scaled{scaled_times, {"#777777", "1", scaled_ring}, {}, false, true};
   std::set<std::string> methods;
-  for (const size_t i : s.rows) {
-    const auto cost = s.cost_of(i, kind);
-    const std::string method = text_or_none(s.runs, i, "method"), verdict = text_or_none(s.runs, i, "verdict");
+  for (const Row& run : s.runs) {
+    const auto cost = s.cost(run, time);
     if (!cost || !(*cost > 0)) {
-      uncounted += verdict != "unsupported";
+      uncounted += run.verdict != Verdict::unsupported;
       continue;
     }
-    methods.insert(method);
+    methods.insert(run.method);
     furthest = std::max(furthest, *cost);
-    const bool part = kind.time && is_scaled(s, i);
-    if (verdict != "ok") {
+    const bool part = time && s.is_scaled(run);
+    if (run.verdict != Verdict::ok) {
       if (part) scaled.points.emplace_back(*cost, 4 * s.motion / unit);
-      const std::string word = failure_class(verdict);
-      f.failures.push_back({method + ": " + word, style_of(method), *cost, 4 * s.motion / unit, word, cross_of(word),
-                            tooltips(s, i, fmt::format("{} at {:.3g} s", word, *number_at(s.runs, i, "end")))});
-      ++failed;
+      const std::string word = failure_class(run.verdict);
+      f.failures.push_back({run.method + ": " + word, style_of(run.method), *cost, 4 * s.motion / unit, word,
+                            cross_of(word), tooltip(s, run, fmt::format("{} at {:.3g} s", word, run.end))});
       continue;
     }
-    const auto apart = number_at(s.runs, i, s.column());
+    const auto apart = s.drawn(run);
     if (!apart || (!s.error_bar && !(*apart > 0))) continue;
-    auto curve = std::find_if(f.curves.begin(), f.curves.end(), [&](const Curve& c) { return c.title == method; });
-    if (curve == f.curves.end()) curve = f.curves.insert(f.curves.end(), {method, style_of(method), {}, true, true});
     // errors below the truth's error bar are not known
-    const double y = std::min(highest, (s.error_bar ? std::max(*apart, *s.error_bar) : *apart) / unit);
+    const double y = std::min(highest, std::max(*apart, s.error_bar.value_or(0)) / unit);
     beyond += *apart > highest * unit;
-    curve->points.emplace_back(*cost, y);
+    Curve& curve = curve_of(f, run.method, style_of(run.method));
+    curve.points.emplace_back(*cost, y);
+    curve.tooltips.push_back(tooltip(s, run, s.measure() + " " + nice_length(*apart)));
     if (part) scaled.points.emplace_back(*cost, y);
-    curve->tooltips.push_back(tooltips(s, i, s.measure() + " " + nice_length(*apart)));
     lowest = std::min(lowest, y);
     ++good;
   }
+  if (f.curves.empty() && f.failures.empty()) return std::nullopt;
+  const size_t failed = f.failures.size();
   f.y = {fmt::format("largest RMS position {} / {}", s.error_bar && !s.difference() ? "error" : "difference",
                      s.error_bar && s.motion > 0 ? "% of the motion" : "m"),
          true, lowest / 3, top};
-  std::vector<std::string> best;  // methods of the line, from the cheapest run to the most accurate
-  if (const Table* pareto = input.result.table("speed-accuracy-pareto" + kind.suffix()))
-    for (size_t i = 0; i < pareto->rows.size(); ++i)
-      if (text_or_none(*pareto, i, "scene") == s.scene) {
-        f.pareto.emplace_back(*number_at(*pareto, i, kind.column().c_str()),
-                              std::min(highest, *number_at(*pareto, i, "distance") / unit));
-        const std::string name = name_in_sentence(text_at(*pareto, i, "method"));
-        if (std::ranges::find(best, name) == best.end()) best.push_back(name);
-      }
+  const std::vector<std::string> best =
+      time ? add_front<Cost::cpu>(f, s, input) : add_front<Cost::evaluations>(f, s, input);
   if (!f.pareto.empty()) f.pareto.emplace_back(furthest, f.pareto.back().second);
   if (s.error_bar && s.motion > 0) {
     f.cut = 2e-6 * s.motion / unit;
-    add_recommendation(f, s, kind, input);
+    add_recommendation(f, s, time, input);
   }
   if (s.error_bar)
     f.floor = {s.difference() ? "error bar of the converged contact rule" : "error bar of the truth",
@@ -216,33 +204,26 @@ Figure figure_of(const SceneRows& s, const CostAxis& kind, const ChartInput& inp
     f.curves.insert(f.curves.begin(), std::move(scaled));
   }
   if (uncounted > 0) drawn += fmt::format("{} of unknown cost, not drawn; ", uncounted);
-  f.caption = fmt::format("Scene {}, motion {}; {}{}commit {}.", s.scene, nice_length(s.motion),
-                          kind.time ? "CPU time, medians of runs in turns on one core; " +
-                                          builds_text({methods.begin(), methods.end()}) + "; "
-                                    : "",
-                          drawn, input.commit);
   f.tier = s.error_bar ? fmt::format("{}{}, error bar {}", s.difference() ? "" : "the truth: ", s.truth,
                                      nice_length(*s.error_bar))
                        : "each method's own finest run, since no truth is known";
-  return f;
+  return described(time ? "{scene}-speed-accuracy-cost" : "{scene}-speed-accuracy", std::move(f), "scene"_a = s.scene,
+                   "motion"_a = nice_length(s.motion), "drawn"_a = drawn,
+                   "builds"_a = builds_text({methods.begin(), methods.end()}), "commit"_a = input.commit);
 }
 
 }  // namespace
 
 std::vector<Chart> speed_accuracy_charts(const ChartInput& input) {
   std::vector<Chart> charts;
-  const Table* runs = input.result.table("speed-accuracy");
-  for (size_t i = 0; runs && i < input.scenes.size(); ++i) {
-    if (!has_own_charts("speed-accuracy", input.scenes[i].name, input.all)) continue;
-    const SceneRows s = rows_of(input, *runs, input.scenes[i].name);
-    if (s.rows.empty()) continue;
-    for (const CostAxis kind : {CostAxis{true}, CostAxis{false}}) {
-      Figure f = figure_of(s, kind, input);
-      if (f.curves.empty() && f.failures.empty()) continue;
-      Chart chart{"", std::move(f), "speed-accuracy"};
-      if (kind.time) chart.text = input.scenes[i].question;
-      charts.push_back(std::move(chart));
-    }
+  for (const Scene& scene : input.scenes) {
+    if (!has_own_charts("speed-accuracy", scene.name, input.all)) continue;
+    const SceneRuns runs = runs_of(input, scene.name);
+    for (const bool time : {true, false})
+      if (auto chart = chart_of(runs, time, input)) {
+        if (time) chart->text = scene.question;
+        charts.push_back(std::move(*chart));
+      }
   }
   return charts;
 }

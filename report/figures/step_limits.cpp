@@ -42,7 +42,9 @@ std::vector<StepLimits::SceneMark> marked_scenes(const std::map<std::string, dou
 
 std::string milliseconds(std::optional<double> step) { return step ? fmt::format("{:#.5g}", 1e3 * *step) : "–"; }
 
-std::string column_text(const LimitRow& row) {
+}  // namespace
+
+std::string measured_text(const LimitRow& row) {
   switch (row.measurement) {
     case MeasuredLimit::found:
       return milliseconds(row.measured);
@@ -57,7 +59,7 @@ std::string column_text(const LimitRow& row) {
   return "";
 }
 
-std::string theory_text(const LimitRow& row) {
+std::string predicted_text(const LimitRow& row) {
   switch (row.prediction) {
     case PredictionKind::limit:
       return milliseconds(row.predicted);
@@ -70,6 +72,8 @@ std::string theory_text(const LimitRow& row) {
   }
   return "";
 }
+
+namespace {
 
 /// What the runs of one method say, over all scenes.
 struct Gathered {
@@ -117,8 +121,6 @@ struct Gathered {
 
 StepLimits step_limits_of(const std::vector<LimitRow>& table, const std::string& scene) {
   StepLimits f;
-  f.name = "stability-limits";
-  f.title = "Largest stable step, measured beside theory";
   const std::map<std::string, double> fastest = fastest_of(table);
   if (fastest.empty()) return f;
   f.columns_of = fastest.contains(scene)
@@ -133,7 +135,7 @@ StepLimits step_limits_of(const std::vector<LimitRow>& table, const std::string&
     if (method == methods.end()) method = methods.insert(methods.end(), {row.method, {}});
     method->second.add(row, row.omega.value_or(fastest.at(row.scene)), f.scenes);
     if (row.scene == f.columns_of)
-      method->second.row.measured = column_text(row), method->second.row.predicted = theory_text(row);
+      method->second.row.measured = measured_text(row), method->second.row.predicted = predicted_text(row);
   }
   for (auto& [name, gathered] : methods) gathered.conclude();
   std::ranges::stable_sort(methods, [](const auto& a, const auto& b) {

@@ -40,6 +40,10 @@ struct StepLimits : FigureInfo {
 /// columns where it was searched.
 StepLimits step_limits_of(const std::vector<LimitRow>& table, const std::string& scene);
 
+/// Limits in ms by runs and by theory, or a word.
+std::string measured_text(const LimitRow& row);
+std::string predicted_text(const LimitRow& row);
+
 /// Throws std::runtime_error that names the figure when there is nothing to draw.
 Drawing drawing_of(const StepLimits& limits);
 
