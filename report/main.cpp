@@ -22,7 +22,7 @@ constexpr AddCommand commands[] = {
     add_merge,       // joins the parts of an experiment
     add_report,      // the page
     add_figures,     // charts and pictures for print
-    add_render,      // a picture or a clip
+    add_render,      // a picture
     add_advise,      // the cheapest method for a tolerance
     add_regress,     // results beside baselines
     add_bench,       // speed against the peers

@@ -76,7 +76,6 @@ int doctor_command() {
       {"cmake", "cmake", "builds adapters, and builds and tests a source tree", in_source_tree},
       {"bwrap", "bubblewrap", "keeps a submission away from your files: `grade`", false},
       {"python3", "python3-numpy", "runs engines in NumPy, and the package for Python; the tests need it", false},
-      {"ffmpeg", "ffmpeg", "writes clips: `render -o FILE.mp4`", false},
       {"clang++", "clang", "another compiler, for `tests/mutants/builds.sh`", false},
       {"wasm-ld", lab_packages, "compiles mysim to WebAssembly, with clang: the lab in the page", false},
       {"node", "nodejs", "runs Jolt as an engine: `engine jolt`; the tests run the lab's module in it", false},

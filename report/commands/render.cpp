@@ -1,18 +1,16 @@
-// render: a picture of a scene, or a clip of its run, methods side by side.
+// render: a picture of a scene, methods side by side.
 
 #include <cstdio>
 
 #include "report/commands/command_line.h"
-#include "report/pictures/clip.h"
 #include "report/pictures/scene_picture.h"
 
 namespace crosscheck {
 namespace {
 
 struct RenderOptions {
-  std::string scene, methods, mode = "shaded", size = "1280x720";
-  std::string quality;  // empty: still for a picture, fast for a clip
-  double at = -1;       // s; negative: the end
+  std::string scene, methods, mode = "shaded", size = "1280x720", quality = "still";
+  double at = -1;  // s; negative: the end
   std::filesystem::path file;
 };
 
@@ -26,21 +24,17 @@ void read_size(const std::string& text, Shot& shot) {
 }
 
 /// The request, checked before any work.
-Shot shot_of(const RenderOptions& options, const Scene& scene, bool clip) {
+Shot shot_of(const RenderOptions& options, const Scene& scene) {
   Shot shot;
   shot.mode = mode_named(options.mode);
   shot.at = options.at;
-  if (clip && options.at >= 0)
-    throw InputError(fmt::format("--at {}: expected none for a clip, which shows all times", options.at));
   if (options.at > scene.duration)
     throw InputError(fmt::format("--at {}: expected a time from 0 to {} s", options.at, scene.duration));
-  if (!options.quality.empty() && options.quality != "fast" && options.quality != "still")
+  if (options.quality != "fast" && options.quality != "still")
     throw InputError(fmt::format("--quality {}: expected fast or still{}", options.quality,
                                  did_you_mean(options.quality, {"fast", "still"})));
-  const bool fast = options.quality.empty() ? clip : options.quality == "fast";
-  shot.quality = fast ? render::Quality::fast : render::Quality::still;
+  shot.quality = options.quality == "fast" ? render::Quality::fast : render::Quality::still;
   read_size(options.size, shot);
-  if (clip) require_clip(shot);
   return shot;
 }
 
@@ -64,29 +58,26 @@ std::vector<MethodResult> answers_of(const Scene& scene, const std::vector<Metho
 
 int render_command(const RenderOptions& options) {
   const Scene scene = load_scene(options.scene, options.methods);
-  const bool clip = options.file.extension() == ".mp4";
-  if (!clip && options.file.extension() != ".png")
-    throw InputError(fmt::format("-o {}: expected a file name that ends in .png or .mp4", options.file.string()));
+  if (options.file.extension() != ".png")
+    throw InputError(fmt::format("-o {}: expected a file name that ends in .png", options.file.string()));
   require_output_file(options.file);
-  const Shot shot = shot_of(options, scene, clip);
+  const Shot shot = shot_of(options, scene);
 
   std::vector<Method> methods;
   if (options.methods.empty())
     for (const std::string& name : pictured_methods(scene)) methods.push_back(find_method(name));
   else
     methods = find_methods(options.methods);
-  const Run run = clip ? clip_run(scene) : default_run(scene);
+  const Run run = default_run(scene);
   require_resources_to_keep(methods, scene, run);
-  Progress progress(static_cast<int>(methods.size()) + (clip ? 0 : 1));
+  Progress progress(static_cast<int>(methods.size()) + 1);
   const std::vector<MethodResult> answers = answers_of(scene, methods, run, progress);
   progress.done();
   if (answers.empty()) return 1;
   std::vector<const MethodResult*> shown;
   for (const MethodResult& a : answers) shown.push_back(&a);
-  if (clip)
-    write_clip(scene, shown, shot, options.file);
-  else
-    progress.begin("drawing " + options.file.string()), render::write_png(picture_of(scene, shown, shot), options.file);
+  progress.begin("drawing " + options.file.string());
+  render::write_png(picture_of(scene, shown, shot), options.file);
   progress.done();
   fmt::print("{}\n", options.file.string());
   return 0;
@@ -95,15 +86,15 @@ int render_command(const RenderOptions& options) {
 }  // namespace
 
 void add_render(CLI::App& app, Invocation& call) {
-  auto [render, options] = add_command(
-      app, call, "render", "draws a picture or a video clip of a scene, methods side by side", render_command);
+  auto [render, options] =
+      add_command(app, call, "render", "draws a picture of a scene, methods side by side", render_command);
   render.add_option("SCENE", options.scene, "a shipped scene or a TOML file")->required();
   render.add_option("--methods", options.methods, "methods to draw: A,B,...");
   render.add_option("--mode", options.mode, "shaded (default), stretch, springs, difference or strip");
   render.add_option("--at", options.at, "time, s (default: the end)")->transform(time_not_below_zero());
-  render.add_option("--quality", options.quality, "fast or still (default: still for a picture, fast for a clip)");
+  render.add_option("--quality", options.quality, "fast or still (default)");
   render.add_option("--size", options.size, "WxH in pixels (default: 1280x720)");
-  render.add_option("-o", options.file, "FILE.png, or FILE.mp4: 30 frames for each second of the scene")->required();
+  render.add_option("-o", options.file, "FILE.png")->required();
 }
 
 }  // namespace crosscheck

@@ -255,7 +255,7 @@ class Assembly {
     // one camera for all moments: that of the first, before anything strays, and a little further off
     std::vector<Shot> shots(s.moments.size(), s.shot);
     for (size_t i = 0; i < shots.size(); ++i) shots[i].at = s.moments[i].first;
-    CommonView common = common_view(s.scene, shown, {shots.front()});
+    CommonView common = common_view(s.scene, shown, shots.front());
     common.view.eye += 0.08 * (common.view.eye - common.view.target);
     for (size_t i = 0; i < shots.size(); ++i)
       render::write_png(without_letters(picture_of(s.scene, shown, shots[i], common)), images[i].file);

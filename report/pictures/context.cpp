@@ -65,8 +65,7 @@ Context::Context() {
   // without this Mesa writes compiled shaders into the home folder
   setenv("MESA_SHADER_CACHE_DISABLE", "true", 1);
   handle_ = std::make_unique<Handle>();
-  make_current();
-
+  if (!handle_->make_current()) throw std::runtime_error("Mesa gives no current OpenGL 3.3 core context");
   // a libGL linked next to OSMesa would swallow every call in silence
   const auto* name = reinterpret_cast<const char*>(glGetString(GL_RENDERER));
   const std::string renderer = name ? name : "nothing";
@@ -75,9 +74,5 @@ Context::Context() {
 }
 
 Context::~Context() = default;
-
-void Context::make_current() const {
-  if (!handle_->make_current()) throw std::runtime_error("Mesa gives no current OpenGL 3.3 core context");
-}
 
 }  // namespace crosscheck::render

@@ -21,8 +21,6 @@ class Context {
   ~Context();
   Context(const Context&) = delete;
   Context& operator=(const Context&) = delete;
-  /// To be called before drawing if another context may have been made since.
-  void make_current() const;
 
  private:
   struct Handle;

@@ -149,7 +149,7 @@ Layout layout_of(const Picture& picture) {
   layout.bar_width = std::min(0.6 * picture.width, 27 * layout.text);
   layout.bar_left = (picture.width - layout.bar_width) / 2;
 
-  layout.subtitle = picture.subtitle > 0 ? picture.subtitle : layout.text;
+  layout.subtitle = layout.text;
   for (const auto& row : picture.rows) {
     for (const Panel& panel : row) {
       const double room = fill * (is_strip(row) ? picture.width : layout.panel_width);

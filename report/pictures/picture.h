@@ -3,7 +3,6 @@
 
 #include <array>
 #include <filesystem>
-#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -65,7 +64,6 @@ struct Picture {
   Legend legend;
   int width = 1280, height = 720;  // pixels, of the whole picture
   double text = 0;                 // height of all letters, pixels; 0: as the size needs them, titles larger
-  double subtitle = 0;             // largest height of subtitles, pixels; 0: that of all letters
   Quality quality = Quality::still;
 };
 
@@ -83,19 +81,6 @@ std::string png_bytes(const Image& image, double pixels_per_inch = 0);
 
 /// The bytes of a lossy WebP file, half as large as a PNG of 128 colours: for small pictures on a page.
 std::string webp_bytes(const Image& image);
-
-/// Draws like draw(), but keeps the OpenGL context and its compiled shaders for the next picture (of the same size
-/// and quality): for clips, where compiling takes longer than drawing. To be used in one thread.
-class OffscreenRenderer {
- public:
-  OffscreenRenderer();
-  ~OffscreenRenderer();
-  Image draw(const Picture& picture);
-
- private:
-  struct Parts;
-  std::unique_ptr<Parts> parts_;
-};
 
 /// The panels without letters, drawn off screen. Same input, same bytes. Throws std::runtime_error with the cause.
 Image draw(const Picture& picture);

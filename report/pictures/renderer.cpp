@@ -7,7 +7,6 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
-#include <tuple>
 
 #include "report/pictures/draw_list.h"
 #include "report/pictures/gl.h"
@@ -54,8 +53,6 @@ Eigen::Matrix4f to_texture(const Eigen::Matrix4f& to_clip) {
   half.col(3) << 0.5f, 0.5f, 0.5f, 1;
   return half * to_clip;
 }
-
-}  // namespace
 
 /// Draws panels of one size and kind, one after another, while the context lives.
 struct Painter {
@@ -187,8 +184,6 @@ struct Painter {
   }
 };
 
-namespace {
-
 /// Puts a panel's linear floats (rows from the bottom) into the image (rows from the top).
 void put(const std::vector<float>& pixels, const std::vector<unsigned char>& srgb, const Layout& layout, int left,
          int top, Image& image) {
@@ -211,45 +206,19 @@ Image blank(int width, int height) {
 
 }  // namespace
 
-struct OffscreenRenderer::Parts {
-  std::unique_ptr<Context> context;
-  std::unique_ptr<Painter> painter;  // dies before the context
-  std::tuple<int, int, Quality> painter_for;
-
-  Painter& painter_of(const Picture& picture, const Layout& layout) {
-    const std::tuple wanted(layout.panel_width, layout.panel_height, picture.quality);
-    if (!painter || painter_for != wanted) {
-      // a new context too: the old painter's textures and programs go with the old one
-      painter.reset(), context.reset();
-      context = std::make_unique<Context>();
-      painter = std::make_unique<Painter>(layout.panel_width, layout.panel_height, picture.quality);
-      painter_for = wanted;
-    }
-    context->make_current();
-    return *painter;
-  }
-};
-
-OffscreenRenderer::OffscreenRenderer() : parts_(std::make_unique<Parts>()) {}
-OffscreenRenderer::~OffscreenRenderer() = default;
-
-Image OffscreenRenderer::draw(const Picture& picture) {
+Image draw(const Picture& picture) {
   const Layout layout = layout_of(picture);
   const Frame frame = frame_of(picture.view, double(layout.panel_width) / layout.panel_height);
-
   Image image = blank(picture.width, picture.height);
-
-  Painter& painter = parts_->painter_of(picture, layout);
-  for (std::size_t row = 0; row < picture.rows.size(); ++row) {
+  const Context context;  // with it die all textures and programs
+  const Painter painter(layout.panel_width, layout.panel_height, picture.quality);
+  for (std::size_t row = 0; row < picture.rows.size(); ++row)
     for (std::size_t column = 0; column < picture.rows[row].size(); ++column) {
       const DrawList list = draw_list_of(picture.rows[row][column], frame, picture.scale);
       put(painter.paint(list, frame), painter.srgb, layout, layout.left + int(column) * layout.panel_width,
           layout.panel_top[row], image);
     }
-  }
   return image;
 }
-
-Image draw(const Picture& picture) { return OffscreenRenderer().draw(picture); }
 
 }  // namespace crosscheck::render

@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "mysim/base/errors.h"
 #include "mysim/base/text.h"
@@ -161,14 +160,13 @@ std::string title_of(const MethodResult& answer, const std::vector<const MethodR
   return same > 1 ? fmt::format("{}, step {}", answer.method, step_text(answer.outcome.step)) : answer.method;
 }
 
-/// In a clip of steady width, and without word of a failure that is still to come.
-std::string time_text(const MethodResult& answer, int frame, const Shot& shot) {
-  const double time = answer.trajectory.t[frame];
-  const std::string t = shot.in_clip ? fmt::format("t = {:.2f} s", time) : fmt::format("t = {:.3g} s", time);
-  const bool to_come = shot.in_clip && frame_at(answer.trajectory, shot.at) + 1 < answer.trajectory.frames();
-  return answer.outcome.verdict == Verdict::ok || to_come
+/// The time, and of a run that failed how and when.
+std::string time_text(const MethodResult& answer, int frame) {
+  const std::string t = fmt::format("t = {:.3g} s", answer.trajectory.t[frame]);
+  const Outcome& outcome = answer.outcome;
+  return outcome.verdict == Verdict::ok
              ? t
-             : fmt::format("{}, {} at {:.3g} s", t, failure_class(answer.outcome.verdict), answer.outcome.end);
+             : fmt::format("{}, {} at {:.3g} s", t, failure_class(outcome.verdict), outcome.end);
 }
 
 std::vector<const MethodResult*> usable_of(const Scene& scene, const std::vector<const MethodResult*>& answers,
@@ -233,7 +231,6 @@ render::Picture panels_of(const Scene& scene, const std::vector<const MethodResu
   const bool no_stretch = shot.mode == Mode::stretch && links_of(scene).empty();
   const Mode mode = strip || no_stretch ? Mode::shaded : shot.mode;
   const auto base_frames = frames_of(scene, usable[0]->trajectory, shot);
-  seen.trails.clear();  // a later time's hold those of earlier ones
   if (!strip) picture.rows.emplace_back();
   for (const MethodResult* a : usable) {
     if (strip) picture.rows.emplace_back();
@@ -242,7 +239,7 @@ render::Picture panels_of(const Scene& scene, const std::vector<const MethodResu
       const Points& base = usable[0]->trajectory.x[base_frames[c]];
       render::Panel panel;
       panel.title = !strip || c == 0 ? title_of(*a, answers) : "";
-      panel.subtitle = time_text(*a, frames[c], shot);
+      panel.subtitle = time_text(*a, frames[c]);
       panel.balls = balls_of(scene, a->trajectory.t[frames[c]]);
       panel.bodies.push_back(body_of(scene, *a, frames[c], mode, &base));
       seen.add(panel, a->outcome.verdict == Verdict::ok);
@@ -310,24 +307,18 @@ Shot usual_shot(const Scene& scene, bool full) {
   return shot;
 }
 
-CommonView common_view(const Scene& scene, const std::vector<const MethodResult*>& answers,
-                       const std::vector<Shot>& shots) {
+CommonView common_view(const Scene& scene, const std::vector<const MethodResult*>& answers, const Shot& shot) {
   Seen seen;
-  render::Picture last;
-  double subtitle = std::numeric_limits<double>::infinity();
-  for (const Shot& shot : shots) {
-    last = panels_of(scene, answers, shot, seen);
-    subtitle = std::min(subtitle, render::layout_of(last).subtitle);
-  }
+  const render::Picture picture = panels_of(scene, answers, shot, seen);
   const double most = seen.healthy.empty() ? seen.most_of_failed : seen.most;
-  return {view_of(scene, seen.shown(), seen.balls, render::panel_aspect(last)), round_up(most), subtitle};
+  return {view_of(scene, seen.shown(), seen.balls, render::panel_aspect(picture)), round_up(most)};
 }
 
 render::Picture picture_of(const Scene& scene, const std::vector<const MethodResult*>& answers, const Shot& shot,
                            const CommonView& common) {
   Seen unused;
   render::Picture picture = panels_of(scene, answers, shot, unused);
-  picture.view = common.view, picture.subtitle = common.subtitle;
+  picture.view = common.view;
   if (picture.scale) picture.scale->high = common.top;
   if (!picture.legend.empty())
     for (auto& row : picture.rows)
@@ -337,7 +328,7 @@ render::Picture picture_of(const Scene& scene, const std::vector<const MethodRes
 }
 
 render::Picture picture_of(const Scene& scene, const std::vector<const MethodResult*>& answers, const Shot& shot) {
-  return picture_of(scene, answers, shot, common_view(scene, answers, {shot}));
+  return picture_of(scene, answers, shot, common_view(scene, answers, shot));
 }
 
 }  // namespace crosscheck

@@ -19,8 +19,7 @@ struct Shot {
   double at = -1;  // s; negative: the end
   render::Quality quality = render::Quality::still;
   int width = 1280, height = 720;
-  double text = 0;       // height of letters, pixels; 0: as the size needs. With it the panels choose rows and height
-  bool in_clip = false;  // times with two decimals always, and no word of a failure before it comes
+  double text = 0;  // height of letters, pixels; 0: as the size needs. With it the panels choose rows and height
 };
 
 /// The shot at the head of a scene's part of the report.
@@ -31,15 +30,13 @@ Shot usual_shot(const Scene& scene, bool full);
 /// Throws InputError when nothing can be shown.
 render::Picture picture_of(const Scene& scene, const std::vector<const MethodResult*>& answers, const Shot& shot);
 
-/// The common view of pictures that are to be compared, like those of a clip.
+/// The common view of pictures that are to be compared.
 struct CommonView {
   render::View view;
-  double top;       // upper end of the scale, in its unit
-  double subtitle;  // height of the subtitles, pixels
+  double top;  // upper end of the scale, in its unit
 };
-/// The one that suits all of these shots, which are of one mode and size, in the order of their times.
-CommonView common_view(const Scene& scene, const std::vector<const MethodResult*>& answers,
-                       const std::vector<Shot>& shots);
+/// The one that suits this shot.
+CommonView common_view(const Scene& scene, const std::vector<const MethodResult*>& answers, const Shot& shot);
 render::Picture picture_of(const Scene& scene, const std::vector<const MethodResult*>& answers, const Shot& shot,
                            const CommonView& common);
 

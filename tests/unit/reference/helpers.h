@@ -12,7 +12,6 @@
 // At the head of a test: skips it, with what is not tried then, where Debian's package is not there.
 #define NEEDS_PROGRAM(program, package, not_tried) \
   if (!crosscheck::on_path(program)) GTEST_SKIP() << "package " package " is not installed: " not_tried
-#define NEEDS_FFMPEG NEEDS_PROGRAM("ffmpeg", "ffmpeg", "no clip is written and looked at")
 #define NEEDS_CHROMIUM NEEDS_PROGRAM("chromium", "chromium", "the page is not tried in a browser")
 #define NEEDS_SUNDIALS                 \
   if (!crosscheck::sundials_version()) \

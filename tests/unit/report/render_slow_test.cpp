@@ -44,18 +44,8 @@ TEST(Render, SamePictureSameBytes) {
   }
 }
 
-TEST(Render, StudioKeepsNothingOfTheLastPicture) {
-  Picture picture = small_picture(), other = small_picture();
-  other.rows[0][0].balls.clear();
-  OffscreenRenderer renderer, another;
-  renderer.draw(other);
-  another.draw(picture);
-  EXPECT_EQ(renderer.draw(picture).rgb, draw(picture).rgb);
-}
-
 TEST(Render, IsNotBlankAndEndsInBackground) {
-  OffscreenRenderer renderer;
-  const Image image = renderer.draw(small_picture());
+  const Image image = draw(small_picture());
   const auto [least, most] = std::minmax_element(image.rgb.begin(), image.rgb.end());
   EXPECT_GT(*most - *least, 80);
   // no seam: the rim of the picture is the background to the last bit
@@ -68,13 +58,12 @@ TEST(Render, IsNotBlankAndEndsInBackground) {
 }
 
 TEST(Render, BothQualitiesShowTheSameScene) {
-  OffscreenRenderer renderer;
   // light and shadow differ, places do not: the difference stays far below that of a picture with nothing in it
   Picture empty = small_picture();
   empty.rows[0][0].bodies.clear(), empty.rows[0][0].balls.clear();
-  const Image fast = renderer.draw(small_picture(Quality::fast)), still = renderer.draw(small_picture(Quality::still));
+  const Image fast = draw(small_picture(Quality::fast)), still = draw(small_picture(Quality::still));
   double apart = 0, seen = 0;
-  const Image nothing = renderer.draw(empty);
+  const Image nothing = draw(empty);
   for (std::size_t i = 0; i < fast.rgb.size(); ++i) {
     apart += std::abs(fast.rgb[i] - still.rgb[i]);
     seen += std::abs(fast.rgb[i] - nothing.rgb[i]);
@@ -83,10 +72,9 @@ TEST(Render, BothQualitiesShowTheSameScene) {
 }
 
 TEST(Render, BallIsSeen) {
-  OffscreenRenderer renderer;
   Picture without = small_picture();
   without.rows[0][0].balls.clear();
-  EXPECT_GT(changed(renderer.draw(small_picture()), renderer.draw(without)), 0.03);
+  EXPECT_GT(changed(draw(small_picture()), draw(without)), 0.03);
 }
 
 TEST(Render, APictureOfNothingIsAnError) {
@@ -102,7 +90,6 @@ TEST(Render, APictureOfNothingIsAnError) {
 }
 
 TEST(Render, PenetrationIsSeen) {
-  OffscreenRenderer renderer;
   // a cloth lying on the ball hides its top; the same cloth 2 cm inside the ball must not
   Picture on_top = small_picture();
   Body& body = body_of(on_top);
@@ -113,52 +100,48 @@ TEST(Render, PenetrationIsSeen) {
   Picture bare = on_top;
   bare.rows[0][0].bodies.clear();
   // seen: ten times what a hidden cloth may change by the light it lets through
-  EXPECT_GT(changed(renderer.draw(on_top), renderer.draw(bare)), 0.02);
-  EXPECT_LT(changed(renderer.draw(inside), renderer.draw(bare)), 0.002);
+  EXPECT_GT(changed(draw(on_top), draw(bare)), 0.02);
+  EXPECT_LT(changed(draw(inside), draw(bare)), 0.002);
 }
 
 TEST(Render, ShiftOfTwoPercentIsSeen) {
-  OffscreenRenderer renderer;
   const Picture picture = small_picture();
   Picture shifted = picture;
   const double view_height =
       2 * (picture.view.eye - picture.view.target).norm() * std::tan(field_of_view * std::numbers::pi / 360);
   body_of(shifted).x.row(0).array() += 0.02 * view_height;
-  EXPECT_GT(changed(renderer.draw(picture), renderer.draw(shifted)), 0.02);
-  EXPECT_EQ(changed(renderer.draw(picture), renderer.draw(picture)), 0);
+  EXPECT_GT(changed(draw(picture), draw(shifted)), 0.02);
+  EXPECT_EQ(changed(draw(picture), draw(picture)), 0);
 }
 
 TEST(Render, SceneOfAnyUnitLooksTheSame) {
-  OffscreenRenderer renderer;
   // the same scene in millimetres: the frame takes the unit out, round-off aside
   Picture scaled = small_picture();
   body_of(scaled).x *= 1000, scaled.rows[0][0].balls[0].radius *= 1000;
   scaled.view = fit_view({body_of(scaled).x}, scaled.rows[0][0].balls, {0.3, 0.4, 1}, panel_aspect(scaled));
-  EXPECT_LT(changed(renderer.draw(small_picture()), renderer.draw(scaled)), 0.002);
+  EXPECT_LT(changed(draw(small_picture()), draw(scaled)), 0.002);
 }
 
 TEST(Render, LeavesOutABodyThatBlewUp) {
-  OffscreenRenderer renderer;
   Picture empty = small_picture();
   empty.rows[0][0].bodies.clear();
-  const Image without = renderer.draw(empty);
+  const Image without = draw(empty);
   for (const double bad : {std::nan(""), std::numeric_limits<double>::infinity(), 1e300, 1e30}) {
     Picture picture = small_picture();
     body_of(picture).trail = {Vec3(0, 0, 0), Vec3::Constant(bad)};
     body_of(picture).x.col(9).setConstant(bad);
-    EXPECT_EQ(changed(renderer.draw(picture), without), 0) << bad;
+    EXPECT_EQ(changed(draw(picture), without), 0) << bad;
   }
 }
 
 TEST(Render, RefusesAPictureWithoutPanels) { EXPECT_THROW(draw(Picture{}), std::runtime_error); }
 
 TEST(Render, ScaleColoursLowAndHighApart) {
-  OffscreenRenderer renderer;
   const auto with_value = [&](double value) {
     Picture picture = small_picture();
     picture.scale = Scale{"stretch / %", 5};
     body_of(picture).value.assign(64, value);
-    return renderer.draw(picture);
+    return draw(picture);
   };
   const Image low = with_value(0), high = with_value(5);
   EXPECT_GT(changed(low, high), 0.02);
@@ -166,13 +149,12 @@ TEST(Render, ScaleColoursLowAndHighApart) {
 }
 
 TEST(Render, TubesTakePaletteColours) {
-  OffscreenRenderer renderer;
   const auto with_colour = [&](int index) {
     Picture picture = small_picture();
     Body& body = body_of(picture);
     body.triangles.clear(), std::swap(body.tubes, body.threads);
     body.tube_colour.assign(body.tubes.size(), index);
-    return renderer.draw(picture);
+    return draw(picture);
   };
   EXPECT_GT(changed(with_colour(0), with_colour(1)), 0.02);
 }
@@ -186,7 +168,6 @@ TEST(Render, PngHasLettersAndTheSameBytes) {
   picture.rows[0][0].subtitle = "it's `ls` @t {x}_y^2 \\n \"5 %\"";
   picture.rows[0].push_back(picture.rows[0][0]);
   picture.rows[0][1].title = "bullet/deformable-explicit-with-a-long-name";
-  OffscreenRenderer renderer;
   write_png(picture, scratch.path / "a.png");
   write_png(picture, scratch.path / "b.png");
   EXPECT_EQ(bytes_of(scratch.path / "a.png"), bytes_of(scratch.path / "b.png"));
@@ -195,7 +176,7 @@ TEST(Render, PngHasLettersAndTheSameBytes) {
   const Image lettered = read_png(scratch.path / "a.png");
   ASSERT_EQ(lettered.width, 480);
   ASSERT_EQ(lettered.height, 270);
-  EXPECT_GT(changed(lettered, renderer.draw(picture)), 0.01);
+  EXPECT_GT(changed(lettered, draw(picture)), 0.01);
 
   // a long title shrinks all titles and stays in its panel: the column between the panels and the rims are clear
   for (int y = 0; y < 28; ++y) {
