@@ -4,6 +4,7 @@
 
 #include "experiments/scenes/scenes.h"
 #include "mysim/base/json.h"
+#include "mysim/base/text.h"
 #include "report/figures/figure_set.h"
 #include "report/pictures/layout.h"
 #include "report/pictures/picture.h"
