@@ -70,8 +70,8 @@ const std::map<std::string, Words>& figure_texts() {
       const size_t colon = line.find(": ");
       if (line.starts_with("## "))
         words = &all[line.substr(3)];
-      else if (words && colon != std::string::npos)
-        words->emplace(line.substr(0, colon), line.substr(colon + 2));
+      else if (line.starts_with("- ") && colon != std::string::npos)
+        words->emplace(line.substr(2, colon - 2), line.substr(colon + 2));
     }
     return all;
   }();
