@@ -60,11 +60,11 @@ Drawing drawing_of(const StackedBars& bars) {
 
 namespace {
 
-/// The position of a line; headings take lines of their own.
+/// The position of a line; headings and the words beside the line at 1 take lines of their own.
 double place_of(const DotPlot& dots, size_t line) {
   const auto above = std::count_if(dots.headings.begin(), dots.headings.end(),
                                    [&](const auto& heading) { return heading.first <= line; });
-  return static_cast<double>(line + 1) + static_cast<double>(above);
+  return static_cast<double>(line + 1 + !dots.right_of_one.empty()) + static_cast<double>(above);
 }
 
 Table data_of(const DotPlot& dots) {
@@ -92,7 +92,8 @@ Drawing drawing_of(const DotPlot& dots) {
   Drawing drawing{dots.name, data_of(dots), ""};
   std::vector<KeyEntry> key;
   std::vector<std::string> parts;
-  double low = 1, high = 1;
+  const bool ratios = !dots.right_of_one.empty();
+  double low = ratios ? 1 : INFINITY, high = ratios ? 1 : 0;
   std::vector<std::string> titles;
   for (const DotPlot::Series& series : dots.series) titles.push_back(series.title);
   for (size_t i = 0; i < dots.series.size(); ++i) {
@@ -108,15 +109,16 @@ Drawing drawing_of(const DotPlot& dots) {
         series.style.colour, series.style.marker));
   }
   low /= 1.3, high *= 1.3;
-  const double lines = static_cast<double>(dots.names.size() + dots.headings.size());
+  const double lines = static_cast<double>(dots.names.size() + dots.headings.size() + ratios);
   const NamedLines layout(dots, dots.label, dots.names, lines, key);
   std::string out = script_head(dots) + fmt::format("set logscale x 10\nset xrange [{:.8g}:{:.8g}]\n", low, high) +
                     layout.y_range(lines) +
-                    layout.commands(dots, ticks_of(low, high, true, layout.box.right - layout.box.left, false)) +
-                    "set arrow from 1, graph 0 to 1, graph 1 nohead lc rgb \"#333333\" lw 1.5 back\n";
-  if (!dots.right_of_one.empty())
-    out += fmt::format("set label {} at 1, graph 1 left offset 0.5,-0.8 noenhanced tc rgb \"#333333\"\n",
-                       single_quoted(dots.right_of_one + " →"));
+                    layout.commands(dots, ticks_of(low, high, true, layout.box.right - layout.box.left, false));
+  if (ratios)
+    out += fmt::format(
+        "set arrow from 1, graph 0 to 1, graph 1 nohead lc rgb \"#333333\" lw 1.5 back\n"
+        "set label {} at 1, 1 left offset 0.5,0 noenhanced tc rgb \"#333333\"\n",
+        single_quoted(dots.right_of_one + " →"));
   for (size_t i = 0; i < dots.names.size(); ++i) out += layout.name(place_of(dots, i), i);
   for (const auto& [line, heading] : dots.headings) out += layout.heading(place_of(dots, line) - 1, heading);
   drawing.script = out + terminals(dots, layout.tall, joined_plot(parts));
