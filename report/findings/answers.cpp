@@ -21,7 +21,7 @@ const std::vector<Question>& questions() {
       {"Do they agree?", "same-answer", "certificate", {"answer-agreement", "answer-chaotic"}},
       {"Which method, which step?", "speed-accuracy", "chart", {"answer-method"}},
       {"Where do methods fail?", "stability", "chart", {"answer-limit", "answer-failed"}},
-      {"What happens at the ball?", "energy", "chart", {"answer-ball", "answer-contact"}},
+      {"What happens in contact?", "energy", "chart", {"answer-ball", "answer-contact"}},
       {"Which methods keep the energy?", "energy", "chart", {"answer-energy"}},
       {"What can be left out?", "adequacy", "chart", {"answer-model"}},
   };

@@ -83,7 +83,9 @@ std::string certificates_matched(const PageContent& c) {
 }  // namespace
 
 std::string engine_and_reader_name(const std::string& method, const std::vector<std::string>& among) {
-  return (family_of(method).is_subject() ? "mysim " : "") + reader_name(method, among);
+  const MethodFamily& family = family_of(method);
+  if (family.role == Role::outside) return program_title(method, among);  // a program's name may hold spaces
+  return (family.is_subject() ? "mysim " : "") + reader_name(method, among);
 }
 
 std::string beside_mysim(const PageContent& c) {
