@@ -364,7 +364,7 @@ Json method_looks_json(std::span<const std::string> methods) {
   for (const std::string& name : methods) {
     const MethodFamily& family = family_of(name);
     const bool program = family.role == Role::outside;
-    const std::string title = reader_name(name, methods);
+    const std::string title = program ? program_title(name, methods) : reader_name(name, methods);
     const Method* method = builtin_method(name);
     const bool representative = name == family.representative;
     const bool positions = method && method->position_based && !family.is_subject();
