@@ -156,7 +156,7 @@ std::vector<Method> default_methods() {
 std::vector<Method> methods_of(const Request& request, const Scene& scene) {
   if (!request.methods.empty()) return request.methods;
   std::vector<Method> methods = default_methods();
-  if (scene.model.find<Spheres>()) methods.push_back(find_method(sticky_method()));
+  if (has_contact(scene.model)) methods.push_back(find_method(sticky_method()));
   return methods;
 }
 

@@ -17,7 +17,7 @@ namespace {
 bool has_rest(const Model& model) {
   const auto* wind = model.find<Wind>();
   const auto* air = model.find<Aerodynamics>();
-  return !model.first_order() && !model.find<Constraints>() && !model.find<Spheres>() && model.find<Springs>() &&
+  return !model.first_order() && !model.find<Constraints>() && !has_contact(model) && model.find<Springs>() &&
          !(wind && wind->acceleration.gusts) && !(air && air->velocity.gusts) && !model.particles.move &&
          !model.particles.pins.empty();
 }

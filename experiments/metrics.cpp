@@ -32,26 +32,26 @@ double motion_of(const Trajectory& trajectory) {
 }
 
 std::optional<double> clearance(const Scene& scene, double t, const Points& x) {
-  const auto* spheres = scene.model.find<Spheres>();
-  if (!spheres) return std::nullopt;
+  const std::vector<Surface> surfaces = surfaces_of(scene.model);
+  if (surfaces.empty()) return std::nullopt;
   double smallest = std::numeric_limits<double>::infinity();
   for (int i = 0; i < x.cols(); ++i)
-    if (!scene.model.particles.pinned[i]) smallest = std::min(smallest, clearance_from(*spheres, t, x.col(i)));
+    if (!scene.model.particles.pinned[i]) smallest = std::min(smallest, clearance_from(surfaces, t, x.col(i)));
   return smallest;
 }
 
 std::optional<double> creep(const Scene& scene, double t, const Points& x, const Points& v) {
-  const auto* spheres = scene.model.find<Spheres>();
-  if (!spheres || v.cols() != x.cols()) return std::nullopt;
+  const std::vector<Surface> surfaces = surfaces_of(scene.model);
+  if (surfaces.empty() || v.cols() != x.cols()) return std::nullopt;
   double sum = 0;
   int touching = 0;
-  for (const Sphere& sphere : spheres->list) {
-    const Vec3 centre = sphere.centre_at(t), u = sphere.motion ? velocity_at(*sphere.motion, t) : Vec3::Zero();
+  for (const Surface& surface : surfaces) {
+    const Vec3 origin = surface.origin_at(t), u = surface.velocity_at(t);
+    const double near = 1e-3 * (surface.flat() ? scene.size() : surface.radius());
     for (int i = 0; i < x.cols(); ++i) {
-      const Vec3 d = x.col(i) - centre, seen = v.col(i) - u;
-      const double distance = d.norm();
-      if (scene.model.particles.pinned[i] || distance > (1 + 1e-3) * sphere.contact_radius()) continue;
-      const Vec3 n = d / distance;
+      const Vec3 d = x.col(i) - origin, seen = v.col(i) - u;
+      if (scene.model.particles.pinned[i] || surface.gap(d) > near) continue;
+      const Vec3 n = surface.normal(d);
       sum += (seen - seen.dot(n) * n).norm();
       ++touching;
     }

@@ -150,7 +150,7 @@ void bending_on(const Request& request, TableSet& tables) {
 std::vector<Point> adequacy_points(const Request& request) {
   std::vector<Point> points;  // the longest first: side by side, none is left that others must wait for
   for (const Scene& scene : request.scenes) {
-    if (!cloth_grid_of(scene) || scene.model.find<Spheres>()) continue;
+    if (!cloth_grid_of(scene) || has_contact(scene.model)) continue;
     Request alone = request;
     alone.scenes = {scene};
     points.push_back({fmt::format("adequacy: grids of {}", scene.name), content_of(request, scene) + scene.source,

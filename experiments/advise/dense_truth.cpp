@@ -77,8 +77,8 @@ DenseTruth::DenseTruth(const Scene& scene, double tolerance) : dense_(scene), ex
     const double lost = interpolation_error();
     bar_ += lost;
     if (lost <= tolerance / 30) break;
-    // beside a sphere it falls as the square of the spacing where forces jump, as its fourth power elsewhere
-    if (scene.model.find<Spheres>())
+    // beside a surface it falls as the square of the spacing where forces jump, as its fourth power elsewhere
+    if (has_contact(scene.model))
       for (double left = lost / 4; left > tolerance / 30 && i + 1 < most_doublings; left /= 4, ++i) spacing /= 2;
     if (i == most_doublings && bar_ <= tolerance / 3) break;  // as accurate as advice requires
     if (i == most_doublings)
@@ -99,14 +99,14 @@ void DenseTruth::measure() {
     motion_ = std::max(motion_, rms_distance(path.x[i], path.x[0]));
   }
   impact_.assign(path.t.size(), false);
-  for (int i = 0; dense_.model.find<Spheres>() && i + 1 < path.frames(); ++i) {
+  for (int i = 0; has_contact(dense_.model) && i + 1 < path.frames(); ++i) {
     const Points end = free_path(i, path.t[i + 1]);
     for (int k = 0; k < end.cols(); ++k)
       if (runs_in(path.t[i], path.x[i].col(k), path.t[i + 1], end.col(k))) impact_[i] = true;
   }
 }
 
-/// The path of constant acceleration through a sample, at t, as if no sphere were there.
+/// The path of constant acceleration through a sample, at t, as if no surface were there.
 Points DenseTruth::free_path(int sample, double t) const {
   const Trajectory& path = truth_.trajectory;
   const double s = t - path.t[sample];
@@ -117,7 +117,7 @@ Points DenseTruth::free_path(int sample, double t) const {
 }
 
 /// Cubic between two samples, with the velocities at both (Hermite); straight in a first-order scene, which has none.
-/// A particle that the free path takes into a sphere in between follows that path up to there, and the one from the
+/// A particle that the free path takes into a solid in between follows that path up to there, and the one from the
 /// later sample after it: nothing is interpolated across an impact.
 Points DenseTruth::interpolated(int from, int to, double t) const {
   const Trajectory& path = truth_.trajectory;
@@ -128,35 +128,35 @@ Points DenseTruth::interpolated(int from, int to, double t) const {
   Points x = left * left * (1 + 2 * s) * a + s * s * (3 - 2 * s) * b +
              span * s * left * (left * path.v[from] - s * path.v[to]);
   if (std::none_of(impact_.begin() + from, impact_.begin() + to, [](char impact) { return impact; })) return x;
-  const auto& spheres = *dense_.model.find<Spheres>();
+  const std::vector<Surface> surfaces = surfaces_of(dense_.model);
   const Points before = free_path(from, t), after = free_path(to, t), beyond = free_path(from, path.t[to]);
   for (int i = 0; i < x.cols(); ++i) {
     if (!runs_in(path.t[from], a.col(i), path.t[to], beyond.col(i))) continue;
     x.col(i) = before.col(i);
-    if (clearance_from(spheres, t, x.col(i)) > 0) continue;
+    if (clearance_from(surfaces, t, x.col(i)) > 0) continue;
     x.col(i) = after.col(i);
-    for (const Sphere& sphere : spheres.list) {
-      const Vec3 centre = sphere.centre_at(t), d = x.col(i) - centre;
-      if (d.norm() < sphere.contact_radius()) x.col(i) = centre + sphere.contact_radius() * d.normalized();
+    for (const Surface& surface : surfaces) {
+      const Vec3 origin = surface.origin_at(t), d = x.col(i) - origin;
+      if (surface.gap(d) < 0) x.col(i) = surface.put_on(origin, x.col(i), surface.normal(d));
     }
   }
   return x;
 }
 
-/// True if a path leads from outside all spheres, by more than the rounding of a place on them, to inside of one.
+/// True if a path leads from outside all solids, by more than the rounding of a place on them, to inside of one.
 bool DenseTruth::runs_in(double t, const Vec3& x, double t_end, const Vec3& end) const {
-  const auto& spheres = *dense_.model.find<Spheres>();
-  return clearance_from(spheres, t, x) > 1e-9 * dense_.size() && clearance_from(spheres, t_end, end) < 0;
+  const std::vector<Surface> surfaces = surfaces_of(dense_.model);
+  return clearance_from(surfaces, t, x) > 1e-9 * dense_.size() && clearance_from(surfaces, t_end, end) < 0;
 }
 
-/// Twice the spacing leaves out 16 times as much of a smooth path, half of which is trusted. Beside a sphere forces
+/// Twice the spacing leaves out 16 times as much of a smooth path, half of which is trusted. Beside a surface forces
 /// jump anywhere between two samples, and the middle shows as little as half of the error.
 double DenseTruth::interpolation_error() const {
   const Trajectory& path = truth_.trajectory;
   double most = 0;
   for (int i = 1; i + 1 < path.frames() && path.t[i + 1] <= until_ * (1 + 1e-9); ++i)
     most = std::max(most, rms_distance(interpolated(i - 1, i + 1, path.t[i]), path.x[i]));
-  const bool smooth = !dense_.model.find<Spheres>() && path.v.front().cols() > 0;
+  const bool smooth = !has_contact(dense_.model) && path.v.front().cols() > 0;
   return smooth ? most / 8 : 2 * most;
 }
 
@@ -170,7 +170,7 @@ Points DenseTruth::at(double t) const {
 
 Run observed_run(const Method& method, const Scene& scene, const DenseTruth& path) {
   Run run = default_run(scene);
-  if (method.adaptive && !scene.model.find<Spheres>()) run.step = std::min(run.step, path.time_resolution());
+  if (method.adaptive && !has_contact(scene.model)) run.step = std::min(run.step, path.time_resolution());
   return run;
 }
 

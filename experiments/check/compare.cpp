@@ -63,7 +63,7 @@ Outside outside_of(const Scene& scene) {
                           [&](const Constraints&) { o.constraints = true; }, [&](const Drag&) { o.drag = true; },
                           [&](const Wind& w) { o.wind = true, o.changing |= w.acceleration.gusts.has_value(); },
                           [&](const Aerodynamics& a) { o.air = true, o.changing |= a.velocity.gusts.has_value(); },
-                          [&](const Spheres& s) { o.spheres = true, o.changing |= s.moving(); }},
+                          [&](const OneOf<Spheres, Planes> auto& s) { o.contact = true, o.changing |= s.moving(); }},
                term);
   return o;
 }
@@ -84,7 +84,7 @@ std::vector<Spring> hanging_chain_of(const Scene& scene) {
   const Outside o = outside_of(scene);
   const auto* springs = scene.model.find<Springs>();
   const int n = scene.model.particles.size();
-  if (!springs || !o.gravity || !(o.drag || o.dashpots) || o.wind || o.air || o.spheres || o.constraints || o.field ||
+  if (!springs || !o.gravity || !(o.drag || o.dashpots) || o.wind || o.air || o.contact || o.constraints || o.field ||
       o.bending || o.changing || scene.model.particles.pins != std::vector<int>{0} ||
       static_cast<int>(springs->list.size()) != n - 1)
     return {};

@@ -34,11 +34,11 @@ bool chooses_steps(const Method& method);
 /// The order of the method's rule; 1 where it is not known.
 int order_of(const Method& method);
 
-/// Whether anything outside a free net acts on it: pins, wind, air, drag, spheres, hard distances, a field.
+/// Reports what acts on a net from outside: pins, wind, air, drag, contact, hard distances, a field.
 struct Outside {
   bool pins = false, bending = false, gravity = false, wind = false, air = false, drag = false, dashpots = false,
-       spheres = false, constraints = false, field = false,
-       changing = false;  // with time: moved pins or spheres, gusts
+       contact = false, constraints = false, field = false,
+       changing = false;  // with time: moved pins or surfaces, gusts
 };
 Outside outside_of(const Scene& scene);
 

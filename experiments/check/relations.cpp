@@ -25,13 +25,12 @@ std::string with_springs(const Scene& s) {
 std::string movable(const Scene& s) {
   if (s.model.first_order()) return "its field has a place and a direction";
   // the last bounces before rest are decided by roundings there, which no perturbation of the start shows
-  if (const auto* spheres = s.model.find<Spheres>())
-    for (const Sphere& sphere : spheres->list)
-      if (sphere.restitution > 0) return "endless bounces are decided by rounding";
+  for (const Surface& surface : surfaces_of(s.model))
+    if (surface.restitution > 0) return "endless bounces are decided by rounding";
   return "";
 }
 std::string symmetric(const Scene& s) { return mirror_of(s) ? "" : "not symmetric"; }
-std::string smooth(const Scene& s) { return s.model.find<Spheres>() ? "contacts leave no order" : ""; }
+std::string smooth(const Scene& s) { return has_contact(s.model) ? "contacts leave no order" : ""; }
 std::string unchanging(const Scene& s) { return outside_of(s).changing ? "what acts changes with time" : ""; }
 std::string pinned(const Scene& s) { return s.model.particles.pins.empty() ? "no pins" : ""; }
 std::string hanging_chain(const Scene& s) { return hanging_chain_of(s).empty() ? "no damped chain that hangs" : ""; }
@@ -39,23 +38,23 @@ std::string hanging_chain(const Scene& s) { return hanging_chain_of(s).empty() ?
 std::string falling(const Scene& s) {
   const Outside o = outside_of(s);
   if (!o.gravity) return "no gravity";
-  if (o.pins || o.wind || o.air || o.drag || o.spheres || o.constraints) return "not gravity alone acts from outside";
+  if (o.pins || o.wind || o.air || o.drag || o.contact || o.constraints) return "not gravity alone acts from outside";
   if (!springs_at_rest(s)) return "springs are not at rest";
   return largest_column((s.start.v.colwise() - Vec3(s.start.v.col(0))).eval()) > 0 ? "its particles start unlike" : "";
 }
 std::string resting(const Scene& s) {
   const Outside o = outside_of(s);
-  if (o.gravity || o.wind || o.air || o.spheres || o.field || o.changing) return "something acts";
+  if (o.gravity || o.wind || o.air || o.contact || o.field || o.changing) return "something acts";
   if (!springs_at_rest(s)) return "springs are not at rest";
   return largest_column(s.start.v) > 0 ? "it starts in motion" : "";
 }
 std::string isolated(const Scene& s) {
   const Outside o = outside_of(s);
-  return o.pins || o.gravity || o.wind || o.air || o.drag || o.spheres || o.field ? "something acts from outside" : "";
+  return o.pins || o.gravity || o.wind || o.air || o.drag || o.contact || o.field ? "something acts from outside" : "";
 }
 std::string undamped(const Scene& s) {
   const Outside o = outside_of(s);
-  return o.drag || o.dashpots || o.wind || o.air || o.spheres || o.constraints || o.field || o.changing
+  return o.drag || o.dashpots || o.wind || o.air || o.contact || o.constraints || o.field || o.changing
              ? "energy is taken or given"
              : "";
 }

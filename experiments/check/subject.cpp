@@ -78,7 +78,7 @@ Subject::Noise Subject::noise(const Scene& scene, double lengths) {
   const SubjectRun& plain = run(scene, settings);
   const double scale = std::max(lengths, lengths_in(scene, plain.path));
   Noise noise;
-  noise.start = rounding(scale, plain.outcome.steps, method_.position_based || scene.model.find<Spheres>());
+  noise.start = rounding(scale, plain.outcome.steps, method_.position_based || has_contact(scene.model));
   if (chooses_steps(method_)) noise.start = std::max(noise.start, settings.tolerance * scale * plain.outcome.steps);
   // velocities are rounded in the same proportion
   const bool velocities = plain.path.v.back().cols() == plain.path.x.back().cols();
@@ -95,7 +95,7 @@ Subject::Noise Subject::noise(const Scene& scene, double lengths) {
       noise.v[i] = std::max(noise.v[i], 3 * v);
     }
   }
-  if (scene.model.find<Spheres>())
+  if (has_contact(scene.model))
     for (size_t i = 0; i < noise.x.size(); ++i)
       if (noise.x[i] > 3 * most_growth * noise.start) noise.x[i] = std::numeric_limits<double>::infinity();
   return noise;

@@ -56,6 +56,13 @@ Scene placed(Scene scene, const Placement& placement) {
                        turn_motion(s.motion);
                      }
                    },
+                   [&](Planes& planes) {
+                     for (Plane& p : planes.list) {
+                       p.point = (turn * p.point + placement.shift).eval();
+                       p.normal = (turn * p.normal).eval();
+                       if (p.velocity) p.velocity = (turn * *p.velocity).eval();
+                     }
+                   },
                    [](OneOf<Rotation, Springs, Bending, Dashpots, Constraints, Drag> auto&) {}},
         term);
   scene.hash = hash_of(scene);
@@ -100,7 +107,7 @@ Scene renumbered(const Scene& scene, const std::vector<int>& order) {
                             for (int i = 0; i < n; ++i) drag.c[i] = c[order[i]];
                           },
                           [&](Aerodynamics& air) { rename_corners(air.triangles); },
-                          [](OneOf<Rotation, Gravity, Wind, Spheres> auto&) {}},
+                          [](OneOf<Rotation, Gravity, Wind, Spheres, Planes> auto&) {}},
                term);
   rename_corners(other.triangles);
   other.hash = hash_of(other);
@@ -124,7 +131,7 @@ Scene springs_reordered(Scene scene, unsigned seed) {
   };
   for (Term& term : scene.model.terms)
     std::visit(Overloaded{[&](OneOf<Springs, Bending, Dashpots, Constraints> auto& t) { reorder(t.list); },
-                          [](OneOf<Rotation, Gravity, Drag, Wind, Aerodynamics, Spheres> auto&) {}},
+                          [](OneOf<Rotation, Gravity, Drag, Wind, Aerodynamics, Spheres, Planes> auto&) {}},
                term);
   scene.hash = hash_of(scene);
   return scene;
@@ -172,6 +179,12 @@ Scene scaled(Scene scene, const Scaling& scaling) {
                      for (Sphere& s : t.list) {
                        s.centre *= length, s.radius *= length, s.margin *= length;
                        scale_motion(s.motion);
+                     }
+                   },
+                   [&](Planes& t) {
+                     for (Plane& p : t.list) {
+                       p.point *= length, p.margin *= length;
+                       if (p.velocity) *p.velocity *= speed;
                      }
                    }},
         term);
@@ -230,7 +243,7 @@ std::multiset<std::vector<double>> joined(const Scene& scene, const std::vector<
                           [&](const Drag& t) {
                             for (int i = 0; i < t.c.size(); ++i) add(3, i, i, t.c[i], 0);
                           },
-                          [](const OneOf<Rotation, Gravity, Wind, Aerodynamics, Spheres> auto&) {}},
+                          [](const OneOf<Rotation, Gravity, Wind, Aerodynamics, Spheres, Planes> auto&) {}},
                term);
   return all;
 }
@@ -255,6 +268,12 @@ bool same_outside(const Scene& scene, const Scene& other, double near) {
     for (size_t i = 0; i < spheres->list.size(); ++i) {
       const Sphere &a = spheres->list[i], &b = other.model.find<Spheres>()->list[i];
       all = all && (a.centre - b.centre).norm() <= near && same_motion(a.motion, b.motion);
+    }
+  if (const auto* planes = scene.model.find<Planes>())
+    for (size_t i = 0; i < planes->list.size(); ++i) {
+      const Plane &a = planes->list[i], &b = other.model.find<Planes>()->list[i];
+      all = all && same(a.normal, b.normal) && std::abs((a.point - b.point).dot(a.normal)) <= near &&
+            (!a.velocity || same(*a.velocity, *b.velocity));
     }
   return all;
 }

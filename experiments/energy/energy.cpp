@@ -57,10 +57,10 @@ EnergyRow summary_of(const Scene& scene, const Method& method, const Outcome& ou
                 .end = out.end,
                 .step = out.step,
                 .steps = out.steps,
-                .undamped = !model.find<Drag>() && !model.find<Dashpots>() && !model.find<Spheres>(),
+                .undamped = !model.find<Drag>() && !model.find<Dashpots>() && !has_contact(model),
                 .symplectic = rule && rule->symplectic,
                 .closure_claimed = claimed && !empty,
-                .contact_inferred = model.find<Spheres>() && !claimed};
+                .contact_inferred = has_contact(model) && !claimed};
   if (empty) return row;
   const LedgerRow &start = rows.front(), &end = rows.back();
   const ResidualStatistics all = residual_statistics(rows);

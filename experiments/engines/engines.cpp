@@ -214,7 +214,7 @@ void engines_on(const Request& request, const Scene& scene, MethodResults& resul
     if (!unsupported) add(cost, cost_of(scene, method, out));
   }
   tables.add(table);
-  if (scene.model.find<Spheres>() && scene.model.particles.size() > 1)
+  if (has_contact(scene.model) && scene.model.particles.size() > 1)
     add_statistics(request, scene, run, results, tables);
   tables.add(summary);
   tables.add(cost);

@@ -45,7 +45,7 @@ std::optional<Fit> asymptotic_order(const std::vector<ErrorAtStep>& points) {
 
 /// The reason why a scene is left out, or nothing.
 std::string why_not(const Scene& scene) {
-  if (scene.model.find<Spheres>()) return "contact makes every rule first order, erratically after impacts";
+  if (has_contact(scene.model)) return "contact makes every rule first order, erratically after impacts";
   if (scene.start.x.cols() > 50) return "its runs would cost much; speed-accuracy has its error over the step";
   return "";
 }

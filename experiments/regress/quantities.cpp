@@ -56,7 +56,7 @@ void energies(const Observation& seen, Quantities& out) {
     });
     out.push_back({at_time("energy gained", seen.path().t[i]), "J", row->energy.total() - rows.front().energy.total()});
   }
-  if (seen.scene().model.find<Spheres>()) out.push_back({contact_quantity, "J", rows.back().contact});
+  if (has_contact(seen.scene().model)) out.push_back({contact_quantity, "J", rows.back().contact});
 }
 
 void peak_stretch(const Observation& seen, Quantities& out) {
@@ -102,7 +102,7 @@ void sag(const Observation& seen, Quantities& out) {
 /// Twice the mean time between turning points of the mean of the particles, parabolas through three samples.
 void period(const Observation& seen, Quantities& out) {
   const Trajectory& path = seen.path();
-  if (seen.scene().model.find<Spheres>() || path.frames() < 8) return;
+  if (has_contact(seen.scene().model) || path.frames() < 8) return;
   Points means(3, path.frames());
   for (int i = 0; i < path.frames(); ++i) means.col(i) = path.x[i].rowwise().mean();
   const Vec3 width = means.rowwise().maxCoeff() - means.rowwise().minCoeff();
@@ -120,7 +120,7 @@ void period(const Observation& seen, Quantities& out) {
 }
 
 void smallest_clearance(const Observation& seen, Quantities& out) {
-  if (!seen.scene().model.find<Spheres>()) return;
+  if (!has_contact(seen.scene().model)) return;
   double least = INFINITY;
   for (int i = 0; i < seen.path().frames(); ++i)
     least = std::min(least, *clearance(seen.scene(), seen.path().t[i], seen.path().x[i]));
@@ -134,12 +134,9 @@ std::optional<Truth> exact_truth(const Scene& scene) {
   return truth && truth->tier == Tier::exact ? truth : std::nullopt;
 }
 
-/// Largest height of particles above a ball after their first contact, m.
+/// Largest height of particles above a surface after their first contact, m.
 void rebound_height(const Observation& seen, Quantities& out) {
-  const auto* spheres = seen.scene().model.find<Spheres>();
-  if (!spheres ||
-      std::none_of(spheres->list.begin(), spheres->list.end(), [](const auto& s) { return s.restitution > 0; }))
-    return;
+  if (std::ranges::none_of(surfaces_of(seen.scene().model), [](const Surface& s) { return s.restitution > 0; })) return;
   bool touched = false;
   double highest = 0;
   for (int i = 0; i < seen.path().frames(); ++i) {
@@ -170,7 +167,7 @@ void change_at_half_the_step(const Observation& seen, Quantities& out) {
 void order_of_error(const Observation& seen, Quantities& out) {
   const Scene& scene = seen.scene();
   const Stepper* rule = seen.test_case.method.stepper;
-  if (!rule || rule->adaptive || scene.model.find<Spheres>()) return;
+  if (!rule || rule->adaptive || has_contact(scene.model)) return;
   const auto truth = exact_truth(scene);
   if (!truth) return;
   const Run run = run_over_window(scene);

@@ -58,17 +58,18 @@ void drop_pins(Model& model) {
 }
 
 bool has_friction(const Model& model) {
-  const auto* spheres = model.find<Spheres>();
-  return spheres &&
-         std::any_of(spheres->list.begin(), spheres->list.end(), [](const auto& s) { return s.friction > 0; });
+  return std::ranges::any_of(surfaces_of(model), [](const Surface& s) { return s.friction > 0; });
 }
 bool has_restitution(const Model& model) {
-  const auto* spheres = model.find<Spheres>();
-  return spheres &&
-         std::any_of(spheres->list.begin(), spheres->list.end(), [](const auto& s) { return s.restitution > 0; });
+  return std::ranges::any_of(surfaces_of(model), [](const Surface& s) { return s.restitution > 0; });
 }
-void each_sphere(Model& model, void (*change)(Sphere&)) {
-  for (Sphere& s : model.find<Spheres>()->list) change(s);
+/// Lets `change` have each sphere and each plane.
+template <class Change>
+void each_solid(Model& model, Change change) {
+  for (Term& term : model.terms)
+    std::visit(Overloaded{[&](OneOf<Spheres, Planes> auto& solids) { std::ranges::for_each(solids.list, change); },
+                          [](auto&) {}},
+               term);
 }
 
 struct IngredientRow {
@@ -94,16 +95,27 @@ const std::vector<IngredientRow>& table() {
       {{"air", {"aerodynamics"}, drop<Aerodynamics>}, has<Aerodynamics>},
       {{"gusts", {"wind.gusts", "aerodynamics.gusts"}, drop_gusts}, has_gusts},
       {{"contact", {"sphere"}, drop<Spheres>}, has<Spheres>},
-      {{"friction", {"sphere[].friction"}, [](Model& m) { each_sphere(m, [](Sphere& s) { s.friction = 0; }); }},
+      {{"planes", {"plane"}, drop<Planes>}, has<Planes>},
+      {{"friction",
+        {"sphere[].friction", "plane[].friction"},
+        [](Model& m) { each_solid(m, [](auto& s) { s.friction = 0; }); }},
        has_friction},
       {{"restitution",
-        {"sphere[].restitution"},
-        [](Model& m) { each_sphere(m, [](Sphere& s) { s.restitution = 0; }); }},
+        {"sphere[].restitution", "plane[].restitution"},
+        [](Model& m) { each_solid(m, [](auto& s) { s.restitution = 0; }); }},
        has_restitution},
       {{"motion of the sphere",
         {"sphere[].motion"},
-        [](Model& m) { each_sphere(m, [](Sphere& s) { s.motion.reset(); }); }},
+        [](Model& m) {
+          for (Sphere& s : m.find<Spheres>()->list) s.motion.reset();
+        }},
        [](const Model& m) { return has<Spheres>(m) && m.find<Spheres>()->moving(); }},
+      {{"motion of the plane",
+        {"plane[].velocity"},
+        [](Model& m) {
+          for (Plane& p : m.find<Planes>()->list) p.velocity.reset();
+        }},
+       [](const Model& m) { return has<Planes>(m) && m.find<Planes>()->moving(); }},
       {{"motion of the pins", {"pins.motion"}, [](Model& m) { m.particles.move.reset(); }},
        [](const Model& m) { return m.particles.move.has_value(); }},
       // in a file without pins the hard distances between them would come back

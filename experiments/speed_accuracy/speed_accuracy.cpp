@@ -73,8 +73,8 @@ std::vector<Setting> settings_of(const Method& method, const Scene& scene, const
 TimedPart part_of(const Method& method, const Scene& scene, const Run& base, const Setting& setting, bool full,
                   bool whole) {
   Run run = setting.applied_to(base);
-  if (!method.fingerprint.empty()) return {run};     // a program of its own: what its start costs is not known
-  const bool touches = scene.model.find<Spheres>();  // that may cost more than falling
+  if (!method.fingerprint.empty()) return {run};  // a program of its own: what its start costs is not known
+  const bool touches = has_contact(scene.model);  // that may cost more than falling
   if (method.adaptive && (touches || whole)) return {run};
   const double enough = full ? 0.02 : 0.006;  // s: thousands of ticks of the clock
   // s: shorter runs are timed whole. Most of a quick report's runs are; to time the others whole takes half a minute on

@@ -104,7 +104,7 @@ std::vector<Method> candidates(const Scene& scene) {
   std::vector<Method> methods;
   for (Method& m : all_methods()) {
     if (!m.family().is_subject()) continue;
-    if (scene.model.find<Spheres>() && m.stepper && locates_events(*m.stepper))
+    if (has_contact(scene.model) && m.stepper && locates_events(*m.stepper))
       methods.push_back(find_method(m.name + "+events"));
     methods.push_back(std::move(m));
   }

@@ -12,7 +12,7 @@ namespace crosscheck {
 inline std::string deviation_reason(const BaseState& base, const Method& method) {
   const Model& model = base.scene.model;
   std::vector<std::string> reasons;
-  if (model.find<Spheres>()) reasons.emplace_back("contact");
+  if (has_contact(model)) reasons.emplace_back("contact");
   if (model.particles.move) reasons.emplace_back("moved pins");
   if (!base.at_rest && model.find<Springs>())
     reasons.emplace_back("the motion stretches and turns the springs of the start");

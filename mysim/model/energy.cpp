@@ -22,7 +22,7 @@ Energy energy_of(const Model& model, const State& state) {
   const Overloaded add{
       [&](const OneOf<Springs, Bending> auto& t) { e.elastic += potential_energy(t, particles, state); },
       [&](const Gravity& t) { e.gravitational += potential_energy(t, particles, state); },
-      []<OneOf<Rotation, Dashpots, Constraints, Drag, Wind, Aerodynamics, Spheres> T>(const T&) {
+      []<OneOf<Rotation, Dashpots, Constraints, Drag, Wind, Aerodynamics, Spheres, Planes> T>(const T&) {
         static_assert(!HasPotential<T>);
       },
   };
@@ -70,8 +70,8 @@ Power power_of(const Model& model, const State& state, Forces& scratch) {
         p.dashpots += given - free_power(particles, f, state.v);
         p.pins += given;
       },
-      [](const Gravity&) {},                                     // its work is the change of its energy
-      [](const OneOf<Rotation, Constraints, Spheres> auto&) {},  // no forces
+      [](const Gravity&) {},                                             // its work is the change of its energy
+      [](const OneOf<Rotation, Constraints, Spheres, Planes> auto&) {},  // no forces
   };
   for (const Term& term : model.terms) std::visit(add, term);
   return p;

@@ -7,7 +7,8 @@
 //   add_tangent(term, particles, state, curvature, tangent)   what implicit methods need of a force
 //   add_velocity(term, state, rate)                   a first-order velocity field
 // Forces on moving particles (dashpots, air) also say `uses_velocity`: leapfrog then treats them by themselves, so that
-// its order survives. Spheres and constraints are no forces: contact acts on whole steps, constraints on methods.
+// its order survives. Spheres, planes and constraints are no forces: contact acts on whole steps, constraints on
+// methods.
 //
 // What must know every term (energies, hash, JSON, certificate, each engine) visits the variant with a function for
 // each and none for "the rest": a new term does not compile there until it is handled (new_term_slow_test.cpp).
@@ -25,14 +26,14 @@
 #include "mysim/terms/drag.h"
 #include "mysim/terms/gravity.h"
 #include "mysim/terms/rotation.h"
-#include "mysim/terms/sphere.h"
 #include "mysim/terms/springs.h"
+#include "mysim/terms/surface.h"
 #include "mysim/terms/wind.h"
 
 namespace crosscheck {
 
 using Term =
-    std::variant<Rotation, Gravity, Springs, Bending, Dashpots, Constraints, Drag, Wind, Aerodynamics, Spheres>;
+    std::variant<Rotation, Gravity, Springs, Bending, Dashpots, Constraints, Drag, Wind, Aerodynamics, Spheres, Planes>;
 
 /// Several functions as one, to visit a term with: each alternative of Term must find its own.
 template <class... Functions>
@@ -84,6 +85,11 @@ struct Model {
 
   bool first_order() const { return find<Rotation>() != nullptr; }
 };
+
+bool has_contact(const Model& model);
+/// The contact surfaces in the order in which they act: spheres, then planes.
+std::vector<Surface> surfaces_of(const Model& model);
+bool has_moving_surface(const Model& model);
 
 inline std::string_view name_of(const Term& term) {
   return std::visit([](const auto& t) { return std::decay_t<decltype(t)>::name; }, term);

@@ -23,7 +23,7 @@ bool has_only_supported_terms(const Model& model) {
   for (const Term& term : model.terms)
     if (!std::holds_alternative<Springs>(term) && !std::holds_alternative<Gravity>(term) &&
         !std::holds_alternative<Drag>(term) && !std::holds_alternative<Wind>(term) &&
-        !std::holds_alternative<Spheres>(term))
+        !std::holds_alternative<Spheres>(term) && !std::holds_alternative<Planes>(term))
       return false;
   return true;
 }
@@ -38,9 +38,10 @@ class ClothGridWorld : public World {
         kernel_(kernel),
         slabs_(topology, threads),
         slab_results_(slabs_.all().size()),
-        spheres_(scene.model.find<Spheres>()),
+        surfaces_(surfaces_of(scene.model)),
         locates_events_(contact == ContactRule::events),
         record_contact_loss_(record_contact_loss),
+        size_(scene.size() + scene.start.x.cwiseAbs().maxCoeff()),
         s_(scene.start) {
     double begin = 0;
     for (size_t i = 0; i < composition.fractions.size(); ++i) {
@@ -51,11 +52,13 @@ class ClothGridWorld : public World {
     }
     set_factors(composition, h);
     // pins stay where they are, and losses are summed one by one: such contacts are left to the callback
-    if (std::is_same_v<T, double> && spheres_ && !spheres_->moving() && !locates_events_ && !record_contact_loss_ &&
-        scene.model.particles.pins.empty())
-      for (const Sphere& s : spheres_->list)
-        resting_spheres_.push_back(
-            {{s.centre[0], s.centre[1], s.centre[2]}, s.contact_radius(), s.friction, s.restitution});
+    in_lanes_ = std::is_same_v<T, double> && !has_moving_surface(scene.model) && !locates_events_ &&
+                !record_contact_loss_ && scene.model.particles.pins.empty();
+    for (const Surface& s : surfaces_) {
+      const Vec3 origin = s.origin_at(0);
+      if (!s.flat())
+        resting_spheres_.push_back({{origin[0], origin[1], origin[2]}, s.radius(), s.friction, s.restitution});
+    }
     slabs_.put(s_.x + kicks_.back().drift_after * s_.v, s_.v);
   }
 
@@ -149,7 +152,9 @@ class ClothGridWorld : public World {
             &ClothGridWorld::contact_tile,
             nullptr,
             resting_spheres_.data(),
-            static_cast<int>(resting_spheres_.size())};
+            bounding_planes_.data(),
+            static_cast<int>(bounding_planes_.size()),
+            in_lanes_};
   }
 
   void place_pins(Slab& slab, const Vec3& shift) {
@@ -175,18 +180,20 @@ class ClothGridWorld : public World {
     return move ? displacement_at(*move, t) : Vec3::Zero();
   }
 
-  /// Forgets the contacts of the last step, and puts the bounding spheres where the spheres are at its end.
+  /// Forgets the contacts of the last step, and puts the bounding surfaces where the surfaces are at its end.
   void begin_contacts(double t, double t_next) {
     t_ = t, t_next_ = t_next;
     for (SlabResult& result : slab_results_) result.lost.clear();
-    bounding_spheres_.clear();
-    if (!spheres_) return;
-    if (locates_events_) tracks_ = sphere_tracks(*spheres_, t_, t_next_);
-    for (const Sphere& sphere : spheres_->list) {
-      const Vec3 centre = sphere.centre_at(t_next_);
-      // a little more than the radius: contact_particle() decides what touches
-      const double radius = sphere.contact_radius() * (1 + 1e-6);
-      bounding_spheres_.push_back({{centre[0], centre[1], centre[2]}, radius * radius});
+    bounding_spheres_.clear(), bounding_planes_.clear();
+    if (surfaces_.empty()) return;
+    if (locates_events_) tracks_ = surface_tracks(surfaces_, t_, t_next_);
+    for (const Surface& s : surfaces_) {
+      const Vec3 o = s.origin_at(t_next_), n = s.normal(Vec3::Zero());
+      // a little more than the solid: contact_particle() decides what touches
+      if (s.flat())
+        bounding_planes_.push_back({{o[0], o[1], o[2]}, {n[0], n[1], n[2]}, 1e-6 * size_, s.friction, s.restitution});
+      else
+        bounding_spheres_.push_back({{o[0], o[1], o[2]}, std::pow(s.radius() * (1 + 1e-6), 2)});
     }
   }
 
@@ -207,8 +214,8 @@ class ClothGridWorld : public World {
     const Vec3 v_n = slab.body.velocity(here), x_n = slab.body.position(here) - kicks_.back().drift_after * v_n;
     // a particle that ends its step outside was pressed on by no more than O(h) on the whole: it is taken as free
     const auto lost = locates_events_ ? resolve_events(tracks_, t_next_ - t_, drag_rate_[i], x_n, v_n, place, speed)
-                                      : resolve_spheres(*spheres_, resolve_contact, t_, t_next_, x_n, v_n, place, speed,
-                                                        record_contact_loss_);
+                                      : resolve_surfaces(surfaces_, resolve_contact, t_, t_next_, x_n, v_n, place,
+                                                         speed, record_contact_loss_);
     if (!lost) return;
     if (record_contact_loss_) result.lost.push_back(scene_.model.particles.mass[i] * *lost);
     for (int c = 0; c < 3; ++c) x[c * lanes<T>] = static_cast<T>(place[c]), v[c * lanes<T>] = static_cast<T>(speed[c]);
@@ -218,13 +225,16 @@ class ClothGridWorld : public World {
   Kernel<T> kernel_;
   Slabs<T> slabs_;
   std::vector<SlabResult> slab_results_;
-  const Spheres* spheres_;
+  std::vector<Surface> surfaces_;
   bool locates_events_, record_contact_loss_;
-  std::vector<SphereTrack> tracks_;  // of the step under way, where events are located
-  Eigen::ArrayXd drag_rate_;         // n, 1/s
+  double size_;                       // m, of the scene and of the planes' coordinates
+  std::vector<SurfaceTrack> tracks_;  // in the step under way, if events are located
+  Eigen::ArrayXd drag_rate_;          // n, 1/s
   std::vector<Kick> kicks_;
   std::vector<BoundingSphere> bounding_spheres_;
-  std::vector<RestingSphere> resting_spheres_;  // where contacts are resolved in lanes
+  std::vector<BoundingPlane> bounding_planes_;
+  std::vector<RestingSphere> resting_spheres_;
+  bool in_lanes_;  // contacts are resolved in the fused step
   int stride_ = 0;
   State s_;
   double t_ = 0, t_next_ = 0;  // s, of the step under way
@@ -253,7 +263,7 @@ std::unique_ptr<World> make_cloth_grid_world(const Stepper& stepper, ContactRule
   if (execution.path == ExecutionPath::general || !stepper.composition || !springs || !has_only_supported_terms(model))
     return nullptr;
   const KickDriftComposition composition = stepper.composition();
-  if (model.find<Spheres>() && (contact == ContactRule::sticky || composition.fractions.size() > 1)) return nullptr;
+  if (has_contact(model) && (contact == ContactRule::sticky || composition.fractions.size() > 1)) return nullptr;
   const auto topology = find_grid_topology(*springs, model.particles.size());
   if (!topology) return nullptr;
 #ifndef __wasm__  // the page has no single precision

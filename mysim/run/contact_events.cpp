@@ -1,4 +1,4 @@
-// One particle through one step: flight, impact, sliding, sticking, and a wedge between spheres.
+// One particle through one step: flight, impact, sliding, sticking, and a wedge between surfaces.
 #include "mysim/run/contact_events.h"
 
 #include <algorithm>
@@ -10,7 +10,7 @@ namespace crosscheck {
 namespace {
 
 constexpr double eps = std::numeric_limits<double>::epsilon();
-constexpr int most_events = 16;   // in a step; what is left then goes by the rule for whole steps (terms/sphere.h)
+constexpr int most_events = 16;   // in a step; what is left then goes by the rule for whole steps (terms/surface.h)
 constexpr int most_contacts = 4;  // of a particle at a time
 
 /// The first point at which a condition holds that does not hold at `low` and holds at `high`, to the last bit but few.
@@ -35,13 +35,13 @@ Vec3 direction_of(const Vec3& v, const Vec3& otherwise) {
 
 class ParticleStep {
  public:
-  ParticleStep(std::span<const SphereTrack> spheres, double h, double gamma, const Vec3& x_n, const Vec3& v_n,
+  ParticleStep(std::span<const SurfaceTrack> surfaces, double h, double gamma, const Vec3& x_n, const Vec3& v_n,
                const Vec3& x, const Vec3& v)
-      : spheres_(spheres), h_(h), gamma_(gamma), x_(x_n), v_(v_n) {
+      : surfaces_(surfaces), h_(h), gamma_(gamma), reach_(x_n.norm() + h * (v_n.norm() + v.norm())), x_(x_n), v_(v_n) {
     b_ = (v - v_n) / h + gamma / 2 * (v_n + v);
     bend_ = x - (x_n + h / 2 * (v_n + v));
     ends_inside_ =
-        std::any_of(spheres.begin(), spheres.end(), [&](const SphereTrack& track) { return inside(track, x, h); });
+        std::any_of(surfaces.begin(), surfaces.end(), [&](const SurfaceTrack& track) { return inside(track, x, h); });
   }
 
   /// False where nothing was touched.
@@ -57,11 +57,11 @@ class ParticleStep {
     }
     if (!touched_ && !ends_inside_) return false;
     if (done_ < h_) finish_by_whole_step();
-    // out of one sphere may be into another: where both overlap, on to where their surfaces meet
+    // out of one surface may be into another: where both overlap, on to where their surfaces meet
     for (int round = 0; round < 100; ++round) {
       bool inside = false;
-      for (const SphereTrack& track : spheres_) inside |= put_outside(track);
-      if (!inside || spheres_.size() == 1) break;
+      for (const SurfaceTrack& track : surfaces_) inside |= put_outside(track);
+      if (!inside || surfaces_.size() == 1) break;
     }
     return true;
   }
@@ -74,10 +74,10 @@ class ParticleStep {
     Vec3 x, v;
   };
   struct Contact {
-    const SphereTrack* track;
+    const SurfaceTrack* track;
     Vec3 normal;
   };
-  /// The end of a slide, relative to the sphere.
+  /// The end of a slide, relative to the surface.
   struct Slid {
     Vec3 r, w;
     double pressure;  // m/s^2, N there
@@ -86,17 +86,17 @@ class ParticleStep {
     Vec3 along;       // unit vector of the motion that it acts against
   };
 
-  static double gap(const SphereTrack& track, const Vec3& x, double s) {
-    return (x - track.centre(s)).norm() - track.radius();
+  static double gap(const SurfaceTrack& track, const Vec3& x, double s) {
+    return track.surface().gap(x - track.origin(s));
   }
   /// By more than the roundings of a place on the surface: one that takes off from there is not inside.
-  static bool inside(const SphereTrack& track, const Vec3& x, double s) {
-    return gap(track, x, s) < -16 * eps * (track.radius() + track.centre(s).norm());
+  bool inside(const SurfaceTrack& track, const Vec3& x, double s) const {
+    return gap(track, x, s) < -16 * eps * track.surface().rounding_scale(track.origin(s), reach_);
   }
-  Vec3 normal_at(const SphereTrack& track) const { return direction_of(x_ - track.centre(done_), Vec3(0, 1, 0)); }
-  void put_on(const SphereTrack& track) { x_ = track.centre(done_) + track.radius() * normal_at(track); }
+  Vec3 normal_at(const SurfaceTrack& track) const { return track.surface().normal(x_ - track.origin(done_)); }
+  void put_on(const SurfaceTrack& track) { x_ = track.surface().put_on(track.origin(done_), x_, normal_at(track)); }
   /// False where it is outside.
-  bool put_outside(const SphereTrack& track) {
+  bool put_outside(const SurfaceTrack& track) {
     if (!(gap(track, x_, done_) < 0)) return false;
     put_on(track);
     return true;
@@ -106,19 +106,19 @@ class ParticleStep {
     v_ = v;
   }
 
-  /// N (m/s^2) that keeps the particle on the sphere, by its velocity there.
-  double pressure(const SphereTrack& track, const Vec3& n) const {
+  /// N (m/s^2) that keeps the particle on the surface, by its velocity there.
+  double pressure(const SurfaceTrack& track, const Vec3& n) const {
     const Vec3 w = without_normal_part(v_ - track.velocity(done_), n);
-    return -(b_ - gamma_ * v_ - track.acceleration()).dot(n) - w.squaredNorm() / track.radius();
+    return -(b_ - gamma_ * v_ - track.acceleration()).dot(n) - w.squaredNorm() / track.surface().radius();
   }
 
-  /// Lets those spheres act that the particle runs against, and lists those that it stays on.
+  /// Lets those surfaces act that the particle runs against, and lists those that it stays on.
   void find_contacts() {
     std::array<Contact, most_contacts> near;
     int touching = 0;
-    for (const SphereTrack& track : spheres_) {
+    for (const SurfaceTrack& track : surfaces_) {
       // roundings of a place on the surface: of the centre, the radius, and a step there and back
-      const double rounding = 1e-12 * (track.radius() + track.centre(done_).norm());
+      const double rounding = 1e-12 * track.surface().rounding_scale(track.origin(done_), reach_);
       if (touching == most_contacts || !(gap(track, x_, done_) <= rounding)) continue;
       put_outside(track);
       near[touching++] = {&track, normal_at(track)};
@@ -148,15 +148,15 @@ class ParticleStep {
   /// False where the particle does not move inward.
   bool collide(const Contact& contact) {
     const auto& [track, n] = contact;
-    const Sphere& sphere = track->sphere();
+    const Surface& surface = track->surface();
     const Vec3 w = v_ - track->velocity(done_);
     const double inward = -w.dot(n);
     if (!(inward > 4 * eps * v_.norm())) return false;
     touched_ = true;
-    const bool is_back_within_step = 2 * sphere.restitution * inward < h_ * pressure(*track, n);
-    const double change = (1 + (is_back_within_step ? 0 : sphere.restitution)) * inward;
+    const bool is_back_within_step = 2 * surface.restitution * inward < h_ * pressure(*track, n);
+    const double change = (1 + (is_back_within_step ? 0 : surface.restitution)) * inward;
     const Vec3 along = without_normal_part(w, n);
-    const double speed = along.norm(), kept = std::max(0.0, speed - sphere.friction * change);
+    const double speed = along.norm(), kept = std::max(0.0, speed - surface.friction * change);
     Vec3 after = (change - inward) * n;
     if (speed > 0) after += kept / speed * along;
     change_velocity(track->velocity(done_) + after);
@@ -176,14 +176,14 @@ class ParticleStep {
     return {x, v};
   }
 
-  /// Free up to the first sphere, or to the end of the step.
+  /// Free up to the first surface, or to the end of the step.
   void fly() {
     double until = h_ - done_;
-    for (const SphereTrack& track : spheres_) {
+    for (const SurfaceTrack& track : surfaces_) {
       const auto is_inside = [&](double s) { return inside(track, flight(s).x, done_ + s); };
       const auto recedes = [&](double s) {
         const Point p = flight(s);
-        return (p.x - track.centre(done_ + s)).dot(p.v - track.velocity(done_ + s)) > 0;
+        return track.surface().approach(p.x - track.origin(done_ + s), p.v - track.velocity(done_ + s)) > 0;
       };
       if (is_inside(until)) {
         until = first_time(is_inside, 0, until);
@@ -202,15 +202,16 @@ class ParticleStep {
     done_ = done_ + s >= h_ * (1 - 4 * eps) ? h_ : done_ + s;
   }
 
-  Slid slide(const SphereTrack& track, const Vec3& b, const Vec3& r, const Vec3& w, const Vec3& forward,
+  Slid slide(const SurfaceTrack& track, const Vec3& b, const Vec3& r, const Vec3& w, const Vec3& forward,
              double s) const {
-    const double mu = track.sphere().friction, radius = track.radius();
+    const Surface& surface = track.surface();
+    const double mu = surface.friction, radius = surface.radius();
     const auto press = [&](const Vec3& n, const Vec3& speed) { return -b.dot(n) - speed.squaredNorm() / radius; };
-    const Vec3 n0 = r / radius;
+    const Vec3 n0 = surface.normal_on(r);
     const double press0 = std::max(0.0, press(n0, w));
     // half of it; friction acts against the mean velocity of the slide, which is along what that were without friction:
     // by the velocity at the beginning, small beside s mu N, a motion across would grow without bound
-    const Vec3 n = (r + s / 2 * w).normalized();
+    const Vec3 n = surface.normal(r + s / 2 * w);
     const Vec3 unheld = without_normal_part(w + s / 2 * (b - gamma_ * w + press0 * n0), n);
     Slid end;
     end.along = unheld.dot(forward) > 0 ? direction_of(unheld, forward) : forward;
@@ -219,29 +220,30 @@ class ParticleStep {
     end.force = pressure * n - end.friction * end.along;
     // the whole
     end.w = w + s / (1 + s * gamma_ / 2) * (b + end.force - gamma_ * w);
-    const Vec3 n1 = (r + s / 2 * (w + end.w) + without_normal_part(bent(s), n)).normalized();
-    end.r = radius * n1;
+    const Vec3 to = r + s / 2 * (w + end.w) + without_normal_part(bent(s), n), n1 = surface.normal(to);
+    end.r = surface.nearest(to, n1);
     end.w = without_normal_part(end.w, n1);
     end.pressure = press(n1, end.w);
     return end;
   }
 
-  void slide_or_stick(const SphereTrack& track) {
-    const double rest = h_ - done_, mu = track.sphere().friction;
-    const Vec3 n = normal_at(track), r = track.radius() * n;
+  void slide_or_stick(const SurfaceTrack& track) {
+    const Surface& surface = track.surface();
+    const double rest = h_ - done_, mu = surface.friction;
+    const Vec3 n = normal_at(track), r = surface.nearest(x_ - track.origin(done_), n);
     Vec3 w = without_normal_part(v_ - track.velocity(done_), n);
-    const Vec3 sphere_velocity = (track.velocity(done_) + track.velocity(h_)) / 2;
-    const Vec3 b = b_ - track.acceleration() - gamma_ * sphere_velocity;  // as felt on the sphere
+    const Vec3 surface_velocity = (track.velocity(done_) + track.velocity(h_)) / 2;
+    const Vec3 b = b_ - track.acceleration() - gamma_ * surface_velocity;  // as felt on the surface
     const Vec3 b_along = without_normal_part(b, n);
-    const double press = -b.dot(n) - w.squaredNorm() / track.radius();
+    const double press = -b.dot(n) - w.squaredNorm() / surface.radius();
     const bool holds = b_along.norm() <= mu * press;
     // a speed that friction takes within a billionth of the step is none
     if (w.norm() <= 1e-9 * h_ * b.norm() && (holds || mu > 0)) {
       w.setZero();
       if (holds) {
-        lost_ += rest * b.dot(sphere_velocity);
+        lost_ += rest * b.dot(surface_velocity);
         done_ = h_;
-        x_ = track.centre(h_) + r, v_ = track.velocity(h_);
+        x_ = track.origin(h_) + r, v_ = track.velocity(h_);
         return;
       }
     }
@@ -250,59 +252,80 @@ class ParticleStep {
     const auto ends = [&](double s) {
       const Slid end = slide(track, b, r, w, forward, s);
       if (end.pressure < 0 || stops(end)) return true;
-      const Vec3 x = track.centre(done_ + s) + end.r;
-      return std::any_of(spheres_.begin(), spheres_.end(),
-                         [&](const SphereTrack& other) { return &other != &track && inside(other, x, done_ + s); });
+      const Vec3 x = track.origin(done_ + s) + end.r;
+      return std::any_of(surfaces_.begin(), surfaces_.end(),
+                         [&](const SurfaceTrack& other) { return &other != &track && inside(other, x, done_ + s); });
     };
     const double until = ends(rest) ? first_time(ends, 0, rest) : rest;
     Slid end = slide(track, b, r, w, forward, until);
-    lost_ += until * (end.friction * end.along.dot(w + end.w) / 2 - end.force.dot(sphere_velocity));
+    lost_ += until * (end.friction * end.along.dot(w + end.w) / 2 - end.force.dot(surface_velocity));
     advance(until);
     if (stops(end)) {
       end.w -= end.w.dot(forward) * forward;
-      if (without_normal_part(b, end.r / track.radius()).norm() <= mu * end.pressure) end.w.setZero();
+      if (without_normal_part(b, surface.normal_on(end.r)).norm() <= mu * end.pressure) end.w.setZero();
     }
-    x_ = track.centre(done_) + end.r, v_ = track.velocity(done_) + end.w;
+    x_ = track.origin(done_) + end.r, v_ = track.velocity(done_) + end.w;
   }
 
-  /// Between several spheres, to the end of the step.
-  void wedge() {
-    const double rest = h_ - done_;
-    const Point free = flight(rest);
+  /// The velocity after s between several surfaces, and what each has pushed by.
+  struct Wedged {
+    Vec3 v;
+    std::array<double, most_contacts> pushed;  // m/s
+  };
+  Wedged wedged(double s) const {
+    const double end = s >= h_ - done_ ? h_ : done_ + s;
+    const Point free = flight(s);
     std::array<Vec3, most_contacts> normal, along;
-    std::array<double, most_contacts> pushed{};  // m/s
+    Wedged to{free.v, {}};
+    auto& [v, pushed] = to;
     for (int i = 0; i < count_; ++i) {
-      const SphereTrack& track = *contacts_[i].track;
-      normal[i] = (x_ + rest / 2 * v_ - track.centre(done_ + rest / 2)).normalized();
+      const SurfaceTrack& track = *contacts_[i].track;
+      normal[i] = track.surface().normal(x_ + s / 2 * v_ - track.origin(done_ + s / 2));
       along[i].setZero();
     }
-    Vec3 v = free.v;
     // each sweep divides what is left by the squared cosine of the angle between normals at least
     for (int sweep = 0; sweep < 500; ++sweep) {
       double change = 0;
       for (int i = 0; i < count_; ++i) {
-        const Sphere& sphere = contacts_[i].track->sphere();
         const Vec3 before = v;
-        Vec3 w = v - contacts_[i].track->velocity(h_);
+        Vec3 w = v - contacts_[i].track->velocity(end);
         const double push = std::max(0.0, pushed[i] - w.dot(normal[i]));
         v += (push - pushed[i]) * normal[i];
         pushed[i] = push;
-        w = without_normal_part(v - contacts_[i].track->velocity(h_), normal[i]);
+        w = without_normal_part(v - contacts_[i].track->velocity(end), normal[i]);
         Vec3 held = along[i] - w;
-        if (const double size = held.norm(), most = sphere.friction * push; size > most) held *= most / size;
+        if (const double size = held.norm(), most = contacts_[i].track->surface().friction * push; size > most)
+          held *= most / size;
         v += held - along[i];
         along[i] = held;
         change = std::max(change, (v - before).norm());
       }
       if (!(change > eps * (free.v.norm() + v_.norm()))) break;
     }
-    lost_ -= (v - free.v).dot(v + v_) / 2;
-    x_ += rest / 2 * (v_ + v), v_ = v;
-    done_ = h_;
+    return to;
+  }
+
+  /// Between several surfaces, up to the first other one, or to the end of the step.
+  void wedge() {
+    const double rest = h_ - done_;
+    const auto is_in_another = [&](double s) {
+      const Vec3 x = x_ + s / 2 * (v_ + wedged(s).v);
+      return std::any_of(surfaces_.begin(), surfaces_.end(), [&](const SurfaceTrack& track) {
+        const auto end = contacts_.begin() + count_;
+        return std::none_of(contacts_.begin(), end, [&](const Contact& c) { return c.track == &track; }) &&
+               inside(track, x, done_ + s);
+      });
+    };
+    const double s =
+        static_cast<int>(surfaces_.size()) > count_ && is_in_another(rest) ? first_time(is_in_another, 0, rest) : rest;
+    const auto [v, pushed] = wedged(s);
+    lost_ -= (v - flight(s).v).dot(v + v_) / 2;
+    x_ += s / 2 * (v_ + v), v_ = v;
+    advance(s);
     for (int round = 0; round < 100; ++round) {
       double off = 0;
       for (int i = 0; i < count_; ++i) {
-        const SphereTrack& track = *contacts_[i].track;
+        const SurfaceTrack& track = *contacts_[i].track;
         const double g = gap(track, x_, done_);
         if (g < 0 || pushed[i] > 0) put_on(track), off = std::max(off, std::abs(g));
       }
@@ -316,17 +339,17 @@ class ParticleStep {
     const Point p = flight(h_ - done_);
     const double begun = done_;
     x_ = p.x, v_ = p.v, done_ = h_;
-    for (const SphereTrack& track : spheres_) {
-      const Vec3 centre = track.centre(h_);
+    for (const SurfaceTrack& track : surfaces_) {
+      const Vec3 origin = track.origin(h_);
       Vec3 w = v_ - track.velocity(h_);
-      resolve_contact(track.sphere(), centre, x_n + centre - track.centre(begun), x_, w);
+      resolve_contact(track.surface(), origin, x_n + origin - track.origin(begun), x_, w);
       v_ = track.velocity(h_) + w;
     }
     lost_ -= (v_ - p.v).dot(v_ + v_n) / 2;
   }
 
-  const std::span<const SphereTrack> spheres_;
-  const double h_, gamma_;
+  const std::span<const SurfaceTrack> surfaces_;
+  const double h_, gamma_, reach_;
   Vec3 b_, bend_;    // m/s^2; m
   Vec3 x_, v_;       // m, m/s: after the part `done_` of the step
   double done_ = 0;  // s
@@ -336,56 +359,57 @@ class ParticleStep {
   int count_ = 0;
 };
 
-/// Whether a particle may come near the sphere in the step: a path of constant acceleration lies within h |v - v_n| / 8
-/// of its chord.
-bool comes_near(const SphereTrack& track, double h, const Vec3& x_n, const Vec3& v_n, const Vec3& x, const Vec3& v) {
-  const Vec3 from = x_n - track.centre(0), to = x - track.centre(h);
-  const double reach =
-      track.radius() * (1 + 1e-9) + (to - from).norm() + h / 8 * (v - v_n - h * track.acceleration()).norm();
+/// True if a particle may come near the surface in the step: a path of constant acceleration lies within h |v - v_n| /
+/// 8 of its chord.
+bool comes_near(const SurfaceTrack& track, double h, const Vec3& x_n, const Vec3& v_n, const Vec3& x, const Vec3& v) {
+  const Vec3 from = x_n - track.origin(0), to = x - track.origin(h);
+  const Surface& surface = track.surface();
+  const double way = (to - from).norm() + h / 8 * (v - v_n - h * track.acceleration()).norm();
+  if (surface.flat()) return !(surface.gap(from) > way * (1 + 1e-9) + 1e-12 * (from.norm() + track.origin(0).norm()));
+  const double reach = surface.radius() * (1 + 1e-9) + way;
   return !(from.squaredNorm() > reach * reach);
 }
 
 }  // namespace
 
-SphereTrack::SphereTrack(const Sphere& sphere, double t_n, double t)
-    : sphere_(&sphere),
-      radius_(sphere.contact_radius()),
+SurfaceTrack::SurfaceTrack(const Surface& surface, double t_n, double t)
+    : surface_(&surface),
       h_(t - t_n),
-      centre_(sphere.centre_at(t_n)),
+      origin_(surface.origin_at(t_n)),
       velocity_(Vec3::Zero()),
-      end_centre_(centre_),
+      end_origin_(origin_),
       end_velocity_(Vec3::Zero()),
       acceleration_(Vec3::Zero()),
       rest_(Vec3::Zero()) {
-  if (!sphere.motion) return;
-  velocity_ = velocity_at(*sphere.motion, t_n);
-  end_centre_ = sphere.centre_at(t);
-  end_velocity_ = velocity_at(*sphere.motion, t);
+  if (!surface.moving()) return;
+  velocity_ = surface.velocity_at(t_n);
+  end_origin_ = surface.origin_at(t);
+  end_velocity_ = surface.velocity_at(t);
   acceleration_ = (end_velocity_ - velocity_) / h_;
-  rest_ = end_centre_ - (centre_ + h_ / 2 * (velocity_ + end_velocity_));
+  rest_ = end_origin_ - (origin_ + h_ / 2 * (velocity_ + end_velocity_));
 }
 
-Vec3 SphereTrack::centre(double s) const {
-  if (!sphere_->motion || s == 0) return centre_;
-  if (s >= h_) return end_centre_;
-  return centre_ + s * velocity_ + s * s / 2 * acceleration_ + cubed(s / h_) * rest_;
+Vec3 SurfaceTrack::origin(double s) const {
+  if (!surface_->moving() || s == 0) return origin_;
+  if (s >= h_) return end_origin_;
+  return origin_ + s * velocity_ + s * s / 2 * acceleration_ + cubed(s / h_) * rest_;
 }
 
-Vec3 SphereTrack::velocity(double s) const { return s >= h_ ? end_velocity_ : Vec3(velocity_ + s * acceleration_); }
+Vec3 SurfaceTrack::velocity(double s) const { return s >= h_ ? end_velocity_ : Vec3(velocity_ + s * acceleration_); }
 
-std::vector<SphereTrack> sphere_tracks(const Spheres& spheres, double t_n, double t) {
-  std::vector<SphereTrack> tracks;
-  tracks.reserve(spheres.list.size());
-  for (const Sphere& sphere : spheres.list) tracks.emplace_back(sphere, t_n, t);
+std::vector<SurfaceTrack> surface_tracks(std::span<const Surface> surfaces, double t_n, double t) {
+  std::vector<SurfaceTrack> tracks;
+  tracks.reserve(surfaces.size());
+  for (const Surface& surface : surfaces) tracks.emplace_back(surface, t_n, t);
   return tracks;
 }
 
-std::optional<double> resolve_events(std::span<const SphereTrack> spheres, double h, double gamma, const Vec3& x_n,
+std::optional<double> resolve_events(std::span<const SurfaceTrack> surfaces, double h, double gamma, const Vec3& x_n,
                                      const Vec3& v_n, Eigen::Ref<Vec3> x, Eigen::Ref<Vec3> v) {
-  if (std::none_of(spheres.begin(), spheres.end(),
-                   [&](const SphereTrack& track) { return comes_near(track, h, x_n, v_n, x, v); }))
+  if (std::none_of(surfaces.begin(), surfaces.end(),
+                   [&](const SurfaceTrack& track) { return comes_near(track, h, x_n, v_n, x, v); }))
     return std::nullopt;
-  ParticleStep step(spheres, h, gamma, x_n, v_n, x, v);
+  ParticleStep step(surfaces, h, gamma, x_n, v_n, x, v);
   if (!step.run()) return std::nullopt;
   x = step.x(), v = step.v();
   return step.lost();

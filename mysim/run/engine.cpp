@@ -143,7 +143,7 @@ class SteppedWorld : public World {
 ///
 /// Steps are chosen so that the root mean square of (estimated error of a step) / (R (scene size + |x|)), and likewise
 /// of velocities with the largest speed so far for the scene's size, stays at or below 1, with R = run.tolerance. The
-/// states that are requested lie on the interpolant. Near a sphere no step goes beyond the next one,
+/// states that are requested lie on the interpolant. Near a surface no step goes beyond the next one,
 /// since contact acts on whole steps; it may take several to get there, and each may touch.
 class AdaptiveWorld : public World {
  public:
@@ -268,26 +268,24 @@ void require_supported(const Stepper& stepper, const Model& model) {
     throw Unsupported("the scene has hard distances, and this rule knows forces only");
 }
 
-/// A sentence about particles that lie on a sphere with restitution at the end of a run with steps of h (s), else
+/// A sentence about particles that lie on a surface with restitution at the end of a run with steps of h (s), else
 /// empty. Contact on whole steps returns a part of the speed of each step: a particle that lies still to a (m/s^2) goes
 /// on hopping by about a h^2, and by 9 a h^2 and more in explicit Euler, which adds energy in each flight.
 std::string hops_at_rest(const Scene& scene, State s, double h) {
-  const auto returns_part = [](const Sphere& sphere) { return sphere.restitution > 0 && sphere.restitution < 1; };
-  const auto* spheres = scene.model.find<Spheres>();
-  if (!spheres || scene.model.first_order() || std::none_of(spheres->list.begin(), spheres->list.end(), returns_part))
-    return "";
+  std::vector<Surface> surfaces = surfaces_of(scene.model);
+  std::erase_if(surfaces, [](const Surface& surface) { return !(surface.restitution > 0 && surface.restitution < 1); });
+  if (surfaces.empty() || scene.model.first_order()) return "";
   System f(scene.model);
   Points a(3, s.x.cols());
   f.acceleration(s, a);
   int hopping = 0;
   double highest = 0;  // m
-  for (const Sphere& sphere : spheres->list) {
-    if (!returns_part(sphere)) continue;
-    const Vec3 centre = sphere.centre_at(s.t), u = sphere.motion ? velocity_at(*sphere.motion, s.t) : Vec3::Zero();
+  for (const Surface& surface : surfaces) {
+    const Vec3 origin = surface.origin_at(s.t), u = surface.velocity_at(s.t);
     for (int i = 0; i < s.x.cols(); ++i) {
-      const Vec3 d = s.x.col(i) - centre, n = d.normalized();
+      const Vec3 d = s.x.col(i) - origin, n = surface.normal(d);
       const double pressed = -a.col(i).dot(n), hop = pressed * h * h;
-      if (scene.model.particles.pinned[i] || !(pressed > 0) || d.norm() - sphere.contact_radius() > 10 * hop ||
+      if (scene.model.particles.pinned[i] || !(pressed > 0) || surface.gap(d) > 10 * hop ||
           std::abs((s.v.col(i) - u).dot(n)) > 5 * pressed * h)
         continue;
       ++hopping, highest = std::max(highest, hop);
@@ -295,7 +293,7 @@ std::string hops_at_rest(const Scene& scene, State s, double h) {
   }
   if (hopping == 0) return "";
   return fmt::format(
-      "{} {} on a sphere with restitution and {} never quite at rest: contact on whole steps lets them hop by about "
+      "{} {} on a surface with restitution and {} never quite at rest: contact on whole steps lets them hop by about "
       "{:.2g} m, with the square of the step",
       hopping, hopping == 1 ? "particle lies" : "particles lie", hopping == 1 ? "is" : "are", highest);
 }
@@ -320,7 +318,7 @@ Outcome simulate(const Stepper& stepper, ContactRule contact, const Scene& scene
   if (execution.path == ExecutionPath::single_precision && !world->work().single_precision)
     out.remark = fmt::format(
         "computed in double precision: single is for regular cloths of {} columns or more, without "
-        "bending, dashpots and air, and with spheres for symplectic-euler and leapfrog without +sticky",
+        "bending, dashpots and air, and with contact for symplectic-euler and leapfrog without +sticky",
         simd::fewest_columns);
   return out;
 }

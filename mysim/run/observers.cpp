@@ -43,7 +43,7 @@ void Integral::add(double value, double h) {
 }
 
 Ledger::Ledger(const Model& model, ContactLoss contact)
-    : model_(model), inferred_(contact != ContactLoss::reported && model.find<Spheres>() != nullptr) {
+    : model_(model), inferred_(contact != ContactLoss::reported && has_contact(model)) {
   estimated_ = contact == ContactLoss::sampled && (model.find<Drag>() || model.find<Dashpots>() || model.find<Wind>() ||
                                                    model.find<Aerodynamics>() || model.particles.move);
   scratch_.f = Points::Zero(3, model.particles.size());
@@ -174,13 +174,12 @@ DivergenceMonitor::DivergenceMonitor(const Scene& scene, const Run& run, MotionB
 
 DivergenceMonitor::DivergenceMonitor(const Model& model, const State* start) : model_(model) {
   if (start) start_ = *start;
-  if (const auto* spheres = model.find<Spheres>())
-    for (const Sphere& s : spheres->list)
-      if (s.motion) {
-        // a particle leaves at (1 + e) times the sphere's speed at most; as much energy again may go into springs
-        const double speed = (1 + s.restitution) * max_speed(*s.motion);
-        moving_sphere_energy_ += model.particles.mass.sum() * speed * speed;
-      }
+  for (const Surface& s : surfaces_of(model))
+    if (s.moving()) {
+      // a particle leaves at (1 + e) times the surface's speed at most; as much energy again may go into springs
+      const double speed = (1 + s.restitution) * s.max_speed();
+      moving_surface_energy_ += model.particles.mass.sum() * speed * speed;
+    }
   if (model.find<Wind>() || model.find<Aerodynamics>() || model.particles.move)
     ledger_.emplace(model, ContactLoss::reported);
 }
@@ -192,18 +191,17 @@ void DivergenceMonitor::begin(const State& state) {
   State& start = *start_;
   const Particles& particles = model_.particles;
   // an engine that pushes a resting particle out of a contact gives it a small speed: that of a fall by 1/256 of the
-  // smaller of sphere and scene
-  const auto* spheres = model_.find<Spheres>();
-  if (const auto* gravity = model_.find<Gravity>(); gravity && spheres) {
+  // smaller of sphere and scene; a plane has no length of its own
+  if (const auto* gravity = model_.find<Gravity>(); gravity && has_contact(model_)) {
     const double extent = (start.x.rowwise().maxCoeff() - start.x.rowwise().minCoeff()).norm();
     double length = extent > 0 ? extent : std::numeric_limits<double>::infinity();
-    for (const Sphere& s : spheres->list) length = std::min(length, s.contact_radius());
-    const double fall = length / 256 * gravity->acceleration.norm();
+    for (const Surface& s : surfaces_of(model_)) length = std::min(length, s.radius());
+    const double fall = std::isfinite(length) ? length / 256 * gravity->acceleration.norm() : 0;
     contact_energy_ = particles.mass.sum() * fall;
     contact_speed_ = std::sqrt(2 * fall);
   }
   const Energy energy = energy_of(model_, start);
-  initial_energy_ = energy.kinetic + energy.elastic + moving_sphere_energy_ + contact_energy_;
+  initial_energy_ = energy.kinetic + energy.elastic + moving_surface_energy_ + contact_energy_;
   initial_gravitational_ = energy.gravitational;
   System system(model_);
   Points a(3, start.x.cols());
@@ -234,12 +232,12 @@ bool DivergenceMonitor::frozen(const State& state) {
   State stage = *start_;
   Points a(3, stage.x.cols());
   system.acceleration(stage, a);
-  const auto* spheres = model_.find<Spheres>();
+  const std::vector<Surface> surfaces = surfaces_of(model_);
   const auto touches = [&](const Vec3& x) {  // to within a few roundings in single precision
-    return spheres && std::any_of(spheres->list.begin(), spheres->list.end(), [&](const Sphere& s) {
-             const Vec3 centre = s.centre_at(start.t);
-             return (x - centre).norm() < s.contact_radius() * (1 + 1e-6) + 1e-6 * centre.norm();
-           });
+    return std::ranges::any_of(surfaces, [&](const Surface& s) {
+      const Vec3 origin = s.origin_at(start.t);
+      return s.gap(x - origin) < 1e-6 * s.rounding_scale(origin, x.norm());
+    });
   };
   // a displacement must exceed the rounding of the coordinates (in single precision where no velocities show what is
   // less) and, where forces balance, that of spring forces, some roundings of omega^2 times a coordinate

@@ -67,7 +67,7 @@ struct LedgerRow {
   double t;               // s
   Energy energy;          // J
   double drag, dashpots;  // J, taken by them since the start
-  double contact;         // J, lost in contact since the start: friction and impacts, less what moving spheres gave
+  double contact;         // J, lost in contact since the start: friction and impacts, less what moving surfaces gave
   double wind, pins;      // J, work done by the wind and by moved pins since the start
   double dissipated() const { return drag + dashpots; }
   /// total + dissipated + contact - wind - pins, J: constant up to the method's error.
@@ -91,7 +91,7 @@ class Ledger : public Observer {
 
  private:
   const Model& model_;
-  bool inferred_;   // a sphere is there and the engine does not report its losses
+  bool inferred_;   // a surface is there and the engine does not report its losses
   bool estimated_;  // integrals from samples alone
   Forces scratch_;
   Integral drag_, dashpots_, wind_, pins_;
@@ -136,7 +136,7 @@ class MotionBoundsCache {
 ///   K^_n = sum of m/2 |(x_{n+1} - x_{n-1}) / (t_{n+1} - t_{n-1})|^2,
 /// and what the run had to work with,
 ///   B = K_0 + U_0 + max |change of gravitational energy| + max |work of wind and moved pins| + 2 h^2 sum of m |a_0|^2
-/// (kinetic and elastic energy and accelerations at the start, and what moving spheres may give), a run is
+/// (kinetic and elastic energy and accelerations at the start, and what moving surfaces may give), a run is
 ///   in order while K^ <= B, and no spring is longer than three times what the longest was at the start or at rest,
 ///   blown up when K^ > 1000 B, at once,
 ///   compared with the true motion from the next sample on otherwise.
@@ -157,7 +157,7 @@ class MotionBoundsCache {
 /// motion (hard distances; a monitor without a scene) K^ > 10 B is a failure, and thirty times the length of the start.
 ///
 /// Verdict::frozen when at the first sample no free particle has moved or gained speed, bit for bit, although one that
-/// touches no sphere was accelerated at the start: an engine that dropped its forces, or a body put to sleep. (Not
+/// touches no surface was accelerated at the start: an engine that dropped its forces, or a body put to sleep. (Not
 /// checked under hard distances, whose forces may balance.)
 class DivergenceMonitor : public Observer {
  public:
@@ -204,9 +204,9 @@ class DivergenceMonitor : public Observer {
   bool begun_ = false;
   Seen before_, last_;  // the last two states shown
   int seen_ = 0;
-  double moving_sphere_energy_ = 0;  // J, the most that moving spheres are expected to give
-  double contact_energy_ = 0;        // J, the most that corrections at contacts are expected to give
-  double initial_energy_ = 0;  // J, kinetic and elastic at the start and what moving spheres and contacts may give
+  double moving_surface_energy_ = 0;  // J, the most that moving surfaces are expected to give
+  double contact_energy_ = 0;         // J, the most that corrections at contacts are expected to give
+  double initial_energy_ = 0;  // J, kinetic and elastic at the start and what moving surfaces and contacts may give
   double initial_gravitational_ = 0;  // J, gravitational at the start
   double gravitational_change_ = 0;   // J, the largest change of it
   double external_work_ = 0;          // J, the largest work of wind and moved pins so far

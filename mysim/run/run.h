@@ -107,11 +107,17 @@ struct Readback {
     std::optional<double> friction;     // Coulomb's mu
     std::optional<double> restitution;  // e
   };
-  /// The engine's pins and spheres at another time.
+  struct Face {                         // a plane
+    Vec3 point, normal;                 // m, 1: where particles touch at the start, margin included
+    std::optional<double> friction;     // Coulomb's mu
+    std::optional<double> restitution;  // e
+  };
+  /// Pins, spheres and planes in the engine at another time.
   struct Places {
     double t;                   // s
     Points pins;                // m, in the scene's order
-    std::vector<Vec3> centres;  // m
+    std::vector<Vec3> centres;  // m, of spheres
+    std::vector<Vec3> points;   // m, of planes: where those points of the faces are by then
   };
   std::vector<double> mass;  // kg; 0 where the engine holds the particle fixed
   std::vector<char> pinned;  // 1 where fixed
@@ -120,6 +126,7 @@ struct Readback {
   std::optional<Vec3> gravity;              // m/s^2
   std::optional<std::vector<double>> drag;  // 1/s, drag rate gamma of each free particle
   std::optional<std::vector<Ball>> spheres;
+  std::optional<std::vector<Face>> planes;
   std::optional<Places> later;                  // what a prescribed motion moves, at a later time
   std::optional<double> margin;                 // m, half the thickness of the cloth
   std::optional<State> start;                   // positions and velocities that the first step began from

@@ -103,6 +103,14 @@ constexpr Key sphere_keys[] = {
     {"restitution", "a number from 0 to 1"},
     {"motion", "how it moves", optional, table, motion_keys},
 };
+constexpr Key plane_keys[] = {
+    {"point", "three finite numbers [x, y, z] (m), any point of its face", required},
+    {"normal", "three finite numbers [x, y, z], the direction out of the solid", required},
+    {"margin", "a number not below zero (m)"},
+    {"friction", "a number not below zero"},
+    {"restitution", "a number from 0 to 1"},
+    {"velocity", "three finite numbers [x, y, z] (m/s)"},
+};
 constexpr Key camera_keys[] = {
     {"eye", "three finite numbers [x, y, z] (m)", required},
     {"target", "three finite numbers [x, y, z] (m)", required},
@@ -133,6 +141,7 @@ constexpr Key file_keys[] = {
     {"wind", "", optional, table, wind_keys},
     {"aerodynamics", "", optional, table, aerodynamics_keys},
     {"sphere", "", optional, table_or_tables, sphere_keys},
+    {"plane", "", optional, table_or_tables, plane_keys},
     {"camera", "", optional, table, camera_keys},
     {"wish", "", optional, table, wish_keys},
 };

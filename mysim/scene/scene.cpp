@@ -66,6 +66,12 @@ class Hash {
       if (s.motion) motion(*s.motion);
     }
   }
+  void term(const Planes& t) {
+    for (const Plane& p : t.list) {
+      add(p.point), add(p.normal), add(p.margin), add(p.friction), add(p.restitution);
+      if (p.velocity) add(*p.velocity);
+    }
+  }
   void motion(const Motion& m) { add(m.amplitude), add(m.frequency), add(m.ramp); }
 
   std::uint64_t value() const { return bytes_.value(); }
@@ -126,16 +132,30 @@ Aerodynamics read_aerodynamics(const TomlTable& s, const std::vector<std::array<
 
 Motion read_motion(const TomlTable& s) { return {s.vec3("amplitude"), s.positive("frequency"), s.positive("ramp")}; }
 
+/// Margin, friction and restitution of a sphere or a plane.
+template <class Solid>
+void read_contact(const TomlTable& s, Solid& solid) {
+  if (s.has("margin")) solid.margin = s.not_negative("margin");
+  if (s.has("friction")) solid.friction = s.not_negative("friction");
+  if (s.has("restitution")) {
+    solid.restitution = s.not_negative("restitution");
+    if (solid.restitution > 1) s.fail("restitution", "a number from 0 to 1");
+  }
+}
+
 Sphere read_sphere(const TomlTable& s) {
   Sphere sphere{s.vec3("centre"), s.positive("radius"), 0, 0, 0, std::nullopt};
-  if (s.has("margin")) sphere.margin = s.not_negative("margin");
-  if (s.has("friction")) sphere.friction = s.not_negative("friction");
-  if (s.has("restitution")) {
-    sphere.restitution = s.not_negative("restitution");
-    if (sphere.restitution > 1) s.fail("restitution", "a number from 0 to 1");
-  }
+  read_contact(s, sphere);
   if (s.has("motion")) sphere.motion = read_motion(s.section("motion"));
   return sphere;
+}
+
+Plane read_plane(const TomlTable& s) {
+  Plane plane{s.vec3("point"), s.vec3("normal").stableNormalized(), 0, 0, 0, std::nullopt};
+  if (plane.normal.isZero(0)) s.fail("normal", "a direction out of the solid, got the zero vector");
+  read_contact(s, plane);
+  if (s.has("velocity")) plane.velocity = s.vec3("velocity");
+  return plane;
 }
 
 // the table of terms that have a section of their own; springs, bending, dashpots and constraints come from [grid],
@@ -292,6 +312,34 @@ void read_spheres(const TomlTable& file, Scene& scene) {
   scene.model.terms.emplace_back(std::move(spheres));
 }
 
+void read_planes(const TomlTable& file, Scene& scene) {
+  if (!file.has(Planes::name)) return;
+  Planes planes;
+  const Particles& particles = scene.model.particles;
+  // on a plane but for the rounding of a decimal number is not behind it
+  const double rounding = 1e-9 * (scene.size() + largest_column(scene.start.x));
+  for (const TomlTable& s : file.one_or_more(Planes::name)) {
+    const Plane plane = read_plane(s);
+    for (int i = 0; i < particles.size(); ++i) {
+      const double height = (scene.start.x.col(i) - plane.point).dot(plane.normal);
+      if (height < plane.margin - rounding)
+        s.fail("point", fmt::format("no {} below the margin of {:.6g} m at the start, got particle {} at {:.6g} m",
+                                    particles.pinned[i] ? "pin" : "particle", plane.margin, i, height));
+    }
+    for (const Plane& other : planes.list) {
+      // the sine of the angle between them is below the rounding of a decimal number
+      if (!(plane.normal.dot(other.normal) < 0 && plane.normal.cross(other.normal).norm() < 1e-9)) continue;
+      const double apart = (other.point - plane.point).dot(plane.normal), margins = plane.margin + other.margin;
+      if (!(apart > margins))
+        s.fail("point",
+               fmt::format("more than the two margins, {:.6g} m, to the opposite plane, got {:.6g} m", margins, apart));
+    }
+    planes.list.push_back(plane);
+  }
+  if (planes.list.empty()) file.fail(Planes::name, "a table [plane] or tables [[plane]]");
+  scene.model.terms.emplace_back(std::move(planes));
+}
+
 void read_pins(const TomlTable& file, Scene& scene) {
   if (!file.has("pins")) return;
   const TomlTable s = file.section("pins");
@@ -371,7 +419,7 @@ Scene expand(const TomlTable& file, const std::string& name) {
   for (const TermReader& reader : term_readers)
     if ((!first_order || reader.key == Rotation::name) && file.has(reader.key))
       scene.model.terms.push_back(reader.read(file.section(reader.key), scene));
-  if (!first_order) read_spheres(file, scene);
+  if (!first_order) read_spheres(file, scene), read_planes(file, scene);
   if (scene.model.find<Wind>() && scene.model.find<Aerodynamics>())
     file.fail(Wind::name, "one kind of wind, [wind] or [aerodynamics]");
 
@@ -385,7 +433,7 @@ Scene expand(const TomlTable& file, const std::string& name) {
   }
   if (first_order) {
     for (const std::string_view key :
-         {"spring", "constraint", "springs", "pins", "gravity", "drag", "wind", "aerodynamics", "sphere"})
+         {"spring", "constraint", "springs", "pins", "gravity", "drag", "wind", "aerodynamics", "sphere", "plane"})
       if (file.has(key)) file.fail(key, fmt::format("no {} beside [rotation], {}", key, without_mass));
     for (const TomlTable& p : file.sections("particle"))
       for (const std::string_view key : {"mass", "velocity"})
@@ -423,6 +471,11 @@ double Scene::size() const {
   if (const auto* spheres = model.find<Spheres>())
     for (const Sphere& sphere : spheres->list)
       length = length > 0 ? std::min(length, sphere.contact_radius()) : sphere.contact_radius();
+  if (const auto* planes = model.find<Planes>())  // opposite ones bound what the particle can do
+    for (const Plane& a : planes->list)
+      for (const Plane& b : planes->list)
+        if (a.normal.dot(b.normal) < -0.999)
+          length = std::min(length, std::abs((b.point - a.point).dot(a.normal)) - a.margin - b.margin);
   return length > 0 ? length : 1;
 }
 

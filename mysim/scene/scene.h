@@ -46,8 +46,8 @@ struct Scene {
   ~Scene();
 
   /// The scale of lengths and their round-off, m: the diagonal of the box around the start. For a single particle the
-  /// distance that its speed and steady forces may carry it, but no more than the radius of the smallest sphere; in a
-  /// first-order scene its distance from the origin; 1 where it cannot move.
+  /// distance that its speed and steady forces may carry it, but no more than the radius of the smallest sphere or
+  /// the distance of two opposite planes; in a first-order scene its distance from the origin; 1 where it cannot move.
   double size() const;
 };
 

@@ -192,7 +192,7 @@ DeformableForces::DeformableForces(const Scene& scene, double h, bool implicit, 
         ours.air = &t;
         mapped_["wind on triangles"] = "force class of our own: Bullet's deformable world has no wind";
       },
-      [](const Spheres&) {},                            // no forces: soft_body.h
+      [](const OneOf<Spheres, Planes> auto&) {},        // no forces: soft_body.h
       [](const OneOf<Rotation, Constraints> auto&) {},  // refused before a world is built
   };
   for (const Term& term : scene.model.terms) std::visit(take, term);
@@ -364,7 +364,7 @@ class DeformableWorld : public SoftBodyWorld<btDeformableMultiBodyDynamicsWorld>
     world_->getWorldInfo().m_sparsesdf.setDefaultVoxelsz(static_cast<btScalar>(settings.voxel));
     world_->getWorldInfo().m_sparsesdf.Reset();
     soft_body_ = std::make_unique<SoftBody>(scene, world_->getWorldInfo(), settings.defaults);
-    if (scene.model.find<Spheres>())
+    if (has_contact(scene.model))
       body().m_cfg.collisions = btSoftBody::fCollision::SDF_RD | btSoftBody::fCollision::SDF_RDN;
     add_to_world();
     try {

@@ -66,7 +66,7 @@ class PbdWorld : public SoftBodyWorld<btSoftRigidDynamicsWorld> {
         [&](const Dashpots&) { mapped_["dashpots"] = added; },
         [&](const Aerodynamics&) { mapped_["wind on triangles"] = settings.own_wind ? own : added; },
         [](const OneOf<Springs, Constraints> auto&) {},  // links, above
-        [](const Spheres&) {},                           // soft_body.h
+        [](const OneOf<Spheres, Planes> auto&) {},       // soft_body.h
         [](const Rotation&) {},                          // refused before a world is built
     };
     for (const Term& term : model.terms) std::visit(tell, term);
@@ -98,7 +98,7 @@ class PbdWorld : public SoftBodyWorld<btSoftRigidDynamicsWorld> {
     obstacles_.read_back(*world_, body(), r);
     r.later = prescribed_places();
     r.probe = probe(0);
-    r.mapped = mapped_;
+    r.mapped.insert(mapped_.begin(), mapped_.end());
     r.settings["iterations"] = std::to_string(cfg.piterations);
     return r;
   }
@@ -153,7 +153,7 @@ class PbdWorld : public SoftBodyWorld<btSoftRigidDynamicsWorld> {
         [&](const Dashpots& pairs) {
           if (wanted.dashpots) add_force(pairs, model.particles, now, added_);
         },
-        [](const OneOf<Rotation, Gravity, Springs, Constraints, Drag, Spheres> auto&) {},  // Bullet's own
+        [](const OneOf<Rotation, Gravity, Springs, Constraints, Drag, Spheres, Planes> auto&) {},  // Bullet's own
     };
     for (const Term& term : model.terms) std::visit(add, term);
     for (int i = 0; i < model.particles.size(); ++i)
@@ -213,7 +213,7 @@ Outcome run_pbd(const Scene& scene, const Run& run, Observer& observer, const Pb
     out.different_law.push_back(
         "contact: whatever the step, normals are gradients of a grid of distances, off by up to a / 2R = " +
         normal_error_text(scene, settings.voxel));
-  if (scene.model.find<Spheres>())
+  if (has_contact(scene.model))
     out.different_law.push_back(
         "friction: a touching node loses a fixed share of its tangential motion in each step, whatever "
         "presses it on; Coulomb's law is not followed");

@@ -1,4 +1,4 @@
-// Translates the expanded scene into nodes, links and spheres of Bullet, and reads them back.
+// Translates the expanded scene into nodes, links and obstacles of Bullet, and reads them back.
 #include "reference/bullet/soft_body.h"
 
 #include <fmt/format.h>
@@ -24,16 +24,24 @@ Points small_offsets(const Bending& bending, const Points& x) {
   return offsets;
 }
 
+static std::vector<double> margins_of(const Model& model) {
+  std::vector<double> margins;
+  if (const auto* spheres = model.find<Spheres>())
+    for (const Sphere& s : spheres->list) margins.push_back(s.margin);
+  if (const auto* planes = model.find<Planes>())
+    for (const Plane& p : planes->list) margins.push_back(p.margin);
+  return margins;
+}
+
 void require_supported(const Scene& scene, bool may_hang) {
   const Model& model = scene.model;
   if (model.first_order()) throw Unsupported("Bullet has no first-order systems: its bodies have mass and velocity");
-  const auto* spheres = model.find<Spheres>();
-  if (!spheres) return;
-  for (const Sphere& s : spheres->list) {
+  if (!has_contact(model)) return;
+  for (const Surface& s : surfaces_of(model))
     if (s.restitution > 0) throw Unsupported("Bullet's soft bodies have no restitution against an obstacle");
-    if (s.margin != spheres->list[0].margin)
-      throw Unsupported("a soft body of Bullet has one margin, the scene's spheres have several");
-  }
+  const std::vector<double> margins = margins_of(model);
+  if (std::ranges::any_of(margins, [&](double margin) { return margin != margins[0]; }))
+    throw Unsupported("a soft body of Bullet has one margin, the scene's surfaces have several");
   if (!may_hang && std::ranges::max(pieces_of(model)) > 0)
     throw Unsupported("Bullet's contact search hangs on a body whose springs do not join all particles");
 }
@@ -42,7 +50,7 @@ SoftBody::SoftBody(const Scene& scene, btSoftBodyWorldInfo& info, const BulletDe
     : scene_(scene), defaults_(defaults), state_(scene.start) {
   const Model& model = scene.model;
   const Particles& particles = model.particles;
-  const auto* spheres = model.find<Spheres>();
+  const std::vector<double> margins = margins_of(model);
   const int n = particles.size();
 
   // free particles first, pins last
@@ -71,7 +79,7 @@ SoftBody::SoftBody(const Scene& scene, btSoftBodyWorldInfo& info, const BulletDe
       bt_body_->appendLink(node_of_[a], node_of_[b], bt_body_->m_materials[0]);
   bt_body_->updateConstants();
   restore_lengths();
-  if (spheres) bt_body_->initializeFaceTree();
+  if (!margins.empty()) bt_body_->initializeFaceTree();
   bt_body_->m_bUpdateRtCst = defaults.rest;
 
   for (int node = 0; node < n; ++node) {
@@ -79,9 +87,9 @@ SoftBody::SoftBody(const Scene& scene, btSoftBodyWorldInfo& info, const BulletDe
     const btVector3 v = particles.pinned[i] ? btVector3(0, 0, 0) : to_bullet(scene.start.v.col(i));
     bt_body_->m_nodes[node].m_v = bt_body_->m_nodes[node].m_vn = v;
   }
-  // without a sphere the margin only bounds speeds (box diagonal over step): large enough to bound nothing
+  // without contact the margin only bounds speeds (box diagonal over step): large enough to bound nothing
   if (!defaults.margin)
-    bt_body_->getCollisionShape()->setMargin(static_cast<btScalar>(spheres ? spheres->list[0].margin : 10.0));
+    bt_body_->getCollisionShape()->setMargin(static_cast<btScalar>(margins.empty() ? 10.0 : margins[0]));
   bt_body_->updateBounds();  // of the constructor's margin until now: they bound the speeds of the first step
   bt_body_->m_cfg.kDF = 1;
   bt_body_->setGravityFactor(static_cast<btScalar>(defaults.gravity_factor));
@@ -159,72 +167,117 @@ Readback SoftBody::read_back() const {
 
 namespace {
 
-btTransform at(const Vec3& place) {
-  btTransform transform;
-  transform.setIdentity();
-  transform.setOrigin(to_bullet(place));
-  return transform;
+/// Half the edge of the cube whose face is a plane, m: what the particles may move from the middle of their box, with
+/// the plane under them, and as much again for springs and wind.
+double half_edge(const Scene& scene, const Plane& plane) {
+  const auto* gravity = scene.model.find<Gravity>();
+  const double t = scene.duration, g = gravity ? gravity->acceleration.norm() : 0;
+  const double speed = largest_column(scene.start.v) + (plane.velocity ? plane.velocity->norm() : 0);
+  return 2 * (scene.size() + t * (speed + g * t / 2));
 }
 
 }  // namespace
 
-Obstacles::Obstacles(const Model& model) : spheres_(model.find<Spheres>()) {
-  if (!spheres_) return;
-  for (const Sphere& s : spheres_->list) {
-    Ball ball{std::make_unique<btSphereShape>(static_cast<btScalar>(s.radius)), nullptr};
-    btRigidBody::btRigidBodyConstructionInfo info(0, nullptr, ball.shape.get());
-    info.m_startWorldTransform = at(s.centre_at(0));
-    info.m_friction = static_cast<btScalar>(s.friction);  // multiplied by the body's kDF, which is set to 1
-    info.m_restitution = 0;
-    ball.body = std::make_unique<btRigidBody>(info);
-    if (s.motion) {
-      ball.body->setCollisionFlags(btCollisionObject::CF_KINEMATIC_OBJECT);
-      ball.body->setActivationState(DISABLE_DEACTIVATION);
-    }
-    balls_.push_back(std::move(ball));
+Obstacles::Obstacles(const Scene& scene) {
+  if (const auto* spheres = scene.model.find<Spheres>())
+    for (const Sphere& s : spheres->list)
+      add(s, std::make_unique<btSphereShape>(static_cast<btScalar>(s.radius)), Vec3::Zero());
+  const auto* planes = scene.model.find<Planes>();
+  if (!planes) return;
+  const Vec3 middle = (scene.start.x.rowwise().minCoeff() + scene.start.x.rowwise().maxCoeff()) / 2;
+  for (const Plane& p : planes->list) {
+    const auto half = static_cast<btScalar>(half_edge(scene, p));
+    auto cube = std::make_unique<btBoxShape>(btVector3(half, half, half));
+    cube->setMargin(0);  // the grid of distances is that of the shape without its margin
+    const Vec3 d = middle - p.point, aside = d - d.dot(p.normal) * p.normal;
+    add(p, std::move(cube), aside - (p.margin + half) * p.normal);
+    btTransform place = obstacles_.back().body->getWorldTransform();
+    const Vec3 axis = Vec3::UnitY().cross(p.normal);
+    // the shortest turn from the y axis to the normal
+    place.setRotation(axis.isZero(1e-12) ? btQuaternion(btVector3(1, 0, 0), p.normal.y() < 0 ? SIMD_PI : 0)
+                                         : btQuaternion(to_bullet(axis.normalized()),
+                                                        btScalar(std::atan2(axis.norm(), p.normal.y()))));
+    obstacles_.back().body->setWorldTransform(place);
   }
 }
 
+void Obstacles::add(const Surface& surface, std::unique_ptr<btConvexShape> shape, const Vec3& middle) {
+  btRigidBody::btRigidBodyConstructionInfo info(0, nullptr, shape.get());
+  info.m_startWorldTransform.setIdentity();
+  info.m_startWorldTransform.setOrigin(to_bullet(surface.origin_at(0) + middle));
+  info.m_friction = static_cast<btScalar>(surface.friction);  // multiplied by the body's kDF, which is set to 1
+  info.m_restitution = 0;
+  auto body = std::make_unique<btRigidBody>(info);
+  if (surface.moving()) {
+    body->setCollisionFlags(btCollisionObject::CF_KINEMATIC_OBJECT);
+    body->setActivationState(DISABLE_DEACTIVATION);
+  }
+  obstacles_.push_back({std::move(shape), std::move(body), surface, middle});
+}
+
 void Obstacles::add_to_world(btDiscreteDynamicsWorld& world) {
-  for (const Ball& ball : balls_) {
-    world.addRigidBody(ball.body.get());
-    built_.push_back(from_bullet(ball.body->getWorldTransform().getOrigin()));
+  for (const Obstacle& o : obstacles_) {
+    world.addRigidBody(o.body.get());
+    built_.push_back(o.body->getWorldTransform());
   }
 }
 
 void Obstacles::remove_from_world(btDiscreteDynamicsWorld& world) {
-  for (const Ball& ball : balls_) world.removeRigidBody(ball.body.get());
+  for (const Obstacle& o : obstacles_) world.removeRigidBody(o.body.get());
 }
 
 void Obstacles::place(double t) {
-  for (size_t i = 0; i < balls_.size(); ++i)
-    if (spheres_->list[i].motion) balls_[i].body->setWorldTransform(at(spheres_->list[i].centre_at(t)));
+  for (const Obstacle& o : obstacles_)
+    if (o.surface.moving()) o.body->getWorldTransform().setOrigin(to_bullet(o.surface.origin_at(t) + o.middle));
 }
 
-std::vector<Vec3> Obstacles::centres_at(double t) {
+namespace {
+
+/// The upper face of a box as Bullet has it, where particles with that margin touch.
+Readback::Face face_of(const btBoxShape& box, const btTransform& place, double margin) {
+  const Vec3 normal = from_bullet(place.getBasis().getColumn(1));
+  return {from_bullet(place.getOrigin()) + (box.getHalfExtentsWithMargin().y() + margin) * normal, normal, {}, {}};
+}
+
+}  // namespace
+
+void Obstacles::read_places(double t, double margin, Readback::Places& places) {
   std::vector<btTransform> now;
-  for (const Ball& ball : balls_) now.push_back(ball.body->getWorldTransform());
+  for (const Obstacle& o : obstacles_) now.push_back(o.body->getWorldTransform());
   place(t);
-  std::vector<Vec3> centres;
-  for (size_t i = 0; i < balls_.size(); ++i) {
-    centres.push_back(from_bullet(balls_[i].body->getWorldTransform().getOrigin()));
-    balls_[i].body->setWorldTransform(now[i]);
+  for (size_t i = 0; i < obstacles_.size(); ++i) {
+    const btTransform& there = obstacles_[i].body->getWorldTransform();
+    if (const auto* box = dynamic_cast<const btBoxShape*>(obstacles_[i].shape.get()))
+      places.points.push_back(face_of(*box, there, margin).point);
+    else
+      places.centres.push_back(from_bullet(there.getOrigin()));
+    obstacles_[i].body->setWorldTransform(now[i]);
   }
-  return centres;
 }
 
 void Obstacles::read_back(const btDiscreteDynamicsWorld& world, const btSoftBody& body, Readback& readback) const {
   readback.margin = body.getCollisionShape()->getMargin();
-  readback.spheres.emplace();
+  readback.spheres.emplace(), readback.planes.emplace();
   const btCollisionObjectArray& objects = world.getCollisionObjectArray();
-  for (int i = 0; i < objects.size(); ++i)
-    if (const auto* ball = dynamic_cast<const btSphereShape*>(objects[i]->getCollisionShape())) {
-      const size_t known = readback.spheres->size();  // one that was not built here counts where it stands
+  size_t known = 0;  // one that was not built here counts where it stands
+  for (int i = 0; i < objects.size(); ++i) {
+    const auto* ball = dynamic_cast<const btSphereShape*>(objects[i]->getCollisionShape());
+    const auto* box = dynamic_cast<const btBoxShape*>(objects[i]->getCollisionShape());
+    if (!ball && !box) continue;
+    const btTransform& place = known < built_.size() ? built_[known] : objects[i]->getWorldTransform();
+    ++known;
+    const double friction = objects[i]->getFriction() * body.m_cfg.kDF, restitution = objects[i]->getRestitution();
+    if (ball) {
       readback.spheres->push_back(
-          {known < built_.size() ? built_[known] : from_bullet(objects[i]->getWorldTransform().getOrigin()),
-           ball->getRadius() + *readback.margin, objects[i]->getFriction() * body.m_cfg.kDF,
-           objects[i]->getRestitution()});
+          {from_bullet(place.getOrigin()), ball->getRadius() + *readback.margin, friction, restitution});
+    } else {
+      readback.planes->push_back(face_of(*box, place, *readback.margin));
+      readback.mapped["planes"] =
+          fmt::format("faces of cubes, {:.3g} m to each side; distances on the grid of voxels are exact to rounding",
+                      double(box->getHalfExtentsWithMargin().y()));
+      readback.planes->back().friction = friction, readback.planes->back().restitution = restitution;
     }
+  }
 }
 
 std::string normal_error_text(const Scene& scene, double voxel) {

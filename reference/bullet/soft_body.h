@@ -31,7 +31,7 @@ struct CollisionPipeline {
   btDbvtBroadphase broadphase;
 };
 
-/// Throws Unsupported where Bullet would hang (a spring graph in several pieces near a sphere; not asked where
+/// Throws Unsupported where Bullet would hang (a spring graph in several pieces near a surface; not asked where
 /// `may_hang`) or cannot follow (first-order scenes, restitution). To be called before a world is built.
 void require_supported(const Scene& scene, bool may_hang = false);
 
@@ -138,11 +138,19 @@ class ProbeState {
   std::vector<SavedNode> saved_;  // by particle
 };
 
-// The scene's spheres as Bullet's rigid bodies: fixed, or moved along as kinematic bodies.
+// The scene's spheres and planes as Bullet's rigid bodies: fixed, or moved along as kinematic bodies.
+//
+// A plane is the upper face of a cube, below the middle of the particles: half its edge is twice what they may move
+// from there in the scene's duration, so that none gets to its rim. Its distances are linear, so that the grid from
+// which Bullet's soft bodies take distances and normals errs by rounding alone, whatever the voxels: on a floor and on
+// a slope of 25 degrees, a node and a cloth of 25 lie within 1e-14 m of the face in the deformable world and slide as
+// Coulomb says. btStaticPlaneShape has no such grid: Bullet takes it for a concave mesh of two triangles as large as
+// the body's box, each with a grid of its own. There the same bodies sink in by 0.12 m and drift aside by 43 mm in half
+// a second, and the position-based world throws them up by 3 m.
 
 class Obstacles {
  public:
-  explicit Obstacles(const Model& model);
+  explicit Obstacles(const Scene& scene);
 
   /// Enters them into the world, or takes them out of it.
   void add_to_world(btDiscreteDynamicsWorld& world);
@@ -150,25 +158,28 @@ class Obstacles {
   /// Puts the moving ones where they are at time t (s). To be called before each step with the step's end: Bullet takes
   /// the speed of a kinematic body from the distance between two of its places.
   void place(double t);
-  /// Where that is, m. All stands as before afterwards.
-  std::vector<Vec3> centres_at(double t);
+  /// Writes where that is: centres of spheres, points of planes. All stands as before afterwards.
+  void read_places(double t, double margin, Readback::Places& places);
 
-  /// The objects that were built: places, radii, friction and restitution of the balls, and the soft body's margin.
+  /// The objects that were built: places, radii or normals, friction and restitution, and the soft body's margin.
   void read_back(const btDiscreteDynamicsWorld& world, const btSoftBody& body, Readback& readback) const;
 
  private:
-  struct Ball {
-    std::unique_ptr<btSphereShape> shape;
+  struct Obstacle {
+    std::unique_ptr<btConvexShape> shape;
     std::unique_ptr<btRigidBody> body;
+    Surface surface;
+    Vec3 middle;  // m, of the body, relative to the surface's origin
   };
-  const Spheres* spheres_;  // null: none
-  std::vector<Ball> balls_;
-  std::vector<Vec3> built_;  // m, where they stood when they entered
+  void add(const Surface& surface, std::unique_ptr<btConvexShape> shape, const Vec3& middle);
+
+  std::vector<Obstacle> obstacles_;
+  std::vector<btTransform> built_;  // places at which they entered
 };
 
 /// "5 mrad on voxels of a = 10 mm": how far Bullet's normals may be off in each direction, on the scene's smallest
-/// ball. Inside a voxel the gradient of the grid of distances is constant along each axis, right in the middle and off
-/// by half a voxel's turn at its faces.
+/// ball; the scene must have one. Inside a voxel the gradient of the grid of distances is constant along each axis,
+/// right in the middle and off by half a voxel's turn at its faces.
 std::string normal_error_text(const Scene& scene, double voxel);
 
 /// The part that all Bullet worlds share: a soft body and its obstacles are put into a world, which is destroyed in the
@@ -178,7 +189,7 @@ template <class BulletWorld>
 class SoftBodyWorld : public World {
  public:
   SoftBodyWorld(const Scene& scene, double h, const BulletDefaults& defaults)
-      : scene_(supported(scene, defaults)), h_(h), obstacles_(scene.model) {}
+      : scene_(supported(scene, defaults)), h_(h), obstacles_(scene) {}
   const State& state(double t) override { return soft_body_->read_state(t); }
 
  protected:
@@ -187,17 +198,18 @@ class SoftBodyWorld : public World {
   void add_to_world() {
     obstacles_.add_to_world(*world_);
     world_->addSoftBody(&body());
-    world_->setGravity(btVector3(0, 0, 0));  // of rigid bodies only; the spheres are fixed or kinematic
+    world_->setGravity(btVector3(0, 0, 0));  // this is for rigid bodies only; the obstacles are fixed or kinematic
   }
 
-  /// Pins and spheres of a prescribed motion, at a time at which no round frequency has brought it back.
+  /// Pins and surfaces of a prescribed motion, at a time at which no round frequency has brought it back.
   Readback::Places prescribed_places() {
     const double t = 0.382 * scene_.duration;
     std::optional<ProbeState> kept;  // puts the nodes back at the end
     if (scene_.model.particles.move) kept.emplace(scene_, *soft_body_, t);
     soft_body_->place_pins(t);
     const std::vector<int>& pins = scene_.model.particles.pins;
-    Readback::Places places{t, Points(3, pins.size()), obstacles_.centres_at(t)};
+    Readback::Places places{t, Points(3, pins.size()), {}, {}};
+    obstacles_.read_places(t, body().getCollisionShape()->getMargin(), places);
     for (size_t p = 0; p < pins.size(); ++p) {
       const auto& node = body().m_nodes[soft_body_->node_of(pins[p])];
       places.pins.col(static_cast<int>(p)) = from_bullet(node.m_x);

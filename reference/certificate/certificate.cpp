@@ -28,32 +28,46 @@ void certify_particles(const Scene& scene, const Readback& r, CertificateWriter&
         std::equal(r.pinned.begin(), r.pinned.end(), p.pinned.begin(), p.pinned.end()));
 }
 
-/// Where the engine leads pins and spheres by a prescribed motion; a row for still ones only where they are led away.
+/// Prescribed motions of pins, spheres and planes; still ones have a row only if the engine moves them.
 void certify_motion(const Scene& scene, const Readback& r, CertificateWriter& w) {
   const Particles& p = scene.model.particles;
   const auto* spheres = scene.model.find<Spheres>();
-  auto row = [&](const std::string& quantity, const std::optional<Motion>& motion, const Points& ours,
-                 const Points& reported) {
+  const auto* planes = scene.model.find<Planes>();
+  auto row = [&](const std::string& quantity, const std::string& motion, const Points& ours, const Points& reported) {
     const double off = reported.cols() == ours.cols() ? largest_column(ours - reported) : NAN;
     const bool same = off <= w.tolerance() * (scene.size() + largest_column(ours));
-    if (!motion && same) return;
-    w.row(quantity,
-          motion ? fmt::format("({:.6g}, {:.6g}, {:.6g}) m at {:.6g} Hz", motion->amplitude.x(), motion->amplitude.y(),
-                               motion->amplitude.z(), motion->frequency)
-                 : "none",
-          fmt::format("at {:.3g} s off by {:.2g} m", r.later->t, off), same);
+    if (motion.empty() && same) return;
+    w.row(quantity, motion.empty() ? "none" : motion, fmt::format("at {:.3g} s off by {:.2g} m", r.later->t, off),
+          same);
+  };
+  const auto vector = [](const Vec3& v) { return fmt::format("({:.6g}, {:.6g}, {:.6g})", v.x(), v.y(), v.z()); };
+  const auto text = [&](const std::optional<Motion>& m) {
+    return m ? fmt::format("{} m at {:.6g} Hz", vector(m->amplitude), m->frequency) : "";
+  };
+  const auto numbered = [](const char* what, size_t i, size_t count) {
+    return count > 1 ? fmt::format("motion of {} {}", what, i + 1) : fmt::format("motion of the {}", what);
   };
   if (!r.later) {
     if (p.move) w.add_unattested("motion of pins", "as in the scene");
     if (spheres && spheres->moving()) w.add_unattested("motion of spheres", "as in the scene");
+    if (planes && planes->moving()) w.add_unattested("motion of planes", "as in the scene");
     return;
   }
   const double t = r.later->t;
-  row("motion of pins", p.move, p.pin_home.colwise() + (p.move ? displacement_at(*p.move, t) : Vec3::Zero()),
+  row("motion of pins", text(p.move), p.pin_home.colwise() + (p.move ? displacement_at(*p.move, t) : Vec3::Zero()),
       r.later->pins);
   for (size_t i = 0; spheres && i < std::min(spheres->list.size(), r.later->centres.size()); ++i)
-    row(spheres->list.size() > 1 ? fmt::format("motion of sphere {}", i + 1) : "motion of the sphere",
-        spheres->list[i].motion, spheres->list[i].centre_at(t), r.later->centres[i]);
+    row(numbered("sphere", i, spheres->list.size()), text(spheres->list[i].motion), spheres->list[i].centre_at(t),
+        r.later->centres[i]);
+  const size_t count = planes && r.planes ? std::min(planes->list.size(), r.planes->size()) : 0;
+  if (planes && planes->moving() && r.later->points.size() != count)
+    w.add_unattested("motion of planes", "as in the scene");
+  for (size_t i = 0; i < std::min(count, r.later->points.size()); ++i) {
+    // any point of the face may be reported: the displacement counts
+    const auto& velocity = planes->list[i].velocity;
+    row(numbered("plane", i, count), velocity ? vector(*velocity) + " m/s" : "",
+        Vec3(t * velocity.value_or(Vec3::Zero())), Vec3(r.later->points[i] - (*r.planes)[i].point));
+  }
 }
 
 /// The engine's start.

@@ -1,4 +1,5 @@
-// The certificate's rows of each term: springs, bending, hard distances, dashpots, gravity, drag, wind and spheres.
+// The certificate's rows of each term: springs, bending, hard distances, dashpots, gravity, drag, wind, spheres and
+// planes.
 #include "reference/certificate/rows.h"
 
 #include <algorithm>
@@ -157,35 +158,61 @@ void certify_springs(const Scene& scene, const Readback& r, CertificateWriter& w
 
 namespace {
 
+/// A row for a number of a sphere or a plane, which the engine may not report.
+void certify_number(const std::string& what, double wanted, const std::optional<double>& reported, const char* unit,
+                    double scale, CertificateWriter& w) {
+  if (reported)
+    w.row(what, fmt::format("{:.6g}{}", wanted, unit), fmt::format("{:.6g}{}", *reported, unit),
+          std::abs(*reported - wanted) <= w.tolerance() * scale);
+  else
+    w.add_unattested(what, fmt::format("{:.6g}{}", wanted, unit));
+}
+
+/// The row that counts spheres or planes; false where they cannot be compared one by one.
+template <class Reported>
+bool certify_count(const char* what, size_t requested, const std::optional<Reported>& reported, CertificateWriter& w) {
+  if (!reported) {
+    if (requested > 0) w.add_unattested(what, fmt::format("{}", requested));
+    return false;
+  }
+  if (requested > 0 || !reported->empty())
+    w.row(what, fmt::format("{}", requested), fmt::format("{}", reported->size()), reported->size() == requested);
+  return reported->size() == requested;
+}
+
+std::string place_text(const Vec3& v) { return fmt::format("({:.6g}, {:.6g}, {:.6g}) m", v.x(), v.y(), v.z()); }
+
 void certify_spheres(const Spheres* spheres, const Readback& r, CertificateWriter& w) {
   const size_t requested = spheres ? spheres->list.size() : 0;
-  if (!r.spheres) {
-    if (requested > 0) w.add_unattested("spheres", fmt::format("{}", requested));
-    return;
-  }
-  if (requested > 0 || !r.spheres->empty())
-    w.row("spheres", fmt::format("{}", requested), fmt::format("{}", r.spheres->size()),
-          r.spheres->size() == requested);
-  if (r.spheres->size() != requested) return;
+  if (!certify_count("spheres", requested, r.spheres, w)) return;
   for (size_t i = 0; i < requested; ++i) {
     const Sphere& s = spheres->list[i];
     const Readback::Ball& ball = (*r.spheres)[i];
     const std::string of = requested > 1 ? fmt::format(" of sphere {}", i + 1) : "";
-    auto vector = [](const Vec3& v) { return fmt::format("({:.6g}, {:.6g}, {:.6g}) m", v.x(), v.y(), v.z()); };
-    w.row("centre" + of, vector(s.centre), vector(ball.centre),
+    w.row("centre" + of, place_text(s.centre), place_text(ball.centre),
           (ball.centre - s.centre).norm() <= w.tolerance() * (s.centre.norm() + s.radius));
-    auto number = [&](const std::string& what, double wanted, const std::optional<double>& reported, const char* unit,
-                      double scale) {
-      if (reported)
-        w.row(what + of, fmt::format("{:.6g}{}", wanted, unit), fmt::format("{:.6g}{}", *reported, unit),
-              std::abs(*reported - wanted) <= w.tolerance() * scale);
-      else
-        w.add_unattested(what + of, fmt::format("{:.6g}{}", wanted, unit));
-    };
-    number("contact radius", s.contact_radius(), ball.radius, " m", s.contact_radius());
-    number("friction", s.friction, ball.friction, "", 1);
-    number("restitution", s.restitution, ball.restitution, "", 1);
-    if (i == 0 && r.margin) number("margin", s.margin, r.margin, " m", s.contact_radius());
+    certify_number("contact radius" + of, s.contact_radius(), ball.radius, " m", s.contact_radius(), w);
+    certify_number("friction" + of, s.friction, ball.friction, "", 1, w);
+    certify_number("restitution" + of, s.restitution, ball.restitution, "", 1, w);
+    if (i == 0 && r.margin) certify_number("margin" + of, s.margin, r.margin, " m", s.contact_radius(), w);
+  }
+}
+
+void certify_planes(const Scene& scene, const Readback& r, CertificateWriter& w) {
+  const auto* planes = scene.model.find<Planes>();
+  const size_t requested = planes ? planes->list.size() : 0;
+  if (!certify_count("planes", requested, r.planes, w)) return;
+  for (size_t i = 0; i < requested; ++i) {
+    const Plane& p = planes->list[i];
+    const Readback::Face& face = (*r.planes)[i];
+    const std::string of = requested > 1 ? fmt::format(" of plane {}", i + 1) : "";
+    const auto direction = [](const Vec3& n) { return fmt::format("({:.6g}, {:.6g}, {:.6g})", n.x(), n.y(), n.z()); };
+    w.row("normal" + of, direction(p.normal), direction(face.normal), (face.normal - p.normal).norm() <= w.tolerance());
+    // any point of the face may be reported: its distance from the scene's counts
+    const double scale = scene.size() + face.point.norm() + p.point.norm();
+    certify_number("contact offset" + of, p.margin, (face.point - p.point).dot(p.normal), " m", scale, w);
+    certify_number("friction" + of, p.friction, face.friction, "", 1, w);
+    certify_number("restitution" + of, p.restitution, face.restitution, "", 1, w);
   }
 }
 
@@ -271,7 +298,7 @@ void certify_absent(const Scene& scene, const Readback& r, CertificateWriter& w)
       {"drag", !model.find<Drag>() && !r.drag},
       {"dashpots", !model.find<Dashpots>() && !(r.probe && r.probe->dashpots.size() > 0)},
       {"wind", !model.find<Wind>() && !model.find<Aerodynamics>() && !(r.probe && r.probe->wind.size() > 0)},
-      {"spheres", !spheres && !r.spheres},
+      {"spheres", !spheres && !r.spheres},  // an engine written before planes need not deny them
       {"motion of pins", !model.particles.pins.empty() && !model.particles.move && !r.later},
       {"motion of spheres", spheres && !spheres->moving() && !r.later},
   };
@@ -288,12 +315,13 @@ void certify_terms(const Scene& scene, const Readback& r, CertificateWriter& w) 
       [&](const Gravity& t) { certify_gravity(t, r, w); },
       [&](const Drag& t) { certify_drag(t, scene.model.particles, r, w); },
       [&](const Rotation& t) { w.add_unattested("rotation", fmt::format("{:.6g} rad/s", t.rate)); },
-      [](const OneOf<Wind, Aerodynamics, Spheres> auto&) {},              // below: they may be in the engine alone
+      [](const OneOf<Wind, Aerodynamics, Spheres, Planes> auto&) {},      // below: they may be in the engine alone
       [](const OneOf<Springs, Bending, Dashpots, Constraints> auto&) {},  // above
   };
   for (const Term& term : scene.model.terms) std::visit(certify_term, term);
   certify_wind(scene, r, w);
   certify_spheres(scene.model.find<Spheres>(), r, w);
+  certify_planes(scene, r, w);
   certify_absent(scene, r, w);
 }
 

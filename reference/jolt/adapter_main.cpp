@@ -66,6 +66,7 @@ void require_supported(const Scene& scene, const Run& run, int iterations) {
         if (spheres.moving())
           throw Unsupported("moving spheres: in contact Jolt takes the velocity of a sphere that is led for zero");
       },
+      [](const Planes&) { throw Unsupported("planes: this adapter hands Jolt spheres only"); },
       [](const OneOf<Gravity, Constraints, Drag, Wind> auto&) {},
   };
   for (const Term& term : model.terms) std::visit(lacks, term);
@@ -198,7 +199,7 @@ class JoltWorld : public World {
     const jolt::Settings settings = body_.settings();
     r.drag = std::vector<double>(n, settings.damping);
     r.spheres.emplace();
-    Readback::Places later{0.382 * scene_.duration, {}, {}};
+    Readback::Places later{0.382 * scene_.duration, {}, {}, {}};
     for (const jolt::Ball& ball : body_.balls()) {
       r.spheres->push_back({vec3(ball.centre), ball.radius, ball.friction, ball.restitution});
       later.centres.push_back(vec3(ball.centre));

@@ -77,7 +77,7 @@ Method mysim_method(const Stepper& stepper, const MethodOptions& options) {
                 same_as,
                 [rule, contact, execution](const Scene& scene, const Run& run, Observer& observer) {
                   Outcome out = simulate(rule, contact, scene, run, observer, execution);
-                  if (contact == ContactRule::sticky && scene.model.find<Spheres>())
+                  if (contact == ContactRule::sticky && has_contact(scene.model))
                     out.different_law.push_back(
                         "contact: a touching particle is put back to where it came from and loses all its velocity");
                   return out;

@@ -181,11 +181,16 @@ std::string scene_toml(const Scene& source, const Scene& changed, double within)
         values.emplace_back(rate ? "drag.gamma" : "drag.coefficient",
                             rate ? drag->c[i] / particles.mass[i] : drag->c[i]);
   }
-  if (const auto* spheres = changed.model.find<Spheres>(); spheres && !same(SceneNumber::friction))
-    for (size_t i = 0; i < spheres->list.size(); ++i)
-      values.emplace_back(
-          file.has(fmt::format("sphere[{}]", i)) ? fmt::format("sphere[{}].friction", i) : "sphere.friction",
-          spheres->list[i].friction);
+  const auto add_frictions = [&](const auto* surfaces, std::string_view name) {
+    for (size_t i = 0; surfaces && i < surfaces->list.size(); ++i) {
+      const std::string one = fmt::format("{}[{}]", name, i);
+      values.emplace_back(fmt::format("{}.friction", file.has(one) ? one : name), surfaces->list[i].friction);
+    }
+  };
+  if (!same(SceneNumber::friction)) {
+    add_frictions(changed.model.find<Spheres>(), Spheres::name);
+    add_frictions(changed.model.find<Planes>(), Planes::name);
+  }
   file.set(values);
   return file.text();
 }

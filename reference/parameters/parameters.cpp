@@ -41,9 +41,9 @@ std::vector<double> values_of(const Scene& scene, SceneNumber quantity) {
       [&](const Gravity& gravity) {
         if (quantity == SceneNumber::gravity) values.push_back(gravity.acceleration.norm());
       },
-      [&](const Spheres& spheres) {
+      [&](const OneOf<Spheres, Planes> auto& surfaces) {
         if (quantity == SceneNumber::friction)
-          for (const Sphere& s : spheres.list) values.push_back(s.friction);
+          for (const auto& s : surfaces.list) values.push_back(s.friction);
       },
       [](const OneOf<Rotation, Bending, Constraints, Wind, Aerodynamics> auto&) {},
   };
@@ -75,8 +75,12 @@ void set_values(Scene& scene, SceneNumber quantity, std::span<const double> valu
     Vec3& g = scene.model.find<Gravity>()->acceleration;
     if (g.norm() > 0) g *= value() / g.norm();
   }
-  if (quantity == SceneNumber::friction)
-    for (Sphere& s : scene.model.find<Spheres>()->list) s.friction = value();
+  if (quantity != SceneNumber::friction) return;
+  const Overloaded set{[&](OneOf<Spheres, Planes> auto& surfaces) {
+                         for (auto& s : surfaces.list) s.friction = value();
+                       },
+                       [](auto&) {}};
+  for (Term& term : scene.model.terms) std::visit(set, term);
 }
 
 NumberContext context_of(const Scene& scene, SceneNumber quantity, size_t which, double h, int n) {

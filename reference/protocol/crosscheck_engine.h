@@ -186,6 +186,12 @@ struct Spring {
   double stiffness, rest_length;  // N/m, m
 };
 
+/// A solid half-space: particles stay at `margin` from the face through point + t velocity.
+struct Plane {
+  Vec point, normal, velocity;           // m, at t = 0; unit vector out of the solid; m/s
+  double margin, friction, restitution;  // m, mu, e
+};
+
 /// The parts that most engines need; everything else is in `json`, by the keys of PROTOCOL.md.
 struct Scene {
   Json json;
@@ -202,8 +208,9 @@ struct Scene {
   std::string spring_law = "hooke";
   std::vector<Spring> springs;
   std::vector<Spring> constraints;  // hard distances, their lengths as rest lengths, their stiffness infinite
-  Vec gravity{};                    // m/s^2
-  std::vector<double> drag;         // N s/m, for each particle; zeros where the scene has none
+  std::vector<Plane> planes;
+  Vec gravity{};             // m/s^2
+  std::vector<double> drag;  // N s/m, for each particle; zeros where the scene has none
   std::vector<std::string> options;
 
   /// The scene's term of that type, or null.
@@ -279,6 +286,10 @@ inline Scene read_scene(const std::string& file) {
     for (const Json& p : (*constraints)["list"].list)
       s.constraints.push_back(
           {p["a"].integer(), p["b"].integer(), std::numeric_limits<double>::infinity(), p["length"].number()});
+  if (const Json* planes = s.term("plane"))
+    for (const Json& p : (*planes)["list"].list)
+      s.planes.push_back({p["point"].vec(), p["normal"].vec(), p.has("velocity") ? p["velocity"].vec() : Vec{},
+                          p["margin"].number(), p["friction"].number(), p["restitution"].number()});
   if (const Json* gravity = s.term("gravity")) s.gravity = (*gravity)["acceleration"].vec();
   if (const Json* drag = s.term("drag"))
     for (size_t i = 0; i < s.x.size(); ++i) s.drag[i] = (*drag)["coefficient"].list.at(i).number();
@@ -314,11 +325,18 @@ struct Ball {
   double radius = unknown, friction = unknown, restitution = unknown;  // m, at which particles touch; mu; e
 };
 
+/// A plane as the engine has it: the face that particles touch.
+struct Face {
+  Vec point, normal;                                 // m, at the start; unit vector
+  double friction = unknown, restitution = unknown;  // mu, e
+};
+
 /// Where prescribed motions have led.
 struct Places {
-  double t;                  // s
-  std::vector<Vec> pins;     // m, in the scene's order
-  std::vector<Vec> centres;  // m, of spheres
+  double t;                      // s
+  std::vector<Vec> pins;         // m, in the scene's order
+  std::vector<Vec> centres;      // m, of spheres
+  std::vector<Vec> points = {};  // m, of planes
 };
 
 /// Forces in a state of the program's own choice. A list that stays empty is not told; zeros say that the engine has
@@ -339,6 +357,7 @@ struct Readback {
   std::string precision = "double";               // or "single"
   std::optional<std::vector<double>> drag = {};   // 1/s, c / m of each particle
   std::optional<std::vector<Ball>> spheres = {};  // an empty list: none
+  std::optional<std::vector<Face>> planes = {};   // likewise
   double margin = unknown;                        // m
   std::optional<bool> may_sleep = {};
   double step = unknown;                        // s
@@ -412,9 +431,15 @@ class JsonWriter {
     w.add("restitution", s.restitution);
     return w.object();
   }
+  static std::string of(const Face& f) {
+    JsonWriter w;
+    w.add("point", f.point), w.add("normal", f.normal), w.add("friction", f.friction);
+    w.add("restitution", f.restitution);
+    return w.object();
+  }
   static std::string of(const Places& p) {
     JsonWriter w;
-    w.add("t", p.t), w.add("pins", p.pins), w.add("centres", p.centres);
+    w.add("t", p.t), w.add("pins", p.pins), w.add("centres", p.centres), w.add_unless_empty("points", p.points);
     return w.object();
   }
   static std::string of(const Probe& p) {
@@ -434,6 +459,7 @@ class JsonWriter {
     JsonWriter w;
     w.add("precision", r.precision), w.add("mass", r.mass), w.add("pinned", r.pinned), w.add("links", r.links);
     w.add("gravity", r.gravity), w.add("drag", r.drag), w.add("spheres", r.spheres), w.add("margin", r.margin);
+    w.add("planes", r.planes);
     w.add("may_sleep", r.may_sleep), w.add("step", r.step);
     if (!r.start_x.empty()) {
       JsonWriter start;

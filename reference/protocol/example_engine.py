@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""An engine for crosscheck in NumPy: symplectic Euler with springs, drag, gravity and moved pins. See PROTOCOL.md."""
+"""An engine for crosscheck in NumPy: symplectic Euler with springs, drag, gravity, moved pins and planes. See PROTOCOL.md."""
 import json
 import sys
 import time
@@ -8,7 +8,7 @@ import numpy as np
 
 task = json.load(open(sys.argv[1]))
 terms = {term["type"]: term for term in task["terms"]}
-lacking = set(terms) - {"springs", "drag", "gravity"}
+lacking = set(terms) - {"springs", "drag", "gravity", "plane"}
 if lacking:
     print("this example has no " + ", ".join(sorted(lacking)), file=sys.stderr)
     sys.exit(3)
@@ -23,6 +23,8 @@ a, b, k, rest = (np.array([s[key] for s in springs["list"]]) for key in ("a", "b
 a, b = a.astype(int), b.astype(int)
 drag = np.array(terms["drag"]["coefficient"])[:, None] if "drag" in terms else 0
 gravity = np.array(terms["gravity"]["acceleration"]) if "gravity" in terms else 0
+planes = [{key: np.array(value) for key, value in plane.items()} for plane in terms.get("plane", {"list": []})["list"]]
+free = ~np.isin(np.arange(len(x)), held)
 
 
 def pins_at(t):
@@ -49,6 +51,32 @@ def spring_force(x):
     return f
 
 
+def face_at(plane, t):
+    """A point of the face that particles touch, and its velocity."""
+    velocity = plane.get("velocity", np.zeros(3))
+    return plane["point"] + plane["margin"] * plane["normal"] + t * velocity, velocity
+
+
+def shortened(vectors, by):
+    length = np.linalg.norm(vectors, axis=1)
+    return vectors * np.maximum(0, 1 - np.divide(by, length, out=np.ones_like(length), where=length > 0))[:, None]
+
+
+def touch(plane, before, t):
+    """Puts particles on the plane; Coulomb friction on their displacement and their velocity, as the plane sees them."""
+    (point, velocity), n, mu = face_at(plane, t), plane["normal"], plane["friction"]
+    i = np.flatnonzero(((x - point) @ n < 0) & free)
+    push = -(x[i] - point) @ n
+    start = before[i] + h * velocity
+    moved = x[i] + push[:, None] * n - start
+    up = (moved @ n)[:, None] * n
+    x[i] = start + up + shortened(moved - up, mu * push)
+    w = v[i] - velocity
+    inward = np.minimum(w @ n, 0)
+    change = -(1 + plane["restitution"]) * inward
+    v[i] = velocity + shortened(w - inward[:, None] * n, mu * change) + (inward + change)[:, None] * n
+
+
 def readback(end):
     """What was simulated, for the certificate: this engine has no dashpots, wind and spheres."""
     start, speed = np.array(task["particles"]["x"]), np.array(task["particles"]["v"])
@@ -64,14 +92,19 @@ def readback(end):
         "links": [{"a": int(i), "b": int(j), "stiffness": s, "rest_length": r} for i, j, s, r in zip(a, b, k, rest)],
         "gravity": (gravity + np.zeros(3)).tolist(), "drag": (drag / mass * np.ones_like(mass))[:, 0].tolist(),
         "spheres": [], "may_sleep": False, "step": h, "start": {"x": start.tolist(), "v": speed.tolist()},
-        "later": {"t": end, "pins": x[held].tolist(), "centres": []},
+        "later": {"t": end, "pins": x[held].tolist(), "centres": [], "points": [face_at(p, end)[0].tolist() for p in planes]},
+        "planes": [{"point": face_at(p, 0)[0].tolist(), **{key: p[key].tolist() for key in ("normal", "friction", "restitution")}}
+                   for p in planes],
         "probe": {"t": 0, **{name: part.tolist() for name, part in probe.items()}}}
 
 
 frames, speeds, start = [x.copy()], [v.copy()], time.process_time()
 for step in range(1, task["run"]["samples"] * per_sample + 1):
     v += h * (spring_force(x) + mass * gravity - drag * v) / mass
+    before = x.copy()
     x += h * v
+    for plane in planes:
+        touch(plane, before, step * h)
     x[held], v[held] = pins_at(step * h)
     if step % per_sample == 0:
         frames.append(x.copy())

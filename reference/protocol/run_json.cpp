@@ -52,9 +52,18 @@ Json readback_json(const Readback& r) {
       add(entry, "restitution", ball.restitution);
     }
   }
+  if (r.planes) {
+    json["planes"] = Json::array();
+    for (const Readback::Face& face : *r.planes) {
+      Json& entry = json["planes"].emplace_back(Json{{"point", json_of(face.point)}, {"normal", json_of(face.normal)}});
+      add(entry, "friction", face.friction);
+      add(entry, "restitution", face.restitution);
+    }
+  }
   if (r.later) {
     json["later"] = {{"t", r.later->t}, {"pins", json_of(r.later->pins)}, {"centres", Json::array()}};
     for (const Vec3& centre : r.later->centres) json["later"]["centres"].push_back(json_of(centre));
+    for (const Vec3& point : r.later->points) json["later"]["points"].push_back(json_of(point));
   }
   if (r.start) json["start"] = {{"x", json_of(r.start->x)}, {"v", json_of(r.start->v)}};
   if (r.probe) {
@@ -77,8 +86,10 @@ std::optional<double> optional_number(const JsonField& f, std::string_view key) 
 }
 
 Readback::Places places_of(const JsonField& f) {
-  Readback::Places places{f["t"].number(), points_of(f["pins"], static_cast<int>(f["pins"].size())), {}};
+  Readback::Places places{f["t"].number(), points_of(f["pins"], static_cast<int>(f["pins"].size())), {}, {}};
   for (const JsonField& centre : f["centres"].elements()) places.centres.push_back(vec3_of(centre));
+  if (const auto points = f.find("points"))
+    for (const JsonField& point : points->elements()) places.points.push_back(vec3_of(point));
   return places;
 }
 
@@ -115,6 +126,12 @@ Readback readback_of(const JsonField& f) {
     for (const JsonField& s : spheres->elements())
       r.spheres->push_back({vec3_of(s["centre"]), optional_number(s, "radius"), optional_number(s, "friction"),
                             optional_number(s, "restitution")});
+  }
+  if (const auto planes = f.find("planes")) {
+    r.planes.emplace();
+    for (const JsonField& p : planes->elements())
+      r.planes->push_back({vec3_of(p["point"]), vec3_of(p["normal"]), optional_number(p, "friction"),
+                           optional_number(p, "restitution")});
   }
   if (const auto later = f.find("later")) r.later = places_of(*later);
   if (const auto start = f.find("start")) r.start = State{0, points_of((*start)["x"], n), points_of((*start)["v"], n)};

@@ -97,6 +97,18 @@ void add(Json& json, const Spheres& t) {
   }
 }
 
+void add(Json& json, const Planes& t) {
+  Json& list = json["list"] = Json::array();
+  for (const Plane& p : t.list) {
+    Json& entry = list.emplace_back(Json{{"point", json_of(p.point)},
+                                         {"normal", json_of(p.normal)},
+                                         {"margin", p.margin},
+                                         {"friction", p.friction},
+                                         {"restitution", p.restitution}});
+    if (p.velocity) entry["velocity"] = json_of(*p.velocity);
+  }
+}
+
 Json particles_json(const Particles& particles, const State& start, bool first_order) {
   Json json{{"count", particles.size()}};
   if (!first_order) json["mass"] = std::span(particles.mass.data(), static_cast<size_t>(particles.mass.size()));
@@ -267,6 +279,17 @@ Term spheres_of(const JsonField& f, const Scene&) {
   return spheres;
 }
 
+Term planes_of(const JsonField& f, const Scene&) {
+  Planes planes;
+  for (const JsonField& p : f["list"].elements()) {
+    planes.list.push_back({vec3_of(p["point"]), vec3_of(p["normal"]), p["margin"].number_from(0),
+                           p["friction"].number_from(0), p["restitution"].number_from(0), std::nullopt});
+    if (std::abs(planes.list.back().normal.norm() - 1) > 1e-12) p["normal"].fail("a unit vector");
+    if (const auto velocity = p.find("velocity")) planes.list.back().velocity = vec3_of(*velocity);
+  }
+  return planes;
+}
+
 // the table of terms: one row for each alternative of Term
 struct TermReader {
   std::string_view type;
@@ -283,6 +306,7 @@ constexpr TermReader term_readers[] = {
     {Wind::name, [](const JsonField& f, const Scene&) -> Term { return Wind{blowing_of(f, "acceleration")}; }},
     {Aerodynamics::name, aerodynamics_of},
     {Spheres::name, spheres_of},
+    {Planes::name, planes_of},
 };
 static_assert(std::size(term_readers) == std::variant_size_v<Term>);
 

@@ -57,7 +57,7 @@ std::string_view name_of(Tier tier) {
 std::optional<Truth> truth_of(const Scene& scene, const Run& run) {
   if (const auto exact = exact_solution(scene)) return from_closed_form(*exact, scene, run);
   const auto find = [&] {
-    if (!scene.model.find<Spheres>()) return converged_truth(scene, run);
+    if (!has_contact(scene.model)) return converged_truth(scene, run);
     auto truth = event_truth(scene, run);
     if (!truth) truth = time_stepping_truth(scene, run);
     return truth ? truth : contact_truth(scene, run);
@@ -304,12 +304,12 @@ class MissingEnergy : public Ledger {
   }
 };
 
-/// A particle within 1e-9 of the scene's size of a sphere: above the rounding of a place on its surface.
+/// A particle within 1e-9 of the scene's size of a contact surface: above the rounding of a place on its surface.
 bool in_contact(const Scene& scene, double t, const Points& x) {
   const double near = 1e-9 * scene.size();
+  const std::vector<Surface> surfaces = surfaces_of(scene.model);
   for (int i = 0; i < x.cols(); ++i)
-    if (!scene.model.particles.pinned[i] && clearance_from(*scene.model.find<Spheres>(), t, x.col(i)) < near)
-      return true;
+    if (!scene.model.particles.pinned[i] && clearance_from(surfaces, t, x.col(i)) < near) return true;
   return false;
 }
 
@@ -327,8 +327,8 @@ std::optional<SampleRange> predictable_samples(const Scene& scene, const Traject
   // followed for 0.3 s after their first touch.
   double followed = INFINITY;
   if (const auto* gravity = scene.model.find<Gravity>())
-    for (const Sphere& sphere : scene.model.find<Spheres>()->list)
-      followed = std::min(followed, std::sqrt(0.9 * sphere.contact_radius() / gravity->acceleration.norm()));
+    for (const Surface& surface : surfaces_of(scene.model))
+      followed = std::min(followed, std::sqrt(0.9 * surface.radius() / gravity->acceleration.norm()));
   const double until = several ? std::min(scene.window, path.t[touch] + followed) : scene.window;
   int end = 0;
   while (end + 1 < path.frames() && path.t[end + 1] <= until * (1 + 1e-9)) ++end;

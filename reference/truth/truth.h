@@ -64,8 +64,8 @@ std::optional<Truth> event_truth(const Scene& scene, const Run& run);
 /// first route's estimate. It ends where the bar exceeds a third of the scene's tolerance or a hundredth of the motion:
 /// where the motion becomes sensitive, which of two rules is right can no longer be told; and with the scene's window.
 /// What contact took is what is missing from the balance of energies along the path, and its bar is found alike.
-/// None where a route fails, where a particle touches two spheres at once, or where it would end before or at the first
-/// touch.
+/// None where a route fails, where a particle touches two surfaces at once, or where it would end before or at the
+/// first touch.
 std::optional<Truth> time_stepping_truth(const Scene& scene, const Run& run);
 
 // The limit of a scene with contact as the step goes to 0, under the in-house contact rule.

@@ -127,7 +127,8 @@ void print(const SceneSummary& s) {
                                    s.coincident.size() > 1 ? "s" : "", s.coincident[0].first, s.coincident[0].second));
   const std::pair<const char*, std::size_t> lists[] = {{"dashpots", length_of_term<Dashpots>(model)},
                                                        {"hard distances", length_of_term<Constraints>(model)},
-                                                       {"spheres", length_of_term<Spheres>(model)}};
+                                                       {"spheres", length_of_term<Spheres>(model)},
+                                                       {"planes", length_of_term<Planes>(model)}};
   for (const auto& [name, count] : lists)
     if (count > 0) line(name, std::to_string(count));
   for (const Term& term : model.terms)
@@ -208,6 +209,7 @@ Json json_of(const SceneSummary& s) {
           {"dashpots", length_of_term<Dashpots>(model)},
           {"constraints", length_of_term<Constraints>(model)},
           {"spheres", length_of_term<Spheres>(model)},
+          {"planes", length_of_term<Planes>(model)},
           {"largest_omega", s.omega},
           {"critical_steps", std::move(critical)},
           {"method", s.scene.method},

@@ -260,7 +260,7 @@ Findings failure_answer(const Facts& facts) {
 Findings ball_answer(const Facts& facts) {
   std::vector<ConeCount> counts = cone_counts(facts.rows);
   std::erase_if(counts, [](const ConeCount& c) { return !stands_for_its_engine(c.method); });
-  if (std::ranges::none_of(facts.scenes, [](const Scene& s) { return s.model.find<Spheres>(); })) counts.clear();
+  if (std::ranges::none_of(facts.scenes, [](const Scene& s) { return has_contact(s.model); })) counts.clear();
   const SceneData* scene = nullptr;
   for (const SceneData& each : facts.data)
     if (each.touched() && nearest_other(each)) scene = &each;

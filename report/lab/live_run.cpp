@@ -93,6 +93,8 @@ void LiveRun::go_on(const Change& change) {
   scene_.start = std::move(now);
   if (auto* spheres = scene_.model.find<Spheres>())
     for (Sphere& sphere : spheres->list) sphere.centre = sphere.centre_at(t);
+  if (auto* planes = scene_.model.find<Planes>())
+    for (Plane& plane : planes->list) plane.point = plane.point_at(t);
   change();
   Particles& particles = scene_.model.particles;
   particles.pins.clear();

@@ -175,7 +175,7 @@ Json critical_data(const PageContent& c) {
 
 Json chapter_data(const Chapter& chapter, size_t number, const PageContent& c, Folds& folds) {
   const bool contact =
-      std::ranges::any_of(c.scenes, [](const ScenePart& part) { return part.scene->model.find<Spheres>(); });
+      std::ranges::any_of(c.scenes, [](const ScenePart& part) { return has_contact(part.scene->model); });
   const bool certificates = chapter.id == "same-answer";
   const Json known{{"contact", contact}, {"critical", critical_data(c)}};
   const auto text = [&](const std::string& given) { return Template(chapter.id + ".md", given).filled(known); };

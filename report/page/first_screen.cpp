@@ -16,7 +16,7 @@ std::vector<const ScenePart*> first_scenes(const PageContent& c) {
   for (const ScenePart& part : c.scenes) {
     if (part.motions.empty() || part.thumbnail.empty()) continue;
     if (part.scene->name == c.main_scene || !main) main = &part;
-    if (!part.scene->triangles.empty() && part.scene->model.find<Spheres>()) contact = &part;
+    if (!part.scene->triangles.empty() && has_contact(part.scene->model)) contact = &part;
   }
   std::vector<const ScenePart*> all;
   if (main) all.push_back(main);

@@ -85,7 +85,7 @@ Json table_data(const PageTable& given) {
 }
 
 Json run_table_data(const ScenePart& part) {
-  const bool contact = part.scene->model.find<Spheres>();
+  const bool contact = has_contact(part.scene->model);
   Json all = table("", cells({"method", "verdict", "RMS position error", "difference from symplectic Euler"}));
   if (contact)
     for (const char* head : {"distance between centres of mass", "clearance", "creep at end"})

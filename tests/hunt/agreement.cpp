@@ -46,9 +46,9 @@ std::optional<SpringLaw> law_of(const Method& method, const Scene& scene) {
 LimitEstimate limit_of_truth(const Scene& scene) {
   const Run run = run_for_relations(scene);
   // converged truths are not looked up in the cache, which a scene that is asked once would only fill
-  const auto truth = exact_solution(scene)         ? truth_of(scene, run)
-                     : scene.model.find<Spheres>() ? std::nullopt
-                                                   : converged_truth(scene, run);
+  const auto truth = exact_solution(scene)      ? truth_of(scene, run)
+                     : has_contact(scene.model) ? std::nullopt
+                                                : converged_truth(scene, run);
   if (!truth) throw CannotBeAsked("no truth is known of the scene");
   LimitEstimate limit{truth->trajectory, truth->error_bars};
   const size_t frames = static_cast<size_t>(limit.path.frames());
@@ -67,7 +67,7 @@ LimitEstimate limit_of(Subject& subject, const Scene& scene) {
   if (const std::string law = other_law(subject.run(scene).outcome); !law.empty())
     throw CannotBeAsked(fmt::format("{} follows another law of {}", method.name, law));
   // beside a sphere adaptive rules keep to the run's step too, since contact acts on whole steps
-  const bool contact = scene.model.find<Spheres>() != nullptr;
+  const bool contact = has_contact(scene.model);
   if (method.adaptive && !contact) {
     Run finer = run_for_relations(scene);
     finer.tolerance /= 10;

@@ -92,14 +92,11 @@ FORCE_INLINE void springs_of_row(const ClothGrid<T>& s, const RowWindow<T>& rows
     }
 }
 
-template <class T, bool fast>
-FORCE_INLINE bool touches(const Three<T>& x, const BoundingSphere& sphere) {
-  using L = Arithmetic<T, fast>;
-  const V<T> dx = x.x - L::all(T(sphere.centre[0])), dy = x.y - L::all(T(sphere.centre[1])),
-             dz = x.z - L::all(T(sphere.centre[2]));
-  return L::any_less(L::fma(dz, dz, L::fma(dy, dy, dx * dx)), L::all(T(sphere.squared_radius)));
+template <class T>
+FORCE_INLINE Three<T> all(const double (&a)[3]) {
+  using L = Lanes<T>;
+  return {L::all(T(a[0])), L::all(T(a[1])), L::all(T(a[2]))};
 }
-
 template <class T>
 FORCE_INLINE Three<T> operator+(const Three<T>& a, const Three<T>& b) {
   return {a.x + b.x, a.y + b.y, a.z + b.z};
@@ -121,7 +118,19 @@ FORCE_INLINE Three<T> choose(Mask mask, const Three<T>& a, const Three<T>& b) {
   return {mask ? a.x : b.x, mask ? a.y : b.y, mask ? a.z : b.z};
 }
 
-// resolve_contact() of terms/sphere.h for particles side by side, operation by operation: a test holds the two to the
+template <class T, bool fast>
+FORCE_INLINE bool touches(const Three<T>& x, const BoundingSphere& sphere) {
+  using L = Arithmetic<T, fast>;
+  const V<T> dx = x.x - L::all(T(sphere.centre[0])), dy = x.y - L::all(T(sphere.centre[1])),
+             dz = x.z - L::all(T(sphere.centre[2]));
+  return L::any_less(L::fma(dz, dz, L::fma(dy, dy, dx * dx)), L::all(T(sphere.squared_radius)));
+}
+template <class T, bool fast>
+FORCE_INLINE bool touches(const Three<T>& x, const BoundingPlane& plane) {
+  return Lanes<T>::any_less(dot<T>(x - all<T>(plane.origin), all<T>(plane.normal)), Lanes<T>::all(T(plane.near)));
+}
+
+// resolve_contact() of terms/surface.h for particles side by side, operation by operation: a test holds the two to the
 // same bits. One after the other they take five times as long, as each root waits for the one before.
 
 template <class T>
@@ -136,11 +145,21 @@ FORCE_INLINE Three<T> normal_of(const Three<T>& d, V<T> length) {
   const V<T> none = L::all(0);
   return choose<T>(length > none, Three<T>{d.x / length, d.y / length, d.z / length}, Three<T>{none, L::all(1), none});
 }
+/// The velocity after contact with a surface at rest of the normal n; v where the particle recedes.
+template <class T, class Solid>
+FORCE_INLINE Three<T> velocity_after_contact(const Solid& s, const Three<T>& n, const Three<T>& v) {
+  using L = Lanes<T>;
+  const V<T> none = L::all(0), friction = L::all(s.friction);
+  const V<T> inward = dot<T>(v, n), change = L::all(-(1 + s.restitution)) * inward;
+  const Three<T> held = shortened<T>(v - scaled<T>(inward, n), friction * change) + scaled<T>(inward + change, n);
+  const Three<T> zero{none, none, none};  // the surface's velocity: -0 becomes 0
+  return choose<T>(inward < none, held, v) + zero;
+}
 template <class T>
 FORCE_INLINE void resolve_contact(const RestingSphere& s, const Three<T>& x_n, Three<T>& x, Three<T>& v) {
   using L = Lanes<T>;
-  const V<T> none = L::all(0), radius = L::all(s.contact_radius), friction = L::all(s.friction);
-  const Three<T> centre{L::all(s.centre[0]), L::all(s.centre[1]), L::all(s.centre[2])};
+  const V<T> radius = L::all(s.contact_radius), friction = L::all(s.friction);
+  const Three<T> centre = all<T>(s.centre);
   Three<T> d = x - centre;
   V<T> distance = L::root(dot<T>(d, d));
   const auto touching = distance < radius;
@@ -152,15 +171,27 @@ FORCE_INLINE void resolve_contact(const RestingSphere& s, const Three<T>& x_n, T
     distance = L::root(dot<T>(d, d));
     n = normal_of<T>(d, distance), at = centre + scaled<T>(radius, n);
   }
-  const V<T> inward = dot<T>(v, n), change = L::all(-(1 + s.restitution)) * inward;
-  const Three<T> held = shortened<T>(v - scaled<T>(inward, n), friction * change) + scaled<T>(inward + change, n);
-  const Three<T> zero{none, none, none};  // the sphere's velocity: -0 becomes 0
   x = choose<T>(touching, at, x);
-  v = choose<T>(touching, choose<T>(inward < none, held, v) + zero, v);
+  v = choose<T>(touching, velocity_after_contact<T>(s, n, v), v);
+}
+template <class T>
+FORCE_INLINE void resolve_contact(const BoundingPlane& s, const Three<T>& x_n, Three<T>& x, Three<T>& v) {
+  using L = Lanes<T>;
+  const Three<T> origin = all<T>(s.origin), n = all<T>(s.normal);
+  const V<T> gap = dot<T>(x - origin, n);
+  const auto touching = gap < L::all(0);
+  Three<T> at = x - scaled<T>(gap, n);
+  if (s.friction > 0) {
+    const Three<T> moved = at - x_n, along_normal = scaled<T>(dot<T>(moved, n), n);
+    at = x_n + along_normal + shortened<T>(moved - along_normal, L::all(-s.friction) * gap);
+    at = at - scaled<T>(dot<T>(at - origin, n), n);
+  }
+  x = choose<T>(touching, at, x);
+  v = choose<T>(touching, velocity_after_contact<T>(s, n, v), v);
 }
 
-/// Kick, contacts and drift of a row.
-template <class T, bool fast>
+/// Kick, contacts and drift of a row. Without planes their code is left out, so that scenes without them do not pay.
+template <class T, bool fast, bool planes>
 FORCE_INLINE void move_row(const ClothGrid<T>& s, const KickDrift<T>& step, int row, T* x, const T* f) {
   using L = Arithmetic<T, fast>;
   const V<T> drift_before = L::all(step.drift_before), drift_after = L::all(step.drift_after);
@@ -171,7 +202,8 @@ FORCE_INLINE void move_row(const ClothGrid<T>& s, const KickDrift<T>& step, int 
       *v_b = s.v + (static_cast<long>(row) * s.tiles + b) * tile_size<T>;
     alignas(64) T end[tile_size<T>], speed[tile_size<T>];
     bool touched = false;
-    const bool in_lanes = is_double<T> && step.resting_sphere_count > 0;
+    const bool in_lanes = is_double<T> && step.in_lanes,
+               by_callback = (step.bounding_sphere_count > 0 || (planes && step.plane_count > 0)) && !in_lanes;
     for (int lane = 0; lane < lanes<T>; lane += L::width) {
       const long own = (static_cast<long>(row) * s.tiles + b) * s.stride + lane;
       const V<T> damping = L::load(s.damping + own), inverse_mass_dt = L::load(s.inverse_mass_dt + own),
@@ -183,19 +215,25 @@ FORCE_INLINE void move_row(const ClothGrid<T>& s, const KickDrift<T>& step, int 
                  u.z + L::fnma(damping, u.z, L::fma(inverse_mass_dt, pull.z, dt * fall_z))};
       Three<T> e{L::fma(drift_before, v.x, p.x), L::fma(drift_before, v.y, p.y), L::fma(drift_before, v.z, p.z)};
       if constexpr (is_double<T>)
-        for (int i = 0; i < step.resting_sphere_count; ++i)
-          if (touches<T, fast>(e, step.bounding_spheres[i]))
-            resolve_contact<T>(step.resting_spheres[i], p - scaled<T>(drift_after, u), e, v);
-      if (step.bounding_sphere_count > 0 && !in_lanes) {
+        if (in_lanes) {
+          for (int i = 0; i < step.bounding_sphere_count; ++i)
+            if (touches<T, fast>(e, step.bounding_spheres[i]))
+              resolve_contact<T>(step.resting_spheres[i], p - scaled<T>(drift_after, u), e, v);
+          for (int i = 0; planes && i < step.plane_count; ++i)
+            if (touches<T, fast>(e, step.planes[i]))
+              resolve_contact<T>(step.planes[i], p - scaled<T>(drift_after, u), e, v);
+        }
+      if (by_callback) {
         store(end + lane, e), store(speed + lane, v);
         for (int i = 0; i < step.bounding_sphere_count; ++i) touched |= touches<T, fast>(e, step.bounding_spheres[i]);
+        for (int i = 0; planes && i < step.plane_count; ++i) touched |= touches<T, fast>(e, step.planes[i]);
       } else {
         store(v_b + lane, v);
         store(x_b + lane,
               Three<T>{L::fma(drift_after, v.x, e.x), L::fma(drift_after, v.y, e.y), L::fma(drift_after, v.z, e.z)});
       }
     }
-    if (step.bounding_sphere_count == 0 || in_lanes) continue;
+    if (!by_callback) continue;
     if (touched) step.on_contact(step.user_data, row, b, end, speed);
     for (int lane = 0; lane < lanes<T>; lane += L::width) {
       const Three<T> e = load(end + lane), v = load(speed + lane);
@@ -232,6 +270,7 @@ long fused_step(const ClothGrid<T>& s, const KickDrift<T>& step) {
   assert(s.leading_halo >= 0 && s.trailing_halo >= 0 && s.rows > s.leading_halo + s.trailing_halo);
   assert(s.damping && s.inverse_mass_dt && s.dt && (s.stride == 0 || s.stride == lanes<T>));
   assert(step.bounding_sphere_count == 0 || (step.bounding_spheres && step.on_contact));
+  assert(step.plane_count == 0 || (step.planes && step.on_contact));
   using L = Lanes<T>;
   const long length = row_length(s), first = left_halo * tile_size<T>;
   T* f[3] = {s.force + first, s.force + length + first, s.force + 2 * length + first};
@@ -246,7 +285,10 @@ long fused_step(const ClothGrid<T>& s, const KickDrift<T>& step) {
       if (L::any_less(least, L::all(min_squared_length<T>)))
         degenerate_springs += count_degenerate_springs(s, rows, s.rows - 1 - r);
       reduce_halo<tile_size<T>>(f[0], s.tiles);
-      move_row<T, fast>(s, step, r, x, f[0]);
+      if (step.plane_count > 0)
+        move_row<T, fast, true>(s, step, r, x, f[0]);
+      else
+        move_row<T, fast, false>(s, step, r, x, f[0]);
     }
     T* done = f[0];
     clear(done - first, length);

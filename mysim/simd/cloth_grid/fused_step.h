@@ -3,8 +3,8 @@
 //   f_i  = sum over the springs of i:  k (L / |x_i - x_j| - 1) (x_i - x_j)       N, Hooke's law, rest length L
 //   v_i' = v_i + inverse_mass_dt f_i + dt a - damping v_i                        a: gravity and uniform wind
 //   x_i* = x_i + drift_before v_i'
-//   (x_i*, v_i') = on_contact(x_i*, v_i')                                        where x_i* is in a bounding sphere
-//   x_i' = x_i* + drift_after v_i'
+//   (x_i*, v_i') = on_contact(x_i*, v_i')                                        where x_i* is in a bounding sphere or
+//   plane x_i' = x_i* + drift_after v_i'
 // with dt = h / (1 + h gamma / 2), inverse_mass_dt = dt / m and damping = dt gamma (symplectic Euler: dt = h). Leapfrog
 // keeps x half a step ahead: drift_before = h / 2 ends this step and drift_after = h / 2 begins the next. The
 // definition is steppers/leapfrog.cpp and steppers/symplectic_euler.cpp, from which this differs by round-off alone.
@@ -58,10 +58,16 @@ struct ClothGrid {
   int stride;                               // of these: lanes, or 0 where one tile is for all
 };
 
-/// A sphere that does not move (terms/sphere.h).
+/// A sphere that does not move (terms/surface.h).
 struct RestingSphere {
   double centre[3], contact_radius;  // m
   double friction, restitution;      // 1
+};
+/// A half-space: the fused step calls back where a particle comes closer than `near` to its face, through `origin`. If
+/// contacts are resolved in lanes it does not move.
+struct BoundingPlane {
+  double origin[3], normal[3], near;  // m, 1, m
+  double friction, restitution;       // 1
 };
 
 /// Parameters of a fused step besides the springs. `damping` is a number of its own: in 1 - damping, rounded, a
@@ -74,9 +80,10 @@ struct KickDrift {
   int bounding_sphere_count;
   ContactCallback<T> on_contact;
   void* user_data;
-  // where there are any, contacts are resolved in lanes and not by the callback; in double precision alone
-  const RestingSphere* resting_spheres;
-  int resting_sphere_count;
+  const RestingSphere* resting_spheres;  // as many as bounding ones
+  const BoundingPlane* planes = nullptr;
+  int plane_count = 0;
+  bool in_lanes = false;  // contacts are resolved in lanes and not by the callback; in double precision alone
 };
 
 /// The functions of one instruction set.

@@ -1,4 +1,8 @@
-// Closed forms of particles on balls: held by friction, bouncing, sliding off.
+// Closed forms of particles on balls and planes: held by friction, bouncing, sliding.
+//
+// Coordinates along the normals of fixed planes at right angles do not know of each other without friction: each is a
+// fall between one or two walls. On one plane with friction the speed along it changes at each impact and while it
+// lies.
 
 #include <Eigen/Geometry>
 
@@ -11,20 +15,19 @@ namespace crosscheck {
 
 std::optional<ExactSolution> held_by_friction(const Scene& scene) {
   const Model& model = scene.model;
-  const auto* spheres = model.find<Spheres>();
+  const std::vector<Surface> surfaces = surfaces_of(model);
   const auto a = steady_acceleration(model);
-  if (!spheres || !a || !(a->norm() > 0) || !has_only<Gravity, Wind, Drag, Spheres>(model) || spheres->moving() ||
-      !model.particles.pins.empty() || !scene.start.v.isZero(0))
+  if (surfaces.empty() || !a || !(a->norm() > 0) || !has_only<Gravity, Wind, Drag, Spheres, Planes>(model) ||
+      has_moving_surface(model) || !model.particles.pins.empty() || !scene.start.v.isZero(0))
     return std::nullopt;
   for (int i = 0; i < model.particles.size(); ++i) {
-    const Sphere* under = nullptr;
+    const Surface* under = nullptr;
     Vec3 n;
-    for (const Sphere& s : spheres->list) {
-      const Vec3 d = scene.start.x.col(i) - s.centre;
-      const double gap = d.norm() - s.contact_radius();
-      if (gap > 1e-12 * s.contact_radius()) continue;
+    for (const Surface& s : surfaces) {
+      const Vec3 d = scene.start.x.col(i) - s.origin_at(0);
+      if (s.gap(d) > 1e-12 * (s.flat() ? scene.size() : s.radius())) continue;
       if (under) return std::nullopt;  // wedged between two: that needs both forces at once
-      under = &s, n = d.normalized();
+      under = &s, n = s.normal(d);
     }
     if (!under) return std::nullopt;
     // Coulomb's cone: what acts along the surface is less than mu times what presses on it
@@ -103,6 +106,143 @@ std::optional<ExactSolution> bounces(const Scene& scene) {
                            s.x.col(at) += (f.height - falling_particles[i].start.height) * up;
                            s.v.col(at) = f.speed * up;
                          }
+                         return s;
+                       }};
+}
+
+namespace {
+
+/// A coordinate that falls and bounces between a wall at 0 and one at `width`, which may be infinite.
+struct Fall {
+  double q, v, a;      // m, m/s, m/s^2
+  double width, e[2];  // m; restitution at 0 and at `width`
+  double lying = 0;    // s, how long it has lain on a wall at the end
+};
+
+/// Time in which q >= 0 comes down to 0, s; infinite if it does not.
+double time_to_zero(double q, double v, double a) {
+  const double square = v * v - 2 * a * q;
+  if ((v >= 0 && a >= 0) || square < 0) return INFINITY;
+  return v < 0 ? 2 * q / (std::sqrt(square) - v) : (v + std::sqrt(square)) / -a;
+}
+
+/// The fall after a time t (s). `flight` is called with the time of each flight, `impact` with the speed of each impact
+/// and its restitution. Bounces without end that together take less than `negligible` (s) are left out.
+template <class Flight, class Impact>
+Fall fallen(Fall c, double t, double negligible, Flight flight, Impact impact) {
+  for (;;) {
+    const double low = time_to_zero(c.q, c.v, c.a), high = time_to_zero(c.width - c.q, -c.v, -c.a),
+                 s = std::min(low, high);
+    const double flown = std::min(t, s);
+    flight(flown);
+    c.q += flown * (c.v + c.a * flown / 2), c.v += c.a * flown;
+    if (t <= s) return c;
+    t -= s;
+    const int wall = low <= high ? 0 : 1;
+    const double out = wall == 0 ? 1 : -1, u = std::max(0.0, -out * c.v), e = c.e[wall], pull = -out * c.a;
+    impact(u, e);
+    c.q = wall == 0 ? 0 : c.width, c.v = out * e * u;
+    if (!(pull > 0)) continue;
+    const bool other_wall = e * u * e * u > 2 * pull * c.width;
+    const double later = u == 0 || e == 0 ? 0 : e < 1 ? 2 * e * u / (pull * (1 - e)) : INFINITY;  // s, all bounces
+    if (other_wall || !(later <= std::min(t * (1 + 1e-15), negligible))) continue;
+    c.v = 0, c.lying = std::max(0.0, t - later);
+    return c;
+  }
+}
+
+/// A coordinate along a plane that presses with N.
+struct Slip {
+  double y, v, a;  // m, m/s, m/s^2
+  void fly(double t) { y += t * (v + a * t / 2), v += a * t; }
+  void lose(double speed) { v = std::copysign(std::max(0.0, std::abs(v) - speed), v); }
+  /// Slides for t seconds against the friction mu N (m/s^2), stops, and stays or slides back.
+  void slide(double t, double friction) {
+    for (int stops = 0; t > 0 && !(v == 0 && std::abs(a) <= friction) && stops < 2; ++stops) {
+      const double rate = a - std::copysign(friction, v != 0 ? v : a), stop = v * rate < 0 ? -v / rate : INFINITY;
+      const double slid = std::min(t, stop);
+      y += slid * (v + rate * slid / 2), v = slid == stop ? 0 : v + rate * slid;
+      t -= slid;
+    }
+  }
+};
+
+/// The motion along the normal of one plane or of two opposite ones.
+struct Between {
+  Vec3 normal;
+  double wall, speed;  // m, m/s along the normal, of the first plane
+  double friction;     // mu
+  Fall fall;           // relative to the first plane; place and speed are each particle's own
+};
+
+struct MotionBetweenPlanes {
+  Vec3 a;                       // m/s^2
+  std::vector<Between> axes;    // at right angles; a single one where there is friction
+  std::vector<Vec3> direction;  // one for each particle; empty without friction
+  Vec3 carried = Vec3::Zero();  // m/s, of the plane with friction
+
+  /// Puts x and v of particle i, which are those at the start, to what they are after t (s).
+  void move(int i, double t, Eigen::Ref<Vec3> x, Eigen::Ref<Vec3> v) const {
+    const bool friction = !direction.empty();
+    const Vec3 x0 = x, v0 = v, slip_direction = friction ? direction[i] : Vec3::Zero();
+    Slip slip{0, (v0 - carried).dot(slip_direction), a.dot(slip_direction)};
+    // the part that no plane changes
+    Vec3 steady = v0 - slip.v * slip_direction, free = friction ? Vec3::Zero() : a;
+    Vec3 moved = Vec3::Zero(), speed = Vec3::Zero();  // along the normals and the slip
+    for (const Between& b : axes) {
+      Fall fall = b.fall;
+      const double begin = std::max(0.0, x0.dot(b.normal) - b.wall);
+      fall.q = begin, fall.v = v0.dot(b.normal) - b.speed;
+      fall = fallen(
+          fall, t, friction ? 1e-16 * t : INFINITY, [&](double flown) { slip.fly(flown); },
+          [&](double u, double e) { slip.lose(b.friction * (1 + e) * u); });
+      slip.slide(fall.lying, b.friction * std::abs(fall.a));
+      moved += (fall.q - begin + t * b.speed) * b.normal, speed += (fall.v + b.speed) * b.normal;
+      steady -= steady.dot(b.normal) * b.normal, free -= free.dot(b.normal) * b.normal;
+    }
+    x = x0 + t * (steady + t / 2 * free) + moved + slip.y * slip_direction;
+    v = steady + t * free + speed + slip.v * slip_direction;
+  }
+};
+
+}  // namespace
+
+std::optional<ExactSolution> between_planes(const Scene& scene) {
+  const Model& model = scene.model;
+  const auto* planes = model.find<Planes>();
+  const auto steady = steady_acceleration(model);
+  if (!planes || !steady || !has_only<Gravity, Wind, Planes>(model) || !model.particles.pins.empty())
+    return std::nullopt;
+  MotionBetweenPlanes motion{*steady, {}, {}};
+  for (const Plane& p : planes->list) {
+    if (p.friction > 0 && planes->list.size() > 1) return std::nullopt;
+    const double offset = p.point.dot(p.normal) + p.margin, speed = p.velocity ? p.velocity->dot(p.normal) : 0;
+    bool opposite = false;
+    for (Between& b : motion.axes) {
+      if (std::abs(b.normal.dot(p.normal)) < 1e-15) continue;
+      if (!((p.normal + b.normal).norm() < 1e-15) || std::isfinite(b.fall.width) || speed != -b.speed)
+        return std::nullopt;
+      b.fall.width = -offset - b.wall, b.fall.e[1] = p.restitution;
+      opposite = true;
+    }
+    if (opposite) continue;
+    const Fall fall{0, 0, motion.a.dot(p.normal), INFINITY, {p.restitution, 0}};
+    motion.axes.push_back({p.normal, offset, speed, p.friction, fall});
+  }
+  const Plane& first = planes->list[0];
+  if (first.friction > 0) motion.carried = first.velocity.value_or(Vec3::Zero());
+  // along a plane with friction the motion must be straight
+  for (int i = 0; first.friction > 0 && i < model.particles.size(); ++i) {
+    const Vec3 n = first.normal, v = scene.start.v.col(i) - motion.carried, w = v - v.dot(n) * n,
+               pull = motion.a - motion.a.dot(n) * n;
+    if (w.cross(pull).norm() > 1e-15 * w.norm() * motion.a.norm()) return std::nullopt;
+    motion.direction.push_back(w.isZero(0) ? pull.normalized() : w.normalized());
+  }
+  return ExactSolution{"falls between planes, each along its normal, with Coulomb friction along a single one",
+                       [start = scene.start, motion = std::move(motion)](double t) {
+                         State s = start;
+                         s.t = t;
+                         for (int i = 0; i < s.x.cols(); ++i) motion.move(i, t, s.x.col(i), s.v.col(i));
                          return s;
                        }};
 }

@@ -64,7 +64,8 @@ std::optional<ExactSolution> projectile(const Scene& scene) {
 }  // namespace
 
 std::optional<ExactSolution> exact_solution(const Scene& scene) {
-  for (const auto recognise : {rigid_rotation, projectile, normal_modes, bounces, held_by_friction, slide_over_ball})
+  for (const auto recognise :
+       {rigid_rotation, projectile, normal_modes, bounces, held_by_friction, between_planes, slide_over_ball})
     if (auto solution = recognise(scene)) return solution;
   return std::nullopt;
 }

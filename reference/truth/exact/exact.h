@@ -27,7 +27,9 @@ struct ExactSolution {
 ///     dashpots in proportion to the stiffness: normal modes, each of them such an oscillator;
 ///   - one free particle under gravity and steady wind, with or without drag: v = v_inf + (v_0 - v_inf) e^(-gamma t);
 ///   - particles that fall straight on balls, with restitution: parabolas;
-///   - particles at rest on balls within the cone of friction: they stay;
+///   - particles at rest on balls or planes within the cone of friction: they stay;
+///   - particles between planes at right angles without friction, or over one with friction along a straight line: each
+///     coordinate falls and bounces by itself;
 ///   - one particle that slides over a ball from a start with speed, with friction, until it flies off.
 /// Springs follow Hooke's law and must never turn over: what is claimed is bounded for all times.
 std::optional<ExactSolution> exact_solution(const Scene& scene);
@@ -47,6 +49,7 @@ std::optional<Vec3> steady_acceleration(const Model& model);
 std::optional<ExactSolution> normal_modes(const Scene& scene);
 std::optional<ExactSolution> bounces(const Scene& scene);
 std::optional<ExactSolution> held_by_friction(const Scene& scene);
+std::optional<ExactSolution> between_planes(const Scene& scene);
 std::optional<ExactSolution> slide_over_ball(const Scene& scene);
 
 }  // namespace crosscheck

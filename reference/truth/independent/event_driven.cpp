@@ -1,17 +1,17 @@
-// Contact with spheres as a sequence of smooth motions: odeint's Dormand-Prince pair on the right-hand
+// Contact with spheres and planes as a sequence of smooth motions: odeint's Dormand-Prince pair on the right-hand
 // side written apart, cut at each impact, take-off, stop and slip. A second route to what mysim's contact rules
 // approach; none of them is called.
 //
-// Each free particle is in one of four modes. On a sphere of radius R about c, with r = x - c, n = r / R, and a the
+// Each free particle is in one of four modes. On a surface of radius R about c, with r = x - c, n = r / R, and a the
 // acceleration by all else less that of c:
 //   flies    r'' = a, until |r| = R
-//   slides   differentiating |r|^2 = R^2 twice, r . r'' = -|r'|^2: the sphere pushes by N = -a.n - |r'|^2 / R along n,
-//            and by mu N against the motion; until N = 0 or r' = 0. Friction turns a slow motion along the force within
-//            |r'| / (mu N), close to rest faster than any step: where friction would stop it within
-//            `shortest_slide` and the force lies along the motion to a hundredth, it goes straight on ("creeps"), which
-//            leaves out a hundredth of |r'| at most
+//   slides   differentiating |r|^2 = R^2 twice, r . r'' = -|r'|^2: the surface pushes by N = -a.n - |r'|^2 / R along
+//            n (R infinite for a plane), and by mu N against the motion; until N = 0 or r' = 0. Friction turns a slow
+//            motion along the force within |r'| / (mu N), close to rest faster than any step: where friction would stop
+//            it within `shortest_slide` and the force lies along the motion to a hundredth, it goes straight on
+//            ("creeps"), which leaves out a hundredth of |r'| at most
 //   sticks   r'' = 0, until the part of a along the surface exceeds mu N
-//   wedged   between two spheres that stand still, at rest: a lies between the planes of both, else the run is refused
+//   wedged   between two surfaces that stand still, at rest: a lies between the planes of both, else the run is refused
 // An impact reverses the normal speed u times e and takes at most mu (1 + e) u of the tangential one. A rebound lower
 // than `lowest_rebound` is none. Both limits are parts of the scene's size.
 
@@ -44,21 +44,9 @@ constexpr double surface_rounding = 2e-15;  // of the radius and the centre: no 
 constexpr double most_work = 1e7;           // accelerations of a particle, from sample to sample: a second or two
 constexpr int most_events_in_interval = 10000;
 
-/// A sphere at the time that it was moved to last, and where the present step began.
-struct Ball {
-  Vec3 start;
-  double radius, friction, restitution;
-  std::optional<PrescribedMotion> motion = {};
-  Vec3 centre = start, velocity = Vec3::Zero(), acceleration = Vec3::Zero();
-  Vec3 centre_before = start, velocity_before = Vec3::Zero();
-
-  void move_to(double t) {
-    if (!motion) return;
-    double displacement[3];
-    motion->at(t, displacement, velocity.data());
-    motion->acceleration_at(t, acceleration.data());
-    centre = start + Eigen::Map<const Vec3>(displacement);
-  }
+/// A solid now and where the present step began.
+struct Ball : Solid {
+  Vec3 centre_before = start, velocity_before = velocity;
 };
 
 struct Particle {
@@ -70,14 +58,8 @@ struct Particle {
 };
 
 std::vector<Ball> balls_of(const Scene& scene) {
-  const auto* spheres = scene.model.find<Spheres>();
-  if (!spheres) throw Unsupported("the scene has no contact: there are no events in it");
-  if (scene.model.find<Constraints>()) throw Unsupported("this route knows no hard distances");
   std::vector<Ball> balls;
-  for (const Sphere& s : spheres->list) {
-    balls.push_back({s.centre, s.radius + s.margin, s.friction, s.restitution});
-    if (s.motion) balls.back().motion.emplace(*s.motion);
-  }
+  for (const Solid& solid : solids_of(scene)) balls.push_back({solid});
   return balls;
 }
 
@@ -105,7 +87,7 @@ class EventDrivenWorld : public World {
       : balls_(balls_of(scene)),
         size_(scene.size()),
         time_unit_(velocity_time_unit(scene)),
-        f_(without_spheres(scene), time_unit_),
+        f_(without_contact(scene), time_unit_),
         y_(f_.start()),
         n_(static_cast<int>(y_.size() / 6)),
         particles_(n_),
@@ -175,10 +157,8 @@ class EventDrivenWorld : public World {
   /// A speed among the unknowns, or an acceleration among their rates of change.
   void put_speed(StateVector& y, int i, const Vec3& value) const { put(y, n_ + i, time_unit_ * value); }
 
-  double height(const StateVector& y, int i, int ball) const {
-    return (place(y, i) - balls_[ball].centre).norm() - balls_[ball].radius;
-  }
-  Vec3 normal(const StateVector& y, int i, int ball) const { return (place(y, i) - balls_[ball].centre).normalized(); }
+  double height(const StateVector& y, int i, int ball) const { return balls_[ball].height(place(y, i)); }
+  Vec3 normal(const StateVector& y, int i, int ball) const { return balls_[ball].normal(place(y, i)); }
 
   /// m/s, as seen from a ball.
   Vec3 seen_from(const StateVector& y, int i, int ball) const { return speed(y, i) - balls_[ball].velocity; }
@@ -236,12 +216,14 @@ class EventDrivenWorld : public World {
   }
 
   void move_balls(double t) {
+    now_ = t;
     for (Ball& ball : balls_) ball.move_to(t);
   }
 
   /// Balls and directions of slides where a step begins, at t (s).
   void remember_start(double t) {
     move_balls(t);
+    begun_ = t;
     for (Ball& ball : balls_) ball.centre_before = ball.centre, ball.velocity_before = ball.velocity;
     for (int i = 0; i < n_; ++i) {
       Particle& p = particles_[i];
@@ -253,7 +235,15 @@ class EventDrivenWorld : public World {
   /// m: how far a particle is from running into a ball; negative where it does.
   double way_in(const StateVector& y, const StateVector& before, int i, int ball) const {
     const Ball& b = balls_[ball];
-    const double rounding = surface_rounding * (b.radius + b.centre.norm()), above = height(y, i, ball) + rounding;
+    const double scale = b.size + b.centre.norm() + (b.flat() ? place(y, i).norm() : 0),
+                 rounding = surface_rounding * scale, above = height(y, i, ball) + rounding;
+    if (b.flat()) {  // in and out again: the lowest point of the parabola with the speeds at both ends
+      const double down = (speed(before, i) - b.velocity_before).dot(b.up), rise = seen_from(y, i, ball).dot(b.up);
+      if (above < 0 || !(down < 0 && rise > 0)) return above;
+      const double begin = b.up.dot(place(before, i) - b.centre_before);
+      const double lowest = begin - down * down * (now_ - begun_) / (2 * (rise - down)) + rounding;
+      return begin > 0 ? std::min(above, lowest) : above;
+    }
     // in and out again within the step: the height of the chord's nearest point, for steps far shorter than the ball
     const Vec3 from = place(before, i) - b.centre_before, to = place(y, i) - b.centre;
     if (above < 0 || !(from.dot(speed(before, i) - b.velocity_before) < 0 && to.dot(seen_from(y, i, ball)) > 0) ||
@@ -327,10 +317,10 @@ class EventDrivenWorld : public World {
     Particle& p = particles_[i];
     std::vector<int> touched;
     for (int ball = 0; ball < static_cast<int>(balls_.size()); ++ball)
-      if (height(y_, i, ball) <= 1e-11 * balls_[ball].radius) {
+      if (height(y_, i, ball) <= 1e-11 * balls_[ball].size) {
         touched.push_back(ball);
         // what is inside by rounding would be found to run in, again and again
-        if (height(y_, i, ball) < 0) put(y_, i, balls_[ball].centre + balls_[ball].radius * normal(y_, i, ball));
+        if (height(y_, i, ball) < 0) put(y_, i, balls_[ball].foot(place(y_, i)));
       }
     p = {};
     bool hit = false;
@@ -360,9 +350,9 @@ class EventDrivenWorld : public World {
     }
     if (pressing.empty()) return;
     if (pressing.size() > 1) {
-      const bool still = !balls_[pressing[0]].motion && !balls_[pressing[1]].motion;
+      const bool still = !balls_[pressing[0]].moves() && !balls_[pressing[1]].moves();
       if (!still || !is_wedged(i, pressing[0], pressing[1]) || pressing.size() > 2)
-        throw Unsupported("a particle moves between two balls: this route knows rest there only");
+        throw Unsupported("a particle moves between two surfaces: this route knows rest there only");
       p.mode = Mode::wedged, p.ball = pressing[0], p.other = pressing[1];
       put_speed(y_, i, Vec3::Zero());
       return;
@@ -387,14 +377,14 @@ class EventDrivenWorld : public World {
   /// Takes the rounding of a slide off the surface, and tells whether it creeps.
   void hold(int i) {
     Particle& p = particles_[i];
-    if (p.mode == Mode::sticks && balls_[p.ball].motion) {
+    if (p.mode == Mode::sticks && balls_[p.ball].moves()) {
       put(y_, i, balls_[p.ball].centre + p.offset);
       put_speed(y_, i, balls_[p.ball].velocity);
     }
     if (p.mode != Mode::slides) return;
     const Ball& ball = balls_[p.ball];
     const Vec3 n = normal(y_, i, p.ball);
-    put(y_, i, ball.centre + ball.radius * n);
+    put(y_, i, ball.foot(place(y_, i)));
     put_speed(y_, i, ball.velocity + along(seen_from(y_, i, p.ball), n));
     if (!(ball.friction > 0)) return;
     const Vec3 a = felt(i, p.ball), force = along(a, n);
@@ -411,8 +401,8 @@ class EventDrivenWorld : public World {
   std::vector<Particle> particles_;
   odeint::result_of::make_controlled<odeint::runge_kutta_dopri5<StateVector>>::type rule_;
   odeint::runge_kutta_dopri5<StateVector> single_;
-  double h_;
-  const double longest_;  // s
+  double h_, begun_ = 0, now_ = 0;  // s: the next step; where the present one began; when solids were moved to
+  const double longest_;            // s
   State state_;
   long accepted_ = 0;
 };

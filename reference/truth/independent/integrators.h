@@ -17,13 +17,13 @@ namespace crosscheck {
 Outcome run_odeint_rk4(const Scene& scene, const Run& run, Observer& observer);
 /// odeint's Dormand-Prince 5(4) to run.tolerance, with its own interpolant at the observed times.
 Outcome run_odeint_dopri5(const Scene& scene, const Run& run, Observer& observer);
-/// odeint's Dormand-Prince 5(4) in a scene with spheres, cut at every impact, take-off, stop and slip, which
+/// odeint's Dormand-Prince 5(4) in a scene with contact, cut at every impact, take-off, stop and slip, which
 /// are located to round-off (event_driven.cpp); steps end at the samples and are at most run.step. Throws Unsupported
-/// where there is no contact, and where a particle moves between two spheres or rests between two that move.
+/// where there is no contact, and where a particle moves between two surfaces or rests between two that move.
 Outcome run_event_driven(const Scene& scene, const Run& run, Observer& observer);
-/// Moreau's midpoint rule at run.step in a scene with spheres, at rest or moved, of any number of particles
+/// Moreau's midpoint rule at run.step in a scene with contact, at rest or moved, of any number of particles
 /// (time_stepping.cpp): order 1 with contact. No method's name: a route to truth alone. Throws Unsupported where there
-/// is no contact, and where a particle touches two spheres at once.
+/// is no contact, and where a particle touches two surfaces at once.
 Outcome run_time_stepping(const Scene& scene, const Run& run, Observer& observer);
 /// odeint's extrapolation of the midpoint rule, of varying order (Bulirsch and Stoer), to run.tolerance; steps end at
 /// the observed times. Its estimate compares results of different numbers of stages, so that it also sees an

@@ -51,9 +51,43 @@ double velocity_time_unit(const Scene& scene) {
   return std::exp2(std::ilogb(omega > 0 ? std::sqrt(scene.duration / omega) : scene.duration));
 }
 
-Scene without_spheres(Scene scene) {
-  std::erase_if(scene.model.terms, [](const Term& t) { return std::holds_alternative<Spheres>(t); });
+Scene without_contact(Scene scene) {
+  std::erase_if(scene.model.terms,
+                [](const Term& t) { return std::holds_alternative<Spheres>(t) || std::holds_alternative<Planes>(t); });
   return scene;
+}
+
+void Solid::move_to(double t) {
+  if (motion) {
+    double displacement[3];
+    motion->at(t, displacement, velocity.data());
+    motion->acceleration_at(t, acceleration.data());
+    centre = start + Eigen::Map<const Vec3>(displacement);
+  } else if (moves()) {
+    centre = start + t * drift;
+  }
+}
+
+std::vector<Solid> solids_of(const Scene& scene) {
+  if (scene.model.find<Constraints>()) throw Unsupported("this route knows no hard distances");
+  std::vector<Solid> solids;
+  if (const auto* spheres = scene.model.find<Spheres>())
+    for (const Sphere& s : spheres->list) {
+      const double radius = s.radius + s.margin;
+      solids.push_back({s.centre, radius, Vec3::Zero(), s.friction, s.restitution, radius});
+      if (s.motion) solids.back().motion.emplace(*s.motion);
+    }
+  if (const auto* planes = scene.model.find<Planes>())
+    for (const Plane& p : planes->list)
+      solids.push_back({.start = p.point + p.margin * p.normal,
+                        .radius = INFINITY,
+                        .up = p.normal,
+                        .friction = p.friction,
+                        .restitution = p.restitution,
+                        .size = scene.size(),
+                        .drift = p.velocity.value_or(Vec3::Zero())});
+  if (solids.empty()) throw Unsupported("the scene has no contact: there are no events in it");
+  return solids;
 }
 
 RightHandSide::Signal RightHandSide::signal_of(const WindSignal& wind_signal) {
@@ -131,7 +165,9 @@ void RightHandSide::add_term(const Term& term) {
       for (const auto& triangle : t.triangles)
         f.triangles_.insert(f.triangles_.end(), triangle.begin(), triangle.end());
     }
-    void operator()(const Spheres&) const {
+    void operator()(const Spheres&) const { refuse_contact(); }
+    void operator()(const Planes&) const { refuse_contact(); }
+    [[noreturn]] static void refuse_contact() {
       throw Unsupported("the scene has contact, which is no right-hand side: integrators of others cannot follow it");
     }
   };

@@ -2,6 +2,7 @@
 // (odeint, SUNDIALS) solve. Where both codes agree, neither has a slip of the pen.
 #pragma once
 
+#include <cmath>
 #include <optional>
 #include <vector>
 
@@ -13,7 +14,7 @@ namespace crosscheck {
 /// (m); of a first-order scene positions only. Pins are no unknowns: their place is a function of time.
 using StateVector = std::vector<double>;
 
-/// A prescribed motion, of pins or of a sphere.
+/// A prescribed motion, of pins or of a solid.
 class PrescribedMotion {
  public:
   explicit PrescribedMotion(const Motion& motion);
@@ -32,8 +33,30 @@ class PrescribedMotion {
 /// power of two, so that the multiplication is exact. Scales with the scene's unit of time.
 double velocity_time_unit(const Scene& scene);
 
-/// The same scene without its spheres.
-Scene without_spheres(Scene scene);
+/// Returns the scene without its spheres and planes.
+Scene without_contact(Scene scene);
+
+/// A ball or a half-space at the time that it was moved to last. Its surface is where particles touch.
+struct Solid {
+  Vec3 start;                    // m: the centre of a ball, a point of a plane
+  double radius;                 // m, infinite for a half-space
+  Vec3 up = Vec3::Zero();        // the outward unit normal of a half-space
+  double friction, restitution;  // mu, e
+  double size;                   // m, by which a height over it is judged: the radius, or the scene's size
+  std::optional<PrescribedMotion> motion = {};
+  Vec3 drift = Vec3::Zero();  // m/s, the constant velocity of a half-space
+  Vec3 centre = start, velocity = drift, acceleration = Vec3::Zero();
+
+  bool flat() const { return std::isinf(radius); }
+  bool moves() const { return motion || !drift.isZero(0); }
+  void move_to(double t);
+  double height(const Vec3& x) const { return flat() ? up.dot(x - centre) : (x - centre).norm() - radius; }  // m
+  Vec3 normal(const Vec3& x) const { return flat() ? up : Vec3((x - centre).normalized()); }
+  /// The place of the surface straight below x.
+  Vec3 foot(const Vec3& x) const { return flat() ? Vec3(x - height(x) * up) : Vec3(centre + radius * normal(x)); }
+};
+/// The scene's solids. Throws Unsupported where there is no contact, and where there are hard distances.
+std::vector<Solid> solids_of(const Scene& scene);
 
 class RightHandSide {
  public:

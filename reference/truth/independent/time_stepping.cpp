@@ -2,9 +2,9 @@
 // apart: a second route for cloths, whose events are too many to be located one by one. None of mysim's contact is
 // called. J. J. Moreau, "Numerical aspects of the sweeping process", Comput. Methods Appl. Mech. Engrg. 177 (1999).
 //
-// With x_m = x + h v / 2, and v_f = v + h a(x_m) the velocity without contact, a sphere that x_m is inside of gives the
+// With x_m = x + h v / 2, and v_f = v + h a(x_m) the velocity without contact, a solid that x_m is inside of gives the
 // impulse p n + q, with q along its surface: 0 <= p, complementary to w+.n + e min(w.n, 0) >= 0, and |q| <= mu p,
-// against w+ along the surface and of that size where it does not vanish. w is the velocity as seen from the sphere.
+// against w+ along the surface and of that size where it does not vanish. w is the velocity as seen from the solid.
 // Then x+ = x_m + h v+ / 2. Order 2 in free flight, 1 with contact; no particle is put back, so that it may be inside
 // by what it moves in a step.
 
@@ -20,38 +20,11 @@
 namespace crosscheck {
 namespace {
 
-/// A sphere, and where it is in the middle of a step.
-struct MovedBall {
-  Vec3 start;
-  double radius, friction, restitution;
-  std::optional<PrescribedMotion> motion;
-  Vec3 centre = start, velocity = Vec3::Zero();
-
-  void move_to(double t) {
-    if (!motion) return;
-    double displacement[3];
-    motion->at(t, displacement, velocity.data());
-    centre = start + Eigen::Map<const Vec3>(displacement);
-  }
-};
-
-std::vector<MovedBall> moved_balls_of(const Scene& scene) {
-  const auto* spheres = scene.model.find<Spheres>();
-  if (!spheres) throw Unsupported("the scene has no contact");
-  if (scene.model.find<Constraints>()) throw Unsupported("this route knows no hard distances");
-  std::vector<MovedBall> balls;
-  for (const Sphere& s : spheres->list) {
-    balls.push_back({s.centre, s.radius + s.margin, s.friction, s.restitution, {}});
-    if (s.motion) balls.back().motion.emplace(*s.motion);
-  }
-  return balls;
-}
-
 class TimeSteppingWorld : public World {
  public:
   explicit TimeSteppingWorld(const Scene& scene)
-      : balls_(moved_balls_of(scene)),
-        f_(without_spheres(scene)),
+      : solids_(solids_of(scene)),
+        f_(without_contact(scene)),
         y_(f_.start()),
         half_(y_.size() / 2),
         before_(y_.begin() + static_cast<long>(half_), y_.end()),
@@ -69,17 +42,15 @@ class TimeSteppingWorld : public World {
       trial_[half_ + k] = 1.5 * v[k] - 0.5 * before_[k];
     }
     f_(trial_, rate_, middle);
-    for (MovedBall& ball : balls_) ball.move_to(middle);
+    for (Solid& solid : solids_) solid.move_to(middle);
     for (size_t k = 0; k < half_; k += 3) {
       const Vec3 place = Eigen::Map<const Vec3>(&y_[k]), was = Eigen::Map<const Vec3>(v + k);
       Vec3 now = was + h * Eigen::Map<const Vec3>(&rate_[half_ + k]);
       bool touches = false;
-      for (const MovedBall& ball : balls_) {
-        const Vec3 d = place - ball.centre;
-        const double distance = d.norm();
-        if (distance > ball.radius) continue;
-        if (std::exchange(touches, true)) throw Unsupported("a particle touches two spheres at once");
-        now = ball.velocity + after_contact(ball, d / distance, was - ball.velocity, now - ball.velocity);
+      for (const Solid& solid : solids_) {
+        if (solid.height(place) > 0) continue;
+        if (std::exchange(touches, true)) throw Unsupported("a particle touches two surfaces at once");
+        now = solid.velocity + after_contact(solid, solid.normal(place), was - solid.velocity, now - solid.velocity);
       }
       Eigen::Map<Vec3>(before_.data() + k) = was;
       Eigen::Map<Vec3>(v + k) = now;
@@ -94,15 +65,15 @@ class TimeSteppingWorld : public World {
   Work work() const override { return {f_.evaluations(), f_.degenerate_springs()}; }
 
  private:
-  static Vec3 after_contact(const MovedBall& ball, const Vec3& n, const Vec3& was, const Vec3& free) {
-    const double push = -free.dot(n) - ball.restitution * std::min(was.dot(n), 0.0);
+  static Vec3 after_contact(const Solid& solid, const Vec3& n, const Vec3& was, const Vec3& free) {
+    const double push = -free.dot(n) - solid.restitution * std::min(was.dot(n), 0.0);
     if (!(push > 0)) return free;
     const Vec3 along = free - free.dot(n) * n;
-    const double speed = along.norm(), held = ball.friction * push;
+    const double speed = along.norm(), held = solid.friction * push;
     return (free.dot(n) + push) * n + (speed <= held ? Vec3::Zero() : Vec3(along * (1 - held / speed)));
   }
 
-  std::vector<MovedBall> balls_;
+  std::vector<Solid> solids_;
   RightHandSide f_;
   StateVector y_;
   const size_t half_;           // 3 n of the free particles

@@ -147,7 +147,9 @@ TEST(BulletSpheres, TwoHoldAChainBetweenThem) {
       closest = std::min(closest, *clearance(scene, a.trajectory.t[i], a.trajectory.x[i]));
       for (int ball = 0; ball < 2; ++ball) {
         const Spheres one{{scene.model.find<Spheres>()->list[ball]}};
-        for (int p = 0; p < 9; ++p) touched[ball] += clearance_from(one, 0, a.trajectory.x[i].col(p)) < 1e-3;
+        for (int p = 0; p < 9; ++p)
+          touched[ball] += clearance_from(std::vector<Surface>(one.list.begin(), one.list.end()), 0,
+                                          a.trajectory.x[i].col(p)) < 1e-3;
       }
     }
     EXPECT_GT(touched[0], 10);

@@ -65,19 +65,22 @@ TEST(ClothGrid, ReproducibleIsTheSameBitsOnAvx2AndAvx512) {
     }
 }
 
-/// Without a ledger contacts are resolved in lanes, with one by the rule of terms/sphere.h: not a bit is different, on
-/// one ball and on two that touch the same particles, which slide, stick, come from above at speed, or bounce.
+/// Without a ledger contacts are resolved in lanes, with one by the rule of terms/surface.h: not a bit is different, on
+/// one ball, on two and on a ball and a plane that touch the same particles, which slide, stick, come from above at
+/// speed, or bounce.
 TEST(ClothGrid, ContactsInLanesHaveTheBitsOfTheRule) {
   std::string cloth = load_scene("cloth-sphere").source;
   cloth.erase(cloth.find("[sphere]"));
   const char* second = "[[sphere]]\ncentre = [0.5, -0.2, 0.3]\nradius = 1\nmargin = 0.02\nfriction = 0.2\n";
-  for (const char* second_ball : {"", second})
+  const char* plane =
+      "[[plane]]\npoint = [0, 0.95, 0]\nnormal = [0.2, 1, 0.1]\nmargin = 0.02\nfriction = 0.3\nrestitution = 0.2\n";
+  for (const char* second_solid : {"", second, plane})
     for (const double friction : {0., 0.5, 50.})
       for (const double restitution : {0., 0.7}) {
         const Scene scene = parse_scene(
             fmt::format(
                 "{}[[sphere]]\ncentre = [0, 0, 0]\nradius = 1\nmargin = 0.02\nfriction = {}\nrestitution = {}\n{}",
-                cloth, friction, restitution, second_ball),
+                cloth, friction, restitution, second_solid),
             "cloth.toml", "cloth");
         for (const char* rule : {"leapfrog", "symplectic-euler"}) {
           if (rule[0] == 's' && friction != 0.5) continue;

@@ -186,7 +186,7 @@ const ClaimedNumber claims[] = {
      [](const Scene& s) {
        double lowest = INFINITY;
        for (int i = 0; i < s.start.x.cols(); ++i)
-         lowest = std::min(lowest, clearance_from(*s.model.find<Spheres>(), 0, s.start.x.col(i)));
+         lowest = std::min(lowest, clearance_from(surfaces_of(s.model), 0, s.start.x.col(i)));
        return lowest;
      }},
     {"cloth-wind", "varies by {} %",

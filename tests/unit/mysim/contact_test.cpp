@@ -70,7 +70,7 @@ TEST(SinglePrecision, OnSpheresIsForRulesOfOneKickWithoutStickyAndOthersSaySo) {
     EXPECT_TRUE(
         contains(said,
                  "computed in double precision: single is for regular cloths of 17 columns or more, without "
-                 "bending, dashpots and air, and with spheres for symplectic-euler and leapfrog without +sticky"))
+                 "bending, dashpots and air, and with contact for symplectic-euler and leapfrog without +sticky"))
         << said;
 }
 
@@ -179,7 +179,7 @@ TEST(Contact, OutcomeSaysThatRestitutionHopsAtRest) {
         const Outcome out = simulate(s, ContactRule::coulomb, scene, {h, 2, 200}, path);
         double hop = 0;  // m, in the last half second, long after the last bounce
         for (int i = 150; i <= 200; ++i)
-          hop = std::max(hop, clearance_from(*scene.model.find<Spheres>(), 0, path.trajectory.x[i].col(0)));
+          hop = std::max(hop, clearance_from(surfaces_of(scene.model), 0, path.trajectory.x[i].col(0)));
         // explicit Euler adds energy in each flight: a bounce of a centimetre goes on
         if (s.name != "explicit-euler" && hop > 0.1 * 9.81 * out.step * out.step) {
           EXPECT_TRUE(contains(out.remark, "never quite at rest")) << hop;

@@ -351,7 +351,7 @@ TEST(EventTruth, IsNoneWhereARouteKnowsNothingAndSaysWhy) {
   // along the valley between two balls, across the plane of their centres
   Scene groove = valley(1, 10, 0);
   groove.start.x.col(0) = Vec3(0.5, std::sqrt(0.75) * std::cos(0.3), std::sqrt(0.75) * std::sin(0.3));
-  EXPECT_TRUE(contains(refused(groove), "between two balls"));
+  EXPECT_TRUE(contains(refused(groove), "between two surfaces"));
   EXPECT_EQ(refused(chain_on_ball(160, 0)), "");  // it can be run, but truths of so many are not claimed
 }
 
@@ -372,7 +372,7 @@ TEST(ContactEvents, NothingEndsInsideAndNothingPassesThrough) {
           for (int j = 0; j < path.trajectory.x[i].cols(); ++j) {
             const Vec3 x = path.trajectory.x[i].col(j);
             // put on the surface of one ball after the other and measured again
-            EXPECT_FALSE(clearance_from(*scene.model.find<Spheres>(), path.trajectory.t[i], x) < -1e-12);
+            EXPECT_FALSE(clearance_from(surfaces_of(scene.model), path.trajectory.t[i], x) < -1e-12);
           }
       }
   // 100 m/s and steps of 1/20 s: it would be beyond the ball at once
@@ -495,7 +495,7 @@ TEST(ContactEvents, AreTheSameInTheFusedStepOfACloth) {
       double nearest = 1;
       for (int i = 0; i < general.trajectory.frames(); ++i)
         for (const auto& x : general.trajectory.x[i].colwise())
-          nearest = std::min(nearest, clearance_from(*scene.model.find<Spheres>(), general.trajectory.t[i], x));
+          nearest = std::min(nearest, clearance_from(surfaces_of(scene.model), general.trajectory.t[i], x));
       EXPECT_LT(nearest, 1e-9) << "it never touched";
     }
   }

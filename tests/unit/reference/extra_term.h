@@ -11,8 +11,8 @@
 #include "mysim/terms/drag.h"
 #include "mysim/terms/gravity.h"
 #include "mysim/terms/rotation.h"
-#include "mysim/terms/sphere.h"
 #include "mysim/terms/springs.h"
+#include "mysim/terms/surface.h"
 #include "mysim/terms/wind.h"
 
 namespace crosscheck {
@@ -31,9 +31,9 @@ inline double potential_energy(const Tide& tide, const Particles&, const State& 
 
 }  // namespace crosscheck
 
-#define Spheres Spheres, Tide
+#define Planes Planes, Tide
 #include "mysim/model/model.h"
-#undef Spheres
+#undef Planes
 
 static_assert(std::is_same_v<std::variant_alternative_t<std::variant_size_v<crosscheck::Term> - 1, crosscheck::Term>,
                              crosscheck::Tide>);

@@ -18,7 +18,7 @@ using namespace testing_tools;
 /// Every shipped scene, its contacts left out, and two cloths with every smooth ingredient.
 std::vector<Scene> smooth_scenes() {
   std::vector<Scene> scenes{small_cloth(), small_cloth_in_air()};
-  for (const auto& name : shipped_scene_names()) scenes.push_back(without_spheres(shipped_scene(std::string(name))));
+  for (const auto& name : shipped_scene_names()) scenes.push_back(without_contact(shipped_scene(std::string(name))));
   return scenes;
 }
 

@@ -118,7 +118,7 @@ TEST_F(SceneJson, TheExampleOfThePageIsWhatIsWritten) {
   const EngineTask task = read_scene_json(write("scene.json", example));
   EXPECT_EQ(scene_json(task.scene, task.run, task.options), example);
   for (const char* key :
-       {"springs", "dashpots", "constraints", "gravity", "drag", "wind", "aerodynamics", "sphere", "rotation"})
+       {"springs", "dashpots", "constraints", "gravity", "drag", "wind", "aerodynamics", "sphere", "plane", "rotation"})
     EXPECT_TRUE(contains(page, fmt::format("| `{}` |", key)));
 }
 

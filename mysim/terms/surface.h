@@ -1,0 +1,143 @@
+// Surfaces with Coulomb friction and restitution: spheres and planes, at rest or in a prescribed motion. They are no
+// force: each acts on the whole step of a particle. What follows is seen from the surface: positions and velocities are
+// relative to it.
+//
+// The stepper proposes x* and v*. If the gap of x* is negative (|x* - centre| < R, or (x* - point) . normal < 0, margin
+// included), then
+//   1. position: the particle is put on the surface, which pushes it by p along the outward normal n;
+//   2. friction on the position: its tangential displacement in the step, seen from x_n, is reduced by at most mu p
+//      (Coulomb: tangential impulse at most mu times the normal one), and the result is put on the surface again;
+//   3. velocity: the inward normal part is removed (or reversed times e), and the tangential part is reduced by at most
+//      mu times the change of the normal part.
+// Friction on the velocity alone is not enough: a particle at rest on a slope would creep at about h g sin(theta) / 2.
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <optional>
+#include <span>
+#include <string_view>
+#include <vector>
+
+#include "mysim/particles.h"
+
+namespace crosscheck {
+
+struct Sphere {
+  Vec3 centre;         // m, at t = 0
+  double radius;       // m, of the solid ball
+  double margin;       // m, half the thickness of the cloth: particles stay at radius + margin from the centre
+  double friction;     // Coulomb's mu, 1
+  double restitution;  // e, 0 to 1
+  std::optional<Motion> motion;
+
+  double contact_radius() const { return radius + margin; }
+  Vec3 centre_at(double t) const { return motion ? Vec3(centre + displacement_at(*motion, t)) : centre; }  // m
+};
+
+struct Spheres {
+  static constexpr std::string_view name = "sphere";
+  std::vector<Sphere> list;
+
+  bool moving() const {
+    return std::any_of(list.begin(), list.end(), [](const Sphere& s) { return s.motion.has_value(); });
+  }
+};
+
+/// A solid half-space, at rest or translating.
+struct Plane {
+  Vec3 point;                    // m, any point of the face, at t = 0
+  Vec3 normal;                   // unit vector out of the solid
+  double margin;                 // m, half the thickness of the cloth: particles stay at this distance from the face
+  double friction;               // Coulomb's mu, 1
+  double restitution;            // e, 0 to 1
+  std::optional<Vec3> velocity;  // m/s, constant
+
+  Vec3 point_at(double t) const { return velocity ? Vec3(point + t * *velocity) : point; }  // m
+};
+
+struct Planes {
+  static constexpr std::string_view name = "plane";
+  std::vector<Plane> list;
+
+  bool moving() const {
+    return std::any_of(list.begin(), list.end(), [](const Plane& p) { return p.velocity.has_value(); });
+  }
+};
+
+/// The contact surface of a sphere or a plane, margin included: all that the contact rules know of either. Places are
+/// relative to its origin, which is the sphere's centre or a point of the contact plane.
+class Surface {
+ public:
+  Surface(const Sphere& s)  // NOLINT(google-explicit-constructor): a sphere is a surface
+      : friction(s.friction),
+        restitution(s.restitution),
+        origin_(s.centre),
+        radius_(s.contact_radius()),
+        motion_(s.motion) {}
+  Surface(const Plane& p)  // NOLINT(google-explicit-constructor)
+      : friction(p.friction),
+        restitution(p.restitution),
+        origin_(p.point + p.margin * p.normal),
+        radius_(std::numeric_limits<double>::infinity()),
+        normal_(p.normal),
+        drift_(p.velocity) {}
+
+  double friction, restitution;  // mu, e
+
+  bool flat() const { return std::isinf(radius_); }
+  double radius() const { return radius_; }  // m, of curvature: infinite for a plane
+  bool moving() const { return motion_ || drift_; }
+  Vec3 origin_at(double t) const {
+    if (motion_) return origin_ + displacement_at(*motion_, t);
+    return drift_ ? Vec3(origin_ + t * *drift_) : origin_;
+  }
+  Vec3 velocity_at(double t) const {  // m/s
+    return motion_ ? crosscheck::velocity_at(*motion_, t) : drift_.value_or(Vec3::Zero());
+  }
+  double max_speed() const { return motion_ ? crosscheck::max_speed(*motion_) : drift_ ? drift_->norm() : 0; }  // m/s
+
+  double gap(const Vec3& d) const { return flat() ? d.dot(normal_) : d.norm() - radius_; }  // m, negative inside
+  /// Outward unit normal at d; up at the very centre of a sphere, where no direction is better than another.
+  Vec3 normal(const Vec3& d) const {
+    if (flat()) return normal_;
+    const double length = d.norm();
+    return length > 0 ? Vec3(d / length) : Vec3(0, 1, 0);
+  }
+  /// Normal at a place on the surface, which needs no root.
+  Vec3 normal_on(const Vec3& d) const { return flat() ? normal_ : Vec3(d / radius_); }
+  /// The rate of change of the gap times a positive number, for a particle at d with a relative velocity w.
+  double approach(const Vec3& d, const Vec3& w) const { return flat() ? w.dot(normal_) : d.dot(w); }
+  /// The place on the surface nearest to d, whose normal is n.
+  Vec3 nearest(const Vec3& d, const Vec3& n) const { return flat() ? Vec3(d - d.dot(n) * n) : Vec3(radius_ * n); }
+  /// x put on the surface with its origin at `origin`, n being the normal there. A point of a plane but for rounding
+  /// keeps its coordinates along the plane.
+  Vec3 put_on(const Vec3& origin, const Vec3& x, const Vec3& n) const {
+    return flat() ? Vec3(x - (x - origin).dot(n) * n) : Vec3(origin + radius_ * n);
+  }
+  /// The length whose rounding is that of a gap, m: `reach` is how far from 0 the particle's coordinates lie.
+  double rounding_scale(const Vec3& origin, double reach) const { return (flat() ? reach : radius_) + origin.norm(); }
+
+ private:
+  Vec3 origin_;
+  double radius_;
+  Vec3 normal_ = Vec3::Zero();  // planes only
+  std::optional<Motion> motion_;
+  std::optional<Vec3> drift_;
+};
+
+/// Distance of a particle from the nearest contact surface at time t, m; negative inside.
+double clearance_from(std::span<const Surface> surfaces, double t, const Vec3& x);
+
+/// Applies the rule above to one particle that was at x_n, with the surface's origin at `origin`, in the surface's
+/// frame. Returns the push p (m); 0 when there was no contact.
+double resolve_contact(const Surface& surface, const Vec3& origin, const Vec3& x_n, Eigen::Ref<Vec3> x,
+                       Eigen::Ref<Vec3> v);
+
+/// The assignment's sphere, kept to be shown failing: a particle that touches is put back to where it came from, on the
+/// surface, and loses all its velocity: it freezes to the surface. Returns the push p (m); 0 when there was no contact.
+double resolve_contact_sticky(const Surface& surface, const Vec3& origin, const Vec3& x_n, Eigen::Ref<Vec3> x,
+                              Eigen::Ref<Vec3> v);
+
+}  // namespace crosscheck
