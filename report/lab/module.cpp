@@ -115,14 +115,17 @@ EXPORT(open) void open() { instance().run.emplace(parse_scene(std::string(instan
 /// The scene's single numbers and words as JSON.
 EXPORT(scene) const char* scene_json() {
   const Scene& s = run().scene();
-  std::string spheres, camera = "null";
+  std::string spheres, planes, camera = "null";
   for (const Sphere& sphere : list_in_term<Spheres>())
     spheres += fmt::format(R"({}{{"radius":{}}})", spheres.empty() ? "" : ",", sphere.radius);
+  for (const Plane& plane : list_in_term<Planes>())
+    planes += fmt::format(R"({}{{"point":{},"normal":{}}})", planes.empty() ? "" : ",", list_of(plane.point),
+                          list_of(plane.normal));
   if (s.camera) camera = fmt::format(R"({{"eye":{},"target":{}}})", list_of(s.camera->eye), list_of(s.camera->target));
   return hand_out(fmt::format(
-      R"({{"duration":{},"samples":{},"step":{},"method":{},"particles":{},"springCount":{},"constraintCount":{},"triangleCount":{},"pinCount":{},"firstOrder":{},"spheres":[{}],"camera":{}}})",
+      R"({{"duration":{},"samples":{},"step":{},"method":{},"particles":{},"springCount":{},"constraintCount":{},"triangleCount":{},"pinCount":{},"firstOrder":{},"spheres":[{}],"planes":[{}],"camera":{}}})",
       s.duration, s.samples, s.step, quoted(s.method), s.model.particles.size(), springs().size(), constraints().size(),
-      s.triangles.size(), s.model.particles.pins.size(), s.model.first_order(), spheres, camera));
+      s.triangles.size(), s.model.particles.pins.size(), s.model.first_order(), spheres, planes, camera));
 }
 
 EXPORT(pins) const int* pins() { return hand_out(run().scene().model.particles.pins); }

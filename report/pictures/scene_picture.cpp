@@ -2,6 +2,7 @@
 #include "report/pictures/scene_picture.h"
 
 #include <fmt/format.h>
+#include <Eigen/Geometry>
 
 #include <algorithm>
 #include <cmath>
@@ -116,6 +117,33 @@ std::vector<render::Ball> balls_of(const Scene& scene, double t) {
   return balls;
 }
 
+/// A plane is drawn as a floor, as a slope that is seen from above, or not at all.
+bool is_floor(const Plane& plane) { return plane.normal.y() > 1 - 1e-9; }
+bool is_slope(const Plane& plane) { return plane.normal.y() > 0.1 && !is_floor(plane); }
+
+/// Square pieces of the scene's slopes at t (s) under what is shown.
+std::vector<render::Body> slopes_of(const Scene& scene, double t, const std::vector<Points>& shown) {
+  std::vector<render::Body> patches;
+  const auto* planes = scene.model.find<Planes>();
+  if (!planes) return patches;
+  Eigen::AlignedBox3d box;
+  for (const Points& x : shown)
+    if (x.allFinite())
+      for (Eigen::Index i = 0; i < x.cols(); ++i) box.extend(Vec3(x.col(i)));
+  if (box.isEmpty()) return patches;
+  const double half = box.diagonal().norm() > 0 ? 0.7 * box.diagonal().norm() : 0.5;
+  for (const Plane& plane : planes->list) {
+    if (!is_slope(plane)) continue;
+    const Vec3 n = plane.normal, level = n.cross(Vec3::UnitY()).normalized(), d = box.center() - plane.point_at(t);
+    const Vec3 at = box.center() - d.dot(n) * n, u = half * level, v = half * level.cross(n);
+    render::Body& patch = patches.emplace_back();
+    patch.x.resize(3, 4);
+    patch.x << at - u - v, at + u - v, at + u + v, at - u + v;
+    patch.triangles = {{0, 2, 1}, {0, 3, 2}};
+  }
+  return patches;
+}
+
 constexpr int strip_columns = 5;
 constexpr double panel_in_print = 1.2;  // width over height
 
@@ -151,7 +179,11 @@ Vec3 towards_eye(const Scene& scene, bool flat) {
 render::View view_of(const Scene& scene, const std::vector<Points>& shown, const std::vector<render::Ball>& balls,
                      double aspect) {
   const bool flat = is_flat(scene, shown);
-  return render::fit_view(shown, balls, towards_eye(scene, flat), aspect, !flat);
+  render::View view = render::fit_view(shown, balls, towards_eye(scene, flat), aspect, !flat);
+  if (const auto* planes = scene.model.find<Planes>(); planes && view.floor)
+    for (const Plane& plane : planes->list)
+      if (is_floor(plane)) view.floor = plane.point.y();
+  return view;
 }
 
 /// The method, and its step where another picture is of the same method.
@@ -243,6 +275,8 @@ render::Picture panels_of(const Scene& scene, const std::vector<const MethodResu
       panel.balls = balls_of(scene, a->trajectory.t[frames[c]]);
       panel.bodies.push_back(body_of(scene, *a, frames[c], mode, &base));
       seen.add(panel, a->outcome.verdict == Verdict::ok);
+      for (render::Body& slope : slopes_of(scene, a->trajectory.t[frames[c]], a->trajectory.x))
+        panel.bodies.push_back(std::move(slope));
       picture.rows.back().push_back(std::move(panel));
     }
   }
@@ -292,7 +326,7 @@ std::vector<std::string> pictured_methods(const Scene& scene) {
     names = {find_method(scene.method).name,
              subject_method([](const Stepper& s) { return s.evaluations == 0 && s.symplectic; }),
              std::string(subject().representative)};
-  if (scene.model.find<Spheres>()) names.push_back(sticky_method());
+  if (has_contact(scene.model)) names.push_back(sticky_method());
   return names;
 }
 

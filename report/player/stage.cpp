@@ -79,6 +79,15 @@ Json spheres_json(const Scene& scene, const std::vector<double>& times) {
   return list;
 }
 
+/// Planes where they are at the start.
+Json planes_json(const Scene& scene) {
+  Json list = Json::array();
+  if (const auto* planes = scene.model.find<Planes>())
+    for (const Plane& p : planes->list)
+      list.push_back({{"point", vector_json(p.point)}, {"normal", vector_json(p.normal)}});
+  return list;
+}
+
 Json stage_of(const Scene& scene, const std::vector<Points>& shown, const std::vector<double>& times) {
   const CameraPlacement placement = camera_placement(scene, shown, times);
   return {{"scene", scene.name},
@@ -89,7 +98,8 @@ Json stage_of(const Scene& scene, const std::vector<Points>& shown, const std::v
           {"triangles", triangles_json(scene)},
           {"springs", springs_json(scene)},
           {"pins", scene.model.particles.pins},
-          {"spheres", spheres_json(scene, times)}};
+          {"spheres", spheres_json(scene, times)},
+          {"planes", planes_json(scene)}};
 }
 
 }  // namespace

@@ -41,6 +41,7 @@ interface SceneHead {
   pinCount: number;
   firstOrder: boolean;
   spheres: {radius: number}[];
+  planes: {point: Vec3, normal: Vec3}[];
   camera: {eye: Vec3, target: Vec3}|null;
 }
 export interface EngineScene extends SceneHead {

@@ -8,7 +8,7 @@ import {stretchOf} from '../player/motion';
 import {Fit} from '../player/orbit';
 import {stillWanted} from '../player/player';
 import {balls, rods} from '../player/shapes';
-import {BaseStage, BodyPrograms, Colouring, Panel, PanelPlace, PanelView, SharedGeometry, Shown, StageScene} from '../player/stage';
+import {BaseStage, BodyPrograms, Colouring, isFloor, Panel, PanelPlace, PanelView, SharedGeometry, Shown, StageScene} from '../player/stage';
 import {minus, norm, Numbers, placeOf, Places, plus, Vec3} from '../player/vectors';
 
 import {Simulation} from './engine';
@@ -44,6 +44,7 @@ export function stageScene(name: string, {scene}: Simulation, floor: number|null
     pins: [...scene.pins],
     springs: {families, threads, rest_unit: 1},
     spheres: scene.spheres.map(({radius}) => ({radius, centres: []})),
+    planes: scene.planes,
     shared: {
       triangles: Uint16Array.from(scene.triangles),
       springs: Uint16Array.from(
@@ -125,8 +126,9 @@ export class LiveStage extends BaseStage<LivePanel> {
     const placesAt = (t: number, into = new Float32Array(3 * this.scene.particles)) =>
         (into.set(pictures[Math.round(t * last)]), into);
     const motion = {well: true, begin: 0, end: 1, placesAt}, bounds = boundsOf({...this.scene, floor: null}, [motion]);
+    const ground = this.scene.planes?.find(isFloor);
     if (this.scene.floor !== null)
-      this.scene.floor = Math.min(...bounds.held.map(h => h.at[1] - h.radius)) - 0.02 * bounds.size;
+      this.scene.floor = ground?.point[1] ?? Math.min(...bounds.held.map(h => h.at[1] - h.radius)) - 0.02 * bounds.size;
     this.bounds = boundsOf(this.scene, [motion]);
     this.low = [Infinity, Infinity, Infinity], this.high = [-Infinity, -Infinity, -Infinity];
     for (const places of pictures)

@@ -66,10 +66,10 @@ void main() {
 `;
 
 export const floorVertex = `
-uniform vec4 floor_at;  // middle (m) and half its width
+uniform vec3 floor_at, floor_u, floor_v;  // middle and half the edges, m
 in vec2 corner;
 void main() {
-  place = floor_at.xyz + floor_at.w * vec3(corner.x, 0, corner.y), normal = vec3(0, 1, 0), value = -1.0;
+  place = floor_at + corner.x * floor_u + corner.y * floor_v, normal = vec3(0, 1, 0), value = -1.0;
   gl_Position = to_clip * vec4(place, 1);
 }
 `;
@@ -165,15 +165,16 @@ void main() {
 }
 `;
 
-// the ground is the background, darkened where it loses light: without shadow it cannot be seen
+// the ground is the background, darkened where it loses light: without shadow it cannot be seen; a slope is tinted
 export const floorFragment = `
-uniform vec3 background;
-uniform vec4 floor_at, panel;  // panel: its lower left corner and size, pixels
+uniform vec3 background, floor_at;
+uniform vec4 panel;         // its lower left corner and size, pixels
+uniform float reach, tint;  // half the width, m; by what a slope is darker than the background
 void main() {
-  float away = length(place.xz - floor_at.xz) / floor_at.w;
+  float away = length(place - floor_at) / reach;
   vec2 in_panel = (gl_FragCoord.xy - panel.xy) / panel.zw, border = min(in_panel, 1.0 - in_panel);
   vec2 fade = smoothstep(vec2(0), vec2(0.07), border);  // before the next panel begins
   float lost = (1.0 - lit(place, 0.04)) * (1.0 - smoothstep(0.5, 1.0, away)) * fade.x * fade.y;
-  result = vec4(background * (1.0 - 0.3 * lost), 1);
+  result = vec4(background * (1.0 - 0.3 * lost - tint), 1);
 }
 `;

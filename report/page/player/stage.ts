@@ -7,7 +7,7 @@ import {distances, Motion, stretchOf} from './motion';
 import {Fit, Orbit, tangent} from './orbit';
 import {ballVertex, clothFragment, clothVertex, floorFragment, floorVertex, fragmentCommon, rodVertex, solidFragment, threadFragment} from './shaders';
 import {ShapeName, shapesOf} from './shapes';
-import {lightMatrix, minus, Numbers, placeOf, Places, plus, sumNormals, Vec3} from './vectors';
+import {cross, dot, lightMatrix, minus, Numbers, placeOf, Places, plus, sumNormals, unit, Vec3} from './vectors';
 
 /** A scene as it is drawn. */
 export interface StageScene {
@@ -21,7 +21,16 @@ export interface StageScene {
   /** Families in the order of the springs; `threads`: springs that are drawn on a cloth, the first ones. */
   springs: {families: {name: string, count: number}[], threads: number, rest_unit: number};
   spheres: {radius: number, centres: Numbers[]}[];  // centres at even times
+  planes?: PlaneFace[];
 }
+/** A plane: a point of it (m) and its outward normal. */
+export interface PlaneFace {
+  point: Numbers;
+  normal: Numbers;
+}
+/** Floors are the ground; walls and ceilings would hide what they enclose and are left out. */
+export const isFloor = ({normal}: PlaneFace) => normal[1] > 1 - 1e-9;
+const isSlope = (plane: PlaneFace) => plane.normal[1] > 0.1 && !isFloor(plane);
 export interface SharedGeometry {
   triangles: Uint16Array;
   springs: Uint16Array;  // both ends of each
@@ -213,11 +222,21 @@ export class BaseStage<P extends Panel> {
       families: palette.flatMap(rgb)
     };
     this.drawBodies(this.programs, view, light);
-    if (floor === null || view.ghost) return;
+    if (view.ghost) return;
     gl.depthMask(false);
-    const foot = footOf(middle, floor, key);
-    this.tools.use(this.programs.floor, {...light, floor_at: [foot[0], floor, foot[2], 2.2 * reach], panel: box});
-    this.tools.draw(this.shapes.floor, gl.TRIANGLES);
+    const draw = (at: Vec3, u: Vec3, v: Vec3, wide: number, tint: number) => {
+      const [floor_u, floor_v] = [plus([0, 0, 0], wide, u), plus([0, 0, 0], wide, v)];
+      this.tools.use(this.programs.floor, {...light, floor_at: at, floor_u, floor_v, reach: wide, tint, panel: box});
+      this.tools.draw(this.shapes.floor, gl.TRIANGLES);
+    };
+    for (const {point, normal} of (this.scene.planes ?? []).filter(isSlope)) {
+      const level = unit(cross(normal, [0, 1, 0])), at = plus(middle, -dot(minus(middle, point), normal), normal);
+      draw(at, level, cross(level, normal), 1.2 * reach, 0.09);
+    }
+    if (floor !== null) {
+      const [x, , z] = footOf(middle, floor, key);
+      draw([x, floor, z], [1, 0, 0], [0, 0, 1], 2.2 * reach, 0);
+    }
     gl.depthMask(true);
   }
 
