@@ -20,7 +20,8 @@ std::filesystem::path folder_of_disagreements() { return folder_of_scenes() / "d
 
 /// Of several cloths a quick run uses one of each kind.
 constexpr std::string_view left_to_full_runs[] = {"cloth-stiff", "cloth-cantilever", "cloth-swing", "cloth-wind",
-                                                  "flag",        "cloth-carried",    "curtain",     "jelly"};
+                                                  "flag",        "cloth-carried",    "curtain",     "jelly",
+                                                  "floor-drop"};
 
 }  // namespace
 
@@ -36,6 +37,8 @@ std::span<const std::string_view> shipped_scenes() {
       "rod",                 //
       "slide",               //
       "bounce",              //
+      "slope-slide",         //
+      "room-bounce",         //
       "cloth-student",       //
       "cloth-hang",          //
       "cloth-stiff",         //
@@ -46,6 +49,7 @@ std::span<const std::string_view> shipped_scenes() {
       "flag",                //
       "cloth-sphere",        //
       "cloth-carried",       //
+      "floor-drop",          //
       "curtain",             //
       "jelly",
   };

@@ -189,6 +189,15 @@ const ClaimedNumber claims[] = {
          lowest = std::min(lowest, clearance_from(surfaces_of(s.model), 0, s.start.x.col(i)));
        return lowest;
      }},
+    {"slope-slide", "upwards at {} m/s", [](const Scene& s) { return s.start.v.col(0).norm(); }},
+    {"slope-slide", "a slope of {} degrees",
+     [](const Scene& s) { return std::acos(s.model.find<Planes>()->list[0].normal.y()) / degree; }},
+    {"floor-drop", "its lower edge {} m above", [](const Scene& s) { return clearance(s, 0, s.start.x).value(); }},
+    {"floor-drop", "tilted by {} degrees",
+     [](const Scene& s) {
+       const Vec3 edge = s.start.x.col(19) - s.start.x.col(0);
+       return std::atan2(edge.y(), edge.x()) / degree;
+     }},
     {"cloth-wind", "varies by {} %",
      [](const Scene& s) { return 100 * s.model.find<Wind>()->acceleration.gusts->variation; }},
     // two dimensions of clocks and rulers that belong to no scene

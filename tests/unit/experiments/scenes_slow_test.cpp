@@ -4,6 +4,7 @@
 #include "experiments/scenes/ingredients.h"
 #include "experiments/scenes/scenes.h"
 #include "mysim/model/system.h"
+#include "mysim/run/crossings.h"
 #include "mysim/run/observers.h"
 #include "tests/unit/experiments/helpers.h"
 #include "tests/unit/helpers.h"
@@ -95,6 +96,22 @@ TEST(ClothCarried, MovesWithItsSphereAndNotWithoutFriction) {
       left_behind =
           std::max(left_behind, std::abs(centre_of_mass(scene, free.x[i]).x() - ball.centre_at(free.t[i]).x()));
     EXPECT_GT(left_behind, 0.1);
+  }
+}
+
+TEST(FloorDrop, LiesDownFlatAndStillWithoutCrossingItself) {
+  const Scene scene = load_scene("floor-drop");
+  CrossingDetector detector(scene.triangles);
+  for (const auto name : {"leapfrog", "leapfrog+events", "symplectic-euler", "implicit-euler"}) {
+    SCOPED_TRACE(name);
+    const MethodRun a = run_and_record(name, scene, default_run(scene));
+    ASSERT_EQ(a.outcome.verdict, Verdict::ok) << a.outcome.reason;
+    const Trajectory& t = a.trajectory;
+    const auto heights = t.x.back().row(1);
+    EXPECT_LT(heights.maxCoeff() - heights.minCoeff(), 1e-6);  // m; explicit rules: 0
+    EXPECT_NEAR(heights.minCoeff(), 0.02, 1e-9);
+    EXPECT_LT((t.x.back() - t.x[t.frames() - 10]).cwiseAbs().maxCoeff(), 1e-6);  // m, in the last 0.2 s
+    for (int i = 0; i < t.frames(); i += 5) EXPECT_EQ(detector.piercing_edges(t.x[i]), 0) << t.t[i];
   }
 }
 
