@@ -234,7 +234,7 @@ bool DivergenceMonitor::frozen(const State& state) {
   system.acceleration(stage, a);
   const std::vector<Surface> surfaces = surfaces_of(model_);
   const auto touches = [&](const Vec3& x) {  // to within a few roundings in single precision
-    return std::ranges::any_of(surfaces, [&](const Surface& s) {
+    return std::any_of(surfaces.begin(), surfaces.end(), [&](const Surface& s) {
       const Vec3 origin = s.origin_at(start.t);
       return s.gap(x - origin) < 1e-6 * s.rounding_scale(origin, x.norm());
     });
