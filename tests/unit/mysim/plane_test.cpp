@@ -54,7 +54,7 @@ TEST(Surface, NormalIsTheGradientOfTheGapAndTheNearestPlaceLiesOnIt) {
                                 Sphere{point, 0.5, 0.1, 0, 0, std::nullopt}};
     for (const Surface& surface : surfaces) {
       const Vec3 d = random.vector(), n = surface.normal(d), along = random.vector();
-      const double step = std::cbrt(eps);  // of central differences: their errors are its square
+      const double step = std::cbrt(eps);  // m; central differences err by its square
       const double slope = (surface.gap(d + step * along) - surface.gap(d - step * along)) / (2 * step);
       EXPECT_NEAR(slope, n.dot(along), 100 * step * step / d.norm());
       EXPECT_NEAR(n.norm(), 1, 4 * eps);
@@ -144,7 +144,7 @@ TEST(Plane, HoldsAThousandthBelowCoulombsLimitAndSlidesAThousandthAbove) {
       const Scene loose = on_slope(angle, fmt::format("friction = {:.17g}", mu));
       const Trajectory slid = path_of(rule, loose, {h, t, 1});
       const double way = slid.x.back().col(0).norm();
-      // of order one a rule is off by a step's displacement in all, h v = h a t and that of a step's free fall,
+      // a rule of order one is off by a step's displacement in all, h v = h a t and that of a step's free fall,
       // h^2 g, in the way to friction's first step; located events make no error under constant forces
       const double allowed = rule.contact == ContactRule::events ? 1e-12 : 2 * h * a * t + 2 * h * h * g;
       EXPECT_NEAR(way, a * t * t / 2, allowed + unsolved(rule, t, h));
