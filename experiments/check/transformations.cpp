@@ -57,10 +57,10 @@ Scene placed(Scene scene, const Placement& placement) {
                      }
                    },
                    [&](Planes& planes) {
-                     for (Plane& p : planes.list) {
-                       p.point = (turn * p.point + placement.shift).eval();
-                       p.normal = (turn * p.normal).eval();
-                       if (p.velocity) p.velocity = (turn * *p.velocity).eval();
+                     for (Plane& plane : planes.list) {
+                       plane.point = (turn * plane.point + placement.shift).eval();
+                       plane.normal = (turn * plane.normal).eval();
+                       if (plane.velocity) plane.velocity = (turn * *plane.velocity).eval();
                      }
                    },
                    [](OneOf<Rotation, Springs, Bending, Dashpots, Constraints, Drag> auto&) {}},
@@ -182,9 +182,9 @@ Scene scaled(Scene scene, const Scaling& scaling) {
                      }
                    },
                    [&](Planes& t) {
-                     for (Plane& p : t.list) {
-                       p.point *= length, p.margin *= length;
-                       if (p.velocity) *p.velocity *= speed;
+                     for (Plane& plane : t.list) {
+                       plane.point *= length, plane.margin *= length;
+                       if (plane.velocity) *plane.velocity *= speed;
                      }
                    }},
         term);

@@ -3,8 +3,8 @@
 //   f_i  = sum over the springs of i:  k (L / |x_i - x_j| - 1) (x_i - x_j)       N, Hooke's law, rest length L
 //   v_i' = v_i + inverse_mass_dt f_i + dt a - damping v_i                        a: gravity and uniform wind
 //   x_i* = x_i + drift_before v_i'
-//   (x_i*, v_i') = on_contact(x_i*, v_i')                                        where x_i* is in a bounding sphere or
-//   plane x_i' = x_i* + drift_after v_i'
+//   (x_i*, v_i') = on_contact(x_i*, v_i')                                        where x_i* is near a surface
+//   x_i' = x_i* + drift_after v_i'
 // with dt = h / (1 + h gamma / 2), inverse_mass_dt = dt / m and damping = dt gamma (symplectic Euler: dt = h). Leapfrog
 // keeps x half a step ahead: drift_before = h / 2 ends this step and drift_after = h / 2 begins the next. The
 // definition is steppers/leapfrog.cpp and steppers/symplectic_euler.cpp, from which this differs by round-off alone.
