@@ -71,11 +71,11 @@ double resolve_contact(const Surface& surface, const Vec3& origin, const Vec3& x
 
 double resolve_contact_sticky(const Surface& surface, const Vec3& origin, const Vec3& x_n, Eigen::Ref<Vec3> x,
                               Eigen::Ref<Vec3> v) {
-  const double gap = surface.gap(x - origin);
-  if (!(gap < 0)) return 0;
+  const double push = -surface.gap(x - origin);
+  if (!(push > 0)) return 0;
   x = surface.put_on(origin, x_n, surface.normal(x_n - origin));
   v.setZero();
-  return -gap;
+  return push;
 }
 
 }  // namespace crosscheck
