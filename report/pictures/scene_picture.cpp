@@ -264,6 +264,10 @@ render::Picture panels_of(const Scene& scene, const std::vector<const MethodResu
   const Mode mode = strip || no_stretch ? Mode::shaded : shot.mode;
   const auto base_frames = frames_of(scene, usable[0]->trajectory, shot);
   if (!strip) picture.rows.emplace_back();
+  std::vector<Points> everywhere;  // so that each panel has the same slopes
+  for (const MethodResult* a : usable)
+    if (a->outcome.verdict == Verdict::ok || usable.size() == 1)
+      everywhere.insert(everywhere.end(), a->trajectory.x.begin(), a->trajectory.x.end());
   for (const MethodResult* a : usable) {
     if (strip) picture.rows.emplace_back();
     const std::vector<int> frames = frames_of(scene, a->trajectory, shot);
@@ -275,7 +279,7 @@ render::Picture panels_of(const Scene& scene, const std::vector<const MethodResu
       panel.balls = balls_of(scene, a->trajectory.t[frames[c]]);
       panel.bodies.push_back(body_of(scene, *a, frames[c], mode, &base));
       seen.add(panel, a->outcome.verdict == Verdict::ok);
-      for (render::Body& slope : slopes_of(scene, a->trajectory.t[frames[c]], a->trajectory.x))
+      for (render::Body& slope : slopes_of(scene, a->trajectory.t[frames[c]], everywhere))
         panel.bodies.push_back(std::move(slope));
       picture.rows.back().push_back(std::move(panel));
     }
