@@ -7,12 +7,11 @@
 // held constant, the particle goes through the step again, seen from the surface (whose own acceleration is
 // subtracted):
 //   free     dw/ds = b - gamma w, up to the first root of the gap; there it hits: the inward speed w_n is reversed
-//   times
-//            e, and the tangential one reduced by at most mu (1 + e) |w_n|. A rebound that would be back within a step
-//            is none (e = 0): an endless sequence of bounces ends in contact.
+//            times e, and the tangential one reduced by at most mu (1 + e) |w_n|. A rebound that would be back within a
+//            step is none (e = 0): an endless sequence of bounces ends in contact.
 //   slides   dw/ds = b - gamma w + N n - mu N w/|w|, with N = -b.n - |w|^2 / R (R infinite for a plane), by the
-//   midpoint rule, put back on the
-//            surface; up to the root of N, where it leaves, or of its speed, where it stops.
+//            midpoint rule, put back on the surface; up to the root of N, where it leaves, or of its speed, where it
+//            stops.
 //   sticks   as long as |b_t| <= mu N.
 // The impulses of several surfaces that a particle touches are found together for the rest of the step, by projected
 // Gauss-Seidel iteration (J. J. Moreau, Unilateral contact and dry friction in finite freedom dynamics, 1988; M. Jean,

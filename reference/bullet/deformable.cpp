@@ -419,6 +419,11 @@ Outcome run_deformable(const Scene& scene, const Run& run, Observer& observer, c
         "so that nodes hop by (v h)^2 / 2R on a sphere; and whatever the step, normals are gradients of a grid of "
         "distances, off by up to a / 2R = " +
         normal_error_text(scene, settings.voxel) + "; friction is Coulomb's in both");
+  if (scene.model.find<Planes>())
+    out.different_law.push_back(
+        "contact with planes: a node that lands gets the velocity that takes it to the plane by the end of the step, "
+        "and "
+        "loses it in the next one; behind a plane that moves it lags by up to the plane's way in a step");
   if (scene.model.find<Dashpots>() && !settings.implicit)
     out.different_law.push_back("dashpots: Bullet solves them implicitly, at the end of the explicit step");
   if (const auto limit = world.speed_limit(); limit && out.verdict == Verdict::ok) {

@@ -104,7 +104,7 @@ struct NamedLines {
   std::string commands(const FigureInfo& figure, const std::vector<Tick>& ticks) const;
   /// The name of that index at a line.
   std::string name(double place, size_t index) const;
-  /// From the sheet's left edge on.
+  /// A text that starts at the sheet's left edge.
   std::string heading(double place, const std::string& text) const;
   /// A text at a line that ends there.
   std::string ending_at(double x, double place, const std::string& text) const {
