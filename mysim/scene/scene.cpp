@@ -312,6 +312,13 @@ void read_spheres(const TomlTable& file, Scene& scene) {
   scene.model.terms.emplace_back(std::move(spheres));
 }
 
+/// Width of the room between two opposite planes, margins deducted, m. Nothing unless the sine of the angle between
+/// them is below the rounding of a decimal number.
+std::optional<double> width_between(const Plane& a, const Plane& b) {
+  if (!(a.normal.dot(b.normal) < 0 && a.normal.cross(b.normal).norm() < 1e-9)) return std::nullopt;
+  return (b.point - a.point).dot(a.normal) - a.margin - b.margin;
+}
+
 void read_planes(const TomlTable& file, Scene& scene) {
   if (!file.has(Planes::name)) return;
   Planes planes;
@@ -327,12 +334,10 @@ void read_planes(const TomlTable& file, Scene& scene) {
                                     particles.pinned[i] ? "pin" : "particle", plane.margin, i, height));
     }
     for (const Plane& other : planes.list) {
-      // the sine of the angle between them is below the rounding of a decimal number
-      if (!(plane.normal.dot(other.normal) < 0 && plane.normal.cross(other.normal).norm() < 1e-9)) continue;
-      const double apart = (other.point - plane.point).dot(plane.normal), margins = plane.margin + other.margin;
-      if (!(apart > margins))
-        s.fail("point",
-               fmt::format("more than the two margins, {:.6g} m, to the opposite plane, got {:.6g} m", margins, apart));
+      const double margins = plane.margin + other.margin;
+      if (const auto width = width_between(plane, other); width && !(*width > 0))
+        s.fail("point", fmt::format("more than the two margins, {:.6g} m, to the opposite plane, got {:.6g} m", margins,
+                                    *width + margins));
     }
     planes.list.push_back(plane);
   }
@@ -474,8 +479,7 @@ double Scene::size() const {
   if (const auto* planes = model.find<Planes>())  // opposite ones bound what the particle can do
     for (const Plane& a : planes->list)
       for (const Plane& b : planes->list)
-        if (a.normal.dot(b.normal) < -0.999)
-          length = std::min(length, std::abs((b.point - a.point).dot(a.normal)) - a.margin - b.margin);
+        if (const auto width = width_between(a, b)) length = std::min(length, *width);
   return length > 0 ? length : 1;
 }
 

@@ -422,8 +422,7 @@ Outcome run_deformable(const Scene& scene, const Run& run, Observer& observer, c
   if (scene.model.find<Planes>())
     out.different_law.push_back(
         "contact with planes: a node that lands gets the velocity that takes it to the plane by the end of the step, "
-        "and "
-        "loses it in the next one; behind a plane that moves it lags by up to the plane's way in a step");
+        "and loses it in the next one; behind a plane that moves it lags by up to the plane's way in a step");
   if (scene.model.find<Dashpots>() && !settings.implicit)
     out.different_law.push_back("dashpots: Bullet solves them implicitly, at the end of the explicit step");
   if (const auto limit = world.speed_limit(); limit && out.verdict == Verdict::ok) {
