@@ -121,18 +121,23 @@ std::vector<render::Ball> balls_of(const Scene& scene, double t) {
 bool is_floor(const Plane& plane) { return plane.normal.y() > 1 - 1e-9; }
 bool is_slope(const Plane& plane) { return plane.normal.y() > 0.1 && !is_floor(plane); }
 
-/// Square pieces of the scene's slopes at t (s) under what is shown.
-std::vector<render::Body> slopes_of(const Scene& scene, double t, const std::vector<Points>& shown) {
-  std::vector<render::Body> patches;
-  const auto* planes = scene.model.find<Planes>();
-  if (!planes) return patches;
+/// The box of all places of the runs that did not fail; empty if the scene has no planes, as nothing else needs it.
+Eigen::AlignedBox3d box_over_planes(const Scene& scene, const std::vector<const MethodResult*>& answers) {
   Eigen::AlignedBox3d box;
-  for (const Points& x : shown)
-    if (x.allFinite())
-      for (Eigen::Index i = 0; i < x.cols(); ++i) box.extend(Vec3(x.col(i)));
+  if (!scene.model.find<Planes>()) return box;
+  for (const MethodResult* a : answers)
+    if (a->outcome.verdict == Verdict::ok)
+      for (const Points& x : a->trajectory.x)
+        box.extend(Vec3(x.rowwise().minCoeff())), box.extend(Vec3(x.rowwise().maxCoeff()));
+  return box;
+}
+
+/// Square pieces of the scene's slopes at t (s) under a box.
+std::vector<render::Body> slopes_of(const Scene& scene, double t, const Eigen::AlignedBox3d& box) {
+  std::vector<render::Body> patches;
   if (box.isEmpty()) return patches;
   const double half = box.diagonal().norm() > 0 ? 0.7 * box.diagonal().norm() : 0.5;
-  for (const Plane& plane : planes->list) {
+  for (const Plane& plane : scene.model.find<Planes>()->list) {
     if (!is_slope(plane)) continue;
     const Vec3 n = plane.normal, level = n.cross(Vec3::UnitY()).normalized(), d = box.center() - plane.point_at(t);
     const Vec3 at = box.center() - d.dot(n) * n, u = half * level, v = half * level.cross(n);
@@ -264,10 +269,7 @@ render::Picture panels_of(const Scene& scene, const std::vector<const MethodResu
   const Mode mode = strip || no_stretch ? Mode::shaded : shot.mode;
   const auto base_frames = frames_of(scene, usable[0]->trajectory, shot);
   if (!strip) picture.rows.emplace_back();
-  std::vector<Points> everywhere;  // so that each panel has the same slopes
-  for (const MethodResult* a : usable)
-    if (a->outcome.verdict == Verdict::ok || usable.size() == 1)
-      everywhere.insert(everywhere.end(), a->trajectory.x.begin(), a->trajectory.x.end());
+  const Eigen::AlignedBox3d box = box_over_planes(scene, usable);  // one: each panel has the same slopes
   for (const MethodResult* a : usable) {
     if (strip) picture.rows.emplace_back();
     const std::vector<int> frames = frames_of(scene, a->trajectory, shot);
@@ -279,7 +281,7 @@ render::Picture panels_of(const Scene& scene, const std::vector<const MethodResu
       panel.balls = balls_of(scene, a->trajectory.t[frames[c]]);
       panel.bodies.push_back(body_of(scene, *a, frames[c], mode, &base));
       seen.add(panel, a->outcome.verdict == Verdict::ok);
-      for (render::Body& slope : slopes_of(scene, a->trajectory.t[frames[c]], everywhere))
+      for (render::Body& slope : slopes_of(scene, a->trajectory.t[frames[c]], box))
         panel.bodies.push_back(std::move(slope));
       picture.rows.back().push_back(std::move(panel));
     }
