@@ -44,7 +44,7 @@ constexpr double surface_rounding = 2e-15;  // of the radius and the centre: no 
 constexpr double most_work = 1e7;           // accelerations of a particle, from sample to sample: a second or two
 constexpr int most_events_in_interval = 10000;
 
-/// A solid now and where the present step began.
+/// A solid now and where the present step began; a "ball" here, be it a sphere or a plane.
 struct Ball : Solid {
   Vec3 centre_before = start, velocity_before = velocity;
 };
