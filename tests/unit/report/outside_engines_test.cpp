@@ -109,15 +109,23 @@ TEST_F(OutsideEngines, JoltNamesThePackageThatItsToolsAreMissingFrom) {
   }
 }
 
-TEST_F(OutsideEngines, JoltsVersionIsOneAndHasAChecksum) {
-  const fs::path folder = fs::path(CROSSCHECK_SOURCE) / "reference/jolt";
-  const JsonField lock = JsonField::parse(read(folder / "package-lock.json"), "package-lock.json");
-  const JsonField package = lock["packages"]["node_modules/jolt-physics"];
-  const std::string version = package["version"].text();
-  EXPECT_EQ(JsonField::parse(read(folder / "package.json"), "package.json")["dependencies"]["jolt-physics"].text(),
-            version);
-  EXPECT_TRUE(contains(read(folder / "jolt_engine.js"), "const jolt_version = '" + version + "';"));
-  EXPECT_TRUE(begins(package["integrity"].text(), "sha512-"));
+TEST_F(OutsideEngines, PackagesOfNpmArePinnedWithAChecksum) {
+  const fs::path engines = fs::path(CROSSCHECK_SOURCE) / "reference/engines";
+  int packages = 0;
+  for (const fs::directory_entry& folder : fs::directory_iterator(engines / "npm")) {
+    const std::string engine = folder.path().filename().string();
+    SCOPED_TRACE(engine);
+    const JsonField wanted = JsonField::parse(read(folder.path() / "package.json"), "package.json")["dependencies"];
+    const JsonField lock = JsonField::parse(read(folder.path() / "package-lock.json"), "package-lock.json")["packages"];
+    for (const auto& [name, version] : wanted.items()) {
+      const JsonField locked = lock["node_modules/" + name];
+      EXPECT_EQ(locked["version"].text(), version.text());
+      EXPECT_TRUE(begins(locked["integrity"].text(), "sha512-"));
+      EXPECT_TRUE(contains(read(engines / (engine + ".mjs")), " " + version.text() + "',")) << "the adapter's version";
+      ++packages;
+    }
+  }
+  EXPECT_EQ(packages, 4);
 }
 
 }  // namespace
