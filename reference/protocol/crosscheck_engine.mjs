@@ -195,7 +195,7 @@ export class Scene {
     let tenths = 11;
     while (tenths < 30 && l.some((e, i) => e && Math.abs((tenths / 10) * e - rest[i]) <= 0.01 * rest[i])) ++tenths;
     const along = (i) => [0, 1, 2].reduce((sum, k) => sum + (k + 1) * this.x[i - (i % 3) + k], 0);  // x + 2 y + 3 z
-    const x = this.x.map((e, i) => (tenths / 10) * e + (this.bending.length && (0.02 * along(i) ** 2) / this.task.size));
+    const x = this.x.map((e, i) => (tenths / 10) * e + (this.bending.length && 0.02 * along(i) ** 2 / this.task.size));
     return { t: 0.3, x, v: this.x.map((e) => 0.5 * e) };
   }
   /// Probe of an engine that takes its forces from the functions above.
