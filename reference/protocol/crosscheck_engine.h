@@ -1,17 +1,21 @@
 // The engine protocol for programs in C++17, without dependencies: reads scene.json, writes trajectory.npy,
 // velocities.npy and run.json. Copy this file; PROTOCOL.md says what everything means. SI units throughout.
+// The shortest way to an adapter is a World and run_program, at the end of this file.
 #pragma once
 
+#include <algorithm>
 #include <array>
+#include <cctype>
 #include <cmath>
-#include <cstdint>
 #include <cstdio>
 #include <cstdlib>
+#include <cstring>
+#include <ctime>
 #include <fstream>
-#include <initializer_list>
 #include <iterator>
 #include <limits>
 #include <map>
+#include <memory>
 #include <optional>
 #include <stdexcept>
 #include <string>
@@ -50,6 +54,15 @@ struct Json {
     if (list.size() != 3) throw std::runtime_error("scene.json: expected three numbers");
     return {list[0].number(), list[1].number(), list[2].number()};
   }
+  std::vector<double> numbers() const {
+    std::vector<double> all;
+    for (const Json& entry : list) all.push_back(entry.number());
+    return all;
+  }
+  std::vector<int> integers() const {
+    const std::vector<double> all = numbers();
+    return {all.begin(), all.end()};
+  }
 };
 
 /// Reads the JSON that crosscheck writes (whole standard but for surrogate pairs in \u, which become '?').
@@ -77,11 +90,10 @@ class JsonReader {
     if (!take(c)) fail(std::string("'") + c + "'");
   }
   bool word(const char* letters) {
-    const std::string w = letters;
-    for (size_t i = 0; i < w.size(); ++i)
-      if (at_[i] != w[i]) return false;
-    at_ += w.size();
-    return true;
+    const size_t n = std::strlen(letters);
+    const bool found = std::strncmp(at_, letters, n) == 0;
+    if (found) at_ += n;
+    return found;
   }
 
   Json value() {
@@ -137,10 +149,8 @@ class JsonReader {
       } else if (*at_ == 'u') {
         unsigned code = 0;
         for (int digit = 0; digit < 4; ++digit) {
-          const char hex = *++at_;
-          const bool decimal = hex >= '0' && hex <= '9', letter = (hex | 32) >= 'a' && (hex | 32) <= 'f';
-          if (!decimal && !letter) fail("four hexadecimal digits");
-          code = 16 * code + static_cast<unsigned>(decimal ? hex - '0' : (hex | 32) - 'a' + 10);
+          if (!std::isxdigit(static_cast<unsigned char>(*++at_))) fail("four hexadecimal digits");
+          code = 16 * code + static_cast<unsigned>(*at_ <= '9' ? *at_ - '0' : (*at_ | 32) - 'a' + 10);
         }
         if (code < 0x80) {
           out += static_cast<char>(code);
@@ -162,18 +172,29 @@ class JsonReader {
   const char *at_, *begin_;
 };
 
+/// Exit status 3 with one line: the engine lacks something.
+[[noreturn]] inline void unsupported(const std::string& why) {
+  std::fprintf(stderr, "%s\n", why.c_str());
+  std::exit(3);
+}
+
+/// Displacement d(t) = amplitude r(t / ramp) sin(2 pi frequency t), where r smoothly rises from 0 to 1.
 struct Motion {
   Vec amplitude;           // m
   double frequency, ramp;  // Hz, s
 
   Vec displacement(double t) const { return at(t)[0] * amplitude; }  // m
   Vec velocity(double t) const { return at(t)[1] * amplitude; }      // m/s
+  Vec acceleration(double t) const { return at(t)[2] * amplitude; }  // m/s^2
 
  private:
-  std::array<double, 2> at(double t) const {
+  /// Value and two time derivatives of r(t / ramp) sin(2 pi frequency t).
+  std::array<double, 3> at(double t) const {
     const double omega = 2 * 3.14159265358979323846 * frequency, s = t < ramp ? t / ramp : 1;
     const double r = s * s * s * (10 + s * (6 * s - 15)), slope = t < ramp ? 30 * s * s * (1 - s) * (1 - s) / ramp : 0;
-    return {r * std::sin(omega * t), slope * std::sin(omega * t) + r * omega * std::cos(omega * t)};
+    const double curvature = t < ramp ? 60 * s * (1 - s) * (1 - 2 * s) / (ramp * ramp) : 0;
+    const double sine = std::sin(omega * t), cosine = omega * std::cos(omega * t);
+    return {r * sine, slope * sine + r * cosine, (curvature - r * omega * omega) * sine + 2 * slope * cosine};
   }
 };
 
@@ -181,15 +202,72 @@ inline Motion motion_of(const Json& json) {
   return {json["amplitude"].vec(), json["frequency"].number(), json["ramp"].number()};
 }
 
+/// w(t) = mean (1 + variation g1(t)) + side g2(t), where g1 and g2 are sums of the waves `along` and `across`.
+struct Wind {
+  struct Wave {
+    double weight, omega, phase;  // 1, rad/s, rad
+  };
+  Vec mean{}, side{};    // m/s^2
+  double variation = 0;  // 1
+  std::vector<Wave> along, across;
+
+  Vec at(double t) const {
+    const auto sum = [t](const std::vector<Wave>& waves) {
+      double value = 0;
+      for (const Wave& w : waves) value += w.weight * std::sin(w.omega * t + w.phase);
+      return value;
+    };
+    return along.empty() ? mean : (1 + variation * sum(along)) * mean + sum(across) * side;
+  }
+};
+
+inline Wind wind_of(const Json& json) {
+  Wind wind;
+  wind.mean = json["acceleration"].vec();
+  if (!json.has("gusts")) return wind;
+  const Json& gusts = json["gusts"];
+  wind.side = gusts["side"].vec(), wind.variation = gusts["variation"].number();
+  for (auto [key, waves] : {std::pair("along", &wind.along), std::pair("across", &wind.across)})
+    for (const Json& w : gusts[key].list)
+      waves->push_back({w["weight"].number(), w["omega"].number(), w["phase"].number()});
+  return wind;
+}
+
 struct Spring {
   int a, b;                       // ends
   double stiffness, rest_length;  // N/m, m
+};
+
+/// Damping along the line between two particles.
+struct Dashpot {
+  int a, b;            // ends
+  double coefficient;  // N s/m
+};
+
+/// Bending energy k/2 |c|^2 with c = sum of weight times position; the weights add up to zero.
+struct Stencil {
+  std::vector<int> particles;
+  std::vector<double> weights;  // 1
+  double stiffness;             // N/m
+};
+
+/// A solid ball: particles stay at radius + margin from its centre.
+struct Sphere {
+  Vec centre;                                    // m, at t = 0
+  double radius, margin, friction, restitution;  // m, m, mu, e
+  std::optional<Motion> motion = {};
+
+  Vec centre_at(double t) const { return motion ? centre + motion->displacement(t) : centre; }
+  double contact_radius() const { return radius + margin; }
 };
 
 /// A solid half-space: particles stay at `margin` from the face through point + t velocity.
 struct Plane {
   Vec point, normal, velocity;           // m, at t = 0; unit vector out of the solid; m/s
   double margin, friction, restitution;  // m, mu, e
+
+  /// A point of the face that particles touch, m.
+  Vec contact_point_at(double t) const { return point + margin * normal + t * velocity; }
 };
 
 /// The parts that most engines need; everything else is in `json`, by the keys of PROTOCOL.md.
@@ -208,11 +286,20 @@ struct Scene {
   std::string spring_law = "hooke";
   std::vector<Spring> springs;
   std::vector<Spring> constraints;  // hard distances, their lengths as rest lengths, their stiffness infinite
+  std::vector<Dashpot> dashpots;
+  std::vector<Stencil> bending;
+  std::vector<Sphere> spheres;
   std::vector<Plane> planes;
   Vec gravity{};             // m/s^2
+  std::optional<Wind> wind;  // acceleration of all particles
   std::vector<double> drag;  // N s/m, for each particle; zeros where the scene has none
   std::vector<std::string> options;
 
+  /// Acceleration by the wind, m/s^2; zero without wind.
+  Vec wind_at(double t) const { return wind ? wind->at(t) : Vec{}; }
+  Vec pin_at(size_t pin, double t) const {  // m, of the pin with this index in `pins`
+    return pins_move ? pin_home[pin] + pin_motion.displacement(t) : pin_home[pin];
+  }
   /// The scene's term of that type, or null.
   const Json* term(const std::string& type) const {
     for (const Json& t : json["terms"].list)
@@ -220,29 +307,19 @@ struct Scene {
     return nullptr;
   }
   /// Ends the program with "unsupported" when the scene has a term that is not in the list.
-  void require_only(std::initializer_list<const char*> known) const;
+  void require_only(std::initializer_list<const char*> known) const {
+    for (const Json& t : json["terms"].list)
+      if (std::find(known.begin(), known.end(), t["type"].text) == known.end())
+        unsupported("this engine has no " + t["type"].text);
+  }
   /// Writes places and speeds of the pins at time t (s).
   void place_pins(double t, std::vector<Vec>& at, std::vector<Vec>& speed) const {
     for (size_t i = 0; i < pins.size(); ++i) {
-      at[pins[i]] = pins_move ? pin_home[i] + pin_motion.displacement(t) : pin_home[i];
+      at[pins[i]] = pin_at(i, t);
       speed[pins[i]] = pins_move ? pin_motion.velocity(t) : Vec{};
     }
   }
 };
-
-/// Exit status 3 with one line: the engine lacks something.
-[[noreturn]] inline void unsupported(const std::string& why) {
-  std::fprintf(stderr, "%s\n", why.c_str());
-  std::exit(3);
-}
-
-inline void Scene::require_only(std::initializer_list<const char*> known) const {
-  for (const Json& t : json["terms"].list) {
-    bool found = false;
-    for (const char* type : known) found |= t["type"].text == type;
-    if (!found) unsupported("this engine has no " + t["type"].text);
-  }
-}
 
 inline std::vector<Vec> vecs_of(const Json& json) {
   std::vector<Vec> list;
@@ -267,12 +344,12 @@ inline Scene read_scene(const std::string& file) {
   s.pinned.assign(s.x.size(), 0);
   s.drag.assign(s.x.size(), 0);
   if (particles.has("mass")) {
-    for (const Json& m : particles["mass"].list) s.mass.push_back(m.number());
+    s.mass = particles["mass"].numbers();
     s.v = vecs_of(particles["v"]);
   }
   if (s.json.has("pins")) {
     const Json& pins = s.json["pins"];
-    for (const Json& pin : pins["particles"].list) s.pins.push_back(pin.integer());
+    s.pins = pins["particles"].integers();
     s.pin_home = vecs_of(pins["home"]);
     for (int pin : s.pins) s.pinned[pin] = 1;
     if ((s.pins_move = pins.has("motion"))) s.pin_motion = motion_of(pins["motion"]);
@@ -286,16 +363,113 @@ inline Scene read_scene(const std::string& file) {
     for (const Json& p : (*constraints)["list"].list)
       s.constraints.push_back(
           {p["a"].integer(), p["b"].integer(), std::numeric_limits<double>::infinity(), p["length"].number()});
+  if (const Json* dashpots = s.term("dashpots"))
+    for (const Json& p : (*dashpots)["list"].list)
+      s.dashpots.push_back({p["a"].integer(), p["b"].integer(), p["coefficient"].number()});
+  if (const Json* bending = s.term("bending"))
+    for (const Json& p : (*bending)["list"].list)
+      s.bending.push_back({p["particles"].integers(), p["weights"].numbers(), p["stiffness"].number()});
+  if (const Json* wind = s.term("wind")) s.wind = wind_of(*wind);
+  if (const Json* spheres = s.term("sphere"))
+    for (const Json& p : (*spheres)["list"].list)
+      s.spheres.push_back({p["centre"].vec(), p["radius"].number(), p["margin"].number(), p["friction"].number(),
+                           p["restitution"].number(),
+                           p.has("motion") ? std::optional(motion_of(p["motion"])) : std::nullopt});
   if (const Json* planes = s.term("plane"))
     for (const Json& p : (*planes)["list"].list)
       s.planes.push_back({p["point"].vec(), p["normal"].vec(), p.has("velocity") ? p["velocity"].vec() : Vec{},
                           p["margin"].number(), p["friction"].number(), p["restitution"].number()});
   if (const Json* gravity = s.term("gravity")) s.gravity = (*gravity)["acceleration"].vec();
-  if (const Json* drag = s.term("drag"))
-    for (size_t i = 0; i < s.x.size(); ++i) s.drag[i] = (*drag)["coefficient"].list.at(i).number();
+  if (const Json* drag = s.term("drag")) s.drag = (*drag)["coefficient"].numbers();
   for (const Json& option : s.json["options"].list) s.options.push_back(option.text);
   return s;
 }
+
+// Forces by the laws of PROTOCOL.md, for engines that take forces from outside. All add to f (N).
+
+/// Springs. Returns how many have coincident ends, which get no force.
+inline long add_springs(const Scene& scene, const std::vector<Vec>& x, std::vector<Vec>& f) {
+  long coincident = 0;
+  const bool hooke = scene.spring_law == "hooke";
+  for (const Spring& s : scene.springs) {
+    const Vec d = x[s.a] - x[s.b];
+    const double l = length(d), r = s.rest_length;
+    coincident += l == 0;
+    if (l == 0) continue;
+    const Vec pull = s.stiffness * (hooke ? (l - r) / l : (l * l - r * r) / (l * l + r * r)) * d;
+    f[s.a] = f[s.a] - pull;
+    f[s.b] = f[s.b] + pull;
+  }
+  return coincident;
+}
+
+inline void add_dashpots(const Scene& scene, const std::vector<Vec>& x, const std::vector<Vec>& v,
+                         std::vector<Vec>& f) {
+  for (const Dashpot& p : scene.dashpots) {
+    const Vec d = x[p.a] - x[p.b];
+    const double squared = dot(d, d);
+    if (squared == 0) continue;
+    const Vec pull = (p.coefficient * dot(v[p.a] - v[p.b], d) / squared) * d;
+    f[p.a] = f[p.a] - pull;
+    f[p.b] = f[p.b] + pull;
+  }
+}
+
+inline void add_bending(const Scene& scene, const std::vector<Vec>& x, std::vector<Vec>& f) {
+  for (const Stencil& s : scene.bending) {
+    Vec c{};
+    for (size_t i = 0; i < s.particles.size(); ++i) c = c + s.weights[i] * x[s.particles[i]];
+    for (size_t i = 0; i < s.particles.size(); ++i)
+      f[s.particles[i]] = f[s.particles[i]] - (s.stiffness * s.weights[i]) * c;
+  }
+}
+
+inline void add_wind(const Scene& scene, double t, std::vector<Vec>& f) {
+  const Vec w = scene.wind_at(t);
+  for (size_t i = 0; i < f.size(); ++i) f[i] = f[i] + scene.mass[i] * w;
+}
+
+/// Options of the method's name, such as "n=4" and "springs=tendon". Each get() declares one.
+class Options {
+ public:
+  explicit Options(const Scene& scene) : asked_(scene.options) {}
+  /// A whole number from 1 to a million.
+  int get(const std::string& name, int otherwise) {
+    const std::string text = value(name, name + "=" + std::to_string(otherwise), std::to_string(otherwise));
+    const bool digits = text.size() < 8 && text.find_first_not_of("0123456789") == std::string::npos;
+    const int number = digits ? std::atoi(text.c_str()) : 0;
+    if (number < 1 || number > 1000000)
+      unsupported("option " + name + "=" + text + ": expected a whole number from 1 to 1000000");
+    return number;
+  }
+  /// One of the values; the first is the default.
+  std::string get(const std::string& name, std::initializer_list<const char*> values) {
+    std::string list;
+    for (const char* v : values) list += (list.empty() ? "" : "|") + std::string(v);
+    const std::string text = value(name, name + "=" + list, *values.begin());
+    for (const char* v : values)
+      if (text == v) return text;
+    unsupported("option " + name + "=" + text + ": expected " + name + "=" + list);
+  }
+  /// Refuses options that no get() declared.
+  void refuse_others() const {
+    for (const std::string& option : asked_)
+      unsupported("unknown option " + option + ": expected " + (expected_.empty() ? "none" : expected_));
+  }
+
+ private:
+  std::string value(const std::string& name, const std::string& shown, std::string text) {
+    expected_ += (expected_.empty() ? "" : ", ") + shown;
+    for (size_t i = 0; i < asked_.size(); ++i)
+      if (asked_[i].compare(0, name.size() + 1, name + "=") == 0) {
+        text = asked_[i].substr(name.size() + 1);
+        asked_.erase(asked_.begin() + static_cast<std::ptrdiff_t>(i--));
+      }
+    return text;
+  }
+  std::vector<std::string> asked_;
+  std::string expected_;
+};
 
 /// Frames x particles x 3, float64, as numpy.load reads them. For little-endian machines.
 inline void write_npy(const std::string& file, const std::vector<std::vector<Vec>>& frames) {
@@ -375,26 +549,39 @@ struct RunReport {
   double end = unknown;                   // s, when it failed
   std::vector<std::string> different_law = {};  // "ingredient: how its law differs"
   std::optional<Readback> readback = {};
+  std::string engine = {};  // name and version: "MuJoCo 2.2.2"
+  bool adaptive = false;    // the engine chooses its steps
 };
 
-/// A state that shows a spring's law: the start, all of it stretched by a tenth or more about the origin until no
-/// spring is within a hundredth of its rest length, and growing, so that dashpots pull too.
+/// A state that shows the laws: the start, stretched about the origin by a tenth or more until no spring is within a
+/// hundredth of its rest length, growing, so that dashpots pull too, and bent where the scene has bending.
 inline Probe probe_state(const Scene& scene) {
-  Probe probe;
+  const double bend = scene.bending.empty() ? 0 : 0.1 / scene.json["size"].number();  // 1/m
   for (int tenths = 11;; ++tenths) {
-    const double factor = tenths / 10.;
-    bool shows = true;
-    for (const Spring& s : scene.springs) {
-      const double l = factor * length(scene.x[s.a] - scene.x[s.b]);
-      shows &= l == 0 || std::abs(l - s.rest_length) > 0.01 * s.rest_length;
-    }
-    if (!shows && tenths < 30) continue;  // hopeless beyond: some springs stay unattested
+    Probe probe;
     for (const Vec& x : scene.x) {
-      probe.x.push_back(factor * x);
+      const double s = x[0] + 0.7 * x[1] + 0.4 * x[2];
+      probe.x.push_back(tenths / 10. * x + Vec{0, 0, bend * s * s});
       probe.v.push_back(0.5 * x);  // 0.5 /s
     }
-    return probe;
+    const bool shows = std::all_of(scene.springs.begin(), scene.springs.end(), [&](const Spring& s) {
+      const double l = length(probe.x[s.a] - probe.x[s.b]);
+      return l == 0 || std::abs(l - s.rest_length) > 0.01 * s.rest_length;
+    });
+    if (shows || tenths == 30) return probe;  // hopeless beyond: some springs stay unattested
   }
+}
+
+/// The probe of an engine whose springs, dashpots, bending and wind are the functions above.
+inline Probe probe_of_forces(const Scene& scene) {
+  Probe p = probe_state(scene);
+  p.t = 0.3;  // s; gusts blow by then
+  p.springs = p.dashpots = p.bending = p.wind = std::vector<Vec>(scene.x.size(), Vec{});
+  add_springs(scene, p.x, p.springs);
+  add_dashpots(scene, p.x, p.v, p.dashpots);
+  add_bending(scene, p.x, p.bending);
+  add_wind(scene, p.t, p.wind);
+  return p;
 }
 
 /// Writes JSON: numbers with all their digits, lists, objects without the keys that have no value.
@@ -407,7 +594,6 @@ class JsonWriter {
   }
   static std::string of(long value) { return std::to_string(value); }
   static std::string of(int value) { return std::to_string(value); }
-  static std::string of(char value) { return std::to_string(int(value)); }
   static std::string of(bool value) { return value ? "true" : "false"; }
   static std::string of(const Vec& v) { return '[' + of(v[0]) + ", " + of(v[1]) + ", " + of(v[2]) + ']'; }
   static std::string of(const std::string& text) {
@@ -421,54 +607,36 @@ class JsonWriter {
     return out + '"';
   }
   static std::string of(const Spring& s) {
-    JsonWriter w;
-    w.add("a", s.a), w.add("b", s.b), w.add("rest_length", s.rest_length), w.add("stiffness", s.stiffness);
-    return w.object();
+    return JsonWriter()("a", s.a)("b", s.b)("rest_length", s.rest_length)("stiffness", s.stiffness).object();
   }
   static std::string of(const Ball& s) {
     JsonWriter w;
-    w.add("centre", s.centre), w.add("radius", s.radius), w.add("friction", s.friction);
-    w.add("restitution", s.restitution);
-    return w.object();
+    return w("centre", s.centre)("radius", s.radius)("friction", s.friction)("restitution", s.restitution).object();
   }
   static std::string of(const Face& f) {
     JsonWriter w;
-    w.add("point", f.point), w.add("normal", f.normal), w.add("friction", f.friction);
-    w.add("restitution", f.restitution);
-    return w.object();
+    return w("point", f.point)("normal", f.normal)("friction", f.friction)("restitution", f.restitution).object();
   }
   static std::string of(const Places& p) {
-    JsonWriter w;
-    w.add("t", p.t), w.add("pins", p.pins), w.add("centres", p.centres), w.add_unless_empty("points", p.points);
-    return w.object();
+    return JsonWriter()("t", p.t)("pins", p.pins)("centres", p.centres).unless_empty("points", p.points).object();
   }
   static std::string of(const Probe& p) {
     JsonWriter w;
-    w.add("t", p.t), w.add("x", p.x), w.add("v", p.v);
-    w.add_unless_empty("springs", p.springs), w.add_unless_empty("dashpots", p.dashpots);
-    w.add_unless_empty("bending", p.bending);
-    w.add_unless_empty("wind", p.wind);
-    return w.object();
+    w("t", p.t)("x", p.x)("v", p.v).unless_empty("springs", p.springs).unless_empty("dashpots", p.dashpots);
+    return w.unless_empty("bending", p.bending).unless_empty("wind", p.wind).object();
   }
   static std::string of(const std::map<std::string, std::string>& texts) {
     JsonWriter w;
-    for (const auto& text : texts) w.add(text.first, text.second);
+    for (const auto& text : texts) w(text.first, text.second);
     return w.object();
   }
   static std::string of(const Readback& r) {
     JsonWriter w;
-    w.add("precision", r.precision), w.add("mass", r.mass), w.add("pinned", r.pinned), w.add("links", r.links);
-    w.add("gravity", r.gravity), w.add("drag", r.drag), w.add("spheres", r.spheres), w.add("margin", r.margin);
-    w.add("planes", r.planes);
-    w.add("may_sleep", r.may_sleep), w.add("step", r.step);
-    if (!r.start_x.empty()) {
-      JsonWriter start;
-      start.add("x", r.start_x), start.add("v", r.start_v);
-      w.add_raw("start", start.object());
-    }
-    w.add("later", r.later), w.add("probe", r.probe);
-    w.add_unless_empty("mapped", r.mapped), w.add_unless_empty("settings", r.settings);
-    return w.object();
+    w("precision", r.precision)("mass", r.mass)("pinned", r.pinned)("links", r.links)("gravity", r.gravity);
+    w("drag", r.drag)("spheres", r.spheres)("margin", r.margin)("planes", r.planes)("may_sleep", r.may_sleep);
+    w("step", r.step)("later", r.later)("probe", r.probe);
+    if (!r.start_x.empty()) w.add_raw("start", JsonWriter()("x", r.start_x)("v", r.start_v).object());
+    return w.unless_empty("mapped", r.mapped).unless_empty("settings", r.settings).object();
   }
   template <class T>
   static std::string of(const std::vector<T>& list) {
@@ -477,46 +645,116 @@ class JsonWriter {
     return out + ']';
   }
 
-  void add(const std::string& key, double value) {
-    if (std::isfinite(value)) add_raw(key, of(value));
+  JsonWriter& operator()(const std::string& key, double value) {
+    return std::isfinite(value) ? add_raw(key, of(value)) : *this;
   }
   template <class T>
-  void add(const std::string& key, const std::optional<T>& value) {
-    if (value) add_raw(key, of(*value));
+  JsonWriter& operator()(const std::string& key, const std::optional<T>& value) {
+    return value ? add_raw(key, of(*value)) : *this;
   }
   template <class T>
-  void add(const std::string& key, const T& value) {
-    add_raw(key, of(value));
+  JsonWriter& operator()(const std::string& key, const T& value) {
+    return add_raw(key, of(value));
   }
   template <class T>
-  void add_unless_empty(const std::string& key, const T& value) {
-    if (!value.empty()) add_raw(key, of(value));
+  JsonWriter& unless_empty(const std::string& key, const T& value) {
+    return value.empty() ? *this : add_raw(key, of(value));
   }
-  void add_count(const std::string& key, long count) {
-    if (count >= 0) add_raw(key, of(count));
-  }
+  JsonWriter& count(const std::string& key, long number) { return number < 0 ? *this : add_raw(key, of(number)); }
   std::string object() const { return '{' + members_ + '}'; }
 
  private:
-  void add_raw(const std::string& key, const std::string& value) {
+  JsonWriter& add_raw(const std::string& key, const std::string& value) {
     members_ += (members_.empty() ? "" : ",\n ") + of(key) + ": " + value;
+    return *this;
   }
   std::string members_;
 };
 
 inline void write_run_json(const std::string& file, const RunReport& run) {
   JsonWriter w;
-  w.add("cpu_seconds", run.cpu_seconds);
-  w.add_count("steps", run.steps), w.add_count("force_evaluations", run.force_evaluations);
-  w.add_count("coincident_springs", run.coincident_springs);
-  w.add("step", run.step), w.add("end", run.end);
-  w.add_unless_empty("verdict", run.verdict), w.add_unless_empty("reason", run.reason);
-  w.add_unless_empty("different_law", run.different_law);
-  w.add("readback", run.readback);
+  w.unless_empty("engine", run.engine)("cpu_seconds", run.cpu_seconds).count("steps", run.steps);
+  w.count("force_evaluations", run.force_evaluations).count("coincident_springs", run.coincident_springs);
+  w("step", run.step)("end", run.end).unless_empty("verdict", run.verdict).unless_empty("reason", run.reason);
+  if (run.adaptive) w("adaptive", true);
+  w.unless_empty("different_law", run.different_law)("readback", run.readback);
   std::ofstream out(file);
   out << w.object() << '\n';
   out.close();
   if (!out) throw std::runtime_error(file + ": cannot be written");
+}
+
+/// An engine with one scene inside. Construction may refuse the scene (`unsupported`, Scene::require_only, Options).
+struct World {
+  virtual ~World() = default;
+  /// Advances from t to t + scene.step (s), pins and other prescribed motions included. What it throws ends the run.
+  virtual void step(double t) = 0;
+  /// Copies all positions (m) and velocities (m/s), in the scene's order; both vectors have their size already.
+  virtual void read(std::vector<Vec>& x, std::vector<Vec>& v) = 0;
+  /// Completes the report: `engine`, counts, what differs, and the read-back from the engine's own data, at least
+  /// `mass`, `pinned` and `links`. Filled in already: times, steps, `start` and the pins of `later` as read() returned
+  /// them.
+  virtual void report(RunReport& report) = 0;
+};
+
+/// Steps the world through the scene's samples; stops where a state is not finite or step() throws. Times step() alone.
+inline RunReport run_world(const Scene& scene, World& world, std::vector<std::vector<Vec>>& frames,
+                           std::vector<std::vector<Vec>>& speeds) {
+  std::vector<Vec> x(scene.x.size()), v(scene.x.size());
+  const auto sample = [&] {
+    world.read(x, v);
+    frames.push_back(x), speeds.push_back(v);
+    bool finite = true;
+    for (size_t i = 0; i < x.size(); ++i) finite &= std::isfinite(dot(x[i], x[i]) + dot(v[i], v[i]));
+    return finite;
+  };
+  sample();
+  RunReport report;
+  Readback& r = report.readback.emplace();
+  r.start_x = x, r.start_v = v, r.step = scene.step;
+  std::clock_t cpu = 0;
+  report.steps = 0;
+  while (report.verdict.empty() && frames.size() <= static_cast<size_t>(scene.samples)) {
+    const std::clock_t begin = std::clock();
+    try {
+      for (int i = 0; i < scene.steps_per_sample; ++i, ++report.steps)
+        world.step(static_cast<double>(report.steps) * scene.step);
+    } catch (const std::exception& error) {
+      report.verdict = "solver", report.reason = error.what();
+    }
+    cpu += std::clock() - begin;
+    report.end = static_cast<double>(report.steps) * scene.step;
+    if (report.verdict.empty() && !sample()) report.verdict = "nan", report.reason = "a state is not finite";
+  }
+  report.cpu_seconds = static_cast<double>(cpu) / CLOCKS_PER_SEC;
+  if (report.verdict.empty()) {
+    const int some = (382 * scene.samples + 999) / 1000;  // a sample inside the run, where pins are rarely at home
+    r.later = Places{some * scene.steps_per_sample * scene.step, {}, {}};
+    for (const int pin : scene.pins) r.later->pins.push_back(frames[static_cast<size_t>(some)][pin]);
+    report.end = unknown;
+  }
+  world.report(report);
+  if (report.readback && report.readback->mass.empty()) report.readback.reset();
+  if (report.readback && !report.adaptive && !std::isfinite(report.step)) report.step = report.readback->step;
+  return report;
+}
+
+/// The main function of an adapter: reads the task, runs the world that `make` builds, writes the three files. Exits
+/// with status 3 where the scene is refused, with 1 after any other error.
+inline int run_program(int argc, char** argv, std::unique_ptr<World> (*make)(const Scene&)) {
+  try {
+    if (argc != 3) throw std::runtime_error(std::string("usage: ") + argv[0] + " scene.json OUTDIR");
+    const Scene scene = read_scene(argv[1]);
+    const std::unique_ptr<World> world = make(scene);
+    std::vector<std::vector<Vec>> frames, speeds;
+    const RunReport report = run_world(scene, *world, frames, speeds);
+    write_npy(std::string(argv[2]) + "/trajectory.npy", frames);
+    write_npy(std::string(argv[2]) + "/velocities.npy", speeds);
+    write_run_json(std::string(argv[2]) + "/run.json", report);
+  } catch (const std::exception& error) {
+    return std::fprintf(stderr, "%s\n", error.what()), 1;
+  }
+  return 0;
 }
 
 }  // namespace crosscheck_engine
