@@ -445,7 +445,7 @@ class Options {
   /// One of the values; the first is the default.
   std::string get(const std::string& name, std::initializer_list<const char*> values) {
     std::string list;
-    for (const char* v : values) list += (list.empty() ? "" : "|") + std::string(v);
+    for (const char* v : values) list += std::string(list.empty() ? "" : "|") + v;
     const std::string text = value(name, name + "=" + list, *values.begin());
     for (const char* v : values)
       if (text == v) return text;
@@ -572,17 +572,17 @@ inline Probe probe_state(const Scene& scene) {
   }
 }
 
-/// The probe of an engine whose springs, dashpots, bending and wind are the functions above.
-inline Probe probe_of_forces(const Scene& scene) {
-  Probe p = probe_state(scene);
+/// The probe, at the state in `p`, of an engine whose springs, dashpots, bending and wind are the functions above.
+inline Probe probe_of_forces(const Scene& scene, Probe p) {
   p.t = 0.3;  // s; gusts blow by then
-  p.springs = p.dashpots = p.bending = p.wind = std::vector<Vec>(scene.x.size(), Vec{});
+  p.springs = p.dashpots = p.bending = p.wind = std::vector<Vec>(p.x.size(), Vec{});
   add_springs(scene, p.x, p.springs);
   add_dashpots(scene, p.x, p.v, p.dashpots);
   add_bending(scene, p.x, p.bending);
   add_wind(scene, p.t, p.wind);
   return p;
 }
+inline Probe probe_of_forces(const Scene& scene) { return probe_of_forces(scene, probe_state(scene)); }
 
 /// Writes JSON: numbers with all their digits, lists, objects without the keys that have no value.
 class JsonWriter {
