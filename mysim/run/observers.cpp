@@ -233,10 +233,11 @@ bool DivergenceMonitor::frozen(const State& state) {
   Points a(3, stage.x.cols());
   system.acceleration(stage, a);
   const std::vector<Surface> surfaces = surfaces_of(model_);
-  const auto touches = [&](const Vec3& x) {  // to within a few roundings in single precision
+  // to within a few roundings in single precision; of the way that it would go where all coordinates are near 0
+  const auto touches = [&](const Vec3& x, double way) {
     return std::any_of(surfaces.begin(), surfaces.end(), [&](const Surface& s) {
       const Vec3 origin = s.origin_at(start.t);
-      return s.gap(x - origin) < 1e-6 * s.rounding_scale(origin, x.norm());
+      return s.gap(x - origin) < 1e-6 * (s.rounding_scale(origin, x.norm()) + way);
     });
   };
   // a displacement must exceed the rounding of the coordinates (in single precision where no velocities show what is
@@ -244,8 +245,8 @@ bool DivergenceMonitor::frozen(const State& state) {
   const double t = state.t - start.t, omega = highest_frequency_bound(model_, start),
                seen = start.x.cwiseAbs().maxCoeff() * ((velocities ? 1e-12 : 1e-6) + 1e-15 * omega * omega * t * t);
   for (int i = 0; i < start.x.cols(); ++i)
-    if (!model_.particles.pinned[i] && (start_->v.col(i) * t + a.col(i) * (t * t / 2)).norm() > seen &&
-        !touches(start.x.col(i)))
+    if (const double way = (start_->v.col(i) * t + a.col(i) * (t * t / 2)).norm();
+        !model_.particles.pinned[i] && way > seen && !touches(start.x.col(i), way))
       return true;
   return false;
 }

@@ -319,6 +319,20 @@ TEST(Frozen, IsWhatGetsForcesAndDoesNotMove) {
   }
 }
 
+TEST(Frozen, IsNotWhatAPlaneHoldsAtTheOrigin) {
+  // in 10 ms the particle would fall by 0.49 mm, a millionth of which is rounding
+  for (const double gap : {0., 4e-10, 6e-10}) {
+    const Scene scene = small_scene(
+        fmt::format("[[particle]]\nposition = [0, {}, 0]\nmass = 1\n[plane]\npoint = [0, 0, 0]\nnormal = [0, 1, 0]\n{}",
+                    gap, gravity_text));
+    DivergenceMonitor monitor(scene.model);
+    State state = scene.start;
+    EXPECT_EQ(monitor.observe(state, true), Verdict::ok);
+    state.t = 0.01;
+    EXPECT_EQ(monitor.observe(state, true), gap > 5e-10 ? Verdict::frozen : Verdict::ok) << gap;
+  }
+}
+
 TEST(Frozen, IsNotWhatIsAtRestByItself) {
   const std::string two =
       "[[particle]]\nposition = [0, 0, 0]\nmass = 1\n[[particle]]\nposition = [0.5, 0, 0]\nmass = 1\n";
