@@ -110,7 +110,7 @@ std::vector<Point> engines_points(const Request& request);
 std::vector<Point> stability_points(const Request& request);
 std::vector<Point> stiffness_points(const Request& request);
 std::vector<Point> disagreements_points(const Request& request);
-std::vector<Point> sphere_points(const Request& request);
+std::vector<Point> contact_points(const Request& request);
 std::vector<Point> speed_accuracy_points(const Request& request);
 std::vector<Point> cost_points(const Request& request);
 std::vector<Point> adequacy_points(const Request& request);
@@ -121,6 +121,8 @@ void conclude_adequacy(TableSet& tables);
 void conclude_speed_accuracy(TableSet& tables);
 
 std::span<const Experiment> experiments();
+/// The experiment of a name or of a former name, or null.
+const Experiment* experiment_named(std::string_view name);
 /// Throws InputError that lists what there is.
 const Experiment& find_experiment(const std::string& name);
 

@@ -7,6 +7,7 @@
 #include "experiments/tables/bench.h"
 #include "experiments/tables/certificates.h"
 #include "experiments/tables/check.h"
+#include "experiments/tables/contact.h"
 #include "experiments/tables/cost.h"
 #include "experiments/tables/disagreements.h"
 #include "experiments/tables/energy.h"
@@ -14,23 +15,23 @@
 #include "experiments/tables/fabric.h"
 #include "experiments/tables/order.h"
 #include "experiments/tables/speed_accuracy.h"
-#include "experiments/tables/sphere.h"
 #include "experiments/tables/stability.h"
 #include "experiments/tables/stiffness.h"
 
 namespace crosscheck {
 namespace {
 
-using AllRows = std::tuple<                                                                    //
-    EngineRow, EngineCostRow, EngineTimeRow, EngineEnergyRow, StatisticRow, AttestedRow,       //
-    SceneEnergyRow, SceneLedgerRow, EnergyRow, DampingRow,                                     //
-    ReboundRow, LeavingRow, ContactOrderRow, ConeRow, DrapeRow, PenetrationRow, DrapeTimeRow,  //
-    AdequacyRow, LeastModelRow, GridRow, BendingRow, ScalingRow,                               //
-    OrderRow, OrderSlopeRow,                                                                   //
-    LinkStiffnessRow, NetworkStiffnessRow, EffectiveStiffnessRow, PulledSheetRow,              //
-    CantileverRow, StripVibrationRow, SkipOneRow, HangingStripRow, HangingShapeRow,            //
-    DrapedDiscRow, DrapedParticleRow,                                                          //
-    DisagreementRow, DisagreementCurveRow, ContactAngleRow,                                    //
+using AllRows = std::tuple<                                                               //
+    EngineRow, EngineCostRow, EngineTimeRow, EngineEnergyRow, StatisticRow, AttestedRow,  //
+    SceneEnergyRow, SceneLedgerRow, EnergyRow, DampingRow,                                //
+    ReboundRow, LeavingRow, ContactOrderRow, ConeRow, PlaneConeRow, PlaneProbeRow, DrapeRow, PenetrationRow,
+    DrapeTimeRow,                                                                    //
+    AdequacyRow, LeastModelRow, GridRow, BendingRow, ScalingRow,                     //
+    OrderRow, OrderSlopeRow,                                                         //
+    LinkStiffnessRow, NetworkStiffnessRow, EffectiveStiffnessRow, PulledSheetRow,    //
+    CantileverRow, StripVibrationRow, SkipOneRow, HangingStripRow, HangingShapeRow,  //
+    DrapedDiscRow, DrapedParticleRow,                                                //
+    DisagreementRow, DisagreementCurveRow, ContactAngleRow,                          //
     SpeedAccuracyRow, SpeedAccuracyTimingRow, SpeedAccuracyCostRow, ParetoRow<Cost::evaluations>,
     ParetoRow<Cost::cpu>,                                                    //
     CheapestRow<Cost::evaluations>, CheapestRow<Cost::cpu>, EngineSpeedRow,  //

@@ -65,19 +65,17 @@ int experiment_command(const ExperimentOptions& options) {
   Request request;
   request.full = options.full;
   if (!options.methods.empty()) request.methods = find_methods(options.methods);
-  const auto all = experiments();
   for (const std::string& name : options.names) {
-    const auto found = std::ranges::find(all, name, &Experiment::name);
-    if (found != all.end()) {
-      chosen.push_back(&*found), names.push_back(name);
+    if (const Experiment* found = experiment_named(name)) {
+      chosen.push_back(found), names.emplace_back(found->name);
     } else if (!chosen.empty()) {
       scenes.push_back(name);
     } else {
-      for (const Experiment& experiment : all)
-        if (std::ranges::count(options.names, experiment.name) > 0)
+      for (const std::string& other : options.names)
+        if (const Experiment* experiment = experiment_named(other))
           throw InputError(
               fmt::format("experiment: '{0}' is no experiment; did you mean `crosscheck experiment {1} {0}`?", name,
-                          experiment.name));
+                          experiment->name));
       find_experiment(name);  // throws: the first word must be an experiment
     }
   }

@@ -54,8 +54,8 @@ FigureSelection select_figures(const FiguresOptions& options) {
     if (std::ranges::count(options.names, name) > 1) throw InputError(fmt::format("{}: expected each name once", name));
     std::vector<std::string> known;
     for (const Experiment& e : experiments()) known.emplace_back(e.name);
-    if (const auto at = std::ranges::find(known, name); at != known.end())
-      selection.experiments.push_back(&experiments()[at - known.begin()]);
+    if (const Experiment* found = experiment_named(name))
+      selection.experiments.push_back(found);
     else if (name.ends_with(picture_suffix))
       selection.pictures.push_back(pictured_scene(name, options));
     else

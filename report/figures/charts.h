@@ -126,7 +126,7 @@ std::vector<Chart> balance_charts(const ChartInput& input);     // balance error
 std::vector<Chart> order_charts(const ChartInput& input);       // error against step
 
 std::vector<Chart> energy_charts(const ChartInput& input);        // budget, drift, numerical damping
-std::vector<Chart> sphere_charts(const ChartInput& input);        // contact: friction, rebound, depth, drapes
+std::vector<Chart> probe_charts(const ChartInput& input);         // friction, rebound, depth, drapes
 std::vector<Chart> stiffness_charts(const ChartInput& input);     // of position-based links
 std::vector<Chart> fabric_charts(const ChartInput& input);        // strips against the elastica
 std::vector<Chart> disagreement_charts(const ChartInput& input);  // where Bullet solves another problem

@@ -7,9 +7,9 @@
 #include <set>
 
 #include "experiments/speed_accuracy/work_precision.h"
+#include "experiments/tables/contact.h"
 #include "experiments/tables/energy.h"
 #include "experiments/tables/engines.h"
-#include "experiments/tables/sphere.h"
 #include "experiments/tables/stability.h"
 #include "report/findings/findings_text.h"
 #include "report/findings/summaries.h"
@@ -256,9 +256,10 @@ Findings failure_answer(const Facts& facts) {
   return failed_runs_answer(facts.data);
 }
 
-/// Particles on slopes and the last scene with contact; nothing where no scene has a ball.
+/// Particles on slopes and the last scene with contact; nothing where no scene has a ball or a plane.
 Findings ball_answer(const Facts& facts) {
-  std::vector<ConeCount> counts = cone_counts(facts.rows);
+  std::vector<ConeCount> counts = cone_counts(rows_of<ConeRow>(facts.rows));
+  const std::vector<ConeCount> planes = cone_counts(plane_cones(facts.rows));
   std::erase_if(counts, [](const ConeCount& c) { return !stands_for_its_engine(c.method); });
   if (std::ranges::none_of(facts.scenes, [](const Scene& s) { return has_contact(s.model); })) counts.clear();
   const SceneData* scene = nullptr;
@@ -290,14 +291,21 @@ Findings ball_answer(const Facts& facts) {
   if (counts.size() > 2) std::ranges::stable_sort(counts, {}, &ConeCount::right);
   counts.resize(std::min<size_t>(counts.size(), 2));
   std::vector<std::string> others;
+  const auto on_planes = [&](const std::string& method) {
+    const ConeCount* count = count_of(planes, method);
+    return count ? std::to_string(count->right) : "-";
+  };
   for (const ConeCount& count : counts)
     others.push_back(fmt::format("{} {}{}", name_in_sentence(count.method), count.right,
-                                 count.all == first.all ? "" : fmt::format("/{}", count.all)));
-  return {{.rule = "answer-ball",
+                                 !planes.empty()          ? "/" + on_planes(count.method)
+                                 : count.all == first.all ? ""
+                                                          : fmt::format("/{}", count.all)));
+  return {{.rule = planes.empty() ? "answer-ball" : "answer-ball.planes",
            .method = std::string(subject().name),
            .value = double(first.right),
            .words = {{"cases", std::to_string(first.all)},
                      {"others", fmt::format("{}", fmt::join(others, ", "))},
+                     {"planes", on_planes(first.method)},
                      {"drape", same_rule ? scene->scene : ""},
                      {"apart", same_rule ? nice_length(*other->difference) : ""},
                      {"until", same_rule ? step_text(scene->window) : ""},

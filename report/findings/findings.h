@@ -100,9 +100,10 @@ Findings limit_findings(const Facts&);
 Findings stability_findings(const Facts&);
 // energy.cpp
 Findings energy_findings(const Facts&);
-// sphere.cpp
+// contact.cpp
 Findings contact_findings(const Facts&);
 Findings cone_findings(const Facts&);
+Findings plane_findings(const Facts&);
 Findings leaving_findings(const Facts&);
 Findings drape_findings(const Facts&);
 // adequacy.cpp

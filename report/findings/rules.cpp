@@ -28,7 +28,7 @@ const std::vector<FindingRule>& finding_rules() {
        {"stability", "speed-accuracy"}},
       {"answer-failed", failure_answer, "answer", limits, "failed runs", "1", measured, "runs which", {"engines"}},
       {"answer-ball", ball_answer, "answer", energy, "cases in agreement with Coulomb's law", "1", "exact (Coulomb's law); another engine",
-       "cases others drape apart until final", {"sphere-cone", "engines"}},
+       "cases others planes drape apart until final", {"sphere-cone", "plane-cone", "engines"}},
       {"answer-contact", ball_answer, "answer", energy, apart, "m", other_engine, "where until final", {"engines"}},
       {"answer-energy", energy_answer, "answer", energy, residual, "%", balance, "where damping", {"energy"}, "{}-energy-drift"},
       {"answer-model", model_answer, "answer", model, "spring evaluations saved", "%", converged, "one ten until", {"adequacy-least"}},
@@ -54,7 +54,7 @@ const std::vector<FindingRule>& finding_rules() {
       {"no-stable-step", stability_findings, "failure", limits, "scenes", "1", discrete, "where", {"stability"}, "stability-limits"},
       {"growth", stability_findings, "failure", limits, "deviation of the growth in a step from theory", "%", discrete, "where", {"stability-growth"}},
 
-      // energy and the ball
+      // energy and contact
       {"symplectic-energy", energy_findings, "energy", energy, residual, "%", balance, "steps bounded all", {"energy"}, "*-energy-drift"},
       {"symplectic-drift", energy_findings, "energy", energy, "growth of the energy residual", "1", balance, "where how", {"energy"}, "*-energy-drift"},
       {"energy-failed", energy_findings, "energy", energy, "time of failure", "s", measured, "where how", {"energy"}, "*-energy-drift"},
@@ -63,7 +63,9 @@ const std::vector<FindingRule>& finding_rules() {
        "until taken bar off others", {"engines-energy"}, "{}-energy"},
       {"numerical-damping", energy_findings, "energy", energy, "deviation of the numerical damping from theory", "%", "exact", "rate",
        {"energy-damping"}, "energy-damping"},
-      {"cone", cone_findings, "contact", energy, "cases in agreement with Coulomb's law", "1", coulomb, "cases", {"sphere-cone"}, "sphere-cone"},
+      {"cone", cone_findings, "contact", energy, "cases in agreement with Coulomb's law", "1", coulomb, "cases planes", {"sphere-cone", "plane-cone"}, "sphere-cone"},
+      {"planes", plane_findings, "contact", energy, "error of the third apex on a floor", "%", "exact", "step period refused", {"plane-probes"}},
+      {"planes-rest", plane_findings, "contact", energy, "energy lost at rest over that of a free slide", "%", "exact", "moving share", {"plane-probes"}},
       {"leaving", leaving_findings, "contact", energy, "deviation of the separation angle", "degrees", "exact", "step longest off", {"sphere-leaving"}},
       {"slides-off", drape_findings, "contact", energy, "height of the centre of mass", "m", other_engine, "end", {"sphere-drape"}, "drop-aside-sliding"},
       {"still-touches", drape_findings, "contact", energy, "mean sliding speed", "m/s", other_engine, "end", {"sphere-drape"}, "drop-aside-sliding"},

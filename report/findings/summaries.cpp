@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "experiments/tables/sphere.h"
+#include "experiments/tables/contact.h"
 #include "mysim/base/text.h"
 #include "report/findings/findings_text.h"
 
@@ -45,9 +45,19 @@ std::string ingredients_text(const std::string& left_out, size_t most) {
   return joined(all);
 }
 
-std::vector<ConeCount> cone_counts(const TableSet& rows) {
+std::vector<ConeRow> plane_cones(const TableSet& rows) {
+  const Table* table = rows.table("plane-cone");
+  return table ? rows_of<ConeRow>(*table) : std::vector<ConeRow>();
+}
+
+const ConeCount* count_of(const std::vector<ConeCount>& counts, const std::string& method) {
+  const auto at = std::ranges::find(counts, method, &ConeCount::method);
+  return at == counts.end() ? nullptr : &*at;
+}
+
+std::vector<ConeCount> cone_counts(const std::vector<ConeRow>& rows) {
   std::vector<ConeCount> counts;
-  for (const ConeRow& row : rows_of<ConeRow>(rows)) {
+  for (const ConeRow& row : rows) {
     if (row.verdict != Verdict::ok) continue;
     auto at = std::ranges::find(counts, row.method, &ConeCount::method);
     if (at == counts.end()) at = counts.insert(counts.end(), {row.method});

@@ -1,6 +1,8 @@
 // Summaries of single tables, which findings and figures share.
 #pragma once
 
+#include <algorithm>
+#include <cmath>
 #include <optional>
 #include <string>
 #include <vector>
@@ -8,6 +10,7 @@
 #include "experiments/adequacy/resolution.h"
 #include "experiments/experiment.h"
 #include "experiments/tables/adequacy.h"
+#include "experiments/tables/contact.h"
 #include "experiments/tables/energy.h"
 #include "experiments/tables/stability.h"
 #include "report/findings/report_data.h"
@@ -32,14 +35,23 @@ std::string power_text(const PowerLaw& power);
 /// "bend and shear springs" of "bend springs, shear springs", "nothing", or of more than `most` "4 ingredients".
 std::string ingredients_text(const std::string& left_out, size_t most = 3);
 
-// Particles on slopes, from table `sphere-cone`.
+/// The step of the rows that is nearest to a millisecond, s.
+template <class Row>
+double usual_step(const std::vector<Row>& rows) {
+  return std::ranges::min(rows, {}, [](const Row& row) { return std::abs(row.step - 1e-3); }).step;
+}
+
+// Particles on slopes, from tables `sphere-cone` and `plane-cone`.
 
 /// Of a method's cases, how many end as Coulomb's law says; runs that failed are left out.
 struct ConeCount {
   std::string method;
   long right = 0, all = 0;
 };
-std::vector<ConeCount> cone_counts(const TableSet& rows);
+std::vector<ConeCount> cone_counts(const std::vector<ConeRow>& rows);
+std::vector<ConeRow> plane_cones(const TableSet& rows);
+/// The count of one method, or null.
+const ConeCount* count_of(const std::vector<ConeCount>& counts, const std::string& method);
 
 // Measured stability limits against theory, from table `stability`.
 

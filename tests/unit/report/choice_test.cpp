@@ -4,10 +4,10 @@
 #include "experiments/scenes/scenes.h"
 #include "experiments/speed_accuracy/speed_accuracy.h"
 #include "experiments/tables/adequacy.h"
+#include "experiments/tables/contact.h"
 #include "experiments/tables/energy.h"
 #include "experiments/tables/engines.h"
 #include "experiments/tables/speed_accuracy.h"
-#include "experiments/tables/sphere.h"
 #include "experiments/tables/stability.h"
 #include "report/figures/charts.h"
 #include "report/findings/answers.h"
@@ -424,6 +424,21 @@ TEST_F(Answers, AreOneToEachQuestion) {
   EXPECT_EQ(answers_of_chapter("energy", all), sentence_of(all[3]) + " " + sentence_of(all[4]));
 }
 
+TEST_F(Answers, OnContactCountTheCasesOnPlanesBesideThoseOnBalls) {
+  TableSet all = full();
+  Table planes = table_of<PlaneConeRow>();
+  for (const auto& [method, right] : {std::pair{std::string(ours), 72}, {std::string("bullet/pbd"), 31}})
+    for (int i = 0; i < 72; ++i)
+      add(planes, ConeRow{.method = method, .state = i < right ? ContactState::sticks : ContactState::neither});
+  all.add(planes);
+  const Finding ball = answers(all).at(3);
+  expect_short({ball});
+  EXPECT_EQ(ball.rule, "answer-ball.planes");
+  EXPECT_EQ(ball.value, 72);
+  EXPECT_TRUE(says(sentence_of(ball), {"of 72 on balls/planes: mysim 72/72", "explicit 36/-", "pbd 36/31", "then 2.8"}))
+      << sentence_of(ball);
+}
+
 TEST_F(Answers, OfABallAreLeftToScenesThatHaveOne) {
   const std::vector<Scene> scenes = load_scenes({"cloth-hang"});
   facts_.erase(facts_.begin()), facts_.pop_back();
@@ -609,6 +624,38 @@ TEST(SphereFindings, LeavingAnglesByEngineAndWhoGetsWorse) {
   EXPECT_TRUE(says(sentence_of(all[1]), {"pbd", "-1.6 degrees", "100 µs", "-0.2 degrees", "1 ms"}));
   t.rows.clear();
   EXPECT_TRUE(leaving_findings(only(t)).empty());
+}
+
+TEST(PlaneFindings, ReadTheRepresentativeAtAMillisecondAndWhatIsNotAtRest) {
+  Table t = table_of<PlaneProbeRow>();
+  const auto row = [&](PlaneProbe probe, const std::string& method, double step, std::optional<double> value,
+                       double theory) {
+    add(t, PlaneProbeRow{.probe = probe,
+                         .method = method,
+                         .verdict = value ? Verdict::ok : Verdict::unsupported,
+                         .step = step,
+                         .measured = value,
+                         .by_theory = theory});
+  };
+  for (const double step : {1e-3, 1e-4}) {
+    row(PlaneProbe::apex, ours, step, 0.25 + 10 * step, 0.25);
+    row(PlaneProbe::apex, "bullet/pbd", step, {}, 0.25);
+    row(PlaneProbe::period, ours, step, 1 + 3 * step, 1);
+    row(PlaneProbe::loss, ours, step, -1e-14, 0);
+    row(PlaneProbe::held, "mysim/explicit-euler", step, 0.5, 1);
+    row(PlaneProbe::held, "bullet/pbd", step, 0.2, 1);
+  }
+  auto all = plane_findings(only(t));
+  expect_short(all);
+  ASSERT_EQ(rules_of(all), (std::vector<std::string>{"planes", "planes-rest"}));
+  EXPECT_NEAR(all[0].value, 4, 1e-9);
+  EXPECT_TRUE(says(sentence_of(all[0]), {"1 ms", "4 %", "0.3 %", "Bullet has no restitution"})) << sentence_of(all[0]);
+  EXPECT_EQ(all[1].value, 0);
+  EXPECT_TRUE(says(sentence_of(all[1]), {"mysim loses 0 %", "explicit-euler is at rest in 50 %"}))
+      << sentence_of(all[1]);
+  row(PlaneProbe::loss, "mysim/rk4", 1e-3, 1e-3, 0);
+  EXPECT_NEAR(plane_findings(only(t)).at(1).value, 0.1, 1e-12);
+  EXPECT_TRUE(plane_findings(only(table_of<PlaneProbeRow>())).empty());
 }
 
 TEST(SphereFindings, TheDrapeSaysWhoLeftTheBallAndWhoTouchesIt) {

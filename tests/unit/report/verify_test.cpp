@@ -110,8 +110,10 @@ TEST(FindingRules, HaveTextsAndTheseAskForNothingElse) {
 }
 
 TEST(FindingRules, TextsAreFilledInWithTheUnitOfTheirQuantity) {
-  Finding f{.rule = "cone", .method = "bullet/pbd", .value = 36, .words = {{"cases", "72"}}};
+  Finding f{.rule = "cone", .method = "bullet/pbd", .value = 36, .words = {{"cases", "72"}, {"planes", ""}}};
   EXPECT_EQ(sentence_of(f), "On slopes Bullet's pbd sticks or slides as Coulomb's law says in 36 of 72 cases.");
+  f.words["planes"] = "31 of 72";
+  EXPECT_TRUE(sentence_of(f).ends_with("in 36 of 72 cases on a ball and 31 of 72 on a plane."));
   EXPECT_EQ(tier_of(f), "exact (Coulomb's law)");
   f.tier = "converged";
   EXPECT_EQ(tier_of(f), "converged");

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "experiments/tables/sphere.h"
+#include "experiments/tables/contact.h"
 #include "mysim/scene/scene.h"
 #include "reference/method.h"
 
@@ -18,7 +18,7 @@ namespace crosscheck {
 /// Point of the triangle a b c nearest to p, m.
 Vec3 nearest_on_triangle(const Vec3& p, const Vec3& a, const Vec3& b, const Vec3& c);
 
-/// How far the deepest point of the scene's triangles is inside a contact surface at time t (s), m; negative outside.
+/// Depth of the deepest point of the scene's triangles in a contact surface at time t (s), m; negative outside.
 /// A triangle cuts a ball although its corners lie on it. Nothing without spheres or without triangles.
 std::optional<double> depth_of_triangles(const Scene& scene, double t, const Points& x);
 
@@ -38,12 +38,12 @@ class MirrorSymmetry {
   std::array<std::vector<int>, 2> partner_;  // across x, across z
 };
 
-// Probes of collision response: small scenes with a ball, each with one result that is known or can be classified.
+// Probes of collision response: small scenes, each with one result that is known or can be classified.
 
 // ---- rebound ----
 /// A particle dropped by 0.3 m on the top of a ball of 0.5 m that returns the part e of its speed.
 Scene drop_on_ball(double restitution);
-/// How high it rises again, m above the contact surface; by theory e^2 0.3 m. Empty where the run failed.
+/// Height of its rebound, m above the contact surface; by theory e^2 0.3 m. Empty where the run failed.
 std::optional<double> rebound(const Method& method, const Scene& scene, double step, Outcome& out);
 
 // ---- leaving ----
@@ -54,18 +54,29 @@ struct Leaving {
   double angle, speed;  // degrees from the top, m/s: where the gap first passes 1 mm, between two steps
 };
 std::optional<Leaving> leaving(const Method& method, double step, Outcome& out);
-/// The same of the closed form. Contact itself ends where cos(angle) = 2/3 (from the very top).
+/// Angle and speed of the closed form. Contact itself ends where cos(angle) = 2/3 (from the very top).
 Leaving leaving_by_theory();
 
 // ---- cone ----
-/// A particle at rest on a slope (degrees), as the side of a ball so large that it is flat here.
-Scene on_slope(double degrees, double friction);
+enum class Ground { ball, plane };
+/// A particle at rest on a slope (degrees): a plane, or the side of a ball so large that it is flat here.
+Scene on_slope(double degrees, double friction, Ground ground);
 struct ConeResult {
   double distance;     // m, in 0.5 s
   double coulomb;      // m, by Coulomb's law: 0 within the cone, else g (sin - mu cos) t^2 / 2
-  ContactState state;  // sticks: less than 1 mm; slides: Coulomb's distance within a tenth (and 1 mm)
+  ContactState state;  // sticks: less than 1 mm; slides: Coulomb's distance within a tenth (and 1 mm); 50 um on a plane
 };
-std::optional<ConeResult> cone(const Method& method, double degrees, double friction, double step, Outcome& out);
+std::optional<ConeResult> cone(const Method& method, double degrees, double friction, Ground ground, double step,
+                               Outcome& out);
+
+// ---- planes ----
+/// A particle dropped by 0.3 m that a floor returns with 0.8 of its speed, until its third apex is over.
+Scene drop_on_floor();
+/// A particle that flies to and fro between two walls without loss, ten times.
+Scene between_walls();
+/// Value of a probe in a run; empty where it failed or never came so far.
+std::optional<double> measured(PlaneProbe probe, const Method& method, double step, Outcome& out);
+double by_theory(PlaneProbe probe);
 
 // ---- order ----
 /// Scenes with contact whose truth is known, for the order of contact: a slide that leaves, without friction and with;

@@ -1,11 +1,11 @@
-// The tables of experiment `sphere`.
+// The tables of experiment `contact`. Those about balls keep the names that they had in reports of older versions.
 #pragma once
 
 #include "experiments/tables/typed.h"
 
 namespace crosscheck {
 
-/// The behaviour of a particle on a slope: sticks (moves by less than 1 mm), slides (Coulomb's distance), or neither.
+/// The behaviour of a particle on a slope: sticks (hardly moves), slides (Coulomb's distance), or neither.
 enum class ContactState { sticks, slides, neither };
 constexpr std::string_view name_of(ContactState state) {
   return state == ContactState::sticks ? "sticks" : state == ContactState::slides ? "slides" : "neither";
@@ -67,6 +67,34 @@ struct ConeRow {
   COLUMN(ContactState, state_by_theory, "answer by theory", "1", "the same by Coulomb's law");
 };
 
+/// A particle at rest on a plane, where the frictions next to the limit are a thousandth off it.
+struct PlaneConeRow : ConeRow {
+  static constexpr std::string_view table = "plane-cone";
+};
+
+/// Motions on planes with a closed form, each by a number without unit.
+enum class PlaneProbe { apex, period, loss, held };
+constexpr std::string_view name_of(PlaneProbe probe) {
+  return probe == PlaneProbe::apex     ? "height of the third apex over that of the drop"
+         : probe == PlaneProbe::period ? "period between two walls over 2 L / v"
+         : probe == PlaneProbe::loss   ? "energy lost at rest on a slope over that of a free slide"
+                                       : "part of the steps at rest on a floor";
+}
+template <>
+inline constexpr std::pair range_of<PlaneProbe>{PlaneProbe::apex, PlaneProbe::held};
+
+/// A particle on planes.
+struct PlaneProbeRow {
+  TABLE("plane-probes");
+  COLUMN(PlaneProbe, probe, "probe", "1", "what is measured");
+  COLUMN(std::string, method, "method", "1", "method that was run");
+  COLUMN(Verdict, verdict, "verdict", "1", "how the run ended");
+  COLUMN(std::string, reason, "reason", "1", "why it failed or was refused");
+  COLUMN(double, step, "step", "s", "time step asked for");
+  COLUMN(OptionalNumber, measured, "measured", "1", "what the run gave");
+  COLUMN(double, by_theory, "by theory", "1", "the same of the closed form");
+};
+
 /// The final state of a cloth on a ball.
 struct DrapeRow {
   TABLE("sphere-drape");
@@ -103,7 +131,7 @@ struct PenetrationRow {
   COLUMN(OptionalNumber, triangles_at_end, "triangles at end", "%", "the same of triangles at the end");
 };
 
-/// The same cloth over time.
+/// A cloth on a ball over time.
 struct DrapeTimeRow {
   TABLE("SCENE-drape");
   COLUMN(std::string, method, "method", "1", "method that was run");

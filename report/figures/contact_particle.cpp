@@ -1,4 +1,4 @@
-// A particle and a ball: Coulomb's law on slopes, the height of its rebound, where it leaves.
+// A particle on balls and planes: Coulomb's law on slopes, the height of its rebound, where it leaves.
 
 #include <fmt/format.h>
 
@@ -7,28 +7,20 @@
 #include <map>
 #include <numbers>
 
-#include "experiments/tables/sphere.h"
+#include "experiments/tables/contact.h"
 #include "report/figures/chapter_parts.h"
 #include "report/findings/findings_text.h"
 
 namespace crosscheck {
 namespace {
 
-/// Coulomb's law on slopes: distance slid over friction coefficient / tan(slope), and a table of results.
-Chart cone_law(const std::vector<ConeRow>& rows, const std::string& commit) {
-  Figure f;
-  f.x.low = 0, f.x.high = 2.5, f.y.low = -0.05, f.y.high = 1.05;
-  f.curves.push_back({"Coulomb, exact", {"#555555", "1", -1}, {{0, 1}, {1, 0}, {2.5, 0}}});
-  const double step = usual_step(rows);
-  PageTable page{fmt::format("Stick or slide, at a time step of {}", step_text(step)),
-                 {"method", "correct cases", "cases", "wrong cases"},
-                 {}};
-  const std::vector<std::string> always = representatives_in_contact();
-  std::vector<std::string> differing;
-  for (const std::string& method : distinct(rows, &ConeRow::method)) {
-    Curve curve{method, style_of(method), {}, false, true};
-    int right = 0, all = 0, creeping = 0, stuck = 0;
-    std::string failed;
+/// A method's answers on the slopes of one surface, at one step.
+struct ConeAnswers {
+  std::vector<std::pair<double, double>> points;  // friction / tan(slope), distance slid / frictionless distance
+  int right = 0, all = 0, creeping = 0, stuck = 0;
+  std::string failed;
+
+  ConeAnswers(const std::vector<ConeRow>& rows, const std::string& method, double step) {
     for (const ConeRow& row : rows | with(&ConeRow::method, method)) {
       if (row.step != step) continue;
       ++all;
@@ -37,19 +29,49 @@ Chart cone_law(const std::vector<ConeRow>& rows, const std::string& commit) {
         continue;
       }
       const double angle = row.angle * std::numbers::pi / 180, ratio = row.friction / std::tan(angle);
-      if (ratio <= 2.5) curve.points.emplace_back(ratio, *row.distance / (9.81 * std::sin(angle) / 8));
+      if (ratio <= 2.5) points.emplace_back(ratio, *row.distance / (9.81 * std::sin(angle) / 8));
       right += row.state == row.state_by_theory;
       creeping += row.state == ContactState::neither;
       stuck += row.state == ContactState::sticks && row.state_by_theory == ContactState::slides;
     }
+  }
+  std::string count() const { return fmt::format("{} of {}", right, all); }
+};
+
+/// Coulomb's law on slopes: distance slid over friction coefficient / tan(slope), and a table of results. Of planes the
+/// curves of engines that err there.
+Chart cone_law(const std::vector<ConeRow>& rows, const std::vector<ConeRow>& planes, const std::string& commit) {
+  Figure f;
+  f.x.low = 0, f.x.high = 2.5, f.y.low = -0.05, f.y.high = 1.05;
+  f.curves.push_back({"Coulomb, exact", {"#555555", "1", -1}, {{0, 1}, {1, 0}, {2.5, 0}}});
+  const double step = usual_step(rows);
+  PageTable page{fmt::format("Stick or slide, at a time step of {}", step_text(step)),
+                 {"method", "correct cases", "cases", "wrong cases"},
+                 {}};
+  if (!planes.empty()) page.header.insert(page.header.begin() + 3, "correct on planes");
+  const std::vector<std::string> always = representatives_in_contact();
+  std::vector<std::string> differing;
+  for (const std::string& method : distinct(rows, &ConeRow::method)) {
+    const ConeAnswers ball(rows, method, step), flat(planes, method, step);
     std::string wrong;
-    if (creeping) wrong += fmt::format("creeps in {}", creeping);
-    if (stuck) wrong += fmt::format("{}sticks where it should slide in {}", wrong.empty() ? "" : ", ", stuck);
-    if (!failed.empty()) wrong += (wrong.empty() ? "" : "; ") + failed;
-    page.rows.push_back({method, std::to_string(right), std::to_string(all), wrong});
-    if (curve.points.empty()) continue;
-    if (right < all) differing.push_back(fmt::format("{} (right in {} of {})", name_in_sentence(method), right, all));
-    if (right < all || std::ranges::find(always, method) != always.end()) f.curves.push_back(std::move(curve));
+    if (ball.creeping) wrong += fmt::format("creeps in {}", ball.creeping);
+    if (ball.stuck) wrong += fmt::format("{}sticks where it should slide in {}", wrong.empty() ? "" : ", ", ball.stuck);
+    if (!ball.failed.empty()) wrong += (wrong.empty() ? "" : "; ") + ball.failed;
+    std::vector<std::string>& texts = page.rows.emplace_back();
+    texts = {method, std::to_string(ball.right), std::to_string(ball.all), wrong};
+    if (!planes.empty()) texts.insert(texts.begin() + 3, std::to_string(flat.right));
+    if (ball.points.empty()) continue;
+    const bool errs = ball.right < ball.all || flat.right < flat.all;
+    if (errs)
+      differing.push_back(fmt::format("{} (right in {}{})", name_in_sentence(method), ball.count(),
+                                      planes.empty() ? "" : fmt::format(" on balls, {} on planes", flat.count())));
+    if (errs || std::ranges::find(always, method) != always.end())
+      f.curves.push_back({method, style_of(method), ball.points, false, true});
+    if (flat.right < flat.all && method != sticky_sphere && !flat.points.empty()) {
+      Curve curve{method + ", plane", style_of(method), flat.points, false, true};
+      --curve.style.marker;  // its open form
+      f.curves.push_back(std::move(curve));
+    }
   }
   f.finding =
       "On slopes of 10 to 50 degrees with frictions of 0 to 1.2 all answers must fall on one line. " +
@@ -106,7 +128,7 @@ std::optional<Chart> leaving_chart(const std::vector<LeavingRow>& rows, const st
 std::optional<Chart> contact_order_chart(const std::vector<ContactOrderRow>& all, const std::string& commit) {
   constexpr std::string_view events = "+events";
   Figure f;
-  std::map<bool, std::pair<double, double>> slopes;  // of runs with events: least and largest
+  std::map<bool, std::pair<double, double>> slopes;  // least and largest, of runs with events
   std::vector<ContactOrderRow> rows;
   std::ranges::copy(all | with(&ContactOrderRow::probe, "leaves with friction"), std::back_inserter(rows));
   for (const std::string& method : distinct(rows, &ContactOrderRow::method)) {
@@ -115,7 +137,7 @@ std::optional<Chart> contact_order_chart(const std::vector<ContactOrderRow>& all
     // a rule of order 1 has no option to be set beside
     if (std::ranges::find(rows, other, &ContactOrderRow::method) == rows.end()) continue;
     Curve curve{method, style_of(method), {}, true, true};
-    std::optional<double> slope;  // of the two shortest steps at which the error is known
+    std::optional<double> slope;  // at the two shortest steps at which the error is known
     for (const ContactOrderRow& row : rows | with(&ContactOrderRow::method, method))
       if (row.error && *row.error > 30 * row.truth_bar) {
         curve.points.emplace_back(row.step, *row.error);
@@ -139,7 +161,8 @@ std::optional<Chart> contact_order_chart(const std::vector<ContactOrderRow>& all
 
 std::vector<Chart> particle_charts(const TableSet& tables, const std::string& commit) {
   std::vector<Chart> charts;
-  if (const auto rows = rows_of<ConeRow>(tables); !rows.empty()) charts.push_back(cone_law(rows, commit));
+  if (const auto rows = rows_of<ConeRow>(tables); !rows.empty())
+    charts.push_back(cone_law(rows, plane_cones(tables), commit));
   if (const auto rows = rows_of<ReboundRow>(tables); !rows.empty()) charts.push_back(rebound_chart(rows, commit));
   if (auto chart = leaving_chart(rows_of<LeavingRow>(tables), commit)) charts.push_back(std::move(*chart));
   if (auto chart = contact_order_chart(rows_of<ContactOrderRow>(tables), commit)) charts.push_back(std::move(*chart));

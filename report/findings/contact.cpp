@@ -1,12 +1,12 @@
-// Findings of experiment `sphere`, and of what engines do after contact.
+// Findings of experiment `contact`, and of what engines do after contact.
 
 #include <algorithm>
 #include <cmath>
 #include <map>
 
 #include "experiments/speed_accuracy/work_precision.h"
+#include "experiments/tables/contact.h"
 #include "experiments/tables/engines.h"
-#include "experiments/tables/sphere.h"
 #include "report/findings/findings.h"
 #include "report/findings/findings_text.h"
 #include "report/findings/summaries.h"
@@ -15,12 +15,44 @@ namespace crosscheck {
 
 Findings cone_findings(const Facts& facts) {
   Findings out;
-  for (const ConeCount& count : cone_counts(facts.rows))
-    if (count.method == sticky_sphere || stands_for_its_engine(count.method))
+  const std::vector<ConeCount> planes = cone_counts(plane_cones(facts.rows));
+  for (const ConeCount& count : cone_counts(rows_of<ConeRow>(facts.rows)))
+    if (count.method == sticky_sphere || stands_for_its_engine(count.method)) {
+      const ConeCount* flat = count_of(planes, count.method);
       out.push_back({.rule = "cone",
                      .method = count.method,
                      .value = double(count.right),
-                     .words = {{"cases", std::to_string(count.all)}}});
+                     .words = {{"cases", std::to_string(count.all)},
+                               {"planes", flat ? fmt::format("{} of {}", flat->right, flat->all) : ""}}});
+    }
+  return out;
+}
+
+/// Errors of mysim's representative on planes at the usual step, and the rest of a particle.
+Findings plane_findings(const Facts& facts) {
+  const auto rows = rows_of<PlaneProbeRow>(facts.rows);
+  if (rows.empty()) return {};
+  const double step = usual_step(rows);
+  Finding errs{.rule = "planes", .method = ours}, rests{.rule = "planes-rest", .method = std::string(subject().name)};
+  std::vector<std::string> refused;
+  std::string period, moving;
+  double least = 1;
+  for (const PlaneProbeRow& row : rows) {
+    if (row.step != step) continue;
+    if (row.verdict == Verdict::unsupported) add_once(refused, engine_of(row.method));
+    if (!row.measured || !family_of(row.method).is_subject() || row.method == sticky_sphere) continue;
+    const double off = std::abs(*row.measured - row.by_theory);
+    if (row.probe == PlaneProbe::apex && row.method == ours) errs.value = 100 * off / row.by_theory;
+    if (row.probe == PlaneProbe::period && row.method == ours) period = percent(off, row.by_theory);
+    // J: roundings of a run
+    if (row.probe == PlaneProbe::loss && off > 1e-12) rests.value = std::max(rests.value, 100 * off);
+    if (row.probe == PlaneProbe::held && *row.measured < least) least = *row.measured, moving = row.method;
+  }
+  std::ranges::transform(refused, refused.begin(), name_in_sentence);
+  errs.words = {{"step", step_text(step)}, {"period", period}, {"refused", joined(refused)}};
+  rests.words = {{"moving", moving.empty() ? "" : name_in_sentence(moving)}, {"share", percent(least, 1)}};
+  Findings out{std::move(rests)};
+  if (!period.empty()) out.insert(out.begin(), std::move(errs));
   return out;
 }
 
@@ -82,7 +114,7 @@ Findings leaving_findings(const Facts& facts) {
     f.words = {{"step", step_text(step)},
                {"longest", step_text(offs[method].rbegin()->first)},
                {"off", fmt::format("{:.2g} degrees", offs[method].rbegin()->second)}};
-    // of mysim's the furthest
+    // the furthest one of mysim's
     const auto same = std::ranges::find_if(
         out, [&](const Finding& g) { return family_of(method).is_subject() && family_of(g.method).is_subject(); });
     if (same == out.end())

@@ -1,4 +1,4 @@
-// Experiments `energy` and `sphere`: their rows, with failures in them, and what they leave out.
+// Experiments `energy` and `contact`: their rows, with failures in them, and what they leave out.
 
 #include "experiments/experiment.h"
 #include "experiments/scenes/scenes.h"
@@ -98,7 +98,7 @@ TEST(EnergyExperiment, ClaimsClosureOnlyWhereLossesAreTold) {
   const Table& ledger = *rows.table("all-at-once-ledger");
   for (size_t i = 0; i < ledger.rows.size(); ++i)
     EXPECT_EQ(empty(ledger, i, "residual"), text_at(ledger, i, "method") == "bullet/deformable-explicit");
-  // the same motion in the mean over the pins' fifty periods: where each of them takes or gives half as much again or
+  // equal motion in the mean over the pins' fifty periods: where each of them takes or gives half as much again or
   // less by chance, two means differ by 0.5 sqrt(2 / 50) = 0.1
   for (const char* column : {"drag took", "dashpots took", "wind gave", "pins gave"}) {
     EXPECT_GT(number(energy, told, column), 0.01) << column;
@@ -137,14 +137,14 @@ TEST(EnergyExperiment, ClaimsClosureOnlyWhereLossesAreTold) {
   EXPECT_EQ(failed.value, end);
 }
 
-TEST(SphereExperiment, HasRowsForWhoFailsAndNotesForWhoHasNoBall) {
+TEST(ContactExperiment, HasRowsForWhoFailsAndNotesForWhoHasNoSurface) {
   Request request;
-  request.scenes = {load_scene("spring"), load_scene("bounce")};
+  request.scenes = {load_scene("spring"), load_scene("bounce"), load_scene("slope-slide")};
   request.methods = find_methods("symplectic-euler,symplectic-euler+sticky,explicit-euler,bullet/pbd");
-  const TableSet rows = computed(sphere_points(request));
-  EXPECT_EQ(rows.notes, std::vector<std::string>{"sphere leaves out spring: it has none"});
+  const TableSet rows = computed(contact_points(request));
+  EXPECT_EQ(rows.notes, std::vector<std::string>{"contact leaves out spring: it has no ball or plane"});
   const Table& drape = *rows.table("sphere-drape");
-  EXPECT_EQ(drape.rows.size(), 4u * (2 + 2 + 1));
+  EXPECT_EQ(drape.rows.size(), 4u * (2 + 2 + 1 + 1));
   // by Coulomb's law the cloth slides off, the sticky sphere holds it where it touched
   EXPECT_LT(number(drape, row_of(drape, "drop-aside", "mysim/symplectic-euler"), "centre height"), 0);
   EXPECT_GT(number(drape, row_of(drape, "drop-aside", "mysim/symplectic-euler+sticky"), "centre height"), 0.2);
@@ -157,6 +157,7 @@ TEST(SphereExperiment, HasRowsForWhoFailsAndNotesForWhoHasNoBall) {
   EXPECT_GT(number(drape, inferred, "contact took"), 0);
 
   const Table& depth = *rows.table("sphere-penetration");
+  EXPECT_EQ(depth.rows.size(), 4u * (2 + 2 + 1)) << "a plane has no radius";
   const size_t ours = row_of(depth, "drop-centred", "mysim/symplectic-euler"),
                pbd = row_of(depth, "drop-centred", "bullet/pbd");
   EXPECT_LT(number(depth, ours, "particles"), 1e-9);
@@ -169,18 +170,23 @@ TEST(SphereExperiment, HasRowsForWhoFailsAndNotesForWhoHasNoBall) {
   EXPECT_GT(number(depth, pbd, "triangles"), number(depth, pbd, "particles"));
 
   Findings findings;
-  for (const auto part : {cone_findings, leaving_findings, drape_findings})
+  for (const auto part : {cone_findings, plane_findings, leaving_findings, drape_findings})
     for (Finding& f : part(rows)) findings.push_back(std::move(f));
   expect_short(findings);
   const Finding cone_of_ours = of_rule(findings, "cone").at(0);
   EXPECT_EQ(cone_of_ours.method, "mysim/symplectic-euler");
   EXPECT_EQ(cone_of_ours.value, 72);
+  EXPECT_EQ(cone_of_ours.words.at("planes"), "72 of 72");
   EXPECT_GT(std::abs(of_rule(findings, "leaving").back().value), 1) << "degrees, of pbd";
   EXPECT_EQ(the(findings, "slides-off").method, "mysim/symplectic-euler");
   const auto touching = of_rule(findings, "still-touches");
   ASSERT_EQ(touching.size(), 2u);
   for (const Finding& f : touching) EXPECT_GT(f.value, 0) << f.method;
   EXPECT_TRUE(energy_findings(rows).empty());
+  EXPECT_LT(the(findings, "planes").value, 5) << "%, of a step of 1 ms";
+  EXPECT_EQ(the(findings, "planes").words.at("refused"), "Bullet");
+  EXPECT_EQ(the(findings, "planes-rest").value, 0);
+  EXPECT_EQ(the(findings, "planes-rest").words.at("share"), "50 %") << "of explicit Euler";
 
   const Table& cone = *rows.table("sphere-cone");
   for (size_t i = 0; i < cone.rows.size(); ++i)

@@ -1,4 +1,4 @@
-// Experiment `sphere`: its chapter, and cloths on a ball.
+// Experiment `contact`: its chapter, and cloths on a ball.
 
 #include <fmt/format.h>
 
@@ -6,8 +6,8 @@
 #include <cmath>
 #include <map>
 
-#include "experiments/sphere/probes.h"
-#include "experiments/tables/sphere.h"
+#include "experiments/contact/probes.h"
+#include "experiments/tables/contact.h"
 #include "report/figures/chapter_parts.h"
 #include "report/findings/findings.h"
 #include "report/findings/findings_text.h"
@@ -27,7 +27,7 @@ std::optional<Chart> depth_chart(const std::vector<PenetrationRow>& rows, const 
   std::vector<std::string> failed;                                   // without a mark
   std::map<const MethodFamily*, std::pair<double, double>> deepest;  // particles and triangles, %
   std::map<double, std::pair<Curve, Curve>> by_step;
-  // of each time step: its colour, and its marks for particles and triangles
+  // colour of each time step, and its marks for particles and triangles
   static constexpr struct {
     const char* colour;
     int particles, triangles;
@@ -187,7 +187,7 @@ std::string broken_symmetry(const RunsOverTime& runs) {
 
 }  // namespace
 
-std::vector<Chart> sphere_charts(const ChartInput& input) {
+std::vector<Chart> probe_charts(const ChartInput& input) {
   const TableSet& tables = input.result;
   std::vector<Chart> charts = particle_charts(tables, input.commit);
   const auto ends = rows_of<DrapeRow>(tables);
