@@ -49,7 +49,7 @@ namespace {
 namespace fs = std::filesystem;
 
 // Scenes of one or two particles; every ingredient of the protocol but the triangles' wind is in one of them.
-constexpr const char* kit_scenes[] = {"fall", "damped-spring", "led-pin", "ball", "rod", "circle", "gusts"};
+constexpr const char* kit_scenes[] = {"fall", "damped-spring", "led-pin", "ball", "slope", "rod", "circle", "gusts"};
 
 // s: a step of these scenes costs microseconds, and an interpreter starts in less than a second
 constexpr double call_limit = 30;
@@ -360,8 +360,10 @@ class Kit {
         {"motion", "later"},
         {"sleeping", "may_sleep"},
         {"contact radius", "spheres[].radius"},
-        {"friction", "spheres[].friction"},
-        {"restitution", "spheres[].restitution"},
+        {"contact offset", "planes[].point"},
+        {"normal", "planes[].normal"},
+        {"friction", "spheres[].friction and planes[].friction"},
+        {"restitution", "spheres[].restitution and planes[].restitution"},
         {"nothing else",
          "what it denies: zeros and empty lists for what the scene has not (gravity, drag, spheres, "
          "later, probe.dashpots, probe.wind)"}};

@@ -29,7 +29,7 @@ struct ConformanceReport {
   bool complete() const;  // nothing required lacks
 };
 
-/// Tries the program on seven scenes of one and two particles, twice each, and on three that are changed as a later
+/// Tries the program on eight scenes of one and two particles, twice each, and on three that are changed as a later
 /// version or a careless caller would. Throws InputError when there is no such program.
 ConformanceReport try_adapter(const std::string& program);
 

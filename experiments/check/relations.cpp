@@ -72,7 +72,7 @@ constexpr auto settling = "what the runs still move by in their last quarter, an
 constexpr Relation table[] = {
     {"free-fall", "an unpinned net falls as its rule says, without relative motion", rounding_and_unsolved,
      falling_nets, falling, free_fall},
-    {"turned", "a turned start gives the turned run", rounding_and_unsolved, small_nets, movable, turned_start},
+    {"turned", "a turned start gives the turned run", rounding_and_unsolved, nets_anywhere, movable, turned_start},
     {"shifted", "a shifted start gives the shifted run", rounding_and_unsolved, small_nets, movable, shifted_start},
     {"no-force", "no force, no motion", rounding, resting_nets, resting, no_force_no_motion},
     {"rest-shape", "the shape of rest does not depend on damping", settling, hanging_chains, hanging_chain,

@@ -23,7 +23,8 @@ std::vector<Scene> falling_nets() { return scenes_named({"falling-soft", "fallin
 std::vector<Scene> resting_nets() { return scenes_named({"resting-net"}); }
 std::vector<Scene> flying_nets() { return scenes_named({"flying-net"}); }
 std::vector<Scene> vibrating_nets() { return scenes_named({"dumbbell"}); }
-std::vector<Scene> symmetric_nets() { return scenes_named({"hanging-strip"}); }
+std::vector<Scene> symmetric_nets() { return scenes_named({"hanging-strip", "sliding-strip"}); }
+std::vector<Scene> nets_anywhere() { return scenes_named({"small-net", "sliding-strip"}); }
 std::vector<Scene> pinned_nets() {
   Scene standing = scene_in("scenes", "small-net"), moved = standing;
   standing.name = "standing-pin", moved.name = "moved-pin";

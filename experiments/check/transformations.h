@@ -54,7 +54,8 @@ std::vector<Scene> falling_nets();    // a tetrahedron at rest: soft, stiff, wit
 std::vector<Scene> resting_nets();    // the same without gravity
 std::vector<Scene> flying_nets();     // thrown, turning, vibrating, nothing outside acts
 std::vector<Scene> vibrating_nets();  // two particles on a spring, turning and vibrating for 16 s
-std::vector<Scene> symmetric_nets();  // a strip that hangs from its middle
+std::vector<Scene> symmetric_nets();  // a strip that hangs from its middle, and one that slides down a slope
+std::vector<Scene> nets_anywhere();   // the small net, and the strip on the slope
 std::vector<Scene> pinned_nets();     // one with a standing pin, one with a moved one
 std::vector<Scene> hanging_chains();  // three masses on springs of three stiffnesses, with drag, with dashpots
 std::vector<Scene> hanging_chains_in_drag();

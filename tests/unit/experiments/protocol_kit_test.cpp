@@ -20,6 +20,7 @@ TEST_F(ProtocolKit, TheShippedExampleLacksNothing) {
         .insert(line.state == Conformance::refuses ? line.scene + ", " + line.topic + ": " + line.told : line.topic);
   EXPECT_EQ(refused, (std::set<std::string>{"damped-spring, starts and ends: this engine has no dashpots",
                                             "ball, starts and ends: this engine has no sphere",
+                                            "slope, starts and ends: this engine has no plane",
                                             "rod, starts and ends: this engine has no constraints",
                                             "circle, starts and ends: this engine has no rotation",
                                             "gusts, starts and ends: this engine has no wind",
@@ -67,9 +68,9 @@ TEST_F(ProtocolKit, NamesTheIngredientsThatAreMissingAlone) {
   const std::string no_friction = "-e 's/\"friction\": ?[0-9.e-]+/\"friction\":0/g'",
                     no_drag = "-e 's/\"coefficient\": ?\\[[^]]*\\]/\"coefficient\":[0,0]/'";
   EXPECT_EQ(inert("-e ''"), std::set<std::string>{});
-  EXPECT_EQ(inert(no_friction), std::set<std::string>{"ball, acts: friction"});
+  EXPECT_EQ(inert(no_friction), (std::set<std::string>{"ball, acts: friction", "slope, acts: friction"}));
   EXPECT_EQ(inert(no_friction + " " + no_drag),
-            (std::set<std::string>{"ball, acts: friction", "damped-spring, acts: drag"}));
+            (std::set<std::string>{"ball, acts: friction", "slope, acts: friction", "damped-spring, acts: drag"}));
 }
 
 }  // namespace
