@@ -57,6 +57,8 @@ struct Kind {
 
 const char* const falls = "[gravity]\nacceleration = [0 m/s2, -9.81 m/s2, 0 m/s2]\n";
 const char* const ball = "[[sphere]]\ncentre = [0 m, 0 m, 0 m]\nradius = 0.98 m\nmargin = 0.02 m\nfriction = 0.2\n";
+const char* const slope =
+    "[[plane]]\npoint = [0 m, 0 m, 0 m]\nnormal = [-0.6, 0.8, 0]\nmargin = 0.02 m\nfriction = 0.3\n";
 const char* const hung =
     "[[particle]]\nposition = [0 m, 0 m, 0 m]\nmass = 1 kg\n[[particle]]\nposition = [0.5 m, -0.3 m, 0 m]\n"
     "mass = 0.3 kg\n[[spring]]\nends = [0, 1]\nstiffness = 100 N/m\nrest = 0.5 m\n[pins]\nparticles = [0]\n";
@@ -97,6 +99,29 @@ std::vector<Kind> kinds() {
        std::string("[[particle]]\nposition = [0 m, 1 m, 0 m]\nmass = 1 kg\n") + ball +
            "[sphere.motion]\namplitude = [0.05 m, 0.02 m, 0.03 m]\nfrequency = 0.7 1/s\nramp = 0.5 s\n" + falls,
        0.4},
+      {"slope",
+       std::string("[[particle]]\nposition = [-0.012 m, 0.016 m, 0 m]\nmass = 2 kg\nvelocity = [1.2 m/s, 0.9 m/s, 0 "
+                   "m/s]\n") +
+           slope + falls,
+       0.8},
+      {"room",
+       std::string("[[particle]]\nposition = [0.3 m, 0.4 m, 0.2 m]\nmass = 0.5 kg\nvelocity = [1.5 m/s, -1 m/s, 0.7 "
+                   "m/s]\n[[plane]]\npoint = [0 m, 0 m, 0 m]\nnormal = [0, 1, 0]\nrestitution = 0.5\n[[plane]]\npoint "
+                   "= [0.9 m, 0 m, 0 m]\nnormal = [-1, 0, 0]\nrestitution = 0.5\n") +
+           falls,
+       0.7},
+      {"pair on a slope",
+       "[[particle]]\nposition = [0.02 m, 0.3 m, 0.01 m]\nmass = 0.2 kg\n[[particle]]\nposition = [0.3 m, 0.4 m, 0.05 "
+       "m]\nmass = 0.3 kg\nvelocity = [0 m/s, 0 m/s, 0.2 m/s]\n[[spring]]\nends = [0, 1]\nstiffness = 80 N/m\nrest = "
+       "0.25 m\n[drag]\ngamma = 0.3 1/s\n" +
+           std::string(slope) + "restitution = 0.5\n" + falls,
+       0.7},
+      {"moved floor",
+       std::string("[[particle]]\nposition = [0 m, 0.1 m, 0 m]\nmass = 1 kg\nvelocity = [0.5 m/s, 0 m/s, 0 m/s]\n"
+                   "[[plane]]\npoint = [0 m, 0 m, 0 m]\nnormal = [0, 1, 0]\nfriction = 0.4\nvelocity = [0.3 m/s, "
+                   "0.1 m/s, 0 m/s]\n") +
+           falls,
+       0.6},
   };
 }
 

@@ -37,6 +37,10 @@ class SceneWriter {
     text_ += fmt::format("[[sphere]]\ncentre = {}\nradius = {}\nfriction = {}\nrestitution = {}\n", list(centre),
                          radius, friction, restitution);
   }
+  void plane(const Vec3& point, const Vec3& normal, double friction, double restitution) {
+    text_ += fmt::format("[[plane]]\npoint = {}\nnormal = {}\nfriction = {}\nrestitution = {}\n", list(point),
+                         list(normal), friction, restitution);
+  }
   void wind(const Vec3& a) { text_ += fmt::format("[wind]\nacceleration = {}\n", list(a)); }
   /// After wind().
   void gusts(const Vec3& side, int seed) {
@@ -282,6 +286,64 @@ inline Scene random_contact_scene(unsigned seed) {
   }
   const double omega = joined.empty() ? 100 : std::sqrt(2 * most * omega_2);
   return w.scene(fmt::format("random-contact-{}", seed), random.between(0.5, 1.2), 0.2 / omega, 20);
+}
+
+/// Particles, a chain or a small net that falls on a floor or slope with none to two walls around it, with friction
+/// from 0 to 0.6 and restitution from 0 to 0.9, in drag or not. 0.5 to 1.2 s, in steps of a tenth of what is stable.
+inline Scene random_plane_scene(unsigned seed) {
+  Random random(seed);
+  SceneWriter w;
+  const double friction = chance(random, 0.25) ? 0 : random.between(0.05, 0.6);
+  const double restitution = chance(random, 0.5) ? 0 : random.between(0.1, 0.9);
+  const double mass = decades(random, 0.01, 0.5), high = decades(random, 0.003, 0.2);
+  const double tilt = chance(random, 0.3) ? 0 : random.between(0.05, 0.7), turn = random.between(0, 6.28);
+  const Vec3 aside(std::cos(turn), 0, std::sin(turn)), level(-std::sin(turn), 0, std::cos(turn));
+  const Vec3 n = std::cos(tilt) * Vec3::UnitY() - std::sin(tilt) * aside,
+             up = std::cos(tilt) * aside + std::sin(tilt) * Vec3::UnitY();
+  std::vector<Vec3> x;
+  std::vector<std::pair<int, int>> joined;
+  double omega_2 = 1e3;  // 1/s^2, k/m of the springs
+  int most = 2;          // springs at a particle
+  const int kind = seed % 3;
+  if (kind == 0) {  // one to four, thrown
+    for (int i = whole(random, 1, 4); i > 0; --i)
+      x.push_back(random.between(-0.4, 0.4) * up + random.between(-0.4, 0.4) * level + high * random.between(1, 3) * n);
+  } else if (kind == 1) {  // a chain, more or less along the plane
+    const int count = whole(random, 2, 12);
+    const double spacing = random.between(0.03, 0.15), rise = random.between(-0.3, 0.3), side = random.between(-1, 1);
+    for (int i = 0; i < count; ++i) {
+      const double s = spacing * (i - 0.5 * (count - 1));
+      x.push_back(s * (up + side * level) + (high + std::abs(rise) * spacing * count + rise * s) * n);
+      if (i > 0) joined.emplace_back(i - 1, i);
+    }
+    omega_2 = decades(random, 500, 5000);
+  } else {  // a net, tilted a little against the plane
+    const int rows = whole(random, 2, 7), columns = whole(random, 2, 7);
+    const double spacing = random.between(0.05, 0.15), a = random.between(-0.2, 0.2), b = random.between(-0.2, 0.2);
+    for (int r = 0; r < rows; ++r)
+      for (int c = 0; c < columns; ++c) {
+        const int i = static_cast<int>(x.size());
+        x.push_back(spacing * (c * up + r * level) + (high + 2 * spacing + spacing * (a * c + b * r)) * n);
+        if (c > 0) joined.emplace_back(i - 1, i);
+        if (r > 0) joined.emplace_back(i - columns, i);
+        if (r > 0 && c > 0) joined.emplace_back(i - columns - 1, i), joined.emplace_back(i - columns, i - 1);
+      }
+    omega_2 = decades(random, 500, 5000), most = 8;
+  }
+  const double speed = decades(random, 0.05, 1.5);
+  const Vec3 all = speed * (random.between(-1, 1) * up + random.between(-1, 1) * level - random.between(0, 1) * n);
+  for (const Vec3& at : x) w.particle(at, mass, all + 0.02 * random.vector());
+  for (const auto& [a, b] : joined) w.spring(a, b, mass * omega_2, (x[a] - x[b]).norm());
+  w.gravity({0, -9.81, 0});
+  if (chance(random, 0.6)) w.drag(decades(random, 0.2, 5));
+  w.plane(Vec3::Zero(), n, friction, restitution);
+  double lowest = 0, left = 0;
+  for (const Vec3& at : x) lowest = std::min(lowest, at.dot(up)), left = std::min(left, at.dot(level));
+  const int walls = whole(random, 0, 2);
+  if (walls > 0) w.plane((lowest - random.between(0.02, 0.3)) * up, up, friction, restitution);
+  if (walls > 1) w.plane((left - random.between(0.02, 0.3)) * level, level, friction, restitution);
+  const double omega = joined.empty() ? 100 : std::sqrt(2 * most * omega_2);
+  return w.scene(fmt::format("random-planes-{}", seed), random.between(0.5, 1.2), 0.2 / omega, 20);
 }
 
 }  // namespace crosscheck::testing_tools
