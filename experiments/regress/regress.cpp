@@ -260,9 +260,10 @@ class Change {
                                      q.in_words(), row.quantity));
       if (row.state != Status::same) changed_.push_back(row);
       if (row.state == Status::gone) continue;
+      const auto kept =
+          std::ranges::find(before, row.quantity, [](const BaselineRow& e) { return e.what.quantity.name; });
       if (row.state == Status::same)
-        after.push_back(*std::find_if(before.begin(), before.end(),
-                                      [&](const BaselineRow& e) { return e.what.quantity.name == row.quantity; }));
+        after.push_back({q.method.name, q.without, q.slow, kept->what, kept->blessing});
       else
         after.push_back(
             {q.method.name, q.without, q.slow, *find(now, row.quantity), static_cast<int>(baseline_.blessings.size())});

@@ -213,6 +213,22 @@ TEST_F(RegressionOfOneScene, FailsWhereNothingWasMeasured) {
   EXPECT_TRUE(regressed(measured).passed());
 }
 
+TEST_F(RegressionOfOneScene, BlessingSaysAnewWhichRowsAreOfFullRunsOnly) {
+  const Regression regression = regression_with("leapfrog", "spring");
+  blessed(regression);
+  Baseline baseline = *read_baseline(regression.baselines, "spring");
+  for (BaselineRow& row : baseline.expected) row.slow = true;
+  baseline.expected.pop_back();  // something to bless
+  write_file(file_of(regression.baselines, "spring"), text_of(baseline));
+  blessed(regression);
+  int kept = 0;
+  for (const BaselineRow& row : read_baseline(regression.baselines, "spring")->expected) {
+    EXPECT_FALSE(row.slow) << row.what.quantity.name;
+    kept += row.blessing == 1;
+  }
+  EXPECT_GT(kept, 10);
+}
+
 TEST_F(RegressionOfOneScene, TellsAnotherExpansionOfTheSameFileFromAnotherFile) {
   const auto file = folder_.path / "mine.toml";
   const std::string text = load_scene("spring").source;
