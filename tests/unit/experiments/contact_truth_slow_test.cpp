@@ -3,6 +3,7 @@
 #include "experiments/experiment.h"
 #include "experiments/metrics.h"
 #include "experiments/scenes/scenes.h"
+#include "mysim/run/crossings.h"
 #include "reference/truth/exact/exact.h"
 #include "reference/truth/truth.h"
 #include "tests/unit/experiments/advise_case.h"
@@ -110,6 +111,39 @@ TEST(ContactTruth, OfOneParticleCoversTheExactSlide) {
   }
 }
 
+TEST(ContactTruth, BarsCoverThirtyRandomScenesOnPlanes) {
+  const Method method = find_method("implicit-midpoint+events");
+  int to_the_end = 0, rebound = 0;
+  double closest = INFINITY;
+  for (unsigned seed = 1; seed <= 30; ++seed) {
+    SCOPED_TRACE(seed);
+    const Scene scene = random_plane_scene(seed);
+    rebound += scene.model.find<Planes>()->list[0].restitution > 0;
+    const auto truth = truth_of(scene, default_run(scene));
+    ASSERT_TRUE(truth);
+    EXPECT_FALSE(truth->under_contact_rule);
+    to_the_end += std::isinf(truth->until);
+    const Trajectory& path = truth->trajectory;
+    const double bar = truth->error_bar;
+    const crosscheck::Run run{scene.step, path.t.back(), path.frames() - 1};
+    // from event to event at a hundredth of the truth's finest tolerance
+    Recorder finer;
+    run_event_driven(scene, {run.step, run.duration, run.samples, 1e-14}, finer);
+    const double off = sup_rms(path, finer.trajectory);
+    EXPECT_LE(off, bar);
+    closest = std::min(closest, bar / off);
+    // a rule that is neither route: its own last change at fine steps is what it does not know
+    Recorder coarse, fine;
+    for (const auto& [recorder, part] : {std::pair{&coarse, 64}, {&fine, 128}})
+      run_method(method, scene, {scene.step / part, run.duration, run.samples}, {recorder});
+    EXPECT_LE(sup_rms(path, fine.trajectory), bar + sup_rms(fine.trajectory, coarse.trajectory));
+  }
+  fmt::print("random planes: {} with restitution, {} known to the end, bar over error at least {:.2g}\n", rebound,
+             to_the_end, closest);
+  EXPECT_GT(std::min(rebound, 30 - rebound), 10);
+  EXPECT_GE(to_the_end, 25);
+}
+
 TEST(ContactTruth, IsNoneWhereNothingTouchesOrNoOrderIsSeen) {
   const Scene drape = load_scene("cloth-sphere");
   EXPECT_FALSE(contact_truth(drape, {1e-3, 0.1, 10}));  // it still falls
@@ -154,6 +188,51 @@ TEST(ContactTruth, AdvicePromisesOnRandomScenesAndKeepsItAfterEveryStep) {
     EXPECT_LE(c.error, c.tolerance) << seed;
     EXPECT_TRUE(c.met) << seed << ": " << c.method;
   }
+}
+
+TEST(FloorDrop, KeepsAPerturbationSmallToTheEndOfItsWindowAndEndsInOneState) {
+  const Scene scene = load_scene("floor-drop");
+  const Method method = find_method(scene.method);
+  const crosscheck::Run run = default_run(scene);
+  constexpr double size = 1e-10;  // m
+  const Trajectory plain = run_and_record(scene.method, scene, run).trajectory;
+  const auto expected = contact_quantities(scene, plain);
+  CrossingDetector crossings(scene.triangles);
+  double growth = 0;
+  for (unsigned seed = 1; seed <= 20; ++seed) {
+    SCOPED_TRACE(seed);
+    Recorder recorder;
+    const Scene start = perturbed(scene, size, seed);
+    ASSERT_EQ(run_method(method, start, run, {&recorder}).verdict, Verdict::ok);
+    const Trajectory& path = recorder.trajectory;
+    for (int i = 0; i < path.frames(); ++i) {
+      EXPECT_EQ(crossings.piercing_edges(path.x[i]), 0) << path.t[i];
+      if (path.t[i] <= scene.window * (1 + 1e-9))
+        growth = std::max(growth, largest_column(path.x[i] - plain.x[i]) / size);
+    }
+    // height, clearance, energies and outline at the end: differences of the order of the perturbation
+    const auto end = contact_quantities(start, path);
+    for (size_t q = 0; q < end.size(); ++q) EXPECT_NEAR(end[q].mean, expected[q].mean, 10 * size) << end[q].quantity;
+  }
+  fmt::print("floor-drop: a perturbation grows {:.3g}-fold at most\n", growth);
+  EXPECT_LT(growth, 10);  // as the scene's text says
+  EXPECT_GT(growth, 1);
+  EXPECT_EQ(scene.window, scene.duration);
+}
+
+TEST(FloorDrop, TruthCoversAnotherRuleToTheEnd) {
+  const Scene scene = load_scene("floor-drop");
+  const auto truth = truth_of(scene, default_run(scene));
+  ASSERT_TRUE(truth);
+  EXPECT_FALSE(truth->under_contact_rule);
+  EXPECT_GE(std::min(truth->until, scene.duration), scene.window);
+  EXPECT_LE(truth->error_bar, scene.tolerance / 3);
+  // rk4 is neither route
+  const Trajectory other = run_and_record("rk4", scene, {scene.step / 16, scene.duration, scene.samples}).trajectory;
+  const double off = sup_rms(truth->trajectory, other);
+  fmt::print("floor-drop: bar {:.2g} m, {:.2g} m from another rule\n", truth->error_bar, off);
+  EXPECT_LT(off, truth->error_bar);
+  EXPECT_GT(off, truth->error_bar / 40);
 }
 
 TEST(ContactStatistics, SpreadIsThatOfThePerturbationAndSeedsAreFixed) {

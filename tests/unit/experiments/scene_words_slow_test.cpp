@@ -220,6 +220,7 @@ const Grows grows[] = {
     {"cloth-swing", "it grows less than a hundredfold", growth_over_run, 0, 100},
     {"cloth-wind", "would grow ten thousandfold in 3 s", growth_at_two_corners, 3e3, 3e4},
     {"cloth-wind", "it grows less than a hundredfold", growth_over_run, 0, 100},
+    {"floor-drop", "the perturbation grows less than tenfold over the whole run", growth_over_run, 1, 10},
 };
 
 const std::vector<Scene>& all_scenes() {
