@@ -116,6 +116,8 @@ std::span<const Experiment> experiments() {
       {"relations", "What must hold in any engine, without any truth: does it?", relations_points},
       {"fabric", "Does a cloth of given bending rigidity hang and vibrate as the elastica and a beam do, on any grid?",
        fabric_points},
+      {"matrix", "Which rule is each engine, what does it add or take, and what does it cost?", matrix_points, {},
+       conclude_matrix},
   };
   return table;
 }

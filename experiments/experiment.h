@@ -116,7 +116,9 @@ std::vector<Point> cost_points(const Request& request);
 std::vector<Point> adequacy_points(const Request& request);
 std::vector<Point> relations_points(const Request& request);
 std::vector<Point> fabric_points(const Request& request);
+std::vector<Point> matrix_points(const Request& request);
 void conclude_adequacy(TableSet& tables);
+void conclude_matrix(TableSet& tables);
 /// Adds what follows from the errors and the costs of all scenes (speed_accuracy/work_precision.cpp).
 void conclude_speed_accuracy(TableSet& tables);
 

@@ -68,6 +68,10 @@ using std::chrono::milliseconds;
 
 constexpr size_t kept_bytes = 65536;  // per output of an untrusted program
 
+}  // namespace
+
+namespace process_detail {
+
 /// The two ends of a pipe; closed at the end of the scope and not inherited by other programs.
 struct Pipe {
   int read_end = -1, write_end = -1;  // -1: closed
@@ -85,6 +89,12 @@ struct Pipe {
     end = -1;
   }
 };
+
+}  // namespace process_detail
+
+namespace {
+
+using process_detail::Pipe;
 
 /// The files that become stdin, stdout and stderr of a program; -1: /dev/null.
 using StandardFiles = std::array<int, 3>;
@@ -207,7 +217,7 @@ void keep_as_number_3(int file) {
 constexpr milliseconds grace(200);     // in which children of a program that has ended may end too
 constexpr int try_without_users = -1;  // not an errno: the maps of users could not be written
 
-/// The watcher's work. The report comes when all processes have ended, at most ten seconds after the limit.
+/// The watcher's work. The report comes when all processes have ended, at most ten seconds after the limit or SIGTERM.
 [[noreturn]] void watch(const Call& call, unsigned long flags, const UserMaps& users, milliseconds limit,
                         int error_file, int report) {
   setpgid(0, 0);  // signals of a terminal to the parent's group are not for it
@@ -220,6 +230,7 @@ constexpr int try_without_users = -1;  // not an errno: the maps of users could 
   sigset_t child_ended, before;
   sigemptyset(&child_ended);
   sigaddset(&child_ended, SIGCHLD);
+  sigaddset(&child_ended, SIGTERM);  // pending, even where the first process of a namespace would ignore it
   sigprocmask(SIG_BLOCK, &child_ended, &before);
   const pid_t program = clone_process(0);
   if (program == 0) {
@@ -252,7 +263,7 @@ constexpr int try_without_users = -1;  // not an errno: the maps of users could 
       until = Clock::time_point::max();
     }
     const timespec rest{left.count() / 1000, left.count() % 1000 * 1000000};
-    sigtimedwait(&child_ended, nullptr, &rest);
+    if (sigtimedwait(&child_ended, nullptr, &rest) == SIGTERM && !told.timed_out) until = Clock::now();
   }
   if (!(flags & CLONE_NEWPID)) end_children(milliseconds(0));
   [[maybe_unused]] const ssize_t size = write(3, &told, sizeof told);
@@ -361,6 +372,89 @@ ProgramResult run_program(const std::vector<std::string>& argv, const std::files
   }
   drain(out, result.out, most), drain(err, result.err, most);
   return result;
+}
+
+struct LineServer::Process {
+  Pipe in, out, err, report;
+  pid_t parent = getpid(), watcher = -1;
+  std::optional<clockid_t> clock;  // CPU time of the program
+  std::string unread;              // of stdout
+
+  double cpu_time() const {
+    timespec now{};
+    if (!clock || clock_gettime(*clock, &now) != 0) return 0;
+    return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
+  }
+};
+
+LineServer::LineServer(const std::vector<std::string>& argv, const std::filesystem::path& cwd)
+    : process_(std::make_unique<Process>()) {
+  Process& p = *process_;
+  const Call call(argv, cwd, {}, {p.in.read_end, p.out.write_end, p.err.write_end});
+  p.watcher = start_watched(call, std::chrono::years(10), p.report.write_end);
+  Pipe::close_end(p.in.read_end);
+  for (Pipe* pipe : {&p.out, &p.err, &p.report}) {
+    Pipe::close_end(pipe->write_end);
+    fcntl(pipe->read_end, F_SETFL, O_NONBLOCK);
+  }
+  fcntl(p.in.write_end, F_SETFL, O_NONBLOCK);
+  pid_t program = 0;  // the watcher's only child
+  std::ifstream("/proc/" + std::to_string(p.watcher) + "/task/" + std::to_string(p.watcher) + "/children") >> program;
+  if (clockid_t clock; program > 0 && clock_getcpuclockid(program, &clock) == 0) p.clock = clock;
+}
+
+LineServer::~LineServer() {
+  Process& p = *process_;
+  if (!is_mine()) return;
+  Pipe::close_end(p.in.write_end);
+  pollfd ended{p.report.read_end, POLLIN, 0};
+  if (poll(&ended, 1, static_cast<int>(grace.count())) == 0) kill(p.watcher, SIGTERM);
+  if (poll(&ended, 1, 12'000) == 0) kill(p.watcher, SIGKILL);
+  ProgramResult unused;
+  wait_for(p.watcher, unused);
+  remove_stale_temporary_folders();
+}
+
+bool LineServer::is_mine() const { return process_->parent == getpid(); }
+
+LineServer::Answer LineServer::ask(const std::string& line, double seconds) {
+  Process& p = *process_;
+  Answer answer;
+  const double begin = p.cpu_time();
+  const auto until = Clock::now() + milliseconds(static_cast<long>(1000 * std::min(seconds, 1e9)));
+  std::string unsent = line + '\n';
+  const auto send = [&] {  // a program that has ended must not end this one by SIGPIPE
+    sigset_t pipe_signal, before;
+    sigemptyset(&pipe_signal), sigaddset(&pipe_signal, SIGPIPE);
+    pthread_sigmask(SIG_BLOCK, &pipe_signal, &before);
+    const ssize_t sent = write(p.in.write_end, unsent.data(), unsent.size());
+    const bool broken = sent < 0 && errno == EPIPE;
+    if (sent > 0) unsent.erase(0, static_cast<size_t>(sent));
+    if (const timespec now{}; broken) sigtimedwait(&pipe_signal, nullptr, &now);
+    pthread_sigmask(SIG_SETMASK, &before, nullptr);
+    return !broken;
+  };
+  for (;;) {
+    if (!unsent.empty() && !send()) return answer;
+    drain(p.out, p.unread, kept_bytes), drain(p.err, answer.err, kept_bytes);
+    for (size_t end; (end = p.unread.find('\n')) != std::string::npos && answer.line.empty();) {
+      if (p.unread[0] == '{') answer.line = p.unread.substr(0, end);
+      p.unread.erase(0, end + 1);
+    }
+    answer.cpu_seconds = p.cpu_time() - begin;
+    if (!answer.line.empty() || p.out.read_end < 0 || p.unread.size() == kept_bytes) return answer;
+    const auto left = std::chrono::ceil<milliseconds>(until - Clock::now()).count();
+    if (left <= 0) {
+      answer.timed_out = true;
+      return answer;
+    }
+    pollfd wait[4] = {{p.out.read_end, POLLIN, 0},
+                      {p.err.read_end, POLLIN, 0},
+                      {p.report.read_end, POLLIN, 0},
+                      {unsent.empty() ? -1 : p.in.write_end, POLLOUT, 0}};
+    poll(wait, 4, static_cast<int>(std::min(left, 1000L)));
+    if (wait[2].revents != 0 && wait[0].revents == 0) return answer;
+  }
 }
 
 int run_in_terminal(const std::vector<std::string>& argv) {

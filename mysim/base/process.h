@@ -5,6 +5,7 @@
 
 #include <chrono>
 #include <filesystem>
+#include <memory>
 #include <optional>
 #include <stdexcept>
 #include <string>
@@ -46,6 +47,34 @@ struct ProgramResult {
 /// stderr are kept.
 ProgramResult run_program(const std::vector<std::string>& argv, const std::filesystem::path& cwd,
                           const std::vector<std::string>& extra_env = {}, std::optional<double> timeout = {});
+
+/// A program that answers requests line by line, stdin to stdout, and is not trusted either. It ends with this object:
+/// its stdin is closed, and after 0.2 s all its descendants are killed.
+class LineServer {
+ public:
+  /// Starts argv[0] in the folder cwd. Throws CannotStart.
+  LineServer(const std::vector<std::string>& argv, const std::filesystem::path& cwd);
+  ~LineServer();
+  LineServer(const LineServer&) = delete;
+  LineServer& operator=(const LineServer&) = delete;
+
+  struct Answer {
+    std::string line;  // begins with '{'; empty: it ended, did not answer in time, or wrote 64 KiB without such a line
+    bool timed_out = false;
+    double cpu_seconds = 0;  // user and system time of the program between request and answer
+    std::string err;         // stderr in the meantime
+  };
+  /// Sends the line and waits for a line that begins with '{', skipping others, for at most so many seconds. After an
+  /// answer without a line the server is of no further use.
+  Answer ask(const std::string& line, double seconds);
+
+  /// False in a process forked from the one that started the server: two may not ask through one pipe.
+  bool is_mine() const;
+
+ private:
+  struct Process;
+  std::unique_ptr<Process> process_;
+};
 
 /// Runs a program with this program's stdin, stdout and stderr; returns its exit status, as above. Throws CannotStart.
 int run_in_terminal(const std::vector<std::string>& argv);

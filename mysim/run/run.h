@@ -143,6 +143,8 @@ struct Outcome {
   double end = 0;                          // s, last time reached; the time of failure when the verdict is not ok
   double step = 0;                         // s, as used; the mean of adaptive methods
   bool adaptive = false;                   // an outside program reports that it chooses its steps
+  bool serves = false;                     // likewise, that one process of it can run many scenes
+  std::string engine;                      // name and version of an outside program's engine
   double tolerance = 0;                    // 1, of adaptive methods; 0 elsewhere
   long steps = 0;                          // taken
   long evaluations = 0;                    // of the right-hand side, or the engine's own force passes

@@ -3,16 +3,19 @@
 
 #include <fmt/format.h>
 #include <unistd.h>
+#include <nlohmann/json.hpp>
 
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
 #include <cstring>
+#include <mutex>
 #include <optional>
 #include <sstream>
 
 #include "mysim/base/errors.h"
 #include "mysim/base/files.h"
+#include "mysim/base/json.h"
 #include "mysim/base/names.h"
 #include "mysim/base/process.h"
 #include "reference/protocol/run_json.h"
@@ -50,6 +53,41 @@ double parse_timeout(const std::string& method, const std::string& value) {
 
 }  // namespace
 
+class Server {
+ public:
+  /// Called after a run that says that its program serves.
+  void allow() { allowed_ = true; }
+
+  /// Runs the task; nullopt where it must be called the other way: it does not serve, is busy in another thread, or did
+  /// not answer as it should.
+  std::optional<ProgramResult> run(const Program& program, const fs::path& task, const fs::path& results) {
+    const std::unique_lock lock(busy_, std::try_to_lock);
+    if (!lock || !allowed_) return std::nullopt;
+    if (!process_ || !process_->is_mine())
+      process_ = std::make_unique<LineServer>(std::vector{program.path.string(), std::string("--serve")}, ".");
+    const Json request{{"scene", task.string()}, {"out", results.string()}};
+    LineServer::Answer answer = process_->ask(request.dump(), program.timeout);
+    ProgramResult end{.timed_out = answer.timed_out, .cpu_seconds = answer.cpu_seconds, .err = answer.err};
+    try {
+      if (!answer.timed_out) {
+        const JsonField told = JsonField::parse(answer.line, "the server's answer");
+        end.status = told["status"].whole_number(0, 255);
+        if (const auto reason = told.find("reason"); reason && end.status != 0) end.err = reason->text();
+        return end;
+      }
+    } catch (const InputError&) {
+      allowed_ = false;
+    }
+    process_.reset();
+    return answer.timed_out ? std::optional(end) : std::nullopt;
+  }
+
+ private:
+  std::mutex busy_;
+  bool allowed_ = false;
+  std::unique_ptr<LineServer> process_;
+};
+
 Program find_program(const std::string& text) {
   Program program;
   // the longest part of it that is a file: names may hold pluses, and values of options may hold slashes
@@ -61,6 +99,7 @@ Program find_program(const std::string& text) {
     throw InputError(
         fmt::format("method exec:{}: no such file; expected the path of a program, or a program in PATH", text));
   program.path = *found;
+  program.server = std::make_shared<Server>();
   if (fs::is_directory(program.path))
     throw InputError(fmt::format("method exec:{}: {} is a folder; expected a program", text, program.path.string()));
   if (access(program.path.c_str(), X_OK) != 0)
@@ -198,7 +237,10 @@ Outcome run_outside_engine(const Program& program, const Scene& scene, const Run
   out.step = grid.h;
   ProgramResult end;
   try {
-    end = run_program({program.path.string(), task.string(), results.string()}, ".", {}, program.timeout);
+    if (auto served = program.server->run(program, task, results))
+      end = std::move(*served);
+    else
+      end = run_program({program.path.string(), task.string(), results.string()}, ".", {}, program.timeout);
   } catch (const CannotStart& error) {
     out.verdict = Verdict::crash;
     out.reason = fmt::format("{} cannot be started: {}", program.path.string(), error.reason);
@@ -230,6 +272,7 @@ Outcome run_outside_engine(const Program& program, const Scene& scene, const Run
     none.process_seconds = end.cpu_seconds;
     return failed(none, Verdict::crash, "did not deliver: " + what, end);
   }
+  if (out.serves && out.cpu_seconds > 0) program.server->allow();  // its start is none of its cost
   const Verdict reported = out.verdict;
   const std::string misled = misled_pin(frames, scene, run, out);
   replay(frames, scene, run, observer, out, per_sample);

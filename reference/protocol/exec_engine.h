@@ -2,6 +2,7 @@
 #pragma once
 
 #include <filesystem>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -10,10 +11,14 @@
 
 namespace crosscheck {
 
+/// The process of a program that serves many scenes (PROTOCOL.md, Serve mode), started when it is first of use.
+class Server;
+
 struct Program {
   std::filesystem::path path;
   std::vector<std::string> options;  // handed over in scene.json
   double timeout = 600;              // s of wall-clock time
+  std::shared_ptr<Server> server;    // shared by copies
 };
 
 /// Reads "PATH+option+option". PATH is relative to the working directory; a bare word is looked for there, then in

@@ -163,6 +163,7 @@ std::string run_json(const Outcome& out) {
             {"cpu_seconds", out.cpu_seconds},
             {"different_law", out.different_law}};
   if (out.adaptive) json["adaptive"] = true;
+  if (!out.engine.empty()) json["engine"] = out.engine;
   if (out.readback) json["readback"] = readback_json(*out.readback);
   return dump(json, 1) + "\n";
 }
@@ -198,6 +199,8 @@ void read_run_json(const std::filesystem::path& path, Outcome& out, double durat
   count("force_evaluations", out.evaluations);
   count("coincident_springs", out.degenerate_springs);
   if (const auto adaptive = f.find("adaptive")) out.adaptive = adaptive->boolean();
+  if (const auto serves = f.find("serves")) out.serves = serves->boolean();
+  if (const auto engine = f.find("engine")) out.engine = printable(engine->text());
   if (const auto laws = f.find("different_law")) {
     for (const JsonField& law : laws->elements()) {
       // "ingredient: how it differs", as the certificate prints it

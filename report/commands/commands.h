@@ -59,6 +59,7 @@ void add_manual(CLI::App& app, Invocation& call);
 struct ReportOptions {
   std::vector<std::string> scenes;
   std::string methods;
+  std::string engines = {};  // "all": with every engine that `engine NAME` has built
   bool full = false;
   std::vector<std::string> experiments = {};  // those with chapters; empty: all
   std::filesystem::path against = {};         // an earlier report, or empty

@@ -1,5 +1,4 @@
-// engine: programs for exec: that put another engine behind the protocol: Bullet's adapter built against another Bullet
-// tree, Jolt's against a tree of Jolt or with npm's build of Jolt inside.
+// engine: builds the adapters of reference/engines/engines.json, each a program for exec:.
 
 #include <unistd.h>
 
@@ -9,6 +8,8 @@
 #include "mysim/base/hash.h"
 #include "mysim/base/installation.h"
 #include "mysim/base/process.h"
+#include "mysim/base/text.h"
+#include "reference/engines/engines.h"
 #include "report/commands/command_line.h"
 
 namespace crosscheck {
@@ -21,13 +22,11 @@ struct EngineOptions {
 };
 
 /// Where adapters are built: what was compiled once is not compiled again.
-fs::path build_folder(const std::string& name) {
-  return cache_folder().value_or(fs::temp_directory_path() / fmt::format("crosscheck-{}", getuid())) / "engines" / name;
-}
+fs::path build_folder(const std::string& name) { return kept_program(name).parent_path().parent_path() / name; }
 
 /// False where one of the tools is not on the path, with a line that says how to install what is missing.
 bool have_tools(const EngineOptions& options, std::initializer_list<std::pair<const char*, const char*>> tools,
-                std::string_view packages) {
+                const std::string& packages) {
   for (const auto& [tool, package] : tools)
     if (!on_path(tool)) {
       fmt::print(stderr,
@@ -56,10 +55,8 @@ void install(const std::string& program, const fs::path& as) {
                           fs::perms::others_exec);
 }
 
-/// Builds the adapter in `folder` of the sources against the tree of --prefix, which its CMakeLists.txt calls
-/// `variable`, and installs its one program.
-int build_adapter(const EngineOptions& options, const std::string& folder, const std::string& variable,
-                  const std::string& program, double seconds) {
+/// Builds the adapter against the tree of --prefix by the CMakeLists.txt of the engine.
+int build_adapter(const EngineOptions& options, const OutsideEngine& engine, const fs::path& program) {
   const fs::path prefix = fs::canonical(options.prefix);
   if (!have_tools(options, {{"cmake", "cmake"}, {"ninja", "ninja-build"}, {"g++", "g++"}},
                   "cmake ninja-build g++ libeigen3-dev libfmt-dev"))
@@ -73,112 +70,132 @@ int build_adapter(const EngineOptions& options, const std::string& folder, const
   progress.begin("configuring", 2);
   const unsigned jobs = std::max(1u, std::thread::hardware_concurrency());
   const bool configured =
-      run_tool({"cmake", "-S", (data_folder() / folder).string(), "-B", build.string(), "-G", "Ninja",
-                "-DCMAKE_BUILD_TYPE=Release", fmt::format("-D{}={}", variable, prefix.string()),
+      run_tool({"cmake", "-S", (data_folder() / engine.cmake).string(), "-B", build.string(), "-G", "Ninja",
+                "-DCMAKE_BUILD_TYPE=Release", fmt::format("-DENGINE_PREFIX={}", prefix.string()),
                 fmt::format("-DCROSSCHECK_LIBRARIES={}", programs_folder().string()),
                 "-DCMAKE_EXE_LINKER_FLAGS=" CROSSCHECK_LINK_FLAGS},
                fs::current_path(), options, "cmake");
   if (!configured) fs::remove_all(build, none);
-  progress.begin("compiling the adapter", seconds);
+  progress.begin("compiling the adapter", 60);  // s
   if (!configured || !run_tool({"cmake", "--build", build.string(), "--parallel", std::to_string(jobs)},
                                fs::current_path(), options, "the build"))
     return 1;
   progress.done();
-  install(read_file(build / program, "a program"), options.program);
+  install(read_file(build / "engine", "a program"), program);
   return 0;
 }
 
-// Bullet
-
-int build_bullet(const EngineOptions& options) {
-  if (options.prefix.empty())
-    throw InputError("engine bullet: expected --prefix DIR, an installation or a source tree of Bullet");
-  constexpr const char* folders[] = {"src", "include/bullet", "include"};
-  if (std::ranges::none_of(folders, [&](const char* folder) {
-        return fs::exists(options.prefix / folder / "btBulletDynamicsCommon.h");
-      }))
-    throw InputError(
-        fmt::format("--prefix {}: expected an installed Bullet (include/bullet/btBulletDynamicsCommon.h or "
-                    "include/btBulletDynamicsCommon.h, and lib*/) or its source tree (src/btBulletDynamicsCommon.h)",
-                    options.prefix.string()));
-  return build_adapter(options, "reference/bullet/adapter", "BULLET_PREFIX", "bullet_engine", 30);  // s, on two cores
-}
-
-// Jolt
-
-/// The text with `from`, which must occur so many times, replaced by `to`.
-std::string replaced(std::string text, std::string_view from, std::string_view to, int times, const fs::path& file) {
-  int found = 0;
-  for (size_t at = 0; (at = text.find(from, at)) != std::string::npos; at += to.size(), ++found)
-    text.replace(at, from.size(), to);
-  if (found != times)
-    throw InputError(fmt::format("{}: expected '{}' {} times, found it {} times", file.string(), from, times, found));
-  return text;
-}
-
-/// Node takes a file without an ending for a script, not for a module: what only modules have is taken out of the
-/// bundle. Its function is defined before the adapter runs, wherever it stands.
-std::string jolt_program(const fs::path& package) {
-  const fs::path bundle = package / "dist/jolt-physics.wasm-compat.js";
-  std::string text = read_file(bundle, "Jolt's WebAssembly with its JavaScript");
-  text = replaced(std::move(text), "import.meta.url", "\"file:///jolt.js\"", 2, bundle);
-  text = replaced(std::move(text), "export default Jolt;", "", 1, bundle);
-  return fmt::format("{}\n/* jolt-physics of npm, from here to the end:\n{}*/\n{}\n",
-                     read_file(data_folder() / "reference/jolt/jolt_engine.js", "Jolt's adapter"),
-                     read_file(package / "LICENSE", "the licence of jolt-physics"), text);
-}
-
-/// Jolt compiled for this machine.
-int build_native_jolt(const EngineOptions& options) {
-  for (const char* needed : {"Build/CMakeLists.txt", "Jolt/Physics/SoftBody/SoftBodyMotionProperties.h"})
-    if (!fs::exists(options.prefix / needed))
-      throw InputError(
-          fmt::format("--prefix {}: expected a source tree of Jolt with its {}", options.prefix.string(), needed));
-  return build_adapter(options, "reference/jolt/adapter", "JOLT_PREFIX", "jolt_engine", 240);  // s, on two cores
-}
-
-int build_jolt(const EngineOptions& options) {
-  if (!options.prefix.empty()) return build_native_jolt(options);
-  if (!have_tools(options, {{"node", "nodejs"}, {"npm", "npm"}}, "nodejs npm")) return 1;
-  // npm holds what it fetches against the checksum in package-lock.json, and keeps it in its own cache; two that are
-  // started at once have a folder each
-  const fs::path folder = build_folder(fmt::format("jolt-{}", getpid()));
-  for (const char* file : {"package.json", "package-lock.json"})
-    write_file(folder / file, read_file(data_folder() / "reference/jolt" / file, "what npm is to fetch"));
+/// Compiles the one source of an adapter against Debian's package of its engine.
+int compile_source(const EngineOptions& options, const OutsideEngine& engine, const fs::path& program) {
+  if (!have_tools(options, {{"g++", "g++"}}, fmt::format("g++ {}", engine.package))) return 1;
+  if (run_program({"g++", "-x", "c++", "-fsyntax-only", "-include", engine.header, "/dev/null"}, ".").status != 0) {
+    fmt::print(stderr,
+               "crosscheck: engine {}: there is no {}; package {} is not installed: apt-get install "
+               "--no-install-recommends {}\n",
+               engine.name, engine.header, engine.package, engine.package);
+    return 1;
+  }
   Progress progress(1);
-  progress.begin("fetching jolt-physics", 5);  // s
-  const bool fetched =
+  progress.begin("compiling the adapter", 20);  // s
+  const fs::path folder = data_folder() / "reference";
+  // no fused multiply-add, as mysim is compiled: it would give other numbers
+  std::vector<std::string> call{"g++",
+                                "-std=c++17",
+                                "-O2",
+                                "-ffp-contract=off",
+                                "-I",
+                                (folder / "protocol").string(),
+                                (folder / "engines" / engine.source).string(),
+                                "-o",
+                                program.string()};
+  call.insert(call.end(), engine.flags.begin(), engine.flags.end());
+  if (!run_tool(call, ".", options, "the compiler")) return 1;
+  progress.done();
+  return 0;
+}
+
+/// Bundles npm's build of the engine with its adapter.
+int bundle_module(const EngineOptions& options, const OutsideEngine& engine, const fs::path& program) {
+  if (!have_tools(options, {{"node", "nodejs"}, {"npm", "npm"}, {"esbuild", "esbuild"}}, "nodejs npm esbuild"))
+    return 1;
+  // npm checks the checksum in package-lock.json and has a cache of its own; the folder's name tells apart two of these
+  // that run at once
+  const fs::path folder = build_folder(fmt::format("{}-{}", engine.name, getpid())),
+                 sources = data_folder() / "reference";
+  for (const char* file : {"package.json", "package-lock.json"})
+    write_file(folder / file, read_file(sources / "engines/npm" / engine.name / file, "the packages that npm fetches"));
+  Progress progress(2);
+  progress.begin(fmt::format("fetching {}", engine.npm), 5);  // s
+  bool done =
       run_tool({"npm", "ci", "--ignore-scripts", "--no-audit", "--no-fund", "--no-update-notifier", "--prefer-offline"},
                folder, options, "npm");
-  if (fetched) {
-    progress.done();
-    install(jolt_program(folder / "node_modules/jolt-physics"), options.program);
+  if (done) {
+    progress.begin("bundling", 2);  // s
+    for (const std::string& file : {"engines/" + engine.module, std::string("protocol/crosscheck_engine.mjs")})
+      write_file(folder / file, read_file(sources / file, "the adapter"));
+    std::string licence;
+    for (const char* name : {"LICENSE", "LICENSE.md", "LICENCE"})
+      if (const fs::path file = folder / "node_modules" / engine.npm / name; fs::exists(file))
+        licence = read_file(file, "the licence");
+    done = run_tool({"esbuild", "engines/" + engine.module, "--bundle", "--platform=node", "--format=cjs",
+                     "--outfile=" + program.string(), "--define:import.meta.url=\"file:///engine.js\"",
+                     "--banner:js=#!/usr/bin/env node", fmt::format("--footer:js=/* {}:\n{}*/", engine.npm, licence)},
+                    folder, options, "esbuild");
   }
   std::error_code none;
   fs::remove_all(folder, none);
-  return fetched ? 0 : 1;
+  if (done) progress.done();
+  return done ? 0 : 1;
 }
 
+void require_prefix(const EngineOptions& options, const OutsideEngine& engine) {
+  if (options.prefix.empty())
+    throw InputError(fmt::format("engine {}: expected --prefix DIR, {}", engine.name, engine.prefix));
+  if (engine.prefix.empty())
+    throw InputError(fmt::format("engine {}: expected no --prefix: it is built from {}", engine.name,
+                                 engine.npm.empty() ? engine.package : "npm's " + engine.npm));
+  const std::vector<std::string> files = split(engine.prefix_file, '|');
+  if (std::ranges::none_of(files, [&](const std::string& file) { return fs::exists(options.prefix / file); }))
+    throw InputError(fmt::format("--prefix {}: expected {} with its {}", options.prefix.string(), engine.prefix,
+                                 fmt::join(files, " or ")));
+}
+
+/// Builds the program, keeps it for reports and copies it to where it is asked for.
 int engine_command(const EngineOptions& options) {
-  if (options.what != "bullet" && options.what != "jolt")
-    throw InputError(fmt::format("engine {}: expected bullet or jolt{}", options.what,
-                                 did_you_mean(options.what, {"bullet", "jolt"})));
-  require_output_file(options.program);
-  const int status = options.what == "bullet" ? build_bullet(options) : build_jolt(options);
-  if (status == 0) fmt::print("{}\n", options.program.string());
+  const std::vector<OutsideEngine> all = outside_engines();
+  std::vector<std::string> names;
+  for (const OutsideEngine& engine : all) names.push_back(engine.name);
+  const auto found = std::ranges::find(all, options.what, &OutsideEngine::name);
+  if (found == all.end())
+    throw InputError(fmt::format("engine {}: expected one of {}{}", options.what, fmt::join(names, ", "),
+                                 did_you_mean(options.what, names)));
+  const OutsideEngine& engine = *found;
+  const bool from_tree = !options.prefix.empty() || (engine.source.empty() && engine.module.empty());
+  if (from_tree) require_prefix(options, engine);
+  if (!options.program.empty()) require_output_file(options.program);
+  const fs::path kept = kept_program(engine.name), made = kept.string() + fmt::format(".{}", getpid());
+  fs::create_directories(kept.parent_path());
+  const int status = from_tree               ? build_adapter(options, engine, made)
+                     : engine.source.empty() ? bundle_module(options, engine, made)
+                                             : compile_source(options, engine, made);
+  std::error_code none;
+  if (status == 0) {
+    install(read_file(made, "a program"), kept);
+    if (!options.program.empty()) install(read_file(made, "a program"), options.program);
+    fmt::print("{}\n", (options.program.empty() ? kept : options.program).string());
+  }
+  fs::remove(made, none);
   return status;
 }
 
 }  // namespace
 
 void add_engine(CLI::App& app, Invocation& call) {
-  auto [engine, options] = add_command(
-      app, call, "engine", "builds an external engine for exec: from another Bullet, or from Jolt", engine_command);
-  engine.add_option("NAME", options.what, "bullet or jolt")->required();
-  engine.add_option(
-      "--prefix", options.prefix,
-      "bullet: an installation or a source tree of Bullet; jolt: a source tree of Jolt, without it npm's build");
-  engine.add_option("-o", options.program, "PROG: the program to write")->required();
+  auto [engine, options] =
+      add_command(app, call, "engine", "builds a program for exec: from another engine", engine_command);
+  engine.add_option("NAME", options.what, "mujoco, simbody, ode, ...: `list engines` shows all")->required();
+  engine.add_option("--prefix", options.prefix, "DIR: an installation or a source tree of the engine");
+  engine.add_option("-o", options.program, "PROG: writes the program here too; `report --engines all` finds it anyway");
 }
 
 }  // namespace crosscheck

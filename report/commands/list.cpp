@@ -6,6 +6,7 @@
 #include "experiments/experiment.h"
 #include "mysim/base/installation.h"
 #include "mysim/base/process.h"
+#include "reference/engines/engines.h"
 #include "reference/truth/independent/integrators.h"
 #include "report/commands/command_line.h"
 #include "report/page/lab_html.h"
@@ -31,11 +32,15 @@ int list_command(const ListOptions& options) {
                         "any program that speaks the engine protocol (reference/protocol/PROTOCOL.md)");
   } else if (what == "experiments") {
     for (const Experiment& experiment : experiments()) rows.emplace_back(experiment.name, experiment.question);
+  } else if (what == "engines") {
+    for (const OutsideEngine& e : outside_engines())
+      rows.emplace_back(e.name, fmt::format("{} ({}, {}, {} precision): {}", e.title, e.built, e.licence, e.precision,
+                                            e.rule));
   } else if (what == "assignments") {
     grader_command(json ? std::vector<std::string>{"list", "--json"} : std::vector<std::string>{"list"});
   } else {
-    throw InputError(fmt::format("list {}: expected scenes, methods, experiments or assignments{}", what,
-                                 did_you_mean(what, {"scenes", "methods", "experiments", "assignments"})));
+    throw InputError(fmt::format("list {}: expected scenes, methods, engines, experiments or assignments{}", what,
+                                 did_you_mean(what, {"scenes", "methods", "engines", "experiments", "assignments"})));
   }
   Json list = Json::array();
   for (const auto& [name, text] : rows)
@@ -78,8 +83,8 @@ int doctor_command() {
       {"python3", "python3-numpy", "runs engines in NumPy, and the package for Python; the tests need it", false},
       {"clang++", "clang", "another compiler, for `tests/mutants/builds.sh`", false},
       {"wasm-ld", lab_packages, "compiles mysim to WebAssembly, with clang: the lab in the page", false},
-      {"node", "nodejs", "runs Jolt as an engine: `engine jolt`; the tests run the lab's module in it", false},
-      {"npm", "npm", "fetches Jolt, for `engine jolt`", false},
+      {"node", "nodejs", "runs engines in JavaScript and WebAssembly; the tests run the lab's module in it", false},
+      {"npm", "npm", "fetches these engines: `engine NAME`", false},
       {"pdflatex", "texlive-latex-base", "the tests compile a paper with a set of figures", false},
       {"chromium", "chromium", "a browser: the tests try the page's player in it; prints the page as PDF", false},
   };
@@ -93,6 +98,14 @@ int doctor_command() {
                          : "absent",
          tool.purpose, found ? "" : fmt::format("; apt-get install --no-install-recommends {}", tool.package));
   }
+  fmt::print("\nother engines, for `report --engines all`:\n");
+  for (const OutsideEngine& engine : outside_engines()) {
+    const bool built = std::filesystem::exists(kept_program(engine.name));
+    line(engine.name, built ? "built" : "absent",
+         fmt::format("{}, {}, {}{}", engine.title, engine.built, engine.licence,
+                     engine.package.empty() ? "" : ", package " + engine.package),
+         built ? "" : "; " + command_to_build(engine));
+  }
   fmt::print("\n{}\n", complete ? "all that is required is here" : "something required is missing");
   return complete ? 0 : 1;
 }
@@ -101,8 +114,8 @@ int doctor_command() {
 
 void add_list(CLI::App& app, Invocation& call) {
   auto [list, options] =
-      add_command(app, call, "list", "lists scenes, methods, experiments or assignments", list_command);
-  list.add_option("WHAT", options.what, "scenes, methods, experiments or assignments")->required();
+      add_command(app, call, "list", "lists scenes, methods, engines, experiments or assignments", list_command);
+  list.add_option("WHAT", options.what, "scenes, methods, engines, experiments or assignments")->required();
   list.add_flag("--json", options.json, "prints JSON");
 }
 

@@ -4,6 +4,7 @@
 
 #include "experiments/sweep/sweep.h"
 #include "mysim/base/names.h"
+#include "reference/engines/engines.h"
 #include "report/commands/command_line.h"
 #include "report/commands/json_files.h"
 #include "report/findings/findings_text.h"
@@ -56,6 +57,23 @@ std::string left_out(const Request& request) {
       "this is the short form of the report: {} have no part of their own, and each chapter looks at "
       "the scenes that stand for the others; --full has all of them",
       fmt::join(names, ", "));
+}
+
+/// With --engines all: adds the engines that are built to the methods, and names the others with the command that
+/// builds them. Without methods and scenes these are the rules that other engines follow, and small scenes.
+ReportOptions with_all_engines(ReportOptions options) {
+  if (options.engines != "all") throw InputError(fmt::format("--engines {}: expected all", options.engines));
+  if (options.methods.empty())
+    options.methods =
+        "leapfrog,symplectic-euler,rk4,implicit-euler,xpbd,bullet/deformable-explicit,bullet/deformable-implicit,"
+        "bullet/pbd";
+  if (options.scenes.empty()) options.scenes = {"chain", "cloth-small", "cloth-hang", "slide"};
+  for (const OutsideEngine& engine : outside_engines())
+    if (const fs::path program = kept_program(engine.name); fs::exists(program))
+      options.methods += ",exec:" + program.string();
+    else
+      fmt::print(stderr, "crosscheck: without {}: {} builds it\n", engine.title, command_to_build(engine));
+  return options;
 }
 
 /// Computes points, a process for each, and returns what failed.
@@ -195,7 +213,7 @@ int called_report(const CalledReport& options) {
   if (!options.verified.empty()) return verify_command(options.verified);
   if (!options.from.empty()) return remake_command(options.from, options);
   OutputFolder folder(options.out, "report");
-  return report_command(options, folder);
+  return report_command(options.engines.empty() ? ReportOptions(options) : with_all_engines(options), folder);
 }
 
 }  // namespace
@@ -206,6 +224,7 @@ void add_report(CLI::App& app, Invocation& call) {
                   called_report);
   report.add_option("SCENE", options.scenes, "default: those that stand for the others; all with --full");
   report.add_option("--methods", options.methods, "A,B,...");
+  report.add_option("--engines", options.engines, "all: with every engine that `engine NAME` has built");
   report.add_option("--out", options.out, "folder (out/report)");
   add_quick_and_full(report, options.full);
   report.add_option("--against", options.against, "an earlier report: the page says what changed since");

@@ -358,5 +358,106 @@ TEST_F(Exec, ATrajectoryFromAFileIsAMethod) {
   }
 }
 
+// Serve mode. The program counts its starts; `answer` is what its server does with the request in $line, whose paths
+// are $scene and $out.
+class ExecServer : public Exec {
+ protected:
+  Method server(const std::string& answer, const std::string& options = "") const {
+    const std::string deliver_both = "deliver() { " + deliver("x.npy").substr(0, deliver("x.npy").size() - 1) +
+                                     "; echo '{\"cpu_seconds\": 0.001, \"serves\": true}' > \"$2/run.json\"; }\n";
+    return find_method("exec:" +
+                       script("engine", "echo start >> '" + starts().string() + "'\n" + deliver_both +
+                                            "[ \"$1\" = --serve ] || { deliver \"$1\" \"$2\"; exit 0; }\n"
+                                            "while read -r line; do\n"
+                                            "out=${line##*'\"out\":\"'}\nout=${out%%\\\"*}\n" +
+                                            answer + "\ndone\n") +
+                       options);
+  }
+  fs::path starts() const { return folder_ / "starts"; }
+  long count_starts() const { return std::ranges::count(read(starts()), '\n'); }
+  MethodRun run(const Method& method) const {
+    Recorder r;
+    MethodRun done{{}, run_method(method, scene_, run_, {&r})};
+    done.trajectory = r.trajectory;
+    return done;
+  }
+};
+
+TEST_F(ExecServer, IsStartedOnceForManyRuns) {
+  const Method method = server("deliver - \"$out\"; echo a word; echo '{\"status\": 0}'");
+  const MethodRun first = run(method);
+  ASSERT_EQ(first.outcome.verdict, Verdict::ok) << first.outcome.reason;
+  for (int i = 0; i < 5; ++i) {
+    const Method copy = method;  // shares the server
+    const MethodRun again = run(copy);
+    ASSERT_EQ(again.outcome.verdict, Verdict::ok) << again.outcome.reason;
+    for (size_t frame = 0; frame < first.trajectory.x.size(); ++frame)
+      EXPECT_EQ(again.trajectory.x[frame], first.trajectory.x[frame]);
+    EXPECT_GT(again.outcome.process_seconds, 0);
+  }
+  EXPECT_EQ(count_starts(), 2) << "one call, then one server";
+}
+
+TEST_F(ExecServer, IsNotStartedForAProgramThatDoesNotServeOrDoesNotTellItsTime) {
+  for (const char* told :
+       {"{\"cpu_seconds\": 0.001}", "{\"serves\": true}", "{\"serves\": false, \"cpu_seconds\": 1}"}) {
+    fs::remove(starts());
+    const Method method =
+        find_method("exec:" + script("engine", "echo $1 >> '" + starts().string() + "'\n" + deliver("x.npy") +
+                                                   "echo '" + told + "' > \"$2/run.json\"\n"));
+    for (int i = 0; i < 3; ++i) EXPECT_EQ(run(method).outcome.verdict, Verdict::ok);
+    EXPECT_EQ(count_starts(), 3) << told;
+    EXPECT_FALSE(contains(read(starts()), "--serve"));
+  }
+}
+
+TEST_F(ExecServer, RefusesAndFailsInItsOwnWords) {
+  const Method refuses = server("echo '{\"status\": 3, \"reason\": \"has no nets\"}'");
+  run(refuses);
+  const MethodRun refused = run(refuses);
+  EXPECT_EQ(refused.outcome.verdict, Verdict::unsupported);
+  EXPECT_EQ(refused.outcome.reason, "has no nets");
+  const Method fails = server("echo '{\"status\": 1, \"reason\": \"out of luck\"}'");
+  run(fails);
+  const MethodRun failed = run(fails);
+  EXPECT_EQ(failed.outcome.verdict, Verdict::crash);
+  EXPECT_TRUE(contains(failed.outcome.reason, "out of luck"));
+  const Method empty = server("echo '{\"status\": 0}'");  // and no files
+  run(empty);
+  EXPECT_TRUE(contains(run(empty).outcome.reason, "trajectory.npy: missing"));
+}
+
+TEST_F(ExecServer, ThatDoesNotAnswerIsReplacedByACallForEachRun) {
+  for (const char* answer : {"exit 0", "kill -9 $$", "echo '{\"status\": '", "echo '{}'", "exec cat /dev/zero"}) {
+    fs::remove(starts());
+    const Method method = server(answer);
+    for (int i = 0; i < 3; ++i) {
+      const MethodRun done = run(method);
+      EXPECT_EQ(done.outcome.verdict, Verdict::ok) << answer << ": " << done.outcome.reason;
+    }
+    EXPECT_EQ(count_starts(), 4) << answer << ": three calls, and one server that failed";
+  }
+}
+
+TEST_F(ExecServer, LeavesNothingBehindAtTheTimeLimitAndWithItsMethod) {
+  const fs::path beats = folder_ / "beats";
+  write("beat.sh", "while :; do echo >> '" + beats.string() + "'; sleep 0.02; done\n");
+  const std::string detach = "setsid sh '" + (folder_ / "beat.sh").string() + "' < /dev/null > /dev/null 2>&1 &\n" +
+                             "while ! [ -s '" + beats.string() + "' ]; do sleep 0.01; done\n";
+  for (const bool hangs : {true, false}) {
+    fs::remove(beats);
+    {
+      const Method method = server(detach + (hangs ? "sleep 1000" : "deliver - \"$out\"; echo '{\"status\": 0}'"),
+                                   hangs ? "+timeout=0.5" : "");
+      run(method);
+      EXPECT_EQ(run(method).outcome.verdict, hangs ? Verdict::timeout : Verdict::ok);
+    }
+    const auto size = fs::file_size(beats);
+    EXPECT_GT(size, 0u);
+    usleep(100000);  // five beats
+    EXPECT_EQ(fs::file_size(beats), size) << "it lives on";
+  }
+}
+
 }  // namespace
 }  // namespace crosscheck

@@ -1,0 +1,43 @@
+// The tables of experiment `matrix`: one answer of each engine to each question.
+#pragma once
+
+#include <array>
+
+#include "experiments/tables/typed.h"
+
+namespace crosscheck {
+
+enum class EngineQuestion {
+  rule,
+  order,
+  damping_of_spring,
+  damping_of_chain,
+  invariants,
+  friction,
+  largest_step,
+  cost,
+  empty_step
+};
+inline std::string_view name_of(EngineQuestion question) {
+  constexpr std::array<std::string_view, 9> names = {
+      "rule",         "order",       "damping of a spring", "damping of a chain", "invariants", "sticks or slides",
+      "largest step", "cost of 1 %", "empty step"};
+  return names[static_cast<size_t>(question)];
+}
+template <>
+inline constexpr std::pair range_of<EngineQuestion>{EngineQuestion::rule, EngineQuestion::empty_step};
+
+/// One cell: a number with its error bar and tier, or a refusal.
+template <bool timed>
+struct MatrixRow {
+  TABLE(timed ? "matrix-cost" : "matrix");
+  COLUMN(std::string, method, "method", "1", "method that was asked");
+  COLUMN(EngineQuestion, question, "question", "1", "what was asked");
+  COLUMN(OptionalNumber, value, "value", "unit", "the answer where it is a number");
+  COLUMN(OptionalNumber, bar, "bar", "unit", "error bar of the value");
+  COLUMN(std::string, unit, "unit", "1", "unit of value and bar");
+  COLUMN(std::string, tier, "tier", "1", "what the answer is compared with");
+  COLUMN(std::string, words, "words", "1", "the answer in words, or why there is none");
+};
+
+}  // namespace crosscheck

@@ -1,0 +1,43 @@
+// The engines that `crosscheck engine NAME` builds an adapter for: the rows of engines.json.
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace crosscheck {
+
+struct OutsideEngine {
+  std::string name, title;  // "mujoco", "MuJoCo 2"
+  std::string built;        // "native", "JavaScript" or "WebAssembly"
+  std::string licence, precision;
+  std::string rule;        // its time-stepping rule, by default and by option
+  std::string represents;  // ingredients, in words
+  std::string other_law;   // ingredients that it has under another law; may be empty
+
+  // How the adapter is built, from files in reference/engines: one source with the compiler, or a folder with CMake, or
+  // a module with npm's package.
+  std::string source, cmake, module;
+  std::string package, header;     // Debian's package of the engine, and a header of it
+  std::vector<std::string> flags;  // for the compiler
+  std::string npm;                 // the package of npm; npm/NAME pins it
+  std::string prefix;              // the tree that --prefix names, with `prefix_file` in it; empty: no such option
+  std::string prefix_file;
+
+  bool is_native() const { return built == "native"; }
+};
+
+/// The rows of the file, in its order. Throws InputError.
+std::vector<OutsideEngine> outside_engines();
+
+/// The program that `engine NAME` keeps for reports, whether or not it is there.
+std::filesystem::path kept_program(const std::string& engine);
+
+/// The row of the engine whose kept program the method "exec:PATH+option" names, or nothing.
+std::optional<OutsideEngine> kept_engine_of(const std::string& method);
+
+/// The commands that build it: "crosscheck engine box3d --prefix DIR".
+std::string command_to_build(const OutsideEngine& engine);
+
+}  // namespace crosscheck
