@@ -2,21 +2,23 @@
 // is among the methods.
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
 
+#include "experiments/energy/long_run.h"
 #include "experiments/experiment.h"
 #include "experiments/scenes/scenes.h"
 #include "experiments/stability/spectrum.h"
 #include "experiments/tables/check.h"
-#include "experiments/tables/energy.h"
 #include "experiments/tables/matrix.h"
 #include "experiments/tables/order.h"
 #include "experiments/tables/speed_accuracy.h"
 #include "experiments/tables/stability.h"
 #include "experiments/timing/timing.h"
 #include "mysim/model/energy.h"
+#include "reference/engines/engines.h"
 #include "reference/which_rule.h"
 
 namespace crosscheck {
@@ -25,72 +27,118 @@ namespace {
 using Answer = MatrixRow<false>;
 using CostAnswer = MatrixRow<true>;
 
-/// The chain without drag, let go from its slowest mode about its rest; no particle is further from rest than a
-/// thousandth of the scene's size, so that the motion is linear to a thousandth.
-struct ModeOfChain {
-  Scene scene = load_scene("chain");
-  double omega = 0, energy_at_rest = 0;  // rad/s, J
-
-  ModeOfChain() {
-    std::erase_if(scene.model.terms, [](const Term& term) { return std::holds_alternative<Drag>(term); });
-    const State rest = equilibrium_of(scene).rest.value();
-    const Spectrum spectrum = spectrum_of(scene, rest);
-    omega = spectrum.modes.front().omega;
-    energy_at_rest = energy_of(scene.model, rest).total();
-    const Points shape = spectrum.system.offsets(spectrum.shapes.col(0), scene.model.particles.size());
-    scene.start = rest;
-    scene.start.x += 1e-3 * scene.size() / std::sqrt(shape.colwise().squaredNorm().maxCoeff()) * shape;
-    scene.hash = hash_of(scene);
-  }
+/// An undamped motion in one mode, and the step at which its damping is measured.
+struct UndampedMode {
+  EngineQuestion question;
+  Scene scene;
+  double omega, energy_at_rest, step;  // rad/s, J, s
 };
 
-/// Minus the slope of ln(energy) over time, least squares: the drag rate (1/s) that would damp as much.
-double rate_of(std::span<const std::pair<double, double>> logs) {
-  double n = 0, t1 = 0, y1 = 0, tt = 0, ty = 0;
-  for (const auto& [t, y] : logs) n += 1, t1 += t, y1 += y, tt += t * t, ty += t * y;
-  return -(n * ty - t1 * y1) / (n * tt - t1 * t1);
+/// The oscillator of experiment `energy`, in 63 steps a period.
+UndampedMode mode_of_spring() {
+  constexpr double omega = 10;  // rad/s
+  return {EngineQuestion::damping_of_spring, undamped_oscillator(), omega, 0, 2 * M_PI / omega / 63};
 }
 
-/// Damping over ten periods. A drag rate is the same in both halves of the run; their difference is the error bar.
-Answer damping_of_chain(const Method& method) {
-  Answer cell{.method = method.name, .question = EngineQuestion::damping_of_chain, .unit = "1/s"};
-  const ModeOfChain mode;
-  constexpr int samples = 400;
-  const Run run{.step = mode.scene.step, .duration = 20 * M_PI / mode.omega, .samples = samples, .timed = false};
+/// The chain without drag, let go from its slowest mode about its rest; no particle is further from rest than a
+/// thousandth of the scene's size, so that the motion is linear to a thousandth.
+UndampedMode mode_of_chain() {
+  Scene scene = load_scene("chain");
+  std::erase_if(scene.model.terms, [](const Term& term) { return std::holds_alternative<Drag>(term); });
+  const State rest = equilibrium_of(scene).rest.value();
+  const Spectrum spectrum = spectrum_of(scene, rest);
+  const Points shape = spectrum.system.offsets(spectrum.shapes.col(0), scene.model.particles.size());
+  scene.start = rest;
+  scene.start.x += 1e-3 * scene.size() / std::sqrt(shape.colwise().squaredNorm().maxCoeff()) * shape;
+  scene.hash = hash_of(scene);
+  const double energy_at_rest = energy_of(scene.model, rest).total(), step = scene.step;
+  return {EngineQuestion::damping_of_chain, std::move(scene), spectrum.modes.front().omega, energy_at_rest, step};
+}
+
+/// Minus the slope of the logarithms over time, least squares.
+double rate_of(std::span<const double> logs, double interval) {
+  double n = 0, t1 = 0, y1 = 0, tt = 0, ty = 0;
+  for (const double y : logs) t1 += n, y1 += y, tt += n * n, ty += n * y, n += 1;
+  return -(n * ty - t1 * y1) / (n * tt - t1 * t1) / interval;
+}
+
+/// The drag rate that would damp as much, over ten periods. The logarithm of the energy is averaged over each period:
+/// the energy of symplectic rules swings within one. A drag rate is the same in both halves of the run, whose
+/// difference is the error bar; at least rounding's, which moves the energy by 1e-14 of itself (1e-5 in single
+/// precision).
+Answer damping_of(const Method& method, const UndampedMode& mode) {
+  constexpr int periods = 10, samples = 21;
+  Answer answer{.method = method.name, .question = mode.question, .unit = "1/s"};
+  const double period = 2 * M_PI / mode.omega;
+  const Run run{
+      .step = mode.step * (1 + 1e-9), .duration = periods * period, .samples = periods * samples, .timed = false};
   Recorder recorder;
   const Outcome out = run_method(method, mode.scene, run, {&recorder});
   const Trajectory& path = recorder.trajectory;
-  std::vector<std::pair<double, double>> logs;  // time, ln(energy)
-  for (int i = 0; i < path.frames(); ++i) {
-    if (path.v[i].cols() != path.x[i].cols() || !path.x[i].allFinite()) break;
-    const double energy = energy_of(mode.scene.model, {path.t[i], path.x[i], path.v[i]}).total() - mode.energy_at_rest;
-    if (!logs.empty() && !(energy > 1e-4 * std::exp(logs[0].second))) break;  // below lies rounding in single precision
-    logs.emplace_back(path.t[i], std::log(energy));
+  std::vector<double> logs;  // of the energy, mean over each period
+  for (int first = 0; first + samples <= path.frames(); first += samples) {
+    double sum = 0;
+    for (int i = first; i < first + samples; ++i) {
+      const bool whole = path.v[i].cols() == path.x[i].cols() && path.x[i].allFinite();
+      const double energy =
+          whole ? energy_of(mode.scene.model, {path.t[i], path.x[i], path.v[i]}).total() - mode.energy_at_rest : NAN;
+      sum += std::log(energy) / samples;
+    }
+    // below lies rounding in single precision
+    if (!std::isfinite(sum) || (!logs.empty() && sum < logs[0] - std::log(1e4))) break;
+    logs.push_back(sum);
   }
-  if (out.verdict != Verdict::ok || logs.size() < 20) {
-    cell.words = out.verdict == Verdict::unsupported ? "refused: " + out.reason
-                 : out.verdict != Verdict::ok        ? fmt::format("{} at {:.3g} s", in_words(out.verdict), out.end)
-                                                     : "no velocities";
-    return cell;
+  if (out.verdict != Verdict::ok || logs.size() < 4) {
+    answer.words = out.verdict == Verdict::unsupported ? "refused: " + out.reason
+                   : out.verdict != Verdict::ok        ? fmt::format("{} at {:.3g} s", in_words(out.verdict), out.end)
+                   : path.frames() > 0 && path.v[0].cols() == 0 ? "no velocities"
+                                                                : "at rest within four periods";
+    return answer;
   }
   const std::span all(logs);
-  cell.value = rate_of(all);
-  cell.bar = std::abs(rate_of(all.first(logs.size() / 2)) - rate_of(all.subspan(logs.size() / 2)));
-  cell.tier = "exact";
-  return cell;
+  const size_t half = logs.size() / 2;
+  const double rounding = out.readback && out.readback->precision == "single" ? 1e-5 : 1e-14;
+  answer.value = rate_of(all, period);
+  answer.bar = std::max(std::abs(rate_of(all.first(half), period) - rate_of(all.subspan(half), period)),
+                        rounding / (periods * period));
+  answer.tier = "exact";
+  return answer;
 }
 
-Answer rule_cell(const Method& method) {
-  Answer cell{.method = method.name, .question = EngineQuestion::rule, .unit = "1"};
+/// "rk4", "symplectic-euler, implicit drag", "nearest: xpbd"; the value is the distance from it in sizes of the net.
+Answer rule_answer(const Method& method) {
+  Answer answer{.method = method.name, .question = EngineQuestion::rule, .unit = "1"};
   if (!method.identify) {
-    cell.words = rule_of(method).empty() ? method.rule : rule_of(method);
-    return cell;
+    answer.words = rule_of(method).empty() ? method.rule : rule_of(method);
+    return answer;
   }
   const FoundRule& found = method.identify();
-  cell.words = found.kind == FoundRule::unknown ? found.reason : sentence_of(found);
-  if (found.kind == FoundRule::same || found.kind == FoundRule::nearest) cell.value = found.distance;
-  cell.tier = "mysim";
-  return cell;
+  const bool near = found.kind == FoundRule::nearest;
+  answer.tier = "mysim";
+  if (found.kind == FoundRule::same || near) {
+    answer.value = found.distance;
+    answer.words = (near ? "nearest: " : "") + found.rule;
+    if (!near && !found.own_drag && !found.drag.empty()) answer.words += fmt::format(", {} drag", found.drag);
+  } else {
+    answer.words = found.kind == FoundRule::own_steps ? "chooses its steps" : sentence_of(found);
+  }
+  return answer;
+}
+
+/// "MuJoCo 2.2.2, native, double precision".
+Answer build_answer(const Method& method) {
+  const UndampedMode mode = mode_of_spring();
+  NullObserver nothing;
+  const Outcome out = run_method(method, mode.scene, {mode.step, mode.step, 1}, {&nothing});
+  const std::optional<OutsideEngine> engine = kept_engine_of(method.name);
+  const std::string name = !out.engine.empty() ? out.engine : engine ? engine->title : "";
+  std::vector<std::string> parts{name.empty() ? std::string(method.family().title) : name};
+  if (engine) parts.push_back(engine->built);
+  if (out.readback) parts.push_back(out.readback->precision + " precision");
+  return {.method = method.name,
+          .question = EngineQuestion::build,
+          .unit = "1",
+          .words = fmt::format("{}", fmt::join(parts, ", "))};
 }
 
 /// CPU time of a step in which one particle falls: what the engine and its bridge take before there is anything to do.
@@ -104,15 +152,16 @@ CostAnswer empty_step(const Method& method) {
   std::vector<double> times;
   for (int i = 0; i < 5; ++i) {
     NullObserver nothing;
-    const Outcome out = run_method(method, scene, {1e-3, 5, 1}, {&nothing});
+    const Outcome out = run_method(method, scene, {1e-3, 20, 1}, {&nothing});
     if (out.verdict != Verdict::ok || !(out.cpu_seconds > 0)) {
       cell.words = out.verdict == Verdict::ok ? "it does not tell its CPU time" : std::string(in_words(out.verdict));
       return cell;
     }
-    times.push_back(out.cpu_seconds / static_cast<double>(out.steps > 0 ? out.steps : 5000));
+    times.push_back(out.cpu_seconds / static_cast<double>(out.steps > 0 ? out.steps : 20000));
   }
   const Timing timing = timing_of(times);
   cell.value = timing.median, cell.bar = (timing.high - timing.low) / 2;
+  if (*cell.value < *cell.bar) cell.words = "less than the clock resolves";
   return cell;
 }
 
@@ -139,12 +188,6 @@ std::vector<Answer> cells_from(const TableSet& tables, const std::string& method
       Answer& cell = add(EngineQuestion::order, "1");
       cell.value = row.measured_order, cell.bar = 0.15, cell.tier = "converged";
       cell.words = "on chain";
-    }
-  for (const DampingRow& row : rows_in<DampingRow>(tables))
-    if (row.method == method && std::abs(row.h_omega - 0.1) < 1e-9) {
-      Answer& cell = add(EngineQuestion::damping_of_spring, "1/s");
-      cell.value = row.equivalent_drag, cell.tier = "exact";
-      cell.words = fmt::format("{}, h omega = 0.1", name_of(row.verdict));
     }
   long asked = 0, held = 0;
   std::string broken;
@@ -177,8 +220,10 @@ std::vector<Point> matrix_points(const Request& request) {
   std::vector<Point> points;
   for (const Method& method : request.methods) {
     points.push_back({"matrix: " + method.name, method.fingerprint, [method](TableSet& tables) {
-                        add_cell(tables, rule_cell(method));
-                        add_cell(tables, damping_of_chain(method));
+                        add_cell(tables, build_answer(method));
+                        add_cell(tables, rule_answer(method));
+                        add_cell(tables, damping_of(method, mode_of_spring()));
+                        add_cell(tables, damping_of(method, mode_of_chain()));
                       }});
     if (!method.adaptive)
       points.push_back({"matrix, empty step: " + method.name, method.fingerprint,

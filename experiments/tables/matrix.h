@@ -8,6 +8,7 @@
 namespace crosscheck {
 
 enum class EngineQuestion {
+  build,
   rule,
   order,
   damping_of_spring,
@@ -19,13 +20,13 @@ enum class EngineQuestion {
   empty_step
 };
 inline std::string_view name_of(EngineQuestion question) {
-  constexpr std::array<std::string_view, 9> names = {
-      "rule",         "order",       "damping of a spring", "damping of a chain", "invariants", "sticks or slides",
-      "largest step", "cost of 1 %", "empty step"};
+  constexpr std::array<std::string_view, 10> names = {
+      "engine",           "rule",         "order",       "damping of a spring", "damping of a chain", "invariants",
+      "sticks or slides", "largest step", "cost of 1 %", "empty step"};
   return names[static_cast<size_t>(question)];
 }
 template <>
-inline constexpr std::pair range_of<EngineQuestion>{EngineQuestion::rule, EngineQuestion::empty_step};
+inline constexpr std::pair range_of<EngineQuestion>{EngineQuestion::build, EngineQuestion::empty_step};
 
 /// One cell: a number with its error bar and tier, or a refusal.
 template <bool timed>

@@ -3,8 +3,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <map>
 #include <optional>
 
+#include "experiments/tables/matrix.h"
 #include "experiments/tables/speed_accuracy.h"
 #include "report/figures/charts.h"
 #include "report/findings/findings_text.h"
@@ -39,6 +41,46 @@ std::vector<Chart> scoreboard_charts(const ChartInput& input) {
   return {{.figure = std::monostate(),
            .chapter = "speed-accuracy",
            .heading = "Error of each method at the scene's own time step",
+           .tables = {std::move(table)}}};
+}
+
+namespace {
+
+std::string with_unit(double value, const std::string& unit) {
+  return unit == "s" ? step_text(value) : unit == "1" ? nice(value) : nice(value) + " " + unit;
+}
+
+/// "-2.0e-4 ± 1e-6 /s", "0 ± 1e-6 /s", or the words where there is no number.
+template <class Row>
+std::string cell_of(const Row& row) {
+  if (row.question == EngineQuestion::rule)
+    return row.words + (row.value ? fmt::format(" ({} of the net)", nice(*row.value)) : "");
+  if (!row.value || row.question == EngineQuestion::invariants) return row.words;
+  if (!row.bar) return with_unit(*row.value, row.unit);
+  if (std::abs(*row.value) <= *row.bar) return "0 ± " + with_unit(*row.bar, row.unit);
+  return fmt::format("{} ± {}", with_unit(*row.value, row.unit), with_unit(*row.bar, row.unit));
+}
+
+}  // namespace
+
+std::vector<Chart> matrix_charts(const ChartInput& input) {
+  const auto rows = rows_of<MatrixRow<false>>(input.result);
+  if (rows.empty()) return {};
+  PageTable table{filled_text("engine-matrix", "caption"), {"method"}, {}};
+  const auto [first, last] = range_of<EngineQuestion>;
+  std::map<std::pair<std::string, EngineQuestion>, std::string> cells;
+  for (const auto& row : rows) cells[{row.method, row.question}] = cell_of(row);
+  for (const auto& row : rows_of<MatrixRow<true>>(input.result)) cells[{row.method, row.question}] = cell_of(row);
+  for (int q = static_cast<int>(first); q <= static_cast<int>(last); ++q)
+    table.header.emplace_back(name_of(static_cast<EngineQuestion>(q)));
+  for (const std::string& method : distinct(rows, &MatrixRow<false>::method)) {
+    std::vector<std::string>& cells_of_row = table.rows.emplace_back(std::vector{method});
+    for (int q = static_cast<int>(first); q <= static_cast<int>(last); ++q)
+      cells_of_row.push_back(cells[{method, static_cast<EngineQuestion>(q)}]);
+  }
+  return {{.figure = std::monostate(),
+           .chapter = "same-answer",
+           .heading = filled_text("engine-matrix", "heading"),
            .tables = {std::move(table)}}};
 }
 

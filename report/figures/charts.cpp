@@ -52,8 +52,8 @@ std::vector<Chart> all_charts(const ChartInput& input) {
   std::vector<Chart> all;
   for (const auto make :
        {scoreboard_charts, same_rule_charts, order_charts, error_charts, agreement_charts, contact_charts,
-        balance_charts, cheapest_charts, speed_accuracy_charts, stability_charts, energy_charts, probe_charts,
-        adequacy_charts, cost_charts, stiffness_charts, fabric_charts, disagreement_charts})
+        balance_charts, matrix_charts, cheapest_charts, speed_accuracy_charts, stability_charts, energy_charts,
+        probe_charts, adequacy_charts, cost_charts, stiffness_charts, fabric_charts, disagreement_charts})
     for (Chart& chart : make(input)) append_tier(chart), all.push_back(std::move(chart));
   return all;
 }

@@ -118,6 +118,7 @@ std::string method_in(const std::string& title);
 std::vector<std::string> methods_in(const Chart& chart);
 
 std::vector<Chart> scoreboard_charts(const ChartInput& input);  // error of every method on every scene, a table
+std::vector<Chart> matrix_charts(const ChartInput& input);      // engines by questions, a table
 std::vector<Chart> same_rule_charts(const ChartInput& input);   // difference of engines with the same rule, by scene
 std::vector<Chart> error_charts(const ChartInput& input);       // error over time, per scene with a truth
 std::vector<Chart> agreement_charts(const ChartInput& input);   // Bullet against the same rule of mysim, over time
