@@ -11,6 +11,7 @@
 #   kill        reports under kill -9 at ten moments, and on a full disk
 #   rehearsals  a new stepper, term, scene, engine and experiment, added as CONTRIBUTING.md describes
 #   node        external engines and the lab's module in Node.js; Jolt from npm, if npm is installed
+#   engines     adapters of other engines from Debian and npm, and a report of all of them
 #   latex       a paper with a set of figures
 #   sanitizers  the fast tests under address and undefined-behaviour sanitizers
 #   arm64       mysim and its tests, cross-compiled, under qemu-user
@@ -21,7 +22,7 @@
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/../.."
 
-parts=(mutants builds corpus kill rehearsals node latex sanitizers arm64 debian-13 testing)
+parts=(mutants builds corpus kill rehearsals node engines latex sanitizers arm64 debian-13 testing)
 declare -A tests=( # names as ctest knows them; a part without tests runs something else
   [corpus]='All/(EachCheat|OddPrograms)\.|All/Corpus\..*/classic|Mutants\.LosePointsAtTheirPart'
   [kill]='OutputOfReport\.(KilledAtTenMoments|AFullDisk)'
@@ -31,6 +32,7 @@ declare -A tests=( # names as ctest knows them; a part without tests runs someth
 )
 declare -A packages=(
   [node]="nodejs chromium"
+  [engines]="libmujoco-dev libsimbody-dev libode-dev nodejs npm esbuild"
   [latex]="texlive-latex-base"
 )
 expression() { # PARTS...: the tests of these parts
@@ -45,8 +47,8 @@ fi
 [ $# -gt 0 ] && parts=("$@")
 for part in "${parts[@]}"; do
   case $part in
-    mutants | builds | corpus | kill | rehearsals | node | latex | sanitizers | arm64 | debian-13 | testing) ;;
-    *) sed -n '2,20s/^# \{0,1\}//p' "$0" >&2; exit 2 ;;
+    mutants | builds | corpus | kill | rehearsals | node | engines | latex | sanitizers | arm64 | debian-13 | testing) ;;
+    *) sed -n '2,21s/^# \{0,1\}//p' "$0" >&2; exit 2 ;;
   esac
 done
 
@@ -66,6 +68,12 @@ for part in "${parts[@]}"; do
     mutants) tests/mutants/prove.sh || status=$? ;;
     builds) tests/mutants/builds.sh || status=$? ;;
     sanitizers) CROSSCHECK_PRESET=asan ./crosscheck test --fast || status=$? ;;
+    engines)
+      for engine in mujoco simbody ode cannon rapier mujoco3 jolt; do
+        ./crosscheck engine "$engine" || status=$?
+      done
+      ./crosscheck report --engines all --out out/engines || status=$?
+      ;;
     arm64) experiments/ci/arm64.sh || status=$? ;;
     debian-13) BARE_SUITE=trixie .ci/bare-root sh -exc './crosscheck report; ./crosscheck test' || status=$? ;;
     testing)

@@ -11,6 +11,7 @@
 #include "experiments/tables/disagreements.h"
 #include "mysim/base/errors.h"
 #include "mysim/run/observers.h"
+#include "reference/engines/engines.h"
 #include "reference/method.h"
 
 namespace crosscheck {
@@ -42,7 +43,28 @@ std::vector<DirectionError> direction_errors(const std::string& method, Scene sc
   return errors;
 }
 
-Scene scene_of(const Disagreement& disagreement) { return read_scene(file_of_disagreement(disagreement.name)); }
+Scene scene_of(const Disagreement& disagreement) {
+  return read_scene(file_of_disagreement(disagreement.scene.empty() ? disagreement.name : disagreement.scene));
+}
+
+namespace {
+
+constexpr std::string_view engine_prefix = "engine:";
+
+/// The row's engine as a method: "exec:" and its kept program.
+std::string method_of_engine(const std::string& name) {
+  const size_t end = name.find('+');
+  const std::string engine = name.substr(engine_prefix.size(), end - engine_prefix.size());
+  return std::string(program_prefix) + kept_program(engine).string() + (end == name.npos ? "" : name.substr(end));
+}
+
+Outcome run_variant(const Variant& variant, const Scene& scene, const Run& run, Observer& observer) {
+  if (!variant.method.starts_with(engine_prefix))
+    return run_method(find_method(variant.method), scene, run, {&observer});
+  return run_method(find_method(method_of_engine(variant.method)), scene, run, {&observer});
+}
+
+}  // namespace
 
 std::vector<Series> run_variants(const Disagreement& disagreement, const Scene& scene) {
   std::vector<Series> all;
@@ -54,7 +76,7 @@ std::vector<Series> run_variants(const Disagreement& disagreement, const Scene& 
     Run run = default_run(own);
     if (variant.step > 0) run.step = variant.step;
     Recorder recorder;
-    Series series{variant, run_method(find_method(variant.method), own, run, {&recorder}), {}};
+    Series series{variant, run_variant(variant, own, run, recorder), {}};
     const Trajectory& path = recorder.trajectory;
     if (all.empty()) first = path;
     auto value = [&](const State& s, const Points& of_first) {
@@ -161,8 +183,25 @@ std::string criterion_of(const Disagreement& d) {
          (d.cause_removed.empty() ? "" : ". Explained: " + in_words(d.cause_removed));
 }
 
+namespace {
+
+/// The rows of Bullet, unless scenes were named, and those of the engines among the methods.
+std::vector<Disagreement> asked_disagreements(const Request& request) {
+  std::vector<Disagreement> rows;
+  if (!request.scenes_only) rows = disagreements();
+  for (Disagreement& row : engine_disagreements()) {
+    const std::string program = method_of_engine(row.world);
+    if (std::ranges::any_of(request.methods, [&](const Method& method) {
+          return method.name == program || method.name.starts_with(program + "+");
+        }))
+      rows.push_back(std::move(row));
+  }
+  return rows;
+}
+
+}  // namespace
+
 std::vector<Point> disagreements_points(const Request& request) {
-  if (request.scenes_only) return {};
   std::string program, fingerprint;
   for (const Method& method : request.methods)
     // a program with worlds of Bullet's is told from any other by the world that it is asked for
@@ -174,7 +213,7 @@ std::vector<Point> disagreements_points(const Request& request) {
       program = method.name.substr(0, at), fingerprint = method.fingerprint;
     }
   std::vector<Point> points;
-  for (const Disagreement& each : disagreements())
+  for (const Disagreement& each : asked_disagreements(request))
     points.push_back({"disagreement: " + each.name, fmt::format("{} {} {}", scene_of(each).hash, program, fingerprint),
                       [d = program.empty() ? each : with_worlds_of(each, program)](TableSet& tables) {
                         const Scene scene = scene_of(d);

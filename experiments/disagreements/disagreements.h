@@ -97,9 +97,16 @@ struct Disagreement {
   std::string what = {};     // a heading: what cannot be matched, or fails
   std::string cause = {};    // one sentence
   std::string threads = {};  // upstream, that it answers: "bullet3#4496, ..."; empty: none known
+  std::string scene = {};    // name of its scene's file, where that is not the row's
 };
 
+/// Of Bullet's worlds.
 std::vector<Disagreement> disagreements();
+/// Of the engines that `engine NAME` builds: methods "engine:NAME+option", which are programs kept for reports. Those
+/// of engines that are not built are not asked.
+std::vector<Disagreement> engine_disagreements();
+/// Adds headings, causes and threads from disagreements.md. Throws std::logic_error where a row has none.
+std::vector<Disagreement> with_texts(std::vector<Disagreement> rows);
 Scene scene_of(const Disagreement& disagreement);
 
 /// The same with Bullet's worlds as the program has them: "exec:PROGRAM" as `program`.

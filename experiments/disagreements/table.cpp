@@ -277,10 +277,11 @@ std::vector<Disagreement> table() {
 
 }  // namespace
 
-std::vector<Disagreement> disagreements() {
-  std::vector<Disagreement> all = table();
-  for (Disagreement& row : all) add_texts(row);
-  return all;
+std::vector<Disagreement> disagreements() { return with_texts(table()); }
+
+std::vector<Disagreement> with_texts(std::vector<Disagreement> rows) {
+  for (Disagreement& row : rows) add_texts(row);
+  return rows;
 }
 
 }  // namespace crosscheck

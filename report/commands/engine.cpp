@@ -134,12 +134,13 @@ int bundle_module(const EngineOptions& options, const OutsideEngine& engine, con
     for (const std::string& file : {"engines/" + engine.module, std::string("protocol/crosscheck_engine.mjs")})
       write_file(folder / file, read_file(sources / file, "the adapter"));
     std::string licence;
-    for (const char* name : {"LICENSE", "LICENSE.md", "LICENCE"})
-      if (const fs::path file = folder / "node_modules" / engine.npm / name; fs::exists(file))
-        licence = read_file(file, "the licence");
+    for (const fs::path& from : {sources / "engines/npm" / engine.name, folder / "node_modules" / engine.npm})
+      for (const char* name : {"LICENSE", "LICENSE.md"})
+        if (fs::exists(from / name)) licence = read_file(from / name, "the licence");
+    // one script for Node, in which a module's own address means nothing and WebAssembly is text
     done = run_tool({"esbuild", "engines/" + engine.module, "--bundle", "--platform=node", "--format=cjs",
-                     "--outfile=" + program.string(), "--define:import.meta.url=\"file:///engine.js\"",
-                     "--banner:js=#!/usr/bin/env node", fmt::format("--footer:js=/* {}:\n{}*/", engine.npm, licence)},
+                     "--loader:.wasm=binary", "--define:import.meta.url=\"file:///engine.js\"", "--log-level=error",
+                     fmt::format("--footer:js=/* {}:\n{}*/", engine.npm, licence), "--outfile=" + program.string()},
                     folder, options, "esbuild");
   }
   std::error_code none;
