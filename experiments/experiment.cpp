@@ -116,7 +116,10 @@ std::span<const Experiment> experiments() {
       {"relations", "What must hold in any engine, without any truth: does it?", relations_points},
       {"fabric", "Does a cloth of given bending rigidity hang and vibrate as the elastica and a beam do, on any grid?",
        fabric_points},
-      {"matrix", "Which rule is each engine, what does it add or take, and what does it cost?", matrix_points, {},
+      {"matrix",
+       "Which rule is each engine, what does it add or take, and what does it cost?",
+       matrix_points,
+       {},
        conclude_matrix},
   };
   return table;
@@ -161,7 +164,11 @@ std::vector<Method> default_methods() {
 }
 
 std::vector<Method> methods_of(const Request& request, const Scene& scene) {
-  if (!request.methods.empty()) return request.methods;
+  if (!request.methods.empty()) {
+    std::vector<Method> named = request.methods;
+    if (request.leaves_out) std::erase_if(named, [&](const Method& m) { return request.leaves_out(m, scene); });
+    return named;
+  }
   std::vector<Method> methods = default_methods();
   if (has_contact(scene.model)) methods.push_back(find_method(sticky_method()));
   return methods;

@@ -21,7 +21,7 @@ std::filesystem::path folder_of_disagreements() { return folder_of_scenes() / "d
 /// Of several cloths a quick run uses one of each kind.
 constexpr std::string_view left_to_full_runs[] = {"cloth-stiff", "cloth-cantilever", "cloth-swing", "cloth-wind",
                                                   "flag",        "cloth-carried",    "curtain",     "jelly",
-                                                  "floor-drop"};
+                                                  "floor-drop",  "cloth-small"};
 
 }  // namespace
 
@@ -40,6 +40,7 @@ std::span<const std::string_view> shipped_scenes() {
       "slope-slide",         //
       "room-bounce",         //
       "cloth-student",       //
+      "cloth-small",         //
       "cloth-hang",          //
       "cloth-stiff",         //
       "cloth-inextensible",  //

@@ -137,11 +137,13 @@ int bundle_module(const EngineOptions& options, const OutsideEngine& engine, con
     for (const fs::path& from : {sources / "engines/npm" / engine.name, folder / "node_modules" / engine.npm})
       for (const char* name : {"LICENSE", "LICENSE.md"})
         if (fs::exists(from / name)) licence = read_file(from / name, "the licence");
+    for (size_t at = 0; (at = licence.find("*/", at)) != std::string::npos;) licence.insert(at + 1, " ");
     // one script for Node, in which a module's own address means nothing and WebAssembly is text
-    done = run_tool({"esbuild", "engines/" + engine.module, "--bundle", "--platform=node", "--format=cjs",
-                     "--loader:.wasm=binary", "--define:import.meta.url=\"file:///engine.js\"", "--log-level=error",
-                     fmt::format("--footer:js=/* {}:\n{}*/", engine.npm, licence), "--outfile=" + program.string()},
-                    folder, options, "esbuild");
+    done = run_tool(
+        {"esbuild", "engines/" + engine.module, "--bundle", "--platform=node", "--target=node18", "--format=cjs",
+         "--loader:.wasm=binary", "--define:import.meta.url=\"file:///engine.js\"", "--log-level=error",
+         fmt::format("--footer:js=/* {}:\n{}*/", engine.npm, licence), "--outfile=" + program.string()},
+        folder, options, "esbuild");
   }
   std::error_code none;
   fs::remove_all(folder, none);

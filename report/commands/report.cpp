@@ -59,6 +59,12 @@ std::string left_out(const Request& request) {
       fmt::join(names, ", "));
 }
 
+/// With --engines all: WebAssembly and JavaScript take too long for large scenes.
+bool is_slow(const Method& method, const Scene& scene) {
+  const auto engine = kept_engine_of(method.name);
+  return engine && !engine->is_native() && scene.model.particles.size() > 100;
+}
+
 /// With --engines all: adds the engines that are built to the methods, and names the others with the command that
 /// builds them. Without methods and scenes these are the rules that other engines follow, and small scenes.
 ReportOptions with_all_engines(ReportOptions options) {
@@ -124,6 +130,13 @@ ReportData data_of_runs(const ReportOptions& options, Request& request, const fs
       data.problems.push_back(fmt::format("{} on {}: it built another scene, see its certificate", c.method, c.scene));
   if (!data.rows.certificates.empty()) data.rows.tables.push_back(certificate_table(data.rows.certificates));
   if (!options.full) data.rows.notes.insert(data.rows.notes.begin(), left_out(request));
+  for (const Scene& scene : data.all)
+    for (const Method& method : request.methods)
+      if (request.leaves_out && request.leaves_out(method, scene))
+        data.rows.notes.push_back(
+            fmt::format("{} is left out on {}, whose {} particles take it too long; --methods "
+                        "without --engines runs it",
+                        program_title(method.name), scene.name, scene.model.particles.size()));
   data.runs = take_index(folder);
   write_tables(data.rows, data.provenance, folder / "data");
   for (const Scene& scene : data.scenes)
@@ -188,6 +201,7 @@ int report_command(const ReportOptions& options, OutputFolder& folder) {
   Request request;
   request.full = options.full;
   if (!options.methods.empty()) request.methods = find_methods(options.methods);
+  if (!options.engines.empty()) request.leaves_out = is_slow;
   request.scenes = scenes_for({}, options.scenes, options.full, options.methods);
   for (const Scene& scene : request.scenes)
     require_resources_to_keep(methods_of(request, scene), scene, run_of(request, scene));
