@@ -11,6 +11,7 @@
 #include "mysim/base/hash.h"
 #include "mysim/base/text.h"
 #include "mysim/run/crossings.h"
+#include "reference/engines/engines.h"
 #include "reference/truth/cache.h"
 
 namespace crosscheck {
@@ -163,10 +164,16 @@ std::vector<Method> default_methods() {
   return methods;
 }
 
+bool is_left_out(const Request& request, const Method& method, const Scene& scene) {
+  if (!request.all_engines || scene.model.particles.size() <= 100) return false;
+  const auto engine = kept_engine_of(method.name);
+  return engine && !engine->is_native();
+}
+
 std::vector<Method> methods_of(const Request& request, const Scene& scene) {
   if (!request.methods.empty()) {
     std::vector<Method> named = request.methods;
-    if (request.leaves_out) std::erase_if(named, [&](const Method& m) { return request.leaves_out(m, scene); });
+    std::erase_if(named, [&](const Method& method) { return is_left_out(request, method, scene); });
     return named;
   }
   std::vector<Method> methods = default_methods();

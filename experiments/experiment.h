@@ -74,13 +74,13 @@ using RunCallback = std::function<void(const RecordedRuns&)>;
 
 struct Request {
   std::vector<Scene> scenes;
-  std::vector<Method> methods;                                // empty: the default ones of each scene
-  bool full = false;                                          // more points of the same experiments
-  double step = 0;                                            // s, of all fixed-step methods; 0: each scene's own
-  bool scenes_only = false;                                   // only these scenes, not the experiments' own ones
-  bool (*leaves_out)(const Method&, const Scene&) = nullptr;  // named methods that are not run on the scene
-  std::string reference = {};  // method from which `engines` measures differences; empty: the subject's representative
-  RunCallback on_runs = {};    // is given the runs of engines, speed-accuracy and the maps; rows do not depend on it
+  std::vector<Method> methods;  // empty: the default ones of each scene
+  bool full = false;            // more points of the same experiments
+  double step = 0;              // s, of all fixed-step methods; 0: each scene's own
+  bool scenes_only = false;     // only these scenes, not the experiments' own ones
+  bool all_engines = false;     // sets engines side by side: those in WebAssembly run small scenes only
+  std::string reference = {};   // method from which `engines` measures differences; empty: the subject's representative
+  RunCallback on_runs = {};     // is given the runs of engines, speed-accuracy and the maps; rows do not depend on it
 };
 
 /// A method's run of a scene at the request's step, kept, so that experiments and pictures use the same run.
@@ -174,6 +174,9 @@ std::vector<Point> one_point_per_scene(const Request& request, const std::string
 std::string content_of(const Request& request, const Scene& scene);
 
 /// A run of the scene at the request's step.
+/// Whether a method of a report of all engines would take too long on the scene.
+bool is_left_out(const Request& request, const Method& method, const Scene& scene);
+
 Run run_of(const Request& request, const Scene& scene);
 
 }  // namespace crosscheck

@@ -12,6 +12,7 @@
 #include "experiments/scenes/scenes.h"
 #include "experiments/stability/spectrum.h"
 #include "experiments/tables/check.h"
+#include "experiments/tables/contact.h"
 #include "experiments/tables/matrix.h"
 #include "experiments/tables/order.h"
 #include "experiments/tables/speed_accuracy.h"
@@ -201,6 +202,21 @@ std::vector<Answer> cells_from(const TableSet& tables, const std::string& method
     Answer& cell = add(EngineQuestion::invariants, "1");
     cell.value = static_cast<double>(held), cell.tier = "exact";
     cell.words = fmt::format("{} of {} hold{}", held, asked, broken.empty() ? "" : "; " + broken);
+  }
+  long cases = 0, right = 0;
+  std::string refusal;
+  const auto count = [&](const ConeRow& row) {
+    if (row.method != method) return;
+    if (row.verdict == Verdict::unsupported) refusal = row.reason;
+    if (row.verdict == Verdict::ok) ++cases, right += row.state == row.state_by_theory;
+  };
+  for (const ConeRow& row : rows_in<ConeRow>(tables)) count(row);
+  for (const PlaneConeRow& row : rows_in<PlaneConeRow>(tables)) count(row);
+  if (cases > 0 || !refusal.empty()) {
+    Answer& answer = add(EngineQuestion::friction, "1");
+    answer.tier = "exact";
+    answer.words = cases > 0 ? fmt::format("{} of {} as Coulomb's law", right, cases) : "refused: " + refusal;
+    if (cases > 0) answer.value = static_cast<double>(right);
   }
   for (const LimitRow& row : rows_in<LimitRow>(tables))
     if (row.method == method && row.scene == "chain") {

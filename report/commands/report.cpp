@@ -59,12 +59,6 @@ std::string left_out(const Request& request) {
       fmt::join(names, ", "));
 }
 
-/// With --engines all: WebAssembly and JavaScript take too long for large scenes.
-bool is_slow(const Method& method, const Scene& scene) {
-  const auto engine = kept_engine_of(method.name);
-  return engine && !engine->is_native() && scene.model.particles.size() > 100;
-}
-
 /// With --engines all: adds the engines that are built to the methods, and names the others with the command that
 /// builds them. Without methods and scenes these are the rules that other engines follow, and small scenes.
 ReportOptions with_all_engines(ReportOptions options) {
@@ -132,7 +126,7 @@ ReportData data_of_runs(const ReportOptions& options, Request& request, const fs
   if (!options.full) data.rows.notes.insert(data.rows.notes.begin(), left_out(request));
   for (const Scene& scene : data.all)
     for (const Method& method : request.methods)
-      if (request.leaves_out && request.leaves_out(method, scene))
+      if (is_left_out(request, method, scene))
         data.rows.notes.push_back(
             fmt::format("{} is left out on {}, whose {} particles take it too long; --methods "
                         "without --engines runs it",
@@ -201,7 +195,7 @@ int report_command(const ReportOptions& options, OutputFolder& folder) {
   Request request;
   request.full = options.full;
   if (!options.methods.empty()) request.methods = find_methods(options.methods);
-  if (!options.engines.empty()) request.leaves_out = is_slow;
+  request.all_engines = !options.engines.empty();
   request.scenes = scenes_for({}, options.scenes, options.full, options.methods);
   for (const Scene& scene : request.scenes)
     require_resources_to_keep(methods_of(request, scene), scene, run_of(request, scene));

@@ -55,7 +55,8 @@ template <class Row>
 std::string cell_of(const Row& row) {
   if (row.question == EngineQuestion::rule)
     return row.words + (row.value ? fmt::format(" ({} of the net)", nice(*row.value)) : "");
-  if (!row.value || row.question == EngineQuestion::invariants) return row.words;
+  if (!row.value || row.question == EngineQuestion::invariants || row.question == EngineQuestion::friction)
+    return row.words;
   if (!row.bar) return with_unit(*row.value, row.unit);
   if (std::abs(*row.value) <= *row.bar) return "0 ± " + with_unit(*row.bar, row.unit);
   return fmt::format("{} ± {}", with_unit(*row.value, row.unit), with_unit(*row.bar, row.unit));
