@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
+#include <numbers>
 
 #include "mysim/base/errors.h"
 #include "mysim/base/text.h"
@@ -110,6 +111,45 @@ NumberRule compliance(std::string_view name, std::string_view formula) {
           .expected = a_positive,
           .valid = above_zero,
           .one_by_one = true};
+}
+
+/// A spring of a soft constraint (E. Catto, Soft Constraints, GDC 2011): its frequency.
+NumberRule frequency(std::string_view name) {
+  constexpr double turn = 2 * std::numbers::pi;
+  return {.quantity = SceneNumber::stiffness,
+          .name = name,
+          .unit = "Hz",
+          .formula = "sqrt(k / mu) / 2 pi, mu = 1 / (1/m_a + 1/m_b), without the term of a pin",
+          .inverse = "k = mu (2 pi value)^2",
+          .holds = "for short sub-steps h / n: the rule damps along the line like a dashpot of k h / n",
+          .to = [](double k, const Context& at) { return std::sqrt(k / at.mu) / turn; },
+          .from = [](double f, const Context& at) { return at.mu * turn * turn * f * f; },
+          .expected = a_positive,
+          .valid = above_zero,
+          .condition = [](double, const Context&) { return 3.; }};  // twice the frequency's, and the masses'
+}
+/// Its damping ratio, from the dashpot between the same ends.
+NumberRule damping_ratio(std::string_view name) {
+  return {.quantity = SceneNumber::dashpot,
+          .name = name,
+          .unit = "1",
+          .formula = "c / (2 sqrt(k mu)), k of the spring between the same ends",
+          .inverse = "c = 2 value sqrt(k mu)",
+          .holds = "beside a spring; the rule adds pi f h / n to it",
+          .to = [](double c, const Context& at) { return c / (2 * std::sqrt(at.k * at.mu)); },
+          .from = [](double ratio, const Context& at) { return 2 * ratio * std::sqrt(at.k * at.mu); },
+          .condition = [](double, const Context&) { return 3.; }};  // k and the masses come back rounded, too
+}
+/// Damping by which each sub-step divides the velocity.
+NumberRule dividing_damping(std::string_view name) {
+  return {.quantity = SceneNumber::drag,
+          .name = name,
+          .unit = "1/s",
+          .formula = "n / h (exp(gamma h / n) - 1)",
+          .inverse = "gamma = n / h ln(1 + value h / n)",
+          .holds = always,
+          .to = [](double gamma, const Context& at) { return at.n / at.h * std::expm1(gamma * at.h / at.n); },
+          .from = [](double value, const Context& at) { return at.n / at.h * std::log1p(value * at.h / at.n); }};
 }
 
 std::vector<EngineNumbers> make_table() {
@@ -217,6 +257,34 @@ std::vector<EngineNumbers> make_table() {
                  nothing(SceneNumber::dashpot, stays),
                  plain(SceneNumber::friction, "mFriction",
                        "mu on body and ball, of which Jolt takes the geometric mean", coulomb)}},
+      {.name = "rapier",
+       .title = "Rapier's soft bodies",
+       .iterations = "numSolverIterations",
+       .usual_iterations = 4,
+       .sub_steps = true,
+       .single_precision = true,
+       .source = "Rapier 0.21, soft body edges",
+       .rules = {mass_as_it_is(), dividing_damping("linearDamping"), frequency("naturalFrequency"),
+                 damping_ratio("dampingRatio"), plain(SceneNumber::friction, "friction", "as it is", coulomb)}},
+      {.name = "box3d",
+       .title = "Box3D's distance joints",
+       .iterations = "subStepCount",
+       .usual_iterations = 4,
+       .sub_steps = true,
+       .single_precision = true,
+       .source = "Box3D v0.1, distance joint",
+       .rules = {mass_as_it_is(), dividing_damping("linearDamping"), frequency("hertz"), damping_ratio("dampingRatio"),
+                 plain(SceneNumber::friction, "friction", "as it is", coulomb)}},
+      {.name = "mujoco",
+       .title = "MuJoCo's tendons",
+       .source = "MuJoCo manual, Computation: passive forces",
+       .rules = {mass_as_it_is(),
+                 plain(SceneNumber::drag, "damping / mass",
+                       "as it is: each slide joint's damping is gamma m, implicit unless eulerdamp is disabled"),
+                 plain(SceneNumber::stiffness, "stiffness", "as it is, of a spatial tendon with springlength"),
+                 plain(SceneNumber::dashpot, "damping", "as it is, of the same tendon"),
+                 plain(SceneNumber::friction, "friction", "as it is",
+                       "as a soft constraint, with an elliptic or pyramidal cone")}},
       {.name = "godot",
        .title = "GodotPhysics' SoftBody3D",
        .iterations = "simulation_precision",

@@ -87,6 +87,11 @@ NumberContext context_of(const Scene& scene, SceneNumber quantity, size_t which,
   NumberContext at{h, n, uniform_drag_rate(scene.model).value_or(0), 0, scene.model.particles.size()};
   if (quantity == SceneNumber::stiffness)
     at.mu = bullet::pair_mass(scene.model.particles, scene.model.find<Springs>()->list[which]);
+  const auto* springs = scene.model.find<Springs>();
+  if (quantity == SceneNumber::dashpot && springs)
+    for (const Spring& s : springs->list)
+      if (const auto& d = scene.model.find<Dashpots>()->list[which]; s.a == d.a && s.b == d.b)
+        at.mu = bullet::pair_mass(scene.model.particles, s), at.k = s.k;
   return at;
 }
 

@@ -29,8 +29,9 @@ struct NumberContext {
   double h;       // s, the step
   int n;          // iterations or sub-steps in it
   double gamma;   // 1/s, of a drag that is the same everywhere
-  double mu;      // kg, reduced mass of a spring's ends; infinite between two pins
+  double mu;      // kg, reduced mass of the ends of a spring or dashpot; infinite between two pins
   int particles;  // pins among them
+  double k = 0;   // N/m, of the spring beside a dashpot
 };
 
 struct NumberRule {

@@ -20,6 +20,9 @@ constexpr const char* targets[] = {"mysim/leapfrog",
                                    "bullet/deformable-explicit",
                                    "bullet/deformable-implicit",
                                    "jolt",
+                                   "rapier",
+                                   "box3d+n=1",
+                                   "mujoco",
                                    "godot"};
 
 // every kind of scene: single springs, a chain under another law, cloths, a block with dashpots on a ball, hard lengths
@@ -124,6 +127,23 @@ TEST(Translation, OfALinkHasTheMeasuredValues) {
   }
 }
 
+TEST(Translation, ToSoftConstraintsIsFrequencyAndDampingRatioAtTheReducedMass) {
+  const double k = 250, h = 0.01, gamma = 2;
+  for (const bool held : {true, false}) {
+    const Scene scene = one_spring(k, held, "[drag]\ngamma = 2\n");
+    double inverse = 0;  // the pin counts as infinite mass
+    for (int i = 0; i < scene.model.particles.size(); ++i)
+      if (!scene.model.particles.pinned[i]) inverse += 1 / scene.model.particles.mass[i];
+    for (const char* to : {"rapier", "box3d"}) {
+      const Translation t = translate(scene, find_target(to, 0), h);
+      EXPECT_NEAR(engine_number(t, SceneNumber::stiffness), std::sqrt(k * inverse) / (2 * M_PI), 1e-6) << to;
+      // four sub-steps that each divide the velocity leave exp(-gamma h) of it
+      const double damping = engine_number(t, SceneNumber::drag);
+      EXPECT_NEAR(std::pow(1 + damping * h / 4, -4), std::exp(-gamma * h), 1e-7) << to;
+    }
+  }
+}
+
 TEST(Translation, OfOtherNumbersIsTheFormulas) {
   const Scene scene = one_spring(250, true, "[drag]\ngamma = 2\n[gravity]\nacceleration = [0, -10, 0]\n");
   const double h = 0.01;
@@ -209,13 +229,14 @@ TEST(Translation, TargetsThatAreNotKnownAreNamed) {
     int iterations;
     std::vector<const char*> parts;
   };
-  for (const Case& c : {Case{"bulet/pbd", 0, {"unknown method", "did you mean 'bullet/pbd'?"}},
-                        {"odeint/rk4", 0, {"odeint/rk4: its numbers are not known", "jolt, godot"}},
-                        {"bullet/pbd+demo", 0, {"bullet/pbd+demo: its numbers are not known"}},
-                        {"jolt+m=3", 0, {"method jolt: unknown option '+m=3'", "mNumIterations"}},
-                        {"bullet/pbd+n=4", 5, {"--iterations 5: bullet/pbd+n=4 says otherwise"}},
-                        {"godot+n=4", 5, {"--iterations 5: godot+n=4 says otherwise"}},
-                        {"mysim/xpbd", 5, {"--iterations: mysim/xpbd has none to choose", "--step"}}}) {
+  for (const Case& c :
+       {Case{"bulet/pbd", 0, {"unknown method", "did you mean 'bullet/pbd'?"}},
+        {"odeint/rk4", 0, {"odeint/rk4: its numbers are not known", "jolt, rapier, box3d, mujoco, godot"}},
+        {"bullet/pbd+demo", 0, {"bullet/pbd+demo: its numbers are not known"}},
+        {"jolt+m=3", 0, {"method jolt: unknown option '+m=3'", "mNumIterations"}},
+        {"bullet/pbd+n=4", 5, {"--iterations 5: bullet/pbd+n=4 says otherwise"}},
+        {"godot+n=4", 5, {"--iterations 5: godot+n=4 says otherwise"}},
+        {"mysim/xpbd", 5, {"--iterations: mysim/xpbd has none to choose", "--step"}}}) {
     const std::string message = error_of([&] { find_target(c.name, c.iterations); });
     for (const char* part : c.parts) EXPECT_NE(message.find(part), std::string::npos) << message;
   }
