@@ -8,7 +8,7 @@
 namespace crosscheck {
 namespace {
 
-constexpr auto apart = Condition::Kind::apart, within = Condition::Kind::within;
+constexpr auto differs = Condition::Kind::apart, agrees = Condition::Kind::within;
 
 /// "Rapier, 4 sub-steps is up to 0.0134 m from symplectic Euler, mysim; Rapier, 1 sub-step up to 2e-06 m."
 std::string distances(const std::vector<Series>& all) {
@@ -34,8 +34,8 @@ std::vector<Disagreement> engine_disagreements() {
                     {"Rapier, forces in 1 sub-step", "engine:rapier+springs=forces+n=1"}},
        .value = effects::length,
        .effect = distances,
-       .symptom = {{apart, 1, 0, 5e-3}},
-       .cause_removed = {{within, 2, 0, 1e-4}},
+       .symptom = {{differs, 1, 0, 5e-3}},
+       .cause_removed = {{agrees, 2, 0, 1e-4}},
        .scene = "undamped-spring"},
       {.name = "zero-becomes-one",
        .world = "engine:cannon",
@@ -46,8 +46,8 @@ std::vector<Disagreement> engine_disagreements() {
                     {"cannon-es, damping set to 0 afterwards", "engine:cannon"}},
        .value = effects::length,
        .effect = distances,
-       .symptom = {{apart, 1, 0, 0.05}},
-       .cause_removed = {{within, 2, 0, 1e-9}},
+       .symptom = {{differs, 1, 0, 0.05}},
+       .cause_removed = {{agrees, 2, 0, 1e-9}},
        .scene = "undamped-spring"},
       {.name = "implicit-drag",
        .world = "engine:mujoco",
@@ -58,8 +58,8 @@ std::vector<Disagreement> engine_disagreements() {
                     {"MuJoCo, drag by callback", "engine:mujoco+drag=callback"}},
        .value = effects::length,
        .effect = distances,
-       .symptom = {{apart, 1, 0, 1e-4}},
-       .cause_removed = {{within, 2, 0, 1e-9}}},
+       .symptom = {{differs, 1, 0, 1e-4}},
+       .cause_removed = {{agrees, 2, 0, 1e-9}}},
       {.name = "explicit-springs",
        .world = "engine:mujoco",
        .quantity = "length",
@@ -69,7 +69,7 @@ std::vector<Disagreement> engine_disagreements() {
                     {"symplectic Euler, mysim", "mysim/symplectic-euler"}},
        .value = effects::length,
        .effect = distances,
-       .symptom = {{apart, 1, 0, 0.01}, {within, 1, 2, 1e-9}},
+       .symptom = {{differs, 1, 0, 0.01}, {agrees, 1, 2, 1e-9}},
        .scene = "undamped-spring"},
       {.name = "implicit-joints",
        .world = "engine:ode",
@@ -80,8 +80,8 @@ std::vector<Disagreement> engine_disagreements() {
                     {"implicit Euler, mysim", "mysim/implicit-euler"}},
        .value = effects::length,
        .effect = distances,
-       .symptom = {{apart, 1, 0, 0.01}},
-       .cause_removed = {{within, 1, 2, 1e-6}},
+       .symptom = {{differs, 1, 0, 0.01}},
+       .cause_removed = {{agrees, 1, 2, 1e-6}},
        .scene = "undamped-spring"},
       {.name = "shortest-joint",
        .world = "engine:box3d",
@@ -92,8 +92,8 @@ std::vector<Disagreement> engine_disagreements() {
                     {"Box3D, own force", "engine:box3d+springs=forces+n=1"}},
        .value = effects::length,
        .effect = distances,
-       .symptom = {{apart, 1, 0, 1e-3}},
-       .cause_removed = {{within, 2, 0, 5e-4}}},
+       .symptom = {{differs, 1, 0, 1e-3}},
+       .cause_removed = {{agrees, 2, 0, 5e-4}}},
   });
 }
 
