@@ -198,6 +198,8 @@ Obstacles::Obstacles(const Scene& scene) {
                                          : btQuaternion(to_bullet(axis.normalized()),
                                                         btScalar(std::atan2(axis.norm(), p.normal.y()))));
     obstacles_.back().body->setWorldTransform(place);
+    // The deformable world looks for contact there, and Bullet does not update it for static bodies.
+    obstacles_.back().body->setInterpolationWorldTransform(place);
   }
 }
 

@@ -143,10 +143,10 @@ class ProbeState {
 // A plane is the upper face of a cube, below the middle of the particles: half its edge is twice what they may move
 // from there in the scene's duration, so that none gets to its rim. Its distances are linear, so that the grid from
 // which Bullet's soft bodies take distances and normals errs by rounding alone, whatever the voxels: on a floor and on
-// a slope of 25 degrees, a node and a cloth of 25 lie within 1e-14 m of the face in the deformable world and slide as
-// Coulomb says. btStaticPlaneShape has no such grid: Bullet takes it for a concave mesh of two triangles as large as
-// the body's box, each with a grid of its own. There the same bodies sink in by 0.12 m and drift aside by 43 mm in half
-// a second, and the position-based world throws them up by 3 m.
+// a slope of 25 degrees, a node and a cloth of 25 lie within 1e-14 m of the face in the explicit deformable world and
+// slide as Coulomb says. btStaticPlaneShape has no such grid: Bullet takes it for a concave mesh of two triangles as
+// large as the body's box, each with a grid of its own. There the same bodies sink in by 0.12 m and drift aside by 43
+// mm in half a second, and the position-based world throws them up by 3 m.
 
 class Obstacles {
  public:
