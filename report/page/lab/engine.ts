@@ -54,6 +54,9 @@ export interface EngineScene extends SceneHead {
   triangles: Int32Array;
 }
 
+/** Number of spheres and planes. */
+export const solidsOf = ({spheres, planes}: EngineScene) => spheres.length + planes.length;
+
 /** Energies now, losses and work since the start, J. */
 export interface Energies {
   kinetic: number;

@@ -2,7 +2,7 @@
 
 import {check, make} from '../player/controls';
 
-import {Stepper} from './engine';
+import {solidsOf, Stepper} from './engine';
 import {LiveRun} from './live_run';
 import {Changes, MethodSpec, numberAt, numbersOf, stepOf, tomlNumber, Value, valueAt} from './scene_text';
 import {labLanguage, labWords, say} from './words';
@@ -35,6 +35,7 @@ const knobTable: KnobRow[] = [
   {path: 'spring.stiffness', word: 'stiffness', unit: 'N/m', from: 1 / 50, to: 50},
   {path: 'rotation.rate', word: 'rate', unit: 'rad/s', to: 4, even: true},
   {path: 'sphere.friction', word: 'friction', unit: '', to: 2, even: true},
+  {path: 'plane.friction', word: 'friction', unit: '', to: 2, even: true},
   {path: 'grid.mass', word: 'mass', unit: 'kg', from: 1 / 10, to: 10},
   {path: 'grid.stiffness.bend', word: 'bend', unit: 'N/m', from: 1 / 50, to: 50, zero: true},
   {path: 'drag.gamma', word: 'drag', unit: '1/s', from: 1 / 100, to: 10, zero: true},
@@ -46,6 +47,7 @@ const knobTable: KnobRow[] = [
   {path: 'gravity.acceleration', word: 'gravity', unit: 'm/s²', to: 2, even: true},
   {path: 'sphere.radius', word: 'ballRadius', unit: 'm', from: 0.3, to: 1.1, even: true},
   {path: 'sphere.restitution', word: 'restitution', unit: '', most: 1, even: true},
+  {path: 'plane.restitution', word: 'restitution', unit: '', most: 1, even: true},
   {path: 'grid.stiffness.structural', word: 'structural', unit: 'N/m', from: 1 / 50, to: 50},
   {path: 'grid.stiffness.shear', word: 'shear', unit: 'N/m', from: 1 / 50, to: 50, zero: true},
   {path: 'wind.gusts.variation', word: 'gusts', unit: 'm/s²', to: 4, even: true},
@@ -203,7 +205,7 @@ export class MethodKnobs {
   private steppers: Stepper[] = [];
   private spec: MethodSpec = {method: ''};
   private own = 0;  // the scene's own step, s
-  private balls = 0;
+  private solids = 0;
 
   constructor(
       letter: string, private readonly changed: (spec: MethodSpec, done: boolean) => void, removed: () => void) {
@@ -233,9 +235,9 @@ export class MethodKnobs {
     if (!stepper) return;
     // other options of the state, +events or +linear, stay with their stepper
     const [name, ...options] = this.spec.method.split('+');
-    const kept = this.sticky.checked && this.balls ? ['sticky'] :
-        name === stepper.name                      ? options.filter(option => option !== 'sticky') :
-                                                     [];
+    const kept = this.sticky.checked && this.solids ? ['sticky'] :
+        name === stepper.name                       ? options.filter(option => option !== 'sticky') :
+                                                      [];
     const {step, tolerance} = {...this.spec, ...moved}, method = [stepper.name, ...kept].join('+');
     this.changed(stepper.adaptive ? {method, tolerance: tolerance || 1e-6} : {method, step: step || this.own}, done);
   }
@@ -247,13 +249,13 @@ export class MethodKnobs {
     const stepper = steppers.find(s => s.name === name), interval = scene.duration / scene.samples;
     const known = limit !== null && Number.isFinite(limit) && limit > 0;
     const bound = known && limit <= interval;  // no step is longer than the time between two samples
-    Object.assign(this, {spec, steppers, own: scene.step, balls: scene.spheres.length});
+    Object.assign(this, {spec, steppers, own: scene.step, solids: solidsOf(scene)});
     const usable = steppers.filter(s => !scene.firstOrder || s.firstOrder);
     if (this.select.childElementCount !== usable.length)
       this.select.replaceChildren(...usable.map(s => make('option', {value: s.name}, chosenAs(s.name))));
     this.select.value = name;
     this.sticky.checked = options.includes('sticky');
-    this.stickyLabel.hidden = !this.balls;
+    this.stickyLabel.hidden = !this.solids;
     this.step.box.hidden = Boolean(stepper?.adaptive), this.tolerance.box.hidden = !stepper?.adaptive;
     const step = spec.step ?? 0, shortened = !stepper?.adaptive && h && msText(h) !== msText(step);
     this.note.textContent = run.refusal ? say('refused', {method: nameOfMethod(spec.method), reason: run.refusal}) :

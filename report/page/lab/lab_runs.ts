@@ -1,6 +1,6 @@
 // The runs of a lab: they share one clock, and the truth follows them. The first part of <live-lab> (lab.ts).
 
-import {EngineScene, Lab, LabError} from './engine';
+import {EngineScene, Lab, LabError, solidsOf} from './engine';
 import {Hand} from './hand';
 import {LiveRun, messageOf, Truth} from './live_run';
 import {Growth} from './live_stage';
@@ -120,7 +120,7 @@ export abstract class LabRuns extends HTMLElement {
     if (run.sim.scene.particles > smallScene) return void (this.truthGone = 'large');
     try {
       const toml = this.byHand ? run.sim.sceneText() : this.toml;
-      const truth = new Truth(this.lab, toml, run, run.sim.scene.spheres.length > 0);
+      const truth = new Truth(this.lab, toml, run, solidsOf(run.sim.scene) > 0);
       if (truth.known) this.truth = truth;
     } catch {
       // a state that cannot be read again has no truth

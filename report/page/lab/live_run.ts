@@ -2,7 +2,7 @@
 
 import {placeOf, Places, Vec3} from '../player/vectors';
 
-import {Energies, EngineScene, Lab, RunSettings, Simulation, Stepper} from './engine';
+import {Energies, EngineScene, Lab, RunSettings, Simulation, solidsOf, Stepper} from './engine';
 import {lookOfRun, RunLook} from './lab_view';
 import {trailPoints} from './live_stage';
 import {MethodSpec} from './scene_text';
@@ -139,8 +139,10 @@ export class LiveRun {
   get end() { return this.offset + this.sim.scene.duration; }
   /** Real time over computing time, of the whole run so far. */
   get factor() { return this.spent > 0 ? 1000 * this.stepped / this.spent : null; }
-  /** Name of a distance from the truth: where balls are touched the truth is that of the same contact rule. */
-  get errorWord() { return this.sim.scene.spheres.length ? 'difference' : 'error'; }
+  /**
+   * Name of a distance from the truth: where balls or planes are touched the truth is that of the same contact rule.
+   */
+  get errorWord() { return solidsOf(this.sim.scene) ? 'difference' : 'error'; }
 
   /** Takes the steps that end by a time (s), as far as so many ms of computing allow; false where they do not. */
   advance(time: number, budget: number) {
