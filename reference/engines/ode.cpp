@@ -90,11 +90,15 @@ class OdeWorld : public World {
     r.precision = sizeof(dReal) == sizeof(double) ? "double" : "single";
     r.probe = probe_of_forces(forced_, probe_state(scene_));
     r.links = scene_.springs;
+    Scene damped = scene_;  // with the dashpots of the joints
+    damped.dashpots.clear();
     for (size_t i = 0; i < joints_.size(); ++i) {
       const dReal erp = dJointGetDBallParam(joints_[i], dParamERP), cfm = dJointGetDBallParam(joints_[i], dParamCFM);
       r.links[i].stiffness = erp / (cfm * scene_.step);
       r.links[i].rest_length = dJointGetDBallDistance(joints_[i]);
+      damped.dashpots.push_back({r.links[i].a, r.links[i].b, (1 - erp) / cfm});
     }
+    add_dashpots(damped, r.probe->x, r.probe->v, r.probe->dashpots);
     r.spheres.emplace(), r.planes.emplace();
     for (const Sphere& s : scene_.spheres)
       r.spheres->push_back({s.centre, s.contact_radius(), s.friction, s.restitution});
@@ -109,7 +113,6 @@ class OdeWorld : public World {
     r.settings = {{"iterations", std::to_string(iterations_)}};
     if (joints_.empty()) return;
     r.probe->springs.clear();
-    if (!scene_.dashpots.empty()) r.probe->dashpots.clear();
     run.different_law.push_back("springs: an implicit step along the line between the ends");
     if (!scene_.dashpots.empty()) run.different_law.push_back("dashpots: implicit, in the joints of springs");
   }
