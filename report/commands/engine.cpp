@@ -88,7 +88,9 @@ int build_adapter(const EngineOptions& options, const OutsideEngine& engine, con
 /// Compiles the one source of an adapter against Debian's package of its engine.
 int compile_source(const EngineOptions& options, const OutsideEngine& engine, const fs::path& program) {
   if (!have_tools(options, {{"g++", "g++"}}, fmt::format("g++ {}", engine.package))) return 1;
-  if (run_program({"g++", "-x", "c++", "-fsyntax-only", "-include", engine.header, "/dev/null"}, ".").status != 0) {
+  std::vector<std::string> look{"g++", "-x", "c++", "-E", "-include", engine.header, "/dev/null"};
+  look.insert(look.end(), engine.flags.begin(), engine.flags.end());
+  if (run_program(look, ".").status != 0) {
     fmt::print(stderr,
                "crosscheck: engine {}: there is no {}; package {} is not installed: apt-get install "
                "--no-install-recommends {}\n",
