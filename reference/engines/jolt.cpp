@@ -1,5 +1,5 @@
 // Jolt's soft body, compiled for this machine, as a program of the engine protocol: one body among static balls, with
-// the same options and laws as npm's build. README.md says why each default is changed. Built by jolt/CMakeLists.txt.
+// the same options and laws as npm's build. The README says why each default is changed. Built by jolt/CMakeLists.txt.
 #include <Jolt/Jolt.h>  // before all other headers of Jolt
 
 #include <Jolt/ConfigurationString.h>
