@@ -1,7 +1,7 @@
 #!/usr/bin/env node
 // Jolt's soft body (npm's WebAssembly build) as an engine of crosscheck (PROTOCOL.md), in single precision.
 //
-// Jolt's rule (measured: reference/jolt/README.md): `Update(h)` takes n sub-steps of d = h / n. Each adds gravity to
+// Jolt's rule (measured: README.md here): `Update(h)` takes n sub-steps of d = h / n. Each adds gravity to
 // the velocities, multiplies them by 1 - damping d, moves by v d, corrects each edge once, one after the other, by
 // (L - r) / (w_a + w_b + compliance / d^2), and takes (x - x_before) / d for the velocity: extended position-based
 // dynamics with one pass, compliance in m/N, independent of d.
