@@ -9,6 +9,7 @@
 
 #include "experiments/tables/contact.h"
 #include "report/figures/chapter_parts.h"
+#include "report/figures/plot_layout.h"
 #include "report/findings/findings_text.h"
 
 namespace crosscheck {
@@ -64,11 +65,11 @@ Chart cone_law(const std::vector<ConeRow>& rows, const std::vector<ConeRow>& pla
     const bool errs = ball.right < ball.all || flat.right < flat.all;
     if (errs)
       differing.push_back(fmt::format("{} (right in {}{})", name_in_sentence(method), ball.count(),
-                                      planes.empty() ? "" : fmt::format(" on balls, {} on planes", flat.count())));
+                                      planes.empty() ? "" : fmt::format(" on balls, {} on planes", flat.right)));
     if (errs || std::ranges::find(always, method) != always.end())
       f.curves.push_back({method, style_of(method), ball.points, false, true});
     if (flat.right < flat.all && method != sticky_sphere && !flat.points.empty()) {
-      Curve curve{method + ", plane", style_of(method), flat.points, false, true};
+      Curve curve{reader_name(method) + ", plane", style_of(method), flat.points, false, true, {}, method};
       --curve.style.marker;  // its open form
       f.curves.push_back(std::move(curve));
     }
