@@ -21,7 +21,7 @@ std::filesystem::path folder_of_disagreements() { return folder_of_scenes() / "d
 /// Of several cloths a quick run uses one of each kind.
 constexpr std::string_view left_to_full_runs[] = {"cloth-stiff", "cloth-cantilever", "cloth-swing", "cloth-wind",
                                                   "flag",        "cloth-carried",    "curtain",     "jelly",
-                                                  "floor-drop",  "cloth-small"};
+                                                  "floor-drop",  "cloth-small",      "room-bounce"};
 
 }  // namespace
 

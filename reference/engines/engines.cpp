@@ -61,6 +61,11 @@ std::optional<OutsideEngine> kept_engine_of(const std::string& method) {
   return std::nullopt;
 }
 
+std::string without_folders(const std::string& method) {
+  const std::string kept = "exec:" + kept_program("").string();
+  return method.starts_with(kept) ? method.substr(kept.size()) : method;
+}
+
 std::string command_to_build(const OutsideEngine& engine) {
   const bool needs_prefix = engine.source.empty() && engine.npm.empty();
   return fmt::format("crosscheck engine {}{}", engine.name, needs_prefix ? " --prefix DIR" : "");

@@ -37,6 +37,9 @@ std::filesystem::path kept_program(const std::string& engine);
 /// The row of the engine whose kept program the method "exec:PATH+option" names, or nothing.
 std::optional<OutsideEngine> kept_engine_of(const std::string& method);
 
+/// A method's name for the terminal: "mujoco+drag=callback" of a kept program, of others the whole name.
+std::string without_folders(const std::string& method);
+
 /// The commands that build it: "crosscheck engine box3d --prefix DIR".
 std::string command_to_build(const OutsideEngine& engine);
 

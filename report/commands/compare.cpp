@@ -6,6 +6,7 @@
 #include "experiments/stability/margin.h"
 #include "experiments/tables/engines.h"
 #include "reference/certificate/certificate.h"
+#include "reference/engines/engines.h"
 #include "reference/which_rule.h"
 #include "report/commands/command_line.h"
 #include "report/commands/json_files.h"
@@ -22,11 +23,13 @@ struct CompareOptions {
   std::string command_line;
 };
 
-void print(const Certificate& certificate) {
-  fmt::print("\nparity of {} with the scene {}\n", certificate.method, certificate.scene);
+/// `brief`: rows that match are counted only.
+void print(const Certificate& certificate, bool brief) {
+  fmt::print("\nparity of {} with the scene {}\n", without_folders(certificate.method), certificate.scene);
   for (const CertificateRow& r : certificate.rows)
-    fmt::print("  {:<14} {:<14} asked: {}; handed over: {}; read back: {}\n", name_of(r.parity), r.quantity,
-               r.requested, r.mapped, r.read_back);
+    if (!brief || r.parity != Parity::match)
+      fmt::print("  {:<14} {:<14} asked: {}; handed over: {}; read back: {}\n", name_of(r.parity), r.quantity,
+                 r.requested, r.mapped, r.read_back);
   fmt::print("  {}\n", summary_of(certificate));
 }
 
@@ -60,7 +63,8 @@ bool equal_rules_differ(const Request& request, const Scene& scene, MethodResult
       };
       const std::optional<double> allowed = std::max(bound(methods[i]), bound(methods[j]));
       const bool over = allowed && largest > *allowed;
-      fmt::print("\n{} and {} are the same rule: they differ by {:.3g} m, {}\n", b.method, a.method, largest,
+      fmt::print("\n{} and {} are the same rule: they differ by {:.3g} m, {}\n", without_folders(b.method),
+                 without_folders(a.method), largest,
                  allowed
                      ? fmt::format("at most {:.3g} m is round-off: {}", *allowed, over ? "NOT THE SAME" : "the same")
                      : fmt::format("but a perturbation grows {:.1g}-fold here: nothing can be said", growth));
@@ -115,7 +119,7 @@ int compare_command(const CompareOptions& options) {
 
   bool mismatch = false;  // withholds the numbers of that engine alone
   for (const Certificate& certificate : result.certificates) {
-    print(certificate);
+    print(certificate, result.certificates.size() > 3);
     const std::string file = file_name_of("certificate-" + certificate.method) + ".json";
     folder.announce({file});
     write_file(options.out / file, certificate_json(certificate));
@@ -139,7 +143,7 @@ int compare_command(const CompareOptions& options) {
   fmt::print("{:<28} {:<12} {:>10} {:>10} {:>12} {:>10} {:>10}\n", "method", "verdict", of_rule ? "rule/m" : "error/m",
              "diff./m", "centres/m", "step/s", "until/s");
   for (const EngineRow& run : runs) {
-    fmt::print("{:<28} {:<12} {:>10} {:>10} {:>12} {:>10} {:>10}\n", run.method, name_of(run.verdict),
+    fmt::print("{:<28} {:<12} {:>10} {:>10} {:>12} {:>10} {:>10}\n", without_folders(run.method), name_of(run.verdict),
                shown(of_rule ? run.contact_difference : run.error), shown(run.difference), shown(run.centre_difference),
                shown(run.step), shown(run.end));
     if (run.verdict != Verdict::ok)
@@ -159,7 +163,11 @@ int compare_command(const CompareOptions& options) {
              of_rule ? "rule: difference from mysim's contact rule, converged" : "error: from the truth",
              request.reference.empty() ? subject().representative : request.reference, scene.window);
   for (const Method& method : methods)
-    if (method.identify) fmt::print("\n{}: its rule is {}\n", method.name, sentence_of(method.identify()));
+    if (method.identify) {
+      const std::string& engine = result_of(request, scene, method, answers).outcome.engine;
+      fmt::print("\n{}{}: its rule is {}\n", without_folders(method.name),
+                 engine.empty() ? "" : fmt::format(" ({})", engine), sentence_of(method.identify()));
+    }
   const bool differ = equal_rules_differ(request, scene, answers);
   const bool all_failed = std::ranges::none_of(runs, [](const EngineRow& run) { return run.verdict == Verdict::ok; });
   if (all_failed) fmt::print("\nno method has a result: each one failed or refused the scene\n");
