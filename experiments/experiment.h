@@ -174,7 +174,7 @@ std::vector<Point> one_point_per_scene(const Request& request, const std::string
 std::string content_of(const Request& request, const Scene& scene);
 
 /// A run of the scene at the request's step.
-/// Whether a method of a report of all engines would take too long on the scene.
+/// True for a method that would take too long on the scene in a report of all engines.
 bool is_left_out(const Request& request, const Method& method, const Scene& scene);
 
 Run run_of(const Request& request, const Scene& scene);

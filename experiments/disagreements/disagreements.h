@@ -100,9 +100,9 @@ struct Disagreement {
   std::string scene = {};    // name of its scene's file, where that is not the row's
 };
 
-/// Of Bullet's worlds.
+/// The rows about Bullet's worlds.
 std::vector<Disagreement> disagreements();
-/// Of the engines that `engine NAME` builds: methods "engine:NAME+option", which are programs kept for reports. Those
+/// The rows about engines that `engine NAME` builds: methods "engine:NAME+option", which are programs kept for reports. Those
 /// of engines that are not built are not asked.
 std::vector<Disagreement> engine_disagreements();
 /// Adds headings, causes and threads from disagreements.md. Throws std::logic_error where a row has none.

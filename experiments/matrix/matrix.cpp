@@ -76,7 +76,7 @@ Answer damping_of(const Method& method, const UndampedMode& mode) {
   Recorder recorder;
   const Outcome out = run_method(method, mode.scene, run, {&recorder});
   const Trajectory& path = recorder.trajectory;
-  std::vector<double> logs;  // of the energy, mean over each period
+  std::vector<double> logs;  // ln(energy), mean over each period
   for (int first = 0; first + samples <= path.frames(); first += samples) {
     double sum = 0;
     for (int i = first; i < first + samples; ++i) {

@@ -378,7 +378,7 @@ struct LineServer::Process {
   Pipe in, out, err, report;
   pid_t parent = getpid(), watcher = -1;
   std::optional<clockid_t> clock;  // CPU time of the program
-  std::string unread;              // of stdout
+  std::string unread;              // stdout so far
 
   double cpu_time() const {
     timespec now{};

@@ -16,8 +16,8 @@ struct OutsideEngine {
   std::string represents;  // ingredients, in words
   std::string other_law;   // ingredients that it has under another law; may be empty
 
-  // How the adapter is built, from files in reference/engines: one source with the compiler, or a folder with CMake, or
-  // a module with npm's package.
+  // Files in reference/engines that the adapter is built from: one source for the compiler, or a folder for CMake, or
+  // a module for npm's package.
   std::string source, cmake, module;
   std::string package, header;     // Debian's package of the engine, and a header of it
   std::vector<std::string> flags;  // for the compiler

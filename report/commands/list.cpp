@@ -34,8 +34,8 @@ int list_command(const ListOptions& options) {
     for (const Experiment& experiment : experiments()) rows.emplace_back(experiment.name, experiment.question);
   } else if (what == "engines") {
     for (const OutsideEngine& e : outside_engines())
-      rows.emplace_back(e.name, fmt::format("{} ({}, {}, {} precision): {}", e.title, e.built, e.licence, e.precision,
-                                            e.rule));
+      rows.emplace_back(e.name,
+                        fmt::format("{} ({}, {}, {} precision): {}", e.title, e.built, e.licence, e.precision, e.rule));
   } else if (what == "assignments") {
     grader_command(json ? std::vector<std::string>{"list", "--json"} : std::vector<std::string>{"list"});
   } else {
