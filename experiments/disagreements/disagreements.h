@@ -102,8 +102,8 @@ struct Disagreement {
 
 /// The rows about Bullet's worlds.
 std::vector<Disagreement> disagreements();
-/// The rows about engines that `engine NAME` builds: methods "engine:NAME+option", which are programs kept for reports. Those
-/// of engines that are not built are not asked.
+/// The rows about engines that `engine NAME` builds: methods "engine:NAME+option", which are programs kept for reports.
+/// Those of engines that are not built are not asked.
 std::vector<Disagreement> engine_disagreements();
 /// Adds headings, causes and threads from disagreements.md. Throws std::logic_error where a row has none.
 std::vector<Disagreement> with_texts(std::vector<Disagreement> rows);
