@@ -227,31 +227,56 @@ def decoded(value, seen):
     return function
 
 
-def refuse(reason):
-    print(reason, file=sys.stderr)
-    sys.exit(3)
+class Refused(Exception):
+    """What the engine lacks; the exit status is 3."""
 
 
 def main(dump):
-    """The program: reads scene.json, steps, writes trajectory.npy, velocities.npy and run.json into OUTDIR."""
-    step_task, terms, name = pickle.loads(dump)
+    """The program: runs the scene of its arguments, or with --serve one scene for each line of stdin."""
+    if sys.argv[1:] == ["--serve"]:
+        answers, sys.stdout = sys.stdout, sys.stderr  # the step function may print
+        for line in sys.stdin:
+            request = json.loads(line)
+            print(json.dumps(answer(dump, request["scene"], request["out"])), file=answers, flush=True)
+        return
     if len(sys.argv) != 3:
-        sys.exit(f"usage: {name} scene.json OUTDIR")
-    with open(sys.argv[1], encoding="utf-8") as file:
+        sys.exit(f"usage: {sys.argv[0]} scene.json OUTDIR")
+    try:
+        run_scene(dump, *sys.argv[1:])
+    except Refused as reason:
+        print(reason, file=sys.stderr)
+        sys.exit(3)
+
+
+def answer(dump, scene, out):
+    try:
+        run_scene(dump, scene, out)
+        return {"status": 0}
+    except Refused as reason:
+        return {"status": 3, "reason": str(reason)}
+    except SystemExit as end:
+        return {"status": 1, "reason": str(end.code)}
+    except Exception as error:
+        return {"status": 1, "reason": f"{type(error).__name__}: {error}"}
+
+
+def run_scene(dump, scene_file, out):
+    """Reads scene.json, steps, and writes trajectory.npy, velocities.npy and run.json into the folder out."""
+    step_task, terms, name = pickle.loads(dump)
+    with open(scene_file, encoding="utf-8") as file:
         task = json.load(file)
     asked = {term["type"] for term in task["terms"]}
     asked |= {term["law"] for term in task["terms"] if term.get("law", "hooke") != "hooke"}
     lacking = sorted(asked - set(terms))
     if lacking:
-        refuse(f"{name} has no {', '.join(lacking)}")
+        raise Refused(f"{name} has no {', '.join(lacking)}")
     if task["first_order"]:
-        refuse(f"{name} takes scenes of the second order only")
+        raise Refused(f"{name} takes scenes of the second order only")
     step, scene = decoded(step_task, {}), EngineScene(task)
     times, steps, speeds, seconds = run(name, step, scene)
-    out = sys.argv[2]
     np.save(os.path.join(out, "trajectory.npy"), times)
     np.save(os.path.join(out, "velocities.npy"), speeds)
-    told = {"cpu_seconds": seconds, "steps": steps}
+    told = {"cpu_seconds": seconds, "steps": steps, "serves": True}
     if scene.evaluations:
         told["force_evaluations"] = scene.evaluations
     with open(os.path.join(out, "run.json"), "w", encoding="utf-8") as file:
