@@ -96,9 +96,11 @@ TEST_F(OutsideEngines, JoltNamesThePackageThatItsToolsAreMissingFrom) {
     std::vector<std::string> tools;  // all that is in PATH; they fail
     std::string said;
   };
-  for (const Row& row : {Row{{}, "there is no node; package nodejs is not installed"},
-                         {{"node"}, "there is no npm; package npm is not installed"},
-                         {{"node", "npm"}, "engine jolt: npm failed; the last lines of its output:\nno registry\n"}}) {
+  for (const Row& row :
+       {Row{{}, "there is no node; package nodejs is not installed"},
+        {{"node"}, "there is no npm; package npm is not installed"},
+        {{"node", "npm"}, "there is no esbuild; package esbuild is not installed"},
+        {{"node", "npm", "esbuild"}, "engine jolt: npm failed; the last lines of its output:\nno registry\n"}}) {
     fs::create_directories(folder_ / "bin");
     for (const std::string& tool : row.tools) script("bin/" + tool, "echo no registry >&2\nexit 1\n");
     const ProgramResult result = run_program({CROSSCHECK_PROGRAM, "engine", "jolt", "-o", "jolt"}, folder_,
