@@ -63,9 +63,11 @@ BenchSuite bench_suite(bool full, const std::vector<std::string>& beside) {
     suite.threads.turns = {21, 0.2};
   }
   suite.same_step.turns = suite.turns;
+  // named engines on two small cloths: most of them would need minutes for larger ones
+  if (!beside.empty()) suite.cloths.insert(suite.cloths.begin(), {16, {}});
   for (BenchSuite::PeerCloth& cloth : suite.cloths)
     for (const std::string& name : beside)
-      if (cloth.of == BenchSuite::PeerCloth::hooke) cloth.peers.push_back(chosen(name));
+      if (cloth.of == BenchSuite::PeerCloth::hooke && cloth.side <= 32) cloth.peers.push_back(chosen(name));
   return suite;
 }
 

@@ -28,6 +28,7 @@ constexpr MysimMethod own_methods[] = {{"mysim/suzuki4+fast", 1.3, fine},
                                        {"mysim/leapfrog+fast", 0.95, fine},
                                        {"mysim/leapfrog+single", 0.95, fine},
                                        {"mysim/rk4", 1.35, coarse}};
+constexpr double longest = 60;           // s: an outside program's run that would take more is left out
 constexpr double shortest = 0.05;        // step of any of them over its first
 constexpr double truth_step = 1.36 / 8;  // in 2 / omega: an eighth of suzuki4's largest, and then halved
 
@@ -39,6 +40,7 @@ struct PeerRun {
   double setting;               // step in s, or tolerance
   std::optional<double> error;  // RMS over the particles at the end, m; of runs that ended well
   bool other_model = false;
+  double projected = 0;  // s of CPU time of a run that was left out because it would take too long; else 0
   bool ok() const { return error.has_value(); }
 };
 
@@ -61,7 +63,8 @@ class PeerRuns {
   std::vector<PeerRun> own(double wanted, long most) const;
 
  private:
-  PeerRun done(const Method& method, double setting) const;
+  /// `projects`: the first fiftieth of the run shows first whether all of it would take too long.
+  PeerRun done(const Method& method, double setting, bool projects = false) const;
   Points end_of(double part) const {
     Recorder recorder;
     run_method(find_method("mysim/suzuki4"), scene_, {part * unit_, scene_.duration, 1}, {&recorder});
@@ -75,9 +78,17 @@ class PeerRuns {
   double bar_;
 };
 
-PeerRun PeerRuns::done(const Method& method, double setting) const {
+PeerRun PeerRuns::done(const Method& method, double setting, bool projects) const {
   Run run{unit_, scene_.duration, 1};
   (method.adaptive ? run.tolerance : run.step) = method.adaptive ? setting : setting * unit_;
+  if (projects) {
+    Run part = run;
+    part.duration /= 50;
+    NullObserver nothing;
+    Outcome out = run_method(method, scene_, part, {&nothing});
+    if (const double projected = 50 * out.cpu_seconds; projected > longest)
+      return {method, run, std::move(out), setting, {}, false, projected};
+  }
   Recorder recorder;
   Outcome out = run_method(method, scene_, run, {&recorder});
   std::optional<double> error;
@@ -91,7 +102,7 @@ std::vector<PeerRun> PeerRuns::of(const std::vector<Peer>& peers) const {
     const Method method = find_method(peer.method);
     for (const double setting : peer.settings) {
       progress_.begin(fmt::format("{}: {}", scene_.name, peer.method));
-      runs.push_back(done(method, setting));
+      runs.push_back(done(method, setting, method.family().role == Role::outside));
       runs.back().other_model = peer.other_model;
     }
   }
@@ -196,7 +207,9 @@ void measure_equal_error(const EqualErrorOptions& options, BenchRecord& record) 
                    .instructions = isa,
                    .unit = "run"};
       (peer.method.adaptive ? row.tolerance : row.step) = peer.setting;
-      if (!peer.ok() || peer_times[i].empty())
+      if (peer.projected > 0)
+        row.remark = fmt::format("left out: it would take about {:.0f} s of CPU time", peer.projected);
+      else if (!peer.ok() || peer_times[i].empty())
         row.remark = "the peer's run failed";
       else if (*peer.error <= 2 * bar)
         row.remark = "below the error bar of the truth";
