@@ -356,14 +356,22 @@ const char* colour_of(const MethodFamily& family, bool representative) {
 }  // namespace
 
 Json method_looks_json(std::span<const std::string> methods) {
-  // a colour and a mark for each program (style.css)
-  constexpr std::string_view colours[] = {"outside2", "outside3", "outside4", "outside5", "outside6"},
+  // a colour for each program (style.css); its options have one mark after the other
+  constexpr std::string_view colours[] = {"outside2", "outside3", "outside4", "outside5",
+                                          "outside6", "outside7", "outside8"},
                              marks[] = {"triangle", "diamond", "square", "circle"};
   Json json = Json::object();
-  size_t programs = 0;
+  std::vector<std::pair<std::string, size_t>> programs;  // without options, and their next marks
   for (const std::string& name : methods) {
     const MethodFamily& family = family_of(name);
     const bool program = family.role == Role::outside;
+    size_t colour = 0, mark = 0;
+    if (program) {
+      const std::string file = name.substr(0, name.find('+', name.rfind('/') + 1));
+      auto own = std::ranges::find(programs, file, &std::pair<std::string, size_t>::first);
+      if (own == programs.end()) own = programs.insert(own, {file, programs.size()});
+      colour = static_cast<size_t>(own - programs.begin()), mark = own->second++;
+    }
     const std::string title = program ? program_title(name, methods) : reader_name(name, methods);
     const Method* method = builtin_method(name);
     const bool representative = name == family.representative;
@@ -372,14 +380,13 @@ Json method_looks_json(std::span<const std::string> methods) {
     json[name] = {{"title", title},
                   {"engine", program ? title : std::string(family.title)},
                   {"rule", program ? "" : rule_name(name)},
-                  {"colour", program ? colours[programs % std::size(colours)] : colour_of(family, representative)},
-                  {"mark", program                     ? marks[programs % std::size(marks)]
+                  {"colour", program ? colours[colour % std::size(colours)] : colour_of(family, representative)},
+                  {"mark", program                     ? marks[mark % std::size(marks)]
                            : family.is_subject()       ? "circle"
                            : family.role != Role::peer ? "triangle"
                            : positions                 ? "diamond"
                                                        : "square"},
                   {"hero", (family.by_default() && (representative || positions || usual)) || program}};
-    programs += program;
   }
   return json;
 }
