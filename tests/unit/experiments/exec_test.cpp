@@ -20,6 +20,8 @@
 namespace crosscheck {
 namespace {
 
+namespace fs = std::filesystem;
+
 using namespace testing_tools;
 
 class Exec : public InFolder {
