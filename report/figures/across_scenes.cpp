@@ -88,8 +88,12 @@ std::vector<Chart> matrix_charts(const ChartInput& input) {
 std::vector<Chart> same_rule_charts(const ChartInput& input) {
   DotPlot f;
   std::vector<const MethodData*> shown;
-  for (const MethodFamily* peer : default_peers()) {
-    const std::string method(peer->representative);
+  std::vector<std::string> methods;
+  for (const MethodFamily* peer : default_peers()) methods.emplace_back(peer->representative);
+  for (const SceneData& scene : input.facts)
+    for (const MethodData& m : scene.methods)
+      if (family_of(m.method).role == Role::outside && m.same_rule.value_or(false)) add_once(methods, m.method);
+  for (const std::string& method : methods) {
     DotPlot::Series difference{method, style_of(method), {}}, bound{"round-off bound", {"#656e78", "1", 6}, {}};
     for (const SceneData& scene : input.facts) {
       const MethodData* m = scene.find(method);
@@ -102,7 +106,8 @@ std::vector<Chart> same_rule_charts(const ChartInput& input) {
       if (m->round_off_bound && !scene.touched()) bound.dots.back() = dot(*m->round_off_bound);
       shown.push_back(m);
     }
-    f.series.push_back(std::move(difference)), f.series.push_back(std::move(bound));
+    if (!difference.dots.empty()) f.series.push_back(std::move(difference));
+    if (method == methods.front()) f.series.push_back(std::move(bound));
   }
   if (f.names.size() < 2) return {};  // a single scene's answer says it
   for (DotPlot::Series& series : f.series) series.dots.resize(f.names.size());

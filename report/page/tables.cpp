@@ -167,7 +167,8 @@ Json parity_data(const std::vector<ScenePart>& scenes) {
                           {"says", fmt::format("{}: {}", r.quantity, name_of(r.parity))}});
           same += r.parity == Parity::match;
         }
-      row.push_back({{"matched", same}, {"count", dots.size()}, {"dots", std::move(dots)}});
+      const char* absent = part.facts && part.facts->find(method) ? "not supported" : "not run";
+      row.push_back({{"matched", same}, {"count", dots.size()}, {"dots", std::move(dots)}, {"absent", absent}});
     }
     rows.push_back({{"scene", part.scene->name}, {"cells", std::move(row)}});
   }
