@@ -223,7 +223,7 @@ std::vector<Answer> cells_from(const TableSet& tables, const std::string& method
   if (cases > 0 || !refusal.empty()) {
     Answer& answer = add(EngineQuestion::friction, "1");
     answer.tier = "exact";
-    answer.words = cases > 0 ? fmt::format("{} of {} as Coulomb's law", right, cases) : "refused: " + refusal;
+    answer.words = cases > 0 ? fmt::format("{} of {}", right, cases) : "refused: " + refusal;
     if (cases > 0) answer.value = static_cast<double>(right);
   }
   if (std::ranges::none_of(cells, [](const Answer& a) { return a.question == EngineQuestion::order; }))

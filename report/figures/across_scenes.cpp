@@ -46,20 +46,18 @@ std::vector<Chart> scoreboard_charts(const ChartInput& input) {
 
 namespace {
 
-std::string with_unit(double value, const std::string& unit) {
-  return unit == "s" ? step_text(value) : unit == "1" ? nice(value) : nice(value) + " " + unit;
-}
-
 /// "-2.0e-4 ± 1e-6 /s", "0 ± 1e-6 /s", or the words where there is no number.
 template <class Row>
 std::string cell_of(const Row& row) {
+  const auto with_unit = [&](double value) { return row.unit == "s" ? step_text(value) : nice(value); };
+  const std::string per_second = row.unit == "1/s" ? " /s" : "";
   if (row.question == EngineQuestion::rule)
-    return row.words + (row.value ? fmt::format(" ({} of the net)", nice(*row.value)) : "");
+    return row.words + (row.value ? fmt::format(" ({})", nice(*row.value)) : "");
   if (!row.value || row.question == EngineQuestion::invariants || row.question == EngineQuestion::friction)
     return row.words;
-  if (!row.bar) return with_unit(*row.value, row.unit);
-  if (std::abs(*row.value) <= *row.bar) return "0 ± " + with_unit(*row.bar, row.unit);
-  return fmt::format("{} ± {}", with_unit(*row.value, row.unit), with_unit(*row.bar, row.unit));
+  if (!row.bar) return with_unit(*row.value);
+  const bool zero = std::abs(*row.value) <= *row.bar;
+  return fmt::format("{} ± {}{}", zero ? "0" : with_unit(*row.value), with_unit(*row.bar), per_second);
 }
 
 }  // namespace
@@ -74,8 +72,10 @@ std::vector<Chart> matrix_charts(const ChartInput& input) {
   for (const auto& row : rows_of<MatrixRow<true>>(input.result)) cells[{row.method, row.question}] = cell_of(row);
   for (int q = static_cast<int>(first); q <= static_cast<int>(last); ++q)
     table.header.emplace_back(name_of(static_cast<EngineQuestion>(q)));
-  for (const std::string& method : distinct(rows, &MatrixRow<false>::method)) {
-    std::vector<std::string>& cells_of_row = table.rows.emplace_back(std::vector{method});
+  const std::vector<std::string> methods = distinct(rows, &MatrixRow<false>::method);
+  for (const std::string& method : methods) {
+    std::vector<std::string>& cells_of_row = table.rows.emplace_back(
+        std::vector{family_of(method).role == Role::outside ? program_title(method, methods) : method});
     for (int q = static_cast<int>(first); q <= static_cast<int>(last); ++q)
       cells_of_row.push_back(cells[{method, static_cast<EngineQuestion>(q)}]);
   }
