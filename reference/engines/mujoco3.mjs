@@ -54,7 +54,7 @@ function modelText(scene, { integrator, eulerdamp, flex, timeconst }) {
     return of.normal ? `<geom type="plane" name="" size="1 1 1" pos="${place}" zaxis="${text(of.normal)}" ${law}/>`
                      : `<geom type="sphere" size="${of.radius + of.margin - size}" pos="${place}" ${law}/>`;
   };
-  return `<mujoco><option timestep="${scene.h}" gravity="${text(scene.gravity)}"
+  return `<mujoco><option timestep="${scene.h}" gravity="${text(scene.gravity)}" cone="elliptic"
     integrator="${integrators[integrator]}"><flag eulerdamp="${eulerdamp}" autoreset="disable"/></option>
     <worldbody>${obstacles.map(obstacle).join('')}${Array.from(pinned, body).join('')}</worldbody>
     <tendon>${flex ? '' : springs.list.map(tendon('spring')).join('')}${rods.list.map(tendon('rod')).join('')}
@@ -140,7 +140,7 @@ serve(description, (scene) => {
         precision: 'double', mass: m.subarray(1), pinned: dofs.map((dof) => +(dof < 0)), may_sleep: false,
         links: scene.linksRead((i, _, hard) => (hard ? rod(i) : flex ? edges[i] : tendon(i))), spheres, planes, gravity,
         drag: dofs.map((dof, i) => (dof < 0 ? 0 : model.dof_damping[dof] / m[i + 1])),
-        mapped: { drag: 'damping of slide joints' }, settings: { version: MuJoCo.mj_versionString() },
+        mapped: { drag: 'damping of slide joints' }, settings: { version: MuJoCo.mj_versionString(), cone: 'elliptic' },
         later: { centres: spheres.map((one) => one.centre), points: planes.map((one) => one.point) } };
       const force_evaluations = Math.round(scene.times.at(-1) / scene.h) * (rk4 ? 4 : 1);
       return { force_evaluations, different_law, readback: { ...readback, probe: probe() } };
