@@ -211,7 +211,7 @@ std::map<std::string, std::vector<Setting>> searched_settings(const Request& req
   std::map<std::string, std::vector<Setting>> settings;
   const auto bound = of.bound();
   if (!bound) return settings;
-  std::vector<Method> methods = request.methods.empty() ? candidates(of.scene) : request.methods;
+  std::vector<Method> methods = request.methods.empty() ? candidates(of.scene) : methods_of(request, of.scene);
   std::erase_if(methods, [](const Method& m) { return !is_candidate(m.name); });
   std::vector<TriedRun> runs;
   StepSearch search(

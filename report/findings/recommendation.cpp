@@ -41,7 +41,10 @@ std::optional<RecommendedRun> recommended_run(const std::string& scene, double p
   const std::vector<SpeedAccuracyRow> table = rows_of<SpeedAccuracyRow>(rows);
   const auto any = std::ranges::find(table, scene, &SpeedAccuracyRow::scene);
   if (any == table.end() || !any->truth_bar) return std::nullopt;
-  const std::vector<TriedRun> runs = tried_runs(table, scene);
+  std::vector<TriedRun> runs = tried_runs(table, scene);
+  // evaluations of other programs cost other times: they are compared by CPU time, beside the recommendation
+  const auto is_outside = [](const TriedRun& run) { return family_of(run.method).role == Role::outside; };
+  if (!std::ranges::all_of(runs, is_outside)) std::erase_if(runs, is_outside);
   const auto chosen = recommend(runs, part_of_motion * any->motion - *any->truth_bar);
   if (!chosen) return std::nullopt;
   const TriedRun& run = runs[chosen->run];

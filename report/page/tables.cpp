@@ -61,6 +61,11 @@ std::string with_digits_of(double mean, double spread) {
   return fmt::format("{:.{}f}", mean, decimals);
 }
 
+/// A program's path is no name for readers.
+std::string shown_method(const std::string& text) {
+  return text.starts_with(program_prefix) ? program_title(text) : text;
+}
+
 /// Whether a cell is a number with its unit ("1.0e-7 m"), which is not broken over lines.
 bool is_number(const std::string& text) {
   return text.size() <= 12 && text.find_first_of("0123456789") <= 2 && !text.starts_with("1/");
@@ -79,7 +84,7 @@ Json table_data(const PageTable& given) {
     Json others = Json::array();
     for (size_t i = 1; i < row.size(); ++i)
       if (has_cells(i)) others.push_back(cell(row[i], is_number(row[i]) ? "number" : ""));
-    add_row(all, builtin_method(row[0]) ? row[0] : "", cell(row[0]), std::move(others));
+    add_row(all, builtin_method(row[0]) ? row[0] : "", cell(shown_method(row[0])), std::move(others));
   }
   return all;
 }
@@ -100,7 +105,7 @@ Json run_table_data(const ScenePart& part) {
         row.push_back(cell(text));
     row.push_back(cell(m.energy_error ? nice(100 * *m.energy_error) + " %" : ""));
     row.push_back(cell(m.supported() ? std::to_string(m.evaluations) : ""));
-    add_row(all, m.method, cell(m.method, "", "law", m.different_law), std::move(row));
+    add_row(all, m.method, cell(shown_method(m.method), "", "law", m.different_law), std::move(row));
   }
   return all;
 }
