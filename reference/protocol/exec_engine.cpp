@@ -237,7 +237,7 @@ Outcome run_outside_engine(const Program& program, const Scene& scene, const Run
   out.step = grid.h;
   ProgramResult end;
   try {
-    if (auto served = program.server->run(program, task, results))
+    if (auto served = program.server ? program.server->run(program, task, results) : std::nullopt)
       end = std::move(*served);
     else
       end = run_program({program.path.string(), task.string(), results.string()}, ".", {}, program.timeout);
@@ -272,7 +272,7 @@ Outcome run_outside_engine(const Program& program, const Scene& scene, const Run
     none.process_seconds = end.cpu_seconds;
     return failed(none, Verdict::crash, "did not deliver: " + what, end);
   }
-  if (out.serves && out.cpu_seconds > 0) program.server->allow();  // its start is none of its cost
+  if (out.serves && out.cpu_seconds > 0 && program.server) program.server->allow();  // its start is none of its cost
   const Verdict reported = out.verdict;
   const std::string misled = misled_pin(frames, scene, run, out);
   replay(frames, scene, run, observer, out, per_sample);

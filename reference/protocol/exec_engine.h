@@ -18,7 +18,7 @@ struct Program {
   std::filesystem::path path;
   std::vector<std::string> options;  // handed over in scene.json
   double timeout = 600;              // s of wall-clock time
-  std::shared_ptr<Server> server;    // shared by copies
+  std::shared_ptr<Server> server;    // shared by copies; null: each run is a call
 };
 
 /// Reads "PATH+option+option". PATH is relative to the working directory; a bare word is looked for there, then in
