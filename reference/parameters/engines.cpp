@@ -279,7 +279,7 @@ std::vector<EngineNumbers> make_table() {
        .title = "MuJoCo's tendons",
        .source = "MuJoCo manual, Computation: passive forces",
        .rules = {mass_as_it_is(),
-                 plain(SceneNumber::drag, "damping / mass",
+                 plain(SceneNumber::drag, "damping_per_mass",
                        "as it is: each slide joint's damping is gamma m, implicit unless eulerdamp is disabled"),
                  plain(SceneNumber::stiffness, "stiffness", "as it is, of a spatial tendon with springlength"),
                  plain(SceneNumber::dashpot, "damping", "as it is, of the same tendon"),

@@ -56,7 +56,7 @@ double parse_timeout(const std::string& method, const std::string& value) {
 class Server {
  public:
   /// Called after a run that says that its program serves.
-  void allow() { allowed_ = true; }
+  void allow() { allowed_ = !failed_; }
 
   /// Runs the task; nullopt where it must be called the other way: it does not serve, is busy in another thread, or did
   /// not answer as it should.
@@ -76,7 +76,7 @@ class Server {
         return end;
       }
     } catch (const InputError&) {
-      allowed_ = false;
+      allowed_ = false, failed_ = true;
     }
     process_.reset();
     return answer.timed_out ? std::optional(end) : std::nullopt;
@@ -84,7 +84,7 @@ class Server {
 
  private:
   std::mutex busy_;
-  bool allowed_ = false;
+  bool allowed_ = false, failed_ = false;
   std::unique_ptr<LineServer> process_;
 };
 

@@ -63,10 +63,11 @@ std::string left_out(const Request& request) {
 /// builds them. Without methods and scenes these are the rules that other engines follow, and small scenes.
 ReportOptions with_all_engines(ReportOptions options) {
   if (options.engines != "all") throw InputError(fmt::format("--engines {}: expected all", options.engines));
-  if (options.methods.empty())
-    options.methods =
-        "leapfrog,symplectic-euler,rk4,implicit-euler,xpbd,bullet/deformable-explicit,bullet/deformable-implicit,"
-        "bullet/pbd";
+  if (options.methods.empty()) {
+    options.methods = "leapfrog,symplectic-euler,rk4,implicit-euler,xpbd";
+    for (const Method& method : builtin_methods())
+      if (method.family().is_default_peer()) options.methods += "," + method.name;
+  }
   if (options.scenes.empty()) options.scenes = {"chain", "cloth-small", "cloth-hang", "slide"};
   for (const OutsideEngine& engine : outside_engines())
     if (const fs::path program = kept_program(engine.name); fs::exists(program))

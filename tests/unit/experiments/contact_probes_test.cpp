@@ -102,8 +102,12 @@ TEST(PlaneCone, HoldsAThousandthInsideAndSlidesAThousandthOutside) {
       ASSERT_TRUE(held) << out.reason;
       EXPECT_EQ(held->state, ContactState::sticks);
       EXPECT_EQ(held->coulomb, 0);
-      // roundings of h v in 500 steps, and what implicit rules leave unsolved: 1e-10 of the weight in each
-      EXPECT_LT(held->distance, 1e-13 + (method.implicit ? 1e-10 * 9.81 * 0.25 / 1e-3 : 0));
+      // roundings of h v in 500 steps, and what implicit rules leave unsolved: 1e-10 of the weight in each; a node of
+      // Bullet's implicit world that leaves the face falls freely for a step or two (experiments/check/known.toml)
+      const double free_step = 9.81 * 1e-3 * 1e-3;
+      EXPECT_LT(held->distance, 1e-13 + (!method.implicit  ? 0
+                                         : !method.stepper ? 2 * free_step
+                                                           : 1e-10 * 9.81 * 0.25 / 1e-3));
       const auto slid = cone(method, degrees, limit / 1.001, Ground::plane, 1e-3, out);
       EXPECT_EQ(slid->state, ContactState::slides);
       const Scene scene = on_slope(degrees, limit / 1.001, Ground::plane);

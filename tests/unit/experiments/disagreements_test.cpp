@@ -244,6 +244,11 @@ TEST(Disagreements, EverySceneFileIsInTheTableAndEveryRowHasOne) {
     files.insert(entry.path().stem());
   }
   for (const Disagreement& d : disagreements()) EXPECT_TRUE(rows.insert(d.name).second) << d.name;
+  std::set<std::string> names = rows;
+  for (const Disagreement& d : engine_disagreements()) {
+    EXPECT_TRUE(names.insert(d.name).second) << d.name;
+    rows.insert(d.scene.empty() ? d.name : d.scene);  // several rows may share one
+  }
   EXPECT_EQ(files, rows);
 }
 
