@@ -66,7 +66,7 @@ std::string shown_method(const std::string& text) {
   return text.starts_with(program_prefix) ? program_title(text) : text;
 }
 
-/// Whether a cell is a number with its unit ("1.0e-7 m"), which is not broken over lines.
+/// True for a number with its unit ("1.0e-7 m"), which is not broken over lines.
 bool is_number(const std::string& text) {
   return text.size() <= 12 && text.find_first_of("0123456789") <= 2 && !text.starts_with("1/");
 }
