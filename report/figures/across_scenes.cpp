@@ -8,6 +8,7 @@
 
 #include "experiments/tables/matrix.h"
 #include "experiments/tables/speed_accuracy.h"
+#include "reference/engines/engines.h"
 #include "report/figures/charts.h"
 #include "report/findings/findings_text.h"
 
@@ -127,6 +128,11 @@ namespace {
 /// An engine's name, and its style.
 std::pair<std::string, MethodStyle> style_of_engine(const std::string& engine) {
   const MethodFamily& family = family_of(engine);
+  if (family.role == Role::outside) {
+    const auto kept = kept_engine_of(engine);
+    return {program_title(engine) + (kept && !kept->is_native() ? fmt::format(" ({})", kept->built) : ""),
+            style_of(engine)};
+  }
   if (family.representative.empty()) return {engine, style_of(engine)};
   return {std::string(family.title), style_of(std::string(family.representative))};
 }
