@@ -200,7 +200,7 @@ void add_engine(CLI::App& app, Invocation& call) {
       add_command(app, call, "engine", "builds a program for exec: from another engine", engine_command);
   engine.add_option("NAME", options.what, "mujoco, simbody, ode, ...: `list engines` shows all")->required();
   engine.add_option("--prefix", options.prefix, "DIR: an installation or a source tree of the engine");
-  engine.add_option("-o", options.program, "PROG: writes the program here too; `report --engines all` finds it anyway");
+  engine.add_option("-o", options.program, "PROG: writes the program here, too");
 }
 
 }  // namespace crosscheck

@@ -142,6 +142,7 @@ const ClaimedNumber claims[] = {
      }},
     {"bounce", "each impact, {}-fold in the first second", [](const Scene& s) { return growth_of_window(s, 1); }},
     {"cloth-hang", "s, {} of the limit 2 / omega_max", part_of_limit},
+    {"cloth-small", "s, {} of the limit 2 / omega_max", part_of_limit},
     {"cloth-sphere", "s, {} of the limit 2 / omega_max", part_of_limit},
     {"cloth-sphere", "0.48 s, {} s after first contact", [](const Scene& s) { return s.window - first_touch(s); }},
     {"cloth-sphere", "until {} s after first contact", [](const Scene& s) { return s.window - first_touch(s); }},

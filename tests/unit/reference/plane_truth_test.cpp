@@ -1,6 +1,7 @@
 // Planes: closed forms against their own laws, the event-driven route and located events against them, Bullet's worlds
 // beside them, and what the certificate and the protocol say of planes.
 
+#include <Eigen/Geometry>
 #include <functional>
 #include <numbers>
 
