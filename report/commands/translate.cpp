@@ -201,9 +201,9 @@ void add_translate(CLI::App& app, Invocation& call) {
                   "converts masses, drag, stiffness, dashpots and friction to another engine's parameters, and back",
                   translate_command);
   translate.add_option("SCENE", options.scene, "a shipped scene or a TOML file")->required();
-  translate.add_option(
-      "--to", options.to,
-      "METHOD that is given the scene: a method of mysim or of Bullet, or jolt, rapier, box3d, mujoco, godot; +n=N: iterations");
+  translate.add_option("--to", options.to,
+                       "METHOD that is given the scene: a method of mysim or of Bullet, or jolt, rapier, box3d, "
+                       "mujoco, godot; +n=N: iterations");
   translate.add_option("--from", options.from, "METHOD FILE: an engine's numbers (TOML, as --to --out writes them)")
       ->expected(2)
       ->type_name("METHOD FILE");
