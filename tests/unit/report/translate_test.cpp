@@ -87,7 +87,8 @@ TEST_F(CliTranslate, RefusalsNameWhatWasExpected) {
   expect({"translate", "own.toml", "--from", "bullet/pbd", "bad.toml", "--run", "rk4"}, 2, {"--run: goes with --to"});
   expect({"translate", "own.toml", "--from", "bullet/pbd", "bad.toml"}, 2, {"bad.toml:2: kLST: expected", "got 1.5"});
   expect({"translate", "own.toml", "--from", "bullet/pbd", "none.toml"}, 2, {"none.toml", "an engine's numbers"});
-  expect({"translate", "own.toml", "--to", "odeint/rk4"}, 2, {"its numbers are not known", "jolt, rapier, box3d, mujoco, godot"});
+  expect({"translate", "own.toml", "--to", "odeint/rk4"}, 2,
+         {"its numbers are not known", "jolt, rapier, box3d, mujoco, godot"});
   expect({"translate", "own.toml", "--to", "rk4", "--iterations", "3"}, 2, {"mysim/rk4 has none to choose"});
   expect({"translate", "chian", "--to", "jolt"}, 2, {"did you mean 'chain'?"});
   // the answer is no: nothing to translate, and a world that does not take the scene
