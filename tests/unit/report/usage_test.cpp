@@ -57,7 +57,8 @@ TEST_F(CliUsage, ProposesTheCommandThatWasMeant) {
       {{"run", "chain", "--step", "1kg"}, "as in 0.001, 1ms or 1/1000, got '1kg'"},
       {{"run", "chain", "--tol", "1ms"}, "expected a finite number above zero, got '1ms'"},
       {{"run", "chain", "--step", "1/0"}, "expected a finite number above zero (s)"},
-      {{"translate", "chain", "--to", "jolts"}, "translate also knows jolt, rapier, box3d, mujoco, godot; did you mean 'jolt'?"},
+      {{"translate", "chain", "--to", "jolts"},
+       "translate also knows jolt, rapier, box3d, mujoco, godot; did you mean 'jolt'?"},
       {{"advise", "chain", "--tolerance", "1kg"}, "such as 0.001 or 1mm"},
   };
   for (const auto& [words, meant] : slips) expect_one_line(call(words), 2, meant);
