@@ -173,10 +173,10 @@ std::vector<Point> one_point_per_scene(const Request& request, const std::string
 /// file, the step and the number of points.
 std::string content_of(const Request& request, const Scene& scene);
 
-/// A run of the scene at the request's step.
 /// True for a method that would take too long on the scene in a report of all engines.
 bool is_left_out(const Request& request, const Method& method, const Scene& scene);
 
+/// A run of the scene at the request's step.
 Run run_of(const Request& request, const Scene& scene);
 
 }  // namespace crosscheck

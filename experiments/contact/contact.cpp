@@ -258,7 +258,7 @@ std::vector<Point> contact_points(const Request& request) {
         drape(scene, m, run_of(alone, scene).step, tables);
       });
   }
-  if (request.all_engines)
+  if (request.all_engines && request.scenes_only)
     for (const Method& method : request.methods) add("Coulomb cone", method, on_slope(0, 0, Ground::ball), cones);
   if (request.scenes_only) return points;
   for (const Method& method : methods_of(request, centred)) {

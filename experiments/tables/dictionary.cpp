@@ -13,6 +13,7 @@
 #include "experiments/tables/energy.h"
 #include "experiments/tables/engines.h"
 #include "experiments/tables/fabric.h"
+#include "experiments/tables/matrix.h"
 #include "experiments/tables/order.h"
 #include "experiments/tables/speed_accuracy.h"
 #include "experiments/tables/stability.h"
@@ -25,13 +26,13 @@ using AllRows = std::tuple<                                                     
     EngineRow, EngineCostRow, EngineTimeRow, EngineEnergyRow, StatisticRow, AttestedRow,  //
     SceneEnergyRow, SceneLedgerRow, EnergyRow, DampingRow,                                //
     ReboundRow, LeavingRow, ContactOrderRow, ConeRow, PlaneConeRow, PlaneProbeRow, DrapeRow, PenetrationRow,
-    DrapeTimeRow,                                                                    //
-    AdequacyRow, LeastModelRow, GridRow, BendingRow, ScalingRow,                     //
-    OrderRow, OrderSlopeRow,                                                         //
-    LinkStiffnessRow, NetworkStiffnessRow, EffectiveStiffnessRow, PulledSheetRow,    //
-    CantileverRow, StripVibrationRow, SkipOneRow, HangingStripRow, HangingShapeRow,  //
-    DrapedDiscRow, DrapedParticleRow,                                                //
-    DisagreementRow, DisagreementCurveRow, ContactAngleRow,                          //
+    DrapeTimeRow,                                                                               //
+    AdequacyRow, LeastModelRow, GridRow, BendingRow, ScalingRow,                                //
+    OrderRow, OrderSlopeRow,                                                                    //
+    LinkStiffnessRow, NetworkStiffnessRow, EffectiveStiffnessRow, PulledSheetRow,               //
+    CantileverRow, StripVibrationRow, SkipOneRow, HangingStripRow, HangingShapeRow,             //
+    DrapedDiscRow, DrapedParticleRow,                                                           //
+    DisagreementRow, DisagreementCurveRow, ContactAngleRow, MatrixRow<false>, MatrixRow<true>,  //
     SpeedAccuracyRow, SpeedAccuracyTimingRow, SpeedAccuracyCostRow, ParetoRow<Cost::evaluations>,
     ParetoRow<Cost::cpu>,                                                    //
     CheapestRow<Cost::evaluations>, CheapestRow<Cost::cpu>, EngineSpeedRow,  //

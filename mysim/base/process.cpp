@@ -441,7 +441,7 @@ LineServer::Answer LineServer::ask(const std::string& line, double seconds) {
       if (p.unread[0] == '{') answer.line = p.unread.substr(0, end);
       p.unread.erase(0, end + 1);
     }
-    answer.cpu_seconds = p.cpu_time() - begin;
+    answer.cpu_seconds = std::max(0., p.cpu_time() - begin);  // it may have ended
     if (!answer.line.empty() || p.out.read_end < 0 || p.unread.size() == kept_bytes) return answer;
     const auto left = std::chrono::ceil<milliseconds>(until - Clock::now()).count();
     if (left <= 0) {

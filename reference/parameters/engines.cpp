@@ -275,7 +275,7 @@ std::vector<EngineNumbers> make_table() {
                  plain(SceneNumber::friction, "friction", "as it is", coulomb)}},
       {.name = "mujoco",
        .title = "MuJoCo's tendons",
-       .source = "MuJoCo manual, Computation: passive forces",
+       .source = "MuJoCo, spatial tendons",
        .rules = {mass_as_it_is(),
                  plain(SceneNumber::drag, "damping_per_mass",
                        "as it is: each slide joint's damping is gamma m, implicit unless eulerdamp is disabled"),

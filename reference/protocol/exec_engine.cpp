@@ -73,6 +73,7 @@ class Server {
         const JsonField told = JsonField::parse(answer.line, "the server's answer");
         end.status = told["status"].whole_number(0, 255);
         if (const auto reason = told.find("reason"); reason && end.status != 0) end.err = reason->text();
+        if (end.status != 0 && end.status != 3) process_.reset();  // it may end, its state damaged
         return end;
       }
     } catch (const InputError&) {

@@ -11,7 +11,7 @@
 
 namespace crosscheck {
 
-/// The process of a program that serves many scenes (PROTOCOL.md, Serve mode), started when it is first of use.
+/// The process of a program that serves many scenes (PROTOCOL.md, Serve mode), started when it is first needed.
 class Server;
 
 struct Program {
