@@ -34,6 +34,13 @@ struct TableSet {
   void append(const TableSet& other);
 };
 
+/// The rows of the table Row::table; none where it is not there.
+template <class Row>
+std::vector<Row> rows_of(const TableSet& tables) {
+  const Table* table = tables.table(std::string(Row::table));
+  return table ? rows_of<Row>(*table) : std::vector<Row>();
+}
+
 struct Point {
   std::string name;     // for people: "engines: cloth-hang"; no two of a sweep share it
   std::string content;  // everything, beside the program, that its rows depend on

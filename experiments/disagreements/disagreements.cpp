@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <optional>
 #include <cmath>
 #include <stdexcept>
 
@@ -49,19 +50,12 @@ Scene scene_of(const Disagreement& disagreement) {
 
 namespace {
 
-constexpr std::string_view engine_prefix = "engine:";
-
-/// The row's engine as a method: "exec:" and its kept program.
-std::string method_of_engine(const std::string& name) {
+/// The method that a row names: of "engine:NAME+option" the kept program.
+std::string method_named(const std::string& name) {
+  if (!name.starts_with(engine_prefix)) return name;
   const size_t end = name.find('+');
   const std::string engine = name.substr(engine_prefix.size(), end - engine_prefix.size());
   return std::string(program_prefix) + kept_program(engine).string() + (end == name.npos ? "" : name.substr(end));
-}
-
-Outcome run_variant(const Variant& variant, const Scene& scene, const Run& run, Observer& observer) {
-  if (!variant.method.starts_with(engine_prefix))
-    return run_method(find_method(variant.method), scene, run, {&observer});
-  return run_method(find_method(method_of_engine(variant.method)), scene, run, {&observer});
 }
 
 }  // namespace
@@ -76,7 +70,7 @@ std::vector<Series> run_variants(const Disagreement& disagreement, const Scene& 
     Run run = default_run(own);
     if (variant.step > 0) run.step = variant.step;
     Recorder recorder;
-    Series series{variant, run_variant(variant, own, run, recorder), {}};
+    Series series{variant, run_method(find_method(method_named(variant.method)), own, run, {&recorder}), {}};
     const Trajectory& path = recorder.trajectory;
     if (all.empty()) first = path;
     auto value = [&](const State& s, const Points& of_first) {
@@ -185,18 +179,12 @@ std::string criterion_of(const Disagreement& d) {
 
 namespace {
 
-/// The rows of Bullet, unless scenes were named, and those of the engines among the methods.
-std::vector<Disagreement> asked_disagreements(const Request& request) {
-  std::vector<Disagreement> rows;
-  if (!request.scenes_only) rows = disagreements();
-  for (Disagreement& row : engine_disagreements()) {
-    const std::string program = method_of_engine(row.world);
-    if (std::ranges::any_of(request.methods, [&](const Method& method) {
-          return method.name == program || method.name.starts_with(program + "+");
-        }))
-      rows.push_back(std::move(row));
-  }
-  return rows;
+/// The fingerprint of the kept program that a row is about, where it is among the methods.
+std::optional<std::string> fingerprint_of(const Disagreement& row, const Request& request) {
+  const std::string program = method_named(row.world);
+  for (const Method& method : request.methods)
+    if (method.name == program || method.name.starts_with(program + "+")) return method.fingerprint;
+  return std::nullopt;
 }
 
 }  // namespace
@@ -213,31 +201,37 @@ std::vector<Point> disagreements_points(const Request& request) {
       program = method.name.substr(0, at), fingerprint = method.fingerprint;
     }
   std::vector<Point> points;
-  for (const Disagreement& each : asked_disagreements(request))
-    points.push_back({"disagreement: " + each.name, fmt::format("{} {} {}", scene_of(each).hash, program, fingerprint),
-                      [d = program.empty() ? each : with_worlds_of(each, program)](TableSet& tables) {
-                        const Scene scene = scene_of(d);
-                        const std::vector<Series> all = run_variants(d, scene);
-                        const TroubleState state = state_of(d, all);
-                        Table table = table_of<DisagreementCurveRow>(d.name + "-disagreement");
-                        table.columns.back() = {d.quantity, d.unit};
-                        for (const Series& s : all)
-                          for (const auto& [t, value] : s.points)
-                            add(table, DisagreementCurveRow{s.variant.label, s.variant.method, s.outcome.step,
-                                                            s.outcome.verdict, t, value});
-                        Table summary = table_of<DisagreementRow>();
-                        const bool asked = state != TroubleState::not_asked;
-                        std::string effect = asked ? d.effect(all) : why_not_asked(d, all);
-                        if (asked && d.measured) {
-                          const TableWithSentence more = d.measured(d);
-                          tables.add(more.table);
-                          effect += " " + more.sentence;
-                        }
-                        add(summary, DisagreementRow{d.name, d.world, d.what, d.cause, effect, d.threads,
-                                                     std::string(name_of(state)), criterion_of(d), scene.hash});
-                        tables.add(table);
-                        tables.add(summary);
-                      }});
+  const auto add_point = [&](const Disagreement& row, const std::string& content) {
+    points.push_back(
+        {"disagreement: " + row.name, fmt::format("{} {}", scene_of(row).hash, content), [d = row](TableSet& tables) {
+           const Scene scene = scene_of(d);
+           const std::vector<Series> all = run_variants(d, scene);
+           const TroubleState state = state_of(d, all);
+           Table table = table_of<DisagreementCurveRow>(d.name + "-disagreement");
+           table.columns.back() = {d.quantity, d.unit};
+           for (const Series& s : all)
+             for (const auto& [t, value] : s.points)
+               add(table, DisagreementCurveRow{s.variant.label, s.variant.method, s.outcome.step, s.outcome.verdict, t,
+                                               value});
+           Table summary = table_of<DisagreementRow>();
+           const bool asked = state != TroubleState::not_asked;
+           std::string effect = asked ? d.effect(all) : why_not_asked(d, all);
+           if (asked && d.measured) {
+             const TableWithSentence more = d.measured(d);
+             tables.add(more.table);
+             effect += " " + more.sentence;
+           }
+           add(summary, DisagreementRow{d.name, d.world, d.what, d.cause, effect, d.threads,
+                                        std::string(name_of(state)), criterion_of(d), scene.hash});
+           tables.add(table);
+           tables.add(summary);
+         }});
+  };
+  if (!request.scenes_only)
+    for (const Disagreement& each : disagreements())
+      add_point(program.empty() ? each : with_worlds_of(each, program), program + " " + fingerprint);
+  for (const Disagreement& each : engine_disagreements())
+    if (const auto of_engine = fingerprint_of(each, request)) add_point(each, *of_engine);
   return points;
 }
 

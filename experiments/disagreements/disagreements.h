@@ -4,6 +4,7 @@
 #include <cmath>
 #include <functional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "experiments/experiment.h"
@@ -100,10 +101,13 @@ struct Disagreement {
   std::string scene = {};    // name of its scene's file, where that is not the row's
 };
 
+/// Before the names of engines that `engine NAME` builds.
+inline constexpr std::string_view engine_prefix = "engine:";
+
 /// The rows about Bullet's worlds.
 std::vector<Disagreement> disagreements();
 /// The rows about engines that `engine NAME` builds: methods "engine:NAME+option", which are programs kept for reports.
-/// Those of engines that are not built are not asked.
+/// They are run where the engine is among the methods.
 std::vector<Disagreement> engine_disagreements();
 /// Adds headings, causes and threads from disagreements.md. Throws std::logic_error where a row has none.
 std::vector<Disagreement> with_texts(std::vector<Disagreement> rows);

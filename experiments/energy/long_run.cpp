@@ -58,8 +58,6 @@ ResidualStatistics residual_statistics(const std::vector<LedgerRow>& rows) {
 
 namespace {
 
-constexpr double omega = 10;  // rad/s
-
 /// |R(i y)| of the rules that are one-step maps of x and v alike.
 std::optional<double> gain(const std::string& rule, double y) {
   const std::complex<double> z(0, y);
@@ -93,22 +91,28 @@ std::optional<double> damping_by_theory(const Method& method, double h, double f
   return *factor == 1 ? 0 : -2 * std::log(*factor) / h;
 }
 
+double decay_rate(std::span<const std::pair<double, double>> points) {
+  double n = 0, t1 = 0, y1 = 0, tt = 0, ty = 0;
+  for (const auto& [t, y] : points) n += 1, t1 += t, y1 += y, tt += t * t, ty += t * y;
+  return -(n * ty - t1 * y1) / (n * tt - t1 * t1);
+}
+
 MeasuredDamping measured_damping(const Method& method, double h, int steps) {
   const Scene scene = undamped_oscillator();
   Recorder recorder;
   MeasuredDamping found{run_method(method, scene, {h, h * steps, steps}, {&recorder}), std::nullopt};
   const Trajectory& path = recorder.trajectory;
-  double n = 0, t1 = 0, y1 = 0, tt = 0, ty = 0, first = 0;
+  std::vector<std::pair<double, double>> logs;
+  double first = 0;
   for (int i = 0; i < path.frames(); ++i) {
     if (path.v[i].cols() != path.x[i].cols() || !path.x[i].allFinite()) continue;
     const double energy = energy_of(scene.model, {path.t[i], path.x[i], path.v[i]}).total();
     if (i == 0) first = energy;
     // places of 1 m are rounded by 1e-16, extensions of 1 mm so by 1e-13: far below this the energy is noise
     if (!(energy > 1e-10 * first) || !(energy < 1e10 * first)) break;
-    const double t = path.t[i], y = std::log(energy / first);
-    n += 1, t1 += t, y1 += y, tt += t * t, ty += t * y;
+    logs.emplace_back(path.t[i], std::log(energy / first));
   }
-  if (n >= 2) found.rate = -(n * ty - t1 * y1) / (n * tt - t1 * t1);
+  if (logs.size() >= 2) found.rate = decay_rate(logs);
   return found;
 }
 
@@ -117,7 +121,7 @@ void add_damping(const Method& method, bool full, TableSet& tables) {
   std::vector<double> sizes = {0.02, 0.05, 0.1, 0.2, 0.5, 1, 1.5, 3};
   if (full) sizes = {0.01, 0.02, 0.03, 0.05, 0.07, 0.1, 0.15, 0.2, 0.3, 0.5, 0.7, 1, 1.5, 2, 3, 5};
   for (const double size : sizes) {
-    const double h = size / omega;
+    const double h = size / oscillator_omega;
     const MeasuredDamping found = measured_damping(method, h, full ? 4000 : 1000);
     if (found.outcome.verdict == Verdict::unsupported) continue;
     add(table, DampingRow{.method = method.name,
@@ -126,7 +130,7 @@ void add_damping(const Method& method, bool full, TableSet& tables) {
                           .step = h,
                           .h_omega = size,
                           .equivalent_drag = found.rate,
-                          .by_theory = damping_by_theory(method, h, omega)});
+                          .by_theory = damping_by_theory(method, h, oscillator_omega)});
   }
   tables.add(table);
 }

@@ -47,8 +47,12 @@ ResidualStatistics residual_statistics(const std::vector<LedgerRow>& rows);
 
 // Numerical damping: what a rule takes from an oscillation that nothing damps.
 
-/// 1 kg on a spring of 100 N/m (omega = 10 rad/s) without gravity or drag, let go 1 mm off its length.
+/// Minus the slope of y over t, least squares, of points (t, y), two at least: 1/s of logarithms over seconds.
+double decay_rate(std::span<const std::pair<double, double>> points);
+
+/// 1 kg on a spring of 100 N/m without gravity or drag, let go 1 mm off its length.
 Scene undamped_oscillator();
+inline constexpr double oscillator_omega = 10;  // rad/s
 
 /// The drag rate (1/s) that a rule's damping of an oscillation amounts to, at h omega per step: -2 ln|R(i h omega)| / h
 /// with its stability function R; 0 of symplectic rules. Negative where energy is made. Empty for rules without one.

@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <numeric>
 
 #include "experiments/energy/long_run.h"
@@ -38,8 +39,8 @@ struct UndampedMode {
 
 /// The oscillator of experiment `energy`, in 72 steps a period.
 UndampedMode mode_of_spring() {
-  constexpr double omega = 10;  // rad/s
-  return {EngineQuestion::damping_of_spring, undamped_oscillator(), omega, 0, 2 * M_PI / omega / 72};
+  return {EngineQuestion::damping_of_spring, undamped_oscillator(), oscillator_omega, 0,
+          2 * std::numbers::pi / oscillator_omega / 72};
 }
 
 /// The chain without drag, let go from its slowest mode about its rest; no particle is further from rest than a
@@ -57,13 +58,6 @@ UndampedMode mode_of_chain() {
   return {EngineQuestion::damping_of_chain, std::move(scene), spectrum.modes.front().omega, energy_at_rest, step};
 }
 
-/// Minus the slope of the logarithms over time, least squares.
-double rate_of(std::span<const double> logs, double interval) {
-  double n = 0, t1 = 0, y1 = 0, tt = 0, ty = 0;
-  for (const double y : logs) t1 += n, y1 += y, tt += n * n, ty += n * y, n += 1;
-  return -(n * ty - t1 * y1) / (n * tt - t1 * t1) / interval;
-}
-
 /// The drag rate that would damp as much, over ten periods. The logarithm of the energy is averaged over each period:
 /// the energy of symplectic rules swings twice in one. The rule's own period is not quite the mode's, so that a bit of
 /// the swing is left; averages that begin a quarter of a period later have it with the other sign. The rate is the mean
@@ -72,7 +66,7 @@ double rate_of(std::span<const double> logs, double interval) {
 Answer damping_of(const Method& method, const UndampedMode& mode) {
   constexpr int periods = 10, samples = 24, quarter = samples / 4;
   Answer answer{.method = method.name, .question = mode.question, .unit = "1/s"};
-  const double period = 2 * M_PI / mode.omega;
+  const double period = 2 * std::numbers::pi / mode.omega;
   const Run run{
       .step = mode.step * (1 + 1e-9), .duration = periods * period, .samples = periods * samples, .timed = false};
   Recorder recorder;
@@ -85,16 +79,16 @@ Answer damping_of(const Method& method, const UndampedMode& mode) {
         whole ? energy_of(mode.scene.model, {path.t[i], path.x[i], path.v[i]}).total() - mode.energy_at_rest : NAN));
   }
   const auto means_from = [&](int first) {
-    std::vector<double> means;  // over each period
+    std::vector<std::pair<double, double>> means;  // time (s), ln(energy) over each period
     for (; first + samples <= static_cast<int>(logs.size()); first += samples) {
       const double mean = std::accumulate(&logs[first], &logs[first] + samples, 0.) / samples;
       // below lies rounding in single precision
       if (!std::isfinite(mean) || mean < logs[0] - std::log(1e4)) break;
-      means.push_back(mean);
+      means.emplace_back(first / samples * period, mean);
     }
     return means;
   };
-  const std::vector<double> means = means_from(0), later = means_from(quarter);
+  const auto means = means_from(0), later = means_from(quarter);
   if (out.verdict != Verdict::ok || later.size() < 4) {
     answer.words = out.verdict == Verdict::unsupported ? "refused: " + out.reason
                    : out.verdict != Verdict::ok        ? fmt::format("{} at {:.3g} s", in_words(out.verdict), out.end)
@@ -104,11 +98,11 @@ Answer damping_of(const Method& method, const UndampedMode& mode) {
   }
   const std::span all(means);
   const size_t half = means.size() / 2;
-  const double rounding = out.readback && out.readback->precision == "single" ? 1e-5 : 1e-14,
-               early = rate_of(all, period), late = rate_of(later, period);
+  const double rounding = out.readback && out.readback->precision == "single" ? 1e-5 : 1e-14, early = decay_rate(all),
+               late = decay_rate(later);
   answer.value = (early + late) / 2;
   answer.bar = std::max({std::abs(early - late) / 2,
-                         std::abs(rate_of(all.first(half), period) - rate_of(all.subspan(means.size() - half), period)),
+                         std::abs(decay_rate(all.first(half)) - decay_rate(all.subspan(means.size() - half))),
                          rounding / (periods * period)});
   answer.tier = "exact";
   return answer;
@@ -175,12 +169,6 @@ CostAnswer empty_step(const Method& method) {
 }
 
 template <class Row>
-std::vector<Row> rows_in(const TableSet& tables) {
-  const Table* table = tables.table(std::string(Row::table));
-  return table ? rows_of<Row>(*table) : std::vector<Row>();
-}
-
-template <class Row>
 void add_cell(TableSet& tables, const Row& row) {
   Table table = table_of<Row>();
   add(table, row);
@@ -192,7 +180,7 @@ std::vector<Answer> cells_from(const TableSet& tables, const std::string& method
   const auto add = [&](EngineQuestion question, const std::string& unit) -> Answer& {
     return cells.emplace_back(Answer{.method = method, .question = question, .unit = unit});
   };
-  for (const OrderSlopeRow& row : rows_in<OrderSlopeRow>(tables))
+  for (const OrderSlopeRow& row : rows_of<OrderSlopeRow>(tables))
     if (row.method == method && row.scene == "chain") {
       Answer& cell = add(EngineQuestion::order, "1");
       cell.value = row.measured_order, cell.bar = 0.15, cell.tier = "converged";
@@ -200,7 +188,7 @@ std::vector<Answer> cells_from(const TableSet& tables, const std::string& method
     }
   long asked = 0, held = 0;
   std::string broken;
-  for (const RelationRow& row : rows_in<RelationRow>(tables)) {
+  for (const RelationRow& row : rows_of<RelationRow>(tables)) {
     if (row.method != method || row.mark == RelationMark::not_asked) continue;
     ++asked, held += row.mark == RelationMark::holds;
     if (row.mark != RelationMark::holds)
@@ -218,8 +206,8 @@ std::vector<Answer> cells_from(const TableSet& tables, const std::string& method
     if (row.verdict == Verdict::unsupported) refusal = row.reason;
     if (row.verdict == Verdict::ok) ++cases, right += row.state == row.state_by_theory;
   };
-  for (const ConeRow& row : rows_in<ConeRow>(tables)) count(row);
-  for (const PlaneConeRow& row : rows_in<PlaneConeRow>(tables)) count(row);
+  for (const ConeRow& row : rows_of<ConeRow>(tables)) count(row);
+  for (const PlaneConeRow& row : rows_of<PlaneConeRow>(tables)) count(row);
   if (cases > 0 || !refusal.empty()) {
     Answer& answer = add(EngineQuestion::friction, "1");
     answer.tier = "exact";
@@ -227,12 +215,12 @@ std::vector<Answer> cells_from(const TableSet& tables, const std::string& method
     if (cases > 0) answer.value = static_cast<double>(right);
   }
   if (std::ranges::none_of(cells, [](const Answer& a) { return a.question == EngineQuestion::order; }))
-    for (const OrderRow& row : rows_in<OrderRow>(tables))
+    for (const OrderRow& row : rows_of<OrderRow>(tables))
       if (row.method == method && row.scene == "chain") {
         add(EngineQuestion::order, "1").words = "no steady slope";
         break;
       }
-  for (const LimitRow& row : rows_in<LimitRow>(tables))
+  for (const LimitRow& row : rows_of<LimitRow>(tables))
     if (row.method == method && row.scene == "chain") {
       Answer& cell = add(EngineQuestion::largest_step, "s");
       cell.value = row.measured, cell.tier = row.predicted ? "linear theory" : "measured";
@@ -264,11 +252,11 @@ std::vector<Point> matrix_points(const Request& request) {
 
 void conclude_matrix(TableSet& tables) {
   std::vector<std::string> methods;
-  for (const Answer& row : rows_in<Answer>(tables))
+  for (const Answer& row : rows_of<Answer>(tables))
     if (row.question == EngineQuestion::rule) methods.push_back(row.method);
   for (const std::string& method : methods)
     for (const Answer& cell : cells_from(tables, method)) add_cell(tables, cell);
-  for (const EngineSpeedRow& row : rows_in<EngineSpeedRow>(tables))
+  for (const EngineSpeedRow& row : rows_of<EngineSpeedRow>(tables))
     if (row.scene == "chain" && std::abs(row.part_of_motion - 0.01) < 1e-9 && std::ranges::count(methods, row.method))
       add_cell(tables,
                CostAnswer{.method = row.method,

@@ -137,21 +137,16 @@ class Box3dWorld : public World {
 
   void make_joints() {
     forced_.springs.clear(), forced_.dashpots.clear();
-    std::map<std::pair<int, int>, double> damping;  // N s/m, taken by the first spring between these ends
-    for (const Spring& s : scene_.springs) damping[{s.a, s.b}] = 0;
-    for (const Dashpot& p : scene_.dashpots)
-      if (const auto at = damping.find({p.a, p.b}); at != damping.end())
-        at->second += p.coefficient;
-      else
-        forced_.dashpots.push_back(p);
-    for (const Spring& s : scene_.springs) {
+    const std::vector<double> damping = damping_of_springs(scene_, forced_.dashpots);
+    for (size_t i = 0; i < damping.size(); ++i) {
+      const Spring& s = scene_.springs[i];
       b3DistanceJointDef joint = b3DefaultDistanceJointDef();
       joint.base.bodyIdA = bodies_[s.a], joint.base.bodyIdB = bodies_[s.b];
       joint.length = float(s.rest_length);
       joint.enableSpring = true;
       const double mass = reduced_mass(s), omega = std::sqrt(s.stiffness / mass);
       joint.hertz = float(omega / (2 * pi));
-      joint.dampingRatio = float(std::exchange(damping[{s.a, s.b}], 0) / (2 * mass * omega));
+      joint.dampingRatio = float(damping[i] / (2 * mass * omega));
       joints_.push_back(b3CreateDistanceJoint(world_, &joint));
     }
   }

@@ -125,17 +125,12 @@ class OdeWorld : public World {
 
   void make_joints() {
     forced_.springs.clear(), forced_.dashpots.clear();
-    std::map<std::pair<int, int>, double> damping;  // N s/m, taken by the first spring between these ends
-    for (const Spring& s : scene_.springs) damping[{s.a, s.b}] = 0;
-    for (const Dashpot& p : scene_.dashpots)
-      if (const auto at = damping.find({p.a, p.b}); at != damping.end())
-        at->second += p.coefficient;
-      else
-        forced_.dashpots.push_back(p);
-    for (const Spring& s : scene_.springs) {
+    const std::vector<double> damping = damping_of_springs(scene_, forced_.dashpots);
+    for (size_t i = 0; i < damping.size(); ++i) {
+      const Spring& s = scene_.springs[i];
       const Vec &a = scene_.x[s.a], &b = scene_.x[s.b];
       if (length(a - b) == 0) unsupported("springs=dball: a joint whose ends coincide pulls in a direction of its own");
-      const double hk = scene_.step * s.stiffness, c = std::exchange(damping[{s.a, s.b}], 0);
+      const double hk = scene_.step * s.stiffness, c = damping[i];
       joints_.push_back(dJointCreateDBall(world_, nullptr));
       dJointAttach(joints_.back(), bodies_[s.a], bodies_[s.b]);
       dJointSetDBallAnchor1(joints_.back(), a[0], a[1], a[2]);

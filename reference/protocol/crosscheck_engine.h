@@ -572,6 +572,20 @@ inline Probe probe_state(const Scene& scene) {
   }
 }
 
+/// The coefficient (N s/m) of the dashpots beside each spring, for springs with a damping of their own; of several
+/// springs between the same ends the first has it. Dashpots without a spring are added to `others`.
+inline std::vector<double> damping_of_springs(const Scene& scene, std::vector<Dashpot>& others) {
+  std::map<std::pair<int, int>, size_t> first;
+  for (size_t i = 0; i < scene.springs.size(); ++i) first.emplace(std::pair{scene.springs[i].a, scene.springs[i].b}, i);
+  std::vector<double> damping(scene.springs.size(), 0);
+  for (const Dashpot& p : scene.dashpots)
+    if (const auto at = first.find({p.a, p.b}); at != first.end())
+      damping[at->second] += p.coefficient;
+    else
+      others.push_back(p);
+  return damping;
+}
+
 /// The probe, at the state in `p`, of an engine whose springs, dashpots, bending and wind are the functions above.
 inline Probe probe_of_forces(const Scene& scene, Probe p) {
   p.t = 0.3;  // s; gusts blow by then

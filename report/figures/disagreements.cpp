@@ -55,10 +55,12 @@ std::vector<Chart> disagreement_charts(const ChartInput& input) {
     }
     // the curve that the others are compared with, and a run that delivered nothing, which is a cross
     std::erase_if(f.curves, [](const Curve& c) { return c.points.size() < 2; });
-    charts.push_back(described("{name}-disagreement", std::move(f), "name"_a = row.name, "what"_a = row.what,
-                               "world"_a = row.world, "cause"_a = row.cause, "effect"_a = row.effect,
-                               "threads"_a = row.threads.empty() ? "no report known" : row.threads,
-                               "state"_a = row.state, "commit"_a = input.commit));
+    charts.push_back(
+        described("{name}-disagreement", std::move(f), "name"_a = row.name, "what"_a = row.what,
+                  "world"_a = row.world.starts_with(engine_prefix) ? row.world.substr(engine_prefix.size()) : row.world,
+                  "cause"_a = row.cause, "effect"_a = row.effect,
+                  "threads"_a = row.threads.empty() ? "no report known" : row.threads, "state"_a = row.state,
+                  "commit"_a = input.commit));
   }
   return charts;
 }

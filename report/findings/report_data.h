@@ -14,13 +14,6 @@
 
 namespace crosscheck {
 
-/// The rows of the table Row::table; none where it is not there.
-template <class Row>
-std::vector<Row> rows_of(const TableSet& rows) {
-  const Table* table = rows.table(std::string(Row::table));
-  return table ? rows_of<Row>(*table) : std::vector<Row>();
-}
-
 /// "blew up", "solver gave up", "froze", "cannot": what a verdict other than ok says of a run, as the table writes it.
 std::string failure_class(std::string_view verdict);
 inline std::string failure_class(Verdict verdict) { return failure_class(name_of(verdict)); }
