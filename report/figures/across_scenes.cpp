@@ -47,13 +47,20 @@ std::vector<Chart> scoreboard_charts(const ChartInput& input) {
 
 namespace {
 
+/// "nearest: Heun", "symplectic Euler, implicit drag": with the rule's name for readers.
+std::string words_of_rule(const std::string& words) {
+  const size_t begin = words.starts_with("nearest: ") ? 9 : 0, end = std::min(words.find(','), words.size());
+  const std::string rule = words.substr(begin, end - begin), method = fmt::format("{}/{}", subject().name, rule);
+  return words.substr(0, begin) + (builtin_method(method) ? rule_name(method) : rule) + words.substr(end);
+}
+
 /// "-2.0e-4 ± 1e-6 /s", "0 ± 1e-6 /s", or the words where there is no number.
 template <class Row>
 std::string cell_of(const Row& row) {
   const auto with_unit = [&](double value) { return row.unit == "s" ? step_text(value) : nice(value); };
   const std::string per_second = row.unit == "1/s" ? " /s" : "";
   if (row.question == EngineQuestion::rule)
-    return row.words + (row.value ? fmt::format(" ({})", nice(*row.value)) : "");
+    return words_of_rule(row.words) + (row.value ? fmt::format(" ({})", nice(*row.value)) : "");
   if (!row.value || row.question == EngineQuestion::invariants || row.question == EngineQuestion::friction)
     return row.words;
   if (!row.bar) return with_unit(*row.value);
