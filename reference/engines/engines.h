@@ -12,9 +12,7 @@ struct OutsideEngine {
   std::string name, title;  // "mujoco", "MuJoCo 2"
   std::string built;        // "native", "JavaScript" or "WebAssembly"
   std::string licence, precision;
-  std::string rule;        // its time-stepping rule, by default and by option
-  std::string represents;  // ingredients, in words
-  std::string other_law;   // ingredients that it has under another law; may be empty
+  std::string rule;  // its time-stepping rule, by default and by option
 
   // Files in reference/engines that the adapter is built from: one source for the compiler, or a folder for CMake, or
   // a module for npm's package.
