@@ -10,6 +10,7 @@
 #include "experiments/tables/speed_accuracy.h"
 #include "reference/engines/engines.h"
 #include "report/figures/charts.h"
+#include "report/figures/plot_layout.h"
 #include "report/findings/findings_text.h"
 
 namespace crosscheck {
