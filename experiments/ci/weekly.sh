@@ -72,7 +72,7 @@ for part in "${parts[@]}"; do
       for engine in mujoco simbody ode cannon rapier mujoco3 jolt; do
         ./crosscheck engine "$engine" || status=$?
       done
-      ./crosscheck report --engines all --out out/engines || status=$?
+      ./crosscheck report --engines all --quick --out out/engines || status=$?
       ;;
     arm64) experiments/ci/arm64.sh || status=$? ;;
     debian-13) BARE_SUITE=trixie .ci/bare-root sh -exc './crosscheck report; ./crosscheck test' || status=$? ;;

@@ -108,6 +108,15 @@ Answer damping_of(const Method& method, const UndampedMode& mode) {
   return answer;
 }
 
+/// Damping of the spring as a force that the user applies, for an engine with another rule for its own springs.
+std::optional<Answer> damping_by_forces(const Method& method) {
+  const std::optional<OutsideEngine> engine = kept_engine_of(method.name);
+  if (!engine || engine->forces.empty() || method.name.find('+') != std::string::npos) return std::nullopt;
+  Answer answer = damping_of(find_method(method.name + "+" + engine->forces), mode_of_spring());
+  answer.method = method.name, answer.question = EngineQuestion::damping_by_forces;
+  return answer;
+}
+
 /// "rk4", "symplectic-euler, implicit drag", "nearest: xpbd"; the value is the distance from it in sizes of the net.
 Answer rule_answer(const Method& method) {
   Answer answer{.method = method.name, .question = EngineQuestion::rule, .unit = "1"};
@@ -242,6 +251,7 @@ std::vector<Point> matrix_points(const Request& request) {
                         add_cell(tables, rule_answer(method));
                         add_cell(tables, damping_of(method, mode_of_spring()));
                         add_cell(tables, damping_of(method, mode_of_chain()));
+                        if (const auto answer = damping_by_forces(method)) add_cell(tables, *answer);
                       }});
     if (!method.adaptive)
       points.push_back({"matrix, empty step: " + method.name, method.fingerprint,

@@ -13,6 +13,7 @@ enum class EngineQuestion {
   order,
   damping_of_spring,
   damping_of_chain,
+  damping_by_forces,
   invariants,
   friction,
   largest_step,
@@ -20,9 +21,17 @@ enum class EngineQuestion {
   empty_step
 };
 inline std::string_view name_of(EngineQuestion question) {
-  constexpr std::array<std::string_view, 10> names = {
-      "engine",           "rule",         "order",       "damping of a spring", "damping of a chain", "invariants",
-      "sticks or slides", "largest step", "cost of 1 %", "empty step"};
+  constexpr std::array<std::string_view, 11> names = {"engine",
+                                                      "rule",
+                                                      "order",
+                                                      "damping of a spring",
+                                                      "damping of a chain",
+                                                      "damping, springs as forces",
+                                                      "invariants",
+                                                      "sticks or slides",
+                                                      "largest step",
+                                                      "cost of 1 %",
+                                                      "empty step"};
   return names[static_cast<size_t>(question)];
 }
 template <>

@@ -55,11 +55,7 @@ class Box3dWorld : public World {
 
   void step(double t) override {
     read(x_, v_);
-    std::fill(f_.begin(), f_.end(), Vec{});
-    add_springs(forced_, x_, f_);
-    add_dashpots(forced_, x_, v_, f_);
-    add_bending(forced_, x_, f_);
-    add_wind(forced_, t, f_);
+    set_forces(forced_, x_, v_, t, f_);
     for (size_t i = 0; i < x_.size(); ++i)
       if (!scene_.pinned[i]) b3Body_ApplyForceToCenter(bodies_[i], to_box3d(f_[i]), true);
     const double h = scene_.step;
@@ -94,18 +90,14 @@ class Box3dWorld : public World {
       r.pinned.push_back(b3Body_GetType(bodies_[i]) != b3_dynamicBody);
       r.drag->push_back(b3Body_GetLinearDamping(bodies_[i]));
     }
-    r.probe = probe_of_forces(forced_, probe_state(scene_));
-    r.links = scene_.springs;
-    Scene damped = scene_;  // with the dashpots of the joints
-    damped.dashpots.clear();
+    std::vector<SoftJoint> joints;
     for (size_t i = 0; i < joints_.size(); ++i) {
-      const double omega = 2 * pi * b3DistanceJoint_GetSpringHertz(joints_[i]);
-      const double mass = reduced_mass(r.links[i]), ratio = b3DistanceJoint_GetSpringDampingRatio(joints_[i]);
-      r.links[i].stiffness = omega * omega * mass;
-      r.links[i].rest_length = b3DistanceJoint_GetLength(joints_[i]);
-      damped.dashpots.push_back({r.links[i].a, r.links[i].b, 2 * ratio * mass * omega});
+      const double omega = 2 * pi * b3DistanceJoint_GetSpringHertz(joints_[i]), mass = reduced_mass(scene_.springs[i]);
+      const double damping = 2 * mass * omega * b3DistanceJoint_GetSpringDampingRatio(joints_[i]);
+      joints.push_back({omega * omega * mass, b3DistanceJoint_GetLength(joints_[i]), damping});
     }
-    add_dashpots(damped, r.probe->x, r.probe->v, r.probe->dashpots);
+    read_back_joints(scene_, forced_, joints,
+                     "soft constraints, implicit along the line between the ends in each sub-step", run);
     r.gravity = from_box3d(b3World_GetGravity(world_));
     r.precision = "single";  // velocities are, in both builds
     r.may_sleep = b3World_IsSleepingEnabled(world_);
@@ -114,19 +106,11 @@ class Box3dWorld : public World {
     r.mapped = {{"springs", joints_.empty() ? "forces" : "distance joints of a frequency and a damping ratio"},
                 {"drag", "linear damping (1/s)"}};
     r.settings = {{"sub-steps", std::to_string(substeps_)}};
-    if (joints_.empty()) {
-      if (substeps_ > 1)
-        run.different_law.push_back("springs: forces repeat in each sub-step and move a body by h^2 a (n + 1) / (2 n)");
-      return;
-    }
-    r.probe->springs.clear();
-    run.different_law.push_back("springs: soft constraints, implicit along the line between the ends in each sub-step");
-    if (!scene_.dashpots.empty()) run.different_law.push_back("dashpots: implicit, in the joints of springs");
+    if (joints_.empty() && substeps_ > 1)
+      run.different_law.push_back("springs: forces repeat in each sub-step and move a body by h^2 a (n + 1) / (2 n)");
   }
 
  private:
-  static constexpr double pi = 3.14159265358979323846;
-
   /// The mass that a joint between the ends feels, kg.
   double reduced_mass(const Spring& s) const {
     double inverse = 0;
@@ -160,8 +144,6 @@ class Box3dWorld : public World {
   std::vector<Vec> x_, v_, f_;
 };
 
-std::unique_ptr<World> make(const Scene& scene) { return std::make_unique<Box3dWorld>(scene); }
-
 }  // namespace
 
-int main(int argc, char** argv) { return run_program(argc, argv, make); }
+int main(int argc, char** argv) { return run_program<Box3dWorld>(argc, argv); }

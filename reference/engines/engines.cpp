@@ -19,13 +19,21 @@ std::vector<OutsideEngine> outside_engines() {
       struct {
         const char* key;
         std::string OutsideEngine::*member;
-      } const members[] = {{"name", &OutsideEngine::name},           {"title", &OutsideEngine::title},
-                           {"built", &OutsideEngine::built},         {"licence", &OutsideEngine::licence},
-                           {"precision", &OutsideEngine::precision}, {"rule", &OutsideEngine::rule},
-                           {"source", &OutsideEngine::source},       {"cmake", &OutsideEngine::cmake},
-                           {"module", &OutsideEngine::module},       {"package", &OutsideEngine::package},
-                           {"header", &OutsideEngine::header},       {"npm", &OutsideEngine::npm},
-                           {"prefix", &OutsideEngine::prefix},       {"prefix_file", &OutsideEngine::prefix_file}};
+      } const members[] = {{"name", &OutsideEngine::name},
+                           {"title", &OutsideEngine::title},
+                           {"built", &OutsideEngine::built},
+                           {"licence", &OutsideEngine::licence},
+                           {"precision", &OutsideEngine::precision},
+                           {"rule", &OutsideEngine::rule},
+                           {"forces", &OutsideEngine::forces},
+                           {"source", &OutsideEngine::source},
+                           {"cmake", &OutsideEngine::cmake},
+                           {"module", &OutsideEngine::module},
+                           {"package", &OutsideEngine::package},
+                           {"header", &OutsideEngine::header},
+                           {"npm", &OutsideEngine::npm},
+                           {"prefix", &OutsideEngine::prefix},
+                           {"prefix_file", &OutsideEngine::prefix_file}};
       const auto* member = std::ranges::find(members, key, [](const auto& m) { return std::string_view(m.key); });
       if (member != std::end(members))
         engine.*(member->member) = value.text();

@@ -12,7 +12,8 @@ struct OutsideEngine {
   std::string name, title;  // "mujoco", "MuJoCo 2"
   std::string built;        // "native", "JavaScript" or "WebAssembly"
   std::string licence, precision;
-  std::string rule;  // its time-stepping rule, by default and by option
+  std::string rule;    // its time-stepping rule, by default and by option
+  std::string forces;  // option that applies springs as forces, where that is another rule than its default
 
   // Files in reference/engines that the adapter is built from: one source for the compiler, or a folder for CMake, or
   // a module for npm's package.

@@ -1,5 +1,4 @@
 // MuJoCo as a program of the engine protocol.
-//   c++ -std=c++17 -O2 -ffp-contract=off -I reference/protocol reference/engines/mujoco.cpp -o PROGRAM -lmujoco
 //
 // A particle is a body with three slide joints, a pin a mocap body, a spring a spatial tendon between two sites. What
 // tendons cannot do goes through mjcb_passive: bending, wind, bullet-link springs, springs that start at zero length (a
@@ -12,8 +11,6 @@
 using namespace crosscheck_engine;
 
 namespace {
-
-constexpr double pi = 3.14159265358979323846;
 
 std::string warning;  // last warning of MuJoCo, which would otherwise go to a file in the working directory
 void keep_warning(const char* text) { warning = text; }
@@ -44,10 +41,7 @@ class MujocoWorld : public World {
     tendons_ = options.get("springs", {"tendon", "callback"}) == "tendon" && scene.spring_law == "hooke";
     joint_drag_ = options.get("drag", {"implicit", "callback"}) == "implicit";
     options.refuse_others();
-    bool moving = false;
-    for (const Sphere& s : scene.spheres) moving |= s.motion.has_value();
-    for (const Plane& p : scene.planes) moving |= length(p.velocity) > 0;
-    if (moving) unsupported("moving spheres and planes: in contact MuJoCo takes the velocity of a mocap body for zero");
+    scene.require_resting_surfaces("in contact MuJoCo takes the velocity of a mocap body for zero");
     mju_user_error = fail, mju_user_warning = keep_warning;
     build(xml());
     if (!joint_drag_ || called_.wind || called_.springs.size() + called_.dashpots.size() + called_.bending.size() > 0)
@@ -211,15 +205,11 @@ class MujocoWorld : public World {
   }
 
   void add_passive(mjData* d) {
-    std::fill(f_.begin(), f_.end(), Vec{});
     for (size_t i = 0; i < f_.size(); ++i)
       for (int k = 0; k < 3 && !scene_.pinned[i]; ++k)
         x_[i][k] = d->xpos[3 * body(i) + k], v_[i][k] = d->qvel[dof(i) + k];
     scene_.place_pins(d->time, x_, v_);
-    add_springs(called_, x_, f_);
-    add_dashpots(called_, x_, v_, f_);
-    add_bending(called_, x_, f_);
-    add_wind(called_, d->time, f_);
+    set_forces(called_, x_, v_, d->time, f_);
     for (size_t i = 0; i < f_.size(); ++i)
       for (int k = 0; k < 3 && !scene_.pinned[i]; ++k)
         d->qfrc_passive[dof(i) + k] += f_[i][k] - (joint_drag_ ? 0 : scene_.drag[i] * v_[i][k]);
@@ -287,7 +277,4 @@ class MujocoWorld : public World {
 
 }  // namespace
 
-int main(int argc, char** argv) {
-  return run_program(argc, argv,
-                     [](const Scene& s) -> std::unique_ptr<World> { return std::make_unique<MujocoWorld>(s); });
-}
+int main(int argc, char** argv) { return run_program<MujocoWorld>(argc, argv); }

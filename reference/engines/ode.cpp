@@ -1,5 +1,4 @@
 // ODE as a program of the engine protocol.
-//   c++ -std=c++17 -O2 -ffp-contract=off -I reference/protocol reference/engines/ode.cpp -o PROGRAM -lode
 //
 // Particles are bodies, pins are kinematic ones. springs=forces (default) applies all forces by dBodyAddForce, which
 // makes ODE's step symplectic Euler. springs=dball makes springs, with the dashpots between the same ends, distance
@@ -22,11 +21,7 @@ class OdeWorld : public World {
     const bool joints = options.get("springs", {"forces", "dball"}) == "dball";
     iterations_ = options.get("n", 20);  // the solver of joints and contacts repeats so often
     options.refuse_others();
-    for (const Sphere& s : scene.spheres)
-      if (s.motion) unsupported("moving spheres: this adapter hands ODE contacts with bodies at rest only");
-    for (const Plane& p : scene.planes)
-      if (length(p.velocity) > 0)
-        unsupported("moving planes: this adapter hands ODE contacts with bodies at rest only");
+    scene.require_resting_surfaces("this adapter gives ODE contacts with bodies at rest only");
     if (joints && scene.spring_law != "hooke") unsupported("springs=dball: ODE's joints have Hooke's law");
     dInitODE2(0);
     world_ = dWorldCreate();
@@ -47,11 +42,7 @@ class OdeWorld : public World {
 
   void step(double t) override {
     read(x_, v_);
-    std::fill(f_.begin(), f_.end(), Vec{});
-    add_springs(forced_, x_, f_);
-    add_dashpots(forced_, x_, v_, f_);
-    add_bending(forced_, x_, f_);
-    add_wind(forced_, t, f_);
+    set_forces(forced_, x_, v_, t, f_);
     for (size_t i = 0; i < x_.size(); ++i) {
       if (scene_.pinned[i]) continue;
       const Vec f = f_[i] - scene_.drag[i] * v_[i];
@@ -88,33 +79,24 @@ class OdeWorld : public World {
     r.gravity = vec(g);
     r.may_sleep = dWorldGetAutoDisableFlag(world_) != 0;
     r.precision = sizeof(dReal) == sizeof(double) ? "double" : "single";
-    r.probe = probe_of_forces(forced_, probe_state(scene_));
-    r.links = scene_.springs;
-    Scene damped = scene_;  // with the dashpots of the joints
-    damped.dashpots.clear();
-    for (size_t i = 0; i < joints_.size(); ++i) {
-      const dReal erp = dJointGetDBallParam(joints_[i], dParamERP), cfm = dJointGetDBallParam(joints_[i], dParamCFM);
-      r.links[i].stiffness = erp / (cfm * scene_.step);
-      r.links[i].rest_length = dJointGetDBallDistance(joints_[i]);
-      damped.dashpots.push_back({r.links[i].a, r.links[i].b, (1 - erp) / cfm});
+    std::vector<SoftJoint> joints;
+    for (dJointID joint : joints_) {
+      const dReal erp = dJointGetDBallParam(joint, dParamERP), cfm = dJointGetDBallParam(joint, dParamCFM);
+      joints.push_back({erp / (cfm * scene_.step), dJointGetDBallDistance(joint), (1 - erp) / cfm});
     }
-    add_dashpots(damped, r.probe->x, r.probe->v, r.probe->dashpots);
+    read_back_joints(scene_, forced_, joints, "an implicit step along the line between the ends", run);
     r.spheres.emplace(), r.planes.emplace();
-    for (const Sphere& s : scene_.spheres)
+    for (const Sphere& s : scene_.spheres) {
       r.spheres->push_back({s.centre, s.contact_radius(), s.friction, s.restitution});
-    for (const Plane& p : scene_.planes)
+      if (r.later) r.later->centres.push_back(s.centre);
+      r.margin = s.margin;
+    }
+    for (const Plane& p : scene_.planes) {
       r.planes->push_back({p.contact_point_at(0), p.normal, p.friction, p.restitution});
-    if (r.later)
-      for (const Ball& b : *r.spheres) r.later->centres.push_back(b.centre);
-    if (r.later)
-      for (const Face& f : *r.planes) r.later->points.push_back(f.point);
-    if (!r.spheres->empty()) r.margin = scene_.spheres[0].margin;
+      if (r.later) r.later->points.push_back(p.contact_point_at(0));
+    }
     r.mapped = {{"drag", "force"}, {"springs", joints_.empty() ? "forces" : "distance joints with ERP and CFM"}};
     r.settings = {{"iterations", std::to_string(iterations_)}};
-    if (joints_.empty()) return;
-    r.probe->springs.clear();
-    run.different_law.push_back("springs: an implicit step along the line between the ends");
-    if (!scene_.dashpots.empty()) run.different_law.push_back("dashpots: implicit, in the joints of springs");
   }
 
  private:
@@ -168,8 +150,6 @@ class OdeWorld : public World {
   std::vector<Vec> x_, v_, f_;
 };
 
-std::unique_ptr<World> make(const Scene& scene) { return std::make_unique<OdeWorld>(scene); }
-
 }  // namespace
 
-int main(int argc, char** argv) { return run_program(argc, argv, make); }
+int main(int argc, char** argv) { return run_program<OdeWorld>(argc, argv); }

@@ -1,6 +1,4 @@
 // Simbody as a program of the engine protocol.
-//   c++ -std=c++17 -O2 -ffp-contract=off -I reference/protocol -I /usr/include/simbody reference/engines/simbody.cpp \
-//     -o PROGRAM -lSimTKsimbody -lSimTKmath -lSimTKcommon
 //
 // Particles are bodies on Translation mobilizers, pins have a prescribed motion, springs and dashpots are Simbody's
 // two-point elements, drag is a mobility damper, hard distances are rods. One custom force applies bending, wind,
@@ -195,8 +193,6 @@ class SimbodyWorld : public World {
   std::unique_ptr<SimTK::Integrator> integrator_;
 };
 
-std::unique_ptr<World> make(const Scene& scene) { return std::make_unique<SimbodyWorld>(scene); }
-
 }  // namespace
 
-int main(int argc, char** argv) { return run_program(argc, argv, make); }
+int main(int argc, char** argv) { return run_program<SimbodyWorld>(argc, argv); }

@@ -178,6 +178,8 @@ class JsonReader {
   std::exit(3);
 }
 
+constexpr double pi = 3.14159265358979323846;
+
 /// Displacement d(t) = amplitude r(t / ramp) sin(2 pi frequency t), where r smoothly rises from 0 to 1.
 struct Motion {
   Vec amplitude;           // m
@@ -190,7 +192,7 @@ struct Motion {
  private:
   /// Value and two time derivatives of r(t / ramp) sin(2 pi frequency t).
   std::array<double, 3> at(double t) const {
-    const double omega = 2 * 3.14159265358979323846 * frequency, s = t < ramp ? t / ramp : 1;
+    const double omega = 2 * pi * frequency, s = t < ramp ? t / ramp : 1;
     const double r = s * s * s * (10 + s * (6 * s - 15)), slope = t < ramp ? 30 * s * s * (1 - s) * (1 - s) / ramp : 0;
     const double curvature = t < ramp ? 60 * s * (1 - s) * (1 - 2 * s) / (ramp * ramp) : 0;
     const double sine = std::sin(omega * t), cosine = omega * std::cos(omega * t);
@@ -312,6 +314,13 @@ struct Scene {
       if (std::find(known.begin(), known.end(), t["type"].text) == known.end())
         unsupported("this engine has no " + t["type"].text);
   }
+  /// Refuses spheres and planes that move, for the reason given.
+  void require_resting_surfaces(const std::string& why) const {
+    bool moving = false;
+    for (const Sphere& s : spheres) moving |= s.motion.has_value();
+    for (const Plane& p : planes) moving |= dot(p.velocity, p.velocity) > 0;
+    if (moving) unsupported("moving spheres and planes: " + why);
+  }
   /// Writes places and speeds of the pins at time t (s).
   void place_pins(double t, std::vector<Vec>& at, std::vector<Vec>& speed) const {
     for (size_t i = 0; i < pins.size(); ++i) {
@@ -427,6 +436,16 @@ inline void add_bending(const Scene& scene, const std::vector<Vec>& x, std::vect
 inline void add_wind(const Scene& scene, double t, std::vector<Vec>& f) {
   const Vec w = scene.wind_at(t);
   for (size_t i = 0; i < f.size(); ++i) f[i] = f[i] + scene.mass[i] * w;
+}
+
+/// Sets f (N) to the sum of the four.
+inline void set_forces(const Scene& scene, const std::vector<Vec>& x, const std::vector<Vec>& v, double t,
+                       std::vector<Vec>& f) {
+  f.assign(x.size(), Vec{});
+  add_springs(scene, x, f);
+  add_dashpots(scene, x, v, f);
+  add_bending(scene, x, f);
+  add_wind(scene, t, f);
 }
 
 /// Options of the method's name, such as "n=4" and "springs=tendon". Each get() declares one.
@@ -597,6 +616,31 @@ inline Probe probe_of_forces(const Scene& scene, Probe p) {
   return p;
 }
 inline Probe probe_of_forces(const Scene& scene) { return probe_of_forces(scene, probe_state(scene)); }
+
+/// A spring that the engine solves as a constraint, as the engine's own data describe it.
+struct SoftJoint {
+  double stiffness, rest_length, damping;  // N/m, m, N s/m
+};
+
+/// Fills links and probe of an engine that has the scene's springs as `joints`, one for each spring, which obey `law`,
+/// and applies the springs and dashpots of `forced` as forces. Without joints all springs are forces.
+inline void read_back_joints(const Scene& scene, const Scene& forced, const std::vector<SoftJoint>& joints,
+                             const std::string& law, RunReport& run) {
+  Readback& r = *run.readback;
+  r.probe = probe_of_forces(forced, probe_state(scene));
+  r.links = scene.springs;
+  if (joints.empty()) return;
+  Scene damped = scene;
+  damped.dashpots.clear();
+  for (size_t i = 0; i < joints.size(); ++i) {
+    r.links[i].stiffness = joints[i].stiffness, r.links[i].rest_length = joints[i].rest_length;
+    damped.dashpots.push_back({r.links[i].a, r.links[i].b, joints[i].damping});
+  }
+  add_dashpots(damped, r.probe->x, r.probe->v, r.probe->dashpots);
+  r.probe->springs.clear();
+  run.different_law.push_back("springs: " + law);
+  if (!scene.dashpots.empty()) run.different_law.push_back("dashpots: implicit, in the joints of springs");
+}
 
 /// Writes JSON: numbers with all their digits, lists, objects without the keys that have no value.
 class JsonWriter {
@@ -769,6 +813,10 @@ inline int run_program(int argc, char** argv, std::unique_ptr<World> (*make)(con
     return std::fprintf(stderr, "%s\n", error.what()), 1;
   }
   return 0;
+}
+template <class Engine>  // a World that is constructed from a Scene
+int run_program(int argc, char** argv) {
+  return run_program(argc, argv, [](const Scene& s) -> std::unique_ptr<World> { return std::make_unique<Engine>(s); });
 }
 
 }  // namespace crosscheck_engine

@@ -43,8 +43,6 @@ class SymplecticEuler : public World {
   std::vector<Vec> x_, v_, f_;  // m, m/s, N
 };
 
-std::unique_ptr<World> make(const Scene& scene) { return std::make_unique<SymplecticEuler>(scene); }
-
 }  // namespace
 
-int main(int argc, char** argv) { return run_program(argc, argv, make); }
+int main(int argc, char** argv) { return run_program<SymplecticEuler>(argc, argv); }
