@@ -284,8 +284,9 @@ Outcome run_outside_engine(const Program& program, const Scene& scene, const Run
     remark("it wrote on stderr, last: " + last_stderr_line);
   if (!misled.empty()) remark(misled);
   if (end.left_children) remark("it left a process behind, which was killed");
-  if (std::abs(out.step - grid.h) <= 1e-12 * grid.h)
-    out.step = grid.h;  // equal but for rounding
+  const double rounding = out.readback && out.readback->precision == "single" ? 0x1p-23 : 1e-12;
+  if (std::abs(out.step - grid.h) <= rounding * grid.h)
+    out.step = grid.h;
   else if (!out.adaptive)
     remark(fmt::format("it took steps of {:.6g} s, asked were {:.6g} s", out.step, grid.h));
   return out;
