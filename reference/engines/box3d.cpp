@@ -1,4 +1,4 @@
-// Box3D as a program of the engine protocol (tried: version 0.1.0, commit 30c67b5e6d0a). Built by box3d/CMakeLists.txt.
+// Box3D as a program of the engine protocol (tried: version 0.2.0, commit 30c67b5e6d0a). Built by box3d/CMakeLists.txt.
 //
 // springs=joint (default) makes springs, with the dashpots between the same ends, distance joints of a frequency and a
 // damping ratio. springs=forces applies them as forces, which Box3D repeats in each of its n sub-steps: a body moves by
