@@ -24,9 +24,9 @@ struct BenchSuite {
   ThreadsOptions threads;
 };
 
-/// quick: within 90 s on a quiet machine of two cores; full: the largest cloth and every peer on each. Methods in
-/// `beside` are peers too, of the user's choice, on cloths of 32 and 64 particles a side, and of 128 where full. Throws
-/// InputError where one is not known.
+/// quick: within 90 s on a quiet machine of two cores; full: the largest cloth and every peer on each. The methods
+/// named in `beside` are compared as well, on cloths of 16 and 32 particles a side. Throws InputError for an unknown
+/// method.
 BenchSuite bench_suite(bool full, const std::vector<std::string>& beside = {});
 
 struct BenchResult {
