@@ -16,8 +16,7 @@ TEST(OutsideEngines, HaveTheFilesTheyAreBuiltFrom) {
   for (const OutsideEngine& e : outside_engines()) {
     SCOPED_TRACE(e.name);
     EXPECT_TRUE(names.insert(e.name).second);
-    for (const std::string* text : {&e.title, &e.licence, &e.precision, &e.rule})
-      EXPECT_FALSE(text->empty());
+    for (const std::string* text : {&e.title, &e.licence, &e.precision, &e.rule}) EXPECT_FALSE(text->empty());
     EXPECT_TRUE(e.is_native() || e.built == "WebAssembly" || e.built == "JavaScript") << e.built;
     EXPECT_FALSE(e.source.empty() && e.module.empty() && e.cmake.empty());
     EXPECT_EQ(e.source.empty(), e.package.empty() || e.header.empty());
