@@ -14,27 +14,6 @@ namespace {
 
 using namespace testing_tools;
 
-/// A variable of this program's environment, as it was before at the end.
-class SetVariable {
- public:
-  SetVariable(const char* name, const char* value) : name_(name) {
-    if (const char* was = std::getenv(name)) was_ = was;
-    setenv(name, value, 1);
-  }
-  ~SetVariable() {
-    if (was_)
-      setenv(name_, was_->c_str(), 1);
-    else
-      unsetenv(name_);
-  }
-  SetVariable(const SetVariable&) = delete;
-  SetVariable& operator=(const SetVariable&) = delete;
-
- private:
-  const char* name_;
-  std::optional<std::string> was_;
-};
-
 class StartedPrograms : public InFolder {
  protected:
   SetVariable all_{"LC_ALL", "de_DE.UTF-8"}, numbers_{"LC_NUMERIC", "fr_FR.UTF-8"}, lang_{"LANG", "tr_TR.UTF-8"},
