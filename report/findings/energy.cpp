@@ -7,6 +7,7 @@
 
 #include "experiments/tables/energy.h"
 #include "experiments/tables/engines.h"
+#include "experiments/tables/matrix.h"
 #include "report/findings/findings.h"
 #include "report/findings/findings_text.h"
 #include "report/findings/summaries.h"
@@ -146,6 +147,31 @@ void damping(const std::vector<DampingRow>& table, Findings& out) {
   out.insert(out.end(), all.begin(), all.end());
 }
 
+/// Damping that other engines add as they come, and what those gain that repeat forces of the user in sub-steps.
+void damping_of_engines(const std::vector<MatrixRow<false>>& table, Findings& out) {
+  const MatrixRow<false>* most = nullptr;
+  std::vector<std::string> none, gains;
+  for (const MatrixRow<false>& row : table) {
+    if (family_of(row.method).role != Role::outside || !row.value || !row.bar) continue;
+    const bool zero = std::abs(*row.value) <= *row.bar;
+    if (row.question == EngineQuestion::damping_by_forces && !zero && *row.value < 0)
+      gains.push_back(fmt::format("{} ({:.2g} per second)", name_in_sentence(row.method), -*row.value));
+    if (row.question != EngineQuestion::damping_of_spring) continue;
+    if (zero)
+      none.push_back(name_in_sentence(row.method));
+    else if (*row.value > 0 && (!most || *row.value > *most->value))
+      most = &row;
+  }
+  if (most)
+    out.push_back({.rule = "engines-damp",
+                   .method = most->method,
+                   .value = *most->value,
+                   .low = *most->value - *most->bar,
+                   .high = *most->value + *most->bar,
+                   .words = {{"none", fmt::format("{}", fmt::join(none, ", "))},
+                             {"gains", fmt::format("{}", fmt::join(gains, ", "))}}});
+}
+
 }  // namespace
 
 Findings energy_findings(const Facts& facts) {
@@ -155,6 +181,7 @@ Findings energy_findings(const Facts& facts) {
   drift(table, out);
   taken_by_contact(facts.rows, out);
   damping(rows_of<DampingRow>(facts.rows), out);
+  damping_of_engines(rows_of<MatrixRow<false>>(facts.rows), out);
   return out;
 }
 

@@ -63,6 +63,7 @@ const std::vector<FindingRule>& finding_rules() {
        "until taken bar off others", {"engines-energy"}, "{}-energy"},
       {"numerical-damping", energy_findings, "energy", energy, "deviation of the numerical damping from theory", "%", "exact", "rate",
        {"energy-damping"}, "energy-damping"},
+      {"engines-damp", energy_findings, "energy", energy, "drag rate that damps as much", "1/s", "exact", "none gains", {"matrix"}},
       {"cone", cone_findings, "contact", energy, "cases in agreement with Coulomb's law", "1", coulomb, "cases planes", {"sphere-cone", "plane-cone"}, "sphere-cone"},
       {"planes", plane_findings, "contact", energy, "error of the third apex on a floor", "%", "exact", "step period refused", {"plane-probes"}},
       {"planes-rest", plane_findings, "contact", energy, "energy lost at rest over that of a free slide", "%", "exact", "moving share", {"plane-probes"}},
