@@ -9,6 +9,7 @@
 #include "experiments/tables/cost.h"
 #include "experiments/tables/energy.h"
 #include "experiments/tables/engines.h"
+#include "experiments/tables/matrix.h"
 #include "experiments/tables/speed_accuracy.h"
 #include "experiments/tables/stability.h"
 #include "experiments/tables/stiffness.h"
@@ -333,6 +334,29 @@ Table table_with(const std::vector<Row>& rows) {
   Table t = crosscheck::table_of<Row>();
   for (const Row& row : rows) add(t, row);
   return t;
+}
+
+TEST(EnergyFindings, NameTheEngineThatDampsMostAndThoseThatGainEnergy) {
+  const auto answer = [](const char* method, EngineQuestion question, OptionalNumber value, OptionalNumber bar) {
+    return MatrixRow<false>{.method = method, .question = question, .value = value, .bar = bar, .unit = "1/s"};
+  };
+  const auto spring = EngineQuestion::damping_of_spring, forces = EngineQuestion::damping_by_forces;
+  const std::vector rows{answer("mysim/implicit-euler", spring, 2., 1e-6),
+                         answer("exec:./ode", spring, 1e-9, 1e-7),
+                         answer("exec:./one", spring, 0.2, 0.003),
+                         answer("exec:./two", spring, 0.87, 0.01),
+                         answer("exec:./one", forces, -0.33, 0.001),
+                         answer("exec:./two", forces, -0.1, 0.2),
+                         answer("exec:./bad", spring, {}, {})};
+  const Finding f = the(energy_findings(rows_of({table_with(rows)})), "engines-damp");
+  expect_short({f});
+  EXPECT_EQ(f.method, "exec:./two");
+  EXPECT_EQ(f.value, 0.87);
+  EXPECT_NEAR(*f.low, 0.86, 1e-12);
+  EXPECT_NEAR(*f.high, 0.88, 1e-12);
+  EXPECT_EQ(f.words.at("none"), "ode");
+  EXPECT_EQ(f.words.at("gains"), "one (0.33 per second)");
+  EXPECT_TRUE(energy_findings(rows_of({table_with(std::vector{rows[0], rows[1]})})).empty());
 }
 
 TEST(SpeedFindings, TellWhatOtherEnginesTake) {
