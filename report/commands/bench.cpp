@@ -3,6 +3,7 @@
 
 #include "experiments/bench/bench.h"
 #include "experiments/tables/bench.h"
+#include "reference/engines/engines.h"
 #include "reference/truth/independent/integrators.h"
 #include "report/commands/command_line.h"
 #include "report/commands/json_files.h"
@@ -33,7 +34,7 @@ std::string detail_of(const BenchRow& row) {
 }
 
 BenchLine line_of(const BenchRow& row) {
-  BenchLine line{row.work, row.scene, row.peer == naive_loop_name ? row.mysim : row.peer};
+  BenchLine line{row.work, row.scene, row.peer == naive_loop_name ? row.mysim : without_folders(row.peer)};
   line.label = line.subject;
   if (row.work == bench_work::springs_of_scene) line.label = fmt::format("{}: {}", row.scene, row.mysim);
   if (row.work == bench_work::same_error)
