@@ -1,4 +1,4 @@
-// The tables of experiment `contact`. Those about balls keep the names that they had in reports of older versions.
+// The tables of experiment `contact`. Tables about balls keep the names that they had in reports of older versions.
 #pragma once
 
 #include "experiments/tables/typed.h"
@@ -18,11 +18,11 @@ struct ReboundRow {
   TABLE("sphere-rebound");
   COLUMN(std::string, method, "method", "1", "method that was run");
   COLUMN(Verdict, verdict, "verdict", "1", "how the run ended");
-  COLUMN(std::string, reason, "reason", "1", "why it failed or was refused");
-  COLUMN(double, step, "step", "s", "time step asked for");
-  COLUMN(double, restitution, "restitution", "1", "part of its speed that the ball returns");
-  COLUMN(OptionalNumber, rebound, "rebound", "m", "how high the particle rises again above the contact surface");
-  COLUMN(double, by_theory, "by theory", "m", "the same by theory");
+  COLUMN(std::string, reason, "reason", "1", "why the run failed or was refused");
+  COLUMN(double, step, "step", "s", "requested time step");
+  COLUMN(double, restitution, "restitution", "1", "coefficient of restitution of the ball");
+  COLUMN(OptionalNumber, rebound, "rebound", "m", "height of the rebound above the contact surface");
+  COLUMN(double, by_theory, "by theory", "m", "height of the rebound by theory");
 };
 
 /// A particle that slides off a ball without friction.
@@ -30,15 +30,15 @@ struct LeavingRow {
   TABLE("sphere-leaving");
   COLUMN(std::string, method, "method", "1", "method that was run");
   COLUMN(Verdict, verdict, "verdict", "1", "how the run ended");
-  COLUMN(std::string, reason, "reason", "1", "why it failed or was refused");
-  COLUMN(double, step, "step", "s", "time step asked for");
-  COLUMN(OptionalNumber, angle, "angle", "degrees", "angle from the top where the gap first passes 1 mm");
-  COLUMN(double, angle_by_theory, "angle by theory", "degrees", "the same by theory");
-  COLUMN(OptionalNumber, speed, "speed", "m/s", "speed there");
-  COLUMN(double, speed_by_theory, "speed by theory", "m/s", "the same by theory");
+  COLUMN(std::string, reason, "reason", "1", "why the run failed or was refused");
+  COLUMN(double, step, "step", "s", "requested time step");
+  COLUMN(OptionalNumber, angle, "angle", "degrees", "angle from the top at which the gap first exceeds 1 mm");
+  COLUMN(double, angle_by_theory, "angle by theory", "degrees", "that angle by theory");
+  COLUMN(OptionalNumber, speed, "speed", "m/s", "speed at that angle");
+  COLUMN(double, speed_by_theory, "speed by theory", "m/s", "that speed by theory");
 };
 
-/// A scene with contact at one step, against its truth.
+/// A scene with contact at one step, compared with its truth.
 struct ContactOrderRow {
   TABLE("sphere-order");
   COLUMN(std::string, probe, "probe", "1", "scene");
@@ -47,8 +47,8 @@ struct ContactOrderRow {
   COLUMN(double, step, "step", "s", "time step taken");
   COLUMN(OptionalNumber, error, "error", "m", "largest RMS distance from the truth");
   COLUMN(OptionalNumber, order, "order", "1", "slope of the error from twice the step to this one");
-  COLUMN(std::string, truth, "truth", "1", "how the truth was found");
-  COLUMN(Tier, truth_tier, "truth tier", "1", "how sure the truth is");
+  COLUMN(std::string, truth, "truth", "1", "origin of the truth");
+  COLUMN(Tier, truth_tier, "truth tier", "1", "tier of the truth");
   COLUMN(double, truth_bar, "truth bar", "m", "error bar of the truth");
 };
 
@@ -57,22 +57,22 @@ struct ConeRow {
   TABLE("sphere-cone");
   COLUMN(std::string, method, "method", "1", "method that was run");
   COLUMN(Verdict, verdict, "verdict", "1", "how the run ended");
-  COLUMN(std::string, reason, "reason", "1", "why it failed or was refused");
-  COLUMN(double, step, "step", "s", "time step asked for");
-  COLUMN(double, angle, "angle", "degrees", "of the slope");
+  COLUMN(std::string, reason, "reason", "1", "why the run failed or was refused");
+  COLUMN(double, step, "step", "s", "requested time step");
+  COLUMN(double, angle, "angle", "degrees", "angle of the slope");
   COLUMN(double, friction, "friction", "1", "Coulomb's coefficient of friction");
-  COLUMN(OptionalNumber, distance, "way", "m", "way down the slope in 0.5 s");
-  COLUMN(double, distance_by_theory, "way by theory", "m", "the same by Coulomb's law");
+  COLUMN(OptionalNumber, distance, "way", "m", "distance travelled down the slope in 0.5 s");
+  COLUMN(double, distance_by_theory, "way by theory", "m", "that distance by Coulomb's law");
   COLUMN(std::optional<ContactState>, state, "answer", "1", "whether the particle stuck or slid");
-  COLUMN(ContactState, state_by_theory, "answer by theory", "1", "the same by Coulomb's law");
+  COLUMN(ContactState, state_by_theory, "answer by theory", "1", "that answer by Coulomb's law");
 };
 
-/// A particle at rest on a plane, where the frictions next to the limit are a thousandth off it.
+/// A particle at rest on a plane. The friction coefficients next to the limit differ from it by a thousandth.
 struct PlaneConeRow : ConeRow {
   static constexpr std::string_view table = "plane-cone";
 };
 
-/// Motions on planes with a closed form, each by a number without unit.
+/// Motions on planes that have a closed form, each characterised by a dimensionless number.
 enum class PlaneProbe { apex, period, loss, held };
 constexpr std::string_view name_of(PlaneProbe probe) {
   return probe == PlaneProbe::apex     ? "height of the third apex over that of the drop"
@@ -89,10 +89,10 @@ struct PlaneProbeRow {
   COLUMN(PlaneProbe, probe, "probe", "1", "what is measured");
   COLUMN(std::string, method, "method", "1", "method that was run");
   COLUMN(Verdict, verdict, "verdict", "1", "how the run ended");
-  COLUMN(std::string, reason, "reason", "1", "why it failed or was refused");
-  COLUMN(double, step, "step", "s", "time step asked for");
-  COLUMN(OptionalNumber, measured, "measured", "1", "what the run gave");
-  COLUMN(double, by_theory, "by theory", "1", "the same of the closed form");
+  COLUMN(std::string, reason, "reason", "1", "why the run failed or was refused");
+  COLUMN(double, step, "step", "s", "requested time step");
+  COLUMN(OptionalNumber, measured, "measured", "1", "value from the run");
+  COLUMN(double, by_theory, "by theory", "1", "value from the closed form");
 };
 
 /// The final state of a cloth on a ball.
@@ -101,23 +101,23 @@ struct DrapeRow {
   COLUMN(std::string, scene, "scene", "1", "scene");
   COLUMN(std::string, method, "method", "1", "method that was run");
   COLUMN(Verdict, verdict, "verdict", "1", "how the run ended");
-  COLUMN(std::string, reason, "reason", "1", "why it failed or was refused");
+  COLUMN(std::string, reason, "reason", "1", "why the run failed or was refused");
   COLUMN(double, end, "end", "s", "last time reached");
   COLUMN(double, step, "step", "s", "time step taken");
-  COLUMN(OptionalNumber, settled_after, "settled after", "s", "when it came to rest: its RMS speed stays below 1 cm/s");
+  COLUMN(OptionalNumber, settled_after, "settled after", "s", "time after which the RMS speed stays below 1 cm/s");
   COLUMN(OptionalNumber, centre_height, "centre height", "m", "height of the centre of mass at the end");
-  COLUMN(OptionalNumber, moved_aside, "centre moved aside", "m", "how far the centre of mass moved sideways");
+  COLUMN(OptionalNumber, moved_aside, "centre moved aside", "m", "horizontal displacement of the centre of mass");
   COLUMN(OptionalNumber, clearance, "clearance", "m",
          "smallest distance from a sphere's contact surface at the end; negative inside");
   COLUMN(OptionalNumber, creep, "creep", "m/s", "mean sliding speed of the touching particles at the end");
   COLUMN(OptionalNumber, contact, "contact took", "J", "energy lost in contact over the run");
   COLUMN(bool, contact_inferred, "contact inferred", "1",
-         "1 where the engine does not tell what contact took: it is what the balance lacks");
+         "1 if the engine does not report the energy lost in contact, which is then inferred from the energy balance");
   COLUMN(OptionalNumber, asymmetry, "asymmetry", "m",
          "largest distance of a particle from its partner's mirror image at the end");
 };
 
-/// The penetration depth of a cloth in a ball.
+/// The penetration depth of a cloth into a ball.
 struct PenetrationRow {
   TABLE("sphere-penetration");
   COLUMN(std::string, scene, "scene", "1", "scene");
@@ -125,10 +125,12 @@ struct PenetrationRow {
   COLUMN(Verdict, verdict, "verdict", "1", "how the run ended");
   COLUMN(double, step, "step", "s", "time step taken");
   COLUMN(double, radius, "radius", "m", "smallest contact radius of the scene");
-  COLUMN(OptionalNumber, particles, "particles", "%", "how deep particles were inside at most, in parts of the radius");
-  COLUMN(OptionalNumber, triangles, "triangles", "%", "how deep triangles were inside at most, in parts of the radius");
-  COLUMN(OptionalNumber, particles_at_end, "particles at end", "%", "the same of particles at the end");
-  COLUMN(OptionalNumber, triangles_at_end, "triangles at end", "%", "the same of triangles at the end");
+  COLUMN(OptionalNumber, particles, "particles", "%",
+         "largest penetration depth of a particle, relative to the radius");
+  COLUMN(OptionalNumber, triangles, "triangles", "%",
+         "largest penetration depth of a triangle, relative to the radius");
+  COLUMN(OptionalNumber, particles_at_end, "particles at end", "%", "that depth of particles at the end");
+  COLUMN(OptionalNumber, triangles_at_end, "triangles at end", "%", "that depth of triangles at the end");
 };
 
 /// A cloth on a ball over time.
@@ -138,11 +140,11 @@ struct DrapeTimeRow {
   COLUMN(double, step, "step", "s", "time step taken");
   COLUMN(double, t, "t", "s", "time of the sample");
   COLUMN(double, centre_height, "centre height", "m", "height of the centre of mass");
-  COLUMN(double, moved_aside, "centre moved aside", "m", "how far the centre of mass moved sideways");
+  COLUMN(double, moved_aside, "centre moved aside", "m", "horizontal displacement of the centre of mass");
   COLUMN(OptionalNumber, clearance, "clearance", "m",
          "smallest distance from a sphere's contact surface; negative inside");
   COLUMN(OptionalNumber, triangles_inside, "triangles inside", "m",
-         "how deep the deepest point of a triangle is inside; negative outside");
+         "penetration depth of the deepest point of a triangle; negative outside");
   COLUMN(OptionalNumber, creep, "creep", "m/s", "mean sliding speed of the touching particles");
   COLUMN(OptionalNumber, asymmetry, "asymmetry", "m", "largest distance of a particle from its partner's mirror image");
 };

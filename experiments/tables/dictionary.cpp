@@ -1,4 +1,4 @@
-// One visible list of all row types.
+// The data dictionary, made from one list of all row types.
 #include "experiments/tables/dictionary.h"
 
 #include <algorithm>
@@ -43,21 +43,22 @@ using AllRows = std::tuple<                                                     
 
 struct DictionaryRow {
   TABLE("dictionary");
-  COLUMN(std::string, table_name, "table", "1", "table; SCENE and NAME stand for a scene and a disagreement");
-  COLUMN(std::string, column_name, "column", "1", "column");
-  COLUMN(std::string, unit, "unit", "1", "unit; 1 where it has none");
-  COLUMN(std::string, type, "type", "1", "what its cells hold");
-  COLUMN(std::string, description, "description", "1", "what it means");
+  COLUMN(std::string, table_name, "table", "1",
+         "table; SCENE and NAME are placeholders for a scene and a disagreement");
+  COLUMN(std::string, column_name, "column", "1", "name of the column");
+  COLUMN(std::string, unit, "unit", "1", "unit; 1 if dimensionless");
+  COLUMN(std::string, type, "type", "1", "type of its cells");
+  COLUMN(std::string, description, "description", "1", "description of the column");
 };
 
-/// A table that is declared, without its rows.
+/// A declared table, without its rows.
 struct DeclaredTable {
   std::string_view name;
   std::span<const TypedColumn> columns;
 
   bool is(const Table& table) const {
     const bool one_of_many = name.starts_with("SCENE-") || name.starts_with("NAME-");
-    // engines-energy is no SCENE-energy
+    // "engines-energy" must not match "SCENE-energy"
     return one_of_many ? table.name.ends_with(name.substr(name.find('-'))) &&
                              std::ranges::equal(table.columns, columns, {}, &Column::name, &TypedColumn::name)
                        : table.name == name;

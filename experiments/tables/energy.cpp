@@ -1,4 +1,4 @@
-// The ledger of a run, row by row.
+// Writes the ledger of a run as rows.
 #include "experiments/tables/energy.h"
 
 namespace crosscheck {

@@ -5,7 +5,7 @@
 
 namespace crosscheck {
 
-/// Of what tier a truth is. What the in-house contact rule converges to is a truth of that rule only.
+/// Tier of a truth. A solution that the in-house contact rule converges to is a truth of that rule only.
 struct TruthKind {
   Tier tier = Tier::exact;
   bool of_contact_rule = false;
@@ -30,30 +30,30 @@ struct EngineRow {
   COLUMN(std::string, scene, "scene", "1", "scene");
   COLUMN(std::string, method, "method", "1", "method that was run");
   COLUMN(Verdict, verdict, "verdict", "1", "how the run ended");
-  COLUMN(std::string, reason, "reason", "1", "why it failed or was refused");
+  COLUMN(std::string, reason, "reason", "1", "why the run failed or was refused");
   COLUMN(double, end, "end", "s", "last time reached");
   COLUMN(double, step, "step", "s", "time step taken");
   COLUMN(long, steps, "steps", "1", "steps taken");
-  COLUMN(long, evaluations, "evaluations", "1", "evaluations of the forces");
-  COLUMN(long, coincident, "coincident springs", "1", "springs met at zero length, over all evaluations");
+  COLUMN(long, evaluations, "evaluations", "1", "force evaluations");
+  COLUMN(long, coincident, "coincident springs", "1", "springs of zero length, summed over all evaluations");
   COLUMN(double, motion, "motion", "m", "largest RMS distance of the particles from their start");
-  COLUMN(double, window, "window", "s", "how long single positions can be predicted, as the scene states it");
+  COLUMN(double, window, "window", "s", "time up to which single positions can be predicted, as stated by the scene");
   COLUMN(double, measured_window, "measured window", "s",
-         "the same as measured: until a perturbation of 1e-10 m has grown a thousandfold");
-  COLUMN(double, growth, "perturbation growth", "1", "how many times that perturbation grows in the window");
+         "that time as measured: until a perturbation of 1e-10 m has grown a thousandfold");
+  COLUMN(double, growth, "perturbation growth", "1", "growth factor of that perturbation in the window");
   COLUMN(OptionalNumber, round_off_bound, "round-off bound", "m",
-         "what engines of one rule may differ by in the precision of this one; empty where single positions cannot be "
-         "predicted");
+         "largest difference to expect between engines of the same rule, in the precision of this one; empty if single "
+         "positions cannot be predicted");
   COLUMN(std::optional<bool>, same_rule, "same rule", "1",
-         "whether its runs show the rule of the method that differences are from; empty where it is not known");
-  COLUMN(std::optional<std::string>, truth, "truth", "1", "how the truth was found; empty where none is known");
-  COLUMN(std::optional<TruthKind>, truth_kind, "truth tier", "1", "how sure the truth is");
+         "whether the run shows the same integration rule as the method that differences refer to; empty if unknown");
+  COLUMN(std::optional<std::string>, truth, "truth", "1", "origin of the truth; empty if none is known");
+  COLUMN(std::optional<TruthKind>, truth_kind, "truth tier", "1", "tier of the truth");
   COLUMN(OptionalNumber, truth_bar, "truth bar", "m", "error bar of the truth");
   COLUMN(OptionalNumber, truth_until, "truth until", "s",
-         "until when the truth is known, where that is not to the end");
+         "time up to which the truth is known, if that is not the end");
   COLUMN(OptionalNumber, error, "largest error", "m", "largest RMS distance from the truth in the window");
   COLUMN(OptionalNumber, contact_difference, "largest difference from converged contact", "m",
-         "largest RMS distance in the window from what the in-house contact rule converges to");
+         "largest RMS distance in the window from the limit of the in-house contact rule");
   COLUMN(OptionalNumber, difference, "largest difference", "m",
          "largest RMS distance from mysim/symplectic-euler in the window");
   COLUMN(OptionalNumber, centre_difference, "largest difference of centres", "m",
@@ -63,7 +63,7 @@ struct EngineRow {
   COLUMN(OptionalNumber, creep, "creep at end", "m/s", "mean sliding speed of the touching particles at the end");
   COLUMN(OptionalNumber, step_limit, "predicted step limit", "s",
          "largest stable step by linear theory, for the fastest vibration at the start");
-  COLUMN(std::string, different_law, "different law", "1", "ingredients that the method has under another law");
+  COLUMN(std::string, different_law, "different law", "1", "ingredients that the method models with a different law");
 };
 
 struct EngineCostRow {
@@ -71,10 +71,10 @@ struct EngineCostRow {
   COLUMN(std::string, scene, "scene", "1", "scene");
   COLUMN(std::string, method, "method", "1", "method that was run");
   COLUMN(OptionalNumber, cpu, "cpu", "s", "CPU time of the stepping threads");
-  COLUMN(OptionalNumber, cpu_per_step, "cpu per step", "s", "the same of one step, in the mean");
+  COLUMN(OptionalNumber, cpu_per_step, "cpu per step", "s", "mean CPU time of a step");
   COLUMN(OptionalNumber, simulated_per_cpu, "simulated per cpu", "s/s", "simulated time over CPU time");
   COLUMN(OptionalNumber, process_cpu, "cpu of process", "s",
-         "CPU time of a whole outside program, its start and its files included");
+         "CPU time of a whole external program, including start-up and file access");
 };
 
 struct EngineTimeRow {
@@ -83,7 +83,7 @@ struct EngineTimeRow {
   COLUMN(double, t, "t", "s", "time of the sample");
   COLUMN(OptionalNumber, error, "error", "m", "RMS distance from the truth");
   COLUMN(OptionalNumber, contact_difference, "difference from converged contact", "m",
-         "RMS distance from what the in-house contact rule converges to");
+         "RMS distance from the limit of the in-house contact rule");
   COLUMN(OptionalNumber, difference, "difference", "m", "RMS distance from mysim/symplectic-euler");
   COLUMN(OptionalNumber, centre_difference, "difference of centres", "m",
          "distance of the centre of mass from that of mysim/symplectic-euler");
@@ -98,26 +98,30 @@ struct EngineEnergyRow {
   COLUMN(std::string, method, "method", "1", "method that was run");
   COLUMN(Verdict, verdict, "verdict", "1", "how the run ended");
   COLUMN(double, end, "end", "s", "last time reached");
-  COLUMN(double, turned_over, "energy turned over", "J", "largest kinetic energy, or change of the gravitational one");
+  COLUMN(double, turned_over, "energy turned over", "J",
+         "largest kinetic energy, or largest change of gravitational energy");
   COLUMN(OptionalNumber, balance_error, "largest balance error", "J",
          "largest change of the sum of all energies, losses and works");
-  COLUMN(OptionalNumber, relative_balance_error, "relative balance error", "1", "the same over the energy turned over");
+  COLUMN(OptionalNumber, relative_balance_error, "relative balance error", "1",
+         "largest balance error over the energy turned over");
   COLUMN(bool, contact_inferred, "contact loss inferred", "1",
-         "1 where the engine does not tell what contact took, so that no balance is claimed");
+         "1 if the engine does not report the energy lost in contact, so that no balance is claimed");
   COLUMN(OptionalNumber, contact, "contact took", "J",
-         "what contact took as long as the truth is known, less what moving spheres gave; empty without a truth");
-  COLUMN(OptionalNumber, contact_in_truth, "contact takes in truth", "J", "the same of the truth");
-  COLUMN(OptionalNumber, contact_bar, "bar of contact in truth", "J", "error bar of that");
-  COLUMN(OptionalNumber, contact_until, "contact until", "s", "end of what these three add up");
+         "energy lost in contact while the truth is known, less the energy that moving spheres supplied; empty without "
+         "a truth");
+  COLUMN(OptionalNumber, contact_in_truth, "contact takes in truth", "J", "energy lost in contact in the truth");
+  COLUMN(OptionalNumber, contact_bar, "bar of contact in truth", "J", "error bar of the contact loss in the truth");
+  COLUMN(OptionalNumber, contact_until, "contact until", "s", "end of the period that these three columns cover");
 };
 
-/// Statistics of a scene with contact: of sixteen perturbed runs, or of one run in units of the spread of such runs.
+/// Statistics of a scene with contact: of sixteen perturbed runs, or of one run relative to the spread of such runs.
 struct StatisticRow {
   TABLE("SCENE-statistics");
   COLUMN(std::string, method, "method", "1", "method that was run");
-  COLUMN(std::string, quantity, "quantity", "1", "what the mean is of");
+  COLUMN(std::string, quantity, "quantity", "1", "averaged quantity");
   COLUMN(std::string, unit, "unit", "1", "unit of mean and deviation");
-  COLUMN(double, mean, "mean", "see unit", "mean over runs from perturbed starts, or of one run without a deviation");
+  COLUMN(double, mean, "mean", "see unit",
+         "mean over runs from perturbed starts, or the value of one run if no deviation");
   COLUMN(OptionalNumber, deviation, "deviation", "see unit", "standard deviation over these runs");
   COLUMN(OptionalNumber, apart, "apart", "1",
          "distance of the mean from that of mysim's perturbed runs, in their standard deviations");

@@ -1,1 +1,1 @@
-// No code: the headers that the rooms above mysim share are read once, for this target.
+// Contains no code: the headers that the rooms above mysim share are precompiled once, for this target.

@@ -1,4 +1,4 @@
-// The tables of experiment `matrix`: one answer of each engine to each question.
+// The tables of experiment `matrix`: the answer of each engine to each question.
 #pragma once
 
 #include <array>
@@ -41,13 +41,13 @@ inline constexpr std::pair range_of<EngineQuestion>{EngineQuestion::build, Engin
 template <bool timed>
 struct MatrixRow {
   TABLE(timed ? "matrix-cost" : "matrix");
-  COLUMN(std::string, method, "method", "1", "method that was asked");
-  COLUMN(EngineQuestion, question, "question", "1", "what was asked");
-  COLUMN(OptionalNumber, value, "value", "unit", "the answer where it is a number");
+  COLUMN(std::string, method, "method", "1", "method that the answer is for");
+  COLUMN(EngineQuestion, question, "question", "1", "question");
+  COLUMN(OptionalNumber, value, "value", "unit", "the answer, if it is a number");
   COLUMN(OptionalNumber, bar, "bar", "unit", "error bar of the value");
   COLUMN(std::string, unit, "unit", "1", "unit of value and bar");
-  COLUMN(std::string, tier, "tier", "1", "what the answer is compared with");
-  COLUMN(std::string, words, "words", "1", "the answer in words, or why there is none");
+  COLUMN(std::string, tier, "tier", "1", "reference that the answer is compared with");
+  COLUMN(std::string, words, "words", "1", "the answer in words, or the reason if there is none");
 };
 
 }  // namespace crosscheck

@@ -1,4 +1,4 @@
-// CSV, written and read; rows that are structs.
+// Writes and reads CSV; converts rows to structs and back.
 #include "experiments/tables/table.h"
 
 #include <fmt/format.h>
@@ -24,7 +24,7 @@ std::string text_of(const Cell& cell) {
   return "";
 }
 
-/// Line feeds would end the comment, and make a row of what follows.
+/// Escapes line feeds, which would end the comment line and turn the rest of the value into a row.
 std::string in_one_line(const std::string& value) {
   std::string out;
   for (const char c : value) out += c == '\n' ? "\\n" : c == '\r' ? "\\r" : std::string(1, c);
@@ -70,7 +70,7 @@ void write_csv(const Table& table, const Provenance& provenance, const std::file
 
 namespace {
 
-/// One record after the other.
+/// Reads CSV text record by record.
 class Reader {
  public:
   Reader(std::string text, std::filesystem::path file) : text_(std::move(text)), file_(std::move(file)) {}
@@ -164,7 +164,7 @@ std::vector<Cell> cells_of(std::span<const TypedColumn> typed, const void* row) 
 
 namespace {
 
-/// Does it with each column and its place; what is thrown names both.
+/// Calls `work` for each column with its index; exceptions get the names of the table and column.
 template <class Do>
 void with_each(std::span<const TypedColumn> typed, const Table& table, const Do& work) {
   for (size_t i = 0; i < typed.size(); ++i) try {

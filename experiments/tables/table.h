@@ -1,4 +1,4 @@
-// Tables: columns with units, rows of cells, read and written as CSV with their provenance.
+// Tables: columns with units, and rows of cells; reading and writing as CSV with provenance.
 #pragma once
 
 #include <algorithm>
@@ -28,33 +28,33 @@ struct Table {
   std::vector<Column> columns;
   std::vector<std::vector<Cell>> rows;
 
-  void add(std::vector<Cell> row);            // throws std::logic_error where it has not as many cells as columns
+  void add(std::vector<Cell> row);  // throws std::logic_error unless it has as many cells as there are columns
   int column(const std::string& name) const;  // throws std::out_of_range with the name
   const Cell& at(size_t row, const std::string& column) const { return rows[row][this->column(column)]; }
 };
 
-/// Text of a number: 17 significant digits, so that it reads back to the same bits.
+/// Text of a number with 17 significant digits, which reads back to the same bits.
 std::string exact_text(double value);
 
-/// A row of it, without the line feed.
+/// A row of the CSV text, without the line feed.
 std::string csv_row(const std::vector<Cell>& row);
 
-/// RFC 4180: comma, LF, quotes where needed; one header row "name [unit]".
+/// CSV text as in RFC 4180: comma, LF, quotes where needed; one header row "name [unit]".
 std::string csv(const Table& table, const Provenance& provenance);
 void write_csv(const Table& table, const Provenance& provenance, const std::filesystem::path& folder);
 
-// Look-ups of a table's cells, for charts, sentences and conclusions.
+// Look-ups of cells, for charts, sentences and conclusions.
 
-/// Throws std::bad_variant_access where it is no text.
+/// Throws std::bad_variant_access if the cell is not text.
 inline const std::string& text_at(const Table& table, size_t row, const std::string& column) {
   return std::get<std::string>(table.at(row, column));
 }
-/// The text, or "" where the cell is empty.
+/// The text, or "" if the cell is empty.
 inline std::string text_or_none(const Table& table, size_t row, const std::string& column) {
   const auto* text = std::get_if<std::string>(&table.at(row, column));
   return text ? *text : "";
 }
-/// Whole numbers too; nothing where the cell is empty or text.
+/// The number, whole or not; nothing if the cell is empty or text.
 inline std::optional<double> number_at(const Table& table, size_t row, const std::string& column) {
   const Cell& cell = table.at(row, column);
   if (const auto* number = std::get_if<double>(&cell)) return *number;
@@ -64,12 +64,12 @@ inline std::optional<double> number_at(const Table& table, size_t row, const std
 inline double number_at(const Table& table, size_t row, const std::string& column, double otherwise) {
   return number_at(table, row, column).value_or(otherwise);
 }
-/// False where the cell is empty.
+/// False if the cell is empty.
 inline bool flag_at(const Table& table, size_t row, const std::string& column) {
   const auto* flag = std::get_if<long>(&table.at(row, column));
   return flag && *flag != 0;
 }
-/// The texts of a column, each once, in the order in which they come first.
+/// The distinct texts of a column, in order of first appearance.
 inline std::vector<std::string> distinct(const Table& table, const std::string& column) {
   std::vector<std::string> all;
   for (size_t i = 0; i < table.rows.size(); ++i)
@@ -80,9 +80,9 @@ inline std::vector<std::string> distinct(const Table& table, const std::string& 
 
 // Tables read back from their files.
 
-/// A table as write_csv left it, its provenance left aside. A cell that reads as a whole number is one, other numbers
-/// are doubles; in columns that hold any other text, or nothing,
-/// all cells are text. Throws InputError: "FILE:LINE: expected ...".
+/// Reads a table that write_csv() wrote, without its provenance. Cells that read as whole numbers are long, other
+/// numbers are double. In a column that holds any other text, or nothing at all, all cells are text. Throws InputError:
+/// "FILE:LINE: expected ...".
 Table read_csv(const std::filesystem::path& file);
 
 }  // namespace crosscheck
