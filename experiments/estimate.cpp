@@ -1,4 +1,4 @@
-// Estimates of time, memory and disk, and the progress of runs.
+// Estimates of time, memory and disk; progress of runs.
 #include "experiments/estimate.h"
 
 #include <fmt/format.h>
@@ -18,7 +18,7 @@
 namespace crosscheck {
 namespace {
 
-/// One evaluation, s.
+/// CPU time of one evaluation, s.
 double seconds_of_evaluation(const Method& method, const Scene& scene) {
   const auto* springs = scene.model.find<Springs>();
   const auto* bending = scene.model.find<Bending>();
@@ -32,8 +32,8 @@ double seconds_of_evaluation(const Method& method, const Scene& scene) {
 
 double estimated_seconds(const Method& method, const Scene& scene, const Run& run) {
   double evaluations = 1;  // per step
-  // conjugate gradients, measured on cloth-hang at steps of 0.5 to 17 ms: mysim's, with the multigrid of cloth grids,
-  // and Bullet's; mysim's without it on jelly at 1 to 7 ms
+  // conjugate gradients, measured on cloth-hang at steps of 0.5 to 17 ms: mysim with the multigrid of cloth grids, and
+  // Bullet; mysim without multigrid on jelly at 1 to 7 ms
   const double longer = time_grid(run).h / scene.step;
   if (const Stepper* rule = stepper_of(method))
     evaluations = rule->evaluations > 0  ? rule->evaluations
@@ -57,7 +57,7 @@ double estimated_seconds(const Method& method, const Scene& scene, long steps) {
 
 namespace {
 
-/// Beyond any use: three hours at the ten nanoseconds that the cheapest step of one particle takes.
+/// Exceeds any practical use: three hours at 10 ns, the cost of the cheapest step of one particle.
 constexpr double most_steps = 1e12;
 
 double springs_and_constraints_in(const Scene& scene) {
@@ -93,7 +93,7 @@ void require_memory_for(const Scene& scene, const std::string& what, double byte
 ResourceEstimate resource_estimate_of(const Method& method, const Scene& scene, const Run& run) {
   const double particles = static_cast<double>(scene.start.x.cols()), springs = springs_and_constraints_in(scene);
   ResourceEstimate estimate{};
-  // as time_grid() does, without its refusal
+  // as in time_grid(), without its refusal
   const double interval = run.duration / run.samples;
   estimate.steps = run.samples * std::max(1., std::ceil(interval / run.step * (1 - 1e-9)));
   estimate.seconds =
@@ -116,7 +116,7 @@ Run with_duration(const Method& method, const Scene& scene, Run run, double dura
   longer.duration = duration;
   if (samples > most_samples) {
     const double interval = scene.duration / scene.samples;
-    longer.samples = 1, longer.duration = interval;  // what a single interval takes, so often
+    longer.samples = 1, longer.duration = interval;  // the estimate of one interval is multiplied
     const ResourceEstimate one = resource_estimate_of(method, scene, longer);
     const ResourceEstimate all{one.steps * samples, one.seconds * samples, one.memory, one.frames / 2 * samples};
     throw InputError(
@@ -157,7 +157,7 @@ void require_resources_to_keep(const std::vector<Method>& methods, const Scene& 
 
 namespace {
 
-/// Reports a run's progress at its samples and forwards all calls.
+/// Reports the progress of a run at its samples and forwards all calls.
 class ProgressObserver : public Observer {
  public:
   ProgressObserver(Observer& inner, double duration, Progress& progress)

@@ -1,4 +1,4 @@
-// The table of experiments; points, rows and requests.
+// The table of experiments; the functions of points, table sets and requests.
 #include "experiments/experiment.h"
 
 #include <fmt/format.h>
@@ -62,17 +62,17 @@ std::string content_of(const Scene& scene) {
 }
 
 std::span<const Experiment> experiments() {
-  // undamped, so that what a rule itself takes is seen
+  // undamped, so that the numerical damping of a rule is visible
   static constexpr std::string_view long_runs[] = {"spring", "pendulum"};
-  // particles on balls: the cloths that show more are the experiment's own probes
+  // particles on balls; cloths, which show more, are probes of the experiment itself
   static constexpr std::string_view on_balls[] = {"slide", "bounce"};
-  // all but those that take longest: a cloth of hard lengths, and one on a ball
+  // all scenes but the slowest: a cloth of hard lengths, and one on a ball
   static constexpr std::string_view timed_scenes[] = {"circle",   "projectile", "spring",        "normal-modes",
                                                       "pendulum", "chain",      "chain-link",    "rod",
                                                       "slide",    "bounce",     "cloth-student", "cloth-hang"};
-  // of moving scenes from small to large; the last is the one that the other experiments use too
+  // moving scenes from small to large; the last is shared with the other experiments
   static constexpr std::string_view speed_charts[] = {"pendulum", "chain", "cloth-hang"};
-  // the hanging cloth, at rest on a coarse grid, shows once more how stiffness follows the grid
+  // includes the hanging cloth: its rest on a coarse grid is another example of how stiffness scales with the grid
   static constexpr std::string_view all_and_swing[] = {"circle",
                                                        "projectile",
                                                        "spring",
@@ -88,7 +88,7 @@ std::span<const Experiment> experiments() {
                                                        "cloth-inextensible",
                                                        "cloth-swing",
                                                        "cloth-sphere"};
-  // of which something can be left out, or several families of springs are worth seeing
+  // scenes with removable ingredients, or with several families of springs to compare
   static constexpr std::string_view cloths[] = {"cloth-student", "cloth-hang", "cloth-inextensible", "cloth-swing",
                                                 "cloth-sphere"};
   static constexpr std::string_view stability_scenes[] = {"spring", "normal-modes", "cloth-hang"};
@@ -96,7 +96,7 @@ std::span<const Experiment> experiments() {
       {"engines", "Do mysim and Bullet agree on the same scene, and at what cost?", engines_points},
       {"speed-accuracy", "What error does each method have at which cost, and where does it fail?",
        speed_accuracy_points, timed_scenes, conclude_speed_accuracy, speed_charts},
-      // its longest points are longer than those of all others, and begin early in a report
+      // its longest points take longer than all others, and start early in a report
       {"adequacy", "How little model is enough for a scene?", adequacy_points, all_and_swing, conclude_adequacy,
        cloths},
       {"order", "How fast does the error fall when the step is made smaller?", order_points},
@@ -127,7 +127,7 @@ std::span<const Experiment> experiments() {
 }
 
 const Experiment* experiment_named(std::string_view name) {
-  if (name == "sphere") name = "contact";  // until it asked of planes, too
+  if (name == "sphere") name = "contact";  // former name, from before the experiment covered planes
   const auto all = experiments();
   const auto found = std::ranges::find(all, name, &Experiment::name);
   return found == all.end() ? nullptr : &*found;
@@ -198,7 +198,7 @@ MethodResult& result_of(const Request& request, const Scene& scene, const Method
   if (!scene.model.first_order()) observers.push_back(&ledger);
   Outcome out = run_method(method, scene, run, observers);
   crossings.note(out);
-  const bool unsupported = out.verdict == Verdict::unsupported;  // found out during the run, perhaps
+  const bool unsupported = out.verdict == Verdict::unsupported;  // possibly discovered during the run
   if (unsupported) recorder.trajectory = {};
   return results.emplace_back(MethodResult{scene.name, method.name, std::move(out), std::move(recorder.trajectory),
                                            unsupported ? std::vector<LedgerRow>() : ledger.rows(),

@@ -1,4 +1,4 @@
-// Rest by dynamic relaxation, and measures from runs that are looked at in every step.
+// Rest by dynamic relaxation, and measures from runs that are observed at every step.
 #include "experiments/measures.h"
 
 #include <algorithm>
@@ -34,11 +34,10 @@ std::optional<State> rest_of(const Scene& scene) {
   Points a(3, s.x.cols());
   const double omega = highest_frequency(model, s);
   if (!(omega > 0)) return std::nullopt;
-  // 2 / omega is the limit at the start; a spring that stretches across the load only slows
+  // 2 / omega is the stability limit at the start; stretching across the load only lowers a spring's frequency
   double h = 0.8 / omega, before = 0, scale = 0;
   constexpr int most_steps = 100000, check = 50;
-  // what rounding leaves where the scene starts at rest: the forces cancel to some ulps of what springs over the
-  // scene's size could do
+  // rounding error at rest: the forces cancel to a few ulps of the force of springs stretched over the scene's size
   const double rounding = 1e-13 * omega * omega * scene.size();
   for (int i = 0; i < most_steps; ++i) {
     system.acceleration(s, a);
@@ -79,10 +78,10 @@ class StepObserver : public Observer {
   std::function<void(const State&)> look_;
 };
 
-/// Observes every step of a run of this duration (s); false when it failed.
+/// Observes every step of a run of this duration (s); returns false if it failed.
 using MeasuringRun = std::function<bool(double duration, const std::function<void(const State&)>& look)>;
 
-/// A run of leapfrog, or of xpbd beside hard distances, at a step of h_omega over the fastest frequency.
+/// A run of leapfrog, or of xpbd for hard distances, at a step of h_omega over the highest frequency.
 MeasuringRun run_at(const Scene& scene, double h_omega) {
   return [&scene, h_omega](double duration, const std::function<void(const State&)>& look) {
     const bool hard = scene.model.find<Constraints>() != nullptr;
@@ -100,20 +99,20 @@ MeasuringRun own_run(const Scene& scene) {
   return [&scene](double duration, const std::function<void(const State&)>& look) {
     Run run = default_run(scene);
     run.step = time_grid(run).h;
-    run.duration = std::ceil(duration / run.step) * run.step, run.samples = 1;  // keeps the step as it is
+    run.duration = std::ceil(duration / run.step) * run.step, run.samples = 1;  // keeps the step unchanged
     StepObserver observer(look);
     return run_method(find_method(scene.method), scene, run, {&observer}).verdict == Verdict::ok;
   };
 }
 
-/// Measures by the runs that `by` names. The extrapolation is that of an error of order 2, or of order 1 for xpbd.
+/// Measures by the runs that `by` names. Extrapolates an error of order 2, or of order 1 for xpbd.
 template <class Measure>
 std::optional<double> measured(const Scene& scene, MeasuredBy by, Measure measure) {
   if (by == MeasuredBy::own_method) return measure(own_run(scene));
   if (by == MeasuredBy::one_run) return measure(run_at(scene, 0.5));
   const double gain = scene.model.find<Constraints>() ? 1 : 1. / 3;
   std::optional<double> value, better;
-  constexpr int most_halvings = 5;  // the fastest vibration then errs by 1e-5, every slower one by less
+  constexpr int most_halvings = 5;  // the error of the fastest vibration is then 1e-5, and less for slower ones
   for (int i = 0; i <= most_halvings; ++i) {
     const auto finer = measure(run_at(scene, std::ldexp(0.5, -i)));
     if (!finer) return std::nullopt;

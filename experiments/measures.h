@@ -1,4 +1,4 @@
-// Plain measures of a scene: its state of rest, sag, period, settling time and largest stretch.
+// Measures of a scene: its state of rest, sag, period, settling time and largest stretch.
 #pragma once
 
 #include <optional>
@@ -8,38 +8,37 @@
 
 namespace crosscheck {
 
-/// The state of rest under gravity, springs and steady winds, pins where they stand at the start: found by dynamic
-/// relaxation with kinetic damping (all velocities are set to zero at each peak of the kinetic energy; drag is left
-/// out, as it does not move the rest), until the RMS acceleration of the free particles is 1e-5 of what moves them.
-/// Nothing where there is no rest to find: first-order scenes, hard distances, spheres, gusts, moving pins, nothing
-/// pinned, or no rest within a hundred thousand steps.
+/// The state of rest under gravity, springs and steady winds, with the pins in their initial places. Uses dynamic
+/// relaxation with kinetic damping: all velocities are set to zero at each peak of the kinetic energy, until the RMS
+/// acceleration of the free particles is 1e-5 of its largest value. Drag is left out, because it does not affect the
+/// rest. Nothing if there is no rest to find: first-order scenes, hard distances, spheres, gusts, moving pins, no pins,
+/// or no rest within a hundred thousand steps.
 std::optional<State> rest_of(const Scene& scene);
 
-// Plain measures of a scene: what a [wish] is about.
+// Measures that a [wish] can prescribe.
 
-/// The runs from which a measure is taken.
+/// Runs that a measure is taken from.
 enum class MeasuredBy {
-  one_run,         // one run of leapfrog, to a few per cent
-  converged_runs,  // leapfrog at halved steps, extrapolated until the measure changes by less than 1e-4 of itself
-  own_method,      // the scene's method at its step, as `run` does
+  one_run,         // one run of leapfrog, accurate to a few per cent
+  converged_runs,  // leapfrog at halved steps, extrapolated until the measure changes by less than a factor of 1e-4
+  own_method,      // the scene's method at its step, as in `crosscheck run`
 };
 
-/// m: how far the particle that sank most hangs below its place at the start, along gravity, when the scene has come
-/// to rest (measures.h). Nothing where there is no such rest.
+/// Largest displacement of a particle along gravity between the start and the state of rest, m. Nothing if there is no
+/// such rest (see rest_of()).
 std::optional<double> sag_of(const Scene& scene);
 
-/// s: period of the slowest visible oscillation of the centre of mass of the free particles: twice the mean time
-/// between turning points of its path, seen along the direction in which it moves most; a turning point counts when
-/// the path turns back by a tenth of its whole range or more. Nothing where fewer than three are seen in 72 times
-/// `about` (s), the period that is expected.
+/// Period of the slowest visible oscillation of the centre of mass of the free particles, s: twice the mean time
+/// between turning points of its path, projected on the direction of largest motion. A turning point counts if the path
+/// turns back by at least a tenth of its whole range. Nothing if there are fewer than three turning points in 72 times
+/// `about` (s), the expected period.
 std::optional<double> period_of(const Scene& scene, double about, MeasuredBy by = MeasuredBy::converged_runs);
 
-/// s: when the mechanical energy above that at rest (kinetic, elastic and gravitational) has fallen to a thousandth of
-/// its largest value for good; beyond 1.5 times `about` (s) as an exponential decay from there on would. Nothing
-/// without a rest.
+/// Time after which the mechanical energy above that at rest (kinetic, elastic and gravitational) stays below a
+/// thousandth of its largest value, s. Extrapolated exponentially beyond 1.5 times `about` (s). Nothing without a rest.
 std::optional<double> settle_time_of(const Scene& scene, double about, MeasuredBy by = MeasuredBy::converged_runs);
 
-/// 1: the largest strain (L - r) / r of any spring in the scene's duration. Nothing without springs of a rest length.
+/// Largest strain (L - r) / r of any spring during the scene, 1. Nothing if no spring has a rest length.
 std::optional<double> max_stretch_of(const Scene& scene, MeasuredBy by = MeasuredBy::converged_runs);
 
 }  // namespace crosscheck

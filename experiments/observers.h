@@ -1,4 +1,4 @@
-// Observers that experiments add to runs: the last frames of a run, and a limit of its CPU time.
+// Observers that experiments add to runs: the last frames of a run, and a limit on its CPU time.
 #pragma once
 
 #include <algorithm>
@@ -11,10 +11,10 @@
 
 namespace crosscheck {
 
-// The last moments of a run, as close together as its fastest vibration needs.
+// The last moments of a run, with frames as close together as its fastest vibration requires.
 
-/// Keeps the last 25 pictures of a run whatever its length: eight to a period of the vibration omega (rad/s), or every
-/// step where steps are longer than that, or nothing vibrates. So nothing that is shown looks slower than it was.
+/// Keeps the last 25 frames of a run, whatever its length: eight per period of the vibration omega (rad/s), or every
+/// step if steps are longer than that or nothing vibrates. Thus no motion appears slower than it was.
 class LastFrames : public Observer {
  public:
   LastFrames(double omega, double h)
@@ -37,10 +37,9 @@ class LastFrames : public Observer {
   std::deque<State> kept_;
 };
 
-// Runs that must come to an end.
+// A limit on the CPU time of runs.
 
-/// Ends a run that takes many times what it should: an adaptive rule in a motion that explodes takes ever shorter
-/// steps.
+/// Ends a run that takes much longer than it should. An adaptive rule takes ever shorter steps in an exploding motion.
 class TimeoutObserver : public Observer {
  public:
   explicit TimeoutObserver(double seconds)

@@ -1,4 +1,4 @@
-// Turning points, and the period that they make.
+// Turning points of a path, and the period that follows from them.
 #include "experiments/period.h"
 
 #include <algorithm>
@@ -8,7 +8,8 @@
 namespace crosscheck {
 namespace {
 
-/// Times of the turning points of y(t), those that turn back by `least` or more, to the vertex of a parabola.
+/// Times of the turning points of y(t) that turn back by `least` or more, at the vertex of a parabola through three
+/// points.
 std::vector<double> turning_points(const std::vector<double>& t, const std::vector<double>& y, double least) {
   std::vector<double> out;
   size_t extreme = 0;
@@ -28,7 +29,7 @@ std::vector<double> turning_points(const std::vector<double>& t, const std::vect
     } else if (going * (y[extreme] - y[i]) >= least) {
       const size_t e = extreme;
       const double left = y[e] - y[e - 1], right = y[e + 1] - y[e];
-      // equal steps: the vertex lies within half of one
+      // equal steps: the vertex lies within half a step
       const double shift = left == right ? 0 : 0.5 * (left + right) / (left - right);
       out.push_back(t[e] + std::clamp(shift, -0.5, 0.5) * (t[e + 1] - t[e]));
       going = -going;

@@ -1,4 +1,4 @@
-// The period of a path, by its turning points.
+// Period of a path, from its turning points.
 #pragma once
 
 #include <optional>
@@ -8,9 +8,9 @@
 
 namespace crosscheck {
 
-/// s: twice the mean time between turning points of a path (m, at equally spaced times t, s), seen along the direction
-/// in which it moves most; a turning point counts when the path turns back by a tenth of its whole range or more.
-/// Nothing where fewer than three are seen.
+/// Twice the mean time between turning points of a path (m, at equally spaced times t, s), projected on the direction
+/// of largest motion, s. A turning point counts if the path turns back by at least a tenth of its whole range. Nothing
+/// if there are fewer than three.
 std::optional<double> period_of_path(const std::vector<double>& t, const std::vector<Vec3>& path);
 
 }  // namespace crosscheck

@@ -15,13 +15,13 @@
 namespace crosscheck {
 namespace {
 
-/// The cheapest rule that takes the scene as it is and has an order that shows.
+/// The cheapest rule that supports the scene without changes and has an observable order.
 std::string rule_for(const Scene& scene) {
   if (scene.model.find<Constraints>()) return "mysim/xpbd";
   return scene.model.first_order() ? "mysim/rk4" : "mysim/leapfrog";
 }
 
-/// The run up to `until`, at the scene's own samples.
+/// The run up to `until`, with the scene's own sampling interval.
 Run run_until(const Scene& scene, double until, double step) {
   Run run = default_run(scene);
   const double interval = scene.duration / scene.samples;
@@ -47,7 +47,7 @@ std::string name_without(const std::vector<std::string>& out) {
 std::optional<double> model_error(const Scene& model, const ReferenceSolution& y, const Trajectory& truth,
                                   Outcome& outcome) {
   Recorder recorder;
-  if (model.start.v.cols() == 0 && !model.model.first_order()) {  // of x' = f nothing is left: it stays where it is
+  if (model.start.v.cols() == 0 && !model.model.first_order()) {  // x' = f without its only term: nothing moves
     outcome = {};
     double largest = 0;
     for (int i = 0; i < truth.frames() && truth.t[i] <= y.run.duration * (1 + 1e-9); ++i)

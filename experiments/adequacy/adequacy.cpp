@@ -1,5 +1,5 @@
-// Experiment `adequacy`: ablations of each scene's model, the least model within its tolerance, and how cloth depends
-// on its grid.
+// Experiment `adequacy`: ablations of each scene's model, the smallest model within its tolerance, and the grid
+// dependence of cloth.
 
 #include <fmt/ranges.h>
 
@@ -19,7 +19,7 @@ namespace {
 
 constexpr unsigned unseen_starts = 3;
 
-/// RMS speed of the particles, its largest value over the run, m/s.
+/// Largest RMS speed of the particles over the run, m/s.
 double largest_speed(const Trajectory& t) {
   double largest = 0;
   for (const Points& v : t.v)
@@ -27,7 +27,7 @@ double largest_speed(const Trajectory& t) {
   return largest;
 }
 
-/// The scene without the ingredients of that name, in their order.
+/// The scene without the named ingredients, removed in this order.
 Scene without_all(Scene scene, const std::vector<std::string>& names) {
   for (const std::string& name : names)
     for (const Ingredient& i : ingredients_of(scene))
@@ -38,8 +38,8 @@ Scene without_all(Scene scene, const std::vector<std::string>& names) {
   return scene;
 }
 
-/// What the least model errs by on another start, against the full model by the same rule and step. Where nothing can
-/// be left out: the least error of leaving anything out. Empty where the full model itself fails.
+/// Error of the smallest model from another start, compared with the full model by the same rule and step, m. If
+/// nothing can be left out: the smallest error of any removal. Empty if the full model itself fails.
 std::optional<double> unseen_error(const Scene& scene, const ReferenceSolution& y,
                                    const std::vector<std::string>& out) {
   Recorder full;
@@ -50,7 +50,7 @@ std::optional<double> unseen_error(const Scene& scene, const ReferenceSolution& 
   for (const Ingredient& i : ingredients_of(scene))
     if (const auto e = model_error(without(scene, i), y, full.trajectory, ignored))
       least = std::min(*e, least.value_or(*e));
-  return least.value_or(INFINITY);  // no model but the full one runs
+  return least.value_or(INFINITY);  // every removal fails
 }
 
 std::string truth_text(const Truth& truth) {
@@ -89,7 +89,7 @@ void ablations_on(const Request&, const Scene& scene, TableSet& tables) {
     const std::pair<double, ToleranceKind> tolerances[] = {{scene.tolerance, ToleranceKind::of_scene},
                                                            {0.01 * motion, ToleranceKind::hundredth_of_motion},
                                                            {0.1 * motion, ToleranceKind::tenth_of_motion}};
-    std::map<std::vector<std::string>, std::vector<std::optional<double>>> unseen;  // by what is left out
+    std::map<std::vector<std::string>, std::vector<std::optional<double>>> unseen;  // by ingredients left out
     for (const auto& [tolerance, what] : tolerances) {
       const AblatedModel& l = least_model(models, tolerance);
       LeastModelRow row{.scene = scene.name,
@@ -148,7 +148,7 @@ void bending_on(const Request& request, TableSet& tables) {
 }  // namespace
 
 std::vector<Point> adequacy_points(const Request& request) {
-  std::vector<Point> points;  // the longest first: side by side, none is left that others must wait for
+  std::vector<Point> points;  // the longest first, so that none is left at the end for the others to wait for
   for (const Scene& scene : request.scenes) {
     if (!cloth_grid_of(scene) || has_contact(scene.model)) continue;
     Request alone = request;

@@ -15,7 +15,7 @@ namespace {
 
 constexpr int material_points = 17;  // along each side: twice as fine as the coarsest grid
 
-/// The scene as it can come to rest: only springs, gravity and pins that stand still.
+/// The scene reduced to what can come to rest: springs, gravity and fixed pins.
 Scene for_rest(Scene scene) {
   std::erase_if(scene.model.terms, [](const Term& t) {
     return std::holds_alternative<Wind>(t) || std::holds_alternative<Aerodynamics>(t) ||
@@ -25,8 +25,8 @@ Scene for_rest(Scene scene) {
   return scene;
 }
 
-/// How far the lowest point hangs below the highest, along gravity, m. The scene's start becomes its rest, from where
-/// another rest of much the same cloth is near.
+/// Height of the highest point above the lowest at rest, along gravity, m. Also moves the scene's start to this rest,
+/// which is near the rest of cloths with similar stiffness.
 std::optional<double> settle_and_sag(Scene& scene) {
   const auto* gravity = scene.model.find<Gravity>();
   if (!gravity || gravity->acceleration.isZero(0)) return std::nullopt;
@@ -37,7 +37,7 @@ std::optional<double> settle_and_sag(Scene& scene) {
   return depth.maxCoeff() - depth.minCoeff();
 }
 
-/// The factor at which the scene sags as wished, by the secant rule in its logarithm: sag is nearly linear in 1 / k.
+/// The stiffness factor that gives the wished sag, by the secant method in 1 / k, in which the sag is nearly linear.
 std::optional<double> factor_for(const Scene& at_rest, double wished, double sag_at_1) {
   double a = 1, of_a = sag_at_1, b = 1.1;
   for (int i = 0; i < 12; ++i) {
@@ -49,7 +49,7 @@ std::optional<double> factor_for(const Scene& at_rest, double wished, double sag
     if (!(inverse > 0) || !std::isfinite(inverse)) return std::nullopt;
     a = b, of_a = *of_b;
     b = std::clamp(1 / inverse, b / 2, b * 2);
-    if (std::abs(b / a - 1) < 2e-3) return b;  // the exponent's standard error is larger
+    if (std::abs(b / a - 1) < 2e-3) return b;  // below the standard error of the exponent
   }
   return std::nullopt;
 }
@@ -112,13 +112,13 @@ std::vector<BendSprings> bending_stiffness(const std::vector<int>& sizes) {
     for (int i = 0; i < n; ++i)
       text += fmt::format("[[particle]]\nposition = [{}, 0, 0]\nmass = {}\n", (i - 0.5) * d,
                           (i == n - 1 ? 0.05 : 0.1) * d * d);
-    // ten times the bend springs at every n: what it still gives is then the same part everywhere
+    // ten times the bend springs at every n, so that the extension is the same fraction on every grid
     for (int i = 0; i + 1 < n; ++i)
       text += fmt::format("[[spring]]\nends = [{}, {}]\nstiffness = {}\n", i, i + 1, 10 * bend);
     for (int i = 0; i + 2 < n; ++i)
       text += fmt::format("[[spring]]\nends = [{}, {}]\nstiffness = {}\n", i, i + 2, bend);
     Scene scene = parse_scene(text, "bending");
-    // off the unstable flat: bend springs give no force against the first turn
+    // starts away from the flat state, which is unstable: bend springs do not resist the first turn
     for (int i = 2; i < n; ++i) scene.start.x(1, i) -= 0.1 * (i - 1) * (i - 1) * d * d;
     return scene;
   };
@@ -129,12 +129,12 @@ std::vector<BendSprings> bending_stiffness(const std::vector<int>& sizes) {
   std::vector<BendSprings> list;
   for (const int n : sizes) {
     if (list.empty()) {
-      constexpr double first = 40;  // N/m: droops by some tenths of its length
+      constexpr double first = 40;  // N/m: the droop is some tenths of the length
       if (const auto d = droop(n, first)) list.push_back({n, n - 1.5, first, *d});
       if (list.empty()) return list;
       continue;
     }
-    // bisection in the logarithm: a stiffer line droops less
+    // bisection in the logarithm: stiffer lines droop less
     const BendSprings& last = list.back();
     double low = last.stiffness, high = last.stiffness * std::pow(double(n - 1) / (last.n - 1), 7);
     std::optional<double> d;

@@ -1,4 +1,4 @@
-// How a cloth depends on its grid: its motion and its rest at several resolutions.
+// Grid dependence of a cloth: its motion and its rest at several resolutions.
 #pragma once
 
 #include <optional>
@@ -12,34 +12,34 @@ namespace crosscheck {
 struct GridResult {
   int n;                         // particles along the longer side
   std::optional<double> error;   // m, largest RMS distance from the finest grid in the window, at 17 x 17 points
-  std::optional<double> sag;     // m, how far the lowest point hangs below the highest one at rest
-  std::optional<double> factor;  // 1, what all stiffnesses are to be multiplied by to sag as the finest grid does
+  std::optional<double> sag;     // m, height of the highest point above the lowest at rest
+  std::optional<double> factor;  // 1, factor of all stiffnesses that gives the sag of the finest grid
   Verdict verdict;
   long evaluations = 0, springs = 0;
 };
 
-/// The cloth at each resolution by leapfrog, ascending; the last is the finest. Rests are looked for where the scene,
-/// its pins standing still and its winds and drag left out, has one.
+/// Runs the cloth with leapfrog at each resolution, in ascending order; the last is the finest. Computes the rest if
+/// the scene has one, with its pins fixed and without winds and drag.
 std::vector<GridResult> grid_convergence(const Scene& scene, const std::vector<int>& sizes);
 
-/// y = a x^p by least squares in the logarithms: the exponent and its standard error. Nothing with fewer than three
+/// y = a x^p by least squares in the logarithms: the exponent and its standard error. Nothing for fewer than three
 /// points.
 struct PowerLaw {
   double exponent, deviation;
 };
 std::optional<PowerLaw> power_law(const std::vector<std::pair<double, double>>& points);
 
-/// How the stiffness k of bend (skip-one) springs must grow with the grid for a cloth to droop alike: one line of a
-/// cloth of 1 m and 0.1 kg, clamped flat at one end (two pinned particles, half a cell to either side of the clamp, so
-/// that the free length is the same on all grids), held flat by bend springs and kept from stretching by structural
-/// ones. Derived: with the lengths kept, a curvature
-/// kappa turns neighbouring cells of size d by d kappa, which shortens a bend spring over them by d^3 kappa^2 / 4; the
-/// energy of one line is k d^6 kappa^4 / 32 per particle, of the cloth k d^4 kappa^4 / 32 per area: for the same cloth
-/// k must grow as d^-4, as the fourth power of the number of cells.
+/// Scaling of the stiffness k of bend (skip-one) springs with the grid, for a cloth of the same droop. The model is one
+/// line of a cloth of 1 m and 0.1 kg, held flat by bend springs and kept from stretching by structural ones. It is
+/// clamped flat at one end by two pinned particles, half a cell to either side of the clamp, so that the free length is
+/// the same on all grids. Derivation: if lengths are preserved, a curvature kappa turns neighbouring cells of size d by
+/// d kappa, which shortens a bend spring over them by d^3 kappa^2 / 4. The energy of one line is k d^6 kappa^4 / 32 per
+/// particle, and that of the cloth is k d^4 kappa^4 / 32 per area. For the same cloth, k must grow as d^-4: the fourth
+/// power of the number of cells.
 struct BendSprings {
   int n;
   double cells;      // 1, in the free length: n - 3/2
-  double stiffness;  // N/m, of the bend springs, so that the free end droops as at the first n
+  double stiffness;  // N/m, of the bend springs, for the droop of the first n
   double droop;      // m
 };
 std::vector<BendSprings> bending_stiffness(const std::vector<int>& sizes);

@@ -1,4 +1,4 @@
-// The search over models and methods, the file of the run that is chosen, and the check of that.
+// The search over models and methods, the scene file of the chosen run, and the check of that file.
 #include "experiments/advise/advice.h"
 
 #include <fmt/ranges.h>
@@ -17,22 +17,22 @@ namespace crosscheck {
 
 namespace {
 
-/// The key time.tolerance (m) of a file for a relative tolerance, in 20 bits: a run of the file has a trial's, bit for
-/// bit.
+/// The key time.tolerance (m) of a file for a relative tolerance, rounded to 20 bits, so that a run of the file has
+/// exactly the tolerance of the trial.
 double written_tolerance(const Scene& scene, double relative) {
   int exponent = 0;
   const double part = std::frexp(100 * relative * scene.size(), &exponent);
   return std::ldexp(std::round(std::ldexp(part, 20)), exponent - 20);
 }
 
-/// A model of the scene, and what it leaves out.
+/// A model of the scene, and the ingredients that it leaves out.
 struct Candidate {
   std::string name;  // "full", or "without ..."
   Scene scene;
   std::vector<Ingredient> out;
 };
 
-/// The least model that a scene file can express and that leaves half of the tolerance.
+/// The smallest model that a scene file can express and whose error is at most half of the tolerance.
 std::optional<Candidate> least_of(const Scene& scene, double tolerance) {
   try {
     const ReferenceSolution y = reference_solution_of(scene, tolerance);
@@ -62,7 +62,7 @@ std::optional<Candidate> least_of(const Scene& scene, double tolerance) {
   }
 }
 
-/// The scene's file with what was chosen.
+/// The scene's file with the choices of the search.
 std::string file_of(const Advice& a, const Candidate& model, const Trial& chosen, const Method& method) {
   TomlDocument file(a.scene.source, a.scene.name);
   for (const Ingredient& i : model.out)
@@ -95,7 +95,7 @@ void caveats_of(Advice& a, const Trial& t) {
     a.caveats.push_back(fmt::format("the method follows another law: {}", fmt::join(t.outcome.different_law, "; ")));
 }
 
-/// The advice without its trials; throws CannotGuarantee where the truth allows none.
+/// The advice without its trials; throws CannotGuarantee if the truth does not permit one.
 Advice guarantee_of(const Scene& scene, double tolerance, const DenseTruth& path) {
   const Truth& truth = path.truth();
   Advice a{.scene = scene,
@@ -105,7 +105,7 @@ Advice guarantee_of(const Scene& scene, double tolerance, const DenseTruth& path
            .error_bar = path.error_bar(),
            .under_contact_rule = truth.under_contact_rule,
            .until = path.until()};
-  // a third: what is left for the run's own error is then at least twice the bar
+  // a third: the run's own error may then be at least twice the error bar
   if (!(a.error_bar <= tolerance / 3))
     throw CannotGuarantee(
         fmt::format("the truth is known to {:.2g} m only, and {:.2g} m is asked: ask for {:.2g} m or more", a.error_bar,
@@ -118,10 +118,10 @@ Advice guarantee_of(const Scene& scene, double tolerance, const DenseTruth& path
   return a;
 }
 
-/// The distance of a run from the truth, m, and its outcome.
+/// Runs a method and returns the outcome and the distance from the truth, m.
 using Measured = std::function<std::pair<Outcome, double>(const Method&, const Scene&, const Setting&)>;
 
-/// Distances at the samples, as a report has them.
+/// Distances at the samples, as in a report.
 Measured at_samples(const Truth& truth, double until) {
   return [&truth, until](const Method& method, const Scene& scene, const Setting& setting) {
     Recorder recorder;
@@ -140,7 +140,7 @@ Measured after_steps(const DenseTruth& path) {
   };
 }
 
-/// Tries all methods on all models, and chooses; throws CannotGuarantee where none meets the tolerance.
+/// Tries all methods on all models, and chooses; throws CannotGuarantee if none meets the tolerance.
 void search(Advice& a, const std::vector<Candidate>& models, const std::vector<Method>& methods, double bound,
             const Measured& measured) {
   a.trials.clear();
@@ -165,7 +165,7 @@ void search(Advice& a, const std::vector<Candidate>& models, const std::vector<M
       return TriedRun{.verdict = done.outcome.verdict, .error = done.error, .cost = done.cost()};
     };
     StepSearch search(model.scene, default_run(model.scene), bound, trial, runs, 4,
-                      model.name);  // four times the best: dearer methods are no alternative
+                      model.name);  // 4: stops at four times the best cost, beyond which no method is an alternative
     search.search(methods);
   }
   for (size_t i = 0; i < runs.size(); ++i) {
@@ -182,12 +182,12 @@ void search(Advice& a, const std::vector<Candidate>& models, const std::vector<M
   a.chosen = chosen->run, a.tied = chosen->tied, a.second = chosen->second, a.bound = chosen->bound;
   a.of_full.reset();
   if (a.trials[a.chosen].model == "full") return;
-  std::erase_if(runs, [](const TriedRun& run) { return run.model != "full"; });  // the last ones
+  std::erase_if(runs, [](const TriedRun& run) { return run.model != "full"; });  // keeps the last ones
   if (const auto full = recommend(runs, bound)) a.of_full = a.trials.size() - runs.size() + full->run;
 }
 
-/// Writes the scene file of the chosen run, and runs it as `crosscheck run` does, its error looked for after every
-/// step. Returns false where that is beyond the tolerance.
+/// Writes the scene file of the chosen run, and runs it as `crosscheck run` does, with its error observed after every
+/// step. Returns false if this error exceeds the tolerance.
 bool written_and_checked(Advice& a, const std::vector<Candidate>& models, const DenseTruth& path) {
   const Trial& chosen = a.trials[a.chosen];
   const Candidate& model = *std::ranges::find(models, chosen.model, &Candidate::name);
@@ -221,10 +221,10 @@ Advice advise(const Scene& scene, double tolerance, std::vector<Method> methods)
   Advice a = guarantee_of(scene, tolerance, path);
   std::vector<Candidate> models{{"full", scene, {}}};
   if (auto least = least_of(path.dense(), tolerance)) {
-    least->scene.samples = scene.samples;  // what is tried is run as its file will be
+    least->scene.samples = scene.samples;  // trials run as the written file will
     models.insert(models.begin(), std::move(*least));
   }
-  // samples that are too far apart show a truth less well than dense ones
+  // widely spaced samples give a larger error bar of the truth than dense ones
   const auto sampled = truth_of(scene, default_run(scene));
   bool kept = false;
   if (sampled && sampled->error_bar < tolerance) try {

@@ -1,4 +1,4 @@
-// Places of the truth, and what lies between them.
+// Samples of the truth, and interpolation between them.
 #include "experiments/advise/dense_truth.h"
 
 #include <fmt/format.h>
@@ -15,7 +15,7 @@ namespace {
 
 constexpr double turn = 2 * std::numbers::pi;
 constexpr double samples_per_period = 8;
-constexpr double most_numbers = 6e7;  // samples times coordinates: both routes of a converged truth then take 2 GB
+constexpr double most_numbers = 6e7;  // samples times coordinates, for which both routes of a converged truth take 2 GB
 
 double fastest_gust(const WindSignal& wind_signal) {
   double omega = 0;
@@ -25,7 +25,7 @@ double fastest_gust(const WindSignal& wind_signal) {
   return omega;
 }
 
-/// s, from one sample to the next: the motion of a scene without vibrations is resolved by its own step.
+/// Spacing of samples, s. A scene without vibrations is resolved by its own step.
 double first_spacing(const Scene& scene) {
   const double interval = scene.duration / scene.samples, omega = fastest_motion(scene);
   const bool resolved_by_step = scene.model.first_order() || scene.model.find<Constraints>();
@@ -33,8 +33,8 @@ double first_spacing(const Scene& scene) {
   return omega > 0 ? std::min(own, turn / omega / samples_per_period) : own;
 }
 
-/// Samples of the dense scene for each of the scene, at that spacing; throws CannotGuarantee where memory would not
-/// hold them.
+/// Number of dense samples for each sample of the scene, at that spacing; throws CannotGuarantee if they would not fit
+/// in memory.
 int samples_at(const Scene& scene, double spacing) {
   const double samples = std::ceil(scene.duration / scene.samples / spacing * (1 - 1e-9));
   const double all = samples * scene.samples * static_cast<double>(scene.start.x.size());
@@ -77,7 +77,7 @@ DenseTruth::DenseTruth(const Scene& scene, double tolerance) : dense_(scene), ex
     const double lost = interpolation_error();
     bar_ += lost;
     if (lost <= tolerance / 30) break;
-    // beside a surface it falls as the square of the spacing where forces jump, as its fourth power elsewhere
+    // with contact the error falls as the square of the spacing where forces jump, otherwise as its fourth power
     if (has_contact(scene.model))
       for (double left = lost / 4; left > tolerance / 30 && i + 1 < most_doublings; left /= 4, ++i) spacing /= 2;
     if (i == most_doublings && bar_ <= tolerance / 3) break;  // as accurate as advice requires
@@ -85,7 +85,7 @@ DenseTruth::DenseTruth(const Scene& scene, double tolerance) : dense_(scene), ex
       throw CannotGuarantee(fmt::format(
           "between its samples the truth is known to {:.2g} m only, and {:.2g} m is asked", bar_, tolerance));
   }
-  // an eighth of a period holds 0.79 rad
+  // an eighth of a period is 0.79 rad
   const double omega = fastest_motion(scene);
   time_resolution_ = omega > 0 ? 1 / (16 * omega) : scene.duration / dense_.samples / 8;
 }
@@ -106,7 +106,7 @@ void DenseTruth::measure() {
   }
 }
 
-/// The path of constant acceleration through a sample, at t, as if no surface were there.
+/// The path from a sample to time t with constant acceleration, ignoring surfaces.
 Points DenseTruth::free_path(int sample, double t) const {
   const Trajectory& path = truth_.trajectory;
   const double s = t - path.t[sample];
@@ -116,9 +116,9 @@ Points DenseTruth::free_path(int sample, double t) const {
   return state.x + s * state.v + s * s / 2 * a;
 }
 
-/// Cubic between two samples, with the velocities at both (Hermite); straight in a first-order scene, which has none.
-/// A particle that the free path takes into a solid in between follows that path up to there, and the one from the
-/// later sample after it: nothing is interpolated across an impact.
+/// Cubic between two samples with the velocities at both (Hermite); linear in a first-order scene, which has no
+/// velocities. A particle whose free path enters a solid in between follows that path up to the impact, and then the
+/// free path back from the later sample: nothing is interpolated across an impact.
 Points DenseTruth::interpolated(int from, int to, double t) const {
   const Trajectory& path = truth_.trajectory;
   const double span = path.t[to] - path.t[from], s = (t - path.t[from]) / span;
@@ -143,14 +143,14 @@ Points DenseTruth::interpolated(int from, int to, double t) const {
   return x;
 }
 
-/// True if a path leads from outside all solids, by more than the rounding of a place on them, to inside of one.
+/// True if a path leads from outside all solids, by more than rounding error, into one of them.
 bool DenseTruth::runs_in(double t, const Vec3& x, double t_end, const Vec3& end) const {
   const std::vector<Surface> surfaces = surfaces_of(dense_.model);
   return clearance_from(surfaces, t, x) > 1e-9 * dense_.size() && clearance_from(surfaces, t_end, end) < 0;
 }
 
-/// Twice the spacing leaves out 16 times as much of a smooth path, half of which is trusted. Beside a surface forces
-/// jump anywhere between two samples, and the middle shows as little as half of the error.
+/// Doubling the spacing multiplies the error of a smooth path by 16; a factor of 8 is assumed. With contact, forces can
+/// jump anywhere between two samples, and the midpoint may show only half of the error.
 double DenseTruth::interpolation_error() const {
   const Trajectory& path = truth_.trajectory;
   double most = 0;

@@ -1,4 +1,4 @@
-// The truth of a scene at any time, and how far a run comes from it: between the samples too.
+// The truth of a scene at any time, and the error of a run including the times between samples.
 #pragma once
 
 #include <optional>
@@ -10,27 +10,27 @@
 
 namespace crosscheck {
 
-/// Angular frequency of the fastest vibration that can carry motion in the scene, rad/s: of its springs at the start,
-/// of what leads its pins and spheres, of its gusts. 0 where nothing vibrates.
+/// Angular frequency of the fastest vibration in the scene, rad/s: of its springs at the start, of the prescribed
+/// motion of pins and spheres, and of gusts. 0 if nothing vibrates.
 double fastest_motion(const Scene& scene);
 
-/// The truth up to the end of what can be guaranteed, at any time. A closed form is evaluated at each time. Converged
-/// truth is sampled eight times in each period of the fastest motion, or more often, and interpolated between samples
-/// by cubics with the velocities at both ends, but not across impacts: samples are doubled until the interpolation
-/// error, estimated by leaving out every other sample, is below a thirtieth of `tolerance` (m).
+/// The truth at any time up to the end of the guarantee. A closed form is evaluated at each time. Converged truth is
+/// sampled at least eight times per period of the fastest motion. It is interpolated by cubics with the velocities at
+/// both samples, but not across impacts. The number of samples is doubled until the interpolation error, estimated by
+/// leaving out every other sample, is below a thirtieth of `tolerance` (m).
 class DenseTruth {
  public:
-  /// Throws CannotGuarantee where no truth is known, or the samples would be too many.
+  /// Throws CannotGuarantee if no truth is known, or if it would need too many samples.
   DenseTruth(const Scene& scene, double tolerance);
 
   const Truth& truth() const { return truth_; }
-  /// The scene with all these samples: what is measured in it sees the whole motion.
+  /// The scene with all these samples, so that measurements in it cover the whole motion.
   const Scene& dense() const { return dense_; }
   double until() const { return until_; }    // s
-  double error_bar() const { return bar_; }  // m, the truth's, with the interpolation error
-  double motion() const { return motion_; }  // m, the largest RMS distance from the start
-  /// s: within it the fastest motion turns by a sixteenth of a radian, and no error changes by more than 0.2 % of its
-  /// largest.
+  double error_bar() const { return bar_; }  // m, of the truth, including the interpolation error
+  double motion() const { return motion_; }  // m, largest RMS distance from the start
+  /// Time in which the phase of the fastest motion advances by a sixteenth of a radian, s. No error changes by more
+  /// than 0.2 % of its largest value in that time.
   double time_resolution() const { return time_resolution_; }
   Points at(double t) const;  // m, 3 x n; t in s, up to until()
 
@@ -48,13 +48,12 @@ class DenseTruth {
   double until_ = 0, bar_ = 0, motion_ = 0, time_resolution_ = 0;
 };
 
-/// The scene's own run, observed at the truth's time resolution: a method that chooses its steps is observed on the
-/// grid of the run's step, and takes the same steps whatever that is (beside a sphere it bounds them, and stays what it
-/// was).
+/// The scene's own run, observed at the time resolution of the truth. An adaptive method is observed on the grid of the
+/// run's step, which does not affect the steps it takes. With contact the grid limits its steps and is left as it is.
 Run observed_run(const Method& method, const Scene& scene, const DenseTruth& path);
 
-/// Observes every step of a run, and keeps the largest RMS distance from the truth. Steps closer to the one before than
-/// the truth's time resolution are passed over, samples never.
+/// Observes every step of a run and keeps the largest RMS distance from the truth. Skips steps that follow the previous
+/// one within the time resolution of the truth, but never samples.
 class MaxErrorObserver : public Observer {
  public:
   explicit MaxErrorObserver(const DenseTruth& path) : path_(path) {}

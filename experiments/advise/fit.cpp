@@ -1,4 +1,4 @@
-// From wishes to parameters.
+// Fits parameters to wishes.
 #include "experiments/advise/fit.h"
 
 #include <fmt/ranges.h>
@@ -19,8 +19,8 @@
 namespace crosscheck {
 namespace {
 
-/// The kinds of parameters that can be fitted, by the end of their path, with the range that is searched, in a unit of
-/// the scene: a mass (or 1) over a power of a time.
+/// The kinds of parameters that can be fitted, by the end of their path, with their search range. The range is in a
+/// unit of the scene: a mass (or 1) over a power of a time.
 struct Kind {
   std::string_view ending, name, unit;
   double low, high;
@@ -50,7 +50,7 @@ struct Objective {
   Measurement measure;
 };
 
-/// The desired behaviour of a scene in plain measures (experiments/measures.h): section [wish] of its file.
+/// The desired behaviour of a scene (experiments/measures.h): section [wish] of its file.
 struct Wish {
   std::optional<double> sag, period, settle_time;  // m, s, s
   std::optional<double> max_stretch;               // 1
@@ -105,7 +105,7 @@ class Fit {
       if (!kind)
         throw InputError(
             fmt::format("{}: {}: expected a value; only stiffness, mass, drag and dashpot can be fitted", name, path));
-      // isotropy lies between the families of springs: there each has a value of its own
+      // isotropy depends on the ratio between families of springs, so that each family needs a value of its own
       const std::string family = path.substr(path.rfind('.') + 1),
                         name_of_value = file_.has("wish.anisotropy") && kind->ending.starts_with("stiffness.")
                                             ? fmt::format("{} stiffness", family)
@@ -117,7 +117,7 @@ class Fit {
       }
       known->paths.push_back(path);
     }
-    // the wishes, read with values put in where there are none yet
+    // reads the wishes with provisional values in place of those to be fitted
     units_ = Eigen::VectorXd::Ones(size());
     Eigen::VectorXd middle = Eigen::VectorXd::Zero(size());
     set_units(scene_at(middle));
@@ -173,8 +173,8 @@ class Fit {
   }
   Scene scene_at(const Eigen::VectorXd& p) const { return parse_scene(file_at(p).text(), name_); }
 
-  /// The unit of each kind's range. A time is that of the wish, or of a fall over the scene's size, or the duration. A
-  /// mass is the mean of the particles', or where that is fitted a known stiffness times the time squared.
+  /// Sets the unit of each kind's range. The time is that of the wish, or of a fall over the scene's size, or the
+  /// duration. The mass is the mean over the particles; if masses are fitted, a known stiffness times the time squared.
   void set_units(const Scene& scene) {
     const auto* gravity = scene.model.find<Gravity>();
     const auto* springs = scene.model.find<Springs>();
@@ -193,7 +193,7 @@ class Fit {
     }
   }
 
-  /// log(measured / wished) of each wish; nothing where one cannot be measured.
+  /// log(measured / wished) of each wish; nothing if one of them cannot be measured.
   std::optional<Eigen::VectorXd> residual(const Eigen::VectorXd& p, MeasuredBy by) const {
     const Scene scene = scene_at(p);
     Eigen::VectorXd r(size());
@@ -205,8 +205,9 @@ class Fit {
     return r;
   }
 
-  /// The best of a grid of one value per decade, or per other decade where there are several unknowns. Of one unknown
-  /// the first decade in which the wish is passed counts: a drag so small or so large may settle in the same time.
+  /// The best point of a grid with one value per decade, or per two decades for several unknowns. A single unknown is
+  /// taken from the first decade in which the wish is crossed: a very small and a very large drag may give the same
+  /// settling time.
   Eigen::VectorXd coarse() const {
     const double pace = std::log(size() == 1 ? 10. : 100.);
     std::optional<Eigen::VectorXd> best;
@@ -241,7 +242,7 @@ class Fit {
     return *best;
   }
 
-  /// A damped Gauss-Newton step that lessens the residual.
+  /// A damped Gauss-Newton step that reduces the residual, or nothing.
   std::optional<std::pair<Eigen::VectorXd, Eigen::VectorXd>> better(const Eigen::VectorXd& p,
                                                                     const Eigen::VectorXd& r) const {
     constexpr double nudge = 0.02;  // above the noise of the measures
@@ -266,7 +267,7 @@ class Fit {
   TomlDocument file_;
   std::vector<Unknown> unknowns_;
   std::vector<const Kind*> kinds_;  // of the unknowns
-  Eigen::VectorXd units_;           // an unknown is its unit times the exponential of a parameter
+  Eigen::VectorXd units_;           // an unknown is its unit times the exponential of its parameter
   std::vector<Objective> objectives_;
 };
 
@@ -283,7 +284,7 @@ std::vector<WishResult> keep_wishes(const Scene& scene, Scene& file) {
     }
   const Scene given = file;
   const bool follows_step = !find_method(file.method).adaptive;
-  constexpr int most_halvings = 10;  // an error of order 1 then falls a thousandfold
+  constexpr int most_halvings = 10;  // reduce an error of order 1 a thousandfold
   for (int i = 0;; ++i) {
     bool kept = true;
     for (size_t w = 0; w < wishes.size(); ++w) {
@@ -294,7 +295,7 @@ std::vector<WishResult> keep_wishes(const Scene& scene, Scene& file) {
     if (!follows_step || i == most_halvings) break;
     file.step = time_grid(default_run(file)).h / 2;
   }
-  if (follows_step) {  // no step helps: as it was
+  if (follows_step) {  // no step helps: restores the given one
     file.step = given.step;
     for (size_t w = 0; w < wishes.size(); ++w) wishes[w].own = measures[w](file, MeasuredBy::own_method).value_or(NAN);
   }

@@ -10,26 +10,26 @@
 
 namespace crosscheck {
 
-/// A parameter written as "fit" in the file. All that are of one kind are one value: every mass, every stiffness; where
-/// anisotropy is wished, the stiffness of each family.
+/// A parameter written as "fit" in the file. All parameters of one kind share one value: every mass, every stiffness.
+/// If anisotropy is wished, each family of springs has a stiffness of its own.
 struct Unknown {
   std::string name, unit;          // "stiffness", "N/m"
-  std::vector<std::string> paths;  // where it stands in the file
+  std::vector<std::string> paths;  // its places in the file
   double value = 0;
 };
 
 struct WishResult {
-  static constexpr double tolerance = 5e-4;  // 1, by which `own` may differ from `reached`
+  static constexpr double tolerance = 5e-4;  // 1, largest relative difference between `own` and `reached`
   std::string name, unit;
   double wished;
-  double reached;    // the scene's value, converged in the step
-  double own = NAN;  // the value in a run of the file, by its method at its step
+  double reached;    // value of the scene, converged in the step
+  double own = NAN;  // value in a run of the file, with its method and step
   bool kept() const { return std::abs(own - reached) <= tolerance * std::abs(reached); }
 };
 
-/// The wishes that `scene` fulfils, and those that `file`, a scene to be run in its place, does by its own method, with
-/// the step of `file` halved until it keeps them (WishResult::kept), or the step no longer helps. Wishes that cannot be
-/// measured are left out.
+/// Measures the wishes in `scene`, and in `file`, a scene to be run in its place, with its own method. Halves the step
+/// of `file` until the wishes are kept (WishResult::kept) or a shorter step no longer helps. Leaves out wishes that
+/// cannot be measured.
 std::vector<WishResult> keep_wishes(const Scene& scene, Scene& file);
 
 struct FitResult {
@@ -39,13 +39,13 @@ struct FitResult {
   std::vector<WishResult> wishes;
 };
 
-/// True when the text of a scene file holds values to be fitted. Throws InputError when it is no TOML.
+/// True if the text of a scene file contains values to be fitted. Throws InputError if it is not valid TOML.
 bool has_unknowns(std::string_view text, const std::string& name);
 
-/// Finds the values by simulation: on a coarse grid over decades first, then by damped Gauss-Newton steps in the
-/// logarithms of the parameters and of the measures, until each wish is met within 0.02 %. The step becomes at most
-/// half of leapfrog's limit, and so short that a run of the file keeps its wishes, if one does. Throws InputError where
-/// values are to be fitted without as many wishes, or that cannot be fitted, and CannotGuarantee where a wish cannot be
+/// Finds the values by simulation: first on a coarse grid over decades, then by damped Gauss-Newton steps in the
+/// logarithms of the parameters and measures, until each wish is met within 0.02 %. The step is at most half of
+/// leapfrog's limit, and so short that a run of the file keeps its wishes, if possible. Throws InputError if the number
+/// of wishes differs from that of the values, or a value cannot be fitted. Throws CannotGuarantee if a wish cannot be
 /// measured or is not met within 2 %.
 FitResult fit_to_wishes(std::string_view text, const std::string& name);
 

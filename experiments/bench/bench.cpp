@@ -1,4 +1,4 @@
-// The measurements of quick and full benches, in their order.
+// The measurements of the quick and the full bench, in order.
 #include "experiments/bench/bench.h"
 
 #include "experiments/scenes/scenes.h"
@@ -7,7 +7,7 @@
 namespace crosscheck {
 namespace {
 
-// fixed steps: below each rule's limit, and shorter; in 2 / omega
+// fixed steps in units of 2 / omega: just below each rule's limit, and shorter
 Peer odeint_rk4() { return {"odeint/rk4", {1.35, 1, 0.5}}; }
 Peer odeint_dopri5() { return {"odeint/dopri5", {1e-4, 1e-6, 1e-7}}; }
 Peer arkode() { return {"sundials/arkode+order=4", {1e-3, 1e-5, 1e-7}}; }
@@ -17,8 +17,8 @@ Peer bullet_implicit() { return {"bullet/deformable-implicit", {4, 1}}; }
 Peer bullet_pbd() { return {"bullet/pbd", {1, 0.5}, true}; }
 Peer bullet_pbd_on_links() { return {"bullet/pbd", {1, 0.25}}; }
 
-/// An engine of which nothing is known: at leapfrog's limit, and at each half of it until what a large error costs and
-/// what a small one costs are both seen; rules that follow a tolerance as odeint's.
+/// An engine without known properties: at leapfrog's limit and three successive halves of it, to cover the cost of
+/// large and of small errors; adaptive methods at tolerances like odeint's.
 Peer chosen(const std::string& name) {
   if (find_method(name).adaptive) return {name, {1e-4, 1e-6}};
   return {name, {1, 0.5, 0.25, 0.125}};
@@ -46,7 +46,7 @@ BenchSuite bench_suite(bool full, const std::vector<std::string>& beside) {
                    {11, 0.015},
                    {11, 0.004},
                    {},
-                   // one thread is at work; the least for two; what the caches of two cores hold; more than that
+                   // one thread only; the smallest for two threads; the largest in the caches of two cores; beyond them
                    {{64, 96, 256, 512}, {11, 0.06}}};
   if (full) {
     suite.cloths = {{32, all},
@@ -63,7 +63,7 @@ BenchSuite bench_suite(bool full, const std::vector<std::string>& beside) {
     suite.threads.turns = {21, 0.2};
   }
   suite.same_step.turns = suite.turns;
-  // named engines on two small cloths: most of them would need minutes for larger ones
+  // named engines run on two small cloths, because most of them would take minutes on larger ones
   if (!beside.empty()) suite.cloths.insert(suite.cloths.begin(), {16, {}});
   for (BenchSuite::PeerCloth& cloth : suite.cloths)
     for (const std::string& name : beside)
@@ -75,7 +75,7 @@ BenchResult bench(const BenchSuite& suite, const LockPatience& patience) {
   std::vector<EqualErrorOptions> cloths;
   for (const BenchSuite::PeerCloth& cloth : suite.cloths)
     cloths.push_back({std::make_shared<const Scene>(cloth.scene()), cloth.peers, suite.turns});
-  // shipped scenes, two cloths at the same step, and the others
+  // 3: shipped scenes, and two cloths at the same step
   size_t work = 3 + suite.kernel_sides.size() + suite.threads.sides.size() +
                 suite.implicit_step.sides.size() * suite.implicit_step.rates.size();
   for (const EqualErrorOptions& options : cloths) work += static_cast<size_t>(work_of(options));

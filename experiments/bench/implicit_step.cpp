@@ -1,4 +1,4 @@
-// The factorised step, and the times of both solvers on a falling cloth.
+// The factorised step, and the times of both solvers for a falling cloth.
 #include "experiments/bench/implicit_step.h"
 
 #include <fmt/format.h>
@@ -107,7 +107,7 @@ namespace {
 
 constexpr double falls_for = 0.5;  // s
 
-/// A falling cloth, and the linear system of its step.
+/// A falling cloth, and its state after a while.
 struct FallingCloth {
   Scene scene;
   State state;
@@ -118,7 +118,7 @@ struct FallingCloth {
   }
 };
 
-/// mysim's solver, which keeps to the instructions that were chosen when it was made.
+/// mysim's solver with the instruction set that was active when it was created.
 struct MysimStep {
   System system;
   ImplicitStep step;

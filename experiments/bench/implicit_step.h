@@ -1,4 +1,4 @@
-// A linear implicit Euler step as one writes it on Eigen: the matrix formed, factorised and solved.
+// A linear implicit Euler step written with Eigen: the matrix is formed, factorised and solved.
 #pragma once
 
 #include <Eigen/SparseCholesky>
@@ -9,20 +9,20 @@
 
 namespace crosscheck {
 
-/// (M (1/h^2 + gamma/h) + K) u = M (g - gamma v) + F(x + h v) with K the clamped tangent at x + h v, rows and
-/// columns of pins left out; then x' = x + h v + u. Springs, gravity and uniform drag; pins that stand still. K is
-/// written into a pattern that is made once, with a fill-reducing order that is found once (approximate minimum
-/// degree).
+/// Solves (M (1/h^2 + gamma/h) + K) u = M (g - gamma v) + F(x + h v), with K the clamped tangent at x + h v, without
+/// the rows and columns of pins; then x' = x + h v + u. For springs, gravity, uniform drag and fixed pins. K is written
+/// into a pattern that is built once, with a fill-reducing order that is computed once (approximate minimum degree).
 class FactorisedStep {
  public:
-  /// Throws std::invalid_argument where the drag of particles is no rate that all have.
+  /// Throws std::invalid_argument if the drag is not the same rate for all particles.
   FactorisedStep(const Scene& scene, double h);
-  /// Positions after a step from x, v (3 x n), m.
+  /// Positions after a step from x, v (3 x n), m; valid until the next call.
   const Points& step(const Points& x, const Points& v);
 
  private:
   using Sparse = Eigen::SparseMatrix<double>;
-  /// Where the 3 x 3 block of two particles stands in the lower triangle; -1 where it is not kept.
+  /// Positions of the entries of a 3 x 3 block of two particles in the lower triangle; -1 for entries that are not
+  /// kept.
   struct Places {
     int number[3][3];
   };
@@ -32,8 +32,8 @@ class FactorisedStep {
   Eigen::ArrayXd mass_;
   Vec3 gravity_;
   double h_, gamma_;
-  std::vector<int> first_;              // row of each particle; -1 of pins
-  std::vector<Places> diagonal_, off_;  // of particles; of springs
+  std::vector<int> first_;              // row of each particle; -1 for pins
+  std::vector<Places> diagonal_, off_;  // by particle; by spring
   Sparse matrix_;
   Eigen::VectorXd right_;
   Eigen::SimplicialLDLT<Sparse> solver_;

@@ -1,4 +1,4 @@
-// Rounds over small pieces of work.
+// Times pieces of work in rounds.
 #include "experiments/bench/microbenchmarks.h"
 
 #include "experiments/timing/timing.h"

@@ -1,4 +1,4 @@
-// Small pieces of work timed side by side.
+// Times small pieces of work side by side.
 #pragma once
 
 #include <map>
@@ -17,12 +17,12 @@ struct Microbenchmark {
 
 struct MicrobenchmarkOptions {
   int rounds = 15;
-  double seconds = 0.02;  // of each piece in each round
+  double seconds = 0.02;  // for each piece in each round
 };
 
-/// CPU time of one run of each, s, one for each round; by name. In a round all run one after the other, so
-/// that a slow spell of the machine falls on all, and quotients within a round are the most exact; alone on this
-/// machine among all of Crosscheck (experiments/timing/machine.h). Names must differ.
+/// CPU time of one run of each piece, s, per round, by name. In a round all pieces run one after the other, so that a
+/// slow spell of the machine affects all of them, and ratios within a round are the most precise. Waits until no other
+/// Crosscheck process measures on this machine (experiments/timing/machine.h). Names must be unique.
 std::map<std::string, std::vector<double>> run_microbenchmarks(const std::vector<Microbenchmark>& all,
                                                                const MicrobenchmarkOptions& options,
                                                                const LockPatience& patience);

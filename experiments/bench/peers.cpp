@@ -17,20 +17,20 @@ namespace crosscheck {
 namespace {
 
 /// A method of mysim whose step is shortened until it is accurate enough: its longest step (in 2 / omega, below the
-/// rule's limit), and the ratio of each step to the one before.
+/// rule's limit), and the ratio of consecutive steps.
 struct MysimMethod {
   const char* method;
   double first, ratio;
 };
-constexpr double fine = 0.8409, coarse = 0.5;  // 2^(-1/4); where runs are slow and a better rule is at hand
-// the most accurate for its work first: where it errs less in as many evaluations there is no use in going on
+constexpr double fine = 0.8409, coarse = 0.5;  // 2^(-1/4); for slow runs of a rule that is not the best one
+// the most efficient first: a later method stops when an earlier one is more accurate with as many evaluations
 constexpr MysimMethod own_methods[] = {{"mysim/suzuki4+fast", 1.3, fine},
                                        {"mysim/leapfrog+fast", 0.95, fine},
                                        {"mysim/leapfrog+single", 0.95, fine},
                                        {"mysim/rk4", 1.35, coarse}};
-constexpr double longest = 60;           // s: an outside program's run that would take more is left out
-constexpr double shortest = 0.05;        // step of any of them over its first
-constexpr double truth_step = 1.36 / 8;  // in 2 / omega: an eighth of suzuki4's largest, and then halved
+constexpr double longest = 60;           // s: a longer run of an external program is left out
+constexpr double shortest = 0.05;        // shortest step of a method over its first
+constexpr double truth_step = 1.36 / 8;  // in 2 / omega: an eighth of suzuki4's largest step; later halved
 
 /// A whole run.
 struct PeerRun {
@@ -38,9 +38,9 @@ struct PeerRun {
   Run run;
   Outcome outcome;
   double setting;               // step in s, or tolerance
-  std::optional<double> error;  // RMS over the particles at the end, m; of runs that ended well
+  std::optional<double> error;  // RMS over the particles at the end, m; empty if the run failed
   bool other_model = false;
-  double projected = 0;  // s of CPU time of a run that was left out because it would take too long; else 0
+  double projected = 0;  // s of CPU time, for a run that was left out because it would take too long; else 0
   bool ok() const { return error.has_value(); }
 };
 
@@ -53,17 +53,17 @@ class PeerRuns {
     truth_ = end_of(truth_step / 2);
     bar_ = rms_distance(before, truth_);
   }
-  /// The change by the last halving of the truth's step, m.
+  /// Change of the truth by the last halving of its step, m.
   double error_bar() const { return bar_; }
 
   std::vector<PeerRun> of(const std::vector<Peer>& peers) const;
-  /// mysim's, of each method from long steps to short ones: until a run errs no more than `wanted` (m), takes more
-  /// evaluations than `most`, or more than a run of another method that errs less. In single precision where the cloth
-  /// is wide enough for it.
+  /// Runs of mysim, for each method from long steps to short ones. A method stops when a run's error is at most
+  /// `wanted` (m), when it takes more than `most` evaluations, or when a more accurate run of another method takes no
+  /// more. In single precision only if the cloth is wide enough.
   std::vector<PeerRun> own(double wanted, long most) const;
 
  private:
-  /// `projects`: the first fiftieth of the run shows first whether all of it would take too long.
+  /// `projects`: runs the first fiftieth of the run to predict whether the whole run would take too long.
   PeerRun done(const Method& method, double setting, bool projects = false) const;
   Points end_of(double part) const {
     Recorder recorder;
@@ -130,7 +130,7 @@ std::vector<PeerRun> PeerRuns::own(double wanted, long most) const {
   return runs;
 }
 
-/// Sets mysim's cheapest run that errs no more than `bound` (m), its time and the ratio; false if there is none.
+/// Sets mysim's cheapest run with an error of at most `bound` (m), its time and the ratio; false if there is none.
 bool set_cheapest(BenchRow& row, const PeerRun& peer, const std::vector<double>& peer_times,
                   const std::vector<PeerRun>& own, double bound,
                   const std::map<std::string, std::vector<double>>& own_times) {
@@ -152,7 +152,7 @@ bool set_cheapest(BenchRow& row, const PeerRun& peer, const std::vector<double>&
 }  // namespace
 
 int work_of(const EqualErrorOptions& options) {
-  size_t work = 2 + std::size(own_methods);  // the truth, mysim's runs, and all in turns
+  size_t work = 2 + std::size(own_methods);  // the truth, mysim's methods, and the timing in turns
   for (const Peer& peer : options.peers) work += peer.settings.size();
   return static_cast<int>(work);
 }
@@ -168,8 +168,8 @@ void measure_equal_error(const EqualErrorOptions& options, BenchRecord& record) 
     if (refused && std::ranges::count(record.notes, note) == 0) record.notes.push_back(note);
     return refused;
   });
-  double wanted = INFINITY;  // m: the least error above the error bar
-  long most = 0;             // evaluations: as many as take mysim about the time that a peer's slowest run takes
+  double wanted = INFINITY;  // m: the smallest error above the error bar
+  long most = 0;             // evaluations of mysim that take about as long as a peer's slowest run
   for (const PeerRun& run : peers) {
     if (run.ok() && *run.error > 2 * bar) wanted = std::min(wanted, *run.error - 2 * bar);
     most = std::max(most, 5 * run.outcome.evaluations);
@@ -178,9 +178,9 @@ void measure_equal_error(const EqualErrorOptions& options, BenchRecord& record) 
 
   record.progress.begin(fmt::format("{}: all in turns", scene));
   std::vector<TimedRun> turns;
-  std::vector<std::vector<double>> peer_times(peers.size());  // s per evaluation, round by round
+  std::vector<std::vector<double>> peer_times(peers.size());                             // s per evaluation, by round
   std::map<simd::InstructionSet, std::map<std::string, std::vector<double>>> own_times;  // by method
-  std::vector<std::vector<double>*> times;                                               // one for each turn
+  std::vector<std::vector<double>*> times;                                               // one per turn
   for (size_t i = 0; i < peers.size(); ++i)
     if (peers[i].ok()) turns.push_back({peers[i].method, options.scene, peers[i].run}), times.push_back(&peer_times[i]);
   for (const simd::InstructionSet isa : compared_instruction_sets())
@@ -221,7 +221,7 @@ void measure_equal_error(const EqualErrorOptions& options, BenchRecord& record) 
 
 namespace {
 
-/// The state at the end of a run, m.
+/// Positions at the end of a run, m.
 Points end_of(const Method& method, const Scene& scene, const Run& run,
               std::optional<simd::InstructionSet> instructions, Outcome* outcome = nullptr) {
   std::optional<ScopedInstructionSet> kept;

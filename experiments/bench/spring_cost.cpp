@@ -18,7 +18,7 @@ using simd::InstructionSet;
 
 constexpr auto double_precision = "double", single_precision = "single";
 
-/// A cloth with a wave in it, so that every spring pulls.
+/// A cloth with a wave in it, so that every spring exerts a force.
 Scene waving_cloth(int n) {
   Scene scene = hanging_cloth(n);
   for (int i = 0; i < scene.start.x.cols(); ++i)
@@ -35,7 +35,7 @@ struct TimedKernel {
 };
 
 std::vector<TimedKernel> kernels_of(const Scene& scene) {
-  const InstructionSet baseline = InstructionSet::baseline;  // as the suite is compiled
+  const InstructionSet baseline = InstructionSet::baseline;  // that of the suite's build
   std::vector<TimedKernel> kernels{{naive_loop_name, baseline, double_precision, naive_loop(scene)},
                                    {"plain loop", baseline, double_precision, plain_loop(scene)}};
   const auto add = [&](const char* name, InstructionSet isa, const char* precision,
@@ -52,10 +52,10 @@ std::vector<TimedKernel> kernels_of(const Scene& scene) {
   return kernels;
 }
 
-/// The most that an instruction set does.
+/// Peak rate of an instruction set.
 struct Peak {
   std::string name;
-  double operations;  // of a run
+  double operations;  // per run
   BenchmarkFunction once;
 };
 

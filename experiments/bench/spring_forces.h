@@ -1,4 +1,4 @@
-// The forces of a scene's springs, computed in several ways: what the bench times side by side.
+// The forces of a scene's springs, computed in several ways for the bench to compare.
 #pragma once
 
 #include <functional>
@@ -9,17 +9,17 @@
 
 namespace crosscheck {
 
-/// Work that is done once at each call, always on the same memory.
+/// Does the work once per call, always on the same memory.
 using BenchmarkFunction = std::function<void()>;
 
-/// Spring by spring on Eigen's vectors, as one writes it first. The scene must have springs, as in all of these.
+/// The straightforward loop over springs with Eigen's vectors. All functions here require a scene with springs.
 BenchmarkFunction naive_loop(const Scene& scene);
-/// The definition of the term (mysim/terms/springs.h).
+/// The reference implementation of the term (mysim/terms/springs.h).
 BenchmarkFunction plain_loop(const Scene& scene);
-/// The engine's kernel for any spring graph, with an instruction set that the machine has.
+/// The engine's kernel for any spring graph, with an instruction set that the machine supports.
 BenchmarkFunction general_kernel(const Scene& scene, simd::InstructionSet isa);
-/// The engine's fused step: not the forces alone but a whole step of a cloth, kick and drift included. T: double or
-/// float; `fast` as of simd::kernel(). Nothing where the springs are no regular grid, or one too narrow.
+/// The engine's fused step: a whole step of a cloth including kick and drift. T: double or float; `fast` as in
+/// simd::kernel(). Nothing if the springs do not form a regular grid, or one that is too narrow.
 template <class T>
 std::optional<BenchmarkFunction> fused_step(const Scene& scene, simd::InstructionSet isa, bool fast);
 

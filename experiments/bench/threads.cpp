@@ -1,4 +1,4 @@
-// Wall times with one and with two threads.
+// Wall times with one thread and with two.
 #include "experiments/bench/measurements.h"
 
 #include <fmt/format.h>
@@ -14,7 +14,7 @@ namespace crosscheck {
 namespace {
 
 constexpr auto rule = "mysim/leapfrog";
-/// What is missing then is as much as two threads that are 1.9 times as fast as one lose themselves.
+/// Below this share, the missing time matters as much as the loss of two threads that are 1.9 times as fast as one.
 constexpr double nearly_all = 0.95;
 
 double cpu_of_all_threads() {
@@ -23,7 +23,7 @@ double cpu_of_all_threads() {
   return static_cast<double>(t.tv_sec) + 1e-9 * static_cast<double>(t.tv_nsec);
 }
 
-/// A cloth that is stepped on and on.
+/// A cloth that is stepped indefinitely.
 class TimedCloth {
  public:
   TimedCloth(const Scene& scene, int threads)
@@ -41,9 +41,9 @@ class TimedCloth {
     share_.push_back((cpu_of_all_threads() - cpu) / (threads() * wall));
     return wall / static_cast<double>(steps);
   }
-  /// How many are at work.
+  /// Number of working threads.
   int threads() const { return world_->work().worker_seconds > 0 ? 2 : 1; }
-  /// Of the time of as many cores.
+  /// Share that the threads got of the time of as many cores.
   double share() const { return timing_of(share_).median; }
 
  private:

@@ -1,4 +1,4 @@
-// `check`: relations asked of methods, and which broken ones are known.
+// `check`: checks relations of methods, and knows which breaks are expected.
 #pragma once
 
 #include <filesystem>
@@ -11,51 +11,52 @@
 
 namespace crosscheck {
 
-/// A relation that a method breaks by design, or by a cause that was measured.
+/// A relation that a method breaks by design, or for a measured cause.
 struct KnownBreak {
-  std::string method, relation, scene;  // globs; no scene: all
-  std::string reason;                   // one sentence with the cause as measured
-  std::optional<double> times;          // up to so many times the tolerance; none: whatever the size
-  std::string rule = {};                // glob of the rule that the method follows (rule_of); no `method` is given then
+  std::string method, relation, scene;  // globs; empty scene: all scenes
+  std::string reason;                   // one sentence with the measured cause
+  std::optional<double> times;          // largest expected ratio to the tolerance; none: any size
+  std::string rule = {};                // glob of the rule that the method follows (rule_of), in place of `method`
 };
-/// Where those that come with Crosscheck stand.
+/// The list that is shipped with Crosscheck.
 std::filesystem::path shipped_known_breaks();
-/// [[known]] tables with method or rule, relation, reason, scene where it is one alone, and times. Throws InputError.
+/// Reads [[known]] tables with method or rule, relation, reason, and optionally scene and times. Throws InputError.
 std::vector<KnownBreak> read_known_breaks(const std::filesystem::path& file);
 
-/// One relation asked of one method on one scene.
+/// Result of one relation for one method on one scene.
 struct Answer {
   std::string method, scene;
   const Relation* relation;
   RelationMark mark = RelationMark::holds;
-  RelationResult finding;  // where it could be asked
-  std::string reason;      // why not; how a run failed; why it is known
+  RelationResult finding;  // if the relation is applicable
+  std::string reason;      // why it is not applicable, how a run failed, or why the break is known
   std::string scene_hash;
-  Verdict failure = Verdict::ok;  // of a run that failed
+  Verdict failure = Verdict::ok;  // of a failed run
 
   /// "0.02 of the tolerance of 1e-12 m", "35 times the tolerance of 2e-3 J since 0.4 s", or the reason.
   std::string sentence() const;
 };
 
-/// A broken one becomes known where a row of the list covers it; `rule`: that of the method, empty for a pair.
+/// Marks a broken relation as known if an entry of the list covers it. `rule`: rule of the method, empty for a pair.
 void mark_known(Answer& answer, const std::vector<KnownBreak>& known, const std::string& rule = "");
 
 Answer ask(const Relation& relation, Subject& subject, const Scene& scene, unsigned seed,
            const std::vector<KnownBreak>& known);
 
-/// Is told what is asked next, "mysim/leapfrog: turned".
+/// Receives the name of the next check: "mysim/leapfrog: turned".
 using AboutToAsk = std::function<void(const std::string&)>;
 
-/// Is shown each answer as it comes.
+/// Receives each answer when it is complete.
 using OnAnswer = std::function<void(const Answer&)>;
 
-/// Every relation of a method, or the one given: on its smallest scenes where no scene is given, else on each of these
-/// that it says something about. A method that ended no run could not be asked.
+/// Checks every relation of a method, or only the given one: on the relation's smallest scenes if `scenes` is empty,
+/// else on each of these scenes that it applies to. If no run of the method ends well, its relations are not
+/// applicable.
 std::vector<Answer> answers_of(const Method& method, const std::vector<Scene>& scenes, unsigned seed,
                                const std::vector<KnownBreak>& known, const AboutToAsk& begin = {},
                                const OnAnswer& on_answer = {}, const Relation* only = nullptr);
 
-/// 0 where something was asked and nothing but known breaks was found; else 1.
+/// 0 if at least one relation was applicable and only known breaks were found; else 1.
 int status_of(const std::vector<Answer>& answers);
 
 Table table_of(const std::vector<Answer>& answers);

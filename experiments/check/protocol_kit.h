@@ -1,4 +1,4 @@
-// The conformance kit of the engine protocol: runs a program on the smallest scenes and says what it lacks still.
+// The conformance kit of the engine protocol: runs a program on small scenes and reports the missing parts.
 #pragma once
 
 #include <string>
@@ -8,29 +8,29 @@
 namespace crosscheck {
 
 enum class Conformance {
-  ok,       // as PROTOCOL.md asks
-  lacks,    // not yet
-  refuses,  // the program says by exit status 3 that it has no such thing
+  ok,       // conforms to PROTOCOL.md
+  lacks,    // missing so far
+  refuses,  // the program reports by exit status 3 that it does not support the ingredient
 };
 std::string_view name_of(Conformance state);
 
 struct ConformanceLine {
-  std::string scene;  // empty: of all scenes
+  std::string scene;  // empty: applies to all scenes
   std::string topic;  // "sample times"
   Conformance state;
-  bool required;        // without it the program is no adapter; the rest makes results more telling
-  std::string told;     // what was found, and what to do where it lacks
-  std::string section;  // of PROTOCOL.md, where it lacks; else empty
+  bool required;        // without it the program is no adapter; optional parts make results more informative
+  std::string told;     // the observation, and advice if something is missing
+  std::string section;  // of PROTOCOL.md, if something is missing; else empty
 };
 
 struct ConformanceReport {
   std::string program;
   std::vector<ConformanceLine> lines;
-  bool complete() const;  // nothing required lacks
+  bool complete() const;  // no required part is missing
 };
 
-/// Tries the program on eight scenes of one and two particles, twice each, and on three that are changed as a later
-/// version or a careless caller would. Throws InputError when there is no such program.
+/// Runs the program on eight scenes of one and two particles, twice each, and on three that are changed as a later
+/// version or a careless caller might do. Throws InputError if there is no such program.
 ConformanceReport try_adapter(const std::string& program);
 
 }  // namespace crosscheck

@@ -1,5 +1,5 @@
-// Relations: what two runs of one engine must have in common without any truth, each on the smallest scene that can
-// show it, with a tolerance that is derived and not chosen.
+// Relations: invariants and metamorphic relations between runs of one engine, which need no truth. Each is checked on
+// the smallest scene that can show it, with a derived tolerance.
 #pragma once
 
 #include <optional>
@@ -12,27 +12,27 @@
 
 namespace crosscheck {
 
-/// What was measured, beside what it may be.
+/// A measured value and its tolerance.
 struct RelationResult {
-  std::string what;  // what was compared, a phrase
+  std::string what;  // quantity that was compared, as a phrase
   std::string unit;
   double measured = 0, tolerance = 0;  // in the unit
-  std::optional<double> since = {};    // s, the first time over the tolerance
+  std::optional<double> since = {};    // s, first time at which the tolerance is exceeded
 
-  /// measured / tolerance; infinite where nothing is allowed, and NaN counts as infinite.
+  /// measured / tolerance; infinite if the tolerance is zero or the measured value is NaN.
   double ratio() const;
   bool holds() const { return ratio() <= 1; }
 };
 
-/// The one that is farther over its tolerance, or nearer to it.
+/// The result with the larger ratio to its tolerance.
 RelationResult worse(RelationResult a, RelationResult b);
 
 struct Relation {
-  std::string_view name;      // in tables and files of known disagreements
-  std::string_view sentence;  // for people
-  std::string_view allowed;   // how its tolerance is derived
+  std::string_view name;      // in tables and in files of known breaks
+  std::string_view sentence;  // for human readers
+  std::string_view allowed;   // derivation of its tolerance
   std::vector<Scene> (*smallest)();
-  /// Why the relation says nothing about a scene; empty where it does.
+  /// Why the relation does not apply to a scene; empty if it does.
   std::string (*excluded)(const Scene& scene);
   /// Throws CannotBeAsked and RunFailed (subject.h).
   RelationResult (*ask)(Subject& subject, const Scene& scene, unsigned seed);
@@ -42,11 +42,11 @@ struct Relation {
 std::span<const Relation> relations();
 /// The relation of that name, or null.
 const Relation* relation_named(std::string_view name);
-/// The same. Throws InputError that names the nearest.
+/// The relation of that name. Throws InputError with a suggestion.
 const Relation& find_relation(const std::string& name);
 
-// The functions of the table. Those of transformed scenes are in transformed.cpp, those of mechanics in mechanics.cpp,
-// those of one scene solved by other settings in settings.cpp.
+// The functions of the table: transformed scenes in transformed.cpp, mechanics in mechanics.cpp, and one scene solved
+// with different settings in settings.cpp.
 
 RelationResult turned_start(Subject& subject, const Scene& scene, unsigned seed);
 RelationResult shifted_start(Subject& subject, const Scene& scene, unsigned seed);
