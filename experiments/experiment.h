@@ -25,7 +25,7 @@ namespace crosscheck {
 struct TableSet {
   std::vector<Table> tables;
   std::vector<Certificate> certificates;
-  std::vector<std::string> notes;  // what was left out and why, for human readers
+  std::vector<std::string> notes;  // omissions and their reasons, for human readers
 
   const Table* table(const std::string& name) const;
   /// Appends the rows to the table of the same name, or adds the table. Throws std::logic_error if the columns differ.

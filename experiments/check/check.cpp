@@ -1,4 +1,4 @@
-// Relations asked of methods, and the table of known breaks.
+// Checks relations of methods, and reads the table of known breaks.
 #include "experiments/check/check.h"
 
 #include <fmt/format.h>
@@ -30,7 +30,7 @@ const KnownBreak* known_break(const Answer& answer, const std::vector<KnownBreak
   return nullptr;
 }
 
-/// A program that ended no run at all (it is not there, it cannot start) has shown nothing of its mechanics.
+/// A program none of whose runs ended (it is missing, or cannot start) has shown nothing about its mechanics.
 void withdraw_where_nothing_ran(std::vector<Answer>& answers) {
   const auto says_nothing = [](const Answer& a) {
     return a.mark == RelationMark::not_asked || a.failure == Verdict::crash;

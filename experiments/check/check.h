@@ -31,7 +31,7 @@ struct Answer {
   RelationResult finding;  // if the relation is applicable
   std::string reason;      // why it is not applicable, how a run failed, or why the break is known
   std::string scene_hash;
-  Verdict failure = Verdict::ok;  // of a failed run
+  Verdict failure = Verdict::ok;  // verdict of a failed run
 
   /// "0.02 of the tolerance of 1e-12 m", "35 times the tolerance of 2e-3 J since 0.4 s", or the reason.
   std::string sentence() const;

@@ -1,4 +1,4 @@
-// Trajectories side by side, and what a scene has.
+// Comparison of trajectories, and properties of scenes.
 #include "experiments/check/compare.h"
 
 #include <fmt/format.h>

@@ -1,4 +1,4 @@
-// Experiment `relations`: every relation asked of every engine, on the smallest scenes that can show it.
+// Experiment `relations`: every relation of every engine, on the smallest scenes that can show it.
 #include "experiments/experiment.h"
 
 #include "experiments/check/check.h"
@@ -8,7 +8,7 @@ namespace crosscheck {
 
 std::vector<Point> relations_points(const Request& request) {
   std::vector<Method> methods = request.methods.empty() ? default_methods() : request.methods;
-  // what comes with Crosscheck answers the same whatever the scenes are, and does so in the report of all of them
+  // shipped methods give the same answers for any scenes, and the report of all scenes has them
   if (request.scenes_only) std::erase_if(methods, [](const Method& method) { return method.fingerprint.empty(); });
   const std::string text = read_file(shipped_known_breaks(), "a table of known breaks");
   const std::vector<KnownBreak> known = read_known_breaks(shipped_known_breaks());

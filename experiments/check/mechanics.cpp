@@ -11,7 +11,7 @@
 namespace crosscheck {
 namespace {
 
-/// Over the samples, the value (in `unit`) against its bound.
+/// Compares the value (in `unit`) with its bound at each sample.
 RelationResult over_time(std::string what, std::string unit, const Trajectory& path, const std::vector<double>& bound,
                          const std::function<double(int)>& value) {
   RelationResult worst{std::move(what), std::move(unit), 0, bound[0]};
@@ -31,7 +31,7 @@ void require_velocities(const Trajectory& path) {
 
 Vec3 start_velocity_of_the_centre(const Scene& scene) { return centre_of_mass(scene, scene.start.v); }
 
-/// A damped run, at its end: where it is, and what it still moved by in its last quarter, m.
+/// Final state of a damped run: its positions, and the largest movement in its last quarter, m.
 struct Rest {
   Points x;
   double unsettled;
@@ -45,7 +45,7 @@ Rest at_rest(Subject& subject, const Scene& scene) {
   if (rest.unsettled > 1e-3 * scene.size())
     throw CannotBeAsked(
         fmt::format("it has not come to rest: in the last quarter it moved by {:.2g} m", rest.unsettled));
-  // what is damped keeps no velocity that roundings made
+  // damping removes the velocities that come from rounding
   const double steps = static_cast<double>(std::max(1L, run.outcome.steps));
   rest.unsettled += 10 * subject.unit_roundoff() * std::sqrt(steps) * lengths_in(scene, run.path);
   if (chooses_steps(subject.method())) rest.unsettled += subject.noise(scene).start;
@@ -69,13 +69,13 @@ RelationResult free_fall(Subject& subject, const Scene& scene, unsigned) {
   RelationResult relative = over_time("motion of a particle relative to the others", "m", path, noise, [&](int i) {
     return largest_column(((path.x[i] - start).colwise() - fallen(i)).eval());
   });
-  // a rule of order two falls g t^2 / 2 exactly, one of order one g t (t + h) / 2 or g t (t - h) / 2; what else there
-  // is falls between these
+  // a rule of order two falls g t^2 / 2 exactly, one of order one g t (t + h) / 2 or g t (t - h) / 2; any other rule
+  // lies between these
   const Method& method = subject.method();
   const bool known = stepper_of(method) != nullptr;
   const double h = chooses_steps(method) || (known && order_of(method) > 1) ? 0 : run.outcome.step;
-  // it falls g t^2 / 2 + g h (a t + b h) / 2, with the sign of a given by a known rule of order one; else a and b, at
-  // most 1, are those of the first and the last sample, whose rounding adds to the others'
+  // the fall is g t^2 / 2 + g h (a t + b h) / 2; a known rule of order one determines a = 1 or -1, with b = 0;
+  // otherwise a and b, at most 1, are taken from the first and last sample, whose rounding adds to that of the others
   const int last = path.frames() - 1;
   const auto late = [&](int i) {  // in units of g h / 2
     const Vec3 off = fallen(i) - v * path.t[i] - g * (path.t[i] * path.t[i] / 2);
@@ -107,7 +107,7 @@ RelationResult no_force_no_motion(Subject& subject, const Scene& scene, unsigned
 RelationResult momentum_kept(Subject& subject, const Scene& scene, unsigned) {
   const Trajectory& path = subject.run(scene).path;
   const Vec3 from = centre_of_mass(scene, scene.start.x), v = start_velocity_of_the_centre(scene);
-  // momentum over mass, seen in places: engines that report no velocities are asked too
+  // momentum over mass, measured by positions, so that engines without velocities can be checked too
   return over_time("the centre of mass against uniform motion", "m", path, subject.noise_with_unsolved(scene).x,
                    [&](int i) { return (centre_of_mass(scene, path.x[i]) - from - v * path.t[i]).norm(); });
 }
@@ -132,7 +132,7 @@ RelationResult angular_momentum_kept(Subject& subject, const Scene& scene, unsig
   double far = 0, fast = 0;
   for (int i = 0; i < path.frames(); ++i)
     far = std::max(far, largest_column(path.x[i])), fast = std::max(fast, largest_column(path.v[i]));
-  // m x' x v + m x x v', at the largest distance and speed, and with the step halved so many times
+  // m x' x v + m x x v', at the largest distance and speed, with the step halved `times` times
   const auto rounding = [&](int times) {
     Scene finer = scene;
     finer.step = std::ldexp(scene.step, -times);
@@ -142,7 +142,7 @@ RelationResult angular_momentum_kept(Subject& subject, const Scene& scene, unsig
     return bound;
   };
   const Stepper* rule = stepper_of(subject.method());
-  // half drifts and kicks along central forces keep it; other rules change it by an error of their order
+  // half drifts, and kicks along central forces, conserve it; other rules change it by an error of their order
   if (chooses_steps(subject.method()) || (rule && rule->symplectic))
     return over_time("change of angular momentum", "kg m^2/s", path, rounding(0), [&](int i) { return whole[i]; });
   const std::vector<double> half = changes_in(halved(subject, scene, 1));
@@ -156,18 +156,18 @@ RelationResult angular_momentum_kept(Subject& subject, const Scene& scene, unsig
   };
   RelationResult found = shrinks("half", half, "the whole", whole, rounding(1));
   if (found.holds()) return found;
-  // a damping rule at a coarse step has taken most of a vibration, so that its change is near its end: six particles
-  // kept 0.68, 0.59, 0.55 and 0.52 of it from one halving to the next
+  // a damping rule at a coarse step has removed most of a vibration, so that the change is near its limit: for six
+  // particles, consecutive halvings multiplied it by 0.68, 0.59, 0.55 and 0.52
   RelationResult finer = shrinks("a quarter of", changes_in(halved(subject, scene, 2)), "half", half, rounding(2));
   return finer.ratio() < found.ratio() ? finer : found;
 }
 
 namespace {
 
-/// The drift of the energy in a run, J, and the swing and rounding that hide a drift.
+/// The drift of the energy in a run, J, and the oscillation and rounding that can hide a drift.
 struct Drift {
   double change, hidden;
-  std::vector<double> changes, times;  // each tenth of the run against the first; s
+  std::vector<double> changes, times;  // of each tenth of the run relative to the first; s
 };
 
 Drift drift_of(Subject& subject, const Scene& scene, const Run& settings) {
@@ -211,8 +211,8 @@ RelationResult energy_without_drift(Subject& subject, const Scene& scene, unsign
   if (found.holds()) return found;
   if (!method.adaptive && chooses_steps(method))
     throw CannotBeAsked("its energy drifts, and as it chooses its own steps, no order of the drift can be seen");
-  // rules that are not symplectic gain or lose energy, by an error of their order at least; half a power is left for
-  // terms of higher order. What a tolerance leaves falls with it, by a power near one
+  // rules that are not symplectic gain or lose energy by an error of at least their order; half a power is left for
+  // terms of higher order. The error of an adaptive rule falls with its tolerance, by a power near one
   const double part = method.adaptive ? 0.5 : std::exp2(0.5 - order_of(method));
   const auto finer = [&](int times) {
     Run fine = run;
@@ -237,7 +237,7 @@ RelationResult pins_on_their_path(Subject& subject, const Scene& scene, unsigned
   const SubjectRun& run = subject.run(scene);
   const Trajectory& path = run.path;
   const Particles& p = scene.model.particles;
-  // a place is computed anew or rounded in every step; nothing grows on a pin
+  // positions of pins are computed anew or rounded in every step; no error grows on a pin
   const double steps = static_cast<double>(std::max(1L, run.outcome.steps));
   const std::vector<double> bound(path.frames(),
                                   10 * subject.unit_roundoff() * std::sqrt(steps) * lengths_in(scene, path));
@@ -268,7 +268,7 @@ RelationResult extension_by_stiffness(Subject& subject, const Scene& scene, unsi
   const Rest rest = at_rest(subject, scene);
   const std::vector<Spring> chain = hanging_chain_of(scene);
   const Eigen::VectorXd& mass = scene.model.particles.mass;
-  // tension over the mass below is g for every spring of a chain; by the engine's own law
+  // in a chain, the tension of each spring over the mass below it is g; tensions follow the engine's own law
   SpringLaw law = scene.model.find<Springs>()->law;
   if (subject.method().spring_law != SpringLaw::hooke) law = subject.method().spring_law;
   const double weight = scene.model.find<Gravity>()->acceleration.norm();
@@ -296,7 +296,7 @@ RelationResult stiffness_has_effect(Subject& subject, const Scene& scene, unsign
     stiff.hash = hash_of(stiff);
     const Rest hard = at_rest(subject, stiff);
     const double before = extension_of(spring, soft.x), after = extension_of(spring, hard.x);
-    // any effect that is more than what is still to settle
+    // any effect larger than the remaining settling counts
     RelationResult found{
         fmt::format("extension of the spring between {} and {} with four times its stiffness, of that before", spring.a,
                     spring.b),

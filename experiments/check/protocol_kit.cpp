@@ -1,4 +1,4 @@
-// Small scenes, and what each call of the program shows.
+// Small scenes, and the checks of each call of the program.
 #include "experiments/check/protocol_kit.h"
 
 #include <fmt/format.h>
@@ -48,7 +48,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// Scenes of one or two particles; every ingredient of the protocol but the triangles' wind is in one of them.
+// Scenes of one or two particles, which contain every ingredient of the protocol except the wind on triangles.
 constexpr const char* kit_scenes[] = {"fall", "damped-spring", "led-pin", "ball", "slope", "rod", "circle", "gusts"};
 
 // s: a step of these scenes costs microseconds, and an interpreter starts in less than a second
@@ -57,18 +57,18 @@ constexpr double call_limit = 30;
 constexpr auto called = "How it is called", answers = "What it answers", scene_file = "scene.json",
                run_file = "run.json";
 
-/// What one call left behind; the folder goes with it.
+/// The result of one call; its folder is deleted with it.
 struct KitCall {
   TemporaryFolder folder{"kit"};
   ProgramResult end;
   double limit = call_limit;  // s
-  std::string unreadable;     // why its files are not read
+  std::string unreadable;     // why its files cannot be read
   fs::path results() const { return folder.path / "out"; }
   bool refused() const { return end.signal == 0 && end.status == 3 && !end.timed_out; }
   bool good() const {
     return end.signal == 0 && end.status == 0 && !end.timed_out && !end.killed_watcher && unreadable.empty();
   }
-  /// The last line that it wrote on stderr, or on stdout.
+  /// The last line of stderr, or of stdout if stderr is empty.
   std::string last_line() const {
     std::string line = last_lines(end.err.find_first_not_of(" \t\r\n") == std::string::npos ? end.out : end.err, 1);
     line.erase(std::find(line.begin(), line.end(), '\n'), line.end());
@@ -95,11 +95,12 @@ class Kit {
     for (const char* name : kit_scenes)
       if (!hangs_) try_scene(scene_in("kit", name));
     if (hangs_) {
-      add("", "scenes", Conformance::lacks, true, "the others are not tried, as it does not end", answers);
+      add("", "scenes", Conformance::lacks, true, "the other scenes are skipped, because the program does not end",
+          answers);
       return std::move(report_);
     }
     if (taken_ == 0)
-      add("", "scenes", Conformance::lacks, true, "no scene of the kit is taken: run one of them at least", answers);
+      add("", "scenes", Conformance::lacks, true, "no scene of the kit is supported: support at least one", answers);
     try_certificate();
     try_changed_scenes();
     return std::move(report_);
@@ -114,7 +115,7 @@ class Kit {
            const char* section) {
     add(scene, topic, ok ? Conformance::ok : Conformance::lacks, required, told, section);
   }
-  /// A line that is ok where the work throws no InputError; its message, without the folder, where it does.
+  /// Adds a line that is ok if the work throws no InputError; otherwise the line has its message without the folder.
   bool add_tried(const Scene& scene, const std::string& topic, const char* section, const KitCall& call,
                  const std::function<std::string()>& work) {
     try {
@@ -159,8 +160,8 @@ class Kit {
     if (!made.good()) {
       const std::string line = made.last_line();
       add(scene.name, "starts and ends", false, true,
-          fmt::format("it {}{}: exit 0 with an answer, or 3 with a line where the scene has what it lacks", made.how(),
-                      line.empty() ? "" : " (" + line + ")"),
+          fmt::format("it {}{}: exit 0 with an answer, or 3 with one line if the scene has an unsupported ingredient",
+                      made.how(), line.empty() ? "" : " (" + line + ")"),
           answers);
       return;
     }
@@ -168,12 +169,12 @@ class Kit {
         answers);
     if (made.end.left_children)
       add(scene.name, "leaves nothing behind", false, true,
-          "a process of it had not ended 0.2 s after it: wait for what it starts", called);
+          "one of its processes was still running 0.2 s after it ended: wait for all processes that you start", called);
     if (!try_files(scene, run, made)) return;
     try_whole(scene, run, made);
   }
 
-  /// The files as such. False: there is no trajectory to go on with.
+  /// Checks the files. Returns false if there is no trajectory to continue with.
   bool try_files(const Scene& scene, const Run& run, const KitCall& made) {
     const int frames = time_grid(run).samples + 1, particles = scene.model.particles.size();
     const fs::path x = made.results() / "trajectory.npy", v = made.results() / "velocities.npy",
@@ -209,12 +210,12 @@ class Kit {
     if (fs::exists(json))
       try_run_json(scene, run, made, json);
     else
-      add(scene.name, "run.json", false, false, "write run.json: cost and read-back are told there", run_file);
+      add(scene.name, "run.json", false, false, "write run.json, which reports cost and read-back", run_file);
     return begins;
   }
 
-  /// Nothing acts along x in this scene, and every consistent rule goes there at the speed of the start: where a
-  /// particle is tells the time, to much less than the half step that is allowed.
+  /// Checks the sample times. Nothing acts along x in this scene, and every consistent rule moves along x at the
+  /// initial speed. Hence the position shows the time, much more precisely than the half step that is allowed.
   void try_times(const Scene& scene, const Run& run, const std::vector<Points>& path) {
     const TimeGrid grid = time_grid(run);
     for (size_t i = 0; i < path.size(); ++i) {
@@ -229,7 +230,7 @@ class Kit {
     add(scene.name, "sample times", true, true, "at run.times", scene_file);
   }
 
-  /// A rule of first order is off by g h / 2, velocities half a step late or early by as much.
+  /// Checks the speeds. A rule of first order is off by g h / 2, and velocities half a step late or early by as much.
   void try_speeds(const Scene& scene, const Run& run, const std::vector<Points>& speeds) {
     const TimeGrid grid = time_grid(run);
     const Vec3 g = scene.model.find<Gravity>()->acceleration;
@@ -257,13 +258,13 @@ class Kit {
     first_json_ = scene.name;
     const JsonField json = JsonField::parse_file(file.string());
     for (const auto& [key, what] : {std::pair{"cpu_seconds", "the time of stepping alone"},
-                                    {"steps", "how many steps it took"},
-                                    {"force_evaluations", "what the steps cost in evaluations"}})
+                                    {"steps", "the number of steps"},
+                                    {"force_evaluations", "the number of force evaluations"}})
       add(scene.name, fmt::format("run.json: {}", key), json.find(key).has_value(), false,
           json.find(key) ? what : fmt::format("add the key: {}", what), run_file);
   }
 
-  /// The call again as every command makes it: verdict, pins, ingredients, certificate.
+  /// Repeats the call as every command makes it, and checks verdict, pins, ingredients and certificate.
   void try_whole(const Scene& scene, const Run& run, const KitCall& made) {
     Recorder recorder;
     const Outcome out = run_method(method_, scene, run, {&recorder});
@@ -281,19 +282,20 @@ class Kit {
     const bool same = read_npy(made.results() / "trajectory.npy", frames, frames, scene.model.particles.size()) ==
                       recorder.trajectory.x;
     add(scene.name, "same call twice", same, false,
-        same ? "the same bytes" : "other bytes: seed what is random, add in a fixed order; results cannot be blessed",
+        same ? "the same bytes"
+             : "different bytes: seed random numbers and add in a fixed order, or results cannot be blessed",
         answers);
     try_ingredients(scene, run, recorder.trajectory);
     if (!scene.model.first_order()) collect_rows(scene, out);
   }
 
-  /// Each ingredient that the program did not refuse must act. Those that do not are the set without which mysim's path
-  /// is nearest to the program's; of more than one only if they make the distance half of that of a smaller set, since
-  /// what the program does otherwise than mysim may be large.
+  /// Checks that each ingredient that the program did not refuse has an effect. The inactive ones are the set without
+  /// which mysim's path is nearest to the program's. A set of several counts only if it halves the distance of every
+  /// smaller set, because the program may differ much from mysim in other respects.
   void try_ingredients(const Scene& scene, const Run& run, const Trajectory& theirs) {
     const std::vector<Ingredient> all = ingredients_of(scene);
     const auto in = [](unsigned set, size_t i) { return (set >> i & 1) != 0; };
-    // infinite where an ingredient goes with another one of the set, so that a smaller set says the same
+    // infinite if one ingredient is removed together with another one of the set: a smaller set then says the same
     const auto distance_without = [&](unsigned set) -> double {
       Recorder recorder;
       try {
@@ -308,7 +310,7 @@ class Kit {
           recorder.trajectory = {theirs.t, std::vector<Points>(theirs.x.size(), scene.start.x), {}};
         else if (find_method(scene.method).engine(less, run, recorder).verdict != Verdict::ok)
           return INFINITY;
-      } catch (const std::runtime_error&) {  // no scene without them
+      } catch (const std::runtime_error&) {  // no valid scene without them
         return INFINITY;
       }
       return largest_rms_distance(theirs, recorder.trajectory);
@@ -349,7 +351,7 @@ class Kit {
   static int rank(Parity parity) {
     return parity == Parity::mismatch ? 3 : parity == Parity::unattested ? 2 : parity == Parity::different_law ? 1 : 0;
   }
-  /// The key of the read-back that tells a row.
+  /// The key of the read-back that attests a row.
   static std::string key_of(const std::string& quantity) {
     static constexpr std::pair<std::string_view, std::string_view> keys[] = {
         {"start", "start"},
@@ -392,7 +394,7 @@ class Kit {
     }
   }
 
-  /// The first scene that the program takes, in forms that other versions and callers may write.
+  /// Changes the first supported scene in ways in which other versions and callers may write it.
   void try_changed_scenes() {
     if (taken_ == 0) return;
     for (const char* name : kit_scenes) {
@@ -414,7 +416,7 @@ class Kit {
         add(scene.name, "unknown term", Conformance::refuses, false, term.last_line(), answers);
       else
         add(scene.name, "unknown term", false, true,
-            fmt::format("a term that nobody knows: it {}, expected exit status 3 and the reason: look at the type of "
+            fmt::format("an unknown term: it {}, expected exit status 3 and the reason: check the type of "
                         "every term",
                         term.how()),
             answers);
@@ -443,7 +445,7 @@ class Kit {
   bool has_readback_ = false;
   bool hangs_ = false;
   std::string first_json_;  // the scene whose run.json has lines for its keys
-  std::map<std::string, std::pair<std::string, CertificateRow>> rows_;  // by quantity: the worst, and its scene
+  std::map<std::string, std::pair<std::string, CertificateRow>> rows_;  // by quantity: the worst row, and its scene
 };
 
 }  // namespace

@@ -20,7 +20,7 @@ struct ConformanceLine {
   Conformance state;
   bool required;        // without it the program is no adapter; optional parts make results more informative
   std::string told;     // the observation, and advice if something is missing
-  std::string section;  // of PROTOCOL.md, if something is missing; else empty
+  std::string section;  // section of PROTOCOL.md, if something is missing; else empty
 };
 
 struct ConformanceReport {

@@ -16,7 +16,7 @@
 namespace crosscheck {
 namespace {
 
-// why a relation says nothing about a scene
+// reasons why a relation does not apply to a scene
 
 std::string any_scene(const Scene&) { return ""; }
 std::string with_springs(const Scene& s) {
@@ -24,7 +24,7 @@ std::string with_springs(const Scene& s) {
 }
 std::string movable(const Scene& s) {
   if (s.model.first_order()) return "its field has a place and a direction";
-  // the last bounces before rest are decided by roundings there, which no perturbation of the start shows
+  // rounding decides the last bounces before rest, and no perturbation of the start reveals that
   for (const Surface& surface : surfaces_of(s.model))
     if (surface.restitution > 0) return "endless bounces are decided by rounding";
   return "";
@@ -60,52 +60,52 @@ std::string undamped(const Scene& s) {
 }
 
 constexpr auto rounding =
-    "three times what a perturbation of 10 u L sqrt(n) (unit round-off, lengths, steps) is measured to grow to";
+    "three times the measured growth of a perturbation of 10 u L sqrt(n) (unit round-off, lengths, steps)";
 constexpr auto rounding_and_unsolved =
-    "three times what a perturbation of 10 u L sqrt(n) is measured to grow to, and of implicit rules what they leave "
-    "of the equation in each step";
+    "three times the measured growth of a perturbation of 10 u L sqrt(n), and for implicit rules the residual of the "
+    "equation in each step";
 constexpr auto rounding_and_iterations =
-    "three times what a perturbation of 10 u L sqrt(n) is measured to grow to, and with sequential projection what n "
-    "and 2n iterations differ by";
-constexpr auto settling = "what the runs still move by in their last quarter, and 10 u L sqrt(n)";
+    "three times the measured growth of a perturbation of 10 u L sqrt(n), and with sequential projection the "
+    "difference between n and 2n iterations";
+constexpr auto settling = "the movement of the runs in their last quarter, and 10 u L sqrt(n)";
 
 constexpr Relation table[] = {
-    {"free-fall", "an unpinned net falls as its rule says, without relative motion", rounding_and_unsolved,
+    {"free-fall", "an unpinned net falls by the formula of its rule, without relative motion", rounding_and_unsolved,
      falling_nets, falling, free_fall},
-    {"turned", "a turned start gives the turned run", rounding_and_unsolved, nets_anywhere, movable, turned_start},
+    {"turned", "a rotated start gives the rotated run", rounding_and_unsolved, nets_anywhere, movable, turned_start},
     {"shifted", "a shifted start gives the shifted run", rounding_and_unsolved, small_nets, movable, shifted_start},
     {"no-force", "no force, no motion", rounding, resting_nets, resting, no_force_no_motion},
-    {"rest-shape", "the shape of rest does not depend on damping", settling, hanging_chains, hanging_chain,
+    {"rest-shape", "the shape at rest does not depend on damping", settling, hanging_chains, hanging_chain,
      rest_without_damping},
-    {"extension", "in a hanging chain stiffness times extension is the weight below", settling, hanging_chains_in_drag,
+    {"extension", "in a hanging chain, stiffness times extension is the weight below", settling, hanging_chains_in_drag,
      hanging_chain, extension_by_stiffness},
     {"stiffness", "the stiffness of every spring has an effect", settling, hanging_chains_in_drag, hanging_chain,
      stiffness_has_effect},
-    {"one-answer", "finer steps and more iterations lead to one answer",
-     "half of the first difference in two halvings, and twice the rounding", small_nets, smooth, one_answer},
+    {"one-answer", "finer steps and more iterations converge to one answer",
+     "half of the first difference after two halvings, and twice the rounding", small_nets, smooth, one_answer},
     {"particle-order", "the order of particles does not matter", rounding_and_iterations, small_nets, any_scene,
      order_of_particles},
     {"spring-order", "the order of springs does not matter", rounding_and_iterations, small_nets, with_springs,
      order_of_springs},
-    {"half-step", "half the step gives the same motion within the rule's order",
+    {"half-step", "halving the step changes the motion as the rule's order allows",
      "2^(1/2 - order) of the first difference, and twice the rounding", small_nets, smooth, half_the_step},
     {"scaling", "a scene scaled in length, mass or time gives the scaled run", rounding, small_nets, any_scene,
      scaled_scene},
-    {"momentum", "a free net keeps its momentum", rounding_and_unsolved, flying_nets, isolated, momentum_kept},
-    {"angular-momentum", "a free net keeps its angular momentum",
-     "rounding, and of rules that are not symplectic 2^(1/2 - order) of the change at twice the step", flying_nets,
+    {"momentum", "a free net conserves its momentum", rounding_and_unsolved, flying_nets, isolated, momentum_kept},
+    {"angular-momentum", "a free net conserves its angular momentum",
+     "rounding, and for rules that are not symplectic 2^(1/2 - order) of the change at twice the step", flying_nets,
      isolated, angular_momentum_kept},
     {"mirror", "a symmetric scene stays symmetric", rounding_and_iterations, symmetric_nets, symmetric,
      mirror_symmetry},
-    {"pins", "pins stay where they are, or on their path", "10 u L sqrt(n)", pinned_nets, pinned, pins_on_their_path},
-    {"energy", "an undamped net's energy has no drift beyond its swing, or one that falls with the step",
-     "the swing within a tenth of the run (median) and 10 u E sqrt(n); beyond that 2^(1/2 - order) of the drift at "
-     "twice "
-     "the step",
+    {"pins", "pins stay in place, or on their prescribed path", "10 u L sqrt(n)", pinned_nets, pinned,
+     pins_on_their_path},
+    {"energy", "the energy of an undamped net has no drift beyond its oscillation, or one that falls with the step",
+     "the oscillation within a tenth of the run (median) and 10 u E sqrt(n); beyond that 2^(1/2 - order) of the drift "
+     "at twice the step",
      vibrating_nets, undamped, energy_without_drift},
-    {"resume", "stopped, and begun again from its state, a run goes on as it would have",
-     "rounding, and what half the step changes", small_nets, unchanging, stop_and_go_on},
-    {"repeatable", "the same call twice gives the same bits", "none", small_nets, any_scene, same_call_twice},
+    {"resume", "a run that is stopped and resumed from its state continues unchanged",
+     "rounding, and the change by half the step", small_nets, unchanging, stop_and_go_on},
+    {"repeatable", "repeating a call gives the same bits", "none", small_nets, any_scene, same_call_twice},
 };
 
 }  // namespace

@@ -1,4 +1,4 @@
-// The scenes of relations and of the conformance kit, from the files beside this one.
+// The scenes of relations and of the conformance kit, from the files in this folder.
 #include <initializer_list>
 
 #include "experiments/check/transformations.h"

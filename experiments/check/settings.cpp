@@ -1,4 +1,4 @@
-// Relations of one scene that is solved in other steps, with more iterations, in two parts, or twice.
+// Relations of one scene solved with other steps, with more iterations, in two parts, or twice.
 #include <fmt/format.h>
 
 #include <cmath>
@@ -10,7 +10,7 @@
 namespace crosscheck {
 namespace {
 
-/// Throws CannotBeAsked where the method chooses its steps, and RunFailed where it has a step of its own and keeps it.
+/// Throws CannotBeAsked if the method chooses its steps, and RunFailed if it uses a fixed step of its own.
 void require_own_step(const Method& method) {
   if (chooses_steps(method)) throw CannotBeAsked("it chooses its own steps");
   if (method.identify && method.identify().kind == FoundRule::ignores_step)
@@ -20,8 +20,8 @@ void require_own_step(const Method& method) {
         0, Verdict::ok);
 }
 
-/// `fine` must be no more than `part` of `coarse`, and twice the noise, as long as `coarse` is at most a hundredth of
-/// the lengths: beyond that a vibration is out of phase by so much that no power of the step is seen.
+/// Requires `fine` to be at most `part` of `coarse` plus twice the noise, as long as `coarse` is at most a hundredth of
+/// the lengths. Beyond that, the phase error of a vibration is so large that no power of the step is visible.
 RelationResult shrinking(std::string what, const Scene& scene, const Trajectory& path,
                          const std::vector<double>& coarse, const std::vector<double>& fine, double part,
                          const std::vector<double>& noise) {
@@ -60,7 +60,7 @@ RelationResult half_the_step(Subject& subject, const Scene& scene, unsigned) {
   require_own_step(subject.method());
   const Trajectory& one = halved(subject, scene, 0);
   const int order = order_of(subject.method());
-  // the error C h^p makes the second difference 2^-p of the first; half a power is left for terms of higher order
+  // an error C h^p makes the second difference 2^-p of the first; half a power is left for terms of higher order
   const auto difference = [&](int times) {
     return distances(halved(subject, scene, times), halved(subject, scene, times + 1));
   };
@@ -69,7 +69,7 @@ RelationResult half_the_step(Subject& subject, const Scene& scene, unsigned) {
       shrinking(fmt::format("a half against a quarter of the step, {} the whole against a half", allowed), scene, one,
                 difference(0), difference(1), std::exp2(0.5 - order), noise_at(subject, scene, 2));
   if (found.holds()) return found;
-  // at one step terms of higher order may cancel the first difference; they do not at the next one too
+  // terms of higher order may cancel the first difference at one step, but not at the next one as well
   RelationResult finer =
       shrinking(fmt::format("a quarter against an eighth of the step, {} a half against a quarter", allowed), scene,
                 one, difference(1), difference(2), std::exp2(0.5 - order), noise_at(subject, scene, 3));
@@ -81,7 +81,7 @@ RelationResult one_answer(Subject& subject, const Scene& scene, unsigned) {
   const auto noise = noise_at(subject, scene, 3);
   const Trajectory &one = halved(subject, scene, 0), &two = halved(subject, scene, 1),
                    &four = halved(subject, scene, 2), &eight = halved(subject, scene, 3);
-  // order one makes it a quarter; whatever ends below a half in two halvings has a limit
+  // order one makes it a quarter; a difference that falls below half in two halvings has a limit
   RelationResult found =
       shrinking("a quarter against an eighth of the step, which is to be half of the whole against a half", scene, one,
                 distances(one, two), distances(four, eight), 0.5, noise);
@@ -93,7 +93,7 @@ RelationResult one_answer(Subject& subject, const Scene& scene, unsigned) {
   }
   const auto more = subject.with_iterations(2);
   if (!more) return found;
-  // n and 2n iterations of ever finer steps come to one answer where their difference shrinks with the step
+  // n and 2n iterations converge to one answer if their difference shrinks with the step
   Subject other(*more);
   return worse(found, shrinking("n against 2n iterations at half the step, which is to be less than at the whole step",
                                 scene, one, distances(one, halved(other, scene, 0)),
@@ -107,7 +107,7 @@ RelationResult stop_and_go_on(Subject& subject, const Scene& scene, unsigned) {
   if (middle < 1) throw CannotBeAsked("the scene has no sample between its start and its end");
   if (whole.v[middle].cols() != scene.start.v.cols())
     throw CannotBeAsked("it reports no velocities, and cannot be resumed without them");
-  // of what is at rest to rounding no run says how it would go on
+  // a run that is at rest to rounding does not show how it continues
   double moved = 0;
   for (int i = middle; i <= run.samples; ++i) moved = std::max(moved, largest_column(whole.x[i] - whole.x[middle]));
   if (moved <= 2 * subject.noise(scene).start) throw CannotBeAsked("it has come to rest before its middle");
@@ -120,7 +120,7 @@ RelationResult stop_and_go_on(Subject& subject, const Scene& scene, unsigned) {
     second_half.t.push_back(whole.t[i]);
     second_half.x.push_back(whole.x[i]);
   }
-  // a rule that keeps more than positions and velocities is begun anew, which is an error of its order
+  // a rule with more state than positions and velocities restarts, which is an error of its order
   std::vector<double> bound = subject.noise(scene).x;
   if (!chooses_steps(subject.method())) bound = sum_of(std::move(bound), distances(whole, halved(subject, scene, 1)));
   bound.erase(bound.begin(), bound.begin() + middle);
@@ -131,7 +131,7 @@ RelationResult stop_and_go_on(Subject& subject, const Scene& scene, unsigned) {
 RelationResult same_call_twice(Subject& subject, const Scene& scene, unsigned seed) {
   const Run run = run_for_relations(scene);
   const Trajectory first = subject.fresh_run(scene, run).path;
-  // another call between them, which must leave nothing behind
+  // another call in between, which must leave no trace
   const Scene other = placed(scene, {Eigen::Matrix3d::Identity(), 0.01 * scene.size() * seeded_turn(seed).col(0)});
   subject.fresh_run(other, run);
   const Trajectory second = subject.fresh_run(scene, run).path;

@@ -1,4 +1,4 @@
-// Runs of an engine that relations are asked of, and their rounding.
+// Runs of the engine under test, and their rounding.
 #include "experiments/check/subject.h"
 
 #include <fmt/format.h>
@@ -33,7 +33,7 @@ SubjectRun Subject::fresh_run(const Scene& scene, const Run& run) {
   made.path = std::move(recorder.trajectory);
   Outcome& out = made.outcome;
   const TimeGrid grid = time_grid(run);
-  if (out.steps == 0) out.steps = static_cast<long>(grid.samples) * grid.steps_per_sample;  // the program reports none
+  if (out.steps == 0) out.steps = static_cast<long>(grid.samples) * grid.steps_per_sample;  // not reported
   if (out.verdict == Verdict::unsupported) throw CannotBeAsked(out.reason);
   if (out.readback) single_ = out.readback->precision == "single";
   if (out.verdict != Verdict::ok)
@@ -116,7 +116,7 @@ Subject::Noise Subject::noise_with_unsolved(const Scene& scene, double lengths) 
       48 * unit_roundoff() * omega * omega * std::max(lengths, lengths_in(scene, plain.path)) * plain.outcome.step;
   const double unsolved = std::max(rule->solved_to * largest_speed(plain.path) * heaviest / lightest, rounded) *
                           static_cast<double>(std::max(1L, plain.outcome.steps));
-  // it grows as the perturbation did
+  // the error grows like the perturbation
   const double factor = 1 + unsolved * scene.duration / noise.start;
   for (double& x : noise.x) x *= factor;
   for (double& v : noise.v) v = v * factor + 3 * unsolved;
@@ -127,11 +127,11 @@ Subject::Noise Subject::noise_with_unsolved(const Scene& scene, double lengths) 
 namespace {
 
 struct NamedIterations {
-  std::string method;  // without them
+  std::string method;  // without the option n=
   int count = 1;
 };
 
-/// The option n= is what position-based methods call their iterations by; without it there is one.
+/// Reads the option n=, the iterations of position-based methods; the default is 1.
 NamedIterations iterations_in(const std::string& name) {
   NamedIterations found;
   for (size_t at = 0; at <= name.size();) {

@@ -1,4 +1,4 @@
-// Scenes made from other scenes.
+// Scenes derived from other scenes.
 #include "experiments/check/transformations.h"
 
 #include <Eigen/Geometry>
@@ -27,7 +27,7 @@ std::vector<int> seeded_order(int n, unsigned seed) {
   std::mt19937_64 engine(seed + 2000);
   std::vector<int> order(n);
   std::iota(order.begin(), order.end(), 0);
-  // S. Sattolo, Inf. Process. Lett. 22, 1986: one cycle, in which nothing keeps its place
+  // S. Sattolo, Inf. Process. Lett. 22, 1986: a single cycle, in which no element keeps its place
   for (int i = n - 1; i > 0; --i) std::swap(order[i], order[static_cast<int>(uniform(engine) * i)]);
   return order;
 }
@@ -72,7 +72,7 @@ Scene placed(Scene scene, const Placement& placement) {
 Scene renumbered(const Scene& scene, const std::vector<int>& order) {
   Scene other = scene;
   const int n = scene.model.particles.size();
-  std::vector<int> number(n);  // what a particle is called now
+  std::vector<int> number(n);  // new number of each particle
   for (int i = 0; i < n; ++i) number[order[i]] = i;
   const auto reorder = [&](const Points& from, Points& to) {
     for (int i = 0; i < from.cols(); ++i) to.col(i) = from.col(order[i]);
@@ -195,7 +195,8 @@ Scene scaled(Scene scene, const Scaling& scaling) {
 
 namespace {
 
-/// The particles' images, or nothing: each has one at the mirrored place, with its mass and velocity, pinned as it is.
+/// The image of each particle, which has the mirrored position, the same mass and velocity, and is pinned alike; or
+/// nothing if a particle has none.
 std::optional<std::vector<int>> images_of(const Scene& scene, const Scene& other, double near) {
   const Particles& p = scene.model.particles;
   std::vector<int> image(p.size(), -1);
@@ -210,7 +211,7 @@ std::optional<std::vector<int>> images_of(const Scene& scene, const Scene& other
   return image;
 }
 
-/// What joins particles, by its ends and its numbers.
+/// The elements that join particles, by their ends and parameters.
 std::multiset<std::vector<double>> joined(const Scene& scene, const std::vector<int>& image) {
   std::multiset<std::vector<double>> all;
   const auto add = [&](double kind, int a, int b, double first, double second) {
@@ -226,7 +227,7 @@ std::multiset<std::vector<double>> joined(const Scene& scene, const std::vector<
                               std::vector<std::pair<int, double>> members;
                               for (int i = 0; i < s.size; ++i) members.emplace_back(image[s.particle[i]], s.weight[i]);
                               std::sort(members.begin(), members.end());
-                              // of all weights' signs alike: the energy is the same
+                              // the overall sign of the weights does not affect the energy
                               const double sign = members[0].second < 0 ? -1 : 1;
                               std::vector<double> key{4, s.k};
                               for (const auto& [particle, weight] : members)
@@ -248,7 +249,7 @@ std::multiset<std::vector<double>> joined(const Scene& scene, const std::vector<
   return all;
 }
 
-/// Whether a direction or a place of the two scenes differs.
+/// True if all directions and positions of the two scenes' surroundings agree.
 bool same_outside(const Scene& scene, const Scene& other, double near) {
   const auto same = [](const Vec3& a, const Vec3& b) { return (a - b).norm() <= 1e-12 * a.norm(); };
   const auto same_motion = [&](const std::optional<Motion>& a, const std::optional<Motion>& b) {
@@ -262,7 +263,7 @@ bool same_outside(const Scene& scene, const Scene& other, double near) {
     all = all && same(g->acceleration, other.model.find<Gravity>()->acceleration);
   if (const auto* w = scene.model.find<Wind>())
     all = all && same_wind(w->acceleration, other.model.find<Wind>()->acceleration);
-  // the triangles of a sheet cut its squares along one diagonal
+  // not symmetric: the triangles of a sheet cut its squares along one diagonal
   all = all && !scene.model.find<Aerodynamics>() && !scene.model.first_order();
   if (const auto* spheres = scene.model.find<Spheres>())
     for (size_t i = 0; i < spheres->list.size(); ++i) {
@@ -286,7 +287,7 @@ std::optional<Mirror> mirror_of(const Scene& scene) {
   std::vector<int> itself(scene.model.particles.size());
   std::iota(itself.begin(), itself.end(), 0);
   for (int axis = 0; axis < 3; ++axis) {
-    if (high[axis] - low[axis] <= near) continue;  // a plane that holds all of them says little
+    if (high[axis] - low[axis] <= near) continue;  // reflection in a plane that contains all particles is trivial
     Mirror mirror;
     mirror.reflection.turn(axis, axis) = -1;
     mirror.reflection.shift[axis] = low[axis] + high[axis];

@@ -1,4 +1,4 @@
-// Relations between a scene's run and that of a transformed scene.
+// Relations between the runs of a scene and of a transformed scene.
 #include <fmt/format.h>
 
 #include "experiments/check/compare.h"
@@ -12,12 +12,12 @@ RelationResult beside_placed(Subject& subject, const Scene& scene, const Placeme
   const Trajectory& here = subject.run(scene).path;
   const Trajectory& there = subject.run(other).path;
   const double lengths = std::max(lengths_in(scene, here), lengths_in(other, there));
-  // where an equation is solved no further is a matter of coordinates, and so what is left of it is another in each run
+  // the residual of an implicit equation depends on the coordinates, so that it differs between the two runs
   return farthest(what, with_positions(here, [&](const Points& x) { return placement.of(x); }), there,
                   subject.noise_with_unsolved(scene, lengths).x, lengths);
 }
 
-/// The bound of runs that differ in the order of what is summed or gone through: each is off by its own iterations.
+/// Bound for runs that differ in the order of summation or iteration: each has an iteration error of its own.
 std::vector<double> bound_of_order(Subject& subject, const Scene& scene, const Scene& other) {
   std::vector<double> bound = subject.noise(scene).x;
   for (const Scene* one : {&scene, &other})
@@ -33,7 +33,7 @@ RelationResult turned_start(Subject& subject, const Scene& scene, unsigned seed)
 }
 
 RelationResult shifted_start(Subject& subject, const Scene& scene, unsigned seed) {
-  // by the scene's own size, in a seeded direction
+  // by the size of the scene, in a seeded direction
   const Vec3 shift = scene.size() * seeded_turn(seed).col(0);
   return beside_placed(subject, scene, {Eigen::Matrix3d::Identity(), shift},
                        "the shifted run against the run of the shifted start");
@@ -62,7 +62,7 @@ RelationResult order_of_springs(Subject& subject, const Scene& scene, unsigned s
 RelationResult scaled_scene(Subject& subject, const Scene& scene, unsigned) {
   const Trajectory& here = subject.run(scene).path;
   const auto noise = subject.noise(scene).x;
-  // powers of two, which scale every rounding too
+  // powers of two, which scale every rounding error exactly
   struct Case {
     const char* what;
     Scaling scaling;

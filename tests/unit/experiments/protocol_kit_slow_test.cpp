@@ -47,7 +47,7 @@ TEST_F(ProtocolKit, FindsWhatIsSpoiledAndNamesNothingElse) {
        rewrite + "'s/\"(steps|force_evaluations)\"/\"some\"/' \"$2/run.json\"\n",
        {},
        {"run.json: steps", "run.json: force_evaluations"},
-       "how many steps it took"},
+       "the number of steps"},
       {"leaves a row untold",
        "",
        rewrite + "'s/\"may_sleep\"/\"may_rest\"/' \"$2/run.json\"\n",
@@ -77,7 +77,7 @@ TEST_F(ProtocolKit, FindsWhatIsSpoiledAndNamesNothingElse) {
        "",
        {"unknown term"},
        {},
-       "look at the type of every term"},
+       "check the type of every term"},
       {"does not leave dashpots to others",
        rewrite + "'s/,\\{\"type\":\"dashpots\",\"list\":\\[[^]]*\\]\\}//' \"$1\"\n",
        "",
@@ -101,8 +101,13 @@ TEST_F(ProtocolKit, FindsWhatIsSpoiledAndNamesNothingElse) {
        "",
        {"certificate: gravity"},
        {"same call twice"},
-       "other bytes"},
-      {"leaves a process behind", "", "sleep 60 &\n", {"leaves nothing behind"}, {}, "wait for what it starts"},
+       "different bytes"},
+      {"leaves a process behind",
+       "",
+       "sleep 60 &\n",
+       {"leaves nothing behind"},
+       {},
+       "wait for all processes that you start"},
   };
   for (const auto& c : cases) {
     SCOPED_TRACE(c.what);

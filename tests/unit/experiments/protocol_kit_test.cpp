@@ -39,7 +39,7 @@ TEST_F(ProtocolKit, ProgramsThatAreNoAdaptersAreTold) {
     std::set<std::string> required;
     std::string told;
   } cases[] = {{"echo no licence >&2\nexit 7\n", "", {"starts and ends"}, "it ended with exit status 7 (no licence)"},
-               {"echo nothing works >&2\nexit 3\n", "", {"scenes"}, "no scene of the kit is taken"},
+               {"echo nothing works >&2\nexit 3\n", "", {"scenes"}, "no scene of the kit is supported"},
                {"sleep 60\n", "+timeout=0.2", {"starts and ends", "scenes"}, "it did not end within 0.2 s"},
                {"exit 0\n", "", {"trajectory", "unknown term"}, "trajectory.npy is missing"}};
   for (const auto& [text, options, required, told] : cases) {
