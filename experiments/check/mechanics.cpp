@@ -167,7 +167,7 @@ namespace {
 /// The drift of the energy in a run, J, and the oscillation and rounding that can hide a drift.
 struct Drift {
   double change, hidden;
-  std::vector<double> changes, times;  // of each tenth of the run relative to the first; s
+  std::vector<double> changes, times;  // mean energy of each tenth of the run relative to the first, J; s
 };
 
 Drift drift_of(Subject& subject, const Scene& scene, const Run& settings) {

@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# Cross-compiles mysim and its unit tests for ARM64, and runs under qemu-user: the fast tests, and the golden hashes and
-# projections, which must be those of x86-64 (reference/baselines/golden-hashes.csv, implicit-projections.csv).
+# Cross-compiles mysim and its unit tests for ARM64. Runs the fast tests under qemu-user, and the golden hashes and
+# projections, which must equal those of x86-64 (reference/baselines/golden-hashes.csv, implicit-projections.csv).
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/../.."
 as_root=()
@@ -11,5 +11,5 @@ as_root=()
 cmake --preset arm64 >/dev/null
 cmake --build build/arm64 --target unit_mysim unit_mysim_slow
 ctest --test-dir build/arm64 -j "$(nproc)" --output-on-failure -R "^Golden" -L slow
-# these four look for killed processes in /proc, where qemu-user shows itself
+# these four tests search /proc for killed processes, where qemu-user itself appears
 ctest --test-dir build/arm64 -j "$(nproc)" --output-on-failure -L fast -E "^TemporaryFolders\.(ThoseOf|FilesOf|Nothing|What)"

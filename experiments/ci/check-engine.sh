@@ -1,11 +1,11 @@
 #!/usr/bin/env bash
-# Checks an engine, as CI does it: relations that need no truth, then its results beside those that were blessed.
+# Checks an engine, for CI: relations that need no truth, then a comparison of its results with the blessed ones.
 #
 #   check-engine.sh ENGINE OUT [SCENE]...     ENGINE is a program of the engine protocol; OUT gets check/ and regress/,
-#                                             a page each; without scenes the small ones, pendulum and chain, are asked
+#                                             with a page each; the default scenes are the small ones pendulum, chain
 #
-# Environment: PREPARE, a shell command that is run first, such as what builds the engine; BASELINES, the folder of
-# blessed results (crosscheck-baselines). Exit status: 0 nothing is broken and nothing moved; 1 something is; 2 bad use.
+# Environment: PREPARE, a shell command to run first, such as the build of the engine; BASELINES, the folder of blessed
+# results (crosscheck-baselines). Exit status: 0 nothing broken or changed; 1 something is; 2 bad usage.
 set -euo pipefail
 [ $# -ge 2 ] || { sed -n '2,8s/^# \{0,1\}//p' "$0" >&2; exit 2; }
 engine=$1 out=$2
@@ -16,7 +16,7 @@ baselines=${BASELINES:-crosscheck-baselines}
 [ -z "${PREPARE:-}" ] || bash -euxc "$PREPARE"
 
 status=0
-step() { # NAME COMMAND...: runs it; 1 is an answer, anything above ends here
+step() { # NAME COMMAND...: runs the command; status 1 is a negative answer, anything above ends the script
   local name=$1 ended=0
   shift
   printf '== %s\n' "$*"

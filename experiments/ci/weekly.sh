@@ -1,11 +1,11 @@
 #!/usr/bin/env bash
-# Tests that take long and rarely fail. `./crosscheck test` and CI leave them out. Run all of them once a week, and the
-# part that your change touches before the change is finished:
+# Slow tests that rarely fail. `./crosscheck test` and CI leave them out. Run all of them once a week, and before you
+# finish a change the parts that it touches:
 #
-#   experiments/ci/weekly.sh [PART]...     builds, then runs these parts; without arguments all of them
-#   experiments/ci/weekly.sh --tests       prints the regular expression of the tests that are left out elsewhere
+#   experiments/ci/weekly.sh [PART]...     builds, then runs these parts; without arguments, all of them
+#   experiments/ci/weekly.sh --tests       prints the regular expression of the tests that other runs leave out
 #
-#   mutants     wrong changes to mysim, each of which regress must notice
+#   mutants     defects in mysim, each of which regress must detect
 #   builds      regress on builds with other compilers and options
 #   corpus      coursework: all solutions, styles, mistakes, mutants, cheats and odd programs
 #   kill        reports under kill -9 at ten moments, and on a full disk
@@ -62,7 +62,7 @@ for part in "${parts[@]}"; do
   if [ -n "${packages[$part]:-}" ]; then
     # shellcheck disable=SC2086  # several names
     "${as_root[@]}" env DEBIAN_FRONTEND=noninteractive apt-get install -y -qq --no-install-recommends ${packages[$part]} >/dev/null
-    rm -f "$build/build.ninja" # an earlier configuration did not find them
+    rm -f "$build/build.ninja" # the earlier configuration did not find these packages
   fi
   case $part in
     mutants) tests/mutants/prove.sh || status=$? ;;

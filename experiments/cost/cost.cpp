@@ -20,12 +20,12 @@
 namespace crosscheck {
 namespace {
 
-/// Makes the compiler take it as read, so that the work is not left out.
+/// Tells the compiler that the data are read, so that it does not drop the work.
 void keep(const double* data) { asm volatile("" : : "r"(data) : "memory"); }
 
-/// Compiled for each instruction set; the best that the machine has is taken.
+/// Compiled for each instruction set; the best one that the machine supports is used.
 #if defined(__SANITIZE_ADDRESS__)
-// what chooses among them runs before the sanitizer is ready
+// the function that chooses the clone runs before the sanitizer is ready
 #else
 [[gnu::target_clones("arch=x86-64-v4", "arch=x86-64-v3", "default")]]
 #endif
@@ -67,22 +67,22 @@ Kernel triad_kernel(double bytes) {
 
 namespace {
 
-/// A run of so many steps, not observed in between.
+/// A run of that many steps, without samples in between.
 Run steps_of(const Scene& scene, long steps) { return {scene.step, scene.step * static_cast<double>(steps), 1}; }
 
-/// As many steps as take about 10 ms by the estimate; at least 2.
+/// Number of steps that take about 10 ms by the estimate; at least 2.
 long steps_to_time(const Method& method, const Scene& scene) {
   const double each = estimated_seconds(method, scene, steps_of(scene, 1));
   return std::clamp(std::lround(0.01 / each), 2L, 2000L);
 }
 
-/// What takes CPU time, s, and how many steps or calls that is, once it was run.
+/// A timed function, which returns its CPU time, s; `count` is the number of steps or calls, known after a run.
 struct TimedLoop {
   std::function<double()> run;
   std::shared_ptr<double> count = std::make_shared<double>(1);
 };
 
-/// Steps of a method; no time where it does not take the scene.
+/// Steps of a method; returns no time if the method does not support the scene.
 TimedLoop timed_steps(const Method& method, const Scene& scene, long steps, Outcome* outcome = nullptr) {
   TimedLoop loop;
   loop.run = [&method, &scene, steps, outcome, count = loop.count] {
@@ -96,7 +96,7 @@ TimedLoop timed_steps(const Method& method, const Scene& scene, long steps, Outc
   return loop;
 }
 
-/// Times of one step or call of each, s. What takes 5 ms is the same the first time, and what takes 10 is run twice.
+/// Times of one step or call of each loop, s. Loops of 5 ms need no warm-up, and loops of 10 ms are run twice.
 std::vector<std::vector<double>> times_of(const std::vector<TimedLoop>& loops, bool full) {
   std::vector<std::function<double()>> runs;
   for (const TimedLoop& loop : loops) runs.push_back(loop.run);
@@ -114,10 +114,10 @@ long springs_of(const Scene& scene) { return static_cast<long>(scene.model.find<
 void cost_of_size(const Request& request, int n, TableSet& tables) {
   const Scene scene = sized_cloth(n);
   std::vector<Method> methods, requested = methods_of(request, scene);
-  // for engines that know spring graphs only: the same rule without the fused step
+  // for comparison with engines that know spring graphs only: the same rule without the fused step
   if (request.methods.empty()) requested.push_back(find_method(std::string(subject().representative) + "+plain"));
   for (Method& method : requested) {
-    if (method.adaptive) continue;  // how long its steps are is its own choice
+    if (method.adaptive) continue;  // chooses the length of its steps
     if (run_method(method, scene, steps_of(scene, 1), {}).verdict != Verdict::unsupported)
       methods.push_back(std::move(method));
   }
@@ -156,7 +156,7 @@ void cost_of_size(const Request& request, int n, TableSet& tables) {
 
 namespace {
 
-/// Calls of the kernel alone.
+/// Calls of the spring kernel alone.
 TimedLoop springs_alone(const Scene& scene) {
   auto kernel = std::make_shared<SpringKernel>(*scene.model.find<Springs>(), static_cast<int>(scene.start.x.cols()));
   auto forces = std::make_shared<Forces>(Forces{Points::Zero(3, scene.start.x.cols())});
@@ -169,7 +169,7 @@ TimedLoop springs_alone(const Scene& scene) {
   return {run, std::make_shared<double>(calls)};
 }
 
-/// Calls for all forces, as the stepper computes them.
+/// Evaluations of all forces, as in the stepper.
 TimedLoop forces_alone(const Scene& scene) {
   auto system = std::make_shared<System>(scene.model);
   auto state = std::make_shared<State>(scene.start);
@@ -183,7 +183,7 @@ TimedLoop forces_alone(const Scene& scene) {
   return {run, std::make_shared<double>(calls)};
 }
 
-/// a - b, as wide as both.
+/// a - b, with the sum of the widths of both intervals.
 Timing minus(const Timing& a, const Timing& b) {
   return {a.median - b.median, a.low - b.high, a.high - b.low, std::min(a.repetitions, b.repetitions)};
 }
@@ -278,7 +278,7 @@ std::vector<Point> cost_points(const Request& request) {
   if (request.full) sides.insert(sides.end(), {256, 512});
   std::string content = request.full ? "full" : "quick";
   for (const Method& m : request.methods) content += fmt::format(" {} {}", m.name, m.fingerprint);
-  Request alone = request;  // no scenes: the cloth is its own
+  Request alone = request;  // without scenes: the experiment uses its own cloth
   alone.scenes.clear();
   std::vector<Point> points;
   for (const int n : sides)

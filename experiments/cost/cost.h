@@ -1,4 +1,4 @@
-// Experiment `cost`: what a step costs, against size, by phase, and on the roofline of this machine.
+// Experiment `cost`: the time of a step by size, by phase, and relative to the roofline of this machine.
 #pragma once
 
 #include <functional>
@@ -14,40 +14,40 @@ namespace crosscheck {
 // The peaks of this machine, measured by small loops of this build (S. Williams, A. Waterman and D. Patterson,
 // "Roofline", 2009).
 
-/// A loop with a known amount of work; run() does it once and says what CPU time it took, s.
+/// A loop with a known amount of work; run() executes it once and returns its CPU time, s.
 struct Kernel {
-  double flop, bytes;  // of one run; bytes that the source reads and writes
+  double flop, bytes;  // per run; bytes that the source reads and writes
   std::function<double()> run;
 };
 
-/// Multiplications and additions in registers that depend on no other result, with the instructions that mysim's
-/// kernels use (fused ones where these have them).
+/// Independent multiplications and additions in registers, with the instructions that mysim's kernels use (fused ones
+/// if these kernels have them).
 Kernel multiply_add_kernel();
 
-/// a = b + s c over three arrays of `bytes` in all: the bandwidth of memory of that size. 24 bytes an element.
+/// a = b + s c over three arrays of `bytes` in total: the bandwidth of memory of that size. 24 bytes per element.
 Kernel triad_kernel(double bytes);
 
 /// `size-cost`: time per step of every method on a cloth of n x n particles.
 void cost_of_size(const Request& request, int n, TableSet& tables);
-/// `phases-cost`: of mysim's leapfrog on a cloth above a sphere, in the general engine, what springs, other forces,
-/// contact and the rest of the step take, and the whole step in the fused step, which does all of it in one pass; of
-/// Bullet's worlds the whole step, since their phases cannot be seen from outside.
+/// `phases-cost`: phases of mysim's leapfrog on a cloth above a sphere. In the general engine: springs, other forces,
+/// contact and the rest of the step. In the fused step, which does everything in one pass: the whole step. For Bullet's
+/// worlds: the whole step, because their phases cannot be observed from outside.
 void cost_of_phases(const Request& request, int n, TableSet& tables);
-/// The same from measured times, s: springs, all forces, a step without the sphere and a step with it (of methods[0]);
-/// then whole steps, of methods[1] and on.
+/// Table `phases-cost` from measured times, s: springs, all forces, a step without the sphere and a step with it (all
+/// of methods[0]), then whole steps of methods[1] and onwards.
 Table phases_table(int n, const std::vector<std::string>& methods, const std::vector<Timing>& times);
 /// `roofline-cost`: the machine's peaks and the spring kernel at several sizes.
 void cost_against_roofline(bool full, TableSet& tables);
-/// The remark on a measured peak below the rate of another loop, flop/s; nothing where there is none.
+/// The remark on a measured peak below the rate of the triad loop, flop/s; nothing if there is no doubt.
 std::optional<std::string> doubt_about_peak(double peak, double triad);
 
 /// Work of the spring kernel per spring, in floating-point operations: 3 differences, 5 for the squared length, 1
-/// difference and 1 product for the tension, 3 products, 6 to add the force to both ends; a root and a quotient count
-/// as 7 each, as the multiplications and additions that they take the place of.
+/// difference and 1 product for the tension, 3 products, and 6 to add the force to both ends. A root and a quotient
+/// count as 7 each, the number of multiplications and additions that they displace.
 inline constexpr double flop_per_spring = 33;
-/// Bytes that it moves for one spring, and for one particle: two ends (8), stiffness and rest length (16), the force
-/// written once and read twice (3 x 32), the index of its second end (4); a position copied (24 + 32) and read from
-/// there (32), a force read and written (48), two ranges (16).
+/// Memory traffic of the kernel per spring and per particle, B. Spring: two ends (8), stiffness and rest length (16),
+/// the force written once and read twice (3 x 32), the index of its second end (4). Particle: a position copied (24 +
+/// 32) and read from the copy (32), a force read and written (48), two ranges (16).
 inline constexpr double bytes_per_spring = 124, bytes_per_particle = 152;
 
 }  // namespace crosscheck

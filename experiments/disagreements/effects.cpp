@@ -1,4 +1,4 @@
-// Quantities and sentences of the known disagreements.
+// Quantities of the known disagreements, and sentences about them.
 #include "experiments/disagreements/effects.h"
 
 #include <fmt/format.h>
@@ -15,7 +15,7 @@
 namespace crosscheck::effects {
 namespace {
 
-/// Time between the first and the last upward passage through the middle, over the swings between, s.
+/// Mean time between upward passages through the middle, s; NaN for fewer than two.
 double period(const Series& s) {
   double low = 1e300, high = -1e300, first = 0, last = 0;
   int passages = 0;
@@ -52,8 +52,8 @@ double sag(const Scene& scene, const State& s) {
 double length(const Scene&, const State& s) { return (s.x.col(1) - s.x.col(0)).norm(); }
 double along_wind(const Scene&, const State& s) { return s.v.row(2).mean(); }
 double gap(const Scene& scene, const State& s) { return 1e3 * *clearance(scene, s.t, s.x); }
-/// By how much the particle moves steeper than the tangent of the ball where it is, mrad; 0 in its first half
-/// millimetre, since it falls freely to where a field of 20 mm puts the surface, up to 0.1 mm below.
+/// Angle by which the particle's path is steeper than the local tangent of the ball, mrad; 0 in the first half
+/// millimetre, where the particle falls freely to the surface of a field of 20 mm, up to 0.1 mm below.
 double steeper(const Scene& scene, const State& s) {
   const Vec3 v = s.v.col(0), from = s.x.col(0) - scene.model.find<Spheres>()->list[0].centre;
   return moved(scene, s) < 5e-4 ? 0 : 1e3 * (std::atan2(-v.y(), v.x()) - std::atan2(from.x(), from.y()));
@@ -105,7 +105,7 @@ std::string hessian_effect(const std::vector<Series>& all) {
 }
 
 std::string rest_effect(const std::vector<Series>& all) {
-  // between the turning points: a mean over time would depend on how many periods the run has
+  // halfway between the turning points: a mean over time would depend on the number of periods in the run
   auto middle = [](const Series& s) {
     const auto [low, high] =
         std::ranges::minmax(s.points | std::views::transform([](const auto& point) { return point.second; }));
@@ -118,7 +118,7 @@ std::string rest_effect(const std::vector<Series>& all) {
 }
 
 std::string wind_effect(const std::vector<Series>& all) {
-  // when each has half the speed that the scene prescribes at the end
+  // the time at which each run has half the final speed of the reference
   const double half = all[0].last() / 2;
   auto reached = [&](const Series& s) {
     for (const auto& [t, v] : s.points)
@@ -178,7 +178,7 @@ std::string hop_effect(const std::vector<Series>& all) {
 }
 
 std::string precision_effect(const std::vector<Series>& all) {
-  // numbers of 24 bits are rounded by 6e-8 of their size; some ten roundings a step, that add up like a random walk
+  // numbers of 24 bits are rounded by 6e-8 of their size; about ten roundings per step accumulate like a random walk
   constexpr double length = 2;  // m, of the positions in the scene
   const double expected = 10 * 6e-8 * length * std::sqrt(static_cast<double>(all[2].outcome.steps));
   return fmt::format(
@@ -221,7 +221,7 @@ std::string unused_effect(const std::vector<Series>& all) {
 }
 
 std::string over_relaxation_effect(const std::vector<Series>& all) {
-  // a sample is a step; the decaying root is gone after a few, and the stretch is still small
+  // a sample is a step; after a few, the decaying root has vanished and the stretch is still small
   auto growth = [](const Series& s) -> double {
     constexpr size_t from = 6, to = 12;
     if (s.points.size() <= to) return NAN;

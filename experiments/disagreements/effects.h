@@ -1,4 +1,4 @@
-// What is measured in the runs of known disagreements, and the sentences that say it.
+// Measured quantities of the known disagreements, and the sentences that state them.
 #pragma once
 
 #include "experiments/disagreements/disagreements.h"
@@ -18,7 +18,7 @@ double second_stretch(const Scene& scene, const State& s);
 double lowest(const Scene&, const State& s);
 double energy(const Scene& scene, const State& s);
 
-// The measured size of an effect, one sentence, from the curves of a row's variants.
+// The measured size of an effect as a sentence, from the curves of a row's variants.
 
 std::string friction_effect(const std::vector<Series>& all);
 std::string stiffness_effect(const std::vector<Series>& all);
@@ -40,7 +40,7 @@ std::string over_relaxation_effect(const std::vector<Series>& all);
 std::string small_effect(const std::vector<Series>& all);
 std::string sleeping_effect(const std::vector<Series>& all);
 
-/// Over the angle, as the step goes to 0.
+/// The direction of contact over the angle, in the limit of small steps.
 TableWithSentence directions(const Disagreement& d);
 
 // Changes of a variant's scene.

@@ -1,4 +1,4 @@
-// What is sent upstream: texts made of the rows of experiment `disagreements`.
+// Texts for upstream projects, made from the rows of experiment `disagreements`.
 #pragma once
 
 #include <string>
@@ -14,9 +14,10 @@ struct UpstreamText {
   std::string file, text;  // Markdown
 };
 
-/// upstream-gallery.md: each trouble with its threads, its state and the measured evidence, and the threads that no
-/// scene can ask. upstream-NAME.md: a report for each trouble that is written up, where it is there. Empty without the
-/// rows. `engines`: what was run, as tables say it; rows of a program name the program instead.
+/// upstream-gallery.md: each disagreement with its threads, its state and the measured evidence, and the threads for
+/// which there is no scene. upstream-NAME.md: a report for each disagreement that is written up, if it was reproduced.
+/// Empty without rows. `engines`: the versions that were run, as in the tables; rows of an external program name the
+/// program.
 std::vector<UpstreamText> upstream_texts(const TableSet& rows, const std::string& engines);
 
 }  // namespace crosscheck
