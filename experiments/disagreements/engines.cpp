@@ -1,4 +1,4 @@
-// Disagreements of the engines that `engine NAME` builds with a scene's definition.
+// Known disagreements of the engines that `engine NAME` builds.
 
 #include <fmt/format.h>
 
@@ -22,8 +22,8 @@ std::string distances(const std::vector<Series>& all) {
 }  // namespace
 
 std::vector<Disagreement> engine_disagreements() {
-  // Single precision leaves 2e-6 m of a metre in 500 steps; 1e-4 m is far from that and from each effect. In double
-  // precision the same rule agrees to 1e-13 m: 1e-9 m.
+  // The error of single precision after 500 steps is 2e-6 m for lengths of a metre; 1e-4 m is far above that and far
+  // below each effect. In double precision the same rule agrees to 1e-13 m, and 1e-9 m is allowed.
   return with_texts({
       {.name = "constant-forces",
        .world = "engine:rapier",

@@ -16,8 +16,8 @@ namespace {
 using namespace effects;
 constexpr auto apart = Condition::Kind::apart, within = Condition::Kind::within, hangs = Condition::Kind::hangs;
 
-/// Fills in heading, cause and threads from the section "# NAME" of disagreements.md: paragraphs, the last of which
-/// begins with "Upstream: " if threads are known. Throws std::logic_error where there is none.
+/// Fills in heading, cause and threads from the section "# NAME" of disagreements.md. The last paragraph begins with
+/// "Upstream: " if threads are known. Throws std::logic_error if there is no such section.
 void add_texts(Disagreement& row) {
   static const std::string file =
       read_file(data_folder() / "experiments/disagreements/disagreements.md", "the texts of disagreements");
@@ -42,7 +42,7 @@ std::vector<Disagreement> table() {
         {"Bullet, position-based", "bullet/pbd"}},
        moved,
        friction_effect,
-       // of 0.29 m slid by Coulomb's law
+       // Coulomb's law gives a distance of 0.29 m
        {{apart, 2, 0, 0.2}},
        {{within, 1, 0, 2e-3}}},
       {"pbd-stiffness",
@@ -57,7 +57,7 @@ std::vector<Disagreement> table() {
         {"the demos' settings, 1/60 s", "bullet/pbd+demo", 1. / 60}},
        sag,
        stiffness_effect,
-       // half of the 5.9 mm asked for, and a twentieth
+       // half of the requested 5.9 mm, and a twentieth of it
        {{apart, 1, 0, 3}},
        {{within, 4, 0, 0.3}}},
       {"link-law",
@@ -69,7 +69,7 @@ std::vector<Disagreement> table() {
         {"the link law, mysim", "mysim/leapfrog", 0, SpringLaw::bullet_link}},
        length,
        law_effect,
-       // of a metre to and fro
+       // the length oscillates over a metre
        {{apart, 1, 0, 0.2}},
        {{within, 2, 1, 0.05}}},
       {"implicit-freeze",
@@ -81,7 +81,7 @@ std::vector<Disagreement> table() {
         {"Bullet, without it", "bullet/deformable-implicit+unprojected"}},
        length,
        freeze_effect,
-       // m, in the first sample, in which it is stopped
+       // m, in the first sample, at which the run is stopped
        {{apart, 2, 1, 0.01}},
        {{within, 1, 0, 1e-3}}},
       {"indefinite-hessian",
@@ -93,7 +93,7 @@ std::vector<Disagreement> table() {
         {"Bullet, as shipped", "bullet/deformable-implicit+shipped"}},
        energy,
        hessian_effect,
-       // as much again as the 20 J at the start
+       // as much again as the initial 20 J
        {{apart, 2, 0, 20}},
        {{within, 1, 0, 1e-3}}},
       {"rest-lengths",
@@ -106,7 +106,7 @@ std::vector<Disagreement> table() {
         {"Bullet, explicit, flag cleared", "bullet/deformable-explicit"}},
        length,
        rest_effect,
-       // the 0.1 m by which it starts pushed together; twice h v, by which the two rules may part at 2 m/s
+       // the initial compression of 0.1 m; twice h v, the largest difference of the two rules at 2 m/s
        {{apart, 1, 0, 0.1}},
        {{within, 3, 0, 4e-3}}},
       {"wind-at-rest",
@@ -118,7 +118,7 @@ std::vector<Disagreement> table() {
         {"Bullet, forces added to nodes", "bullet/pbd"}},
        along_wind,
        wind_effect,
-       // of 2.4 m/s at the end
+       // the final speed is 2.4 m/s
        {{apart, 1, 0, 1}},
        {{within, 2, 0, 0.2}}},
       {"speed-clamp",
@@ -130,7 +130,7 @@ std::vector<Disagreement> table() {
         {"Bullet, margin of 10 m", "bullet/deformable-explicit"}},
        moved,
        clamp_effect,
-       // of 80 m; g h t / 2 = 0.08 m
+       // the distance is 80 m; g h t / 2 = 0.08 m
        {{apart, 1, 0, 20}},
        {{within, 2, 0, 0.1}}},
       {"distance-field",
@@ -191,7 +191,7 @@ std::vector<Disagreement> table() {
         {"Bullet, joined by 1e-9 N/m", "bullet32/deformable-explicit+in-pieces+timeout=60", 0, SpringLaw::hooke, join}},
        lowest,
        pieces_effect,
-       // a run that is not stuck takes what the joined one takes; twice g h t / 2
+       // without the hang, the run takes as long as the joined one; twice g h t / 2
        {{hangs, 1, 2, 3}},
        {{within, 2, 0, 2e-3}}},
       {"one-stiffness",
@@ -203,7 +203,7 @@ std::vector<Disagreement> table() {
         {"Bullet, one body, one force", "bullet/deformable-explicit"}},
        second_stretch,
        one_stiffness_effect,
-       // with a tenth of the stiffness it is stretched by up to 196 instead of 20 mm; h v = 0.3 mm at 0.31 m/s
+       // with a tenth of the stiffness it is stretched by up to 196 mm instead of 20 mm; h v = 0.3 mm at 0.31 m/s
        {{apart, 1, 0, 50}},
        {{within, 2, 0, 0.5}}},
       {"gravity-factor",
@@ -215,7 +215,7 @@ std::vector<Disagreement> table() {
         {"Bullet, deformable", "bullet/deformable-explicit+gravity-factor=0.5"}},
        moved,
        gravity_factor_effect,
-       // it falls twice as far as the 4.9 m; g h t / 2 = 0.01 m
+       // it falls twice as far as the expected 4.9 m; g h t / 2 = 0.01 m
        {{apart, 1, 0, 4}},
        {{within, 2, 0, 0.02}}},
       {"stiffness-unused",
@@ -231,7 +231,7 @@ std::vector<Disagreement> table() {
         {"100 N/m, deformable, kLST 0.01", "bullet/deformable-explicit+kLST=0.01"}},
        sag,
        unused_effect,
-       // most of the 59 mm, and the same bits; h v = 0.3 mm at 0.3 m/s
+       // most of the 59 mm, and identical bits; h v = 0.3 mm at 0.3 m/s
        {{apart, 0, 1, 40}, {within, 2, 3, 0}},
        {{within, 4, 0, 0.6}, {within, 5, 1, 0.6}, {within, 6, 4, 0}}},
       {"over-relaxation",
@@ -244,7 +244,7 @@ std::vector<Disagreement> table() {
         {"Bullet, kLST 1.5", "bullet/pbd+kLST=1.5"}},
        stretch,
        over_relaxation_effect,
-       // it starts at 0.1 mm, which a link that holds never exceeds
+       // it starts at 0.1 mm, which a stable link never exceeds
        {{apart, 3, 0, 1}},
        {{within, 2, 1, 0.1}}},
       {"small-things",
@@ -257,7 +257,7 @@ std::vector<Disagreement> table() {
         {"Bullet, both scaled", "bullet/deformable-explicit+voxel=0.0002"}},
        gap,
        small_effect,
-       // a hundredth of the ball; a^2 / 4R = 0.001 mm, and the fall to it
+       // a hundredth of the ball; a^2 / 4R = 0.001 mm, and the fall to the surface
        {{apart, 1, 0, 0.1}, {apart, 2, 0, 0.1}},
        {{within, 3, 0, 0.005}}},
       {"sleeping",
@@ -269,7 +269,7 @@ std::vector<Disagreement> table() {
         {"Bullet, sleeping switched off", "bullet/deformable-explicit"}},
        stretch,
        sleeping_effect,
-       // of 1 mm to either side; twice h v at 10 mm/s
+       // amplitude 1 mm; twice h v at 10 mm/s
        {{apart, 1, 0, 0.5}},
        {{within, 2, 0, 0.04}}},
   };

@@ -1,4 +1,4 @@
-// The gallery of upstream troubles, and reports of two of them that can be sent as they are.
+// The gallery of upstream problems, and reports of two of them that are ready to be sent.
 #include "experiments/disagreements/upstream.h"
 
 #include <fmt/format.h>
@@ -13,7 +13,7 @@
 namespace crosscheck {
 namespace {
 
-/// A template with the values in place of their keys.
+/// A template with its keys replaced by values.
 std::string filled(const std::string& name, const std::vector<std::pair<std::string, std::string>>& values) {
   std::string text = read_file(data_folder() / "experiments/disagreements/upstream" / name, "a text");
   for (const auto& [key, value] : values)
@@ -21,11 +21,11 @@ std::string filled(const std::string& name, const std::vector<std::pair<std::str
   return text;
 }
 
-/// The row's world if that is a program; otherwise the installed Bullet, from the tables' line of engines, and the
-/// world.
+/// The row's world if it is a program; otherwise the installed version of Bullet, from the tables' line of engines, and
+/// the world.
 std::string version_of(const DisagreementRow& row, const std::string& engines) {
   if (row.world.starts_with(program_prefix)) return row.world;
-  const size_t bullet = engines.find("Bullet");  // behind what else was run
+  const size_t bullet = engines.find("Bullet");  // after the other engines
   return fmt::format("{}, {}", bullet == std::string::npos ? engines : engines.substr(bullet), row.world);
 }
 
@@ -39,8 +39,8 @@ std::string gallery(const std::vector<DisagreementRow>& rows, const std::string&
   return filled("gallery.md", {{"{troubles}", troubles}});
 }
 
-// The programs in the reports, and what they print, were run with Bullet 3.24 in double precision (Debian
-// 3.24+dfsg-2), and the change of buildTreeBottomUp with btSoftBody.cpp of tag 3.24.
+// The programs in the reports and their output were tested with Bullet 3.24 in double precision (Debian 3.24+dfsg-2),
+// and the change of buildTreeBottomUp with btSoftBody.cpp of tag 3.24.
 constexpr std::string_view reports[] = {"network-in-pieces", "contact-direction"};
 
 bool is_there(const DisagreementRow& row) {

@@ -15,11 +15,11 @@ namespace {
 
 constexpr long all_steps = 100000;
 constexpr int samples = 200;
-/// Rules that solve the whole step are meant for longer steps: so many times the scene's.
+/// Ratio of the step to the scene's for rules that solve an equation in each step: they are meant for longer steps.
 constexpr int longer = 10;
 
-/// Everything that takes or gives energy, in one small scene: a cloth held by two moved corners swings in gusts against
-/// a ball, with drag and with springs that damp.
+/// All energy sources and sinks in one small scene: a cloth held by two moving corners swings in gusts against a ball,
+/// with drag and with springs that have dashpots.
 Scene everything() {
   return parse_scene(
       "question = \"Where does the energy go when everything acts at once?\"\n"
@@ -34,8 +34,8 @@ Scene everything() {
       "all-at-once");
 }
 
-/// Steps of the scene's step that each method's run is given, so that all cover the same time: as many as the slowest
-/// engine's representative takes in a budget. A full run's allows all on a cloth of 10 x 10.
+/// Number of steps, at the scene's step, that defines the duration of all methods' runs: as many as the slowest
+/// engine's representative takes within a CPU budget. In a full run, this allows all steps on a cloth of 10 x 10.
 long steps_for(const Request& request, const Scene& scene) {
   const double budget = request.full ? 2.5 : 0.9;  // s
   double of_all = 0;
@@ -77,7 +77,7 @@ EnergyRow summary_of(const Scene& scene, const Method& method, const Outcome& ou
   return row;
 }
 
-/// Adds two hundred rows at equal times, and the first ones of each decade.
+/// Adds two hundred rows at equal intervals, and the first ones of each decade.
 void add_thinned(Table& table, const Method& method, const ThinnedLedger& ledger, double duration) {
   const std::vector<LedgerRow>& rows = ledger.rows();
   double worst = 0, next = 0;
@@ -119,7 +119,7 @@ void long_run(const Request& request, const Scene& scene, const Method& method, 
                                        all_steps, scene.name, scene.model.particles.size(),
                                        request.full ? "" : "; --full takes more"));
 
-  // how many steps an adaptive rule takes is its own choice: stiff springs take millions
+  // an adaptive rule chooses the number of its steps: stiff springs take millions
   if (const double seconds = method.adaptive ? estimated_as_it_begins(method, scene, run) : 0; seconds > 30) {
     tables.notes.push_back(
         fmt::format("energy leaves out {} on {}: as it begins, its {:.3g} s would cost about {:.0f} s of CPU time",
@@ -127,7 +127,7 @@ void long_run(const Request& request, const Scene& scene, const Method& method, 
     return;
   }
 
-  // some ten thousand observations are enough to find the largest residual, and cost less than the steps
+  // some ten thousand observations suffice to find the largest residual, and cost less than the steps
   ThinnedLedger ledger(scene.model, method.contact, std::max(1l, steps / 20000));
   const Outcome out = run_method(method, scene, run, {&ledger});
   if (out.verdict == Verdict::ok && ledger.rows().empty())
@@ -164,7 +164,7 @@ std::vector<Point> energy_points(const Request& request) {
   if (request.scenes_only) return points;
   const Scene oscillator = undamped_oscillator();
   for (const Method& method : methods_of(request, oscillator)) {
-    if (method.adaptive) continue;  // it has no step to be set
+    if (method.adaptive) continue;  // has no fixed step
     Request alone = request;
     alone.methods = {method};
     points.push_back({fmt::format("energy: numerical damping of {}", method.name), content_of(alone, oscillator),

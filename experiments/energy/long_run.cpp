@@ -15,7 +15,7 @@ Verdict ThinnedLedger::observe(const State& state, bool sample) {
   bool look = sample || seen_ % stride_ == 0;
   if (seen_ == next_) {
     look = true;
-    next_ = std::max(next_ + 1, std::lround(static_cast<double>(next_) * 1.12));  // twenty to a decade
+    next_ = std::max(next_ + 1, std::lround(static_cast<double>(next_) * 1.12));  // twenty per decade
   }
   ++seen_;
   return ledger_.observe(state, look);
@@ -40,7 +40,7 @@ ResidualStatistics residual_statistics(const std::vector<LedgerRow>& rows) {
   run.growth = early > 0 ? std::log10(run.worst / early) : 0;
   run.equivalent_drag = twice_kinetic > 0 ? -run.final / twice_kinetic : 0;
 
-  // the first states of each decade crowd at the start: each row weighs as much as the time since the one before
+  // the first states of each decade are dense at the start: the weight of a row is the time since the previous one
   double weight = 0, mean_t = 0, mean_r = 0, tt = 0, tr = 0, rr = 0;
   const auto each = [&](auto&& use) {
     for (size_t i = 1; i < rows.size(); ++i) use(rows[i].t - rows[i - 1].t, rows[i].t, residual(rows[i]));
@@ -58,7 +58,7 @@ ResidualStatistics residual_statistics(const std::vector<LedgerRow>& rows) {
 
 namespace {
 
-/// |R(i y)| of the rules that are one-step maps of x and v alike.
+/// |R(i y)| for rules that map x and v alike in one step.
 std::optional<double> gain(const std::string& rule, double y) {
   const std::complex<double> z(0, y);
   if (rule == "explicit-euler") return std::abs(1. + z);
@@ -108,7 +108,7 @@ MeasuredDamping measured_damping(const Method& method, double h, int steps) {
     if (path.v[i].cols() != path.x[i].cols() || !path.x[i].allFinite()) continue;
     const double energy = energy_of(scene.model, {path.t[i], path.x[i], path.v[i]}).total();
     if (i == 0) first = energy;
-    // places of 1 m are rounded by 1e-16, extensions of 1 mm so by 1e-13: far below this the energy is noise
+    // positions of 1 m are rounded by 1e-16, thus extensions of 1 mm by 1e-13: far below this bound the energy is noise
     if (!(energy > 1e-10 * first) || !(energy < 1e10 * first)) break;
     logs.emplace_back(path.t[i], std::log(energy / first));
   }

@@ -10,10 +10,10 @@
 
 namespace crosscheck {
 
-// The ledger of a run of very many steps: every step counts, few rows are kept.
+// The ledger of a run of very many steps: it includes every step, but keeps few rows.
 
-/// A ledger that chooses its rows by itself: the run's samples, every `stride`-th state, and the first states of each
-/// decade, so that short and long times are both seen. No state is kept.
+/// A ledger that selects its rows: the run's samples, every `stride`-th state, and the first states of each decade, so
+/// that both short and long times are visible. Keeps no states.
 class ThinnedLedger : public Observer {
  public:
   ThinnedLedger(const Model& model, ContactLoss contact, long stride) : ledger_(model, contact), stride_(stride) {}
@@ -29,44 +29,45 @@ class ThinnedLedger : public Observer {
   long stride_, seen_ = 0, next_ = 1;
 };
 
-/// Statistics over a long run of its residual r, the balance less the balance at the start (J).
+/// Statistics of the residual r over a long run: the balance minus the balance at the start (J).
 struct ResidualStatistics {
-  double energy_scale = 0;  // J: the largest kinetic energy, or change of gravitational or elastic energy
+  double energy_scale = 0;  // J: the largest kinetic energy, or largest change of gravitational or elastic energy
   double worst = 0;         // J, largest |r|
   double final = 0;         // J, r at the end
-  double drift = 0;         // J/s, slope of the straight line through r, least squares
+  double drift = 0;         // J/s, slope of the least-squares line through r
   double oscillation = 0;   // J, RMS deviation of r from that line
-  /// log10 of the largest |r| over the run over that of its first tenth: 0 where r is bounded, 1 where it grows in
-  /// proportion to time.
+  /// log10 of the largest |r| over the run over that of its first tenth: 0 if r is bounded, 1 if it grows linearly with
+  /// time.
   double growth = 0;
-  /// 1/s: the drag rate gamma that would take as much from the same motion, -(r(T) - r(0)) / integral of 2 K dt, since
-  /// drag takes gamma m v^2 each second. Negative where energy is made.
+  /// Drag rate gamma that would dissipate as much in the same motion, 1/s: -(r(T) - r(0)) / integral of 2 K dt, because
+  /// drag dissipates gamma m v^2 per second. Negative if energy is created.
   double equivalent_drag = 0;
 };
 ResidualStatistics residual_statistics(const std::vector<LedgerRow>& rows);
 
-// Numerical damping: what a rule takes from an oscillation that nothing damps.
+// Numerical damping: the energy that a rule removes from an undamped oscillator.
 
-/// Minus the slope of y over t, least squares, of points (t, y), two at least: 1/s of logarithms over seconds.
+/// Negative least-squares slope of y over t for at least two points (t, y): 1/s if y is a logarithm and t in seconds.
 double decay_rate(std::span<const std::pair<double, double>> points);
 
-/// 1 kg on a spring of 100 N/m without gravity or drag, let go 1 mm off its length.
+/// A mass of 1 kg on a spring of 100 N/m without gravity or drag, released 1 mm from its rest length.
 Scene undamped_oscillator();
 inline constexpr double oscillator_omega = 10;  // rad/s
 
-/// The drag rate (1/s) that a rule's damping of an oscillation amounts to, at h omega per step: -2 ln|R(i h omega)| / h
-/// with its stability function R; 0 of symplectic rules. Negative where energy is made. Empty for rules without one.
+/// Drag rate (1/s) equivalent to the numerical damping of a rule at h omega per step: -2 ln|R(i h omega)| / h with its
+/// stability function R; 0 for symplectic rules. Negative if energy is created. Empty for rules without a stability
+/// function.
 std::optional<double> damping_by_theory(const Method& method, double h, double omega);
 
-/// The same from a run of `steps` steps: minus the slope of ln(energy) over time, least squares. Empty where the method
-/// does not take the scene.
+/// Drag rate from a run of `steps` steps: negative least-squares slope of ln(energy) over time. Empty if the method
+/// does not support the scene.
 struct MeasuredDamping {
   Outcome outcome;
   std::optional<double> rate;  // 1/s
 };
 MeasuredDamping measured_damping(const Method& method, double h, int steps);
 
-/// Table energy-damping: both, over a range of steps, for every method with fixed steps.
+/// Adds table energy-damping: both rates, over a range of steps, for a method with fixed steps.
 void add_damping(const Method& method, bool full, TableSet& tables);
 
 }  // namespace crosscheck

@@ -14,12 +14,12 @@
 
 namespace crosscheck {
 
-// Experiment `engines`: all methods on the same scene at the same step; how far from the truth, how far from each
-// other, at what cost.
+// The experiment compares all methods on the same scene at the same step: distance from the truth, distance from each
+// other, and cost.
 
 namespace {
 
-/// Nothing when the trajectories have no common time.
+/// The largest value of a column up to `until` (s); nothing if there is none.
 std::optional<double> largest(const std::vector<EngineTimeRow>& rows, std::optional<double> EngineTimeRow::*member,
                               double until) {
   double most = -1;
@@ -28,8 +28,8 @@ std::optional<double> largest(const std::vector<EngineTimeRow>& rows, std::optio
   return most < 0 ? std::nullopt : std::optional(most);
 }
 
-/// The largest stable step of the method's rule for the scene's fastest vibration at the start, s; empty where the rule
-/// has none, chooses its own steps, or the particles' drag rates differ.
+/// Largest stable step of the method's rule for the scene's fastest vibration at the start, s; empty if the rule has
+/// none or chooses its own steps, or if the particles' drag rates differ.
 std::optional<double> predicted_limit(const Method& method, const Scene& scene, double omega) {
   const auto gamma = uniform_drag_rate(scene.model);
   if (const Stepper* rule = stepper_of(method); rule && !rule->adaptive && omega > 0 && gamma)
@@ -37,7 +37,7 @@ std::optional<double> predicted_limit(const Method& method, const Scene& scene, 
   return {};
 }
 
-/// Table SCENE-statistics: what perturbed runs have in common.
+/// Adds table SCENE-statistics: means over perturbed runs.
 void add_statistics(const Request& request, const Scene& scene, const Run& run, MethodResults& results,
                     TableSet& tables) {
   Table table = table_of<StatisticRow>(scene.name + "-statistics");
@@ -54,7 +54,7 @@ void add_statistics(const Request& request, const Scene& scene, const Run& run, 
     }
   };
   std::vector<std::string> perturbed_methods;
-  // the rules that stand for the engines: sixteen runs of every method would show no more
+  // only the representatives of the engines: sixteen runs of every method would show no more
   for (const MethodFamily& family : method_families()) {
     if (!family.by_default()) continue;
     const auto methods = methods_of(request, scene);
@@ -66,7 +66,7 @@ void add_statistics(const Request& request, const Scene& scene, const Run& run, 
                                          family.representative, scene.name));
       continue;
     }
-    // a method that refuses the scene, or failed on it, has no statistics
+    // no statistics for a method that refuses the scene or fails on it
     const MethodResult& result = result_of(request, scene, *method, results);
     if (result.outcome.verdict != Verdict::ok) continue;
     const std::vector<Statistic> statistics = contact_statistics(*method, scene, run);
@@ -74,7 +74,7 @@ void add_statistics(const Request& request, const Scene& scene, const Run& run, 
     if (family.is_subject()) reference = statistics;
     perturbed_methods.push_back(method->name);
   }
-  // of the others the run at hand, where there is a spread to tell it in
+  // for the other methods the existing run, if there is a spread to relate it to
   for (const Method& method : methods_of(request, scene)) {
     const MethodResult& result = result_of(request, scene, method, results);
     const bool runs = result.outcome.verdict == Verdict::ok && result.trajectory.frames() > 0 &&
@@ -94,7 +94,7 @@ struct Standards {
     const std::string of(request.reference.empty() ? subject().representative : request.reference);
     const auto requested = std::ranges::find(request.methods, of, &Method::name);
     method = requested == request.methods.end() ? find_method(of) : *requested;
-    // differences from a failed run would say nothing
+    // differences from a failed run would be meaningless
     const MethodResult& result = result_of(request, scene, method, results);
     if (result.outcome.verdict == Verdict::ok) reference = result.trajectory;
     const bool known = reference.frames() > 0;
@@ -113,7 +113,7 @@ struct Standards {
   double omega = 0;   // rad/s, of the fastest vibration at the start
 };
 
-/// Certifies the scene that another engine built. If it is not the one requested, the run counts as unsupported.
+/// Certifies the scene that another engine built. If it differs from the requested one, the run counts as unsupported.
 void certify_result(const Method& method, const Scene& scene, Outcome& out, TableSet& tables) {
   if (out.verdict == Verdict::unsupported || method.stepper) return;
   tables.certificates.push_back(certify(method.name, scene, out));
@@ -182,7 +182,7 @@ EngineRow summary_of(const Request& request, const Scene& scene, const Method& m
 
 EngineCostRow cost_of(const Scene& scene, const Method& method, const Outcome& out) {
   EngineCostRow row{.scene = scene.name, .method = method.name};
-  // an outside program need not report its own time
+  // an external program need not report its own time
   if (out.process_seconds == 0 || out.cpu_seconds > 0) {
     row.cpu = out.cpu_seconds;
     if (out.steps) row.cpu_per_step = out.cpu_seconds / static_cast<double>(out.steps);

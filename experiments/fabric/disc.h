@@ -1,19 +1,20 @@
 // A round cloth over a smaller disc, as a net of rings and spokes: Cusick's drape test, without contact.
 //
-// The net is the one of mysim/terms/bending.h in polar coordinates: a thin plate of Poisson's ratio 0 holds B/2 per
-// area of
-//   |x_rr|^2 + 2 |(x_t / r)_r|^2 + |x_r / r + x_tt / r^2|^2,   t the angle (rad),
+// The net is that of mysim/terms/bending.h in polar coordinates. A thin plate of Poisson's ratio 0 has an energy per
+// area of B/2 times
+//   |x_rr|^2 + 2 |(x_t / r)_r|^2 + |x_r / r + x_tt / r^2|^2,   with the angle t (rad),
 // the square of the second derivatives of x in polar coordinates (S. Timoshenko and S. Woinowsky-Krieger, Theory of
-// Plates and Shells, chapter 9). With rings d apart and spokes at angles of D, to the second order in both,
+// Plates and Shells, chapter 9). For rings at distances d and spokes at angles D, to second order in both,
 //   x_rr = (x_{i-1} - 2 x_i + x_{i+1}) / d^2                   on the area r d D of a particle,
 //   (x_t / r)_r = ((x_11 - x_10) / r_{i+1} - (x_01 - x_00) / r_i) / (2 sin(D/2) d)   on the area of a cell, and
-//   x_r / r + x_tt / r^2 = (x_{i+1} - x_{i-1}) / (2 d r) + (x_{j-1} - 2 x_j + x_{j+1}) / (2 (1 - cos D) r^2),
-// whose sines and cosines make it vanish wherever x is linear in the places on the flat sheet: the flat sheet is
-// without strain to the last digit. On the rim, whose particles have half the area, x_r is the difference from the ring
-// inside, as x_rr is small there: no moment acts on a free edge.
+//   x_r / r + x_tt / r^2 = (x_{i+1} - x_{i-1}) / (2 d r) + (x_{j-1} - 2 x_j + x_{j+1}) / (2 (1 - cos D) r^2).
+// The sines and cosines make these vanish if x is linear in the positions on the flat sheet, so that the flat sheet is
+// free of strain to the last digit. On the rim, whose particles have half the area, x_r is the difference from the next
+// inner ring, because x_rr is small there: no moment acts on a free edge.
 //
-// In its plane the net is isotropic, of moduli C11 and C12 = C66 = C11 / 3, for in a cell of sides p and q along
-// spokes and rings, diagonals l = (p^2 + q^2)^(1/2), these springs give the same to every cell (moduli.h):
+// In its plane the net is isotropic, with moduli C11 and C12 = C66 = C11 / 3. For a cell with sides p and q along
+// spokes and rings and diagonals l = (p^2 + q^2)^(1/2), the following springs contribute equally to every cell
+// (moduli.h):
 //   diagonals C66 l^2 / (2 p q), along spokes (C11 - C66 p^2 / q^2) q / p, along rings (C11 - C66 q^2 / p^2) p / q.
 #pragma once
 
@@ -21,9 +22,9 @@
 
 namespace crosscheck {
 
-/// Specimen and disc are those of ISO 9073-9: 30 and 18 cm.
+/// Specimen and disc as in ISO 9073-9: 30 and 18 cm in diameter.
 struct DrapedDisc {
-  int rings;               // that are free, between the disc and the rim
+  int rings;               // free ones, between the disc and the rim
   double rigidity;         // B, N m
   double shear = 40;       // C66, N/m
   double density = 0.15;   // kg/m^2
@@ -33,26 +34,27 @@ struct DrapedDisc {
 
   int spokes() const { return 10 * rings; }  // so that q^2 < 3 p^2 up to the rim
   double spacing() const { return (specimen - disc) / (rings + 0.5); }
-  /// Of ring 0 (pinned, half a spacing inside the disc's edge), 1 (pinned, as far outside), ..., rings + 1 (the rim).
+  /// Radius of ring 0 (pinned, half a spacing inside the disc's edge), 1 (pinned, as far outside), ..., rings + 1
+  /// (rim), m.
   double radius(int ring) const { return disc + (ring - 0.5) * spacing(); }
   int particle(int ring, int spoke) const { return ring * spokes() + (spoke + spokes()) % spokes(); }
 };
 
-/// The height is y.
+/// The scene of the flat sheet. The height is y.
 Scene disc_scene(const DrapedDisc& disc);
 
-/// A start of the search for rest: a flat sheet with waves of a centimetre at the rim, so many around, and ten
-/// micrometres of noise that break their symmetry; or, of 0, random ones of two to nine around.
+/// Initial shape of the search for rest: a flat sheet with `waves` waves of a centimetre around the rim, and ten
+/// micrometres of noise that break their symmetry. With waves = 0: random waves, two to nine around the rim.
 Points wavy(const DrapedDisc& disc, int waves, unsigned seed);
 
-/// The same shape on another net, by cubics between its particles.
+/// The shape x on another net, by cubic interpolation.
 Points on_net(const DrapedDisc& from, const Points& x, const DrapedDisc& to);
 
-/// (projected area - disc) / (specimen - disc), %; the areas are those of the net's polygons, the projected one that of
-/// all that lies below any part of the cloth.
+/// Drape coefficient (projected area - disc) / (specimen - disc), %. The areas are those of the net's polygons; the
+/// projected area is everything below any part of the cloth.
 double drape_coefficient(const DrapedDisc& disc, const Points& x);
 
-/// Nodes of the drape: how often the rim has a maximum of its distance from the axis.
+/// Number of nodes of the drape: maxima of the rim's distance from the axis.
 int nodes_of(const DrapedDisc& disc, const Points& x);
 
 }  // namespace crosscheck

@@ -1,4 +1,4 @@
-// Where a scene comes to rest, found from a guess without the motion there.
+// The state of rest of a scene near a guess, found without simulating the motion.
 #pragma once
 
 #include <optional>
@@ -7,9 +7,9 @@
 
 namespace crosscheck {
 
-/// The scene's state of rest (3 x n, m) that Newton's method, kept downhill (K. Levenberg, 1944), finds from a guess;
-/// nothing where it does not get to a ten-thousandth of gravity, or ends at a saddle: with a billionth of the largest
-/// stiffness added, that of the state is positive definite.
+/// Finds a scene's state of rest (3 x n, m) from a guess, by Newton's method with Levenberg's damping (K. Levenberg,
+/// 1944). Returns nothing if the residual acceleration exceeds a ten-thousandth of gravity, or if the state is a
+/// saddle: its stiffness matrix, with a billionth of the largest stiffness added, is not positive definite.
 std::optional<Points> rest_near(const Scene& scene, const Points& guess);
 
 }  // namespace crosscheck

@@ -1,5 +1,5 @@
-// Experiment `matrix`: what sets engines apart, one answer of each to each question. Runs only where an outside engine
-// is among the methods.
+// Experiment `matrix`: differences between engines, as one answer of each engine to each question. Runs only if an
+// external engine is among the methods.
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -30,20 +30,20 @@ namespace {
 using Answer = MatrixRow<false>;
 using CostAnswer = MatrixRow<true>;
 
-/// An undamped motion in one mode, and the step at which its damping is measured.
+/// An undamped motion in one mode, and the step at which its numerical damping is measured.
 struct UndampedMode {
   EngineQuestion question;
   Scene scene;
   double omega, energy_at_rest, step;  // rad/s, J, s
 };
 
-/// The oscillator of experiment `energy`, in 72 steps a period.
+/// The oscillator of experiment `energy`, with 72 steps per period.
 UndampedMode mode_of_spring() {
   return {EngineQuestion::damping_of_spring, undamped_oscillator(), oscillator_omega, 0,
           2 * std::numbers::pi / oscillator_omega / 72};
 }
 
-/// The chain without drag, let go from its slowest mode about its rest; no particle is further from rest than a
+/// The chain without drag, released in its slowest mode about its rest. No particle is farther from rest than a
 /// thousandth of the scene's size, so that the motion is linear to a thousandth.
 UndampedMode mode_of_chain() {
   Scene scene = load_scene("chain");
@@ -58,11 +58,12 @@ UndampedMode mode_of_chain() {
   return {EngineQuestion::damping_of_chain, std::move(scene), spectrum.modes.front().omega, energy_at_rest, step};
 }
 
-/// The drag rate that would damp as much, over ten periods. The logarithm of the energy is averaged over each period:
-/// the energy of symplectic rules swings twice in one. The rule's own period is not quite the mode's, so that a bit of
-/// the swing is left; averages that begin a quarter of a period later have it with the other sign. The rate is the mean
-/// of both, and the error bar the largest of half their difference, of the difference of the run's two halves (a drag
-/// rate is the same in both), and of rounding, which moves the energy by 1e-14 of itself (1e-5 in single precision).
+/// Drag rate with the same damping as the method, over ten periods. Averages the logarithm of the energy over each
+/// period, because the energy of symplectic rules oscillates twice per period. The period of the rule differs slightly
+/// from that of the mode, which leaves a remainder of the oscillation; averages that begin a quarter of a period later
+/// have a remainder of opposite sign. The rate is the mean of both. The error bar is the largest of half their
+/// difference, the difference of the run's two halves (whose drag rates should agree), and rounding, which changes the
+/// energy by a relative 1e-14 (1e-5 in single precision).
 Answer damping_of(const Method& method, const UndampedMode& mode) {
   constexpr int periods = 10, samples = 24, quarter = samples / 4;
   Answer answer{.method = method.name, .question = mode.question, .unit = "1/s"};
@@ -82,7 +83,7 @@ Answer damping_of(const Method& method, const UndampedMode& mode) {
     std::vector<std::pair<double, double>> means;  // time (s), ln(energy) over each period
     for (; first + samples <= static_cast<int>(logs.size()); first += samples) {
       const double mean = std::accumulate(&logs[first], &logs[first] + samples, 0.) / samples;
-      // below lies rounding in single precision
+      // rounding in single precision dominates below
       if (!std::isfinite(mean) || mean < logs[0] - std::log(1e4)) break;
       means.emplace_back(first / samples * period, mean);
     }
@@ -108,7 +109,7 @@ Answer damping_of(const Method& method, const UndampedMode& mode) {
   return answer;
 }
 
-/// Damping of the spring as a force that the user applies, for an engine with another rule for its own springs.
+/// Damping of the spring as a user-supplied force, for an engine whose own springs follow another rule.
 std::optional<Answer> damping_by_forces(const Method& method) {
   const std::optional<OutsideEngine> engine = kept_engine_of(method.name);
   if (!engine || engine->forces.empty() || method.name.find('+') != std::string::npos) return std::nullopt;
@@ -117,7 +118,8 @@ std::optional<Answer> damping_by_forces(const Method& method) {
   return answer;
 }
 
-/// "rk4", "symplectic-euler, implicit drag", "nearest: xpbd"; the value is the distance from it in sizes of the net.
+/// "rk4", "symplectic-euler, implicit drag", "nearest: xpbd"; the value is the distance from that rule, in sizes of the
+/// net.
 Answer rule_answer(const Method& method) {
   Answer answer{.method = method.name, .question = EngineQuestion::rule, .unit = "1"};
   if (!method.identify) {
@@ -153,7 +155,7 @@ Answer build_answer(const Method& method) {
           .words = fmt::format("{}", fmt::join(parts, ", "))};
 }
 
-/// CPU time of a step in which one particle falls: what the engine and its bridge take before there is anything to do.
+/// CPU time of a step with one falling particle: the overhead of the engine and its bridge.
 CostAnswer empty_step(const Method& method) {
   CostAnswer cell{.method = method.name, .question = EngineQuestion::empty_step, .unit = "s", .tier = "measured"};
   const Scene scene = parse_scene(

@@ -1,5 +1,5 @@
-// Experiment `order`: error against step, and the slope against the declared order; and the distance of each run from
-// the same method's run at its smallest step, which shows methods that converge to something else.
+// Experiment `order`: error over step, its slope compared with the declared order, and the distance of each run from
+// the same method's run at its smallest step, which reveals methods that converge to a different solution.
 
 #include <fmt/ranges.h>
 
@@ -30,15 +30,15 @@ struct Fit {
   double order, from, to;  // slope, and the steps (s) between which it was fitted
 };
 
-/// The slope of the finest three points, if it is steady there: two successive slopes within 0.3 of each other.
-/// Elsewhere the error is not yet, or no longer, a power of the step, and no order can be read off.
+/// The slope of the finest three points if it is steady, that is, if two consecutive slopes differ by less than 0.3.
+/// Otherwise the error is not yet, or no longer, a power of the step, and there is no order.
 std::optional<Fit> asymptotic_order(const std::vector<ErrorAtStep>& points) {
   if (points.size() < 3) return std::nullopt;
   const ErrorAtStep *p = &points[points.size() - 3], *q = p + 1, *r = p + 2;
   const auto slope = [](const ErrorAtStep* a, const ErrorAtStep* b) {
     return std::log(a->error / b->error) / std::log(a->step / b->step);
   };
-  // an error that hardly falls is that of another law, and no order
+  // an error that hardly falls comes from a different law and has no order
   if (!(std::abs(slope(p, q) - slope(q, r)) < 0.3) || slope(p, r) < 0.5) return std::nullopt;
   return Fit{slope(p, r), p->step, r->step};
 }
@@ -53,7 +53,7 @@ std::string why_not(const Scene& scene) {
 void order_on(const Request& request, const Scene& scene, TableSet& tables) {
   Table points = table_of<OrderRow>();
   Table slopes = table_of<OrderSlopeRow>();
-  std::set<std::string> adaptive;  // left out, said once
+  std::set<std::string> adaptive;  // left out, with one note
   const int halvings = request.full ? 9 : 7;
   if (const std::string why = why_not(scene); !why.empty()) {
     tables.notes.push_back(fmt::format("order leaves out {}: {}", scene.name, why));
@@ -73,7 +73,7 @@ void order_on(const Request& request, const Scene& scene, TableSet& tables) {
       adaptive.insert(method.name);
       continue;
     }
-    // other engines cost ten times as much a step
+    // a step of other engines costs ten times as much
     const int steps = method.stepper ? halvings : std::min(halvings, 5);
     std::vector<Refinement> runs;
     for (int i = 0; i < steps; ++i) {
@@ -102,7 +102,7 @@ void order_on(const Request& request, const Scene& scene, TableSet& tables) {
       if (r.ok() && runs.back().ok() && !finest)
         row.distance_to_finest = largest_rms_distance(r.trajectory, runs.back().trajectory, scene.window);
       add(points, row);
-      // below 30 truth bars the bar, and below round-off the round-off, bends the slope by more than 0.05
+      // below 30 error bars the slope would be off by more than 0.05; likewise below round-off
       if (r.ok() && error > 30 * truth->error_bar && error < 0.1 * motion) good.push_back({out.step, error});
     }
     const auto fit = asymptotic_order(good);

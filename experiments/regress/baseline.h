@@ -12,42 +12,42 @@
 
 namespace crosscheck {
 
-// Baselines: the quantities of each method at the last blessing. One readable file per scene.
+// One readable file per scene.
 
 struct BaselineRow {
   std::string method, without;
   bool slow = false;  // selected in full runs only
   QuantityWithTolerance what;
-  int blessing = 1;  // its number in the file, from 1
+  int blessing = 1;  // number of its blessing in the file, from 1
 };
 
 struct Baseline {
-  std::string scene, hash;  // of the scene that these are quantities of
+  std::string scene, hash;  // the scene of these quantities
   std::vector<Blessing> blessings;
   std::vector<BaselineRow> expected;
   std::string source = {};  // hash of the text of the scene's file; empty in baselines of earlier versions
 };
 
-/// SCENE.csv in the folder: comment lines with the scene's hash and each blessing, then one row for each quantity.
+/// Text of SCENE.csv: comment lines with the scene's hash and each blessing, then one row per quantity.
 std::string text_of(const Baseline& baseline);
 std::filesystem::path file_of(const std::filesystem::path& folder, const std::string& scene);
 
-/// Throws InputError "FILE:LINE: expected ..." where the text is no baseline; nothing where there is no file.
+/// Throws InputError "FILE:LINE: expected ..." if the text is not a baseline. Returns nothing if there is no file.
 std::optional<Baseline> read_baseline(const std::filesystem::path& folder, const std::string& scene);
 
-// The last shape of a scene under its own method, kept beside its baseline: what pictures of a failure are set against.
+// The last shape of a scene with its own method, kept next to its baseline for pictures of failures.
 
 /// SCENE-shape.csv in the folder.
 std::filesystem::path shape_file(const std::filesystem::path& folder, const std::string& scene);
 
-/// One row for each particle, m, to 6 digits, which is all that a picture shows; t in s.
+/// One row per particle, m, with 6 digits, enough for a picture; t in s.
 std::string shape_text(const std::string& scene, const std::string& method, double t, const Points& x);
 
 struct FinalShape {
   double t;  // s
   Points x;  // m
 };
-/// None where there is no such file, or one that does not hold `particles` rows.
+/// Returns nothing if there is no such file, or if it does not have `particles` rows.
 std::optional<FinalShape> read_shape(const std::filesystem::path& folder, const std::string& scene, int particles);
 
 }  // namespace crosscheck
