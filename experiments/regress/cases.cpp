@@ -16,9 +16,9 @@
 namespace crosscheck {
 namespace {
 
-/// Estimates are those of release builds. Without optimisation each number that Eigen reads is a call of several
-/// functions: mysim's rules on cloth-hang, chain and spring take up to 350 times as long. Recognised by the assertions,
-/// as fmt's headers turn optimisation on for a while, after which g++ says that it is on.
+/// Factor of the estimates, which are for release builds. Without optimisation, each access to a number through Eigen
+/// is several function calls: mysim's rules on cloth-hang, chain and spring take up to 350 times as long. Detected by
+/// the assertions, because fmt's headers switch optimisation on for a while, after which g++ reports it as on.
 #ifdef NDEBUG
 constexpr double slower = 1;
 #else
@@ -82,7 +82,7 @@ std::vector<Method> engines() {
 double seconds(const Case& q) {
   Run run = default_run(q.scene);
   run.duration = q.scene.window, run.samples = 1;
-  // a program of its own has to start
+  // an external program takes time to start
   return estimated_seconds(q.method, q.scene, run) + q.method.family().start;
 }
 
@@ -112,7 +112,7 @@ std::vector<Case> cases(const Selection& selection) {
       add({scene, method, "", false, scene.hash});
       if (method.name != own && selection.methods.empty()) continue;
       for (const Ingredient& ingredient : ingredients_of(scene))
-        if (ingredient.name != "rotation")  // the whole of a first-order scene
+        if (ingredient.name != "rotation")  // the only term of a first-order scene
           add({without(scene, ingredient), method, ingredient.name, false, scene.hash});
     }
   }

@@ -1,4 +1,4 @@
-// The cases of a regression run (a scene under a method, perhaps without an ingredient), and the run of each.
+// The cases of a regression run (a scene under a method, possibly without an ingredient), and their runs.
 #pragma once
 
 #include <optional>
@@ -10,16 +10,16 @@
 
 namespace crosscheck {
 
-// A case and its run, seen as a list of numbers: what regression tests compare.
+// A case and its run as a list of numbers, which regression tests compare.
 
-/// One scene under one method. `slow`: in full runs only. `without` names the ingredient that was taken out; it is
-/// empty for the scene as it is.
+/// One scene under one method. `slow`: selected in full runs only. `without`: name of the ingredient that was removed;
+/// empty for the complete scene.
 struct Case {
   Scene scene;
   Method method;
   std::string without = {};
   bool slow = false;
-  std::string hash = {};  // of the scene as it is, nothing taken out
+  std::string hash = {};  // hash of the complete scene
   /// "chain under mysim/rk4 without drag"
   std::string in_words() const;
 };
@@ -29,9 +29,9 @@ struct Quantity {
   std::string name, unit;
   double value = 0;
   std::string word = {};
-  bool count = false;    // a whole number that rounding cannot change
-  double size = 0;       // of the numbers whose difference it is: its rounding error is relative to these
-  double error_bar = 0;  // what is not known of it whatever the engine does: the error bar of a truth
+  bool count = false;    // a whole number, unaffected by rounding
+  double size = 0;       // scale of the numbers that are subtracted: the rounding error is relative to it
+  double error_bar = 0;  // uncertainty independent of the engine: the error bar of a truth
   bool is_word() const { return !word.empty(); }
 };
 
@@ -40,54 +40,53 @@ inline constexpr const char *setting_prefix = "setting ", *time_of_failure = "ti
                             *error_quantity = "error against truth", *halving_quantity = "change at half the step",
                             *contact_quantity = "energy lost in contact";
 
-/// One run over the scene's window, beyond which single places cannot be predicted.
+/// One run over the scene's window, beyond which single positions cannot be predicted.
 struct CaseRun {
   Outcome outcome;
   Trajectory trajectory;
   std::vector<LedgerRow> ledger;  // empty in first-order scenes and without velocities
 };
-/// By run_over_window(). Runs that take more than 2 s and twenty times their
-/// estimate, which in builds with assertions is 350 times that of others, end with the verdict `timeout`.
+/// Runs the case over the window (run_over_window()). A run that takes more than 2 s plus twenty times its estimate
+/// (which is 350 times higher in builds with assertions) ends with the verdict `timeout`.
 CaseRun run_case(const Case& test_case);
 
-/// The scene's own step and tolerance over its window, samples where its own lie.
+/// The scene's own step and tolerance over its window, with samples at the scene's sampling times.
 Run run_over_window(const Scene& scene);
 
-/// The quantities that this run has, in a fixed order: the table of them is in quantities.cpp. A failed run has its
-/// verdict, when it failed, and what it did in the first half of the time until then.
+/// The quantities of a run, in the fixed order of the table in quantities.cpp. For a failed run: its verdict, the time
+/// of failure, and its motion in the first half of the time until then.
 std::vector<Quantity> quantities_of(const Case& test_case, const CaseRun& case_run);
 
-/// The name of the quantity that is the offset of the particles from their start at time t (s), and of that of their
-/// places.
+/// Names of the quantities at time t (s): offset of the particles from their start, and their projected positions.
 std::string offset_at(double t);
 std::string places_at(double t);
 
-/// Null where there is none of that name.
+/// The quantity of that name, or null.
 const Quantity* find(const std::vector<Quantity>& all, const std::string& name);
 
-/// The part of a run that gives quantities: all of it, of a failed one the first half of the time until it failed,
-/// since there the motion is still the scene's.
+/// The part of a run from which quantities are taken: the whole run, or for a failed one the first half of the time
+/// until it failed, in which the motion is still that of the scene.
 CaseRun comparable_part(const CaseRun& case_run);
 
-// The cases of a regression run: which scenes under which methods, and which of them without one ingredient.
+// Selection of the cases: scenes, methods, and the scenes without one ingredient.
 
 struct Selection {
   std::vector<std::string> scenes = {};  // names or files; empty: all shipped ones
-  bool full = false;                     // slow cases too
+  bool full = false;                     // includes slow cases
   std::string filter;                    // glob on SCENE or SCENE/METHOD, with !(A|B) and @(A|B); empty: all
   std::vector<Method> methods;           // empty: all of mysim and Bullet
 };
 
-/// Whether everything is selected that baselines of these scenes should have.
+/// True if the selection includes everything that baselines of these scenes should have.
 inline bool covers_all(const Selection& selection) { return selection.filter.empty() && selection.methods.empty(); }
-/// Whether the method is an engine's; integrators, truth and outside programs are selected by name only.
+/// True if the method belongs to an engine; integrators, truth and external programs are selected by name only.
 bool selected_by_default(const std::string& method);
-/// Whether the filter leaves this scene under this method.
+/// True if the filter matches this scene under this method.
 bool passes(const std::string& filter, const std::string& scene, const std::string& method);
 
-/// Every scene under every method, as far as its cost allows (0.5 s by the estimate of experiments/estimate.h, 20 s in
-/// full runs); and under its own method also without each of its ingredients, which separates causes. Methods that
-/// refuse a scene are cases too: a refusal is behaviour. Throws InputError if the filter matches nothing; empty if all
+/// Every scene under every method, up to a cost of 0.5 s by the estimate of experiments/estimate.h (20 s in full runs).
+/// Under its own method, also each scene without each of its ingredients, which separates causes. Methods that refuse a
+/// scene are cases too, because a refusal is behaviour. Throws InputError if the filter matches nothing. Empty if all
 /// matches cost too much.
 std::vector<Case> cases(const Selection& selection);
 

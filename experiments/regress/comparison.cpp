@@ -1,4 +1,4 @@
-// Status and distance of each quantity.
+// Compares quantities with their baselines.
 #include "experiments/regress/comparison.h"
 
 #include <algorithm>
@@ -9,7 +9,7 @@
 namespace crosscheck {
 namespace {
 
-/// Including the verdict of a run that ended in numbers that are not.
+/// False also for the verdict of a run that ended in NaN.
 bool is_finite(const Quantity& q) { return q.is_word() ? q.word != name_of(Verdict::nan) : std::isfinite(q.value); }
 
 Status state_of(const Quantity& is, const QuantityWithTolerance& was) {

@@ -1,4 +1,4 @@
-// Quantities compared with their baselines: the status of each, and how different they are.
+// Comparison of quantities with their baselines: the status of each, and the size of the difference.
 #pragma once
 
 #include <span>
@@ -7,14 +7,14 @@
 
 namespace crosscheck {
 
-/// Failures stand first; what is `added` is reported and fails nothing.
+/// Failures come first; `added` is reported but is no failure.
 enum class Status {
-  moved,       // off by more than the tolerance, or another word
-  not_finite,  // nan or infinite, or the verdict nan
-  gone,        // blessed, selected, and no longer there
+  moved,       // differs by more than the tolerance, or is another word
+  not_finite,  // NaN or infinite, or the verdict nan
+  gone,        // blessed and selected, but no longer measured
   missing,     // the scene has no baseline file
-  stale,       // the baseline is of another scene by the same name
-  unreadable,  // the file is no baseline
+  stale,       // the baseline is of another scene with the same name
+  unreadable,  // the file is not a baseline
   added,       // not blessed yet: a quantity, or all of a method
   same,
 };
@@ -27,27 +27,27 @@ struct Comparison {
   std::string was_word, is_word;
   double tolerance = 0;
   Status state = Status::same;
-  std::string note;  // what else is to be said, e.g. what is wrong with a file
-  /// How many tolerances it is off; 0 for words, infinite for counts.
+  std::string note;  // additional remark, e.g. the error in a file
+  /// Difference in units of the tolerance; 0 for words, infinite for counts.
   double off() const;
-  /// The order of reading: words, then numbers by how far they are off, then counts.
+  /// Sort key for reports: words first, then numbers by off(), then counts.
   double rank() const;
 };
 
-/// One case's quantities compared with its baseline; where none is expected all are new.
+/// Compares one case's quantities with its baseline; without one, all quantities are new.
 std::vector<Comparison> compared(const Case& test_case, const std::vector<Quantity>& is,
                                  const std::vector<BaselineRow>& expected);
 
-/// Of each case and status the failed row that is off most, so that a thousand rows are read in a screen.
+/// The failed row with the largest rank for each case and status, so that a thousand rows fit on a screen.
 std::vector<Comparison> worst_comparisons(const std::vector<Comparison>& rows);
 
-/// A method whose quantities are all new in some scenes: it joined after their baselines were blessed, or it is slow
-/// and these were blessed in a quick run.
+/// A method whose quantities are all new in some scenes: it was added after their baselines were blessed, or it is slow
+/// and they were blessed in a quick run.
 struct NewMethod {
   std::string method;
   size_t scenes = 0, quantities = 0;
 };
-/// Those of the rows, by name.
+/// The new methods among the rows, by name.
 std::vector<NewMethod> new_methods(std::span<const Comparison> rows);
 
 /// The rows of `baseline` that belong to the case.

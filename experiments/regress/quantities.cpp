@@ -1,4 +1,4 @@
-// The table of quantities, and how each is taken from a run.
+// The table of quantities, and their measurement in a run.
 #include "experiments/regress/quantities.h"
 
 #include <fmt/format.h>
@@ -17,7 +17,7 @@
 namespace crosscheck {
 namespace {
 
-/// Frames at so many equal parts of the run, the last one included.
+/// Frames at the ends of `parts` equal parts of the run.
 std::vector<int> frames_at(const Trajectory& path, int parts) {
   std::vector<int> frames;
   for (int i = 1; i <= parts; ++i) {
@@ -35,7 +35,7 @@ void offsets(const Observation& seen, Quantities& out) {
     out.push_back({offset_at(seen.path().t[i]), "m", rms_distance(seen.path().x[i], seen.path().x.front())});
 }
 
-/// Positions along directions drawn once for each particle: they differ where means over the particles agree.
+/// Positions projected on a random direction for each particle: they differ even if means over the particles agree.
 void places(const Observation& seen, Quantities& out) {
   const auto n = seen.path().x.front().cols();
   std::mt19937_64 engine(20250101);
@@ -46,7 +46,7 @@ void places(const Observation& seen, Quantities& out) {
     out.push_back({places_at(seen.path().t[i]), "m", dot(along, seen.path().x[i] - seen.path().x.front())});
 }
 
-/// Kinetic, elastic and gravitational energy, above that at the start.
+/// Total energy relative to the start, and energy lost in contact.
 void energies(const Observation& seen, Quantities& out) {
   const auto& rows = seen.case_run.ledger;
   if (rows.empty()) return;
@@ -69,11 +69,11 @@ void peak_stretch(const Observation& seen, Quantities& out) {
   if (std::isfinite(most)) out.push_back({"peak stretch", "1", most});
 }
 
-/// The offset at the end as waves along and across the scene as it is written: sag is the first of them.
+/// The offset at the end as waves along and across the initial scene: the first of them is the mean offset.
 void shape(const Observation& seen, Quantities& out) {
   const Points &x0 = seen.scene().start.x, offset = seen.path().x.back() - seen.path().x.front();
   if (x0.cols() < 9) return;
-  // the two widest directions of the start, the first of equals
+  // the two widest directions of the start; the first of equal ones
   const Vec3 low = x0.rowwise().minCoeff(), width = x0.rowwise().maxCoeff() - low;
   std::array<int, 3> axes{0, 1, 2};
   std::stable_sort(axes.begin(), axes.end(), [&](int a, int b) { return width[a] > (1 + 1e-9) * width[b]; });
@@ -91,7 +91,7 @@ void shape(const Observation& seen, Quantities& out) {
   }
 }
 
-/// Largest way of a particle along gravity.
+/// Largest displacement of a particle along gravity.
 void sag(const Observation& seen, Quantities& out) {
   const auto* gravity = seen.scene().model.find<Gravity>();
   if (!gravity || seen.scene().model.particles.pins.empty()) return;
@@ -99,7 +99,7 @@ void sag(const Observation& seen, Quantities& out) {
   out.push_back({"sag", "m", (gravity->acceleration.normalized().transpose() * offset).maxCoeff()});
 }
 
-/// Twice the mean time between turning points of the mean of the particles, parabolas through three samples.
+/// Twice the mean time between turning points of the particles' mean position, at parabolas through three samples.
 void period(const Observation& seen, Quantities& out) {
   const Trajectory& path = seen.path();
   if (has_contact(seen.scene().model) || path.frames() < 8) return;
@@ -107,14 +107,14 @@ void period(const Observation& seen, Quantities& out) {
   for (int i = 0; i < path.frames(); ++i) means.col(i) = path.x[i].rowwise().mean();
   const Vec3 width = means.rowwise().maxCoeff() - means.rowwise().minCoeff();
   int axis = 0;
-  if (!(width.maxCoeff(&axis) > 1e-6 * seen.scene().size())) return;  // rounding has no period
+  if (!(width.maxCoeff(&axis) > 1e-6 * seen.scene().size())) return;  // rounding noise has no period
   std::vector<double> turns;
   for (int i = 1; i + 1 < path.frames(); ++i) {
     const double before = means(axis, i) - means(axis, i - 1), after = means(axis, i + 1) - means(axis, i);
     if ((before > 0) == (after > 0)) continue;
     turns.push_back(path.t[i] + 0.5 * (path.t[i] - path.t[i - 1]) * (before + after) / (before - after));
   }
-  // as many as a swing or two have: small ripples are no period
+  // the number of turning points of an oscillation: small ripples have no period
   if (turns.size() < 3 || turns.size() > 40) return;
   out.push_back({"period", "s", 2 * (turns.back() - turns.front()) / static_cast<double>(turns.size() - 1)});
 }
@@ -127,7 +127,7 @@ void smallest_clearance(const Observation& seen, Quantities& out) {
   out.push_back({"smallest clearance", "m", least});
 }
 
-/// The truth over the scene's run where it has a closed form, else nothing: a converged one takes minutes to find.
+/// The truth over the scene's run if it has a closed form, else nothing: a converged one takes minutes to compute.
 std::optional<Truth> exact_truth(const Scene& scene) {
   if (!exact_solution(scene)) return std::nullopt;
   const auto truth = truth_of(scene, default_run(scene));
@@ -141,7 +141,7 @@ void rebound_height(const Observation& seen, Quantities& out) {
   double highest = 0;
   for (int i = 0; i < seen.path().frames(); ++i) {
     const double gap = *clearance(seen.scene(), seen.path().t[i], seen.path().x[i]);
-    // a step's fall above the surface counts as touching: the very touch lies between two samples
+    // counts as touching if the gap is below the fall in one step, because the actual contact lies between two samples
     const double fall = i > 0 ? largest_column(seen.path().x[i] - seen.path().x[i - 1]) : 0;
     touched |= i > 0 && gap < fall;
     if (touched) highest = std::max(highest, gap);
@@ -149,8 +149,9 @@ void rebound_height(const Observation& seen, Quantities& out) {
   if (touched) out.push_back({"rebound height", "m", highest});
 }
 
-/// Largest RMS distance from the same run at half the step, m, where there is no closed form: an estimate of the error,
-/// right to a factor that its order says. One more run, twice as long; not of scenes without an ingredient.
+/// Largest RMS distance from the same run at half the step, m, if there is no closed form: an estimate of the error,
+/// correct up to a factor that depends on the order. Needs one more run, twice as long; skipped for scenes without an
+/// ingredient.
 void change_at_half_the_step(const Observation& seen, Quantities& out) {
   const Scene& scene = seen.scene();
   const Method& method = seen.test_case.method;
@@ -162,8 +163,8 @@ void change_at_half_the_step(const Observation& seen, Quantities& out) {
   out.push_back({halving_quantity, "m", largest_rms_distance(seen.path(), recorder.trajectory, scene.window)});
 }
 
-/// log2 of the error against the closed form over that at half the step, where there is one: near the rule's order.
-/// One more run. Where the error is below 1e-10 of the scene's size it says nothing, and is left out.
+/// log2 of the error relative to the closed form, if there is one, over that at half the step: close to the rule's
+/// order. Needs one more run. Skipped if the error is below 1e-10 of the scene's size, where it has no meaning.
 void order_of_error(const Observation& seen, Quantities& out) {
   const Scene& scene = seen.scene();
   const Stepper* rule = seen.test_case.method.stepper;
@@ -177,15 +178,15 @@ void order_of_error(const Observation& seen, Quantities& out) {
   if (run_method(seen.test_case.method, scene, half, {&recorder}).verdict != Verdict::ok) return;
   const double whole = largest_rms_distance(seen.path(), truth->trajectory, scene.window),
                halved = largest_rms_distance(recorder.trajectory, truth->trajectory, scene.window);
-  // 1e3 times what rounding makes of places: elsewhere no order shows
+  // 1e3 times the rounding of positions, below which there is no order
   if (!(halved > 1e-10 * std::max(1.0, scene.size()))) return;
   out.push_back({"order of the error", "1", std::log2(whole / halved)});
-  // each error is known to its bar
+  // each error has an uncertainty of the error bar
   out.back().error_bar = truth->error_bar / halved * 2 / std::log(2.);
 }
 
-/// s, by bisection from rest, known to 0.2 %: on scenes of at most 12 free coordinates, of rules with a finite limit.
-/// About 25 runs of 4000 steps.
+/// Largest stable step, s, by bisection from rest, to 0.2 %: for scenes of at most 12 free coordinates and rules with a
+/// finite limit. About 25 runs of 4000 steps.
 void largest_stable_step(const Observation& seen, Quantities& out) {
   constexpr double precision = 2e-3;
   const Method& method = seen.test_case.method;
@@ -202,8 +203,8 @@ void largest_stable_step(const Observation& seen, Quantities& out) {
   out.back().error_bar = measured.limit() * measured.precision();
 }
 
-/// Size of the numbers whose differences quantities are: places, energies, and a spring's length over that at rest.
-/// If nothing moves, it is the energy of a motion through the scene in its window.
+/// Scale of the numbers that are subtracted: positions, energies, and the ratio of a spring's length to its rest
+/// length. For energies at least that of a motion through the scene in its window, in case nothing moves.
 double size_of_unit(const std::string& unit, const Scene& scene, const CaseRun& case_run) {
   double most = unit == "1" ? 1 : 0;
   if (unit == "m")
@@ -217,7 +218,7 @@ double size_of_unit(const std::string& unit, const Scene& scene, const CaseRun& 
   return most;
 }
 
-/// Counts that rounding cannot change: of rules at a fixed step, without an equation inside that is solved to a
+/// Counts that are unaffected by rounding: for rules at a fixed step without an inner equation that is solved to a
 /// tolerance.
 void counts(const Observation& seen, Quantities& out) {
   const Stepper* rule = seen.test_case.method.stepper;
@@ -226,8 +227,8 @@ void counts(const Observation& seen, Quantities& out) {
   out.push_back({"force evaluations", "1", static_cast<double>(seen.case_run.outcome.evaluations), {}, true});
 }
 
-/// Largest RMS distance from the closed form, where the scene has one. What a converged truth says of a method is
-/// said by its places already.
+/// Largest RMS distance from the closed form, if the scene has one. A converged truth would add nothing to the
+/// comparison of positions.
 void error_against_truth(const Observation& seen, Quantities& out) {
   const Scene& scene = seen.scene();
   const auto truth = exact_truth(scene);
@@ -236,7 +237,7 @@ void error_against_truth(const Observation& seen, Quantities& out) {
   out.back().error_bar = truth->error_bar;
 }
 
-/// The settings that the engine reports. Six digits: single precision rounds its input.
+/// The settings that the engine reports, with six digits because single precision rounds its input.
 void settings(const Observation& seen, Quantities& out) {
   if (!seen.case_run.outcome.readback) return;
   const Readback& readback = *seen.case_run.outcome.readback;
@@ -267,10 +268,10 @@ constexpr void (*table[])(const Observation&, Quantities&) = {settings,
                                                               change_at_half_the_step,
                                                               largest_stable_step};
 
-/// The quantities of a failed run, up to half the time until then.
+/// The quantities of a failed run, up to half the time until its failure.
 constexpr void (*table_of_failed[])(const Observation&, Quantities&) = {offsets, places};
 
-/// True if the motion itself failed, at a time that is the same in each run.
+/// True if the motion itself failed, at a reproducible time.
 bool failed_in_time(Verdict verdict) {
   return verdict != Verdict::ok && verdict != Verdict::unsupported && verdict != Verdict::timeout &&
          verdict != Verdict::crash;
@@ -288,7 +289,7 @@ void settle_time(const Observation& seen, Quantities& out) {
   size_t last = 0;
   for (size_t i = 0; i < rows.size(); ++i)
     if (rows[i].energy.kinetic > 0.01 * peak) last = i;
-  // a fall towards the end may be followed by another rise
+  // a fall near the end of the run may be followed by another rise
   if (!(peak > 0) || last + 1 >= rows.size() || rows[last].t > 0.8 * rows.back().t) return;
   const double above = std::log(rows[last].energy.kinetic / (0.01 * peak)),
                below = std::log(std::max(rows[last + 1].energy.kinetic, 1e-9 * peak) / (0.01 * peak));
@@ -332,7 +333,7 @@ std::vector<Quantity> quantities_of(const Case& test_case, const CaseRun& case_r
       for (const auto add : table_of_failed) add({test_case, half}, all);
     size(all, half);
     all.push_back({time_of_failure, "s", case_run.outcome.end});
-    // a threshold may be passed at the next sample, where failures are looked for, or a step later
+    // a threshold may be crossed one sample later, because failures are detected at samples, or one step later
     const Run run = run_over_window(test_case.scene);
     all.back().error_bar = run.duration / run.samples + 2 * case_run.outcome.step;
   }

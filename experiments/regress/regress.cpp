@@ -1,4 +1,4 @@
-// Runs cases as points of a sweep, compares them with baselines, and blesses these.
+// Runs cases as points of a sweep, compares them with baselines, and blesses new baselines.
 #include "experiments/regress/regress.h"
 
 #include <fmt/format.h>
@@ -15,7 +15,7 @@
 namespace crosscheck {
 namespace {
 
-/// A case with the name that its result is found under; tolerances take three more runs.
+/// A case and the name of its result; tolerances need three more runs.
 struct Job {
   Case test_case;
   std::string name;
@@ -24,24 +24,24 @@ struct Job {
 
 struct JobResults {
   std::map<std::string, std::vector<QuantityWithTolerance>>
-      quantities;                     // by name; tolerances are 0 where the job has none
+      quantities;                     // by name; tolerances are 0 if the job does not compute them
   std::vector<FailedPoint> failures;  // cases without a result: a crash
 };
 
-/// A quantity of a case on its way from the process that ran it.
+/// A quantity of a case, as passed from the process that ran the case.
 struct QuantityRow {
   TABLE("quantities");
-  COLUMN(std::string, test_case, "case", "1", "scene, method and the ingredient taken out");
+  COLUMN(std::string, test_case, "case", "1", "scene, method and the removed ingredient");
   COLUMN(std::string, quantity, "quantity", "1", "name of the quantity");
-  COLUMN(std::string, unit, "unit", "1", "unit of value and tolerance; word: it is a text");
-  COLUMN(double, value, "value", "1", "value, where it is a number");
-  COLUMN(std::string, word, "word", "1", "value, where it is a text");
-  COLUMN(bool, count, "count", "1", "1 where it is a whole number that rounding cannot change");
-  COLUMN(double, tolerance, "tolerance", "1", "what rounding can do to it; 0 where it was not measured");
-  COLUMN(std::string, derivation, "derivation", "1", "how the tolerance was found");
+  COLUMN(std::string, unit, "unit", "1", "unit of value and tolerance; word: the value is a text");
+  COLUMN(double, value, "value", "1", "value, if it is a number");
+  COLUMN(std::string, word, "word", "1", "value, if it is a text");
+  COLUMN(bool, count, "count", "1", "1 for a whole number that is unaffected by rounding");
+  COLUMN(double, tolerance, "tolerance", "1", "largest change by rounding; 0 if it was not measured");
+  COLUMN(std::string, derivation, "derivation", "1", "derivation of the tolerance");
 };
 
-/// Its rows are the case's quantities.
+/// A point whose rows are the case's quantities.
 Point point_of(const Job& job) {
   const auto& [test_case, name, tolerances] = job;
   return {name, test_case.scene.hash + test_case.method.fingerprint + (tolerances ? " tolerances" : ""),
@@ -67,7 +67,7 @@ std::vector<QuantityWithTolerance> quantities_of(const Table& table) {
   return all;
 }
 
-/// Runs cases side by side, each in a process of its own; `out` is the folder for finished ones.
+/// Runs cases in parallel, each in a process of its own; `out` is the folder for finished ones.
 JobResults run_jobs(const std::vector<Job>& all, const std::filesystem::path& out, const LockPatience& patience,
                     Progress& progress) {
   std::vector<Point> points;
@@ -106,15 +106,15 @@ std::string name_with_other_method(const Case& q) { return q.in_words() + " (aga
 
 std::string source_hash(const Scene& scene) { return fmt::format("{:016x}", Fnv1a::of(scene.source)); }
 
-/// The verdict of a case that ran, or any other word or text.
+/// True for the verdict of a case that ran, and for any other word.
 bool is_measured(const std::string& word) { return !word.empty() && word != name_of(Verdict::unsupported); }
 
-/// The scenes' baselines; what is wrong with a file is a row.
+/// The scenes' baselines; an invalid file adds a row.
 class BaselineCache {
  public:
   BaselineCache(const std::filesystem::path& folder, std::vector<Comparison>& rows) : folder_(folder), rows_(rows) {}
 
-  /// Null where there is none that can be used.
+  /// Null if there is no usable baseline.
   const Baseline* of(const Case& test_case) {
     const std::string& scene = test_case.scene.name;
     if (const auto known = cache_.find(scene); known != cache_.end()) return known->second ? &*known->second : nullptr;
@@ -148,8 +148,8 @@ class BaselineCache {
   std::map<std::string, std::optional<Baseline>> cache_;
 };
 
-/// The other engine's quantities as those expected. A quantity that only one of the two engines has is no difference
-/// between them; verdicts both have.
+/// The other engine's quantities as expected values. Ignores quantities that only one of the two engines has; both have
+/// verdicts.
 std::vector<BaselineRow> rows_from_other_method(const std::vector<QuantityWithTolerance>& old,
                                                 const std::vector<QuantityWithTolerance>& now, const Case& q) {
   std::vector<BaselineRow> expected;
@@ -158,7 +158,7 @@ std::vector<BaselineRow> rows_from_other_method(const std::vector<QuantityWithTo
   return expected;
 }
 
-/// Blessed, and no case any more: a method, an ingredient or a scene's case was taken away.
+/// Blessed cases that no longer exist, because a method, an ingredient or a scene's case was removed.
 std::vector<Comparison> no_longer_selected(const Baseline& baseline, const std::vector<Case>& all, bool full) {
   std::set<std::pair<std::string, std::string>> selected;
   for (const Case& q : all)
@@ -215,7 +215,7 @@ RegressionResult regress(const Regression& regression, Progress& progress) {
         rows.insert(rows.end(), gone.begin(), gone.end());
       }
     } else {
-      continue;  // said once for the scene
+      continue;  // reported once per scene
     }
     const std::vector<Comparison> more = compared(q, quantities_in(is->second), expected);
     rows.insert(rows.end(), more.begin(), more.end());
@@ -228,10 +228,10 @@ namespace {
 
 using CaseKey = std::pair<std::string, std::string>;  // method, without
 
-/// One scene's baseline on its way to a new one.
+/// Updates the baseline of one scene.
 class Change {
  public:
-  /// Throws InputError where the file cannot be read, and where only a part of a stale one is selected.
+  /// Throws InputError if the file cannot be read, or if only a part of a stale one is selected.
   Change(const Case& test_case, const Regression& regression, const Blessing& blessing) {
     auto old = read_baseline(regression.baselines, test_case.scene.name);
     const Selection& selection = regression.selection;
@@ -249,7 +249,7 @@ class Change {
     baseline_.blessings.push_back(blessing);
   }
 
-  /// A quantity that is the same keeps its row and its blessing. Throws InputError where a number is not finite.
+  /// Adds quantities; unchanged ones keep their row and blessing. Throws InputError if a number is not finite.
   void add(const Case& q, const std::vector<QuantityWithTolerance>& now) {
     selected_.emplace(q.method.name, q.without);
     const std::vector<BaselineRow> before = baseline_rows_of(baseline_, q);
@@ -273,7 +273,7 @@ class Change {
     baseline_.expected.insert(baseline_.expected.end(), after.begin(), after.end());
   }
 
-  /// Takes out what was blessed and is selected no more.
+  /// Removes blessed rows that are no longer selected.
   void drop_what_is_not_selected() {
     std::erase_if(baseline_.expected, [&](const BaselineRow& e) {
       if (!selected_by_default(e.method) || selected_.contains({e.method, e.without})) return false;
@@ -303,7 +303,7 @@ class Change {
   std::vector<Comparison> changed_;
 };
 
-/// Of the scene's own method, for pictures; empty where it has none.
+/// Text of the last shape under the scene's own method, for pictures; empty if there is none.
 std::string shape_of(const Case& q) {
   const CaseRun part = comparable_part(run_case(q));
   if (part.trajectory.frames() == 0) return "";

@@ -1,4 +1,4 @@
-// Small parsers that say what they expected.
+// Small parsers whose messages state the expected form.
 #include "experiments/regress/strict_csv.h"
 
 #include <fmt/format.h>
@@ -90,7 +90,7 @@ void StrictCsvReader::rows(const std::string& header, const std::function<void(c
   if (line_ != header) throw InputError(fmt::format("expected the header {}", header));
   long count = 0;
   for (++number_; std::getline(in_, line_); ++number_, ++count) add(line_);
-  // a file that lost its end would else pass what it no longer holds for new
+  // the missing rows of a truncated file would otherwise pass as new
   if (count == 0 || static_cast<double>(count) != expected)
     throw InputError(fmt::format("expected {} rows, got {}", expected, count));
 }

@@ -22,15 +22,15 @@ bool single(const Method& method, const CaseRun& case_run) {
   return method.family().single_precision;
 }
 
-/// To two digits, which is all that a tolerance means.
+/// Rounded up to two digits.
 double rounded_up(double tolerance) {
   if (!(tolerance > 0)) return 0;  // all of the unit is exactly zero
   const double unit = std::pow(10, std::floor(std::log10(tolerance)) - 1);
   return std::ceil(tolerance / unit) * unit;
 }
 
-/// All free particles also faster along one axis, by what moves them as far within the run: steps that round alike add
-/// up for all particles alike, which offsets feel where each one's own direction averages out.
+/// Increases the speed of all free particles along one axis, by what gives the same displacement within the run.
+/// Roundings that are alike for all particles add up in the offset, where individual directions would average out.
 Scene pushed(Scene scene, double size, int axis) {
   for (int i = 0; i < scene.start.v.cols(); ++i)
     if (!scene.model.particles.pinned[i]) scene.start.v(axis, i) += size / run_over_window(scene).duration;
@@ -41,8 +41,8 @@ double motion_in(const CaseRun& case_run) {
   return case_run.trajectory.frames() > 0 ? motion_of(case_run.trajectory) : 0;
 }
 
-/// The error of one step's equation in positions, m: mysim's rules stop at 1e-12 of the inertial forces, or where the
-/// spring forces, of places known to their last digits, are no longer distinct; the lightest particle yields most.
+/// Residual of one step's equation in positions, m. mysim's rules stop at 1e-12 of the inertial forces, or where the
+/// rounding of positions makes the spring forces indistinguishable; the lightest particle has the largest error.
 double left_by_one_step(const Case& test_case, const CaseRun& case_run, double lengths) {
   const Model& model = test_case.scene.model;
   double stiffest = 0, lightest = INFINITY;
@@ -54,11 +54,12 @@ double left_by_one_step(const Case& test_case, const CaseRun& case_run, double l
   return lengths * (1e-12 + 8 * eps * stiffest * h * h / lightest);
 }
 
-/// The error of steps in the quantity: solvers, and sums over steps. A change of the start shows nothing of it where
-/// the rule damps: what the start had in excess is gone by then, and what the last steps leave is not.
+/// Contribution of the steps to the error of a quantity: from solvers, and from sums over steps. With a damping rule a
+/// change of the start does not reveal it: the initial excess has vanished by the end, but the residual of the last
+/// steps has not.
 double left_by_steps(const Case& test_case, const CaseRun& case_run, const Rounding& rounding, const Quantity& q) {
   const Outcome& outcome = case_run.outcome;
-  // a sum over steps of impulses times ways; what rests on a sphere is rounded alike in each of them
+  // a sum over steps of impulses times distances; for a particle at rest on a sphere, each is rounded in the same way
   if (q.name == contact_quantity) return 8 * eps * static_cast<double>(outcome.steps) * q.size;
   if (q.unit == "m") return rounding.one_step * std::sqrt(static_cast<double>(outcome.steps));
   if (q.unit != "J" || !(outcome.step > 0)) return 0;
@@ -77,7 +78,7 @@ Rounding rounding_of(const Case& test_case, const CaseRun& case_run) {
     return {*single_precision_bound(test_case.scene, motion, 1, case_run.outcome.steps), "single precision"};
   if (solves(test_case.method))
     return {1e-10 * std::max(1.0, lengths), "solver", left_by_one_step(test_case, case_run, lengths)};
-  // the bound is for ten thousand roundings that add up like a random walk
+  // the bound is for ten thousand roundings that accumulate like a random walk
   const double more = std::sqrt(std::max(1.0, static_cast<double>(case_run.outcome.evaluations) / 1e4));
   return {*round_off_bound(test_case.scene, motion, 1) * more, "double precision"};
 }
@@ -87,18 +88,18 @@ std::vector<QuantityWithTolerance> with_tolerances(const Case& test_case) {
   const std::vector<Quantity> quantities = quantities_of(test_case, whole);
   std::vector<QuantityWithTolerance> all;
   const Rounding rounding = rounding_of(test_case, case_run);
-  const double little = std::max(1e-10, rounding.size);  // m: far above a number's last digits
+  const double little = std::max(1e-10, rounding.size);  // m: far above the last digits of a number
   const auto moved_by = [&](double size, unsigned seed) {
     Case other = test_case;
     other.scene = pushed(perturbed(test_case.scene, size, seed), size, static_cast<int>(seed) - 1);
-    // computed as before: where a closed form is left by the move, the error from the one of the unmoved scene counts
+    // if the moved scene has no closed form, its error refers to the closed form of the original scene
     return quantities_of(test_case, run_case(other));
   };
   std::vector<std::vector<Quantity>> moved;
   for (const unsigned seed : {1u, 2u, 3u}) moved.push_back(moved_by(little, seed));
   const double less = 10 * rounding.size;
   const std::vector<Quantity> moved_less = less < little / 2 ? moved_by(less, 1) : std::vector<Quantity>{};
-  std::map<std::string, double> scale;  // of each unit: it bounds what is zero but for rounding
+  std::map<std::string, double> scale;  // by unit: bounds quantities that are zero except for rounding
   for (const Quantity& q : quantities)
     if (!q.count) scale[q.unit] = std::max(scale[q.unit], std::abs(q.value));
   const auto change_of = [&](const Quantity& q) {
@@ -115,7 +116,7 @@ std::vector<QuantityWithTolerance> with_tolerances(const Case& test_case) {
     const Quantity* other = find(moved_less, q.name);
     return other && !q.is_word() && !q.count && grown(q) && std::abs(other->value - q.value) > 0.1 * change_of(q);
   };
-  // a projection alone turns with whatever direction a start at rest is pushed in
+  // projections do not count: they change with the direction in which a start at rest is moved
   const bool chance = std::count_if(quantities.begin(), quantities.end(), [&](const Quantity& q) {
                         return !q.name.starts_with("places along") && saturated(q);
                       }) >= 3;
@@ -126,13 +127,13 @@ std::vector<QuantityWithTolerance> with_tolerances(const Case& test_case) {
     }
     const double change = change_of(q);
     if (q.name == time_of_failure) {
-      // not scaled: what grows until it fails may have begun as a rounding, so that the time goes as its logarithm
+      // not scaled: the growth may have begun as a rounding error, so that the time depends on its logarithm
       all.push_back({q, rounded_up(change + q.error_bar),
                      fmt::format("start moved by {:.1e} m: {:.1e}; steps: {:.1e}", little, change, q.error_bar)});
       continue;
     }
     if (saturated(q) || (chance && grown(q))) {
-      // times are those of crossings, which come and go
+      // quantities in s are times of crossings, which may appear and disappear
       const bool elsewhere = chance && q.unit == "s" && change > 0.01 * scale[q.unit];
       const double within = elsewhere ? scale[q.unit] : (chance ? 10 : 3) * change;
       all.push_back({q, rounded_up(within + q.error_bar),

@@ -1,4 +1,4 @@
-// Cloths written as scene files and read as scenes.
+// Builds cloths as the text of scene files.
 #include "experiments/scenes/cloths.h"
 
 #include <fmt/format.h>
@@ -14,7 +14,7 @@
 namespace crosscheck {
 namespace {
 
-/// The step that leapfrog bears with room to spare, or the scene's own where that is smaller.
+/// A step well below leapfrog's limit, or the scene's own if that is smaller.
 double stable_step(const Scene& scene) {
   const double omega = highest_frequency(scene.model, scene.start);
   return omega > 0 ? std::min(scene.step, 1.4 / omega) : scene.step;
@@ -26,7 +26,7 @@ int other_size(const Grid& g, int n, bool of_u) {
   return std::max(2, 1 + static_cast<int>(std::lround(cells * (n - 1) / (longer - 1))));
 }
 
-/// Particles of the grid b that stand where the pins stand on the grid a.
+/// Particles of grid b at the places of the pins of grid a.
 std::vector<int> pins_on(const Grid& a, const Grid& b, const std::vector<int>& pins) {
   const std::set<int> pinned(pins.begin(), pins.end());
   std::set<int> in_edges, out;
@@ -57,7 +57,7 @@ std::optional<Grid> cloth_grid_of(const Scene& scene) {
   if (scene.triangles.empty()) return std::nullopt;
   const Grid grid = read_grid(TomlTable::parse_text(scene.source, scene.name).section("grid"));
   if (grid.nw > 1 || grid.size() != scene.model.particles.size()) return std::nullopt;
-  if (scene.model.find<Constraints>()) return std::nullopt;  // hard distances have no stiffness to compare
+  if (scene.model.find<Constraints>()) return std::nullopt;  // no stiffness to compare
   const TomlDocument file(scene.source, scene.name);
   if (file.has("spring") || file.has("constraint")) return std::nullopt;
   return grid;
@@ -65,7 +65,7 @@ std::optional<Grid> cloth_grid_of(const Scene& scene) {
 
 Scene with_resolution(const Scene& scene, int n) {
   const auto grid = cloth_grid_of(scene);
-  if (!grid) throw Unsupported("it is no single sheet of cloth");
+  if (!grid) throw Unsupported("it is not a single sheet of cloth");
   Grid other = *grid;
   other.nu = other_size(*grid, n, true);
   other.nv = other_size(*grid, n, false);
@@ -112,7 +112,7 @@ Scene sized_cloth(int n, bool sphere) {
   constexpr double pi = std::numbers::pi;
   for (int i = 0; i < scene.start.x.cols(); ++i)
     scene.start.x(1, i) += 0.05 * std::sin(3 * pi * scene.start.x(0, i)) * std::sin(2 * pi * scene.start.x(2, i));
-  // pins stay: the corners at x = -0.5, z = 0 are at sin(2 pi 0) = 0
+  // pins are not moved: at the corners, x = -0.5 or 0.5 and z = 0, sin(2 pi 0) = 0
   return scene;
 }
 

@@ -16,7 +16,7 @@ void drop(Model& model) {
   std::erase_if(model.terms, [](const Term& t) { return std::holds_alternative<T>(t); });
 }
 
-/// One family among others.
+/// True if the springs include this family and others.
 template <Family family>
 bool has_family(const Model& model) {
   const auto* springs = model.find<Springs>();
@@ -25,7 +25,7 @@ bool has_family(const Model& model) {
       std::count_if(springs->list.begin(), springs->list.end(), [](const Spring& s) { return s.family == family; });
   return of_it > 0 && of_it < std::ssize(springs->list);
 }
-/// With the dashpots along them, which stand in the same pairs.
+/// Removes a family of springs, with the dashpots between the same pairs.
 template <Family family>
 void drop_family(Model& model) {
   std::set<std::pair<int, int>> pairs;
@@ -63,7 +63,7 @@ bool has_friction(const Model& model) {
 bool has_restitution(const Model& model) {
   return std::ranges::any_of(surfaces_of(model), [](const Surface& s) { return s.restitution > 0; });
 }
-/// Lets `change` have each sphere and each plane.
+/// Calls `change` for each sphere and each plane.
 template <class Change>
 void each_solid(Model& model, Change change) {
   for (Term& term : model.terms)
@@ -79,9 +79,9 @@ struct IngredientRow {
 
 const std::vector<IngredientRow>& table() {
   static const std::vector<IngredientRow> rows{
-      {{"rotation", {}, drop<Rotation>}, has<Rotation>},  // nothing moves without it, and no file can say so
+      {{"rotation", {}, drop<Rotation>}, has<Rotation>},  // nothing moves without it, which no file can express
       {{"gravity", {"gravity"}, drop<Gravity>}, has<Gravity>},
-      // a grid's file cannot do without structural springs
+      // required in a grid's file
       {{"structural springs", {}, drop_family<Family::structural>}, has_family<Family::structural>},
       {{"shear springs", {"grid.stiffness.shear"}, drop_family<Family::shear>}, has_family<Family::shear>},
       {{"bend springs", {"grid.stiffness.bend"}, drop_family<Family::bend>}, has_family<Family::bend>},
@@ -118,7 +118,7 @@ const std::vector<IngredientRow>& table() {
        [](const Model& m) { return has<Planes>(m) && m.find<Planes>()->moving(); }},
       {{"motion of the pins", {"pins.motion"}, [](Model& m) { m.particles.move.reset(); }},
        [](const Model& m) { return m.particles.move.has_value(); }},
-      // in a file without pins the hard distances between them would come back
+      // not expressible in a file: without pins, the hard distances between them would reappear
       {{"pins", {}, drop_pins}, has_pins},
   };
   return rows;

@@ -1,4 +1,4 @@
-// The ingredients of a scene, and the scene without each of them.
+// The ingredients of a scene, and the scene without any one of them.
 #pragma once
 
 #include <string>
@@ -11,18 +11,18 @@ namespace crosscheck {
 struct Ingredient {
   std::string name;  // "gravity", "bend springs", "gusts", ...
   std::vector<std::string>
-      keys;                // what to erase from the scene's file (TomlDocument::erase); empty: a file cannot say it
-  void (*remove)(Model&);  // takes it out of an expanded model
+      keys;                // keys to erase from the scene's file (TomlDocument::erase); empty: a file cannot express it
+  void (*remove)(Model&);  // removes it from an expanded model
 };
 
-/// The ingredients of the scene that could be left out: each term, each family of springs, pins, motions, gusts,
-/// friction. A family that is all of the springs is named once.
+/// The removable ingredients of the scene: each term, each family of springs, pins, motions, gusts, friction. If all
+/// springs belong to one family, it is listed once.
 std::vector<Ingredient> ingredients_of(const Scene& scene);
 
-/// The scene without it. Its hash is taken anew; its text stays.
+/// The scene without the ingredient. Its hash is recomputed; its text remains.
 Scene without(const Scene& scene, const Ingredient& ingredient);
 
-/// Springs and hard distances, at least 1: what an evaluation of the right-hand side costs, in springs.
+/// Number of springs and hard distances, at least 1: the cost of an evaluation of the right-hand side in springs.
 long springs_of(const Model& model);
 
 }  // namespace crosscheck

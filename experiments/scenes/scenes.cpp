@@ -1,4 +1,4 @@
-// Shipped scenes: one line for each.
+// The shipped scenes, one per line.
 #include "experiments/scenes/scenes.h"
 
 #include <fmt/format.h>
@@ -18,7 +18,7 @@ namespace {
 std::filesystem::path folder_of_scenes() { return data_folder() / "experiments" / "scenes"; }
 std::filesystem::path folder_of_disagreements() { return folder_of_scenes() / "disagreements"; }
 
-/// Of several cloths a quick run uses one of each kind.
+/// Scenes that quick runs leave out, which keep one cloth of each kind.
 constexpr std::string_view left_to_full_runs[] = {"cloth-stiff", "cloth-cantilever", "cloth-swing", "cloth-wind",
                                                   "flag",        "cloth-carried",    "curtain",     "jelly",
                                                   "floor-drop",  "cloth-small",      "room-bounce"};
@@ -67,7 +67,7 @@ std::vector<std::string> quick_scenes() {
 
 namespace {
 
-/// The scenes of known disagreements, each a file in a folder of their own.
+/// The scenes of known disagreements: the files of a separate folder.
 std::vector<std::string> scenes_of_disagreements() {
   std::vector<std::string> names;
   for (const auto& file : std::filesystem::directory_iterator(folder_of_disagreements()))
@@ -76,10 +76,10 @@ std::vector<std::string> scenes_of_disagreements() {
   return names;
 }
 
-/// Reads the file and makes sure that its default method is one.
+/// Reads the file and checks its default method.
 Scene checked(const std::filesystem::path& file, const std::string& methods) {
   Scene scene = read_scene(file);
-  // the text again, for the line
+  // parses the text again for the line number
   const auto time = [&] { return TomlTable::parse_text(scene.source, file.string()).section("time"); };
   if (scene.method.empty()) scene.method = methods.substr(0, methods.find(','));
   if (scene.method.empty())
@@ -89,7 +89,7 @@ Scene checked(const std::filesystem::path& file, const std::string& methods) {
   try {
     find_method(scene.method);
   } catch (const InputError& error) {
-    time().fail("method", fmt::format("a method that there is: {}", error.what()));
+    time().fail("method", fmt::format("an existing method: {}", error.what()));
   }
   return scene;
 }
@@ -106,7 +106,7 @@ Scene load_scene(const std::string& name, const std::string& methods) {
     return checked(folder_of_scenes() / (name + ".toml"), methods);
   const auto known = scenes_of_disagreements();
   if (std::find(known.begin(), known.end(), name) != known.end()) return checked(file_of_disagreement(name), methods);
-  std::error_code unreadable;  // then the path of a file is what was meant, and it is named when it is read
+  std::error_code unreadable;  // then `name` is taken as a path, and the error is reported when the file is read
   if (name.ends_with(".toml") || name.find('/') != std::string::npos || std::filesystem::exists(name, unreadable) ||
       unreadable)
     return checked(name, methods);

@@ -1,5 +1,5 @@
-// The cheapest run of a scene within an accuracy: the search for it, and the choice among the runs that were tried.
-// The report and `advise` recommend by both.
+// The cheapest run of a scene within an accuracy: the search for it, and the choice among the runs that were tried. The
+// report and `advise` base their recommendations on both.
 #pragma once
 
 #include <functional>
@@ -13,55 +13,56 @@
 
 namespace crosscheck {
 
-/// A run that was tried.
+/// A run of the search.
 struct TriedRun {
-  std::string model = {};  // empty: the whole scene
+  std::string model = {};  // empty: the full scene
   std::string method;
   Setting setting = {};
   Verdict verdict = Verdict::ok;
-  std::optional<double> error = {};  // m, largest RMS distance from the truth; of runs that are ok
+  std::optional<double> error = {};  // m, largest RMS distance from the truth; for runs that are ok
   double cost = 0;                   // force evaluations times springs
   bool is_within(double bound) const { return verdict == Verdict::ok && error && *error <= bound; }
 };
 
-/// The outcome of the next longer step (looser tolerance) that was tried: it blew up, missed the bound, or failed
-/// otherwise; none: no longer one can be tried.
+/// Outcome of the next longer step (looser tolerance) that was tried: it blew up, missed the bound, or failed in
+/// another way; none: no longer step can be tried.
 enum class StepBound { stability, accuracy, failure, none };
 /// "stability", "accuracy", "failure" or "sampling".
 std::string_view name_of(StepBound bound);
 
 struct Recommendation {
   size_t run;                         // index of a run
-  std::vector<size_t> tied = {};      // other methods' cheapest runs of the same cost
+  std::vector<size_t> tied = {};      // cheapest runs of other methods with the same cost
   std::optional<size_t> second = {};  // cheapest run of another method
   StepBound bound = StepBound::none;
 };
 
-/// Costs that differ by less are equal: steps are found to this factor.
+/// Factor between costs that count as equal: the resolution of the search for steps.
 inline constexpr double step_resolution = 1.05;
 
-/// The cheapest run with an error of at most `bound` (m) that is no accident: all finer runs of its method and model,
-/// of which there is one at least, are within the bound, too. Among runs of equal cost (step_resolution) the most
-/// accurate one. Nothing where there is none. Independent of any clock.
+/// The cheapest run with an error of at most `bound` (m) that is not accidental: all finer runs of its method and
+/// model, at least one, are within the bound, too. Among runs of equal cost (step_resolution) the most accurate one.
+/// Nothing if there is none. Does not depend on timings.
 std::optional<Recommendation> recommend(const std::vector<TriedRun>& runs, double bound);
 
-/// True if the method can be recommended: it is the subject's, or a program of the reader's, and no demonstration.
+/// True if the method can be recommended: one of the subject's methods or a program of the user's, but no
+/// demonstration.
 bool is_candidate(const std::string& method);
-/// The runs of candidates on a scene that table `speed-accuracy` has; the scene's springs are left out of their cost.
+/// The candidates' runs on a scene in table `speed-accuracy`; their cost excludes the factor of the scene's springs.
 std::vector<TriedRun> tried_runs(const std::vector<SpeedAccuracyRow>& rows, const std::string& scene);
-/// All methods of the subject; on scenes with spheres those that locate events also with that option.
+/// All methods of the subject; on scenes with contact, also with event location for those that support it.
 std::vector<Method> candidates(const Scene& scene);
 
-/// Searches steps and tolerances on one model, the cheapest next run first: halves a method's step (beginning with the
-/// longest of the ladder of `speed-accuracy`; tolerances are divided by 100) until two runs in a row are within the
-/// bound, then bisects between the last run that is not and the first that is, down to step_resolution. Runs that are
-/// there already are not repeated. A method is given up where all that it can reach costs `given_up` times the best.
+/// Searches steps and tolerances on one model, always with the cheapest next run. Halves a method's step (starting with
+/// the longest of the ladder of `speed-accuracy`; tolerances are divided by 100) until two consecutive runs are within
+/// the bound. Then bisects between the last run outside and the first within, down to step_resolution. Existing runs
+/// are not repeated. Abandons a method if everything that it can reach costs at least `given_up` times the best.
 class StepSearch {
  public:
-  /// Runs a method at a setting; nothing where that is not affordable, which ends the method's search.
+  /// Runs a method at a setting; returns nothing if that is not affordable, which ends the method's search.
   using Trial = std::function<std::optional<TriedRun>(const Method&, const Setting&)>;
 
-  /// `base` has the scene's own step, duration and samples. New runs are appended to `runs`; `model` names theirs.
+  /// `base` has the scene's own step, duration and samples. New runs are appended to `runs`, under the name `model`.
   StepSearch(const Scene& scene, const Run& base, double bound, Trial trial, std::vector<TriedRun>& runs,
              double given_up = step_resolution, std::string model = {})
       : scene_(scene),
@@ -75,10 +76,10 @@ class StepSearch {
   void search(std::vector<Method> methods);
 
  private:
-  using Runs = std::vector<const TriedRun*>;  // one method's, from coarse to fine
+  using Runs = std::vector<const TriedRun*>;  // runs of one method, from coarse to fine
   struct Step {
-    double value = 0, cost = 0;  // next run, and the least that it costs
-    double reach = 0;            // the least cost that the method's search can end at
+    double value = 0, cost = 0;  // next run, and its least cost
+    double reach = 0;            // the least cost at which the method's search can end
   };
   Runs known(const Method& method) const;
   std::optional<Step> next_step(const Method& method, double best) const;
