@@ -1,4 +1,4 @@
-// The steps and tolerances at which methods are tried, their runs, and the timing of these.
+// The steps and tolerances at which methods run, their runs, and the timing of these runs.
 #include "experiments/speed_accuracy/speed_accuracy.h"
 
 #include <fmt/ranges.h>
@@ -35,7 +35,7 @@ Run Setting::applied_to(Run run) const {
 
 namespace {
 
-/// The CPU time, s, that a run may take by the estimate.
+/// Largest estimated CPU time of a run, s.
 double most_seconds(bool full) { return full ? 1.8 : 0.72; }
 
 }  // namespace
@@ -45,7 +45,7 @@ std::vector<Setting> settings_of(const Method& method, const Scene& scene, const
   if (method.adaptive) {
     for (double tolerance = 1e-2; tolerance > (full ? 5e-11 : 5e-9); tolerance /= 100) {
       const Setting setting{true, tolerance};
-      // where stability chooses its steps, a loose tolerance costs as much as a tight one
+      // if stability determines its steps, a loose tolerance costs as much as a tight one
       if (!full && estimated_as_it_begins(method, scene, setting.applied_to(run)) > 1.3) {
         if (dropped) ++*dropped;
         continue;
@@ -73,12 +73,12 @@ std::vector<Setting> settings_of(const Method& method, const Scene& scene, const
 TimedPart part_of(const Method& method, const Scene& scene, const Run& base, const Setting& setting, bool full,
                   bool whole) {
   Run run = setting.applied_to(base);
-  if (!method.fingerprint.empty()) return {run};  // a program of its own: what its start costs is not known
-  const bool touches = has_contact(scene.model);  // that may cost more than falling
+  if (!method.fingerprint.empty()) return {run};  // an external program: the cost of its start is unknown
+  const bool touches = has_contact(scene.model);  // contact may cost more than the fall before it
   if (method.adaptive && (touches || whole)) return {run};
-  const double enough = full ? 0.02 : 0.006;  // s: thousands of ticks of the clock
-  // s: shorter runs are timed whole. Most of a quick report's runs are; to time the others whole takes half a minute on
-  // one core
+  const double enough = full ? 0.02 : 0.006;  // s: thousands of clock ticks
+  // s: shorter runs are timed whole. These are most of a quick report's runs; timing the others whole would take half a
+  // minute on one core
   const double cheap = full ? 0.2 : 0.012;
   const double all_of_it =
       method.adaptive ? estimated_as_it_begins(method, scene, run) : estimated_seconds(method, scene, run);
@@ -90,11 +90,12 @@ TimedPart part_of(const Method& method, const Scene& scene, const Run& base, con
     run.duration = base.duration * run.samples / base.samples;
     return {run, static_cast<double>(run.samples) / base.samples};
   }
-  // the clock is read at each sample, which takes 0.3 microseconds: one in 100 is often enough to detect a blow-up
+  // the clock is read at each sample, which takes 0.3 microseconds: one sample in 100 steps suffices to detect a
+  // blow-up
   const long all = static_cast<long>(time_grid(run).steps_per_sample) * run.samples;
   long steps = whole ? all : std::min(all, std::max(20L, std::lround(share * static_cast<double>(all))));
   int samples = std::clamp(static_cast<int>(share * all_of_it / 1e-4), 1, static_cast<int>(std::min(200L, steps)));
-  while (whole && steps % samples != 0) --samples;  // the last step is timed too
+  while (whole && steps % samples != 0) --samples;  // includes the last step
   steps = steps / samples * samples;
   return {{time_grid(run).h, time_grid(run).h * static_cast<double>(steps), samples},
           static_cast<double>(steps) / static_cast<double>(all)};
@@ -118,12 +119,12 @@ namespace {
 struct SettingRun {
   Setting setting;
   Outcome outcome;
-  Trajectory trajectory, end;  // and its last frames, where a callback wants them and it failed
+  Trajectory trajectory, end;  // `end`: the last frames of a failed run, if a callback needs them
   bool ok() const { return outcome.verdict == Verdict::ok; }
 };
 
-/// The runs of one method; empty where it does not take the scene. A note says where it took some settings and refused
-/// others, or built another scene at them.
+/// The runs of one method; empty if it does not support the scene. A note reports settings that it refused although it
+/// accepted others, and settings for which it built another scene.
 std::vector<SettingRun> runs_at(const Method& method, const Scene& scene, const Run& base,
                                 const std::vector<Setting>& settings, bool recorded, MotionBoundsCache& bounds,
                                 std::vector<std::string>& notes) {
@@ -135,7 +136,7 @@ std::vector<SettingRun> runs_at(const Method& method, const Scene& scene, const 
   for (const Setting& setting : settings) {
     Recorder recorder;
     Outcome out = run_method(method, scene, setting.applied_to(base), {&recorder}, std::ref(bounds));
-    if (out.verdict == Verdict::unsupported) {  // at this step, perhaps not at others
+    if (out.verdict == Verdict::unsupported) {  // at this step, but possibly not at others
       refusal = out.reason, ++refused;
       continue;
     }
@@ -144,7 +145,7 @@ std::vector<SettingRun> runs_at(const Method& method, const Scene& scene, const 
       mismatch = true;
       continue;
     }
-    // its last frames take a run of their own: observing every step makes adaptive methods take other steps
+    // the last frames need a separate run, because observing every step makes adaptive methods take other steps
     LastFrames last(omega, setting.tolerance ? 0 : setting.value);
     if (recorded && out.verdict != Verdict::ok)
       run_method(method, scene, setting.applied_to(base), {&last}, std::ref(bounds));
@@ -156,19 +157,19 @@ std::vector<SettingRun> runs_at(const Method& method, const Scene& scene, const 
   return tries;
 }
 
-/// All of mysim and Bullet, and the library integrators of the same equations.
+/// All methods of mysim and Bullet, and the library integrators of the same equations.
 std::vector<Method> methods_for(const Request& request, const Scene& scene) {
   std::vector<Method> methods = methods_of(request, scene);
   if (!request.methods.empty()) return methods;
-  // multistep formulas take hundreds of times as long on springs without damping: `bench` says so on one scene
+  // multistep formulas take hundreds of times as long on undamped springs: `bench` shows that on one scene
   for (Method& method : all_methods())
     if (method.family().role == Role::integrator && !method.multistep) methods.push_back(std::move(method));
   return methods;
 }
 
-/// The reason why no speed is measured, or empty.
+/// The reason why a scene is left out, or empty.
 std::string why_not(const Scene& scene, double motion) {
-  // 1e-6 of its size: where nothing moves a run of one step is as right as any other
+  // 1e-6 of its size: if nothing moves, a run of one step is as accurate as any other
   if (!(motion > 1e-6 * scene.size())) return "nothing moves there";
   return "";
 }
@@ -177,14 +178,14 @@ std::string why_not(const Scene& scene, double motion) {
 
 namespace {
 
-/// A scene as the experiment runs it, with what is known of it.
+/// A scene as the experiment runs it, with its truth and its scales.
 struct Judged {
   const Scene& scene;
   Run base;
   std::optional<Truth> truth;
   double motion = 0, until = 0;  // m, s
   bool under_contact_rule() const { return truth && truth->under_contact_rule; }
-  /// m, within which a run is recommended; nothing where no error is known.
+  /// Accuracy for which a run is recommended, m; nothing if no error is known.
   std::optional<double> bound() const {
     if (!truth || under_contact_rule()) return std::nullopt;
     const double left = recommended_part * motion - truth->error_bar;
@@ -205,7 +206,7 @@ bool is_affordable(const Method& method, const Judged& of, const Setting& settin
          most_seconds(full);
 }
 
-/// The settings at which the search for the cheapest run tries the candidates, by method.
+/// Settings that the search for the cheapest run tries, by candidate method.
 std::map<std::string, std::vector<Setting>> searched_settings(const Request& request, const Judged& of,
                                                               MotionBoundsCache& bounds) {
   std::map<std::string, std::vector<Setting>> settings;
@@ -239,8 +240,8 @@ std::vector<Setting> merged(std::vector<Setting> settings, const std::vector<Set
   return settings;
 }
 
-/// Adds the runs of another engine between the last step that misses the bound and the first that does not, so that its
-/// cheapest is found as closely as the subject's.
+/// Adds runs of another engine between the last step that misses the bound and the first that meets it, so that its
+/// cheapest run is found as precisely as the subject's.
 void refine(const Method& method, const Judged& of, const Request& request, MotionBoundsCache& bounds,
             std::vector<SettingRun>& tries, std::vector<std::string>& notes) {
   const auto bound = of.bound();
@@ -249,7 +250,7 @@ void refine(const Method& method, const Judged& of, const Request& request, Moti
   const auto add = [&](const SettingRun& run) {
     TriedRun tried = tried_run(of, run.outcome, run.trajectory);
     tried.method = method.name, tried.setting = run.setting;
-    // an engine need not count its evaluations: each of its steps costs as much as any other
+    // uses the steps as cost, because an engine need not count its evaluations and its steps all cost the same
     tried.cost = static_cast<double>(run.outcome.steps);
     return tried;
   };
@@ -349,20 +350,20 @@ void speed_accuracy_on(const Request& request, const Scene& scene, TableSet& tab
 
 namespace {
 
-/// A run that is timed, whole or in its first part.
+/// A timed run, whole or its first part.
 struct TimedRow {
   const SpeedAccuracyRow* row;
   const Method* method;
   TimedPart part;
   long evaluations = 0;
-  /// Time of the whole run, s.
+  /// Time of the whole run, scaled up from the part, s.
   Timing scaled(const Timing& t) const {
     const auto measured = static_cast<double>(evaluations), all = static_cast<double>(row->evaluations);
     return t.times(measured > 0 && all > 0 ? all / measured : 1 / part.share);
   }
 };
 
-/// The rows that a recommendation compares: the recommended run, its ties, and each other engine's cheapest.
+/// The rows that a recommendation compares: the recommended run, its ties, and the cheapest run of each other engine.
 std::vector<size_t> compared_rows(const std::vector<TimedRow>& timed, const std::vector<Timing>& times) {
   std::map<std::string, size_t> cheapest;  // by engine
   std::vector<size_t> compared;
@@ -414,15 +415,15 @@ void time_speed_accuracy(const Request& request, const Scene& scene, const Table
   }
   MotionBoundsCache bounds;  // short runs are repeated a thousand times
   const auto run_once = [&](TimedRow& run) {
-    // monitored: after a blow-up a step of Bullet's worlds takes many times as long
+    // monitored, because after a blow-up a step of Bullet's worlds takes many times as long
     const Outcome out = run_method(*run.method, scene, run.part.run, {}, std::ref(bounds));
     run.evaluations = out.evaluations;
     return out.cpu_seconds;
   };
   std::vector<std::function<double()>> turns;
   for (TimedRow& run : timed) turns.push_back([&] { return run_once(run); });
-  // the dear ones are most of the work, and their times spread least. A first run of more than 0.2 ms takes what the
-  // second does, to 1 % on average (measured, 934 runs)
+  // expensive runs are most of the work, and their times vary least. A first run of more than 0.2 ms takes as long as
+  // the second, to 1 % on average (measured for 934 runs)
   const auto samples =
       time_round_robin(turns, request.full ? TimingOptions{.least = 3, .most = 9, .enough = 0.05, .warm = 0.05}
                                            : TimingOptions{.least = 2, .most = 7, .enough = 0.005, .warm = 0.0005});

@@ -30,9 +30,9 @@ inline bool is_beyond(double limit, int halving, double h) { return halving > 3 
 
 /// Fixed steps, halved from 64 times the run's step down to a 16th of it. Steps above 8 times the run's step are
 /// limited to twice the rule's stability limit, if it is known. Steps longer than the sampling interval are replaced by
-/// that interval. Tolerances range from 1e-2 to 1e-8 (full: 1e-10). Leaves out runs that would take more than 0.35 s of
-/// CPU time (1.8 s at the run's own step and longer ones) by an estimate that is equal on every machine. Without `full`
-/// the limits are 0.7 times as much, and tolerances whose runs would take more than 1.3 s are left out. `dropped`
+/// that interval. Tolerances range from 1e-2 to 1e-8 (full: 1e-10). Leaves out runs that would take more than 0.14 s of
+/// CPU time (0.72 s at the run's own step and longer ones) by an estimate that is equal on every machine; with `full`
+/// 2.5 times as much. Without `full`, also leaves out tolerances whose runs would take more than 1.3 s. `dropped`
 /// counts the omissions.
 std::vector<Setting> settings_of(const Method& method, const Scene& scene, const Run& run, bool full,
                                  int* dropped = nullptr);
@@ -42,9 +42,9 @@ struct TimedPart {
   Run run;
   double share = 1;  // of the run's steps or samples
 };
-/// A part that takes about 20 ms by the estimate or, for adaptive methods, by the beginning of the run. The whole run
-/// if it takes less than 0.05 s (`full`: 0.2 s), if there is contact (which may cost more than the fall before it), for
-/// external programs, and with `whole`.
+/// A part that takes about 6 ms (`full`: 20 ms) by the estimate or, for adaptive methods, by the beginning of the run.
+/// The whole run if it takes less than 12 ms (`full`: 0.2 s), if there is contact (which may cost more than the fall
+/// before it), for external programs, and with `whole`.
 TimedPart part_of(const Method& method, const Scene& scene, const Run& base, const Setting& setting, bool full,
                   bool whole = false);
 

@@ -1,4 +1,4 @@
-// Halving, bisection, and the choice by cost.
+// Search by halving and bisection, and the choice by cost.
 #include "experiments/speed_accuracy/step_search.h"
 
 #include <algorithm>
@@ -17,7 +17,7 @@ constexpr double most_cost = 1e9;                   // a run of some seconds
 
 bool same_search(const TriedRun& a, const TriedRun& b) { return a.method == b.method && a.model == b.model; }
 
-/// True if a run takes shorter steps, or a tighter tolerance, than another of the same method and model.
+/// True if run a has a shorter step, or a tighter tolerance, than run b of the same method and model.
 bool is_finer(const TriedRun& a, const TriedRun& b) {
   return same_search(a, b) && a.setting.value < b.setting.value * (1 - 1e-9);
 }
@@ -58,7 +58,7 @@ std::string_view name_of(StepBound bound) {
 }
 
 std::optional<Recommendation> recommend(const std::vector<TriedRun>& runs, double bound) {
-  std::vector<size_t> best;  // one for each method and model
+  std::vector<size_t> best;  // one per method and model
   for (size_t i = 0; i < runs.size(); ++i) {
     if (!(runs[i].cost > 0) || !is_confirmed(runs, runs[i], bound)) continue;
     const auto own = std::ranges::find_if(best, [&](size_t j) { return same_search(runs[i], runs[j]); });
@@ -147,7 +147,7 @@ double StepSearch::least_cost(const Method& method, long steps) const {
   return static_cast<double>(steps) * base_.samples * evaluations * static_cast<double>(springs_of(scene_.model));
 }
 
-/// The next finer setting of the ladder, where the finest run fails or is the only one that does not.
+/// The next finer setting of the ladder, used if the finest run misses the bound or is the only one that meets it.
 std::optional<StepSearch::Step> StepSearch::finer(const Method& method, const Runs& runs) const {
   const TriedRun* fails = runs.empty() ? nullptr : runs.back();
   if (fails && fails->is_within(bound_)) fails = runs.size() > 1 ? runs[runs.size() - 2] : nullptr;
@@ -167,15 +167,15 @@ std::optional<StepSearch::Step> StepSearch::finer(const Method& method, const Ru
   }
 }
 
-/// The setting to try next, given a method's runs so far and the cost of the best of all; nothing where its search
-/// ends.
+/// The next setting to try, given a method's runs so far and the cost of the best run of all methods; nothing if its
+/// search is complete.
 std::optional<StepSearch::Step> StepSearch::next_step(const Method& method, double best) const {
   const Runs runs = known(method);
   if (!runs.empty() && runs.back()->verdict == Verdict::unsupported) return std::nullopt;
-  // the coarsest run from which on all are within the bound
+  // the coarsest run from which on all finer ones are within the bound
   size_t first = runs.size();
   while (first > 0 && runs[first - 1]->is_within(bound_)) --first;
-  if (first + 1 >= runs.size()) return finer(method, runs);  // none, or the finest alone: an accident, perhaps
+  if (first + 1 >= runs.size()) return finer(method, runs);  // none, or only the finest, possibly by accident
   const TriedRun& meets = *runs[first];
   const TriedRun* fails = first > 0 ? runs[first - 1] : nullptr;
   if (method.adaptive) {
@@ -183,7 +183,7 @@ std::optional<StepSearch::Step> StepSearch::next_step(const Method& method, doub
       if (meets.setting.value >= loosest) return std::nullopt;
       return Step{std::min(loosest, 10 * meets.setting.value), meets.cost, 0};
     }
-    // the cost of a rule of fifth order goes as the fifth root of its tolerance
+    // the cost of a rule of fifth order scales as the fifth root of its tolerance
     const double ratio = fails->setting.value / meets.setting.value, cheaper = std::pow(ratio, 0.2);
     if (cheaper <= step_resolution || meets.cost / cheaper > step_resolution * best) return std::nullopt;
     return Step{meets.setting.value * std::sqrt(ratio), meets.cost / std::sqrt(cheaper), meets.cost / cheaper};

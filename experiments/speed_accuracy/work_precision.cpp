@@ -1,4 +1,4 @@
-// Pareto lines and the cheapest methods, from the rows of all points.
+// Pareto fronts and the cheapest methods, from the rows of all points.
 #include "experiments/speed_accuracy/work_precision.h"
 
 #include <fmt/ranges.h>
@@ -12,7 +12,7 @@ namespace crosscheck {
 std::vector<WorkPrecisionPoint> pareto_line(std::vector<WorkPrecisionPoint> points, double floor) {
   std::erase_if(points, [](const WorkPrecisionPoint& p) { return !p.ok || !p.error; });
   for (WorkPrecisionPoint& p : points) p.error = std::max(*p.error, floor);
-  // among equal costs the better one first: the other then is no step down
+  // at equal cost the more accurate one comes first; the other is then not on the front
   std::stable_sort(points.begin(), points.end(), [](const WorkPrecisionPoint& a, const WorkPrecisionPoint& b) {
     return a.cost != b.cost ? a.cost < b.cost : *a.error < *b.error;
   });
@@ -44,7 +44,7 @@ std::vector<std::string> statistically_tied(const std::vector<WorkPrecisionPoint
 
 namespace {
 
-/// The runs of one scene, in evaluations, and what is known of its truth.
+/// The runs of one scene with evaluations as cost, and the properties of its truth.
 struct SceneRuns {
   std::string scene;
   double motion = 0;
@@ -68,7 +68,7 @@ std::vector<SceneRuns> runs_of(const Table& table) {
   return scenes;
 }
 
-/// The same runs with the time they took; what was not timed is left out. Fills `noise`.
+/// The timed runs with their times as cost. Sets `noise`, and adds rows to `cost`.
 std::vector<WorkPrecisionPoint> timed_points(const SceneRuns& s, const std::vector<SpeedAccuracyTimingRow>& timing,
                                              double& noise, Table& cost) {
   std::vector<WorkPrecisionPoint> points;
@@ -77,7 +77,7 @@ std::vector<WorkPrecisionPoint> timed_points(const SceneRuns& s, const std::vect
       if (row.scene != s.scene || row.method != p.method || row.setting != p.setting || row.requested != p.requested)
         continue;
       const auto measured = static_cast<double>(row.evaluations);
-      // a failed run ended earlier than its timed twin, which had no observer, or later
+      // the end of a failed run may differ from that of its timed twin, which had no observer
       const double factor = measured > 0 && p.cost > 0 ? p.cost / measured : 1 / row.part;
       WorkPrecisionPoint timed = p;
       timed.time = Timing{row.cpu, row.cpu_low, row.cpu_high, row.repetitions}.times(factor);
@@ -108,7 +108,7 @@ void add_pareto(const SceneRuns& s, const std::vector<WorkPrecisionPoint>& point
     add(table, ParetoRow<kind>{s.scene, p.cost, *p.error, p.method, p.setting, p.requested});
 }
 
-/// Of a solver that counts its steps alone, what it takes for each would pass for nothing.
+/// False for solvers that count only their steps, whose evaluations would be underestimated.
 bool counts_evaluations(const std::string& method) {
   const Method* known = builtin_without_options(method);
   return !known || known->counts_evaluations;
@@ -120,7 +120,7 @@ template <Cost kind>
 void add_cheapest(const SceneRuns& s, const std::vector<WorkPrecisionPoint>& points, double noise, Table& table) {
   if (!s.error_bar) return;
   for (const double part : parts_of_motion) {
-    // the truth may err as well: what is met is met whatever the truth is within its bar
+    // the error of the truth is subtracted, so that the accuracy is met wherever the truth lies within its error bar
     const double bound = part * s.motion, left = bound - *s.error_bar;
     CheapestRow<kind> row{.scene = s.scene, .part_of_motion = part, .bound = bound, .measure = s.measure};
     const WorkPrecisionPoint *best = cheapest(points, left), *bullet = cheapest(points, left, is_first_peer),
@@ -147,7 +147,7 @@ void add_cheapest(const SceneRuns& s, const std::vector<WorkPrecisionPoint>& poi
 
 void conclude_speed_accuracy(TableSet& tables) {
   const Table* results = tables.table(std::string(SpeedAccuracyRow::table));
-  if (!results) return;  // a part of a sweep
+  if (!results) return;  // not in this part of a sweep
   std::vector<SpeedAccuracyTimingRow> timing;
   const Table* timed = tables.table(std::string(SpeedAccuracyTimingRow::table));
   if (timed) timing = rows_of<SpeedAccuracyTimingRow>(*timed);
@@ -155,7 +155,7 @@ void conclude_speed_accuracy(TableSet& tables) {
         best = table_of<CheapestRow<Cost::evaluations>>(), best_time = table_of<CheapestRow<Cost::cpu>>(),
         cost = table_of<SpeedAccuracyCostRow>(), engines = table_of<EngineSpeedRow>();
   for (const SceneRuns& s : runs_of(*results)) {
-    // an outside program need not count its evaluations
+    // an external program need not count its evaluations
     std::vector<WorkPrecisionPoint> counted = s.points;
     std::erase_if(counted, [](const WorkPrecisionPoint& p) { return !(p.cost > 0) || !counts_evaluations(p.method); });
     add_pareto<Cost::evaluations>(s, counted, pareto);

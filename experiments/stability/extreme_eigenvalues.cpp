@@ -1,4 +1,4 @@
-// Spectra's solvers; in no other file.
+// The only file that uses Spectra's solvers.
 #include "experiments/stability/extreme_eigenvalues.h"
 
 #include <Spectra/GenEigsSolver.h>

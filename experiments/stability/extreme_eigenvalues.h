@@ -1,4 +1,4 @@
-// The outermost eigenvalues of sparse matrices, by the Lanczos and Arnoldi iterations of Spectra.
+// Extreme eigenvalues of sparse matrices, by the Lanczos and Arnoldi iterations of Spectra.
 #pragma once
 
 #include <Eigen/SparseCore>
@@ -12,13 +12,13 @@ struct Eigenpair {
   Eigen::VectorXd vector;  // of length 1
 };
 
-/// Of a symmetric matrix, each to `tolerance` (relative); nothing where the iteration did not converge.
+/// Largest eigenvalue of a symmetric matrix to a relative `tolerance`, and its vector; nothing without convergence.
 std::optional<Eigenpair> largest_eigenpair(const Eigen::SparseMatrix<double>& symmetric, double tolerance);
 
-/// The eigenvalue nearest to `shift` of a symmetric matrix with all of them above it.
+/// The eigenpair nearest to `shift` of a symmetric matrix whose eigenvalues are all above `shift`.
 std::optional<Eigenpair> eigenpair_above(const Eigen::SparseMatrix<double>& symmetric, double shift, double tolerance);
 
-/// Of any square matrix, the `count` of largest modulus; a pair of conjugates counts as two.
+/// The `count` eigenvalues of largest modulus of a general square matrix; a conjugate pair counts as two.
 std::optional<Eigen::VectorXcd> largest_eigenvalues(const Eigen::SparseMatrix<double>& square, int count,
                                                     double tolerance);
 

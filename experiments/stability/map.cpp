@@ -1,4 +1,4 @@
-// Cells and limits of maps.
+// Computes cells and limits of maps.
 #include "experiments/stability/map.h"
 
 #include <fmt/format.h>
@@ -20,11 +20,11 @@ Scene with_gamma(Scene scene, double gamma) {
   return scene;
 }
 
-/// Cells show blow-ups as they are: perturbed by a ten-thousandth of the springs' length, so that growth comes to where
-/// the monitor judges it.
+/// Relative size of the perturbation. Cells show actual blow-ups: a perturbation of a ten-thousandth of the springs'
+/// length grows until the monitor judges it.
 constexpr double visible = 1e-4;
 
-/// h omega from 1/50 to 20 of the scene as it is; 0 <= part <= 1.
+/// Step for position 0 <= part <= 1 among the columns: h omega from 1/50 to 20, with omega of the original scene.
 double step_at(double part, double omega) { return 0.02 / omega * std::pow(1000, part); }
 
 }  // namespace
@@ -48,7 +48,7 @@ void add_map(const MapKind& kind, const Scene& scene, const Method& method, cons
     tables.notes.push_back(fmt::format("stability draws no map of step and {}, {} on {}: it answers in no cell: {}",
                                        kind.name, method.name, scene.name, why));
   };
-  // what a method lacks it lacks in every cell: tried once, at the shortest step
+  // an ingredient that the method does not support is missing in every cell: tries it once, at the shortest step
   if (const PerturbedRun first = run_perturbed(method, as_it_is, step_at(0, omega), 1, {}); first.without_answer())
     return no_map(first.reason);
   long changed = 0, accepted = 0;
@@ -108,7 +108,7 @@ std::optional<MapSize> map_size(const Method& method, const Scene& scene, bool f
   if (!full) return few ? MapSize{9, 12, 300, false} : MapSize{7, 9, 300, false};
   for (MapSize size : {MapSize{17, 25, 1000, false}, MapSize{9, 12, 1000, false}, MapSize{7, 9, 300, false}}) {
     const double cost = estimated_seconds(method, scene, size.steps * size.rows * size.columns);
-    size.check = cost < 0.1;  // tenfold, and tiny scenes cost more than the estimate
+    size.check = cost < 0.1;  // takes ten times as long, and tiny scenes cost more than the estimate
     if (cost < 4) return size;
   }
   return std::nullopt;
@@ -123,7 +123,7 @@ std::optional<Scene> map_scene(const Scene& scene, bool full) {
       small.name += "-6";
       return small;
     } catch (const InputError&) {
-      // its text holds for its own grid only
+      // the scene's text is valid only for its own grid
     }
   }
   return full ? std::optional(scene) : std::nullopt;

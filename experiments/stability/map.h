@@ -1,4 +1,4 @@
-// Stability maps over step and stiffness, or step and drag: the verdict of one run in each cell, and on each row the
+// Stability maps over step and stiffness, or step and drag: the verdict of one run per cell, and for each row the
 // largest stable step, measured and predicted.
 #pragma once
 
@@ -7,32 +7,33 @@
 
 namespace crosscheck {
 
-/// The parameter that a map's rows change.
+/// The parameter that varies over the rows of a map.
 struct MapKind {
   std::string_view name;  // "stiffness" (over the scene's own), "drag" (gamma, 1/s)
-  /// The value of row 0 <= part <= 1, logarithmic; omega: the scene's fastest vibration as it is, rad/s.
+  /// The value for position 0 <= part <= 1 among the rows, on a logarithmic scale; omega: fastest vibration of the
+  /// original scene, rad/s.
   double (*value)(double part, double omega);
   Scene (*with)(Scene, double value);
 };
-/// Stiffness: all springs times 1/100 to 100. Drag: gamma from omega/100 to 10 omega, for all particles.
+/// Stiffness: factors of 1/100 to 100 for all springs. Drag: gamma from omega/100 to 10 omega for all particles.
 std::span<const MapKind> map_kinds();
 
 struct MapSize {
   int rows, columns;
   long steps;  // of each run
-  bool check;  // runs each cell ten times longer too, and counts those that change
+  bool check;  // also runs each cell ten times longer, and counts the cells that change
 };
-/// As fine as about 10 s of CPU time pay for; nothing where no map costs so little. Quick maps are coarser.
+/// The finest size that costs less than 4 s of CPU time in a full run; nothing if none does. Quick maps are coarser.
 std::optional<MapSize> map_size(const Method& method, const Scene& scene, bool full);
 
-/// Tables stability-map (cells), stability-map-limit (limits of the rows) and, where requested, stability-map-check. A
-/// cell that the method refuses says so; where it refuses all there is no map, and a note. `on_runs` is given the last
-/// pictures of each cell's run.
+/// Adds tables stability-map (cells), stability-map-limit (limits of the rows) and, if requested, stability-map-check.
+/// Cells that the method refuses are marked; if it refuses all, there is a note instead of a map. `on_runs` receives
+/// the last frames of each cell's run.
 void add_map(const MapKind& kind, const Scene& scene, const Method& method, const MapSize& size, TableSet& tables,
              const RunCallback& on_runs = {});
 
-/// The scene that maps of a scene are made of: itself, if it has at most 64 particles; else of a cloth the
-/// same with 6 particles along its longer side, "NAME-6"; else itself in a full run, or nothing.
+/// The scene used for the maps of a scene: itself, if it has at most 64 particles; for a cloth, the same cloth with 6
+/// particles along its longer side, "NAME-6"; otherwise itself in a full run, or nothing.
 std::optional<Scene> map_scene(const Scene& scene, bool full);
 
 }  // namespace crosscheck

@@ -1,4 +1,4 @@
-// Margins from the stiffness of a largely stretched net.
+// Stability margins from the stiffness of a net whose springs are stretched far.
 #include "experiments/stability/margin.h"
 
 #include <fmt/format.h>
@@ -11,8 +11,8 @@
 namespace crosscheck {
 namespace {
 
-/// A bound of its fastest vibration (S. Gershgorin, 1931), rad/s: omega^2 <= max over particles a of the sum over its
-/// springs, and those that bending is, of |k| / m_a + |k| / sqrt(m_a m_b), pins left out.
+/// Upper bound of the fastest vibration (S. Gershgorin, 1931), rad/s: omega^2 <= max over particles a of the sum over
+/// its springs, and those equivalent to bending, of |k| / m_a + |k| / sqrt(m_a m_b), without pins.
 double bound_of_frequency(const Model& model) {
   const Particles& particles = model.particles;
   Eigen::VectorXd sum = Eigen::VectorXd::Zero(particles.size());
@@ -60,7 +60,7 @@ std::string stability_warning(const Method& method, const Scene& scene, double h
         "step, tenfold in {:.3g} s",
         rule->name, omega, 100 * growth, h * std::log(10) / std::log1p(growth));
   }
-  // power iteration only where the bound leaves it open
+  // uses power iteration only if the bound is not sufficient
   if (rule->limit(bound_of_frequency(model), *gamma) > (1 + small) * h) return "";
   const double omega = highest_frequency_bound(model, scene.start), limit = rule->limit(omega, *gamma);
   if (limit > (1 + small) * h) return "";

@@ -1,4 +1,4 @@
-// Warnings on the stability of longer runs, which a verdict at the end of a run cannot show.
+// Warnings about the stability of longer runs, which the verdict of a run cannot show.
 #pragma once
 
 #include <string>
@@ -8,14 +8,15 @@
 
 namespace crosscheck {
 
-/// A sentence on a run that held, at step h (s), or nothing: the rule's step is within a tenth of what is stable once
-/// every spring is stretched far (a net without drag then heats quietly and may fail later: a spring's stiffness acts
-/// across its line as along it), or the rule has no stable step here and grows for certain, and by how much. Scenes
-/// with dashpots or unequal drag rates, rules without a theory and adaptive ones have none.
+/// A warning about a run that held at step h (s), or nothing. The rule's step may be within a tenth of the limit for a
+/// net whose springs are all stretched far. (A net without drag then slowly gains energy and may fail later: the
+/// stiffness of a stretched spring acts across its line, too.) Or the rule may have no stable step here; the warning
+/// then gives its growth. Nothing for scenes with dashpots or unequal drag rates, for rules without a theory, and for
+/// adaptive ones.
 std::string stability_warning(const Method& method, const Scene& scene, double h);
 
-/// The factor of a step on the vibration's amplitude, by the eigenvalues of its amplification matrix;
-/// 1 where the rule has none in closed form.
+/// Growth factor per step of the vibration's amplitude, from the eigenvalues of the rule's amplification matrix; 1 if
+/// the rule has none in closed form.
 double growth_per_step(const Stepper& rule, const Vibration& vibration, double h);
 
 }  // namespace crosscheck

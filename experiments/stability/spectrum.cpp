@@ -27,7 +27,7 @@ Sparse assembled(const std::vector<Tangent::Pair>& pairs, const std::vector<int>
         for (int i = 0; i < 3; ++i)
           for (int j = 0; j < 3; ++j) {
             const int row = row_of[3 * a + i], column = row_of[3 * b + j];
-            if (i != j && p.along == p.across) continue;  // a multiple of the unit matrix
+            if (i != j && p.along == p.across) continue;  // block is a multiple of the identity
             if (row < 0 || column < 0) continue;
             parts.emplace_back(row, column, (a == b ? 1 : -1) * block(i, j) / (root[row] * root[column]));
           }
@@ -45,11 +45,11 @@ void dense_modes(Spectrum& s, double gamma) {
   for (const double w2 : dense.values) s.modes.push_back({root_or_zero(w2), gamma});
 }
 
-/// The slowest and the fastest one.
+/// Computes the slowest and the fastest mode.
 void extreme_modes(Spectrum& s, double gamma) {
   const auto fast = largest_eigenpair(s.system.k, 1e-10);
   if (!fast) throw SolverFailure("the fastest mode was not found");
-  // beside zero, so that a free motion does not make it singular
+  // shifted below zero, so that a free motion does not make the matrix singular
   const auto slow = eigenpair_above(s.system.k, -1e-6 * fast->value, 1e-8);
   if (!slow) throw SolverFailure("the slowest mode was not found");
   s.modes = {{root_or_zero(slow->value), gamma}, {root_or_zero(fast->value), gamma}};
@@ -58,7 +58,7 @@ void extreme_modes(Spectrum& s, double gamma) {
   s.complete = false;
 }
 
-/// Eigenvalues of ((0, I), (-K, -C)).
+/// Computes the modes from the eigenvalues of ((0, I), (-K, -C)).
 void quadratic_modes(Spectrum& s) {
   const int n = s.system.size();
   const Sparse c = s.system.damping();
@@ -70,7 +70,7 @@ void quadratic_modes(Spectrum& s) {
     a.bottomRightCorner(n, n) = -Eigen::MatrixXd(c);
     rates = eigenvalues(a);
   } else {
-    // velocities in units of the fastest mode, so that both halves are of one size
+    // velocities in units of the fastest mode, so that both halves have the same scale
     const double unit = s.omega;
     std::vector<Eigen::Triplet<double>> parts;
     for (int i = 0; i < n; ++i) parts.emplace_back(i, n + i, unit);
@@ -165,7 +165,7 @@ Spectrum spectrum_of(const Scene& scene, const State& state) {
 
 namespace {
 
-/// 1/s^2: what a particle's springs could do to it over their stretch.
+/// Largest spring stiffness over particle mass, 1/s^2: the acceleration per extension that a spring could cause.
 double stiffest_of(const Model& model) {
   double stiffest = 0;
   for (const Spring& spring : model.find<Springs>()->list)
@@ -174,7 +174,7 @@ double stiffest_of(const Model& model) {
   return stiffest;
 }
 
-/// The equilibrium, to the last digits.
+/// An equilibrium, rest or saddle, to the last digits.
 std::optional<State> converged_rest(const Scene& scene) {
   const Model& model = scene.model;
   auto rest = rest_of(scene);
@@ -185,7 +185,7 @@ std::optional<State> converged_rest(const Scene& scene) {
   const double stiffest = stiffest_of(model);
   Workspace w(s);
   try {
-    // implicit Euler steps so long that they are Newton's towards the rest, kept downhill
+    // implicit Euler steps so long that they act as damped Newton steps towards the rest
     f.acceleration(s, a);
     for (int i = 0; i < 300 && largest_column(a) > 1e-12 * stiffest * scene.size(); ++i) {
       implicit_euler(f, s, 5, w);
@@ -196,11 +196,11 @@ std::optional<State> converged_rest(const Scene& scene) {
   } catch (const SolverFailure&) {
     return std::nullopt;
   }
-  // these stop at 1e-10 of the forces; kicks as small as 1e-8 of a spring need the rest to its last digits
+  // those stop at 1e-10 of the forces; perturbations as small as 1e-8 of a spring need the rest to its last digits
   for (double left = largest_column(a); left > 0;) {
     const Linearised l = linearised(model, s);
     Sparse k = l.k;
-    // beside zero, so that a free motion does not make it singular
+    // shifted from zero, so that a free motion does not make the matrix singular
     for (int i = 0; i < l.size(); ++i) k.coeffRef(i, i) += 1e-9 * stiffest;
     const Eigen::SimplicialLDLT<Sparse> solver(k);
     if (solver.info() != Eigen::Success) return std::nullopt;
@@ -216,8 +216,8 @@ std::optional<State> converged_rest(const Scene& scene) {
   return s;
 }
 
-/// Whether the stiffness pushes away from the state in some direction: by the signs of the pivots of K, which are those
-/// of its eigenvalues (J. J. Sylvester, 1852). A billionth of the stiffest is rounding.
+/// True if the stiffness is negative in some direction: the signs of the pivots of K are those of its eigenvalues
+/// (J. J. Sylvester, 1852). Adds a billionth of the stiffest spring for rounding.
 bool is_saddle(const Model& model, const State& state) {
   const Linearised l = linearised(model, state);
   const double rounding = 1e-9 * stiffest_of(model);

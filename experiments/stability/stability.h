@@ -1,4 +1,4 @@
-// The largest stable step of one method on one scene, as a row, and why it is not the predicted one.
+// The largest stable step of one method on one scene as a row, and the reasons for a deviation from the prediction.
 #pragma once
 
 #include "experiments/experiment.h"
@@ -6,9 +6,9 @@
 
 namespace crosscheck {
 
-// Reasons why a measured limit is not the predicted one.
+// Reasons for a deviation of the measured limit from the predicted one.
 
-/// The reason why theory, of small motion about one state, may differ from the run.
+/// The reason why the run may differ from theory, which describes small motion about one state.
 inline std::string deviation_reason(const BaseState& base, const Method& method) {
   const Model& model = base.scene.model;
   std::vector<std::string> reasons;
@@ -25,7 +25,7 @@ inline std::string deviation_reason(const BaseState& base, const Method& method)
   return all;
 }
 
-/// A note on a saddle for the row; empty where there was none.
+/// A note about a saddle for the row; empty if there was none.
 inline std::string saddle_note(const BaseState& base) {
   if (!base.saddle) return "";
   return base.at_rest
@@ -33,10 +33,10 @@ inline std::string saddle_note(const BaseState& base) {
              : "the only equilibrium found is a saddle, not a rest";
 }
 
-/// The reason why the measurement differs from theory, or why theory says nothing; empty where they agree.
+/// The reason why the measurement differs from theory, or why there is no prediction; empty if they agree.
 inline std::string reason_for(const BaseState& base, const Method& method, const PredictedLimit& p,
                               const MeasuredLimit& m) {
-  // a bracket is no more exact than its width
+  // a bracket is no more precise than its width
   const double enough = std::max(0.01, m.precision());
   switch (m.kind) {
     case MeasuredLimit::found:
@@ -55,29 +55,29 @@ inline std::string reason_for(const BaseState& base, const Method& method, const
 
 /// The effort of a search.
 struct Effort {
-  long steps;        // of each run
-  double precision;  // at which halving ends
+  long steps;        // per run
+  double precision;  // at which the bisection ends
 };
-/// Quick: fine on small scenes, coarse where each step solves an equation. Full: as fine as about 5 s of CPU time pay
-/// for.
+/// Quick: fine on small scenes, coarse if each step solves an equation. Full: as fine as about 0.5 s of CPU time
+/// permits.
 Effort effort_for(const Method& method, const Scene& scene, bool full);
 
-/// Small scenes cost so little that every method is measured on them, and finely.
+/// True for scenes that cost so little that every method is measured on them, with high precision.
 inline bool is_small(const Scene& scene) { return scene.start.x.cols() <= 50; }
 
-/// A row of table stability, and rows of stability-growth where steps multiply modes.
+/// Adds a row of table stability, and rows of stability-growth if steps multiply modes.
 void add_limit(const Scene& scene, const Method& method, const Effort& effort, TableSet& tables);
 
-/// A step at which runs fail within some steps, and not in one.
+/// A step at which runs fail within several steps, but not within one.
 inline double failing_step(double limit) { return 1.75 * limit; }
 
-/// Rows of stability-failure: the last steps of a run at that step from the scene's own start, which four of them are
-/// to be seen in pictures, and a run that holds beside it. None where it does not fail within some hundred steps.
+/// Adds rows of stability-failure: the last steps of a run at that step from the scene's own start, four of which are
+/// shown in pictures, and a run that holds for comparison. Adds nothing if the run does not fail within 400 steps.
 void add_failure(const Scene& scene, const Method& method, double limit, std::optional<double> growth,
                  TableSet& tables);
 
-/// Whether the method's maps are drawn unasked: those of the peers, and of the subject's first rule of each kind that
-/// breaks in its own way.
+/// True if the method's maps are drawn by default: methods of the peers, and for each way of failing the subject's
+/// first rule that fails in that way.
 bool is_mapped(const Method& method);
 
 }  // namespace crosscheck

@@ -1,4 +1,4 @@
-// How stiff hanging nets are under position-based methods, over step and iterations.
+// Effective stiffness of hanging nets under position-based methods, over step and iterations.
 #pragma once
 
 #include <vector>
@@ -7,7 +7,7 @@
 
 namespace crosscheck {
 
-/// Of experiment `stiffness`: one point for each net.
+/// Points of experiment `stiffness`, one per net.
 std::vector<Point> effective_stiffness_points(bool full);
 
 }  // namespace crosscheck

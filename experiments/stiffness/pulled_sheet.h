@@ -1,5 +1,5 @@
-// Virtual stretching: the moduli of a net measured from the energy of its springs under small uniform strains, apart
-// from the formula of mysim/model/moduli.h.
+// Virtual stretching: the moduli of a net, measured from the energy of its springs under small uniform strains,
+// independently of the formula of mysim/model/moduli.h.
 #pragma once
 
 #include <Eigen/Core>
@@ -9,25 +9,25 @@
 
 namespace crosscheck {
 
-/// A square net, or a cube, of spacing d (m) with so many particles a side.
+/// Springs of a square net, or of a cube, with spacing d (m).
 struct NetSprings {
   double structural, shear, bend;  // N/m
   double spacing;                  // m
   int dimension = 2;
 };
 
-/// Nets of n, n + 1, ... particles a side, whose energies under a uniform strain are a polynomial in n. Its first
-/// coefficient is the energy of a cell: differences over n take it out, so that edges do not enter.
+/// Nets of n, n + 1, ... particles a side. Their energies under a uniform strain are a polynomial in n, whose leading
+/// coefficient is the energy of a cell. Differences over n extract it without edge effects.
 class StrainedNets {
  public:
   explicit StrainedNets(const NetSprings& net);
   const Scene& largest() const { return scenes_.back(); }
 
-  /// Per area (J/m^2) or volume (J/m^3), with positions times 1 + strain.
+  /// Energy per area (J/m^2) or volume (J/m^3) if positions are multiplied by 1 + strain.
   double energy_density(const Eigen::Matrix3d& strain) const;
-  /// The stiffness (N/m) of a sheet in axes turned by an angle (rad) around its normal, for strains along 1, along 2
-  /// and twice the shear, by central differences of the energy over strains of 1e-4: springs are not linear, which errs
-  /// by the square of that.
+  /// Stiffness (N/m) of a sheet in axes turned by an angle (rad) around its normal, for the strains along 1, along 2
+  /// and twice the shear. Uses central differences of the energy over strains of 1e-4; the nonlinearity of springs
+  /// causes an error of the order of the square of that.
   Eigen::Matrix3d stiffness(double angle) const;
   /// Young's modulus (N/m) of a sheet pulled at an angle from a row, free to contract and to shear.
   double young(double angle) const;
@@ -38,7 +38,7 @@ class StrainedNets {
   std::vector<Scene> scenes_;
 };
 
-/// Of experiment `stiffness`: sheets of three kinds, pulled at 0 to 45 degrees from a row.
+/// Points of experiment `stiffness`: sheets of three kinds, pulled at 0 to 45 degrees from a row.
 std::vector<Point> pulled_sheet_points();
 
 }  // namespace crosscheck
