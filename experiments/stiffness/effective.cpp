@@ -1,6 +1,6 @@
-// Effective stiffness: a chain and a cloth hang from their upper ends; what they sag by, and how fast they swing up and
-// down, says how stiff a method made them. Loads are so small that strains stay below some thousandths: sag goes as
-// 1 / k then, the period as 1 / sqrt(k).
+// Effective stiffness: a chain and a cloth hang from their upper ends. Their sag, and the period of their vertical
+// oscillation, show the stiffness that a method gives them. Loads are so small that strains remain below some
+// thousandths. Then the sag is proportional to 1 / k, and the period to 1 / sqrt(k).
 #include "experiments/stiffness/effective.h"
 
 #include <fmt/format.h>
@@ -20,7 +20,7 @@ namespace {
 struct Net {
   std::string name;
   std::string text;  // of its scene, without drag
-  double omega;      // rad/s, about that of its slowest vibration along gravity
+  double omega;      // rad/s, approximate frequency of its slowest vibration along gravity
 };
 
 constexpr double load = 0.05;  // m/s^2
@@ -33,7 +33,7 @@ std::string heading(double h) {
       h, -load);
 }
 
-/// Masses of 50 g on springs of 200 N/m and 0.1 m. The slowest vibration of n masses on a fixed end is
+/// Masses of 50 g on springs of 200 N/m and 0.1 m. The slowest vibration of n masses on a fixed end has the frequency
 /// 2 sqrt(k/m) sin(pi / (4 n + 2)).
 Net hanging_chain_of(int masses) {
   const double mass = 0.05, k = 200;
@@ -46,8 +46,8 @@ Net hanging_chain_of(int masses) {
           2 * std::sqrt(k / mass) * std::sin(std::numbers::pi / (4 * masses + 2))};
 }
 
-/// Particles of 10 g on structural, shear and bend springs of 50 N/m, held along the upper edge. Along a column of n
-/// rows below the edge it is about a chain of structural springs: enough to choose a duration by.
+/// Particles of 10 g on structural, shear and bend springs of 50 N/m, held along the upper edge. A column of n rows
+/// below the edge behaves approximately like a chain of structural springs, which suffices to choose a duration.
 Net hanging_cloth_of(int side) {
   std::string text =
       heading(1e-3) + fmt::format(
@@ -59,13 +59,13 @@ Net hanging_cloth_of(int side) {
           2 * std::sqrt(50 / 0.01) * std::sin(std::numbers::pi / (4 * (side - 1) + 2))};
 }
 
-/// The depth of the lowest particle when the net hangs still under a drag of rate omega, below its start, m. Nothing
-/// where the run fails, or where the last quarter of the run still moves it by a thousandth of that depth.
+/// Depth of the lowest particle below its start when the net is at rest, m. Uses drag with rate omega. Nothing if the
+/// run fails, or if the depth changes by more than a thousandth in the last quarter of the run.
 std::optional<double> sag(const Net& net, const Method& method, double step) {
   const Scene scene = parse_scene(net.text + fmt::format("[drag]\ngamma = {}\n", net.omega), "hanging-net");
   Recorder recorder;
-  // drag at rate omega leaves exp(-omega t / 2) of a vibration of omega or above, and of one a fifth as fast, in a net
-  // that is 25 times softer, exp(-omega t / 24): 80 / omega leaves a thirtieth of a tenth of it at worst
+  // drag of rate omega reduces a vibration of frequency omega or above to exp(-omega t / 2), and one a fifth as fast,
+  // in a net that is 25 times softer, to exp(-omega t / 24): after 80 / omega at most a thirtieth of it is left
   const Outcome out = run_method(method, scene, {step, 80 / net.omega, 4, 1e-6, false}, {&recorder});
   if (out.verdict != Verdict::ok) return std::nullopt;
   const auto depth = [&](int frame) {
@@ -75,11 +75,11 @@ std::optional<double> sag(const Net& net, const Method& method, double step) {
   return last > 0 && std::abs(last - depth(3)) < 1e-3 * last ? std::optional(last) : std::nullopt;
 }
 
-/// s: the period of the centre of mass after the net is let go, without drag. Nothing where the run fails, the method's
-/// own damping leaves less than three turning points, or the step is too long to see them.
+/// Period of the centre of mass after the net is released, without drag, s. Nothing if the run fails, if the method's
+/// own damping leaves fewer than three turning points, or if the step is too long to resolve them.
 std::optional<double> period(const Net& net, const Method& method, double step) {
   const Scene scene = parse_scene(net.text, "hanging-net");
-  // four periods, of a net that may be ten times softer
+  // four periods, for a net that may be ten times softer
   const double duration = 4 * 3 * 2 * std::numbers::pi / net.omega;
   Recorder recorder;
   const int steps = static_cast<int>(std::ceil(duration / step));
@@ -88,11 +88,11 @@ std::optional<double> period(const Net& net, const Method& method, double step) 
   std::vector<Vec3> path;
   for (const Points& x : recorder.trajectory.x) path.push_back(centre_of_mass(scene, x));
   const auto found = period_of_path(recorder.trajectory.t, path);
-  // between two turning points lie at least six steps, or a parabola through three of them does not find either
+  // at least six steps between two turning points, which a parabola through three samples needs to locate them
   return found && *found >= 12 * step ? found : std::nullopt;
 }
 
-/// A method over steps and iterations; where it takes one pass in a step, the step is divided instead.
+/// A method over steps and iterations. If a method does one pass per step, the step is divided instead.
 struct Choice {
   std::string_view method;
   enum class Iterations { none, option, sub_steps } iterations;

@@ -1,5 +1,5 @@
-// Experiment `stiffness`: how many N/m a position-based link really has, against the formula that hands it over; where
-// the formula stops holding in a network; and how stiff hanging nets are over step and iterations (effective.cpp).
+// Experiment `stiffness`: the actual stiffness of a position-based link in N/m, compared with the formula that maps it;
+// the validity of the formula in a network; and the stiffness of hanging nets over step and iterations (effective.cpp).
 
 #include <fmt/format.h>
 
@@ -28,7 +28,7 @@ Scene hanging_chain(int masses, double mass, double k, double g, double gamma, d
   return parse_scene(text, "hanging-chain");
 }
 
-/// How far its end sinks by the end of the run, m; the run must go on until it hangs still.
+/// Displacement of the chain's end until the end of the run, m; the run must be long enough for it to come to rest.
 double sag(const Scene& scene, const std::string& method) {
   Recorder recorder;
   const Outcome out = run_method(find_method(method), scene, default_run(scene), {&recorder});
@@ -37,18 +37,18 @@ double sag(const Scene& scene, const std::string& method) {
   return first(1, first.cols() - 1) - last(1, last.cols() - 1);
 }
 
-/// One mass on one link, in every step let fall by g h^2 and pulled back: force over extension when it hangs still. It
-/// is let fall by 1e-4 of the link's length, where the link's law differs from Hooke's by 5e-5.
+/// One mass on one link, which falls by g h^2 in every step and is pulled back: force over extension at rest. It sinks
+/// by 1e-4 of the link's length, for which the link's law differs from Hooke's by 5e-5.
 Table single_links(bool full, double h) {
   Table table = table_of<LinkStiffnessRow>();
   std::vector<double> shares = {0.02, 0.1, 0.5, 0.9};
   if (full) shares = {0.01, 0.02, 0.05, 0.1, 0.2, 0.3, 0.5, 0.7, 0.9};
   for (const int n : {1, 4, 10})
     for (const double kLST : shares) {
-      if (std::pow(1 - kLST, -n) > 2000) continue;  // rigid to three digits already
+      if (std::pow(1 - kLST, -n) > 2000) continue;  // rigid to three digits
       const double mass = 1, k = bullet::newton_per_metre(kLST, mass, h, n), K = k * h * h / mass,
                    g = 1e-4 * k / mass / (1 + K);
-      // what is left after m steps is (1 + K)^(-m/2): 60 / ln(1 + K) steps leave 1e-13
+      // the remainder after m steps is (1 + K)^(-m/2): 60 / ln(1 + K) steps leave 1e-13
       const double steps = std::ceil(60 / std::log1p(K)) + 10;
       const double measured =
           mass * g / sag(hanging_chain(1, mass, k, g, 0, steps * h, h), fmt::format("bullet/pbd+n={}", n));
@@ -57,14 +57,14 @@ Table single_links(bool full, double h) {
   return table;
 }
 
-/// Three masses: their sag over the exact one, against k h^2 / mu of the links between masses (mu = m / 2).
+/// Three masses: their sag relative to the exact one, for the k h^2 / mu of the links between masses (mu = m / 2).
 Table networks(bool full, int n) {
   Table table = table_of<NetworkStiffnessRow>();
   const double mass = 0.1, k = 1000, g = 0.0981, expected = mass * g / k * 6;  // strain 3e-5 at most
   std::vector<double> steps = {1. / 60, 1. / 120, 1. / 240, 1. / 480, 1. / 960, 1. / 1920};
   if (full) steps.push_back(1. / 3840);
   for (const double h : steps) {
-    // drag of 20/s: e^-20 of the sag is left after 2 s
+    // with a drag of 20/s, e^-20 of the sag is left after 2 s
     const double found = sag(hanging_chain(3, mass, k, g, 20, 2, h), fmt::format("bullet/pbd+n={}", n));
     add(table, NetworkStiffnessRow{k * h * h / (mass / 2), h, n, expected, found, found / expected - 1});
   }

@@ -1,4 +1,4 @@
-// Files of a sweep: its list of points, and the tables of each as JSON.
+// Files of a sweep: its list of points, and the tables of each point as JSON.
 #pragma once
 
 #include <filesystem>
@@ -11,14 +11,14 @@
 
 namespace crosscheck {
 
-// The list of a sweep's points, written next to the store, so that shards can be joined later.
+// The list of a sweep's points, written next to the store so that shards can be joined later.
 
 struct PointList {
   struct Entry {
     std::string name, hash;
     bool operator==(const Entry&) const = default;
   };
-  std::vector<std::string> experiments;  // those that draw conclusions from the rows
+  std::vector<std::string> experiments;  // those with conclusions from the rows of all points
   std::vector<Entry> points;
   Provenance provenance;  // of the tables: command, commit, scenes, ...
 };
@@ -26,29 +26,30 @@ struct PointList {
 PointList point_list_of(std::vector<std::string> experiments, std::span<const Point> points, Provenance provenance);
 
 void write_point_list(const PointList& list, const std::filesystem::path& folder);
-/// Throws InputError that names the file and what was expected.
+/// Throws InputError with the name of the file and the expected content.
 PointList read_point_list(const std::filesystem::path& folder);
 
-/// The folder for the points of a sweep with that output folder.
+/// The folder for the points of a sweep with this output folder.
 std::filesystem::path store_in(const std::filesystem::path& folder);
 
-// A table set as JSON, read back to the same bits: the form in which a finished point is kept.
+// A table set as JSON, which reads back to the same bits: the stored form of a finished point.
 
 std::string table_set_json(const TableSet& set);
-/// Throws InputError, "expected ...", when the text is no table set.
+/// Throws InputError, "expected ...", if the text is not a table set.
 TableSet read_table_set(const std::string& text);
 
-// The folder in which a sweep keeps its points' rows: one file per point, by its hash.
+// The folder in which a sweep keeps the rows of its points: one file per point, named by its hash.
 
 class Store {
  public:
   explicit Store(std::filesystem::path folder) : folder_(std::move(folder)) {}
   bool has(const std::string& hash) const { return find(hash).has_value(); }
-  /// Nothing where the point is not there; a file that cannot be read counts as not there, and `fault` says why.
+  /// Nothing if the point is missing. A file that cannot be read counts as missing, and `fault` gets the reason.
   std::optional<TableSet> find(const std::string& hash, std::string* fault = nullptr) const;
-  /// Written under another name and renamed: a killed run leaves whole files only.
+  /// Writes under another name and renames the file, so that a killed run leaves only complete files.
   void keep(const std::string& hash, const TableSet& tables) const;
-  /// Stores why a point failed, in its own file; it does not count as there, and the next keep() or run replaces it.
+  /// Stores the reason of a failure in a separate file. The point remains missing; the next keep() or run replaces the
+  /// file.
   void keep_failure(const std::string& hash, const std::string& why) const;
   void forget_failure(const std::string& hash) const;
   std::optional<std::string> failure_of(const std::string& hash) const;

@@ -1,4 +1,4 @@
-// Worker processes that draw points from one shared counter.
+// Worker processes that take points from a shared counter.
 #include "experiments/sweep/sweep.h"
 
 #include <fmt/format.h>
@@ -22,8 +22,8 @@
 namespace crosscheck {
 namespace {
 
-/// Children can be waited for, also where its parent ignores SIGCHLD: then the system reaps them
-/// itself, and waitpid() knows of none.
+/// Makes sure that children can be waited for, even if this program's parent ignores SIGCHLD. In that case the system
+/// would reap the children itself, and waitpid() would not find them.
 class DefaultSigchld {
  public:
   DefaultSigchld() {
@@ -39,7 +39,7 @@ class DefaultSigchld {
   struct sigaction before_ {};
 };
 
-/// One batch of points, timed or not, worked off by `jobs` processes.
+/// One batch of points, timed or not, processed by `jobs` processes.
 class Batch {
  public:
   Batch(std::vector<const Point*> points, int jobs, const Store& store, Progress& progress,
@@ -59,7 +59,7 @@ class Batch {
       announce();
       int status = 0;
       const pid_t pid = waitpid(-1, &status, WNOHANG);
-      if (pid < 0 && errno == ECHILD) break;  // other code waited for them: what is missing is named below
+      if (pid < 0 && errno == ECHILD) break;  // other code waited for them; missing points are reported below
       if (pid <= 0) {
         usleep(20000);
         continue;
@@ -96,15 +96,16 @@ class Batch {
   }
 
   void start(size_t worker) {
-    std::fflush(nullptr);  // or the child prints it again
+    std::fflush(nullptr);  // otherwise the child would print it again
     const pid_t parent = getpid(), pid = progress_.fork();
     if (pid < 0) throw std::system_error(errno, std::generic_category(), "fork");
     if (pid == 0) {
-      // no worker outlives a killed sweep, or a resumed one would compute the same points at the same time
+      // ends the worker if the sweep is killed, because a resumed sweep would otherwise compute the same points
+      // concurrently
       prctl(PR_SET_PDEATHSIG, SIGKILL);
       if (getppid() != parent) _exit(1);
       work(worker);
-      _exit(0);  // no destructor of the parent's runs twice
+      _exit(0);  // runs none of the parent's destructors
     }
     pids_[worker] = pid;
   }
@@ -135,7 +136,7 @@ class Batch {
   LockPatience patience_;
   std::vector<pid_t> pids_;
   SharedWorkQueue queue_;
-  std::map<const Point*, std::string> died_;  // of what signal
+  std::map<const Point*, std::string> died_;  // description of the signal
   int announced_ = 0;
 };
 

@@ -1,4 +1,4 @@
-// Memory that the processes of a sweep share.
+// Memory shared by the processes of a sweep.
 #pragma once
 
 #include <sys/mman.h>
@@ -10,11 +10,11 @@
 
 namespace crosscheck {
 
-/// Memory that parent and workers share. A worker that dies leaves the number of its point behind.
+/// Memory shared by the parent and its workers. A worker that dies leaves the number of its point behind.
 struct WorkQueue {
   static constexpr int most_workers = 256;
   std::atomic<int> next{0};
-  std::atomic<int> current[most_workers];  // point that the worker is at, or -1
+  std::atomic<int> current[most_workers];  // current point of the worker, or -1
 };
 
 class SharedWorkQueue {

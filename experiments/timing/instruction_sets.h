@@ -1,4 +1,4 @@
-// Keeps mysim to one instruction set for a while; the sets in which it is timed against others.
+// Temporary restriction of mysim to one instruction set; the sets in which it is timed against others.
 #pragma once
 
 #include <optional>
@@ -9,8 +9,8 @@
 
 namespace crosscheck {
 
-/// For as long as it is there mysim's fast paths keep to an instruction set, as CROSSCHECK_INSTRUCTIONS does it from
-/// outside; afterwards all is as before. Not for use while other threads run.
+/// Restricts mysim's fast paths to an instruction set during its lifetime, as CROSSCHECK_INSTRUCTIONS does from
+/// outside. Not for use while other threads run.
 class ScopedInstructionSet {
  public:
   explicit ScopedInstructionSet(simd::InstructionSet isa);
@@ -22,8 +22,9 @@ class ScopedInstructionSet {
   std::optional<std::string> before_;
 };
 
-/// The instruction sets in which mysim is timed against others: the machine's best (or the one that
-/// CROSSCHECK_INSTRUCTIONS names), and the one that builds for every machine use, as the distribution's libraries do.
+/// The instruction sets in which mysim is timed against others: the machine's best (or that of
+/// CROSSCHECK_INSTRUCTIONS), and the baseline, which the distribution's libraries use because their builds run on every
+/// machine.
 std::vector<simd::InstructionSet> compared_instruction_sets();
 
 }  // namespace crosscheck

@@ -1,4 +1,4 @@
-// Affinity masks and the lock file.
+// Affinity masks, and the lock file.
 #include "experiments/timing/machine.h"
 
 #include <fcntl.h>
@@ -51,8 +51,8 @@ LockPatience::LockPatience(double seconds) {
 
 namespace {
 
-/// "process 12 (crosscheck report) since 12:03:04" of a process that holds the file's lock; "another process" if none
-/// is seen, as in another container.
+/// "process 12 (crosscheck report, begun at 12:03:04)" for a process that holds the file's lock; "another process" if
+/// none is visible, for example in another container.
 std::string holder_of(int handle) {
   constexpr auto unknown = "another process";
   struct stat file {};
@@ -69,7 +69,7 @@ std::string holder_of(int handle) {
     std::string command;
     std::getline(in, command);
     for (char& c : command)
-      if (static_cast<unsigned char>(c) < ' ') c = ' ';  // the words end in zeros
+      if (static_cast<unsigned char>(c) < ' ') c = ' ';  // arguments are terminated by zeros
     struct stat begun {};
     std::string since;
     if (stat(fmt::format("/proc/{}", process).c_str(), &begun) == 0) {
@@ -97,7 +97,7 @@ MachineLock::MachineLock(Mode mode, const LockPatience& patience) {
                  holder_of(handle_), file);
     const auto begun = std::chrono::steady_clock::now();
     usleep(50000);
-    // measured: on a busy machine the pause takes longer than that
+    // measured, because on a busy machine the pause takes longer
     shared.left -= std::chrono::duration<double>(std::chrono::steady_clock::now() - begun).count();
   }
   if (!held_ && !shared.exhausted.exchange(true))

@@ -1,4 +1,4 @@
-// This machine: its processor, the cores that this process may use, and the lock that lets one process measure alone.
+// This machine: its processor, the cores that this process may use, and the lock for exclusive measurements.
 #pragma once
 
 #include <atomic>
@@ -8,22 +8,22 @@
 
 namespace crosscheck {
 
-// Processor cores: how many this process may use, and keeping to one of them.
+// Processor cores: their number, and pinning to one of them.
 
-/// As the affinity mask says, which batch systems and `taskset` set.
+/// Number of cores in the affinity mask, which batch systems and `taskset` set.
 int cores_allowed();
-/// Keeps the calling process to the last core that it may use, so that its caches stay warm. Best effort.
+/// Pins the calling process to the last core that it may use, so that its caches stay warm. Best effort.
 void pin_to_one_core();
 
-// A lock on this machine for many untimed points side by side, or one timed point alone, over all sweeps of this
-// user, so that shards on one machine do not spoil each other's timings.
+// A lock on this machine for either many concurrent untimed points or one timed point, across all sweeps of this user,
+// so that shards on one machine do not disturb each other's timings.
 
-/// The time that all locks of one command may be waited for together, also by processes forked from this one. A
-/// command makes one object and passes it to everything that computes or times; copies share the remaining time.
+/// Total time that all locks of one command may be waited for, including those in forked processes. A command creates
+/// one object and passes it to everything that computes or times; copies share the remaining time.
 class LockPatience {
  public:
   explicit LockPatience(double seconds = 60);
-  /// True: the time was used up, and something was measured beside other work since.
+  /// True if the time is used up and something was measured next to other work since.
   bool exhausted() const { return shared_->exhausted; }
 
  private:
@@ -36,19 +36,18 @@ class LockPatience {
   std::shared_ptr<Shared> shared_;
 };
 
-/// The mark of what was measured after the patience had been exhausted.
+/// The note for measurements after the patience was exhausted.
 constexpr auto timed_beside_other_work = "some times were measured beside other work and may be disturbed";
 
 class MachineLock {
  public:
   enum class Mode { shared, exclusive };
-  /// Waits for the lock as long as the patience lasts, and reports once on standard error who holds it and since when;
-  /// then goes on without the lock. The lock file is /tmp/crosscheck-UID.lock wherever TMPDIR points, since batch
-  /// systems give each job a TMPDIR of its own; jobs that also have a /tmp of their own do not see each other.
-  /// CROSSCHECK_LOCK names another file, as tests do, which then wait for themselves only. Without a lock file there is
-  /// no wait.
+  /// Waits for the lock as long as the patience lasts, and reports once on standard error who holds it and since when.
+  /// Then continues without the lock. The lock file is /tmp/crosscheck-UID.lock, regardless of TMPDIR, because batch
+  /// systems give each job a TMPDIR of its own; jobs with a private /tmp do not see each other. CROSSCHECK_LOCK names
+  /// another file, which tests use to wait for themselves only. Without a lock file there is no wait.
   MachineLock(Mode mode, const LockPatience& patience);
-  /// False: another process measures or computes at the same time, so that times may be disturbed.
+  /// False if another process measures or computes at the same time, so that times may be disturbed.
   bool held() const { return held_; }
   ~MachineLock();
   MachineLock(const MachineLock&) = delete;

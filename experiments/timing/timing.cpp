@@ -11,7 +11,7 @@
 namespace crosscheck {
 namespace {
 
-/// The largest k such that fewer than k of n fair coins show heads with probability 0.05 at most; at least 1.
+/// The largest k for which fewer than k of n fair coins show heads with a probability of at most 0.05; at least 1.
 size_t rank_of_bound(size_t n) {
   double weight = std::pow(0.5, static_cast<double>(n)), below = 0;  // P(heads = k - 1), and P(heads < k)
   size_t k = 0;
@@ -34,7 +34,7 @@ double median_of(std::vector<double> values) {
 double mean_time(const std::function<double()>& run, double resolution) {
   double sum = 0;
   int count = 0;
-  // 1000: what takes hardly any time must end too
+  // 1000: must also end if a run takes almost no time
   do sum += run();
   while (++count < 1000 && sum < resolution);
   return sum / count;
@@ -107,7 +107,7 @@ bool differ(const Timing& a, const Timing& b, double noise) {
 
 namespace {
 
-/// The first part of a run, in one piece: a look in between would cost as much as a few steps of a small scene.
+/// The first part of a run as one sample: sampling in between would cost as much as a few steps of a small scene.
 Run part_of(const TimedRun& turn, double share) {
   Run part = turn.run;
   part.samples = 1;
@@ -133,7 +133,7 @@ Outcome outcome_of(const TimedRun& turn, double share) {
   }
 }
 
-/// As much of the run as takes so long.
+/// The fraction of the run that takes `seconds`.
 double share_to_time(const TimedRun& turn, double seconds) {
   double share = 1. / 256;
   while (share < 1) {
@@ -158,7 +158,7 @@ std::vector<EvaluationTimes> time_round_robin(const std::vector<TimedRun>& turns
       return out.evaluations > 0 ? out.cpu_seconds / static_cast<double>(out.evaluations) : 0;
     });
   }
-  // what a run says is the time of an evaluation and not its own: it is long enough as it is
+  // a run returns the time per evaluation instead of its own time; its length is sufficient already
   const auto times = time_rounds(runs, plan.rounds);
   for (size_t i = 0; i < turns.size(); ++i)
     if (times[i] != std::vector<double>{0}) all[i].per_evaluation = times[i];

@@ -1,4 +1,4 @@
-// Limits of two methods, side by side.
+// Comparison of the limits of two methods.
 #include "tests/hunt/agreement.h"
 
 #include <fmt/format.h>
@@ -21,22 +21,23 @@ std::vector<Scene> no_scenes() { return {}; }
 std::string says_nothing(const Scene&) { return "it is asked of two methods"; }
 RelationResult of_two(Subject&, const Scene&, unsigned) { throw CannotBeAsked("it is asked of two methods"); }
 
-constexpr Relation of_pairs{"agreement",
-                            "two methods have one limit as their steps go to 0",
-                            "of each, 3 / (2^order - 1) of what a quarter of the step changes, and twice the rounding",
-                            no_scenes,
-                            says_nothing,
-                            of_two};
+constexpr Relation of_pairs{
+    "agreement",
+    "two methods converge to one limit as their steps go to 0",
+    "for each, 3 / (2^order - 1) of the change at a quarter of the step, and twice the rounding",
+    no_scenes,
+    says_nothing,
+    of_two};
 
-/// The law that a method follows instead of the scene's at any step, or an empty text. Another solution of springs or
-/// dashpots does not count: its effect vanishes with the step.
+/// The law, independent of the step, that a method follows instead of the scene's, or an empty text. A different solver
+/// for springs or dashpots does not count, because its effect vanishes with the step.
 std::string other_law(const Outcome& out) {
   for (const std::string& law : out.different_law)
     if (!law.starts_with("springs:") && !law.starts_with("dashpots:")) return law.substr(0, law.find(':'));
   return "";
 }
 
-/// Nothing where there are no springs.
+/// The spring law of the method on the scene; nothing without springs.
 std::optional<SpringLaw> law_of(const Method& method, const Scene& scene) {
   const auto* springs = scene.model.find<Springs>();
   if (!springs) return std::nullopt;
@@ -45,7 +46,7 @@ std::optional<SpringLaw> law_of(const Method& method, const Scene& scene) {
 
 LimitEstimate limit_of_truth(const Scene& scene) {
   const Run run = run_for_relations(scene);
-  // converged truths are not looked up in the cache, which a scene that is asked once would only fill
+  // does not use the cache for converged truths, because the scene is needed only once
   const auto truth = exact_solution(scene)      ? truth_of(scene, run)
                      : has_contact(scene.model) ? std::nullopt
                                                 : converged_truth(scene, run);
@@ -66,7 +67,7 @@ LimitEstimate limit_of(Subject& subject, const Scene& scene) {
   if (method.family().role == Role::truth) return limit_of_truth(scene);
   if (const std::string law = other_law(subject.run(scene).outcome); !law.empty())
     throw CannotBeAsked(fmt::format("{} follows another law of {}", method.name, law));
-  // beside a sphere adaptive rules keep to the run's step too, since contact acts on whole steps
+  // with contact, adaptive rules also keep to the run's step, because contact acts on whole steps
   const bool contact = has_contact(scene.model);
   if (method.adaptive && !contact) {
     Run finer = run_for_relations(scene);

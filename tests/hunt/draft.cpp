@@ -18,7 +18,7 @@ double to_digits(double value, int digits) {
 
 namespace {
 
-/// Without the sign of -0.
+/// Adds 0 to remove the sign of -0.
 std::string list(const Vec3& v) { return fmt::format("[{}, {}, {}]", v[0] + 0.0, v[1] + 0.0, v[2] + 0.0); }
 
 std::string motion_text(const Motion& m) {

@@ -1,4 +1,4 @@
-// A scene as its file holds it, particle by particle and spring by spring: what is drawn at random, and made smaller
+// A scene in the form of its file, particle by particle and spring by spring, which is drawn at random and then reduced
 // part by part.
 #pragma once
 
@@ -11,7 +11,7 @@
 
 namespace crosscheck {
 
-/// The nearest number of so many decimal digits.
+/// The nearest number with that many decimal digits.
 double to_digits(double value, int digits);
 
 struct SceneDraft {
@@ -23,7 +23,7 @@ struct SceneDraft {
   struct Link {  // a spring, with or without a dashpot
     int a, b;
     double k;                    // N/m
-    std::optional<double> rest;  // m; none: as long as it starts
+    std::optional<double> rest;  // m; none: the initial length
     double dashpot = 0;          // N s/m
     Family family = Family::single;
   };
@@ -39,10 +39,10 @@ struct SceneDraft {
 
   std::vector<Particle> particles;
   std::vector<Link> springs;
-  std::vector<std::array<int, 2>> constraints;  // distances that stay as they start
+  std::vector<std::array<int, 2>> constraints;  // distances that keep their initial value
   SpringLaw law = SpringLaw::hooke;
   std::optional<Motion> pin_motion;
-  std::optional<double> rotation;  // rad/s; with it the particles alone are the scene
+  std::optional<double> rotation;  // rad/s; then the scene consists of the particles alone
   std::optional<Vec3> gravity;     // m/s^2
   std::optional<double> gamma;     // 1/s, drag over mass
   std::optional<Breeze> wind;
@@ -51,14 +51,14 @@ struct SceneDraft {
   int samples = 1;
 
   int size() const { return static_cast<int>(particles.size()); }
-  /// 1/s, a bound of what changes fastest: the frequency of a vibration (omega^2 <= 2 max sum k / m by Gershgorin;
-  /// links stiffen to 5/4 k), or a rate of damping. 0 where nothing vibrates and nothing is damped.
+  /// Upper bound of the fastest rate, 1/s: the frequency of a vibration (omega^2 <= 2 max sum k / m by Gershgorin;
+  /// links stiffen to 5/4 k), or a damping rate. 0 if nothing vibrates and nothing is damped.
   double largest_rate() const;
-  /// Its ingredients, one word each: "pins-springs-gravity"; the same words for every scene of that kind.
+  /// Its ingredients, one word each: "pins-springs-gravity"; equal for all scenes of that kind.
   std::string kind() const;
-  /// The scene file. Numbers are as short as they read back to the same bits.
+  /// The scene file, with the shortest numbers that read back to the same bits.
   std::string text() const;
-  /// The file as it is read: called after its kind. Throws InputError where the reader refuses it.
+  /// The file as read, with its kind as name. Throws InputError if the reader refuses it.
   Scene scene() const;
 };
 

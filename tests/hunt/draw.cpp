@@ -1,4 +1,4 @@
-// Random scenes: twelve kinds, each of which some relation needs.
+// Random scenes: twelve kinds, each required by some relation.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -12,11 +12,11 @@
 namespace crosscheck {
 namespace {
 
-/// Numbers of four digits, so that a scene can be read.
+/// Random numbers with four digits, so that scenes are readable.
 class Draw {
  public:
   Draw(unsigned seed, long index) : engine_(seed * 0x9e3779b97f4a7c15ULL + static_cast<std::uint64_t>(index)) {
-    // neighbouring seeds of a Mersenne twister begin alike
+    // neighbouring seeds of a Mersenne twister start with similar numbers
     engine_.discard(20);
   }
   double between(double low, double high) { return to_digits(low + (high - low) * uniform(engine_), 4); }
@@ -33,8 +33,8 @@ class Draw {
   std::mt19937_64 engine_;
 };
 
-/// The units of a scene: a spring's length, a particle's mass, and the frequency of one on one spring, at which the
-/// weight of a particle stretches a spring by a hundredth to a quarter.
+/// The units of a scene: a spring's length, a particle's mass, and the frequency of a particle on one spring, for which
+/// the weight of a particle stretches a spring by a hundredth to a quarter.
 struct Units {
   double length, mass, omega;  // m, kg, rad/s
   double k() const { return mass * omega * omega; }
@@ -55,7 +55,7 @@ class DraftMaker {
     draft.particles.push_back(p);
     return draft.size() - 1;
   }
-  /// `strain`: by how much it may start longer or shorter than at rest.
+  /// `strain`: largest relative difference between initial and rest length.
   void spring(int a, int b, double strain, double damping = 0, Family family = Family::single) {
     if (a == b || !joined_.insert(std::minmax(a, b)).second) return;
     SceneDraft::Link s{a, b, to_digits(units_.k() * random_.between(0.5, 2), 3), std::nullopt, 0, family};
@@ -64,7 +64,7 @@ class DraftMaker {
     if (damping > 0) s.dashpot = to_digits(2 * damping * units_.mass * units_.omega, 3);
     draft.springs.push_back(s);
   }
-  /// n particles in a connected net, no two closer than 0.6 lengths.
+  /// n particles in a connected net, at distances of at least 0.6 lengths.
   void net(int n, double strain, double speed, double damping) {
     const double side = 0.9 * units_.length * std::cbrt(n);
     for (int tries = 0; draft.size() < n && tries < 1000; ++tries) {
@@ -116,9 +116,9 @@ class DraftMaker {
     if (random_.chance(0.25)) draft.law = SpringLaw::bullet_link;
   }
 
-  /// `steps` between each two of so many samples, each at most `part` of 1 / rate of what changes fastest (a step is
-  /// stable to 2 / omega), in powers of two, which every precision holds exactly. Explicit Euler's growth of
-  /// 1 + (h omega)^2 / 2 a step stays below e^2.6 in 512 steps of a tenth, and below e^1.7 in 2048 of a 25th.
+  /// `steps` steps between consecutive samples, each at most `part` of 1 / rate for the fastest rate (the stability
+  /// limit is 2 / omega). The step is a power of two, which every precision represents exactly. Explicit Euler's growth
+  /// of 1 + (h omega)^2 / 2 per step stays below e^2.6 in 512 steps of a tenth, and below e^1.7 in 2048 of a 25th.
   void time(int samples, int steps, double part = 0.1) {
     const double rate = std::max(draft.largest_rate(), draft.rotation ? 0 : units_.omega);
     draft.step = std::exp2(std::floor(std::log2(part / rate)));
@@ -134,7 +134,7 @@ class DraftMaker {
   std::set<std::pair<int, int>> joined_;
 };
 
-/// A net or a patch with whatever may be there.
+/// A net or a patch with a random selection of ingredients.
 void anything(Draw& random, DraftMaker& make, const Units& units, bool patch) {
   const double strain = random.chance(0.7) ? random.between(0.02, 0.15) : 0;
   const double speed = random.chance(0.6) ? random.between(0.02, 0.2) : 0;
@@ -156,18 +156,19 @@ void anything(Draw& random, DraftMaker& make, const Units& units, bool patch) {
   make.time(16, 32);
 }
 
-/// Masses on springs below a pin, damped so that they come to rest.
+/// Masses on springs below a pin, with enough damping to come to rest.
 void hanging_chain(Draw& random, DraftMaker& make, const Units& units) {
   const bool drag = random.chance(0.5);
   const int masses = random.whole(1, 2);
-  // The slowest vibration is at omega / 2n or faster. Drag damps it critically; dashpots of 2 m omega damp the one of a
-  // spring so, and the slowest at its square over omega. Twelve of the times of that leave 1e-5.
+  // The slowest vibration has the frequency omega / 2n or more. Drag damps it critically. Dashpots of 2 m omega damp
+  // the vibration of a single spring critically, and the slowest one at a rate of its square over omega. Twelve time
+  // constants leave 1e-5.
   const double slowest = units.omega / (2 * masses), decay = drag ? slowest : slowest * slowest / units.omega;
   for (int i = 0; i <= masses; ++i) make.particle({0, -units.length * i, 0}, 0);
   for (int i = 0; i < masses; ++i) make.spring(i, i + 1, 0, drag ? 0 : 1.0);
   make.pin(0), make.gravity();
   if (drag) make.draft.gamma = to_digits(2 * slowest, 3);
-  // explicit Euler is stable while h omega^2 is below the drag rate: with springs of four times their stiffness, too
+  // explicit Euler is stable while h omega^2 is below the drag rate, also for springs of four times the stiffness
   const double part = drag ? std::min(0.1, *make.draft.gamma / (8 * make.draft.largest_rate())) : 0.1;
   make.time(32, 1, part);
   make.time(32, static_cast<int>(std::ceil(12 / decay / make.draft.duration)), part);
@@ -191,7 +192,7 @@ void symmetric_strip(Draw& random, DraftMaker& make, const Units& units) {
   make.time(16, 32);
 }
 
-/// One particle, a chain or a patch above a ball, at rest or thrown at it.
+/// One particle, a chain or a patch above a ball, released at rest or thrown.
 void on_a_ball(Draw& random, DraftMaker& make, const Units& units) {
   const double radius = random.between(0.8, 3) * units.length;
   const double above = 1.03 * radius + units.length * random.between(0, 0.3);
@@ -214,7 +215,7 @@ void on_a_ball(Draw& random, DraftMaker& make, const Units& units) {
   make.time(16, 32);
 }
 
-/// One particle thrown, in whatever acts on it.
+/// One thrown particle, with random forces.
 void projectile(Draw& random, DraftMaker& make) {
   make.particle(random.vector(1), 0.5);
   make.draft.gravity = Vec3(0, -9.81, 0);
@@ -223,7 +224,7 @@ void projectile(Draw& random, DraftMaker& make) {
   make.time(16, 32);
 }
 
-/// Particles that turn about an axis: first order.
+/// Particles that rotate about an axis: first order.
 void rotation(Draw& random, DraftMaker& make) {
   const int n = random.whole(1, 3);
   for (int i = 0; i < n; ++i) make.particle(random.vector(1), 0);
@@ -231,7 +232,7 @@ void rotation(Draw& random, DraftMaker& make) {
   make.time(16, 32);
 }
 
-/// Links of one length, hung from a pin.
+/// Links of fixed length, hung from a pin.
 void hard_chain(Draw& random, DraftMaker& make, const Units& units) {
   const int n = random.whole(2, 5);
   for (int i = 0; i < n; ++i) make.particle({0.8 * units.length * i, -0.6 * units.length * i, 0}, 0);
@@ -257,18 +258,18 @@ SceneDraft draw(unsigned seed, long index) {
     case 2:
       anything(random, make, units, true);
       break;
-    case 3:  // falls, at rest in itself
+    case 3:  // falls without internal motion
       make.net(random.whole(1, 12), 0, 0, random.chance(0.5) ? random.decades(0.01, 0.3) : 0);
       make.law(), make.gravity(), make.time(16, 32);
       break;
     case 4:
       hanging_chain(random, make, units);
       break;
-    case 5:  // flies, and nothing acts on it
+    case 5:  // flies, without external influences
       make.net(random.whole(2, 12), 0.1, 0.2, random.chance(0.3) ? random.decades(0.01, 0.3) : 0);
       make.law(), make.time(16, 32);
       break;
-    case 6:  // vibrates for long: one spring exchanges no energy with others
+    case 6:  // vibrates for a long time; a single spring exchanges no energy with others
       make.net(2, 0.1, 0.2, 0);
       make.time(128, 16, 0.04);
       break;
@@ -278,7 +279,7 @@ SceneDraft draw(unsigned seed, long index) {
     case 8:
       projectile(random, make);
       break;
-    case 9:  // at rest, and nothing acts on it
+    case 9:  // at rest, without external influences
       make.net(random.whole(2, 12), 0, 0, random.chance(0.5) ? random.decades(0.01, 0.3) : 0);
       make.law(), make.time(16, 32);
       break;

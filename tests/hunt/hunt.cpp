@@ -1,4 +1,4 @@
-// One case of the hunter.
+// One case of the hunt.
 #include "tests/hunt/hunt.h"
 
 #include <algorithm>
@@ -6,8 +6,8 @@
 namespace crosscheck {
 namespace {
 
-/// True for the same kind of failure, or at least twice the tolerance (where the first break was as large), so that
-/// the smallest scene is no borderline case.
+/// True for the same kind of failure, or for at least twice the tolerance (if the first break was as large), so that
+/// the smallest scene is not a borderline case.
 bool same_break(const Answer& answer, const Answer& first) {
   if (answer.mark != RelationMark::broken || answer.failure != first.failure) return false;
   return answer.finding.what.empty() || answer.finding.ratio() >= std::min(2.0, first.finding.ratio());

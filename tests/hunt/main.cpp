@@ -1,10 +1,10 @@
 // hunt METHOD... [--seconds 60] [--seed 1] [--from 0] [--known FILE] [--out out/hunt]
 //
-// A tool for developers of engines and of Crosscheck: draws random scenes and checks every relation of `crosscheck
-// check`, and whether each two methods have the same limit as their steps go to 0. A scene that shows a break is shrunk
-// and written to OUT/RELATION-METHODS-KIND.toml. Later breaks of the same relation, methods and kind of scene are only
-// counted. Case i of a seed is always the same scene; several processes share the work by other --from or --seed.
-// Exit status: 0 if no break was found that is not known, 1 otherwise, 2 for bad usage.
+// A tool for developers of engines and of Crosscheck. Draws random scenes and checks every relation of `crosscheck
+// check`, and whether each pair of methods converges to the same limit as the steps go to 0. A scene that shows a break
+// is shrunk and written to OUT/RELATION-METHODS-KIND.toml. Later breaks of the same relation, methods and kind of scene
+// are only counted. Case i of a seed is always the same scene; several processes can share the work with different
+// values of --from or --seed. Exit status: 0 if no unknown break was found, 1 otherwise, 2 for bad usage.
 //
 //   cmake --build build/release --target hunt && build/release/tests/hunt/hunt exec:./engine leapfrog --seconds 600
 
@@ -70,13 +70,13 @@ int hunt_for(const Options& options) {
 
 int main(int argc, char** argv) {
   Options options;
-  CLI::App app("checks relations of methods on random scenes, and shrinks the scenes that break them");
+  CLI::App app("checks relations of methods on random scenes, and shrinks scenes that break them");
   app.add_option("METHOD", options.methods, "methods")->required();
-  app.add_option("--seconds", options.seconds, "no case begins later (default: 60)");
+  app.add_option("--seconds", options.seconds, "time after which no new case starts (default: 60)");
   app.add_option("--seed", options.seed, "seed of the scenes (default: 1)");
   app.add_option("--from", options.from, "number of the first case (default: 0)");
-  app.add_option("--known", options.known, "TOML file of known breaks, instead of those that come with Crosscheck");
-  app.add_option("--out", options.out, "folder of the scenes (default: out/hunt)");
+  app.add_option("--known", options.known, "TOML file of known breaks, instead of the shipped one");
+  app.add_option("--out", options.out, "folder for the scenes (default: out/hunt)");
   try {
     app.parse(argc, argv);
     return hunt_for(options);

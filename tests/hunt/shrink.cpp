@@ -1,6 +1,6 @@
 // Delta debugging of scenes: A. Zeller and R. Hildebrandt, Simplifying and isolating failure-inducing input, IEEE
-// Trans. Software Eng. 28, 2002. First what can be left out, in halves, quarters and so on; then shorter times; then
-// numbers of fewer digits, all together and one by one.
+// Trans. Software Eng. 28, 2002. First removes parts in halves, quarters and so on, then shortens times, then reduces
+// the digits of numbers, all together and one by one.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -13,7 +13,7 @@
 namespace crosscheck {
 namespace {
 
-/// The draft with the parts that are marked left out.
+/// Removes the marked parts from the draft.
 using LeaveOut = std::function<void(SceneDraft&, const std::vector<char>& gone)>;
 
 void leave_out_particles(SceneDraft& draft, const std::vector<char>& gone) {
@@ -34,7 +34,7 @@ void leave_out(List& list, const std::vector<char>& gone) {
   std::erase_if(list, [&](const auto&) { return gone[i++] != 0; });
 }
 
-/// Every number of the draft that has digits to lose, in the order of its file.
+/// Every number of the draft that can lose digits, in the order of its file.
 std::vector<double*> numbers_of(SceneDraft& d) {
   std::vector<double*> all;
   const auto add = [&](double& value) { all.push_back(&value); };
@@ -64,7 +64,7 @@ std::vector<double*> numbers_of(SceneDraft& d) {
   return all;
 }
 
-/// True for a value of fewer digits; 0 and 1 are the simplest.
+/// True if the value has fewer digits; 0 and 1 are the simplest.
 bool simpler(double value, double than) {
   const auto rank = [](double v) {
     if (v == 0) return 0;
@@ -101,8 +101,9 @@ class Shrinker {
  private:
   bool spent() const { return best_.trials >= most_trials_; }
 
-  /// Takes the candidate where it still shows it. What was asked once, or is no scene, is not asked again; nor is one
-  /// whose step is coarser for what changes fastest in it: it would show the step, and nothing else.
+  /// Accepts the candidate if it still shows the property. Skips candidates that were tried before or are not valid
+  /// scenes. Also skips those whose step is coarser relative to their fastest rate, which would only show the effect of
+  /// the step.
   bool take(SceneDraft candidate) {
     if (spent() || candidate.particles.empty() || candidate.step * candidate.largest_rate() > coarseness_) return false;
     const std::string text = candidate.text();
@@ -158,7 +159,7 @@ class Shrinker {
     return changed;
   }
 
-  /// Runs of parts, from half of all down to one.
+  /// Removes runs of consecutive parts, from half of all parts down to single ones.
   bool without_parts(size_t count, const LeaveOut& out) {
     bool changed = false;
     for (size_t run = (count + 1) / 2; run > 0; run = run == 1 ? 0 : (run + 1) / 2)
@@ -207,7 +208,7 @@ class Shrinker {
   Shrunk best_;
   const StillShows& shows_;
   int most_trials_;
-  double coarseness_;  // step over the time in which something changes
+  double coarseness_;  // step times the fastest rate
   std::set<std::string> asked_;
 };
 

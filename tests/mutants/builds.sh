@@ -1,15 +1,16 @@
 #!/usr/bin/env bash
-# Proves that `crosscheck regress` raises no false alarm on builds that differ in rounding alone: builds Crosscheck with
-# other compilers and options (in build/builds/, five to ten minutes each at first) and runs each build over the shipped
+# Proves that `crosscheck regress` raises no false alarm for builds that differ only in rounding. Builds Crosscheck
+# with other compilers and options (in build/builds/, five to ten minutes each the first time) and runs each build
+# against the shipped
 # baselines. Exits with 1 if one of them fails.
 #
-#   tests/mutants/builds.sh [NAME]...     without names all builds
+#   tests/mutants/builds.sh [NAME]...     without names, all builds
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/../.."
 
-# without optimisation everything takes up to 350 times as long: all scenes would be an hour
+# without optimisation everything takes up to 350 times as long, and all scenes would take an hour
 small='!(cloth*|flag*|jelly*)'
-# name|compiler|build type|flags|filter; no compiler: build/release with the C library's unfused sin, exp and pow
+# name|compiler|build type|flags|filter; without a compiler: build/release with the C library's unfused sin, exp and pow
 builds=(
   'gcc-O3|g++|Release|-O3 -DNDEBUG|*'
   'gcc-O2|g++|Release|-O2 -DNDEBUG|*'
@@ -18,7 +19,7 @@ builds=(
   'clang-O3|clang++|Release|-O3 -DNDEBUG|*'
   'clang-O2|clang++|Release|-O2 -DNDEBUG|*'
   "clang-debug|clang++|Debug|-g|$small"
-  'gcc-O3-avx2|g++|Release|-O3 -DNDEBUG -march=x86-64-v3|*' # Eigen fuses multiply-adds whatever -ffp-contract says
+  'gcc-O3-avx2|g++|Release|-O3 -DNDEBUG -march=x86-64-v3|*' # Eigen fuses multiply-adds regardless of -ffp-contract
   'no-fma||||*'
 )
 

@@ -1,4 +1,4 @@
-// Which wrong change is switched on: one, named in the environment, or none. Read once.
+// The active defect: the one named in the environment, or none. Read once.
 #pragma once
 
 #include <cstdlib>

@@ -1,4 +1,4 @@
-// mutate MUTATIONS MYSIM FILE OUT: writes mysim's FILE with all its mutations in it, each behind a switch that is read
+// mutate MUTATIONS MYSIM FILE OUT: writes mysim's FILE including all its mutations, each behind a switch that is read
 // at run time.
 
 #include <fmt/format.h>
@@ -55,6 +55,7 @@ std::vector<Mutation> read_mutations(const std::filesystem::path& file) {
 }
 
 /// The switch is read once, so that it costs no more than a branch.
+/// Text with both versions behind a switch, which is read once so that it costs no more than a branch.
 std::string switched(const Mutation& m) {
   const std::string on =
       fmt::format("[]() -> bool {{ static const bool on = ::crosscheck::mutant(\"{}\"); return on; }}()", m.name);

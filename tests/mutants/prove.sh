@@ -1,10 +1,10 @@
 #!/usr/bin/env bash
-# Proves that `crosscheck regress` notices wrong changes to mysim: runs each change of mutations.txt, and mysim as it is,
-# against the shipped baselines. Exits with 1 if a change is not noticed, or if mysim as it is fails.
+# Proves that `crosscheck regress` detects defects in mysim: runs each mutation of mutations.txt, and unmodified mysim,
+# against the shipped baselines. Exits with 1 if a defect is not detected, or if unmodified mysim fails.
 #
-#   tests/mutants/prove.sh [NAME]...     without names all changes, which takes 40 minutes
+#   tests/mutants/prove.sh [NAME]...     without names, all mutations, which takes 40 minutes
 #
-# Environment: FILTER: only cases that this glob matches, as of `regress --filter`.
+# Environment: FILTER: glob of the cases to run, as in `regress --filter`.
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/../.."
 
@@ -13,7 +13,7 @@ cmake --build build/release --target crosscheck_mutants >/dev/null
 mapfile -t all < <(sed -n 's/^== //p' tests/mutants/mutations.txt)
 [ $# -gt 0 ] || set -- "${all[@]}"
 for name; do
-  grep -qx "== $name" tests/mutants/mutations.txt || { printf 'prove.sh: %s: no such change in mutations.txt\n' "$name" >&2; exit 2; }
+  grep -qx "== $name" tests/mutants/mutations.txt || { printf 'prove.sh: %s: no such mutation in mutations.txt\n' "$name" >&2; exit 2; }
 done
 
 caught() { # NAME: true if regress fails
@@ -35,8 +35,8 @@ for name; do
   fi
 done
 if caught none; then
-  printf 'CAUGHT   mysim as it is\n'
+  printf 'CAUGHT   unmodified mysim\n'
   escaped=$((escaped + 1))
 fi
-printf '%d of %d wrong changes caught\n' "$(($# - escaped))" "$#"
+printf '%d of %d mutations caught\n' "$(($# - escaped))" "$#"
 [ "$escaped" -eq 0 ]
