@@ -20,7 +20,7 @@ std::optional<State> rest_of(const Scene& scene);
 /// Runs that a measure is taken from.
 enum class MeasuredBy {
   one_run,         // one run of leapfrog, accurate to a few per cent
-  converged_runs,  // leapfrog at halved steps, extrapolated until the measure changes by less than a factor of 1e-4
+  converged_runs,  // leapfrog at halved steps, extrapolated until the change is below 1e-4 of the measure
   own_method,      // the scene's method at its step, as in `crosscheck run`
 };
 

@@ -266,7 +266,7 @@ class Fit {
   std::string name_;
   TomlDocument file_;
   std::vector<Unknown> unknowns_;
-  std::vector<const Kind*> kinds_;  // of the unknowns
+  std::vector<const Kind*> kinds_;  // kinds of the unknowns
   Eigen::VectorXd units_;           // an unknown is its unit times the exponential of its parameter
   std::vector<Objective> objectives_;
 };

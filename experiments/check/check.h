@@ -50,8 +50,8 @@ using AboutToAsk = std::function<void(const std::string&)>;
 using OnAnswer = std::function<void(const Answer&)>;
 
 /// Checks every relation of a method, or only the given one: on the relation's smallest scenes if `scenes` is empty,
-/// else on each of these scenes that it applies to. If no run of the method ends well, its relations are not
-/// applicable.
+/// else on each of these scenes that it applies to. If no run of the method ended (crashes), its
+/// relations count as not applicable.
 std::vector<Answer> answers_of(const Method& method, const std::vector<Scene>& scenes, unsigned seed,
                                const std::vector<KnownBreak>& known, const AboutToAsk& begin = {},
                                const OnAnswer& on_answer = {}, const Relation* only = nullptr);

@@ -41,7 +41,7 @@ std::optional<double> predicted_limit(const Method& method, const Scene& scene, 
 void add_statistics(const Request& request, const Scene& scene, const Run& run, MethodResults& results,
                     TableSet& tables) {
   Table table = table_of<StatisticRow>(scene.name + "-statistics");
-  std::vector<Statistic> reference;   // of the subject
+  std::vector<Statistic> reference;   // statistics of the subject
   constexpr double rounding = 1e-12;  // relative to the mean: a smaller spread is not due to the motion
   const auto add_rows = [&](const Method& method, const std::vector<Statistic>& statistics, bool of_one_run) {
     for (size_t i = 0; i < statistics.size(); ++i) {

@@ -40,7 +40,7 @@ std::vector<Setting> settings_of(const Method& method, const Scene& scene, const
 /// The timed part of a run: the whole run, or its first part.
 struct TimedPart {
   Run run;
-  double share = 1;  // of the run's steps or samples
+  double share = 1;  // fraction of the run's steps or samples
 };
 /// A part that takes about 6 ms (`full`: 20 ms) by the estimate or, for adaptive methods, by the beginning of the run.
 /// The whole run if it takes less than 12 ms (`full`: 0.2 s), if there is contact (which may cost more than the fall

@@ -9,7 +9,7 @@ namespace crosscheck {
 
 struct Eigenpair {
   double value;
-  Eigen::VectorXd vector;  // of length 1
+  Eigen::VectorXd vector;  // normalised to length 1
 };
 
 /// Largest eigenvalue of a symmetric matrix to a relative `tolerance`, and its vector; nothing without convergence.

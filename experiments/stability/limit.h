@@ -59,7 +59,7 @@ struct PerturbedRun {
   Verdict verdict = Verdict::ok;
   std::string reason;
   double end = 0;        // s
-  double growth = 0;     // of the norm sqrt(|w'|^2 + w K w), from the first to the last tenth of the run; 0: unknown
+  double growth = 0;     // growth of sqrt(|w'|^2 + w K w) from the first to the last tenth of the run; 0: unknown
   double per_step = 1;   // mean factor per step of the perturbed mode's amplitude (|x| for a rotation); 1: unknown
   double amplitude = 1;  // amplitude of the perturbed mode at the end over that at the start
   long steps = 0;        // steps taken, if the two values above are known

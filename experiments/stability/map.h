@@ -20,7 +20,7 @@ std::span<const MapKind> map_kinds();
 
 struct MapSize {
   int rows, columns;
-  long steps;  // of each run
+  long steps;  // steps of each run
   bool check;  // also runs each cell ten times longer, and counts the cells that change
 };
 /// The finest size that costs less than 4 s of CPU time in a full run; nothing if none does. Quick maps are coarser.

@@ -49,8 +49,8 @@ struct Spectrum {
 
 /// Dense up to 400 free coordinates (200 if damping and stiffness do not commute). Beyond that, Lanczos and Arnoldi
 /// iterations of Spectra give only the slowest and the fastest mode or, without commutation, the four rates of largest
-/// |z|, which do not include the least damped one. A rotation x' = w cross x is one vibration of frequency |w| without
-/// drag. Modes of negative stiffness, which can occur at the start of a motion, count as omega = 0.
+/// |z|, which need not include the least damped one. A rotation x' = w cross x is one vibration of frequency |w|
+/// without drag. Modes of negative stiffness, which can occur at the start of a motion, count as omega = 0.
 Spectrum spectrum_of(const Scene& scene, const State& state);
 
 struct Equilibrium {

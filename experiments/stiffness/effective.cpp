@@ -19,7 +19,7 @@ namespace {
 
 struct Net {
   std::string name;
-  std::string text;  // of its scene, without drag
+  std::string text;  // scene file, without drag
   double omega;      // rad/s, approximate frequency of its slowest vibration along gravity
 };
 

@@ -20,7 +20,7 @@ struct PointList {
   };
   std::vector<std::string> experiments;  // those with conclusions from the rows of all points
   std::vector<Entry> points;
-  Provenance provenance;  // of the tables: command, commit, scenes, ...
+  Provenance provenance;  // provenance of the tables: command, commit, scenes, ...
 };
 
 PointList point_list_of(std::vector<std::string> experiments, std::span<const Point> points, Provenance provenance);

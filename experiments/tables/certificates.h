@@ -18,7 +18,7 @@ struct AttestedRow {
   COLUMN(std::string, requested, "asked", "1", "value in the scene");
   COLUMN(std::string, mapped, "handed over", "1", "value passed to the engine");
   COLUMN(std::string, read_back, "read back", "1", "value in the engine");
-  COLUMN(Parity, parity, "parity", "1", "whether the engine has the value that it was passed");
+  COLUMN(Parity, parity, "parity", "1", "whether the value that was read back matches the scene");
 };
 
 }  // namespace crosscheck
