@@ -74,8 +74,8 @@ ReferenceSolution reference_solution_of(const Scene& scene, double tolerance) {
     y.floor = *error;
     if (y.floor <= tolerance / 5) return y;
   }
-  throw Unsupported(fmt::format("{} errs by more than a fifth of {:.2g} m on it even at a step of {:.2g} s",
-                                y.method.name, tolerance, 2 * step));
+  throw Unsupported(fmt::format("the error of {} exceeds a fifth of {:.2g} m even at a step of {:.2g} s", y.method.name,
+                                tolerance, 2 * step));
 }
 
 std::vector<AblatedModel> ablations_of(const Scene& scene, const ReferenceSolution& y, double most) {

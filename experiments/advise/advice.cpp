@@ -81,18 +81,19 @@ void caveats_of(Advice& a, const Trial& t) {
   if (t.method.starts_with(program_prefix))
     a.caveats.push_back(fmt::format("a scene file cannot name a program: run it with --method {}", t.method));
   if (a.under_contact_rule)
-    a.caveats.push_back("with contact this is a difference from what the in-house contact rule converges to, no error");
+    a.caveats.push_back("with contact this is a difference from the converged in-house contact rule, not an error");
   if (a.until < a.scene.duration * (1 - 1e-9))
     a.caveats.push_back(
-        fmt::format("the promise ends at {:.3g} s of {:.3g} s: later single positions are not predictable", a.until,
-                    a.scene.duration));
+        fmt::format("the promise ends at {:.3g} s of {:.3g} s: single positions are not predictable after that",
+                    a.until, a.scene.duration));
   if (t.limit && t.step > *t.limit)
     a.caveats.push_back(
         fmt::format("the step is above the predicted stability limit of {:.3g} s: it holds for this "
-                    "run, and may not for a longer one",
+                    "run, but may fail in a longer one",
                     *t.limit));
   if (!t.outcome.different_law.empty())
-    a.caveats.push_back(fmt::format("the method follows another law: {}", fmt::join(t.outcome.different_law, "; ")));
+    a.caveats.push_back(
+        fmt::format("the method follows a different law: {}", fmt::join(t.outcome.different_law, "; ")));
 }
 
 /// The advice without its trials; throws CannotGuarantee if the truth does not permit one.
@@ -108,12 +109,12 @@ Advice guarantee_of(const Scene& scene, double tolerance, const DenseTruth& path
   // a third: the run's own error may then be at least twice the error bar
   if (!(a.error_bar <= tolerance / 3))
     throw CannotGuarantee(
-        fmt::format("the truth is known to {:.2g} m only, and {:.2g} m is asked: ask for {:.2g} m or more", a.error_bar,
-                    tolerance, 3 * a.error_bar));
+        fmt::format("the truth is known to {:.2g} m only, but {:.2g} m is requested; request {:.2g} m or more",
+                    a.error_bar, tolerance, 3 * a.error_bar));
   if (tolerance >= path.motion())
     throw CannotGuarantee(
-        fmt::format("nothing in the scene moves by more than {:.3g} m (RMS), and {:.3g} m is asked: any "
-                    "answer would do",
+        fmt::format("nothing in the scene moves by more than {:.3g} m (RMS), but {:.3g} m is requested: any "
+                    "model would meet that",
                     path.motion(), tolerance));
   return a;
 }
@@ -178,7 +179,7 @@ void search(Advice& a, const std::vector<Candidate>& models, const std::vector<M
     t.meets &= !t.accidental;
   }
   const auto chosen = recommend(runs, bound);
-  if (!chosen) throw CannotGuarantee(fmt::format("no method that was tried comes within {:.2g} m", a.tolerance));
+  if (!chosen) throw CannotGuarantee(fmt::format("none of the methods tried comes within {:.2g} m", a.tolerance));
   a.chosen = chosen->run, a.tied = chosen->tied, a.second = chosen->second, a.bound = chosen->bound;
   a.of_full.reset();
   if (a.trials[a.chosen].model == "full") return;
@@ -202,7 +203,7 @@ bool written_and_checked(Advice& a, const std::vector<Candidate>& models, const 
     last.step = written.step;
     a.toml = file_of(a, model, last, method);
     written = parse_scene(a.toml, a.scene.name);
-    a.caveats.push_back("the step is shorter than the tolerance needs: it keeps the wishes");
+    a.caveats.push_back("the step is shorter than the tolerance requires, in order to keep the wishes");
   }
   MaxErrorObserver farthest(path);
   last.outcome = run_method(method, written, observed_run(method, written, path), {&farthest});
@@ -237,7 +238,7 @@ Advice advise(const Scene& scene, double tolerance, std::vector<Method> methods)
     a.between_samples = true, a.caveats.clear();
     search(a, models, methods, tolerance - a.error_bar, after_steps(path));
     if (!written_and_checked(a, models, path))
-      throw CannotGuarantee(fmt::format("the advised file, run again, errs by {:.3g} m", a.checked));
+      throw CannotGuarantee(fmt::format("the advised file has an error of {:.3g} m when it is run again", a.checked));
   }
   caveats_of(a, a.trials[a.chosen]);
   return a;

@@ -40,15 +40,15 @@ int samples_at(const Scene& scene, double spacing) {
   const double all = samples * scene.samples * static_cast<double>(scene.start.x.size());
   if (!(all <= most_numbers))
     throw CannotGuarantee(
-        fmt::format("to see what lies between its samples, the truth of {} would be needed at {:.3g} times of {:.3g} "
-                    "numbers each; make its duration shorter",
+        fmt::format("to resolve the motion between samples, the truth of {} would be needed at {:.3g} times of {:.3g} "
+                    "numbers each; shorten its duration",
                     scene.name, samples * scene.samples, static_cast<double>(scene.start.x.size())));
   return std::max(1, static_cast<int>(samples));
 }
 
 Truth dense_truth_of(const Scene& dense) {
   auto truth = truth_of(dense, default_run(dense));
-  if (!truth) throw CannotGuarantee("no truth is known for the scene: nothing to promise against");
+  if (!truth) throw CannotGuarantee("no truth is known for the scene, so that nothing can be promised");
   return std::move(*truth);
 }
 
@@ -83,7 +83,7 @@ DenseTruth::DenseTruth(const Scene& scene, double tolerance) : dense_(scene), ex
     if (i == most_doublings && bar_ <= tolerance / 3) break;  // as accurate as advice requires
     if (i == most_doublings)
       throw CannotGuarantee(fmt::format(
-          "between its samples the truth is known to {:.2g} m only, and {:.2g} m is asked", bar_, tolerance));
+          "between its samples the truth is known to {:.2g} m only, but {:.2g} m is requested", bar_, tolerance));
   }
   // an eighth of a period is 0.79 rad
   const double omega = fastest_motion(scene);

@@ -82,7 +82,7 @@ std::vector<Objective> objectives_of(const Scene& scene) {
   const auto of_moduli = [](auto number) {
     return [number](const Scene& s, MeasuredBy) -> std::optional<double> {
       const NetModuli net = moduli_of(s.model, s.start);
-      if (!net.moduli) throw CannotGuarantee("moduli are not known of this scene: " + net.why_not);
+      if (!net.moduli) throw CannotGuarantee("the moduli of this scene are not known: " + net.why_not);
       return number(*net.moduli);
     };
   };
@@ -235,8 +235,8 @@ class Fit {
       std::vector<std::string> names;
       for (const Objective& objective : objectives_) names.push_back(objective.wished.name);
       throw CannotGuarantee(
-          fmt::format("{} cannot be measured in this scene, whatever the parameters: it does not swing, "
-                      "or has no rest (hard distances, spheres, gusts, moving pins, nothing pinned)",
+          fmt::format("{} cannot be measured in this scene for any parameters: it does not oscillate, "
+                      "or has no rest (hard distances, spheres, gusts, moving pins, no pins)",
                       fmt::join(names, ", ")));
     }
     return *best;

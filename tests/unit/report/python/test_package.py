@@ -128,7 +128,7 @@ class Runs(unittest.TestCase):
     def test_advice_that_cannot_be_given_says_why(self):
         a = crosscheck.advise("chain", tolerance=1e-30, methods="leapfrog")
         self.assertFalse(a)
-        self.assertRegex(a.reason, "cannot promise on chain: .* 1e-30 m is asked")
+        self.assertRegex(a.reason, "cannot promise on chain: .* 1e-30 m is requested")
         self.assertIsNone(a.method)
 
     def test_the_program_is_looked_for_in_a_stated_order(self):
