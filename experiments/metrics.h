@@ -10,7 +10,7 @@
 
 namespace crosscheck {
 
-/// Mass-weighted mean position of the free particles, m.
+/// Mass-weighted mean position of the free particles, m. In first-order scenes all masses are 1.
 Vec3 centre_of_mass(const Scene& scene, const Points& x);
 
 /// Largest RMS distance of the particles from their start over the run, m: the scale of errors.
