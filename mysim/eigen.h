@@ -1,11 +1,12 @@
-// Eigen, with one order of sums in all builds.
+// Eigen, with the same summation order in all builds.
 #pragma once
 
 #include <Eigen/Core>
 
 namespace Eigen::internal {
 
-/// Sums three numbers as (x + y) + z. Eigen does so with SIMD instructions only, and this gives the same bits without.
+/// Sums three numbers as (x + y) + z, with the same bits as Eigen's SIMD code; without SIMD, Eigen sums in another
+/// order.
 template <class Function, class Evaluator>
 struct redux_novec_unroller<Function, Evaluator, 0, 3> {
   using Scalar = typename Evaluator::Scalar;

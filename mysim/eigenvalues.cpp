@@ -1,4 +1,4 @@
-// Eigenvalues of dense matrices, by Eigen.
+// Eigenvalues of dense matrices, computed by Eigen.
 #include "mysim/eigenvalues.h"
 
 #include <Eigen/Eigenvalues>

@@ -1,4 +1,4 @@
-// A rope hung from its ends, run with mysim's library. Prints how deep it hangs and what became of its energy.
+// A rope hung from its ends, run with the mysim library. Prints its lowest point and its loss of energy.
 //   cmake: find_package(crosscheck REQUIRED), then target_link_libraries(rope PRIVATE crosscheck::mysim)
 #include <algorithm>
 #include <cstdio>
@@ -7,7 +7,7 @@
 #include "crosscheck/mysim.h"
 
 int main() {
-  // a scene: eleven particles of 10 g on springs, the first and the last held
+  // scene: eleven particles of 10 g on springs, the first and the last pinned
   mysim::Network rope;
   rope.gravity = {0, -9.81, 0};
   rope.drag = 2;
@@ -17,7 +17,7 @@ int main() {
   try {
     const mysim::Scene scene = mysim::Scene::of(rope, 8);
 
-    // an observer: the lowest particle, and the energy, of each sample
+    // observer: lowest particle and energy of each sample
     double lowest = 0, first = 0, last = 0;
     const auto look = [&](const mysim::Frame& frame) {
       lowest = 0;
@@ -27,7 +27,7 @@ int main() {
       return true;
     };
 
-    // a run
+    // run
     const mysim::Result result = mysim::run(scene, {.stepper = "leapfrog"}, look);
     std::printf("%s after %ld steps of %.3g s: it hangs %.4f m deep and has lost %.4f J\n", result.verdict.c_str(),
                 result.steps, result.step, -lowest, first - last);

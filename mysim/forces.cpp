@@ -1,4 +1,4 @@
-// Products with the matrix of pairs, and the blocks on its diagonal.
+// Matrix-vector products of the pair list, and the blocks on its diagonal.
 #include "mysim/forces.h"
 
 namespace crosscheck {

@@ -1,4 +1,4 @@
-// Sums of the terms' forces (N), and the stiffness and damping (the tangent) of implicit methods.
+// Sums of the terms' forces (N), and the tangent (stiffness and damping matrices) used by implicit methods.
 #pragma once
 
 #include <vector>
@@ -9,7 +9,7 @@ namespace crosscheck {
 
 struct Forces {
   Points f;                     // N (3 x n)
-  long degenerate_springs = 0;  // springs met at zero length: their direction is undefined, they get zero force
+  long degenerate_springs = 0;  // springs at zero length: their direction is undefined, so they exert no force
 
   void clear() {
     f.setZero();
@@ -17,15 +17,16 @@ struct Forces {
   }
 };
 
-// The stiffness and damping of a model at a state, as a matrix that is never formed: a list of pairs.
+// Stiffness and damping of a model at a state, as a matrix that is never assembled: a list of pairs.
 
 enum class Curvature {
-  exact,    // -dF/dx as it is; indefinite where springs are shortened
-  clamped,  // with the negative parts left out: positive semidefinite
+  exact,    // exact -dF/dx; indefinite where springs are compressed
+  clamped,  // negative parts omitted: positive semidefinite
 };
 
-/// K = -dF/dx (N/m) and C = -dF/dv (N s/m), both symmetric, as sums over pairs of particles a, b of the 3 x 3 block
-/// across (I - n n^T) + along n n^T on the difference of the two. Pins are left to the caller.
+/// K = -dF/dx (N/m) and C = -dF/dv (N s/m), both symmetric, as sums over pairs of particles a, b. Each pair applies the
+/// 3 x 3 block across (I - n n^T) + along n n^T to the difference of the two displacements. Pins are left to the
+/// caller.
 class Tangent {
  public:
   struct Pair {

@@ -1,5 +1,6 @@
-// mysim as a library: make or read a scene, run it by a stepper, observe its states. This header is all there is to
-// know; example.cpp beside the documentation makes a rope and runs it. SI units everywhere: m, kg, s, N.
+// mysim as a library: create or read a scene, run it with a stepper, observe its states. This header is the complete
+// public interface; example.cpp, installed with the documentation, builds and runs a rope. SI units throughout: m, kg,
+// s, N.
 //
 //   mysim::Scene scene = mysim::Scene::read("cloth-hang.toml");
 //   mysim::Result result = mysim::run(scene, {.stepper = "leapfrog", .step = 5e-4}, [](const mysim::Frame& frame) {
@@ -23,21 +24,21 @@ struct Scene;
 
 namespace mysim {
 
-/// Bad input, or a stepper that lacks what the scene asks for. what() is one line that says what was expected.
+/// Invalid input, or a stepper that cannot run the scene. what() is one line that states what was expected.
 struct Error : std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-/// A net of particles and springs, to make a scene of without a file.
+/// A network of particles and springs, from which Scene::of() makes a scene without a file.
 struct Network {
   struct Particle {
-    std::array<double, 3> position;              // m, at the start
+    std::array<double, 3> position;              // m, initial
     double mass;                                 // kg
-    std::array<double, 3> velocity = {0, 0, 0};  // m/s, at the start
-    bool pinned = false;                         // held where it is
+    std::array<double, 3> velocity = {0, 0, 0};  // m/s, initial
+    bool pinned = false;                         // fixed at its initial position
   };
   struct Spring {
-    int a, b;            // its ends, as indices of particles
+    int a, b;            // end points, as particle indices
     double stiffness;    // N/m, Hooke's law
     double rest;         // m
     double dashpot = 0;  // N s/m, along the spring
@@ -48,25 +49,25 @@ struct Network {
   double drag = 0;                            // 1/s: the force on a particle is -drag m v
 };
 
-/// What is simulated: particles, springs, pins, forces, the state at the start, and the times of a run. Copies share
-/// it.
+/// The problem to simulate: particles, springs, pins, forces, initial state, and the default times of a run. Copies
+/// share the underlying data.
 class Scene {
  public:
-  /// A scene file (TOML); experiments/scenes/README.md has its keys. Throws Error: "FILE:LINE: KEY: expected ...".
+  /// Reads a scene file (TOML, keys in experiments/scenes/README.md). Throws Error: "FILE:LINE: KEY: expected ...".
   static Scene read(const std::string& file);
-  /// The same from text, of any ingredients that a file may have: grids of cloth, wind, spheres with friction.
+  /// Parses the text of a scene file; all ingredients are available: cloth grids, wind, spheres with friction.
   static Scene parse(std::string_view toml, const std::string& name);
-  /// A scene of particles and springs. Runs take `duration` s unless they say otherwise.
+  /// Makes a scene of particles and springs. `duration` (s) is the default duration of its runs.
   static Scene of(const Network& network, double duration);
 
   int particles() const;
-  double step() const;      // s, the scene's own; of networks a twentieth of the fastest vibration's period
+  double step() const;      // s, the scene's default; for networks, 1/20 of the shortest vibration period
   double duration() const;  // s
   /// Springs as pairs of ends, and triangles of cloth, for drawing.
   std::vector<std::pair<int, int>> springs() const;
   const std::vector<std::array<int, 3>>& triangles() const;
 
-  /// mysim's own type, for code that is compiled in its source tree (mysim/scene/scene.h).
+  /// The internal type, for code compiled within mysim's source tree (mysim/scene/scene.h).
   const crosscheck::Scene& inner() const { return *scene_; }
 
  private:
@@ -74,48 +75,49 @@ class Scene {
   std::shared_ptr<const crosscheck::Scene> scene_;
 };
 
-/// A state of a run; valid while the observer is called.
+/// A state of a run, valid only during the observer call.
 struct Frame {
   double t;                   // s
-  std::span<const double> x;  // m: x[3 i], x[3 i + 1], x[3 i + 2] of particle i
-  std::span<const double> v;  // m/s, in the same order; empty in scenes of order 1
-  bool sample;                // one of the equally spaced states; else one between them (Settings::every_step)
+  std::span<const double> x;  // m: components x[3 i], x[3 i + 1], x[3 i + 2] of particle i
+  std::span<const double> v;  // m/s, same layout as x; empty for first-order scenes
+  bool sample;  // true for the equally spaced samples, false for steps between them (Settings::every_step)
 };
 
 struct Settings {
   std::string stepper = "leapfrog";  // one of steppers()
-  double step = 0;          // s, at most: it is reduced so that it divides the time between samples; 0: the scene's
-  double tolerance = 1e-6;  // relative, of steppers that choose their own steps (dopri5)
-  double duration = 0;      // s; 0: the scene's
-  int samples = 0;          // frames after the first, at i duration / samples; 0: the scene's
-  bool every_step = false;  // the observer sees every step
+  double step = 0;          // s, upper bound: reduced to divide the time between samples; 0: the scene's default
+  double tolerance = 1e-6;  // relative, for adaptive steppers (dopri5)
+  double duration = 0;      // s; 0: the scene's default
+  int samples = 0;          // number of frames after the first, at i duration / samples; 0: the scene's default
+  bool every_step = false;  // call the observer after every step
 };
 
 struct Result {
-  std::string verdict;      // "ok"; or how the run failed: "energy", "nan", "stretch", "solver", "frozen"; or "stopped"
-  std::string reason;       // one sentence where it failed
-  double end;               // s, the last time reached
-  double step;              // s, as used
-  long steps, evaluations;  // of the right-hand side
-  double cpu_seconds;       // of the steps alone, observers excluded
+  std::string verdict;      // "ok", "stopped", or the kind of failure: "energy", "nan", "stretch", "solver", "frozen"
+  std::string reason;       // one sentence if the run failed
+  double end;               // s, last time reached
+  double step;              // s, as actually used
+  long steps, evaluations;  // steps taken; evaluations of the right-hand side
+  double cpu_seconds;       // s, stepping only, without observers
   bool ok() const { return verdict == "ok"; }
 };
 
-/// Sees the start and the samples, or every step. False ends the run, with the verdict "stopped".
+/// Receives the initial state and then the samples, or every step. Returning false ends the run with verdict "stopped".
 using Observer = std::function<bool(const Frame&)>;
 
-/// Runs the scene. A run that diverges is no exception: it ends, and the result says how. Throws Error for unknown
-/// steppers, impossible settings, and where the stepper cannot run the scene.
+/// Runs the scene. A diverging run does not throw: it ends early, and the result states how. Throws Error for unknown
+/// steppers, impossible settings, and scenes that the stepper cannot run.
 Result run(const Scene& scene, const Settings& settings = {}, const Observer& observer = {});
 
-/// Energy of a state by the scene's formulas, J: gravity's is zero at the origin. Not of scenes of order 1.
+/// Energy of a state by the scene's formulas (J); gravitational energy is zero at the origin. Undefined for first-order
+/// scenes.
 struct Energy {
   double kinetic, elastic, gravitational;
   double total() const { return kinetic + elastic + gravitational; }
 };
 Energy energy(const Scene& scene, const Frame& frame);
 
-/// The names of all steppers.
+/// Names of all steppers.
 std::vector<std::string> steppers();
 
 }  // namespace mysim

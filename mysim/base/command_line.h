@@ -1,4 +1,4 @@
-// Error messages and tables of command lines, for the programs that use CLI11; mysim itself does not.
+// Error messages and option tables of command lines, for programs that use CLI11 (mysim itself does not).
 #pragma once
 
 #include <fmt/ranges.h>
@@ -14,8 +14,7 @@
 
 namespace crosscheck {
 
-/// CLI11's errors in words for people: unknown options come first, since they
-/// are why others seem to be missing.
+/// CLI11's errors in readable form. Unknown options are reported first, because they often cause the other errors.
 inline std::string usage_error(const std::string& program, const CLI::App& app, const CLI::ParseError& error) {
   const CLI::App* command = &app;
   while (!command->get_subcommands().empty()) command = command->get_subcommands().front();
@@ -37,7 +36,7 @@ inline std::string usage_error(const std::string& program, const CLI::App& app, 
                            program, help);
       const std::vector<std::string> known = names_of(command);
       if (std::find(known.begin(), known.end(), option) != known.end())
-        return fmt::format("{} stands before the command; expected {} {} ... {}", option, program, command->get_name(),
+        return fmt::format("{} must follow the command; expected {} {} ... {}", option, program, command->get_name(),
                            option);
       const bool out = option == "-o" || option == "--out";
       const auto other = std::find(known.begin(), known.end(), out ? option == "-o" ? "--out" : "-o" : "");
@@ -49,9 +48,9 @@ inline std::string usage_error(const std::string& program, const CLI::App& app, 
   return fmt::format("{}{} ({} {}--help shows what is expected)", place, error.what(), program, help);
 }
 
-/// All that --help says, as JSON: a list of commands with `name`, `what`, `words` (what has a place: `name`, `what`)
-/// and `options` (`names`, these in one `title`, `value`, empty where none is taken, and `what`). What --help hides is
-/// left out, and --help itself. The manual and the shell's completions are made of it.
+/// The content of --help as JSON: a list of commands with `name`, `what`, `words` (positional arguments: `name`,
+/// `what`) and `options` (`names`, their joined form `title`, `value`, empty for flags, and `what`). Hidden entries and
+/// --help itself are omitted. The manual and the shell completions are generated from this table.
 inline std::string command_table(const CLI::App& app) {
   Json table = Json::array();
   for (const CLI::App* command : app.get_subcommands([](const CLI::App* one) { return !one->get_group().empty(); })) {

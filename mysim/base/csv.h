@@ -8,10 +8,10 @@
 
 namespace crosscheck {
 
-/// The text in quotes.
+/// The text in quotes, with inner quotes doubled.
 std::string csv_quoted(const std::string& text);
 
-/// The text as a field, in quotes if necessary.
+/// The text as a field, quoted if necessary.
 std::string csv_field(const std::string& text);
 
 struct CsvField {
@@ -19,8 +19,8 @@ struct CsvField {
   bool quoted = false;
 };
 
-/// The record that begins at `at`, which is moved to its line feed or to the end of the text. Nothing if a quote is not
-/// closed.
+/// Reads the record that begins at `at`, and advances `at` to the line feed or to the end of the text. Returns nothing
+/// if a quote is not closed.
 std::optional<std::vector<CsvField>> csv_record(std::string_view text, std::size_t& at);
 
 }  // namespace crosscheck

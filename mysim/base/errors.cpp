@@ -20,19 +20,18 @@ namespace crosscheck {
 namespace fs = std::filesystem;
 namespace {
 
-/// "/a/b: No space left on device; expected ..." from what would be "filesystem error: cannot ...: No space ...
-/// [/a/b]".
+/// Turns "filesystem error: cannot ...: No space ... [/a/b]" into "/a/b: No space left on device; expected ...".
 std::string path_message(const fs::filesystem_error& error) {
   const std::string reason = error.code().message();
   std::string path = error.path1().string();
   const char* temporary = std::getenv("TMPDIR");
-  // the standard library names no path if that folder is missing
+  // the standard library reports no path if TMPDIR is missing
   if (temporary && *temporary && (path.empty() || path == temporary))
     return fmt::format("TMPDIR {}: {}; expected a folder for temporary files that can be written to", temporary,
                        reason);
   if (!error.path2().empty()) path += " -> " + error.path2().string();
   const std::errc code = static_cast<std::errc>(error.code().value());
-  // unfinished results lie in hidden folders: the visible folder around them says which disk is full
+  // unfinished results are in hidden folders: report the visible folder above, which tells the user which disk is full
   if (code == std::errc::no_space_on_device) path = path.substr(0, path.find("/."));
   const char* expected = code == std::errc::no_space_on_device          ? "; expected more room on the disk"
                          : code == std::errc::permission_denied         ? "; expected one that you may read and write"
@@ -40,7 +39,7 @@ std::string path_message(const fs::filesystem_error& error) {
                          : code == std::errc::filename_too_long         ? "; expected a shorter name"
                          : code == std::errc::not_a_directory           ? "; expected a folder"
                          : code == std::errc::is_a_directory            ? "; expected a file"
-                         : code == std::errc::no_such_file_or_directory ? "; expected one that is there"
+                         : code == std::errc::no_such_file_or_directory ? "; expected an existing path"
                          : code == std::errc::too_many_symbolic_link_levels
                              ? "; expected a path without a loop of links"
                              : "";
@@ -64,7 +63,7 @@ std::string in_words(const std::exception_ptr& thrown) {
   } catch (const std::system_error& error) {
     return error.code().message();
   } catch (const std::exception& error) {
-    // without the library's mark "[json.exception.type_error.302] "
+    // strips the library's prefix "[json.exception.type_error.302] "
     std::string what = error.what();
     if (what.starts_with("[json.exception."))
       what = "a JSON file does not hold what was expected:" + what.substr(std::min(what.find(']') + 1, what.size()));

@@ -1,4 +1,4 @@
-// Exceptions for bad input, unsupported scenes and failed solvers, and their messages and exit status.
+// Exceptions for bad input, unsupported scenes and failed solvers, with their messages and exit status.
 #pragma once
 
 #include <exception>
@@ -9,7 +9,7 @@
 
 namespace crosscheck {
 
-/// Bad use or bad input. what() is one line that names the file, the key and what was expected.
+/// Wrong usage or bad input. what() is one line that names the file, the key and what was expected.
 struct InputError : std::runtime_error {
   using std::runtime_error::runtime_error;
 };
@@ -24,8 +24,7 @@ struct SolverFailure : std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-/// The message of an exception: one line that names the file or folder concerned, without the words of the library that
-/// threw.
+/// The message of an exception: one line that names the file or folder concerned, without library-specific wording.
 std::string in_words(const std::exception_ptr& thrown);
 
 /// Runs a program's work and returns its exit status. An exception is reported on standard error in one line that

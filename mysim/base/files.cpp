@@ -1,4 +1,5 @@
-// Nameless files that get their name when they are whole, whole files, and temporary folders with an owner.
+// Unnamed files that receive their name when complete, reading of whole files, and temporary folders locked by their
+// owner.
 #include "mysim/base/files.h"
 
 #include <fcntl.h>
@@ -37,9 +38,9 @@ StreamingFile::StreamingFile(fs::path file)
   const fs::path folder = file_.has_parent_path() ? file_.parent_path() : ".";
   std::error_code ignored;
   fs::create_directories(folder, ignored);
-  constexpr mode_t mode = 0666;  // less what the user's mask takes away
+  constexpr mode_t mode = 0666;  // reduced by the umask
   int descriptor = -1;
-  if (access(descriptors, X_OK) == 0)  // by which it gets its name
+  if (access(descriptors, X_OK) == 0)  // needed to name the file later
     descriptor = open(folder.c_str(), O_TMPFILE | O_RDWR | O_CLOEXEC, mode);
   if (descriptor < 0) {
     descriptor = open(temporary_.c_str(), O_CREAT | O_TRUNC | O_RDWR | O_CLOEXEC, mode);
@@ -68,7 +69,7 @@ void StreamingFile::rewrite_beginning(std::string_view bytes) {
 void StreamingFile::finish() {
   if (std::fflush(out_.get()) != 0) fail(no_room);
   if (!named_) {
-    // left behind by a process of the same number that died in between
+    // left behind by a process with the same id that died before the rename
     unlink(temporary_.c_str());
     const std::string self = fmt::format("{}/{}", descriptors, fileno(out_.get()));
     if (linkat(AT_FDCWD, self.c_str(), AT_FDCWD, temporary_.c_str(), AT_SYMLINK_FOLLOW) != 0)
@@ -93,7 +94,8 @@ void write_file(const fs::path& file, std::string_view content) {
 std::optional<std::string> try_read_file(const fs::path& file) {
   std::ifstream in(file, std::ios::binary);
   std::string text, block(1 << 16, '\0');
-  // a document or table made from the text needs more memory than the text; small files do not ask for the free memory
+  // Documents and tables made from the text need more memory than the text itself. Free memory is queried only for
+  // large files.
   double most = 1 << 26;
   for (bool asked = false; in.read(block.data(), std::ssize(block)) || in.gcount() > 0;) {
     text.append(block, 0, static_cast<size_t>(in.gcount()));
@@ -144,18 +146,19 @@ std::string file_name_of(std::string_view text) {
     at += sign.size();
   }
   if (name.size() <= longest_derived_name) return name;
-  size_t kept = longest_derived_name - 17;                                   // a dash and 16 digits
-  while ((static_cast<unsigned char>(name[kept]) & 0xc0u) == 0x80u) --kept;  // within a character
+  size_t kept = longest_derived_name - 17;                                   // minus a dash and 16 digits
+  while ((static_cast<unsigned char>(name[kept]) & 0xc0u) == 0x80u) --kept;  // do not cut inside a UTF-8 character
   return fmt::format("{}-{:016x}", name.substr(0, kept), Fnv1a::of(text));
 }
 
-// The owner of a temporary folder holds an exclusive lock on it, which ends with the process, in every pid namespace.
+// The owner of a temporary folder holds an exclusive lock on it. The lock ends with the process, in every pid
+// namespace.
 
 TemporaryFolder::TemporaryFolder(std::string_view purpose, const fs::path& place) {
-  // a form that no folder of a user has: remove_stale_temporary_folders() goes by it
+  // a name pattern that no user folder has; remove_stale_temporary_folders() relies on it
   const fs::path name = (place.empty() ? fs::temp_directory_path() : place) /
                         fmt::format("crosscheck-{}-{}.tmp-XXXXXX", purpose, getpid());
-  // again if another process took the new folder for a stale one
+  // retry if another process took the new folder for a stale one
   for (bool stale = true; stale;) {
     if (lock_ >= 0) close(lock_);
     std::string made = name.string();

@@ -13,7 +13,7 @@ namespace crosscheck {
 namespace fs = std::filesystem;
 namespace {
 
-/// The folders in crosscheck.folders, each line of which is a key and a folder.
+/// Folders listed in crosscheck.folders; each line holds a key and a folder.
 const std::map<std::string, fs::path>& folders() {
   static const auto found = [] {
     const fs::path program = fs::read_symlink("/proc/self/exe");

@@ -1,4 +1,4 @@
-// Folders of data files, programs and the user's cache.
+// Folders of data files, of programs, and of the user's cache.
 #pragma once
 
 #include <filesystem>
@@ -6,14 +6,15 @@
 
 namespace crosscheck {
 
-// The file crosscheck.folders, beside the program or in the nearest folder above it, names two folders relative to its
-// own. CMake writes one into the build folder and another one where it installs, so that trees may be moved as a whole.
+// The file crosscheck.folders, next to the program or in the nearest folder above it, names two folders relative to its
+// own location. CMake writes one into the build folder and another into the installation, so that either tree may be
+// moved.
 
-/// The folder of files read at run time (scenes, baselines, the page's scripts, assignments), with the paths of the
-/// source tree; in a build it is the source tree. Throws std::runtime_error if nothing names it.
+/// Folder of files read at run time (scenes, baselines, the page's scripts, assignments), laid out as in the source
+/// tree; in a build it is the source tree. Throws std::runtime_error if there is no crosscheck.folders.
 std::filesystem::path data_folder();
 
-/// The folder of built files: programs, mysim's library, the lab's module.
+/// Folder of built files: programs, mysim's library, the lab's module.
 std::filesystem::path programs_folder();
 
 /// $CROSSCHECK_CACHE, else $XDG_CACHE_HOME/crosscheck, else ~/.cache/crosscheck; nothing if HOME is not set either.

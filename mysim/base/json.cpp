@@ -1,4 +1,4 @@
-// nlohmann's library parses and writes; this file adds places, lines and columns to its errors.
+// JSON through nlohmann's library, with path, line and column added to its errors.
 #include "mysim/base/json.h"
 
 #include <fmt/format.h>
@@ -28,7 +28,7 @@ std::string dump_in_lines(const Json& object) {
 
 namespace {
 
-/// Appends the path from a value to another one inside it; false if it is not inside.
+/// Appends the path that leads from a value to another one inside it; returns false if it is not inside.
 bool find_path(const Json& from, const Json& to, std::string& path) {
   if (&from == &to) return true;
   if (!from.is_structured()) return false;
@@ -41,8 +41,8 @@ bool find_path(const Json& from, const Json& to, std::string& path) {
   return false;
 }
 
-/// Callbacks of the library's parser. Its own tree builder has no limit on depth and looks up every key of an object
-/// among those before it.
+/// Callbacks for the library's parser. The library's own tree builder has no depth limit and compares every key of an
+/// object with all keys before it.
 class Reader {
  public:
   bool null() { return add(nullptr), true; }
@@ -68,24 +68,24 @@ class Reader {
     return open_.pop_back(), true;
   }
   bool parse_error(size_t at, const std::string& token, const nlohmann::json::exception& error) {
-    // "[json.exception.parse_error.101] parse error at line 1, column 3: syntax error while parsing value - invalid
-    // literal; last read: 'N'": the words behind the dash
+    // keep only the words after the dash: "[json.exception.parse_error.101] parse error at line 1, column 3: syntax
+    // error while parsing value - invalid literal; last read: 'N'"
     wrong = error.what();
     for (const std::string_view before : {"] ", ": ", " - "})
       if (const size_t found = wrong.find(before); found != std::string::npos) wrong.erase(0, found + before.size());
     wrong.erase(std::min(wrong.find("; last read: "), wrong.size()));
-    // the text of nlohmann-json before version 3.11.3
+    // wording of nlohmann-json before version 3.11.3
     if (wrong.starts_with("attempting to parse an empty input"))
       wrong = "unexpected end of input; expected '[', '{', or a literal";
     read = at;
-    // nan, NaN, -inf, Infinity, 1.#INF
+    // matches nan, NaN, -inf, Infinity, 1.#INF
     not_finite = wrong.starts_with("number overflow") ||
                  ((wrong.starts_with("invalid literal") || wrong.starts_with("invalid number")) &&
                   token.find_first_of("nNiI#+") != std::string::npos);
     return false;
   }
 
-  /// The path of the value that was read when parsing ended: "readback.links[3].stiffness".
+  /// Path of the value that was being read when parsing ended: "readback.links[3].stiffness".
   std::string path() const {
     std::string path;
     if (open_.empty()) return path;
@@ -96,8 +96,8 @@ class Reader {
 
   Json root;
   std::string wrong;        // reason of the failure
-  size_t read = 0;          // bytes, including the first wrong one
-  bool not_finite = false;  // the wrong value is such a number
+  size_t read = 0;          // bytes read, including the first wrong one
+  bool not_finite = false;  // the wrong value is a non-finite number
 
  private:
   Json::object_t& members() const { return open_.back()->get_ref<Json::object_t&>(); }
@@ -113,7 +113,7 @@ class Reader {
     return wrong.empty();
   }
 
-  std::vector<Json*> open_;  // the list or object that is being read, last, and those around it
+  std::vector<Json*> open_;  // lists and objects being read, innermost last
 };
 
 /// "line 2, column 7: invalid literal; steps: expected a finite number: ..."
@@ -227,7 +227,7 @@ double JsonField::number_from(double lowest) const {
 
 namespace {
 
-/// The integer, if it has that type and the type can hold it.
+/// The integer value, if it is an integer within the range of int64.
 std::optional<std::int64_t> whole_of(const Json& value) {
   if (!value.is_number_integer() || (value.is_number_unsigned() && value.get<std::uint64_t>() > INT64_MAX))
     return std::nullopt;

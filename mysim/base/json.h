@@ -1,4 +1,4 @@
-// JSON: documents that are built and written, and files with look-ups that name file, place and what was expected.
+// JSON: documents to build and write, and parsed files whose look-ups report file, path and expected value on errors.
 #pragma once
 
 #include <cstdint>
@@ -11,32 +11,32 @@
 
 namespace crosscheck {
 
-/// A value that is built and written; objects keep the order of their keys. Files that build one include
-/// <nlohmann/json.hpp>. Write it with dump() below: the member of that name throws on invalid UTF-8.
+/// A JSON value to build and write; objects keep the order of their keys. Source files that build one include
+/// <nlohmann/json.hpp>. Write it with dump() below, because the member function dump() throws on invalid UTF-8.
 using Json = nlohmann::ordered_json;
 
-/// The text on one line, or indented by that many blanks. Replaces invalid UTF-8 by U+FFFD and non-finite numbers by
-/// null; other numbers have as many digits as restore their bits.
+/// The text on one line, or indented by `indent` blanks. Replaces invalid UTF-8 by U+FFFD and non-finite numbers by
+/// null; other numbers are written with enough digits to restore their bits.
 std::string dump(const Json& json, int indent = -1);
-/// An object with one line for each member.
+/// The text of an object, one line per member.
 std::string dump_in_lines(const Json& object);
 
-/// A value in a JSON file and its place there; keeps the document alive. Every look-up throws InputError
-/// ("FILE: terms[2].law: expected ..., got ..."). The place is searched for only when there is an error.
+/// A value in a JSON file together with its location; keeps the document alive. Every look-up throws InputError ("FILE:
+/// terms[2].law: expected ..., got ..."). The path is determined only when an error occurs.
 class JsonField {
  public:
-  /// Parses a text; `name` stands for the file in messages. Throws InputError with line and column for invalid JSON and
-  /// for documents nested more than 500 deep. The last of equal keys counts.
+  /// Parses a text; `name` replaces the file name in messages. Throws InputError with line and column for invalid JSON,
+  /// and for documents nested more than 500 levels deep. If a key is repeated, the last one counts.
   static JsonField parse(std::string_view text, std::string name, const char* expected = "JSON");
   /// Parses a file. Also throws InputError if the file cannot be read or is not one object.
   static JsonField parse_file(const std::string& file);
 
   JsonField operator[](std::string_view key) const;              // throws InputError if the key is missing
-  std::optional<JsonField> find(std::string_view key) const;     // nothing if the key is missing or its value null
-  JsonField operator[](size_t i) const;                          // item of a list
-  size_t size() const;                                           // of a list or an object
-  std::vector<JsonField> elements() const;                       // of a list
-  std::vector<std::pair<std::string, JsonField>> items() const;  // of an object, in its order
+  std::optional<JsonField> find(std::string_view key) const;     // nothing if the key is missing or its value is null
+  JsonField operator[](size_t i) const;                          // list item
+  size_t size() const;                                           // length of a list or an object
+  std::vector<JsonField> elements() const;                       // items of a list
+  std::vector<std::pair<std::string, JsonField>> items() const;  // members of an object, in their order
 
   bool is_null() const;
   bool is_text() const;
@@ -48,7 +48,7 @@ class JsonField {
 
   double number() const;
   double number_from(double lowest) const;
-  int whole_number(int from, int to) const;  // both included
+  int whole_number(int from, int to) const;  // from..to, inclusive
   long whole() const;
   std::uint64_t natural() const;
   bool boolean() const;

@@ -1,4 +1,4 @@
-// The manifest of a folder of results, as JSON.
+// Reading and writing the manifest of a result folder as JSON.
 #include "mysim/base/manifest.h"
 
 #include <fmt/format.h>

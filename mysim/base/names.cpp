@@ -15,7 +15,7 @@ namespace crosscheck {
 namespace fs = std::filesystem;
 namespace {
 
-/// The code point of the valid UTF-8 character with that length.
+/// Code point of a valid UTF-8 character.
 char32_t code_point(std::string_view bytes) {
   const auto first = static_cast<unsigned char>(bytes[0]);
   char32_t code = bytes.size() == 1 ? first : first & (0x7fu >> bytes.size());
@@ -33,7 +33,7 @@ bool is_hidden(char32_t c) {
   return std::ranges::any_of(ranges, [&](const auto& range) { return range.first <= c && c <= range.second; });
 }
 
-/// The length of the character at `at`; 0 where no printable one begins there.
+/// Length in bytes of the character at `at`, or 0 if no printable character begins there.
 std::size_t printable_length(std::string_view text, std::size_t at) {
   const std::size_t length = utf8_length(text, at);
   return length > 0 && !is_hidden(code_point(text.substr(at, length))) ? length : 0;
@@ -59,7 +59,7 @@ std::string printable(std::string_view text) {
 
 namespace {
 
-/// A standard stream, and the begin of a UTF-8 character whose other bytes are in the next write.
+/// A standard stream, with the first bytes of a UTF-8 character that the next write completes.
 struct TextStream {
   int file;
   std::string begun;
@@ -79,7 +79,7 @@ struct TextStream {
     text = printable(std::string_view(text).substr(0, whole));
     for (size_t done = 0; done < text.size();) {
       const ssize_t written = write(self.file, text.data() + done, text.size() - done);
-      if (written < 0 && errno != EINTR) return 0;  // an error of the stream
+      if (written < 0 && errno != EINTR) return 0;  // reported as an error of the stream
       if (written > 0) done += static_cast<size_t>(written);
     }
     return static_cast<ssize_t>(size);
@@ -130,7 +130,7 @@ bool is_path_inside(std::string_view path) {
 
 namespace {
 
-/// Throws InputError where there is something else than a file or a folder.
+/// Throws InputError if the path exists and is neither a file nor a folder.
 void require_plain(const fs::path& path) {
   const fs::file_status status = fs::symlink_status(path);
   if (fs::exists(status) && !fs::is_regular_file(status) && !fs::is_directory(status))

@@ -1,4 +1,4 @@
-// Names and paths from data: checks that they are safe to print and to use in the file system.
+// Validation of names and paths that come from data: safe to print and to use in the file system.
 #pragma once
 
 #include <filesystem>
@@ -10,29 +10,30 @@ namespace crosscheck {
 /// True for valid UTF-8 without control, line-separating, bidirectional and zero-width characters.
 bool is_printable(std::string_view text);
 
-/// The text for a terminal: unprintable characters but line feeds and tabs are replaced by '?'.
+/// The text made safe for a terminal: unprintable characters except line feeds and tabs are replaced by '?'.
 std::string printable(std::string_view text);
 
-/// Filters stdout and stderr through printable(), so that texts of scenes, engines and received folders cannot control
-/// the terminal.
+/// Filters stdout and stderr through printable(), so that texts from scenes, engines and received folders cannot
+/// control the terminal.
 void print_only_text();
 
-/// Longest file name made from other names, bytes: leaves room for endings below the 255 bytes of file systems.
+/// Maximum length (bytes) of a file name derived from other names; leaves room for suffixes within the file system's
+/// 255 bytes.
 constexpr std::size_t longest_derived_name = 220;
 
 /// True for a name of a scene, method or student: printable, 1 to 200 (or `most`) bytes, without '/', and not
 /// beginning with '-' or '.'.
 bool is_name(std::string_view text, std::size_t most = 200);
 
-/// Returns the name. Throws InputError "PLACE: expected a name ..., got '...'".
+/// Returns the name if it is valid. Throws InputError "PLACE: expected a name ..., got '...'".
 const std::string& require_name(const std::string& name, const std::string& place, std::size_t most = 200);
 
-/// Throws InputError unless the text may be a cell of that column: printable; line feeds and tabs are allowed except in
-/// names of scenes and methods.
+/// Throws InputError unless the text is valid for a cell of that column: printable; line feeds and tabs are allowed
+/// except in scene and method names.
 void require_cell(const std::string& column, const std::string& text);
 
-/// True for a path that stays inside a folder: relative, printable, without empty, "." and ".." parts, at most 255
-/// bytes a part and 1024 in total.
+/// True for a path that stays inside a folder: relative, printable, without empty, "." and ".." components, at most 255
+/// bytes per component and 1024 in total.
 bool is_path_inside(std::string_view path);
 
 /// The file at a path that comes from data, below a folder. Throws InputError that names both unless is_path_inside(),

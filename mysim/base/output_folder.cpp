@@ -1,4 +1,4 @@
-// A lock in the working folder, then an exchange of names, or two renames.
+// Locks the working folder, then installs the result by exchanging names, or by two renames.
 #include "mysim/base/output_folder.h"
 
 #include <fcntl.h>
@@ -89,7 +89,7 @@ OutputLock::OutputLock(const fs::path& given, const std::string& command) : requ
   fs::create_directories(target.parent_path(), error);
   require_replaceable();
   const fs::path file = work / "lock";
-  // the lock of a killed writer is held until its child processes have ended, too
+  // the lock of a killed writer is held until its child processes have ended as well
   const auto deadline = std::chrono::steady_clock::now() + std::chrono::seconds(3);
   for (;; std::this_thread::sleep_for(std::chrono::milliseconds(10))) {
     struct stat about {};
@@ -114,7 +114,7 @@ OutputLock::OutputLock(const fs::path& given, const std::string& command) : requ
                         : "another process is writing into it; wait for it, or give another folder");
     }
     if (fstat(handle_, &about) == 0 && identity(file) == std::pair(about.st_dev, about.st_ino)) break;
-    close(handle_);  // of a process that ended in between
+    close(handle_);  // the lock file belonged to a process that ended in the meantime
   }
   const std::string text = fmt::format("{}\n{}\n{}\n", getpid(), utc_now(), command);
   if (ftruncate(handle_, 0) != 0 || pwrite(handle_, text.data(), text.size(), 0) != static_cast<ssize_t>(text.size())) {
@@ -127,7 +127,7 @@ OutputLock::OutputLock(const fs::path& given, const std::string& command) : requ
 void OutputLock::release() {
   std::error_code ignored;
   fs::remove(work / "lock", ignored);
-  fs::remove(work, ignored);  // unless it holds more
+  fs::remove(work, ignored);  // fails, as intended, if the folder is not empty
   for (const fs::path& above : made_) fs::remove(above, ignored);
   close(handle_);
 }
@@ -143,8 +143,8 @@ bool OutputLock::own() const { return process_ == getpid(); }
 
 namespace {
 
-/// A free place under a folder for a file of the user's: its own path, or NAME.yours if that is taken or if it must
-/// have another one.
+/// A free path under a folder for one of the user's files: its own path, or NAME.yours if that is taken or if `other`
+/// requires another one.
 fs::path free_path(const fs::path& root, const fs::path& path, bool other) {
   fs::path at = root;
   for (const fs::path& part : path.parent_path()) {
@@ -191,7 +191,7 @@ void remove_empty_above(const fs::path& root, const fs::path& path) {
 /// Links the user's files in `target` into `stage`, which holds a new result.
 void link_users_files(const fs::path& target, const std::optional<Manifest>& old, const fs::path& stage) {
   const std::vector<std::string> paths = paths_in(target);
-  // changed files of the earlier result come last: they get new names, which must not be those of other files
+  // changed files of the earlier result come last, because they get new names, which must not collide with other files
   for (const bool changed : {false, true})
     for (const std::string& path : paths) {
       if (changed != (old && old->names(path)) || (changed && old->ours(target, path))) continue;
@@ -203,7 +203,7 @@ void link_users_files(const fs::path& target, const std::optional<Manifest>& old
         above /= part;
         if (is_there(stage / above)) continue;
         if (is_folder(target / above))
-          fs::create_directory(stage / above, target / above);  // with its permissions
+          fs::create_directory(stage / above, target / above);  // copies the permissions
         else
           fs::create_directory(stage / above);
       }
@@ -211,14 +211,15 @@ void link_users_files(const fs::path& target, const std::optional<Manifest>& old
     }
 }
 
-/// Empties a replaced folder: removes Crosscheck's files and what `target` has too, and moves other files there.
+/// Empties a replaced folder: removes Crosscheck's files and those that `target` has as well, and moves other files
+/// there.
 void absorb(const fs::path& from, const fs::path& target) {
   const std::optional<Manifest> old = read_manifest(from);
   std::set<std::pair<dev_t, ino_t>> there;
   for (const std::string& path : paths_in(target)) there.insert(identity(target / path));
   for (const std::string& path : paths_in(from)) {
     const fs::path file = from / path;
-    if (path.ends_with("/") || whole_name(path) == Manifest::file_name) continue;  // half a manifest of a killed writer
+    if (path.ends_with("/") || whole_name(path) == Manifest::file_name) continue;  // left by a killed writer
     if ((old && old->ours(from, path)) || there.contains(identity(file)) || same_bytes(file, target / path) ||
         same_bytes(file, (target / path) += ".yours"))
       fs::remove(file);
@@ -228,7 +229,7 @@ void absorb(const fs::path& from, const fs::path& target) {
   fs::remove_all(from);
 }
 
-/// Puts the new result in the place of the earlier one; returns where that is now.
+/// Puts the new result in the place of the earlier one; returns the new location of the earlier one.
 fs::path replaced(const OutputLock& place, const fs::path& stage) {
   std::error_code gone;
   const fs::path here = fs::current_path(gone), inside = here.lexically_relative(place.target);
@@ -251,7 +252,7 @@ fs::path replaced(const OutputLock& place, const fs::path& stage) {
   return old;
 }
 
-/// Removes what a killed writer left.
+/// Removes what a killed writer left behind.
 void recover(const OutputLock& place) {
   const fs::path left = place.work / new_result, old = place.work / old_result;
   for (const fs::path& leftover : {left, old})
@@ -264,14 +265,14 @@ void recover(const OutputLock& place) {
     if (is_there(leftover)) absorb(leftover, place.target);
 }
 
-/// Whether it lies in another result's folder inside of this one, as the parts of a sweep do.
+/// True if the path lies inside another result's folder nested in this one, as the shards of a sweep do.
 bool is_of_another_result(const fs::path& target, const std::string& path) {
   for (fs::path above = fs::path(path).parent_path(); !above.empty(); above = above.parent_path())
     if (is_there(target / above / Manifest::file_name)) return true;
   return false;
 }
 
-/// The manifest of a folder that may be written into; nothing where it is empty or not there.
+/// Returns the manifest of a folder that may be written into, or nothing if the folder is empty or does not exist.
 std::optional<Manifest> require_ours(const OutputLock& place, const std::string& command) {
   std::optional<Manifest> manifest = read_manifest(place.target);
   if (manifest && manifest->command != command)
@@ -290,7 +291,7 @@ std::optional<Manifest> require_ours(const OutputLock& place, const std::string&
   return manifest;
 }
 
-/// Reports errors of the file system as errors of --out.
+/// Reports file-system errors as errors of --out.
 template <class F>
 auto with_output_errors(const OutputLock& place, F work) {
   try {
@@ -301,7 +302,7 @@ auto with_output_errors(const OutputLock& place, F work) {
   }
 }
 
-/// Tidies up, and returns the manifest of the folder if it may be written into.
+/// Cleans up after killed writers, and returns the manifest of the folder if it may be written into.
 std::optional<Manifest> entered(const OutputLock& place, const std::string& command) {
   return with_output_errors(place, [&] {
     recover(place);
@@ -316,7 +317,7 @@ void recover_output(const fs::path& folder) {
   try {
     lock.emplace(folder, "that tidies up after another");
   } catch (const InputError&) {
-    return;  // another process does it
+    return;  // another process is already cleaning up
   }
   with_output_errors(*lock, [&] { recover(*lock); });
 }
@@ -357,7 +358,7 @@ void OutputFolder::finish() {
     write_manifest(manifest, stage_);
     const fs::path old = first ? fs::path() : replaced(place_, stage_);
     if (first) fs::rename(stage_, place_.target);
-    finished_ = true;  // from here on the stage may be the earlier result
+    finished_ = true;  // from here on the stage may hold the earlier result
     if (!first) absorb(old, place_.target);
   });
 }

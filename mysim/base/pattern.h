@@ -17,11 +17,11 @@ class Pattern {
   Pattern(const Pattern&) = delete;
   Pattern& operator=(const Pattern&) = delete;
 
-  /// If the whole text matches: the match and each of its groups ("" for a group that took no part).
+  /// If the whole text matches: the match and its groups ("" for a group that did not participate). Otherwise nothing.
   std::optional<std::vector<std::string>> match(const std::string& text) const;
   /// True if a part of the text matches.
   bool is_in(const std::string& text) const;
-  /// The text with each match replaced; $1 stands for the first group.
+  /// The text with each match replaced; $1 refers to the first group.
   std::string replaced_in(const std::string& text, const std::string& by) const;
 
  private:

@@ -66,7 +66,7 @@ namespace {
 using Clock = std::chrono::steady_clock;
 using std::chrono::milliseconds;
 
-constexpr size_t kept_bytes = 65536;  // per output of an untrusted program
+constexpr size_t kept_bytes = 65536;  // per output stream of an untrusted program
 
 }  // namespace
 
@@ -153,7 +153,7 @@ struct Started {
   int error;  // 0: it is running
 };
 
-/// Starts a process; `work` becomes a program, or writes an error number into the file and ends.
+/// Starts a process; `work` executes a program, or writes an error number to the given file and ends.
 template <class Work>
 Started start_process(unsigned long flags, const Work& work) {
   Pipe exec_error;
@@ -181,7 +181,7 @@ pid_t start(const Call& call) {
 // processes inside with it. Otherwise it is a subreaper, which receives orphans, and kills its children until it has
 // none; a program that kills such a watcher is not contained, which is reported.
 
-/// The watcher's report on the program.
+/// The watcher's report about the program.
 struct WatcherReport {
   int status;  // as of wait()
   rusage usage;
@@ -196,7 +196,7 @@ bool write_small_file(const char* path, const char* text) {
   return written == size;
 }
 
-/// Maps by which a process in a new user namespace keeps its user and group.
+/// User and group maps that keep a process's ids inside a new user namespace.
 struct UserMaps {
   std::string user, group;
   static std::string same(unsigned long number) { return std::to_string(number) + " " + std::to_string(number) + " 1"; }
@@ -207,30 +207,30 @@ struct UserMaps {
   }
 };
 
-/// Makes a file number 3 and closes all others but the standard ones.
+/// Moves a file to descriptor 3 and closes all other descriptors except the standard ones.
 void keep_as_number_3(int file) {
   dup2(file, 3);
   if (syscall(SYS_close_range, 4, ~0U, 0) == 0) return;
   for (int number = 4; number < std::min(sysconf(_SC_OPEN_MAX), 65536L); ++number) close(number);
 }
 
-constexpr milliseconds grace(200);     // in which children of a program that has ended may end too
-constexpr int try_without_users = -1;  // not an errno: the maps of users could not be written
+constexpr milliseconds grace(200);     // time for the children of a terminated program to end as well
+constexpr int try_without_users = -1;  // not an errno value: the user maps could not be written
 
-/// The watcher's work. The report comes when all processes have ended, at most ten seconds after the limit or SIGTERM.
+/// The watcher's main loop. It reports once all processes have ended, at most ten seconds after the limit or SIGTERM.
 [[noreturn]] void watch(const Call& call, unsigned long flags, const UserMaps& users, milliseconds limit,
                         int error_file, int report) {
-  setpgid(0, 0);  // signals of a terminal to the parent's group are not for it
+  setpgid(0, 0);  // terminal signals to the parent's process group must not reach it
   prctl(PR_SET_PDEATHSIG, SIGKILL);
   pollfd parent{error_file, 0, 0};
-  if (poll(&parent, 1, 0) > 0) _exit(127);  // the parent has ended already
+  if (poll(&parent, 1, 0) > 0) _exit(127);  // the parent has already ended
   if ((flags & CLONE_NEWUSER) && !users.apply()) fail_start(error_file, try_without_users);
   prctl(PR_SET_CHILD_SUBREAPER, 1);
   signal(SIGCHLD, SIG_DFL);
   sigset_t child_ended, before;
   sigemptyset(&child_ended);
   sigaddset(&child_ended, SIGCHLD);
-  sigaddset(&child_ended, SIGTERM);  // pending, even where the first process of a namespace would ignore it
+  sigaddset(&child_ended, SIGTERM);  // stays pending, even though the first process of a namespace would ignore it
   sigprocmask(SIG_BLOCK, &child_ended, &before);
   const pid_t program = clone_process(0);
   if (program == 0) {
@@ -297,7 +297,7 @@ void wait_for(pid_t child, ProgramResult& result) {
   set_end(status, usage, result);
 }
 
-/// Appends what is in the pipe without waiting, and closes it at the end of the stream. Keeps the last bytes only.
+/// Appends the available pipe content without waiting, and closes the pipe at end of stream. Keeps only the last bytes.
 void drain(Pipe& pipe, std::string& text, size_t most) {
   std::array<char, 4096> chunk;
   while (pipe.read_end >= 0) {
@@ -326,7 +326,7 @@ void end_children(milliseconds grace_period) {
     const ssize_t size = file < 0 ? 0 : read(file, text, sizeof text);
     if (file >= 0) close(file);
     pid_t child = 0;
-    for (ssize_t i = 0; i < size; ++i) {  // a number that is cut off has no blank behind it
+    for (ssize_t i = 0; i < size; ++i) {  // a truncated number has no blank after it
       if (text[i] >= '0' && text[i] <= '9') {
         child = 10 * child + (text[i] - '0');
       } else {
@@ -350,7 +350,7 @@ ProgramResult run_program(const std::vector<std::string>& argv, const std::files
     fcntl(pipe->read_end, F_SETFL, O_NONBLOCK);
   }
   const size_t most = timeout ? kept_bytes : std::string::npos;
-  const auto give_up = Clock::now() + limit + std::chrono::seconds(12);  // a watcher that was stopped does not report
+  const auto give_up = Clock::now() + limit + std::chrono::seconds(12);  // a stopped watcher never reports
   ProgramResult result;
   for (;;) {
     drain(out, result.out, most), drain(err, result.err, most);
@@ -363,7 +363,7 @@ ProgramResult run_program(const std::vector<std::string>& argv, const std::files
   }
   wait_for(child, result);
   if (!timeout) return result;
-  remove_stale_temporary_folders();  // those of the killed processes
+  remove_stale_temporary_folders();  // left by the killed processes
   WatcherReport told{};
   result.killed_watcher = read(report.read_end, &told, sizeof told) != sizeof told;
   if (!result.killed_watcher) {
@@ -378,7 +378,7 @@ struct LineServer::Process {
   Pipe in, out, err, report;
   pid_t parent = getpid(), watcher = -1;
   std::optional<clockid_t> clock;  // CPU time of the program
-  std::string unread;              // stdout so far
+  std::string unread;              // stdout received so far
 
   double cpu_time() const {
     timespec now{};
@@ -423,7 +423,7 @@ LineServer::Answer LineServer::ask(const std::string& line, double seconds) {
   const double begin = p.cpu_time();
   const auto until = Clock::now() + milliseconds(static_cast<long>(1000 * std::min(seconds, 1e9)));
   std::string unsent = line + '\n';
-  const auto send = [&] {  // a program that has ended must not end this one by SIGPIPE
+  const auto send = [&] {  // writing to a program that has ended must not kill this process by SIGPIPE
     sigset_t pipe_signal, before;
     sigemptyset(&pipe_signal), sigaddset(&pipe_signal, SIGPIPE);
     pthread_sigmask(SIG_BLOCK, &pipe_signal, &before);
@@ -441,7 +441,7 @@ LineServer::Answer LineServer::ask(const std::string& line, double seconds) {
       if (p.unread[0] == '{') answer.line = p.unread.substr(0, end);
       p.unread.erase(0, end + 1);
     }
-    answer.cpu_seconds = std::max(0., p.cpu_time() - begin);  // it may have ended
+    answer.cpu_seconds = std::max(0., p.cpu_time() - begin);  // the program may have ended
     if (!answer.line.empty() || p.out.read_end < 0 || p.unread.size() == kept_bytes) return answer;
     const auto left = std::chrono::ceil<milliseconds>(until - Clock::now()).count();
     if (left <= 0) {

@@ -1,4 +1,4 @@
-// Other programs, started without a shell and run to their end, with or without a time limit.
+// Child processes, started without a shell and run to their end, with or without a time limit.
 #pragma once
 
 #include <sys/resource.h>
@@ -13,28 +13,28 @@
 
 namespace crosscheck {
 
-/// Environment "NAME=value" of all programs that Crosscheck starts: that of this program, with the locale C.UTF-8 and
-/// the time zone UTC, so that their output does not depend on the terminal or job. `extra` overrides both.
+/// Environment ("NAME=value") of all programs that Crosscheck starts: the environment of this program, but with the
+/// locale C.UTF-8 and the time zone UTC, so that output does not depend on the terminal or job. `extra` overrides both.
 std::vector<std::string> program_environment(const std::vector<std::string>& extra = {});
 
-/// The texts as exec*() takes them, with a null at the end; valid as long as the texts are.
+/// The texts in the form that exec*() requires, null-terminated; valid as long as the texts are.
 std::vector<char*> c_strings(const std::vector<std::string>& texts);
 
-/// User and system time together, s.
+/// Sum of user and system time (s).
 double cpu_seconds(const rusage& usage);
 
 /// A program that cannot be started. what() names it.
 struct CannotStart : std::runtime_error {
   CannotStart(const std::string& program, const std::string& why);
-  std::string reason;  // the system's
+  std::string reason;  // the system's error message
 };
 
 struct ProgramResult {
   int status = 0;               // exit code, or 128 + signal number
-  int signal = 0;               // that ended the program; 0 if it exited
-  bool timed_out = false;       // this and the next two: only with a time limit
-  bool left_children = false;   // processes of it were still running at its end; they were killed
-  bool killed_watcher = false;  // it killed the process that watches it: its children may still be running
+  int signal = 0;               // signal that ended the program; 0 if it exited
+  bool timed_out = false;       // set only with a time limit, like the next two members
+  bool left_children = false;   // its children were still running when it ended; they were killed
+  bool killed_watcher = false;  // it killed its watcher process: its children may still be running
   double cpu_seconds = 0;       // user and system time of the program and of the children it waited for
   std::string out, err;         // stdout and stderr
 };
@@ -42,14 +42,14 @@ struct ProgramResult {
 /// Runs argv[0] (a path, or a name in PATH) in the folder cwd, with empty stdin and program_environment(extra_env),
 /// until it has ended and its output is closed. Throws CannotStart.
 /// With a timeout (s) the program is not trusted: it may hang, crash, write without end, detach itself or leave
-/// children. All its descendants are killed at its end, at the time limit, and if the calling thread ends: it runs in a
-/// pid namespace of its own if the kernel permits, otherwise below a subreaper. Only the last 64 KiB of stdout and of
+/// children. All its descendants are killed when it ends, at the time limit, and when the calling thread ends: it runs
+/// in its own pid namespace if the kernel permits, otherwise under a subreaper. Only the last 64 KiB of stdout and of
 /// stderr are kept.
 ProgramResult run_program(const std::vector<std::string>& argv, const std::filesystem::path& cwd,
                           const std::vector<std::string>& extra_env = {}, std::optional<double> timeout = {});
 
-/// A program that answers requests line by line, stdin to stdout, and is not trusted either. It ends with this object:
-/// its stdin is closed, and after 0.2 s all its descendants are killed.
+/// An untrusted program that answers requests line by line, stdin to stdout. It ends with this object: its stdin is
+/// closed, and after 0.2 s all its descendants are killed.
 class LineServer {
  public:
   /// Starts argv[0] in the folder cwd. Throws CannotStart.
@@ -64,11 +64,11 @@ class LineServer {
     double cpu_seconds = 0;  // user and system time of the program between request and answer
     std::string err;         // stderr in the meantime
   };
-  /// Sends the line and waits for a line that begins with '{', skipping others, for at most so many seconds. After an
-  /// answer without a line the server is of no further use.
+  /// Sends the line and waits at most `seconds` for a line that begins with '{', skipping other lines. After an answer
+  /// without a line the server is unusable.
   Answer ask(const std::string& line, double seconds);
 
-  /// False in a process forked from the one that started the server: two may not ask through one pipe.
+  /// False in a process forked from the one that started the server: two processes must not share one pipe.
   bool is_mine() const;
 
  private:
@@ -76,13 +76,14 @@ class LineServer {
   std::unique_ptr<Process> process_;
 };
 
-/// Runs a program with this program's stdin, stdout and stderr; returns its exit status, as above. Throws CannotStart.
+/// Runs a program on this program's stdin, stdout and stderr; returns its exit status as in ProgramResult. Throws
+/// CannotStart.
 int run_in_terminal(const std::vector<std::string>& argv);
 
-/// True if PATH has a program of this name.
+/// True if PATH contains a program of this name.
 bool on_path(const std::string& program);
 
-/// The last lines of a text.
+/// The last `count` lines of a text.
 std::string last_lines(const std::string& text, int count);
 
 /// Ends all children of this process, and the orphans that it receives as a subreaper: SIGTERM, then SIGKILL after the

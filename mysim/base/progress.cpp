@@ -21,7 +21,7 @@
 namespace crosscheck {
 namespace {
 
-constexpr double silent = 2;  // s, after which progress is shown
+constexpr double silent = 2;  // s; no progress is shown before
 
 }  // namespace
 
@@ -34,7 +34,7 @@ std::string format_duration(double seconds) {
 }
 
 std::string progress_line(const ProgressSnapshot& seen) {
-  // takes all steps as alike; an estimate needs a hundredth of the work
+  // assumes steps of equal length; an estimate requires 1 % of the work to be done
   const bool known = seen.total >= seen.begun;
   const double done = known ? (std::max(seen.begun - 1, 0) + seen.part) / seen.total : 0;
   std::string left;
@@ -56,10 +56,10 @@ std::string progress_line(const ProgressSnapshot& seen) {
 struct Progress::Display {
   using Clock = std::chrono::steady_clock;
 
-  std::mutex mutex;  // guards all members but `part`
+  std::mutex mutex;  // guards all members except `part`
   std::condition_variable_any stopped;
   std::latch ready{1};
-  bool shown = false;  // the terminal shows a line
+  bool shown = false;  // the terminal currently shows a line
   int total, begun = 0;
   std::string what;  // empty: nothing to show
   double expected = 0;
@@ -69,10 +69,10 @@ struct Progress::Display {
   Clock::time_point step_start = start;
   double last_line = 0;  // s, time of the last plain line
   const pid_t owner = getpid();
-  std::jthread thread;  // last, so that it ends first
+  std::jthread thread;  // last member, therefore destroyed first
 
   explicit Display(int steps) : total(steps) {
-    // signals are for the working thread
+    // signals are handled by the working thread
     sigset_t all, before;
     sigfillset(&all);
     pthread_sigmask(SIG_SETMASK, &all, &before);
@@ -114,7 +114,7 @@ Progress::~Progress() {
   if (getpid() == display_->owner)
     done();
   else
-    static_cast<void>(display_.release());  // a forked child has no such thread to join
+    static_cast<void>(display_.release());  // a forked child has no thread to join
 }
 
 void Progress::begin(const std::string& what, double seconds) {

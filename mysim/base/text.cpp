@@ -19,7 +19,8 @@ std::string folded_word(std::string_view word) {
   return out;
 }
 
-/// Optimal string alignment: additions, omissions, exchanges and swaps of neighbours, each letter touched once.
+/// Optimal string alignment distance: insertions, deletions, substitutions and transpositions of neighbours, each
+/// letter edited once.
 std::size_t edit_distance(const std::string& a, const std::string& b) {
   std::vector<std::vector<std::size_t>> d(a.size() + 1, std::vector<std::size_t>(b.size() + 1));
   for (std::size_t i = 0; i <= a.size(); ++i) d[i][0] = i;
@@ -116,7 +117,7 @@ size_t utf8_length(std::string_view text, size_t at) {
                                                         : 0;
   for (size_t i = 1; i < length; ++i)
     if ((byte(i) & 0xc0) != 0x80) return 0;
-  // overlong forms, surrogates, and what lies above the last character
+  // rejects overlong forms, surrogates, and code points above U+10FFFF
   if ((first == 0xe0 && byte(1) < 0xa0) || (first == 0xed && byte(1) >= 0xa0) || (first == 0xf0 && byte(1) < 0x90) ||
       (first == 0xf4 && byte(1) >= 0x90))
     return 0;
@@ -131,7 +132,7 @@ std::string shell_quote(const std::string& word) {
     const auto c = static_cast<unsigned char>(word[i]);
     const bool shown = length > 0 && c >= 32 && c != 127;
     if (!shown)
-      escaped += fmt::format("\\{:03o}", c);  // three digits: the next character cannot run into them
+      escaped += fmt::format("\\{:03o}", c);  // three digits, so that a following digit is not included
     else
       escaped += (c == '\'' || c == '\\' ? "\\" : "") + word.substr(i, length);
     plain &= shown &&

@@ -1,4 +1,4 @@
-// Texts: parts, the closest match for a misspelt name, words quoted for a shell, Base64.
+// Texts: splitting, the closest match for a misspelt name, shell quoting, Base64.
 #pragma once
 
 #include <span>
@@ -8,11 +8,11 @@
 
 namespace crosscheck {
 
-/// The name closest to a misspelt word, or nothing: fewest letters added, omitted, exchanged or swapped with their
-/// neighbour (Damerau and Levenshtein), at most one in three of the longer of both; case, '_' and '-' are ignored. If
-/// there is none, the shortest name that has the word as its beginning or as a part behind a hyphen or slash; else the
-/// longest that is such a part of the word ("rest" for "rest_length"); else the one with the longest common beginning
-/// of five letters or more.
+/// The name closest to a misspelt word, or nothing. Minimises the Damerau-Levenshtein distance (letters inserted,
+/// deleted, substituted or swapped with a neighbour), up to a third of the longer word; case, '_' and '-' are ignored.
+/// Failing that, the shortest name that begins with the word or contains it after a hyphen or slash; else the longest
+/// name that the word contains in the same way ("rest" for "rest_length"); else the name with the longest common prefix
+/// of at least five letters.
 std::string closest_match(std::string_view word, const std::vector<std::string>& names);
 
 /// The closest match as the end of a message: "; did you mean 'NAME'?", or nothing.
@@ -24,26 +24,25 @@ std::string unknown_name(std::string_view kind, std::string_view word, const std
                          std::string_view list);
 
 /// Throws InputError: "method NAME: unknown option '+OPTION'; expected KNOWN", with the closest match among the options
-/// in KNOWN (the words behind a plus).
+/// in KNOWN (the words after a plus).
 [[noreturn]] void refuse_option(const std::string& method, const std::string& option, const std::string& known);
 
-/// The parts between the separators.
+/// The parts of the text between separators.
 std::vector<std::string> split(std::string_view text, char separator);
 
-/// The length of the UTF-8 character that begins at `at`; 0 if there is no valid one.
+/// Length (bytes) of the UTF-8 character that begins at `at`; 0 if it is invalid.
 std::size_t utf8_length(std::string_view text, std::size_t at);
 
-/// The word as bash reads it, on one line: unquoted if possible, otherwise in quotes, with unprintable bytes as
-/// $'\012'.
+/// The word quoted for bash, on one line: bare if possible, otherwise in quotes, with unprintable bytes as $'\012'.
 std::string shell_quote(const std::string& word);
 
 /// The word in single quotes, for any shell.
 std::string shell_single_quote(const std::string& word);
 
-/// The quoted words with blanks between them.
+/// The quoted words, separated by blanks.
 std::string shell_join(std::span<const std::string> words);
 
-/// "3.2 GB", powers of ten.
+/// "3.2 GB"; units are powers of 1000.
 std::string format_bytes(double bytes);
 
 /// RFC 4648, with padding, in one line.

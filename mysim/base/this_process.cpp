@@ -1,4 +1,4 @@
-// Thread clock, memory left, and supervision by a parent.
+// Thread CPU clock, available memory, and supervision by a parent process.
 #include "mysim/base/this_process.h"
 
 #include <fmt/format.h>
@@ -34,7 +34,7 @@ double now() {
   return static_cast<double>(t.tv_sec) + 1e-9 * static_cast<double>(t.tv_nsec);
 }
 
-/// s between two readings with nothing in between: the median of 101 pairs, measured once.
+/// Time between two successive clock readings (s): the median of 101 pairs, measured once.
 double time_of_reading() {
   static const double median = [] {
     std::array<double, 101> pairs;
@@ -52,7 +52,7 @@ double time_of_reading() {
 
 void CpuClock::start() {
   if (!runs_) return;
-  time_of_reading();  // not within the interval
+  time_of_reading();  // measured outside the timed interval
   begin_ = now();
 }
 
@@ -66,7 +66,7 @@ namespace fs = std::filesystem;
 
 constexpr double unlimited = std::numeric_limits<double>::infinity();
 
-/// A number in a file, or the one behind a word there; nothing if there is none ("max").
+/// The number in a file, or the number after a given word; nothing if there is none ("max").
 std::optional<double> number_of_file(const fs::path& file, std::string_view word = "") {
   std::ifstream in(file);
   for (std::string key; !word.empty() && in >> key && key != word;) in.ignore(100, '\n');
@@ -74,8 +74,8 @@ std::optional<double> number_of_file(const fs::path& file, std::string_view word
   return in >> value ? std::optional(value) : std::nullopt;
 }
 
-/// The memory that the control groups of this process leave, version 1 or 2, each of them up to the root. File caches
-/// count as used there, but are given up on demand.
+/// Memory left by the control groups of this process (version 1 or 2), checked at every level up to the root. File
+/// caches count as used there, but are released on demand.
 double left_by_groups() {
   double least = unlimited;
   std::ifstream in("/proc/self/cgroup");
@@ -116,15 +116,15 @@ double free_memory() {
 
 namespace {
 
-/// Folders of results that workers write, as texts with a null at the end. The supervisor shares this memory with its
-/// workers; programs that they start do not see it.
+/// Result folders that workers write, as null-terminated texts. The supervisor shares this memory with its workers;
+/// programs started by the workers do not see it.
 struct Notes {
   std::atomic<size_t> used;
   char text[1 << 16];
 };
 Notes* notes = nullptr;
 
-/// Signals that end a program, unless its parent had them ignored.
+/// Signals that end a program, unless its parent ignores them.
 sigset_t ending_signals() {
   sigset_t set;
   sigemptyset(&set);
@@ -150,14 +150,14 @@ void tidy_results() {
   for (size_t at = 0; at < used; at += std::strlen(notes->text + at) + 1) try {
       if (notes->text[at]) recover_output(notes->text + at);
     } catch (const std::exception&) {
-      // another process does it by now, or the next start with this folder reports the problem
+      // another process is already doing this, or the next start with this folder reports the problem
     }
 }
 
 [[noreturn]] void end_as(int status) {
   if (WIFEXITED(status)) _exit(WEXITSTATUS(status));
   const rlimit none{0, 0};
-  setrlimit(RLIMIT_CORE, &none);  // it has written its own
+  setrlimit(RLIMIT_CORE, &none);  // the child has written its own core dump
   const int number = WTERMSIG(status);
   signal(number, SIG_DFL);
   sigset_t only;
@@ -187,7 +187,7 @@ int run_supervised(const std::function<int()>& work, const std::string& when_int
     sigprocmask(SIG_SETMASK, &before, nullptr);
     return work();
   }
-  signal(SIGCHLD, SIG_DFL);  // if the parent ignores it, no child can be waited for
+  signal(SIGCHLD, SIG_DFL);  // if the parent ignored SIGCHLD, children could not be waited for
   prctl(PR_SET_CHILD_SUBREAPER, 1);
   remove_stale_temporary_folders();
   const int status = status_of_child(child, waited);

@@ -1,4 +1,4 @@
-// This process: its CPU time, the memory left to it, and a supervisor that tidies up after it.
+// This process: its CPU time, the memory available to it, and a supervisor that cleans up after it.
 #pragma once
 
 #include <functional>
@@ -6,8 +6,8 @@
 
 namespace crosscheck {
 
-/// Adds up the calling thread's CPU time between start() and stop(), or stays at 0 if it is not to run. The
-/// readings' own time (some 0.4 us, more than many a step) is subtracted; what is left is at least 1 ns.
+/// Accumulates the calling thread's CPU time between start() and stop(), or stays at 0 if constructed with false. The
+/// cost of the readings (about 0.4 us, more than many steps take) is subtracted; the result is at least 1 ns.
 class CpuClock {
  public:
   explicit CpuClock(bool runs = true) : runs_(runs) {}
@@ -20,7 +20,7 @@ class CpuClock {
   double begin_ = 0, total_ = 0;
 };
 
-/// CPU time of the work, s.
+/// CPU time of the work (s).
 template <class Work>
 double cpu_time_of(const Work& work) {
   CpuClock clock;
@@ -30,18 +30,19 @@ double cpu_time_of(const Work& work) {
   return clock.seconds();
 }
 
-/// Memory available to this process, bytes: MemAvailable, or less if a control group or the limit of the address space
-/// leaves less. Infinite if nothing is known.
+/// Memory available to this process (bytes): MemAvailable, or less if a control group or the address-space limit leaves
+/// less. Infinite if unknown.
 double free_memory();
 
-/// Runs the work in a child process, forwards SIGINT, SIGTERM and SIGHUP to it, and returns its exit status, or ends as
-/// the child ended. Before that it ends all descendants of the child, removes temporary folders of dead processes, and
-/// tidies up unfinished results (see register_output()), none of it in a signal handler. If this supervisor is killed,
-/// the child is killed too, and the next start tidies up. Call it first in main(). If no process can be made, the work
-/// is done in this one. If a signal ends the work, `when_interrupted` is printed on standard error unless it is empty.
+/// Runs the work in a child process, forwards SIGINT, SIGTERM and SIGHUP to it, and returns its exit status, or ends
+/// the way the child ended. First it ends all descendants of the child, removes temporary folders of dead processes,
+/// and cleans up unfinished results (see register_output()), none of it in a signal handler. If this supervisor is
+/// killed, the child is killed too, and the next start cleans up. Call it first in main(). If no child process can be
+/// created, the work runs in this process. If a signal ends the work, `when_interrupted` is printed on standard error
+/// unless it is empty.
 int run_supervised(const std::function<int()>& work, const std::string& when_interrupted = "");
 
-/// Names a folder of results to tidy up if this process is killed. Does nothing without a supervisor.
+/// Registers a result folder for clean-up in case this process is killed. Does nothing without a supervisor.
 void register_output(const std::string& folder);
 
 }  // namespace crosscheck

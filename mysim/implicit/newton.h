@@ -19,29 +19,29 @@ namespace crosscheck {
 ///        + sum_d c_d (n_d . (moved_a - moved_b))^2 / (2 h)                  dashpots, moved = h v (x - x_n when free)
 /// has the gradient of the implicit Euler equations (J. Martin et al., ACM Trans. Graph. 30 (4), 2011). Air and the
 /// dashpots' directions n_d have no energy: they are frozen at a given position, and the caller repeats the solve with
-/// the new ones until nothing changes.
+/// updated values until the result no longer changes.
 class IncrementalPotential {
  public:
   explicit IncrementalPotential(System& f);
 
-  /// A step of h from the state.
+  /// Starts a step of length h (s) from the given state.
   void begin(const State& start, double h);
-  /// Freezes air and dashpot directions at x = y + u. True when the scene has any of them.
+  /// Freezes air and dashpot directions at x = y + u. Returns true if the scene has any of them.
   bool freeze(const Points& u);
 
-  double value(const Points& u);                 // J, up to a constant
-  double rounding() const { return rounding_; }  // J, of the last value: what two equal potentials may differ by
-  void gradient(const Points& u, Points& g);     // N; 0 at pins. One evaluation
+  double value(const Points& u);                             // J, up to a constant
+  double rounding() const { return rounding_; }              // J, of the last value(): bound of its rounding error
+  void gradient(const Points& u, Points& g);                 // N; 0 at pins. One evaluation
   double force_rounding() const { return force_rounding_; }  // N, of the last gradient
-  double force_scale() const { return force_scale_; }        // N, of the last gradient: its largest part
+  double force_scale() const { return force_scale_; }        // N, of the last gradient: its largest contribution
 
-  /// The matrix M/h^2 + C/h + K of the second derivatives at u.
+  /// Assembles the matrix M/h^2 + C/h + K of the second derivatives at u.
   void linearise(const Points& u, Curvature curvature);
   void apply(const Points& p, Points& out);               // out = matrix p. One evaluation
-  void precondition(const Points& r, Points& out) const;  // by the inverse 3 x 3 blocks on the diagonal
+  void precondition(const Points& r, Points& out) const;  // by the inverse 3 x 3 diagonal blocks
 
-  const Eigen::ArrayXd& inertia() const { return inertia_; }  // of each particle, in the matrix, N/m
-  /// Products with the matrix that were taken elsewhere.
+  const Eigen::ArrayXd& inertia() const { return inertia_; }  // per particle, in the matrix, N/m
+  /// Counts products with the matrix that were computed elsewhere.
   void count(double products) { f_.count(std::lround(products)); }
 
   const Points& inertial() const { return y_; }  // y, m
@@ -53,42 +53,42 @@ class IncrementalPotential {
 
   System& f_;
   const Model& model_;
-  Eigen::ArrayXd drag_;   // n, c, N s/m
-  double stiffness_ = 0;  // N/m, sum over all springs, those that stencils are included
+  Eigen::ArrayXd drag_;   // n values of c, N s/m
+  double stiffness_ = 0;  // N/m, sum over all springs, including those of bending stencils
   double stiffest_ = 0;   // N/m, largest sum over the springs of a particle
   State start_, end_;
   double h_ = 0;
   Points y_, moved_, a_;
   Forces frozen_air_;
   Tangent frozen_damping_;   // dashpots along the frozen directions
-  Eigen::ArrayXd inertia_;   // n, m / h^2 + c / h, N/m
+  Eigen::ArrayXd inertia_;   // n values of m / h^2 + c / h, N/m
   Tangent tangent_;          // springs, bending
-  Eigen::Matrix3Xd blocks_;  // 3 x 3n, inverted
+  Eigen::Matrix3Xd blocks_;  // 3 x 3n, inverse
   double rounding_ = 0, force_rounding_ = 0, force_scale_ = 0;
 };
 
-// Implicit steps: Newton's method with line search on the incremental potential, and its first step alone.
+// Newton's method with line search, and its first step alone.
 
-/// Of the largest force, which inertia m v / h is one of: what a step's equations are solved to. Round-off often comes
-/// first.
+/// Relative residual tolerance of the implicit solve, scaled by the largest force (inertia m v / h included). Often
+/// limited by round-off.
 inline constexpr double force_tolerance = 1e-12;
 
 class ImplicitStep {
  public:
-  /// Systems of large regular cloths are solved with a V-cycle as preconditioner; `plain`: those too by the list of
-  /// pairs, which defines what they are.
+  /// Systems of large regular cloths are solved with a V-cycle as preconditioner. With `plain`, they too are solved by
+  /// the list of pairs, which is the definition of the system.
   explicit ImplicitStep(System& f, bool plain = false);
 
-  /// Solves the implicit Euler equations of a step of h from s, to round-off or force_tolerance, whichever is
-  /// larger; returns the end state. Throws SolverFailure when Newton's method does not get there.
+  /// Solves the implicit Euler equations for a step of h (s) from s, to round-off or force_tolerance, whichever is
+  /// larger; returns the end state. Throws SolverFailure if Newton's method does not converge.
   const State& solve(const State& s, double h);
   /// One Newton step from y = x_n + h v_n with the clamped matrix; the linear system is solved to force_tolerance.
   const State& solve_linear(const State& s, double h);
 
-  /// Values of the incremental potential in the last solve(), J: at the start position, then after each Newton step
-  /// (of the last repetition, where air or dashpots need several).
+  /// Values of the incremental potential (J) in the last solve(): at the start position, then after each Newton step
+  /// (of the last repetition, if air or dashpots require several).
   const std::vector<double>& descent() const { return descent_; }
-  /// Of conjugate gradients, in the last system.
+  /// Conjugate gradient iterations in the last linear system.
   int iterations() const { return iterations_; }
   IncrementalPotential& potential() { return potential_; }
 

@@ -30,7 +30,7 @@ Energy energy_of(const Model& model, const State& state) {
   return e;
 }
 
-/// The springs that hold a pin, in their order.
+/// The springs attached to pins, in their original order.
 static Springs springs_at_pins(const Springs& springs, const Particles& particles) {
   Springs held{.law = springs.law};
   for (const Spring& s : springs.list)
@@ -66,11 +66,11 @@ Power power_of(const Model& model, const State& state, Forces& scratch) {
       [&](const Dashpots& t) {
         const Points& f = force_of(t);
         const double given = particles.move ? -on_pins(f) : 0;
-        // pairs lose what free ends lose and what moved pins put in
+        // pairs dissipate what free ends lose plus what moved pins supply
         p.dashpots += given - free_power(particles, f, state.v);
         p.pins += given;
       },
-      [](const Gravity&) {},                                             // its work is the change of its energy
+      [](const Gravity&) {},                                             // gravity's work is the change of its energy
       [](const OneOf<Rotation, Constraints, Spheres, Planes> auto&) {},  // no forces
   };
   for (const Term& term : model.terms) std::visit(add, term);

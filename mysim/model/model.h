@@ -1,17 +1,18 @@
-// The constant part of a scene: particles and the terms that act on them. The variant below is the table of terms:
-// a new term is a file in terms/, one line here, and one line in the reader's table (mysim/scene/scene.cpp).
+// The constant part of a scene: particles and the terms that act on them. The variant below is the table of terms: a
+// new term is a file in terms/, one line here, and one line in the reader's table (mysim/scene/scene.cpp).
 //
-// What a term does is said by the functions its file declares, found by overload:
+// The functions that a term's file declares, found by overload resolution, define what the term does:
 //   add_force(term, particles, state, forces)         a force
 //   potential_energy(term, particles, state)          an energy whose negative gradient is that force
 //   add_tangent(term, particles, state, curvature, tangent)   what implicit methods need of a force
 //   add_velocity(term, state, rate)                   a first-order velocity field
-// Forces on moving particles (dashpots, air) also say `uses_velocity`: leapfrog then treats them by themselves, so that
-// its order survives. Spheres, planes and constraints are no forces: contact acts on whole steps, constraints on
-// methods.
+// Terms with forces that depend on velocity (dashpots, air) also declare `uses_velocity`: leapfrog treats them
+// separately, which preserves its order. Spheres, planes and constraints are not forces: contact acts on whole steps,
+// constraints on methods.
 //
-// What must know every term (energies, hash, JSON, certificate, each engine) visits the variant with a function for
-// each and none for "the rest": a new term does not compile there until it is handled (new_term_slow_test.cpp).
+// Code that must handle every term (energies, hash, JSON, certificate, each engine) visits the variant with one
+// function per term and no generic fallback: a new term does not compile there until it is handled
+// (new_term_slow_test.cpp).
 #pragma once
 
 #include <concepts>
@@ -35,14 +36,14 @@ namespace crosscheck {
 using Term =
     std::variant<Rotation, Gravity, Springs, Bending, Dashpots, Constraints, Drag, Wind, Aerodynamics, Spheres, Planes>;
 
-/// Several functions as one, to visit a term with: each alternative of Term must find its own.
+/// Combines several functions into one visitor for a term; each alternative of Term must have its own.
 template <class... Functions>
 struct Overloaded : Functions... {
   using Functions::operator()...;
 };
 template <class... Functions>
-Overloaded(Functions...) -> Overloaded<Functions...>;  // clang deduces it for itself from version 17 on
-/// For the terms that a visitor passes over, by name: [](const OneOf<Drag, Wind> auto&) {}.
+Overloaded(Functions...) -> Overloaded<Functions...>;  // clang deduces this itself from version 17 on
+/// For terms that a visitor skips, by name: [](const OneOf<Drag, Wind> auto&) {}.
 template <class T, class... Terms>
 concept OneOf = (std::same_as<T, Terms> || ...);
 
@@ -71,7 +72,7 @@ struct Model {
   Particles particles;
   std::vector<Term> terms;  // the scene's ingredients; nothing else is evaluated
 
-  /// The term of that type, or null.
+  /// The term of type T, or null.
   template <class T>
   const T* find() const {
     for (const Term& term : terms)

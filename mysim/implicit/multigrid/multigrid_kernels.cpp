@@ -1,4 +1,5 @@
-// Stiffness, products, grid transfers and vectors of the V-cycle, compiled once for each instruction set.
+// Linearisation, matrix products, grid transfers and vector operations of the V-cycle, compiled once per instruction
+// set.
 #include "mysim/implicit/multigrid/multigrid_kernels.h"
 
 #include <cassert>
@@ -18,7 +19,7 @@ using L = simd::Lanes<T>;
 template <class T>
 using V = typename L<T>::V;
 
-/// A tile of so many numbers of each particle.
+/// Size of a tile that holds `numbers` values per particle.
 template <int numbers>
 inline constexpr int tile_size = numbers* lanes;
 
@@ -26,14 +27,14 @@ FORCE_INLINE long row_length(int tiles, int numbers) {
   return static_cast<long>(left_halo + tiles + right_halo) * numbers * lanes;
 }
 
-/// The first tile of a row of a field.
+/// First tile of a row of a field.
 template <class T>
 FORCE_INLINE T* row_of(T* field, int tiles, int row) {
   return field + row * row_length(tiles, 3) + left_halo * tile_size<3>;
 }
 
-/// Goes over the rows from the first: begin(row, sums) adds to sums[0] (the row itself) and to sums[1], sums[2] (the
-/// next ones), finish(row, sums) is called when all that reach a row have been added. `memory`: three rows.
+/// Visits the rows in order. begin(row, sums) adds to sums[0] (the row itself) and to sums[1], sums[2] (the next two);
+/// finish(row, sums) is called once all contributions to a row have been added. `memory`: three rows.
 template <int numbers, class T, class Begin, class Finish>
 FORCE_INLINE void over_rows(int rows, int tiles, T* memory, Begin begin, Finish finish) {
   const long length = row_length(tiles, numbers), first = left_halo * tile_size<numbers>;
@@ -49,7 +50,7 @@ FORCE_INLINE void over_rows(int rows, int tiles, T* memory, Begin begin, Finish 
   }
 }
 
-/// Sums lane by lane, whatever a register holds.
+/// Sums lane by lane, independent of the register width.
 struct Sum {
   alignas(64) double each[lanes] = {};
   double total() const {
@@ -59,12 +60,12 @@ struct Sum {
   }
 };
 
-// Stiffness of a cloth's springs, and the inverse blocks on the diagonal.
+// Stiffness of a cloth's springs, and the inverse diagonal blocks.
 
 using D = L<double>;
 using Vd = V<double>;
 
-/// m^2: ends nearer than its root have no direction, and their spring no stiffness.
+/// m^2: ends closer than the root of this have no direction, and their spring has no stiffness.
 inline constexpr double min_squared_length = 1e-290;
 
 struct Stiffness {
@@ -72,11 +73,11 @@ struct Stiffness {
   Vd block[6];  // N/m: xx yy zz xy xz yz
 };
 
-/// Of Hooke's law: along the spring k, across it k (1 - L / length).
+/// Stiffness by Hooke's law: k along the spring, k (1 - L / length) across it.
 FORCE_INLINE Stiffness stiffness_of(const Vd* d, Vd k, Vd rest, bool clamped) {
   Vd squared = D::fma(d[2], d[2], D::fma(d[1], d[1], d[0] * d[0]));
   const Vd inverse = simd::rsqrt<double, false>(D::max(squared, D::all(min_squared_length)));
-  // 1 where the ends are apart, 0 where they are in one place
+  // 1 where the ends are distinct, 0 where they coincide
   const Vd there = D::min(squared * D::all(1 / min_squared_length), D::all(1));
   Stiffness s;
   s.a = there * k * D::fnma(rest, inverse, D::all(1));
@@ -123,7 +124,7 @@ void linearise(const SpringGeometry& s, double* const* springs, double* blocks) 
       });
 }
 
-/// The inverses are found by cofactors, and are as symmetric as the blocks.
+/// Inverts by cofactors, which keeps the inverse exactly as symmetric as the block.
 void invert(double* blocks, const double* inertia, const double* free, long count) {
   assert(count >= 0);
   for (long i = 0; i < count; ++i, blocks += tile_size<6>, inertia += lanes, free += lanes)
@@ -135,7 +136,7 @@ void invert(double* blocks, const double* inertia, const double* free, long coun
       const Vd cofactors[6] = {D::fnma(yz, yz, yy * zz), D::fnma(xz, xz, xx * zz), D::fnma(xy, xy, xx * yy),
                                D::fnma(xy, zz, xz * yz), D::fnma(xz, yy, xy * yz), D::fnma(yz, xx, xy * xz)};
       const Vd determinant = D::fma(xz, cofactors[4], D::fma(xy, cofactors[3], xx * cofactors[0]));
-      // where nothing is free there may be nothing to divide by
+      // the determinant of a fixed particle's block may be zero
       const Vd over = open / (determinant + (D::all(1) - open));
       for (int c = 0; c < 6; ++c) D::store(at + c * lanes, over * cofactors[c]);
     }
@@ -145,12 +146,12 @@ void to_float(const double* from, float* to, long count) {
   for (long i = 0; i < count; ++i) to[i] = static_cast<float>(from[i]);
 }
 
-// Products with the matrix of a cloth, and what is done with them row by row.
+// Products with a cloth's matrix, and the operations performed on them row by row.
 
 template <int value>
 struct Number {};
 
-/// a d + (n . d) n onto one end, and taken from the other.
+/// Adds a d + (n . d) n to one end and subtracts it from the other.
 template <class T>
 FORCE_INLINE void spring(const V<T>* near, V<T>* own, const T* far, T* other, const T* s) {
   const V<T> n[3] = {L<T>::load(s), L<T>::load(s + lanes), L<T>::load(s + 2 * lanes)}, a = L<T>::load(s + 3 * lanes);
@@ -164,7 +165,7 @@ FORCE_INLINE void spring(const V<T>* near, V<T>* own, const T* far, T* other, co
   }
 }
 
-/// K x of the springs that begin in a row.
+/// K x of the springs that start in a row.
 template <class T>
 FORCE_INLINE void springs_of_row(const Matrix<T>& m, const T* x, int row, T* const* sums) {
   const long length = row_length(m.tiles, 3);
@@ -186,8 +187,8 @@ FORCE_INLINE void springs_of_row(const Matrix<T>& m, const T* x, int row, T* con
     }
 }
 
-/// take(place in the row of a field, number of the tile and lane, A x there), for each register of each row; then
-/// done(row).
+/// Calls take(position in the field, tile index, lane, A x there) for each register of each row, then done(position of
+/// the row).
 template <class T, class Take, class Done>
 FORCE_INLINE void each_product(const Matrix<T>& m, const T* x, Take take, Done done) {
   over_rows<3>(
@@ -288,15 +289,15 @@ void residual(const Matrix<float>& m, const float* b, const float* x, float* r) 
       [&](long begin) __attribute__((always_inline)) { fill_halo<tile_size<3>>(r + begin, m.tiles); });
 }
 
-// From a grid to the next coarser one and back.
+// Transfer between a grid and the next coarser one.
 
 using F = L<float>;
 using Vf = V<float>;
 
-/// The weights of the coarse row, and of the next, in the fine row below an even one.
+/// Restriction weight of the fine row below an even one: 1/2, or 1 if there is no next coarse row.
 FORCE_INLINE float down(const Transfer& t, int coarse_row) { return coarse_row + 1 < t.coarse_rows ? 0.5f : 1; }
 
-/// Along a fine row: what coarse particles are given of it.
+/// Fine-row values gathered onto the coarse particles of a tile.
 FORCE_INLINE Vf gathered(const Transfer& t, const float* fine, int tile, int lane, int c) {
   const float* at = fine + 2L * tile * tile_size<3> + c * lanes + lane;
   const Vf right = F::load(t.right + tile * lanes + lane), left = F::load(t.left + tile * lanes + lane);
@@ -321,7 +322,7 @@ void restrict_residual(const Transfer& t, const float* r, float* b) {
   }
 }
 
-/// Adds to a fine row `one` times a coarse row and `two` times the next.
+/// Adds `one` times a coarse row and `two` times the next coarse row to a fine row.
 FORCE_INLINE void spread(const Transfer& t, const float* coarse, float one, float two, const float* free, float* fine) {
   const long next_row = two == 0 ? 0 : row_length(t.coarse_tiles, 3);
   const auto between = [&](const float* at) __attribute__((always_inline)) {
@@ -355,9 +356,9 @@ void prolong_and_add(const Transfer& t, const float* coarse, const float* free, 
   }
 }
 
-// Vectors of conjugate gradients.
+// Vector operations of conjugate gradients.
 
-/// take(place, lane) for each register of a row's tiles; then done(place of the row).
+/// Calls take(position, lane) for each register of a row's tiles, then done(position of the row).
 template <class Take, class Done>
 FORCE_INLINE void each_place(int rows, int tiles, Take take, Done done) {
   for (int row = 0; row < rows; ++row) {
@@ -385,7 +386,7 @@ double update_solution(const Matrix<double>& m, double length, const double* p, 
   return sum.total();
 }
 
-/// Numbers of single precision as doubles.
+/// Single-precision values as doubles.
 FORCE_INLINE Vd widened(const float* z) {
   alignas(64) double wide[D::width];
   for (int j = 0; j < D::width; ++j) wide[j] = z[j];

@@ -1,4 +1,4 @@
-// The grids of the V-cycle and their memory, the V-cycle itself, and conjugate gradients around it.
+// The grids of the V-cycle and their memory, the V-cycle itself, and the conjugate gradients that use it.
 #include "mysim/implicit/multigrid/solver.h"
 
 #include <algorithm>
@@ -13,7 +13,7 @@ Kernels kernels(simd::InstructionSet isa) { return SELECT_COMPILED(isa, kernels_
 
 Layout Layout::of(const GridTopology& topology) {
   assert(topology.rows > 0 && topology.columns > 0);
-  // down to one tile or three; the rest are empty lanes, a third of them at most
+  // halve down to one tile or three; the remaining lanes, at most a third, stay empty
   int tiles = (topology.columns + lanes - 1) / lanes, times = 1;
   for (; tiles > 3; tiles = (tiles + 1) / 2) times *= 2;
   return {topology.rows, topology.columns, tiles * times == 3 ? 4 : tiles * times};
@@ -104,19 +104,21 @@ void Level::linearise_unclamped(const Kernels& f) {
 
 namespace {
 
-/// Chebyshev's rounds against eigenvalues of D^-1 A in [lowest, highest], where it is 2 at most (multigrid_kernels.h).
+/// Chebyshev iteration for eigenvalues of D^-1 A in [lowest, highest]; the upper bound is 2 (multigrid_kernels.h).
 struct ChebyshevSmoother {
   int rounds;
   double lowest, highest = 2;
 };
-// the next grid holds waves of four of this one's springs and longer, whose eigenvalues are below about a fifth of 2;
-// by trial on hanging cloths of 24 to 128 columns at 60 and 240 steps a second one to four rounds take the same time
+// The next grid resolves waves of at least four of this grid's springs, whose eigenvalues are below about a fifth of 2.
+// In trials on hanging cloths of 24 to 128 columns at 60 and 240 steps per second, one to four rounds took the same
+// time.
 constexpr ChebyshevSmoother level_smoother{2, 0.4};
-/// With the share s of inertia in the diagonal D, D^-1 A has eigenvalues in [s, 2 - s], and Chebyshev's rounds reduce
-/// by 1 / cosh(rounds acosh(1 / (1 - s))) (Y. Saad, Iterative Methods for Sparse Linear Systems, 2003, 12.3.2): by ten,
-/// five rounds from this share on, which is less work than a coarser grid.
+/// With the share s of inertia in the diagonal D, D^-1 A has eigenvalues in [s, 2 - s], and Chebyshev iteration reduces
+/// the error by 1 / cosh(rounds acosh(1 / (1 - s))) (Y. Saad, Iterative Methods for Sparse Linear Systems, 2003,
+/// 12.3.2). At this share or above, five rounds reduce it tenfold, with less work than a coarser grid.
 constexpr double enough_inertia = 0.2;
-/// On the coarsest grid: rounds that reduce by ten, where inertia is less as many as a pull needs to cross it.
+/// On the coarsest grid: enough rounds for a tenfold reduction; with less inertia, as many as a pull needs to cross the
+/// grid.
 ChebyshevSmoother coarsest_smoother(const Level& level) {
   if (const double share = level.inertia_share(); share >= enough_inertia)
     return {static_cast<int>(std::ceil(std::acosh(10.) / std::acosh(1 / (1 - share)))), share, 2 - share};
@@ -177,7 +179,7 @@ void VCycle::set_inertia(const Eigen::ArrayXd& inertia) {
   levels_.front().load_inertia();
   for (size_t l = 1; l < levels_.size(); ++l) {
     const Layout &fine = levels_[l - 1].layout(), &coarse = levels_[l].layout();
-    // of each particle, given to the coarse ones that it is joined to
+    // distribute each particle's inertia to the coarse particles that interpolate it
     Eigen::ArrayXd& sum = levels_[l].inertia.setZero();
     for (int row = 0; row < fine.rows; ++row)
       for (int column = 0; column < fine.columns; ++column)
@@ -199,7 +201,7 @@ void VCycle::set(const Eigen::ArrayXd& inertia, const Points& x, Curvature curva
       level.layout().put(x, 1, level.x);
     else
       levels_[l - 1].layout().inject(levels_[l - 1].x, level.x);
-    // what relaxation and coarse grids do must be positive definite, even where the matrix is not
+    // relaxation and coarse grids must be positive definite, even where the matrix is not
     level.linearise(kernels_);
     if (l == 0 && curvature == Curvature::exact) level.linearise_unclamped(kernels_);
   }
@@ -209,7 +211,7 @@ double VCycle::products() const {
   double sum = 0;
   for (size_t l = 0; l <= coarsest_; ++l) {
     const Level& level = levels_[l];
-    // the first round, from 0, takes none
+    // the first round starts from 0 and needs no product
     const double own = l == coarsest_ ? coarsest_smoother(level).rounds - 1 : 2 * level_smoother.rounds;
     sum += own * static_cast<double>(level.free.size()) / static_cast<double>(levels_.front().free.size());
   }
@@ -232,7 +234,7 @@ void VCycle::cycle(size_t l) {
 namespace {
 
 constexpr int most_iterations = 500;
-// smaller ones are solved as fast, or faster, spring by spring
+// smaller cloths are solved at least as fast spring by spring
 constexpr int fewest_rows = 12, fewest_columns = 20;
 
 }  // namespace
@@ -255,7 +257,7 @@ CgResult MultigridSolver::solve(const Eigen::ArrayXd& inertia, const Points& x, 
   u.setZero(3, b.cols());
   if ((result.converged = size == 0)) return result;
 
-  // b / |b|: numbers near 1 are far from both ends of what single precision can hold
+  // b / |b|: values near 1 stay within the range of single precision
   v_cycle_.layout().put(b, 1 / size, r_);
   for (AlignedBuffer<double>* field : {&u_, &p_, &q_}) std::fill_n(field->data(), field->size(), 0);
   f.to_float(r_.data(), v_cycle_.b().data(), static_cast<long>(r_.size()));
@@ -265,8 +267,8 @@ CgResult MultigridSolver::solve(const Eigen::ArrayXd& inertia, const Points& x, 
     double products[2];
     f.dot_products(a, r_.data(), q_.data(), v_cycle_.u().data(), products);
     ++result.iterations;
-    // the preconditioner is rounded in single precision, so that it is not quite the same matrix in each iteration:
-    // beta = z.(r - r_before) / (z.r)_before (Polak and Ribiere's) holds directions conjugate all the same
+    // The preconditioner is rounded to single precision and therefore differs slightly between iterations. The formula
+    // beta = z.(r - r_before) / (z.r)_before (Polak and Ribiere) keeps the directions conjugate nevertheless.
     keep = result.iterations > 1 ? -keep * products[1] / rz : 0;
     rz = products[0];
     f.update_direction(a, v_cycle_.u().data(), keep, p_.data());

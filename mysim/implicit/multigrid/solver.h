@@ -1,4 +1,4 @@
-// Linear solvers of implicit steps: conjugate gradients, alone or with a multigrid V-cycle on a cloth.
+// Linear solvers of implicit steps: conjugate gradients, alone or preconditioned by a multigrid V-cycle on a cloth.
 #pragma once
 
 #include <cassert>
@@ -16,12 +16,12 @@
 
 namespace crosscheck {
 
-// Conjugate gradients for a symmetric matrix that is never formed, on N (3 x n) columns, with a preconditioner.
+// Conjugate gradients with a preconditioner for a symmetric matrix that is never assembled; vectors are 3 x n, in N.
 
 struct CgResult {
   int iterations = 0;
   bool converged = false;
-  bool negative_curvature = false;  // a direction p with p . A p <= 0 was met: the matrix is not positive definite
+  bool negative_curvature = false;  // a direction p with p . A p <= 0 was found: the matrix is not positive definite
 };
 
 /// Working memory, kept between solves.
@@ -30,7 +30,7 @@ struct CgMemory {
 };
 
 /// Solves A x = b from x = 0 until |b - A x| <= tolerance |b|. apply(p, q): q = A p. precondition(r, z): z = M^-1 r
-/// with M symmetric positive definite. Stops at once at negative curvature, x being the direction of it.
+/// with M symmetric positive definite. Stops immediately at negative curvature and returns that direction in x.
 template <class Apply, class Precondition>
 CgResult conjugate_gradients(Apply apply, Precondition precondition, const Points& b, double tolerance,
                              int most_iterations, Points& x, CgMemory& m) {
@@ -67,7 +67,7 @@ namespace crosscheck::multigrid {
 
 Kernels kernels(simd::InstructionSet isa);
 
-// Where the particles of a cloth stand in lanes, and numbers of them put there and taken back.
+// Placement of a cloth's particles in lanes, with conversion to and from this layout.
 
 using simd::AlignedBuffer;
 using simd::GridTopology;
@@ -75,9 +75,9 @@ using simd::GridTopology;
 struct Layout {
   int rows, columns, tiles;
 
-  /// As many tiles as can be halved often, few of them empty.
+  /// Chooses a number of tiles that can be halved often and leaves few of them empty.
   static Layout of(const GridTopology& topology);
-  /// Every second row and column.
+  /// The layout of every second row and column.
   Layout coarsened() const { return {(rows + 1) / 2, (columns + 1) / 2, tiles / 2}; }
   bool can_coarsen() const { return tiles % 2 == 0 && rows > 2; }
 
@@ -88,7 +88,7 @@ struct Layout {
     return AlignedBuffer<T>(static_cast<size_t>(rows) * row_length());
   }
 
-  /// take(index of the particle, place among rows x tiles x lanes, place of its first number in a field).
+  /// Calls take(particle index, position among rows x tiles x lanes, position of its first component in a field).
   template <class Take>
   void each(Take take) const {
     for (int row = 0; row < rows; ++row)
@@ -97,39 +97,39 @@ struct Layout {
           take(row * columns + column, (static_cast<long>(row) * tiles + tile) * lanes + lane,
                row * row_length() + static_cast<long>(left_halo + tile) * 3 * lanes + lane);
   }
-  /// Every second row and column of a field, without the halo.
+  /// Copies every second row and column of a field, without the halo.
   void inject(const AlignedBuffer<double>& fine, AlignedBuffer<double>& coarse) const;
-  /// Points into a field, without its halo.
+  /// put() copies points times `factor` into a field, without its halo; get() copies them back.
   void put(const Points& points, double factor, AlignedBuffer<double>& field) const;
   void get(const AlignedBuffer<double>& field, double factor, Points& points) const;
 };
 
-// One of the grids: its springs, its matrix and the vectors of the V-cycle on it.
+// One grid: its springs, its matrix and the V-cycle's vectors on it.
 
 class Level {
  public:
-  /// Springs `times_longer` than those of the topology, and as stiff.
+  /// Springs are `times_longer` than those of the topology, with the same stiffness.
   Level(const Layout& layout, const GridTopology& topology, double times_longer);
 
   const Layout& layout() const { return layout_; }
   const Matrix<float>& matrix() const { return matrix_; }
   const Matrix<double>& exact() const { return exact_; }
 
-  Eigen::ArrayXd inertia, free;          // of the particles: N/m; 1 or 0
+  Eigen::ArrayXd inertia, free;          // per particle: N/m; 1 or 0
   AlignedBuffer<double> x;               // m, a field
   AlignedBuffer<float> b, u, change, r;  // fields: right side and solution of the V-cycle, and working memory
 
-  void load_inertia();  // from `inertia` and `free`
-  /// Of inertia in the diagonal of the matrix, at least, over all particles: 1 without springs.
+  void load_inertia();  // reads `inertia` and `free`
+  /// Smallest share of inertia in the matrix diagonal over all particles; 1 without springs.
   double inertia_share() const { return inertia_share_; }
-  /// Clamped stiffness at x, and the inverse blocks on the diagonal.
+  /// Computes the clamped stiffness at x, and the inverse diagonal blocks.
   void linearise(const Kernels& f);
-  /// Stiffness as it is, in exact() alone.
+  /// Computes the exact (unclamped) stiffness, in exact() only.
   void linearise_unclamped(const Kernels& f);
 
  private:
   Layout layout_;
-  double stiffness_ = 0, inertia_share_ = 0;  // N/m, largest sum over the springs of a particle; 1
+  double stiffness_ = 0, inertia_share_ = 0;  // N/m, largest sum over the springs of a particle; dimensionless
   SpringGeometry geometry_{};
   AlignedBuffer<double> k_[directions], springs_[directions], inertia_, free_, blocks_, sums_, force_;
   AlignedBuffer<float> single_springs_[directions], single_inertia_, single_free_, single_blocks_, single_force_;
@@ -138,28 +138,28 @@ class Level {
   Matrix<double> exact_{};
 };
 
-// The matrix of a cloth, and the V-cycle over its coarser grids.
+// A cloth's matrix, and the V-cycle over its coarser grids.
 
 class VCycle {
  public:
   VCycle(const GridTopology& topology, const std::vector<int>& pins);
 
-  /// inertia: of each particle, N/m; x: positions, m (3 x n).
+  /// inertia: per particle, N/m; x: positions, m (3 x n).
   void set(const Eigen::ArrayXd& inertia, const Points& x, Curvature curvature);
 
   const Kernels& kernels() const { return kernels_; }
   const Layout& layout() const { return levels_.front().layout(); }
   const Matrix<double>& exact() const { return levels_.front().exact(); }
 
-  /// Right side and solution of one V-cycle: fields.
+  /// Right-hand side and solution of one V-cycle: fields.
   AlignedBuffer<float>& b() { return levels_.front().b; }
   const AlignedBuffer<float>& u() const { return levels_.front().u; }
   void cycle() { cycle(0); }
-  /// Products that a cycle takes, those of coarse grids by their number of particles.
+  /// Products per cycle; those on coarse grids count in proportion to their number of particles.
   double products() const;
 
  private:
-  /// From a grid to the next coarser one.
+  /// Transfer from a grid to the next coarser one.
   struct GridTransfer {
     Transfer transfer{};
     AlignedBuffer<float> right, left;
@@ -171,24 +171,24 @@ class VCycle {
   Kernels kernels_;
   std::vector<Level> levels_;
   std::vector<GridTransfer> transfers_;
-  Eigen::ArrayXd inertia_;  // of the particles, as last set
-  size_t coarsest_ = 0;     // level: the first on which relaxation alone does
+  Eigen::ArrayXd inertia_;  // per particle, as last set
+  size_t coarsest_ = 0;     // index of the first level on which relaxation alone suffices
 };
 
-// Conjugate gradients for the systems of implicit steps on a cloth.
+// Conjugate gradients for the linear systems of implicit steps on a cloth.
 
 class MultigridSolver {
  public:
   MultigridSolver(const GridTopology& topology, const std::vector<int>& pins);
 
-  /// Solves (inertia + K(x)) u = b for u (3 x n), until |b - A u| <= tolerance |b|. `inertia` (N/m) is of each
-  /// particle, x (m) and b (N) are 3 x n; pins do not move. As conjugate_gradients (mysim/implicit): what is left is
-  /// the recurrence's, and the solve stops at once at negative curvature, u being the direction of it. Gives up after
-  /// 500 iterations, ten times what cloths are known to take.
+  /// Solves (inertia + K(x)) u = b for u (3 x n) until |b - A u| <= tolerance |b|. `inertia` (N/m) is per particle, x
+  /// (m) and b (N) are 3 x n; pins do not move. As in conjugate_gradients(), the residual is the recurrence's, and the
+  /// solve stops immediately at negative curvature with that direction in u. Gives up after 500 iterations, ten times
+  /// the number that cloths are known to need.
   CgResult solve(const Eigen::ArrayXd& inertia, const Points& x, Curvature curvature, const Points& b, double tolerance,
                  Points& u);
 
-  /// Products with the matrix that an iteration takes, those of coarse grids by their size.
+  /// Matrix products per iteration; those on coarse grids count in proportion to their size.
   double products() const { return 1 + v_cycle_.products(); }
 
  private:
@@ -196,7 +196,7 @@ class MultigridSolver {
   AlignedBuffer<double> u_, r_, p_, q_;
 };
 
-/// Null unless the model is a regular cloth, large enough, whose springs alone have a stiffness.
+/// Null unless the model is a sufficiently large regular cloth whose stiffness comes from springs only.
 std::unique_ptr<MultigridSolver> make_multigrid_solver(const Model& model);
 
 }  // namespace crosscheck::multigrid
