@@ -1,4 +1,4 @@
-// Positions of the pins at a time: the prescribed motion and its derivative.
+// Positions and velocities of the pins at a given time, from the prescribed motion and its derivative.
 #include "mysim/particles.h"
 
 #include <cassert>
@@ -10,7 +10,7 @@ namespace crosscheck {
 namespace {
 
 struct Ramp {
-  double value, slope;  // 1, 1/s
+  double value, slope;  // dimensionless, 1/s
 };
 
 Ramp ramp_at(double t, double length) {

@@ -10,8 +10,8 @@ namespace crosscheck {
 
 // Prescribed motion of pins and spheres.
 
-/// Prescribed motion, of all pins together or of a sphere: displacement d(t) = amplitude r(t) sin(2 pi frequency t),
-/// where the ramp r rises from 0 to 1 in the first `ramp` seconds as 6 s^5 - 15 s^4 + 10 s^3 (twice continuously
+/// Prescribed motion of a sphere, or of all pins together: displacement d(t) = amplitude r(t) sin(2 pi frequency t),
+/// where the ramp r rises from 0 to 1 during the first `ramp` seconds as 6 s^5 - 15 s^4 + 10 s^3 (twice continuously
 /// differentiable).
 struct Motion {
   Vec3 amplitude;    // m
@@ -19,24 +19,24 @@ struct Motion {
   double ramp;       // s
 };
 
-/// A bound of |d'(t)|, m/s: |amplitude| (omega + 15/8 / ramp), 15/8 being the ramp's steepest slope.
+/// Upper bound of |d'(t)| (m/s): |amplitude| (omega + 15/8 / ramp), where 15/8 is the ramp's steepest slope.
 double max_speed(const Motion& motion);
 Vec3 displacement_at(const Motion& motion, double t);  // m
 Vec3 velocity_at(const Motion& motion, double t);      // m/s, the derivative of displacement_at
 
-// The constant part of the particles: masses, which of them are pinned, and how the pins move.
+// Masses, pinned particles, and the motion of the pins.
 
 struct Particles {
-  Eigen::VectorXd mass;        // n, kg; pinned particles have one too (energies leave it out)
+  Eigen::VectorXd mass;        // n, kg; includes pinned particles, which energies ignore
   std::vector<int> pins;       // indices of the pinned particles, ascending
   std::vector<char> pinned;    // n; 1 where pinned
-  Points pin_home;             // 3 x pins, m: where each pin is at t = 0
-  std::optional<Motion> move;  // none: the pins stand still
+  Points pin_home;             // 3 x pins, m: position of each pin at t = 0
+  std::optional<Motion> move;  // none: the pins are fixed
 
   int size() const { return static_cast<int>(mass.size()); }
-  /// Writes positions and velocities that the pins have at state.t.
+  /// Sets the pins' positions and velocities at state.t.
   void place_pins(State& state) const;
-  void place_pin_velocities(State& state) const;  // the second half of it
+  void place_pin_velocities(State& state) const;  // velocities only
 };
 
 }  // namespace crosscheck

@@ -1,4 +1,4 @@
-// Sine and cosine with the same bits wherever doubles are IEEE's: C libraries differ in the last digit.
+// Sine and cosine with identical bits on every platform with IEEE doubles; C libraries differ in the last digit.
 #pragma once
 
 #include <cmath>
@@ -6,15 +6,15 @@
 
 namespace crosscheck {
 
-/// An angle less the nearest multiple of pi/2.
+/// An angle minus the nearest multiple of pi/2.
 struct ReducedAngle {
-  double rest, tail;  // rad: at most pi/4 in size, and what its rounding left
-  unsigned quarter;   // which multiple, modulo 4
+  double rest, tail;  // rad: at most pi/4 in magnitude; its rounding error
+  unsigned quarter;   // the multiple, modulo 4
 };
 
-/// Cody and Waite's reduction: pi/2 in three parts, of which the first two have 33 bits, so that their products with
-/// the multiple are exact while that has 20, up to 1.6e6 rad (W. J. Cody and W. Waite, Software Manual for the
-/// Elementary Functions, chapter 8).
+/// Cody and Waite's reduction: pi/2 is split into three parts, the first two with 33 bits, so that their products with
+/// the multiple are exact as long as it has at most 20 bits, up to 1.6e6 rad (W. J. Cody and W. Waite, Software Manual
+/// for the Elementary Functions, chapter 8).
 inline ReducedAngle reduced(double x) {
   constexpr double first = 0x1.921fb544p+0, second = 0x1.0b4611a6p-34, third = 0x1.3198a2e037073p-69;
   constexpr double per_quarter = 0x1.45f306dc9c883p-1;  // 2 / pi
@@ -24,7 +24,7 @@ inline ReducedAngle reduced(double x) {
   return {rest, left - (rest - rough), static_cast<unsigned>(static_cast<long long>(multiple)) & 3u};
 }
 
-/// Taylor's series of sine up to r^17, of cosine up to r^16: at pi/4 the next terms are 1e-19 and 2e-18 of the value.
+/// Taylor series of sine up to r^17 and cosine up to r^16: at pi/4 the next terms are 1e-19 and 2e-18 of the value.
 inline double sine_near_zero(const ReducedAngle& angle) {
   const double r = angle.rest, z = r * r;
   double sum = 1 / 355687428096000.0;
@@ -41,8 +41,8 @@ inline double cosine_near_zero(const ReducedAngle& angle) {
   return 1 - (0.5 * z - (z * (z * sum) - r * angle.tail));
 }
 
-/// sin x and cos x to within one unit in the last place up to 1e6 rad; NaN of what is not finite. Needs arithmetic
-/// without fused multiply-add, which all builds of mysim have.
+/// sin x and cos x to within one unit in the last place up to 1e6 rad; NaN for non-finite x. Requires arithmetic
+/// without fused multiply-add, which all builds of mysim guarantee.
 inline double portable_sin(double x) {
   if (!std::isfinite(x)) return x - x;
   const ReducedAngle angle = reduced(x);

@@ -1,4 +1,4 @@
-// The star of springs of one particle inside a net, and the tensor of stiffness that it is.
+// Stiffness tensor of a regular network, from the springs of one inner particle (its star).
 #include "mysim/model/moduli.h"
 
 #include <fmt/format.h>
@@ -13,12 +13,12 @@
 namespace crosscheck {
 namespace {
 
-constexpr double round_off = 1e-9;  // of lengths: positions of a scene file are rounded to 1e-16 of the scene's size
+constexpr double round_off = 1e-9;  // relative: positions of a scene file are rounded to 1e-16 of its size
 
 struct Arm {
-  Vec3 to;        // m, the other end
-  double k;       // N/m, at its length
-  Family family;  // whose it is
+  Vec3 to;        // m, to the other end
+  double k;       // N/m, tangent stiffness at its length
+  Family family;  // of the spring
 };
 using Star = std::vector<Arm>;
 
@@ -30,16 +30,15 @@ bool holds(const Star& star, const Arm& arm, double sign) {
   return std::any_of(star.begin(), star.end(), [&](const Arm& own) { return are_equal(own, arm, sign); });
 }
 
-/// The shortest displacements from a particle to others that are no combinations of one another: as many as the
-/// particles have dimensions.
+/// The shortest linearly independent displacements from a particle to others: as many as the particles span dimensions.
 std::vector<Vec3> lattice_vectors(const Points& x, int from) {
   std::vector<Vec3> all, basis;
   for (int i = 0; i < x.cols(); ++i)
-    if (const Vec3 d = x.col(i) - x.col(from); d.norm() > 0) all.push_back(d);  // others at the same place say nothing
+    if (const Vec3 d = x.col(i) - x.col(from); d.norm() > 0) all.push_back(d);  // coincident: no information
   if (all.empty()) return basis;
   double shortest = INFINITY;
   for (const Vec3& d : all) shortest = std::min(shortest, d.norm());
-  // equally long ones stay in the order of the particles
+  // equal lengths keep the order of the particles
   const auto length = [&](const Vec3& d) { return std::round(d.norm() / (round_off * shortest)); };
   std::stable_sort(all.begin(), all.end(), [&](const Vec3& a, const Vec3& b) { return length(a) < length(b); });
   for (const Vec3& d : all) {
@@ -66,7 +65,7 @@ double measure_of_cell(const std::vector<Vec3>& basis) {
 
 namespace {
 
-/// The strain (e11, e22, 2 e12) of a sheet under a unit pull at an angle from axis 1; nothing where the net does not
+/// Strain (e11, e22, 2 e12) of a sheet under a unit pull at an angle from axis 1; nothing if the network does not
 /// resist it.
 std::optional<Eigen::Vector3d> strain_under_pull(const Moduli& m, double angle) {
   const Eigen::Matrix3d c{{m.c11, m.c12, m.c16}, {m.c12, m.c22, m.c26}, {m.c16, m.c26, m.c66}};
@@ -115,7 +114,7 @@ double Moduli::young_at(double angle) const {
 
 std::pair<double, double> Moduli::young_range() const {
   std::pair<double, double> range{INFINITY, 0};
-  constexpr int angles = 720;  // the modulus is smooth: an extreme between two angles is missed by 1e-5
+  constexpr int angles = 720;  // the modulus is smooth: an extremum between two angles is missed by at most 1e-5
   for (int i = 0; i < angles; ++i) {
     const double at = young_at(std::numbers::pi * i / angles);
     range = {std::min(range.first, at), std::max(range.second, at)};
@@ -153,7 +152,7 @@ std::vector<std::string> sentences_of(const Moduli& m) {
 std::string skip_one_warning(const Moduli& m) {
   if (!(m.c11_of_bend > 0.5 * m.c11) || m.dimension != 2) return "";
   return fmt::format(
-      "skip-one springs (bend) make {:.0f} % of the stiffness in the plane, and give a flat sheet no bending rigidity",
+      "skip-one springs (bend) contribute {:.0f} % of the in-plane stiffness, but no bending rigidity of a flat sheet",
       100 * m.c11_of_bend / m.c11);
 }
 
@@ -171,7 +170,7 @@ NetModuli moduli_of(const Model& model, const State& start) {
     stars[static_cast<size_t>(s.b)].push_back({-d, k, s.family});
   }
 
-  // the particle nearest to the middle among those with the most springs, each of which has one opposite to it
+  // The particle nearest to the middle among those with the most springs, all of which have an opposite spring.
   const Vec3 middle = x.rowwise().mean();
   int inside = -1;
   for (int i = 0; i < x.cols(); ++i) {
@@ -200,7 +199,7 @@ NetModuli moduli_of(const Model& model, const State& start) {
   Moduli m;
   m.dimension = static_cast<int>(basis.size());
   const double cell = measure_of_cell(basis);
-  Eigen::Matrix<double, 6, 6> whole = Eigen::Matrix<double, 6, 6>::Zero();  // the tensor in Voigt's order
+  Eigen::Matrix<double, 6, 6> whole = Eigen::Matrix<double, 6, 6>::Zero();  // the tensor in Voigt notation
   for (const Arm& arm : star) {
     const double n1 = arm.to.normalized().dot(e1), n2 = arm.to.normalized().dot(e2),
                  weight = arm.k * arm.to.squaredNorm() / (2 * cell);
@@ -216,7 +215,7 @@ NetModuli moduli_of(const Model& model, const State& start) {
     whole += weight * n * n.transpose();
     if (arm.family == Family::bend) m.c11_of_bend += weight * n1 * n1 * n1 * n1;
   }
-  // Cauchy's relation: so it is with central forces where each particle is a centre of symmetry
+  // Cauchy's relation, which holds for central forces if each particle is a centre of symmetry
   m.c66 = m.c12;
   Eigen::Matrix<double, 6, 6> cubic = Eigen::Matrix<double, 6, 6>::Zero();
   for (int i = 0; i < m.dimension; ++i)
@@ -248,15 +247,16 @@ std::optional<BendingLength> bending_length_of(const Model& model, const State& 
 std::string sentence_of(const BendingLength& bending) {
   const std::string rigidity = fmt::format("B = {:.4g} N m, Poisson's ratio 0", bending.rigidity);
   if (std::isinf(bending.length)) return rigidity;
-  return fmt::format("{}; it folds under its weight over (B/w)^(1/3) = {:.3g} m, {:.3g} spacings of the grid", rigidity,
-                     bending.length, bending.spacings());
+  return fmt::format("{}; under its weight it folds at the length (B/w)^(1/3) = {:.3g} m, {:.3g} spacings of the grid",
+                     rigidity, bending.length, bending.spacings());
 }
 
 std::string coarse_grid_warning(const BendingLength& bending) {
-  // a fold needs a particle on its way down and one on its way up
+  // a fold needs one particle on its descending and one on its ascending side
   if (!(bending.spacings() < 2)) return "";
-  return fmt::format("folds of {:.3g} m, which bending and weight ask for, are finer than two spacings of {:.3g} m",
-                     bending.length, bending.spacing);
+  return fmt::format(
+      "folds of {:.3g} m, as bending and weight produce them, are finer than two grid spacings of {:.3g} m",
+      bending.length, bending.spacing);
 }
 
 }  // namespace crosscheck

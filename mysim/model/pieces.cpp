@@ -1,4 +1,4 @@
-// Union-find over the springs, and a sweep along one direction.
+// Union-find over the springs, and a sweep along one direction for coincident particles.
 #include "mysim/model/pieces.h"
 
 #include <algorithm>
@@ -31,7 +31,7 @@ std::vector<int> pieces_of(const Model& model) {
 }
 
 std::vector<std::pair<int, int>> coincident_pairs(const Points& x, double distance) {
-  // a direction along which the particles of grids have distinct coordinates
+  // a direction along which grid particles have distinct coordinates
   const Eigen::VectorXd along = x.transpose() * Vec3(0.48, 0.55, 0.68).normalized();
   std::vector<int> order(along.size());
   std::iota(order.begin(), order.end(), 0);

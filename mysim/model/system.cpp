@@ -1,4 +1,4 @@
-// Sums the terms of a model into accelerations; power iteration for its highest natural frequency.
+// Sum of a model's terms as accelerations, and power iteration for its highest natural frequency.
 #include "mysim/model/system.h"
 
 #include <cassert>
@@ -21,7 +21,7 @@ void add_stiffness(const Model& model, const State& state, Curvature curvature, 
 
 namespace {
 
-/// Forces that depend on position and time alone.
+/// True for forces that depend only on position and time.
 template <class T>
 constexpr bool by_position = HasForce<T> && !std::is_same_v<T, Drag> && !UsesVelocity<T>;
 
@@ -37,7 +37,7 @@ System::System(const Model& model) : model_(model) {
     has_velocity_forces_ |= std::visit([]<class T>(const T&) { return UsesVelocity<T>; }, term);
 }
 
-/// forces_ = sum of the wanted forces; `wanted` is called with each term.
+/// Computes forces_, the sum of the forces of all terms for which wanted(term) is true.
 template <class Wanted>
 void System::sum_forces(const State& stage, Wanted wanted) {
   assert(stage.x.cols() == model_.particles.size());
@@ -58,7 +58,7 @@ void System::sum_forces(const State& stage, Wanted wanted) {
   ++evaluations_;
 }
 
-/// a = forces_ / m, zero at pins.
+/// Computes a = forces_ / m, zero at pins.
 void System::set_acceleration(Points& a) const {
   const Particles& particles = model_.particles;
   assert(a.cols() == particles.size());
@@ -147,7 +147,7 @@ std::optional<double> uniform_drag_rate(const Model& model) {
   for (int i = 0; i < model.particles.size(); ++i) {
     if (model.particles.pinned[i]) continue;
     const double gamma = drag->c[i] / model.particles.mass[i];
-    // masses times gamma over masses: equal but for a few roundings
+    // gamma is recovered from c = m gamma, hence equal up to a few roundings
     if (rate && std::abs(gamma - *rate) > 4 * std::numeric_limits<double>::epsilon() * *rate) return std::nullopt;
     if (!rate) rate = gamma;
   }

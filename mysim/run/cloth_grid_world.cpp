@@ -12,13 +12,13 @@
 namespace crosscheck::simd {
 namespace {
 
-/// One kick: when forces are taken (s, after the beginning of the step), and how far positions drift after it, before
-/// contacts and behind them (s).
+/// One kick: the time at which forces are evaluated (s, from the beginning of the step), and the drift of positions
+/// that follows it, before and after contacts (s).
 struct Kick {
   double at, drift_before, drift_after;
 };
 
-/// Other terms are left to the general engine.
+/// True if the model contains only terms that the fused step supports; other models use the general engine.
 bool has_only_supported_terms(const Model& model) {
   for (const Term& term : model.terms)
     if (!std::holds_alternative<Springs>(term) && !std::holds_alternative<Gravity>(term) &&
@@ -29,7 +29,7 @@ bool has_only_supported_terms(const Model& model) {
 }
 
 template <class T>
-/// Positions stand drift_after of the last kick ahead of the time of the velocities.
+/// Positions are ahead of velocities by drift_after of the last kick.
 class ClothGridWorld : public World {
  public:
   ClothGridWorld(const KickDriftComposition& composition, const GridTopology& topology, const Scene& scene, double h,
@@ -51,7 +51,7 @@ class ClothGridWorld : public World {
       begin += part;
     }
     set_factors(composition, h);
-    // pins stay where they are, and losses are summed one by one: such contacts are left to the callback
+    // fixed surfaces without pins, and no per-particle losses: all other contacts are resolved in the callback
     in_lanes_ = std::is_same_v<T, double> && !has_moving_surface(scene.model) && !locates_events_ &&
                 !record_contact_loss_ && scene.model.particles.pins.empty();
     for (const Surface& s : surfaces_) {
@@ -64,10 +64,10 @@ class ClothGridWorld : public World {
 
   void step(double t, double t_next) override {
     begin_contacts(t, t_next);
-    for (const Kick& kick : kicks_) {  // one for leapfrog and symplectic Euler, five for suzuki4
+    for (const Kick& kick : kicks_) {  // one kick for leapfrog and symplectic Euler, five for suzuki4
       const KickDrift<T> kick_drift = kick_drift_at(t + kick.at, kick);
       const Vec3 shift = pin_displacement_at(t + kick.at);
-      slabs_.for_each([&](Slab& slab) {  // on its own thread, between the exchanges of halo rows
+      slabs_.for_each([&](Slab& slab) {  // on the slab's own thread, between the exchanges of halo rows
         place_pins(slab, shift);
         fused_step(slab, kick, kick_drift);
       });
@@ -86,7 +86,7 @@ class ClothGridWorld : public World {
 
   void report_contact(Observer& observer) override {
     bool any = false;
-    double sum = 0;  // one after the other: the same bits, however many slabs there are
+    double sum = 0;  // summed sequentially: the same bits for any number of slabs
     for (const SlabResult& result : slab_results_)
       for (const double lost : result.lost) sum += lost, any = true;
     if (any) observer.contact(sum);
@@ -103,19 +103,19 @@ class ClothGridWorld : public World {
 
  private:
   using Slab = typename Slabs<T>::Slab;
-  /// Results of a slab's thread.
+  /// Results of one slab's thread.
   struct SlabResult {
     long degenerate_springs = 0;
-    std::vector<double> lost;  // J, in contact, by each particle of its own that touched in the step
+    std::vector<double> lost;  // J, lost in contact, per own particle that touched during the step
   };
-  /// The user data of contact_tile().
+  /// User data of contact_tile().
   struct ContactContext {
     ClothGridWorld* world;
     Slab* slab;
     SlabResult* result;
   };
 
-  /// Drag, mass and length of each kick as factors of velocity, force and uniform acceleration, laid out for each slab.
+  /// Drag, mass and length of each kick as factors of velocity, force and uniform acceleration, laid out per slab.
   void set_factors(const KickDriftComposition& composition, double h) {
     const Particles& particles = scene_.model.particles;
     const Eigen::ArrayXd mass = particles.mass.array();
@@ -180,7 +180,7 @@ class ClothGridWorld : public World {
     return move ? displacement_at(*move, t) : Vec3::Zero();
   }
 
-  /// Forgets the contacts of the last step, and puts the bounding surfaces where the surfaces are at its end.
+  /// Clears the contacts of the last step, and moves the bounding surfaces to their positions at the end of the step.
   void begin_contacts(double t, double t_next) {
     t_ = t, t_next_ = t_next;
     for (SlabResult& result : slab_results_) result.lost.clear();
@@ -189,7 +189,7 @@ class ClothGridWorld : public World {
     if (locates_events_) tracks_ = surface_tracks(surfaces_, t_, t_next_);
     for (const Surface& s : surfaces_) {
       const Vec3 o = s.origin_at(t_next_), n = s.normal(Vec3::Zero());
-      // a little more than the solid: contact_particle() decides what touches
+      // slightly larger than the solid; contact_particle() decides which particles touch
       if (s.flat())
         bounding_planes_.push_back({{o[0], o[1], o[2]}, {n[0], n[1], n[2]}, 1e-6 * size_, s.friction, s.restitution});
       else
@@ -204,15 +204,15 @@ class ClothGridWorld : public World {
         context.world->contact_particle(*context.slab, *context.result, here, x + lane, v + lane);
   }
 
-  /// The contact rule; coordinates stand a cache line apart.
+  /// Applies the contact rule to one particle, whose coordinates are one cache line apart.
   void contact_particle(const Slab& slab, SlabResult& result, int here, T* x, T* v) {
     const int i = slab.first + here;
     if (scene_.model.particles.pinned[i]) return;
     const auto at = [](const T* p) { return Vec3(p[0], p[lanes<T>], p[2 * lanes<T>]); };
     Vec3 place = at(x), speed = at(v);
-    // where it was and how fast when the step began
+    // position and velocity at the beginning of the step
     const Vec3 v_n = slab.body.velocity(here), x_n = slab.body.position(here) - kicks_.back().drift_after * v_n;
-    // a particle that ends its step outside was pressed on by no more than O(h) on the whole: it is taken as free
+    // a particle that ends its step outside was pressed on by at most O(h) in total, and counts as free
     const auto lost = locates_events_ ? resolve_events(tracks_, t_next_ - t_, drag_rate_[i], x_n, v_n, place, speed)
                                       : resolve_surfaces(surfaces_, resolve_contact, t_, t_next_, x_n, v_n, place,
                                                          speed, record_contact_loss_);
@@ -227,8 +227,8 @@ class ClothGridWorld : public World {
   std::vector<SlabResult> slab_results_;
   std::vector<Surface> surfaces_;
   bool locates_events_, record_contact_loss_;
-  double size_;                       // m, of the scene and of the planes' coordinates
-  std::vector<SurfaceTrack> tracks_;  // in the step under way, if events are located
+  double size_;                       // m, size of the scene including coordinates
+  std::vector<SurfaceTrack> tracks_;  // in the current step, if events are located
   Eigen::ArrayXd drag_rate_;          // n, 1/s
   std::vector<Kick> kicks_;
   std::vector<BoundingSphere> bounding_spheres_;
@@ -237,11 +237,11 @@ class ClothGridWorld : public World {
   bool in_lanes_;  // contacts are resolved in the fused step
   int stride_ = 0;
   State s_;
-  double t_ = 0, t_next_ = 0;  // s, of the step under way
+  double t_ = 0, t_next_ = 0;  // s, of the current step
   long evaluations_ = 0;
 };
 
-/// Fewer particles than this are not worth a thread of their own.
+/// Smallest number of particles that justifies a thread.
 constexpr int particles_per_thread = 4096;
 
 template <class T>
@@ -266,7 +266,7 @@ std::unique_ptr<World> make_cloth_grid_world(const Stepper& stepper, ContactRule
   if (has_contact(model) && (contact == ContactRule::sticky || composition.fractions.size() > 1)) return nullptr;
   const auto topology = find_grid_topology(*springs, model.particles.size());
   if (!topology) return nullptr;
-#ifndef __wasm__  // the page has no single precision
+#ifndef __wasm__  // the WebAssembly module has no single precision
   if (execution.path == ExecutionPath::single_precision)
     return make_world<float>(*topology, composition, scene, h, true, execution.threads, contact, observer);
 #endif

@@ -1,4 +1,4 @@
-// A regular cloth under the fused step: rules that are kicks and drifts alone, in one pass over memory a kick.
+// A regular cloth stepped by the fused step: rules composed only of kicks and drifts, in one pass over memory per kick.
 #pragma once
 
 #include <memory>
@@ -7,9 +7,10 @@
 
 namespace crosscheck::simd {
 
-/// Null where the general engine has to do it: the rule is not a chain of kicks and drifts (or one of several, and
-/// there are spheres), the scene has terms other than springs, gravity, drag, uniform wind and spheres, or its springs
-/// are no regular grid or one too narrow. Nothing else differs but the order of sums.
+/// Null if the general engine is required: the rule is not composed of kicks and drifts (or has several kicks, and
+/// there are contact surfaces), the scene has terms other than springs, gravity, drag, uniform wind and contact
+/// surfaces, or its springs form no regular grid or one that is too narrow. Results differ from the general engine only
+/// by the order of sums.
 std::unique_ptr<World> make_cloth_grid_world(const Stepper& stepper, ContactRule contact, const Scene& scene, double h,
                                              const Execution& execution, const Observer& observer);
 

@@ -1,4 +1,4 @@
-// Surfaces act one after the other on each particle.
+// Contact on whole steps: surfaces act one after another on each particle.
 #include "mysim/run/contacts.h"
 
 #include <cassert>
@@ -21,9 +21,9 @@ std::optional<double> resolve_surfaces(std::span<const Surface> surfaces, Contac
                                        bool with_loss) {
   assert(t > t_n);
   bool touched = false;
-  const Vec3 change = v - v_n;    // by all other forces, m/s
-  Vec3 friction = Vec3::Zero();   // of contacts that last, m/s
-  double impacts = 0, given = 0;  // m^2/s^2; by moving surfaces, times the step
+  const Vec3 change = v - v_n;    // m/s, by all other forces
+  Vec3 friction = Vec3::Zero();   // m/s, of persisting contacts
+  double impacts = 0, given = 0;  // m^2/s^2; given: by moving surfaces, times the step
   for (const Surface& surface : surfaces) {
     const Vec3 origin = surface.origin_at(t), displacement = origin - surface.origin_at(t_n);
     const Vec3 velocity = surface.velocity_at(t);
@@ -63,7 +63,7 @@ void Contacts::begin(const State& s) {
 bool Contacts::resolve(State& s) {
   lost_.reset();
   if (!any()) return false;
-  assert(before_.x.cols() == s.x.cols());  // begin() came before
+  assert(before_.x.cols() == s.x.cols());  // requires begin() first
   const ContactFunction act = rule_ == ContactRule::sticky ? resolve_contact_sticky : resolve_contact;
   std::vector<SurfaceTrack> tracks;
   if (rule_ == ContactRule::events) tracks = surface_tracks(surfaces_, before_.t, s.t);

@@ -1,4 +1,4 @@
-// Edges against triangles by a spatial hash.
+// Intersections of edges with triangles, found by a spatial hash.
 #include "mysim/run/crossings.h"
 
 #include <fmt/format.h>
@@ -15,15 +15,16 @@ namespace {
 
 double volume(const Vec3& a, const Vec3& b, const Vec3& c) { return a.cross(b).dot(c); }
 
-/// True if the edge from p to q passes through the triangle, by more than a millionth of the lengths involved on both
-/// sides: less is touch. 1e-6 is far above the rounding of the volumes, about 1e-15, and far below any visible depth.
+/// True if the edge from p to q passes through the triangle by more than a millionth of the lengths involved on both
+/// sides; less counts as touching. 1e-6 is far above the rounding of the volumes, about 1e-15, and far below any
+/// visible depth.
 bool pierces(const Vec3& p, const Vec3& q, const Vec3& a, const Vec3& b, const Vec3& c) {
   const Vec3 ab = b - a, ac = c - a, normal = ab.cross(ac), d = q - p;
   const double above = normal.dot(p - a), below = normal.dot(q - a);
   if ((above > 0) == (below > 0)) return false;
   const double length = std::sqrt(std::max({ab.squaredNorm(), ac.squaredNorm(), d.squaredNorm()}));
   if (std::min(std::abs(above), std::abs(below)) <= 1e-6 * length * length * length) return false;
-  // the line passes all three sides of the triangle the same way round
+  // the line passes all three sides of the triangle with the same orientation
   const double one = volume(d, a - p, b - p), two = volume(d, b - p, c - p), three = volume(d, c - p, a - p);
   return (one > 0 && two > 0 && three > 0) || (one < 0 && two < 0 && three < 0);
 }
@@ -64,7 +65,7 @@ int CrossingDetector::piercing_edges(const Points& x) {
     const double length = (x.col(a) - x.col(b)).norm();
     mean += length / static_cast<double>(edges_.size()), longest = std::max(longest, length);
   }
-  // a triangle then covers 5 cells along an axis at most; indices of cells are whole numbers of 31 bits
+  // a triangle then covers at most 5 cells along an axis; cell indices fit into 31 bits
   cell_ = std::max({mean, longest / 4, x.cwiseAbs().maxCoeff() * 0x1p-30});
   if (!(cell_ > 0)) return 0;
   std::fill(begin_.begin(), begin_.end(), 0);

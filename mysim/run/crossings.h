@@ -1,4 +1,4 @@
-// Crossings of a surface with itself, looked for at samples. A remark for the reader, never a verdict.
+// Detection of self-intersections of a surface at samples. Reported as a remark, never as a verdict.
 #pragma once
 
 #include <array>
@@ -14,8 +14,8 @@ namespace crosscheck {
 class CrossingDetector {
  public:
   explicit CrossingDetector(std::vector<std::array<int, 3>> triangles);
-  /// The number of edges that pierce a triangle without a particle in common with them; 0 if a position is not finite.
-  /// Linear in the number of triangles as long as these are of similar size.
+  /// Number of edges that pierce a triangle with which they share no particle; 0 if a position is not finite. Linear in
+  /// the number of triangles if they are of similar size.
   int piercing_edges(const Points& x);
 
  private:
@@ -27,23 +27,23 @@ class CrossingDetector {
   void for_each_cell(const Vec3& low, const Vec3& high, const Visit& visit) const;
 
   std::vector<std::array<int, 3>> triangles_;
-  std::vector<std::pair<int, int>> edges_;  // each once
+  std::vector<std::pair<int, int>> edges_;  // each edge once
   double cell_ = 1;                         // m, side of a cell
   // spatial hash: triangles by bucket; bucket b holds entries_[begin_[b]] up to entries_[begin_[b + 1]]
   std::vector<int> begin_, entries_;
   std::vector<std::pair<std::size_t, int>> unsorted_;  // bucket, triangle
-  std::vector<int> last_edge_;                         // that was compared with each triangle
+  std::vector<int> last_edge_;                         // last edge that was compared with each triangle
 };
 
-/// Looks at 32 samples of a run at most, at its end and evenly before: a check of one sample costs about as much as
-/// forty steps of a cloth.
+/// Checks at most 32 samples of a run, at its end and evenly before: checking one sample costs about as much as forty
+/// steps of a cloth.
 class CrossingObserver : public Observer {
  public:
   CrossingObserver(const Scene& scene, int samples);
   Verdict observe(const State& state, bool sample) override;
-  int most() const { return most_; }       // edges, at one sample
-  double first() const { return first_; }  // s, of the first sample with a crossing; meaningless if there is none
-  /// Appends a sentence to the outcome's remark if the surface crossed itself.
+  int most() const { return most_; }       // largest number of edges at one sample
+  double first() const { return first_; }  // s, of the first sample with an intersection; meaningless if there is none
+  /// Appends a sentence to the outcome's remark if the surface intersected itself.
   void note(Outcome& outcome) const;
 
  private:

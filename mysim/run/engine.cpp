@@ -1,4 +1,4 @@
-// The run loop (samples, steps, observers, clock); one fixed step: stepper, pins, contacts; and step control.
+// The run loop (samples, steps, observers, clock), one fixed step (stepper, pins, contacts), and step-size control.
 #include "mysim/run/engine.h"
 
 #include <fmt/format.h>
@@ -30,7 +30,7 @@ int stride_of(const Observer& observer, const TimeGrid& grid, World& world) {
 TimeGrid RunLoop::grid_of(World& world, const Run& run, const Observer& observer) {
   TimeGrid grid = time_grid(run);
   if (!world.chooses_steps()) return grid;
-  const int stride = stride_of(observer, grid, world);  // the world crosses it in steps of its own
+  const int stride = stride_of(observer, grid, world);  // the world covers this interval with steps of its own
   grid.steps_per_sample /= stride, grid.h = run.duration / run.samples / grid.steps_per_sample;
   return grid;
 }
@@ -64,7 +64,7 @@ bool RunLoop::step() {
   const bool first = out_.steps++ == 0, sampled = step_ == grid_.steps_per_sample, seen = step_ % stride_ == 0;
   if (!seen && !first) return true;
 
-  // a world that chooses its steps interpolates most states: only intervals in which it stepped are timed
+  // a world with adaptive steps interpolates most states: only intervals in which it stepped are timed
   const long evaluations = chooses_steps_ ? world_.work().evaluations : 0;
   if (!chooses_steps_ || evaluations > evaluations_) clock_.stop();
   evaluations_ = evaluations;
@@ -102,7 +102,7 @@ Outcome run_loop(World& world, const Run& run, Observer& observer) {
 
 namespace {
 
-/// Any rule on any scene: the definition of what every faster world computes.
+/// Any rule on any scene: the definition of the results that every faster world must reproduce.
 class SteppedWorld : public World {
  public:
   SteppedWorld(const Stepper& stepper, ContactRule rule, const Scene& scene, double h)
@@ -118,7 +118,7 @@ class SteppedWorld : public World {
     if (contacts_.any()) contacts_.begin(s_);
     stepper_.step(f_, s_, h_, workspace_);  // steppers/leapfrog.cpp and the files next to it
     s_.t = t_next;
-    // no rule moves pins that stand still: they have neither velocity nor acceleration
+    // no rule moves fixed pins, which have neither velocity nor acceleration
     if (particles_.move) particles_.place_pins(s_);
     if (contacts_.any()) contacts_.resolve(s_);
   }
@@ -139,17 +139,17 @@ class SteppedWorld : public World {
   Workspace workspace_;
 };
 
-/// A scene stepped by the pair of Dormand and Prince under error control.
+/// A scene stepped by the Dormand-Prince pair under error control.
 ///
-/// Steps are chosen so that the root mean square of (estimated error of a step) / (R (scene size + |x|)), and likewise
-/// of velocities with the largest speed so far for the scene's size, stays at or below 1, with R = run.tolerance. The
-/// states that are requested lie on the interpolant. Near a surface no step goes beyond the next one,
-/// since contact acts on whole steps; it may take several to get there, and each may touch.
+/// Steps are chosen so that the root mean square of (estimated error of a step) / (R (scene size + |x|)) stays at or
+/// below 1, with R = run.tolerance; likewise for velocities, with the largest speed so far in place of the scene's
+/// size. Requested states are interpolated. With contact surfaces, no step passes the next requested state, because
+/// contact acts on whole steps; several steps may be needed to get there, each with contact.
 class AdaptiveWorld : public World {
  public:
   AdaptiveWorld(const Scene& scene, const Run& run, ContactRule contact);
   void step(double t, double t_next) override;
-  /// On the interpolant; evaluated outside the clock, so that only the steps cost.
+  /// Interpolated state; evaluated outside the clock, so that only steps are timed.
   const State& state(double t) override;
   void report_contact(Observer& observer) override {
     if (lost_) observer.contact(*lost_);
@@ -166,16 +166,16 @@ class AdaptiveWorld : public World {
   Contacts contacts_;
   DormandPrince pair_;
   double tolerance_, h_, last_h_ = 0;
-  double shortest_;           // s, a shorter step is lost in the rounding of time
+  double shortest_;           // s; a shorter step is lost in the rounding of time
   double fastest_;            // m/s, largest speed of an accepted state
-  double last_ratio_ = 1e-4;  // of the step before, for the controller
-  State before_, s_, seen_;   // start and end of the last accepted step; the requested state
+  double last_ratio_ = 1e-4;  // of the previous step, for the controller
+  State before_, s_, seen_;   // start and end of the last accepted step; requested state
   long accepted_ = 0;
-  std::optional<double> lost_;  // J, in contacts on the way to the last requested state
+  std::optional<double> lost_;  // J, in contacts since the previous requested state
 };
 
-// Step control (E. Hairer, S. P. Norsett and G. Wanner, Solving Ordinary Differential Equations I, II.4; proportional
-// and integral parts as in II of the same, IV.2).
+// Step-size control (E. Hairer, S. P. Norsett and G. Wanner, Solving Ordinary Differential Equations I, II.4; PI
+// control as in volume II, IV.2).
 
 AdaptiveWorld::AdaptiveWorld(const Scene& scene, const Run& run, ContactRule contact)
     : scene_(scene),
@@ -183,7 +183,7 @@ AdaptiveWorld::AdaptiveWorld(const Scene& scene, const Run& run, ContactRule con
       contacts_(scene.model, contact),
       pair_(scene.start),
       tolerance_(run.tolerance),
-      // observed or not, a run that chooses its steps begins with the scene's
+      // whether observed or not, a run with adaptive steps begins with the scene's step
       h_(std::min(contacts_.any() ? run.step : scene.step, run.duration)),
       shortest_(1e-14 * run.duration),
       fastest_(largest_column(scene.start.v)),
@@ -191,7 +191,7 @@ AdaptiveWorld::AdaptiveWorld(const Scene& scene, const Run& run, ContactRule con
       s_(scene.start),
       seen_(scene.start) {}
 
-/// Root mean square over the particles of estimated over allowed error.
+/// Root mean square over the particles of estimated error / allowed error.
 double AdaptiveWorld::error_ratio() {
   const State &error = pair_.error(), &next = pair_.next();
   const auto part = [&](const Points& e, const Points& from, const Points& to, double scale) {
@@ -202,18 +202,18 @@ double AdaptiveWorld::error_ratio() {
     }
     return e.cols() > 0 ? sum / static_cast<double>(e.cols()) : 0;
   };
-  // from rest: the speed that the forces at the start give in the step
+  // from rest: the speed that the initial forces produce in one step
   const double speed = std::max({fastest_, pair_.first_step_speed(), 1e-300});
   return std::sqrt(std::max(part(error.x, s_.x, next.x, scene_.size()), part(error.v, s_.v, next.v, speed)));
 }
 
-/// One accepted step that ends at `limit` at the latest.
+/// Takes one accepted step that ends at `limit` at the latest.
 void AdaptiveWorld::advance(double limit) {
   constexpr double safety = 0.9, most = 5, least = 0.2, integral = 0.04, proportional = 0.2 - 0.75 * integral;
   contacts_.begin(s_);
   double room = most;
   for (;;) {
-    // a step that would leave a sliver before the limit takes the whole way
+    // a step that would leave a sliver before the limit goes all the way
     const double h = s_.t + 1.01 * h_ >= limit ? limit - s_.t : h_;
     if (!(h > shortest_)) throw SolverFailure(fmt::format("the step fell below round-off at t = {:.4g} s", s_.t));
     pair_.attempt(f_, s_, h);
@@ -226,7 +226,7 @@ void AdaptiveWorld::advance(double limit) {
       last_h_ = h;
       const double kept = std::max(ratio, 1e-10);
       const double factor = safety * std::pow(kept, -proportional) * std::pow(last_ratio_, integral);
-      // a step cut short to end at the limit says nothing against the one that was proposed
+      // a step shortened to end at the limit does not argue against the proposed step
       h_ = std::max(h == h_ ? 0.0 : h_, h * std::clamp(factor, least, room));
       last_ratio_ = std::max(ratio, 1e-4);
       ++accepted_;
@@ -268,9 +268,9 @@ void require_supported(const Stepper& stepper, const Model& model) {
     throw Unsupported("the scene has hard distances, and this rule knows forces only");
 }
 
-/// A sentence about particles that lie on a surface with restitution at the end of a run with steps of h (s), else
-/// empty. Contact on whole steps returns a part of the speed of each step: a particle that lies still to a (m/s^2) goes
-/// on hopping by about a h^2, and by 9 a h^2 and more in explicit Euler, which adds energy in each flight.
+/// Remark about particles that lie on a surface with restitution at the end of a run with steps of h (s); otherwise
+/// empty. Contact on whole steps returns part of each step's speed: a particle at rest under an acceleration a (m/s^2)
+/// keeps hopping by about a h^2, and by 9 a h^2 or more with explicit Euler, which adds energy in each flight.
 std::string hops_at_rest(const Scene& scene, State s, double h) {
   std::vector<Surface> surfaces = surfaces_of(scene.model);
   std::erase_if(surfaces, [](const Surface& surface) { return !(surface.restitution > 0 && surface.restitution < 1); });

@@ -1,4 +1,4 @@
-// The energy ledger; the verdict on a run from its positions, and the true motion that it is held against.
+// The energy ledger, the divergence verdict derived from positions, and the true motion that it compares with.
 #include "mysim/run/observers.h"
 
 #include <algorithm>
@@ -86,14 +86,14 @@ class MotionBoundsObserver : public Observer {
     if (sample) until[state.t] = so_far_;
     return Verdict::ok;
   }
-  std::map<double, MotionBounds> until;  // by time, s: up to each sample
+  std::map<double, MotionBounds> until;  // by time (s), up to each sample
 
  private:
   const Scene& scene_;
   MotionBounds so_far_;
 };
 
-/// The fastest decay that drag and dashpots can give, 1/s, by the largest row sum (S. Gershgorin, 1931).
+/// Fastest decay rate (1/s) that drag and dashpots can cause, by the largest row sum (S. Gershgorin, 1931).
 double fastest_decay(const Model& model) {
   const Particles& particles = model.particles;
   Eigen::VectorXd rate = Eigen::VectorXd::Zero(particles.size());
@@ -123,7 +123,7 @@ double largest_length_ratio(const Model& model, const State& start, const Points
 
 namespace {
 
-/// The bounds up to each of the run's samples, by time; empty where there are none.
+/// The bounds up to each of the run's samples, by time; empty if there are none.
 std::map<double, MotionBounds> motion_bounds_over_time(const Scene& scene, const Run& run) {
   const auto rules = steppers();
   const Stepper& rule =
@@ -176,7 +176,7 @@ DivergenceMonitor::DivergenceMonitor(const Model& model, const State* start) : m
   if (start) start_ = *start;
   for (const Surface& s : surfaces_of(model))
     if (s.moving()) {
-      // a particle leaves at (1 + e) times the surface's speed at most; as much energy again may go into springs
+      // a particle leaves with at most (1 + e) times the surface's speed; as much energy again may go into springs
       const double speed = (1 + s.restitution) * s.max_speed();
       moving_surface_energy_ += model.particles.mass.sum() * speed * speed;
     }
@@ -190,8 +190,8 @@ void DivergenceMonitor::begin(const State& state) {
   if (start_->v.cols() != start_->x.cols()) start_->v = Points::Zero(3, start_->x.cols());
   State& start = *start_;
   const Particles& particles = model_.particles;
-  // an engine that pushes a resting particle out of a contact gives it a small speed: that of a fall by 1/256 of the
-  // smaller of sphere and scene; a plane has no length of its own
+  // An engine that pushes a resting particle out of a contact gives it a small speed: that of a fall through 1/256 of
+  // the smaller of sphere and scene. A plane has no length of its own.
   if (const auto* gravity = model_.find<Gravity>(); gravity && has_contact(model_)) {
     const double extent = (start.x.rowwise().maxCoeff() - start.x.rowwise().minCoeff()).norm();
     double length = extent > 0 ? extent : std::numeric_limits<double>::infinity();
@@ -206,8 +206,8 @@ void DivergenceMonitor::begin(const State& state) {
   System system(model_);
   Points a(3, start.x.cols());
   system.acceleration(start, a);
-  // engines in single precision know a position to 6e-8 of its coordinates, and five such roundings in two steps are
-  // no motion
+  // engines in single precision represent a position to 6e-8 of its coordinates; five such rounding errors in two steps
+  // do not count as motion
   const double known = position_rounding_ = 5 * 6e-8 * start.x.cwiseAbs().maxCoeff();
   for (int i = 0; i < particles.size(); ++i)
     if (!particles.pinned[i]) {
@@ -233,15 +233,17 @@ bool DivergenceMonitor::frozen(const State& state) {
   Points a(3, stage.x.cols());
   system.acceleration(stage, a);
   const std::vector<Surface> surfaces = surfaces_of(model_);
-  // to within a few roundings in single precision; of the way that it would go where all coordinates are near 0
+  // tolerance: a few single-precision roundings, or a fraction of the expected displacement if all coordinates are near
+  // 0
   const auto touches = [&](const Vec3& x, double way) {
     return std::any_of(surfaces.begin(), surfaces.end(), [&](const Surface& s) {
       const Vec3 origin = s.origin_at(start.t);
       return s.gap(x - origin) < 1e-6 * (s.rounding_scale(origin, x.norm()) + way);
     });
   };
-  // a displacement must exceed the rounding of the coordinates (in single precision where no velocities show what is
-  // less) and, where forces balance, that of spring forces, some roundings of omega^2 times a coordinate
+  // A displacement must exceed the rounding of the coordinates (in single precision if there are no velocities to show
+  // smaller motion) and, where forces balance, the rounding of spring forces: some roundings of omega^2 times a
+  // coordinate.
   const double t = state.t - start.t, omega = highest_frequency_bound(model_, start),
                seen = start.x.cwiseAbs().maxCoeff() * ((velocities ? 1e-12 : 1e-6) + 1e-15 * omega * omega * t * t);
   for (int i = 0; i < start.x.cols(); ++i)
@@ -293,13 +295,13 @@ Verdict DivergenceMonitor::goes_too_far() {
   }
   if (bounds_) return beyond_bounds();
   if (true_motion_bounds_) return Verdict::ok;
-  // there is no true motion
+  // no true motion is available
   if (largest_ratio_ > ratio_suspect) return Verdict::energy;
   return largest_length_ratio_ > allowed * length_bound * initial_length_ratio_ ? Verdict::stretch : Verdict::ok;
 }
 
 Verdict DivergenceMonitor::observe(const State& state, bool sample) {
-  // a number whose square is infinite fails too: every error and energy is made of squares
+  // a number whose square is infinite fails too, because every error and energy is made of squares
   if (!std::isfinite(state.x.squaredNorm()) || !std::isfinite(state.v.squaredNorm())) return Verdict::nan;
   if (model_.first_order()) return Verdict::ok;  // no energy to judge by
   if (!begun_) begin(state);

@@ -1,4 +1,4 @@
-// Expands a grid into particles, pairs and triangles.
+// Expansion of a grid into particles, springs and triangles.
 #include "mysim/scene/grid.h"
 
 #include <fmt/ranges.h>
@@ -12,7 +12,7 @@
 namespace crosscheck {
 namespace {
 
-/// As many as grid_springs() makes, those of an inextensible grid included.
+/// Number of springs that grid_springs() makes, including those of an inextensible grid.
 double springs_of_grid(const Grid& g) {
   const double a = g.nu, b = g.nv, c = g.nw;
   double count = (a - 1) * b * c + a * (b - 1) * c + a * b * (c - 1);
@@ -22,8 +22,9 @@ double springs_of_grid(const Grid& g) {
   return count;
 }
 
-/// Refuses, with the numbers, what would not fit into memory even as a scene that is never run: a spring, its copy
-/// while the list is handed on and sorted; places, velocity and mass.
+/// Throws if the grid would not fit into memory even as a scene that is never run, and reports the numbers. Counts each
+/// spring twice (the list and its copy while it is passed on and sorted), and position, velocity and mass of each
+/// particle.
 void require_memory_of_grid(const TomlTable& s, const Grid& g) {
   const double springs = springs_of_grid(g);
   const double stencils = g.bending > 0 ? 3. * g.size() : 0;
@@ -77,7 +78,7 @@ Grid read_grid(const TomlTable& s) {
   if (!inextensible || s.has("stiffness")) {
     const TomlTable k = s.section("stiffness");
     if (inextensible && k.has("structural"))
-      k.fail("structural", "none beside inextensible = \"structural\", which keeps these springs' lengths");
+      k.fail("structural", "none with inextensible = \"structural\", which keeps these springs' lengths");
     if (!inextensible) g.stiffness.structural = k.positive("structural");
     if (k.has("shear")) g.stiffness.shear = k.positive("shear");
     if (k.has("bend")) g.stiffness.bend = k.positive("bend");
@@ -86,7 +87,7 @@ Grid read_grid(const TomlTable& s) {
   if (s.has("bending")) {
     g.bending = s.positive("bending");
     if (g.nw > 1) s.fail("bending", "none with a size of three numbers, which is a block: a sheet bends");
-    // 1e-9: at right angles but for the rounding of decimal numbers
+    // 1e-9: perpendicular up to the rounding of decimal numbers
     if (std::abs(g.u.dot(g.v)) > 1e-9 * g.u.norm() * g.v.norm())
       s.fail("bending", "none where u and v are not at right angles: it is derived for those that are");
   }
@@ -108,7 +109,7 @@ Points grid_points(const Grid& g) {
 
 std::vector<Spring> grid_springs(const Grid& g) {
   std::vector<Spring> list;
-  list.reserve((g.nw > 1 ? 12L : 6L) * g.size());  // of each particle, but for the edges: large cloths fill the memory
+  list.reserve((g.nw > 1 ? 12L : 6L) * g.size());  // per particle, except at the edges; large cloths fill the memory
   const Vec3* side[3] = {&g.u, &g.v, &g.w};
   const int size[3] = {g.nu, g.nv, g.nw}, stride[3] = {1, g.nu, g.nu * g.nv};
   using Steps = std::array<int, 3>;
@@ -167,7 +168,7 @@ Bending grid_bending(const Grid& g) {
 
 std::vector<std::array<int, 3>> grid_triangles(const Grid& g) {
   std::vector<std::array<int, 3>> list;
-  // a face of n by m particles that starts at `first`, with these distances between neighbours
+  // a face of n by m particles that starts at `first`, with the given strides between neighbours
   auto face = [&](int first, int n, int step_n, int m, int step_m) {
     for (int j = 0; j + 1 < m; ++j)
       for (int i = 0; i + 1 < n; ++i) {
@@ -178,7 +179,7 @@ std::vector<std::array<int, 3>> grid_triangles(const Grid& g) {
   };
   const int u = 1, v = g.nu, w = g.nu * g.nv;
   const int far_u = (g.nu - 1) * u, far_v = (g.nv - 1) * v, far_w = (g.nw - 1) * w;
-  face(0, g.nu, u, g.nv, v);  // the normal of (a, c, b) is v x u: outwards at l = 0
+  face(0, g.nu, u, g.nv, v);  // the normal of (a, c, b) is v x u: outward at l = 0
   if (g.nw > 1) {
     face(far_w, g.nv, v, g.nu, u);
     face(0, g.nw, w, g.nu, u);
