@@ -1,4 +1,4 @@
-// The few types that every room shares: a vector, a set of points, and the state of a scene.
+// Types shared by all rooms: a vector, a set of points, and the state of a scene.
 #pragma once
 
 #include "mysim/eigen.h"
@@ -8,12 +8,12 @@ namespace crosscheck {
 using Vec3 = Eigen::Vector3d;
 using Points = Eigen::Matrix3Xd;  // N (3 x n): one column per particle
 
-/// Length of the longest column; 0 when there is none.
+/// Length of the longest column; 0 without columns.
 inline double largest_column(const Points& p) { return p.cols() > 0 ? p.colwise().norm().maxCoeff() : 0; }
-/// Sum of the products of all entries.
+/// Sum of the products of all corresponding entries.
 inline double dot(const Points& a, const Points& b) { return a.cwiseProduct(b).sum(); }
 
-/// The state that changes with time. A first-order scene (x' = f(x, t)) has no velocities: v is then 3 x 0.
+/// The time-dependent state. A first-order scene (x' = f(x, t)) has no velocities: v is then 3 x 0.
 struct State {
   double t = 0;  // s
   Points x;      // N (3 x n), m

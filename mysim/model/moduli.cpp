@@ -18,7 +18,7 @@ constexpr double round_off = 1e-9;  // relative: positions of a scene file are r
 struct Arm {
   Vec3 to;        // m, to the other end
   double k;       // N/m, tangent stiffness at its length
-  Family family;  // of the spring
+  Family family;  // the spring's family
 };
 using Star = std::vector<Arm>;
 

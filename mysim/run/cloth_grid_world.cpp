@@ -227,7 +227,7 @@ class ClothGridWorld : public World {
   std::vector<SlabResult> slab_results_;
   std::vector<Surface> surfaces_;
   bool locates_events_, record_contact_loss_;
-  double size_;                       // m, size of the scene including coordinates
+  double size_;                       // m, scene size plus largest initial coordinate
   std::vector<SurfaceTrack> tracks_;  // in the current step, if events are located
   Eigen::ArrayXd drag_rate_;          // n, 1/s
   std::vector<Kick> kicks_;

@@ -11,7 +11,7 @@ namespace {
 
 constexpr double eps = std::numeric_limits<double>::epsilon();
 constexpr int most_events = 16;   // per step; the remainder then follows the rule for whole steps (terms/surface.h)
-constexpr int most_contacts = 4;  // of one particle at a time
+constexpr int most_contacts = 4;  // simultaneously, per particle
 
 /// The smallest argument at which a condition holds that is false at `low` and true at `high`, up to the last few bits.
 template <class Condition>

@@ -168,7 +168,7 @@ class AdaptiveWorld : public World {
   double tolerance_, h_, last_h_ = 0;
   double shortest_;           // s; a shorter step is lost in the rounding of time
   double fastest_;            // m/s, largest speed of an accepted state
-  double last_ratio_ = 1e-4;  // of the previous step, for the controller
+  double last_ratio_ = 1e-4;  // previous step's ratio, for the controller
   State before_, s_, seen_;   // start and end of the last accepted step; requested state
   long accepted_ = 0;
   std::optional<double> lost_;  // J, in contacts since the previous requested state
@@ -183,7 +183,7 @@ AdaptiveWorld::AdaptiveWorld(const Scene& scene, const Run& run, ContactRule con
       contacts_(scene.model, contact),
       pair_(scene.start),
       tolerance_(run.tolerance),
-      // whether observed or not, a run with adaptive steps begins with the scene's step
+      // a run with adaptive steps begins with the scene's step, whether observed or not
       h_(std::min(contacts_.any() ? run.step : scene.step, run.duration)),
       shortest_(1e-14 * run.duration),
       fastest_(largest_column(scene.start.v)),

@@ -62,8 +62,8 @@ class RunLoop {
   const int stride_;  // steps between two observed states
   const bool chooses_steps_;
   CpuClock clock_;
-  long evaluations_ = 0;       // number of samples so far, and of steps since the last
-  int sample_ = 0, step_ = 0;  // samples so far, and steps since the last
+  long evaluations_ = 0;       // at the last observed state, for a world that chooses its steps
+  int sample_ = 0, step_ = 0;  // number of samples so far, and of steps since the last
   Outcome out_;
 };
 

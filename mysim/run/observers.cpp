@@ -111,7 +111,7 @@ double fastest_decay(const Model& model) {
 
 double largest_length_ratio(const Model& model, const State& start, const Points& x) {
   const auto* springs = model.find<Springs>();
-  double most = 0;  // of the squares, which take neither root nor division where a spring is not the longest so far
+  double most = 0;  // squared ratio: needs no root, and no division unless a spring is the longest so far
   if (springs)
     for (const Spring& s : springs->list) {
       const double rest = s.rest > 0 ? s.rest * s.rest : (start.x.col(s.a) - start.x.col(s.b)).squaredNorm(),

@@ -1,4 +1,4 @@
-// Scene files: their expansion into particles, springs and terms, and the fingerprint of the result.
+// Scene files: expansion into particles, springs and terms, and the fingerprint of the result.
 #include "mysim/scene/scene.h"
 
 #include <fmt/format.h>
@@ -114,7 +114,7 @@ Drag read_drag(const TomlTable& s, const Particles& particles) {
   return {Eigen::VectorXd::Constant(particles.size(), s.positive("coefficient"))};
 }
 
-/// The mean from `key`, and [gusts] next to it.
+/// Reads the mean wind from `key`, and [gusts] from the same table.
 WindSignal read_wind_signal(const TomlTable& s, std::string_view key) {
   WindSignal wind_signal{s.vec3(key), std::nullopt};
   if (s.has("gusts")) {
@@ -158,8 +158,8 @@ Plane read_plane(const TomlTable& s) {
   return plane;
 }
 
-// the table of terms that have a section of their own; springs, bending, dashpots and constraints come from [grid],
-// [[spring]] and [[constraint]]
+// The table of terms with a section of their own; springs, bending, dashpots and constraints come from [grid],
+// [[spring]] and [[constraint]].
 struct TermReader {
   std::string_view key;
   Term (*read)(const TomlTable&, const Scene&);
@@ -173,13 +173,13 @@ constexpr TermReader term_readers[] = {
      [](const TomlTable& s, const Scene& scene) -> Term { return read_aerodynamics(s, scene.triangles); }},
 };
 
-/// Particles of [grid] first, then of [[particle]].
+/// Particles of [grid] come first, then those of [[particle]].
 void read_particles(const TomlTable& file, const std::optional<Grid>& grid, bool first_order, Scene& scene) {
   const std::vector<TomlTable> single = file.sections("particle");
   const int on_grid = grid ? grid->size() : 0;
   const int n = on_grid + static_cast<int>(single.size());
   if (n == 0) file.fail("particle", "at least one [[particle]] or a [grid]");
-  if (grid && first_order) file.fail("grid", fmt::format("single particles beside [rotation], {}", without_mass));
+  if (grid && first_order) file.fail("grid", fmt::format("single particles with [rotation], {}", without_mass));
   scene.start.x.resize(3, n);
   scene.start.v = Points::Zero(3, first_order ? 0 : n);
   scene.model.particles.mass = Eigen::VectorXd::Ones(n);
@@ -192,13 +192,13 @@ void read_particles(const TomlTable& file, const std::optional<Grid>& grid, bool
   for (int i = on_grid; i < n; ++i) {
     const TomlTable& p = single[i - on_grid];
     scene.start.x.col(i) = p.vec3("position");
-    if (first_order) continue;  // a mass or a velocity is then refused
+    if (first_order) continue;  // a mass or a velocity is rejected later
     scene.model.particles.mass[i] = p.positive("mass");
     if (p.has("velocity")) scene.start.v.col(i) = p.vec3("velocity");
   }
 }
 
-/// The two particles of a [[spring]] or [[constraint]], and their distance at the start.
+/// The two particles of a [[spring]] or [[constraint]], and their initial distance.
 struct Ends {
   int a, b;
   double distance;  // m
@@ -227,7 +227,7 @@ Family read_family(const TomlTable& s) {
                                did_you_mean(word, words)));
 }
 
-/// Springs, bending, dashpots and hard distances: of the grid first, then one by one.
+/// Reads springs, bending, dashpots and hard distances: the grid's first, then single ones.
 void read_pairs(const TomlTable& file, const std::optional<Grid>& grid, Scene& scene) {
   Springs springs;
   Dashpots dashpots;
@@ -257,7 +257,7 @@ void read_pairs(const TomlTable& file, const std::optional<Grid>& grid, Scene& s
   for (const TomlTable& s : file.sections("constraint")) {
     const auto [a, b, distance] = read_ends(s, scene);
     const double length = s.has("length") ? s.positive("length") : distance;
-    // 1e-9: equal but for the rounding of a decimal number
+    // 1e-9: equal up to the rounding of a decimal number
     if (!(std::abs(distance - length) <= 1e-9 * length) || distance == 0)
       s.fail("ends", fmt::format("ends that are {:.6g} m apart at the start, as they must stay, got {:.6g} m", length,
                                  distance));
@@ -281,13 +281,13 @@ void read_pairs(const TomlTable& file, const std::optional<Grid>& grid, Scene& s
   if (!constraints.list.empty()) scene.model.terms.emplace_back(std::move(constraints));
 }
 
-/// Another state to start from than that in which springs have the lengths that they are given by default.
+/// Reads an initial state that differs from the one that defines the springs' default lengths.
 void read_start(const TomlTable& file, bool first_order, Scene& scene) {
   if (!file.has("start")) return;
   const TomlTable s = file.section("start");
   const int n = scene.model.particles.size();
   scene.start.x = s.points("positions", n);
-  if (first_order && s.has("velocities")) s.fail("velocities", fmt::format("none beside [rotation], {}", without_mass));
+  if (first_order && s.has("velocities")) s.fail("velocities", fmt::format("none with [rotation], {}", without_mass));
   if (s.has("velocities")) scene.start.v = s.points("velocities", n);
 }
 
@@ -299,7 +299,7 @@ void read_spheres(const TomlTable& file, Scene& scene) {
     const Sphere sphere = read_sphere(s);
     for (int i = 0; i < particles.size(); ++i) {
       const double distance = (scene.start.x.col(i) - sphere.centre).norm();
-      // 1e-9 of the radius: on the surface but for the rounding of a decimal number is not inside
+      // 1e-9 of the radius: a particle on the surface up to the rounding of a decimal number is not inside
       if (!particles.pinned[i] && distance < (1 - 1e-9) * sphere.contact_radius())
         s.fail("radius",
                fmt::format("no particle inside radius + margin at the start, got particle {} at {:.6g} m of the "
@@ -312,8 +312,8 @@ void read_spheres(const TomlTable& file, Scene& scene) {
   scene.model.terms.emplace_back(std::move(spheres));
 }
 
-/// Width of the room between two opposite planes, margins deducted, m. Nothing unless the sine of the angle between
-/// them is below the rounding of a decimal number.
+/// Distance between two opposite planes minus their margins (m). Nothing if the sine of the angle between them exceeds
+/// the rounding of a decimal number.
 std::optional<double> width_between(const Plane& a, const Plane& b) {
   if (!(a.normal.dot(b.normal) < 0 && a.normal.cross(b.normal).norm() < 1e-9)) return std::nullopt;
   return (b.point - a.point).dot(a.normal) - a.margin - b.margin;
@@ -323,7 +323,7 @@ void read_planes(const TomlTable& file, Scene& scene) {
   if (!file.has(Planes::name)) return;
   Planes planes;
   const Particles& particles = scene.model.particles;
-  // on a plane but for the rounding of a decimal number is not behind it
+  // a particle on a plane up to the rounding of a decimal number is not behind it
   const double rounding = 1e-9 * (scene.size() + largest_column(scene.start.x));
   for (const TomlTable& s : file.one_or_more(Planes::name)) {
     const Plane plane = read_plane(s);
@@ -364,14 +364,14 @@ void read_pins(const TomlTable& file, Scene& scene) {
   particles.pin_home.resize(3, static_cast<int>(particles.pins.size()));
   for (size_t i = 0; i < particles.pins.size(); ++i)
     particles.pin_home.col(static_cast<int>(i)) = scene.start.x.col(particles.pins[i]);
-  // pins keep their distances by themselves
+  // pins keep their mutual distances anyway
   if (auto* constraints = scene.model.find<Constraints>())
     std::erase_if(constraints->list, [&](const auto& c) { return particles.pinned[c.a] && particles.pinned[c.b]; });
   if (static_cast<int>(particles.pins.size()) == particles.size())
     s.fail("particles", fmt::format("at least one particle left free, got all {}", particles.size()));
   if (s.has("motion")) {
     if (scene.model.find<Constraints>())
-      s.fail("motion", "pins that stand still: the work of moved pins on hard distances is not modelled");
+      s.fail("motion", "fixed pins: the work of moved pins on hard distances is not modelled");
     particles.move = read_motion(s.section("motion"));
   }
 }
@@ -391,11 +391,11 @@ void read_time(const TomlTable& file, Scene& scene) {
            fmt::format("a window not longer than the duration of {} s, got {} s", scene.duration, scene.window));
   scene.tolerance = s.positive("tolerance");
   scene.method = s.text("method");
-  // a program: files cannot name one, only the command line can (load_scene())
+  // a program: only the command line may name one, not a file (load_scene())
   if (scene.method.find(':') != std::string::npos) scene.method.clear();
 }
 
-/// Checks the values that `crosscheck advise` fits parameters to; no engine reads them.
+/// Checks the values to which `crosscheck advise` fits parameters; engines do not read them.
 void check_wish(const TomlTable& file) {
   if (!file.has("wish")) return;
   const TomlTable s = file.section("wish");
@@ -439,10 +439,10 @@ Scene expand(const TomlTable& file, const std::string& name) {
   if (first_order) {
     for (const std::string_view key :
          {"spring", "constraint", "springs", "pins", "gravity", "drag", "wind", "aerodynamics", "sphere", "plane"})
-      if (file.has(key)) file.fail(key, fmt::format("no {} beside [rotation], {}", key, without_mass));
+      if (file.has(key)) file.fail(key, fmt::format("no {} with [rotation], {}", key, without_mass));
     for (const TomlTable& p : file.sections("particle"))
       for (const std::string_view key : {"mass", "velocity"})
-        if (p.has(key)) p.fail(key, fmt::format("no {} beside [rotation], {}", key, without_mass));
+        if (p.has(key)) p.fail(key, fmt::format("no {} with [rotation], {}", key, without_mass));
   }
   file.finish();
   if (!first_order) scene.model.particles.place_pins(scene.start);
@@ -476,7 +476,7 @@ double Scene::size() const {
   if (const auto* spheres = model.find<Spheres>())
     for (const Sphere& sphere : spheres->list)
       length = length > 0 ? std::min(length, sphere.contact_radius()) : sphere.contact_radius();
-  if (const auto* planes = model.find<Planes>())  // opposite ones bound what the particle can do
+  if (const auto* planes = model.find<Planes>())  // opposite planes bound the motion
     for (const Plane& a : planes->list)
       for (const Plane& b : planes->list)
         if (const auto width = width_between(a, b)) length = std::min(length, *width);

@@ -1,4 +1,5 @@
-// A scene: what is simulated, and for which question. Read from TOML once, expanded once, used by every engine.
+// A scene: the problem to simulate, and the question that it answers. Read from TOML once, expanded once, used by every
+// engine.
 #pragma once
 
 #include <array>
@@ -10,34 +11,34 @@
 
 namespace crosscheck {
 
-/// From where the scene is seen: only the direction from target to eye counts, the distance is chosen to hold
-/// everything.
+/// Viewpoint of a scene: only the direction from target to eye matters; the distance is chosen so that everything is
+/// visible.
 struct Camera {
   Vec3 eye, target;          // m
-  std::optional<double> at;  // s, when the picture is taken; none: at the end
+  std::optional<double> at;  // s, time of the picture; none: the end
 };
 
 struct Scene {
   std::string name;
-  std::string question;    // one sentence for a reader
-  std::string parameters;  // how its parameters were chosen
+  std::string question;    // one sentence for the reader
+  std::string parameters;  // explanation of the chosen parameters
   Model model;
   State start;
 
   double duration;     // s
-  int samples;         // frames after the first; they lie at i duration / samples
+  int samples;         // number of frames after the first, at i duration / samples
   double step;         // s, default step
-  double window;       // s, pointwise comparison is meant up to here (a 1e-10 m perturbation grows by less than 1e3)
-  double tolerance;    // m, what differs by less is the same to this scene's purpose
+  double window;       // s, end of meaningful pointwise comparison (a 1e-10 m perturbation grows by less than 1e3)
+  double tolerance;    // m, smaller differences are irrelevant to this scene's purpose
   std::string method;  // default method
 
   std::vector<std::array<int, 3>> triangles;  // surface of grids, for pictures
-  std::optional<Camera> camera;               // none: chosen so that everything is seen
+  std::optional<Camera> camera;               // none: chosen so that everything is visible
 
-  std::string source;  // the TOML that it was read from; a scene changed in memory keeps it
-  std::string hash;    // 16 hexadecimal digits, of everything that engines see
+  std::string source;  // the TOML text it was read from; not updated when the scene is changed in memory
+  std::string hash;    // 16 hexadecimal digits, over everything that affects engines
 
-  // Compiled once, in scene.cpp: they instantiate the copies of every term.
+  // Defined in scene.cpp, so that the copies of all terms are instantiated only once.
   Scene() = default;
   Scene(const Scene&);
   Scene(Scene&&) noexcept;
@@ -45,21 +46,21 @@ struct Scene {
   Scene& operator=(Scene&&) noexcept;
   ~Scene();
 
-  /// The scale of lengths and their round-off, m: the diagonal of the box around the start. For a single particle the
-  /// distance that its speed and steady forces may carry it, but no more than the radius of the smallest sphere or
-  /// the distance of two opposite planes; in a first-order scene its distance from the origin; 1 where it cannot move.
+  /// Length scale of the scene and of its round-off (m): the diagonal of the initial bounding box. For a single
+  /// particle, the distance that its speed and steady forces may carry it, limited by the radius of the smallest sphere
+  /// and by the distance of opposite planes; in a first-order scene, its distance from the origin; 1 if it cannot move.
   double size() const;
 };
 
-/// Reads and expands a scene file; its name, made safe for file names, is the scene's. Throws InputError: "FILE:LINE:
-/// KEY: expected ...".
+/// Reads and expands a scene file; the scene's name is the file's, made safe for file names. Throws InputError:
+/// "FILE:LINE: KEY: expected ...".
 Scene read_scene(const std::string& file);
-/// The same from text; messages name the file.
+/// Parses the text of a scene file; messages name `file`.
 Scene parse_scene(std::string_view text, const std::string& file, const std::string& name);
-/// The same from text that has no file: the scene's name stands for it in messages.
+/// Parses a text without a file; the scene's name replaces the file name in messages.
 inline Scene parse_scene(std::string_view text, const std::string& name) { return parse_scene(text, name, name); }
 
-/// Fingerprint of particles, springs, terms and start (FNV-1a over their exact bits).
+/// Fingerprint of particles, springs, terms and initial state (FNV-1a over their exact bits).
 std::string hash_of(const Scene& scene);
 
 }  // namespace crosscheck

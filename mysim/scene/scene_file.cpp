@@ -1,4 +1,4 @@
-// Scenes from files: apart from what they mean, so that the engine can be built where there are none.
+// Reading of scene files, separate from scene.cpp so that the engine can be built without file access.
 #include "mysim/base/files.h"
 #include "mysim/base/names.h"
 #include "mysim/scene/scene.h"

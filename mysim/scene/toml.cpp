@@ -1,10 +1,10 @@
-// The only file that knows TOML: TomlTable and the check of keys on top of toml++.
+// TomlTable and the check of keys, on top of toml++. No other file includes a TOML library.
 #include "mysim/scene/toml.h"
 
 #include <fmt/ranges.h>
-// a fault of the text is a value here, so that builds without exceptions have its message too
+// parse errors are values, so that builds without exceptions report them too
 #define TOML_EXCEPTIONS 0
-// toml++ asserts, and with NDEBUG lets clang assume, that the key of a header is well formed, which files decide
+// toml++ asserts (and under NDEBUG lets clang assume) that header keys are well-formed, but files decide that
 #define TOML_ASSERT(expr) static_assert(true)
 #pragma push_macro("NDEBUG")
 #undef NDEBUG
@@ -26,7 +26,7 @@ namespace crosscheck {
 
 namespace {
 
-/// The text between two places of a file, which count code points from 1; on one line, and cut where it is long.
+/// Text between two positions of a file (counted in code points from 1), on one line, shortened if long.
 std::string written_between(std::string_view text, const toml::source_region& where) {
   std::size_t at = 0;
   for (toml::source_index line = 1; line < where.begin.line && at < text.size(); ++at) line += text[at] == '\n';
@@ -52,17 +52,17 @@ std::string written_between(std::string_view text, const toml::source_region& wh
   return out.substr(0, cut) + "...";
 }
 
-/// A value as messages show it: as the file has it.
+/// A value as messages show it: as written in the file.
 std::string as_written(const toml::node& n, std::string_view text) {
   if (n.is_table() && !n.as_table()->is_inline()) return "a table";
   if (n.is_array_of_tables()) return "tables";
   return written_between(text, n.source());
 }
 
-/// A question ends a sentence, anything else goes on behind a semicolon.
+/// A question ends its sentence; anything else continues after a semicolon.
 std::string and_then(const std::string& question) { return question.ends_with('?') ? question : question + ";"; }
 
-/// The number that a value of another type stands for, as text.
+/// Hint for a value of another type that looks like a number.
 std::string mended_number(const toml::node& n) {
   if (const auto* word = n.as_string()) {
     const std::string& text = word->get();
@@ -71,18 +71,18 @@ std::string mended_number(const toml::node& n) {
     char* rest = nullptr;
     std::strtod(text.c_str() + from, &rest);
     const auto used = static_cast<std::size_t>(rest - text.c_str());
-    if (used == from) return "; a number stands without quotes";
+    if (used == from) return "; numbers are written without quotes";
     const std::string number = text.substr(from, used - from), unit = text.substr(used);
     if (unit.find_first_not_of(' ') == std::string::npos)
-      return fmt::format("; a number stands without quotes: {}", number);
-    return "; a number stands alone, without quotes and without its unit";
+      return fmt::format("; numbers are written without quotes: {}", number);
+    return "; a number is written alone, without quotes and without its unit";
   }
   if (const auto* list = n.as_array(); list && list->size() == 1 && list->is_homogeneous())
-    return "; a single number stands without brackets";
+    return "; a single number is written without brackets";
   return "";
 }
 
-/// The expected value of the key in a line, by the headers above it; nothing where it says nothing.
+/// The key in a line of the text, resolved by the headers above it; null if there is none.
 const Key* key_in_line(std::string_view text, int line, std::span<const Key> keys) {
   std::span<const Key> here = keys;
   const auto find = [](std::span<const Key> among, std::string_view name) {
@@ -119,10 +119,10 @@ std::shared_ptr<const toml::table> parse(std::string_view text, const std::strin
   const toml::parse_error& e = parsed.error();
   TomlError fault = diagnose_toml(text, static_cast<int>(e.source().begin.line), e.description());
   if (const Key* key = key_in_line(text, fault.line, keys); key && key->kind == Key::Kind::value) {
-    // a word where a number belongs is not mended by quotes
+    // quotes do not mend a word where a number is expected
     if (fault.what.starts_with("expected a text in quotes") && key->expected.find('"') == std::string_view::npos &&
         key->expected.find("quotes") == std::string_view::npos)
-      fault.what = "a word stands where none is expected" + fault.what.substr(fault.what.find("; the line"));
+      fault.what = "unexpected word" + fault.what.substr(fault.what.find("; the line"));
     fault.what += fmt::format("; {} is {}", key->name, key->expected);
   }
   throw InputError(fmt::format("{}:{}: not valid TOML: {}", name, fault.line, fault.what));
@@ -141,7 +141,7 @@ struct TomlTable::Node {
   std::string file;
   std::string path;                                     // dotted name of this table; empty at the root
   mutable std::set<std::string, std::less<>> read;      // every key that was looked up
-  mutable std::vector<std::shared_ptr<Node>> children;  // so that finish() sees what was read below
+  mutable std::vector<std::shared_ptr<Node>> children;  // tables read below this one, for finish()
   mutable std::map<std::string, std::vector<std::shared_ptr<Node>>, std::less<>> made;
 
   std::string full(std::string_view key) const { return full_key(path, key); }
@@ -324,7 +324,7 @@ std::vector<TomlTable> TomlTable::one_or_more(std::string_view key) const {
 }
 
 void TomlTable::fail(std::string_view key, const std::string& expected) const {
-  // key[i] is an entry of a list, in a line of its own in long ones
+  // key[i] is an entry of a list; long lists have one line per entry
   const toml::node* n = node_->table->get(key.substr(0, key.find('[')));
   if (const toml::node* entry = n ? (*node_->table).at_path(key).node() : nullptr) n = entry;
   const bool shown = n && n->is_value() && expected.find("got ") == std::string::npos;
@@ -345,7 +345,7 @@ void TomlTable::finish() const {
 
 namespace {
 
-/// The check of a file against a table of keys, one of its tables after the other.
+/// Validation of a file against a table of keys, one TOML table after another.
 class KeyCheck {
  public:
   KeyCheck(std::string_view text, const std::string& file, std::span<const Key> keys)
@@ -368,10 +368,10 @@ class KeyCheck {
   }
 
  private:
-  /// The key as it is written, and its value.
+  /// The key as written in a file, with its expected value.
   static std::string written(const std::string& path, const Key& key) {
     std::string name = full_key(path, key.name), keys, more;
-    // [[sphere]] holds [sphere.motion], without an index
+    // [[sphere]] contains [sphere.motion], without an index
     while (name.find('[') != std::string::npos) name.erase(name.find('['), name.find(']') - name.find('[') + 1);
     if (key.kind == Key::Kind::value) return fmt::format("{} = {}", key.name, key.expected);
     for (const Key& below : key.below)
@@ -383,7 +383,7 @@ class KeyCheck {
     throw InputError(fmt::format("{}:{}: {}", file_, std::max<toml::source_index>(line, 1), what));
   }
 
-  /// Every key of the file, and the table that it belongs to, in words.
+  /// Every key of the file, with a description of the table it belongs to.
   using Owned = std::pair<std::string, std::string>;
   void owners(std::span<const Key> keys, const std::string& path, const std::string& table, const std::string& here,
               std::vector<Owned>& out) const {
@@ -395,7 +395,7 @@ class KeyCheck {
     }
   }
 
-  /// Where else a key belongs that this table does not know; nothing where it is known nowhere.
+  /// Hint about the table to which an unknown key belongs; empty if no table has such a key.
   std::string elsewhere(std::string_view key, const std::string& here) const {
     std::vector<Owned> all;
     owners(all_, "", "the top of the file, before the first [table]", here, all);
@@ -405,14 +405,14 @@ class KeyCheck {
       if (name == key) tables.push_back(table);
     }
     if (!tables.empty()) return fmt::format("; it belongs to {}", fmt::join(tables, " or "));
-    if (key.size() < 6) return "";  // short words are near to too many
+    if (key.size() < 6) return "";  // short words resemble too many keys
     const std::string meant = closest_match(key, names);
     for (const auto& [name, table] : all)
       if (name == meant) return fmt::format("; did you mean '{}' of {}?", name, table);
     return "";
   }
 
-  /// Whether a key may be left out of the innermost table.
+  /// True if the key may be omitted from the innermost table.
   bool may_miss(const Key& key) const {
     const auto has = [&](const toml::table* table) { return table->contains(key.unless); };
     return !key.required || (!key.unless.empty() && std::any_of(around_.begin(), around_.end(), has));
@@ -423,7 +423,7 @@ class KeyCheck {
     return included ? "" : fmt::format(", unless the file has '{}'", key.unless);
   }
 
-  /// Unknown keys and missing ones, which often are one and the same.
+  /// Reports unknown and missing keys together, since they are often the same mistake.
   void names(const toml::table& table, const std::string& path, std::span<const Key> keys) const {
     std::vector<std::string> known, absent;
     for (const Key& key : keys) {
@@ -439,7 +439,7 @@ class KeyCheck {
       if (std::find(known.begin(), known.end(), key.str()) != known.end()) continue;
       std::string here = path;
       while (here.find('[') != std::string::npos) here.erase(here.find('['), here.find(']') - here.find('[') + 1);
-      // what is missing is what was meant rather than what is there already
+      // prefer a missing key to one that is already present
       const std::string meant = closest_match(key.str(), absent);
       std::string hint = elsewhere(key.str(), here);
       const bool lacks = std::any_of(missing.begin(), missing.end(), [&](const Key* k) { return k->name == meant; });
@@ -452,7 +452,7 @@ class KeyCheck {
       }
       unknown.emplace_back(key.source().begin.line, fmt::format("{}: unknown key{}", full_key(path, key.str()), hint));
     }
-    // keys that stand here and belong to a missing table: its header is what is missing
+    // keys found here that belong to a missing table: only its header is missing
     const auto only_header = [&](const Key& key) {
       return std::any_of(unknown.begin(), unknown.end(), [&](const auto& one) {
         return one.second.ends_with(fmt::format("; it belongs to [{}]", full_key(path, key.name)));
@@ -484,7 +484,7 @@ class KeyCheck {
                      one_value ? std::string(missing[0]->expected) + unless_clause(*missing[0]) : lacking));
   }
 
-  /// Tables that are none, or single ones that should be several.
+  /// Reports values that should be tables, and single tables that should be arrays of tables.
   void kinds(const toml::table& table, const std::string& path, std::span<const Key> keys) const {
     for (const Key& key : keys) {
       const toml::node* n = table.get(key.name);
@@ -519,7 +519,7 @@ class KeyCheck {
   std::string_view text_;
   const std::string& file_;
   std::span<const Key> all_;
-  std::vector<const toml::table*> around_;  // the table that is checked, and those that it stands in
+  std::vector<const toml::table*> around_;  // the table being checked and the enclosing ones
 };
 
 }  // namespace
@@ -531,7 +531,7 @@ void check_keys(std::string_view text, const std::string& name, std::span<const 
   } catch (const InputError& error) {
     if (!root->empty()) throw;
     const std::string what = error.what();
-    throw InputError(fmt::format("{}: the file is empty{}: {}", name, text.empty() ? "" : " but for comments",
+    throw InputError(fmt::format("{}: the file is empty{}: {}", name, text.empty() ? "" : " except for comments",
                                  what.substr(what.find(": ", name.size() + 1) + 2)));
   }
 }
@@ -540,7 +540,7 @@ struct TomlDocument::Tree {
   toml::table root;
   std::string file;
 
-  /// The table that a path's last key stands in, and that key.
+  /// The table that contains a path's last key, and that key.
   std::pair<toml::table&, std::string_view> parent(std::string_view path) {
     const size_t dot = path.rfind('.');
     if (dot == std::string_view::npos) return {root, path};

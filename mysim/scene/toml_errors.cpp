@@ -1,4 +1,4 @@
-// Faults of TOML files that people make, recognised by the line that has them.
+// Common errors in hand-written TOML files, recognised from the line that contains them.
 
 #include <fmt/format.h>
 
@@ -12,12 +12,12 @@
 namespace crosscheck {
 namespace {
 
-/// A line without its comment and with the inside of its texts blanked: what is left has a meaning.
+/// A line without its comment and with the content of its texts blanked, so that only syntax remains.
 struct BareLine {
-  std::string code;     // as long as the line up to its comment; the inside of texts is '_'
-  std::string shown;    // the line as it stands, trimmed
-  bool open = false;    // a text in it is not closed
-  bool inside = false;  // it begins within a text of several lines
+  std::string code;     // same length as the line up to its comment; the content of texts is '_'
+  std::string shown;    // the original line, trimmed
+  bool open = false;    // contains a text that is not closed
+  bool inside = false;  // begins inside a multi-line text
 };
 
 std::string trimmed_line(std::string_view text) {
@@ -27,7 +27,7 @@ std::string trimmed_line(std::string_view text) {
 
 std::vector<BareLine> bare_lines(std::string_view text) {
   std::vector<BareLine> lines;
-  std::string_view fence;  // of a text of several lines that is open: """ or '''
+  std::string_view fence;  // delimiter of the open multi-line text: """ or '''
   for (std::size_t begin = 0; begin <= text.size();) {
     const std::size_t end = std::min(text.find('\n', begin), text.size());
     const std::string_view line = text.substr(begin, end - begin);
@@ -60,7 +60,7 @@ std::vector<BareLine> bare_lines(std::string_view text) {
   return lines;
 }
 
-/// The code point that begins at `at`, and its length in bytes; nothing where the bytes are no UTF-8.
+/// The code point that begins at `at`, and its length in bytes; nothing if the bytes are not UTF-8.
 std::optional<std::pair<char32_t, int>> code_point_at(std::string_view text, std::size_t at) {
   const auto byte = [&](std::size_t i) { return static_cast<unsigned char>(text[i]); };
   const int length = byte(at) < 0x80       ? 1
@@ -84,21 +84,21 @@ std::string strange_character(char32_t c, std::string_view as_written) {
     return fmt::format("{} is a typographic minus or dash; expected the plain one, -", as_written);
   if (c == 0xa0 || c == 0x202f || (c >= 0x2000 && c <= 0x200a) || c == 0x3000 || c == 0x200b || c == 0xfeff ||
       c == 0x2060)
-    return fmt::format("an invisible character (U+{:04X}) stands in it; expected a plain space or nothing",
+    return fmt::format("the line contains an invisible character (U+{:04X}); expected a plain space or nothing",
                        static_cast<unsigned>(c));
-  return fmt::format("the character {} (U+{:04X}) stands outside of quotes; expected plain letters, digits and signs",
+  return fmt::format("unexpected character {} (U+{:04X}) outside quotes; expected plain letters, digits and signs",
                      as_written, static_cast<unsigned>(c));
 }
 
-/// Characters and bytes that no TOML has, in the whole file.
+/// Characters and bytes that TOML never allows, anywhere in the file.
 std::optional<TomlError> strange_characters(std::string_view text) {
   if (text.find('\0') != std::string_view::npos)
-    return TomlError{1, "the file is no plain text (it may be UTF-16); expected text saved as UTF-8"};
+    return TomlError{1, "the file is not plain text (it may be UTF-16); expected text saved as UTF-8"};
   int line = 1;
   for (std::size_t at = 0; at < text.size();) {
     const auto point = code_point_at(text, at);
     if (!point)
-      return TomlError{line, "its characters are not stored as UTF-8 (but as Latin-1?); expected text saved as UTF-8"};
+      return TomlError{line, "the text is not encoded as UTF-8 (but as Latin-1?); expected text saved as UTF-8"};
     line += text[at] == '\n';
     if (text[at] == '\r' && at + 1 < text.size() && text[at + 1] != '\n')
       return TomlError{line, "lines end with a carriage return alone; expected line feeds (save with Unix line ends)"};
@@ -121,37 +121,37 @@ std::optional<TomlError> strange_characters(std::string_view text) {
 
 bool line_matches(const std::string& text, const char* pattern) { return Pattern(pattern).is_in(text); }
 
-/// The fault of a single value, code alone; nothing where it looks well.
+/// The error in a single value (code only); empty if it looks correct.
 std::string wrong_with_value(const std::string& v) {
-  if (v.empty()) return "nothing stands behind the =; expected a value";
+  if (v.empty()) return "there is nothing after the =; expected a value";
   if (v[0] == '=') return "expected a single = between key and value";
   if (line_matches(v, R"(^[-+]?(Inf|INF|[iI]nfinity|NaN|NAN|Nan)$)")) return "expected a number in digits";
   if (line_matches(v, R"(^[-+]?\.\d)"))
     return fmt::format("expected a digit before the decimal point: 0{}", v[0] == '.' ? v : v.substr(1));
-  if (line_matches(v, R"(^[-+]?\d+\.($|[eE]))")) return "expected a digit behind the decimal point, as in 5.0";
+  if (line_matches(v, R"(^[-+]?\d+\.($|[eE]))")) return "expected a digit after the decimal point, as in 5.0";
   if (line_matches(v, R"(^[-+]?0\d)")) return "expected a number without leading zeros";
   if (line_matches(v, R"(^[-+]?\d[\d.]*([eE][-+]?\d+)?\s*[/*^+-])"))
-    return "nothing is calculated here; expected the number itself, as in 0.0166667 or 1e-3";
-  if (line_matches(v, R"(^[-+]?\d+,\d)")) return "a comma is no part of a number; expected a decimal point, as in 0.5";
+    return "expressions are not evaluated; expected the number itself, as in 0.0166667 or 1e-3";
+  if (line_matches(v, R"(^[-+]?\d+,\d)")) return "numbers contain no commas; expected a decimal point, as in 0.5";
   if (line_matches(v, R"(^[-+]?\d+['. ]\d{3}['. ]\d{3})")) return "expected a number without separators, as in 1000000";
-  if (line_matches(v, R"(^[-+]?\d[\d._]*[eE]$)")) return "expected a power of ten behind the e, as in 1e-3";
+  if (line_matches(v, R"(^[-+]?\d[\d._]*[eE]$)")) return "expected a power of ten after the e, as in 1e-3";
   if (line_matches(v, R"(^[-+]?\d[\d._]*([eE][-+]?\d+)?\s*[,;]$)"))
-    return "expected nothing behind the number: no comma, no semicolon";
+    return "expected nothing after the number: no comma, no semicolon";
   if (line_matches(v, R"(^\d+\s*[xX]\s*\d+)")) return "expected a list in square brackets: [20, 20]";
-  if (line_matches(v, R"(^[-+]?[\d.]*[oO][\d.oO]*$)")) return "the letter O stands in the number; expected the digit 0";
+  if (line_matches(v, R"(^[-+]?[\d.]*[oO][\d.oO]*$)")) return "the number contains the letter O; expected the digit 0";
   if (line_matches(v, R"(^[-+]?[\d.]+\s+[eE]\s*[-+]?\s*\d)") || line_matches(v, R"(^[-+]?[\d.]+[eE]\s+[-+]?\s*\d)"))
     return "expected the number in one piece, as in 1e-3";
   if (line_matches(v, R"(^[-+]?\d[\d._]*([eE][-+]?\d+)?\s*(?![eE][-+]?\d)[A-Za-z%])"))
-    return "expected the number alone, without its unit (units are fixed); what explains it stands behind a #";
+    return "expected the number alone, without its unit (units are fixed); comments begin with #";
   if (line_matches(v, R"(^[-+]?\d[\d._]*([eE][-+]?\d+)?\s+[-+]?\d)"))
-    return "two numbers stand behind one =; expected one, or a list: [1, 2, 3]";
+    return "there are two numbers after one =; expected one, or a list: [1, 2, 3]";
   if (line_matches(v, R"(^[A-Za-z][\w./+-]*\s*;?$)") && v != "true" && v != "false" && v != "inf" && v != "nan")
     return fmt::format("expected a text in quotes: \"{}\"", trimmed_line(v.substr(0, v.find(';'))));
   if (line_matches(v, R"(^[A-Za-z][\w,.'-]*\s+[^\s=])")) return "expected the whole text in quotes";
   if (v[0] == '"' && v.size() > 1) {
     const std::string rest = trimmed_line(v.substr(std::min(v.find('"', 1), v.size() - 1) + 1));
-    if (rest == "," || rest == ";") return "expected nothing behind the text: no comma, no semicolon";
-    if (!rest.empty()) return "something stands behind the closing quote; expected a quote within a text as \\\"";
+    if (rest == "," || rest == ";") return "expected nothing after the text: no comma, no semicolon";
+    if (!rest.empty()) return "there is something after the closing quote; expected a quote within a text as \\\"";
   }
   return "";
 }
@@ -173,7 +173,7 @@ std::string wrong_with_list(const std::string& v) {
   }
   const std::size_t closed = v.rfind(']');
   if (closed != std::string::npos && !trimmed_line(v.substr(closed + 1)).empty())
-    return "expected nothing behind the closing ] of the list";
+    return "expected nothing after the closing ] of the list";
   return "";
 }
 
@@ -188,7 +188,7 @@ std::string wrong_with_header(const std::string& code) {
   if (name.empty()) return "expected the name of a table between the brackets";
   if (name.find(' ') != std::string::npos) return "expected one word between the brackets, without blanks";
   const std::string rest = trimmed_line(code.substr(code.rfind(']') + 1));
-  if (!rest.empty()) return "expected nothing behind the closing bracket; keys stand in lines of their own";
+  if (!rest.empty()) return "expected nothing after the closing bracket; keys go on lines of their own";
   return "";
 }
 
@@ -199,7 +199,7 @@ std::string wrong_with_line(const BareLine& line) {
   if (line.open)
     return line_matches(code, R"(=\s*[A-Za-z])")
                ? "expected the whole text in quotes"
-               : "the text has no closing quote; expected one at its end, in the same line";
+               : "the text has no closing quote; expected one at its end, on the same line";
   if (code.starts_with("//") || code.starts_with(";") || code.starts_with("/*") || code.starts_with("--") ||
       code.starts_with("%") || code.starts_with("!"))
     return "expected comments to begin with #";
@@ -210,7 +210,7 @@ std::string wrong_with_line(const BareLine& line) {
   if (equals == std::string::npos) {
     if (const std::size_t colon = code.find(':'); colon != std::string::npos)
       return fmt::format("expected = in place of the colon: {} = ...", trimmed_line(code.substr(0, colon)));
-    return "no = stands in it; expected KEY = VALUE, [TABLE] or a comment that begins with #";
+    return "the line contains no =; expected KEY = VALUE, [TABLE] or a comment that begins with #";
   }
   const std::string key = trimmed_line(code.substr(0, equals)), value = trimmed_line(code.substr(equals + 1));
   if (key.empty()) return "expected the name of a key before the =";
@@ -222,7 +222,7 @@ std::string wrong_with_line(const BareLine& line) {
   if (value.starts_with("<")) return "expected a list in square brackets: [1, 2, 3]";
   if (value.starts_with("{")) {
     if (value.find('}') == std::string::npos)
-      return "a table in braces must end in the same line; expected } there, or a table [NAME] with lines of its own";
+      return "a table in braces must end on the same line; expected } there, or a table [NAME] with lines of its own";
     if (line_matches(value, R"(,\s*\})")) return "expected no comma before the closing }";
     if (value.find(':') != std::string::npos) return "expected = in place of the colon";
     return "";
@@ -233,8 +233,8 @@ std::string wrong_with_line(const BareLine& line) {
   return wrong_with_value(value);
 }
 
-/// A list or braces that are open when the next key or table begins, before the line at which the parser stumbled or in
-/// it.
+/// A list or braces that are still open when the next key or table begins, at the line where the parser stumbled or
+/// before.
 std::optional<TomlError> open_list(const std::vector<BareLine>& lines, int stumbled) {
   int depth = 0, opened = 0;
   const int seen = std::min(stumbled + 1, static_cast<int>(lines.size()));
@@ -258,7 +258,7 @@ std::optional<TomlError> open_list(const std::vector<BareLine>& lines, int stumb
   return std::nullopt;
 }
 
-/// Where what stands twice stood first: the same key or header, searched upwards.
+/// Reports a duplicate key or header, with the line of its first definition, found by searching upwards.
 std::optional<TomlError> standing_twice(const std::vector<BareLine>& lines, int line, std::string_view description) {
   if (description.find("redefine") == std::string_view::npos || line < 1 || line > static_cast<int>(lines.size()))
     return std::nullopt;
@@ -280,20 +280,20 @@ std::optional<TomlError> standing_twice(const std::vector<BareLine>& lines, int 
     }
     if (name_in(above) != name) continue;
     if (!header)
-      return TomlError{line,
-                       fmt::format("{} stands twice in this table, first in line {}; expected it once", name, i + 1)};
-    return TomlError{line,
-                     fmt::format("the table {} stands twice, first as {} in line {}; expected all its keys below one "
-                                 "[{}], or [[{}]] each time where there are several",
-                                 name, above, i + 1, name, name)};
+      return TomlError{
+          line, fmt::format("{} is defined twice in this table, first in line {}; expected it once", name, i + 1)};
+    return TomlError{
+        line, fmt::format("the table {} is defined twice, first as {} in line {}; expected all its keys below one "
+                          "[{}], or [[{}]] each time where there are several",
+                          name, above, i + 1, name, name)};
   }
-  return TomlError{line, fmt::format("{} is there already, written another way; expected it once", name)};
+  return TomlError{line, fmt::format("{} is already defined in another notation; expected it once", name)};
 }
 
 }  // namespace
 
 std::optional<TomlError> too_deep_key(std::string_view text) {
-  constexpr int most = 30;  // toml++ nests values 256 deep, with such a key in each
+  constexpr int most = 30;  // toml++ nests values up to 256 deep, each with such a key
   int line = 0;
   for (const BareLine& bare : bare_lines(text)) {
     ++line;
@@ -320,7 +320,7 @@ TomlError diagnose_toml(std::string_view text, int line, std::string_view descri
   if (const auto strange = strange_characters(text))
     return strange->what.find("UTF-") == std::string::npos ? with_line(*strange) : *strange;
   if (const auto again = standing_twice(lines, line, description)) return with_line(*again);
-  // a text that is not closed ends where it begins
+  // an unclosed text is reported where it begins
   for (int i = 0; i < std::min(line, static_cast<int>(lines.size())); ++i)
     if (lines[i].open) return with_line({i + 1, wrong_with_line(lines[i])});
   if (const auto list = open_list(lines, line)) return with_line(*list);

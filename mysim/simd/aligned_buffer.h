@@ -1,4 +1,4 @@
-// Memory for kernels: numbers that begin at a cache line.
+// Memory for kernels: arrays aligned to a cache line.
 #pragma once
 
 #include <algorithm>
@@ -11,7 +11,7 @@
 
 namespace crosscheck::simd {
 
-/// Numbers that begin at a cache line, with a cache line to spare on either side.
+/// An array aligned to a cache line, with one spare cache line on either side.
 template <class T>
 class AlignedBuffer {
  public:

@@ -1,4 +1,4 @@
-// The instruction sets of this machine, and the requested one.
+// Instruction sets of this machine, and the selected one.
 #include "mysim/simd/instruction_sets.h"
 
 #include <fmt/format.h>

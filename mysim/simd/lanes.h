@@ -1,13 +1,13 @@
-// Numbers side by side: the one file that knows instruction sets. It is compiled once for each of them, in a namespace
-// of its own, without any function of std::, so that no instruction of a newer machine can end up in shared code.
+// SIMD wrapper: the only file that contains intrinsics. It is compiled once per instruction set, in a namespace of its
+// own and without any std:: function, so that no instruction of a newer machine can end up in shared code.
 //
-// Lanes<T> is as many numbers as one register holds, with + - * of the compiler's vector types and the few operations
-// that these lack: loads, fused multiply-add, the smaller and the larger of two, and 1 / sqrt. Points come in memory as
-// x y z x y z: add_points turns lanes of x, of y and of z into that. A record is four numbers, x y z and one more that
-// is 0; Records are as many of them as there are lanes. They are loaded as wholes, wherever they lie, and only the sums
-// of their squares go to lanes.
+// Lanes<T> holds as many numbers as one register, with + - * of the compiler's vector types and the few operations that
+// these lack: loads, fused multiply-add, minimum and maximum, and 1 / sqrt. Points are stored as x y z x y z:
+// add_points converts lanes of x, of y and of z to this order. A record is four numbers, x y z and a 0; Records are as
+// many records as there are lanes. Records are loaded whole from any address, and only the sums of their squares are
+// converted to lanes.
 //
-// This is not Highway: Debian's (1.0.3) has no SSE2 target, so that the build that every machine runs would have one
+// Highway is not used: Debian's version (1.0.3) has no SSE2 target, so the build that every machine runs would have one
 // lane and take 1.9 to 2.7 times as long (measured on 1 - 1 / sqrt(s)); and it has no estimate of 1 / sqrt in double
 // precision.
 #pragma once
@@ -25,7 +25,7 @@ template <class T>
 struct Lanes;
 
 #if defined(__AVX2__)
-/// The first three numbers of a record, onto a point.
+/// Adds the first three numbers of a record to a point.
 FORCE_INLINE void add_record(double* p, __m256d a) {
   _mm_storeu_pd(p, _mm_loadu_pd(p) + _mm256_castpd256_pd128(a));
   _mm_store_sd(p + 2, _mm_add_sd(_mm_load_sd(p + 2), _mm256_extractf128_pd(a, 1)));
@@ -74,7 +74,7 @@ struct Lanes<double> {
     };
     return {two(0), two(2), two(4), two(6)};
   }
-  /// The sum of the squares of each record, rounded as x x + y y + z z.
+  /// Sum of squares of each record, rounded as x x + y y + z z.
   FORCE_INLINE V squared_norms(const Records& d) {
     const auto two = [](V a, V b) __attribute__((always_inline)) {
       const V even = _mm512_unpacklo_pd(a, b), odd = _mm512_unpackhi_pd(a, b);
@@ -83,7 +83,7 @@ struct Lanes<double> {
     const V a = two(d.r[0], d.r[1]), b = two(d.r[2], d.r[3]);
     return _mm512_permutex_pd(_mm512_shuffle_f64x2(a, b, 0x88) + _mm512_shuffle_f64x2(a, b, 0xdd), 0b11011000);
   }
-  /// take(i, record i times lane i of `by`), for each i.
+  /// Calls take(i, record i times lane i of `by`) for each i.
   template <class Take>
   FORCE_INLINE void each_scaled(const Records& d, V by, Take take) {
     const auto two = [&](long a, long b) __attribute__((always_inline)) {
@@ -203,7 +203,7 @@ struct Lanes<double> {
   FORCE_INLINE V min(V a, V b) { return a < b ? a : b; }
   FORCE_INLINE V max(V a, V b) {
 #ifdef __SSE2__
-    return _mm_max_pd(a, b);  // g++ 12 takes four instructions where b is a constant
+    return _mm_max_pd(a, b);  // g++ 12 uses four instructions if b is a constant
 #else
     return a > b ? a : b;
 #endif
@@ -264,7 +264,7 @@ struct Lanes<float> {
   FORCE_INLINE V min(V a, V b) { return a < b ? a : b; }
   FORCE_INLINE V max(V a, V b) {
 #ifdef __SSE2__
-    return _mm_max_ps(a, b);  // g++ 12 takes four instructions where b is a constant
+    return _mm_max_ps(a, b);  // g++ 12 uses four instructions if b is a constant
 #else
     return a > b ? a : b;
 #endif
@@ -280,8 +280,8 @@ struct Lanes<float> {
 
 #endif
 
-/// Lanes for code that must have the same bits on every machine unless it is `fast`: then fma() and fnma() are fused,
-/// as the machine can, else their products are rounded.
+/// Lanes for code that must give the same bits on every machine unless `fast`. If `fast`, fma() and fnma() are fused
+/// where the machine can; otherwise their products are rounded.
 template <class T, bool fast>
 struct Arithmetic : Lanes<T> {
   using V = typename Lanes<T>::V;
@@ -295,10 +295,10 @@ struct Arithmetic : Lanes<T> {
   }
 };
 
-/// 1 / sqrt(s) to 2 units in the last place, s > 0: by root and quotient, which are rounded alike everywhere, or, where
-/// `fast`, from the machine's own estimate, which differs between makers. With e = 1 - s y^2, of the order of the
-/// estimate's error, y (1 + e/2 + 3/8 e^2 + 5/16 e^3 + ...) is 1 / sqrt(s). The correction is added to y, so that only
-/// its last digits round.
+/// 1 / sqrt(s) to 2 units in the last place, s > 0: by square root and division, which round identically everywhere,
+/// or, if `fast`, from the machine's own estimate, which differs between vendors. With e = 1 - s y^2, of the order of
+/// the estimate's error, 1 / sqrt(s) = y (1 + e/2 + 3/8 e^2 + 5/16 e^3 + ...). The correction is added to y, so that
+/// only its last digits are affected by rounding.
 template <class T, bool fast>
 FORCE_INLINE typename Lanes<T>::V rsqrt(typename Lanes<T>::V s) {
   using L = Lanes<T>;
@@ -306,7 +306,7 @@ FORCE_INLINE typename Lanes<T>::V rsqrt(typename Lanes<T>::V s) {
   if constexpr (fast) {
     const auto y = L::rsqrt_estimate(s);
     const auto e = L::fnma(s * y, y, L::all(1));
-    if constexpr (sizeof(T) == 4) return L::fma(y * e, L::all(0.5f), y);  // one step of Newton's is enough
+    if constexpr (sizeof(T) == 4) return L::fma(y * e, L::all(0.5f), y);  // one Newton step suffices
     auto series = L::all(0.3125f);
     if constexpr (L::width == 4) series = L::fma(e, L::all(0.2734375f), series);  // 12 bits: e^5 is 1e-16
     return L::fma(y * e, L::fma(e, L::fma(e, series, L::all(0.375f)), L::all(0.5f)), y);

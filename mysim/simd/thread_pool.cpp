@@ -11,7 +11,7 @@
 namespace crosscheck::simd {
 namespace {
 
-/// Tells the processor that this thread spins.
+/// Tells the processor that this thread is spinning.
 void pause() {
 #ifdef __x86_64__
   __builtin_ia32_pause();
@@ -20,7 +20,7 @@ void pause() {
 #endif
 }
 
-/// Returns when `number` has become another one: what it is then.
+/// Waits until `number` differs from `known`; returns its new value.
 long wait_for_change(const std::atomic<long>& number, long known) {
   constexpr int spins = 2000, yields = 2000;  // some tens of microseconds; about a millisecond
   for (int i = 0; i < spins + yields; ++i) {
@@ -44,8 +44,8 @@ struct ThreadPool::Workers {
   void loop(int which);
 
   std::vector<Worker> list;
-  const std::function<void(int)>* work = nullptr;  // null: the end
-  std::atomic<long> begun = 0, done = 0;           // how many pieces; of all others together
+  const std::function<void(int)>* work = nullptr;  // null: terminate
+  std::atomic<long> begun = 0, done = 0;           // pieces begun; pieces that other threads completed
 };
 
 ThreadPool::ThreadPool(int threads) : workers_(std::make_unique<Workers>()) {

@@ -1,4 +1,4 @@
-// A thread pool for pieces of work, one of which comes many thousand times a second.
+// A thread pool for work that arrives many thousand times per second.
 #pragma once
 
 #include <functional>
@@ -6,20 +6,20 @@
 
 namespace crosscheck::simd {
 
-/// An idle thread spins for some microseconds, then yields to others, and falls
-/// asleep when a millisecond has passed: waking up takes longer than a step of a small cloth.
+/// An idle thread spins for some microseconds, then yields, and sleeps after a millisecond: waking up takes longer than
+/// a step of a small cloth.
 class ThreadPool {
  public:
-  /// So many threads in all; the calling one is the first.
+  /// `threads` in total, including the calling thread, which is the first.
   explicit ThreadPool(int threads);
   ~ThreadPool();
   ThreadPool(const ThreadPool&) = delete;
   ThreadPool& operator=(const ThreadPool&) = delete;
 
   int size() const;
-  /// work(0) ... work(size() - 1), which must not throw, each on a thread of its own; returns when all are done.
+  /// Runs work(0) ... work(size() - 1), which must not throw, each on its own thread; returns when all are done.
   void all(const std::function<void(int)>& work);
-  /// CPU time of the other threads' work, s, without their waits.
+  /// CPU time (s) of the other threads' work, without waiting.
   double seconds() const;
 
  private:

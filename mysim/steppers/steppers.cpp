@@ -16,12 +16,12 @@ namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
-/// First h at which `growth` (of a step of h) exceeds 1, found by walking and halving; `scale` is a step that is long
-/// next to what is sought. 0 when even the shortest steps grow.
+/// First h at which `growth` (of a step of h) exceeds 1, found by scanning and bisection; `scale` is a step that is
+/// large compared with the result. Returns 0 if even the shortest steps grow.
 template <class Growth>
 double first_exit(Growth growth, double scale) {
   constexpr int walk = 4000;
-  // above 1 by more than rounding: neutral rules sit at 1 exactly
+  // above 1 by more than rounding: neutral rules are exactly at 1
   auto unstable = [&](double h) { return growth(h) > 1 + 1e-13; };
   if (!std::isfinite(scale)) return infinity;
   double low = 0;
@@ -35,7 +35,7 @@ double first_exit(Growth growth, double scale) {
       const double middle = (low + high) / 2;
       (unstable(middle) ? high : low) = middle;
     }
-    // the walk begins at h > 0: a rule that fails at every step, slowly, is recognised where it first shows
+    // the scan begins at h > 0: a rule that is slowly unstable at every step is recognised at the first point
     return i == 1 ? 0 : low;
   }
   return infinity;
@@ -64,7 +64,7 @@ double runge_kutta(StabilityLimit rule, double omega, double gamma) {
                     8 / fastest);
 }
 
-/// The leapfrog step as a matrix on (u, v), h of either sign.
+/// The leapfrog step as a matrix on (u, v); h may be negative.
 Eigen::Matrix2d leapfrog_matrix(double omega, double gamma, double h) {
   const double half = h * gamma / 2;
   Eigen::Matrix2d drift, kick;
@@ -81,7 +81,7 @@ double spectral_radius(const Eigen::Matrix2d& m) {
 }  // namespace
 
 double explicit_euler(double omega, double gamma) {
-  // |1 + h lambda| = 1: complex pair |lambda|^2 = omega^2, Re lambda = -gamma/2; real pair: the fast one alone
+  // |1 + h lambda| = 1: complex pair |lambda|^2 = omega^2, Re lambda = -gamma/2; real pair: the fast eigenvalue
   if (gamma < 2 * omega) return gamma / (omega * omega);
   const double fast = (gamma + std::sqrt(gamma * gamma - 4 * omega * omega)) / 2;
   return fast > 0 ? 2 / fast : infinity;
@@ -97,7 +97,7 @@ double rk4(double omega, double gamma) { return runge_kutta(rk4, omega, gamma); 
 double dopri5(double omega, double gamma) { return runge_kutta(dopri5, omega, gamma); }
 
 std::span<const double> stability_polynomial(StabilityLimit limit) {
-  // all but the last one are those of the exponential, up to the order of each rule
+  // all except the last coefficient are those of the exponential, up to the order of each rule
   static constexpr double coefficients[] = {1, 1, 1. / 2, 1. / 6, 1. / 24, 1. / 120, 1. / 600};
   const size_t count = limit == explicit_euler ? 2
                        : limit == trapezoidal  ? 3
@@ -142,7 +142,7 @@ std::span<const Stepper> steppers() {
        .symplectic = false,
        .limit = limits::explicit_euler,
        .limit_formula = "h < gamma / omega^2 (2 / lambda_max when overdamped): none without drag",
-       .what = "forward Euler, kept as a warning"},
+       .what = "forward Euler, a cautionary example"},
       {.name = "trapezoidal",
        .step = trapezoidal,
        .order = 2,
@@ -151,7 +151,7 @@ std::span<const Stepper> steppers() {
        .symplectic = false,
        .limit = limits::trapezoidal,
        .limit_formula = "|1 + z + z^2/2| < 1 at z = h lambda: none without drag",
-       .what = "explicit trapezoidal rule (Heun), the assignment's second"},
+       .what = "explicit trapezoidal rule (Heun), the assignment's second rule"},
       {.name = "rk4",
        .step = rk4,
        .order = 4,
@@ -160,7 +160,7 @@ std::span<const Stepper> steppers() {
        .symplectic = false,
        .limit = limits::rk4,
        .limit_formula = "h omega < 2.83 without drag",
-       .what = "classic Runge-Kutta: accurate smooth motion, and the reference by step halving"},
+       .what = "classic Runge-Kutta: accurate for smooth motion; reference solutions by step halving"},
       {.name = "symplectic-euler",
        .step = symplectic_euler,
        .order = 1,
@@ -178,8 +178,8 @@ std::span<const Stepper> steppers() {
        .first_order = false,
        .symplectic = true,
        .limit = limits::leapfrog,
-       .limit_formula = "h omega < 2, whatever the drag",
-       .what = "half drift, kick, half drift; the best value for one evaluation a step",
+       .limit_formula = "h omega < 2 for any drag",
+       .what = "half drift, kick, half drift; best accuracy at one evaluation per step",
        .composition = leapfrog_composition},
       {.name = "suzuki4",
        .step = suzuki4,
@@ -189,7 +189,7 @@ std::span<const Stepper> steppers() {
        .symplectic = true,
        .limit = limits::suzuki4,
        .limit_formula = "h omega < 2.72 without drag; h gamma < 3.02 without springs",
-       .what = "five leapfrogs; more accurate than rk4 for the same work, and keeps energy for ever",
+       .what = "five leapfrogs; more accurate than rk4 at equal work, with bounded energy error",
        .composition = suzuki4_composition},
       {.name = "dopri5",
        .step = dopri5,
@@ -210,7 +210,7 @@ std::span<const Stepper> steppers() {
        .symplectic = false,
        .limit = limits::none,
        .limit_formula = "stable at every step",
-       .what = "Newton's method on the whole nonlinear step; stiff springs at long steps, at the price of damping; "
+       .what = "Newton's method on the whole nonlinear step; stiff springs at large steps, at the cost of damping; "
                "+linear: one Newton step, the rule of Bullet's implicit world",
        .solved_to = force_tolerance,
        .linear = implicit_euler_linear},

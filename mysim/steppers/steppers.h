@@ -1,4 +1,4 @@
-// Steppers, the table of all of them, and parts that rules share: leapfrog, rk4, dopri5, stability limits.
+// Steppers, their table, and building blocks that rules share: leapfrog, rk4, dopri5, stability limits.
 #pragma once
 
 #include <any>
@@ -12,18 +12,18 @@
 
 namespace crosscheck {
 
-// Steppers, and the table of all of them. A new stepper is a function in a file of its own and one row.
+// Steppers, and the table of all of them. A new stepper is a function in its own file and one row.
 
-/// Working memory of a stepper, made at its first step and kept, so that no later step allocates.
+/// Working memory of a stepper, allocated at its first step and kept, so that later steps do not allocate.
 class Workspace {
  public:
   explicit Workspace(const State& like) : like_(like) {}
-  /// The i-th state of the size of the scene's, i = 0, 1, ...
+  /// The i-th auxiliary state of the scene's size, i = 0, 1, ...
   State& operator[](int i) {
     while (static_cast<int>(states_.size()) <= i) states_.push_back(like_);
     return states_[i];
   }
-  /// Memory of the stepper's own kind, made from `from` at its first use.
+  /// Memory of a stepper-specific type, constructed from `from` at its first use.
   template <class T, class From>
   T& own(From& from) {
     if (!own_.has_value()) own_.emplace<T>(from);
@@ -36,38 +36,38 @@ class Workspace {
   std::any own_;
 };
 
-/// Advances state.x and state.v from state.t by h. The caller sets the new time, moves the pins and resolves contacts.
-/// Throws SolverFailure when an equation inside the step has no solution.
+/// Advances state.x and state.v from state.t by h (s). The caller sets the new time, moves the pins and resolves
+/// contacts. Throws SolverFailure if an equation inside the step cannot be solved.
 using StepFunction = void (*)(System&, State&, double h, Workspace&);
 
-/// The largest stable step (s) on u'' = -omega^2 u - gamma u' (rad/s, 1/s); infinite where every step is stable, 0
-/// where none is. Without drag and without a spring (omega = 0) it says what drag alone allows.
+/// Largest stable step (s) for u'' = -omega^2 u - gamma u' (rad/s, 1/s); infinite if every step is stable, 0 if none
+/// is. With drag but no spring (omega = 0), it is the limit due to drag alone.
 using StabilityLimit = double (*)(double omega, double gamma);
 
-/// A rule made of kicks v' = v + h F/m and drifts x' = x + h v' alone. Leapfrogs (half drift, kick, half drift) of
-/// these parts of the step, one after the other, with drag averaged over old and new velocity; or, `kick_first`, whole
-/// kicks and then whole drifts, with drag at the old velocity. Such rules have a fast path on regular cloths
-/// (mysim/simd/cloth_grid/).
+/// A rule composed only of kicks v' = v + h F/m and drifts x' = x + h v'. Either a sequence of leapfrogs (half drift,
+/// kick, half drift) over the given fractions of the step, with drag averaged over old and new velocity; or, if
+/// `kick_first`, whole kicks followed by whole drifts, with drag at the old velocity. Such rules have a fast path on
+/// regular cloths (mysim/simd/cloth_grid/).
 struct KickDriftComposition {
-  std::vector<double> fractions;  // of the step; they add up to 1
+  std::vector<double> fractions;  // fractions of the step; they add up to 1
   bool kick_first = false;
 };
 
 struct Stepper {
   std::string_view name;
   StepFunction step;
-  int order;         // of the global error on smooth scenes, drag included
-  int evaluations;   // of the right-hand side, per step; 0: as many as the equations of the step take
-  bool first_order;  // takes first-order scenes
+  int order;         // order of the global error on smooth scenes, including drag
+  int evaluations;   // right-hand side evaluations per step; 0: as many as the step's equations require
+  bool first_order;  // supports first-order scenes
   bool symplectic;   // without drag
   StabilityLimit limit;
-  std::string_view limit_formula;  // the same for people; omega and gamma as above
-  std::string_view what;           // what it is meant for
+  std::string_view limit_formula;  // the limit in readable form; omega and gamma as above
+  std::string_view what;           // intended use
   bool adaptive = false;           // chooses its own steps to meet a tolerance; `step` is then its rule at a fixed step
-  bool hard_constraints = false;   // keeps fixed distances
-  double solved_to = 0;            // of the largest force, inertia m v / h among them, where the step is an equation
-  StepFunction linear = nullptr;   // the rule behind the option +linear
-  KickDriftComposition (*composition)() = nullptr;  // where it is one
+  bool hard_constraints = false;   // supports hard distances
+  double solved_to = 0;            // implicit rules: residual relative to the largest force, inertia m v / h included
+  StepFunction linear = nullptr;   // the rule for the option +linear
+  KickDriftComposition (*composition)() = nullptr;  // null if the rule is not one
 };
 
 void explicit_euler(System& f, State& s, double h, Workspace& w);
@@ -88,11 +88,12 @@ KickDriftComposition suzuki4_composition();
 
 std::span<const Stepper> steppers();
 
-// The leapfrog step, for rules that are composed of it.
+// The leapfrog step, for rules composed of it.
 
-/// Drift h/2, kick h, drift h/2, from state.t; h may be negative. Drag and the other forces on moving particles act at
-/// the mean of old and new velocity. Drag alone is solved for exactly; dashpots and air need the new velocity: it is
-/// found in `passes` passes, each of which adds a power of h to the accuracy and costs an evaluation. Two keep order 2.
+/// Drift h/2, kick h, drift h/2, from state.t; h may be negative. Drag and the other velocity-dependent forces act at
+/// the mean of old and new velocity. Drag alone is solved exactly; dashpots and air need the new velocity, which is
+/// found in `passes` passes, each of which adds a power of h to the accuracy and costs an evaluation. Two passes
+/// preserve order 2.
 void leapfrog_step(System& f, State& s, double h, int passes, Workspace& w);
 
 // The classic fourth-order Runge-Kutta rule, for any right-hand side.
@@ -115,27 +116,27 @@ void rk4_step(Derivative derivative, State& s, double h, State* const (&k)[4], S
   s.v += h / 6 * (k1->v + 2 * k2->v + 2 * k3->v + k4->v);
 }
 
-// The embedded pair of Dormand and Prince of orders 5(4), with its interpolant (J. R. Dormand and P. J. Prince,
-// J. Comput. Appl. Math. 6, 1980; interpolant of order 4: E. Hairer, S. P. Norsett and G. Wanner, Solving Ordinary
-// Differential Equations I, II.6).
+// The embedded Dormand-Prince pair of orders 5(4), with its interpolant (J. R. Dormand and P. J. Prince, J. Comput.
+// Appl. Math. 6, 1980; fourth-order interpolant: E. Hairer, S. P. Norsett and G. Wanner, Solving Ordinary Differential
+// Equations I, II.6).
 
 class DormandPrince {
  public:
   explicit DormandPrince(const State& like) : next_(like), stage_(like), k_{like, like, like, like, like, like, like} {}
 
-  /// Tries a step of h from s: fills next() and the error estimate. Six evaluations; seven at the first step and after
-  /// forget().
+  /// Attempts a step of h from s: computes next() and the error estimate. Six evaluations; seven at the first step and
+  /// after forget().
   void attempt(System& f, State& s, double h);
   const State& next() const { return next_; }
-  /// Estimated error of next() in positions (3 x n, m) and velocities (3 x n, m/s): order 5 against order 4.
+  /// Estimated error of next() in positions (3 x n, m) and velocities (3 x n, m/s): order 5 compared with order 4.
   const State& error();
-  /// Largest speed that the first stage alone would give in the attempted step, m/s.
+  /// Largest speed (m/s) that the first stage alone would produce in the attempted step.
   double first_step_speed() const { return stage_.t * largest_column(k_[0].v); }
-  /// The last stage of an accepted step is the first of the next one.
+  /// Accepts the step: its last stage becomes the first of the next one.
   void accept() { std::swap(k_[0], k_[6]); }
-  /// The state was changed from outside: the first stage is evaluated again.
+  /// Discards the first stage, which must be evaluated again because the state was changed from outside.
   void forget() { first_known_ = false; }
-  /// The state at s.t + theta h, 0 <= theta <= 1, of the step last attempted from s and not yet accepted.
+  /// State at s.t + theta h, 0 <= theta <= 1, of the step last attempted from s and not yet accepted.
   void interpolate(const State& s, double h, double theta, State& out) const;
 
  private:
@@ -149,18 +150,18 @@ class DormandPrince {
 namespace crosscheck::limits {
 
 // Largest stable steps on the damped oscillator u'' = -omega^2 u - gamma u', rule by rule (rad/s, 1/s -> s): the theory
-// against which the steppers are tested. Sources: the eigenvalues of each rule's 2 x 2 step matrix.
+// against which the steppers are tested. Source: the eigenvalues of each rule's 2 x 2 step matrix.
 
 double explicit_euler(double omega, double gamma);
 double trapezoidal(double omega, double gamma);
 double rk4(double omega, double gamma);
-double dopri5(double omega, double gamma);  // of its rule at a fixed step
+double dopri5(double omega, double gamma);  // its rule at a fixed step
 double symplectic_euler(double omega, double gamma);
 double leapfrog(double omega, double gamma);
 double suzuki4(double omega, double gamma);
 double none(double omega, double gamma);  // infinite: stable at every step
 
-/// Coefficients, constant first, of the stability polynomial R(h lambda) of a Runge-Kutta rule with that limit; empty
+/// Coefficients, constant first, of the stability polynomial R(h lambda) of the Runge-Kutta rule with that limit; empty
 /// for the limits of other rules.
 std::span<const double> stability_polynomial(StabilityLimit limit);
 

@@ -14,7 +14,7 @@ KickDriftComposition suzuki4_composition() {
 
 void suzuki4(System& f, State& s, double h, Workspace& w) {
   const double start = s.t;
-  // four passes: what is left of the asymmetry of forces on moving particles is of order h^5, as is the rule's error
+  // four passes leave an asymmetry of velocity-dependent forces of order h^5, the order of the rule's own error
   constexpr int passes = 4;
   double done = 0;
   for (const double part : suzuki4_composition().fractions) {

@@ -1,6 +1,6 @@
 // Extended position-based dynamics with small steps (M. Macklin, M. Mueller and N. Chentanez, Motion in Games, 2016; M.
 // Macklin et al., Symposium on Computer Animation, 2019): a free step, then one pass over dashpots, springs, bending
-// and hard distances, each of which corrects the positions of its particles at once.
+// and hard distances, each of which immediately corrects the positions of its particles.
 
 #include <algorithm>
 
@@ -14,7 +14,7 @@ class ProjectionPass {
   ProjectionPass(const Particles& particles, const Eigen::ArrayXd& drag_rate, const Points& x_n, double h, State& s)
       : particles_(particles), drag_rate_(drag_rate), x_n_(x_n), h_(h), s_(s) {}
 
-  /// Drag is implicit: what a force changes in a step is less by 1 + h gamma, for these forces as for the others.
+  /// Drag is implicit: it divides the effect of any force in a step, including these, by 1 + h gamma.
   double inverse_mass(int i) const {
     return particles_.pinned[i] ? 0 : 1 / (particles_.mass[i] * (1 + h_ * drag_rate_[i]));
   }
@@ -47,7 +47,7 @@ void xpbd(System& f, State& s, double h, Workspace& w) {
   Points &x_n = w[0].x, &a = w[1].v;
   x_n = s.x;
 
-  // free step: forces that are no constraint, drag implicit, pins where they will be
+  // free step: forces that are not constraints, implicit drag, pins at their new positions
   f.external_acceleration(s, a);
   for (int i = 0; i < s.x.cols(); ++i) s.v.col(i) = (s.v.col(i) + h * a.col(i)) / (1 + h * f.drag_rate()[i]);
   s.x += h * s.v;
@@ -61,7 +61,7 @@ void xpbd(System& f, State& s, double h, Workspace& w) {
       const Vec3 d = pass.between(i, j);
       const double length2 = d.squaredNorm(), inverse = pass.inverse_mass(i, j);
       if (length2 == 0) continue;
-      // along the line, what is left of the separation is d' with d' + (c h inverse mass) d' = moved apart
+      // along the line, the remaining separation is d' with d' + (c h inverse mass) d' = moved apart
       pass.push(i, j, (-c * h * pass.moved_apart(i, j).dot(d) / (length2 * (1 + c * h * inverse))) * d);
     }
   if (const auto* springs = model.find<Springs>())
@@ -79,9 +79,9 @@ void xpbd(System& f, State& s, double h, Workspace& w) {
     }
   if (const auto* bending = model.find<Bending>())
     for (const Bending::Stencil& p : bending->list) {
-      double inverse = 0;  // 1/kg, of c
+      double inverse = 0;  // 1/kg, for c
       for (int i = 0; i < p.size; ++i) inverse += p.weight[i] * p.weight[i] * pass.inverse_mass(p.particle[i]);
-      // implicit and linear: what is left of c is c' with c' + (h^2 k inverse mass) c' = c
+      // implicit and linear: the remaining c is c' with c' + (h^2 k inverse mass) c' = c
       const Vec3 impulse = -h * h * p.k / (1 + h * h * p.k * inverse) * bent(p, s.x);
       for (int i = 0; i < p.size; ++i) pass.push(p.particle[i], p.weight[i] * impulse);
     }

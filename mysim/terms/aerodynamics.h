@@ -1,4 +1,4 @@
-// Wind that presses on triangles: each feels the air that streams past it, by its area and its normal.
+// Wind pressure on triangles: the force depends on the relative air velocity, the area and the normal.
 #pragma once
 
 #include <array>
@@ -8,15 +8,16 @@
 
 namespace crosscheck {
 
-/// With u = wind velocity - mean velocity of the three corners and A the area times the unit normal: force on the
-/// triangle 1/2 rho C |u| (u . A) A / |A|, a third of it on each corner: the pressure on a flat plate, proportional to
-/// |u|^2 and to the sine of the angle between plate and air. It has no energy; what it gives is work of the wind.
+/// With u = wind velocity - mean velocity of the three corners, and A the area times the unit normal, the force on the
+/// triangle is 1/2 rho C |u| (u . A) A / |A|, a third of it on each corner: the pressure on a flat plate, proportional
+/// to |u|^2 and to the sine of the angle between plate and air. It has no potential energy; its work is the work of the
+/// wind.
 struct Aerodynamics {
   static constexpr std::string_view name = "aerodynamics";
   static constexpr bool uses_velocity = true;
   double density;       // rho of the air, kg/m^3
-  double coefficient;   // C, 1: twice the sine's slope of the normal force, 1 to 2 for a flat plate
-  WindSignal velocity;  // of the air, m/s
+  double coefficient;   // C, dimensionless: twice the slope of the normal force over the sine, 1 to 2 for a flat plate
+  WindSignal velocity;  // air velocity, m/s
   std::vector<std::array<int, 3>> triangles;
 };
 

@@ -1,20 +1,21 @@
-// Bending of a sheet that is flat at rest, of rigidity B (N m) and Poisson's ratio 0.
+// Bending of a sheet that is flat at rest, with rigidity B (N m) and Poisson's ratio 0.
 //
-// A thin plate holds B/2 (w_uu^2 + 2 w_uv^2 + w_vv^2) per area, w its deflection (S. Timoshenko and S.
-// Woinowsky-Krieger, Theory of Plates and Shells, chapter 4; Poisson's ratio stands before w_uu w_vv - w_uv^2 alone). A
-// sheet that keeps its lengths has |x_uu|, |x_uv| and |x_vv| in place of them, x its places in space, however far it
-// bends (M. Bergou et al., A quadratic bending model for inextensible surfaces, SGP 2006): the energy is quadratic in
-// x. On a grid of spacings p and q along u and v
-//   x_uu = (x_{i-1} - 2 x_i + x_{i+1}) / p^2 + O(p^2)         on an area p q, half of that on an edge row; x_vv
-//   likewise; x_uv = (x_00 - x_10 - x_01 + x_11) / (p q) + O(p^2 + q^2) on the area p q of a cell.
-// So the energy is a sum of k/2 |c|^2, c = sum_i w_i x_i, over stencils of particles i with weights w_i:
-//   (1, -2, 1) along u with k = B q / p^3, along v with B p / q^3, half of it on edge rows; (1, -1, -1, 1) with 2 B /
-//   (p q).
-// The force on particle i is -k w_i c, and -dF_i/dx_j = k w_i w_j, constant and positive semidefinite. As the weights
-// sum to zero, |c|^2 = - sum_{i<j} w_i w_j |x_i - x_j|^2: a stencil is a set of springs without rest length, of
-// stiffness -k w_i w_j, some of them negative. Momentum and angular momentum are kept therefore.
+// A thin plate stores the energy B/2 (w_uu^2 + 2 w_uv^2 + w_vv^2) per area, where w is its deflection (S. Timoshenko
+// and S. Woinowsky-Krieger, Theory of Plates and Shells, chapter 4; Poisson's ratio enters only through w_uu w_vv -
+// w_uv^2). For an inextensible sheet, |x_uu|, |x_uv| and |x_vv| replace the derivatives of w, where x is the position
+// in space, however far it bends (M. Bergou et al., A quadratic bending model for inextensible surfaces, SGP 2006): the
+// energy is quadratic in x. On a grid with spacings p and q along u and v
+//   x_uu = (x_{i-1} - 2 x_i + x_{i+1}) / p^2 + O(p^2)         on an area p q, half of that on an edge row
+//   x_uv = (x_00 - x_10 - x_01 + x_11) / (p q) + O(p^2 + q^2) on the area p q of a cell
+// and x_vv likewise.
+// The energy is therefore a sum of k/2 |c|^2, c = sum_i w_i x_i, over stencils of particles i with weights w_i:
+//   (1, -2, 1) along u with k = B q / p^3, along v with B p / q^3, half of it on edge rows
+//   (1, -1, -1, 1) with k = 2 B / (p q).
+// The force on particle i is -k w_i c, and -dF_i/dx_j = k w_i w_j, constant and positive semidefinite. Since the
+// weights sum to zero, |c|^2 = - sum_{i<j} w_i w_j |x_i - x_j|^2: a stencil is equivalent to a set of springs with zero
+// rest length and stiffness -k w_i w_j, some of them negative. Therefore momentum and angular momentum are conserved.
 //
-// A row clamped level at s = 0 is held by pins at -p/2 and p/2: then the error of its shape falls with p^2.
+// A row clamped level at s = 0 is held by pins at -p/2 and p/2; the error of its shape then decreases as p^2.
 #pragma once
 
 #include <array>
@@ -27,18 +28,18 @@ namespace crosscheck {
 
 struct Bending {
   static constexpr std::string_view name = "bending";
-  static constexpr int most = 5;  // particles in a stencil: a grid's have four at most, those of a sheet on rings five
+  static constexpr int most = 5;  // particles in a stencil: at most four on a grid, five on a sheet of rings
   struct Stencil {
-    int size;                         // particles in it
-    std::array<int, most> particle;   // the first `size` of each
-    std::array<double, most> weight;  // 1; they sum to 0
+    int size;                         // number of particles
+    std::array<int, most> particle;   // the first `size` entries of each array are used
+    std::array<double, most> weight;  // dimensionless; they sum to 0
     double k;                         // N/m
   };
   std::vector<Stencil> list;
-  double rigidity;  // B, N m, of the sheet that the stencils make: for a reader; physics does not depend on it
+  double rigidity;  // B, N m, of the sheet that the stencils form: informative only, not used by the physics
 };
 
-/// c of a stencil, m.
+/// Returns c of a stencil (m).
 inline Vec3 bent(const Bending::Stencil& s, const Points& x) {
   Vec3 c = Vec3::Zero();
   for (int i = 0; i < s.size; ++i) c += s.weight[i] * x.col(s.particle[i]);
@@ -58,7 +59,7 @@ inline double potential_energy(const Bending& bending, const Particles&, const S
   return energy;
 }
 
-/// Calls visit(a, b, k) for each of the springs without rest length that the stencils are, N/m.
+/// Calls visit(a, b, k) for each of the equivalent zero-length springs of the stencils (k in N/m).
 template <class Visit>
 void for_each_pair(const Bending& bending, Visit visit) {
   for (const Bending::Stencil& s : bending.list)

@@ -1,4 +1,4 @@
-// Hard distances: |x_a - x_b| = length at all times. No force: a method keeps them by itself, or refuses the scene.
+// Hard distances: |x_a - x_b| = length at all times. Not a force: a method enforces them, or refuses the scene.
 #pragma once
 
 #include <string_view>
@@ -17,7 +17,9 @@ struct Constraints {
   std::vector<Constraint> list;
 };
 
-/// The largest | |x_a - x_b| / length - 1 | (1).
+/// The largest
+/// |x_a - x_b| / length - 1
+/// (dimensionless).
 inline double largest_constraint_error(const Constraints& constraints, const Points& x) {
   double largest = 0;
   for (const auto& [a, b, length] : constraints.list)

@@ -1,5 +1,5 @@
-// Spring dashpots: along the line of two particles, with n the unit vector from b to a, the force on a is
-// -c ((v_a - v_b) . n) n and on b the opposite. They damp what stretches and leave free fall and rotation alone.
+// Spring dashpots along the line between two particles: with n the unit vector from b to a, the force on a is -c ((v_a
+// - v_b) . n) n, and the opposite on b. They damp stretching and do not affect free fall and rotation.
 #pragma once
 
 #include <vector>
@@ -30,8 +30,8 @@ inline void add_force(const Dashpots& dashpots, const Particles&, const State& s
   }
 }
 
-/// -dF/dv at the state's directions. What turns the directions (dF/dx) is left out: implicit methods repeat their solve
-/// with the new directions instead, which keeps the matrix symmetric.
+/// -dF/dv at the state's directions. The change of the directions (dF/dx) is omitted: implicit methods instead repeat
+/// the solve with the new directions, which keeps the matrix symmetric.
 inline void add_tangent(const Dashpots& dashpots, const Particles&, const State& state, Curvature, Tangent& tangent) {
   for (const auto& [a, b, c] : dashpots.list) {
     const Vec3 d = state.x.col(a) - state.x.col(b);

@@ -32,14 +32,14 @@ void add_force(const Springs& springs, const Particles&, const State& state, For
   add_force(springs, state.x, forces);
 }
 
-/// For each law a loop of its own: no branch is taken spring by spring.
+/// One loop per law, to avoid a branch for each spring.
 template <SpringLaw law>
 static void loop(const std::vector<Spring>& list, const Points& x, Forces& forces) {
   for (const Spring& s : list) {
     const Vec3 d = x.col(s.a) - x.col(s.b);
     const double squared = d.squaredNorm();
     if (squared == 0) {
-      // the ends met: no direction, no force, but the run says how often it happened
+      // coincident ends: no direction, no force, but the event is counted
       forces.degenerate_springs += s.rest > 0;
       continue;
     }
@@ -63,8 +63,8 @@ double potential_energy(const Springs& springs, const Particles&, const State& s
     if (springs.law == SpringLaw::hooke) {
       energy += 0.5 * s.k * (length - s.rest) * (length - s.rest);
     } else {
-      // log1p keeps the digits near the rest length, where both parts nearly cancel; what rounding then leaves below
-      // zero is none
+      // log1p keeps the digits near the rest length, where both parts nearly cancel; a negative remainder due to
+      // rounding is set to 0
       const double r2 = s.rest * s.rest, excess = length * length - r2;
       energy += 0.5 * s.k * std::max(0.0, r2 > 0 ? excess - 2 * r2 * std::log1p(excess / (2 * r2)) : excess);
     }

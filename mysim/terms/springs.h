@@ -1,8 +1,8 @@
-// Springs. With d = x_a - x_b and L = |d|, the force on a is -T(L) d / L and on b the opposite; the law T is
+// Springs. With d = x_a - x_b and L = |d|, the force on a is -T(L) d / L, and the opposite on b. The law T is
 //   hooke         T = k (L - r), energy k (L - r)^2 / 2;
-//   bullet-link   T = k L (L^2 - r^2) / (L^2 + r^2), energy k/2 (L^2 - r^2 - 2 r^2 ln((L^2 + r^2) / (2 r^2))): this is
-//   what
-//                 Bullet's position-based links follow as the step goes to 0 (its projection per step over h^2).
+//   bullet-link   T = k L (L^2 - r^2) / (L^2 + r^2), energy k/2 (L^2 - r^2 - 2 r^2 ln((L^2 + r^2) / (2 r^2))).
+// The law bullet-link is the limit of Bullet's position-based links as the step goes to 0 (projection per step over
+// h^2).
 #pragma once
 
 #include <cmath>
@@ -21,7 +21,7 @@ struct Spring {
   int a, b;       // ends
   double k;       // stiffness, N/m
   double rest;    // rest length r, m
-  Family family;  // for colours, tables and ablations; physics does not depend on it
+  Family family;  // for colours, tables and ablations; not used by the physics
 };
 
 enum class SpringLaw { hooke, bullet_link };
@@ -33,13 +33,13 @@ struct Springs {
   SpringLaw law = SpringLaw::hooke;
 };
 
-/// Tension T(L) of a spring (N; positive: it pulls) and its slope dT/dL (N/m), at length L > 0 (m).
+/// Tension T(L) of a spring (N; positive if it pulls) and its slope dT/dL (N/m), at length L > 0 (m).
 struct Tension {
   double force, slope;
 };
 Tension tension_of(const Spring& spring, SpringLaw law, double length);
 
-/// -T / L at squared length L^2 > 0 (m^2), N/m.
+/// -T / L (N/m) at squared length L^2 > 0 (m^2).
 template <SpringLaw law>
 double force_over_length(double k, double rest, double squared) {
   if constexpr (law == SpringLaw::hooke) {
@@ -50,12 +50,12 @@ double force_over_length(double k, double rest, double squared) {
   return k * (r2 - squared) / (squared + r2);
 }
 
-/// The plain edge loop: the definition of the term, and the oracle of every faster kernel
+/// The plain edge loop: the definition of the term, and the reference for every faster kernel
 /// (mysim/simd/spring_graph/spring_kernel.h).
 void add_force(const Springs& springs, const Particles& particles, const State& state, Forces& forces);
 void add_force(const Springs& springs, const Points& x, Forces& forces);
 double potential_energy(const Springs& springs, const Particles& particles, const State& state);  // J
-/// -dF/dx. Clamped: what a shortened spring takes from the stiffness across itself is left out, which makes the matrix
+/// -dF/dx. Clamped: the negative transverse stiffness of a compressed spring is omitted, which makes the matrix
 /// positive semidefinite.
 void add_tangent(const Springs& springs, const Particles& particles, const State& state, Curvature curvature,
                  Tangent& tangent);

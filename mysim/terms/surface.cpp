@@ -50,7 +50,7 @@ double resolve_contact(const Surface& surface, const Vec3& origin, const Vec3& x
   Vec3 n = surface.normal(x - origin);
   x = surface.put_on(origin, x, n);
 
-  // friction holds back the tangential displacement of this step
+  // friction opposes the tangential displacement of this step
   if (surface.friction > 0) {
     const Vec3 moved = x - x_n;
     const Vec3 along_normal = moved.dot(n) * n;
@@ -59,7 +59,7 @@ double resolve_contact(const Surface& surface, const Vec3& origin, const Vec3& x
     x = surface.put_on(origin, x, n);
   }
 
-  // no velocity into the surface, and friction in proportion to what was removed
+  // remove the velocity into the surface, and apply friction in proportion to what was removed
   const double inward = v.dot(n);
   if (inward < 0) {
     const Vec3 tangential = v - inward * n;

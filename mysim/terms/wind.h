@@ -1,5 +1,4 @@
-// A wind that comes and goes, as a smooth function of time; and the simplest force of it: the same acceleration for
-// every particle.
+// Wind that varies as a smooth function of time, and its simplest force: the same acceleration for every particle.
 #pragma once
 
 #include <array>
@@ -11,18 +10,18 @@
 
 namespace crosscheck {
 
-/// A smooth random signal: sum of a few sines with seeded frequencies and phases, between -1 and 1.
+/// A smooth random signal between -1 and 1: a sum of sines with seeded frequencies and phases.
 struct Gust {
   struct Wave {
-    double weight, omega, phase;  // 1, rad/s, rad; the weights add up to 1
+    double weight, omega, phase;  // dimensionless, rad/s, rad; the weights add up to 1
   };
   std::array<Wave, 4> waves;
 
-  Gust(int seed, int channel);  // the same on every machine
+  Gust(int seed, int channel);  // identical on every machine
   double at(double t) const;
 };
 
-/// w(t) = mean (1 + variation g1(t)) + side g2(t), with g1 and g2 independent gusts; in the unit of the mean.
+/// w(t) = mean (1 + variation g1(t)) + side g2(t), with independent gusts g1 and g2; same unit as the mean.
 struct WindSignal {
   Vec3 mean;
   struct Gusts {

@@ -1,4 +1,4 @@
-// A cloth as a regular grid: found in a scene's springs, laid out in lanes, cut into slabs for threads.
+// A cloth as a regular grid: recognised from a scene's springs, laid out in lanes, split into slabs for threads.
 #include "mysim/simd/cloth_grid/cloth_grid.h"
 
 #include <algorithm>
@@ -24,20 +24,21 @@ Kernel<float> kernel(InstructionSet isa, bool fast) {
 
 namespace {
 
-/// Candidates by the largest difference of indices: the springs that have it lead two rows on, or to the next row.
+/// Candidate column counts, from the largest index difference: springs with that difference lead two rows on, or to the
+/// next row.
 std::vector<int> candidate_columns(const Springs& springs, int particles) {
   int farthest = 0;
   for (const Spring& s : springs.list) farthest = std::max(farthest, std::abs(s.b - s.a));
   std::vector<int> columns;
   if (farthest <= 2) columns.push_back(particles);  // a single row
-  // the farthest is two rows on, or one and to the right, straight, or to the left
+  // the farthest spring leads two rows on, or one row on and to the right, straight, or to the left
   for (const int c : {farthest / 2, farthest - 1, farthest, farthest + 1})
     if (c > 1 && particles % c == 0 && std::find(columns.begin(), columns.end(), c) == columns.end())
       columns.push_back(c);
   return columns;
 }
 
-/// The direction of a spring whose first end is the earlier particle; empty where it is none of them.
+/// The direction of a spring whose first end is the earlier particle; nothing if it is not one of the six.
 std::optional<int> direction_of(int a, int b, int columns) {
   const Direction to{b / columns - a / columns, b % columns - a % columns};
   for (int d = 0; d < directions; ++d)
@@ -105,7 +106,7 @@ ClothGridMemory<T>::ClothGridMemory(const GridTopology& topology)
   x_ = AlignedBuffer<T>(row * rows_);
   v_ = AlignedBuffer<T>(static_cast<size_t>(tiles_) * tile_size<T> * rows_);
   force_ = AlignedBuffer<T>(3 * row);
-  // lanes without a particle stay far from the others and from each other
+  // empty lanes stay far from the particles and from each other
   for (size_t i = 0; i < x_.size(); ++i) x_.data()[i] = T(1e6) + static_cast<T>(i % 4096) * T(17);
   grid_ = {rows_, tiles_, 0, 0, x_.data(), v_.data(), force_.data(), {}, {}, nullptr, nullptr, nullptr, 0};
   for (int d = 0; d < directions; ++d) {
@@ -206,7 +207,7 @@ namespace {
 
 constexpr int halo_rows = 2;
 
-/// Slabs of rows that are at least twice as many as their neighbours take.
+/// Number of slabs such that each has at least twice as many rows as its neighbours copy.
 int slab_count(int rows, int threads) { return std::clamp(rows / (2 * halo_rows), 1, std::max(threads, 1)); }
 
 }  // namespace

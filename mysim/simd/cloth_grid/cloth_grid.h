@@ -1,4 +1,4 @@
-// A cloth as a regular grid: found in a scene's springs, laid out in lanes, cut into slabs for threads.
+// A cloth as a regular grid: recognised from a scene's springs, laid out in lanes, split into slabs for threads.
 #pragma once
 
 #include <array>
@@ -15,15 +15,15 @@
 
 namespace crosscheck::simd {
 
-/// The functions of the fused step (fused_step.h). `fast`: fused multiply-add, and inverse roots from the machine's own
-/// estimate; else the same bits on every machine.
+/// The functions of the fused step (fused_step.h). `fast`: fused multiply-add, and inverse square roots from the
+/// machine's own estimate; otherwise the same bits on every machine.
 template <class T>
 Kernel<T> kernel(InstructionSet isa, bool fast);
 
-// Finds the regular grid in a scene's springs, if there is one.
+// Recognition of the regular grid in a scene's springs, if there is one.
 
-/// All springs of a rows x columns grid whose particle (row, column) has the index row * columns + column: of each
-/// direction (fused_step.h) all that fit in or none, with one stiffness and one rest length.
+/// All springs of a rows x columns grid whose particle (row, column) has the index row * columns + column. For each
+/// direction (fused_step.h), either all springs that fit or none are present, with one stiffness and one rest length.
 struct GridTopology {
   struct Stiffness {
     double k, rest;  // N/m, m
@@ -32,14 +32,14 @@ struct GridTopology {
   std::array<std::optional<Stiffness>, directions> families;
 };
 
-/// Empty where the springs are of another law, no such grid, or not all of one: such scenes are left to kernels for any
-/// spring graph.
+/// Nothing if the springs follow another law or do not form exactly one such grid; such scenes use the kernels for
+/// general spring graphs.
 std::optional<GridTopology> find_grid_topology(const Springs& springs, int particles);
 
-// The memory of a cloth: particles of a scene laid out in lanes, and back.
+// The memory of a cloth: conversion between scene order and lanes.
 
-/// Of fewer columns a row is one tile of floats, whose springs to the next column but one would cross two lanes. Both
-/// precisions take the same cloths.
+/// With fewer columns, a row is a single tile of floats, whose skip-one springs would cross two lanes. Both precisions
+/// support the same cloths.
 inline constexpr int fewest_columns = lanes<float> + 1;
 inline bool fits(const GridTopology& topology) { return topology.columns >= fewest_columns; }
 
@@ -50,26 +50,26 @@ class ClothGridMemory {
 
   ClothGrid<T>& grid() { return grid_; }
   int size() const { return rows_ * columns_; }  // particles
-  /// A row of positions with its halo: row_length() numbers.
+  /// One row of positions including its halo: row_length() numbers.
   T* row(int which) {
     assert(0 <= which && which < rows_);
     return x_.data() + which * row_length();
   }
   long row_length() const { return static_cast<long>(left_halo + tiles_ + right_halo) * 3 * lanes<T>; }
 
-  /// All particles, and the halos of the rows.
+  /// Copies all particles in, and fills the halos of the rows.
   void put(const Eigen::Ref<const Points>& x, const Eigen::Ref<const Points>& v);
-  /// Some rows; the column of x and v of particle i is first + i.
+  /// Copies some rows out; the column of x and v of particle i is first + i.
   void get(int row, int rows, int first, Points& x, Points& v) const;
-  /// One particle, in the halo too: v is set to 0.
+  /// Sets the position of one particle, including halo copies; its velocity is set to 0.
   void place(int particle, const Vec3& x);
   Vec3 position(int particle) const;
   Vec3 velocity(int particle) const;
-  /// A number of each particle (or one for all), laid out as the kernel reads it; lanes without a particle hold 0 where
-  /// each has its own.
+  /// One value per particle (or one for all) in the layout that the kernel reads; lanes without a particle hold 0 if
+  /// each particle has its own value.
   AlignedBuffer<T> spread(const Eigen::ArrayXd& values) const;
 
-  /// The particle in a lane of a tile; -1 where there is none.
+  /// Index of the particle in a lane of a tile; -1 if the lane is empty.
   int particle(int row, int tile, int lane) const {
     assert(0 <= row && row < rows_ && 0 <= tile && tile < tiles_ && 0 <= lane && lane < lanes<T>);
     const int column = lane * tiles_ + tile;
@@ -77,7 +77,7 @@ class ClothGridMemory {
   }
 
  private:
-  long x_at(int particle) const;  // of its first coordinate; the others are a cache line further
+  long x_at(int particle) const;  // position of its first coordinate; each further coordinate is a cache line apart
   long v_at(int particle) const;
 
   int rows_, columns_, tiles_;
@@ -86,36 +86,36 @@ class ClothGridMemory {
   ClothGrid<T> grid_{};
 };
 
-// A cloth cut into slabs of rows, one for each thread.
+// A cloth split into slabs of rows, one slab per thread.
 
-/// Around its own rows a slab has two halo rows of each neighbour: a spring spans two rows at most. Before a fused
-/// step it receives their positions from where the neighbour put them after the last one; two such buffers, used in
-/// turns, let all slabs send and receive at the same time, so that threads wait for each other once a fused step.
-/// Forces are summed in the order of a single slab: the same bits, however many there are.
+/// Around its own rows a slab has two halo rows of each neighbour, because a spring spans at most two rows. Before a
+/// fused step it receives the positions that the neighbour sent after the last one. Two such buffers are used
+/// alternately, so that all slabs send and receive at the same time and threads wait for each other only once per fused
+/// step. Forces are summed in the order of a single slab: the same bits for any number of slabs.
 template <class T>
 class Slabs {
  public:
-  /// As in ClothGrid: of each particle, or one tile for all.
+  /// As in ClothGrid: per particle, or one tile for all.
   struct KickFactors {
     AlignedBuffer<T> damping, inverse_mass_dt, dt;
   };
   struct Slab {
     int which;
     ClothGridMemory<T> body;
-    int first;                          // particle that is 0 here
+    int first;                          // index of the slab's first particle in the scene
     int leading_halo, own_rows;         // rows
-    AlignedBuffer<T> outgoing_halo[2];  // for the neighbours: the first two of its own rows, and the last two
-    std::vector<KickFactors> factors;   // of each kick
-    /// The particle here that is i in the scene; -1 where it is in none of this slab's rows.
+    AlignedBuffer<T> outgoing_halo[2];  // for the neighbours: the first two and the last two own rows
+    std::vector<KickFactors> factors;   // one per kick
+    /// The slab's index of the scene's particle i; -1 if it is in none of the slab's rows.
     int here(int i) const { return i >= first && i - first < body.size() ? i - first : -1; }
   };
 
-  /// As many slabs as threads, or fewer where rows are few.
+  /// Creates as many slabs as threads, or fewer if there are few rows.
   Slabs(const GridTopology& topology, int threads);
 
   void put(const Points& x, const Points& v);
   void get(Points& x, Points& v) const;
-  /// work(slab) for each, on its own thread, with its neighbours' rows where they are now.
+  /// Calls work(slab) for each slab on its own thread, with the neighbours' rows up to date.
   template <class Work>
   void for_each(Work work) {
     const std::function<void(int)> exchange_and_work = [&](int which) {

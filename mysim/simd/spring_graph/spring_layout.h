@@ -1,5 +1,5 @@
-// Each spring in the format in which its force is cheapest, and the memory of both formats: for DIA the offsets and
-// coefficient rows, for COO the list of edges.
+// The format in which each spring's force is cheapest, and the memory of both formats: offsets and coefficient rows for
+// DIA, the list of edges for COO.
 #pragma once
 
 #include "mysim/simd/aligned_buffer.h"
@@ -12,26 +12,26 @@ namespace crosscheck::spring_graph {
 Kernels kernels(simd::InstructionSet isa, SpringLaw law);
 
 /// Costs in ns, measured on one machine with AVX2; only their ratios matter. All instruction sets share them, so that
-/// they partition springs alike, add forces up in the same order, and give the same bits.
+/// they partition springs identically, add forces in the same order, and give the same bits.
 struct Costs {
-  double coefficient_row = 9;  // DIA: eight springs of a diagonal side by side
-  double tile = 10;            // DIA: eight particles put in and taken out
+  double coefficient_row = 9;  // DIA: eight adjacent springs of a diagonal
+  double tile = 10;            // DIA: loading and storing eight particles
   double coo_spring = 1.8, coo_particle = 2;
-  double plain = 3.1;  // a spring of the plain loop
+  double plain = 3.1;  // one spring in the plain loop
   double call = 30;    // calling a kernel
 };
 
 using simd::AlignedBuffer;
-/// Springs with a < b, in the order of a.
+/// Springs with a < b, sorted by a.
 using OrientedSprings = std::vector<Spring>;
 
-/// The memory of DIA.
+/// Memory of the DIA format.
 class DiaStorage {
  public:
-  /// Each of them springs of one offset, no two alike.
+  /// Each list holds springs of one offset; no two lists share an offset.
   DiaStorage(const std::vector<OrientedSprings>& diagonals, int particles);
   const DiaSprings& view() const { return view_; }
-  /// Springs of some rest length whose ends are in one place, in the positions last loaded.
+  /// Number of springs with nonzero rest length whose ends coincide in the positions last loaded.
   long degenerate_springs() const;
 
  private:
@@ -44,7 +44,7 @@ class DiaStorage {
   AlignedBuffer<double> coefficients_, x_, pulls_;
 };
 
-/// The memory of COO.
+/// Memory of the COO format.
 class CooStorage {
  public:
   CooStorage(const OrientedSprings& springs, int particles);
@@ -57,13 +57,13 @@ class CooStorage {
   AlignedBuffer<double> k_, rest_, x_, force_;
 };
 
-/// Each spring in one of three lists.
+/// Each spring in exactly one of three lists.
 struct SpringPartition {
-  std::vector<OrientedSprings> dia;  // a list for each offset
+  std::vector<OrientedSprings> dia;  // one list per offset
   OrientedSprings coo;
-  std::vector<Spring> plain;  // for the plain loop, as they were
+  std::vector<Spring> plain;  // for the plain loop, unchanged
 };
-/// The partition of the least cost.
+/// The partition of least cost.
 SpringPartition partition_springs(const std::vector<Spring>& springs, int particles, const Costs& costs);
 
 }  // namespace crosscheck::spring_graph

@@ -298,7 +298,7 @@ TEST(SceneFile, FirstOrderScenesHaveNoMassNoForceNoGrid) {
   EXPECT_TRUE(contains(message_of(scene_text(point + "mass = 1\n" + rotation)),
                        "bad.toml:12: particle[0].mass: expected no mass"));
   EXPECT_TRUE(contains(message_of(scene_text(point + rotation + gravity_text)),
-                       "bad.toml:14: gravity: expected no gravity beside [rotation]"));
+                       "bad.toml:14: gravity: expected no gravity with [rotation]"));
   const std::string grid =
       "[grid]\nsize = [2, 2]\norigin = [0, 0, 0]\nu = [1, 0, 0]\nv = [0, 1, 0]\nmass = 1\n"
       "stiffness = {structural = 1}\n";

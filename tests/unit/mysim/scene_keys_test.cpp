@@ -201,7 +201,7 @@ TEST(SceneKeys, MovedPinsBesideHardDistancesAreRefused) {
   EXPECT_TRUE(
       contains(fault_of(two_particles + "[[constraint]]\nends = [0, 1]\n[pins]\nparticles = [0]\n[pins.motion]\n"
                                         "amplitude = [0, 1, 0]\nfrequency = 1\nramp = 1\n"),
-               "pins.motion: expected pins that stand still"));
+               "pins.motion: expected fixed pins"));
 }
 
 TEST(SceneKeys, AnInextensibleGridHasConstraintsForItsStructuralFamily) {
