@@ -1,4 +1,4 @@
-// The table of the families, and how a name with options is read.
+// The table of families, and the parsing of method names with options.
 #include "reference/method.h"
 
 #include <fmt/format.h>
@@ -170,7 +170,7 @@ Method find_method(const std::string& text) {
     }
     for (const std::string& full : row.full_names()) known.push_back(full);
   }
-  // "leapfrg" is nearer to the short name
+  // "leapfrg" is closer to the short name
   std::vector<std::string> names = known;
   if (parts[0].find('/') == std::string::npos)
     for (std::string& full : names) full = short_name(full);
@@ -231,13 +231,14 @@ std::vector<Method> find_methods(const std::string& list) {
 
 namespace {
 
-/// Free particles from one state that verdicts are based on to the next.
+/// Observes free particles from one state that verdicts are based on to the next.
 ///
-/// Their largest speed: the verdict goes by differences over two, from which a vibration that reverses in every step is
-/// absent; a stable one may swing in them near its limit, which is no failure.
+/// Largest speed: the verdict uses differences over two states, which hide a vibration that reverses in every step. A
+/// stable vibration near its limit may oscillate in this way, which is no failure.
 ///
-/// Passages through a sphere: both ends lie outside, and the chord comes deeper than the path may bend from it. A path
-/// whose velocity changes by dv within a time tau, in one place or evenly, lies within tau |dv| / 4 of its chord.
+/// Passages through a sphere: both ends are outside, and the chord is deeper inside than the path may deviate from it.
+/// A path whose velocity changes by dv within a time tau, at one instant or evenly, stays within tau |dv| / 4 of its
+/// chord.
 class StepObserver : public Observer {
  public:
   explicit StepObserver(const Scene& scene)
@@ -262,13 +263,13 @@ class StepObserver : public Observer {
     const double radius = sphere.contact_radius(), span = state.t - last_.t;
     const Vec3 from = last_.x.col(i) - sphere.centre_at(last_.t), to = state.x.col(i) - sphere.centre_at(state.t),
                way = to - from;
-    const double closest = -from.dot(way) / way.squaredNorm();  // as a part of the chord
+    const double closest = -from.dot(way) / way.squaredNorm();  // as a fraction of the chord
     if (!(closest > 0 && closest < 1)) return;
-    const auto seen = [&](const State& s) {  // m/s, as seen from the sphere
+    const auto seen = [&](const State& s) {  // m/s, relative to the sphere
       return sphere.motion ? Vec3(s.v.col(i) - velocity_at(*sphere.motion, s.t)) : Vec3(s.v.col(i));
     };
     const double bend = span / 4 * (seen(state) - seen(last_)).norm();
-    // a place on the surface, rounded in single precision, is outside; one pushed out on the near side has touched
+    // a position on the surface, rounded to single precision, is outside; one pushed out on the near side has touched
     const double outside = radius * (1 - 1e-6);
     if (!(from.norm() > outside && to.norm() > outside && to.dot(seen(last_)) > 0 &&
           (from + closest * way).norm() + bend < outside))
@@ -285,7 +286,7 @@ void add_remark(Outcome& out, const std::string& remark) { out.remark += (out.re
 
 }  // namespace
 
-/// Runs of mysim: simulate(), mysim/run/engine.cpp.
+/// mysim's methods run through simulate(), mysim/run/engine.cpp.
 Outcome run_method(const Method& method, const Scene& scene, const Run& run, std::vector<Observer*> observers,
                    const MotionBoundsFunction& bounds) {
   DivergenceMonitor monitor(scene, run, bounds);

@@ -1,4 +1,4 @@
-// Methods: everything that runs a scene, by name, and their families.
+// Methods by name, i.e. everything that runs a scene, and their families.
 #pragma once
 
 #include <filesystem>
@@ -15,11 +15,11 @@
 
 namespace crosscheck {
 
-// The families of methods. Code that depends on a method's kind reads its family, never its name: a further engine is a
-// row.
+// The families of methods. Code that depends on a method's kind reads its family, never its name; adding an engine is
+// adding a row.
 
-/// The role of a family in the comparison: the engine under test, its peers, others' integrators on the right-hand side
-/// written apart, the best solutions known, programs and trajectories of the reader's.
+/// The role of a family in the comparison: the engine under test, its peers, independent integrators on the separately
+/// written right-hand side, reference solutions, and the user's own programs and trajectories.
 enum class Role { subject, peer, integrator, truth, outside };
 
 /// The origin of a family's build.
@@ -28,22 +28,22 @@ enum class Build { unknown, here, debian, own_program };
 struct MethodRow;
 
 struct MethodFamily {
-  std::string_view name;   // what stands before '/' or ':' in the names of its methods
-  std::string_view title;  // for people
+  std::string_view name;   // prefix before '/' or ':' in the names of its methods
+  std::string_view title;  // display name
   Role role;
-  std::string_view representative = {};        // the method that stands for it where one must
-  std::string_view representative_title = {};  // for people; empty: its name
-  std::string_view noun = "method";            // for one of its methods: Bullet calls them worlds
-  std::string_view variant_of = {};            // the same engine built otherwise: run by `regress`, else only by name
+  std::string_view representative = {};        // the family's representative where a single method is needed
+  std::string_view representative_title = {};  // display name of the representative; empty: its name
+  std::string_view noun = "method";            // what one of its methods is called: Bullet calls them worlds
+  std::string_view variant_of = {};            // another build of that engine: run by `regress`, else only by name
   Build build = Build::unknown;
   std::string_view build_text = "a program of its own";
-  double call = 200e-9, element = 12e-9;  // s, an evaluation, and what it takes for each particle and spring
-  double start = 0;                       // s, of its program
+  double call = 200e-9, element = 12e-9;  // s, cost of an evaluation, and in addition per particle and spring
+  double start = 0;                       // s, start-up time of its program
   bool single_precision = false;
-  int highest_order = 0;                          // of its rules; 0: not known
-  bool grid_kernel = false;                       // it has a kernel for regular cloths
-  std::string_view departure = {};                // why it may leave linear theory
-  std::vector<MethodRow> (*methods)() = nullptr;  // null: the reader names them
+  int highest_order = 0;                          // highest order of its rules; 0: unknown
+  bool grid_kernel = false;                       // has a kernel for regular cloths
+  std::string_view departure = {};                // reason why it may deviate from linear theory
+  std::vector<MethodRow> (*methods)() = nullptr;  // null: the user names them
 
   bool is_subject() const { return role == Role::subject; }
   bool is_engine() const { return role == Role::subject || role == Role::peer; }
@@ -52,110 +52,108 @@ struct MethodFamily {
   bool in_process() const { return is_engine() && build != Build::own_program; }
 };
 
-/// The table (method.cpp). Exactly one family is the subject.
+/// The table of families (method.cpp). Exactly one family is the subject.
 std::span<const MethodFamily> method_families();
 const MethodFamily& subject();
 
-/// The peers that run without being named, in the table's order.
+/// The peers that run by default, in the table's order.
 std::vector<const MethodFamily*> default_peers();
-/// Whether it is the first of them, whom columns of some tables are about.
+/// True for the first default peer, which some table columns refer to.
 bool is_first_peer(const MethodFamily& family);
 
-/// Which families are asked for; empty: all.
+/// Selects families; empty: all.
 using FamilyFilter = std::function<bool(const MethodFamily&)>;
 
-/// The family of a method's name, or of a family's; what has no other is a program's, of `exec:`.
+/// The family of a method's or family's name; a name without a known prefix belongs to the programs of `exec:`.
 const MethodFamily& family_of(std::string_view name);
 
 struct FoundRule;
 
 struct Method {
   std::string name;     // full, e.g. "mysim/leapfrog+sticky"
-  std::string what;     // one line for people
-  std::string rule;     // as rule_of() gives it, of methods that are not identified by their runs; may be empty
+  std::string what;     // one line for the user
+  std::string rule;     // as returned by rule_of(), for methods that are not identified from their runs; may be empty
   Engine engine;        // throws Unsupported
-  ContactLoss contact;  // whether it reports what contacts took away
-  const Stepper* stepper = nullptr;  // of mysim's methods
-  bool adaptive = false;             // follows run.tolerance and not run.step
+  ContactLoss contact;  // how energy lost in contacts is known
+  const Stepper* stepper = nullptr;  // null except for mysim's methods
+  bool adaptive = false;             // uses run.tolerance instead of run.step
   bool implicit = false;             // solves an equation in each step
   bool position_based = false;
   bool multistep = false;
-  bool splits_dashpots = false;    // solves them after an explicit step
-  std::string on_one_spring = {};  // the rule that it is on one linear spring; empty: `rule`
-  std::string fingerprint = {};    // hash of an outside program's or trajectory's file; empty for built-in methods
-  std::function<const FoundRule&()> identify = {};  // the rule that the runs of another engine show (which_rule.h)
-  bool counts_evaluations = true;           // false: its steps alone are known, and not what its solver takes for each
-  bool sticky_contact = false;              // a touching particle is put back to where it came from
-  SpringLaw spring_law = SpringLaw::hooke;  // of its springs, whatever the scene asks for, where it is position-based
-  bool own_friction = false;                // follows another law than Coulomb's
+  bool splits_dashpots = false;    // solves dashpots after an explicit step
+  std::string on_one_spring = {};  // equivalent rule on one linear spring; empty: `rule`
+  std::string fingerprint = {};    // hash of an external program's or trajectory's file; empty for built-in methods
+  std::function<const FoundRule&()> identify = {};  // rule identified from the runs of another engine (which_rule.h)
+  bool counts_evaluations = true;           // false: only its steps are known, not the cost of its solver in each step
+  bool sticky_contact = false;              // a touching particle is put back to its previous position
+  SpringLaw spring_law = SpringLaw::hooke;  // for position-based methods: law of the springs, regardless of the scene
+  bool own_friction = false;                // friction does not follow Coulomb's law
 
   const MethodFamily& family() const { return family_of(name); }
 };
 
-/// Every method there is, without options.
+/// Every available method, without options.
 std::vector<Method> all_methods();
 
-/// The same, made once.
+/// The result of all_methods(), computed once.
 std::span<const Method> builtin_methods();
 
-/// The one of them with this name, or null: for readers of tables.
+/// The built-in method with this name, or null; for readers of tables.
 const Method* builtin_method(std::string_view name);
 
-/// The one of them that a name with options is made from, or null.
+/// The built-in method on which a name with options is based, or null.
 const Method* builtin_without_options(std::string_view name);
 
-/// The first of the subject's methods with such a stepper, or an empty name.
+/// Name of the subject's first method with such a stepper, or empty.
 std::string subject_method(const std::function<bool(const Stepper&)>& asked);
 
-/// "leapfrog" of mysim's; of others the whole name.
+/// "leapfrog" for mysim's methods; otherwise the whole name.
 std::string short_name(const std::string& method);
 
-/// An outside program's or trajectory's name for readers, by its file and options: "my-mujoco, n=4"; with as many
-/// folders before it as tell it from the other programs named `beside` it: "a/engine".
+/// Display name of an external program or trajectory, from its file and options: "my-mujoco, n=4". It is preceded by as
+/// many folders as are needed to distinguish it from the other programs in `beside`: "a/engine".
 std::string program_title(const std::string& method, std::span<const std::string> beside = {});
 
 /// The subject's representative with the contact rule that puts a touching particle back.
 std::string sticky_method();
 
-/// The prefix of programs' names.
+/// Prefix of the names of programs.
 inline constexpr std::string_view program_prefix = "exec:";
 
-/// A method by name: "rk4" (short for "mysim/rk4"), "bullet/pbd+n=10", "exec:./program". Throws InputError that lists
-/// what there is.
+/// Finds a method by name: "rk4" (short for "mysim/rk4"), "bullet/pbd+n=10", "exec:./program". Throws InputError that
+/// lists the available methods.
 Method find_method(const std::string& text);
 
 /// The positions in a .npy file (samples + 1 frames x particles x 3, m) as a method, "file:NAME". Throws InputError
 /// that names the file and what was expected.
 Method trajectory_method(const std::filesystem::path& file, const Scene& scene, const Run& run);
 
-/// mysim's row of the rule that a method follows, or null: odeint/rk4 has rk4's, and another engine that of the rule it
-/// was found to be. +linear counts as implicit Euler: one Newton step is the whole step where forces are linear.
+/// mysim's table row of the rule that a method follows, or null: odeint/rk4 has that of rk4, and another engine that of
+/// the identified rule. +linear counts as implicit Euler: a single Newton step is the whole step if forces are linear.
 const Stepper* stepper_of(const Method& method);
 
-/// The name of the rule that a method follows, as the row of its family or its runs say; empty if it is none of
-/// mysim's.
+/// Name of the rule that a method follows, from its family's row or its runs; empty if it is none of mysim's rules.
 std::string rule_of(const Method& method);
 
-/// True where two methods follow one rule on scenes of the model's ingredients, so that they must agree to rounding
-/// without contact and other laws; empty where it is not known. A rule found by runs holds for the ingredients of these
-/// runs and, of built-in engines, for the others too, since those engines declare what they have under another law.
+/// True if two methods follow the same rule on scenes with the model's ingredients, so that they must agree to rounding
+/// without contact and differing laws; empty if unknown. A rule identified from runs holds for the ingredients of these
+/// runs. For built-in engines it also holds for other ingredients, because those engines declare differing laws.
 std::optional<bool> same_rule(const Method& a, const Method& b, const Model& model);
 
-/// Splits "a,b,c" and finds each.
+/// Splits "a,b,c" and finds each method.
 std::vector<Method> find_methods(const std::string& list);
 
-/// Runs the method under a DivergenceMonitor (mysim/run/observers.h), which may call `bounds`; Unsupported becomes an
+/// Runs the method under a DivergenceMonitor (mysim/run/observers.h), which may call `bounds`. Unsupported becomes an
 /// outcome with that verdict.
 Outcome run_method(const Method& method, const Scene& scene, const Run& run, std::vector<Observer*> observers,
                    const MotionBoundsFunction& bounds = motion_bounds_of);
 
-// The methods of each family, made by the files in methods/.
+// The methods of each family, constructed in the files of methods/.
 
-/// The options behind the pluses of a name: "sticky", "n=10".
+/// The options after the plus signs of a name: "sticky", "n=10".
 using MethodOptions = std::vector<std::string>;
 
-/// A name, how its method is made from the options, and the options one of which must be given: each of them is a
-/// method of its own.
+/// A method's name, its factory, and the options of which exactly one is mandatory (each choice is a separate method).
 struct MethodRow {
   std::string name;
   std::function<Method(const MethodOptions&)> make;  // throws InputError
@@ -170,11 +168,11 @@ struct MethodRow {
 
 std::vector<MethodRow> mysim_methods();
 std::vector<MethodRow> bullet_methods();
-std::vector<MethodRow> bullet32_methods();  // in single precision, by a program of its own
+std::vector<MethodRow> bullet32_methods();  // in single precision, in a separate program
 std::vector<MethodRow> odeint_methods();
 std::vector<MethodRow> sundials_methods();
 std::vector<MethodRow> truth_methods();
-/// An outside program: what stands behind "exec:".
+/// A method for an external program; `text` is the part after "exec:".
 Method exec_method(const std::string& text);
 
 }  // namespace crosscheck

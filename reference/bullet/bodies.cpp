@@ -1,4 +1,4 @@
-// A body for each piece of the network, in one deformable world.
+// One body per piece of the network, in one deformable world.
 #include "reference/bullet/bodies.h"
 
 #include <BulletSoftBody/btDeformableBodySolver.h>
@@ -39,7 +39,7 @@ class BodiesWorld : public World {
     try {
       for (int p = 0; p <= std::ranges::max(piece); ++p) add_body(piece, p);
     } catch (...) {
-      remove_all();  // a constructor that throws runs no destructor: the world must go before its solvers
+      remove_all();  // without this, the world would be destroyed after its solvers
       throw;
     }
   }
@@ -59,7 +59,7 @@ class BodiesWorld : public World {
 
  private:
   struct Body {
-    std::vector<int> particles;  // of the scene, by node: pins last
+    std::vector<int> particles;  // scene particles by node, pins last
     std::unique_ptr<btSoftBody> bt;
     std::unique_ptr<btDeformableMassSpringForce> springs;
     std::unique_ptr<btDeformableGravityForce> gravity;
@@ -94,12 +94,12 @@ class BodiesWorld : public World {
     body.bt->updateConstants();
     for (size_t l = 0; l < own.size(); ++l)
       body.bt->m_links[static_cast<int>(l)].m_rl = static_cast<btScalar>(own[l]->rest);
-    body.bt->m_bUpdateRtCst = false;  // the first step would overwrite the rest lengths
+    body.bt->m_bUpdateRtCst = false;  // otherwise the first step overwrites the rest lengths
     for (const int i : body.particles) {
       auto& node = body.bt->m_nodes[node_of[i]];
       node.m_v = node.m_vn = particles.pinned[i] ? btVector3(0, 0, 0) : to_bullet(scene_.start.v.col(i));
     }
-    body.bt->getCollisionShape()->setMargin(10);  // m: bounds no speed (soft_body.cpp)
+    body.bt->getCollisionShape()->setMargin(10);  // m: does not limit speeds (soft_body.cpp)
     body.bt->updateBounds();
     body.bt->setActivationState(DISABLE_DEACTIVATION);
     world_->addSoftBody(body.bt.get());

@@ -5,10 +5,10 @@
 
 namespace crosscheck::bullet {
 
-/// btDeformableMultiBodyDynamicsWorld, explicit: each piece of the spring graph is a body of its own, and has a
-/// mass-spring force and a gravity force of its own, as in Bullet's demos. Whether the world keeps the stiffnesses
-/// apart is what a run shows: there is no read-back. Throws Unsupported where a piece has several stiffnesses or the
-/// scene anything beside Hooke's springs and gravity.
+/// btDeformableMultiBodyDynamicsWorld, explicit: each piece of the spring graph is a separate body with its own
+/// mass-spring force and gravity force, as in Bullet's demos. There is no read-back; a run shows if the world keeps the
+/// stiffnesses separate. Throws Unsupported if a piece has several stiffnesses or the scene contains anything but
+/// Hookean springs and gravity.
 Outcome run_bodies(const Scene& scene, const Run& run, Observer& observer);
 
 }  // namespace crosscheck::bullet

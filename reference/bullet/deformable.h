@@ -1,4 +1,4 @@
-// Bullet's deformable world, explicit and implicit, and the forces that it is given.
+// Bullet's deformable world, explicit and implicit, and the forces added to it.
 #pragma once
 
 #include <BulletSoftBody/btDeformableGravityForce.h>
@@ -11,14 +11,14 @@
 
 namespace crosscheck::bullet {
 
-// A force class of Crosscheck's in Bullet's deformable world, for what Bullet's own forces cannot carry: more than two
-// stiffnesses, another spring law than Hooke's, springs whose implicit step cannot blow up, bending, dashpots that
-// differ or hang on moved pins, drag that differs between particles or is implicit, and wind.
+// A force class for Bullet's deformable world that covers what Bullet's own forces do not support: more than two
+// stiffnesses, spring laws other than Hooke's, springs whose implicit step cannot blow up, bending, dashpots that
+// differ or are attached to moved pins, drag that differs between particles or is implicit, and wind.
 
-/// In the explicit world springs, drag and wind act at (x_n, v_n, t_n), and Bullet solves the dashpots by themselves,
-/// implicitly. In the implicit world all is taken at q = x + h v, v and t_{n+1}; the springs' stiffness is handed over
-/// with its negative part left out (a shortened spring takes nothing from the stiffness across itself), which keeps the
-/// matrix positive definite; wind on triangles counts as a constant within the step.
+/// In the explicit world, springs, drag and wind act at (x_n, v_n, t_n), and Bullet solves the dashpots separately and
+/// implicitly. In the implicit world everything is evaluated at q = x + h v, v and t_{n+1}. The springs' stiffness is
+/// passed without its negative part (the transverse stiffness of a compressed spring is omitted), which keeps the
+/// matrix positive definite. Wind on triangles is constant within the step.
 class SceneForce : public btDeformableLagrangianForce {
  public:
   struct CarriedTerms {
@@ -28,14 +28,14 @@ class SceneForce : public btDeformableLagrangianForce {
     const Drag* drag = nullptr;
     const Wind* wind = nullptr;
     const Aerodynamics* air = nullptr;
-    double factor = 1;  // all forces but the dashpots' are multiplied by it
+    double factor = 1;  // multiplies all forces except the dashpots'
     bool implicit = false;
     bool any() const { return springs || bending || dashpots || drag || wind || air; }
   };
   SceneForce(const CarriedTerms& carried, const Scene& scene, const SoftBody& body);
 
   const CarriedTerms& carried() const { return carried_; }
-  void set_time(double t) { t_ = t; }  // of wind and pins, s
+  void set_time(double t) { t_ = t; }  // s, for wind and pins
 
   void addScaledForces(btScalar scale, TVStack& force) override;
   void addScaledExplicitForce(btScalar scale, TVStack& force) override;
@@ -44,48 +44,47 @@ class SceneForce : public btDeformableLagrangianForce {
   void addScaledElasticForceDifferential(btScalar scale, const TVStack& dx, TVStack& df) override;
   void buildDampingForceDifferentialDiagonal(btScalar scale, TVStack& diagonal) override;
 
-  /// Springs only, and bending only, at m_q: for the certificate's probe too.
+  /// Springs only, and bending only, at m_q; also used by the certificate's probe.
   void addScaledElasticForce(btScalar scale, TVStack& force);
   void add_bending_force(btScalar scale, TVStack& force);
-  /// A value of the type's range that Bullet does not use: forces of a known type would be merged with the first of
-  /// their kind.
+  /// An enum value that Bullet does not use: forces of a known type would be merged with the first force of that type.
   static constexpr auto type = static_cast<btDeformableLagrangianForceType>(7);
   btDeformableLagrangianForceType getForceType() override { return type; }
 
  private:
   const btSoftBody::Node& node(int particle) const;
   btVector3 velocity(int particle) const;
-  btVector3 dashpot_axis(int a, int b) const;  // from b to a, along which a dashpot acts
+  btVector3 dashpot_axis(int a, int b) const;  // vector from b to a along which a dashpot acts
   void add_particle_forces(btScalar scale, TVStack& force);
 
   CarriedTerms carried_;
   const Scene& scene_;
   const SoftBody& soft_body_;
   double t_ = 0;
-  State state_;                // by the air
+  State state_;                // for aerodynamic forces
   Forces aerodynamic_forces_;  // N
 };
 
-// The forces of a scene in Bullet's deformable world: Bullet's own where they can carry it, SceneForce for the
-// rest; and what the world reports of them.
+// The forces of a scene in Bullet's deformable world: Bullet's own where supported, otherwise SceneForce; and their
+// read-back.
 
 class DeformableForces {
  public:
-  /// Adds the forces to the world. implicit: the world's mode; shipped: in implicit mode too, Bullet's own spring force
-  /// is wanted. Throws Unsupported where it is wanted and cannot carry the springs.
+  /// Adds the forces to the world. implicit: the world's mode; shipped: use Bullet's own spring force in implicit mode
+  /// too. Throws Unsupported if `shipped` is set and that force does not support the springs.
   DeformableForces(const Scene& scene, double h, bool implicit, bool shipped, SoftBody& body,
                    btDeformableMultiBodyDynamicsWorld& world);
 
-  void set_time(double t);  // of wind and pins, s
+  void set_time(double t);  // s, for wind and pins
 
-  /// Gravity, drag rates, and probes of springs, bending, dashpots and wind, from the forces that the world's solver
-  /// holds.
+  /// Gravity, drag rates, and probes of springs, bending, dashpots and wind, read from the forces that the world's
+  /// solver holds.
   void read_back(btAlignedObjectArray<btDeformableLagrangianForce*>& in_world, Readback& readback) const;
 
  private:
   void carry_drag(const Drag* drag, SceneForce::CarriedTerms& ours);
   void carry_springs(const Springs* springs, const Dashpots* dashpots, SceneForce::CarriedTerms& ours, bool shipped);
-  /// 1/s, of each particle; nothing where they cannot be separated from other forces.
+  /// Drag rate of each particle (1/s); nothing if drag cannot be separated from other forces.
   std::optional<std::vector<double>> drag_rates(SceneForce* own) const;
   ForceProbe probe(btAlignedObjectArray<btDeformableLagrangianForce*>& in_world) const;
 
@@ -93,7 +92,7 @@ class DeformableForces {
   double h_;
   bool implicit_;
   SoftBody& soft_body_;
-  double factor_ = 1;  // 1 - h gamma: what the body's drag factor leaves of a velocity in one step
+  double factor_ = 1;  // 1 - h gamma: factor by which the body's drag factor reduces a velocity in one step
   double t_ = 0;
   std::map<std::string, std::string> mapped_;
   std::unique_ptr<btDeformableMassSpringForce> spring_force_;
@@ -101,12 +100,12 @@ class DeformableForces {
   std::unique_ptr<SceneForce> scene_force_;
 };
 
-// Bullet's deformable world, in its explicit and its implicit mode.
+// Bullet's deformable world, in explicit and implicit mode.
 
 struct DeformableSettings {
   bool implicit = false;
   bool shipped = false;   // implicit: Bullet's own spring force, whose second derivatives are indefinite
-  bool tight = false;     // implicit: conjugate gradients to 1e-28 of the squared residual, not to round-off of it
+  bool tight = false;     // implicit: conjugate gradients to 1e-28 of the squared residual, instead of its round-off
   bool projected = true;  // implicit: with setUseProjection(true); without it the world freezes
   double voxel = 0.005;   // m, of the distance field: Bullet's default here
   BulletDefaults defaults;
@@ -114,10 +113,10 @@ struct DeformableSettings {
 
 /// btDeformableMultiBodyDynamicsWorld.
 ///
-/// Explicit: symplectic Euler with the scene's own laws. Bullet's own mass-spring force carries the springs wherever it
-/// can (at most two stiffnesses, Hooke's law); then, with gamma the drag rate, stiffness and gravity are handed over
-/// divided by (1 - h gamma) and the body's drag factor is h gamma, which makes its rule v' = (v + h f/m)(1 - h gamma)
-/// equal to drag as a force at v_n. Dashpots are solved implicitly by Bullet after that.
+/// Explicit: symplectic Euler with the scene's own laws. Bullet's own mass-spring force carries the springs if possible
+/// (at most two stiffnesses, Hooke's law). With gamma the drag rate, stiffness and gravity are then passed divided by
+/// (1 - h gamma), and the body's drag factor is h gamma, which makes Bullet's rule v' = (v + h f/m)(1 - h gamma) equal
+/// to drag as a force at v_n. Dashpots are then solved implicitly by Bullet.
 ///
 /// Implicit: one Newton step of backward Euler from q = x + h v, (M + h C + h^2 K(q)) dv = h f(q, v): mysim's
 /// implicit-euler+linear.

@@ -65,7 +65,7 @@ class PbdWorld : public SoftBodyWorld<btSoftRigidDynamicsWorld> {
         [&](const Bending&) { mapped_["bending"] = added; },
         [&](const Dashpots&) { mapped_["dashpots"] = added; },
         [&](const Aerodynamics&) { mapped_["wind on triangles"] = settings.own_wind ? own : added; },
-        [](const OneOf<Springs, Constraints> auto&) {},  // links, above
+        [](const OneOf<Springs, Constraints> auto&) {},  // links, see above
         [](const OneOf<Spheres, Planes> auto&) {},       // soft_body.h
         [](const Rotation&) {},                          // refused before a world is built
     };
@@ -132,7 +132,7 @@ class PbdWorld : public SoftBodyWorld<btSoftRigidDynamicsWorld> {
     body().m_cfg.kDG = static_cast<btScalar>(air.coefficient);
   }
 
-  /// Terms that links cannot carry, as forces on the nodes for one step, at the nodes' state.
+  /// Terms that links cannot represent, applied as forces on the nodes for one step, at the nodes' state.
   struct Wanted {
     bool bending = false, dashpots = false, winds = false;
   };
@@ -160,7 +160,7 @@ class PbdWorld : public SoftBodyWorld<btSoftRigidDynamicsWorld> {
       if (!model.particles.pinned[i]) body().addForce(to_bullet(added_.f.col(i)), soft_body_->node_of(i));
   }
 
-  /// The forces that the nodes hold when they are put into a known state. Springs are no forces here.
+  /// Forces on the nodes in a known state. Springs are not forces in this world.
   ForceProbe probe(double t) {
     ProbeState placed(scene_, *soft_body_, t);
     using Stack = btAlignedObjectArray<btVector3>;

@@ -1,4 +1,4 @@
-// Translates the expanded scene into nodes, links and obstacles of Bullet, and reads them back.
+// Conversion of the expanded scene to nodes, links and obstacles of Bullet, and its read-back.
 #include "reference/bullet/soft_body.h"
 
 #include <fmt/format.h>
@@ -19,7 +19,7 @@ Points small_offsets(const Bending& bending, const Points& x) {
     shortest = std::min(shortest, (x.col(s.particle[0]) - x.col(s.particle[1])).norm());
   std::mt19937_64 engine(1);
   Points offsets(3, x.cols());
-  // a vector of three parts up to 1/90 is shorter than 1/50
+  // a vector of three components up to 1/90 is shorter than 1/50
   for (double& part : offsets.reshaped()) part = shortest / 90 * (2 * uniform(engine) - 1);
   return offsets;
 }
@@ -87,10 +87,10 @@ SoftBody::SoftBody(const Scene& scene, btSoftBodyWorldInfo& info, const BulletDe
     const btVector3 v = particles.pinned[i] ? btVector3(0, 0, 0) : to_bullet(scene.start.v.col(i));
     bt_body_->m_nodes[node].m_v = bt_body_->m_nodes[node].m_vn = v;
   }
-  // without contact the margin only bounds speeds (box diagonal over step): large enough to bound nothing
+  // without contact the margin only limits speeds (box diagonal over step): large enough to have no effect
   if (!defaults.margin)
     bt_body_->getCollisionShape()->setMargin(static_cast<btScalar>(margins.empty() ? 10.0 : margins[0]));
-  bt_body_->updateBounds();  // of the constructor's margin until now: they bound the speeds of the first step
+  bt_body_->updateBounds();  // until now they included the constructor's margin; they limit speeds in the first step
   bt_body_->m_cfg.kDF = 1;
   bt_body_->setGravityFactor(static_cast<btScalar>(defaults.gravity_factor));
   if (defaults.kLST) {
@@ -100,7 +100,7 @@ SoftBody::SoftBody(const Scene& scene, btSoftBodyWorldInfo& info, const BulletDe
   }
   if (!defaults.sleep) bt_body_->setActivationState(DISABLE_DEACTIVATION);
   built_ = read_state(0);
-  // the implicit world starts from m_vn, the explicit one from m_v: one velocity that both hold, or none
+  // the implicit world starts from m_vn, the explicit one from m_v: report a velocity only if both agree
   for (int node = 0; node < n; ++node)
     if (!(bt_body_->m_nodes[node].m_v == bt_body_->m_nodes[node].m_vn))
       built_.v.col(particle_of_[node]).setConstant(std::numeric_limits<double>::quiet_NaN());
@@ -137,7 +137,7 @@ const State& SoftBody::read_state(double t) {
     state_.x.col(particle_of_[node]) = from_bullet(bt_body_->m_nodes[node].m_x);
     state_.v.col(particle_of_[node]) = from_bullet(bt_body_->m_nodes[node].m_v);
   }
-  // Bullet knows no velocity of prescribed pins; the scene's is exact
+  // Bullet stores no velocity of prescribed pins; the scene's is exact
   const Particles& particles = scene_.model.particles;
   const Vec3 velocity = particles.move ? velocity_at(*particles.move, t) : Vec3::Zero();
   for (int pin : particles.pins) state_.v.col(pin) = velocity;
@@ -167,8 +167,8 @@ Readback SoftBody::read_back() const {
 
 namespace {
 
-/// Half the edge of the cube whose face is a plane, m: what the particles may move from the middle of their box, with
-/// the plane under them, and as much again for springs and wind.
+/// Half the edge (m) of the cube whose face is a plane: the possible displacement of the particles and the plane from
+/// the middle of their box, doubled to allow for springs and wind.
 double half_edge(const Scene& scene, const Plane& plane) {
   const auto* gravity = scene.model.find<Gravity>();
   const double t = scene.duration, g = gravity ? gravity->acceleration.norm() : 0;
@@ -188,17 +188,17 @@ Obstacles::Obstacles(const Scene& scene) {
   for (const Plane& p : planes->list) {
     const auto half = static_cast<btScalar>(half_edge(scene, p));
     auto cube = std::make_unique<btBoxShape>(btVector3(half, half, half));
-    cube->setMargin(0);  // the grid of distances is that of the shape without its margin
+    cube->setMargin(0);  // the distance field is that of the shape without its margin
     const Vec3 d = middle - p.point, aside = d - d.dot(p.normal) * p.normal;
     add(p, std::move(cube), aside - (p.margin + half) * p.normal);
     btTransform place = obstacles_.back().body->getWorldTransform();
     const Vec3 axis = Vec3::UnitY().cross(p.normal);
-    // the shortest turn from the y axis to the normal
+    // the shortest rotation from the y axis to the normal
     place.setRotation(axis.isZero(1e-12) ? btQuaternion(btVector3(1, 0, 0), p.normal.y() < 0 ? SIMD_PI : 0)
                                          : btQuaternion(to_bullet(axis.normalized()),
                                                         btScalar(std::atan2(axis.norm(), p.normal.y()))));
     obstacles_.back().body->setWorldTransform(place);
-    // The deformable world looks for contact there, and Bullet does not update it for static bodies.
+    // The deformable world detects contact at this transform, which Bullet does not update for static bodies.
     obstacles_.back().body->setInterpolationWorldTransform(place);
   }
 }
@@ -235,7 +235,7 @@ void Obstacles::place(double t) {
 
 namespace {
 
-/// The upper face of a box as Bullet has it, where particles with that margin touch.
+/// The upper face of a box as represented in Bullet, at which particles with that margin touch.
 Readback::Face face_of(const btBoxShape& box, const btTransform& place, double margin) {
   const Vec3 normal = from_bullet(place.getBasis().getColumn(1));
   return {from_bullet(place.getOrigin()) + (box.getHalfExtentsWithMargin().y() + margin) * normal, normal, {}, {}};
@@ -261,7 +261,7 @@ void Obstacles::read_back(const btDiscreteDynamicsWorld& world, const btSoftBody
   readback.margin = body.getCollisionShape()->getMargin();
   readback.spheres.emplace(), readback.planes.emplace();
   const btCollisionObjectArray& objects = world.getCollisionObjectArray();
-  size_t known = 0;  // one that was not built here counts where it stands
+  size_t known = 0;  // for an object that was not built here, the current position is used
   for (int i = 0; i < objects.size(); ++i) {
     const auto* ball = dynamic_cast<const btSphereShape*>(objects[i]->getCollisionShape());
     const auto* box = dynamic_cast<const btBoxShape*>(objects[i]->getCollisionShape());

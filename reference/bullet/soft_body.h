@@ -1,4 +1,4 @@
-// A scene as one soft body of Bullet among its obstacles: the part that all Bullet worlds share.
+// A scene as one soft body of Bullet with its obstacles: the part shared by all Bullet worlds.
 #pragma once
 
 #include <BulletSoftBody/btSoftBody.h>
@@ -14,13 +14,13 @@
 
 namespace crosscheck::bullet {
 
-// Pitfalls of Bullet (all measured): pinned nodes go last, since the implicit world shifts its contact prediction by
-// one node for each pin before; the first step overwrites rest lengths unless the update flag is cleared; bodies slower
-// than 0.04 m/s fall asleep unless that is disabled; a disconnected spring graph hangs the builder of the node tree;
-// the body's margin is 0.25 m unless set; the explicit world clamps speeds to the diagonal of the body's box over the
-// step.
+// Pitfalls of Bullet (all measured). Pinned nodes must come last, because the implicit world shifts its contact
+// prediction by one node per preceding pin. The first step overwrites rest lengths unless the update flag is cleared.
+// Bodies slower than 0.04 m/s fall asleep unless that is disabled. A disconnected spring graph hangs the builder of the
+// node tree. The body's margin is 0.25 m unless set. The explicit world clamps speeds to the diagonal of the body's box
+// over the step.
 
-/// Bullet's vector, in the precision that it was built with, from mysim's, and back.
+/// Conversion of vectors between mysim and Bullet, in the precision that Bullet was built with.
 inline btVector3 to_bullet(const Vec3& v) { return {btScalar(v.x()), btScalar(v.y()), btScalar(v.z())}; }
 inline Vec3 from_bullet(const btVector3& v) { return {v.x(), v.y(), v.z()}; }
 
@@ -31,35 +31,36 @@ struct CollisionPipeline {
   btDbvtBroadphase broadphase;
 };
 
-/// Throws Unsupported where Bullet would hang (a spring graph in several pieces near a surface; not asked where
-/// `may_hang`) or cannot follow (first-order scenes, restitution). To be called before a world is built.
+/// Throws Unsupported if Bullet would hang (a spring graph in several pieces near a surface; not checked if `may_hang`)
+/// or does not support the scene (first order, restitution). Call it before a world is built.
 void require_supported(const Scene& scene, bool may_hang = false);
 
-/// Parameters left at Bullet's defaults, or set against its advice, to be seen failing.
+/// Parameters left at Bullet's defaults, or set against its advice, to demonstrate the failure.
 struct BulletDefaults {
-  bool rest = false;           // the first step overwrites rest lengths with the lengths it finds
+  bool rest = false;           // the first step overwrites rest lengths with the current lengths
   bool margin = false;         // 0.25 m
-  bool sleep = false;          // what is slower than 0.04 m/s for 2 s is put to sleep
-  bool pieces = false;         // a network in pieces near a sphere is not refused, upon which Bullet never returns
-  double gravity_factor = 1;   // of the body; the world's gravity is the scene's divided by it
-  std::optional<double> kLST;  // of all links, whatever stiffness the scene asks for
+  bool sleep = false;          // bodies slower than 0.04 m/s for 2 s are put to sleep
+  bool pieces = false;         // accepts a network in pieces near a sphere, although Bullet then never returns
+  double gravity_factor = 1;   // the body's; the world's gravity is the scene's divided by it
+  std::optional<double> kLST;  // for all links, regardless of the scene's stiffness
 };
 
 class SoftBody {
  public:
-  /// Nodes, links with rest lengths, start velocities, margin; no forces. The scene must be supported.
+  /// Creates nodes, links with rest lengths, initial velocities and margin, but no forces. The scene must be supported.
   SoftBody(const Scene& scene, btSoftBodyWorldInfo& info, const BulletDefaults& defaults);
 
   btSoftBody& body() { return *bt_body_; }
   int node_of(int particle) const { return node_of_[particle]; }
 
-  /// Writes rest lengths and their squares into the links, springs first, then hard distances: Bullet overwrites them.
+  /// Writes rest lengths and their squares to the links, springs first, then hard distances, because Bullet overwrites
+  /// them.
   void restore_lengths();
-  /// Writes position and velocity of the pins at time t into the nodes. Bullet's forces read m_q.
+  /// Writes position and velocity of the pins at time t (s) to the nodes. Bullet's forces read m_q.
   void place_pins(double t);
-  /// Positions and velocities in the scene's numbering.
+  /// Current positions and velocities in the scene's numbering.
   const State& read_state(double t);
-  /// Masses, pins, start, links with rest lengths, springs first; the world adds what it alone knows.
+  /// Masses, pins, initial state, and links with rest lengths, springs first; the world adds the rest.
   Readback read_back() const;
 
  private:
@@ -67,18 +68,18 @@ class SoftBody {
   BulletDefaults defaults_;
   std::vector<int> node_of_, particle_of_;
   std::unique_ptr<btSoftBody> bt_body_;
-  State state_, built_;  // now; as built
+  State state_, built_;  // current; as built
 };
 
-/// At random, each up to a fiftieth of the shortest distance between the first two particles of a stencil, m.
+/// Random offsets (m), each at most a fiftieth of the shortest distance between the first two particles of a stencil.
 Points small_offsets(const Bending& bending, const Points& x);
 
-// A state into which a body is put for a moment, to probe its world's forces.
+// A state that a body is temporarily put into, to probe its world's forces.
 
-/// Puts the nodes to 1.1 times the start, so that all springs pull, and where there is bending each of them aside by up
-/// to a fiftieth of the shortest way in a stencil, so that none is flat; with velocities that are no rigid motion: x +
-/// P x (as m/s), P turning the coordinates by one place, under which every distance d grows, d . (d + P d) >= |d|^2
-/// / 2. Puts all back when it goes.
+/// Sets the nodes to 1.1 times the initial positions, so that all springs pull. With bending, each node is also
+/// displaced by up to a fiftieth of the shortest distance in a stencil, so that no stencil is flat. The velocities are
+/// not a rigid motion: x + P x (as m/s), where P rotates the coordinates cyclically; every distance d then grows, since
+/// d . (d + P d) >= |d|^2 / 2. The destructor restores the previous state.
 class ProbeState {
  public:
   ProbeState(const Scene& scene, SoftBody& body, double t) : body_(body) {
@@ -108,12 +109,12 @@ class ProbeState {
   ProbeState(const ProbeState&) = delete;
   ProbeState& operator=(const ProbeState&) = delete;
 
-  /// The nodes stay where they are, at rest.
+  /// Sets all velocities to zero; positions remain.
   void stop() {
     for (int i = 0; i < body_.body().m_nodes.size(); ++i) body_.body().m_nodes[i].m_v = btVector3(0, 0, 0);
   }
 
-  /// Forces by node, as the scene numbers the particles.
+  /// Converts forces by node to the scene's numbering.
   template <class Stack>
   ForceProbe probe(const Stack& springs, const Stack& bending, const Stack& dashpots, const Stack& wind) const {
     ForceProbe p = probe_;
@@ -138,30 +139,30 @@ class ProbeState {
   std::vector<SavedNode> saved_;  // by particle
 };
 
-// The scene's spheres and planes as Bullet's rigid bodies: fixed, or moved along as kinematic bodies.
+// The scene's spheres and planes as Bullet's rigid bodies: fixed, or moved as kinematic bodies.
 //
-// A plane is the upper face of a cube, below the middle of the particles: half its edge is twice what they may move
-// from there in the scene's duration, so that none gets to its rim. Its distances are linear, so that the grid from
-// which Bullet's soft bodies take distances and normals errs by rounding alone, whatever the voxels: on a floor and on
-// a slope of 25 degrees, a node and a cloth of 25 lie within 1e-14 m of the face in the explicit deformable world and
-// slide as Coulomb says. btStaticPlaneShape has no such grid: Bullet takes it for a concave mesh of two triangles as
-// large as the body's box, each with a grid of its own. There the same bodies sink in by 0.12 m and drift aside by 43
-// mm in half a second, and the position-based world throws them up by 3 m.
+// A plane is the upper face of a cube, below the middle of the particles. Half its edge is twice their possible
+// displacement during the scene, so that none reaches its rim. The cube's distances are linear, so the grid from which
+// Bullet's soft bodies read distances and normals errs only by rounding, for any voxel size: on a floor and on a slope
+// of 25 degrees, a node and a cloth of 25 are within 1e-14 m of the face in the explicit deformable world and slide by
+// Coulomb's law. btStaticPlaneShape has no such grid: Bullet treats it as a concave mesh of two triangles as large as
+// the body's box, each with its own grid. With it, the same bodies sink in by 0.12 m and drift sideways by 43 mm in
+// half a second, and the position-based world throws them up by 3 m.
 
 class Obstacles {
  public:
   explicit Obstacles(const Scene& scene);
 
-  /// Enters them into the world, or takes them out of it.
+  /// Adds them to the world, or removes them.
   void add_to_world(btDiscreteDynamicsWorld& world);
   void remove_from_world(btDiscreteDynamicsWorld& world);
-  /// Puts the moving ones where they are at time t (s). To be called before each step with the step's end: Bullet takes
-  /// the speed of a kinematic body from the distance between two of its places.
+  /// Moves the moving ones to their positions at time t (s). Call it before each step with the step's end: Bullet
+  /// derives the speed of a kinematic body from the distance between two successive positions.
   void place(double t);
-  /// Writes where that is: centres of spheres, points of planes. All stands as before afterwards.
+  /// Reads positions at time t (s): centres of spheres, points of planes. Leaves the world unchanged.
   void read_places(double t, double margin, Readback::Places& places);
 
-  /// The objects that were built: places, radii or normals, friction and restitution, and the soft body's margin.
+  /// Reads back the built objects: positions, radii or normals, friction and restitution, and the soft body's margin.
   void read_back(const btDiscreteDynamicsWorld& world, const btSoftBody& body, Readback& readback) const;
 
  private:
@@ -174,17 +175,17 @@ class Obstacles {
   void add(const Surface& surface, std::unique_ptr<btConvexShape> shape, const Vec3& middle);
 
   std::vector<Obstacle> obstacles_;
-  std::vector<btTransform> built_;  // places at which they entered
+  std::vector<btTransform> built_;  // transforms at which they were added
 };
 
-/// "5 mrad on voxels of a = 10 mm": how far Bullet's normals may be off in each direction, on the scene's smallest
-/// ball; the scene must have one. Inside a voxel the gradient of the grid of distances is constant along each axis,
-/// right in the middle and off by half a voxel's turn at its faces.
+/// "5 mrad on voxels of a = 10 mm": maximum error of Bullet's normals in each direction, on the scene's smallest ball;
+/// the scene must have one. Inside a voxel, the gradient of the distance grid is constant along each axis: correct in
+/// the middle and off by half a voxel's angle at its faces.
 std::string normal_error_text(const Scene& scene, double voxel);
 
-/// The part that all Bullet worlds share: a soft body and its obstacles are put into a world, which is destroyed in the
-/// right order. BulletWorld: a soft-body world of Bullet. The derived class makes world_ and soft_body_, calls
-/// add_to_world(), and calls remove_all() in its destructor, since its forces and solvers must outlive the world.
+/// The part shared by all Bullet worlds: a soft body and its obstacles in a world, destroyed in the right order.
+/// BulletWorld: a soft-body world of Bullet. The derived class creates world_ and soft_body_, calls add_to_world(), and
+/// calls remove_all() in its destructor, since its forces and solvers must outlive the world.
 template <class BulletWorld>
 class SoftBodyWorld : public World {
  public:
@@ -198,13 +199,13 @@ class SoftBodyWorld : public World {
   void add_to_world() {
     obstacles_.add_to_world(*world_);
     world_->addSoftBody(&body());
-    world_->setGravity(btVector3(0, 0, 0));  // this is for rigid bodies only; the obstacles are fixed or kinematic
+    world_->setGravity(btVector3(0, 0, 0));  // for rigid bodies only; the obstacles are fixed or kinematic
   }
 
-  /// Pins and surfaces of a prescribed motion, at a time at which no round frequency has brought it back.
+  /// Pins and surfaces with prescribed motion, at a time at which no round frequency has returned them to the start.
   Readback::Places prescribed_places() {
     const double t = 0.382 * scene_.duration;
-    std::optional<ProbeState> kept;  // puts the nodes back at the end
+    std::optional<ProbeState> kept;  // restores the nodes at the end
     if (scene_.model.particles.move) kept.emplace(scene_, *soft_body_, t);
     soft_body_->place_pins(t);
     const std::vector<int>& pins = scene_.model.particles.pins;

@@ -1,4 +1,4 @@
-# The room of Bullet, for any Bullet: add_bullet_worlds(NAME BULLET) makes a library against the target BULLET.
+# Bullet's room, for any Bullet: add_bullet_worlds(NAME BULLET) creates a library linked to the target BULLET.
 set(BULLET_WORLDS_DIR ${CMAKE_CURRENT_LIST_DIR})
 function(add_bullet_worlds name bullet)
   list(TRANSFORM BULLET_WORLDS_SOURCES PREPEND ${BULLET_WORLDS_DIR}/)

@@ -18,7 +18,7 @@ namespace {
 
 using Options = std::vector<std::string>;
 
-/// The number behind "KEY=" between two others; nothing where it is another option or no such number.
+/// The number after "KEY=", within [low, high]; nothing if it is another option or not such a number.
 std::optional<double> read_number(const std::string& option, std::string_view key, double low, double high) {
   if (!option.starts_with(key)) return std::nullopt;
   double value = 0;
@@ -28,7 +28,7 @@ std::optional<double> read_number(const std::string& option, std::string_view ke
   return value;
 }
 
-/// Reads what both worlds have; false where it is another option or no such number.
+/// Reads the options common to both worlds; returns false if it is another option or the number is invalid.
 bool read_common(const std::string& option, double& voxel, BulletDefaults& defaults) {
   if (const auto a = read_number(option, "voxel=", 1e-4, 1))  // m
     voxel = *a;

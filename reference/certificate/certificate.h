@@ -1,5 +1,5 @@
-// The parity certificate: was the same scene built? For each quantity the scene's value, as mapped, as read back, and
-// the verdict.
+// The parity certificate verifies that an engine built the same scene. For each quantity it holds the scene's value,
+// how it was mapped, the value read back, and the verdict.
 #pragma once
 
 #include <string>
@@ -10,10 +10,10 @@
 namespace crosscheck {
 
 enum class Parity {
-  match,          // read back as in the scene, within the engine's precision
-  different_law,  // the ingredient is there under another law
-  mismatch,       // another scene was built: no comparison
-  unattested,     // the engine does not report it
+  match,          // equals the scene's value within the engine's precision
+  different_law,  // the ingredient is modelled by another law
+  mismatch,       // a different scene was built: no comparison
+  unattested,     // not reported by the engine
 };
 std::string_view name_of(Parity parity);
 
@@ -29,11 +29,11 @@ struct Certificate {
   bool fully_attested() const;  // no row is Parity::unattested
 };
 
-/// One line: how many quantities were read back, and what does not match, has another law or is not attested.
+/// One line: how many quantities were read back, and which do not match, follow another law or are not attested.
 std::string summary_of(const Certificate& certificate);
 
-/// Compares what the engine read back with the scene. What the scene has and the engine does not report has a row
-/// that says so; so has, in one row, what the scene does not have and the engine does not deny.
+/// Compares the engine's read-back with the scene. Quantities of the scene that the engine does not report have a row
+/// that says so. Ingredients that the scene lacks and the engine does not deny share a single row.
 Certificate certify(const std::string& method, const Scene& scene, const Outcome& outcome);
 
 }  // namespace crosscheck

@@ -10,7 +10,7 @@
 
 namespace crosscheck {
 
-/// The larger one; nan where one is nan, so that a deviation that is no number never passes.
+/// The larger value, or nan if either is nan, so that a nan deviation never passes.
 inline double max_or_nan(double a, double b) { return std::isnan(b) || b > a ? b : a; }
 
 class CertificateWriter {
@@ -33,19 +33,19 @@ class CertificateWriter {
   void add_unattested(const std::string& quantity, std::string requested) {
     row(quantity, std::move(requested), "not told", Parity::unattested);
   }
-  /// A quantity compared by its largest deviation, relative to its scale.
+  /// Adds a row for a quantity compared by its largest deviation, relative to its scale.
   void deviation(const std::string& quantity, std::string requested, double largest, double scale) {
     row(quantity, std::move(requested), fmt::format("largest deviation {:.2g}", scale > 0 ? largest / scale : largest),
         largest <= tolerance() * scale);
   }
-  /// Whether the engine says by itself that it has the ingredient under another law: a row of its own says which.
+  /// True if the engine itself reports another law for the ingredient, which has a row of its own.
   bool has_different_law(std::string_view ingredient) const {
     return std::any_of(outcome_.different_law.begin(), outcome_.different_law.end(), [&](const std::string& law) {
       return law.starts_with(ingredient) && law.substr(ingredient.size()).starts_with(": ");
     });
   }
   double step() const { return outcome_.step; }  // s
-  /// Rounding of an engine that computes in this precision, after a mapping and its inverse: some tens of ulps.
+  /// Rounding error of an engine in this precision after a mapping and its inverse: some tens of ulps.
   double tolerance() const { return readback_.precision == "single" ? 1e-5 : 1e-12; }
 
  private:

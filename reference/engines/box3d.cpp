@@ -1,8 +1,8 @@
 // Box3D as a program of the engine protocol (tried: version 0.2.0, commit 30c67b5e6d0a). Built by box3d/CMakeLists.txt.
 //
-// springs=joint (default) makes springs, with the dashpots between the same ends, distance joints of a frequency and a
-// damping ratio. springs=forces applies them as forces, which Box3D repeats in each of its n sub-steps: a body moves by
-// h v + h^2 a (n + 1) / (2 n), so that springs gain energy unless n is 1.
+// springs=joint (default) represents springs, with the dashpots between the same ends, by distance joints with a
+// frequency and a damping ratio. springs=forces applies them as forces, which Box3D repeats in each of its n sub-steps:
+// a body moves by h v + h^2 a (n + 1) / (2 n), so springs gain energy unless n is 1.
 #include <box3d/box3d.h>
 
 #include "crosscheck_engine.h"
@@ -34,7 +34,7 @@ class Box3dWorld : public World {
     b3WorldDef world = b3DefaultWorldDef();
     world.gravity = to_box3d(scene.gravity);
     world.enableSleep = false;
-    world.maximumLinearSpeed = 1e9f;  // m/s, default 400: faster bodies are slowed without a message
+    world.maximumLinearSpeed = 1e9f;  // m/s; default 400, above which bodies are slowed down silently
     world_ = b3CreateWorld(&world);
     for (size_t i = 0; i < x_.size(); ++i) {
       b3BodyDef body = b3DefaultBodyDef();
@@ -59,7 +59,7 @@ class Box3dWorld : public World {
     for (size_t i = 0; i < x_.size(); ++i)
       if (!scene_.pinned[i]) b3Body_ApplyForceToCenter(bodies_[i], to_box3d(f_[i]), true);
     const double h = scene_.step;
-    for (size_t p = 0; p < scene_.pins.size() && scene_.pins_move; ++p)  // by a velocity to the end of the step
+    for (size_t p = 0; p < scene_.pins.size() && scene_.pins_move; ++p)  // moved by a velocity to the end of the step
       b3Body_SetLinearVelocity(bodies_[scene_.pins[p]],
                                to_box3d(1 / h * (scene_.pin_at(p, t + h) - x_[scene_.pins[p]])));
     b3World_Step(world_, float(h), substeps_);
@@ -99,7 +99,7 @@ class Box3dWorld : public World {
     read_back_joints(scene_, forced_, joints,
                      "soft constraints, implicit along the line between the ends in each sub-step", run);
     r.gravity = from_box3d(b3World_GetGravity(world_));
-    r.precision = "single";  // velocities are, in both builds
+    r.precision = "single";  // velocities are single precision in both builds
     r.may_sleep = b3World_IsSleepingEnabled(world_);
     r.step = float(scene_.step);
     r.spheres.emplace(), r.planes.emplace();
@@ -111,7 +111,7 @@ class Box3dWorld : public World {
   }
 
  private:
-  /// The mass that a joint between the ends feels, kg.
+  /// Reduced mass (kg) of a joint's ends.
   double reduced_mass(const Spring& s) const {
     double inverse = 0;
     for (const int end : {s.a, s.b})
@@ -136,11 +136,11 @@ class Box3dWorld : public World {
   }
 
   const Scene& scene_;
-  Scene forced_;  // with the springs and dashpots that are forces
+  Scene forced_;  // contains only the springs and dashpots applied as forces
   int substeps_;
   b3WorldId world_;
   std::vector<b3BodyId> bodies_;
-  std::vector<b3JointId> joints_;  // one for each spring, or none
+  std::vector<b3JointId> joints_;  // one per spring, or none
   std::vector<Vec> x_, v_, f_;
 };
 

@@ -1,12 +1,12 @@
 #!/usr/bin/env node
-// cannon-es as an engine of crosscheck (PROTOCOL.md): particles are bodies of its class Particle.
+// cannon-es as an engine of crosscheck (PROTOCOL.md): particles are bodies with the shape Particle.
 //
 // cannon's rule is symplectic Euler in double precision: v = v (1 - d)^h + h f / m, then x += h v, where d is a body's
-// linear damping; the drag gamma = c / m (1/s) is d = 1 - exp(-gamma), exact for constant forces.
+// linear damping. The drag gamma = c / m (1/s) becomes d = 1 - exp(-gamma), which is exact for constant forces.
 //
-// Options: springs=spring|distance (its class Spring; or distance constraints as in its cloth example, which hold the
-// rest lengths), iterations=N (of its solver, default 10: cannon's), damping=zero|as-written. cannon reads
-// `new Spring(a, b, { damping: 0 })` as 1 N s/m and `stiffness: 0` as 100 N/m; `zero` sets both once more afterwards.
+// Options: springs=spring|distance (class Spring, or distance constraints as in cannon's cloth example, which enforce
+// the rest lengths), iterations=N (of the solver, default 10 as in cannon), damping=zero|as-written. cannon interprets
+// `new Spring(a, b, { damping: 0 })` as 1 N s/m and `stiffness: 0` as 100 N/m; `zero` sets both again afterwards.
 import * as CANNON from 'cannon-es';
 import { serve, unsupported } from '../protocol/crosscheck_engine.mjs';
 
@@ -22,7 +22,7 @@ function place(body, x, v) {
   body.velocity.set(...v);
 }
 
-/// Particles, which have no size in cannon, as bodies.
+/// Particles as bodies; they have no size in cannon.
 function particles(scene) {
   const shape = new CANNON.Particle(), material = new CANNON.Material({ friction: 1, restitution: 1 });
   return Array.from(scene.pinned, (held, i) => new CANNON.Body({
@@ -32,7 +32,8 @@ function particles(scene) {
     collisionFilterGroup: ball_group, collisionFilterMask: obstacle_group }));
 }
 
-/// Sphere or plane that particles touch at the scene's distance. A contact has the product of two bodies' numbers.
+/// A sphere or plane that particles touch at the scene's distance. A contact uses the product of both bodies'
+/// coefficients.
 function obstacle(of) {
   const { friction, restitution, radius, margin, normal } = of, z = new CANNON.Vec3(0, 0, 1);
   const shape = normal ? new CANNON.Plane() : new CANNON.Sphere(radius + margin);
@@ -51,12 +52,12 @@ serve(description, (scene) => {
   const kind = scene.option('springs', ['spring', 'distance']), iterations = scene.option('iterations', 10);
   const written = scene.option('damping', ['zero', 'as-written']) === 'as-written', { h } = scene;
   if (written && scene.dashpots.count) unsupported('damping=as-written: takes no dashpots');
-  CANNON.Body.idCounter = 0;  // numbers of bodies do not depend on the scenes served before
+  CANNON.Body.idCounter = 0;  // body numbers must not depend on scenes served before
   const world = new CANNON.World({ gravity: vec3(scene.gravity), allowSleep: false }), bodies = particles(scene);
   world.solver.iterations = iterations;
   const spheres = scene.spheres.map(obstacle), planes = scene.planes.map(obstacle), obstacles = [...spheres, ...planes];
   for (const body of [...bodies, ...obstacles.map((one) => one.body)]) world.addBody(body);
-  world.broadphase.collisionPairs = (_, first, second) => {  // cannon's own forms all pairs of particles, too
+  world.broadphase.collisionPairs = (_, first, second) => {  // cannon's own function also forms all pairs of particles
     for (const one of obstacles) for (const body of bodies) first.push(one.body), second.push(body);
   };
   const lead = (t, next) => {
@@ -87,13 +88,13 @@ serve(description, (scene) => {
     const w = scene.wind && vec3(scene.windAt(t));
     if (w) for (const body of bodies) body.force.addScaledVector(body.mass, w, body.force);
   };
-  /// Forces that `act` leaves on the bodies, flat.
+  /// Forces that `act` exerts on the bodies, flat.
   const forces = (act) => {
     bodies.forEach((body) => body.force.setZero());
     act();
     return Float64Array.from(bodies.flatMap((body) => components(body.force)));
   };
-  /// Forces by cannon's own objects; those that are known to follow another law are left out.
+  /// Forces from cannon's own objects; those known to follow another law are omitted.
   const probe = () => {
     const state = scene.probeState();
     bodies.forEach((body, i) => place(body, components(vec3(state.x, i)), [0, 0, 0]));

@@ -1,6 +1,6 @@
-// Jolt's soft body, compiled for this machine, as a program of the engine protocol: one body among static balls, with
-// the same options and laws as npm's build. The README says why each default is changed. Built by jolt/CMakeLists.txt.
-#include <Jolt/Jolt.h>  // before all other headers of Jolt
+// Jolt's soft body, compiled natively, as a program of the engine protocol: one body among static balls, with the same
+// options and laws as npm's build. The README explains each changed default. Built by jolt/CMakeLists.txt.
+#include <Jolt/Jolt.h>  // must precede all other headers of Jolt
 
 #include <Jolt/ConfigurationString.h>
 #include <Jolt/Core/Factory.h>
@@ -23,7 +23,7 @@ using namespace crosscheck_engine;
 namespace {
 
 constexpr JPH::ObjectLayer layer = 0;
-constexpr JPH::uint memory = 32 << 20;  // bytes for a step's own data; what does not fit is allocated
+constexpr JPH::uint memory = 32 << 20;  // bytes for temporary data of a step; the rest is allocated
 
 JPH::Vec3 to_jolt(const Vec& v) { return {float(v[0]), float(v[1]), float(v[2])}; }
 template <class Vector>
@@ -33,13 +33,13 @@ Vec from_jolt(const Vector& v) {
 
 struct Vertex {
   Vec x, v;             // m in the scene's frame, m/s
-  double inverse_mass;  // 1/kg; 0 where held
+  double inverse_mass;  // 1/kg; 0 if held
 };
 
-/// One soft body among balls, in a system of its own.
+/// One soft body among balls, in its own physics system.
 class SoftBody {
  public:
-  /// `origin`: of the body's frame (m), in which positions are rounded to single precision. `damping`: 1/s.
+  /// `origin`: origin of the body's frame (m), in which positions are rounded to single precision. `damping`: 1/s.
   SoftBody(const std::vector<Vertex>& vertices, const std::vector<Spring>& edges, const std::vector<Sphere>& spheres,
            const Vec& origin, int iterations, double damping) {
     pairs_.EnableCollision(layer, layer);
@@ -65,11 +65,11 @@ class SoftBody {
     JPH::SoftBodyCreationSettings creation(shared, position, JPH::Quat::sIdentity(), layer);
     creation.mNumIterations = static_cast<JPH::uint32>(iterations);
     creation.mLinearDamping = float(damping);  // default 0.1 / s
-    creation.mMaxLinearVelocity = 1e15f;       // m/s, default 500: faster vertices are slowed without a message
-    creation.mUpdatePosition = false;  // else the frame follows, and vertices are rounded once more in each step
-    creation.mAllowSleeping = false;   // else a body stops that is slower than 0.17 m/s for half a second
-    creation.mFriction = 1;            // a contact has sqrt(body's times sphere's)
-    creation.mRestitution = 0;         // a contact has the larger of the two
+    creation.mMaxLinearVelocity = 1e15f;       // m/s; default 500, above which vertices are slowed down silently
+    creation.mUpdatePosition = false;  // otherwise the frame follows, and vertices are rounded once more per step
+    creation.mAllowSleeping = false;   // otherwise a body slower than 0.17 m/s for half a second stops
+    creation.mFriction = 1;            // a contact uses sqrt(body's times sphere's)
+    creation.mRestitution = 0;         // a contact uses the larger of the two
     JPH::BodyInterface& all = system.GetBodyInterface();
     body = all.CreateSoftBody(creation);
     if (!body) throw std::runtime_error("Jolt made no soft body");
@@ -117,7 +117,7 @@ class SoftBody {
   JPH::JobSystemSingleThreaded jobs_{JPH::cMaxPhysicsJobs};
 };
 
-/// Refuses what Jolt does not have. Returns the linear damping, 1/s.
+/// Refuses ingredients that Jolt does not support. Returns the linear damping (1/s).
 double supported_damping(const Scene& scene, int iterations) {
   for (const auto& [term, why] :
        {std::pair("bending", "Jolt bends by angles between triangles, not by a rigidity in N m"),
@@ -132,7 +132,7 @@ double supported_damping(const Scene& scene, int iterations) {
   for (size_t i = 0; i < scene.x.size(); ++i) {
     if (scene.pinned[i]) continue;
     const double gamma = scene.drag[i] / scene.mass[i];
-    // masses times gamma over masses: equal but for a few roundings
+    // gamma is recovered from c = m gamma, hence equal up to a few roundings
     if (rate && std::abs(gamma - *rate) > 4 * std::numeric_limits<double>::epsilon() * *rate)
       unsupported("drag that differs between particles: Jolt has one damping (1/s) for a body");
     if (!rate) rate = gamma;
@@ -155,7 +155,7 @@ std::vector<Vertex> vertices_of(const Scene& scene) {
   return vertices;
 }
 
-/// Middle of the scene's box, where coordinates are smallest; m, in single precision.
+/// Middle of the scene's bounding box (m, single precision), which minimises coordinates relative to it.
 Vec middle_of(const Scene& scene) {
   Vec low = scene.x.at(0), high = low;
   for (const Vec& x : scene.x)
@@ -163,13 +163,13 @@ Vec middle_of(const Scene& scene) {
   return {float((low[0] + high[0]) / 2), float((low[1] + high[1]) / 2), float((low[2] + high[2]) / 2)};
 }
 
-/// Forces of the springs at x as Jolt computes them, N: each spring alone, from a free vertex in the origin, where
-/// small moves are not rounded away, to a held one, in one step d. The vertex has w d^2 = 1e-6 compliance, so that it
-/// moves by w d^2 k (L - r) to a millionth.
+/// Spring forces (N) at x as Jolt computes them: each spring separately, in one step d, from a free vertex at the
+/// origin, where small displacements are not rounded away, to a held vertex. The vertex has w d^2 = 1e-6 compliance, so
+/// it moves by w d^2 k (L - r) to within a millionth.
 std::vector<Vec> spring_forces(const Scene& scene, const std::vector<Vec>& x) {
   std::vector<Vec> forces(x.size(), Vec{});
   constexpr double d = 1. / 1024;  // s
-  constexpr size_t at_once = 500;  // Jolt sorts a body's edges, which takes the square of their count
+  constexpr size_t at_once = 500;  // Jolt sorts a body's edges in time quadratic in their number
   const std::vector<Spring>& all = scene.springs;
   for (size_t first = 0; first < all.size(); first += at_once) {
     const int count = static_cast<int>(std::min(at_once, all.size() - first));
@@ -205,7 +205,7 @@ class JoltWorld : public World {
   }
 
   void step(double t) override {
-    // to free particles gravity and wind are one acceleration
+    // for free particles, gravity and wind form a single acceleration
     if (scene_.wind) body_.system.SetGravity(to_jolt(scene_.gravity + scene_.wind_at(t)));
     const double h = scene_.step;
     // a held vertex moves by its velocity; its position is set too, since n sub-steps round n times
@@ -252,7 +252,7 @@ class JoltWorld : public World {
       if (r.later) r.later->centres.push_back(r.spheres->back().centre);
     }
     Probe probe = probe_state(scene_);
-    probe.t = 0.3;  // s; gusts blow by then
+    probe.t = 0.3;  // s; gusts are active by then
     probe.springs = spring_forces(scene_, probe.x);
     probe.dashpots = probe.wind = std::vector<Vec>(scene_.x.size(), Vec{});
     body_.system.SetGravity(to_jolt(scene_.gravity + scene_.wind_at(probe.t)));
@@ -268,8 +268,8 @@ class JoltWorld : public World {
                   {"iterations", std::to_string(iterations)},
                   {"frame", frame_},
                   {"largest speed", JsonWriter::of(motion.GetMaxLinearVelocity()) + " m/s"}};
-    // a step begins above the ball, on the plane that was tangent where the step before began: that takes half of
-    // v^2 / R more off the depth, from which friction is computed
+    // A step begins above the ball, on the plane that was tangent where the previous step began. This subtracts another
+    // half of v^2 / R from the depth from which friction is computed.
     for (const Sphere& s : scene_.spheres)
       if (s.friction > 0 && run.different_law.empty())
         run.different_law.push_back(
@@ -278,7 +278,7 @@ class JoltWorld : public World {
   }
 
  private:
-  /// Jolt's edges in the scene's order; parallel ones keep theirs.
+  /// Jolt's edges in the scene's order; parallel edges keep their own order.
   void read_edges(Readback& r) const {
     std::multimap<std::pair<int, int>, Spring> found;
     for (const auto& edge : body_.motion().GetSettings()->mEdgeConstraints) {

@@ -1,13 +1,14 @@
 #!/usr/bin/env node
 // Jolt's soft body (npm's WebAssembly build) as an engine of crosscheck (PROTOCOL.md), in single precision.
 //
-// Jolt's rule (measured: README.md here): `Update(h)` takes n sub-steps of d = h / n. Each adds gravity to
-// the velocities, multiplies them by 1 - damping d, moves by v d, corrects each edge once, one after the other, by
-// (L - r) / (w_a + w_b + compliance / d^2), and takes (x - x_before) / d for the velocity: extended position-based
-// dynamics with one pass, compliance in m/N, independent of d.
+// Jolt's rule (measured: README.md in this folder): `Update(h)` performs n sub-steps of d = h / n. Each adds gravity to
+// the velocities, multiplies them by 1 - damping d, moves by v d, corrects each edge once, one after another, by (L -
+// r) / (w_a + w_b + compliance / d^2), and sets the velocity to (x - x_before) / d: extended position-based dynamics
+// with one pass, compliance in m/N, independent of d.
 //
 // Options: n=N, Jolt's iterations, which are sub-steps (default 1; Jolt's own default is 5); frame=scene|world puts the
-// body's frame into the middle of the scene's box, where coordinates are smallest, or into the origin.
+// origin of the body's frame in the middle of the scene's box, where coordinates are smallest, or at the world's
+// origin.
 import loadJolt from 'jolt-physics/wasm-compat';
 import { serve, unsupported } from '../protocol/crosscheck_engine.mjs';
 
@@ -40,7 +41,8 @@ class World {
   gravity() { return components(this.system.GetGravity()); }
   remove(body) { for (const act of ['RemoveBody', 'DestroyBody']) this.bodies[act](body.GetID()); }
 
-  /// Soft body with its frame at `origin`. Vertices: x (in it, m), v (m/s), w (1/kg). Edges: rest, compliance (m/N).
+  /// Adds a soft body with its frame at `origin`. Vertices: x (in the frame, m), v (m/s), w (1/kg). Edges: rest,
+  /// compliance (m/N).
   addSoftBody({ origin, vertices, edges, iterations, damping }) {
     const shared = new Jolt.SoftBodySharedSettings(), vertex = new Jolt.SoftBodySharedSettingsVertex();
     for (const { x, v, w } of vertices) {
@@ -56,17 +58,17 @@ class World {
     const creation = new Jolt.SoftBodyCreationSettings(shared, new Jolt.RVec3(...origin), this.upright, 0);
     Object.assign(creation, {
       mNumIterations: iterations, mLinearDamping: damping,  // default damping 0.1 / s
-      mMaxLinearVelocity: 1e15,   // m/s, default 500: faster vertices are slowed in silence
-      mUpdatePosition: false,     // else the frame follows, and vertices are rounded once more in each step
-      mAllowSleeping: false,      // else what is slower than 0.17 m/s for half a second stops
-      mFriction: 1, mRestitution: 0 });  // a contact has sqrt(body's times sphere's); the larger one
+      mMaxLinearVelocity: 1e15,   // m/s; default 500, above which vertices are slowed down silently
+      mUpdatePosition: false,     // otherwise the frame follows, and vertices are rounded once more per step
+      mAllowSleeping: false,      // otherwise a body slower than 0.17 m/s for half a second stops
+      mFriction: 1, mRestitution: 0 });  // a contact uses sqrt(body's times sphere's); the larger of the two
     const body = this.bodies.CreateSoftBody(creation);
     this.bodies.AddBody(body.GetID(), Jolt.EActivation_Activate);
     const motion = Jolt.castObject(body.GetMotionProperties(), Jolt.SoftBodyMotionProperties);
     return { body, motion, vertices: vertices.map((_, i) => motion.GetVertex(i)) };
   }
 
-  /// Particles touch a ball at radius + margin: the radius of Jolt's sphere, whose vertices have none.
+  /// Particles touch a ball at radius + margin, which is the radius of Jolt's sphere; its vertices have no radius.
   addBall({ centre, radius, margin, friction, restitution }) {
     const shape = new Jolt.SphereShape(radius + margin), position = new Jolt.RVec3(...centre);
     const creation = new Jolt.BodyCreationSettings(shape, position, this.upright, Jolt.EMotionType_Static, 0);
@@ -77,7 +79,7 @@ class World {
   }
 }
 
-/// Edges in the order they were given in, which Jolt changes: parallel edges keep theirs.
+/// Jolt's edges in the given order, which Jolt changes; parallel edges keep their own order.
 function edgesLike({ motion }, wanted) {
   const edges = motion.GetSettings().mEdgeConstraints, found = new Map();
   for (let i = 0; i < edges.size(); ++i) {
@@ -87,9 +89,9 @@ function edgesLike({ motion }, wanted) {
   return wanted.map(({ a, b }) => found.get(`${a} ${b}`).shift());
 }
 
-/// Forces of the springs at x, as Jolt computes them, N: each spring alone, from a free vertex in the origin, where
-/// small moves are not rounded away, to a held one, in one step d. The vertex has w d^2 = 1e-6 compliance, so that it
-/// moves by w d^2 k (L - r) to a millionth.
+/// Spring forces (N) at x as Jolt computes them: each spring separately, in one step d, from a free vertex at the
+/// origin, where small displacements are not rounded away, to a held vertex. The vertex has w d^2 = 1e-6 compliance, so
+/// it moves by w d^2 k (L - r) to within a millionth.
 function springForces(world, springs, x) {
   const forces = new Float64Array(x.length), d = 2 ** -10, v = [0, 0, 0];
   world.setGravity([0, 0, 0]);
@@ -131,13 +133,13 @@ serve(description, (scene) => {
     step(t, next) {
       if (scene.wind) blow(t);
       if (!pins.motion) return void world.jolt.Step(h, 1);
-      // a held vertex moves by its velocity; its place is set too, since n sub-steps round n times
+      // a held vertex moves by its velocity; its position is set too, since n sub-steps round n times
       const from = scene.pinsAt(t), to = scene.pinsAt(next), held = to.map(({ particle }) => soft.vertices[particle]);
       held.forEach((one, i) => (one.mVelocity = world.vec3(to[i].x.map((e, k) => (e - from[i].x[k]) / h))));
       world.jolt.Step(h, 1);
       held.forEach((one, i) => (one.mPosition = world.vec3(to[i].x.map((e, k) => e - origin[k]))));
     },
-    read(x, v) {  // in the scene's coordinates; the sum is made in double precision
+    read(x, v) {  // in the scene's coordinates; the sum is computed in double precision
       soft.vertices.forEach((vertex, i) => {
         x.set(components(vertex.mPosition).map((e, k) => origin[k] + e), 3 * i);
         v.set(components(vertex.mVelocity), 3 * i);
@@ -160,7 +162,8 @@ serve(description, (scene) => {
       probe.wind = Float64Array.from(probe.x, (_, e) => readback.mass[(e / 3) | 0] * extra[e % 3]);
       [body, ...balls].forEach((one) => world.remove(one));
       probe.springs = springForces(world, springs, probe.x);
-      // a step begins above the ball, on an older tangent plane: the depth that gives friction lacks half of v^2 / R
+      // a step begins above the ball, on an older tangent plane: the depth that gives friction is reduced by half of
+      // v^2 / R
       const law = 'friction: on a ball of radius R it is mu m (g_n - 3/2 v^2 / R) with n = 1, not mu m (g_n - v^2 / R)';
       return { force_evaluations: Math.round(scene.times.at(-1) / h) * iterations * 2, readback,
                different_law: scene.spheres.some((ball) => ball.friction > 0) ? [law] : [] };

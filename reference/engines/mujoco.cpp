@@ -1,9 +1,9 @@
 // MuJoCo as a program of the engine protocol.
 //
-// A particle is a body with three slide joints, a pin a mocap body, a spring a spatial tendon between two sites. What
-// tendons cannot do goes through mjcb_passive: bending, wind, bullet-link springs, springs that start at zero length (a
-// tendon would pull along x), dashpots at moved pins (tendons do not see the velocity of a mocap body), and under RK4
-// springs at moved pins (a mocap body stands still during a step).
+// A particle is a body with three slide joints, a pin is a mocap body, a spring is a spatial tendon between two sites.
+// Everything that tendons cannot represent goes through mjcb_passive: bending, wind, bullet-link springs, springs that
+// start at zero length (a tendon would pull along x), dashpots at moved pins (tendons ignore the velocity of a mocap
+// body), and under RK4 springs at moved pins (a mocap body does not move during a step).
 #include <mujoco/mujoco.h>
 
 #include "crosscheck_engine.h"
@@ -12,7 +12,7 @@ using namespace crosscheck_engine;
 
 namespace {
 
-std::string warning;  // last warning of MuJoCo, which would otherwise go to a file in the working directory
+std::string warning;  // MuJoCo's last warning, which would otherwise go to a file in the working directory
 void keep_warning(const char* text) { warning = text; }
 void fail(const char* text) {  // MuJoCo does not expect its error handler to return
   std::fprintf(stderr, "MuJoCo: %s\n", text);
@@ -115,8 +115,8 @@ class MujocoWorld : public World {
   int end(int tendon, int which) const { return model_->wrap_objid[model_->tendon_adr[tendon] + which]; }  // a site
 
   std::string xml() {
-    const size_t most = x_.size() * (scene_.spheres.size() + scene_.planes.size());  // contacts
-    double bead = 1e-3;  // m, radius of the particles' geoms; balls and planes are smaller by it
+    const size_t most = x_.size() * (scene_.spheres.size() + scene_.planes.size());  // number of possible contacts
+    double bead = 1e-3;  // m, radius of the geoms of particles; balls and planes are smaller by it
     for (const Sphere& s : scene_.spheres) bead = std::min(bead, 0.5 * s.contact_radius());
     std::string xml = join("<mujoco><size nconmax='", most, "' njmax='", 3 * most + scene_.constraints.size(),
                            "'/><option cone='elliptic'/><worldbody>");
@@ -129,7 +129,7 @@ class MujocoWorld : public World {
         xml += join("<geom type='sphere' solmix='0' contype='1' conaffinity='0' friction='0 0 0' size='", bead, "'/>");
       xml += "</body>";
     }
-    // half an oscillation of damping ratio z returns e = exp(-pi z / sqrt(1 - z^2)); two steps resolve 1/omega
+    // half an oscillation with damping ratio z returns e = exp(-pi z / sqrt(1 - z^2)); two steps resolve 1/omega
     const auto law = [this](double friction, double e) {
       const double l = std::log(e) / pi, z = e > 0 ? -l / std::sqrt(1 + l * l) : 1;
       return join("' contype='0' conaffinity='1' friction='", friction, " 0 0' solref='",
@@ -144,7 +144,7 @@ class MujocoWorld : public World {
     return xml + "</worldbody>" + tendons() + "</mujoco>";
   }
 
-  /// Tendons of springs, then of constraints. Springs that none can represent stay in called_.
+  /// Tendons of springs, then of constraints. Springs that no tendon can represent remain in called_.
   std::string tendons() {
     called_.springs.clear();
     std::string list, equality;
@@ -215,7 +215,7 @@ class MujocoWorld : public World {
         d->qfrc_passive[dof(i) + k] += f_[i][k] - (joint_drag_ ? 0 : scene_.drag[i] * v_[i][k]);
   }
 
-  /// Balls and planes as the model has them. Its geoms begin with theirs; the last one is a particle's.
+  /// Balls and planes as represented in the model. They are its first geoms; the last geom belongs to a particle.
   void read_surfaces(Readback& r) const {
     const mjModel& m = *model_;
     r.spheres.emplace(), r.planes.emplace();
@@ -235,7 +235,7 @@ class MujocoWorld : public World {
     if (!r.spheres->empty()) r.margin = r.spheres->front().radius - scene_.spheres.front().radius;
   }
 
-  /// Forces of the tendons, first with damping alone, then with stiffness alone, and of what the callback applies.
+  /// Forces of the tendons, first with damping only, then with stiffness only, and of the callback's terms.
   Probe probe() {
     Probe p = probe_of_forces(called_, probe_state(scene_));
     mjModel& m = *model_;
@@ -263,13 +263,13 @@ class MujocoWorld : public World {
     return p;
   }
 
-  static inline MujocoWorld* current_ = nullptr;  // MuJoCo's callbacks carry no pointer
+  static inline MujocoWorld* current_ = nullptr;  // MuJoCo's callbacks have no user pointer
   const Scene& scene_;
-  Scene called_;  // with the springs and dashpots that the callback applies
+  Scene called_;  // contains only the springs and dashpots applied by the callback
   std::string integrator_;
   bool tendons_ = true, joint_drag_ = true;
-  std::vector<int> tendon_of_;                    // tendon of each spring; -1: the callback applies it
-  std::map<std::pair<int, int>, size_t> tendon_;  // between two particles
+  std::vector<int> tendon_of_;                    // tendon index of each spring; -1: applied by the callback
+  std::map<std::pair<int, int>, size_t> tendon_;  // by pair of particles
   std::vector<Vec> x_, v_, f_;
   std::unique_ptr<mjModel, Free> model_;
   std::unique_ptr<mjData, Free> data_;

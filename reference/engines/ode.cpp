@@ -1,8 +1,9 @@
 // ODE as a program of the engine protocol.
 //
-// Particles are bodies, pins are kinematic ones. springs=forces (default) applies all forces by dBodyAddForce, which
-// makes ODE's step symplectic Euler. springs=dball makes springs, with the dashpots between the same ends, distance
-// joints of ERP = h k / (h k + c) and CFM = 1 / (h k + c): an implicit step along the line between the ends.
+// Particles are bodies, pins are kinematic bodies. springs=forces (default) applies all forces through dBodyAddForce,
+// which makes ODE's step symplectic Euler. springs=dball represents springs, with the dashpots between the same ends,
+// by distance joints with ERP = h k / (h k + c) and CFM = 1 / (h k + c): an implicit step along the line between the
+// ends.
 #include <ode/ode.h>
 
 #include "crosscheck_engine.h"
@@ -19,7 +20,7 @@ class OdeWorld : public World {
     scene.require_only({"springs", "dashpots", "bending", "gravity", "drag", "wind", "sphere", "plane"});
     Options options(scene);
     const bool joints = options.get("springs", {"forces", "dball"}) == "dball";
-    iterations_ = options.get("n", 20);  // the solver of joints and contacts repeats so often
+    iterations_ = options.get("n", 20);  // iterations of the solver of joints and contacts
     options.refuse_others();
     scene.require_resting_surfaces("this adapter gives ODE contacts with bodies at rest only");
     if (joints && scene.spring_law != "hooke") unsupported("springs=dball: ODE's joints have Hooke's law");
@@ -32,7 +33,7 @@ class OdeWorld : public World {
     for (size_t i = 0; i < x_.size(); ++i) {
       bodies_.push_back(dBodyCreate(world_));
       dMass mass;
-      dMassSetSphereTotal(&mass, scene.mass[i], 1);  // bodies do not rotate: nothing acts beside their centres
+      dMassSetSphereTotal(&mass, scene.mass[i], 1);  // bodies do not rotate: all forces act at their centres
       dBodySetMass(bodies_[i], &mass);
       if (scene.pinned[i]) dBodySetKinematic(bodies_[i]);
       place(i, scene.x[i], scene.v[i]);
@@ -123,7 +124,8 @@ class OdeWorld : public World {
     }
   }
 
-  /// A contact of particle i with a sphere or plane, at the particle itself, so that friction does not turn the body.
+  /// Adds a contact of particle i with a sphere or plane, at the particle itself, so that friction does not rotate the
+  /// body.
   template <class Surface>
   void touch(size_t i, const Surface& surface, double gap, const Vec& outward) {
     if (gap >= 0) return;
@@ -133,7 +135,7 @@ class OdeWorld : public World {
     contact.surface.mu = surface.friction, contact.surface.bounce = surface.restitution;
     contact.geom.depth = -gap;
     for (int k = 0; k < 3; ++k) contact.geom.pos[k] = x_[i][k], contact.geom.normal[k] = n[k];
-    if (const double speed = length(along); speed > 0) {  // friction is a box: one side along the sliding
+    if (const double speed = length(along); speed > 0) {  // friction is a box: one side along the sliding direction
       contact.surface.mode |= dContactFDir1;
       for (int k = 0; k < 3; ++k) contact.fdir1[k] = along[k] / speed;
     }
@@ -141,12 +143,12 @@ class OdeWorld : public World {
   }
 
   const Scene& scene_;
-  Scene forced_;  // with the springs and dashpots that are forces
+  Scene forced_;  // contains only the springs and dashpots applied as forces
   int iterations_ = 20;
   dWorldID world_;
   dJointGroupID contacts_;
   std::vector<dBodyID> bodies_;
-  std::vector<dJointID> joints_;  // one for each spring, or none
+  std::vector<dJointID> joints_;  // one per spring, or none
   std::vector<Vec> x_, v_, f_;
 };
 

@@ -2,7 +2,7 @@
 //
 // Particles are bodies on Translation mobilizers, pins have a prescribed motion, springs and dashpots are Simbody's
 // two-point elements, drag is a mobility damper, hard distances are rods. One custom force applies bending, wind,
-// bullet-link springs and springs that start at zero length (Simbody's own would divide by zero).
+// bullet-link springs, and springs that start at zero length (for which Simbody's own element would divide by zero).
 #include <Simbody.h>
 
 #include "crosscheck_engine.h"
@@ -40,7 +40,7 @@ class PinMotion : public SimTK::Motion::Custom::Implementation {
   size_t pin_;
 };
 
-/// Forces of the header on all bodies.
+/// Applies the header's forces to all bodies.
 class HeaderForces : public SimTK::Force::Custom::Implementation {
  public:
   HeaderForces(const Scene& scene, const Bodies& bodies) : scene_(scene), bodies_(bodies) {}
@@ -98,7 +98,7 @@ class SimbodyWorld : public World {
   }
 
   void step(double) override {
-    const double end = static_cast<double>(++steps_) * scene_.step;  // a sum of steps would shift with its rounding
+    const double end = static_cast<double>(++steps_) * scene_.step;  // a sum of steps would drift by its rounding
     while (integrator_->getTime() < end) integrator_->stepTo(end);   // the first call returns at t = 0
   }
 
@@ -127,7 +127,7 @@ class SimbodyWorld : public World {
       r.pinned.push_back(bodies_[i].hasMotion());
       r.drag->push_back(scene_.drag[i] / scene_.mass[i]);
     }
-    r.links = scene_.springs;  // the elements keep their numbers to themselves; the probe shows them
+    r.links = scene_.springs;  // the elements do not expose their parameters; the probe shows them
     for (size_t i = 0; i < rods_.size(); ++i)
       r.links.push_back({scene_.constraints[i].a, scene_.constraints[i].b, hard, rods_[i].getDefaultRodLength()});
     r.gravity = from_simbody(gravity_->getGravity());
@@ -180,7 +180,7 @@ class SimbodyWorld : public World {
   }
 
   const Scene& scene_;
-  Scene called_;  // with the springs that the custom force applies
+  Scene called_;  // contains only the springs applied by the custom force
   std::string name_;
   long steps_ = 0;
   SimTK::MultibodySystem system_;

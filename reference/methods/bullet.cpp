@@ -1,5 +1,5 @@
-// Bullet's worlds as methods: here in double precision, and in single precision as a program of their own, since one
-// program cannot hold both.
+// Bullet's worlds as methods: in double precision in this process, and in single precision as a separate program, since
+// one program cannot contain both.
 
 #include <fmt/format.h>
 
@@ -15,7 +15,7 @@
 namespace crosscheck {
 namespace {
 
-/// What a world is, in either precision.
+/// Sets the properties of a world that hold in either precision.
 void describe(Method& method, const bullet::WorldChoice& chosen) {
   method.implicit = chosen.implicit, method.position_based = chosen.position_based;
   method.counts_evaluations = !chosen.implicit && !chosen.position_based;
@@ -35,7 +35,7 @@ Method in_double_precision(const std::string& world, const MethodOptions& option
   Method method{"bullet/" + world, chosen.what, "", chosen.engine, ContactLoss::inferred};
   describe(method, chosen);
   method.splits_dashpots = !chosen.implicit && !chosen.position_based;
-  // one Newton step, and a link let fall and pulled back, are backward Euler there
+  // there, one Newton step, or a link that falls and is pulled back, is backward Euler
   if (!method.splits_dashpots) method.on_one_spring = "implicit-euler";
   return method;
 }
@@ -43,7 +43,7 @@ Method in_double_precision(const std::string& world, const MethodOptions& option
 Method in_single_precision(const std::string& world, const MethodOptions& options) {
   Program program{programs_folder() / "bullet32_engine", {}};
   for (const std::string& option : options) add_option(program, "bullet32/" + world, option);
-  const bullet::WorldChoice chosen = bullet::choose_world(world, program.options);  // refuses before it runs
+  const bullet::WorldChoice chosen = bullet::choose_world(world, program.options);  // refuses before running
   program.options.insert(program.options.begin(), "world=" + world);
   Method method{"bullet32/" + world, chosen.what + "; in single precision, as a program of its own", "",
                 [program](const Scene& scene, const Run& run, Observer& observer) {

@@ -28,9 +28,9 @@ Method mysim_method(const Stepper& stepper, const MethodOptions& options) {
   ContactRule contact = ContactRule::coulomb;
   Execution execution;
   Stepper rule = stepper;
-  std::string same_as(stepper.name);  // that it freezes to spheres is another law, and is said of each run
+  std::string same_as(stepper.name);  // freezing to spheres is a different law, reported in each run
   const std::string name = fmt::format("mysim/{}", stepper.name);
-  std::string path_option;  // that chose the path
+  std::string path_option;  // option that selected the path
   const auto choose = [&](const std::string& option, ExecutionPath path) {
     if (!path_option.empty() && path_option != option)
       throw InputError(fmt::format("method {}: +{} and +{} each choose how a step is computed; expected one of them",
@@ -66,7 +66,7 @@ Method mysim_method(const Stepper& stepper, const MethodOptions& options) {
                                 stepper.composition ? ", +fast, +single, +plain, +threads=N" : ""));
   }
   if (contact == ContactRule::events) {
-    same_as += "+events";  // where spheres touch, not the same to round-off
+    same_as += "+events";  // with contact, not identical to round-off
     if (execution.path == ExecutionPath::single_precision)
       throw InputError(
           fmt::format("method {}: +events locates contact in double precision; expected it without +single", name));

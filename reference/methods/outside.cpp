@@ -1,4 +1,4 @@
-// Programs and trajectories from outside. Of them samples alone are seen: nothing is known of what happened between.
+// External programs and trajectories. Only their samples are available, and nothing is known about the states between.
 
 #include <fmt/format.h>
 

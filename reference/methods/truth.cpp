@@ -1,4 +1,4 @@
-// The best solutions known, played through the observer like any other method.
+// Reference solutions, replayed through the observer like any other method.
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -29,14 +29,14 @@ Method truth_method(Tier tier, const MethodOptions& options) {
   if (!options.empty()) refuse_option(name, options[0], "none");
   return {name,
           tier == Tier::exact ? "closed form, where the scene has one"
-                              : "two independent routes, refined until they tell the error bar",
+                              : "two independent routes, refined until they give the error bar",
           "",
           [tier](const Scene& scene, const Run& run, Observer& observer) {
             const auto truth = truth_of(scene, run);
             if (!truth || truth->tier != tier || truth->under_contact_rule)
               throw Unsupported(tier == Tier::exact
                                     ? "the scene has no closed form"
-                                    : "the scene has a closed form, or contacts on whose rule the answer depends");
+                                    : "the scene has a closed form, or its solution depends on the contact rule");
             return replay(*truth, run, observer);
           },
           ContactLoss::inferred};
@@ -48,7 +48,7 @@ MethodOptions names_of_discrete_rules() {
   return names;
 }
 
-/// The closed form of what a rule should produce.
+/// Closed form of the discrete solution that a rule should produce.
 Method discrete_method(const MethodOptions& options) {
   const std::string name = "truth/exact-discrete";
   const std::string known = fmt::format("one of the rules +{}", fmt::join(names_of_discrete_rules(), ", +"));

@@ -1,4 +1,4 @@
-// The table of engines: a row for each, with a rule for each number of a scene; and the engine of a name.
+// The table of engines: one row per engine, with a rule for each parameter of a scene; and the look-up by name.
 #include "reference/parameters/parameters.h"
 
 #include <fmt/format.h>
@@ -78,7 +78,7 @@ NumberRule link(std::string_view name, Gather gather) {
           .gather = gather,
           .expected = a_link,
           .valid = between_zero_and_one,
-          // and k goes as mu, whose masses come back rounded, too
+          // k is proportional to mu, whose masses are rounded as well
           .condition = [](double kLST, const Context& at) { return 1 + bullet::link_condition(kLST, at.n); },
           .one_by_one = true};
 }
@@ -113,7 +113,7 @@ NumberRule compliance(std::string_view name, std::string_view formula) {
           .one_by_one = true};
 }
 
-/// A spring of a soft constraint (E. Catto, Soft Constraints, GDC 2011): its frequency.
+/// Frequency of a spring as a soft constraint (E. Catto, Soft Constraints, GDC 2011).
 NumberRule frequency(std::string_view name) {
   constexpr double turn = 2 * std::numbers::pi;
   return {.quantity = SceneNumber::stiffness,
@@ -124,9 +124,9 @@ NumberRule frequency(std::string_view name) {
           .holds = "for short sub-steps h / n: the rule damps along the line like a dashpot of k h / n",
           .to = [](double k, const Context& at) { return std::sqrt(k / at.mu) / turn; },
           .from = [](double f, const Context& at) { return at.mu * turn * turn * f * f; },
-          .condition = [](double, const Context&) { return 3.; }};  // twice the frequency's, and the masses'
+          .condition = [](double, const Context&) { return 3.; }};  // twice the frequency's error plus the masses'
 }
-/// Its damping ratio, from the dashpot between the same ends.
+/// Damping ratio of such a spring, from the dashpot between the same ends.
 NumberRule damping_ratio(std::string_view name) {
   return {.quantity = SceneNumber::dashpot,
           .name = name,
@@ -136,7 +136,7 @@ NumberRule damping_ratio(std::string_view name) {
           .holds = "beside a spring; the rule adds pi f h / n to it",
           .to = [](double c, const Context& at) { return c / (2 * std::sqrt(at.k * at.mu)); },
           .from = [](double ratio, const Context& at) { return 2 * ratio * std::sqrt(at.k * at.mu); },
-          .condition = [](double, const Context&) { return 3.; }};  // k and the masses come back rounded, too
+          .condition = [](double, const Context&) { return 3.; }};  // k and the masses are rounded as well
 }
 /// Damping by which each sub-step divides the velocity.
 NumberRule dividing_damping(std::string_view name) {
@@ -190,10 +190,10 @@ std::vector<EngineNumbers> make_table() {
                       .holds = holds,
                       .to = to,
                       .from = from,
-                      // gamma itself comes back rounded
+                      // gamma itself is rounded as well
                       .condition = [](double, const Context& at) { return 1 / (1 - at.h * at.gamma); }};
   };
-  // Jolt takes gamma h / n of a velocity in each of n sub-steps: this much leaves exp(-gamma h) of it
+  // Jolt reduces a velocity by the share gamma h / n in each of n sub-steps; this value leaves exp(-gamma h) of it
   NumberRule jolt_damping{
       .quantity = SceneNumber::drag,
       .name = "mLinearDamping",

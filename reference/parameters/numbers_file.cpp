@@ -1,4 +1,4 @@
-// Files of an engine's numbers, written and read; and a scene's file with the numbers that came back.
+// Reading and writing of files with an engine's numbers, and of a scene file with numbers converted back.
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -13,14 +13,14 @@
 namespace crosscheck {
 namespace {
 
-/// As many digits as give the same bits when they are read.
+/// The number with enough digits to restore its bits.
 std::string toml_number(double value) {
   std::string text = fmt::format("{}", value);
   if (text.find_first_of(".e") == std::string::npos) text += ".0";
   return text;
 }
 
-/// One number where all are the same, else a list, ten in a line.
+/// A single number if all are equal, otherwise a list, ten per line.
 std::string toml_numbers(const std::vector<double>& values) {
   if (std::ranges::all_of(values, [&](double v) { return v == values[0]; })) return toml_number(values[0]);
   std::string text = "[";
@@ -49,7 +49,7 @@ std::string numbers_toml(const Scene& scene, const Translation& t) {
 NumbersFile read_numbers(const std::string& text, const std::string& name, const Scene& scene,
                          const TranslationTarget& target, double step) {
   const TomlTable file = TomlTable::parse_text(text, name);
-  const TomlDocument document(text, name);  // tells lists from numbers
+  const TomlDocument document(text, name);  // distinguishes lists from numbers
   const EngineNumbers& engine = *target.numbers;
   NumbersFile numbers{step, target.iterations, {}};
   if (file.has("method")) {
@@ -79,7 +79,7 @@ NumbersFile read_numbers(const std::string& text, const std::string& name, const
     for (Eigen::Index i = 0; i < read.size(); ++i) {
       const double v = read[i];
       const bool pinned =
-          v == 1 && rule.quantity == SceneNumber::stiffness;  // between two pins, in a list that we wrote
+          v == 1 && rule.quantity == SceneNumber::stiffness;  // between two pins, in a list written by this program
       if (rule.valid ? rule.valid(v) || (pinned && read.size() > 1) : v >= 0 && std::isfinite(v)) continue;
       file.fail(read.size() > 1 ? fmt::format("{}[{}]", rule.name, i) : std::string(rule.name),
                 fmt::format("{}, got {:.17g}", rule.expected.empty() ? "a number not below zero" : rule.expected, v));
@@ -99,12 +99,12 @@ NumbersFile read_numbers(const std::string& text, const std::string& name, const
 
 namespace {
 
-/// The file of a scene, in which numbers are changed.
+/// A scene file in which numbers are replaced.
 class SceneFile {
  public:
   SceneFile(const Scene& source, double within) : file_(source.source, source.name), within_(within), scene_(source) {}
 
-  /// The number behind the path of each of these, which must be one where paths are the same: it has only one there.
+  /// Sets the number at each path. Entries with the same path must agree, since the file holds only one number there.
   void set(const std::vector<std::pair<std::string, double>>& values) {
     for (size_t i = 0; i < values.size(); ++i) {
       const auto& [path, value] = values[i];
@@ -133,7 +133,7 @@ class SceneFile {
 
 std::string scene_toml(const Scene& source, const Scene& changed, double within) {
   SceneFile file(source, within);
-  // what rounding explains keeps the file's own digits
+  // differences explained by rounding keep the file's own digits
   const auto same = [&](SceneNumber quantity) {
     return std::ranges::equal(values_of(source, quantity), values_of(changed, quantity),
                               [&](double a, double b) { return std::abs(a - b) <= within * std::abs(a); });
@@ -158,7 +158,7 @@ std::string scene_toml(const Scene& source, const Scene& changed, double within)
         values.emplace_back(fmt::format("particle[{}].mass", i - on_grid), particles.mass[i]);
     }
   const auto* springs = changed.model.find<Springs>();
-  int listed = 0;  // [[spring]]s so far
+  int listed = 0;  // number of [[spring]] entries so far
   if (springs && !same(SceneNumber::stiffness))
     for (const Spring& s : springs->list)
       values.emplace_back(s.family == Family::single ? fmt::format("spring[{}].stiffness", listed++)

@@ -1,4 +1,4 @@
-// The way of a scene's numbers into an engine and back, and what is lost on it.
+// Conversion of a scene's numbers to an engine and back, and its losses.
 
 #include <fmt/format.h>
 
@@ -21,7 +21,7 @@ std::vector<double> values_of(const Scene& scene, SceneNumber quantity) {
       if (!particles.pinned[i]) values.push_back(value(i));
   };
   if (quantity == SceneNumber::mass) of_free([&](int i) { return particles.mass[i]; });
-  // a term of another kind is no number of an engine's: what it is to engines stands in their certificates
+  // other terms have no equivalent number in engines; their treatment is stated in the certificates
   const Overloaded take{
       [&](const Springs& springs) {
         if (quantity == SceneNumber::stiffness)
@@ -100,12 +100,13 @@ std::string range_text(std::span<const double> values) {
   return low == high ? fmt::format("{:.4g}", low) : fmt::format("{:.4g} to {:.4g}", low, high);
 }
 
-/// Nothing moves between two pins: a link there is 1 whatever the stiffness, which does not come back.
+/// True for a link between two pins: nothing moves there, so the link is 1 for any stiffness, which cannot be
+/// recovered.
 bool lies_between_pins(const NumberRule& rule, const NumberContext& at) {
   return rule.quantity == SceneNumber::stiffness && std::isinf(at.mu) && rule.condition;
 }
 
-/// The engine's numbers of one quantity; `at` has the context of each of the scene's.
+/// The engine's numbers for one quantity; `at` has the context of each of the scene's values.
 std::vector<double> engine_values(const NumberRule& rule, const TranslationTarget& target,
                                   const std::vector<double>& scene, const std::vector<NumberContext>& at) {
   if (rule.gather == Gather::same && std::ranges::any_of(scene, [&](double v) { return v != scene[0]; }))
@@ -140,16 +141,16 @@ std::vector<double> engine_values(const NumberRule& rule, const TranslationTarge
   return values;
 }
 
-/// The relative error that rounding leaves on the way there and back: half an ulp of the engine's number and some four
-/// roundings on each way (8 eps), times what the inverse makes of them.
+/// Relative rounding error of a conversion and its inverse: half an ulp of the engine's number and about four rounding
+/// errors in each direction (8 eps), times the condition number of the inverse.
 double rounding_of(const NumberRule& rule, double engine, bool single, const NumberContext& at) {
   constexpr double eps = std::numeric_limits<double>::epsilon(), eps_single = std::numeric_limits<float>::epsilon();
   return (0.5 * (single ? eps_single : eps) + 8 * eps) *
          (rule.condition ? std::max(1.0, rule.condition(engine, at)) : 1);
 }
 
-/// The largest relative error of the way there and back: what rounding leaves, or what one number for many costs, which
-/// is known exactly.
+/// Largest relative error of a conversion and its inverse: rounding, plus the exactly known error of using one number
+/// for many.
 double stated_error(const NumberRule& rule, const TranslatedNumber& number, bool single,
                     const std::vector<NumberContext>& at) {
   double most = 0;
@@ -163,7 +164,7 @@ double stated_error(const NumberRule& rule, const TranslatedNumber& number, bool
   return most;
 }
 
-/// Whether the scene is where the rule of its stiffness holds.
+/// Text that states if the scene is within the range of its stiffness rule.
 std::string range_here(const Scene& scene, const NumberRule& rule, const Translation& t,
                        const std::vector<NumberContext>& at) {
   if (!rule.one_by_one) {
@@ -193,7 +194,7 @@ std::string range_here(const Scene& scene, const NumberRule& rule, const Transla
 
 Scene scene_of(const Scene& scene, const EngineNumbers& engine, const NumbersFile& file) {
   Scene changed = scene;
-  // in the table's order: what a formula depends on is read back before it
+  // in the table's order: values that a formula depends on are converted before it
   for (const NumberRule& rule : engine.rules)
     for (const auto& [of, engine_values] : file.numbers) {
       if (of != &rule) continue;

@@ -19,7 +19,7 @@ int run_as_program(int argc, char** argv, const std::function<Engine(const std::
     const EngineTask task = read_scene_json(argv[1]);
     const std::filesystem::path folder = argv[2];
     Recorder recorder;
-    // a run that blew up ends here as it would inside: no engine is made to step through what is no number
+    // stop a diverged run here, as in-process runs do, instead of stepping the engine through non-finite states
     DivergenceMonitor monitor(task.scene, task.run);
     MonitoredObservers observers(monitor, {&recorder});
     const Outcome out = engine_of(task.options)(task.scene, task.run, observers);

@@ -1,6 +1,6 @@
-// The engine protocol for programs in C++17, without dependencies: reads scene.json, writes trajectory.npy,
-// velocities.npy and run.json. Copy this file; PROTOCOL.md says what everything means. SI units throughout.
-// The shortest way to an adapter is a World and run_program, at the end of this file.
+// The engine protocol for C++17 programs, without dependencies: reads scene.json, writes trajectory.npy, velocities.npy
+// and run.json. Copy this file into your project; PROTOCOL.md documents every key. SI units throughout. The shortest
+// way to an adapter is a World and run_program(), at the end of this file.
 #pragma once
 
 #include <algorithm>
@@ -34,7 +34,7 @@ inline double length(const Vec& a) { return std::sqrt(dot(a, a)); }
 /// A JSON value. Look-ups throw std::runtime_error that names the key.
 struct Json {
   enum class Type { null, boolean, number, string, array, object } type = Type::null;
-  double value = 0;  // of numbers; 1 and 0 of true and false
+  double value = 0;  // the number; 1 for true, 0 for false
   std::string text;
   std::vector<Json> list;
   std::map<std::string, Json> keys;
@@ -65,7 +65,7 @@ struct Json {
   }
 };
 
-/// Reads the JSON that crosscheck writes (whole standard but for surrogate pairs in \u, which become '?').
+/// Reads the JSON that crosscheck writes: the whole standard, except that surrogate pairs in \u become '?'.
 class JsonReader {
  public:
   static Json parse(const std::string& text) {
@@ -125,7 +125,7 @@ class JsonReader {
     } else if (!word("null")) {
       char* end = nullptr;
       json.type = Json::Type::number;
-      json.value = std::strtod(at_, &end);  // the nearest double: the scene's very bits
+      json.value = std::strtod(at_, &end);  // the nearest double, i.e. the scene's exact bits
       if (end == at_) fail("a value");
       at_ = end;
     }
@@ -172,7 +172,7 @@ class JsonReader {
   const char *at_, *begin_;
 };
 
-/// Exit status 3 with one line: the engine lacks something.
+/// Ends the program with exit status 3 and one line: the engine does not support the scene.
 [[noreturn]] inline void unsupported(const std::string& why) {
   std::fprintf(stderr, "%s\n", why.c_str());
   std::exit(3);
@@ -180,7 +180,7 @@ class JsonReader {
 
 constexpr double pi = 3.14159265358979323846;
 
-/// Displacement d(t) = amplitude r(t / ramp) sin(2 pi frequency t), where r smoothly rises from 0 to 1.
+/// Displacement d(t) = amplitude r(t / ramp) sin(2 pi frequency t), where r rises smoothly from 0 to 1.
 struct Motion {
   Vec amplitude;           // m
   double frequency, ramp;  // Hz, s
@@ -190,7 +190,7 @@ struct Motion {
   Vec acceleration(double t) const { return at(t)[2] * amplitude; }  // m/s^2
 
  private:
-  /// Value and two time derivatives of r(t / ramp) sin(2 pi frequency t).
+  /// Value and first two time derivatives of r(t / ramp) sin(2 pi frequency t).
   std::array<double, 3> at(double t) const {
     const double omega = 2 * pi * frequency, s = t < ramp ? t / ramp : 1;
     const double r = s * s * s * (10 + s * (6 * s - 15)), slope = t < ramp ? 30 * s * s * (1 - s) * (1 - s) / ramp : 0;
@@ -207,10 +207,10 @@ inline Motion motion_of(const Json& json) {
 /// w(t) = mean (1 + variation g1(t)) + side g2(t), where g1 and g2 are sums of the waves `along` and `across`.
 struct Wind {
   struct Wave {
-    double weight, omega, phase;  // 1, rad/s, rad
+    double weight, omega, phase;  // dimensionless, rad/s, rad
   };
   Vec mean{}, side{};    // m/s^2
-  double variation = 0;  // 1
+  double variation = 0;  // dimensionless
   std::vector<Wave> along, across;
 
   Vec at(double t) const {
@@ -249,11 +249,11 @@ struct Dashpot {
 /// Bending energy k/2 |c|^2 with c = sum of weight times position; the weights add up to zero.
 struct Stencil {
   std::vector<int> particles;
-  std::vector<double> weights;  // 1
+  std::vector<double> weights;  // dimensionless
   double stiffness;             // N/m
 };
 
-/// A solid ball: particles stay at radius + margin from its centre.
+/// A solid ball: particles stay at least radius + margin from its centre.
 struct Sphere {
   Vec centre;                                    // m, at t = 0
   double radius, margin, friction, restitution;  // m, m, mu, e
@@ -263,16 +263,16 @@ struct Sphere {
   double contact_radius() const { return radius + margin; }
 };
 
-/// A solid half-space: particles stay at `margin` from the face through point + t velocity.
+/// A solid half-space: particles stay at least `margin` from the face through point + t velocity.
 struct Plane {
   Vec point, normal, velocity;           // m, at t = 0; unit vector out of the solid; m/s
   double margin, friction, restitution;  // m, mu, e
 
-  /// A point of the face that particles touch, m.
+  /// A point of the plane that particles touch (m).
   Vec contact_point_at(double t) const { return point + margin * normal + t * velocity; }
 };
 
-/// The parts that most engines need; everything else is in `json`, by the keys of PROTOCOL.md.
+/// The parts of a scene that most engines need; everything else is in `json`, under the keys of PROTOCOL.md.
 struct Scene {
   Json json;
   std::string name;
@@ -280,48 +280,48 @@ struct Scene {
   int steps_per_sample = 0, samples = 0;
   std::vector<double> mass;   // kg; empty in first-order scenes
   std::vector<Vec> x, v;      // m, m/s
-  std::vector<char> pinned;   // 1 where held
-  std::vector<int> pins;      // which particles are held
-  std::vector<Vec> pin_home;  // m, where each is at t = 0
+  std::vector<char> pinned;   // 1 if held
+  std::vector<int> pins;      // indices of held particles
+  std::vector<Vec> pin_home;  // m, positions at t = 0
   bool pins_move = false;
   Motion pin_motion{};
   std::string spring_law = "hooke";
   std::vector<Spring> springs;
-  std::vector<Spring> constraints;  // hard distances, their lengths as rest lengths, their stiffness infinite
+  std::vector<Spring> constraints;  // hard distances: rest length is the distance, stiffness infinite
   std::vector<Dashpot> dashpots;
   std::vector<Stencil> bending;
   std::vector<Sphere> spheres;
   std::vector<Plane> planes;
   Vec gravity{};             // m/s^2
   std::optional<Wind> wind;  // acceleration of all particles
-  std::vector<double> drag;  // N s/m, for each particle; zeros where the scene has none
+  std::vector<double> drag;  // N s/m, per particle; zeros if the scene has no drag
   std::vector<std::string> options;
 
-  /// Acceleration by the wind, m/s^2; zero without wind.
+  /// Acceleration by the wind (m/s^2); zero without wind.
   Vec wind_at(double t) const { return wind ? wind->at(t) : Vec{}; }
-  Vec pin_at(size_t pin, double t) const {  // m, of the pin with this index in `pins`
+  Vec pin_at(size_t pin, double t) const {  // m, position of the pin with this index in `pins`
     return pins_move ? pin_home[pin] + pin_motion.displacement(t) : pin_home[pin];
   }
-  /// The scene's term of that type, or null.
+  /// The scene's term of this type, or null.
   const Json* term(const std::string& type) const {
     for (const Json& t : json["terms"].list)
       if (t["type"].text == type) return &t;
     return nullptr;
   }
-  /// Ends the program with "unsupported" when the scene has a term that is not in the list.
+  /// Ends the program as unsupported if the scene has a term that is not in the list.
   void require_only(std::initializer_list<const char*> known) const {
     for (const Json& t : json["terms"].list)
       if (std::find(known.begin(), known.end(), t["type"].text) == known.end())
         unsupported("this engine has no " + t["type"].text);
   }
-  /// Refuses spheres and planes that move, for the reason given.
+  /// Ends the program as unsupported, for the given reason, if a sphere or plane moves.
   void require_resting_surfaces(const std::string& why) const {
     bool moving = false;
     for (const Sphere& s : spheres) moving |= s.motion.has_value();
     for (const Plane& p : planes) moving |= dot(p.velocity, p.velocity) > 0;
     if (moving) unsupported("moving spheres and planes: " + why);
   }
-  /// Writes places and speeds of the pins at time t (s).
+  /// Sets positions and velocities of the pins at time t (s).
   void place_pins(double t, std::vector<Vec>& at, std::vector<Vec>& speed) const {
     for (size_t i = 0; i < pins.size(); ++i) {
       at[pins[i]] = pin_at(i, t);
@@ -336,7 +336,7 @@ inline std::vector<Vec> vecs_of(const Json& json) {
   return list;
 }
 
-/// Reads the file; throws std::runtime_error when it is not what PROTOCOL.md describes.
+/// Reads a scene file. Throws std::runtime_error if it is not as PROTOCOL.md describes.
 inline Scene read_scene(const std::string& file) {
   std::ifstream in(file, std::ios::binary);
   if (!in) throw std::runtime_error(file + ": cannot be read");
@@ -394,9 +394,9 @@ inline Scene read_scene(const std::string& file) {
   return s;
 }
 
-// Forces by the laws of PROTOCOL.md, for engines that take forces from outside. All add to f (N).
+// Forces by the laws of PROTOCOL.md, for engines that accept external forces. All functions add to f (N).
 
-/// Springs. Returns how many have coincident ends, which get no force.
+/// Adds spring forces. Returns the number of springs with coincident ends, which exert no force.
 inline long add_springs(const Scene& scene, const std::vector<Vec>& x, std::vector<Vec>& f) {
   long coincident = 0;
   const bool hooke = scene.spring_law == "hooke";
@@ -438,7 +438,7 @@ inline void add_wind(const Scene& scene, double t, std::vector<Vec>& f) {
   for (size_t i = 0; i < f.size(); ++i) f[i] = f[i] + scene.mass[i] * w;
 }
 
-/// Sets f (N) to the sum of the four.
+/// Sets f (N) to the sum of springs, dashpots, bending and wind.
 inline void set_forces(const Scene& scene, const std::vector<Vec>& x, const std::vector<Vec>& v, double t,
                        std::vector<Vec>& f) {
   f.assign(x.size(), Vec{});
@@ -448,11 +448,11 @@ inline void set_forces(const Scene& scene, const std::vector<Vec>& x, const std:
   add_wind(scene, t, f);
 }
 
-/// Options of the method's name, such as "n=4" and "springs=tendon". Each get() declares one.
+/// Options in the method's name, such as "n=4" and "springs=tendon". Each get() declares one option.
 class Options {
  public:
   explicit Options(const Scene& scene) : asked_(scene.options) {}
-  /// A whole number from 1 to a million.
+  /// Value of an option that is a whole number from 1 to a million.
   int get(const std::string& name, int otherwise) {
     const std::string text = value(name, name + "=" + std::to_string(otherwise), std::to_string(otherwise));
     const bool digits = text.size() < 8 && text.find_first_not_of("0123456789") == std::string::npos;
@@ -461,7 +461,7 @@ class Options {
       unsupported("option " + name + "=" + text + ": expected a whole number from 1 to 1000000");
     return number;
   }
-  /// One of the values; the first is the default.
+  /// Value of an option with a fixed set of values; the first value is the default.
   std::string get(const std::string& name, std::initializer_list<const char*> values) {
     std::string list;
     for (const char* v : values) list += std::string(list.empty() ? "" : "|") + v;
@@ -470,7 +470,7 @@ class Options {
       if (text == v) return text;
     unsupported("option " + name + "=" + text + ": expected " + name + "=" + list);
   }
-  /// Refuses options that no get() declared.
+  /// Ends the program as unsupported if there are options that no get() declared.
   void refuse_others() const {
     for (const std::string& option : asked_)
       unsupported("unknown option " + option + ": expected " + (expected_.empty() ? "none" : expected_));
@@ -490,7 +490,7 @@ class Options {
   std::string expected_;
 };
 
-/// Frames x particles x 3, float64, as numpy.load reads them. For little-endian machines.
+/// Writes frames x particles x 3, float64, in the format of numpy.load. Little-endian machines only.
 inline void write_npy(const std::string& file, const std::vector<std::vector<Vec>>& frames) {
   std::string header = "{'descr': '<f8', 'fortran_order': False, 'shape': (" + std::to_string(frames.size()) + ", " +
                        std::to_string(frames.empty() ? 0 : frames[0].size()) + ", 3), }";
@@ -506,25 +506,25 @@ inline void write_npy(const std::string& file, const std::vector<std::vector<Vec
   if (!out) throw std::runtime_error(file + ": cannot be written");
 }
 
-// run.json: what the program says of its run. A key that is not known is left out of the file.
+// run.json: what the program reports about its run. Unknown keys are omitted from the file.
 
-/// No number: the key is left out. A stiffness of `hard` is left out too, as JSON has no infinity.
+/// No value: the key is omitted. A stiffness of `hard` is omitted as well, since JSON has no infinity.
 constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
 constexpr double hard = std::numeric_limits<double>::infinity();
 
-/// A sphere as the engine has it.
+/// A sphere as represented in the engine.
 struct Ball {
   Vec centre;                                                          // m, at the start
   double radius = unknown, friction = unknown, restitution = unknown;  // m, at which particles touch; mu; e
 };
 
-/// A plane as the engine has it: the face that particles touch.
+/// A plane as represented in the engine: the face that particles touch.
 struct Face {
   Vec point, normal;                                 // m, at the start; unit vector
   double friction = unknown, restitution = unknown;  // mu, e
 };
 
-/// Where prescribed motions have led.
+/// Positions of prescribed motions at a later time.
 struct Places {
   double t;                      // s
   std::vector<Vec> pins;         // m, in the scene's order
@@ -532,8 +532,8 @@ struct Places {
   std::vector<Vec> points = {};  // m, of planes
 };
 
-/// Forces in a state of the program's own choice. A list that stays empty is not told; zeros say that the engine has
-/// no such thing.
+/// Forces in a state of the program's choice. A list that is left empty is not reported; zeros mean that the engine has
+/// no such force.
 struct Probe {
   double t = 0;                              // s
   std::vector<Vec> x, v;                     // m, m/s
@@ -541,39 +541,41 @@ struct Probe {
   std::vector<Vec> bending = {};             // N, at x
 };
 
-/// What the certificate sees: read it from your engine's own data, not from the scene. All of PROTOCOL.md's table.
+/// Input of the parity certificate: read it from the engine's own data, not from the scene. Members as in the table of
+/// PROTOCOL.md.
 struct Readback {
-  std::vector<double> mass;   // kg; of held particles anything
-  std::vector<char> pinned;   // 1 where held
+  std::vector<double> mass;   // kg; arbitrary for held particles
+  std::vector<char> pinned;   // 1 if held
   std::vector<Spring> links;  // springs, then constraints, in the scene's order; stiffness may be `hard` or `unknown`
   std::optional<Vec> gravity = {};                // m/s^2
   std::string precision = "double";               // or "single"
-  std::optional<std::vector<double>> drag = {};   // 1/s, c / m of each particle
+  std::optional<std::vector<double>> drag = {};   // 1/s, c / m per particle
   std::optional<std::vector<Ball>> spheres = {};  // an empty list: none
   std::optional<std::vector<Face>> planes = {};   // likewise
   double margin = unknown;                        // m
   std::optional<bool> may_sleep = {};
   double step = unknown;                        // s
-  std::vector<Vec> start_x = {}, start_v = {};  // m, m/s: what the first step began from
+  std::vector<Vec> start_x = {}, start_v = {};  // m, m/s: state from which the first step began
   std::optional<Places> later = {};
   std::optional<Probe> probe = {};
   std::map<std::string, std::string> mapped = {}, settings = {};
 };
 
 struct RunReport {
-  double cpu_seconds = unknown;                                      // of stepping alone
-  long steps = -1, force_evaluations = -1, coincident_springs = -1;  // below zero: not counted
+  double cpu_seconds = unknown;                                      // stepping only
+  long steps = -1, force_evaluations = -1, coincident_springs = -1;  // negative: not counted
   double step = unknown;                                             // s, as used
-  std::string verdict = {}, reason = {};  // of a run that failed by its own word: energy, stretch, nan, solver, frozen
-  double end = unknown;                   // s, when it failed
+  std::string verdict = {}, reason = {};        // for a run that reports failure: energy, stretch, nan, solver, frozen
+  double end = unknown;                         // s, time of failure
   std::vector<std::string> different_law = {};  // "ingredient: how its law differs"
   std::optional<Readback> readback = {};
   std::string engine = {};  // name and version: "MuJoCo 2.2.2"
   bool adaptive = false;    // the engine chooses its steps
 };
 
-/// A state that shows the laws: the start, stretched about the origin by a tenth or more until no spring is within a
-/// hundredth of its rest length, growing, so that dashpots pull too, and bent where the scene has bending.
+/// A state in which the force laws are visible: the start, stretched about the origin by a tenth or more until no
+/// spring is within a hundredth of its rest length, growing, so that dashpots act too, and bent if the scene has
+/// bending.
 inline Probe probe_state(const Scene& scene) {
   const double bend = scene.bending.empty() ? 0 : 0.1 / scene.json["size"].number();  // 1/m
   for (int tenths = 11;; ++tenths) {
@@ -587,12 +589,12 @@ inline Probe probe_state(const Scene& scene) {
       const double l = length(probe.x[s.a] - probe.x[s.b]);
       return l == 0 || std::abs(l - s.rest_length) > 0.01 * s.rest_length;
     });
-    if (shows || tenths == 30) return probe;  // hopeless beyond: some springs stay unattested
+    if (shows || tenths == 30) return probe;  // no larger stretch is tried: some springs stay unattested
   }
 }
 
-/// The coefficient (N s/m) of the dashpots beside each spring, for springs with a damping of their own; of several
-/// springs between the same ends the first has it. Dashpots without a spring are added to `others`.
+/// The coefficient (N s/m) of the dashpots parallel to each spring, for engines whose springs have their own damping.
+/// If several springs join the same ends, the first gets it. Dashpots without a parallel spring are added to `others`.
 inline std::vector<double> damping_of_springs(const Scene& scene, std::vector<Dashpot>& others) {
   std::map<std::pair<int, int>, size_t> first;
   for (size_t i = 0; i < scene.springs.size(); ++i) first.emplace(std::pair{scene.springs[i].a, scene.springs[i].b}, i);
@@ -605,9 +607,10 @@ inline std::vector<double> damping_of_springs(const Scene& scene, std::vector<Da
   return damping;
 }
 
-/// The probe, at the state in `p`, of an engine whose springs, dashpots, bending and wind are the functions above.
+/// The probe at the state in `p`, for an engine whose springs, dashpots, bending and wind are computed by the functions
+/// above.
 inline Probe probe_of_forces(const Scene& scene, Probe p) {
-  p.t = 0.3;  // s; gusts blow by then
+  p.t = 0.3;  // s; gusts are active by then
   p.springs = p.dashpots = p.bending = p.wind = std::vector<Vec>(p.x.size(), Vec{});
   add_springs(scene, p.x, p.springs);
   add_dashpots(scene, p.x, p.v, p.dashpots);
@@ -617,13 +620,13 @@ inline Probe probe_of_forces(const Scene& scene, Probe p) {
 }
 inline Probe probe_of_forces(const Scene& scene) { return probe_of_forces(scene, probe_state(scene)); }
 
-/// A spring that the engine solves as a constraint, as the engine's own data describe it.
+/// A spring that the engine solves as a constraint, as described by the engine's own data.
 struct SoftJoint {
   double stiffness, rest_length, damping;  // N/m, m, N s/m
 };
 
-/// Fills links and probe of an engine that has the scene's springs as `joints`, one for each spring, which obey `law`,
-/// and applies the springs and dashpots of `forced` as forces. Without joints all springs are forces.
+/// Fills links and probe for an engine that represents the scene's springs by `joints` obeying `law`, one per spring,
+/// and applies the springs and dashpots of `forced` as forces. Without joints, all springs are forces.
 inline void read_back_joints(const Scene& scene, const Scene& forced, const std::vector<SoftJoint>& joints,
                              const std::string& law, RunReport& run) {
   Readback& r = *run.readback;
@@ -642,7 +645,7 @@ inline void read_back_joints(const Scene& scene, const Scene& forced, const std:
   if (!scene.dashpots.empty()) run.different_law.push_back("dashpots: implicit, in the joints of springs");
 }
 
-/// Writes JSON: numbers with all their digits, lists, objects without the keys that have no value.
+/// Writes JSON: numbers with all their digits, lists, and objects without the keys that have no value.
 class JsonWriter {
  public:
   static std::string of(double value) {
@@ -742,20 +745,20 @@ inline void write_run_json(const std::string& file, const RunReport& run) {
   if (!out) throw std::runtime_error(file + ": cannot be written");
 }
 
-/// An engine with one scene inside. Construction may refuse the scene (`unsupported`, Scene::require_only, Options).
+/// An engine that holds one scene. The constructor may refuse the scene (`unsupported`, Scene::require_only, Options).
 struct World {
   virtual ~World() = default;
-  /// Advances from t to t + scene.step (s), pins and other prescribed motions included. What it throws ends the run.
+  /// Advances from t to t + scene.step (s), including pins and other prescribed motions. An exception ends the run.
   virtual void step(double t) = 0;
-  /// Copies all positions (m) and velocities (m/s), in the scene's order; both vectors have their size already.
+  /// Copies all positions (m) and velocities (m/s), in the scene's order; both vectors already have their size.
   virtual void read(std::vector<Vec>& x, std::vector<Vec>& v) = 0;
-  /// Completes the report: `engine`, counts, what differs, and the read-back from the engine's own data, at least
-  /// `mass`, `pinned` and `links`. Filled in already: times, steps, `start` and the pins of `later` as read() returned
-  /// them.
+  /// Completes the report: `engine`, counts, differing laws, and the read-back from the engine's own data, at least
+  /// `mass`, `pinned` and `links`. Already filled in: times, steps, `start`, and the pins of `later` as returned by
+  /// read().
   virtual void report(RunReport& report) = 0;
 };
 
-/// Steps the world through the scene's samples; stops where a state is not finite or step() throws. Times step() alone.
+/// Steps the world through the scene's samples; stops if a state is not finite or step() throws. Only step() is timed.
 inline RunReport run_world(const Scene& scene, World& world, std::vector<std::vector<Vec>>& frames,
                            std::vector<std::vector<Vec>>& speeds) {
   std::vector<Vec> x(scene.x.size()), v(scene.x.size());
@@ -786,7 +789,7 @@ inline RunReport run_world(const Scene& scene, World& world, std::vector<std::ve
   }
   report.cpu_seconds = static_cast<double>(cpu) / CLOCKS_PER_SEC;
   if (report.verdict.empty()) {
-    const int some = (382 * scene.samples + 999) / 1000;  // a sample inside the run, where pins are rarely at home
+    const int some = (382 * scene.samples + 999) / 1000;  // an inner sample, at which moved pins are rarely at home
     r.later = Places{some * scene.steps_per_sample * scene.step, {}, {}};
     for (const int pin : scene.pins) r.later->pins.push_back(frames[static_cast<size_t>(some)][pin]);
     report.end = unknown;
@@ -798,7 +801,7 @@ inline RunReport run_world(const Scene& scene, World& world, std::vector<std::ve
 }
 
 /// The main function of an adapter: reads the task, runs the world that `make` builds, writes the three files. Exits
-/// with status 3 where the scene is refused, with 1 after any other error.
+/// with status 3 if the scene is refused, with 1 after any other error.
 inline int run_program(int argc, char** argv, std::unique_ptr<World> (*make)(const Scene&)) {
   try {
     if (argc != 3) throw std::runtime_error(std::string("usage: ") + argv[0] + " scene.json OUTDIR");

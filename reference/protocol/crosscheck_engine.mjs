@@ -1,5 +1,5 @@
 // Shared part of crosscheck's engines in JavaScript (see PROTOCOL.md): reads the scene, evaluates its forces and
-// motions, runs the time loop and writes the three files. Node 18 or newer, no packages. An engine is one call:
+// motions, runs the time loop and writes the three files. Node 18 or newer, no packages. An engine is a single call:
 //
 //   serve({ engine: 'Name 1.0', terms: ['springs', 'gravity'] }, (scene) => ({
 //     step(t, next) { … },     // advances the world from time t to time next (s); only this is timed
@@ -14,12 +14,12 @@ import { createInterface } from 'node:readline';
 class Unsupported extends Error {}
 class Failed extends Error {}
 
-/// Refuses the scene (exit status 3): the engine cannot do what it asks for.
+/// Refuses the scene (exit status 3) because the engine does not support it.
 export function unsupported(reason) {
   throw new Unsupported(reason);
 }
 
-/// Ends the run early with a verdict of run.json (`nan`, `solver`, ...): the frames written so far are kept.
+/// Ends the run early with a verdict of run.json (`nan`, `solver`, ...); the frames written so far are kept.
 export function failed(verdict, reason) {
   throw Object.assign(new Failed(reason), { verdict });
 }
@@ -44,7 +44,7 @@ function blowing(mean, gusts, t) {
   return mean.map((e, k) => e * along + gusts.side[k] * across);
 }
 
-/// Links of a term as arrays: ends a and b, and one array for each of the named numbers.
+/// Links of a term as arrays: ends a and b, and one array for each named number.
 function links(list, numbers) {
   const columns = { list, count: list.length };
   columns.a = Int32Array.from(list, (link) => link.a);
@@ -54,7 +54,7 @@ function links(list, numbers) {
 }
 
 export class Scene {
-  /// From the object that scene.json holds, which stays at hand as `task`.
+  /// Constructs from the content of scene.json, which remains available as `task`.
   constructor(task) {
     const { particles, run, pins } = task;
     this.task = task;
@@ -90,8 +90,8 @@ export class Scene {
     this.expected = [];
   }
 
-  /// Value of option NAME=VALUE. `otherwise` is the default: a number (the option is a positive one, whole where the
-  /// default is), or a list of all words allowed, the default first.
+  /// Value of option NAME=VALUE. `otherwise` is the default: a number (the option must be positive, and whole if the
+  /// default is), or a list of all allowed words, the default first.
   option(name, otherwise) {
     const text = this.words.get(name), value = text?.slice(name.length + 1), words = Array.isArray(otherwise);
     this.words.delete(name);
@@ -103,7 +103,7 @@ export class Scene {
       unsupported(`${text}: expected a ${whole ? 'whole ' : ''}number above 0, at most 1000000`);
     return number;
   }
-  /// Refuses options that no call of option() has asked for.
+  /// Refuses options that no call of option() has declared.
   requireKnownOptions() {
     for (const text of this.words.values())
       unsupported(`unknown option ${text}: expected ${this.expected.join(' or ') || 'no option'}`);
@@ -112,7 +112,7 @@ export class Scene {
   /// Acceleration by the wind (m/s^2), and velocity of the air (m/s), at time t.
   windAt(t) { return this.wind ? blowing(this.wind.acceleration, this.wind.gusts, t) : [0, 0, 0]; }
   airAt(t) { return this.air ? blowing(this.air.velocity, this.air.gusts, t) : [0, 0, 0]; }
-  /// Displacement, velocity and acceleration that all pins have at time t.
+  /// Displacement, velocity and acceleration of all pins at time t.
   pinMotion(t) { return motionAt(this.pins.motion, t); }
   /// Pins at time t: particle, position x (m), velocity v (m/s).
   pinsAt(t) {
@@ -123,15 +123,15 @@ export class Scene {
   placePins(t, x, v) {
     for (const pin of this.pinsAt(t)) x.set(pin.x, 3 * pin.particle), v.set(pin.v, 3 * pin.particle);
   }
-  /// Distance of a link's ends at t = 0, m.
+  /// Distance of a link's ends at t = 0 (m).
   lengthOf({ a, b }) { return Math.hypot(...[0, 1, 2].map((k) => this.x[3 * a + k] - this.x[3 * b + k])); }
-  /// Drag of all free particles as one number (1/s); refuses drag that differs between them.
+  /// Drag of all free particles as a single number (1/s); refuses drag that differs between them.
   oneDamping(reason) {
     const all = this.damping.filter((_, i) => !this.pinned[i]), first = all[0] ?? 0;
     return all.some((e) => Math.abs(e - first) > 1e-6 * first) ? unsupported(reason) : first;
   }
 
-  /// Position at time t (m) of a sphere's centre, or of a plane's face moved out of the solid by `off` (m).
+  /// Position at time t (m) of a sphere's centre, or of a plane's face shifted out of the solid by `off` (m).
   obstacleAt({ centre, motion, point, normal, velocity = [0, 0, 0] }, t, off = 0) {
     if (point) return point.map((p, k) => p + velocity[k] * t + off * normal[k]);
     const { displacement } = motionAt(motion, t);
@@ -183,13 +183,15 @@ export class Scene {
     for (let i = 0; i < f.length; ++i) f[i] += this.mass[(i / 3) | 0] * w[i % 3];
   }
 
-  /// Springs, then rods, each as `attest(index, link, is_rod)` reads it back: rest_length (m), stiffness (N/m).
+  /// Springs, then rods, with the values that `attest(index, link, is_rod)` reads back: rest_length (m), stiffness
+  /// (N/m).
   linksRead(attest) {
     const all = [...this.springs.list, ...this.rods.list];
     return all.map((link, i) => ({ a: link.a, b: link.b, ...attest(i, link, i >= this.springs.count) }));
   }
-  /// State that shows the law of every spring: the start, stretched about the origin by a tenth or more until no spring
-  /// is within a hundredth of its rest length, and growing, so that dashpots pull too; curved if there is bending.
+  /// A state in which the law of every spring is visible: the start, stretched about the origin by a tenth or more
+  /// until no spring is within a hundredth of its rest length, and growing, so that dashpots act too; curved if there
+  /// is bending.
   probeState() {
     const l = this.springs.list.map((spring) => this.lengthOf(spring)), { rest } = this.springs;
     let tenths = 11;
@@ -198,7 +200,7 @@ export class Scene {
     const x = this.x.map((e, i) => (tenths / 10) * e + (this.bending.length && 0.02 * along(i) ** 2 / this.task.size));
     return { t: 0.3, x, v: this.x.map((e) => 0.5 * e) };
   }
-  /// Probe of an engine that takes its forces from the functions above.
+  /// Probe for an engine that obtains its forces from the functions above.
   ownProbe() {
     const probe = this.probeState(), force = (add) => {
       const f = new Float64Array(3 * this.count);
@@ -213,7 +215,7 @@ export class Scene {
   }
 }
 
-/// Frames of one quantity as a file of NumPy: a header of 128 bytes, then the numbers.
+/// Frames of one quantity as a NumPy file: a header of 128 bytes, then the numbers.
 class Frames {
   constructor(frames, count) {
     this.size = 3 * count;
@@ -231,7 +233,7 @@ class Frames {
 /// A flat array as a list of vectors.
 const vectors = (flat) => Array.from({ length: flat.length / 3 }, (_, i) => [...flat.subarray(3 * i, 3 * i + 3)]);
 
-/// run.json's text: flat arrays of the particles' vectors become lists, numbers that are not finite are left out.
+/// Text of run.json: flat arrays of the particles' vectors become lists; non-finite numbers are omitted.
 function runText(run) {
   const probe = run.readback?.probe;
   if (probe) for (const key in probe) if (probe[key] instanceof Float64Array) probe[key] = vectors(probe[key]);
@@ -241,7 +243,7 @@ function runText(run) {
   });
 }
 
-/// Refuses the terms, laws and motions that are not among the engine's.
+/// Refuses terms, laws and first-order scenes that the engine does not support.
 function requireTerms(scene, { engine, terms, lacks = {}, laws = ['hooke'] }) {
   const name = engine.replace(/ [0-9.]+$/, '');
   if (scene.firstOrder && !terms.includes('rotation')) unsupported(`${name} has no first-order systems`);
@@ -301,9 +303,9 @@ async function answer(call) {
   }
 }
 
-/// The program's main function: one scene, or with --serve those named on stdin. `description`: the engine's name and
-/// version, `terms` that it has, optionally reasons why it `lacks` others, `laws` of springs, and `init`, which runs
-/// once before the first world is made (it may fill in `engine`). A world's `free` is called when its scene is done.
+/// The program's main function: runs one scene, or with --serve those named on stdin. `description`: the engine's name
+/// and version, the supported `terms`, optionally reasons for what it `lacks`, `laws` of springs, and `init`, which
+/// runs once before the first world is made (it may set `engine`). A world's `free` is called when its scene is done.
 export async function serve(description, makeWorld) {
   let ready;
   const run = (scene, out) => answer(() => runScene(scene, out, description, async (asked) => {

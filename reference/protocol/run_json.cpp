@@ -1,4 +1,4 @@
-// Outcomes as JSON, and back.
+// Conversion of outcomes to JSON, and back.
 #include "reference/protocol/run_json.h"
 
 #include <fmt/format.h>
@@ -170,7 +170,7 @@ std::string run_json(const Outcome& out) {
 
 void read_run_json(const std::filesystem::path& path, Outcome& out, double duration) {
   const JsonField f = JsonField::parse_file(path.string());
-  constexpr double most_counted = 9007199254740992;  // 2^53: whole numbers beyond are no longer told apart
+  constexpr double most_counted = 9007199254740992;  // 2^53: larger integers cannot be distinguished
   constexpr double most_seconds = 1e9;
   auto number = [&](const char* key, double lowest, double highest, const char* expected) -> std::optional<double> {
     const auto found = f.find(key);
@@ -190,7 +190,7 @@ void read_run_json(const std::filesystem::path& path, Outcome& out, double durat
   };
   if (const auto verdict = f.find("verdict")) out.verdict = verdict_of(*verdict);
   if (const auto reason = f.find("reason")) out.reason = printable(reason->text());
-  // i h may round to a little more than the duration
+  // i h may round to slightly more than the duration
   const double latest = duration * (1 + 1e-9), no_step = std::numeric_limits<double>::min();
   seconds("end", 0, latest, out.end);
   seconds("step", no_step, latest, out.step);
