@@ -33,7 +33,7 @@ struct MethodFamily {
   Role role;
   std::string_view representative = {};        // the family's representative where a single method is needed
   std::string_view representative_title = {};  // display name of the representative; empty: its name
-  std::string_view noun = "method";            // what one of its methods is called: Bullet calls them worlds
+  std::string_view noun = "method";            // term for one of its methods: Bullet calls them worlds
   std::string_view variant_of = {};            // another build of that engine: run by `regress`, else only by name
   Build build = Build::unknown;
   std::string_view build_text = "a program of its own";
@@ -74,7 +74,7 @@ struct Method {
   std::string what;     // one line for the user
   std::string rule;     // as returned by rule_of(), for methods that are not identified from their runs; may be empty
   Engine engine;        // throws Unsupported
-  ContactLoss contact;  // how energy lost in contacts is known
+  ContactLoss contact;  // availability of the energy lost in contacts
   const Stepper* stepper = nullptr;  // null except for mysim's methods
   bool adaptive = false;             // uses run.tolerance instead of run.step
   bool implicit = false;             // solves an equation in each step

@@ -1,4 +1,4 @@
-// Runs of mysim's steppers beside those of a method, on small nets.
+// Runs of mysim's steppers and of a method on small nets, for comparison.
 #include "reference/which_rule.h"
 
 #include <fmt/format.h>
@@ -28,13 +28,13 @@ constexpr double infinity = std::numeric_limits<double>::infinity();
 
 using Path = std::vector<Points>;  // positions after each step, m
 
-/// A rule, and what its drag is called.
+/// A rule, and the name of its drag.
 struct Candidate {
   std::string name, like;
   std::function<void(System&, State&, double h, Workspace&)> step;
   std::string drag;
-  bool solves = false;      // an equation in each step
-  bool one_by_one = false;  // one spring after the other
+  bool solves = false;      // solves an equation in each step
+  bool one_by_one = false;  // processes one spring after the other
 };
 
 std::vector<Candidate> candidates() {
@@ -68,7 +68,7 @@ std::vector<Candidate> candidates() {
   return list;
 }
 
-/// Forms of drag apart from a rule: the velocity is multiplied by a factor before or after the step, or (kick) after
+/// Forms of drag separate from a rule: the velocity is multiplied by a factor before or after the step, or (kick) after
 /// the kick of symplectic Euler.
 struct DragForm {
   std::string name;
@@ -88,7 +88,7 @@ std::vector<DragForm> drag_forms() {
 
 constexpr double gamma = 4;  // 1/s
 
-/// Five particles on eight springs that start up to a fifth too long or too short; or the first of the springs alone.
+/// Five particles with eight springs that start up to a fifth too long or too short; or only the first spring.
 Scene net(bool held, bool pulled, bool one_spring = false) {
   std::string text =
       "question = \"Which rule is it?\"\nparameters = \"A small net.\"\n[time]\nduration = 1\nsamples = 50\nstep = "
@@ -119,7 +119,7 @@ Scene with_drag(Scene scene) {
   return scene;
 }
 
-/// Empty where the rule finds no solution.
+/// Empty if the rule finds no solution.
 Path path_of(const Candidate& rule, const Scene& scene, const State& start, double h, int n,
              const DragForm* form = nullptr) {
   System f(scene.model);
@@ -151,22 +151,22 @@ double distance(const Path& a, const Path& b) {
   return std::isfinite(most) ? most : infinity;
 }
 
-/// Every second state, at the times of a path of twice the step.
+/// Every second state, at the times of a path with twice the step.
 Path every_second(const Path& path) {
   Path some;
   for (size_t i = 0; i < path.size(); i += 2) some.push_back(path[i]);
   return some;
 }
 
-/// The runs of a method on one net, at two steps.
+/// Runs of a method on one net, at two steps.
 struct Runs {
-  double h[2];  // s, the second half the first
+  double h[2];  // s, the second is half the first
   Path path[2];
   double u = 0x1p-53;  // unit round-off of the engine
   bool own_steps = false;
 };
 
-/// Throws Unsupported; and InputError where a run failed.
+/// Throws Unsupported, or InputError if a run failed.
 Runs runs_of(const Method& method, const Scene& scene) {
   Runs runs;
   bool single = true;
@@ -190,9 +190,9 @@ Runs runs_of(const Method& method, const Scene& scene) {
   return runs;
 }
 
-/// Largest distance over the samples between the rule's path and the method's, divided by the bound of rounding and of
-/// what a solver leaves (ratio), by that of rounding alone, and by the size of the net (distance); infinite if no
-/// sample can tell.
+/// Largest distance over the samples between the rule's path and the method's, divided by the bound of rounding and
+/// solver error (ratio), by that of rounding alone (rounding), and by the size of the net (distance); infinite if no
+/// sample is conclusive.
 struct Match {
   double ratio = 0, rounding = 0, distance = 0;
 };
@@ -222,7 +222,7 @@ Match match_of(const Candidate& rule, const Scene& scene, const Runs& runs, int 
     match.distance = std::max(match.distance, off / size);
     const bool tells = noise[i] + solved < 1e-3 * size;
     match.ratio = std::max(match.ratio, tells ? off / (noise[i] + solved) : i < 10 ? infinity : 0);
-    // an equation is solved to rounding times its condition, which is some 1e4 at most here
+    // an equation is solved to rounding times its condition number, which is at most about 1e4 here
     const double solving = rule.solves ? 1e4 * runs.u * size : 0;
     match.rounding = std::max(match.rounding, tells ? off / (noise[i] + solving) : 0);
   }
@@ -234,7 +234,7 @@ Match match_of(const Candidate& rule, const Scene& scene, const Runs& runs, cons
   return {std::max(a.ratio, b.ratio), std::max(a.rounding, b.rounding), std::max(a.distance, b.distance)};
 }
 
-/// The rule that matches best, or null where none is the same.
+/// The rule that matches best, or null if none is the same.
 const Candidate* same_as(const std::vector<Candidate>& rules, const Scene& scene, const Runs& runs, Match& best) {
   const Candidate* same = nullptr;
   best = {infinity, infinity, infinity};
@@ -244,8 +244,8 @@ const Candidate* same_as(const std::vector<Candidate>& rules, const Scene& scene
   return same;
 }
 
-/// `own_steps` where the two runs differ by less than any rule's, and the error is smaller than any rule's and does not
-/// fall with a high power of the step; `ignores_step` where it is larger; else `nearest`.
+/// `own_steps` if the two runs differ by less than those of any rule, and the error is smaller than any rule's and does
+/// not fall with a high power of the step; `ignores_step` if the error is larger; else `nearest`.
 FoundRule::Kind kind_by_steps(const Scene& scene, const Runs& runs, const std::vector<Candidate>& rules) {
   const auto rk4 = std::ranges::find(rules, "rk4", &Candidate::name);
   Path truth;
@@ -261,7 +261,7 @@ FoundRule::Kind kind_by_steps(const Scene& scene, const Runs& runs, const std::v
   return fine_error < least ? FoundRule::own_steps : FoundRule::ignores_step;
 }
 
-/// Fills in which drag the runs on the net with drag show, beside a rule that is the same without it.
+/// Sets the drag that the runs on the net with drag show, for a rule that is the same without drag.
 void find_drag(const Method& method, const Candidate& rule, const Scene& plain, FoundRule& found) {
   const Scene dragged = with_drag(plain);
   try {
@@ -335,7 +335,7 @@ FoundRule find_rule(const Method& method) {
         std::erase_if(rules, [](const Candidate& rule) { return !rule.one_by_one; });
         const Scene one = net(each.held, each.pulled, true);
         if (const Candidate* same = same_as(rules, one, runs_of(method, one), match)) found.on_one_spring = same->name;
-      } catch (const std::runtime_error&) {  // its rule on one spring is unknown too
+      } catch (const std::runtime_error&) {  // its rule on one spring remains unknown
       }
     return found;
   }
@@ -385,7 +385,7 @@ FoundRule cached_rule(const Method& method) {
         for (const auto& [name, member] : texts) found.*member = stored[name].text();
         return found;
       }
-    } catch (const InputError&) {  // damaged: found anew
+    } catch (const InputError&) {  // damaged: identified again
     }
   const FoundRule found = find_rule(method);
   Json json{{"key", key},
@@ -396,7 +396,7 @@ FoundRule cached_rule(const Method& method) {
   try {
     write_file(file, dump(json, 1) + "\n");
   } catch (const InputError&) {
-    // no room or no right to write: found again next time
+    // no space or no write permission: identified again next time
   }
   return found;
 }

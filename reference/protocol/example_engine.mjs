@@ -13,7 +13,7 @@ const zeros = () => mass.map(() => [0, 0, 0]), sum = (a, b, s = 1) => a.forEach(
 const waves = (list, t) => list.reduce((s, w) => s + w.weight * Math.sin(w.omega * t + w.phase), 0);
 
 function pairForce(f, x, a, b, pull) {  // pull(distance, unit vector): N along the line
-  const d = x[a].map((_, k) => x[a][k] - x[b][k]), l = Math.hypot(...d) || Infinity;  // ends that meet get no force
+  const d = x[a].map((_, k) => x[a][k] - x[b][k]), l = Math.hypot(...d) || Infinity;  // coincident ends get no force
   const n = d.map((e) => e / l), p = l < Infinity ? pull(l, n) : 0;
   sum(f[a], n, -p), sum(f[b], n, p);
 }

@@ -1,4 +1,4 @@
-// Finds an outside program and runs it once: a folder of its own, scene.json in, files out.
+// Locates an external program and runs it once: private folder, scene.json in, result files out.
 #include "reference/protocol/exec_engine.h"
 
 #include <fmt/format.h>
@@ -55,11 +55,11 @@ double parse_timeout(const std::string& method, const std::string& value) {
 
 class Server {
  public:
-  /// Called after a run that says that its program serves.
+  /// Called after a run whose program reports that it serves.
   void allow() { allowed_ = !failed_; }
 
-  /// Runs the task; nullopt where it must be called the other way: it does not serve, is busy in another thread, or did
-  /// not answer as it should.
+  /// Runs the task in the server. Returns nullopt if the program must be called normally: it does not serve, is busy in
+  /// another thread, or gave no valid answer.
   std::optional<ProgramResult> run(const Program& program, const fs::path& task, const fs::path& results) {
     const std::unique_lock lock(busy_, std::try_to_lock);
     if (!lock || !allowed_) return std::nullopt;
@@ -73,7 +73,7 @@ class Server {
         const JsonField told = JsonField::parse(answer.line, "the server's answer");
         end.status = told["status"].whole_number(0, 255);
         if (const auto reason = told.find("reason"); reason && end.status != 0) end.err = reason->text();
-        if (end.status != 0 && end.status != 3) process_.reset();  // it may end, its state damaged
+        if (end.status != 0 && end.status != 3) process_.reset();  // the process may end, with damaged state
         return end;
       }
     } catch (const InputError&) {
@@ -91,7 +91,7 @@ class Server {
 
 Program find_program(const std::string& text) {
   Program program;
-  // the longest part of it that is a file: names may hold pluses, and values of options may hold slashes
+  // the longest prefix that is a file: names may contain plus signs, and option values may contain slashes
   size_t end = text.size();
   std::optional<fs::path> found = find_in_path(text);
   while (!found && end > 0 && (end = text.rfind('+', end - 1)) != std::string::npos)
@@ -121,7 +121,7 @@ void add_option(Program& program, const std::string& method, const std::string& 
 
 namespace {
 
-/// The last line that says something: printable, not too long for a table.
+/// The last non-blank line: printable, and short enough for a table.
 std::string last_line(const std::string& text) {
   const size_t last = text.find_last_not_of(" \t\r\n");
   if (last == std::string::npos) return "";
@@ -147,9 +147,9 @@ Outcome failed(Outcome out, Verdict verdict, const std::string& what, const Prog
   return out;
 }
 
-/// Bytes of run.json at most. A number takes 26 with its blank and comma; a particle has 27 of them (mass, pin, drag,
-/// two vectors of the start, five of the probe, one of later places) and a link 4 with as many keys (60): 702 and 164,
-/// which three times over leave room for lines of their own. A mebibyte is for texts.
+/// Maximum size of run.json in bytes. A number takes 26 with its blank and comma. A particle has 27 numbers (mass, pin,
+/// drag, two vectors of the start, five of the probe, one of later positions) and a link 4, plus as many keys (60): 702
+/// and 164. Three times that leaves room for line breaks. A mebibyte is reserved for texts.
 std::uintmax_t largest_run_json(const Scene& scene) {
   const auto* springs = scene.model.find<Springs>();
   const auto* constraints = scene.model.find<Constraints>();
@@ -176,7 +176,7 @@ void require_result_files(const fs::path& folder, const Scene& scene) {
 
 namespace {
 
-/// Reads what the program wrote. Throws InputError where it breaks the protocol.
+/// Reads the program's results. Throws InputError if they violate the protocol.
 Frames read_results(const fs::path& folder, const Scene& scene, const Run& run, Outcome& out) {
   require_result_files(folder, scene);
   if (fs::exists(folder / "run.json")) read_run_json(folder / "run.json", out, run.duration);
@@ -190,9 +190,9 @@ Frames read_results(const fs::path& folder, const Scene& scene, const Run& run, 
 
 }  // namespace
 
-// A number of the engine's precision carries half an ulp (2^-53; 2^-24 where it is single or not told), of which
-// sixteen are allowed for home, displacement and their sum, as for the first frame; and one that adds its steps up is
-// off by half an ulp of the time for each step, in which the pin moves by so much of its path.
+// Allowed deviation: sixteen half ulps of the engine's precision (2^-53; 2^-24 if single or unknown) for home,
+// displacement and their sum, as for the first frame. A program that accumulates its steps is also off by half an ulp
+// of the time per step, during which the pin moves along its path.
 std::string misled_pin(const Frames& frames, const Scene& scene, const Run& run, const Outcome& out) {
   const Particles& particles = scene.model.particles;
   const TimeGrid grid = time_grid(run);
@@ -211,7 +211,7 @@ std::string misled_pin(const Frames& frames, const Scene& scene, const Run& run,
     const Vec3 moved = particles.move ? displacement_at(*particles.move, t) : Vec3::Zero();
     for (size_t i = 0; i < particles.pins.size(); ++i) {
       const Vec3 off = frames.x[frame].col(particles.pins[i]) - particles.pin_home.col(static_cast<int>(i)) - moved;
-      // what is not finite is a failed run by itself
+      // a non-finite value is a failed run anyway
       if (off.norm() > std::max(worst, allowed)) worst = off.norm(), when = t, which = particles.pins[i];
     }
   }
@@ -223,7 +223,7 @@ std::string misled_pin(const Frames& frames, const Scene& scene, const Run& run,
 }
 
 Outcome run_outside_engine(const Program& program, const Scene& scene, const Run& asked, Observer& observer) {
-  // the program writes every state that verdicts are based on, as many as engines in this process show
+  // the program writes every state that verdicts are based on, as many as in-process engines provide
   const TimeGrid grid = time_grid(asked);
   const int per_sample =
       observer.between_samples() ? grid.steps_per_sample / verdict_stride(grid, scene.model.particles.size()) : 1;
@@ -273,7 +273,7 @@ Outcome run_outside_engine(const Program& program, const Scene& scene, const Run
     none.process_seconds = end.cpu_seconds;
     return failed(none, Verdict::crash, "did not deliver: " + what, end);
   }
-  if (out.serves && out.cpu_seconds > 0 && program.server) program.server->allow();  // its start is none of its cost
+  if (out.serves && out.cpu_seconds > 0 && program.server) program.server->allow();  // excludes start-up cost
   const Verdict reported = out.verdict;
   const std::string misled = misled_pin(frames, scene, run, out);
   replay(frames, scene, run, observer, out, per_sample);

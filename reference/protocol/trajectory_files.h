@@ -1,4 +1,5 @@
-// Trajectories in NumPy's .npy files: their format, written during a run, read and replayed to observers.
+// Trajectories in NumPy's .npy files: their format, writing them during a run, reading them and replaying them to
+// observers.
 #pragma once
 
 #include <filesystem>
@@ -13,33 +14,31 @@
 
 namespace crosscheck {
 
-// NumPy's .npy files: what trajectories are stored in.
+// NumPy's .npy files, in which trajectories are stored.
 
-/// The header of frames x particles x 3 numbers, float64, little endian, C order (format 1.0): 128 bytes, whatever
-/// the numbers.
+/// Header of frames x particles x 3 numbers, float64, little endian, C order (format 1.0). It always has 128 bytes.
 std::string npy_header(long frames, long particles);
-/// The numbers of a frame as they stand behind it.
+/// Numbers of a frame, as they follow the header.
 std::string_view npy_data(const Points& frame);
-/// A whole file.
+/// Content of a whole file.
 std::string npy_bytes(const std::vector<Points>& frames);
 
 /// Reads frames x particles x 3 numbers: float64 or float32, little endian, C order, format 1.0 or 2.0. Throws
-/// InputError that names the file and what was expected when it is something else, or has another number of particles,
-/// or fewer than min_frames or more than max_frames frames, or is shorter or longer than its header says.
+/// InputError, with the file's name and the expected content, if the file is something else, has a different number of
+/// particles, fewer than min_frames or more than max_frames frames, or is shorter or longer than its header says.
 std::vector<Points> read_npy(const std::filesystem::path& file, int min_frames, int max_frames, int particles);
 
-// Frames of a run on their way to disk: memory holds none of them.
+// Frames of a run written directly to disk: none is kept in memory.
 
-/// Writes positions at samples (m) to trajectory.npy and, where states have them, velocities (m/s) to velocities.npy
-/// (trajectory_files.h). The files are seen after finish() and not before. Throws InputError where they cannot be
-/// written.
+/// Writes positions at samples (m) to trajectory.npy and, if the states have them, velocities (m/s) to velocities.npy.
+/// The files become visible in finish(), not before. Throws InputError if they cannot be written.
 class TrajectoryWriter : public Observer {
  public:
   explicit TrajectoryWriter(std::filesystem::path folder) : folder_(std::move(folder)) {}
   Verdict observe(const State& state, bool sample) override;
-  /// Says in both files how many frames there are; a run that failed has fewer than requested.
+  /// Writes the number of frames into both files: a run that failed has fewer than requested.
   void finish();
-  /// The times of the frames, s.
+  /// Times of the frames, s.
   const std::vector<double>& times() const { return times_; }
 
  private:
@@ -49,21 +48,21 @@ class TrajectoryWriter : public Observer {
   long particles_ = 0;
 };
 
-// Frames that came from outside, played to observers as if an engine stepped through them.
+// Frames from another program, replayed to observers as if an engine stepped through them.
 
-/// Sampled positions (m), and velocities (m/s) where they were delivered.
+/// Sampled positions (m), and velocities (m/s) if they were delivered.
 struct Frames {
   std::vector<Points> x, v;
 };
 
-/// Reads positions of the scene's particles at the run's samples, the start included. Throws InputError that names the
-/// file and what was expected, also when the first frame is not the scene's start. `may_be_truncated`: fewer frames
-/// than samples are allowed, of a run that failed by its own word.
+/// Reads positions of the scene's particles at the run's samples, including the start. Throws InputError, with the
+/// file's name and the expected content, also if the first frame is not the scene's start. `may_be_truncated`: fewer
+/// frames than samples are allowed, because the run failed according to the program itself.
 std::vector<Points> read_positions(const std::filesystem::path& file, const Scene& scene, const Run& run,
                                    bool may_be_truncated = false);
 
-/// Shows the frames to the observer, every `per_sample`-th as a sample; fills verdict, reason and end of the outcome
-/// when the observer ends the run.
+/// Shows the frames to the observer, every `per_sample`-th as a sample. Sets verdict, reason and end of the outcome if
+/// the observer ends the run.
 void replay(const Frames& frames, const Scene& scene, const Run& run, Observer& observer, Outcome& out,
             int per_sample = 1);
 

@@ -1,4 +1,4 @@
-// The files of the truth cache, and the build id of the running program, which is part of their keys.
+// Files of the truth cache, and the running program's build id, which is part of their keys.
 #include "reference/truth/cache.h"
 
 #include <elf.h>
@@ -20,7 +20,7 @@
 namespace crosscheck {
 namespace {
 
-/// Called for the program itself first, then for its libraries: a return value other than 0 ends the walk.
+/// Called for the program itself first, then for its libraries; a return value other than 0 ends the iteration.
 int find_build_id_note(dl_phdr_info* object, size_t, void* out) {
   for (int i = 0; i < object->dlpi_phnum; ++i) {
     const ElfW(Phdr)& segment = object->dlpi_phdr[i];
@@ -56,7 +56,7 @@ namespace fs = std::filesystem;
 namespace {
 
 constexpr auto extension = ".truth";
-constexpr int error_bar_version = 5;  // raised with what a truth's error bar means: no truth of an older rule is found
+constexpr int error_bar_version = 5;  // increased when the meaning of error bars changes: older truths are not found
 
 class ByteWriter {
  public:
@@ -86,7 +86,7 @@ class ByteWriter {
 
 struct CorruptFile {};
 
-/// Reads what ByteWriter wrote; throws CorruptFile where there is less than announced.
+/// Reads the output of ByteWriter; throws CorruptFile if there is less than announced.
 class ByteReader {
  public:
   explicit ByteReader(std::string_view bytes) : remaining_(bytes) {}
@@ -150,7 +150,7 @@ std::string serialized(const std::string& key, const std::optional<Truth>& truth
   return sum.bytes() + w.bytes();
 }
 
-/// The truth in the file; throws CorruptFile where it is none, or another key's.
+/// Truth in the file; throws CorruptFile if the file contains none, or that of another key.
 std::optional<Truth> deserialized(const std::string& key, const std::string& file) {
   ByteReader r(file);
   if (r.count() != Fnv1a::of(std::string_view(file).substr(sizeof(std::uint64_t))) || r.text() != key)
@@ -171,7 +171,7 @@ std::optional<Truth> deserialized(const std::string& key, const std::string& fil
   return truth;
 }
 
-/// Removes files older than a month: those of programs that are gone would pile up.
+/// Removes files older than a month: those of builds that no longer exist would accumulate.
 void remove_old_files(const fs::path& folder) {
   std::error_code error;
   const auto limit = fs::file_time_type::clock::now() - std::chrono::hours(30 * 24);
@@ -183,7 +183,7 @@ void remove_old_files(const fs::path& folder) {
   }
 }
 
-/// The stored truth, or nothing where there is none or it is damaged.
+/// The stored truth, or nothing if there is none or it is damaged.
 std::optional<std::optional<Truth>> load_file(const fs::path& file, const std::string& key) {
   const std::optional<std::string> content = try_read_file(file);
   if (!content) return std::nullopt;
@@ -194,7 +194,8 @@ std::optional<std::optional<Truth>> load_file(const fs::path& file, const std::s
   }
 }
 
-/// Holds a file's lock while it lives; a process that dies lets go of it. Where no lock can be had, there is no wait.
+/// Holds a file's lock during its lifetime; the lock of a process that dies is released. If no lock can be obtained, it
+/// does not wait.
 class FileLock {
  public:
   explicit FileLock(const fs::path& file) {
@@ -223,7 +224,7 @@ std::optional<TruthCache> TruthCache::from_environment() {
 }
 
 std::string TruthCache::key_of(const Scene& scene, const Run& run) const {
-  // the hash is taken anew: a scene changed in memory keeps that of its file
+  // the hash is recomputed: a scene changed in memory keeps that of its file
   return fmt::format("{} bars {} {} {:a} {:a} {} {}", program_, error_bar_version, hash_of(scene), scene.step,
                      run.duration, run.samples, scene.window);
 }
@@ -239,7 +240,7 @@ std::optional<Truth> TruthCache::find_or_compute(const Scene& scene, const Run& 
   const std::string key = key_of(scene, run);
   const fs::path file = file_at(key);
   if (auto stored = load_file(file, key)) return *stored;
-  // processes of one sweep need the same truth at the same time: one computes, the others wait
+  // the processes of a sweep need the same truth at the same time: one computes it, the others wait
   const FileLock lock(file);
   if (auto stored = load_file(file, key)) return *stored;
   std::optional<Truth> truth = compute();
@@ -247,7 +248,7 @@ std::optional<Truth> TruthCache::find_or_compute(const Scene& scene, const Run& 
     write_file(file, serialized(key, truth));
     remove_old_files(folder_);
   } catch (const InputError&) {
-    // no room or no right to write: then the next run computes it again
+    // no space or no write permission: the next run computes it again
   }
   return truth;
 }

@@ -1,4 +1,4 @@
-// A cache of truths in files, by scene, run and program.
+// Cache of truths in files, by scene, run and program.
 #pragma once
 
 #include <filesystem>
@@ -10,25 +10,25 @@
 
 namespace crosscheck {
 
-// The identity of the running program.
+// Identity of the running program.
 
-/// The linker's fingerprint of the running program's content, in hexadecimal digits; empty where it has none.
+/// The linker's fingerprint of the running program's content, in hexadecimal digits; empty if it has none.
 std::string build_id();
 
-// Truth that was found before: converged ones cost seconds, and the same ones are needed again and again.
+// Truths found earlier: converged ones take seconds, and the same ones are needed repeatedly.
 
-/// Truths of one program in a folder, one file each, by what a truth depends on: the scene (its hash and step), the
-/// run's duration and samples. The program is part of the key: another build never reads them.
+/// Truths of one program in a folder, one file each, with everything a truth depends on as the key: the scene (its hash
+/// and step), and the run's duration and samples. The program is part of the key: another build never reads them.
 class TruthCache {
  public:
   TruthCache(std::filesystem::path folder, std::string program)
       : folder_(std::move(folder)), program_(std::move(program)) {}
-  /// The folder $CROSSCHECK_CACHE, else $XDG_CACHE_HOME/crosscheck, else ~/.cache/crosscheck. None where no such folder
-  /// is named, or the program has no build id.
+  /// The folder $CROSSCHECK_CACHE, else $XDG_CACHE_HOME/crosscheck, else ~/.cache/crosscheck. Returns nullopt if no
+  /// such folder is defined, or the program has no build id.
   static std::optional<TruthCache> from_environment();
 
-  /// The stored truth, or a new one that is stored; "no truth" is stored too. A file that is damaged or was made by
-  /// another program counts for nothing, and a folder that cannot be written to stores nothing.
+  /// Returns the stored truth, or computes and stores one; "no truth" is stored too. A file that is damaged or was made
+  /// by another program is ignored. If the folder is not writable, nothing is stored.
   std::optional<Truth> find_or_compute(const Scene& scene, const Run& run,
                                        const std::function<std::optional<Truth>()>& compute) const;
   std::filesystem::path file_of(const Scene& scene, const Run& run) const;

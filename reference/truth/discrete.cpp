@@ -1,4 +1,4 @@
-// The table of amplification matrices, and their powers put together to the states of a scene.
+// Table of amplification matrices, and their powers combined into the states of a scene.
 #include "reference/truth/discrete.h"
 
 #include <fmt/format.h>
@@ -10,8 +10,8 @@
 
 namespace crosscheck {
 
-// The table of amplification matrices. With g = drag + dashpot, every rule is applied to u' = v,
-// v' = push - w2 u - g v; rows stand for what a step adds to u and to v, as multiples of (u, v, 1).
+// Table of amplification matrices. With g = drag + dashpot, every rule is applied to u' = v, v' = push - w2 u - g v.
+// The rows are the increments of u and v in a step, as multiples of (u, v, 1).
 
 namespace {
 
@@ -32,7 +32,7 @@ Increment increment_from_rows(const RowVector& u_gains, const RowVector& v_gains
   return e;
 }
 
-/// Runge-Kutta rules multiply by the Taylor polynomial of exp(h A) of their order, up to order 4.
+/// Runge-Kutta rules up to order 4 multiply by the Taylor polynomial of exp(h A) of their order.
 template <int order>
 Increment taylor_increment(const Eigen::Matrix3d& a, double h) {
   Increment sum = Increment::Zero(), term = Increment::Identity();
@@ -53,8 +53,8 @@ Increment symplectic_euler_increment(const Mode& m, double h) {
   return increment_from_rows(h * (velocity_row + gain), gain);
 }
 
-/// u_m = u + h v / 2; the kick takes drag at the mean of old and new velocity; dashpots act at v in the first pass and
-/// at the mean with what the pass before gave in the later ones; u' = u_m + h v' / 2.
+/// u_m = u + h v / 2. The kick takes drag at the mean of the old and new velocity. Dashpots act at v in the first pass;
+/// in later passes they act at the mean of v and the result of the previous pass. Then u' = u_m + h v' / 2.
 template <int passes>
 Increment leapfrog_increment(const Mode& m, double h) {
   const RowVector force(-m.omega2, -m.omega2 * h / 2, m.forcing);
@@ -64,28 +64,28 @@ Increment leapfrog_increment(const Mode& m, double h) {
   return increment_from_rows(h * velocity_row + h / 2 * gain, gain);
 }
 
-/// One after the other: (I + then)(I + first) - I.
+/// One step followed by another: (I + then)(I + first) - I.
 Increment compose(const Increment& first, const Increment& then) { return first + then + then * first; }
 
-/// Leapfrogs of p h, p h, (1 - 4 p) h, p h, p h, p = 1 / (4 - 4^(1/3)).
+/// Leapfrog steps of p h, p h, (1 - 4 p) h, p h, p h, with p = 1 / (4 - 4^(1/3)).
 Increment suzuki4_increment(const Mode& m, double h) {
   const double p = 1 / (4 - std::cbrt(4.0));
   const Increment outer = leapfrog_increment<4>(m, p * h), pair = compose(outer, outer);
   return compose(compose(pair, leapfrog_increment<4>(m, (1 - 4 * p) * h)), pair);
 }
 
-/// v' = v + h (push - w2 u' - g v'), u' = u + h v', solved for what v gains.
+/// v' = v + h (push - w2 u' - g v'), u' = u + h v', solved for the gain of v.
 Increment implicit_euler_increment(const Mode& m, double h) {
   const double g = m.drag + m.dashpot;
   const RowVector gain = h * RowVector(-m.omega2, -g - h * m.omega2, m.forcing) / (1 + h * g + h * h * m.omega2);
   return increment_from_rows(h * (velocity_row + gain), gain);
 }
 
-/// The middle is an implicit Euler step of h / 2, and the end lies as far beyond it.
+/// The midpoint is an implicit Euler step of h / 2, and the end is as far beyond it.
 Increment implicit_midpoint_increment(const Mode& m, double h) { return 2 * implicit_euler_increment(m, h / 2); }
 
-/// A free step with implicit drag, the dashpot's share of it, then the spring's correction of the position, u measured
-/// from the unstretched length. Without a dashpot this is implicit Euler.
+/// A free step with implicit drag and the dashpot's share of it, then the spring's correction of the position, with u
+/// measured from the unstretched length. Without a dashpot this is implicit Euler.
 Increment xpbd_increment(const Mode& m, double h) {
   const RowVector free_gain = h * RowVector(0, -(m.drag + m.dashpot), m.forcing) / (1 + h * (m.drag + m.dashpot));
   const double s = h * h * m.omega2 / (1 + h * m.drag);
@@ -123,11 +123,11 @@ namespace {
 
 constexpr double eps = std::numeric_limits<double>::epsilon();
 
-/// The growth of errors in (u, v), velocities weighed with 1 / omega.
+/// Growth of errors in (u, v), with velocities weighted by 1 / omega.
 double amplification_of(const Increment& power, double omega) {
   Eigen::Matrix2d m = power.topLeftCorner<2, 2>() + Eigen::Matrix2d::Identity();
   m(0, 1) *= omega, m(1, 0) /= omega;
-  // the larger singular value of a 2 x 2 matrix: half the sum of the lengths of its conformal and anticonformal parts
+  // the larger singular value of a 2 x 2 matrix: half the sum of the norms of its conformal and anticonformal parts
   return (std::hypot(m(0, 0) + m(1, 1), m(0, 1) - m(1, 0)) + std::hypot(m(0, 0) - m(1, 1), m(0, 1) + m(1, 0))) / 2;
 }
 
@@ -148,7 +148,7 @@ Truth rotation_truth(const DiscreteStepper& rule, const Scene& scene, const Time
   for (int sample = 0; sample <= steps.samples; ++sample) {
     const long n = static_cast<long>(sample) * steps.steps_per_sample;
     truth.trajectory.t.push_back(steps.time(sample, 0));
-    truth.trajectory.x.push_back(scene.start.x + increment_power(step, n) * scene.start.x);  // z gains nothing
+    truth.trajectory.x.push_back(scene.start.x + increment_power(step, n) * scene.start.x);  // z is unchanged
     truth.trajectory.v.push_back(scene.start.v);
     truth.error_bar = std::max(truth.error_bar, 4 * eps * static_cast<double>(n) * truth.trajectory.x.back().norm());
   }
@@ -171,7 +171,7 @@ Truth discrete_truth(const DiscreteStepper& rule, const Scene& scene, const Run&
   const TimeGrid steps = time_grid(run);
   if (const auto* rotation = model.find<Rotation>()) return rotation_truth(rule, scene, steps, rotation->rate);
   const auto linear = linear_scene(scene);
-  if (!linear) throw Unsupported("the scene is not linear: a rule has a closed form where it multiplies by a matrix");
+  if (!linear) throw Unsupported("the scene is not linear: a rule has a closed form only if it multiplies by a matrix");
   if (model.particles.move) throw Unsupported("the pins are moved: closed forms of rules are for pins at rest");
   const auto* springs = model.find<Springs>();
   const auto* dashpots = model.find<Dashpots>();
@@ -180,7 +180,7 @@ Truth discrete_truth(const DiscreteStepper& rule, const Scene& scene, const Run&
 
   Truth truth = empty_truth(rule, steps.h);
   std::vector<Increment> step_increment;
-  std::vector<double> omega;  // 1/s, by which errors in velocity become errors in position
+  std::vector<double> omega;  // 1/s, converts errors in velocity to errors in position
   for (const Mode& m : linear->modes) {
     step_increment.push_back(rule.of_mode(m, steps.h));
     omega.push_back(std::max(std::sqrt(m.omega2), 1 / run.duration));
@@ -203,7 +203,7 @@ Truth discrete_truth(const DiscreteStepper& rule, const Scene& scene, const Run&
     }
     const double t = steps.time(sample, 0);
     if (!(linear->shortest_spring_length(model, centre, amplitude) > 0))
-      throw Unsupported(fmt::format("at {:.4g} s a spring may turn over, where its law is not linear", t));
+      throw Unsupported(fmt::format("at {:.4g} s a spring may turn over, which makes its law nonlinear", t));
     farthest = std::max(farthest, largest_column(s.x));
     fastest = std::max(fastest, largest_column(s.v));
     truth.trajectory.t.push_back(t);

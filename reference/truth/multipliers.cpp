@@ -1,4 +1,4 @@
-// Accelerations under hard distances, and rk4 over them.
+// Accelerations with hard distances, and rk4 applied to them.
 #include "reference/truth/multipliers.h"
 
 #include "mysim/base/errors.h"

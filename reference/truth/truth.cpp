@@ -33,7 +33,7 @@ Truth from_closed_form(const ExactSolution& exact, const Scene& scene, const Run
     truth.trajectory.x.push_back(s.x);
     truth.trajectory.v.push_back(s.v);
   }
-  // an angle of many radians is known to eps times itself only: the round-off grows with the path
+  // an angle of many radians is accurate only to eps times itself: the round-off grows with the path
   truth.error_bar = 1e-15 * (scene.size() + path);
   return truth;
 }
@@ -68,33 +68,32 @@ std::optional<Truth> truth_of(const Scene& scene, const Run& run) {
 
 namespace {
 
-/// The samples of one run of a route.
+/// Samples of one run of a route.
 struct RoutePath : Trajectory {
-  std::vector<double> contact = {};  // J, what contact took since the start; empty where it was not observed
+  std::vector<double> contact = {};  // J, energy taken by contact since the start; empty if not observed
 };
 double apart_in_place(const RoutePath& a, const RoutePath& b, size_t i) { return rms_distance(a.x[i], b.x[i]); }
 double apart_in_contact(const RoutePath& a, const RoutePath& b, size_t i) {
   return std::abs(a.contact[i] - b.contact[i]);
 }
 
-/// Three runs of one kind, each refined by the same factor from the one before.
+/// Three runs of one kind, each refined by the same factor.
 struct RefinementStudy {
   std::string how;
   double step;   // s, of the fine run; the mean under error control
-  double ratio;  // by which one refinement lowers the error at best: what is seen beyond it is chance
+  double ratio;  // largest factor by which one refinement lowers the error: more is chance
   RoutePath coarse, middle, fine;
 };
 
-/// The error estimate of a refinement study, sample by sample: the differences of its last two refinements up to there.
+/// Error estimate of a refinement study, sample by sample, from the differences between its runs up to that sample.
 class RichardsonEstimate {
  public:
   using Distance = double (*)(const RoutePath&, const RoutePath&, size_t);
   explicit RichardsonEstimate(const RefinementStudy& study, Distance apart = apart_in_place)
       : study_(study), apart_(apart) {}
-  /// m (or J), of the error up to sample i, to be called in order. An order p divides the error by 2^p at each
-  /// refinement (by r, where it is the tolerance that is refined), so that the last difference over r - 1 is left;
-  /// three times that, for r is itself measured. Where the differences do not halve no order shows, and the whole
-  /// difference stands.
+  /// Error up to sample i, m (or J); to be called in order of i. A refinement divides the error by r (2^p at order p),
+  /// so that the last difference over r - 1 remains. Three times this is returned, because r itself is measured. If the
+  /// differences do not halve, no order is visible, and the whole difference is returned.
   double error_up_to(size_t i) {
     before_ = std::max(before_, apart_(study_.coarse, study_.middle, i));
     last_ = std::max(last_, apart_(study_.middle, study_.fine, i));
@@ -102,7 +101,7 @@ class RichardsonEstimate {
     const double r = std::min(before_ / last_, study_.ratio);
     return r >= 2 ? 3 * last_ / (r - 1) : last_;
   }
-  /// m (or J), the last difference up to the same sample.
+  /// Last difference up to the same sample, m (or J).
   double last_change() const { return last_; }
 
  private:
@@ -111,15 +110,16 @@ class RichardsonEstimate {
   double before_ = 0, last_ = 0;
 };
 
-/// The error estimate of a route by another one beside its own.
+/// Error estimate of a route from its own refinement and from another route.
 class ErrorOfTwoRoutes {
  public:
   ErrorOfTwoRoutes(const RefinementStudy& one, const RefinementStudy& other,
                    RichardsonEstimate::Distance apart = apart_in_place)
       : one_(one), other_(other), apart_(apart), own_(one, apart), theirs_(other, apart) {}
-  /// m (or J), at sample i, to be called in order: an error of the first route is what it is apart from the second, and
-  /// what that one errs the same way; a second one of order 1 errs by far the most, and otherwise: what is left of it
-  /// is its last change.
+  /// Error of the first route at sample i, m (or J); to be called in order of i. It is at least the route's own
+  /// estimate, and at least the distance from the second route plus that route's estimate, because both may err in the
+  /// same way. A second route of order 1 has by far the larger error, of another kind: instead of the sum, the larger
+  /// of the distance and its last change is used.
   double error_up_to(size_t i) {
     const double theirs = theirs_.error_up_to(i), own = own_.error_up_to(i),
                  between = apart_(one_.fine, other_.fine, i);
@@ -135,21 +135,21 @@ class ErrorOfTwoRoutes {
   RichardsonEstimate own_, theirs_;
 };
 
-constexpr int most_followed = 49;  // particles, from event to event
+constexpr int most_followed = 49;  // particles, limit of the event-driven route
 
 bool few_particles(const Scene& scene) { return scene.model.particles.size() < 50; }
 
-/// Steps of the scene's own, whatever the run's: truth must not depend on what is compared with it.
+/// First step (s), from the scene alone: truth must not depend on the run that is compared with it.
 double first_step(const Scene& scene, bool constrained) {
-  // rk4 follows a vibration well below h omega = 0.7 and is stable up to 2.83: the first run is at most at 1.4
+  // rk4 is accurate well below h omega = 0.7 and stable up to 2.83: the first run is at 1.4 or less
   const double omega = scene.model.first_order() ? 0 : highest_frequency(scene.model, scene.start);
-  // a few particles cost little: there the bar is pushed down to where order can be seen; hard distances cost much
+  // few particles are cheap: their bar is reduced until an order is visible; hard distances are expensive
   const double part = constrained ? 1 : few_particles(scene) ? 16 : 4;
   return std::min(2 * scene.step / part, omega > 0 ? 1.4 / omega : scene.step);
 }
 
-/// mysim's run at one step, under a DivergenceMonitor; nothing if it failed. Throws Unsupported where the hard
-/// distances depend on each other.
+/// mysim's run at one step, under a DivergenceMonitor; nothing if it failed. Throws Unsupported if the hard distances
+/// depend on each other.
 std::optional<RoutePath> run_rk4(const Scene& scene, const Run& run, bool constrained) {
   Recorder recorder;
   Outcome out;
@@ -165,12 +165,13 @@ std::optional<RoutePath> run_rk4(const Scene& scene, const Run& run, bool constr
   return RoutePath{std::move(recorder.trajectory)};
 }
 
-/// Halves the step from h on until that changes little; at least twice, so that an order can be seen, and at most
-/// `most_halvings` times. `at` runs at a step, or returns nothing where that fails; `how` tells the step in ms.
+/// Halves the step, beginning with h, until the result changes little: at least twice, so that an order is visible, and
+/// at most `most_halvings` times. `at` runs at a given step, and returns nothing if that fails; `how` describes a step
+/// given in ms.
 template <class RunAt, class How>
 std::optional<RefinementStudy> refine_step(const Scene& scene, double h, int order, int most_halvings, RunAt at,
                                            How how) {
-  const double enough = 1e-8 * scene.size();  // far below what any scene needs; a few particles reach 1e-11 at once
+  const double enough = 1e-8 * scene.size();  // far below what any scene needs; few particles reach 1e-11 at once
   std::optional<RoutePath> coarse, middle = at(h);
   double change = INFINITY;
   for (int i = 1; i <= most_halvings && middle; ++i) {
@@ -178,7 +179,7 @@ std::optional<RefinementStudy> refine_step(const Scene& scene, double h, int ord
     auto fine = at(h);
     if (!fine) return std::nullopt;
     const double before = std::exchange(change, largest_rms_distance(*middle, *fine));
-    // where halving no longer helps, round-off or chaos is what is left; between events it helps more and less in turn
+    // if halving no longer helps, only round-off or chaos is left; between events it helps more and less alternately
     const bool helps = change <= before / 2 || order < 4;
     if (coarse && (change < enough || !helps || (order < 4 && i == most_halvings)))
       return RefinementStudy{how(1e3 * h),    h, std::exp2(order), std::move(*coarse), std::move(*middle),
@@ -202,7 +203,7 @@ std::optional<RefinementStudy> refine_rk4(const Scene& scene, const Run& run) {
       });
 }
 
-/// Runs under three tolerances, a factor of ten apart.
+/// Runs at three tolerances, a factor of ten apart.
 std::optional<RefinementStudy> refine_tolerance(const Scene& scene, const Run& run, double loosest, std::string how,
                                                 Outcome (*engine)(const Scene&, const Run&, Observer&)) {
   RefinementStudy study{std::move(how), 0, 10, {}, {}, {}};
@@ -219,7 +220,7 @@ std::optional<RefinementStudy> refine_tolerance(const Scene& scene, const Run& r
 }
 
 std::optional<RefinementStudy> refine_bulirsch_stoer(const Scene& scene, const Run& run) {
-  // a step's error, of the scene's size; round-off is at 1e-16
+  // error of a step, relative to the scene's size; round-off is at 1e-16
   return refine_tolerance(
       scene, run, few_particles(scene) ? 1e-11 : 1e-8,
       fmt::format("odeint (Boost {}), Bulirsch and Stoer's extrapolation, on a right-hand side written apart",
@@ -227,7 +228,7 @@ std::optional<RefinementStudy> refine_bulirsch_stoer(const Scene& scene, const R
       run_odeint_bulirsch_stoer);
 }
 
-/// The truth with so many of its samples; none without any.
+/// The truth with its first `samples` samples; none if there are none.
 std::optional<Truth> ended_after(size_t samples, Truth truth) {
   if (samples == 0) return std::nullopt;
   Trajectory& path = truth.trajectory;
@@ -239,8 +240,8 @@ std::optional<Truth> ended_after(size_t samples, Truth truth) {
   return truth;
 }
 
-/// The truth of two routes: the path of `one`, with what `other` and both refinements say of its error, up to where
-/// that exceeds `most` (m) or a hundredth of the motion.
+/// Truth from two routes: the path of `one`, with its error estimated from `other` and both refinements, up to the time
+/// at which the error exceeds `most` (m) or a hundredth of the motion.
 std::optional<Truth> truth_of_routes(const Scene& scene, const Run& run, RefinementStudy one,
                                      const RefinementStudy& other, double most = INFINITY) {
   Truth truth{Tier::converged, fmt::format("{}, against {}", one.how, other.how), one.fine, 0};
@@ -248,13 +249,13 @@ std::optional<Truth> truth_of_routes(const Scene& scene, const Run& run, Refinem
   ErrorOfTwoRoutes of_place(one, other), of_contact(one, other, apart_in_contact);
   const bool contact_known = !one.fine.contact.empty() && !other.fine.contact.empty();
   double contact_bar = 0;
-  // a rounding of each step's positions, adding up like a random walk
+  // one rounding of positions per step, accumulated like a random walk
   const double random_walk = 0.5 * std::numeric_limits<double>::epsilon() * std::sqrt(run.duration / one.step);
   double motion = 0;
   size_t known = 0;  // samples
   for (size_t i = 0; i < std::min(x.size(), other.fine.x.size()); ++i) {
     motion = std::max(motion, rms_distance(x[i], x[0]));
-    // and some units in the last place that each route has of its own, whatever it refines
+    // plus some units in the last place, which each route has for itself, regardless of its refinement
     const double place = x[i].norm() / std::sqrt(x[i].cols());
     const double rounding = std::max(random_walk * place, 1e-15 * std::max(scene.size(), place));
     const double error_bar = of_place.error_up_to(i) + rounding;
@@ -292,7 +293,7 @@ std::optional<Trajectory> run_leapfrog(const Scene& scene, const Run& run) {
   return std::move(recorder.trajectory);
 }
 
-/// What contact took: what the balance of energies lacks, of both routes alike, whatever they tell of their impulses.
+/// Energy taken by contact, inferred for both routes from the energy balance; impulses that they report are ignored.
 class MissingEnergy : public Ledger {
  public:
   explicit MissingEnergy(const Model& model) : Ledger(model, ContactLoss::inferred) {}
@@ -304,7 +305,8 @@ class MissingEnergy : public Ledger {
   }
 };
 
-/// A particle within 1e-9 of the scene's size of a contact surface: above the rounding of a place on its surface.
+/// True if a particle is within 1e-9 of the scene's size of a contact surface, which exceeds the rounding of positions
+/// on it.
 bool in_contact(const Scene& scene, double t, const Points& x) {
   const double near = 1e-9 * scene.size();
   const std::vector<Surface> surfaces = surfaces_of(scene.model);
@@ -313,7 +315,7 @@ bool in_contact(const Scene& scene, double t, const Points& x) {
   return false;
 }
 
-/// The sample of the first touch and the last one up to which single positions are followed; none without a touch.
+/// Sample of the first touch, and the last sample at which single positions are predictable; none without a touch.
 struct SampleRange {
   int touch, end;
 };
@@ -324,7 +326,7 @@ std::optional<SampleRange> predictable_samples(const Scene& scene, const Traject
   if (touch == path.frames()) return std::nullopt;
   const bool several = particles.size() - static_cast<int>(particles.pins.size()) > 1;
   // A body topples from a sphere of radius R within a few times sqrt(R / g). Cloths of 1 m on a sphere of 1 m were
-  // followed for 0.3 s after their first touch.
+  // predictable for 0.3 s after their first touch.
   double followed = INFINITY;
   if (const auto* gravity = scene.model.find<Gravity>())
     for (const Surface& surface : surfaces_of(scene.model))
@@ -339,8 +341,8 @@ std::optional<SampleRange> predictable_samples(const Scene& scene, const Traject
 
 namespace {
 
-/// Runs of the event-driven route under three tolerances, up to where the first of them ends; none where it does so
-/// before something was touched.
+/// Runs of the event-driven route at three tolerances, up to the end of the shortest; none if one ends before the
+/// sample after the start.
 std::optional<RefinementStudy> refine_events(const Scene& scene, const Run& run) {
   RefinementStudy study{
       fmt::format("odeint (Boost {}), Dormand and Prince's pair cut at every event, on equations written apart",
@@ -358,7 +360,7 @@ std::optional<RefinementStudy> refine_events(const Scene& scene, const Run& run)
       const Outcome out = run_event_driven(scene, {scene.step, shorter.duration, shorter.samples, tolerance}, recorder);
       if (out.verdict == Verdict::ok) study.step = out.step;
     } catch (const Unsupported&) {
-      if (recorder.trajectory.frames() == 0) throw;  // of the scene; else of where a particle came to be
+      if (recorder.trajectory.frames() == 0) throw;  // the scene is refused; otherwise a later position
     }
     *path = RoutePath{std::move(recorder.trajectory)};
     const int end = path->frames() - 1;
@@ -369,8 +371,8 @@ std::optional<RefinementStudy> refine_events(const Scene& scene, const Run& run)
   return study;
 }
 
-/// The truth of a run's first part with its end; none where that comes before anything was touched for a while, which
-/// shows nothing of contact.
+/// Truth of the first part of a run, with its end; none if it does not continue after the first touch, since it then
+/// shows nothing about contact.
 std::optional<Truth> truth_of_part(const Scene& scene, const Run& run, const Run& part, std::optional<Truth> truth) {
   if (!truth) return std::nullopt;
   if (part.samples < run.samples) truth->until = std::min(truth->until, part.duration);
@@ -395,8 +397,8 @@ std::optional<RefinementStudy> refine_leapfrog_events(const Scene& scene, const 
       [](double ms) { return fmt::format("mysim/leapfrog+events at {:.3g} ms", ms); });
 }
 
-/// The study with its two finer paths extrapolated to a step of 0, as for an error of order 2. Where that order shows
-/// the extrapolated paths differ by far less than the fine path errs; elsewhere by as much as before, or more.
+/// The study with its two finer paths extrapolated to a step of 0, for an error of order 2. If that order is visible,
+/// the extrapolated paths differ by far less than the error of the fine path; otherwise by as much as before, or more.
 RefinementStudy extrapolated(RefinementStudy study) {
   const auto extrapolate = [](RoutePath& fine, const RoutePath& coarse) {
     for (size_t i = 0; i < std::min(fine.x.size(), coarse.x.size()); ++i) fine.x[i] += (fine.x[i] - coarse.x[i]) / 3;
@@ -407,7 +409,7 @@ RefinementStudy extrapolated(RefinementStudy study) {
   return study;
 }
 
-/// The first part of a run, at least one sample, up to where a route's own estimate exceeds `most` (m).
+/// First part of a run, at least one sample, until a route's own estimate exceeds `most` (m).
 Run known_part(const RefinementStudy& study, const Run& run, double most) {
   RichardsonEstimate estimate(study);
   int last = 0;
@@ -442,13 +444,13 @@ std::optional<Truth> time_stepping_truth(const Scene& scene, const Run& run) try
   if (scene.model.find<Constraints>() || scene.model.first_order()) return std::nullopt;
   const double omega = highest_frequency(scene.model, scene.start);
   const double first = omega > 0 ? std::min(scene.step, 1.4 / omega) : scene.step;
-  // later than the scene's window nobody looks
+  // nothing after the scene's window is evaluated
   const double interval = run.duration / run.samples;
   const int most = std::clamp(static_cast<int>(scene.window / interval * (1 + 1e-9)), 1, run.samples);
   const Run seen{run.step, interval * most, most};
   auto events = refine_leapfrog_events(scene, seen, first, 2);
   if (!events) return std::nullopt;
-  // a third: what is left of the tolerance for a run's own error is then at least twice the bar
+  // a third: the remaining tolerance for a run's own error is then at least twice the bar
   const double largest_bar = scene.tolerance / 3;
   const Run part = known_part(*events, seen, largest_bar);
   RefinementStudy stepping{"", first / 32, 2, {}, {}, {}};
@@ -485,7 +487,7 @@ std::optional<Truth> contact_truth(const Scene& scene, const Run& run) {
 
   Truth truth{Tier::converged, "", {}, 1e-15 * scene.size()};
   truth.under_contact_rule = true;
-  // a rounding of each step's positions at worst: what is below it shows no order
+  // one rounding of positions per step in the worst case: smaller differences show no order
   const double noise = std::numeric_limits<double>::epsilon() * scene.size() * run.duration / h;
   double before = 0, last = 0, motion = 0, least = 4;
   for (int i = 0; i <= end; ++i) {
@@ -499,7 +501,7 @@ std::optional<Truth> contact_truth(const Scene& scene, const Run& run) {
     truth.error_bars.push_back(truth.error_bar);
     truth.until = fine->t[i];
   }
-  // what ends before anything was touched for a while shows nothing of contact
+  // a truth that ends before or at the first touch shows nothing about contact
   if (static_cast<int>(truth.error_bars.size()) <= span->touch + 1 || !(truth.error_bar < 0.01 * motion))
     return std::nullopt;
   truth.trajectory = std::move(*paths[2]);

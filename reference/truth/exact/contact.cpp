@@ -1,8 +1,8 @@
 // Closed forms of particles on balls and planes: held by friction, bouncing, sliding.
 //
-// Coordinates along the normals of fixed planes at right angles do not know of each other without friction: each is a
-// fall between one or two walls. On one plane with friction the speed along it changes at each impact and while it
-// lies.
+// Coordinates along the normals of perpendicular fixed planes are independent without friction: each falls between one
+// or two walls. On a single plane with friction, the tangential speed changes at each impact and during resting
+// contact.
 
 #include <Eigen/Geometry>
 
@@ -26,11 +26,11 @@ std::optional<ExactSolution> held_by_friction(const Scene& scene) {
     for (const Surface& s : surfaces) {
       const Vec3 d = scene.start.x.col(i) - s.origin_at(0);
       if (s.gap(d) > 1e-12 * (s.flat() ? scene.size() : s.radius())) continue;
-      if (under) return std::nullopt;  // wedged between two: that needs both forces at once
+      if (under) return std::nullopt;  // wedged between two surfaces, whose forces must be found together
       under = &s, n = s.normal(d);
     }
     if (!under) return std::nullopt;
-    // Coulomb's cone: what acts along the surface is less than mu times what presses on it
+    // Coulomb's cone: the tangential acceleration is less than mu times the normal one
     const double pressing = -a->dot(n), along = (*a + pressing * n).norm();
     if (!(along < under->friction * pressing || (along == 0 && pressing > 0))) return std::nullopt;
   }
@@ -48,8 +48,8 @@ struct Flight {
   double height, speed;  // m, m/s
 };
 
-/// After time t (s) of falling and bouncing under g (m/s^2) with restitution e; speeds are reversed times e at height
-/// 0.
+/// State after time t (s) of falling and bouncing under g (m/s^2) with restitution e: at height 0 the speed is reversed
+/// and multiplied by e.
 Flight after_bounces(Flight f, double g, double e, double t) {
   for (;;) {
     const double impact = std::sqrt(f.speed * f.speed + 2 * g * f.height);  // m/s, downwards
@@ -57,7 +57,7 @@ Flight after_bounces(Flight f, double g, double e, double t) {
     if (t <= flight) return {f.height + t * (f.speed - g * t / 2), f.speed - g * t};
     t -= flight;
     f = {0, e * impact};
-    // all later bounces together take 2 v / (g (1 - e)): then it lies still
+    // all later bounces together take 2 v / (g (1 - e)); after that it is at rest
     if (e < 1 && t >= 2 * f.speed / (g * (1 - e)) * (1 - 1e-15)) return {0, 0};
   }
 }
@@ -87,10 +87,10 @@ std::optional<ExactSolution> bounces(const Scene& scene) {
     for (const Sphere& s : spheres->list) {
       const Vec3 d = x - s.centre;
       const double aside = (d - d.dot(up) * up).norm();
-      if (aside >= s.contact_radius()) continue;                    // falls past it
-      if (aside > 1e-15 * s.contact_radius()) return std::nullopt;  // is thrown aside
+      if (aside >= s.contact_radius()) continue;                    // falls past the ball
+      if (aside > 1e-15 * s.contact_radius()) return std::nullopt;  // is deflected sideways
       if (d.dot(up) > 0 && d.dot(up) - s.contact_radius() < gap) below = &s, gap = d.dot(up) - s.contact_radius();
-      if (d.dot(up) < 0) return std::nullopt;  // one above: it could fly against it
+      if (d.dot(up) < 0) return std::nullopt;  // a ball above: the particle could hit it from below
     }
     if (!below) return std::nullopt;
     falling_particles.push_back({{std::max(0.0, gap), v.dot(up)}, below->restitution});
@@ -112,22 +112,23 @@ std::optional<ExactSolution> bounces(const Scene& scene) {
 
 namespace {
 
-/// A coordinate that falls and bounces between a wall at 0 and one at `width`, which may be infinite.
+/// Coordinate that falls and bounces between a wall at 0 and one at `width`, which may be infinite.
 struct Fall {
   double q, v, a;      // m, m/s, m/s^2
   double width, e[2];  // m; restitution at 0 and at `width`
-  double lying = 0;    // s, how long it has lain on a wall at the end
+  double lying = 0;    // s, time in resting contact with a wall at the end
 };
 
-/// Time in which q >= 0 comes down to 0, s; infinite if it does not.
+/// Time until q >= 0 falls to 0, s; infinite if it does not.
 double time_to_zero(double q, double v, double a) {
   const double square = v * v - 2 * a * q;
   if ((v >= 0 && a >= 0) || square < 0) return INFINITY;
   return v < 0 ? 2 * q / (std::sqrt(square) - v) : (v + std::sqrt(square)) / -a;
 }
 
-/// The fall after a time t (s). `flight` is called with the time of each flight, `impact` with the speed of each impact
-/// and its restitution. Bounces without end that together take less than `negligible` (s) are left out.
+/// State of the fall after a time t (s). `flight` is called with the duration of each flight, `impact` with the speed
+/// of each impact and its restitution. Infinite sequences of bounces that together take less than `negligible` (s) are
+/// skipped.
 template <class Flight, class Impact>
 Fall fallen(Fall c, double t, double negligible, Flight flight, Impact impact) {
   for (;;) {
@@ -151,12 +152,12 @@ Fall fallen(Fall c, double t, double negligible, Flight flight, Impact impact) {
   }
 }
 
-/// A coordinate along a plane that presses with N.
+/// Coordinate along a plane that presses with the normal acceleration N.
 struct Slip {
   double y, v, a;  // m, m/s, m/s^2
   void fly(double t) { y += t * (v + a * t / 2), v += a * t; }
   void lose(double speed) { v = std::copysign(std::max(0.0, std::abs(v) - speed), v); }
-  /// Slides for t seconds against the friction mu N (m/s^2), stops, and stays or slides back.
+  /// Slides for t seconds against the friction mu N (m/s^2), stops, and stays at rest or slides back.
   void slide(double t, double friction) {
     for (int stops = 0; t > 0 && !(v == 0 && std::abs(a) <= friction) && stops < 2; ++stops) {
       const double rate = a - std::copysign(friction, v != 0 ? v : a), stop = v * rate < 0 ? -v / rate : INFINITY;
@@ -167,28 +168,28 @@ struct Slip {
   }
 };
 
-/// The motion along the normal of one plane or of two opposite ones.
+/// Motion along the normal of one plane or of two opposite planes.
 struct Between {
   Vec3 normal;
   double wall, speed;  // m, m/s along the normal, of the first plane
   double friction;     // mu
-  Fall fall;           // relative to the first plane; place and speed are each particle's own
+  Fall fall;           // relative to the first plane; position and speed are set for each particle
 };
 
 struct MotionBetweenPlanes {
   Vec3 a;                       // m/s^2
-  std::vector<Between> axes;    // at right angles; a single one where there is friction
-  std::vector<Vec3> direction;  // one for each particle; empty without friction
-  Vec3 carried = Vec3::Zero();  // m/s, of the plane with friction
+  std::vector<Between> axes;    // perpendicular; only one if there is friction
+  std::vector<Vec3> direction;  // one per particle; empty without friction
+  Vec3 carried = Vec3::Zero();  // m/s, velocity of the plane with friction
 
-  /// Puts x and v of particle i, which are those at the start, to what they are after t (s).
+  /// Changes x and v of particle i from their values at the start to those after t (s).
   void move(int i, double t, Eigen::Ref<Vec3> x, Eigen::Ref<Vec3> v) const {
     const bool friction = !direction.empty();
     const Vec3 x0 = x, v0 = v, slip_direction = friction ? direction[i] : Vec3::Zero();
     Slip slip{0, (v0 - carried).dot(slip_direction), a.dot(slip_direction)};
-    // the part that no plane changes
+    // the component that no plane changes
     Vec3 steady = v0 - slip.v * slip_direction, free = friction ? Vec3::Zero() : a;
-    Vec3 moved = Vec3::Zero(), speed = Vec3::Zero();  // along the normals and the slip
+    Vec3 moved = Vec3::Zero(), speed = Vec3::Zero();  // along the normals and the slip direction
     for (const Between& b : axes) {
       Fall fall = b.fall;
       const double begin = std::max(0.0, x0.dot(b.normal) - b.wall);
@@ -231,7 +232,7 @@ std::optional<ExactSolution> between_planes(const Scene& scene) {
   }
   const Plane& first = planes->list[0];
   if (first.friction > 0) motion.carried = first.velocity.value_or(Vec3::Zero());
-  // along a plane with friction the motion must be straight
+  // motion along a plane with friction must be straight
   for (int i = 0; first.friction > 0 && i < model.particles.size(); ++i) {
     const Vec3 n = first.normal, v = scene.start.v.col(i) - motion.carried, w = v - v.dot(n) * n,
                pull = motion.a - motion.a.dot(n) * n;
@@ -247,11 +248,11 @@ std::optional<ExactSolution> between_planes(const Scene& scene) {
                        }};
 }
 
-// A particle that slides over a ball with Coulomb friction until it flies off. With theta the angle from the top and u
-// = theta'^2, the motion on the ball is du/dtheta = 2 (g/R) (sin theta - mu cos theta) + 2 mu u, which is linear:
-//   u = C e^(2 mu theta) + A cos theta + B sin theta,  A = (g/R) (4 mu^2 - 2) / (1 + 4 mu^2),  B = -6 mu (g/R) / (1 + 4
-//   mu^2).
-// It leaves where u = (g/R) cos theta; time is the integral of dtheta / sqrt(u).
+// A particle that slides over a ball with Coulomb friction until it flies off. With theta the angle from the top and
+// u = theta'^2, the motion on the ball is du/dtheta = 2 (g/R) (sin theta - mu cos theta) + 2 mu u, which is linear:
+//   u = C e^(2 mu theta) + A cos theta + B sin theta,
+//   A = (g/R) (4 mu^2 - 2) / (1 + 4 mu^2),  B = -6 mu (g/R) / (1 + 4 mu^2).
+// It leaves the ball where u = (g/R) cos theta; time is the integral of dtheta / sqrt(u).
 
 namespace {
 
@@ -265,7 +266,7 @@ class Slide {
   double u(double theta) const {  // 1/s^2
     return c_ * std::exp(2 * mu_ * theta) + a_ * std::cos(theta) + b_ * std::sin(theta);
   }
-  /// Finds where the particle leaves; false when friction stops it before.
+  /// Finds the angle at which the particle leaves the ball; false if friction stops it before.
   bool find_departure() {
     constexpr int pieces = 20000;
     double before = theta0_;
@@ -291,7 +292,7 @@ class Slide {
   /// Angle at time t <= departure_time().
   double theta(double t) const {
     double low = theta0_, high = departure_, at = theta0_ + (departure_ - theta0_) * t / departure_time_;
-    for (int i = 0; i < 60; ++i) {  // Newton's method, halving where it would leave the interval
+    for (int i = 0; i < 60; ++i) {  // Newton's method, with bisection if it would leave the interval
       const double off = time(at) - t;
       (off > 0 ? high : low) = at;
       const double next = at - off * std::sqrt(u(at));
@@ -302,8 +303,8 @@ class Slide {
   }
 
  private:
-  /// Time from the start to the angle, s: Gauss's rule of 5 points on 40 pieces, error below rounding for u as smooth
-  /// as this.
+  /// Time from the start to the angle, s: Gauss quadrature with 5 points on each of 40 pieces. Its error is below
+  /// rounding, because u is smooth.
   double time(double theta) const {
     constexpr double node[] = {0, 0.5384693101056831, 0.9061798459386640};
     constexpr double weight[] = {0.5688888888888889, 0.4786286704993665, 0.2369268850561891};
@@ -338,10 +339,10 @@ std::optional<ExactSolution> slide_over_ball(const Scene& scene) {
   const double speed = v.norm();
   if (!(g > 0) || !(speed > 0) || std::abs(d.norm() - radius) > 1e-12 * radius) return std::nullopt;
   const Vec3 up = -gravity->acceleration / g, n = d.normalized(), forward = v / speed;
-  // along the surface, in the plane of gravity
+  // tangential to the surface, in the plane of gravity
   if (std::abs(forward.dot(n)) > 1e-14 || std::abs(up.dot(n.cross(forward))) > 1e-14) return std::nullopt;
   const double theta0 = std::atan2(-up.dot(forward), up.dot(n));
-  if (!(speed * speed / radius < g * std::cos(theta0))) return std::nullopt;  // it does not touch at all
+  if (!(speed * speed / radius < g * std::cos(theta0))) return std::nullopt;  // it is not in contact at all
   Slide slide(g / radius, ball.friction, theta0, speed / radius);
   if (!slide.find_departure()) return std::nullopt;
 

@@ -1,5 +1,5 @@
-// A strip clamped level at one end, bent by its own weight and by a load: the heavy elastica, as a two-point problem;
-// and its small vibrations.
+// A strip clamped level at one end and bent by its own weight and a load: the heavy elastica as a two-point boundary
+// value problem. Also its small vibrations.
 #pragma once
 
 #include <array>
@@ -7,27 +7,28 @@
 
 namespace crosscheck {
 
-/// Per width of the strip.
+/// All quantities are per unit width of the strip.
 struct ClampedStrip {
   double rigidity;     // B, N m
   double length;       // L, m
   double weight;       // w, N/m^2
-  double load = 0;     // P, N/m, hung on
+  double load = 0;     // P, N/m, attached at load_at
   double load_at = 0;  // m from the clamp
 };
 
-/// With theta the angle below the level at arc length s, B theta'' = -(w (L - s) + P [s < load_at]) cos theta,
-/// theta(0) = 0, theta'(L) = 0 (the moment B theta' balances what hangs beyond s; no stretch). Solved by shooting over
-/// theta'(0), integrated by classical Runge-Kutta in steps of L / 4000 with the load's place on the grid. theta'(0) is
-/// at most what all loads give on a level strip; and since B theta'(0)^2 / 2 is the integral of the loads over sin
-/// theta, w times that of sin theta over s and P sin theta at the load, it is at most (2 (w L + P) / B)^(1/2), and
-/// largest for the strip that hangs down: the root sought is the first one below these bounds, at which theta'(L) > 0.
+/// With theta the angle below the horizontal at arc length s: B theta'' = -(w (L - s) + P [s < load_at]) cos theta,
+/// theta(0) = 0, theta'(L) = 0. The moment B theta' balances all loads beyond s; the strip does not stretch. Solved by
+/// shooting over theta'(0), integrated with the classical Runge-Kutta rule in steps of L / 4000, with the load's place
+/// on the grid. theta'(0) is at most the curvature that all loads cause in a level strip. B theta'(0)^2 / 2 equals w
+/// times the integral of sin theta over s, plus P sin theta at the load. Hence theta'(0) is also at most (2 (w L + P) /
+/// B)^(1/2). Among the solutions, the strip that hangs down has the largest theta'(0). The root sought is therefore the
+/// first one below these bounds, at which theta'(L) > 0.
 class Elastica {
  public:
   explicit Elastica(const ClampedStrip& strip);
 
   struct Place {
-    double x, drop, angle;  // m along the level, m below it, rad below it
+    double x, drop, angle;  // m along the horizontal, m below it, rad below it
   };
   Place at(double s) const;
   Place tip() const { return at(strip_.length); }
@@ -35,7 +36,7 @@ class Elastica {
  private:
   using State = std::array<double, 4>;  // theta, theta', x, drop
   static void advance(const ClampedStrip& strip, double s, double ds, double carried, State& state);
-  /// Both parts, before and behind the load; returns theta'(L).
+  /// Integrates both parts, before and beyond the load; returns theta'(L).
   double integrate(double curvature, bool keep);
 
   ClampedStrip strip_;
@@ -43,19 +44,19 @@ class Elastica {
   std::vector<State> states_;
 };
 
-/// A strip that hangs between two hinges on one level, closer to each other than it is long. With theta the angle above
-/// the level at arc length s from its middle, where it is lowest, H the pull along the level and w s the weight
-/// between,
+/// A strip that hangs between two hinges at the same height, which are closer together than the strip is long. With
+/// theta the angle above the horizontal at arc length s from its lowest point in the middle, H the horizontal pull, and
+/// w s the weight between the middle and s:
 ///   B theta'' = H sin theta - w s cos theta, theta(0) = 0, theta'(L/2) = 0, the integral of cos theta half the span.
-/// Solved by shooting over theta'(0), for each H, and over H. Without rigidity it is a catenary in closed form:
-/// tan theta = w s / H.
+/// Solved by shooting over theta'(0) for each H, and over H. Without rigidity it is a catenary in closed form: tan
+/// theta = w s / H.
 class HangingStrip {
  public:
-  /// Lengths in m, weight in N/m^2, rigidity in N m (0: none; at most so much that the hinges still pull).
+  /// Lengths in m, weight in N/m^2, rigidity in N m (0: none; small enough that the hinges still pull).
   HangingStrip(double length, double span, double weight, double rigidity);
 
   struct Place {
-    double x, height;  // m from the middle, above it
+    double x, height;  // m from the middle, and above it
   };
   Place at(double s) const;  // from -length / 2 to length / 2
   double sag() const { return at(half_).height; }
@@ -65,8 +66,8 @@ class HangingStrip {
   std::vector<std::array<double, 4>> states_;  // theta, theta', x, height over half the length, evenly spaced
 };
 
-/// Frequency (Hz) of the strip's first, second or third vibration without weight (mode 0 to 2): beta^2 / (2 pi)
-/// sqrt(B / (rho L^4)), rho its mass per area (kg/m^2), cos beta cosh beta = -1.
+/// Frequency (Hz) of the strip's first, second or third vibration mode (0 to 2) without weight: beta^2 / (2 pi) sqrt(B
+/// / (rho L^4)), where rho is its mass per area (kg/m^2) and cos beta cosh beta = -1.
 double vibration_of_clamped_strip(const ClampedStrip& strip, double density, int mode);
 
 }  // namespace crosscheck

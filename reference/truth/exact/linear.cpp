@@ -1,4 +1,4 @@
-// Modes of springs on a line, the driven oscillator, and the closed form that they add up to.
+// Modes of springs on a line, the driven oscillator, and the closed form as their sum.
 #include "reference/truth/exact/linear.h"
 
 #include <fmt/format.h>
@@ -22,7 +22,7 @@ using Matrix8 = Eigen::Matrix<Complex, 8, 8>;
 using Vector8 = Eigen::Matrix<Complex, 8, 1>;
 constexpr Complex imaginary(0, 1);
 
-/// At t = 0: u = u' = 0, and of the six functions the one with j = 0 is 1.
+/// State at t = 0: u = u' = 0, and among the six functions only the one with j = 0 is 1.
 Vector8 at_start() { return Vector8::Unit(2); }
 
 }  // namespace
@@ -48,7 +48,7 @@ Matrix8 DrivenMotion::generator() const {
     m(2 + j, 2 + j) = imaginary * omega_;
     if (j > 0) m(2 + j, 1 + j) = j / ramp_;
   }
-  // u'/w is pushed by (w2 d + dashpot d') / w
+  // u'/w is driven by (w2 d + dashpot d') / w
   const double r[6] = {0, 0, 0, 10, -15, 6}, slope[6] = {0, 0, 30, -60, 30, 0};
   for (int j = 0; j < 6; ++j)
     m(1, 2 + j) = amplitude_ / w * ((omega2_ + imaginary * omega_ * dashpot_) * r[j] + dashpot_ * slope[j] / ramp_);
@@ -74,7 +74,8 @@ double DrivenMotion::velocity(double t) const {
 }
 
 double DrivenMotion::amplitude_bound() const {
-  // sqrt(u^2 + u'^2/w2) grows by at most the push / w times the time: seen at instants between which that is little
+  // sqrt(u^2 + u'^2/w2) grows by at most the forcing / w per time: it is evaluated at times between which this is
+  // little
   const double w = std::sqrt(omega2_), size = std::abs(amplitude_);
   const double forcing =
       size * (std::hypot(omega2_, omega_ * dashpot_) + 1.875 * dashpot_ / ramp_);  // m/s^2, see max_speed
@@ -92,7 +93,7 @@ double DrivenMotion::amplitude_bound() const {
 
 namespace {
 
-/// The line through the particles: its direction, and where each particle is along it.
+/// The line through the particles: its direction, and each particle's position and speed along it.
 struct Line {
   Vec3 direction;
   Eigen::VectorXd along, speed;  // n, m, m/s
@@ -104,7 +105,7 @@ std::optional<Line> line_through(const Scene& scene, const Vec3& acceleration) {
   const double length = (x.colwise() - x.col(0)).colwise().norm().maxCoeff(&farthest);
   if (!(length > 0)) return std::nullopt;
   const Vec3 n = (x.col(farthest) - x.col(0)) / length;
-  // what lies across the line is below the rounding of what was written
+  // the deviation from the line must be below the rounding of the scene's numbers
   auto across = [&](const Vec3& p, double size) { return (p - p.dot(n) * n).norm() > 1e-14 * size; };
   for (int i = 0; i < x.cols(); ++i)
     if (across(x.col(i) - x.col(0), length) || across(v.col(i), v.col(i).norm())) return std::nullopt;
@@ -114,7 +115,7 @@ std::optional<Line> line_through(const Scene& scene, const Vec3& acceleration) {
   return Line{n, (x.colwise() - x.col(0)).transpose() * n, v.transpose() * n};
 }
 
-/// Sum over pairs of value times the difference of the two, as a matrix.
+/// Sum over pairs of value times the difference between the two ends, as a matrix.
 template <class Pairs, class Value>
 Eigen::MatrixXd laplacian(const Pairs& pairs, int n, Value value) {
   Eigen::MatrixXd m = Eigen::MatrixXd::Zero(n, n);
@@ -167,7 +168,7 @@ std::optional<LinearScene> linear_scene(const Scene& scene) {
   const auto line = line_through(scene, *a);
   if (!line) return std::nullopt;
 
-  // M xi'' = f - K xi - C xi' - drag M xi' + M a of the displacement xi from the start, free particles only
+  // M xi'' = f - K xi - C xi' - drag M xi' + M a for the displacement xi from the start, free particles only
   const int n = particles.size();
   std::vector<int> free;
   for (int i = 0; i < n; ++i)
@@ -176,17 +177,17 @@ std::optional<LinearScene> linear_scene(const Scene& scene) {
   Eigen::VectorXd all = Eigen::VectorXd::Zero(n);
   for (const Spring& s : springs->list) {
     const double d = line->along[s.a] - line->along[s.b];
-    const double pull = s.k * (std::abs(d) - s.rest) * (d > 0 ? 1 : -1);  // exact where the start is the rest length
+    const double pull = s.k * (std::abs(d) - s.rest) * (d > 0 ? 1 : -1);  // exact if the start is the rest length
     all[s.a] -= pull, all[s.b] += pull;
   }
   const Eigen::LLT<Eigen::MatrixXd> factor(k);
   if (factor.info() != Eigen::Success) return std::nullopt;  // something floats freely
   const Eigen::VectorXd mass = particles.mass(free), rest = factor.solve(all(free));
-  double beta = 0;  // s, dashpots over stiffness
+  double beta = 0;  // s, ratio of dashpots to stiffness
   if (const auto* dashpots = model.find<Dashpots>()) {
     const Eigen::MatrixXd c = laplacian(dashpots->list, n, [](const auto& d) { return d.c; })(free, free);
     beta = c.trace() / k.trace();
-    // in proportion but for the rounding of what was written
+    // proportional except for the rounding of the scene's numbers
     if (!((c - beta * k).norm() <= 1e-14 * c.norm())) return std::nullopt;
   }
 
@@ -198,7 +199,7 @@ std::optional<LinearScene> linear_scene(const Scene& scene) {
   for (int i = 0; i < static_cast<int>(free.size()); ++i) {
     Eigen::VectorXd shape = inverse_root.asDiagonal() * vibrations.vectors.col(i);
     const double largest = shape.cwiseAbs().maxCoeff();
-    // the dual of the shape: of unit product with it over the masses
+    // the dual of the shape: its product with the shape, weighted by the masses, is one
     const Eigen::VectorXd dual = largest * mass.asDiagonal() * shape;
     shape /= largest;
     const double omega2 = vibrations.values[i];
@@ -218,7 +219,7 @@ std::optional<LinearScene> linear_scene(const Scene& scene) {
 
 namespace {
 
-/// A mode about where it would come to rest.
+/// A mode about its equilibrium.
 struct DrivenOscillator {
   Oscillator free;
   std::optional<DrivenMotion> driven;

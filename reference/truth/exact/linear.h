@@ -1,4 +1,4 @@
-// Scenes whose equations of motion are linear, split into modes, and the free and driven oscillators that these are.
+// Scenes with linear equations of motion, split into modes, and the free and driven oscillators of these modes.
 #pragma once
 
 #include <Eigen/Core>
@@ -26,10 +26,10 @@ struct Oscillator {
   }
   double velocity(double t) const {
     const auto [c, s] = parts(t);
-    // d/dt of the above: without the decay, c' = (gamma^2/4 - w2) s and s' = c hold in all regimes
+    // derivative of the above: without the decay, c' = (gamma^2/4 - w2) s and s' = c in all regimes
     return v0 * c - (omega2 * u0 + gamma / 2 * v0) * s;
   }
-  /// A bound of |u| at all times, from the energy at the start.
+  /// Bound of |u| at all times, from the energy at the start.
   double amplitude_bound() const { return std::sqrt(u0 * u0 + v0 * v0 / omega2); }
 
  private:
@@ -40,20 +40,20 @@ struct Oscillator {
     const double d = omega2 - gamma * gamma / 4, w = std::sqrt(std::abs(d)), decay = std::exp(-gamma / 2 * t);
     if (d > 0) return {decay * std::cos(w * t), decay * std::sin(w * t) / w};
     if (d == 0) return {decay, decay * t};
-    // by the slow exponent gamma/2 - w, written without its cancellation: exp and cosh apart would be 0 times infinity
+    // with the slow exponent gamma/2 - w, written without cancellation: exp times cosh would be 0 times infinity
     const double slow = std::exp(-omega2 / (gamma / 2 + w) * t);
     return {slow * (1 + std::exp(-2 * w * t)) / 2, slow * -std::expm1(-2 * w * t) / (2 * w)};
   }
 };
 
-// The driven part of an oscillator's motion.
+// Driven part of an oscillator's motion.
 
 /// u'' = -w2 (u - d) - drag u' - dashpot (u' - d') from rest at u = 0, where d = a r(t) sin(W t) is a prescribed motion
-/// (mysim/particles.h) along a line. With d the imaginary part of a r(t) e^(iWt), and r a polynomial of degree 5 during
-/// the ramp:
-///   - during the ramp u, u' and the six functions t^j e^(iWt) are a linear system with constant coefficients, and u is
-///     read from its matrix exponential, which stays finite at resonance where undetermined coefficients do not;
-///   - afterwards u = Im(Z e^(iWt)) with Z = a (w2 + iW dashpot) / (w2 - W^2 + iW (drag + dashpot)), and a free motion
+/// (mysim/particles.h) along a line. d is the imaginary part of a r(t) e^(iWt), and r is a polynomial of degree 5
+/// during the ramp:
+///   - during the ramp u, u' and the six functions t^j e^(iWt) satisfy a linear system with constant coefficients. u is
+///     computed from its matrix exponential, which remains finite at resonance, unlike undetermined coefficients;
+///   - afterwards u = Im(Z e^(iWt)) with Z = a (w2 + iW dashpot) / (w2 - W^2 + iW (drag + dashpot)), plus a free motion
 ///     that matches the ramp's end. Exactly at the resonance of an undamped oscillator Z is infinite.
 class DrivenMotion {
  public:
@@ -61,8 +61,8 @@ class DrivenMotion {
 
   double position(double t) const;  // s -> m
   double velocity(double t) const;  // s -> m/s
-  /// A bound of |u| at all times, m: rigorous, at most some tens of percent too large at low frequencies. Infinite at
-  /// resonance.
+  /// Bound of |u| at all times, m: rigorous; at low frequencies it may be too large by some tens of percent. Infinite
+  /// at resonance.
   double amplitude_bound() const;
 
  private:
@@ -72,7 +72,7 @@ class DrivenMotion {
 
   double omega2_, drag_, dashpot_, amplitude_, omega_, ramp_;
   std::complex<double> z_;  // m
-  Oscillator after_ramp_;   // from the ramp's end
+  Oscillator after_ramp_;   // starts at the ramp's end
 };
 
 /// u'' = -omega2 (u - participation d) - drag u' - dashpot (u' - participation d') + forcing, where d(t) is the
@@ -81,30 +81,30 @@ struct Mode {
   double omega2;         // 1/s^2; 0 without springs
   double drag;           // 1/s
   double dashpot;        // 1/s
-  double forcing;        // m/s^2, of gravity and steady wind
+  double forcing;        // m/s^2, due to gravity and steady wind
   double participation;  // 1
   double u0, v0;         // m, m/s, at the start
-  Points shape;          // 3 x n, its largest entry 1 or so; 0 at pins
+  Points shape;          // 3 x n, largest entry about 1; 0 at pins
 };
 
 struct LinearScene {
-  Points rest;  // 3 x n, m: u = 0, where the springs alone would hold the particles; the start, without springs
+  Points rest;  // 3 x n, m: u = 0, the equilibrium under the springs alone; the start, without springs
   std::vector<Mode> modes;
-  double base_amplitude = 0;  // m, amplitude of d along the line; 0: the pins stand still
+  double base_amplitude = 0;  // m, amplitude of d along the line; 0: fixed pins
 
-  /// Smallest length that a spring is left with when each mode reaches `amplitude` (m) to either side of `centre` (m)
-  /// and moved pins reach `base_amplitude`; 0 or less: it may turn over, and the scene is linear no more. Infinite
+  /// Smallest length of any spring if each mode reaches `amplitude` (m) to either side of `centre` (m) and moved pins
+  /// reach `base_amplitude`. If it is 0 or less, a spring may turn over, and the scene is no longer linear. Infinite
   /// without springs.
   double shortest_spring_length(const Model& model, const std::vector<double>& centre,
                                 const std::vector<double>& amplitude) const;
 };
 
-/// The modes of a scene that is one of these, or nothing:
+/// Modes of the scene, or nothing if it is neither of these:
 ///   - one free particle under gravity, steady wind and drag: three modes;
-///   - Hooke's springs and masses on a line, at least one of them pinned, gravity, steady wind, speeds and the motion
-///     of the pins along it, one drag rate for all, and dashpots in proportion to the stiffness (always so with one
-///     free mass).
-/// Whether a spring turns over is left to the caller.
+///   - Hooke's springs and masses on a line, with at least one of them pinned; gravity, steady wind, velocities and the
+///     motion of the pins along the line; one drag rate for all; and dashpots in proportion to the stiffness (always so
+///     with one free mass).
+/// The caller must check that no spring turns over.
 std::optional<LinearScene> linear_scene(const Scene& scene);
 
 }  // namespace crosscheck

@@ -1,19 +1,20 @@
-// Contact with spheres and planes as a sequence of smooth motions: odeint's Dormand-Prince pair on the right-hand
-// side written apart, cut at each impact, take-off, stop and slip. A second route to what mysim's contact rules
-// approach; none of them is called.
+// Contact with spheres and planes as a sequence of smooth motions: odeint's Dormand-Prince pair on the independently
+// written right-hand side, interrupted at each impact, take-off, stop and slip. An independent route to the limit that
+// mysim's contact rules approach; none of them is called.
 //
-// Each free particle is in one of four modes. On a surface of radius R about c, with r = x - c, n = r / R, and a the
-// acceleration by all else less that of c:
+// Each free particle is in one of four modes. On a surface of radius R about c, let r = x - c, n = r / R, and a the
+// acceleration without the surface's force, relative to c:
 //   flies    r'' = a, until |r| = R
-//   slides   differentiating |r|^2 = R^2 twice, r . r'' = -|r'|^2: the surface pushes by N = -a.n - |r'|^2 / R along
-//            n (R infinite for a plane), and by mu N against the motion; until N = 0 or r' = 0. Friction turns a slow
-//            motion along the force within |r'| / (mu N), close to rest faster than any step: where friction would stop
-//            it within `shortest_slide` and the force lies along the motion to a hundredth, it goes straight on
-//            ("creeps"), which leaves out a hundredth of |r'| at most
+//   slides   differentiating |r|^2 = R^2 twice gives r . r'' = -|r'|^2. The surface pushes with
+//            N = -a.n - |r'|^2 / R along n (R is infinite for a plane), and with mu N against the motion, until N = 0
+//            or r' = 0. Friction turns a slow motion into the direction of the force within |r'| / (mu N), which near
+//            rest is shorter than any step. If friction would stop the particle within `shortest_slide`, and the
+//            force is parallel to the motion to a hundredth, the particle keeps its direction ("creeps"). This neglects
+//            a hundredth of |r'| at most
 //   sticks   r'' = 0, until the part of a along the surface exceeds mu N
-//   wedged   between two surfaces that stand still, at rest: a lies between the planes of both, else the run is refused
-// An impact reverses the normal speed u times e and takes at most mu (1 + e) u of the tangential one. A rebound lower
-// than `lowest_rebound` is none. Both limits are parts of the scene's size.
+//   wedged   at rest between two fixed surfaces: a must lie between the planes of both, else the run is refused
+// An impact reverses the normal speed u times e and reduces the tangential speed by at most mu (1 + e) u. Rebounds
+// lower than `lowest_rebound` are ignored. Both limits are relative to the scene's size.
 
 #include <fmt/format.h>
 #include <Eigen/Dense>
@@ -40,19 +41,19 @@ namespace odeint = boost::numeric::odeint;
 constexpr double lowest_rebound = 1e-12;    // relative to the scene's size, below every error bar
 constexpr double shortest_slide = 1e-10;    // relative to the scene's size
 constexpr double rounded_to_rest = 3e-13;   // relative to the speed after a fall over the scene's size
-constexpr double surface_rounding = 2e-15;  // of the radius and the centre: no impact
-constexpr double most_work = 1e7;           // accelerations of a particle, from sample to sample: a second or two
+constexpr double surface_rounding = 2e-15;  // relative to radius and centre: no impact
+constexpr double most_work = 1e7;           // particle accelerations between samples: a second or two
 constexpr int most_events_in_interval = 10000;
 
-/// A solid now and where the present step began; a "ball" here, be it a sphere or a plane.
+/// A solid now and at the start of the present step; called a ball here, even if it is a plane.
 struct Ball : Solid {
   Vec3 centre_before = start, velocity_before = velocity;
 };
 
 struct Particle {
   enum class Mode { flies, slides, sticks, wedged } mode = Mode::flies;
-  int ball = -1, other = -1;    // those that it touches
-  Vec3 forward = Vec3::Zero();  // of its slide, where the last step began
+  int ball = -1, other = -1;    // indices of the balls that it touches
+  Vec3 forward = Vec3::Zero();  // direction of its slide at the start of the last step
   Vec3 offset = Vec3::Zero();   // m, from the centre of the ball that it sticks to
   bool creeps = false;          // a slide close to rest
 };
@@ -63,8 +64,8 @@ std::vector<Ball> balls_of(const Scene& scene) {
   return balls;
 }
 
-/// Where a function that is negative at `high`, by `at_high`, and not at 0, becomes so, to round-off: a point where it
-/// is negative.
+/// Point at which the function becomes negative, to round-off; the function is negative at the point returned. The
+/// function must be negative at `high`, with the value `at_high`, and not negative at 0.
 template <class Function>
 double first_negative(Function f, double high, double at_high) {
   constexpr double least = std::numeric_limits<double>::min();
@@ -72,7 +73,7 @@ double first_negative(Function f, double high, double at_high) {
     const double value = f(s);
     return value == 0 ? least : value;
   };
-  // what is 0 at the start, of a slide from rest say, counts as not negative: a half of the bracket is then tried
+  // a value of 0 at the start (as in a slide from rest) counts as positive: the first trial halves the bracket
   const double at_start = std::max(f(0), -at_high);
   const auto narrow = [high](double a, double b) {
     return b - a <= 1e-13 * high + 4 * std::numeric_limits<double>::epsilon() * b;
@@ -105,7 +106,7 @@ class EventDrivenWorld : public World {
       const bool last = t + 1.01 * h_ >= t_next;
       double h = last ? t_next - t : h_, now = t;
       if (!(h > 1e-15 * t_next)) {
-        if (last) return;  // an event a rounding before the sample is at the sample
+        if (last) return;  // an event within rounding before the sample is at the sample
         throw SolverFailure(fmt::format("the step fell below round-off at t = {:.4g} s", t));
       }
       const StateVector before = y_;
@@ -125,7 +126,7 @@ class EventDrivenWorld : public World {
       } else {
         if (++events > most_events_in_interval)
           throw SolverFailure(fmt::format("impacts without end at t = {:.4g} s", t));
-        // the event is where the step is so short that nothing has happened yet
+        // shorten the step until it ends at the event
         const auto margin = [&](double part) {
           y_ = advanced(before, t, part);
           return least_margin(y_, before, t + part);
@@ -151,18 +152,18 @@ class EventDrivenWorld : public World {
 
   static Vec3 place(const StateVector& y, int i) { return Vec3(y[3 * i], y[3 * i + 1], y[3 * i + 2]); }
   Vec3 speed(const StateVector& y, int i) const { return place(y, n_ + i) / time_unit_; }
-  /// m/s^2, in a rate of change of the unknowns.
+  /// Acceleration (m/s^2) in a rate of change of the unknowns.
   Vec3 acceleration(const StateVector& rate, int i) const { return speed(rate, i); }
   static void put(StateVector& y, int i, const Vec3& value) { std::copy_n(value.data(), 3, y.begin() + 3 * i); }
-  /// A speed among the unknowns, or an acceleration among their rates of change.
+  /// Sets a velocity among the unknowns, or an acceleration among their rates of change.
   void put_speed(StateVector& y, int i, const Vec3& value) const { put(y, n_ + i, time_unit_ * value); }
 
   double height(const StateVector& y, int i, int ball) const { return balls_[ball].height(place(y, i)); }
   Vec3 normal(const StateVector& y, int i, int ball) const { return balls_[ball].normal(place(y, i)); }
 
-  /// m/s, as seen from a ball.
+  /// Velocity relative to a ball, m/s.
   Vec3 seen_from(const StateVector& y, int i, int ball) const { return speed(y, i) - balls_[ball].velocity; }
-  /// Returns the push of a ball (m/s^2) on a particle that all else accelerates by a, as seen from the ball.
+  /// Returns the push of a ball (m/s^2) on a particle whose acceleration without it, relative to the ball, is a.
   double push(const StateVector& y, int i, int ball, const Vec3& a) const {
     const Vec3 n = normal(y, i, ball), w = seen_from(y, i, ball);
     return -a.dot(n) - (w - w.dot(n) * n).squaredNorm() / balls_[ball].radius;
@@ -184,7 +185,7 @@ class EventDrivenWorld : public World {
       }
       const Vec3 a = acceleration(rate, i) - ball.acceleration, n = normal(y, i, p.ball), v = seen_from(y, i, p.ball);
       const double pressed = push(y, i, p.ball, a), friction = ball.friction;
-      // beyond a stop, which cuts the step, friction goes on as before: the right-hand side stays smooth
+      // beyond a stop, which ends the step, friction continues as before: the right-hand side remains smooth
       Vec3 direction = along(v, n);
       const double size = direction.norm();
       direction = size > 0 ? Vec3(direction / size * (direction.dot(p.forward) < 0 ? -1 : 1)) : p.forward;
@@ -197,7 +198,7 @@ class EventDrivenWorld : public World {
     }
   }
 
-  // both keep the last derivative of the step before, which another mode has changed since
+  // both steppers keep the last derivative of the previous step, which is outdated if a mode has changed since
   bool controlled(StateVector& y, double& t, double& h) {
     rule_.reset();
     return rule_.try_step([this](const StateVector& s, StateVector& r, double at) { derivative(s, r, at); }, y, t, h);
@@ -208,7 +209,7 @@ class EventDrivenWorld : public World {
       single_.do_step([this](const StateVector& s, StateVector& r, double at) { derivative(s, r, at); }, y, t, h);
     return y;
   }
-  /// What acts but for the balls, m/s^2, at the present state.
+  /// Accelerations without the balls' forces, m/s^2, at the present state.
   void accelerations(double t) {
     free_rate_.resize(y_.size());
     f_(y_, free_rate_, t);
@@ -220,7 +221,7 @@ class EventDrivenWorld : public World {
     for (Ball& ball : balls_) ball.move_to(t);
   }
 
-  /// Balls and directions of slides where a step begins, at t (s).
+  /// Stores the balls and the directions of slides at the start of a step, at t (s).
   void remember_start(double t) {
     move_balls(t);
     begun_ = t;
@@ -232,19 +233,19 @@ class EventDrivenWorld : public World {
     }
   }
 
-  /// m: how far a particle is from running into a ball; negative where it does.
+  /// Distance of a particle from entering a ball, m; negative if it enters.
   double way_in(const StateVector& y, const StateVector& before, int i, int ball) const {
     const Ball& b = balls_[ball];
     const double scale = b.size + b.centre.norm() + (b.flat() ? place(y, i).norm() : 0),
                  rounding = surface_rounding * scale, above = height(y, i, ball) + rounding;
-    if (b.flat()) {  // in and out again: the lowest point of the parabola with the speeds at both ends
+    if (b.flat()) {  // in and out again: lowest point of the parabola with the speeds at both ends
       const double down = (speed(before, i) - b.velocity_before).dot(b.up), rise = seen_from(y, i, ball).dot(b.up);
       if (above < 0 || !(down < 0 && rise > 0)) return above;
       const double begin = b.up.dot(place(before, i) - b.centre_before);
       const double lowest = begin - down * down * (now_ - begun_) / (2 * (rise - down)) + rounding;
       return begin > 0 ? std::min(above, lowest) : above;
     }
-    // in and out again within the step: the height of the chord's nearest point, for steps far shorter than the ball
+    // in and out again within the step: the height of the chord's nearest point, for steps far shorter than the radius
     const Vec3 from = place(before, i) - b.centre_before, to = place(y, i) - b.centre;
     if (above < 0 || !(from.dot(speed(before, i) - b.velocity_before) < 0 && to.dot(seen_from(y, i, ball)) > 0) ||
         !(from.norm() > b.radius))
@@ -254,8 +255,8 @@ class EventDrivenWorld : public World {
     return std::min(above, nearest.norm() - b.radius + rounding);
   }
 
-  /// Negative where a particle's mode has ended, from one state to another. Without a unit, so that no unit decides
-  /// which of several conditions leads the search for the first event.
+  /// Negative if a particle's mode has ended between the two states. Dimensionless, so that units do not decide which
+  /// of several conditions guides the search for the first event.
   double margin(const StateVector& y, const StateVector& before, int i) const {
     const Particle& p = particles_[i];
     const Vec3 a = felt(i, p.ball);
@@ -284,42 +285,42 @@ class EventDrivenWorld : public World {
     for (int i = 0; i < n_; ++i) least = std::min(least, margin(y, before, i));
     return least;
   }
-  /// Lets what ended begin anew, at the present state.
+  /// Settles the particles whose mode has ended, at the present state.
   void happen(const StateVector& before, double t) {
     accelerations(t);
     for (int i = 0; i < n_; ++i) {
       if (!ended(y_, before, i)) continue;
       Particle& p = particles_[i];
       if (p.mode == Mode::slides && balls_[p.ball].friction > 0 && seen_from(y_, i, p.ball).dot(p.forward) < 0)
-        put_speed(y_, i, balls_[p.ball].velocity);  // the speed across the motion goes to 0 with it
+        put_speed(y_, i, balls_[p.ball].velocity);  // the speed across the direction of motion vanishes with it
       settle(i);
     }
   }
 
-  /// Whether both balls push, and nothing else is needed for rest.
+  /// True if both balls push, and their normal forces alone keep the particle at rest.
   bool is_wedged(int i, int first, int second) const {
     const Vec3 a = acceleration(free_rate_, i);
     Eigen::Matrix<double, 3, 2> normals;
     normals << normal(y_, i, first), normal(y_, i, second);
     const Eigen::Vector2d pushes = (normals.transpose() * normals).ldlt().solve(-normals.transpose() * a);
-    // in the plane of both; friction would hold more
+    // a is in the plane of both normals; friction would hold more
     return pushes.minCoeff() > 0 && (a + normals * pushes).norm() < 1e-9 * a.norm();
   }
 
-  /// Returns the acceleration by all but the balls (m/s^2), as seen from a ball, or from rest if `ball` is negative.
+  /// Returns the acceleration without the balls' forces (m/s^2), relative to a ball, or absolute if `ball` is negative.
   Vec3 felt(int i, int ball) const {
     const Vec3 a = acceleration(free_rate_, i);
     return ball < 0 ? a : Vec3(a - balls_[ball].acceleration);
   }
 
-  /// Impacts, and the mode that follows from place and speed.
+  /// Applies impacts, then sets the mode from position and velocity.
   void settle(int i) {
     Particle& p = particles_[i];
     std::vector<int> touched;
     for (int ball = 0; ball < static_cast<int>(balls_.size()); ++ball)
       if (height(y_, i, ball) <= 1e-11 * balls_[ball].size) {
         touched.push_back(ball);
-        // what is inside by rounding would be found to run in, again and again
+        // a particle that is inside by rounding would enter repeatedly
         if (height(y_, i, ball) < 0) put(y_, i, balls_[ball].foot(place(y_, i)));
       }
     p = {};
@@ -352,7 +353,7 @@ class EventDrivenWorld : public World {
     if (pressing.size() > 1) {
       const bool still = !balls_[pressing[0]].moves() && !balls_[pressing[1]].moves();
       if (!still || !is_wedged(i, pressing[0], pressing[1]) || pressing.size() > 2)
-        throw Unsupported("a particle moves between two surfaces: this route knows rest there only");
+        throw Unsupported("a particle moves between two surfaces: this route supports only rest there");
       p.mode = Mode::wedged, p.ball = pressing[0], p.other = pressing[1];
       put_speed(y_, i, Vec3::Zero());
       return;
@@ -374,7 +375,7 @@ class EventDrivenWorld : public World {
     hold(i);
   }
 
-  /// Takes the rounding of a slide off the surface, and tells whether it creeps.
+  /// Moves a particle back to its surface, which it leaves by rounding, and determines whether a slide creeps.
   void hold(int i) {
     Particle& p = particles_[i];
     if (p.mode == Mode::sticks && balls_[p.ball].moves()) {
@@ -401,7 +402,7 @@ class EventDrivenWorld : public World {
   std::vector<Particle> particles_;
   odeint::result_of::make_controlled<odeint::runge_kutta_dopri5<StateVector>>::type rule_;
   odeint::runge_kutta_dopri5<StateVector> single_;
-  double h_, begun_ = 0, now_ = 0;  // s: the next step; where the present one began; when solids were moved to
+  double h_, begun_ = 0, now_ = 0;  // s: next step; start of the present one; time of the solids' positions
   const double longest_;            // s
   State state_;
   long accepted_ = 0;

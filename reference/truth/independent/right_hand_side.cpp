@@ -1,4 +1,4 @@
-// Data of a scene, prescribed positions at a time, and the forces on flat arrays.
+// Data of a scene, prescribed positions at a given time, and the forces on flat arrays.
 #include "reference/truth/independent/right_hand_side.h"
 
 #include <Eigen/Cholesky>
@@ -69,7 +69,7 @@ void Solid::move_to(double t) {
 }
 
 std::vector<Solid> solids_of(const Scene& scene) {
-  if (scene.model.find<Constraints>()) throw Unsupported("this route knows no hard distances");
+  if (scene.model.find<Constraints>()) throw Unsupported("this route does not support hard distances");
   std::vector<Solid> solids;
   if (const auto* spheres = scene.model.find<Spheres>())
     for (const Sphere& s : spheres->list) {
@@ -132,7 +132,7 @@ RightHandSide::RightHandSide(const Scene& scene, double time_unit)
       for (const double v : scene.start.v.col(i)) start_.push_back(time_unit_ * v);
 }
 
-/// A term without a line here does not compile: nothing of a scene is left out silently.
+/// A term without an overload here does not compile: no part of a scene is omitted silently.
 void RightHandSide::add_term(const Term& term) {
   struct TermVisitor {
     RightHandSide& f;
@@ -145,7 +145,7 @@ void RightHandSide::add_term(const Term& term) {
       for (const Spring& s : t.list) f.springs_.push_back({s.a, s.b, s.k, s.rest});
     }
     void operator()(const Bending& t) const {
-      // multiplied out: k/2 |sum w_i x_i|^2 is the energy of springs without rest length between each two particles
+      // multiplied out: k/2 |sum w_i x_i|^2 is the energy of springs without rest length between each pair of particles
       for (const auto& s : t.list)
         for (int i = 0; i < s.size; ++i)
           for (int j = i + 1; j < s.size; ++j)
@@ -168,7 +168,7 @@ void RightHandSide::add_term(const Term& term) {
     void operator()(const Spheres&) const { refuse_contact(); }
     void operator()(const Planes&) const { refuse_contact(); }
     [[noreturn]] static void refuse_contact() {
-      throw Unsupported("the scene has contact, which is no right-hand side: integrators of others cannot follow it");
+      throw Unsupported("the scene has contact, which is not a right-hand side: library integrators cannot follow it");
     }
   };
   std::visit(TermVisitor{*this}, term);
@@ -176,7 +176,7 @@ void RightHandSide::add_term(const Term& term) {
 
 StateVector RightHandSide::start() const { return start_; }
 
-/// Positions and velocities of all particles at time t.
+/// Sets positions and velocities of all particles at time t.
 void RightHandSide::set_state(const StateVector& y, double t) {
   if (pin_motion_) {
     double displacement[3], velocity[3];
@@ -244,7 +244,7 @@ void RightHandSide::write_state(const StateVector& y, double t, State& state) {
     state.v = Points::Map(v_.data(), 3, n_);
 }
 
-/// Of each spring, on its ends: a factor times the vector from one to the other.
+/// Adds the force of each spring to its ends: a factor times the vector between them.
 void RightHandSide::add_spring_forces() {
   const double* x = x_.data();
   double* f = f_.data();
@@ -282,7 +282,7 @@ void RightHandSide::add_dashpot_forces() {
   }
 }
 
-/// Pressure of the air on the triangles, a third on each corner.
+/// Adds the pressure of the air on the triangles, a third to each corner.
 void RightHandSide::add_aerodynamic_forces(double t) {
   for (const Signal& air : air_velocities_) {
     double wind[3];
@@ -310,8 +310,8 @@ void RightHandSide::add_aerodynamic_forces(double t) {
   }
 }
 
-/// Adds the forces along the rods that make d . a + |u|^2 = 0 for each, with d and u the difference of its ends'
-/// positions and velocities.
+/// Adds the forces along the rods that make d . a + |u|^2 = 0 for each rod, where d, u and a are the differences
+/// between its ends' positions, velocities and accelerations.
 void RightHandSide::add_constraint_forces() {
   const auto count = static_cast<int>(hard_distances_.size());
   Eigen::MatrixXd matrix = Eigen::MatrixXd::Zero(count, count);
@@ -326,14 +326,14 @@ void RightHandSide::add_constraint_forces() {
     residual[i] = -d.dot(a) - u.squaredNorm();
     for (int j = 0; j <= i; ++j) {
       const HardDistance& s = hard_distances_[j];
-      // what a unit of force along s does to the difference of the ends of r
+      // effect of a unit of force along s on the difference between the ends of r
       const double coupling =
           inverse_mass(r.a) * ((r.a == s.a) - (r.a == s.b)) - inverse_mass(r.b) * ((r.b == s.a) - (r.b == s.b));
       if (coupling != 0) matrix(i, j) = coupling * d.dot(difference(s));
     }
   }
   const Eigen::LLT<Eigen::MatrixXd> factor(matrix);
-  // a dependent rod leaves a pivot at round-off: 1e-12 of the largest, and the factor holds its root
+  // a dependent rod leaves a pivot at round-off: 1e-12 of the largest, of which the factor holds the square root
   const auto pivots = factor.matrixLLT().diagonal();
   if (factor.info() != Eigen::Success || !(pivots.minCoeff() > 1e-6 * pivots.maxCoeff()))
     throw Unsupported("its hard distances depend on each other: their forces are not unique");

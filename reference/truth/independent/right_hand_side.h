@@ -1,5 +1,5 @@
-// The physics of a scene written a second time, apart from mysim's terms and steppers: what the integrators of others
-// (odeint, SUNDIALS) solve. Where both codes agree, neither has a slip of the pen.
+// The physics of a scene, written a second time independently of mysim's terms and steppers, for the integrators of
+// other libraries (odeint, SUNDIALS). If both codes agree, neither has a coding error.
 #pragma once
 
 #include <cmath>
@@ -10,17 +10,17 @@
 
 namespace crosscheck {
 
-/// The unknowns of the free particles, one after the other: 3 n positions (m), then 3 n velocities times a time unit
-/// (m); of a first-order scene positions only. Pins are no unknowns: their place is a function of time.
+/// Unknowns of the free particles, in order: 3 n positions (m), then 3 n velocities times a time unit (m); in a
+/// first-order scene positions only. Pins are not unknowns: their positions are functions of time.
 using StateVector = std::vector<double>;
 
-/// A prescribed motion, of pins or of a solid.
+/// Prescribed motion of pins or of a solid.
 class PrescribedMotion {
  public:
   explicit PrescribedMotion(const Motion& motion);
-  /// m and m/s, from where it starts.
+  /// Displacement from the start (m) and velocity (m/s).
   void at(double t, double displacement[3], double velocity[3]) const;
-  /// m/s^2.
+  /// Acceleration, m/s^2.
   void acceleration_at(double t, double acceleration[3]) const;
 
  private:
@@ -28,23 +28,23 @@ class PrescribedMotion {
   double omega_, ramp_;  // rad/s, s
 };
 
-/// The time by which an integrator under error control multiplies velocities to compare them with lengths, s: the
-/// geometric mean of the duration and the time in which the fastest vibration turns by a radian, rounded down to a
-/// power of two, so that the multiplication is exact. Scales with the scene's unit of time.
+/// Time by which an integrator under error control multiplies velocities to compare them with lengths, s: the geometric
+/// mean of the duration and the time in which the fastest vibration turns by one radian, rounded down to a power of
+/// two, so that the multiplication is exact. Scales with the scene's unit of time.
 double velocity_time_unit(const Scene& scene);
 
 /// Returns the scene without its spheres and planes.
 Scene without_contact(Scene scene);
 
-/// A ball or a half-space at the time that it was moved to last. Its surface is where particles touch.
+/// A ball or half-space at the time to which it was last moved. Its surface includes the contact margin.
 struct Solid {
-  Vec3 start;                    // m: the centre of a ball, a point of a plane
+  Vec3 start;                    // m: centre of a ball, point of a plane
   double radius;                 // m, infinite for a half-space
-  Vec3 up = Vec3::Zero();        // the outward unit normal of a half-space
+  Vec3 up = Vec3::Zero();        // outward unit normal of a half-space
   double friction, restitution;  // mu, e
-  double size;                   // m, by which a height over it is judged: the radius, or the scene's size
+  double size;                   // m, scale of heights above it: the radius, or the scene's size
   std::optional<PrescribedMotion> motion = {};
-  Vec3 drift = Vec3::Zero();  // m/s, the constant velocity of a half-space
+  Vec3 drift = Vec3::Zero();  // m/s, constant velocity of a half-space
   Vec3 centre = start, velocity = drift, acceleration = Vec3::Zero();
 
   bool flat() const { return std::isinf(radius); }
@@ -52,28 +52,28 @@ struct Solid {
   void move_to(double t);
   double height(const Vec3& x) const { return flat() ? up.dot(x - centre) : (x - centre).norm() - radius; }  // m
   Vec3 normal(const Vec3& x) const { return flat() ? up : Vec3((x - centre).normalized()); }
-  /// The place of the surface straight below x.
+  /// Foot of the perpendicular from x to the surface.
   Vec3 foot(const Vec3& x) const { return flat() ? Vec3(x - height(x) * up) : Vec3(centre + radius * normal(x)); }
 };
-/// The scene's solids. Throws Unsupported where there is no contact, and where there are hard distances.
+/// The scene's solids. Throws Unsupported if there is no contact, or if there are hard distances.
 std::vector<Solid> solids_of(const Scene& scene);
 
 class RightHandSide {
  public:
-  /// Takes what it needs of the scene's numbers; none of mysim's forces, motions or gusts is called. Throws Unsupported
-  /// where there is contact, which no right-hand side knows. `time_unit` (s) is that of the velocities among the
+  /// Copies the required numbers from the scene; none of mysim's forces, motions or gusts is called. Throws Unsupported
+  /// if there is contact, which a right-hand side cannot represent. `time_unit` (s) is that of the velocities among the
   /// unknowns.
   explicit RightHandSide(const Scene& scene, double time_unit = 1);
 
   StateVector start() const;
-  /// rate = dy/dt at time t (s). Under hard distances the forces that keep them are solved for, densely; throws
-  /// Unsupported when they are not unique.
+  /// Sets rate = dy/dt at time t (s). With hard distances, the constraint forces are solved for with a dense matrix;
+  /// throws Unsupported if they are not unique.
   void operator()(const StateVector& y, StateVector& rate, double t);
-  /// The state of all particles, pins included, in the scene's numbering.
+  /// Writes the state of all particles, including pins, in the scene's numbering.
   void write_state(const StateVector& y, double t, State& state);
 
   long evaluations() const { return evaluations_; }
-  long degenerate_springs() const { return degenerate_springs_; }  // springs met at zero length, over all evaluations
+  long degenerate_springs() const { return degenerate_springs_; }  // springs found at zero length, over all evaluations
 
  private:
   struct LinearSpring {
@@ -88,7 +88,7 @@ class RightHandSide {
     int a, b;
     double k;  // N/m
   };
-  struct Signal {  // w(t) = mean (1 + variation g1(t)) + side g2(t), each g a sum of sines
+  struct Signal {  // w(t) = mean (1 + variation g1(t)) + side g2(t), with g1 and g2 sums of sines
     struct Sine {
       double weight, omega, phase;
     };
@@ -113,7 +113,7 @@ class RightHandSide {
   std::vector<int> free_;  // indices of the free particles
   StateVector start_;
   std::vector<double> mass_, drag_;     // n, kg and N s/m; drag_ is empty without drag
-  std::vector<double> start_position_;  // 3 n, m, positions at the start, of which the pins' count
+  std::vector<double> start_position_;  // 3 n, m, positions at the start, used for pins only
   std::vector<char> pinned_;            // n
   std::optional<PrescribedMotion> pin_motion_;
   bool first_order_ = false, link_law_ = false;
@@ -121,7 +121,7 @@ class RightHandSide {
   double gravity_[3] = {0, 0, 0};  // m/s^2
   std::vector<LinearSpring> springs_;
   std::vector<Dashpot> dashpots_;
-  std::vector<Bar> bars_;  // what bending is
+  std::vector<Bar> bars_;  // represent bending
   std::vector<HardDistance> hard_distances_;
   std::vector<Signal> winds_, air_velocities_;  // m/s^2; m/s
   std::vector<int> triangles_;                  // 3 per triangle

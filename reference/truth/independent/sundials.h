@@ -1,4 +1,4 @@
-// The part that SUNDIALS' integrators share: the scene's equations on its vectors, behind the run loop of all engines.
+// Common part of SUNDIALS' integrators: the scene's equations on SUNDIALS' vectors, behind the run loop of all engines.
 #pragma once
 
 #include <nvector/nvector_serial.h>
@@ -11,16 +11,16 @@
 
 namespace crosscheck {
 
-/// Throws SolverFailure that names the call where SUNDIALS returned an error.
+/// Throws SolverFailure with the name of the call if SUNDIALS returned an error.
 void check_flag(int flag, const char* what);
 
-/// A scene under one of SUNDIALS' integrators, which a derived class makes, on `now()`, with `rate` and `this` as a
-/// SundialsWorld* for its user data.
+/// A scene under one of SUNDIALS' integrators. A derived class creates the integrator on `solution()`, with `rate` as
+/// its function and `this` as a SundialsWorld* as its user data.
 class SundialsWorld : public World {
  public:
   SundialsWorld(const Scene& scene, const Run& run);
 
-  /// One step of the integrator after the other, ending at samples; between samples its interpolant gives the state.
+  /// Takes steps of the integrator, which end at samples; between samples its interpolant gives the state.
   void step(double, double t_next) override;
   const State& state(double t) override;
 
@@ -36,7 +36,7 @@ class SundialsWorld : public World {
   /// Takes one step, which ends at `stop` (s) at the latest, and sets t; returns SUNDIALS' flag.
   virtual int one_step(double stop, double& t) = 0;
   virtual long accepted() const = 0;  // steps
-  /// The interpolant at a time within the last step.
+  /// Evaluates the interpolant at a time within the last step.
   virtual int interpolate(double t, N_Vector out) = 0;
 
   struct FreeContext {
@@ -49,9 +49,9 @@ class SundialsWorld : public World {
   RightHandSide f_;
   StateVector y_, rate_;
   State state_;
-  double interval_, t_ = 0;  // s, between samples; reached
+  double interval_, t_ = 0;  // s: interval between samples; time reached
   std::exception_ptr thrown_;
-  // freed in the opposite order
+  // freed in reverse order
   std::unique_ptr<std::remove_pointer_t<SUNContext>, FreeContext> context_;
   std::unique_ptr<std::remove_pointer_t<N_Vector>, FreeVector> solution_, interpolant_;
 };

@@ -1,4 +1,4 @@
-// A substitute for SUNDIALS where the suite was built without it.
+// A substitute for SUNDIALS if the suite is built without it.
 
 #include "mysim/base/errors.h"
 #include "reference/truth/independent/integrators.h"

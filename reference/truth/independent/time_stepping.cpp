@@ -1,12 +1,13 @@
-// Contact as Moreau's measure differential inclusion, time-stepped by his midpoint rule on the right-hand side written
-// apart: a second route for cloths, whose events are too many to be located one by one. None of mysim's contact is
-// called. J. J. Moreau, "Numerical aspects of the sweeping process", Comput. Methods Appl. Mech. Engrg. 177 (1999).
+// Contact as Moreau's measure differential inclusion, integrated by his midpoint rule on the independently written
+// right-hand side: a second route for cloths, whose events are too many to be located individually. None of mysim's
+// contact code is called. J. J. Moreau, "Numerical aspects of the sweeping process", Comput. Methods Appl. Mech. Engrg.
+// 177 (1999).
 //
-// With x_m = x + h v / 2, and v_f = v + h a(x_m) the velocity without contact, a solid that x_m is inside of gives the
-// impulse p n + q, with q along its surface: 0 <= p, complementary to w+.n + e min(w.n, 0) >= 0, and |q| <= mu p,
-// against w+ along the surface and of that size where it does not vanish. w is the velocity as seen from the solid.
-// Then x+ = x_m + h v+ / 2. Order 2 in free flight, 1 with contact; no particle is put back, so that it may be inside
-// by what it moves in a step.
+// Let x_m = x + h v / 2, and let v_f = v + h a(x_m) be the velocity without contact. A solid that contains x_m gives
+// the impulse p n + q, with q along its surface. Here w is the velocity relative to the solid; p >= 0 is complementary
+// to w+.n + e min(w.n, 0) >= 0. Friction obeys |q| <= mu p, with equality, and opposite to the tangential part of w+,
+// if that part does not vanish. Then x+ = x_m + h v+ / 2. Order 2 in free flight, 1 with contact. No particle is moved
+// out of a solid, so it may be inside by the distance that it moves in a step.
 
 #include <Eigen/Core>
 
@@ -38,7 +39,7 @@ class TimeSteppingWorld : public World {
     for (size_t k = 0; k < half_; ++k) {
       y_[k] += h / 2 * v[k];
       trial_[k] = y_[k];
-      // what depends on the velocity, drag say, sees that of the middle
+      // velocity-dependent forces such as drag use the velocity at the middle
       trial_[half_ + k] = 1.5 * v[k] - 0.5 * before_[k];
     }
     f_(trial_, rate_, middle);
@@ -76,8 +77,8 @@ class TimeSteppingWorld : public World {
   std::vector<Solid> solids_;
   RightHandSide f_;
   StateVector y_;
-  const size_t half_;           // 3 n of the free particles
-  std::vector<double> before_;  // m/s, the velocities one step ago
+  const size_t half_;           // 3 times the number of free particles
+  std::vector<double> before_;  // m/s, velocities one step ago
   StateVector rate_, trial_;
   State state_;
 };
