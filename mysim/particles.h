@@ -10,9 +10,9 @@ namespace crosscheck {
 
 // Prescribed motion of pins and spheres.
 
-/// Prescribed motion of a sphere, or of all pins together: displacement d(t) = amplitude r(t) sin(2 pi frequency t),
-/// where the ramp r rises from 0 to 1 during the first `ramp` seconds as 6 s^5 - 15 s^4 + 10 s^3 (twice continuously
-/// differentiable).
+/// Prescribed motion of a sphere, or of all pins together. The displacement is d(t) = amplitude r(t) sin(2 pi frequency
+/// t), where the ramp r rises from 0 to 1 during the first `ramp` seconds as 6 s^5 - 15 s^4 + 10 s^3 (twice
+/// continuously differentiable).
 struct Motion {
   Vec3 amplitude;    // m
   double frequency;  // Hz

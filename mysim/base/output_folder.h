@@ -15,8 +15,8 @@ namespace crosscheck {
 class OutputLock {
  public:
   /// Throws InputError "--out FOLDER: ..." if the folder cannot be created, written to or replaced (a file of that
-  /// name, a dangling link, a mount point, a folder of another user), or if another process holds the lock; the message
-  /// names that process.
+  /// name, a dangling link, a mount point, a folder of another user), or if another process holds the lock. In the
+  /// latter case the message names that process.
   OutputLock(const std::filesystem::path& given, const std::string& command);
   ~OutputLock();
   OutputLock(const OutputLock&) = delete;
@@ -42,7 +42,7 @@ class OutputLock {
 
 /// A result that is prepared in the working folder. finish() links the user's files into it and exchanges the two
 /// folders (renameat2, RENAME_EXCHANGE). On file systems that cannot exchange names (NFS, 9p, sshfs), the earlier
-/// result is renamed to WORK/old and the new one is renamed to its place; if the process is killed in between, the next
+/// result is renamed to WORK/old and the new one is renamed to its place. If the process is killed in between, the next
 /// writer moves the earlier one back. Listed files that the user has changed, and user files under names of the new
 /// result, are kept as NAME.yours.
 class OutputFolder {

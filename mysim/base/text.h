@@ -10,9 +10,9 @@ namespace crosscheck {
 
 /// The name closest to a misspelt word, or nothing. Minimises the Damerau-Levenshtein distance (letters inserted,
 /// deleted, substituted or swapped with a neighbour), up to a third of the longer word; case, '_' and '-' are ignored.
-/// Failing that, the shortest name that begins with the word or contains it after a hyphen or slash; else the longest
-/// name that the word contains in the same way ("rest" for "rest_length"); else the name with the longest common prefix
-/// of at least five letters.
+/// Failing that, the shortest name that begins with the word or contains it after a hyphen or slash. Next, the
+/// longest name that the word contains in the same way ("rest" for "rest_length"), and finally the name with the
+/// longest common prefix of at least five letters.
 std::string closest_match(std::string_view word, const std::vector<std::string>& names);
 
 /// The closest match as the end of a message: "; did you mean 'NAME'?", or nothing.

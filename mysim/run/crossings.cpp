@@ -16,8 +16,8 @@ namespace {
 double volume(const Vec3& a, const Vec3& b, const Vec3& c) { return a.cross(b).dot(c); }
 
 /// True if the edge from p to q passes through the triangle by more than a millionth of the lengths involved on both
-/// sides; less counts as touching. 1e-6 is far above the rounding of the volumes, about 1e-15, and far below any
-/// visible depth.
+/// sides; less counts as touching. The limit, 1e-6, is far above the rounding of the volumes, about 1e-15, and far
+/// below any visible depth.
 bool pierces(const Vec3& p, const Vec3& q, const Vec3& a, const Vec3& b, const Vec3& c) {
   const Vec3 ab = b - a, ac = c - a, normal = ab.cross(ac), d = q - p;
   const double above = normal.dot(p - a), below = normal.dot(q - a);

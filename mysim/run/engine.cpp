@@ -142,9 +142,9 @@ class SteppedWorld : public World {
 /// A scene stepped by the Dormand-Prince pair under error control.
 ///
 /// Steps are chosen so that the root mean square of (estimated error of a step) / (R (scene size + |x|)) stays at or
-/// below 1, with R = run.tolerance; likewise for velocities, with the largest speed so far in place of the scene's
-/// size. Requested states are interpolated. With contact surfaces, no step passes the next requested state, because
-/// contact acts on whole steps; several steps may be needed to get there, each with contact.
+/// below 1, with R = run.tolerance. The same applies to velocities, with the largest speed so far in place of the
+/// scene's size. Requested states are interpolated. With contact surfaces, no step passes the next requested state,
+/// because contact acts on whole steps; several steps may be needed to get there, each with contact.
 class AdaptiveWorld : public World {
  public:
   AdaptiveWorld(const Scene& scene, const Run& run, ContactRule contact);
@@ -270,7 +270,8 @@ void require_supported(const Stepper& stepper, const Model& model) {
 
 /// Remark about particles that lie on a surface with restitution at the end of a run with steps of h (s); otherwise
 /// empty. Contact on whole steps returns part of each step's speed: a particle at rest under an acceleration a (m/s^2)
-/// keeps hopping by about a h^2, and by 9 a h^2 or more with explicit Euler, which adds energy in each flight.
+/// keeps hopping by about a h^2. With explicit Euler the height is 9 a h^2 or more, because the rule adds energy in
+/// each flight.
 std::string hops_at_rest(const Scene& scene, State s, double h) {
   std::vector<Surface> surfaces = surfaces_of(scene.model);
   std::erase_if(surfaces, [](const Surface& surface) { return !(surface.restitution > 0 && surface.restitution < 1); });

@@ -149,9 +149,9 @@ class MotionBoundsCache {
 /// the springs. Above the limit theta is complex, and K^ grows by a constant factor per step. Neither Hooke's energy of
 /// links that a position-based rule leaves unsolved nor an engine's own definition of its velocities enters. The last
 /// part of B is the speed that the first step gives before anything has moved (explicit Euler). Bounds of energy alone
-/// do not suffice: a nonlinear system heats up to some B and stays there, and a prestressed network, or one that lies
-/// in a hollow, has far more energy than it can ever convert to motion. tests/unit/experiments/verdict_trials.cpp
-/// counts how often a verdict errs.
+/// do not suffice: a nonlinear system heats up to some B and stays there. A prestressed network, or one that lies in a
+/// hollow, has far more energy than it can ever convert to motion. tests/unit/experiments/verdict_trials.cpp counts how
+/// often a verdict errs.
 ///
 /// The monitor observes the states that every engine provides (verdict_stride, run.h): every step of most runs. If they
 /// are more than a step apart, the differences are mean velocities, which are no larger: no good run is condemned, but

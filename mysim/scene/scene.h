@@ -47,8 +47,9 @@ struct Scene {
   ~Scene();
 
   /// Length scale of the scene and of its round-off (m): the diagonal of the initial bounding box. For a single
-  /// particle, the distance that its speed and steady forces may carry it, limited by the radius of the smallest sphere
-  /// and by the distance of opposite planes; in a first-order scene, its distance from the origin; 1 if it cannot move.
+  /// particle, it is the distance that its speed and steady forces may carry it, limited by the radius of the smallest
+  /// sphere and by the distance of opposite planes. In a first-order scene, it is the distance from the origin. It is 1
+  /// if the particle cannot move.
   double size() const;
 };
 

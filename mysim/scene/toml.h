@@ -14,7 +14,7 @@ namespace crosscheck {
 // One table of a scene file, with typed look-ups that remember which keys were read.
 
 /// A table of a TOML file. Every look-up throws InputError ("FILE:LINE: KEY: expected ..., got ...") if the value is
-/// missing, of the wrong type, not finite or out of range; for a number written as "fit", the message names the command
+/// missing, of the wrong type, not finite or out of range. For a number written as "fit", the message names the command
 /// that fits it. finish() throws at the first key that was never looked up.
 class TomlTable {
  public:

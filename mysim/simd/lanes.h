@@ -8,7 +8,7 @@
 // converted to lanes.
 //
 // Highway is not used: Debian's version (1.0.3) has no SSE2 target, so the build that every machine runs would have one
-// lane and take 1.9 to 2.7 times as long (measured on 1 - 1 / sqrt(s)); and it has no estimate of 1 / sqrt in double
+// lane and take 1.9 to 2.7 times as long (measured on 1 - 1 / sqrt(s)). It also has no estimate of 1 / sqrt in double
 // precision.
 #pragma once
 

@@ -11,9 +11,10 @@
 
 namespace crosscheck::bullet {
 
-// A force class for Bullet's deformable world that covers what Bullet's own forces do not support: more than two
-// stiffnesses, spring laws other than Hooke's, springs whose implicit step cannot blow up, bending, dashpots that
-// differ or are attached to moved pins, drag that differs between particles or is implicit, and wind.
+// A force class for Bullet's deformable world that covers what Bullet's own forces do not support. For springs these
+// are more than two stiffnesses, laws other than Hooke's, and implicit steps that cannot blow up. The others are
+// bending, dashpots that differ or are attached to moved pins, drag that differs between particles or is implicit, and
+// wind.
 
 /// In the explicit world, springs, drag and wind act at (x_n, v_n, t_n), and Bullet solves the dashpots separately and
 /// implicitly. In the implicit world everything is evaluated at q = x + h v, v and t_{n+1}. The springs' stiffness is
@@ -115,7 +116,7 @@ struct DeformableSettings {
 ///
 /// Explicit: symplectic Euler with the scene's own laws. Bullet's own mass-spring force carries the springs if possible
 /// (at most two stiffnesses, Hooke's law). With gamma the drag rate, stiffness and gravity are then passed divided by
-/// (1 - h gamma), and the body's drag factor is h gamma, which makes Bullet's rule v' = (v + h f/m)(1 - h gamma) equal
+/// (1 - h gamma), and the body's drag factor is h gamma. This makes Bullet's rule v' = (v + h f/m)(1 - h gamma) equal
 /// to drag as a force at v_n. Dashpots are then solved implicitly by Bullet.
 ///
 /// Implicit: one Newton step of backward Euler from q = x + h v, (M + h C + h^2 K(q)) dv = h f(q, v): mysim's

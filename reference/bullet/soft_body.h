@@ -143,7 +143,7 @@ class ProbeState {
 //
 // A plane is the upper face of a cube, below the middle of the particles. Half its edge is twice their possible
 // displacement during the scene, so that none reaches its rim. The cube's distances are linear, so the grid from which
-// Bullet's soft bodies read distances and normals errs only by rounding, for any voxel size: on a floor and on a slope
+// Bullet's soft bodies read distances and normals errs only by rounding, for any voxel size. On a floor and on a slope
 // of 25 degrees, a node and a cloth of 25 are within 1e-14 m of the face in the explicit deformable world and slide by
 // Coulomb's law. btStaticPlaneShape has no such grid: Bullet treats it as a concave mesh of two triangles as large as
 // the body's box, each with its own grid. With it, the same bodies sink in by 0.12 m and drift sideways by 43 mm in

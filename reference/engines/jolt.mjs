@@ -2,9 +2,9 @@
 // Jolt's soft body (npm's WebAssembly build) as an engine of crosscheck (PROTOCOL.md), in single precision.
 //
 // Jolt's rule (measured: README.md in this folder): `Update(h)` performs n sub-steps of d = h / n. Each adds gravity to
-// the velocities, multiplies them by 1 - damping d, moves by v d, corrects each edge once, one after another, by (L -
-// r) / (w_a + w_b + compliance / d^2), and sets the velocity to (x - x_before) / d: extended position-based dynamics
-// with one pass, compliance in m/N, independent of d.
+// the velocities, multiplies them by 1 - damping d, and moves by v d. It then corrects each edge once, one after
+// another, by (L - r) / (w_a + w_b + compliance / d^2), and sets the velocity to (x - x_before) / d. This is extended
+// position-based dynamics with one pass; compliance is in m/N, independent of d.
 //
 // Options: n=N, Jolt's iterations, which are sub-steps (default 1; Jolt's own default is 5); frame=scene|world puts the
 // origin of the body's frame in the middle of the scene's box, where coordinates are smallest, or at the world's

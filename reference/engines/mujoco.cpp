@@ -1,9 +1,9 @@
 // MuJoCo as a program of the engine protocol.
 //
 // A particle is a body with three slide joints, a pin is a mocap body, a spring is a spatial tendon between two sites.
-// Everything that tendons cannot represent goes through mjcb_passive: bending, wind, bullet-link springs, springs that
-// start at zero length (a tendon would pull along x), dashpots at moved pins (tendons ignore the velocity of a mocap
-// body), and under RK4 springs at moved pins (a mocap body does not move during a step).
+// Everything that tendons cannot represent goes through mjcb_passive: bending, wind, bullet-link springs, and springs
+// that start at zero length (a tendon would pull along x). This also applies to dashpots at moved pins (tendons ignore
+// the velocity of a mocap body), and under RK4 springs at moved pins (a mocap body does not move during a step).
 #include <mujoco/mujoco.h>
 
 #include "crosscheck_engine.h"

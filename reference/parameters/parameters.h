@@ -53,7 +53,7 @@ struct NumberRule {
 };
 
 /// k h^2 / mu (dimensionless) up to which a network whose springs are solved one after another has the requested
-/// stiffness to 1 %: the sag of a chain of three is too large by 0.25 to 0.32 times this number, that of a cloth by
+/// stiffness to 1 %. The sag of a chain of three is too large by 0.25 to 0.32 times this number, that of a cloth by
 /// 0.27 (experiment `stiffness`).
 inline constexpr double sequential_limit = 0.03;
 

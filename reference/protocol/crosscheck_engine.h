@@ -551,7 +551,7 @@ struct Readback {
   std::string precision = "double";               // or "single"
   std::optional<std::vector<double>> drag = {};   // 1/s, c / m per particle
   std::optional<std::vector<Ball>> spheres = {};  // an empty list: none
-  std::optional<std::vector<Face>> planes = {};   // likewise
+  std::optional<std::vector<Face>> planes = {};   // an empty list: none
   double margin = unknown;                        // m
   std::optional<bool> may_sleep = {};
   double step = unknown;                        // s
@@ -574,7 +574,7 @@ struct RunReport {
 };
 
 /// A state in which the force laws are visible: the start, stretched about the origin by a tenth or more until no
-/// spring is within a hundredth of its rest length, growing, so that dashpots act too, and bent if the scene has
+/// spring is within a hundredth of its rest length. It is growing, so that dashpots act too, and bent if the scene has
 /// bending.
 inline Probe probe_state(const Scene& scene) {
   const double bend = scene.bending.empty() ? 0 : 0.1 / scene.json["size"].number();  // 1/m

@@ -190,8 +190,8 @@ export class Scene {
     return all.map((link, i) => ({ a: link.a, b: link.b, ...attest(i, link, i >= this.springs.count) }));
   }
   /// A state in which the law of every spring is visible: the start, stretched about the origin by a tenth or more
-  /// until no spring is within a hundredth of its rest length, and growing, so that dashpots act too; curved if there
-  /// is bending.
+  /// until no spring is within a hundredth of its rest length. It is growing, so that dashpots act too, and curved if
+  /// there is bending.
   probeState() {
     const l = this.springs.list.map((spring) => this.lengthOf(spring)), { rest } = this.springs;
     let tenths = 11;

@@ -72,7 +72,7 @@ std::optional<Truth> time_stepping_truth(const Scene& scene, const Run& run);
 // Limit of a scene with contact as the step approaches 0, under the in-house contact rule.
 
 /// mysim's leapfrog at 1/8, 1/16 and 1/32 of the scene's step. The result is valid as long as the last difference (RMS
-/// over the particles, largest so far) is at most 2/3 of the previous one, as for order 0.6 or more: with contact every
+/// over the particles, largest so far) is at most 2/3 of the previous one, as for order 0.6 or more. With contact every
 /// stepper is of first order on smooth motion. It ends with the scene's window. With several free particles it ends
 /// sqrt(0.9 R / g) after the first touch, at the latest, where R is the smallest radius of a sphere (0.3 s for 1 m).
 /// The samples of the truth end there too. The bar is the last difference over (its ratio - 1), the remainder of a

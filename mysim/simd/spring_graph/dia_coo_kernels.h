@@ -42,10 +42,10 @@ struct DiaSprings {
 // COO: a list of springs with arbitrary ends.
 //
 // Positions and forces are records of four numbers, x y z 0, each fetched as a whole, which is cheaper than gathering
-// coordinates. As many springs as a register has lanes are processed together: the records of their ends are
-// subtracted, the sums of squares and the laws are computed lane by lane, and each record times its lane is added to
-// one end and subtracted from the other, spring after spring, so that no two collide. Springs are sorted by their first
-// ends, which keeps memory accesses close together.
+// coordinates. As many springs as a register has lanes are processed together. The records of their ends are
+// subtracted, and the sums of squares and the laws are computed lane by lane. Each record times its lane is then added
+// to one end and subtracted from the other, spring after spring, so that no two collide. Springs are sorted by their
+// first ends, which keeps memory accesses close together.
 
 struct CooSprings {
   int particles, springs;  // springs: whole tiles, padded with springs between two extra particles

@@ -28,9 +28,9 @@ class PrescribedMotion {
   double omega_, ramp_;  // rad/s, s
 };
 
-/// Time by which an integrator under error control multiplies velocities to compare them with lengths, s: the geometric
-/// mean of the duration and the time in which the fastest vibration turns by one radian, rounded down to a power of
-/// two, so that the multiplication is exact. Scales with the scene's unit of time.
+/// Time by which an integrator under error control multiplies velocities to compare them with lengths, s. It is the
+/// geometric mean of the duration and the time in which the fastest vibration turns by one radian, rounded down to a
+/// power of two, so that the multiplication is exact. It scales with the scene's unit of time.
 double velocity_time_unit(const Scene& scene);
 
 /// Returns the scene without its spheres and planes.
