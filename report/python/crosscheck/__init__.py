@@ -4,9 +4,9 @@
     result = crosscheck.run("cloth-hang", method="leapfrog")
     result.plot()
 
-Everything takes a scene by its name, as the path of a TOML file, or as a Scene built here, and a method by its name or
-as an `@engine` function. SI units throughout. What the program complains of is an Error with its one line.
-The program is found as `find_program` says; this package calls it and reads its files, and has nothing compiled.
+Scenes are given by name, as the path of a TOML file, or as a Scene built here. Methods are given by name or as an
+`@engine` function. SI units throughout. Errors of the program are raised as Error, with its one-line message.
+`find_program` locates the program; this package calls it and reads its files, and has nothing compiled.
 """
 try:
     import numpy  # noqa: F401

@@ -1,4 +1,4 @@
-"""The commands of crosscheck as functions; what they answer, as objects with arrays and tables."""
+"""The commands of crosscheck as functions; they return objects with arrays and tables."""
 import json
 import os
 import shutil
@@ -16,7 +16,7 @@ from .tables import escape, table
 
 
 class Answer:
-    """What a command answered: `folder` holds its files (a temporary one lasts as long as this object)."""
+    """Result of a command: `folder` holds its files (a temporary folder lasts as long as this object)."""
 
     def __init__(self, out=None):
         self._temporary = tempfile.mkdtemp(prefix="crosscheck-")
@@ -48,13 +48,13 @@ def option(name, value):
 
 
 class Result(Answer):
-    """One run. Arrays are mapped from its files: nothing is read before it is asked for.
+    """One run. Arrays are memory-mapped: data are read on first access.
 
     times       (frames,) s                      step         s, as used
-    positions   (frames, particles, 3) m         cpu_seconds  s of CPU time, of stepping alone
+    positions   (frames, particles, 3) m         cpu_seconds  s, CPU time of stepping alone
     velocities  the same shape, m/s, or None     verdict      "ok", "energy", "nan", "stretch", ...; `reason` says more
     energies    Table: t, kinetic, elastic, gravitational, drag, ... in J, or None in first-order scenes
-    info        dict: all that run.json says (method, end, force_evaluations, remark, ...)
+    info        dict: the content of run.json (method, end, force_evaluations, remark, ...)
     """
 
     def __init__(self, scene, words, out):
@@ -90,7 +90,7 @@ class Result(Answer):
         """Draws the run and returns the axes (matplotlib).
 
         what   "shape": the springs at five times, or at `times` (s); "energies": over time
-        Error where matplotlib is not installed."""
+        Raises Error if matplotlib is not installed."""
         if what == "shape":
             return plots.shapes(self, expanded(self._scene), axes, times)
         if what == "energies":
@@ -99,13 +99,13 @@ class Result(Answer):
 
 
 def run(scene, method=None, step=None, tol=None, duration=None, out=None):
-    """Runs one method on a scene and returns a Result; a run that fails is a Result too, with its verdict.
+    """Runs one method on a scene and returns a Result; a failed run is a Result too, with its verdict.
 
     scene     a shipped name, the path of a TOML file, or a Scene
     method    a name such as "leapfrog" or "bullet/pbd+n=10", an `@engine` function; None: the scene's own
-    step      s, of fixed-step methods;  tol: relative tolerance, of adaptive ones;  duration: s
+    step      s, for fixed-step methods;  tol: relative tolerance, for adaptive ones;  duration: s
     out       folder for the files; None: a temporary one
-    Error where the scene or the method is wrong, or the method refuses the scene.
+    Raises Error if the scene or the method is invalid, or if the method refuses the scene.
 
     >>> r = run("chain", method="rk4", duration=0.1)
     >>> r
@@ -126,12 +126,12 @@ def run(scene, method=None, step=None, tol=None, duration=None, out=None):
 class Comparison(Answer):
     """Methods side by side on one scene.
 
-    rows          Table, one row for each method: verdict, largest error (m), step (s), ...
+    rows          Table, one row per method: verdict, largest error (m), step (s), ...
     cost          Table: CPU times (s)
     over_time     Table: error and difference (m) at the sampling times
     certificates  dict: method -> "match", "mismatch" or "not attested" (was it given the same scene?)
-    agreed        False on a mismatch, where equal rules differ by more than round-off, and where every method failed
-    text          what the command prints
+    agreed        False on a mismatch, if equal rules differ by more than round-off, or if every method failed
+    text          output of the command
     """
 
     def __init__(self, scene, words, out):
@@ -151,12 +151,12 @@ class Comparison(Answer):
         return self.rows[shown]._repr_html_()
 
     def plot(self, axes=None):
-        """Draws error or difference over time, one curve for each method, and returns the axes (matplotlib)."""
+        """Draws error or difference over time, one curve per method, and returns the axes (matplotlib)."""
         return plots.over_time(self, axes)
 
 
 def compare(scene, methods=None, step=None, out=None):
-    """Checks that methods run the same scene, and sets their results side by side; returns a Comparison.
+    """Checks that methods run the same scene, and compares their results; returns a Comparison.
 
     >>> c = compare("chain", ["leapfrog", "bullet/deformable-explicit"])
     >>> c.agreed, c.certificates
@@ -171,12 +171,12 @@ def compare(scene, methods=None, step=None, out=None):
 class Advice(Answer):
     """The cheapest method that stays within a tolerance.
 
-    method, step     of the advice (step: s; None where the method is adaptive, then `tol` is its tolerance)
-    error            m, measured;  force_evaluations: what it cost
-    scene            the file of the scene as advised: run(a.scene) runs it
-    tried            Table: every run that was looked at
-    found            False where no method meets the tolerance; then `reason` says why and all else is None
-    info             dict: advice.json
+    method, step     recommended method and step (s); for an adaptive method step is None and `tol` its tolerance
+    error            m, measured;  force_evaluations: cost of that run
+    scene            file of the scene with the recommended settings: run(a.scene) runs it
+    tried            Table: every run that was tried
+    found            False if no method meets the tolerance; then `reason` says why and all else is None
+    info             dict: content of advice.json
     """
 
     def __init__(self, scene, words, out):
@@ -203,8 +203,8 @@ class Advice(Answer):
 
 
 def advise(scene, tolerance, methods=None, out=None):
-    """Finds the cheapest method and step whose RMS position error stays within `tolerance` (m, or a part of
-    the motion: "1%"); returns an Advice.
+    """Finds the cheapest method and step whose RMS position error stays within `tolerance` (m, or a fraction of
+    the motion such as "1%"); returns an Advice.
 
     >>> advise("chain", tolerance=1e-3)
     <mysim/leapfrog at a step of 0.01 s: error 0.00083 m>
@@ -214,9 +214,9 @@ def advise(scene, tolerance, methods=None, out=None):
 
 
 class Check:
-    """Relations asked of methods.
+    """Relations tested on methods.
 
-    passed     False where one is broken that is not known, and where none could be asked
+    passed     False if a relation is broken that is not a known break, or if no relation applies
     relations  list of dicts: method, relation, says, scene, mark ("holds", "broken", ...), measured, tolerance, unit
     """
 
@@ -239,9 +239,9 @@ class Check:
 
 
 def check(methods, scenes=()):
-    """Asks methods for relations that need no truth (symmetries, conservation, order); returns a Check.
+    """Tests relations of methods that need no truth (symmetries, conservation, order); returns a Check.
 
-    scenes: where to ask; none: the smallest scene of each relation.
+    scenes: scenes to test; none: the smallest scene of each relation.
 
     >>> check("leapfrog", "spring").passed
     True
@@ -257,7 +257,7 @@ def check(methods, scenes=()):
 def experiment(name, scenes=(), methods=None, out=None, full=False):
     """Runs an experiment (see experiments()) and returns its tables: dict of name -> Table.
 
-    `speed-accuracy` measures minutes; `order` and `stability` seconds for each scene."""
+    `speed-accuracy` takes minutes; `order` and `stability` take seconds per scene."""
     place = Answer(out)
     scenes = [scenes] if isinstance(scenes, (str, dict, os.PathLike)) else scenes
     place.call(["experiment", name, *map(place.scene_word, scenes), "--full" if full else "--quick",
@@ -274,8 +274,8 @@ class Page(type(Path())):
 
 
 def report(scenes=(), methods=None, out="out/report", full=False):
-    """Makes the report of these scenes (none: those that stand for the others), which takes minutes; returns the path
-    of its page, which a notebook shows. Its tables: table(page.parent / "data" / "engines.csv")."""
+    """Makes the report of these scenes (none: a representative set), which takes minutes; returns the path of its
+    page, which a notebook shows. Its tables: table(page.parent / "data" / "engines.csv")."""
     scenes = [scenes] if isinstance(scenes, (str, dict, os.PathLike)) else scenes
     place = Answer(out)
     place.call(["report", *map(place.scene_word, scenes), "--full" if full else "--quick",
@@ -288,12 +288,12 @@ def listed(what):
 
 
 def scenes():
-    """The shipped scenes: dict of name -> the question that it answers."""
+    """The shipped scenes: dict of name -> the question that the scene answers."""
     return listed("scenes")
 
 
 def methods():
-    """The built-in methods: dict of name -> what it is. Any outside program is one too: "exec:PATH".
+    """The built-in methods: dict of name -> description. Any external program is a method, too: "exec:PATH".
 
     >>> "mysim/leapfrog" in methods()
     True
@@ -302,7 +302,7 @@ def methods():
 
 
 def experiments():
-    """The experiments: dict of name -> the question that it answers."""
+    """The experiments: dict of name -> the question that the experiment answers."""
     return listed("experiments")
 
 
@@ -313,8 +313,8 @@ exit 3
 
 
 def expanded(scene):
-    """The scene as engines get it, with every particle and spring: the dict of scene.json
-    (reference/protocol/PROTOCOL.md has its keys).
+    """The scene as engines receive it, with every particle and spring: the dict of scene.json
+    (reference/protocol/PROTOCOL.md describes its keys).
 
     >>> expanded("chain")["particles"]["mass"]
     [0.1, 0.1, 0.1, 0.1]
@@ -323,7 +323,7 @@ def expanded(scene):
         to, copier = Path(folder) / "scene.json", Path(folder) / "copier"
         copier.write_text(copy_program.format(to=to), encoding="utf-8")
         copier.chmod(0o700)
-        # the copier refuses every scene, after it has copied it
+        # the copier copies the scene and then refuses it
         try:
             call(["run", scene_word(scene, folder), "--method", f"exec:{copier}", "--out", Path(folder) / "out"])
         except Error:

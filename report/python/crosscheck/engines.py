@@ -1,7 +1,7 @@
-"""A NumPy step function as an engine: a program that crosscheck calls like any other outside engine.
+"""NumPy step functions as engines: programs that crosscheck calls like any other external engine.
 
-The program is a file of its own. It holds the function with what it uses: other functions of the same notebook or
-module, numbers, arrays and modules by name; it does not need the process that made it.
+Each program is a self-contained file. It holds the function and everything the function uses: other functions of the
+same notebook or module, numbers, arrays, and modules by name. It does not need the process that wrote it.
 """
 import atexit
 import dis
@@ -22,11 +22,11 @@ import numpy as np
 from .program import Error
 
 knows = ("springs", "bullet-link", "dashpots", "gravity", "drag")
-"""What EngineScene.force models; bullet-link is the springs' other law."""
+"""Terms that EngineScene.force models; bullet-link is the alternative law of springs."""
 
 
 class Springs:
-    """Arrays of a scene's springs: a, b (particles), stiffness (N/m), rest_length (m); law: "hooke", "bullet-link"."""
+    """A scene's springs as arrays: a, b (particles), stiffness (N/m), rest_length (m); law: "hooke", "bullet-link"."""
 
     def __init__(self, term):
         rows = term.get("list", [])
@@ -37,13 +37,13 @@ class Springs:
 
 
 class EngineScene:
-    """What a step function is told of its scene, in SI units; arrays have one row for each particle.
+    """The scene as a step function sees it, in SI units; arrays have one row per particle.
 
     mass     (n,) kg                        pinned   (n,) bool
     springs  a Springs                      gravity  (3,) m/s^2, zero where the scene has none
     drag     (n,) N s/m: force -drag v      t        s, at the start of the step
-    options  texts after pluses in the method's name
-    json     the whole scene as crosscheck hands it over (reference/protocol/PROTOCOL.md)
+    options  the texts after each plus in the method's name
+    json     the whole scene as crosscheck passes it (reference/protocol/PROTOCOL.md)
     """
 
     def __init__(self, task):
@@ -61,7 +61,7 @@ class EngineScene:
         self.evaluations = 0
 
     def force(self, x, v):
-        """The forces of springs, dashpots, gravity and drag, (n, 3) N, and counts as one evaluation."""
+        """Forces of springs, dashpots, gravity and drag, (n, 3) in N; each call counts as one evaluation."""
         self.evaluations += 1
         f = self.mass[:, None] * self.gravity - self.drag[:, None] * v
         s = self.springs
@@ -100,11 +100,12 @@ class EngineScene:
 
 
 class Engine:
-    """A step function (x, v, scene, h) -> (x, v) as a method: pass it wherever a method is named.
+    """A step function (x, v, scene, h) -> (x, v) as a method: pass it wherever a method is expected.
 
-    x, v: (n, 3) arrays, m and m/s; scene: an EngineScene; h: the time step, s. Pinned particles are put where the scene
-    holds them after each step. `terms`: what the function models, as the terms of the protocol are called, without it
-    what `scene.force` does; "springs" are Hooke's, "bullet-link" their other law. A scene with more is refused.
+    x, v: (n, 3) arrays, m and m/s; scene: an EngineScene; h: the time step, s. After each step, pinned particles are
+    reset to the positions that the scene prescribes. `terms`: the terms of the protocol that the function models, by
+    default those of `scene.force`; "springs" are Hooke's, "bullet-link" is their other law. The engine refuses scenes
+    with other terms.
 
     >>> @engine(terms=["gravity"])
     ... def fall(x, v, scene, h):
@@ -123,7 +124,7 @@ class Engine:
         return self.step(x, v, scene, h)
 
     def save(self, path):
-        """Writes the program to this path, to be named as `exec:PATH` on the command line too; returns the path."""
+        """Writes the program to this path, for use as `exec:PATH` on the command line; returns the path."""
         path = Path(path).absolute()
         task = pickle.dumps((encoded(self.step, {}), self.terms, self.name))
         if "," in str(path):
@@ -138,7 +139,7 @@ class Engine:
 
     @property
     def path(self):
-        """The program's file, written anew with what the function uses now; it goes when this process ends."""
+        """The program's file, rewritten with current values at each access; deleted when this process ends."""
         if self._folder is None:
             self._folder = tempfile.mkdtemp(prefix="crosscheck-engine-")
             atexit.register(shutil.rmtree, self._folder, ignore_errors=True)
@@ -167,7 +168,7 @@ main({task!r})
 
 
 def encoded(value, seen):
-    """What pickle can carry to another process: functions by their code, modules by name, anything else as it is."""
+    """The value in a form that pickle can transfer: functions by code, modules by name, other values unchanged."""
     if isinstance(value, Engine):
         value = value.step
     if isinstance(value, types.ModuleType):
@@ -192,7 +193,7 @@ def encoded(value, seen):
 
 
 def is_own(function):
-    """Whether it stands in a notebook or in the user's files, not in an installed package."""
+    """True for a function of a notebook or of the user's files, False for one of an installed package."""
     module = sys.modules.get(function.__module__)
     file = getattr(module, "__file__", None) if function.__module__ != "__main__" else None
     return file is None or not any(part in ("site-packages", "dist-packages") or part.startswith("python3")
@@ -228,11 +229,11 @@ def decoded(value, seen):
 
 
 class Refused(Exception):
-    """What the engine lacks; the exit status is 3."""
+    """An ingredient that the engine does not model; the exit status is 3."""
 
 
 def main(dump):
-    """The program: runs the scene of its arguments, or with --serve one scene for each line of stdin."""
+    """Entry point of the program: runs the scene in its arguments or, with --serve, one scene per line of stdin."""
     if sys.argv[1:] == ["--serve"]:
         answers, sys.stdout = sys.stdout, sys.stderr  # the step function may print
         for line in sys.stdin:
@@ -284,14 +285,14 @@ def run_scene(dump, scene_file, out):
 
 
 def run(name, step, scene):
-    """Frames of positions and velocities, the number of steps, and the CPU time of stepping."""
+    """Frames of positions, number of steps, frames of velocities, and the CPU time of stepping (s)."""
     task = scene.json
     h, per_sample, samples = (task["run"][key] for key in ("step", "steps_per_sample", "samples"))
     x, v = (np.array(task["particles"][key], dtype=float) for key in ("x", "v"))
     shape, held = x.shape, np.array(task.get("pins", {}).get("particles", []), dtype=int)
     frames, speeds = [x.copy()], [v.copy()]
     start = time.process_time()
-    with np.errstate(all="ignore"):  # a run that blows up shows it in its frames
+    with np.errstate(all="ignore"):  # a run that blows up has it in its frames
         for i in range(samples * per_sample):
             scene.t = i * h
             answer = step(x, v, scene, h)

@@ -3,7 +3,7 @@ import numpy as np
 
 from .program import Error
 
-# the dash differs from that of the same colour before, so that no meaning hangs on colour alone
+# each reuse of a colour has another dash, so that no meaning depends on colour alone
 colours = ("#111111", "#2A6FB0", "#D66A08", "#3A9A6A", "#A05AA8", "#8A8A8A")
 dashes = ("-", "--", "-.", ":", (0, (8, 2, 2, 2)), (0, (3, 1, 1, 1, 1, 1)))
 
@@ -17,7 +17,7 @@ def pyplot():
 
 
 def look(i):
-    """The look of the curve of this place, counted from 0."""
+    """The look of curve i, counted from 0."""
     return {"color": colours[i % 6], "linestyle": dashes[(i + i // 6) % 6]}
 
 
@@ -35,7 +35,7 @@ def axes_or_new(axes, **size):
 
 
 def short(method):
-    """A method's name in legends: of a program of one's own the file's name."""
+    """A method's name in legends: for a user's program, its file name."""
     return method.rsplit("/", 1)[-1] if method.startswith("exec:") else str(method)
 
 
@@ -44,7 +44,7 @@ def is_plane(x):
 
 
 def projected(x, plane):
-    """Two coordinates of each point, m: from the front where the scene is plane, from beside and above elsewhere."""
+    """Two coordinates of each point, m: front view of a planar scene, otherwise a view from the right and above."""
     if plane:
         return x[..., :2]
     azimuth, height = np.radians(30), np.radians(20)
@@ -54,12 +54,12 @@ def projected(x, plane):
 
 
 def shapes(result, scene, axes, times):
-    """The springs of a run, one shade for each time."""
+    """Draws the springs of a run, one shade per time."""
     pyplot()
     from matplotlib.collections import LineCollection
 
     x = np.asarray(result.positions)
-    x = x[np.isfinite(x).all(axis=(1, 2))]  # a run that blew up is drawn as far as it went
+    x = x[np.isfinite(x).all(axis=(1, 2))]  # draws a run that blew up as far as it went
     plane = is_plane(x)
     if times is None:
         frames = np.unique(np.linspace(0, len(x) - 1, 5).round().astype(int))
@@ -85,7 +85,7 @@ def shapes(result, scene, axes, times):
 
 
 def energies(result, axes):
-    """Energies of a run over time, of what is not zero throughout."""
+    """Energies of a run over time, without those that are zero throughout."""
     table = result.energies
     if table is None:
         raise Error(f"plot: {result.scene} has no energies")
@@ -97,7 +97,7 @@ def energies(result, axes):
 
 
 def over_time(comparison, axes):
-    """The distance of each method over time: from the truth where there is one, else from one of them."""
+    """Distance of each method over time: from the truth if there is one, otherwise from one of the methods."""
     table = comparison.over_time
     if table is None:
         raise Error("plot: no method has a result")

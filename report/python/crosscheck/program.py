@@ -1,4 +1,4 @@
-"""Finds the program and calls it; what it complains of becomes an Error."""
+"""Locates and calls the program; its error messages are raised as Error."""
 import json
 import os
 import re
@@ -7,18 +7,18 @@ import subprocess
 from pathlib import Path
 
 path = None
-"""Path of the program, to be set by you (`crosscheck.program.path = ...`); None: it is looked for."""
+"""Path of the program, which you may set (`crosscheck.program.path = ...`); None: `find_program` searches for it."""
 
 
 class Error(Exception):
-    """What the program says in one line when it cannot do what was asked; the names of file and key are in it."""
+    """The program's one-line error message; it names the file and the key."""
 
-    __module__ = "crosscheck"  # where people meet it
+    __module__ = "crosscheck"  # the name that tracebacks show
 
 
 def find_program():
-    """The path of the program: `crosscheck.program.path`, the variable CROSSCHECK, the source tree that this package
-    stands in, the folder bin/ of the prefix that it was installed to, PATH; the first of these that is there."""
+    """Path of the program. Tries, in this order: `crosscheck.program.path`, the variable CROSSCHECK, the source tree
+    of this package, the folder bin/ of the prefix that it was installed to, and PATH."""
     for where, named in (("crosscheck.program.path", path), ("the variable CROSSCHECK", os.environ.get("CROSSCHECK"))):
         if named:
             found = shutil.which(str(named))
@@ -41,18 +41,18 @@ def find_program():
 
 
 def call(words, answers=(0,)):
-    """Runs the program with these words and returns (exit status, stdout, the last thing that it complained of).
+    """Runs the program with these words and returns (exit status, stdout, last error message).
 
-    Error for a status that is not among `answers`: 0 is done, 1 says no, 2 is bad use or bad input."""
+    Raises Error for a status that is not in `answers`: 0 is done, 1 is a negative answer, 2 is bad use or bad input."""
     with subprocess.Popen([find_program(), *map(str, words)], stdin=subprocess.DEVNULL, stdout=subprocess.PIPE,
                           stderr=subprocess.PIPE, text=True, encoding="utf-8", errors="replace") as process:
         try:
             out, err = process.communicate()
-        except BaseException:  # an interrupt of a notebook: what was written so far stays valid
+        except BaseException:  # an interrupt of a notebook: files written so far stay valid
             process.terminate()
             raise
     lines = [line for line in (err.strip() or out.strip()).splitlines() if line.strip()]
-    # progress stands in brackets; a complaint begins with the program's name
+    # progress messages are in brackets; an error message begins with the program's name
     complaints = [line for line in lines if line.startswith("crosscheck: ")] or lines
     said = re.sub(r"^crosscheck: ", "", complaints[-1]) if complaints else "it said nothing"
     if process.returncode in answers:
@@ -63,7 +63,7 @@ def call(words, answers=(0,)):
 
 
 def answer(words, answers=(0,)):
-    """What the program prints with --json: (exit status, the object)."""
+    """Result of a command with --json: (exit status, the object)."""
     status, out, _ = call([*words, "--json"], answers)
     try:
         return status, json.loads(out)

@@ -10,11 +10,11 @@ from .program import Error
 
 
 class Scene(dict):
-    """A scene: a dict with the keys of a scene file (experiments/scenes/README.md lists them), in SI units.
+    """A scene: a dict with the keys of a scene file (see experiments/scenes/README.md), in SI units.
 
     name      of the scene and its file
     duration  simulated time, s;  step: of the default method, s;  samples: frames after the first one
-    Further words go into [time]: window (s), tolerance (m), method.
+    Further keyword arguments go into [time]: window (s), tolerance (m), method.
 
     >>> s = Scene("two", duration=1.0, step=1e-3)
     >>> a, b = s.particle([0, 0, 0], mass=1), s.particle([0, -1, 0], mass=0.5)
@@ -40,7 +40,7 @@ class Scene(dict):
 
     @classmethod
     def read(cls, scene):
-        """The scene of this file, or a shipped one by its name, to be changed.
+        """Reads this file, or a shipped scene by its name, for modification.
 
         Needs Python 3.11 or later, whose library reads TOML."""
         import tomllib
@@ -62,12 +62,12 @@ class Scene(dict):
         return len(self["particle"]) - 1
 
     def spring(self, a, b, stiffness, rest=None, dashpot=None):
-        """Joins two particles: stiffness N/m, rest length m (None: as they start), dashpot N s/m along the spring."""
+        """Joins two particles: stiffness N/m, rest length m (None: initial distance), dashpot N s/m along it."""
         row = {"ends": [a, b], "stiffness": stiffness, "rest": rest, "dashpot": dashpot}
         self.setdefault("spring", []).append({key: value for key, value in row.items() if value is not None})
 
     def pin(self, *particles):
-        """Holds these particles where they start."""
+        """Fixes these particles at their initial positions."""
         self.setdefault("pins", {}).setdefault("particles", []).extend(particles)
 
     def toml(self):
@@ -81,7 +81,7 @@ class Scene(dict):
 
 
 def shipped(name):
-    """The file of a shipped scene, in the source tree or in the data that were installed beside the program."""
+    """The file of a shipped scene, in the source tree or in the data installed with the program."""
     roots = [Path(program.find_program()).resolve().parent]
     roots += roots[0].parents
     for root in roots:
@@ -117,7 +117,7 @@ def is_table(value):
 
 
 def toml(scene, prefix=""):
-    """A dict as TOML: what is plain first, then tables; lists of dicts are arrays of tables.
+    """Writes a dict as TOML: plain values first, then tables; lists of dicts are arrays of tables.
 
     >>> print(toml({"a": [1, 2.5], "b": {"c": "x"}, "d": [{"e": 1}, {"e": 2}]}))
     a = [1, 2.5]
@@ -144,7 +144,7 @@ def toml(scene, prefix=""):
 
 
 def scene_word(scene, folder):
-    """The word that names a scene to the program: a name, a path, or a scene that is written into the folder."""
+    """The word that names a scene to the program: a name, a path, or the path of a scene written into the folder."""
     if isinstance(scene, dict):
         name = getattr(scene, "name", "scene")
         if not re.fullmatch(r"[A-Za-z0-9._=-]+", name):

@@ -1,4 +1,4 @@
-"""Tables of crosscheck as structured arrays that know their units."""
+"""Tables of crosscheck as structured arrays with units."""
 import csv
 import re
 from pathlib import Path
@@ -9,12 +9,12 @@ from .program import Error
 
 
 class Table(np.ndarray):
-    """A structured array, one field for each column, named as in the file without its unit.
+    """A structured array with one field per column; a field has the column's name without its unit.
 
-    units       dict: column -> unit, "1" for what has none, such as "m" or "s"
-    provenance  dict: what the file says of its making: command, commit, cpu, date, scene, ...
+    units       dict: column -> unit, such as "m" or "s"; "1" for dimensionless columns
+    provenance  dict: the file's provenance: command, commit, cpu, date, scene, ...
 
-    Numbers are float64, and nan where the cell is empty (not applicable); everything else is text.
+    Numbers are float64, nan for an empty cell (not applicable); all other columns are text.
 
     >>> t = table_of("method [1],error [m]\\nrk4,1e-6\\nbullet/pbd,\\n")
     >>> t["error"]
@@ -34,7 +34,7 @@ class Table(np.ndarray):
         return np.asarray(part) if isinstance(key, str) else part
 
     def to_pandas(self):
-        """A pandas.DataFrame with heads `name [unit]`, as in the file; Error where pandas is not installed."""
+        """A pandas.DataFrame with heads `name [unit]`, as in the file; raises Error if pandas is not installed."""
         try:
             import pandas
         except ImportError:
@@ -42,7 +42,7 @@ class Table(np.ndarray):
         return pandas.DataFrame({f"{name} [{self.units[name]}]": self[name] for name in self.dtype.names})
 
     def _repr_html_(self):
-        """What a notebook shows: at most 40 rows."""
+        """HTML for a notebook: at most 40 rows."""
         if self.dtype.names is None or self.ndim != 1:
             return None
 
@@ -63,7 +63,7 @@ def escape(text):
 
 
 def column(cells):
-    """float64 where every cell is a number or empty, text elsewhere."""
+    """A column as float64 if every cell is a number or empty, otherwise as text."""
     try:
         return np.array([float(cell) if cell else np.nan for cell in cells], dtype=float)
     except ValueError:
@@ -71,7 +71,7 @@ def column(cells):
 
 
 def table_of(text, name="table"):
-    """The Table in the text of a CSV file of crosscheck; Error that names the line where it is none."""
+    """Parses the text of a CSV file of crosscheck; raises Error with the line number if it is not a table."""
     lines = text.splitlines(keepends=True)
     count = next((i for i, line in enumerate(lines) if not line.startswith("#")), len(lines))
     provenance = dict(re.match(r"# ?([^:]*):? ?(.*)", line).groups() for line in lines[:count])
@@ -89,7 +89,7 @@ def table_of(text, name="table"):
             raise Error(f"{name}:{count + 2 + i}: expected {len(heads)} cells, got {len(row)}")
     columns = [column(cells) for cells in zip(*rows[1:])] if len(rows) > 1 else [np.empty(0) for _ in heads]
     names = [n for n, _ in heads]
-    if len(set(names)) < len(names):  # the same quantity in two units
+    if len(set(names)) < len(names):  # one quantity in two units
         names = rows[0]
     out = np.empty(len(rows) - 1, dtype=[(n, c.dtype) for n, c in zip(names, columns)]).view(Table)
     for n, c in zip(names, columns):
@@ -99,7 +99,7 @@ def table_of(text, name="table"):
 
 
 def table(path):
-    """The Table in a CSV file that crosscheck wrote, such as data/*.csv of a report; Error where it is none.
+    """Reads a CSV file that crosscheck wrote, such as data/*.csv of a report; raises Error if it is not a table.
 
     >>> table("nowhere.csv")
     Traceback (most recent call last):

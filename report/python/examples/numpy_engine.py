@@ -1,4 +1,4 @@
-"""An engine of one's own in NumPy, through `check`: symplectic Euler on springs, gravity and drag."""
+"""A user-written engine in NumPy, tested with `check`: symplectic Euler on springs, gravity and drag."""
 import sys
 
 import numpy as np
@@ -19,6 +19,6 @@ def my_euler(x, v, scene, h):
     return x + h * v, v
 
 
-result = crosscheck.check(my_euler, sys.argv[1:])  # scenes, or none: the smallest scene of each relation
+result = crosscheck.check(my_euler, sys.argv[1:])  # scenes; with none, the smallest scene of each relation
 print(result)
 sys.exit(not result)

@@ -388,7 +388,7 @@ TEST(ChartJson, UnitsAreNotTheLowerPartsOfRatios) {
   for (const auto& [label, unit] : {std::pair{"time step / s", "s"},
                                     {"sliding speed / (mm/s)", "mm/s"},
                                     {"drag rate / (1/s)", "1/s"},
-                                    {"effective stiffness by sag / % of that asked", "% of that asked"},
+                                    {"effective stiffness by sag / % of specified", "% of specified"},
                                     {"dimensionless stiffness k h² / μ", ""},
                                     {"equivalent drag rate / ω", ""},
                                     {"CPU time / CPU time of mysim", ""}}) {
