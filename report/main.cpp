@@ -1,4 +1,4 @@
-// crosscheck: the table of its commands. A new one is a file in commands/ and a row here.
+// crosscheck: the table of its commands. A new command is a file in commands/ and a row here.
 
 #include <algorithm>
 
@@ -17,18 +17,18 @@ constexpr AddCommand commands[] = {
     add_list,        // scenes, methods, experiments
     add_validate,    // checks scene files
     add_run,         // one method on one scene
-    add_compare,     // methods side by side on one scene
+    add_compare,     // compares methods on one scene
     add_experiment,  // tables of measurements
-    add_merge,       // joins the parts of an experiment
+    add_merge,       // joins the shards of an experiment
     add_report,      // the page
     add_figures,     // charts and pictures for print
     add_render,      // a picture
     add_advise,      // the cheapest method for a tolerance
-    add_regress,     // results beside baselines
-    add_bench,       // speed against the peers
-    add_check,       // relations that need no truth; what an adapter lacks
-    add_translate,   // what a scene's numbers are in another engine
-    add_engine,      // another version of Bullet
+    add_regress,     // compares results with baselines
+    add_bench,       // speed compared with the peers
+    add_check,       // relations that need no truth; protocol conformance of an adapter
+    add_translate,   // parameters of a scene in another engine's units
+    add_engine,      // builds another version of Bullet
     add_lab,         // a page with the live lab alone
     add_grader,      // grade and assignment
     add_manual,      // the manual page and the shell's completions; hidden
@@ -40,7 +40,7 @@ int run(int argc, char** argv) {
   return run_command_line(commands, argc, argv);
 }
 
-/// Advice for a command that was interrupted; empty for commands that begin anew.
+/// Command that resumes an interrupted command; empty for commands that start over.
 std::string resumption(std::vector<std::string> words) {
   const auto given = [&](const char* word) { return std::find(words.begin(), words.end(), word) != words.end(); };
   const std::string command = words.size() > 1 ? words[1] : "";

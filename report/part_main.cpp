@@ -1,5 +1,5 @@
-// Some of the commands, with the options that they have in crosscheck, as a program that is built sooner.
-// CMakeLists.txt names them: those around `report` for crosscheck_report, `run` and `validate` for crosscheck_run.
+// Some of the commands, with the same options as in crosscheck, in a program that builds faster.
+// CMakeLists.txt lists them: those around `report` for crosscheck_report, `run` and `validate` for crosscheck_run.
 
 #include "mysim/base/errors.h"
 #include "mysim/base/this_process.h"

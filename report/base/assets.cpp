@@ -1,4 +1,4 @@
-// Assets are read below report/, by their paths there.
+// Asset names are paths relative to report/.
 #include "report/base/assets.h"
 
 #include <stdexcept>

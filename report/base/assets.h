@@ -1,4 +1,4 @@
-// Files of this room that the program reads while it runs.
+// Files of report/ that the program reads at run time.
 #pragma once
 
 #include <filesystem>
@@ -6,11 +6,11 @@
 
 namespace crosscheck {
 
-/// Content of a file in report/, such as the figures' style or the page's style sheet. Throws std::runtime_error that
-/// names it.
+/// Content of a file in report/, such as the figures' style or the page's style sheet. Throws std::runtime_error with
+/// the file's name.
 std::string asset(const std::string& name);
 
-/// All bytes of a file that holds some. Throws std::runtime_error that names it.
+/// All bytes of a file. Throws std::runtime_error with the file's name if the file is empty or unreadable.
 std::string content_of_file(const std::filesystem::path& file);
 
 }  // namespace crosscheck

@@ -1,4 +1,4 @@
-// Asks git, the compiler's macros and the processor.
+// Provenance from git, the compiler's macros and /proc/cpuinfo.
 #include "report/base/provenance.h"
 
 #include <fmt/chrono.h>
@@ -14,7 +14,7 @@
 namespace crosscheck {
 namespace {
 
-/// Of the sources: written down where they are installed, asked of git in a source tree.
+/// Commit of the sources: from commit.txt in an installation, from git in a source tree.
 std::string commit() {
   if (const auto written = try_read_file(data_folder() / "commit.txt")) return written->substr(0, written->find('\n'));
   try {
@@ -23,7 +23,7 @@ std::string commit() {
                     data_folder());
     if (git.status == 0 && !git.out.empty()) return git.out.substr(0, git.out.find('\n'));
   } catch (const std::exception&) {
-    // no git on this machine
+    // git is not installed
   }
   return "unknown (no git)";
 }

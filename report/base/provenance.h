@@ -6,14 +6,14 @@
 
 namespace crosscheck {
 
-/// All lines but those of scenes. `command` is the command line as given.
+/// All lines except those about scenes. `command` is the command line as given.
 Provenance provenance(const std::string& command);
 
-/// The same lines with the hash of the scene, or of each scene.
+/// Adds the hash of the scene, or of each scene.
 Provenance with_scene(Provenance lines, const Scene& scene);
 Provenance with_scenes(Provenance lines, const std::vector<Scene>& scenes);
 
-/// The value of a line, or "".
+/// Value of a line, or "".
 std::string value_of(const Provenance& lines, const std::string& key);
 
 }  // namespace crosscheck

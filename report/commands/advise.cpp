@@ -1,4 +1,5 @@
-// advise: fits values of "fit" to the scene's wishes, then finds the cheapest model, method and step for a tolerance.
+// advise: fits parameters marked "fit" to the scene's [wish], then finds the cheapest model, method and step for a
+// tolerance.
 
 #include "experiments/advise/advice.h"
 #include "experiments/advise/fit.h"
@@ -13,27 +14,27 @@ namespace fs = std::filesystem;
 namespace {
 
 struct AdviseOptions {
-  std::string scene, methods, tolerance;  // without a tolerance only parameters are fitted
+  std::string scene, methods, tolerance;  // empty tolerance: only parameters are fitted
   fs::path out = "out/advise";
   std::string command_line;
 };
 
-/// The motion of a scene as a report has it, m: that of its truth, else of its own method at its own step up to the
-/// window. Throws InputError where neither is known.
+/// The motion of a scene as in a report, m: that of its truth, otherwise that of its own method at its own step, up to
+/// the window. Throws InputError if neither is known.
 double motion_of_scene(const Scene& scene) {
   if (const auto truth = truth_of(scene, default_run(scene))) return motion_of(truth->trajectory);
   Recorder recorder;
   const Outcome own = run_method(find_method(scene.method), scene, default_run(scene), {&recorder});
   if (own.verdict != Verdict::ok)
     throw InputError(
-        fmt::format("--tolerance: the motion of {} is not known, as its own method fails ({}): give metres", scene.name,
-                    in_words(own.verdict)));
+        fmt::format("--tolerance: the motion of {} is not known, as its own method fails ({}): give a length in metres",
+                    scene.name, in_words(own.verdict)));
   Trajectory& path = recorder.trajectory;
   while (path.t.back() > scene.window * (1 + 1e-9)) path.t.pop_back(), path.x.pop_back(), path.v.pop_back();
   return motion_of(path);
 }
 
-/// The length that a text asks for: metres, or per cent of the motion. Throws InputError.
+/// Parses a length: metres, or per cent of the motion. Throws InputError.
 double tolerance_of(const std::string& text, const Scene& scene) {
   constexpr std::pair<std::string_view, double> lengths[] = {
       {"", 1}, {"m", 1}, {"cm", 1e-2}, {"mm", 1e-3}, {"um", 1e-6}};
@@ -41,10 +42,10 @@ double tolerance_of(const std::string& text, const Scene& scene) {
   const auto length = std::ranges::find(lengths, std::string_view(unit), &std::pair<std::string_view, double>::first);
   const bool of_motion = unit == "%";
   if (!(value > 0) || (length == std::end(lengths) && !of_motion))
-    throw InputError(
-        fmt::format("--tolerance: expected a length above zero (m), such as 0.001 or 1mm, or a part of the motion such "
-                    "as 1%, got '{}'",
-                    text.substr(0, 60)));
+    throw InputError(fmt::format(
+        "--tolerance: expected a length above zero (m), such as 0.001 or 1mm, or a percentage of the motion such "
+        "as 1%, got '{}'",
+        text.substr(0, 60)));
   if (!of_motion) return value * length->second;
   const double motion = motion_of_scene(scene), tolerance = value / 100 * motion;
   fmt::print("{:g} % of the motion, {}, is {}\n", value, nice_length(motion), nice_length(tolerance));
@@ -56,8 +57,8 @@ std::string how_of(const Trial& t) {
                         : fmt::format("{} at a step of {:.6g} s", t.method, t.step);
 }
 
-/// A work-precision diagram of all trials, with the requested tolerance as a line and the advised run marked; failed
-/// runs are crosses at the cost they had spent.
+/// A work-precision diagram of all trials, with the requested tolerance as a line and the recommended run marked.
+/// Failed runs are crosses at the cost they had reached.
 Figure advice_figure(const Advice& a, const std::string& commit) {
   Figure f;
   f.name = a.scene.name + "-advice";
@@ -77,7 +78,7 @@ Figure advice_figure(const Advice& a, const std::string& commit) {
           {title + ": " + failure_class(std::string(name_of(t.outcome.verdict))), style, t.cost(), 3 * highest});
       continue;
     }
-    if (!(*t.error > a.error_bar)) continue;  // errors below the truth's error bar are not known
+    if (!(*t.error > a.error_bar)) continue;  // errors below the truth's error bar are unknown
     auto curve = std::find_if(f.curves.begin(), f.curves.end(), [&](const Curve& c) { return c.title == title; });
     if (curve == f.curves.end()) curve = f.curves.insert(f.curves.end(), {title, style, {}, true, true});
     curve->points.emplace_back(t.cost(), *t.error);
@@ -94,7 +95,7 @@ Figure advice_figure(const Advice& a, const std::string& commit) {
   f.floor = {fmt::format("tolerance: {}", nice_length(a.tolerance)), a.tolerance};
   f.finding = fmt::format("{} meets {} at the least cost.", how_of(chosen), nice_length(a.tolerance));
   f.caption = fmt::format("Scene {}, until {:.3g} s; truth: {}, error bar {} ({}); commit {}.", a.scene.name, a.until,
-                          a.under_contact_rule ? "what the in-house contact rule converges to" : name_of(a.tier),
+                          a.under_contact_rule ? "limit of the in-house contact rule" : name_of(a.tier),
                           nice_length(a.error_bar), a.truth, commit);
   return f;
 }
@@ -133,7 +134,7 @@ std::string_view bound_text(StepBound bound) {
 std::string margin_text(const Trial& t) {
   if (t.relative > 0) return "its steps follow the tolerance";
   if (!t.limit) return "no limit is predicted";
-  if (*t.limit == 0) return "no step is stable by theory";
+  if (*t.limit == 0) return "theory predicts no stable step";
   return fmt::format("{:.3g} times the step ({:.4g} s)", *t.limit / t.step, *t.limit);
 }
 
@@ -198,7 +199,8 @@ void print(const Advice& a) {
     const Trial& full = a.trials[*a.of_full];
     fmt::print("  full      {} with the whole scene, {:.3g} times the cost\n", how_of(full), full.cost() / t.cost());
   }
-  if (a.between_samples) fmt::print("  note: errors are largest between the samples, which a report does not see\n");
+  if (a.between_samples)
+    fmt::print("  note: the largest errors are between the samples, where a report does not measure\n");
   print(a.wishes);
   for (const std::string& c : a.caveats) fmt::print("  note: {}\n", c);
 }
@@ -228,14 +230,14 @@ int advised(const AdviseOptions& options, OutputFolder& folder) {
   if (!scene) scene = load_scene(options.scene, options.methods);
   if (options.tolerance.empty() && toml.empty())
     throw InputError(
-        fmt::format("--tolerance: expected a length above zero (m), as {} has nothing to be fitted", options.scene));
+        fmt::format("--tolerance: expected a length above zero (m), as {} has nothing to fit", options.scene));
   const fs::path& out = folder.path();
   const auto file = out / "advice.toml";
   if (!toml.empty()) write_file(file, toml);
   if (!options.tolerance.empty()) {
     const double tolerance = tolerance_of(options.tolerance, *scene);
     std::vector<Method> methods = options.methods.empty() ? candidates(*scene) : find_methods(options.methods);
-    // the truth's run, and that of each method; each of them is tried at several steps
+    // one run for the truth and one per method; each method is tried at several steps
     require_resources_to_keep({find_method(scene->method), find_method(scene->method)}, *scene, default_run(*scene));
     Progress progress(0);
     progress.begin(fmt::format("truth of {}", scene->name));
@@ -262,7 +264,8 @@ int advise_command(const AdviseOptions& options) {
   try {
     return advised(options, folder);
   } catch (const CannotGuarantee& why) {
-    // earlier advice would pass for this one where none can be given; but it may be the scene of this command
+    // remove earlier advice, which could be mistaken for this one if there is none now, unless it is the scene of this
+    // command
     const fs::path old = options.out / "advice.toml", now = folder.path() / "advice.toml";
     if (!fs::exists(now) && fs::exists(old) && fs::exists(options.scene) && fs::equivalent(old, options.scene))
       fs::copy_file(old, now);
@@ -279,11 +282,12 @@ void add_advise(CLI::App& app, Invocation& call) {
       app, call, "advise", "finds the cheapest model, method and time step within a tolerance, with a verifying run",
       advise_command);
   advise
-      .add_option("SCENE", options.scene, "a shipped scene or a TOML file; values of \"fit\" are found from its [wish]")
+      .add_option("SCENE", options.scene,
+                  "a shipped scene or a TOML file; values \"fit\" are determined from its [wish]")
       ->required();
   advise.add_option("--tolerance", options.tolerance,
                     "largest RMS position error, m, or in per cent of the motion (1%); not needed to fit a scene's "
-                    "values alone");
+                    "parameters only");
   advise.add_option("--methods", options.methods, "methods to try: A,B,... (default: all of mysim)");
   advise.add_option("--out", options.out, "folder (out/advise)");
 }

@@ -1,4 +1,4 @@
-// bench: speed, as ratios to other implementations, in one run.
+// bench: speed relative to other implementations, measured in one session.
 #include "report/commands/bench.h"
 
 #include "experiments/bench/bench.h"
@@ -14,7 +14,7 @@ namespace {
 
 std::string best_instructions() { return std::string(name_of(simd::active_instruction_set())); }
 
-/// "sheet-32x32-two-stiffnesses" as "32 × 32, two stiffnesses".
+/// "32 × 32, two stiffnesses" for "sheet-32x32-two-stiffnesses".
 std::string size_text(const std::string& scene) {
   std::string text = scene.substr(scene.find('-') + 1);
   for (const auto& [from, to] : {std::pair{"x", " × "}, {"-", ", "}, {"-", " "}})
@@ -43,7 +43,7 @@ BenchLine line_of(const BenchRow& row) {
   return line;
 }
 
-/// Keeps the line of the scene where the engine's own kernel (the last one of each scene) gains least.
+/// Keeps only the scene with the smallest gain of the engine's own kernel (the last one of each scene).
 void keep_least_scene(std::vector<BenchLine>& lines) {
   std::map<std::string, BenchLine> scenes;
   for (const BenchLine& line : lines)
@@ -59,11 +59,11 @@ void keep_least_scene(std::vector<BenchLine>& lines) {
 }
 
 void choose_representatives(std::vector<BenchLine>& lines) {
-  std::vector<std::string> cloths;  // on which kernels ran
+  std::vector<std::string> cloths;  // cloths on which kernels ran
   for (const BenchLine& line : lines)
     if (line.work == bench_work::springs && std::ranges::count(cloths, line.scene) == 0) cloths.push_back(line.scene);
   for (BenchLine& line : lines) {
-    // the plain loop is no peer, and times of threads are not CPU times
+    // the plain loop is not a peer, and times of threads are not CPU times
     line.representative = line.best && line.work != bench_work::two_threads && !line.subject.starts_with("plain loop");
     if (line.work == bench_work::springs) line.representative &= line.scene == cloths[cloths.size() / 2];
     for (const BenchLine& other : lines)
@@ -126,15 +126,15 @@ DotPlot bench_figure(const std::vector<BenchLine>& lines, const std::string& com
     f.finding =
         fmt::format("mysim gains least on {} ({}): {:.2g} times.", least->label, least->heading(), least->best->median);
   f.caption = fmt::format(
-      "CPU time of one core, medians and 90 % intervals of ratios taken round by round; of each peer the run where it "
-      "does best; commit {}.",
+      "CPU time of one core, medians and 90 % intervals of ratios, round by round; for each peer its best run; "
+      "commit {}.",
       commit);
   return f;
 }
 
 namespace {
 
-/// The builds of all programs that are timed.
+/// The builds of all timed programs.
 Provenance build_lines() {
   Provenance lines{
       {"build of mysim", CROSSCHECK_COMPILER "; the fused step once for each of x86-64, x86-64-v3 and x86-64-v4, -O3"},
@@ -203,10 +203,11 @@ int measure(const BenchOptions& options) {
 
 void add_bench(CLI::App& app, Invocation& call) {
   auto [bench, options] =
-      add_command(app, call, "bench", "measures speed as ratios to other implementations, in one run", measure);
+      add_command(app, call, "bench", "measures speed as ratios to other implementations, in one session", measure);
   bench.add_option("--out", options.out, "folder (out/bench)");
-  bench.add_option("--methods", options.methods,
-                   "A,B,...: methods to compare with as well, on cloths of 16 and 32 particles a side");
+  bench.add_option(
+      "--methods", options.methods,
+      "A,B,...: further methods to compare with, on cloths of 32 and 64 particles a side, with --full 128");
   add_quick_and_full(bench, options.full);
 }
 

@@ -1,4 +1,4 @@
-// The results of the bench as lines for people: on the terminal and in the figure.
+// Results of the bench as printable lines: on the terminal and in the figure.
 #pragma once
 
 #include <filesystem>
@@ -14,11 +14,12 @@ namespace crosscheck {
 
 struct BenchSuite;
 
-/// One comparison: all rows that differ by mysim's instructions only.
+/// One comparison: all rows that differ only in mysim's instruction set.
 struct BenchLine {
-  std::string work, scene, subject;      // subject: the peer, or mysim's kernel beside the naive loop
-  std::string label;                     // the subject, and at which accuracy
-  std::string detail;                    // times behind the ratio, in the best instructions; or why there is no ratio
+  std::string work, scene, subject;      // subject: the peer, or mysim's kernel compared with the naive loop
+  std::string label;                     // the subject and, if given, the accuracy
+  std::string detail;                    // times behind the ratio, for the best instruction set; or the reason for a
+                                         // missing ratio
   std::optional<Timing> best, baseline;  // ratios
   bool representative = true;            // shown in the figure
 
@@ -26,20 +27,20 @@ struct BenchLine {
   std::string heading() const;
 };
 
-/// The lines of all rows, in their order; of the shipped scenes only the one where the engine's own kernel gains
-/// least. In the figure stand the kernels on the middle one of the cloths, and of each peer the run where it does best.
+/// One line per comparison, in the order of the rows; for the shipped scenes only the one with the smallest gain of the
+/// engine's own kernel. The figure shows the kernels on the middle cloth, and each peer's best run.
 std::vector<BenchLine> bench_lines(const std::vector<BenchRow>& rows);
 
-/// All representative ratios of CPU times: best instructions and the baseline as two markers.
+/// All representative ratios of CPU times: best and baseline instruction sets as two markers.
 DotPlot bench_figure(const std::vector<BenchLine>& lines, const std::string& commit);
 
 struct BenchOptions {
   bool full = false;
   std::filesystem::path out = "out/bench";
   std::string command_line;
-  std::string methods = {};  // to compare with as well, separated by commas; may be empty
+  std::string methods = {};  // further methods to compare with, separated by commas; may be empty
 };
-/// The short suite, the long one, or the caller's.
+/// Runs a suite (the short, the long or the caller's) and prints and writes its results.
 int bench_command(const BenchOptions& options, const BenchSuite& plan);
 
 }  // namespace crosscheck

@@ -1,4 +1,4 @@
-// check: what can be asked of an engine without any truth; with --protocol, what its adapter still lacks.
+// check: tests of an engine that need no truth; with --protocol, tests of an adapter's conformance.
 
 #include "experiments/check/check.h"
 #include "experiments/check/protocol_kit.h"
@@ -11,7 +11,7 @@
 namespace crosscheck {
 namespace {
 
-/// 0: nothing required lacks.
+/// Returns 0 if nothing required is missing.
 int check_protocol(const std::string& program, bool as_json) {
   const ConformanceReport report = try_adapter(program);
   Json json{{"format", 1}, {"program", report.program}, {"complete", report.complete()}, {"lines", Json::array()}};
@@ -43,12 +43,12 @@ struct CheckOptions {
   std::vector<std::string> words;  // methods and scenes
   std::string known, junit, out, relation;
   unsigned seed = 1;
-  std::string program;  // of the conformance kit; empty: relations are asked
+  std::string program;  // program for --protocol; empty: relations are tested
   bool json = false;
   std::string command_line;
 };
 
-/// Words become scenes where a shipped one is called so, or a file ends in .toml; else methods.
+/// Sorts words: names of shipped scenes and files ending in .toml are scenes, all others methods.
 void sort_words(const std::vector<std::string>& words, std::vector<Method>& methods, std::vector<Scene>& scenes) {
   std::vector<std::string> names;
   const auto shipped = shipped_scenes();
@@ -65,7 +65,7 @@ void sort_words(const std::vector<std::string>& words, std::vector<Method>& meth
       throw InputError(unknown_name("method or scene", word, scenes_by_name, "crosscheck list scenes"));
     }
   }
-  if (methods.empty()) throw InputError("check: expected at least one method beside the scenes");
+  if (methods.empty()) throw InputError("check: expected at least one method in addition to the scenes");
   if (!names.empty()) scenes = load_scenes(names, methods[0].name);
 }
 
@@ -87,7 +87,7 @@ Json json_of(const std::vector<Answer>& answers) {
   return all;
 }
 
-/// A case for each answer: failed where broken, skipped where known or not asked.
+/// One case per answer: failed if broken, skipped if a known break or not applicable.
 std::string junit_of(const std::vector<Answer>& answers) {
   std::vector<TestCase> cases;
   for (const Answer& a : answers)
@@ -99,8 +99,8 @@ std::string junit_of(const std::vector<Answer>& answers) {
   return junit_xml("check", cases);
 }
 
-/// A picture of each break that is not known: the method's run of the scene that shows it, at the time of the break or
-/// at the end. Those that cannot be drawn are left out.
+/// A picture of each unknown break: the method's run of the scene that shows it, at the time of the break or at the
+/// end. Breaks that cannot be drawn are omitted.
 std::vector<PageImage> draw_breaks(const std::vector<Answer>& answers, const std::vector<Method>& methods,
                                    const std::vector<Scene>& scenes, const std::filesystem::path& folder,
                                    ResumableOutput& output) {
@@ -141,7 +141,7 @@ int check_relations(const CheckOptions& options) {
   std::vector<Answer> answers;
   const Provenance lines = provenance(options.command_line);
   Table so_far = table_of(std::vector<Answer>());
-  // rows are printed and written as they come: a check that is stopped leaves what it has found
+  // rows are printed and written one by one: a check that is stopped keeps its results
   const OnAnswer on_answer = [&](const Answer& answer) {
     if (!options.json)
       fmt::print("{:<16} {:<17} {:<20} {:<20} {}\n", name_of(answer.mark), answer.relation->name, answer.method,
@@ -194,14 +194,14 @@ void add_check(CLI::App& app, Invocation& call) {
       app, call, "check", "tests invariants of a method (symmetries, conservation, order); needs no reference solution",
       check_command);
   auto* words = check.add_option("METHOD", options.words,
-                                 "methods, and the scenes to ask on (default: the smallest scene of each relation)");
+                                 "methods, and scenes to test on (default: the smallest scene of each relation)");
   check
       .add_option("--protocol", options.program,
-                  "exec:PROGRAM: says line by line what an adapter of the engine protocol still lacks")
+                  "exec:PROGRAM: tests an adapter against the engine protocol, line by line")
       ->excludes(words);
   check.add_option("--known", options.known, "TOML file of known breaks, instead of those that come with Crosscheck");
-  check.add_option("--relation", options.relation, "name of the one relation to ask (default: all)");
-  check.add_option("--seed", options.seed, "seed of turns, shifts and orders (default: 1)");
+  check.add_option("--relation", options.relation, "tests this relation only (default: all)");
+  check.add_option("--seed", options.seed, "seed of the random rotations, shifts and orders (default: 1)");
   check.add_flag("--json", options.json, "prints JSON");
   check.add_option("--junit", options.junit, "file for JUnit XML");
   check.add_option("--out", options.out, "folder for a page and relations.csv (default: none is written)");

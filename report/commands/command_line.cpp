@@ -1,4 +1,4 @@
-// The common part of all programs' command lines.
+// Shared parts of all programs' command lines.
 #include "report/commands/command_line.h"
 
 #include <cstdlib>
@@ -11,7 +11,7 @@
 namespace crosscheck {
 namespace {
 
-/// Accepts a number, or a fraction, with or without a unit of time if `times`, and passes it on as a plain number.
+/// Accepts a number or a fraction, with or without a unit of time if `times`, and passes it on as a plain number.
 CLI::Validator number(bool zero_allowed, bool times) {
   const auto read = [times](const std::string& text) -> std::optional<double> {
     static const std::map<std::string, double> seconds = {{"s", 1},     {"ms", 1e-3}, {"us", 1e-6},
@@ -38,7 +38,7 @@ CLI::Validator number(bool zero_allowed, bool times) {
       "");
 }
 
-/// Throws InputError if a blank stands behind a comma of --methods or --method: the rest would be taken for a scene.
+/// Throws InputError if a blank follows a comma of --methods or --method: the rest would be read as a scene.
 void require_lists_in_one_word(std::span<const std::string> words) {
   for (size_t i = 1; i + 1 < words.size(); ++i)
     if ((words[i - 1] == "--methods" || words[i - 1] == "--method") && words[i].ends_with(",")) {
@@ -58,8 +58,8 @@ bool is_method(const std::string& word) {
   }
 }
 
-/// Throws InputError with the command line that was probably meant if a word without an option is no scene, and a
-/// method or a number, for which the command has an option.
+/// Throws InputError with the probable command line if a word without an option is not a scene but a method or a
+/// number, for which the command has an option.
 void require_words_in_place(const CLI::App& command, std::span<const std::string> words) {
   const auto named = [&](std::initializer_list<const char*> names) -> std::string {
     for (const char* name : names)
@@ -73,7 +73,7 @@ void require_words_in_place(const CLI::App& command, std::span<const std::string
     const std::string& word = words[i];
     if (word.starts_with("-")) {
       const CLI::Option* option = command.get_option_no_throw(word.substr(0, word.find('=')));
-      if (!option) return;  // a fault of its own
+      if (!option) return;  // reported elsewhere
       options += " " + shell_quote(word);
       if (option->get_items_expected_max() > 0 && word.find('=') == std::string::npos && i + 1 < words.size())
         options += " " + shell_quote(words[++i]);
@@ -94,7 +94,7 @@ void require_words_in_place(const CLI::App& command, std::span<const std::string
     stray = word, kind = number ? "a number" : "a method";
   }
   if (stray.empty()) return;
-  throw InputError(fmt::format("{}: '{}' is {}, no scene; did you mean `crosscheck {}{}{}`?", command.get_name(),
+  throw InputError(fmt::format("{}: '{}' is {}, not a scene; did you mean `crosscheck {}{}{}`?", command.get_name(),
                                stray.substr(0, 30), kind, command.get_name(), scenes.empty() ? " SCENE" : scenes,
                                options));
 }
@@ -107,7 +107,7 @@ void require_known_command(const CLI::App& app, const std::string& word) {
   }
   if (word == "help" || word == "version")
     throw InputError(fmt::format("unknown command '{0}'; did you mean `crosscheck --{0}`?", word));
-  if (word == "test") throw InputError("test: the suite is built and run in a source tree: ./crosscheck test there");
+  if (word == "test") throw InputError("test: run `./crosscheck test` in a source tree");
   throw InputError(unknown_name("command", word, known, "crosscheck --help"));
 }
 
@@ -150,7 +150,7 @@ int run_command_line(std::span<const AddCommand> commands, int argc, char** argv
   words[0] = "crosscheck";
   Invocation call{shell_join(words)};
   CLI::App app{
-      "Crosscheck compares physics engines on mass-spring and cloth scenes: mysim, Bullet, and programs of yours."};
+      "Crosscheck compares physics engines on mass-spring and cloth scenes: mysim, Bullet, and your own programs."};
   const std::string id = build_id();
   app.set_version_flag("--version", program_and_version() + (id.empty() ? "" : " (build " + id.substr(0, 12) + ")"),
                        "the version of this program");

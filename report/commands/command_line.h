@@ -1,4 +1,4 @@
-// The common part of all commands: their place in the command line, and the headers that nearly all of them use.
+// Shared parts of all commands: registration in the command line, and the headers that nearly all of them include.
 #pragma once
 
 #include <fmt/format.h>
@@ -27,11 +27,11 @@
 
 namespace crosscheck {
 
-/// The name of the program and its version.
+/// Name and version of the program.
 std::string program_and_version();
 
-/// Adds a command that `run` carries out, and returns it with its options. Options that have a member `command_line`
-/// are given the whole line.
+/// Adds a command that `run` executes; returns it with its options. Options with a member `command_line` receive the
+/// whole line.
 template <class Options>
 std::pair<CLI::App&, Options&> add_command(CLI::App& app, Invocation& call, const std::string& name,
                                            const std::string& what, int (*run)(const Options&)) {
@@ -44,20 +44,20 @@ std::pair<CLI::App&, Options&> add_command(CLI::App& app, Invocation& call, cons
   return {*command, *options};
 }
 
-/// The number that a text begins with, a fraction such as 1/1000 included, and the rest of the text without blanks.
-/// Nothing if it begins with no number.
+/// The number at the start of a text, which may be a fraction such as 1/1000, and the rest of the text without blanks.
+/// Nothing if the text does not start with a number.
 std::optional<std::pair<double, std::string>> number_and_rest(const std::string& text);
 
-/// Throws InputError if the file that -o names is a folder or cannot be written.
+/// Throws InputError if the -o argument is a folder or cannot be written.
 void require_output_file(const std::filesystem::path& file);
 
-/// Finite numbers and fractions: CLI11's own range checks let nan through and print 309 digits. Times may have a unit,
-/// and reach the option in seconds. To be given to Option::transform().
+/// Validators for Option::transform(). They accept finite numbers and fractions (CLI11's own range checks let nan
+/// through and print 309 digits). Times may have a unit, and are passed on in seconds.
 CLI::Validator above_zero();
 CLI::Validator time_above_zero();
 CLI::Validator time_not_below_zero();
 
-/// --quick and --full, which exclude each other.
+/// Adds --quick and --full, which exclude each other.
 void add_quick_and_full(CLI::App& command, bool& full);
 
 }  // namespace crosscheck

@@ -1,4 +1,4 @@
-// compare: parity certificates, then the methods side by side; exit 1 on a mismatch, when equal rules differ, or when
+// compare: parity certificates, then a comparison of the methods; exit 1 on a mismatch, if equal rules differ, or if
 // every method failed.
 
 #include "experiments/experiment.h"
@@ -23,24 +23,24 @@ struct CompareOptions {
   std::string command_line;
 };
 
-/// `brief`: rows that match are counted only.
+/// `brief`: matching rows are only counted.
 void print(const Certificate& certificate, bool brief) {
   fmt::print("\nparity of {} with the scene {}\n", without_folders(certificate.method), certificate.scene);
   for (const CertificateRow& r : certificate.rows)
     if (!brief || r.parity != Parity::match)
-      fmt::print("  {:<14} {:<14} asked: {}; handed over: {}; read back: {}\n", name_of(r.parity), r.quantity,
+      fmt::print("  {:<14} {:<14} requested: {}; passed: {}; read back: {}\n", name_of(r.parity), r.quantity,
                  r.requested, r.mapped, r.read_back);
   fmt::print("  {}\n", summary_of(certificate));
 }
 
 std::string shown(std::optional<double> value) { return value ? fmt::format("{:.3g}", *value) : "-"; }
 
-/// Prints the differences between methods that follow one rule; true where one is larger than allowed.
+/// Prints the differences between methods of the same rule; returns true if one is larger than allowed.
 bool equal_rules_differ(const Request& request, const Scene& scene, MethodResults& answers) {
   const std::vector<Method> methods = methods_of(request, scene);
   const Run run = run_of(request, scene);
   const TimeGrid grid = time_grid(run);
-  const auto judged = [](const MethodResult& r) {  // another law may hold for contact
+  const auto judged = [](const MethodResult& r) {  // excludes methods with another law for contact
     return r.outcome.verdict == Verdict::ok && r.outcome.different_law.empty();
   };
   bool differ = false;
@@ -104,7 +104,7 @@ int compare_command(const CompareOptions& options) {
     Request shown = request;
     shown.methods = {with_progress(method, progress)};
     const Outcome& out = result_of(shown, scene, shown.methods[0], answers).outcome;
-    // differences between methods come at the end; a comparison that is stopped leaves the runs
+    // differences between methods come at the end; a comparison that is stopped keeps its runs
     add(so_far, EngineRow{scene.name, method.name, out.verdict, out.reason, out.end, out.step, out.steps,
                           out.evaluations, out.degenerate_springs});
     write_file(folder.growing(so_far.name + ".csv"), csv(so_far, lines));
@@ -117,7 +117,7 @@ int compare_command(const CompareOptions& options) {
     write_csv(table, lines, options.out);
   }
 
-  bool mismatch = false;  // withholds the numbers of that engine alone
+  bool mismatch = false;  // only that engine's numbers are withheld
   for (const Certificate& certificate : result.certificates) {
     print(certificate, result.certificates.size() > 3);
     const std::string file = file_name_of("certificate-" + certificate.method) + ".json";
@@ -138,7 +138,7 @@ int compare_command(const CompareOptions& options) {
           ? fmt::format(", error bar {} m{} ({})", shown(runs[0].truth_bar),
                         runs[0].truth_until ? fmt::format(" until {:.3g} s", *runs[0].truth_until) : "", *runs[0].truth)
           : "");
-  // under contact nobody is right: what differs from the converged in-house rule is no error
+  // with contact there is no truth: a difference from the converged in-house rule is not an error
   const bool of_rule = tier && tier->of_contact_rule;
   fmt::print("{:<28} {:<12} {:>10} {:>10} {:>12} {:>10} {:>10}\n", "method", "verdict", of_rule ? "rule/m" : "error/m",
              "diff./m", "centres/m", "step/s", "until/s");

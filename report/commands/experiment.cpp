@@ -1,4 +1,4 @@
-// experiment: runs experiments over scenes and writes their tables; merge: joins the parts of a sweep.
+// experiment: runs experiments over scenes and writes their tables; merge: joins the shards of a sweep.
 
 #include "experiments/experiment.h"
 #include "experiments/disagreements/upstream.h"
@@ -10,11 +10,11 @@ namespace crosscheck {
 namespace {
 
 struct ExperimentOptions {
-  std::vector<std::string> names;  // of experiments, then of scenes
+  std::vector<std::string> names;  // experiments, then scenes
   std::string methods;
   bool full = false, resume = false;
-  std::string shard;  // I/N, or empty: all
-  int jobs = 0;       // processes at a time; 0: one per core
+  std::string shard;  // I/N; empty: all
+  int jobs = 0;       // number of concurrent processes; 0: one per core
   std::filesystem::path out = "out/experiment";
   std::string command_line;
 };
@@ -25,7 +25,7 @@ struct MergeOptions {
   std::string command_line;
 };
 
-/// The files of the tables; with the disagreements also what is to be sent upstream.
+/// File names of the tables; for experiment `disagreements`, also the texts for upstream.
 std::vector<std::string> files_of(const TableSet& rows, const std::vector<UpstreamText>& texts) {
   std::vector<std::string> files{"dictionary.csv"};
   for (const Table& table : rows.tables) files.push_back(table.name + ".csv");
@@ -47,7 +47,7 @@ void write_and_print(const TableSet& rows, const std::vector<UpstreamText>& text
   for (const std::string& note : rows.notes) fmt::print("note: {}\n", note);
 }
 
-/// The list of points, and files of their results; earlier results stay where the sweep goes on.
+/// Announces the list of points and the files of their results; a resumed sweep keeps its earlier results.
 void announce(ResumableOutput& folder, const PointList& plan, const Store& store, const ExperimentOptions& options) {
   const std::string points = store.folder().filename().string();
   std::vector<std::string> files{"plan.json"};
@@ -74,9 +74,9 @@ int experiment_command(const ExperimentOptions& options) {
       for (const std::string& other : options.names)
         if (const Experiment* experiment = experiment_named(other))
           throw InputError(
-              fmt::format("experiment: '{0}' is no experiment; did you mean `crosscheck experiment {1} {0}`?", name,
+              fmt::format("experiment: '{0}' is not an experiment; did you mean `crosscheck experiment {1} {0}`?", name,
                           experiment->name));
-      find_experiment(name);  // throws: the first word must be an experiment
+      find_experiment(name);  // throws InputError unless the first word is an experiment
     }
   }
   SweepOptions sweep{LockPatience(), options.jobs, options.shard.empty() ? Shard{} : shard_from(options.shard)};
@@ -113,7 +113,7 @@ int experiment_command(const ExperimentOptions& options) {
   folder.finish();
   for (const std::string& name : missing) fmt::print(stderr, "crosscheck: missing in the tables: {}\n", name);
   const bool any = std::ranges::any_of(rows.tables, [](const Table& table) { return !table.rows.empty(); });
-  if (!any) fmt::print(stderr, "crosscheck: nothing was measured: no method gave a row on these scenes\n");
+  if (!any) fmt::print(stderr, "crosscheck: nothing was measured: no method has a row on these scenes\n");
   return any && failed.empty() && missing.empty() ? 0 : 1;
 }
 

@@ -1,4 +1,4 @@
-// figures: a set of figures fit to print, made from the experiments that they need and no others.
+// figures: a set of print-ready figures, made from the experiments that they need.
 
 #include "experiments/sweep/sweep.h"
 #include "report/commands/command_line.h"
@@ -11,11 +11,11 @@ namespace crosscheck {
 namespace {
 
 struct FiguresOptions {
-  std::vector<std::string> names;   // of experiments; empty: all
-  std::vector<std::string> scenes;  // empty: the representative ones
+  std::vector<std::string> names;   // experiments; empty: all
+  std::vector<std::string> scenes;  // empty: the representative scenes
   std::string set = "paper", width, methods;
   bool full = false;
-  std::filesystem::path from = {};  // a report whose data are drawn; empty: experiments are run
+  std::filesystem::path from = {};  // a report whose data are drawn; empty: run experiments
   std::filesystem::path out = "out/figures";
   std::string command_line;
 };
@@ -34,19 +34,19 @@ Scene pictured_scene(const std::string& name, const FiguresOptions& options) {
     names.push_back(picture_name(scene));
     if (name == names.back()) return scene;
   }
-  throw InputError(fmt::format("{}: expected a picture of a scene that --scene names: {}{}", name,
-                               fmt::join(names, ", "), did_you_mean(name, names)));
+  throw InputError(fmt::format("{}: expected a picture of a scene given by --scene: {}{}", name, fmt::join(names, ", "),
+                               did_you_mean(name, names)));
 }
 
-/// Names are experiments, or SCENE-picture of a scene that --scene names or that comes with Crosscheck; no names are
-/// all experiments, and pictures of the named scenes or of the representative cloths. Throws InputError that
-/// lists what there is.
+/// Names are experiments, or SCENE-picture for a scene that --scene gives or that is shipped. Without names: all
+/// experiments, and pictures of the given scenes or of the representative cloths. Throws InputError that lists the
+/// valid names.
 FigureSelection select_figures(const FiguresOptions& options) {
   FigureSelection selection;
   if (options.names.empty()) {
     for (const Experiment& e : experiments()) selection.experiments.push_back(&e);
     selection.pictures = scenes_for({}, options.scenes, options.full, options.methods);
-    // the picture of a bead on a spring says little on paper: it is drawn where it is asked for
+    // a picture of a bead on a spring says little on paper: it is drawn on request only
     if (options.scenes.empty() && !options.full)
       std::erase_if(selection.pictures, [](const Scene& scene) { return scene.triangles.empty(); });
   }
@@ -65,14 +65,14 @@ FigureSelection select_figures(const FiguresOptions& options) {
   return selection;
 }
 
-/// The points of all requested experiments.
+/// Points of all requested experiments.
 struct Work {
   std::vector<std::string> experiments;
-  std::vector<Scene> scenes;  // of the experiments
-  std::vector<Point> points;  // of the experiments
+  std::vector<Scene> scenes;  // scenes of the experiments
+  std::vector<Point> points;  // points of the experiments
 };
 
-/// `on_engines` is given the runs of `engines`.
+/// `on_engines` receives the runs of `engines`.
 Work work_of(const FigureSelection& selection, const FiguresOptions& options, const RunCallback& on_engines) {
   Work work;
   Request request;
@@ -86,7 +86,7 @@ Work work_of(const FigureSelection& selection, const FiguresOptions& options, co
     for (const Scene& scene : request.scenes)
       require_resources_to_keep(methods_of(request, scene), scene, run_of(request, scene));
     add_missing(work.scenes, request.scenes);
-    // an experiment may add small systems of its own, which say nothing of the scenes that are named
+    // an experiment may add small systems of its own, which are unrelated to the given scenes
     for (Point& point : experiment->points(request))
       if (options.scenes.empty() || std::ranges::any_of(request.scenes, [&](const Scene& scene) {
             return point.name.find(scene.name) != std::string::npos;
@@ -96,15 +96,15 @@ Work work_of(const FigureSelection& selection, const FiguresOptions& options, co
   return work;
 }
 
-/// Pictures of scenes, drawn into the folder. A scene that `engines` looks at is drawn in the same process, from the
-/// same runs: they are a third of a picture's work.
+/// Pictures of scenes, drawn into the folder. A scene of experiment `engines` is drawn in the same process from the
+/// same runs, which saves a third of a picture's work.
 class Pictures {
  public:
   Pictures(const std::vector<Scene>& scenes, const FiguresOptions& options, const FigureSize& size,
            const Provenance& lines)
       : scenes_(scenes), options_(options), size_(size), lines_(lines), runs_(std::make_shared<MethodResults>()) {}
 
-  /// Keeps those runs that a picture shows.
+  /// A callback that keeps the runs that a picture shows.
   RunCallback keeping() const {
     return [this, runs = runs_](const RecordedRuns& recorded) {
       const bool pictured = std::ranges::any_of(
@@ -114,7 +114,7 @@ class Pictures {
     };
   }
 
-  /// The pictures as points of their own; their rows are their entries of the catalogue.
+  /// The pictures as separate points; their rows are their entries of the catalogue.
   std::vector<Point> points() const {
     std::vector<Point> points;
     for (const Scene& scene : scenes_)
@@ -123,8 +123,8 @@ class Pictures {
     return points;
   }
 
-  /// Lets each point of `engines` draw its scene when it is done. A picture that fails there is none of its rows: it
-  /// is drawn again, and reported, with the figures.
+  /// Lets each point of `engines` draw its scene when it is done. A picture that fails there adds no row: it is drawn
+  /// again with the figures, and its failure is reported then.
   void draw_with_engines(std::vector<Point>& points, const Store& store) const {
     const std::vector<Point> own = this->points();
     for (Point& point : points)
@@ -161,13 +161,13 @@ class Pictures {
   const FiguresOptions& options_;
   const FigureSize& size_;
   const Provenance& lines_;
-  std::shared_ptr<MethodResults> runs_;  // of this process, for the next picture
+  std::shared_ptr<MethodResults> runs_;  // kept by this process for its next picture
 };
 
 class Problems {
  public:
   void tell(const std::string& problem) {
-    fmt::print(stderr, "crosscheck: missing among the figures: {}\n", problem);
+    fmt::print(stderr, "crosscheck: missing figure: {}\n", problem);
     any_ = true;
   }
   void compute(const std::vector<Point>& points, const Store& store) {
@@ -191,7 +191,7 @@ std::vector<Chart> charts_of(const std::vector<Scene>& scenes, const TableSet& r
   return charts;
 }
 
-/// Leaves the charts of these names; all where none is named. Throws InputError that lists what there is.
+/// Keeps the charts with these names, or all if there are no names. Throws InputError that lists the valid names.
 void keep_named(std::vector<Chart>& charts, const std::vector<std::string>& names) {
   if (names.empty()) return;
   std::vector<std::string> known;
@@ -203,7 +203,7 @@ void keep_named(std::vector<Chart>& charts, const std::vector<std::string>& name
   std::erase_if(charts, [&](const Chart& chart) { return std::ranges::count(names, figure_info(chart)->name) == 0; });
 }
 
-/// Draws charts, several at a time and after `drawings`, and returns their entries of the catalogue.
+/// Draws charts in parallel, after `drawings`, and returns their entries of the catalogue.
 std::vector<FigureInSet> draw_charts(std::vector<Chart>& charts, const FigureSize& size, const Provenance& lines,
                                      const std::filesystem::path& folder, const Store& store, Problems& problems,
                                      std::vector<Point> drawings = {}) {
@@ -221,7 +221,7 @@ std::vector<FigureInSet> draw_charts(std::vector<Chart>& charts, const FigureSiz
   return drawn;
 }
 
-/// Writes captions and the catalogue, and says what was drawn.
+/// Writes captions and the catalogue, and prints a summary.
 int finish(std::vector<FigureInSet>& drawn, const FigureSize& size, const Provenance& lines,
            const FiguresOptions& given, OutputFolder& folder, const std::vector<std::string>& notes,
            Problems& problems) {
@@ -267,7 +267,7 @@ int figures_command(const FiguresOptions& given) {
   pictures.draw_with_engines(work.points, store);
   Problems problems;
   problems.compute(work.points, store);
-  std::vector<std::string> missing;  // reported already
+  std::vector<std::string> missing;  // already reported
   const TableSet rows = joined(point_list_of(work.experiments, work.points, lines), {&store, 1}, missing);
 
   std::vector<Chart> charts;
@@ -303,7 +303,8 @@ void add_figures(CLI::App& app, Invocation& call) {
   figures.add_option("--width", options.width, "width on paper, such as 8.5cm, 85mm or 3.3in");
   figures.add_option("--out", options.out, "folder (out/figures)");
   add_quick_and_full(figures, options.full);
-  figures.add_option("--from", options.from, "DIR: figures of the report in it, by their names, nothing is run")
+  figures
+      .add_option("--from", options.from, "DIR: draws figures of the report in it, by their names, and runs nothing")
       ->excludes(methods);
 }
 

@@ -1,5 +1,5 @@
-// grade, assignment and list assignments start the grader, a program of its own. Charts of a student's code are made
-// here, since the grader knows no other engine.
+// grade, assignment and list assignments start the grader, a separate program. Charts of a student's code are made
+// here, because the grader links no other engine.
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -29,7 +29,7 @@ fs::path grader() {
   return program;
 }
 
-/// The value of an option, given behind it or behind its =; empty where it is not given.
+/// The value of an option, given as the next word or after =; empty if it is not given.
 std::string option_value(const std::vector<std::string>& words, const std::string& option) {
   for (std::size_t i = 0; i < words.size(); ++i) {
     if (words[i] == option && i + 1 < words.size()) return words[i + 1];
@@ -38,7 +38,7 @@ std::string option_value(const std::vector<std::string>& words, const std::strin
   return "";
 }
 
-/// Grades, then compares the parts that are steppers with other engines; the page links to it.
+/// Grades, then compares the parts that are steppers with other engines; the page links to these charts.
 int grade_with_charts(std::vector<std::string> words, const fs::path& page) {
   const fs::path charts = page.parent_path() / (page.stem().string() + "-charts");
   OutputFolder folder(charts, "report");
@@ -61,8 +61,8 @@ int grade_with_charts(std::vector<std::string> words, const fs::path& page) {
   for (const std::string& part : yours) options.methods += ",exec:steppers/" + part;
   options.command_line = "crosscheck " + shell_join({words.data(), words.size() - more.size()});
   options.out = fs::absolute(charts);
-  fs::current_path(folder.path());  // where names of methods are short
-  fmt::print("charts of {}, beside mysim and Bullet\n", fmt::join(yours, ", "));
+  fs::current_path(folder.path());  // so that names of methods are short
+  fmt::print("charts of {}, compared with mysim and Bullet\n", fmt::join(yours, ", "));
   return report_command(options, folder);
 }
 

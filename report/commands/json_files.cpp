@@ -1,4 +1,4 @@
-// One object with an entry per quantity; tables as lists of objects.
+// Certificates have one entry per quantity; tables are lists of objects.
 #include "report/commands/json_files.h"
 
 #include <fmt/format.h>

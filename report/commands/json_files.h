@@ -1,4 +1,4 @@
-// Tables and parity certificates as JSON files, and JUnit XML, for programs.
+// Machine-readable output: tables and parity certificates as JSON files, and JUnit XML.
 #pragma once
 
 #include <filesystem>
@@ -13,19 +13,19 @@ namespace crosscheck {
 
 std::string certificate_json(const Certificate& certificate);
 
-/// Columns from a header like "method, step [s]"; without a unit they have 1.
+/// Columns from a header like "method, step [s]"; a column without a unit gets "1".
 std::vector<Column> columns_of(const std::string& header);
 
-/// certificate-SCENE-METHOD.json.
+/// File name of a certificate: certificate-SCENE-METHOD.json.
 std::string file_of(const Certificate& certificate);
 /// Writes tables with their dictionary as CSV, and the certificates.
 void write_tables(const TableSet& rows, const Provenance& lines, const std::filesystem::path& folder);
 
-/// A table's rows as objects by column name. Empty cells and numbers that are not finite are null.
+/// A table's rows as objects by column name. Empty cells and non-finite numbers are null.
 Json rows_json(const Table& table);
 
-/// Provenance, notes, and of each table its columns with units and its rows as objects by column name: the same cells
-/// as in the CSV files.
+/// Provenance, notes and tables as JSON. A table has its columns with units, and its rows as objects by column name,
+/// with the same cells as the CSV files.
 std::string tables_json(const TableSet& rows, const Provenance& provenance);
 
 struct TestCase {
@@ -33,7 +33,7 @@ struct TestCase {
   std::string outcome = {};  // failure, error or skipped; empty if the case passed
   std::string message = {}, text = {};
 };
-/// JUnit XML, as CI systems read it.
+/// JUnit XML in the form that CI systems read.
 std::string junit_xml(const std::string& suite, const std::vector<TestCase>& cases);
 
 }  // namespace crosscheck

@@ -14,7 +14,7 @@ struct LabOptions {
 int lab_command(const LabOptions& options) {
   const std::vector<Scene> scenes = load_scenes(options.scenes);
   if (!options.file.ends_with(".html"))
-    throw InputError(fmt::format("lab: -o: expected the name of a page, as in lab.html, got '{}'", options.file));
+    throw InputError(fmt::format("lab: -o: expected a file name such as lab.html, got '{}'", options.file));
   write_file(options.file, lab_page_html(scenes));
   fmt::print("{}\n", options.file);
   return 0;

@@ -1,4 +1,4 @@
-// list and doctor: what there is, what is installed, and what is missing.
+// list: scenes, methods and so on; doctor: what is installed, and what is missing.
 
 #include <cstdlib>
 
@@ -54,7 +54,7 @@ int list_command(const ListOptions& options) {
 
 struct Tool {
   const char* name;
-  std::string_view package;  // Debian's
+  std::string_view package;  // Debian's package
   const char* purpose;
   bool required;
 };
@@ -66,25 +66,25 @@ int doctor_command() {
   };
   line("Eigen", CROSSCHECK_EIGEN_VERSION, "vectors and matrices", "");
   line("Bullet", CROSSCHECK_BULLET_VERSION,
-       "the engine that mysim is compared with (double precision; single in a program of its own)", "");
-  line("odeint", odeint_version(), "an independent integrator, of Boost: truth's other route", "");
-  line("SUNDIALS", sundials_version().value_or("absent"), "optional: a better one, in odeint's place",
-       sundials_version() ? "" : "; apt-get install libsundials-dev, then build anew");
+       "the engine that mysim is compared with (double precision; single precision in a separate program)", "");
+  line("odeint", odeint_version(), "an independent integrator, from Boost: second route of the truth", "");
+  line("SUNDIALS", sundials_version().value_or("absent"), "optional: a better integrator, replaces odeint",
+       sundials_version() ? "" : "; apt-get install libsundials-dev, then rebuild");
   line(CROSSCHECK_OFFSCREEN, "linked", "renders pictures without a display\n", "");
 
-  // an installation compiles coursework and adapters alone
+  // an installation compiles only coursework and adapters
   const bool in_source_tree = std::filesystem::exists(data_folder() / "CMakeLists.txt");
   const Tool tools[] = {
       {"gnuplot", "gnuplot-nox", "draws the figures", true},
       {"git", "git", "names the commit in tables and captions", false},
-      {"g++", "g++", "compiles coursework and adapters, and a source tree", in_source_tree},
-      {"cmake", "cmake", "builds adapters, and builds and tests a source tree", in_source_tree},
-      {"bwrap", "bubblewrap", "keeps a submission away from your files: `grade`", false},
-      {"python3", "python3-numpy", "runs engines in NumPy, and the package for Python; the tests need it", false},
+      {"g++", "g++", "compiles coursework, adapters and the source tree", in_source_tree},
+      {"cmake", "cmake", "builds adapters, and builds and tests the source tree", in_source_tree},
+      {"bwrap", "bubblewrap", "isolates a submission from your files: `grade`", false},
+      {"python3", "python3-numpy", "runs engines in NumPy and the Python package; needed by the tests", false},
       {"clang++", "clang", "another compiler, for `tests/mutants/builds.sh`", false},
       {"wasm-ld", lab_packages, "compiles mysim to WebAssembly, with clang: the lab in the page", false},
       {"node", "nodejs", "runs engines in JavaScript and WebAssembly; the tests run the lab's module in it", false},
-      {"npm", "npm", "fetches these engines: `engine NAME`", false},
+      {"npm", "npm", "fetches JavaScript engines: `engine NAME`", false},
       {"pdflatex", "texlive-latex-base", "the tests compile a paper with a set of figures", false},
       {"chromium", "chromium", "a browser: the tests try the page's player in it; prints the page as PDF", false},
   };
@@ -106,7 +106,7 @@ int doctor_command() {
                      engine.package.empty() ? "" : ", package " + engine.package),
          built ? "" : "; " + command_to_build(engine));
   }
-  fmt::print("\n{}\n", complete ? "all that is required is here" : "something required is missing");
+  fmt::print("\n{}\n", complete ? "all required programs are installed" : "something required is missing");
   return complete ? 0 : 1;
 }
 

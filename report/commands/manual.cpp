@@ -1,5 +1,5 @@
-// manual: the manual page and bash's completions, report/install/crosscheck.1 and .bash filled with the commands' own
-// descriptions.
+// manual: the manual page and bash's completions, from report/install/crosscheck.1 and .bash, filled with the commands'
+// own descriptions.
 
 #include "mysim/base/command_line.h"
 #include "report/base/assets.h"
@@ -9,7 +9,7 @@
 namespace crosscheck {
 namespace {
 
-/// What `list` shows that a word of a command may be; empty where it is none of that.
+/// The kinds of names, as in `list KIND`, that a word of a command may be; empty if it is none of them.
 std::string kinds_of(const std::string& command, const std::string& word) {
   if (word == "SCENE" || word == "scenes") return "scenes";
   if (word == "METHOD") return "methods scenes";
@@ -19,8 +19,8 @@ std::string kinds_of(const std::string& command, const std::string& word) {
   return "";
 }
 
-/// All commands as command_table() has them, those of the grader in the place of their names, and the kinds of their
-/// words.
+/// All commands in the format of command_table(), with the grader's commands in place of their bare names, and the
+/// kinds of their words.
 Json all_commands(const CLI::App& app) {
   Json commands = Json::parse(command_table(app));
   const Json graders = Json::parse(grader_table());
@@ -34,7 +34,7 @@ Json all_commands(const CLI::App& app) {
   return commands;
 }
 
-/// Writes all texts as troff wants them.
+/// Escapes all texts for troff.
 void escape_for_troff(Json& data) {
   if (!data.is_string()) {
     for (Json& item : data) escape_for_troff(item);

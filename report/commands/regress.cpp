@@ -1,4 +1,4 @@
-// regress: results against baselines or against another method's; --bless writes baselines.
+// regress: compares results with baselines or with another method's; --bless writes baselines.
 
 #include <cstdlib>
 #include <set>
@@ -15,7 +15,7 @@ struct RegressOptions {
   std::string filter, methods, against, reason;
   std::filesystem::path baselines;  // empty: the shipped ones
   bool full = false, bless = false, bisect = false;
-  std::vector<std::string> scenes;  // names or files; empty: all shipped ones
+  std::vector<std::string> scenes;  // names or files; empty: all shipped scenes
   int figures = 6;                  // number of failed cases to draw
   std::filesystem::path out = "out/regress";
   std::string command_line;
@@ -37,16 +37,17 @@ int print_result(const RegressionResult& result, const std::filesystem::path& ou
   const auto wrong = std::ranges::count_if(result.rows, [](const auto& row) { return failed(row.state); });
   fmt::print("\n{} quantities: {} the same, {} failed{}{}\n", result.rows.size(), same, wrong,
              added > 0 ? fmt::format(", {} new (not blessed yet)", added) : "",
-             result.failures.empty() ? "" : fmt::format("; {} questions without an answer", result.failures.size()));
+             result.failures.empty() ? "" : fmt::format("; {} runs without a result", result.failures.size()));
   if (!result.measured() && wrong == 0) fmt::print("{}\n", nothing_measured);
   for (const char* name : {"index.html", "regress.csv"})
     if (std::filesystem::exists(out / name)) fmt::print("{}\n", (out / name).string());
   return result.passed() ? 0 : 1;
 }
 
-using Figures = std::vector<std::pair<std::filesystem::path, std::filesystem::path>>;  // drawn as, kept as
+using Figures = std::vector<std::pair<std::filesystem::path, std::filesystem::path>>;  // (file of the drawing, file to
+                                                                                       // keep)
 
-/// Writes a page of the changes; returns for each scene with a change the figure that is stored next to its baseline.
+/// Writes a page of the changes; returns, for each scene with a change, the figure that is stored next to its baseline.
 Figures before_and_after(const Regression& regression, const RegressOptions& options, const BlessResult& result,
                          const Provenance& lines) {
   RegressionResult changes;
@@ -56,7 +57,7 @@ Figures before_and_after(const Regression& regression, const RegressOptions& opt
   Figures figures;
   std::set<std::string> scenes;
   for (const FailurePart& part :
-       write_verdict_page({changes, "what was blessed before", options.reason, lines}, regression,
+       write_verdict_page({changes, "the previous baselines", options.reason, lines}, regression,
                           std::max(options.figures, static_cast<int>(result.numbers.size()))))
     if (!part.images.empty() && scenes.insert(part.scene).second)
       figures.emplace_back(part.images[0].file,
@@ -70,7 +71,7 @@ int blessed(const Regression& regression, const RegressOptions& options, const P
     throw InputError("--bless: expected --reason TEXT: why the new values are right");
   if (options.reason.find('|') != std::string::npos) throw InputError("--reason: expected a text without '|'");
   if (const char* ci = std::getenv("CI"); ci && *ci) throw InputError("--bless: CI never blesses (CI is set)");
-  if (regression.against) throw InputError("--bless: expected no --against: baselines are what is blessed");
+  if (regression.against) throw InputError("--bless: expected no --against: only baselines can be blessed");
   Progress progress(0);
   const Blessing blessing{value_of(lines, "date").substr(0, 10), value_of(lines, "commit"), value_of(lines, "compiler"),
                           options.reason};
@@ -81,7 +82,7 @@ int blessed(const Regression& regression, const RegressOptions& options, const P
     return 1;
   }
   for (const Comparison& row : result.changed) print_row(row);
-  // before the files are written: pictures need the old shapes
+  // before the files are written: figures need the old shapes
   const auto drawn = options.figures > 0 ? before_and_after(regression, options, result, lines) : Figures{};
   for (const auto& [file, text] : result.files) write_file(file, text);
   for (const auto& [from, to] : drawn)
@@ -100,7 +101,7 @@ int regressed(const RegressOptions& options) {
   if (!options.methods.empty()) regression.selection.methods = find_methods(options.methods);
   if (!options.against.empty()) {
     if (regression.selection.methods.size() != 1)
-      throw InputError("--against: expected one --method, which is set beside that one");
+      throw InputError("--against: expected one --method to compare with it");
     regression.against = find_method(options.against);
   }
   regression.baselines = options.baselines.empty() ? data_folder() / "reference" / "baselines" : options.baselines;
@@ -125,13 +126,13 @@ int regressed(const RegressOptions& options) {
   return print_result(result, options.out);
 }
 
-/// 0 where every case passes, 1 where one fails; with `bisect` 125 where the build cannot be judged.
+/// Returns 0 if every case passes, 1 if one fails; with `bisect`, 125 if the build cannot be judged.
 int regress_command(const RegressOptions& options) {
   try {
     return regressed(options);
   } catch (const std::exception& error) {
     if (!options.bisect) throw;
-    // what `git bisect run` takes for "this one cannot be tested"
+    // `git bisect run` takes 125 for "this commit cannot be tested"
     fmt::print(stderr, "crosscheck: cannot be tested: {}\n", error.what());
     return 125;
   }
@@ -154,8 +155,8 @@ void add_regress(CLI::App& app, Invocation& call) {
       .add_option("--figures", options.figures, "number of failed cases that are drawn (default: 6); 0 writes no page")
       ->check(CLI::Range(0, 100));
   regress.add_flag("--bisect", options.bisect,
-                   "exits with 125 where a build cannot be judged, as `git bisect run` expects");
-  regress.add_flag("--no-speed")->group("");  // scripts of earlier versions say so; bench measures speed
+                   "exits with 125 if a build cannot be judged, as `git bisect run` expects");
+  regress.add_flag("--no-speed")->group("");  // accepted for scripts of earlier versions; bench measures speed
   regress.add_option("--out", options.out, "folder (out/regress)");
   add_quick_and_full(regress, options.full);
 }

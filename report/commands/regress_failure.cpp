@@ -1,4 +1,4 @@
-// Runs a failed case again and draws it.
+// Repeats the runs of a failed case and draws them.
 #include "report/commands/regress_failure.h"
 
 #include <fmt/format.h>
@@ -25,12 +25,12 @@ using Series = std::vector<std::pair<double, double>>;  // over time, s
 
 struct FailureDetails {
   Case test_case;
-  std::vector<Comparison> rows;            // all those of the case
+  std::vector<Comparison> rows;            // all rows of the case
   Series was, is;                          // RMS displacement of the particles, m
-  bool was_sampled = false;                // the whole old curve is known, not a few points of it
+  bool was_sampled = false;                // true: the whole old curve is known; false: only a few points of it
   Series difference, tolerance;            // positions, m
   std::optional<double> first_divergence;  // s: the first time at which they differ by more than the tolerance
-  std::optional<MethodResult> old_result, new_result;  // for pictures; of a baseline the scene's own method only
+  std::optional<MethodResult> old_result, new_result;  // for pictures; from a baseline: for the scene's own method only
 
   /// The row of a quantity, or null.
   const Comparison* find(const std::string& quantity) const {
@@ -56,7 +56,7 @@ Series offsets_of(const Trajectory& path) {
   return series;
 }
 
-/// The run for pictures; nothing of a refused one.
+/// The run as a result for pictures; nothing for a refused run.
 std::optional<MethodResult> pictured(const Case& test_case, const CaseRun& case_run, const std::string& was_or_is) {
   if (case_run.trajectory.x.empty()) return std::nullopt;
   return MethodResult{test_case.scene.name, was_or_is + test_case.method.name, case_run.outcome, case_run.trajectory};
@@ -64,12 +64,12 @@ std::optional<MethodResult> pictured(const Case& test_case, const CaseRun& case_
 
 bool owns(const Case& q) { return q.without.empty() && q.method.name == find_method(q.scene.method).name; }
 
-/// Reads the old run from a baseline, which holds at most eight times of it.
+/// Reads the old run from a baseline, which has at most eight times.
 void beside_baseline(FailureDetails& e, const Regression& regression) {
   for (const double t : times_of(e.test_case)) {
     const Comparison *offset = e.find(offset_at(t)), *places = e.find(places_at(t));
     if (offset && offset->was) e.was.emplace_back(t, *offset->was);
-    // positions may differ where means over the particles agree
+    // positions may differ although means over the particles agree
     if (!places || !places->was || !places->is || !std::isfinite(*places->is)) continue;
     e.difference.emplace_back(t, std::abs(*places->is - *places->was));
     e.tolerance.emplace_back(t, places->tolerance);
@@ -96,7 +96,7 @@ void beside_other(FailureDetails& e, const Method& against) {
   const Trajectory &now = e.new_result->trajectory, &before = case_run.trajectory;
   for (int i = 1; i < std::min(now.frames(), before.frames()); ++i) {
     const double distance = rms_distance(now.x[i], before.x[i]);
-    // the tolerance of the next time at which there is one
+    // the tolerance at the next time that has one
     const auto known = std::find_if(e.tolerance.begin(), e.tolerance.end(),
                                     [&](const auto& at) { return at.first >= now.t[i] * (1 - 1e-9); });
     if (!std::isfinite(distance) || known == e.tolerance.end()) break;
@@ -105,7 +105,7 @@ void beside_other(FailureDetails& e, const Method& against) {
   }
 }
 
-/// Everything may be empty: a refused run has no curve.
+/// All fields may be empty: a refused run has no curve.
 FailureDetails failure_details(const Case& test_case, const std::vector<Comparison>& rows,
                                const Regression& regression) {
   FailureDetails e{test_case};
@@ -120,7 +120,7 @@ FailureDetails failure_details(const Case& test_case, const std::vector<Comparis
   return e;
 }
 
-/// When and how the two runs diverge, in a sentence.
+/// Time and kind of the divergence, as a sentence.
 std::string describe_divergence(const FailureDetails& e) {
   if (e.first_divergence) {
     const auto before = std::find_if(e.difference.rbegin(), e.difference.rend(),
@@ -128,8 +128,8 @@ std::string describe_divergence(const FailureDetails& e) {
     return fmt::format("They differ by more than the tolerance between {:.4g} s and {:.4g} s.",
                        before == e.difference.rend() ? 0 : before->first, *e.first_divergence);
   }
-  return e.difference.empty() ? "There is no common time at which positions can be compared."
-                              : "Positions stay within their tolerance; other quantities moved.";
+  return e.difference.empty() ? "There is no common time at which to compare positions."
+                              : "Positions stay within their tolerance; other quantities changed.";
 }
 
 const MethodStyle old_style{"#5b6670", "2", 6}, new_style{"#d55e00", "1", 7}, tolerance_style{"#009e73", "3", 1};
@@ -176,11 +176,11 @@ std::optional<Figure> difference(const FailureDetails& e, const Provenance& line
   f.curves.push_back({"difference", new_style, above_floor(e.difference), true, !e.was_sampled});
   f.curves.push_back({"tolerance", tolerance_style, above_floor(e.tolerance)});
   f.caption += fmt::format(" Drawn no lower than {}, a tenth of the smallest tolerance.", nice_length(floor));
-  if (!e.was_sampled) f.caption += " A baseline holds places along drawn directions at these times.";
+  if (!e.was_sampled) f.caption += " A baseline holds positions along random directions at these times.";
   return f;
 }
 
-/// Both shapes in one view, coloured by their distance where an eye could see it.
+/// Both shapes in one view, coloured by their distance if it is large enough to see.
 std::optional<PageImage> shapes(const FailureDetails& e, const fs::path& folder) {
   if (!e.new_result || e.new_result->trajectory.x.empty() || e.test_case.scene.model.first_order()) return std::nullopt;
   Shot shot;
@@ -197,21 +197,22 @@ std::optional<PageImage> shapes(const FailureDetails& e, const fs::path& folder)
   PageImage image;
   image.file = folder / (words_for(e, "shape", "", {}).name + ".png");
   render::write_png(picture_of(e.test_case.scene, shown, shot), image.file);
-  image.alt = e.old_result ? "the last shape as it was and as it is" : "the last shape as it is";
-  image.caption = e.old_result ? "The last shape as it was and as it is."
-                               : "The last shape as it is; a baseline keeps that of the scene's own method only.";
+  image.alt = e.old_result ? "the old and the new final shape" : "the new final shape";
+  image.caption = e.old_result ? "The old and the new final shape."
+                               : "The new final shape; a baseline keeps the shape of the scene's own method only.";
   return image;
 }
 
 }  // namespace
 
 std::vector<Case> failures_to_draw(const std::vector<Case>& all, const std::vector<Comparison>& rows, int most) {
-  using Rank = std::tuple<bool, bool, double>;  // less comes first
+  using Rank = std::tuple<bool, bool, double>;  // the smallest comes first
   std::vector<std::pair<Rank, const Case*>> ranked;
   for (const Comparison& row : worst_comparisons(rows))
     for (const Case& q : all)
       if (is_of(row, q) && std::ranges::find(ranked, &q, &std::pair<Rank, const Case*>::second) == ranked.end())
-        ranked.push_back({{!q.without.empty(), !owns(q), -row.rank()}, &q});  // the old shape is kept of owned ones
+        ranked.push_back({{!q.without.empty(), !owns(q), -row.rank()}, &q});  // the old shape is kept for the scene's
+                                                                              // own method
   std::ranges::stable_sort(ranked, {}, &std::pair<Rank, const Case*>::first);
   std::set<std::string> scenes;
   std::vector<Case> first, others;

@@ -111,7 +111,7 @@ void write_verdict(const RegressionResult& result, const Provenance& lines, cons
 
 namespace {
 
-/// The table for the page; null where it has no rows.
+/// A table for the page; null if it has no rows.
 Json page_table(const Table& table, const std::string& caption) {
   PageTable page{caption, {}, {}};
   for (const Column& column : table.columns) page.header.push_back(column.name);
@@ -132,7 +132,7 @@ std::string headline(const VerdictPage& page) {
   if (!page.result.passed())
     return fmt::format("{} of {} quantities failed",
                        std::ranges::count_if(rows, [](const auto& row) { return failed(row.state); }), rows.size());
-  return fmt::format("Nothing moved: {} quantities are the same",
+  return fmt::format("Nothing changed: {} quantities are the same",
                      std::ranges::count(rows, Status::same, &Comparison::state));
 }
 
@@ -148,7 +148,7 @@ std::vector<FailurePart> write_verdict_page(const VerdictPage& page, const Regre
   std::ranges::stable_sort(worst, std::greater(), &Comparison::rank);
   worst.erase(worst.begin() + static_cast<long>(std::min(most, failed_cases)), worst.end());
   const auto added = std::ranges::count(page.result.rows, Status::added, &Comparison::state);
-  Json data{{"title", "Crosscheck: what moved"},
+  Json data{{"title", "Crosscheck: changes"},
             {"styles", page_styles()},
             {"headline", headline(page)},
             {"beside", page.beside},

@@ -1,4 +1,4 @@
-// The verdict of a regression run for people and programs: CSV, JSON, JUnit, and a page.
+// Writes the verdict of a regression run as CSV, JSON, JUnit and a page.
 #pragma once
 
 #include "experiments/regress/regress.h"
@@ -6,19 +6,19 @@
 
 namespace crosscheck {
 
-/// regress.csv (every quantity), regress.json (failures, counts) and junit.xml (one case for each scene and method) in
-/// the folder.
+/// Writes regress.csv (every quantity), regress.json (failures, counts) and junit.xml (one case per scene and method)
+/// into the folder.
 void write_verdict(const RegressionResult& result, const Provenance& lines, const std::filesystem::path& folder);
 
 struct VerdictPage {
   const RegressionResult& result;
-  std::string beside;   // "baselines in ..." or the other method
-  std::string blessed;  // why, where these changes are blessed; empty elsewhere
+  std::string beside;   // "the baselines in ..." or the other method
+  std::string blessed;  // reason, if these changes are blessed; otherwise empty
   Provenance lines;
 };
 
-/// Writes OUT/index.html: each move with its size, and the figures of at most `figures` failed cases, which it returns.
-/// The page and stderr name what cannot be drawn.
+/// Writes OUT/index.html with each change and its size, and the figures of at most `figures` failed cases, which it
+/// returns. Figures that cannot be drawn are reported on the page and on stderr.
 std::vector<FailurePart> write_verdict_page(const VerdictPage& page, const Regression& regression, int figures);
 
 /// "chain, mysim/rk4 without gravity"

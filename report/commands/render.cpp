@@ -23,7 +23,7 @@ void read_size(const std::string& text, Shot& shot) {
     throw InputError(fmt::format("--size {}: expected WIDTHxHEIGHT in pixels, each from 64 to 8192", text));
 }
 
-/// The request, checked before any work.
+/// Checks the options before any computation.
 Shot shot_of(const RenderOptions& options, const Scene& scene) {
   Shot shot;
   shot.mode = mode_named(options.mode);
@@ -38,7 +38,7 @@ Shot shot_of(const RenderOptions& options, const Scene& scene) {
   return shot;
 }
 
-/// The methods' results; methods without one are reported.
+/// The methods' results; prints methods without one.
 std::vector<MethodResult> answers_of(const Scene& scene, const std::vector<Method>& methods, const Run& run,
                                      Progress& progress) {
   std::vector<MethodResult> answers;

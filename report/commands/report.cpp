@@ -1,4 +1,4 @@
-// report: the main job. Runs the experiments, draws figures and pictures, writes data, report.json and the page.
+// report: the main command. Runs the experiments, draws figures and pictures, writes data, report.json and the page.
 
 #include <deque>
 
@@ -17,7 +17,7 @@ namespace crosscheck {
 namespace fs = std::filesystem;
 namespace {
 
-/// The requested methods in the order in which they are tried for the picture of a scene.
+/// The requested methods, in the order in which they are tried for the picture of a scene.
 std::vector<std::string> methods_pictured(const Request& request, const Scene& scene) {
   std::vector<std::string> names, requested;
   for (const Method& m : methods_of(request, scene)) requested.push_back(m.name);
@@ -27,7 +27,7 @@ std::vector<std::string> methods_pictured(const Request& request, const Scene& s
   return names;
 }
 
-/// Pictures are work like any other: drawn by the same processes, kept as files.
+/// Pictures are points like any other: drawn by the same processes, kept as files.
 std::vector<Point> picture_points(const Request& request, const fs::path& folder) {
   std::vector<Point> points;
   for (const Scene& scene : request.scenes)
@@ -46,21 +46,21 @@ std::vector<Point> picture_points(const Request& request, const fs::path& folder
 
 std::string left_out(const Request& request) {
   if (request.scenes_only)
-    return "this is the report of the named scenes: what experiments ask of scenes of their own (balls, known "
-           "disagreements, the stiffness of links, the cost of a step) is in the report without names, and with "
+    return "this report covers the named scenes only: experiments with their own scenes (balls, known "
+           "disagreements, the stiffness of links, the cost of a step) are in the report without names, and with "
            "--full";
   std::vector<std::string_view> names;
   for (const auto name : shipped_scenes())
     if (std::none_of(request.scenes.begin(), request.scenes.end(), [&](const Scene& s) { return s.name == name; }))
       names.push_back(name);
   return fmt::format(
-      "this is the short form of the report: {} have no part of their own, and each chapter looks at "
-      "the scenes that stand for the others; --full has all of them",
+      "this is the short report: {} have no card of their own, and each chapter uses "
+      "representative scenes; --full has all scenes",
       fmt::join(names, ", "));
 }
 
-/// With --engines all: adds the engines that are built to the methods, and names the others with the command that
-/// builds them. Without methods and scenes these are the rules that other engines follow, and small scenes.
+/// For --engines all: adds the engines that are built to the methods, and prints the others with the command that
+/// builds them. The default methods are then those whose rules other engines follow; the default scenes are small.
 ReportOptions with_all_engines(ReportOptions options) {
   if (options.engines != "all") throw InputError(fmt::format("--engines {}: expected all", options.engines));
   if (options.methods.empty()) {
@@ -77,7 +77,7 @@ ReportOptions with_all_engines(ReportOptions options) {
   return options;
 }
 
-/// Computes points, a process for each, and returns what failed.
+/// Computes points, one process each, and returns the failures.
 Workers workers_of(const Store& store) {
   return [&store, patience = LockPatience()](const std::vector<Point>& points) {
     std::vector<std::string> problems;
@@ -99,7 +99,7 @@ ReportData data_of_runs(const ReportOptions& options, Request& request, const fs
   RunsWriter runs(folder);
   request.on_runs = [&](const RecordedRuns& recorded) { runs.keep(recorded, run_of(request, recorded.scene)); };
   std::vector<const Experiment*> chosen;
-  std::deque<Request> requests;  // one for each experiment, with its scenes
+  std::deque<Request> requests;  // one per experiment, with its scenes
   for (const Experiment& e : experiments()) {
     const auto& named = options.experiments;
     if (!named.empty() && std::find(named.begin(), named.end(), e.name) == named.end()) continue;
@@ -118,7 +118,7 @@ ReportData data_of_runs(const ReportOptions& options, Request& request, const fs
   }
   for (size_t i = pictures; i < points.size(); ++i) plan.points.push_back({points[i].name, points[i].hash()});
   data.problems = workers(points);
-  std::vector<std::string> missing;  // named already as what failed
+  std::vector<std::string> missing;  // already listed as failed
   data.rows = joined(plan, {&store, 1}, missing);
   for (const Certificate& c : data.rows.certificates)
     if (c.mismatch())
@@ -129,7 +129,7 @@ ReportData data_of_runs(const ReportOptions& options, Request& request, const fs
     for (const Method& method : request.methods)
       if (is_left_out(request, method, scene))
         data.rows.notes.push_back(
-            fmt::format("{} is left out on {}, whose {} particles take it too long; --methods "
+            fmt::format("{} is omitted on {}: {} particles would take too long; --methods "
                         "without --engines runs it",
                         program_title(method.name), scene.name, scene.model.particles.size()));
   data.runs = take_index(folder);
@@ -139,7 +139,7 @@ ReportData data_of_runs(const ReportOptions& options, Request& request, const fs
   return data;
 }
 
-/// One line: what the page weighs, block by block.
+/// One line with the size of the page, by part.
 std::string weight_of_page(const WrittenReport& report) {
   std::vector<std::string> parts;
   double sum = 0;
@@ -157,13 +157,13 @@ int finish(ReportData& data, const ReportOptions& options, OutputFolder& folder,
   store.clear();
   folder.finish();
   for (const std::string& problem : report.page.problems)
-    fmt::print(stderr, "crosscheck: missing in the report: {}\n", problem);
+    fmt::print(stderr, "crosscheck: missing from the report: {}\n", problem);
   for (const Finding& f : report.page.findings) fmt::print("- {}\n", sentence_of(f));
   fmt::print("page: {}\n{}\n", weight_of_page(report), (options.out / "index.html").string());
   return report.page.problems.empty() && report.agree ? 0 : 1;
 }
 
-/// The page again, of a report that is there: without running anything, in place or into another folder.
+/// Rebuilds the page of an existing report without running anything, in place or into another folder.
 int remake_command(const fs::path& from, const ReportOptions& options) {
   ReportData data = read_report(from);
   const fs::path kept = fs::weakly_canonical(from);
@@ -180,7 +180,7 @@ int remake_command(const fs::path& from, const ReportOptions& options) {
   return finish(data, options, folder, store, workers_of(store));
 }
 
-/// Whether all findings of a report follow from its data.
+/// Verifies that all findings of a report follow from its data.
 int verify_command(const fs::path& folder) {
   const Verification found = verify_report(folder);
   for (const std::string& mismatch : found.mismatches) fmt::print("{}\n", mismatch);
@@ -202,9 +202,9 @@ int report_command(const ReportOptions& options, OutputFolder& folder) {
     require_resources_to_keep(methods_of(request, scene), scene, run_of(request, scene));
   request.scenes_only = !options.scenes.empty() && !options.full;
   if (!options.against.empty()) {
-    changes_since(options.against, {});  // is it a report? Checked before the work
+    changes_since(options.against, {});  // throws, before the work, if it is not a report
     if (fs::weakly_canonical(options.against) == fs::weakly_canonical(options.out))
-      throw InputError("--against: expected another folder than that of --out, which is written anew");
+      throw InputError("--against: expected a folder other than that of --out, which is overwritten");
   }
   const Store store{store_in(folder.path())};
   const Workers workers = workers_of(store);
@@ -231,15 +231,16 @@ void add_report(CLI::App& app, Invocation& call) {
   auto [report, options] =
       add_command(app, call, "report", "writes the comparison report: a page with findings, figures, pictures and data",
                   called_report);
-  report.add_option("SCENE", options.scenes, "default: those that stand for the others; all with --full");
+  report.add_option("SCENE", options.scenes, "default: representative scenes; with --full all scenes");
   report.add_option("--methods", options.methods, "A,B,...");
-  report.add_option("--engines", options.engines, "all: with every engine that `engine NAME` has built");
+  report.add_option("--engines", options.engines, "all: includes every engine that `engine NAME` has built");
   report.add_option("--out", options.out, "folder (out/report)");
   add_quick_and_full(report, options.full);
-  report.add_option("--against", options.against, "an earlier report: the page says what changed since");
+  report.add_option("--against", options.against, "an earlier report: the page lists the changes since then");
   report.add_option("--verify", options.verified,
-                    "DIR: recomputes every finding of the report in it from its data, no more");
-  report.add_option("--from", options.from, "DIR: the page of the report in it again from its data, nothing is run");
+                    "DIR: only recomputes every finding of the report in it from its data");
+  report.add_option("--from", options.from,
+                    "DIR: rebuilds the page of the report in it from its data, and runs nothing");
 }
 
 }  // namespace crosscheck

@@ -1,4 +1,4 @@
-// run: one method on one scene; writes trajectory.npy, velocities.npy, energy.csv, run.json, and meshes where asked.
+// run: one method on one scene; writes trajectory.npy, velocities.npy, energy.csv, run.json and, on request, meshes.
 
 #include "experiments/stability/margin.h"
 #include "experiments/tables/energy.h"
@@ -11,7 +11,7 @@ namespace crosscheck {
 namespace {
 
 struct RunOptions {
-  std::string scene, method, meshes;             // no form of meshes: none are written
+  std::string scene, method, meshes;             // empty `meshes`: none are written
   double step = 0, tolerance = 0, duration = 0;  // 0: the scene's own
   std::filesystem::path out = "out/run";
   std::string command_line;
@@ -80,7 +80,7 @@ int run_command(const RunOptions& options) {
   if (out.verdict == Verdict::ok)
     if (const std::string outlook = stability_warning(method, scene, out.step); !outlook.empty())
       out.remark += (out.remark.empty() ? "" : "; ") + outlook;
-  if (!ledger.rows().empty()) {  // none without velocities
+  if (!ledger.rows().empty()) {  // empty without velocities
     Table energy = table_of<SceneEnergyRow>("energy");
     add_ledger(energy, method.name, ledger.rows(), ledger.contact_inferred());
     write_csv(energy, with_scene(provenance(options.command_line), scene), folder.path());
@@ -89,7 +89,7 @@ int run_command(const RunOptions& options) {
   folder.finish();
   fmt::print("{} by {}: {}{}\n", scene.name, method.name, in_words(out.verdict),
              out.reason.empty() ? "" : ", " + out.reason);
-  // a program of its own need not count: 0 is then no number of steps
+  // an external program need not count: 0 then means unknown
   const bool outside = out.process_seconds > 0;
   const auto counted = [&](long count, const char* what) {
     return count > 0 || !outside ? fmt::format("{} {}", count, what) : fmt::format("{} (number not reported)", what);
@@ -97,12 +97,13 @@ int run_command(const RunOptions& options) {
   fmt::print("  {} of {:.6g} s{}, {}, {}, {} frames\n", counted(out.steps, "steps"), out.step,
              adaptive ? fmt::format(" in the mean (relative tolerance {:.3g})", out.tolerance) : "",
              counted(out.evaluations, "force evaluations"),
-             out.cpu_seconds > 0 || !outside ? fmt::format("{:.3g} s of CPU time", out.cpu_seconds)
-                                             : fmt::format("{:.3g} s of CPU time with its start", out.process_seconds),
+             out.cpu_seconds > 0 || !outside
+                 ? fmt::format("{:.3g} s of CPU time", out.cpu_seconds)
+                 : fmt::format("{:.3g} s of CPU time including its start", out.process_seconds),
              frames.times().size());
   if (!out.remark.empty()) fmt::print("  {}\n", out.remark);
   if (out.degenerate_springs > 0)
-    fmt::print("  springs met at zero length {} times and got no force there\n", out.degenerate_springs);
+    fmt::print("  springs had zero length {} times, and no force then\n", out.degenerate_springs);
   if (meshes) fmt::print("  {} meshes: meshes/frame-0001.{} and on\n", meshes->frames(), options.meshes);
   fmt::print("  {}\n", options.out.string());
   return 0;
@@ -118,10 +119,9 @@ void add_run(CLI::App& app, Invocation& call) {
   run.add_option("--step", options.step, "time step of fixed-step methods, s")->transform(time_above_zero());
   run.add_option("--tol", options.tolerance, "relative tolerance of adaptive methods")->transform(above_zero());
   run.add_option("--duration", options.duration, "simulated time, s")->transform(time_above_zero());
-  run.add_option(
-      "--meshes", options.meshes,
-      "obj or ply: writes each sample as a file in DIR/meshes, triangles of cloths and lines of springs, and the "
-      "spheres beside them");
+  run.add_option("--meshes", options.meshes,
+                 "obj or ply: writes each sample as a file in DIR/meshes: triangles of cloths, lines of springs, and "
+                 "spheres");
   run.add_option("--out", options.out, "folder (out/run)");
 }
 

@@ -1,5 +1,5 @@
-// translate: what the numbers of a scene become in another engine, or an engine's numbers in a scene; exit 1 where the
-// engine has none for it, or refuses to run it.
+// translate: converts a scene's parameters to another engine, or an engine's parameters to a scene; exit 1 if the
+// engine has no such parameters, or refuses to run the scene.
 
 #include "experiments/translate/translated_run.h"
 #include "report/commands/command_line.h"
@@ -42,12 +42,13 @@ void print(const TranslatedRun& run) {
   if (run.outcome.verdict != Verdict::ok) {
     fmt::print("{}{}\n", in_words(run.outcome.verdict), run.outcome.reason.empty() ? "" : ": " + run.outcome.reason);
   } else if (const auto distance = run.error ? run.error : run.difference) {
-    fmt::print("{} {}, {:.3g} % of the motion of {}\n  largest RMS over the particles until {:.3g} s, beside {}{}\n",
-               run.error ? "error" : "difference", nice_length(*distance), 100 * *distance / run.motion,
-               nice_length(run.motion), run.until, run.beside,
-               run.bar ? fmt::format(", error bar {}", nice_length(*run.bar)) : "");
+    fmt::print(
+        "{} {}, {:.3g} % of the motion of {}\n  largest RMS over the particles until {:.3g} s, compared with {}{}\n",
+        run.error ? "error" : "difference", nice_length(*distance), 100 * *distance / run.motion,
+        nice_length(run.motion), run.until, run.beside,
+        run.bar ? fmt::format(", error bar {}", nice_length(*run.bar)) : "");
   } else {
-    fmt::print("it ran; there is nothing to hold it against\n");
+    fmt::print("it ran; there is nothing to compare it with\n");
   }
   for (const std::string& law : run.outcome.different_law) fmt::print("  different law: {}\n", law);
 }
@@ -133,7 +134,7 @@ int to_engine(const TranslateOptions& options) {
                  run.step, t.h, run.duration / run.samples);
     for (const TranslatedNumber& number : t.numbers) print(number);
     for (const std::string& lost : t.lost) fmt::print("  lost: {}\n", lost);
-    if (!target.numbers->source.empty()) fmt::print("  formulas read in {}\n", target.numbers->source);
+    if (!target.numbers->source.empty()) fmt::print("  formulas from {}\n", target.numbers->source);
     if (measured)
       print(*measured);
     else

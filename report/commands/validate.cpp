@@ -1,4 +1,4 @@
-// validate: a scene's particles, springs, frequencies, critical steps and demand.
+// validate: describes a scene's particles, springs, frequencies, critical steps and resource demand.
 
 #include <map>
 #include <numbers>
@@ -15,22 +15,22 @@ namespace {
 
 struct SceneSummary {
   Scene scene;
-  std::string given;  // as it was typed
+  std::string given;  // as typed
   std::map<Family, long> springs;
   double omega = 0;                                      // rad/s
-  std::optional<double> gamma;                           // 1/s, of all particles alike
-  std::vector<std::pair<std::string, double>> critical;  // of each explicit rule: s; 0 stable at no step
+  std::optional<double> gamma;                           // 1/s, if all particles have the same
+  std::vector<std::pair<std::string, double>> critical;  // critical step of each explicit rule, s; 0: stable at no step
   ResourceEstimate demand{};
   NetModuli net;
   std::optional<BendingLength> bending;
   std::vector<std::string> warnings;
-  int pieces = 0, free_pieces = 0;              // all, and those without a pin
-  std::vector<std::pair<int, int>> coincident;  // particles that start at the same place
-  std::optional<double> mass_per_area;          // kg/m^2 of a sheet's triangles
+  int pieces = 0, free_pieces = 0;              // number of connected pieces: all, and without a pin
+  std::vector<std::pair<int, int>> coincident;  // pairs of particles that start at the same position
+  std::optional<double> mass_per_area;          // kg/m^2, for the triangles of a sheet
 };
 
-/// Mass over area of the particles of a sheet; nothing for the closed surface of a block, which has 2 V - 4 triangles
-/// on V particles, more than any sheet.
+/// Mass / area of the particles of a sheet; nothing for the closed surface of a block, which has 2 V - 4 triangles on V
+/// particles, more than any sheet.
 std::optional<double> mass_per_area_of(const Scene& scene) {
   std::set<int> particles;
   double area = 0, mass = 0;
@@ -51,7 +51,7 @@ void add_pieces(SceneSummary& summary) {
   std::vector<char> held(summary.pieces, 0);
   for (const int pin : model.particles.pins) held[piece[pin]] = 1;
   summary.free_pieces = static_cast<int>(std::ranges::count(held, 0));
-  // 1e-9: the same place but for the rounding of decimal numbers
+  // 1e-9: the same position except for the rounding of decimal numbers
   summary.coincident = coincident_pairs(summary.scene.start.x, 1e-9 * summary.scene.size());
   for (const auto& [a, b] : summary.coincident)
     if (piece[a] != piece[b]) {
@@ -77,7 +77,7 @@ SceneSummary summary_of(const std::string& given) {
     if (!text.empty()) summary.warnings.push_back(std::move(text));
   };
   for (const Stepper& rule : steppers()) {
-    // rules that solve equations are stable at every step, adaptive ones choose their own
+    // rules that solve equations are stable at every step; adaptive rules choose their own
     if (rule.evaluations == 0 || rule.adaptive || !summary.gamma || (summary.omega == 0 && *summary.gamma == 0))
       continue;
     const double limit = rule.limit(summary.omega, *summary.gamma);
@@ -141,19 +141,19 @@ void print(const SceneSummary& s) {
                                                     s.omega, 2 * std::numbers::pi / s.omega)
                                       : "0: nothing vibrates");
   if (s.critical.empty())
-    line("critical steps", s.gamma ? "none: nothing vibrates" : "not told: the particles' drag rates differ");
+    line("critical steps", s.gamma ? "none: nothing vibrates" : "unknown: the particles' drag rates differ");
   for (const char* title = "critical steps"; const auto& [name, limit] : s.critical)
     line(std::exchange(title, ""),
          fmt::format("{:<18} {}", name, limit > 0 ? fmt::format("{:.4g} s", limit) : "stable at no step without drag"));
   if (!s.critical.empty())
     line("", fmt::format("from omega{}; {}longer springs than at the start change omega",
                          *s.gamma > 0 ? fmt::format(" and the drag rate of {:.3g} 1/s", *s.gamma) : "",
-                         length_of_term<Dashpots>(model) > 0 ? "dashpots are left out, and make them shorter; " : ""));
+                         length_of_term<Dashpots>(model) > 0 ? "dashpots are ignored, and would shorten them; " : ""));
   if (s.bending) line("bending", sentence_of(*s.bending));
   if (s.net.moduli)
     line("moduli", fmt::format("{}", fmt::join(sentences_of(*s.net.moduli), fmt::format("\n{:19}", ""))));
   else if (!s.springs.empty())
-    line("moduli", "not told: " + s.net.why_not);
+    line("moduli", "unknown: " + s.net.why_not);
   line("default run", fmt::format("{}, {:.6g} s in {}, {} samples", scene.method, scene.duration,
                                   find_method(scene.method).adaptive
                                       ? "steps of its own choice"
@@ -223,7 +223,8 @@ Json json_of(const SceneSummary& s) {
           {"warning", s.warnings.empty() ? Json() : Json(fmt::format("{}", fmt::join(s.warnings, "; ")))}};
 }
 
-/// One step by the scene's own method, unless that is a program from outside. Throws InputError where it refuses.
+/// Makes one step with the scene's own method, unless that is an external program. Throws InputError if the method
+/// refuses the scene.
 void require_accepted(const Scene& scene, const std::string& given) {
   const Method method = find_method(scene.method);
   if (method.family().role == Role::outside) return;
@@ -238,7 +239,7 @@ struct ValidateOptions {
   bool json = false;
 };
 
-/// Describes every scene. Faults are reported one line each on standard error; 2 where there was one, 0 otherwise.
+/// Describes every scene. Prints each fault as a line on standard error; returns 2 if there was one, otherwise 0.
 int validate_command(const ValidateOptions& options) {
   int status = 0;
   Json entries = Json::array();

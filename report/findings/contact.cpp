@@ -1,4 +1,4 @@
-// Findings of experiment `contact`, and of what engines do after contact.
+// Findings of experiment `contact`, and on the motion after contact.
 
 #include <algorithm>
 #include <cmath>
@@ -28,7 +28,7 @@ Findings cone_findings(const Facts& facts) {
   return out;
 }
 
-/// Errors of mysim's representative on planes at the usual step, and the rest of a particle.
+/// Errors of mysim's representative on planes at the usual step, and the resting behaviour of a particle.
 Findings plane_findings(const Facts& facts) {
   const auto rows = rows_of<PlaneProbeRow>(facts.rows);
   if (rows.empty()) return {};
@@ -44,7 +44,7 @@ Findings plane_findings(const Facts& facts) {
     const double off = std::abs(*row.measured - row.by_theory);
     if (row.probe == PlaneProbe::apex && row.method == ours) errs.value = 100 * off / row.by_theory;
     if (row.probe == PlaneProbe::period && row.method == ours) period = percent(off, row.by_theory);
-    // J: roundings of a run
+    // J: round-off of a run
     if (row.probe == PlaneProbe::loss && off > 1e-12) rests.value = std::max(rests.value, 100 * off);
     if (row.probe == PlaneProbe::held && *row.measured < least) least = *row.measured, moving = row.method;
   }
@@ -56,9 +56,9 @@ Findings plane_findings(const Facts& facts) {
   return out;
 }
 
-/// Positions after the window: each other engine's at the end beside those of mysim's own rules, which share its
-/// contact rule and show how far positions can be predicted. These are of an order above one and stable without
-/// damping: Heun adds energy.
+/// Positions after the window. Each other engine's final difference is compared with those of mysim's own rules, which
+/// share its contact rule and show how far positions are predictable. These rules have an order above one and are
+/// stable without damping (Heun is excluded because it adds energy).
 Findings contact_findings(const Facts& facts) {
   std::vector<std::string> scenes;
   for (const EngineRow& run : rows_of<EngineRow>(facts.rows)) add_once(scenes, run.scene);
@@ -114,7 +114,7 @@ Findings leaving_findings(const Facts& facts) {
     f.words = {{"step", step_text(step)},
                {"longest", step_text(offs[method].rbegin()->first)},
                {"off", fmt::format("{:.2g} degrees", offs[method].rbegin()->second)}};
-    // the furthest one of mysim's
+    // keep mysim's worst only
     const auto same = std::ranges::find_if(
         out, [&](const Finding& g) { return family_of(method).is_subject() && family_of(g.method).is_subject(); });
     if (same == out.end())

@@ -15,7 +15,7 @@
 namespace crosscheck {
 namespace {
 
-/// The largest residual in parts of the energy turned over; nothing at rest, or where it was left out.
+/// The largest residual as a fraction of the energy exchanged; nothing at rest, or if it was not measured.
 std::optional<double> share_of(const EnergyRow& row) {
   if (!(row.turned_over.value_or(0) > 0)) return std::nullopt;
   return row.largest_residual.value_or(0) / *row.turned_over;
@@ -53,8 +53,8 @@ void symplectic(const std::vector<EnergyRow>& table, Findings& out) {
   out.insert(out.end(), exceptions.begin(), exceptions.end());
 }
 
-/// Rules that are not symplectic, on the first undamped scene: those that are position-based, stable at no step, or
-/// implicit, and programs of the reader's.
+/// Rules that are not symplectic, on the first undamped scene: position-based rules, rules without a stable step,
+/// implicit rules, and user programs.
 void drift(const std::vector<EnergyRow>& table, Findings& out) {
   std::vector<std::string> shown{subject_method(never_stable_undamped), subject_method(is_implicit)};
   for (const MethodFamily* peer : default_peers()) shown.push_back(position_based(*peer));
@@ -79,15 +79,15 @@ void drift(const std::vector<EnergyRow>& table, Findings& out) {
   }
 }
 
-/// "+1.8 %", or "0 ± 0.45 %" where the error bar hides the difference.
+/// "+1.8 %", or "0 ± 0.45 %" if the difference is within the error bar.
 std::string off_text(double taken, double in_truth, double bar) {
   const double off = std::abs(taken) - std::abs(in_truth);
   if (std::abs(off) <= bar) return "0 ± " + percent(bar, std::abs(in_truth));
   return (off > 0 ? "+" : "−") + percent(std::abs(off), std::abs(in_truth));
 }
 
-/// What contact takes on scenes whose truth says it: of the methods that stand for the engines, and of mysim's the one
-/// that is furthest off.
+/// Energy taken by contact on scenes whose truth has it, for the representative methods of the engines and the method
+/// of mysim with the largest deviation.
 void taken_by_contact(const TableSet& rows, Findings& out) {
   const std::vector<EngineEnergyRow> table = rows_of<EngineEnergyRow>(rows);
   std::vector<std::string> scenes;
@@ -100,11 +100,12 @@ void taken_by_contact(const TableSet& rows, Findings& out) {
       if (row.scene != scene || !row.contact || row.verdict != Verdict::ok || row.method == sticky_sphere) continue;
       const auto off = [](const EngineEnergyRow* of) { return std::abs(*of->contact - *of->contact_in_truth); };
       if (row.method == ours) first = &row;
-      // what an engine does not tell is what its balance lacks, and of a rule that damps by itself more than contact
+      // unreported contact energy is inferred from the balance; for rules with numerical damping that is more than
+      // contact
       if (may_move_alike(row.method)) others.push_back(&row);
       if (!row.contact_inferred && row.method != ours && (!furthest || off(&row) > off(furthest))) furthest = &row;
     }
-    // a tenth: beyond that the truth knows no share of it
+    // above a tenth, the truth does not resolve shares of it
     if (!first || *first->contact_bar > 0.1 * std::abs(*first->contact_in_truth)) continue;
     if (furthest) others.insert(others.begin(), furthest);
     const double in_truth = *first->contact_in_truth, bar = *first->contact_bar;
@@ -129,7 +130,7 @@ void taken_by_contact(const TableSet& rows, Findings& out) {
   }
 }
 
-/// Numerical damping against the closed form.
+/// Numerical damping compared with the closed form.
 void damping(const std::vector<DampingRow>& table, Findings& out) {
   Findings all;
   for (const DampingRow& row : table) {

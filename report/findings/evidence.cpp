@@ -1,4 +1,4 @@
-// The rows that each finding rests on.
+// Determines the rows that each finding rests on.
 #include "report/findings/evidence.h"
 
 #include <fmt/format.h>

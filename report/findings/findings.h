@@ -13,12 +13,12 @@
 
 namespace crosscheck {
 
-/// The data that findings are made from: all tables, and of a report its scenes. `scene` and `of` are set where one
-/// scene is the subject.
+/// Input of findings: all tables and, for a report, its scenes. `scene` and `of` are set for findings about a single
+/// scene.
 struct Facts {
   const TableSet& rows;
   std::span<const Scene> scenes = {};
-  std::span<const SceneData> data = {};  // one for each scene
+  std::span<const SceneData> data = {};  // one per scene
   const Scene* scene = nullptr;
   const SceneData* of = nullptr;
   Facts(const TableSet& all, std::span<const Scene> shown = {}, std::span<const SceneData> their_data = {})
@@ -27,14 +27,14 @@ struct Facts {
 
 struct Finding {
   std::string rule;                // key of its text: a rule's key, or "rule.variant"
-  std::string scene = {};          // or empty: of the whole report
-  std::string method = {};         // or engine that it is about
-  std::string other = {};          // and the one that this is compared with
-  double value = 0;                // of the rule's quantity, in its unit
-  std::optional<double> low = {};  // interval: an error bar, what a search could tell, or the range over scenes
+  std::string scene = {};          // empty: the whole report
+  std::string method = {};         // or engine that the finding is about
+  std::string other = {};          // the method or engine compared with it
+  double value = 0;                // in the unit of the rule
+  std::optional<double> low = {};  // interval: an error bar, the resolution of a search, or the range over scenes
   std::optional<double> high = {};
-  std::string tier = {};                          // where the rule names none
-  std::map<std::string, std::string> words = {};  // names, numbers and lists that its text asks for besides
+  std::string tier = {};                          // if the rule has none
+  std::map<std::string, std::string> words = {};  // further names, numbers and lists in its text
 };
 
 using Findings = std::vector<Finding>;
@@ -48,40 +48,40 @@ struct FindingRule {
   std::string_view quantity;  // name of the value
   std::string_view unit;      // of value, low and high: "m", "s", "%", "1", "m/s", "1/s" or "degrees"
   std::string_view tier;      // tier of its truth; empty: each finding has its own
-  std::string_view words;     // that its findings may have, separated by blanks
-  std::vector<std::string_view> tables;  // that it rests on
-  std::string_view figure = {};          // that shows it: "{}" is the finding's scene, "*" any; empty: a table shows it
+  std::string_view words;     // names that its findings may define, separated by blanks
+  std::vector<std::string_view> tables;  // tables that it rests on
+  std::string_view figure = {};          // figure that shows it: "{}" its scene, "*" any; empty: a table
 };
 
 const std::vector<FindingRule>& finding_rules();
-/// The rule of a key, with a variant or without. Throws std::logic_error with the key where there is none.
+/// The rule of a key, with or without a variant. Throws std::logic_error with the key if there is no such rule.
 const FindingRule& finding_rule(std::string_view key);
 
-/// The findings of the rules with a chapter (`of_scene`: without one), in the order of the table.
+/// Findings of the rules with a chapter (`of_scene`: without one), in the order of the table.
 Findings found_by_rules(const Facts& facts, bool of_scene);
 
-// Texts, from texts/*.md: "## KEY", a sentence, and "Formula: " with how the value follows from the columns of the
-// tables. In a sentence {value}, {low} and {high} are written in the rule's unit, {range} is low to high, {value±} an
-// exponent with its standard error; {scene}, {method} and {other} are names, all else are words of the finding. A part
-// in square brackets is left out where one of its words is empty.
+// Texts, from texts/*.md: "## KEY", a sentence, and "Formula: " with the formula of the value in terms of table
+// columns. In a sentence, {value}, {low} and {high} are written in the rule's unit, {range} is low to high, and
+// {value±} is an exponent with its standard error. {scene}, {method} and {other} are names; all others are words of the
+// finding. A part in square brackets is omitted if one of its words is empty.
 
 struct FindingText {
   std::string sentence, formula;
 };
-/// All texts by key. Throws std::runtime_error that names file and line where one is not of that form.
+/// All texts by key. Throws std::runtime_error with file and line if a text is malformed.
 const std::map<std::string, FindingText>& finding_texts();
 
-/// Throws std::logic_error where the text names what the finding does not have.
+/// Fills in the text. Throws std::logic_error if the text uses a word that the finding does not have.
 std::string sentence_of(const Finding& finding);
-/// Their sentences, one after the other.
+/// The sentences of all findings, joined.
 std::string sentences_of(const Findings& findings);
 std::string tier_of(const Finding& finding);
-/// All of it but its rows, as report.json has it.
+/// All fields except the rows, as in report.json.
 Json json_of(const Finding& finding);
 
-// Functions of the rules, by the file that they are in.
+// Functions of the rules, grouped by file.
 
-// answers.cpp: one finding or none each
+// answers.cpp: at most one finding each
 Findings agreement_answer(const Facts&);
 Findings method_answer(const Facts&);
 Findings failure_answer(const Facts&);
@@ -109,9 +109,9 @@ Findings drape_findings(const Facts&);
 // adequacy.cpp
 Findings adequacy_findings(const Facts&);
 Findings bend_findings(const Facts&);
-// scene.cpp: of one scene
+// scene.cpp: one scene
 Findings scene_findings(const Facts&);
-// recommendation.cpp: of one scene
+// recommendation.cpp: one scene
 Findings recommendation_findings(const Facts&);
 
 }  // namespace crosscheck

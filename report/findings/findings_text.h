@@ -1,4 +1,4 @@
-// Names, numbers and lists as findings write them.
+// Formats names, numbers and lists for findings.
 #pragma once
 
 #include <fmt/format.h>
@@ -11,32 +11,32 @@
 
 namespace crosscheck {
 
-// the methods that stand for the subject and for the first of its peers
+// the representative methods of the subject and of its first peer
 inline const std::string ours(subject().representative), sticky_sphere = sticky_method(),
                                                          theirs(default_peers().front()->representative);
 
-/// A peer's position-based method, or an empty name.
+/// The name of a peer's position-based method, or an empty string.
 std::string position_based(const MethodFamily& peer = *default_peers().front());
 
-/// The methods that stand for the engines, and the peers' position-based ones, which differ from them.
+/// The representative methods of all engines, and the peers' position-based ones, which are different.
 std::vector<std::string> representatives();
-/// The same with the sticky sphere, for scenes with contact.
+/// `representatives()` and the sticky sphere, for scenes with contact.
 std::vector<std::string> representatives_in_contact();
 
-/// Whether findings speak of the method by name where they speak of a few: it stands for its engine, or is a program of
-/// the reader's.
+/// True if findings that list a few methods may name this one: it represents its engine, or is a user's program.
 bool stands_for_its_engine(const std::string& method);
-/// Whether it belongs to another engine than mysim, and is no truth.
+/// True if the method belongs to an engine other than mysim, and is not a truth.
 bool is_another_engine(const std::string& method);
-/// The same without others' integrators on our right-hand side.
+/// `is_another_engine` without external integrators that use our right-hand side.
 bool is_rival(const std::string& method);
-/// True if it stands for another engine by a rule that is not position-based, so that its motion may be the same.
+/// True if the method represents another engine and is not position-based, so that its motion may be the same.
 bool may_move_alike(const std::string& method);
 inline bool is_implicit(const Stepper& s) { return s.evaluations == 0; }
 inline bool never_stable_undamped(const Stepper& s) { return s.order == 1 && s.limit(1, 0) == 0; }
 inline bool is_symplectic_of_second_order(const Stepper& s) { return s.symplectic && s.order == 2 && !is_implicit(s); }
 
-/// A method or an engine: "leapfrog", "Bullet's pbd", "Bullet", "odeint/dopri5", and of programs the base name.
+/// A method or an engine in a sentence: "leapfrog", "Bullet's pbd", "Bullet", "odeint/dopri5"; for programs the base
+/// name.
 std::string name_in_sentence(const std::string& name);
 std::vector<std::string> names_in_sentence(const std::vector<std::string>& names);
 
@@ -47,25 +47,26 @@ std::string count_text(long count);
 inline std::string counted(size_t count, const std::string& noun) {
   return fmt::format("{} {}{}", count, noun, count == 1 ? "" : "s");
 }
-/// "4 iterations"; of mysim's xpbd "4 sub-steps", of one pass each.
+/// "4 iterations"; for mysim's xpbd "4 sub-steps" of one pass each.
 inline std::string passes_text(const std::string& method, long n) {
   return counted(static_cast<size_t>(n), family_of(method).is_subject() ? "sub-step" : "iteration");
 }
-/// How many times as much: two digits, written plainly ("160", "2.4").
+/// A factor with two digits, written plainly ("160", "2.4").
 std::string times_text(double factor);
 /// "a, b and c"
 std::string joined(const std::vector<std::string>& words);
-/// The same, of more than `most` the first ones and "2 more".
+/// Like `joined`, but after the first `most` words: "2 more".
 std::string listed(std::vector<std::string> words, size_t most = 3);
-/// "0.12 % to 66 %", or one of them where both read the same.
+/// "0.12 % to 66 %", or just one of them if both read the same.
 inline std::string range(const std::string& low, const std::string& high) {
   return low == high ? low : low + " to " + high;
 }
 
-/// Appends a word that is not there yet.
+/// Appends the word if it is not there yet.
 void add_once(std::vector<std::string>& words, const std::string& word);
 
-/// True where no contact, no other law and no chaos excuses it: a method of the same rule, more than round-off apart.
+/// True for a method of the same rule whose difference exceeds round-off although there is no contact, other law or
+/// chaos.
 bool same_rule_differs(const SceneData& data, const MethodData& method);
 
 }  // namespace crosscheck

@@ -1,4 +1,4 @@
-// Findings of all scenes together that have no file of their own: failures, orders, invariants.
+// Findings about all scenes that have no file of their own: failures, orders, invariants.
 
 #include <algorithm>
 #include <cmath>
@@ -12,7 +12,7 @@
 
 namespace crosscheck {
 
-/// Methods that failed where others held, programs that gave no answer, and scenes on which all failed.
+/// Methods that failed where others held, programs that gave no answer, and scenes on which all methods failed.
 Findings failure_findings(const Facts& facts) {
   std::map<std::string, std::vector<std::string>> failed, crashed;
   std::vector<std::string> all;
@@ -43,7 +43,7 @@ Findings order_findings(const Facts& facts) {
   for (const OrderSlopeRow& row : slopes) {
     add_once(methods, row.method), add_once(scenes, row.scene);
   }
-  // 0.1: what the finest three steps of a smooth scene still carry of the next order
+  // 0.1: contribution of the next order that remains in the finest three steps of a smooth scene
   const bool differs = off(worst) > 0.1;
   return {{.rule = differs ? "orders.differ" : "orders.agree",
            .method = differs ? worst.method : "",

@@ -1,4 +1,4 @@
-// Picks rows from tables.
+// Reads the data of a scene from tables.
 #include "report/findings/report_data.h"
 
 #include <fmt/format.h>
@@ -43,7 +43,7 @@ bool is_useless(const MethodData& run, const SceneData& scene) {
 SceneData scene_data(const std::string& scene, const TableSet& result) {
   SceneData facts;
   facts.scene = scene;
-  // where no run of any scene came to a row, the page says why among what is missing
+  // if no run of any scene has a row, the page gives the reason in its list of problems
   for (EngineRow& run : rows_of<EngineRow>(result)) {
     if (run.scene != scene) continue;
     facts.motion = run.motion, facts.window = run.window;
@@ -85,7 +85,7 @@ std::string nice(double value) {
 std::string nice_length(double metres) {
   const double size = std::abs(metres);
   if (size == 0) return "0 m";
-  // two digits, then plain: 810, not 8.1e+02
+  // two digits, written plainly: 810, not 8.1e+02
   auto two_digits = [](double value) {
     const double unit = std::pow(10, std::floor(std::log10(std::abs(value))) - 1);
     return fmt::format("{:g}", std::round(value / unit) * unit);

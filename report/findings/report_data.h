@@ -1,4 +1,4 @@
-// The numbers of a scene, picked from the experiments' tables, and how numbers are written.
+// The numbers of a scene, taken from the experiments' tables, and the formats of numbers.
 #pragma once
 
 #include <optional>
@@ -14,20 +14,20 @@
 
 namespace crosscheck {
 
-/// "blew up", "solver gave up", "froze", "cannot": what a verdict other than ok says of a run, as the table writes it.
+/// "blew up", "solver gave up", "froze", "cannot": a verdict other than ok in words.
 std::string failure_class(std::string_view verdict);
 inline std::string failure_class(Verdict verdict) { return failure_class(name_of(verdict)); }
 
-/// A method's run of a scene. Its error, difference and clearance are the largest in the window.
+/// A method's run of a scene. Its error, difference and clearance are the largest within the window.
 struct MethodData : EngineRow {
   std::optional<double> energy_error = {};  // relative
   bool supported() const { return verdict != Verdict::unsupported; }
   bool ok() const { return verdict == Verdict::ok; }
-  /// Whether its program died or took too long, which says nothing of its physics.
+  /// True if its program crashed or timed out, which says nothing about its physics.
   bool gave_no_answer() const { return verdict == Verdict::crash || verdict == Verdict::timeout; }
-  /// Whether it came to its end and is no truth itself, and how far it is from the truth is known.
+  /// True for a completed run that is not a truth and whose error is known.
   bool judged() const { return ok() && error && family_of(method).role != Role::truth; }
-  /// "blew up", "solver gave up" and so on, of a run that failed.
+  /// "blew up", "solver gave up" and so on, for a failed run.
   std::string failure() const { return failure_class(verdict); }
 };
 
@@ -35,41 +35,40 @@ struct SceneData {
   std::string scene;
   double motion = 0, window = 0, growth = 0;  // m, s, 1
   double measured_window = 0;                 // s, until a perturbation of 1e-10 m has grown a thousandfold
-  std::string tier;                           // tier of the truth; empty without one
+  std::string tier;                           // tier of the truth; empty without a truth
   double error_bar = 0;                       // m
-  std::string truth;                          // the way it was found, one sentence
-  std::optional<double> truth_until;          // s, of a truth that ends before the scene does
-  // where the truth is what the in-house contact rule converges to: the same; tier is then empty
+  std::string truth;                          // its derivation, one sentence
+  std::optional<double> truth_until;          // s, if the truth ends before the scene
+  // tier, bar and end of the converged in-house contact rule, if that is the truth; `tier` is then empty
   std::optional<double> contact_until;
   std::vector<MethodData> methods;
   const MethodData* find(const std::string& method) const;
-  /// The least of its methods', which is that of double precision.
+  /// The smallest round-off bound of its methods, which is that of double precision.
   std::optional<double> round_off() const;
-  /// True when some run came within a millimetre of the sphere's contact surface.
+  /// True if some run came within a millimetre of the sphere's contact surface.
   bool touched() const;
 };
 
-/// Whether a run came to its end so far from the truth, more than a tenth of the motion, that it is of no use.
+/// True if a completed run is useless: its error exceeds a tenth of the motion.
 bool is_useless(const MethodData& run, const SceneData& scene);
-/// The part of the motion beyond which it is.
+/// Fraction of the motion above which an error makes a run useless.
 inline constexpr double useless_from = 0.1;
 
 /// Facts of a scene from the tables `engines`, `engines-cost` and `engines-energy`.
 SceneData scene_data(const std::string& scene, const TableSet& result);
 
-/// Whether a method of that name chooses its steps by itself: the scene's own step is none of its.
+/// True if the method chooses its own steps, so that the scene's step does not apply.
 bool is_adaptive(const std::string& method);
 
-/// "3.2e-05" as "3.2e-5", small and large numbers plain where that is short: for sentences.
+/// "3.2e-5" instead of "3.2e-05"; small and large numbers are written plainly if that is short. For sentences.
 std::string nice(double value);
-/// A length in the unit that suits it: "1.2 mm", "3.4e-14 m".
+/// A length in a suitable unit: "1.2 mm", "3.4e-14 m".
 std::string nice_length(double metres);
-/// A step or a time in the unit that suits it: "500 µs", "1.12 ms", "3 s".
+/// A step or a time in a suitable unit: "500 µs", "1.12 ms", "3 s".
 std::string step_text(double seconds);
-/// The scene's own step as it is taken, so that it divides the time between samples: "31.4 ms (of the 50 ms asked
-/// for)".
+/// The scene's own step as used, which divides the time between samples: "31.4 ms (of the 50 ms asked for)".
 std::string own_step_text(const Scene& scene);
-/// "2 ms", or "tolerance 1.0e-6": a run's setting, "step [s]" or "tolerance [1]".
+/// A run's setting: "2 ms" for "step [s]", or "tolerance 1.0e-6" for "tolerance [1]".
 std::string setting_text(std::string_view setting, double value);
 
 }  // namespace crosscheck

@@ -44,7 +44,7 @@ const std::vector<FindingRule>& finding_rules() {
       {"engine-without-run", speed_findings, "cost", speed, "scenes", "1", measured, "where", {"speed-accuracy-engines-cost", "speed-accuracy"}},
       {"size-cost", cost_findings, "cost", "cost", times_cpu, "1", measured, "where build", {"size-cost"}, "size-cost"},
 
-      // where methods fail
+      // failure
       {"failed-of-all", failure_findings, "failure", limits, "scenes", "1", measured, "where", {"engines"}, "scoreboard"},
       {"step-limits", limit_findings, "agreement", limits, "deviation of the critical time step from theory", "%", discrete,
        "confirmed all bracket scenes", {"stability"}, "stability-limits"},
@@ -72,7 +72,7 @@ const std::vector<FindingRule>& finding_rules() {
       {"still-touches", drape_findings, "contact", energy, "mean sliding speed", "m/s", other_engine, "end", {"sphere-drape"}, "drop-aside-sliding"},
       {"after-contact", contact_findings, "contact", energy, "RMS position difference at the end", "m", other_engine, "window rules own", {"engines"}, "{}-agreement"},
 
-      // how little model is enough
+      // least model
       {"least-model", adequacy_findings, "adequacy", model, "spring evaluations saved", "%", converged, "within gone until", {"adequacy-least"}, "{}-adequacy"},
       {"least-model-fails", adequacy_findings, "adequacy", model, "starts from which it fails", "1", converged, "within gone starts", {"adequacy-least"}, "{}-adequacy"},
       {"least-model-none", adequacy_findings, "adequacy", model, "scenes", "1", "see each scene", "where", {"adequacy-least"}},

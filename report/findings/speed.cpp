@@ -16,7 +16,7 @@ bool is_asked(const Row& row) {
   return std::abs(row.part_of_motion / 0.01 - 1) < 1e-9 && row.measure == Measure::error;
 }
 
-/// The least and the most of a quotient, and where the most is.
+/// Minimum and maximum of a ratio, and the location of the maximum.
 struct Span {
   double low = 0, high = 0;
   std::string where;
@@ -34,7 +34,7 @@ Finding finding_of(const std::string& rule, const Span& span) {
 
 }  // namespace
 
-/// What the other engines take for the same accuracy; and those none of whose runs is within it.
+/// CPU time of the other engines for the same accuracy, and engines without a run within that accuracy.
 Findings speed_findings(const Facts& facts) {
   const TableSet& rows = facts.rows;
   std::map<std::string, Span> times;
@@ -44,11 +44,11 @@ Findings speed_findings(const Facts& facts) {
     within[row.engine].push_back(row.scene);
     if (row.times_mysim) times[row.engine].take(*row.times_mysim, row.scene);
   }
-  // a program that does not tell its time is within it all the same
+  // a program that does not report its time may still be within the accuracy
   for (const SpeedAccuracyRow& run : rows_of<SpeedAccuracyRow>(rows))
     if (run.verdict == Verdict::ok && run.error && *run.error <= 0.01 * run.motion)
       within[engine_of(run.method)].push_back(run.scene);
-  std::vector<std::string> asked;  // scenes on which somebody is
+  std::vector<std::string> asked;  // scenes on which some method is compared
   for (const auto& row : rows_of<CheapestRow<Cost::cpu>>(rows))
     if (is_asked(row) && !row.method.value_or("").empty()) asked.push_back(row.scene);
   for (const SpeedAccuracyRow& run : rows_of<SpeedAccuracyRow>(rows)) {
@@ -73,8 +73,8 @@ Findings speed_findings(const Facts& facts) {
   return out;
 }
 
-/// The same rule in both engines, over the sizes: by kernels for any spring graph on both sides, and by mysim's fused
-/// step on regular cloths.
+/// One rule in both engines, over the sizes: by kernels for any spring graph in both, and by mysim's fused step on
+/// regular cloths.
 Findings cost_findings(const Facts& facts) {
   std::map<long, std::map<std::string, double>> per_side;  // s per step
   for (const SizeCostRow& row : rows_of<SizeCostRow>(facts.rows)) per_side[row.side][row.method] = row.cpu;

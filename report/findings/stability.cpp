@@ -36,8 +36,8 @@ Findings limit_findings(const Facts& facts) {
 
 namespace {
 
-/// Limits of scenes without rest, held against the truth on both sides. Where it does not confirm all, the one that is
-/// furthest off though it is called stable is named, or the one that is nearest though it is called failed.
+/// Limits of scenes without rest, compared with the truth on both sides. If the truth does not confirm all, names an
+/// exception: the worst run that was called stable, or the best run that was called failed.
 void limits_by_truth(const TableSet& rows, Findings& out) {
   std::map<std::string, std::vector<LimitRow>> by_scene;
   for (LimitRow& row : rows_of<LimitRow>(rows))
@@ -63,7 +63,7 @@ void limits_by_truth(const TableSet& rows, Findings& out) {
   }
 }
 
-/// Methods that fail at every step, as theory says.
+/// Methods that fail at every step, as predicted.
 void without_stable_step(const TableSet& rows, Findings& out) {
   std::map<std::string, std::vector<std::string>> scenes_of;  // by method
   for (const LimitRow& row : rows_of<LimitRow>(rows))
@@ -77,11 +77,11 @@ void without_stable_step(const TableSet& rows, Findings& out) {
                    .words = {{"where", listed(scenes)}}});
 }
 
-/// The rates at which vibrations grow.
+/// Growth rates of vibrations.
 void growth(const TableSet& rows, Findings& out) {
   Finding f{.rule = "growth", .value = -1};
   for (const GrowthRow& row : rows_of<GrowthRow>(rows))
-    // growth near a limit is measured elsewhere
+    // growth near a limit is reported elsewhere
     if (const double off = 100 * std::abs(row.deviation); !row.share_of_limit && off > f.value)
       f.value = off, f.method = row.method, f.words = {{"where", row.scene}};
   if (f.value >= 0) out.push_back(f);

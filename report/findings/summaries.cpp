@@ -15,10 +15,10 @@ std::string residual_class(const EnergyRow& run) {
   const double worst = run.largest_residual.value_or(0), turned = run.turned_over.value_or(0);
   const bool lost = run.residual.value_or(0) < 0;
   if (run.verdict != Verdict::ok) return failure_class(run.verdict);
-  // a hundred thousand roundings of the energies that are added up
+  // 1e5 roundings of the accumulated energies
   if (worst < 1e-11 * turned) return residual_none;
   if (worst > 0.3 * turned) return lost ? "takes much of the energy" : "makes much energy";
-  // half a decade more than in the first tenth: in proportion to time it is a whole one
+  // half a decade more than in the first tenth of the run; growth proportional to time gives a whole decade
   if (run.growth.value_or(0) > 0.5) return lost ? "drifts down" : "drifts up";
   return residual_bounded;
 }
@@ -38,7 +38,7 @@ std::string ingredients_text(const std::string& left_out, size_t most) {
   std::vector<std::string> all;
   for (std::string& each : split(left_out, ',')) all.push_back(each.substr(each.find_first_not_of(' ')));
   if (all.size() > most) return counted(all.size(), "ingredient");
-  // the noun once
+  // write the common noun only once
   constexpr std::string_view noun = " springs";
   for (size_t i = 0; i + 1 < all.size(); ++i)
     if (all[i].ends_with(noun) && all[i + 1].ends_with(noun)) all[i].resize(all[i].size() - noun.size());
@@ -75,16 +75,16 @@ std::string deviation_text(double off, double finest) {
 
 namespace {
 
-/// The largest deviation from theory without a reason in the table.
+/// Largest deviation from theory that counts as agreement.
 constexpr double agrees_within = 0.01;
 
 struct StepLimitComparison {
   enum Kind { agrees, coarse, apart } kind = agrees;
-  std::optional<double> off;  // measured over predicted, less 1; where both are steps
-  std::string how;            // of `apart`
+  std::optional<double> off;  // measured / predicted - 1, if both are steps
+  std::string how;            // for `apart`
 };
 
-/// Nothing where there is no theory, the method does not take the scene, or theory's limit lies beyond what was tried.
+/// Nothing if there is no theory, the method does not support the scene, or theory's limit is outside the range tried.
 std::optional<StepLimitComparison> compare_step_limit(const LimitRow& row) {
   using enum StepLimitComparison::Kind;
   const PredictionKind theory = row.prediction;
@@ -102,7 +102,7 @@ std::optional<StepLimitComparison> compare_step_limit(const LimitRow& row) {
                                         : fmt::format("{:+.2g} % off", 100 * off)};
   }
   const bool refused = run == MeasuredLimit::refused_above, never = run == MeasuredLimit::no_step;
-  // a limit beyond the steps tried, or beyond a refusal, cannot be compared
+  // a limit beyond the steps tried, or beyond a refused step, cannot be compared
   if (theory == PredictionKind::limit && (never ? failed >= predicted : held <= predicted)) return std::nullopt;
   if (theory == PredictionKind::every_step && refused) return std::nullopt;
   if (theory != PredictionKind::limit && run != MeasuredLimit::found && (theory == PredictionKind::every_step) != never)
@@ -125,7 +125,7 @@ StepLimitCounts step_limit_counts(const std::vector<LimitRow>& rows, LimitState 
   for (const LimitRow& row : rows) {
     const auto found = row.state == state ? compare_step_limit(row) : std::nullopt;
     if (!found) continue;
-    // the limit lies somewhere between the last stable step and the first that failed
+    // the limit is between the last stable step and the first that failed
     const double bracket = row.held && row.failed ? *row.failed / *row.held - 1 : 0;
     if (found->kind == StepLimitComparison::apart) {
       ++counts.apart;

@@ -1,4 +1,4 @@
-// Summaries of single tables, which findings and figures share.
+// Summaries of single tables, shared by findings and figures.
 #pragma once
 
 #include <algorithm>
@@ -17,25 +17,25 @@
 
 namespace crosscheck {
 
-// The relative energy residual of a long run.
+// Relative energy residual of a long run.
 
 inline constexpr auto residual_bounded = "bounded", residual_none = "zero to round-off";
 
-/// Of a run that claims closure; of one that failed, the word for its failure.
+/// The class of the residual of a run whose balance closes; for a failed run, the word for its failure.
 std::string residual_class(const EnergyRow& run);
 inline bool is_bounded(const std::string& word) { return word == residual_bounded || word == residual_none; }
 
-// Grids, from experiment `adequacy`: powers of the number of cells.
+// Grid refinement, from experiment `adequacy`: powers of the number of cells.
 
-/// The fitted power of a quantity from table `adequacy-scaling`; `scene` is empty for bend springs.
+/// The fitted exponent of a quantity from table `adequacy-scaling`; `scene` is empty for bend springs.
 std::optional<PowerLaw> power_of(const TableSet& rows, const std::string& scene, ScalingQuantity quantity);
 /// "4.24 ± 0.03"
 std::string power_text(const PowerLaw& power);
 
-/// "bend and shear springs" of "bend springs, shear springs", "nothing", or of more than `most` "4 ingredients".
+/// "bend and shear springs" for "bend springs, shear springs"; "nothing"; "4 ingredients" for more than `most`.
 std::string ingredients_text(const std::string& left_out, size_t most = 3);
 
-/// The step of the rows that is nearest to a millisecond, s.
+/// The step (s) in the rows that is nearest to a millisecond.
 template <class Row>
 double usual_step(const std::vector<Row>& rows) {
   return std::ranges::min(rows, {}, [](const Row& row) { return std::abs(row.step - 1e-3); }).step;
@@ -43,7 +43,7 @@ double usual_step(const std::vector<Row>& rows) {
 
 // Particles on slopes, from tables `sphere-cone` and `plane-cone`.
 
-/// Of a method's cases, how many end as Coulomb's law says; runs that failed are left out.
+/// Number of a method's cases that agree with Coulomb's law; failed runs are not counted.
 struct ConeCount {
   std::string method;
   long right = 0, all = 0;
@@ -53,28 +53,29 @@ std::vector<ConeRow> plane_cones(const TableSet& rows);
 /// The count of one method, or null.
 const ConeCount* count_of(const std::vector<ConeCount>& counts, const std::string& method);
 
-// Measured stability limits against theory, from table `stability`.
+// Measured stability limits compared with theory, from table `stability`.
 
-/// The rows of one state that theory speaks of, unless it has its limit beyond what was tried.
+/// Counts of the rows of one state that have a theoretical limit within the range of steps tried.
 struct StepLimitCounts {
-  size_t agreeing = 0;              // within 1 %
-  double deviation = 0;             // largest deviation of these, over the predicted step
-  std::vector<std::string> scenes;  // of these
-  size_t coarse = 0;                // further off, but theory's limit lies between what held and what failed
-  double widest = 0;                // bracket of both kinds, over what held
+  size_t agreeing = 0;              // deviation of at most 1 %
+  double deviation = 0;             // their largest deviation, relative to the predicted step
+  std::vector<std::string> scenes;  // their scenes
+  size_t coarse = 0;                // larger deviation, but theory's limit is between the last step that held and the
+                                    // first that failed
+  double widest = 0;                // largest bracket of both kinds, relative to the step that held
   size_t apart = 0;                 // all others
-  std::string method, where;        // of these the one that is furthest off
+  std::string method, where;        // the one of these with the largest deviation
   size_t all() const { return agreeing + coarse + apart; }
   std::string how;  // "stable at 47 times the step", "holds at every step tried, by theory up to 1.2 ms"
 };
 StepLimitCounts step_limit_counts(const std::vector<LimitRow>& rows, LimitState state);
 
-/// Whether the truth of a scene without rest says that a run just below the limit is of use and one just above is not.
-/// False where it was not asked.
+/// True if the truth of a scene without a state of rest confirms a limit: a run just below it is useful, a run just
+/// above it is not. False if there is no such comparison.
 bool confirmed_by_truth(const LimitRow& row);
 
-/// "-0.12 %", "47 times as long": of measured over predicted, less 1; "within ±0.07 %" where it is less than what the
-/// search can resolve, `finest`.
+/// "-0.12 %" or "47 times as long" for `off` = measured / predicted - 1; "within ±0.07 %" if it is less than the
+/// resolution of the search, `finest`.
 std::string deviation_text(double off, double finest = 0);
 
 }  // namespace crosscheck

@@ -1,4 +1,4 @@
-// Reads report.json again.
+// Reads report.json and recomputes it.
 #include "report/findings/verify.h"
 
 #include <fmt/format.h>
@@ -43,9 +43,9 @@ TableSet read_tables(const JsonField& report, const fs::path& data, Verification
     const Evidence now = evidence_of(rows.tables.back());
     found.rows += static_cast<int>(now.rows.size());
     if (const auto reported = claimed["rows"].natural(); now.rows.size() != reported)
-      found.mismatches.push_back(fmt::format("table {}: {} rows, reported were {}", name, now.rows.size(), reported));
+      found.mismatches.push_back(fmt::format("table {}: {} rows, {} were reported", name, now.rows.size(), reported));
     else if (now.fingerprint != claimed["fingerprint"].text())
-      found.mismatches.push_back(fmt::format("table {}: some row is not the one that was reported", name));
+      found.mismatches.push_back(fmt::format("table {}: a row differs from the reported one", name));
   }
   return rows;
 }
@@ -55,7 +55,7 @@ std::vector<Scene> read_scenes(const JsonField& report, const fs::path& data, Ve
   for (const auto& [name, claimed] : report["scenes"].items()) {
     scenes.push_back(read_scene(data / "scenes" / (file_name_of(name) + ".toml")));
     if (scenes.back().hash != claimed["hash"].text())
-      found.mismatches.push_back(fmt::format("scene {}: not the one that was reported", name));
+      found.mismatches.push_back(fmt::format("scene {}: differs from the reported one", name));
   }
   return scenes;
 }
@@ -69,7 +69,7 @@ void compare(const JsonField& claimed, const Finding& now, const TableSet& rows,
   if (claimed["tier"].text() != tier_of(now)) return differs(fmt::format("it rests on \"{}\"", tier_of(now)));
   const JsonField all = JsonField::parse(dump(json_of(now)), "the data");
   for (const auto& [key, value] : all.items()) {
-    const auto said = claimed.find(key);  // none of null
+    const auto said = claimed.find(key);  // null means none
     if ((said ? said->dump() : "null") != value.dump())
       return differs(fmt::format("the data say {}: {}", key, value.dump()));
   }
@@ -78,7 +78,7 @@ void compare(const JsonField& claimed, const Finding& now, const TableSet& rows,
   if (rests_on.size() != evidence.size()) return differs("it rests on other tables");
   for (size_t i = 0; i < evidence.size(); ++i)
     if (rests_on[i].json() != json_of(evidence[i]))
-      differs(fmt::format("rows of table {} are not those that were reported", evidence[i].table));
+      differs(fmt::format("rows of table {} differ from those reported", evidence[i].table));
 }
 
 }  // namespace
@@ -102,7 +102,7 @@ Verification verify_report(const fs::path& folder) {
 
 namespace {
 
-/// Sentences by scene, rule, and who they are about.
+/// Sentences by scene, rule, method and other method.
 using Key = std::array<std::string, 4>;
 using SentencesByKey = std::map<Key, std::vector<std::string>>;
 
@@ -121,7 +121,8 @@ SentencesByKey findings_in(const fs::path& old) {
 
 bool rests_on_timings(const std::string& key) {
   const std::string_view rule = std::string_view(key).substr(0, key.find('.'));
-  const auto found = std::ranges::find(finding_rules(), rule, &FindingRule::key);  // none of an older version's
+  const auto found = std::ranges::find(finding_rules(), rule, &FindingRule::key);  // null for a rule of an older
+                                                                                   // version
   return found != finding_rules().end() &&
          std::ranges::any_of(found->tables, [](std::string_view table) { return table.ends_with("-cost"); });
 }
@@ -130,7 +131,7 @@ bool rests_on_timings(const std::string& key) {
 
 std::vector<Change> changes_since(const fs::path& old, const AllFindings& now) {
   SentencesByKey before = findings_in(old), after;
-  std::vector<Key> order;  // of this report, then what is gone
+  std::vector<Key> order;  // those of this report, then removed ones
   for (const Finding* f : now.each()) {
     const Key key{f->scene, f->rule, f->method, f->other};
     if (!after.contains(key)) order.push_back(key);

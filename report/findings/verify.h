@@ -1,4 +1,4 @@
-// A report held against its own data, and against an earlier report.
+// Checks a report against its own data, and against an earlier report.
 #pragma once
 
 #include <filesystem>
@@ -9,35 +9,34 @@
 
 namespace crosscheck {
 
-/// The number of the contract between `report` and what reads its folders (CONTRACT.md).
+/// Version of the contract between `report` and the readers of its folders (CONTRACT.md).
 inline constexpr int report_format = 2;
 
-// Whether a report's sentences still follow from its data.
+// Verification that a report's sentences follow from its data.
 
 struct Verification {
-  int findings = 0;                     // in report.json
-  int rows = 0;                         // of all tables
-  std::vector<std::string> mismatches;  // for people, one a line; those of tables and scenes first
-  size_t of_data = 0;                   // so many of them are of tables and scenes
+  int findings = 0;                     // number of findings in report.json
+  int rows = 0;                         // number of rows in all tables
+  std::vector<std::string> mismatches;  // messages, one per line; those about tables and scenes first
+  size_t of_data = 0;                   // number of the messages about tables and scenes
 };
 
-/// Reads DIR/report.json, DIR/data/*.csv and DIR/data/scenes/*.toml, computes every finding anew from these tables, and
-/// holds it against what report.json says: sentence, tier, value and interval, and the fingerprints of the rows that
-/// it rests on. A row
-/// that no finding rests on is held against its table's fingerprint. Throws InputError where a file is missing or
-/// cannot be read, or the report has another format.
+/// Reads DIR/report.json, DIR/data/*.csv and DIR/data/scenes/*.toml, recomputes every finding from these tables, and
+/// compares it with report.json: sentence, tier, value, interval, and fingerprints of its rows. Rows without a finding
+/// are covered by the fingerprint of their table. Throws InputError if a file is missing or unreadable, or if the
+/// report has another format.
 Verification verify_report(const std::filesystem::path& folder);
 
-// Changes of a report against an earlier one.
+// Changes of a report since an earlier one.
 
 struct Change {
-  std::string scene;        // or empty: of all
-  std::string before, now;  // sentences; empty where there was none, or is none any more
-  bool timed = false;       // rests on timings, which are never the same twice
+  std::string scene;        // empty: all scenes
+  std::string before, now;  // sentences; empty for a new or a removed finding
+  bool timed = false;       // rests on timings, which differ in every run
 };
 
-/// Findings of OLD/report.json compared with these, those of one rule, scene and method in their order; what stayed is
-/// left out. Throws InputError where OLD holds no finished report of this format.
+/// Compares the findings of OLD/report.json with these; findings of the same rule, scene and method are paired in
+/// order. Unchanged findings are omitted. Throws InputError if OLD has no finished report of this format.
 std::vector<Change> changes_since(const std::filesystem::path& old, const AllFindings& now);
 
 }  // namespace crosscheck

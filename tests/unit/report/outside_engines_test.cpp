@@ -97,8 +97,8 @@ TEST_F(OutsideEngines, JoltNamesThePackageThatItsToolsAreMissingFrom) {
     std::string said;
   };
   for (const Row& row :
-       {Row{{}, "there is no node; package nodejs is not installed"},
-        {{"node"}, "there is no npm; package npm is not installed"},
+       {Row{{}, "node is missing; package nodejs is not installed"},
+        {{"node"}, "npm is missing; package npm is not installed"},
         {{"node", "npm"}, "there is no esbuild; package esbuild is not installed"},
         {{"node", "npm", "esbuild"}, "engine jolt: npm failed; the last lines of its output:\nno registry\n"}}) {
     fs::create_directories(folder_ / "bin");

@@ -230,7 +230,7 @@ TEST_F(Verify, WhatDiffersIsNamed) {
   EXPECT_TRUE(contains(mismatches(), "it rests on \"measured\""));
   write_file(folder_ / "report.json", report);
   replace("data/scenes/chain.toml", "gamma = ", "gamma = 1");
-  EXPECT_TRUE(contains(mismatches(), "scene chain: not the one that was reported"));
+  EXPECT_TRUE(contains(mismatches(), "scene chain: differs from the reported one"));
 }
 
 TEST_F(Verify, EveryPartOfAFindingIsComparedWithTheData) {
