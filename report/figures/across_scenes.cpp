@@ -1,4 +1,4 @@
-// Over all scenes: the error of every method as a table, and a chart of the fastest method at 1 % error.
+// Charts over all scenes: the error of every method as a table, and the fastest method at 1 % error.
 
 #include <fmt/format.h>
 
@@ -48,14 +48,14 @@ std::vector<Chart> scoreboard_charts(const ChartInput& input) {
 
 namespace {
 
-/// "nearest: Heun", "symplectic Euler, implicit drag": with the rule's name for readers.
+/// "nearest: Heun", "symplectic Euler, implicit drag": with the rule's usual name.
 std::string words_of_rule(const std::string& words) {
   const size_t begin = words.starts_with("nearest: ") ? 9 : 0, end = std::min(words.find(','), words.size());
   const std::string rule = words.substr(begin, end - begin), method = fmt::format("{}/{}", subject().name, rule);
   return words.substr(0, begin) + (builtin_method(method) ? rule_name(method) : rule) + words.substr(end);
 }
 
-/// "-2.0e-4 ± 1e-6 /s", "0 ± 1e-6 /s", or the words where there is no number.
+/// "-2.0e-4 ± 1e-6 /s", "0 ± 1e-6 /s", or the words if there is no number.
 template <class Row>
 std::string cell_of(const Row& row) {
   const auto with_unit = [&](double value) { return row.unit == "s" ? step_text(value) : nice(value); };
@@ -118,7 +118,7 @@ std::vector<Chart> same_rule_charts(const ChartInput& input) {
     if (!difference.dots.empty()) f.series.push_back(std::move(difference));
     if (method == methods.front()) f.series.push_back(std::move(bound));
   }
-  if (f.names.size() < 2) return {};  // a single scene's answer says it
+  if (f.names.size() < 2) return {};  // for a single scene the answer states it
   for (DotPlot::Series& series : f.series) series.dots.resize(f.names.size());
   const auto agreeing = std::ranges::count_if(
       shown, [](const MethodData* m) { return m->round_off_bound && *m->difference <= *m->round_off_bound; });
@@ -128,12 +128,11 @@ std::vector<Chart> same_rule_charts(const ChartInput& input) {
   return {std::move(chart)};
 }
 
-// The fastest method at an accuracy: on every scene the cheapest run of each engine within 1 % of the motion, against
-// mysim's.
+// Cost at an accuracy: on every scene the cheapest run of each engine within 1 % of the motion, relative to mysim's.
 
 namespace {
 
-/// An engine's name, and its style.
+/// An engine's name and style.
 std::pair<std::string, MethodStyle> style_of_engine(const std::string& engine) {
   const MethodFamily& family = family_of(engine);
   if (family.role == Role::outside) {
@@ -145,19 +144,18 @@ std::pair<std::string, MethodStyle> style_of_engine(const std::string& engine) {
   return {std::string(family.title), style_of(std::string(family.representative))};
 }
 
-/// Says how many quotients have a time that was scaled from a part of its run; empty where none has.
+/// Number of ratios with a time that is scaled from a part of its run; empty if there are none.
 std::string scaled_text(const std::vector<EngineSpeedRow>& rows) {
   int all = 0, scaled = 0;
   for (const EngineSpeedRow& row : rows)
     if (!family_of(row.engine).is_subject() && row.times_mysim)
       ++all, scaled += row.part_timed < 1 || row.part_timed_of_mysim.value_or(1) < 1;
-  return scaled == 0
-             ? ""
-             : fmt::format("in {} of {} quotients a time is scaled from the first part of its run; ", scaled, all);
+  return scaled == 0 ? ""
+                     : fmt::format("in {} of {} ratios a time is scaled from the first part of its run; ", scaled, all);
 }
 
-/// "Within 1 % of the motion mysim is the fastest on 10 of 11 scenes; Bullet takes 6.5 (rod) to 78 (spring) times its
-/// CPU time, Boost odeint 0.78 (rod) to 20 (cloth-hang)."
+/// "For an error of 1 % mysim is the fastest on 10 of 11 scenes; Bullet takes 6.5 (rod) to 78 (spring) times its CPU
+/// time, Boost odeint 0.78 (rod) to 20 (cloth-hang)."
 std::string summary_of(const DotPlot& f) {
   size_t first = 0;
   for (size_t i = 0; i < f.names.size(); ++i)
@@ -175,8 +173,8 @@ std::string summary_of(const DotPlot& f) {
         fmt::format("{} {} takes {}{}{}", others.empty() ? ";" : ",", series.title,
                     least == most ? "" : at(*least) + " to ", at(*most), others.empty() ? " times its CPU time" : "");
   }
-  return fmt::format("Within 1 % of the motion mysim is the fastest, beyond the intervals, on {} of {} scenes{}.",
-                     first, f.names.size(), others);
+  return fmt::format("For an error of 1 % mysim is the fastest, beyond the intervals, on {} of {} scenes{}.", first,
+                     f.names.size(), others);
 }
 
 }  // namespace

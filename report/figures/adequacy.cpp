@@ -21,7 +21,7 @@ const MethodStyle scene_styles[] = {{"#0072B2", "1", 7},      {"#D55E00", "(6,3)
                                     {"#009E73", "(2,2)", 9},  {"#CC79A7", "(10,3,2,3)", 13},
                                     {"#E69F00", "(4,2)", 11}, {"#332288", "(12,3,3,3)", 12}};
 
-/// Values over one column of a scene's rows; those that are not above zero are left out.
+/// Values over one column of a scene's rows; omits values that are not above zero.
 Curve curve_over(const std::vector<GridRow>& rows, const std::string& scene, double cells_less,
                  OptionalNumber GridRow::*value, const MethodStyle& style) {
   Curve curve{scene, style, {}, true, true};
@@ -31,20 +31,20 @@ Curve curve_over(const std::vector<GridRow>& rows, const std::string& scene, dou
   return curve;
 }
 
-/// A tick at each of these numbers, ascending.
+/// Adds a tick at each of these numbers, in ascending order.
 template <class Range>
 void add_categories(Figure& f, const Range& numbers) {
   for (const double n : std::set<double>(numbers.begin(), numbers.end()))
     f.categories.emplace_back(n, fmt::format("{:g}", n));
 }
 
-/// Whether the last refinement brought a curve down too, by a tenth at least.
+/// True if the last refinement, too, reduced the curve by at least a tenth.
 bool still_falls(const Curve& c) {
   return c.points.size() > 1 && c.points.back().second < 0.9 * c.points[c.points.size() - 2].second;
 }
 
-/// Whether the sag at rest grows with the logarithm of the number of cells without slowing down. Where it settled like
-/// 1 / cells its growth would halve from the first two of four grids from 8 to 24 particles to the last two.
+/// True if the sag at rest grows with the logarithm of the number of cells without slowing down. If it converged like 1
+/// / cells, its growth would halve from the first two of four grids from 8 to 24 particles to the last two.
 bool sag_runs_on(const std::vector<GridRow>& rows, const std::string& scene) {
   std::vector<double> growth;
   const GridRow* before = nullptr;
@@ -56,10 +56,10 @@ bool sag_runs_on(const std::vector<GridRow>& rows, const std::string& scene) {
   return growth.size() > 1 && growth.front() > 1e-4 && growth.back() > 0.7 * growth.front();
 }
 
-/// How the difference from the finest grid falls with the number of cells, scene by scene.
+/// Convergence of the motion to that of the finest grid, scene by scene.
 std::string motion_sentence(const std::vector<GridRow>& grids, const TableSet& rows, const std::vector<Curve>& curves) {
   std::vector<std::string> falls, others, unbounded;
-  size_t fewest = 4;  // fewer points than these only hint at a power
+  size_t fewest = 4;  // fewer points only hint at a power
   for (const Curve& c : curves) fewest = std::min(fewest, c.points.size());
   for (const Curve& c : curves)
     if (sag_runs_on(grids, c.title))
@@ -70,17 +70,18 @@ std::string motion_sentence(const std::vector<GridRow>& grids, const TableSet& r
   std::string text;
   if (!falls.empty())
     text = fmt::format(
-        "With the stiffnesses left as they are the motion {} that of the finest grid: its distance goes as the number "
+        "At constant stiffness the motion {} that of the finest grid: their difference goes as the number "
         "of cells to the power {}{}.",
-        fewest < 4 ? "seems to near" : "nears", joined(falls), fewest < 4 ? ", which so few grids do not prove" : "");
+        fewest < 4 ? "seems to approach" : "approaches", joined(falls),
+        fewest < 4 ? ", although so few grids do not prove it" : "");
   if (!others.empty())
-    text += fmt::format("{}Up to the last refinement no nearing is seen where the power is {}.",
-                        text.empty() ? "" : " ", joined(others));
+    text += fmt::format("{}No convergence up to the last refinement where the power is {}.", text.empty() ? "" : " ",
+                        joined(others));
   if (!unbounded.empty())
     text += fmt::format(
-        "{}On {} the sag at rest grows with the logarithm of the number of cells: no grid is near a limit there.",
+        "{}On {} the sag at rest grows with the logarithm of the number of cells: no grid is close to a limit there.",
         text.empty() ? "" : " ", joined(unbounded));
-  return text.empty() ? "Distances of the motion from that of the finest grid." : text;
+  return text.empty() ? "Difference of the motion from that of the finest grid." : text;
 }
 
 PageTable sags_of(const std::vector<GridRow>& rows) {
@@ -110,7 +111,7 @@ Chart grids(const std::vector<GridRow>& rows, const TableSet& tables, const std:
     style[scene] = own;
     Curve c = curve_over(rows, scene, 0, &GridRow::error, own);
     for (const auto& [n, error] : c.points) furthest = std::max(furthest, error);
-    // where the finest run failed there is no reference
+    // without the finest run there is no reference
     if (!c.points.empty()) f.curves.push_back(std::move(c));
   }
   f.finding = motion_sentence(rows, tables, f.curves);
@@ -130,7 +131,7 @@ Chart grids(const std::vector<GridRow>& rows, const TableSet& tables, const std:
   return chart;
 }
 
-/// The stiffness that keeps sag and deflection on other grids; empty where neither was found.
+/// The stiffness that keeps sag and deflection constant on other grids; empty if neither was found.
 std::optional<Chart> scaling(const std::vector<GridRow>& rows, const TableSet& tables, const std::string& commit) {
   Figure f;
   f.y.low = 0.5;
@@ -158,11 +159,11 @@ std::optional<Chart> scaling(const std::vector<GridRow>& rows, const TableSet& t
   }
   if (f.curves.empty()) return std::nullopt;
   f.finding += sentences_of(bend_findings(tables));
-  if (f.finding.empty()) f.finding = "Too few grids to tell a power.";
+  if (f.finding.empty()) f.finding = "Too few grids to determine a power.";
   return described("adequacy-scaling", std::move(f), "commit"_a = commit);
 }
 
-/// The last of "a, b, c".
+/// The last item of "a, b, c".
 std::string last_of(const std::string& list) {
   const size_t comma = list.rfind(", ");
   return comma == std::string::npos ? list : list.substr(comma + 2);
@@ -172,10 +173,11 @@ std::string error_text(const std::optional<double>& error) { return error ? nice
 
 /// The least models of `scenes`.
 PageTable least_of(const std::vector<LeastModelRow>& least, const std::set<std::string>& scenes) {
-  PageTable page{"The least model against the full one, also from three initial states that were not used to find it.",
-                 {"scene", "tolerance", "least model", "error", "error from unseen initial states", "cost / full model",
-                  "meets tolerance"},
-                 {}};
+  PageTable page{
+      "The least model compared with the full one, also from three initial states that were not used to find it.",
+      {"scene", "tolerance", "least model", "error", "error from unseen initial states", "cost / full model",
+       "meets tolerance"},
+      {}};
   for (const LeastModelRow& row : least) {
     if (!scenes.contains(row.scene)) continue;
     const bool all = row.left_out.empty();
@@ -230,13 +232,13 @@ Chart removal_chart(const std::vector<AdequacyRow>& rows, const std::string& sce
   for (const int percent : {10, 1})
     if (last.motion > 0)
       f.guides.push_back({false, percent / 100. * last.motion, fmt::format("{} % of the motion", percent)});
-  f.finding = !within.empty() ? fmt::format("Within {} each of these can be left out alone: {}.", tolerance,
+  f.finding = !within.empty() ? fmt::format("Within {}, each of these can be left out on its own: {}.", tolerance,
                                             fmt::join(within, ", "))
               : std::isfinite(of_smallest)
                   ? fmt::format("Nothing can be left out within {}: any removal costs at least {} ({}).", tolerance,
                                 nice_length(of_smallest), smallest)
                   : fmt::format("Nothing can be left out within {}: no smaller model gives an answer.", tolerance);
-  // in a scene at rest no removal has an error
+  // in a scene at rest no removal causes an error
   const bool any = !f.curves.empty();
   if (!any) f.failures.clear();
   Chart chart = described("{scene}-adequacy", std::move(f), "scene"_a = scene, "commit"_a = commit,
@@ -248,7 +250,7 @@ Chart removal_chart(const std::vector<AdequacyRow>& rows, const std::string& sce
   return chart;
 }
 
-/// A scene that has no part of its own in the report states its question here.
+/// Adds the question of a scene that has no card in the report.
 void add_question(Chart& chart, const std::vector<Scene>& shown, const std::string& scene) {
   const auto shipped = shipped_scenes();
   if (std::ranges::none_of(shown, [&](const Scene& s) { return s.name == scene; }) &&
@@ -256,9 +258,9 @@ void add_question(Chart& chart, const std::vector<Scene>& shown, const std::stri
     chart.text = load_scene(scene).question + (chart.text.empty() ? "" : " ") + chart.text;
 }
 
-/// The removal that costs least on each of the scenes that have no chart of their own.
+/// The removal with the smallest error on each scene that has no chart of its own.
 PageTable least_removals_of(const std::vector<AdequacyRow>& rows, const std::vector<std::string>& scenes) {
-  PageTable page{"The removal that costs least", {"scene", "removed", "error", "error / motion"}, {}};
+  PageTable page{"The removal with the smallest error", {"scene", "removed", "error", "error / motion"}, {}};
   for (const std::string& scene : scenes) {
     const AdequacyRow* least = nullptr;
     for (const AdequacyRow& row : rows | with(&AdequacyRow::scene, scene))
@@ -292,7 +294,7 @@ std::vector<Chart> adequacy_charts(const ChartInput& input) {
     charts.push_back({"",
                       std::monostate{},
                       "adequacy",
-                      "Figures of these: --full, or a report of them alone.",
+                      "For figures of these scenes: --full, or a report of them alone.",
                       "Other scenes",
                       {least_removals_of(rows, others)}});
   if (const auto all = rows_of<GridRow>(input.result); !all.empty()) {

@@ -1,4 +1,4 @@
-// The parts of the chapters on contact and stability that have files of their own.
+// Parts of the chapters on contact and stability that have files of their own.
 #pragma once
 
 #include <vector>
@@ -12,7 +12,7 @@ namespace crosscheck {
 /// A particle on balls and planes: slopes, rebound, separation, order (contact_particle.cpp).
 std::vector<Chart> particle_charts(const TableSet& tables, const std::string& commit);
 
-/// Maps over step and stiffness, step and drag, one for each scene and kind (stability_maps.cpp).
+/// Maps over step and stiffness, or step and drag: one per scene and kind (stability_maps.cpp).
 std::vector<Chart> map_charts(const std::vector<MapRow>& cells, const std::vector<MapLimitRow>& limits,
                               const std::string& commit);
 

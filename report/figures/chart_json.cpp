@@ -16,7 +16,7 @@
 namespace crosscheck {
 namespace {
 
-/// Six digits are more than a screen shows.
+/// Six digits exceed the resolution of a screen.
 Json short_number(double value) { return std::strtod(fmt::format("{:.6g}", value).c_str(), nullptr); }
 
 Json pairs_json(const std::vector<std::pair<double, double>>& pairs) {
@@ -25,8 +25,8 @@ Json pairs_json(const std::vector<std::pair<double, double>>& pairs) {
   return list;
 }
 
-/// How finely curves are drawn along an axis: a ten-thousandth of what it shows, or of each value where it is
-/// logarithmic. The csv has all digits.
+/// Resolution of curves along an axis: a ten-thousandth of its range, or of each value if it is logarithmic. The csv
+/// file has all digits.
 class Fineness {
  public:
   Fineness(const Axis& axis, const std::vector<Curve>& curves, double std::pair<double, double>::*coordinate) {
@@ -47,10 +47,10 @@ class Fineness {
   }
 
  private:
-  double unit_ = 0;  // of a linear axis
+  double unit_ = 0;  // step of a linear axis
 };
 
-/// Tells a unit after a slash from the lower part of a ratio.
+/// Distinguishes a unit after a slash from the denominator of a ratio.
 bool is_unit(std::string_view text) {
   constexpr std::string_view units[] = {"s", "ms", "ns",  "m",    "cm", "mm",      "µm",   "J",    "N",    "kg",
                                         "°", "%",  "rad", "mrad", "1",  "degrees", "flop", "byte", "Gflop"};
@@ -78,7 +78,7 @@ Json axis_json(const Axis& axis) {
   return json;
 }
 
-/// The page's name of a colour that style.css has for both modes, or the colour itself.
+/// The page's name of a colour that style.css defines for both modes, or the colour itself.
 std::string colour_name(const std::string& colour) {
   constexpr std::pair<std::string_view, const char*> named[] = {{"#1D6FB5", "mysim2"},
                                                                 {"#0B4F94", "mysim"},
@@ -89,7 +89,7 @@ std::string colour_name(const std::string& colour) {
   return found == std::end(named) ? colour : found->second;
 }
 
-/// Adds the name of gnuplot's point type, if it is one.
+/// Adds the name of gnuplot's point type, if there is one.
 void add_mark(Json& json, int marker) {
   constexpr const char* names[] = {"plus",     "cross", "star",    "square",  "circle",
                                    "triangle", "down",  "diamond", "pentagon"};
@@ -98,7 +98,7 @@ void add_mark(Json& json, int marker) {
   if (marker > 3 && marker % 2 == 0) json["open"] = true;
 }
 
-/// Adds the lengths of dashes and gaps, in widths of the line, unless it is whole.
+/// Adds the lengths of dashes and gaps, in line widths, unless the line is solid.
 void add_dash(Json& json, const std::string& dash) {
   if (!dash.starts_with('(')) return;
   std::string lengths = dash.substr(1, dash.size() - 2);
@@ -106,7 +106,7 @@ void add_dash(Json& json, const std::string& dash) {
   json["dash"] = lengths;
 }
 
-/// A name for readers, and the method that it is of.
+/// A name for readers, and its method.
 Json name_json(const std::string& title, const std::vector<std::string>& beside) {
   Json json{{"name", reader_name(title, beside)}};
   if (const std::string method = method_named(title); !method.empty()) json["method"] = method;
@@ -119,7 +119,7 @@ Json names_json(const std::vector<std::string>& titles) {
   return list;
 }
 
-/// Places of the points that stay of a curve.
+/// Indices of the points of a curve that are kept.
 std::vector<size_t> thinned(const std::vector<std::pair<double, double>>& points) {
   constexpr size_t most = 600, of_each = 4;
   std::vector<size_t> kept(points.size());
@@ -151,7 +151,7 @@ Json series_json(const Curve& curve, const std::set<std::pair<double, double>>& 
   if (curve.line) json["line"] = true;
   add_dash(json, curve.style.dash);
   add_mark(json, curve.style.marker);
-  // marks that tell lines apart, not runs
+  // marks that distinguish lines, not runs
   if (curve.line && !curve.markers) json["few"] = true;
   const std::vector<size_t> kept = thinned(curve.points);
   Json points = Json::array(), open = Json::array(), tips = Json::array();
@@ -167,7 +167,7 @@ Json series_json(const Curve& curve, const std::set<std::pair<double, double>>& 
   return json;
 }
 
-/// Parts of a figure, each with the look that its curves and crosses share, and what they are.
+/// Parts of a figure, each with the look shared by its curves and crosses, and their data.
 Json parts_json(const Figure& f, const std::vector<NamedCurves>& named,
                 const std::set<std::pair<double, double>>& scaled) {
   const Fineness x(f.x, f.curves, &std::pair<double, double>::first),
@@ -204,7 +204,7 @@ Json numbers_of(const Figure& f) {
   std::set<std::pair<double, double>> scaled;
   for (const Curve& curve : f.curves)
     if (curve.title == scaled_times) scaled.insert(curve.points.begin(), curve.points.end());
-  // what is ringed on paper is open here
+  // ringed marks on paper are open marks here
   if (!scaled.empty()) json["x"]["label"] = f.x.label.substr(0, f.x.label.find(", ringed"));
   json["parts"] = parts_json(f, named, scaled);
   json["key"] = Json::array();
@@ -330,14 +330,14 @@ Json chart_json(const Chart& chart) {
 
 namespace {
 
-/// The cheapest explicit rule of order two, which is the one to beat.
+/// The usual explicit rule of order two: the cheapest.
 const Stepper* usual_rule() {
   for (const Stepper& rule : steppers())
     if (rule.order == 2 && rule.evaluations == 1 && rule.symplectic) return &rule;
   return nullptr;
 }
 
-/// Two shades for each engine: its representative, and what else of it is in question.
+/// Two shades per engine: one for its representative, one for its other main methods.
 const char* colour_of(const MethodFamily& family, bool representative) {
   switch (family.role) {
     case Role::subject:
@@ -356,7 +356,7 @@ const char* colour_of(const MethodFamily& family, bool representative) {
 }  // namespace
 
 Json method_looks_json(std::span<const std::string> methods) {
-  // a colour for each program (style.css); its options have one mark after the other
+  // one colour per program (style.css); its options cycle through the marks
   constexpr std::string_view colours[] = {"outside2", "outside3", "outside4", "outside5",
                                           "outside6", "outside7", "outside8"},
                              marks[] = {"triangle", "diamond", "square", "circle"};

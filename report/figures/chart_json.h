@@ -1,4 +1,4 @@
-// Charts as the page draws them (page/chart.js): the numbers of a figure, in six digits, with its words.
+// Charts for the page (page/chart/): the numbers of a figure, with six digits, and its texts.
 #pragma once
 
 #include <span>
@@ -8,12 +8,12 @@
 
 namespace crosscheck {
 
-/// A figure of any kind. Curves of more than 600 points are thinned: of each stretch the first, the lowest, the highest
-/// and the last point stay. Null where the chart has no figure.
+/// A figure of any kind. Curves of more than 600 points are thinned: each stretch keeps its first, lowest, highest and
+/// last point. Null if the chart has no figure.
 Json chart_json(const Chart& chart);
 
-/// The look of methods on the page: for each its short title, the name of its colour (style.css), its marker, and
-/// whether it is one of those in question, which have a colour in every chart.
+/// Appearance of methods on the page. For each: short title, name of its colour (style.css), marker, and whether it is
+/// one of the main methods, which are coloured in every chart.
 Json method_looks_json(std::span<const std::string> methods);
 
 }  // namespace crosscheck

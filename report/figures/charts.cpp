@@ -1,4 +1,4 @@
-// The table of charts, and what their captions share.
+// The table of charts, and shared parts of their captions.
 #include "report/figures/charts.h"
 
 #include <fmt/format.h>
@@ -26,13 +26,13 @@ std::string builds_text(const std::vector<std::string>& methods) {
   }
   if (!own.empty()) parts.push_back(joined(own) + " built here");
   if (!debians.empty()) parts.push_back(joined(debians) + " by Debian for generic x86-64");
-  if (programs) parts.emplace_back("programs of their own as they were built");
+  if (programs) parts.emplace_back("external programs as they were built");
   return fmt::format("{}", fmt::join(parts, ", "));
 }
 
 namespace {
 
-/// Adds the tier to the figure's caption. Throws std::logic_error where it has none.
+/// Appends the tier to the figure's caption. Throws std::logic_error if it has none.
 void append_tier(Chart& chart) {
   std::visit(
       []<class F>(F& figure) {
@@ -40,7 +40,7 @@ void append_tier(Chart& chart) {
           if (figure.tier.empty()) throw std::logic_error("figure " + figure.name + " does not say what it rests on");
           figure.caption += (figure.tier == "measured"             ? " Measured."
                              : figure.tier.starts_with("measured") ? " It is " + figure.tier + "."
-                                                                   : " Against: " + figure.tier + ".");
+                                                                   : " Reference: " + figure.tier + ".");
         }
       },
       chart.figure);
@@ -203,8 +203,8 @@ std::string tier_of(const SceneData& facts) {
 
 std::string another_engine(const SceneData& facts) {
   const auto round_off = facts.round_off();
-  return "another engine, so that these are differences and no errors" +
-         (round_off ? fmt::format("; round-off alone may make {}", nice_length(*round_off)) : "");
+  return "another engine: these are differences, not errors" +
+         (round_off ? fmt::format("; round-off alone may cause {}", nice_length(*round_off)) : "");
 }
 
 }  // namespace crosscheck

@@ -16,15 +16,15 @@
 namespace crosscheck {
 namespace {
 
-/// A depth in %; rounding on the surface counts as zero.
+/// A depth in %; round-off on the surface counts as zero.
 std::string depth_text(double percent) { return percent < 1e-9 ? "0" : nice(percent); }
 
-/// Penetration depth of particles and triangles by method and time step; empty where nothing penetrates.
+/// Penetration depth of particles and triangles by method and time step; empty if nothing penetrates.
 std::optional<Chart> depth_chart(const std::vector<PenetrationRow>& rows, const std::string& scene,
                                  const std::string& commit) {
   Figure f;
   f.y.low = 1e-3, f.y.high = 10;
-  std::vector<std::string> failed;                                   // without a mark
+  std::vector<std::string> failed;                                   // runs without a mark
   std::map<const MethodFamily*, std::pair<double, double>> deepest;  // particles and triangles, %
   std::map<double, std::pair<Curve, Curve>> by_step;
   // colour of each time step, and its marks for particles and triangles
@@ -69,23 +69,22 @@ std::optional<Chart> depth_chart(const std::vector<PenetrationRow>& rows, const 
   f.x.low = 0.4, f.x.high = static_cast<double>(f.categories.size()) + 0.6;
   std::string particles_of_peers, triangles_of_peers;
   for (const MethodFamily* peer : default_peers()) {
-    particles_of_peers += fmt::format(", of {} by {} %", peer->title, depth_text(deepest[peer].first));
+    particles_of_peers += fmt::format(", those of {} by {} %", peer->title, depth_text(deepest[peer].first));
     triangles_of_peers += fmt::format(", {} % in {}", depth_text(deepest[peer].second), peer->title);
   }
   f.finding = fmt::format(
-      "Particles of mysim are inside by at most {} % of the radius{}; the triangles between them by {} % "
-      "in mysim{}. Below 0.001 % nothing is drawn.",
+      "Particles of mysim penetrate by at most {} % of the radius{}; the triangles between them by {} % "
+      "in mysim{}. Depths below 0.001 % are not drawn.",
       depth_text(deepest[&subject()].first), particles_of_peers, depth_text(deepest[&subject()].second),
       triangles_of_peers);
-  return described(
-      "{scene}-penetration", std::move(f), "scene"_a = scene, "commit"_a = commit,
-      "failed"_a = failed.empty() ? "" : fmt::format(" Without a mark at some steps: {}.", joined(failed)));
+  return described("{scene}-penetration", std::move(f), "scene"_a = scene, "commit"_a = commit,
+                   "failed"_a = failed.empty() ? "" : fmt::format(" Not marked at some steps: {}.", joined(failed)));
 }
 
 bool is_step(double h, double step) { return std::abs(h / step - 1) < 1e-6; }
 
-/// The final state of a scene with a draped body, by method, at the step that all share; methods that choose their
-/// steps stand at their own.
+/// The final state of a scene with a draped body, by method, at the step that all methods share; adaptive methods use
+/// their own steps.
 Chart ends_chart(const std::vector<DrapeRow>& rows, const std::string& scene) {
   const double step = usual_step(rows);
   PageTable page{fmt::format("{}: final state, at time steps of {}", scene, step_text(step)),
@@ -159,17 +158,17 @@ Figure curves_over_time(const RunsOverTime& runs, OptionalNumber DrapeTimeRow::*
   return f;
 }
 
-/// Says which methods still slide at the end.
+/// Names the methods that still slide at the end.
 std::string still_sliding(const RunsOverTime& runs, double end) {
   std::vector<std::string> sliding;
   for (const auto& [method, rows] : runs)
     if (const DrapeTimeRow& last = rows.back(); last.t >= end * (1 - 1e-9) && last.creep.value_or(0) > 1e-3)
       sliding.push_back(fmt::format("{} ({} mm/s)", method, nice(1e3 * *last.creep)));
-  return sliding.empty() ? "At the end nothing that touches slides by more than 1 mm/s."
+  return sliding.empty() ? "At the end nothing in contact slides faster than 1 mm/s."
                          : fmt::format("Still above 1 mm/s at the end: {}.", joined(sliding));
 }
 
-/// Methods a micrometre and more from their mirror image, and since when.
+/// Methods that deviate from their mirror image by a micrometre or more, and since when.
 std::string broken_symmetry(const RunsOverTime& runs) {
   std::vector<std::string> broken;
   double others = 0;
@@ -181,7 +180,7 @@ std::string broken_symmetry(const RunsOverTime& runs) {
     else
       others = std::max(others, std::ranges::max(rows | std::views::transform(skew)));
   }
-  return (broken.empty() ? "" : fmt::format("More than a micrometre off are {}. ", joined(broken))) +
+  return (broken.empty() ? "" : fmt::format("More than a micrometre off: {}. ", joined(broken))) +
          fmt::format("{} at most {} off.", broken.empty() ? "All are" : "The others are", nice_length(others));
 }
 
@@ -198,7 +197,7 @@ std::vector<Chart> probe_charts(const ChartInput& input) {
     const auto has = [&](OptionalNumber DrapeTimeRow::*value) {
       return std::ranges::any_of(rows, [&](const DrapeTimeRow& row) { return (row.*value).has_value(); });
     };
-    if (!has(&DrapeTimeRow::triangles_inside)) continue;  // single particles have their scenes' own parts of the page
+    if (!has(&DrapeTimeRow::triangles_inside)) continue;  // scenes with single particles have their own cards
     const double step = usual_step(rows);
     const RunsOverTime runs = runs_over_time(rows, step);
     if (Figure f = curves_over_time(runs, &DrapeTimeRow::creep, 1e3); !f.curves.empty())

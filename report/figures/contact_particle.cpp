@@ -1,4 +1,4 @@
-// A particle on balls and planes: Coulomb's law on slopes, the height of its rebound, where it leaves.
+// A particle on balls and planes: Coulomb's law on slopes, height of rebound, separation.
 
 #include <fmt/format.h>
 
@@ -15,7 +15,7 @@
 namespace crosscheck {
 namespace {
 
-/// A method's answers on the slopes of one surface, at one step.
+/// A method's results on the slopes of one surface, at one step.
 struct ConeAnswers {
   std::vector<std::pair<double, double>> points;  // friction / tan(slope), distance slid / frictionless distance
   int right = 0, all = 0, creeping = 0, stuck = 0;
@@ -39,8 +39,8 @@ struct ConeAnswers {
   std::string count() const { return fmt::format("{} of {}", right, all); }
 };
 
-/// Coulomb's law on slopes: distance slid over friction coefficient / tan(slope), and a table of results. Of planes the
-/// curves of engines that err there.
+/// Coulomb's law on slopes: distance slid over friction coefficient / tan(slope), and a table of results. For planes,
+/// only the curves of engines with wrong results.
 Chart cone_law(const std::vector<ConeRow>& rows, const std::vector<ConeRow>& planes, const std::string& commit) {
   Figure f;
   f.x.low = 0, f.x.high = 2.5, f.y.low = -0.05, f.y.high = 1.05;
@@ -70,13 +70,13 @@ Chart cone_law(const std::vector<ConeRow>& rows, const std::vector<ConeRow>& pla
       f.curves.push_back({method, style_of(method), ball.points, false, true});
     if (flat.right < flat.all && method != sticky_sphere && !flat.points.empty()) {
       Curve curve{reader_name(method) + ", plane", style_of(method), flat.points, false, true, {}, method};
-      --curve.style.marker;  // its open form
+      --curve.style.marker;  // the open form of the marker
       f.curves.push_back(std::move(curve));
     }
   }
   f.finding =
-      "On slopes of 10 to 50 degrees with frictions of 0 to 1.2 all answers must fall on one line. " +
-      (differing.empty() ? "Those of all methods do." : fmt::format("Those that do not: {}.", joined(differing)));
+      "On slopes of 10 to 50 degrees with friction coefficients of 0 to 1.2 all results must fall on one line. " +
+      (differing.empty() ? "Those of all methods do." : fmt::format("Exceptions: {}.", joined(differing)));
   Chart chart = described("sphere-cone", std::move(f), "step"_a = step_text(step), "commit"_a = commit);
   chart.tables.push_back(std::move(page));
   return chart;
@@ -92,7 +92,7 @@ Chart rebound_chart(const std::vector<ReboundRow>& rows, const std::string& comm
     Curve curve{method, style_of(method), {}, true, true};
     std::vector<std::string>& texts = page.rows.emplace_back(page.header.size());
     texts[0] = method;
-    // one that refuses to return any speed: its own rebound is drawn, where the scene has none
+    // for a method that refuses restitution, its rebound in a scene without restitution is drawn
     const bool refused = std::ranges::any_of(
         rows, [&](const ReboundRow& row) { return row.method == method && row.verdict == Verdict::unsupported; });
     for (const ReboundRow& row : rows | with(&ReboundRow::method, method)) {
@@ -112,7 +112,7 @@ Chart rebound_chart(const std::vector<ReboundRow>& rows, const std::string& comm
   return chart;
 }
 
-/// Empty where no particle leaves.
+/// Empty if no particle leaves.
 std::optional<Chart> leaving_chart(const std::vector<LeavingRow>& rows, const std::string& commit) {
   Figure f;
   for (const LeavingRow& row : rows)
@@ -124,21 +124,21 @@ std::optional<Chart> leaving_chart(const std::vector<LeavingRow>& rows, const st
                    "speed"_a = rows.back().speed_by_theory, "commit"_a = commit);
 }
 
-/// Error against step of a slide with friction that leaves the ball, with and without +events; empty without a run of
-/// both.
+/// Error against step of a slide with friction that leaves the ball, with and without +events; empty unless a method
+/// was run in both ways.
 std::optional<Chart> contact_order_chart(const std::vector<ContactOrderRow>& all, const std::string& commit) {
   constexpr std::string_view events = "+events";
   Figure f;
-  std::map<bool, std::pair<double, double>> slopes;  // least and largest, of runs with events
+  std::map<bool, std::pair<double, double>> slopes;  // smallest and largest, for runs with events
   std::vector<ContactOrderRow> rows;
   std::ranges::copy(all | with(&ContactOrderRow::probe, "leaves with friction"), std::back_inserter(rows));
   for (const std::string& method : distinct(rows, &ContactOrderRow::method)) {
     const bool located = method.ends_with(events);
     const std::string other = located ? method.substr(0, method.size() - events.size()) : method + std::string(events);
-    // a rule of order 1 has no option to be set beside
+    // a rule of order 1 has no +events option to compare with
     if (std::ranges::find(rows, other, &ContactOrderRow::method) == rows.end()) continue;
     Curve curve{method, style_of(method), {}, true, true};
-    std::optional<double> slope;  // at the two shortest steps at which the error is known
+    std::optional<double> slope;  // at the two shortest steps with a known error
     for (const ContactOrderRow& row : rows | with(&ContactOrderRow::method, method))
       if (row.error && *row.error > 30 * row.truth_bar) {
         curve.points.emplace_back(row.step, *row.error);

@@ -1,4 +1,4 @@
-// The cost of a step: against size, by phase, and against the machine's peaks.
+// Cost of a step: against size, by phase, and relative to the machine's peaks.
 
 #include <fmt/format.h>
 

@@ -1,5 +1,5 @@
-// Curves over two axes as journals print them: names beside the curves, at most six of them in colour, the others
-// grey, failures in a strip along the top.
+// Curves over two axes in the style of journals: names next to the curves, at most six curves in colour, the others
+// grey, and failures in a strip along the top.
 
 #include <fmt/format.h>
 
@@ -48,8 +48,8 @@ std::string common_words(const std::string& a, const std::string& b) {
   return a.substr(0, last);
 }
 
-/// Who is drawn in colour first: what is no method, those that stand for an engine and those that move positions, its
-/// other methods, integrators and all others.
+/// Priority for colours: first curves that are not methods, then representative and position-based methods, other
+/// methods of these engines, integrators, and all others.
 int place_in_line(const NamedCurves& named) {
   const std::string method = method_named(named.title);
   if (method.empty()) return 0;
@@ -123,7 +123,7 @@ PlotRange plot_range(const Figure& f, const std::vector<NamedCurves>& parts) {
       for (const auto& [x, y] : curve->points)
         left = std::min(left, x), right = std::max(right, x), low = std::min(low, y), high = std::max(high, y);
   const bool any = low <= high;
-  // where curves rise from rounding in a moment, the axis begins where they stay
+  // if curves rise from rounding at the start, the axis begins at the level where they settle
   if (f.y.logarithmic && any) {
     double stay = 1e300;
     for (const NamedCurves& part : parts)
@@ -164,7 +164,7 @@ PlotRange plot_range(const Figure& f, const std::vector<NamedCurves>& parts) {
   if (f.x.high) range.x_high = *f.x.high;
   range.y_low = low, range.y_high = high;
   padded(range.y_low, range.y_high, f.y.logarithmic, 0.04);
-  // an axis goes to where something happens, and no further than the figure asks
+  // the axis ends at the last data, and not beyond the limits of the figure
   if (f.y.low && (!f.y.logarithmic || range.y_low < *f.y.low)) range.y_low = *f.y.low;
   if (f.y.high && (!f.y.logarithmic || range.y_high > *f.y.high)) range.y_high = *f.y.high;
   if (std::isfinite(range.y_floor)) range.y_low = range.y_floor;
@@ -189,7 +189,7 @@ std::optional<Place> CurvePlot::sign_of(const NamedCurves& part, size_t row) con
   return Place{left - 11 > box_.left + 5 ? left - 11 : right + 11, y_of_row(row)};
 }
 
-/// Crosses stand in rows from the top, in each as many as there is room for.
+/// Assigns the crosses to rows from the top, each with as many as fit.
 void CurvePlot::assign_rows() {
   rows_.clear();
   strip_ = 0;
@@ -213,7 +213,7 @@ void CurvePlot::assign_rows() {
   strip_ = taken.size();
 }
 
-/// The box of the plot: its height follows from the figure's width, what stands around it from ticks and titles.
+/// The box of the plot: its height follows from the figure's width, its margins from ticks and titles.
 void CurvePlot::frame(double right_column) {
   const double plot_height = (wide_ > 600 ? 0.55 : 0.58) * wide_;
   column_ = right_column;
@@ -240,7 +240,7 @@ void CurvePlot::frame(double right_column) {
 void CurvePlot::frame_numbers() {
   x_ticks_ = ticks_of(x_low_, x_high_, f_.x.logarithmic, box_.right - box_.left, false);
   room_below_ = 18;
-  // no number leaves the sheet
+  // keeps all numbers on the sheet
   for (const Tick& t : x_ticks_)
     if (!t.text.empty() && column_ == 0)
       box_.right -= std::max(0., place(t.at, y_low_).x + width_of(t.text) / 2 + 2 - wide_);
@@ -267,7 +267,7 @@ void CurvePlot::frame_categories() {
   turned_ = longest + 6 < apart ? 0 : apart > 26 ? 35 : apart > 17 ? 60 : 90;
   const double angle = turned_ * std::numbers::pi / 180;
   room_below_ = 6 + std::sin(angle) * longest + std::cos(angle) * letter_height;
-  // a turned text reaches left of its tick
+  // a rotated label extends to the left of its tick
   if (turned_ > 0)
     for (const Tick& t : x_ticks_)
       box_.left += std::max(0., 4 + std::cos(angle) * width_of(t.text) - place(t.at, y_low_).x);
@@ -344,7 +344,7 @@ std::string CurvePlot::script() const {
                       f_.y.label, "center rotate by 90", black);
   out += title_command(sheet, f_, {wide_ / 2, above + 10});
   if (!f_.x.label.empty()) {
-    // what is scaled has open marks
+    // scaled times have open marks
     const std::string label =
         f_.x.label.find(", ringed") == std::string::npos
             ? f_.x.label

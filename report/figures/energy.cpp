@@ -1,4 +1,4 @@
-// Experiment `energy`: budget of each run, drift of the energy residual, numerical damping.
+// Experiment `energy`: energy budget of each run, drift of the energy residual, numerical damping.
 
 #include <fmt/format.h>
 
@@ -15,7 +15,7 @@
 namespace crosscheck {
 namespace {
 
-/// Nine colours, each at least 8 in lightness (CIE L*) from every other, so that a grey print tells them apart.
+/// Colours that differ pairwise by at least 8 in lightness (CIE L*), so that a grey print distinguishes them.
 std::vector<StackedBars::Part> parts_for(size_t bars) {
   std::vector<StackedBars::Part> parts = {{"drag", "#005F95", false, {}},
                                           {"dashpots", "#71BBEB", false, {}},
@@ -31,7 +31,7 @@ std::vector<StackedBars::Part> parts_for(size_t bars) {
   return parts;
 }
 
-/// The longest time and its steps, of any run: "100 s, up to 100000 steps of 0.001 s".
+/// The longest run and its steps: "100 s, up to 100000 steps of 0.001 s".
 std::string length_text(const std::vector<EnergyRow>& runs) {
   const EnergyRow* longest = nullptr;
   for (const EnergyRow& run : runs)
@@ -43,9 +43,9 @@ std::string length_text(const std::vector<EnergyRow>& runs) {
 std::optional<Chart> budget_chart(const std::vector<EnergyRow>& runs, const std::string& commit) {
   const std::string& scene = runs[0].scene;
   StackedBars bars;
-  std::vector<std::array<double, 10>> heights;  // one row for each run, in the order of parts_for()
+  std::vector<std::array<double, 10>> heights;  // one row per run, in the order of parts_for()
   std::string failed;
-  bars.finding = "What each run was given, left of zero, and where it went, right of it.";
+  bars.finding = "Energy supplied to each run, left of zero, and its distribution, right of zero.";
   bool inferred = false;
   for (const EnergyRow& run : runs) {
     if (!run.kinetic) continue;
@@ -69,7 +69,7 @@ std::optional<Chart> budget_chart(const std::vector<EnergyRow>& runs, const std:
     for (size_t p = 0; p < bars.parts.size(); ++p) bars.parts[p].height[b] = heights[b][p], any |= heights[b][p] != 0;
   if (!any) return std::nullopt;  // at rest
   if (inferred)
-    bars.finding += " Hatched: what is missing where an engine does not tell its impulses; no closure is claimed.";
+    bars.finding += " Hatched: inferred for engines that do not report their impulses; closure is not claimed.";
   return described("{scene}-energy-budget", std::move(bars), "scene"_a = scene, "length"_a = length_text(runs),
                    "about"_a = scene == "all-at-once" ? filled_text(scene, "text") : "", "failed"_a = failed,
                    "commit"_a = commit);
@@ -80,12 +80,12 @@ std::string capital(std::string text) {
   return text;
 }
 
-/// The residual over time on a scene that nothing damps.
+/// The residual over time on an undamped scene.
 Chart drift_chart(const std::vector<EnergyRow>& runs, const Table& ledger, const std::string& commit) {
   Figure f;
   f.y.high = 3;
   double lowest = 1;
-  std::vector<std::string> absent;                                        // no curve, and why
+  std::vector<std::string> absent;                                        // runs without a curve, and the reason
   std::vector<std::pair<std::string, std::vector<std::string>>> classes;  // class of the residual, its methods
   for (const EnergyRow& run : runs) {
     const std::string name = name_in_sentence(run.method);
@@ -114,7 +114,7 @@ Chart drift_chart(const std::vector<EnergyRow>& runs, const Table& ledger, const
   f.y.low = std::pow(10, std::floor(std::log10(lowest)));
   for (const auto& [what, methods] : classes)
     f.finding += fmt::format("{}{}: {}.", f.finding.empty() ? "" : " ", capital(what), joined(methods));
-  // nothing can be drawn of a scene at rest, or of engines that claim no closure
+  // nothing can be drawn for a scene at rest, or for engines without closure
   if (f.curves.empty()) f.failures.clear();
   return described("{scene}-energy-drift", std::move(f), "scene"_a = runs[0].scene, "length"_a = length_text(runs),
                    "absent"_a = absent.empty() ? "" : fmt::format(" Not drawn: {}.", joined(absent)),
@@ -128,7 +128,7 @@ Chart damping_chart(const std::vector<DampingRow>& rows, const std::string& comm
   constexpr double omega = 10;  // rad/s, of the table's oscillator
   double worst = 0;
   size_t checked = 0;
-  std::vector<std::string> damped;  // by theory, and measured
+  std::vector<std::string> damped;  // methods that damp: in theory, and as measured
   std::vector<std::pair<double, double>> implicit_euler, rk4;
   for (int i = 0; i <= 240; ++i) {
     const double y = 0.01 * std::pow(500, i / 240.);
@@ -148,16 +148,16 @@ Chart damping_chart(const std::vector<DampingRow>& rows, const std::string& comm
         worst = std::max(worst, std::abs(rate / theory - 1)), ++checked;
         if (damped.empty() || damped.back() != method) damped.push_back(method);
       }
-      // where theory gives zero the measured slope is noise
+      // if theory gives zero, the measured slope is noise
       if (row.by_theory ? theory > 0 && rate > 0 : rate > 1e-3) curve.points.emplace_back(row.h_omega, rate / omega);
     }
     if (!curve.points.empty()) f.curves.push_back(std::move(curve));
   }
-  f.finding =
-      checked == 0
-          ? "By theory none of the methods here damps an oscillation."
-          : fmt::format("What {} took from one spring is off the closed form by {} at most, in {} measurements.",
-                        joined(damped), percent(worst, 1), checked);
+  f.finding = checked == 0 ? "In theory none of these methods damps an oscillation."
+                           : fmt::format(
+                                 "The energy taken by {} from one spring deviates from the closed form by at most {}, "
+                                 "in {} measurements.",
+                                 joined(damped), percent(worst, 1), checked);
   return described("energy-damping", std::move(f), "commit"_a = commit);
 }
 

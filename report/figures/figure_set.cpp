@@ -1,4 +1,4 @@
-// Sizes, LaTeX, catalogue, and a picture in two forms with its positions as a table.
+// Sizes, LaTeX, the catalogue, and a picture in two formats with its positions as a table.
 #include "report/figures/figure_set.h"
 
 #include <fmt/format.h>
@@ -47,7 +47,7 @@ FigureSize figure_size(const std::string& set, const std::string& width) {
 }
 
 std::string latex(const std::string& text) {
-  // "CHARACTER LATEX" in each line
+  // each line is "CHARACTER LATEX"
   static const std::vector<std::string> table = split(asset("figures/latex.txt"), '\n');
   std::string out;
   for (size_t i = 0; i < text.size();) {
@@ -147,7 +147,7 @@ FigureInfo picture_info(const Scene& scene, const std::vector<const MethodResult
   words.name = picture_name(scene);
   words.title = fmt::format("{} by {}", scene.name, fmt::join(shown, ", "));
   words.finding =
-      failed.empty() ? "All of them come to the end of the run." : fmt::format("{}.", fmt::join(failed, "; "));
+      failed.empty() ? "All of them reach the end of the run." : fmt::format("{}.", fmt::join(failed, "; "));
   words.caption = fmt::format("Side by side in one camera, true sizes; {}. {}",
                               scene.triangles.empty() ? "the line is the path of the last particle"
                                                       : "coloured by the stretch of the structural springs",

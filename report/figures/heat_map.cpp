@@ -1,4 +1,4 @@
-// Panels of boxes by gnuplot: boxes stay sharp at every size, where browsers would smooth an image.
+// Panels of boxes drawn by gnuplot: boxes stay sharp at every size, whereas browsers would smooth an image.
 
 #include <fmt/format.h>
 
@@ -14,10 +14,10 @@
 namespace crosscheck {
 namespace {
 
-/// Panels side by side.
+/// Number of panels side by side.
 int columns_of(const HeatMap& map) { return map.size.units() < 600 ? 2 : 3; }
 
-/// Half the distance of two neighbouring values, as a factor.
+/// Half the distance between two neighbouring values, as a factor.
 double half_spacing(const std::set<double>& values) {
   double least = 1e300;
   for (auto it = values.begin(); it != values.end() && std::next(it) != values.end(); ++it)
@@ -27,7 +27,7 @@ double half_spacing(const std::set<double>& values) {
 
 struct MapGrid {
   double x_half, y_half;            // factors
-  double left, right, bottom, top;  // ends of the cells
+  double left, right, bottom, top;  // edges of the cells
 };
 
 /// The grid of one panel; other panels may have more cells over the same axes.
@@ -36,7 +36,7 @@ MapGrid grid_of(const HeatMap& map, const HeatMap::Panel& panel) {
   for (const HeatMap::HeatCell& c : panel.cells) {
     if (!(c.x > 0 && c.y > 0 && std::isfinite(c.x) && std::isfinite(c.y)))
       throw std::runtime_error(fmt::format("figure {}: a value is not above zero", map.name));
-    // values that differ by rounding alone are one
+    // values that differ only by rounding are the same
     xs.insert(std::exp(std::round(std::log(c.x) * 1e6) / 1e6));
     ys.insert(std::exp(std::round(std::log(c.y) * 1e6) / 1e6));
   }
@@ -125,7 +125,7 @@ Drawing drawing_of(const HeatMap& map) {
             down = (panels + across - 1) / across;
   const std::vector<KeyEntry> key = key_of(map);
   const double wide = map.size.units(), heading = map.size.titled ? 22 : 4, gap = 12;
-  // the panels' height follows from their width, and that from the widest number beside them
+  // the panels' height follows from their width, which depends on the widest tick label
   const std::vector<Tick> y_ticks = ticks_of(grid.bottom, grid.top, true, 0.72 * wide / (across + 0.4), true);
   double widest = 0;
   for (const Tick& t : y_ticks) widest = std::max(widest, width_of(t.text));

@@ -1,5 +1,5 @@
-// Error against step, with the method's order as its slope; and the difference from the same method's own finest run:
-// where the two differ, the method converges to something else.
+// Error against step, with the method's order as its slope, and the difference from the method's own finest run. If the
+// two differ, the method converges to another solution.
 
 #include <fmt/format.h>
 
@@ -13,7 +13,7 @@
 namespace crosscheck {
 namespace {
 
-/// "rk4: order 4, measured 3.99", or "my-engine: order measured 1.02" where the rule is unknown.
+/// "rk4: order 4, measured 3.99", or "my-engine: order measured 1.02" if the rule is unknown.
 std::string title_of(const std::vector<OrderSlopeRow>& slopes, const std::string& method) {
   const std::string shown = short_name(method);
   const auto slope = std::ranges::find(slopes, method, &OrderSlopeRow::method);
@@ -32,15 +32,15 @@ Points2 column_of(const std::vector<OrderRow>& rows, const std::string& method, 
   return out;
 }
 
-/// The error at the smallest step over the difference of the last two steps: about 1 for a method that converges to the
-/// truth at order 1, less at higher orders; large where it converges to something else.
+/// Error at the smallest step / difference of the last two steps: about 1 for a method that converges to the truth with
+/// order 1, less for higher orders, and large if the method converges to another solution.
 double error_over_difference(const Points2& errors, const Points2& own) {
   return errors.empty() || own.empty() ? 0 : errors.back().second / own.back().second;
 }
 
 /// Compares the measured orders on a scene with the declared ones.
 std::string slopes_sentence(const std::vector<OrderSlopeRow>& slopes) {
-  constexpr double close = 0.1;  // contribution of the next order at the finest three steps of a smooth scene
+  constexpr double close = 0.1;  // contribution of the next order in the finest three steps of a smooth scene
   std::vector<std::string> other;
   size_t seen = 0;
   double off = 0;
@@ -53,13 +53,13 @@ std::string slopes_sentence(const std::vector<OrderSlopeRow>& slopes) {
     else
       off = std::max(off, apart);
   }
-  if (seen == 0) return "No order is read off here: no error of a method that promises one falls as a steady power.";
+  if (seen == 0)
+    return "No order can be measured here: no error of a method with a declared order falls as a steady power.";
   std::string text;
   if (const size_t agreeing = seen - other.size(); agreeing > 0)
-    text =
-        fmt::format("The measured order of {} is the declared one, within {:.2g}.", counted(agreeing, "method"), off);
-  if (!other.empty())
-    text += fmt::format("{}By another power falls that of {}.", text.empty() ? "" : " ", joined(other));
+    text = fmt::format("The measured order of {} agrees with the declared one within {:.2g}.",
+                       counted(agreeing, "method"), off);
+  if (!other.empty()) text += fmt::format("{}Another order: {}.", text.empty() ? "" : " ", joined(other));
   return text;
 }
 
@@ -82,9 +82,9 @@ std::vector<Chart> order_charts(const ChartInput& input) {
       Curve curve{title_of(slopes, method), style_of(method), {}, true, true};
       Points2 errors = column_of(rows, method, &OrderRow::error),
               own = column_of(rows, method, &OrderRow::distance_to_finest);
-      // 4: a rule of first order with last two errors e and 2 e is at 1; a slower start may make it 2
+      // 4: a first-order rule with last two errors e and 2 e is at 1; a slower start may make it 2
       const bool converges_elsewhere = error_over_difference(errors, own) > 4 && errors.back().second > 10 * error_bar;
-      // errors below the truth's error bar are not known
+      // errors below the truth's error bar are unknown
       std::erase_if(errors, [&](const auto& p) { return p.second <= error_bar; });
       curve.points = std::move(errors);
       // a mark is named after its curve, if there is one
@@ -93,7 +93,7 @@ std::vector<Chart> order_charts(const ChartInput& input) {
         if (const std::string word = failure_class(row.verdict); row.verdict != Verdict::ok)
           f.failures.push_back({marked + ": " + word, style_of(method), row.step, 10 * scene.size(), word});
       if (!curve.points.empty()) f.curves.push_back(std::move(curve));
-      // where a method converges to the truth both curves are nearly one: only the others' are drawn
+      // for a method that converges to the truth the two curves nearly coincide: drawn for other methods only
       if (converges_elsewhere) {
         elsewhere.push_back(method);
         const MethodStyle open{style_of(method).colour, "(1,3)", 6};
@@ -103,15 +103,14 @@ std::vector<Chart> order_charts(const ChartInput& input) {
     if (f.curves.empty() && f.failures.empty()) continue;
     f.floor = {"error bar of the truth", error_bar};
     f.caption = caption_of(scene, input.commit);
-    SceneData truth;  // from this table alone: other experiments may not have run
+    SceneData truth;  // from this table only: other experiments may not have run
     truth.tier = name_of(rows[0].truth_tier), truth.truth = rows[0].truth, truth.error_bar = error_bar;
     f.tier = tier_of(truth);
     f.finding = slopes_sentence(slopes);
     if (!elsewhere.empty())
-      f.finding +=
-          fmt::format(" With shorter steps {} {} own finest run and not the truth: what {} to is something else.",
-                      joined(elsewhere), elsewhere.size() == 1 ? "nears its" : "near their",
-                      elsewhere.size() == 1 ? "it converges" : "they converge");
+      f.finding += fmt::format(" With shorter steps {} {} own finest run, not the truth: {} to another solution.",
+                               joined(elsewhere), elsewhere.size() == 1 ? "approaches its" : "approach their",
+                               elsewhere.size() == 1 ? "it converges" : "they converge");
     charts.push_back(described("{scene}-order", std::move(f), "scene"_a = scene.name));
     charts.back().scene = scene.name;
   }

@@ -48,7 +48,7 @@ std::vector<Chart> error_charts_of(const ChartInput& input, const Scene& scene, 
     for (const auto& [t, error] : points_of(table, m.method, "error", true)) {
       above |= error >= top;
       if (error < top)
-        curve.points.emplace_back(t, std::max(error, facts.error_bar));  // errors below the bar are not known
+        curve.points.emplace_back(t, std::max(error, facts.error_bar));  // errors below the bar are unknown
     }
     if (above) cut.push_back(m.method);
     failed += !m.ok();
@@ -73,7 +73,7 @@ std::vector<Chart> agreement_charts_of(const ChartInput& input, const Scene& sce
   f.caption = caption_of(scene, input.commit);
   f.tier = another_engine(facts);
   f.x.low = 0, f.x.high = scene.duration;
-  f.y.low = 1e-17;  // the least difference that is more than round-off
+  f.y.low = 1e-17;  // the smallest difference above round-off
   for (const MethodData& m : facts.methods) {
     if (!m.ok() || family_of(m.method).is_subject()) continue;
     Curve curve{m.method, style_of(m.method), points_of(table, m.method, "difference", true)};
@@ -115,7 +115,7 @@ std::vector<Chart> contact_charts_of(const ChartInput& input, const Scene& scene
       if (!m.ok()) continue;
       Curve curve{m.method, style_of(m.method), points_of(table, m.method, q.column, q.positive)};
       for (auto& point : curve.points) point.second *= q.factor;
-      // a falling cloth is not shown
+      // omits a cloth that still falls
       if (&q == &quantities[2]) std::erase_if(curve.points, [](const auto& p) { return p.second > 1; });
       if (!curve.points.empty()) f.curves.push_back(std::move(curve));
     }
@@ -123,7 +123,7 @@ std::vector<Chart> contact_charts_of(const ChartInput& input, const Scene& scene
       f.x.high = *facts.contact_until;
       f.floor = {"error bar of the converged contact rule", facts.error_bar * q.factor};
     }
-    // curves that are zero throughout are left to the text
+    // curves that are zero throughout are described in the text
     const bool flat = std::ranges::all_of(f.curves, [](const Curve& c) {
       return std::ranges::all_of(c.points, [](const auto& p) { return std::abs(p.second) < 1e-9; });
     });
@@ -136,7 +136,7 @@ std::vector<Chart> contact_charts_of(const ChartInput& input, const Scene& scene
   return charts;
 }
 
-/// Largest energy turned over by any method that held, J: the scale of the balance error.
+/// Largest energy exchanged by any completed method, J: the scale of the balance error.
 double turned_over(const std::vector<EngineEnergyRow>& rows, const std::string& scene) {
   double most = 0;
   for (const EngineEnergyRow& row : rows)
@@ -164,7 +164,7 @@ Figure balance_figure(const SceneData& facts, const Table& table, double scale) 
     if (!curve.points.empty()) f.curves.push_back(std::move(curve));
   }
   f.y.low = std::pow(10, std::floor(std::log10(lowest)));
-  if (above) f.caption = fmt::format(" Not drawn: changes of more than {} times the energy turned over.", top);
+  if (above) f.caption = fmt::format(" Not drawn: changes of more than {} times the energy exchanged.", top);
   return f;
 }
 
@@ -180,16 +180,16 @@ Figure contact_figure(const Scene& scene, const SceneData& facts, const Table& t
   Figure f;
   const auto known = std::ranges::find_if(
       energies, [&](const EngineEnergyRow& row) { return row.scene == scene.name && row.contact_in_truth; });
-  f.tier = known == energies.end() ? "another engine; contact with a still ball takes and never gives"
+  f.tier = known == energies.end() ? "another engine; contact with a ball at rest takes energy and never supplies it"
                                    : fmt::format("converged until {:.3g} s: {:.5g} ± {:.1g} J; later another engine",
                                                  known->contact_until.value_or(0), *known->contact_in_truth,
                                                  known->contact_bar.value_or(0));
   std::vector<std::string> guessed, left_out, gave;
   for (const MethodData& m : facts.methods) {
     if (!m.supported()) continue;
-    // the sticky sphere takes all motion of what touches it, which would dwarf the others' losses
+    // the sticky sphere stops all particles in contact, which would dwarf the losses of other methods
     if (!m.ok() || m.method.ends_with("+sticky")) {
-      left_out.push_back(m.ok() ? m.method + " (it takes all motion of what touches)"
+      left_out.push_back(m.ok() ? m.method + " (it stops all that touches)"
                                 : fmt::format("{} ({} at {:.3g} s)", m.method, m.failure(), m.end));
       continue;
     }
@@ -202,13 +202,13 @@ Figure contact_figure(const Scene& scene, const SceneData& facts, const Table& t
       gave.push_back(fmt::format("{} ({} J)", m.method, nice(given)));
     f.curves.push_back(std::move(curve));
   }
-  f.finding = "What friction and impacts took, less what moving balls gave; what rests takes nothing.";
+  f.finding = "Energy taken by friction and impacts, minus energy supplied by moving balls; bodies at rest take none.";
   if (!guessed.empty())
-    f.finding +=
-        fmt::format(" {} {} not tell it: it is inferred as what is missing from the balance, so no closure is claimed.",
-                    joined(guessed), guessed.size() == 1 ? "does" : "do");
+    f.finding += fmt::format(" {} {} not report it: it is inferred from the balance, so closure is not claimed.",
+                             joined(guessed), guessed.size() == 1 ? "does" : "do");
   if (!gave.empty())
-    f.finding += fmt::format(" A curve that falls is contact that gives, which a still ball cannot: {}.", joined(gave));
+    f.finding += fmt::format(" A falling curve means that contact supplies energy, which a ball at rest cannot: {}.",
+                             joined(gave));
   if (!left_out.empty()) f.caption = fmt::format(" Not drawn: {}.", joined(left_out));
   return f;
 }
@@ -223,7 +223,7 @@ std::vector<Chart> balance_charts_of(const ChartInput& input, const Scene& scene
   Figure f = touched ? contact_figure(scene, facts, table, energies) : balance_figure(facts, table, scale);
   if (f.curves.empty() && f.failures.empty()) return {};
   f.x.low = 0, f.x.high = scene.duration;
-  // the caption ends with what is not drawn
+  // the caption ends with the list of curves not drawn
   f.caption = caption_of(scene, input.commit) + f.caption;
   f.name = scene.name + "-energy";
   return {described(touched ? "contact {scene}-energy" : "{scene}-energy", std::move(f), "scene"_a = scene.name)};

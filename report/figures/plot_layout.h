@@ -1,5 +1,5 @@
-// What a figure on paper is laid out by: ticks, keys, and places for names beside curves, all in units of which a
-// letter is 12 high whatever the figure's size.
+// Layout of printed figures: ticks, keys, and room for labels next to curves. The unit is 1/12 of the font size,
+// whatever the figure's size.
 #pragma once
 
 #include <optional>
@@ -22,14 +22,14 @@ std::string tick_text(double value);
 
 struct Tick {
   double at;
-  std::string text;  // empty: a small tick between others
+  std::string text;  // empty: a minor tick
 };
-/// Round numbers from `low` to `high` on an axis of this length, as many as there is room for.
+/// Round numbers from `low` to `high` on an axis of this length, as many as fit.
 std::vector<Tick> ticks_of(double low, double high, bool logarithmic, double length, bool upright);
-/// The command that sets them: "set xtics ('1' 1, '' 2 1)".
+/// The gnuplot command that sets the ticks: "set xtics ('1' 1, '' 2 1)".
 std::string tick_command(const std::string& letter, const std::vector<Tick>& ticks);
 
-/// Darkened until it reads as text on white.
+/// The colour, darkened until it is legible as text on white.
 std::string ink_of(const std::string& colour);
 
 struct Place {
@@ -42,10 +42,10 @@ struct Rect {
   }
 };
 
-/// Commands that draw on the sheet at places in units from its bottom left.
+/// Commands that draw on the sheet, at positions in units from its bottom left corner.
 class Sheet {
  public:
-  /// `up`: by which all places lie higher, for instance above a key.
+  /// `up`: offset added to all heights, for instance for a key below.
   Sheet(double wide, double tall, double up = 0) : wide_(wide), tall_(tall), up_(up) {}
   std::string at(Place p) const;
   /// `align`: left, center or right; `more`: for instance "rotate by 90".
@@ -54,19 +54,19 @@ class Sheet {
   std::string mark(Place p, const std::string& colour, int marker, double size = 0.8) const;
   std::string line(Place from, Place to, const std::string& colour, double thick, const std::string& dash) const;
   std::string box(Rect r, const std::string& colour, const std::string& fill = "solid") const;
-  /// Of the margins, so that the plot has this box.
+  /// Sets the margins so that the plot has this box.
   std::string margins(const Rect& box) const;
 
  private:
   double wide_, tall_, up_;
 };
 
-/// A figure's data. Throws std::runtime_error that names it when there is no row or a number is not finite.
+/// Returns a figure's data. Throws std::runtime_error with its name if there is no row or a number is not finite.
 Table checked(Table data);
 
 /// The first lines of a script.
 std::string script_head(const FigureInfo& figure);
-/// Its title above the plot, or nothing.
+/// The figure's title above the plot, or nothing.
 std::string title_command(const Sheet& sheet, const FigureInfo& figure, Place middle);
 
 struct KeyEntry {
@@ -74,39 +74,39 @@ struct KeyEntry {
   std::string text;
   Kind kind;
   MethodStyle style;
-  std::string fill = "solid";  // of a box
+  std::string fill = "solid";  // fill style of a box
 };
-/// The height of a key of this width, which grows by lines.
+/// The height of a key of this width; entries wrap into lines.
 double key_height(const std::vector<KeyEntry>& entries, double wide);
-/// The key from this top left corner on.
+/// Draws the key from this top left corner.
 std::string key_commands(const Sheet& sheet, const std::vector<KeyEntry>& entries, Place top_left, double wide);
 
-/// A text that is cut where it is wider than the room: at a colon, a comma or a parenthesis if it has one.
+/// The text, truncated if it is wider than the room: at a colon, a comma or a parenthesis, if possible.
 std::string shortened(const std::string& text, double room);
 
-/// The method that a title names, with its prefix or without; empty where it names none.
+/// The method that a title names, with or without its prefix; empty if there is none.
 std::string method_named(const std::string& title);
 
-/// A title as a reader knows it: the name of an engine, a blank, its rule. Programs differ from those in the titles
-/// `beside` it.
+/// A title as readers know it: the name of an engine, a blank, its rule. Programs get names that differ from those in
+/// the titles `beside`.
 std::string reader_name(const std::string& title, std::span<const std::string> beside = {});
 /// The method's rule as the literature names it, and its options: "symplectic Euler", "Heun, events".
 std::string rule_name(const std::string& method);
 
-inline constexpr double line_of_names = 17;  // from one name to the next
+inline constexpr double line_of_names = 17;  // distance between names
 
-/// Names at the left, one below the other, and an axis under the plot: what bars, dots and limits have in common.
+/// Names on the left, one below the other, and an axis under the plot: shared by bars, dots and limits.
 struct NamedLines {
-  /// `right`: the room right of the plot.
+  /// `right`: width to the right of the plot.
   NamedLines(const FigureInfo& figure, const std::string& label, const std::vector<std::string>& titles, double lines,
              const std::vector<KeyEntry>& key, double right = 14);
   double y_of(double place) const { return box.top - 2 - line_of_names * (place - 0.5); }
   std::string commands(const FigureInfo& figure, const std::vector<Tick>& ticks) const;
-  /// The name of that index at a line.
+  /// Draws the name with that index on a line.
   std::string name(double place, size_t index) const;
-  /// A text that starts at the sheet's left edge.
+  /// Draws a text that starts at the sheet's left edge.
   std::string heading(double place, const std::string& text) const;
-  /// A text at a line that ends there.
+  /// Draws a text on a line, ending at x.
   std::string ending_at(double x, double place, const std::string& text) const {
     return Sheet(wide, tall, below).text({x, y_of(place)}, text, "right", "#222222");
   }
@@ -122,14 +122,14 @@ struct NamedLines {
 /// "plot a, \\ b"
 std::string joined_plot(const std::vector<std::string>& parts);
 
-/// What stands on a plot already, for names that look for a place.
+/// Occupied areas of a plot, for labels that look for room.
 class Board {
  public:
   explicit Board(const Rect& box);
   void add_line(Place from, Place to, bool yields = false);
   void add_mark(Place at);
   void add(const Rect& taken);
-  /// How much a text covers of what yields; nothing where it covers something else or leaves the box.
+  /// Amount of yielding content that a text would cover; nothing if it would cover anything else or leave the box.
   std::optional<double> cost(const Rect& text) const;
 
  private:

@@ -1,5 +1,5 @@
-// Error against cost, once in evaluations and once in CPU time: curves of all methods, the Pareto line, the floor of
-// the truth, crosses for failed runs; and with each figure the cheapest methods.
+// Error against cost, once in evaluations and once in CPU time: curves of all methods, the Pareto front, the error bar
+// of the truth, crosses for failed runs; with each figure, the cheapest methods.
 
 #include <fmt/ranges.h>
 
@@ -28,9 +28,9 @@ struct SceneRuns {
   std::optional<double> error_bar;
 
   bool difference() const { return truth.find("contact rule") != std::string::npos; }
-  /// Length that counts as one on the axis, m: a percent of the motion where a truth is known.
+  /// Length that counts as one on the axis, m: one per cent of the motion if a truth is known.
   double unit() const { return error_bar && motion > 0 ? motion / 100 : 1; }
-  /// The quantity drawn over the cost.
+  /// The quantity on the vertical axis.
   OptionalNumber drawn(const Row& run) const {
     return !error_bar ? run.to_own_finest : difference() ? run.difference : run.error;
   }
@@ -51,7 +51,7 @@ struct SceneRuns {
     const SpeedAccuracyCostRow* timed = timing(run);
     return timed ? std::optional(timed->cpu) : std::nullopt;
   }
-  /// Returns true if only a part of the run was timed, and scaled by its evaluations (of Bullet's worlds: steps).
+  /// True if only a part of the run was timed, and scaled by its evaluations (for Bullet's worlds: steps).
   bool is_scaled(const Row& run) const {
     const SpeedAccuracyCostRow* timed = timing(run);
     return timed && timed->part < 1;
@@ -96,12 +96,12 @@ constexpr int scaled_ring = 6;  // gnuplot's open circle
 
 int cross_of(const std::string& word) { return word == "blew up" ? 2 : word == "solver gave up" ? 1 : 3; }
 
-/// "2/ω": a limit in h omega over the frequency.
+/// "2/ω": a limit given as h omega, divided by the frequency.
 std::string over_omega(double h_omega) {
   return (std::abs(h_omega - 2) < 0.005 ? std::string("2") : nice(h_omega)) + "/ω";
 }
 
-/// Marks the recommended run, the cost of the critical step of its rule, and real time.
+/// Marks the recommended run, the cost at the critical step of its rule, and real time.
 void add_recommendation(Figure& f, const SceneRuns& s, bool time, const ChartInput& input) {
   const auto scene = std::ranges::find(input.scenes, s.scene, &Scene::name);
   if (time && scene != input.scenes.end()) f.guides.push_back({true, scene->duration, "real time"});
@@ -112,7 +112,7 @@ void add_recommendation(Figure& f, const SceneRuns& s, bool time, const ChartInp
     if (!cost || run.method != best->method || run.setting != best->setting || run.requested != best->requested)
       continue;
     f.on_page.take = {*cost, std::max(best->error, s.error_bar.value_or(0)) / s.unit(),
-                      "take this: " + setting_text(std::string(name_of(run.setting)), run.requested),
+                      "recommended: " + setting_text(std::string(name_of(run.setting)), run.requested),
                       fmt::format("{}, {}{}", percent(best->error, best->motion), cost_text(*cost, time),
                                   time ? "" : " evaluations")};
     for (const LimitRow& limit : rows_of<LimitRow>(input.result))
@@ -145,7 +145,7 @@ std::optional<Chart> chart_of(const SceneRuns& s, bool time, const ChartInput& i
   double lowest = s.error_bar ? std::max(*s.error_bar, 1e-16) / unit : 1, furthest = 0;
   size_t good = 0;
   int beyond = 0, uncounted = 0;
-  // in a style of its own, and beneath all methods, so that a pointer meets the run
+  // in a separate style beneath all methods, so that a pointer finds the run
   Curve scaled{scaled_times, {"#777777", "1", scaled_ring}, {}, false, true};
   std::set<std::string> methods;
   for (const Row& run : s.runs) {
@@ -166,7 +166,7 @@ std::optional<Chart> chart_of(const SceneRuns& s, bool time, const ChartInput& i
     }
     const auto apart = s.drawn(run);
     if (!apart || (!s.error_bar && !(*apart > 0))) continue;
-    // errors below the truth's error bar are not known
+    // errors below the truth's error bar are unknown
     const double y = std::min(highest, std::max(*apart, s.error_bar.value_or(0)) / unit);
     beyond += *apart > highest * unit;
     Curve& curve = curve_of(f, run.method, style_of(run.method));
@@ -206,7 +206,7 @@ std::optional<Chart> chart_of(const SceneRuns& s, bool time, const ChartInput& i
   if (uncounted > 0) drawn += fmt::format("{} of unknown cost, not drawn; ", uncounted);
   f.tier = s.error_bar ? fmt::format("{}{}, error bar {}", s.difference() ? "" : "the truth: ", s.truth,
                                      nice_length(*s.error_bar))
-                       : "each method's own finest run, since no truth is known";
+                       : "each method's own finest run, as no truth is known";
   return described(time ? "{scene}-speed-accuracy-cost" : "{scene}-speed-accuracy", std::move(f), "scene"_a = s.scene,
                    "motion"_a = nice_length(s.motion), "drawn"_a = drawn,
                    "builds"_a = builds_text({methods.begin(), methods.end()}), "commit"_a = input.commit);

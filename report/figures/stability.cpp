@@ -1,4 +1,4 @@
-// Critical time steps, the moment of failure, and growth that is too slow to be seen in a run.
+// Critical time steps, the moment of failure, and growth that is too slow to be visible in a run.
 
 #include <fmt/format.h>
 
@@ -18,7 +18,7 @@
 namespace crosscheck {
 namespace {
 
-/// Rows that say the same of several methods as one.
+/// Joins methods with equal rows into one row.
 void join_equal_rows(PageTable& page) {
   std::vector<std::vector<std::string>> joined_rows;
   for (std::vector<std::string>& row : page.rows) {
@@ -44,7 +44,7 @@ PageTable limits_table(const std::vector<LimitRow>& rows, const std::string& sce
   return page;
 }
 
-/// Says how long the runs were, and how fine the search was.
+/// Length of the runs, and resolution of the search.
 std::string effort_text(const std::vector<LimitRow>& rows) {
   double shortest = INFINITY, longest = 0, finest = INFINITY, coarsest = 0;
   for (const LimitRow& row : rows) {
@@ -64,7 +64,7 @@ std::string effort_text(const std::vector<LimitRow>& rows) {
   return text;
 }
 
-/// The limits of all scenes as a figure, or as a table for each scene where theory knows none in h omega.
+/// The limits of all scenes as a figure, or as one table per scene if theory gives none as h omega.
 Chart limits_chart(const std::vector<LimitRow>& rows, const std::string& scene, const TableSet& tables,
                    const std::string& commit) {
   StepLimits f = step_limits_of(rows, scene);
@@ -73,19 +73,19 @@ Chart limits_chart(const std::vector<LimitRow>& rows, const std::string& scene, 
   const std::string columns_of = f.columns_of;
   Chart chart = described("stability-limits", any ? AnyFigure(std::move(f)) : std::monostate{},
                           "effort"_a = effort_text(rows), "scene"_a = columns_of, "commit"_a = commit);
-  if (!any)  // a method without theory has a limit all the same
+  if (!any)  // a method without theory still has a limit
     for (const std::string& each : distinct(rows, &LimitRow::scene)) chart.tables.push_back(limits_table(rows, each));
   return chart;
 }
 
-/// "+1.25e-5": four digits, so that what agrees to five reads the same.
+/// "+1.25e-5": four digits, so that values that agree to five read the same.
 std::string signed_text(double value) {
   std::string text = fmt::format("{:+.4g}", value);
   if (const size_t e = text.find("e-0"); e != std::string::npos) text.erase(e + 2, 1);
   return text;
 }
 
-/// Growth by the two rules that are unstable at every step; they gain too little in a step for runs to show it.
+/// Growth of the two rules that are unstable at every step; it is too slow to be visible in runs.
 std::optional<Chart> growth_chart(const std::vector<GrowthRow>& rows) {
   PageTable page{"Growth of the fastest vibration per time step, where no time step is stable.",
                  {"scene", "method", "h ω", "predicted", "measured"},
@@ -108,7 +108,7 @@ std::optional<Chart> growth_chart(const std::vector<GrowthRow>& rows) {
   Chart chart = described("stability-growth", std::monostate{}, "off"_a = percent(std::abs(furthest->deviation), 1),
                           "which"_a = fmt::format("{} on {}", furthest->method, furthest->scene),
                           "others"_a = others == 0 ? ""
-                                                   : fmt::format(" {} rows of other rules stand in the table {} alone.",
+                                                   : fmt::format(" {} rows of other rules are in the table {} only.",
                                                                  others, GrowthRow::table));
   if (!page.rows.empty()) chart.tables.push_back(std::move(page));
   return chart;
@@ -125,10 +125,10 @@ std::string energy_text(double energy) {
                      : fmt::format("{:.0f} {}", 10 * std::round(value / 10), unit);
 }
 
-/// A run above its limit on the scene, or the first scene that has one: its last steps as a curve and in pictures.
+/// A run above its limit on the scene, or on the first scene that has one: its last steps as a curve and in pictures.
 std::optional<Chart> failure_chart(const ChartInput& input, const std::string& preferred) {
   std::vector<FailureRow> rows = rows_of<FailureRow>(input.result);
-  // of the scenes that fail slowly enough to be seen
+  // scenes that fail slowly enough to be seen
   std::set<std::string> seen;
   for (const FailureRow& row : rows)
     if (row.still) seen.insert(row.scene);
@@ -158,7 +158,7 @@ std::optional<Chart> failure_chart(const ChartInput& input, const std::string& p
   }
   if (f.curves[0].points.empty()) return std::nullopt;
   if (first.growth)
-    f.finding = fmt::format("By theory for small motion, energy grows {} times in a step", times_text(*first.growth));
+    f.finding = fmt::format("In theory, for small motion, energy grows {} times per step", times_text(*first.growth));
   if (most > 0)
     f.finding += fmt::format("{} {} to {} times here at the end", f.finding.empty() ? "Energy grows" : ";",
                              times_text(least), times_text(most));

@@ -13,7 +13,7 @@
 namespace crosscheck {
 namespace {
 
-/// A verdict with its colour and its text in the key. Each is at least 8 in lightness (CIE L*) from every other.
+/// A verdict with its colour and its text in the key. Colours differ pairwise by at least 8 in lightness (CIE L*).
 struct CellClass {
   Verdict verdict;
   const char *title, *colour;
@@ -45,7 +45,7 @@ class RowsAgainstTheory {
       if (held > longest_) longest_ = held, by_ = row.method;
       return;
     }
-    // both limits lie left of the map, or right of it
+    // both limits are to the left of the map, or to the right of it
     if ((held == 0 && failed >= predicted) || (std::isinf(failed) && held <= predicted)) return;
     ++compared_;
     // a row that is stable, or fails, at every step has no measured limit
@@ -73,23 +73,23 @@ class RowsAgainstTheory {
           fmt::format("On {} of {} rows runs begin to fail within {} of the dashed line of theory; furthest off is {}.",
                       compared_ - apart_, compared_, percent(near, 1), which_));
     if (none_hold_ > 0)
-      all.push_back(fmt::format("Where theory has no stable step, none holds on {} rows.", none_hold_));
+      all.push_back(fmt::format("Where theory has no stable step, no step holds on {} rows.", none_hold_));
     if (some_hold_ > 0)
-      all.push_back(fmt::format("On {} rows short steps hold that by theory grow, if slowly: up to {} by {}.",
+      all.push_back(fmt::format("On {} rows short steps hold although theory predicts slow growth: up to {} by {}.",
                                 some_hold_, step_text(longest_), by_));
     if (all.empty()) return "Theory has no limit for these methods here.";
     return fmt::format("{}", fmt::join(all, " "));
   }
 
  private:
-  // the search leaves 2 % between what held and what failed, and growth must be seen within a short run
+  // 2 %: bracket left by the search; in addition, growth must be visible within a short run
   static constexpr double near = 0.05;
   std::string which_, by_;
   int compared_ = 0, apart_ = 0, none_hold_ = 0, some_hold_ = 0;
   double worst_ = -1, worst_near_ = 0, longest_ = 0;
 };
 
-/// Steps of the runs that came to the end: "1000", "300 to 1000".
+/// Steps of the completed runs: "1000", "300 to 1000".
 std::string steps_of(const std::set<long>& steps) {
   if (steps.empty()) return "";
   return range(std::to_string(*steps.begin()), std::to_string(*steps.rbegin())) + " steps ";

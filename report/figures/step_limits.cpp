@@ -14,7 +14,7 @@
 namespace crosscheck {
 namespace {
 
-/// The fastest vibration that binds a limit on each scene, rad/s.
+/// The fastest vibration that limits the step on each scene, rad/s.
 std::map<std::string, double> fastest_of(const std::vector<LimitRow>& table) {
   std::map<std::string, double> fastest;
   for (const LimitRow& row : table)
@@ -23,7 +23,7 @@ std::map<std::string, double> fastest_of(const std::vector<LimitRow>& table) {
   return fastest;
 }
 
-/// The scene of the columns, and of the others those that lie furthest apart: four at most.
+/// The scene of the columns, and up to three others with the most different frequencies.
 std::vector<StepLimits::SceneMark> marked_scenes(const std::map<std::string, double>& fastest,
                                                  const std::string& always) {
   std::vector<StepLimits::SceneMark> all;
@@ -75,12 +75,12 @@ std::string predicted_text(const LimitRow& row) {
 
 namespace {
 
-/// What the runs of one method say, over all scenes.
+/// The results of one method over all scenes.
 struct Gathered {
   StepLimits::Row row;
   std::string without;                   // a scene without a stable step
   std::string bound;                     // a scene with a limit
-  std::optional<double> every, refused;  // h omega up to which every step was tried, or taken
+  std::optional<double> every, refused;  // h omega up to which every step was tried, or accepted
   bool any() const { return !bound.empty() || !without.empty() || every || refused; }
 
   void add(const LimitRow& limit, double omega, const std::vector<StepLimits::SceneMark>& scenes) {
@@ -105,7 +105,7 @@ struct Gathered {
   void conclude() {
     if (!bound.empty()) {
       row.words = fmt::format("h ω = {}", nice(row.held));
-      if (!without.empty()) row.words = fmt::format("0 without drag; {} with that of {}", nice(row.held), bound);
+      if (!without.empty()) row.words = fmt::format("0 without drag; {} with the drag of {}", nice(row.held), bound);
       if (every) row.words += ", elsewhere none";
     } else if (!without.empty()) {
       row.words = "no step holds without drag";
@@ -167,7 +167,7 @@ Table data_of(const StepLimits& f) {
   return checked(std::move(table));
 }
 
-/// Where the axis ends.
+/// The end of the axis.
 double top_of(const StepLimits& f) {
   double top = 0;
   for (const StepLimits::Row& row : f.rows)

@@ -1,4 +1,4 @@
-// Largest stable steps in units of the fastest vibration: a row for each method, in which all scenes fall on one line.
+// Largest stable steps in units of the fastest vibration: one row per method, in which all scenes coincide.
 #pragma once
 
 #include <optional>
@@ -11,9 +11,9 @@
 namespace crosscheck {
 
 struct StepLimits : FigureInfo {
-  /// The limit on one scene, in h omega.
+  /// The limit on one scene, as h omega.
   struct Mark {
-    size_t scene;  // of `scenes`
+    size_t scene;  // index in `scenes`
     double measured;
     std::optional<double> predicted;
     std::string words;
@@ -21,7 +21,7 @@ struct StepLimits : FigureInfo {
   struct Row {
     double held = 0;    // h omega up to which runs hold
     bool open = false;  // no step failed
-    std::string words;  // beside the bar
+    std::string words;  // text next to the bar
     std::vector<Mark> marks;
     std::string measured, predicted;  // ms, on the scene of the columns
   };
@@ -29,22 +29,22 @@ struct StepLimits : FigureInfo {
     std::string name;
     double omega;  // rad/s
   };
-  std::vector<std::string> names;  // methods, from above
-  std::vector<Row> rows;           // one for each
+  std::vector<std::string> names;  // methods, from the top
+  std::vector<Row> rows;           // one per name
   std::vector<SceneMark> scenes;
-  std::string columns_of;  // a scene
+  std::string columns_of;  // scene of the columns
 };
 
-/// From rows of table `stability` about states of rest: methods that hold at every step first, then from long limits to
-/// short ones. Methods, scenes and columns are empty where no limit is known in h omega. `scene` is that of the
-/// columns where it was searched.
+/// From the rows of table `stability` about states of rest. Methods that hold at every step come first, then from long
+/// to short limits. Methods, scenes and columns are empty if no limit is known as h omega. The columns are for `scene`,
+/// if it was searched.
 StepLimits step_limits_of(const std::vector<LimitRow>& table, const std::string& scene);
 
-/// Limits in ms by runs and by theory, or a word.
+/// Measured and predicted limits in ms, or a word.
 std::string measured_text(const LimitRow& row);
 std::string predicted_text(const LimitRow& row);
 
-/// Throws std::runtime_error that names the figure when there is nothing to draw.
+/// Throws std::runtime_error with the figure's name if there is nothing to draw.
 Drawing drawing_of(const StepLimits& limits);
 
 }  // namespace crosscheck

@@ -77,9 +77,9 @@ Chart networks(const std::vector<NetworkStiffnessRow>& rows, const std::string& 
     f.curves.push_back(std::move(curve));
   }
   f.finding = holds > 0
-                  ? fmt::format("In a chain solved once in a step the map holds to 1 % up to k h² / μ = {:.2g}.", holds)
+                  ? fmt::format("In a chain solved once per step the map holds to 1 % up to k h² / μ = {:.2g}.", holds)
                   : "In a chain the map holds to 1 % at none of these steps.";
-  if (!most.empty()) f.finding += fmt::format(" The chain sags too far by up to {}.", joined(most));
+  if (!most.empty()) f.finding += fmt::format(" The chain's excess sag is up to {}.", joined(most));
   return described("stiffness-network", std::move(f), "commit"_a = commit);
 }
 
@@ -88,24 +88,25 @@ struct EffectiveMeasure {
   const char *name, *net;
   OptionalNumber EffectiveStiffnessRow::*value;
 };
-// by its period a chain alone: a cloth this small swings so fast that implicit rules stop it before it turns twice
+// the period is measured on a chain only: a cloth this small oscillates so fast that implicit rules stop it within two
+// periods
 constexpr EffectiveMeasure effective_measures[] = {
     {"stiffness-effective", "cloth", &EffectiveStiffnessRow::by_sag},
     {"stiffness-effective-period", "chain", &EffectiveStiffnessRow::by_period}};
 
-/// "4 iterations of pbd": a name that begins with a method's is cut to that at a curve's end.
+/// "4 iterations of pbd": a title that begins with a method's name would be shortened to it at a curve's end.
 std::string curve_title(const EffectiveStiffnessRow& row) {
   return fmt::format("{} of {}", passes_text(row.method, row.iterations), row.method.substr(row.method.find('/') + 1));
 }
 
-/// Methods that have no iterations to choose stand in the table alone. Empty where the net was not measured.
+/// Methods without a choice of iterations are in the table only. Empty if the net was not measured.
 std::optional<Chart> effective_stiffness(const std::vector<EffectiveStiffnessRow>& rows,
                                          const EffectiveMeasure& measure, const std::string& commit) {
   Figure f;
   static constexpr const char *dashes[] = {"1", "(8,4)", "(2,2)", "(10,3,2,3)"},
                               *greys[] = {"#111111", "#555555", "#8A8A8A", "#333333"},
                               *browns[] = {"#7A3B00", "#D66A08", "#E8A33D", "#9A4200"};
-  std::map<std::string, size_t> by_method;  // curves so far
+  std::map<std::string, size_t> by_method;  // number of curves so far
   const EffectiveStiffnessRow* softest = nullptr;
   for (const EffectiveStiffnessRow& row : rows) {
     const Method* method = builtin_method(row.method);
@@ -130,7 +131,7 @@ std::optional<Chart> effective_stiffness(const std::vector<EffectiveStiffnessRow
                    "stiffness"_a = softest->stiffness, "commit"_a = commit);
 }
 
-/// Young's modulus over the angle of the pull: lines by the formula, marks by energies of strained nets.
+/// Young's modulus over the angle of the pull: lines from the formula, marks from energies of strained nets.
 Chart pulled_sheets(const std::vector<PulledSheetRow>& rows, const std::string& commit) {
   Figure f;
   f.y.low = 0;

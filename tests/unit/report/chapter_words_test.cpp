@@ -326,7 +326,7 @@ TEST(EnergyFindings, DampingNamesWhoWasAsked) {
   EXPECT_TRUE(contains(figure_info(charts_of(energy_charts, rows_of({t})).at(0))->finding, "in 2 measurements"));
   const Table none = damping("bullet/deformable-explicit", {{0.1, 1e-9, 0.}});
   EXPECT_TRUE(energy_findings(rows_of({none})).empty());
-  EXPECT_TRUE(begins(figure_info(charts_of(energy_charts, rows_of({none})).at(0))->finding, "By theory none of"));
+  EXPECT_TRUE(begins(figure_info(charts_of(energy_charts, rows_of({none})).at(0))->finding, "In theory none of"));
 }
 
 template <class Row>

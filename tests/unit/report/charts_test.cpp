@@ -177,7 +177,7 @@ TEST(CheapestChart, NamesWhoIsThereAndWhichTimesAreScaled) {
   EXPECT_EQ(builds_text({"mysim/rk4", "bullet/pbd"}), "mysim built here, Bullet by Debian for generic x86-64");
   EXPECT_EQ(builds_text({"mysim/", "odeint/", "bullet/", "sundials/"}),
             "mysim and odeint built here, Bullet and SUNDIALS by Debian for generic x86-64");
-  EXPECT_EQ(builds_text({"mysim/rk4", "exec:./a"}), "mysim built here, programs of their own as they were built");
+  EXPECT_EQ(builds_text({"mysim/rk4", "exec:./a"}), "mysim built here, external programs as they were built");
   const auto caption_of = [](const std::vector<WorkPrecisionPoint>& points) {
     Table t = table_of<EngineSpeedRow>();
     add_by_engine("cloth", 0.01, Measure::error, 0.01, points, t);
@@ -525,7 +525,7 @@ TEST(StepLimits, FallOnOneLineWhateverTheScene) {
   EXPECT_NEAR(leapfrog.held, 1.99, 1e-12) << "up to here all hold";
   EXPECT_EQ(leapfrog.measured, "2.0040");
   EXPECT_EQ(leapfrog.predicted, "2.0000");
-  EXPECT_EQ(f.rows[3].words, "0 without drag; 0.00201 with that of cloth");
+  EXPECT_EQ(f.rows[3].words, "0 without drag; 0.00201 with the drag of cloth");
   EXPECT_EQ(f.rows[0].measured, "") << "not searched there";
   EXPECT_EQ(step_limits_of(limit_rows(), "rod").columns_of, "cloth") << "of those that there are the fastest";
   EXPECT_TRUE(step_limits_of({}, "cloth").rows.empty());

@@ -319,7 +319,7 @@ TEST_F(Take, IsRingedInItsChartBesideTheCriticalStepOfItsRule) {
   ASSERT_TRUE(page.take);
   EXPECT_EQ(page.take->x, 0.2);
   EXPECT_DOUBLE_EQ(page.take->y, 0.1) << "% of the motion";
-  EXPECT_EQ(page.take->name, "take this: 1 ms");
+  EXPECT_EQ(page.take->name, "recommended: 1 ms");
   EXPECT_EQ(page.take->more, "0.1 %, 200 ms");
   Table limits = table_of<LimitRow>();
   LimitRow row;
