@@ -1,4 +1,4 @@
-# bash completion of crosscheck: commands, their options, and the names that `crosscheck list` knows
+# bash completion for crosscheck: commands, their options, and the names listed by `crosscheck list`
 _crosscheck() {
   local cur=${COMP_WORDS[COMP_CWORD]} prev=${COMP_WORDS[COMP_CWORD-1]} options="" kinds="" words="" kind
   COMPREPLY=()

@@ -1,6 +1,6 @@
-# find_package(crosscheck): mysim as a library, and the header of outside engines.
+# find_package(crosscheck): mysim as a library, and the header for external engines.
 #   crosscheck::mysim      the library behind <crosscheck/mysim.h>
-#   crosscheck::protocol   the header <crosscheck_engine.h>, which needs nothing
+#   crosscheck::protocol   the header <crosscheck_engine.h>, which has no dependencies
 #   crosscheck_SCENES      the folder of the shipped scenes
 include(CMakeFindDependencyMacro)
 find_dependency(fmt)

@@ -1,5 +1,5 @@
-// What a browser lacks, or lends: one thread, one instruction set, no clock of its own, its regular expressions, and
-// exceptions that end the instance.
+// Replacements for the system in a browser: one thread, one instruction set, no clock, the page's regular expressions,
+// and exceptions that end the instance.
 #include <cstdlib>
 #include <cstring>
 #include <exception>
@@ -14,12 +14,13 @@
 
 #define IMPORT(name) extern "C" __attribute__((import_module("page"), import_name(#name)))
 
-/// Throws a JavaScript error of this kind with this message; it does not return.
+/// Throws a JavaScript error of this kind with this message; does not return.
 IMPORT(fail) __attribute__((noreturn)) void page_fail(const char* kind, const char* message);
-/// 1 where a part of the text is a match of the expression (ECMAScript's grammar).
+/// Returns 1 if a part of the text matches the expression (ECMAScript grammar).
 IMPORT(matches) int page_matches(const char* expression, const char* text, int whole);
 
-// The runtime's own part of `throw`: everything that mysim and its libraries throw is a std::exception first of all.
+// The runtime's implementation of `throw`: everything that mysim and its libraries throw has std::exception as its
+// first base.
 extern "C" {
 void* __cxa_allocate_exception(std::size_t size) { return std::malloc(size); }
 [[noreturn]] void __cxa_throw(void* thrown, std::type_info* type, void (*)(void*)) {

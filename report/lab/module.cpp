@@ -1,6 +1,6 @@
-// The engine as a WebAssembly module: one instance is one scene and one run of it (page/lab/engine.ts is its other
-// side). Texts are UTF-8 in a buffer of the module's; numbers stand in arrays that are valid until the next call. What
-// is thrown ends the instance (browser.cpp).
+// The engine as a WebAssembly module: one instance is one scene and one run of it (page/lab/engine.ts is its
+// counterpart). Texts are UTF-8 in the module's buffer; arrays of numbers are valid until the next call. An exception
+// ends the instance (browser.cpp).
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
@@ -18,9 +18,9 @@
 namespace crosscheck {
 namespace {
 
-/// All that one instance knows.
+/// State of the instance.
 struct Instance {
-  std::string text;  // what was handed in last, or is handed out
+  std::string text;  // last text received, or returned
   std::optional<LiveRun> run;
   std::vector<int> integers;
   std::vector<double> numbers;
@@ -66,7 +66,7 @@ std::string quoted(std::string_view text) {
 
 std::string list_of(const Vec3& v) { return fmt::format("[{},{},{}]", v[0], v[1], v[2]); }
 
-/// The list of a term that has one, or an empty list.
+/// The list of a term if the model has it, otherwise an empty list.
 template <class T>
 auto list_in_term() -> const decltype(T::list)& {
   static const decltype(T::list) none;
@@ -83,7 +83,7 @@ std::vector<int> ends_of(const std::vector<Pair>& pairs) {
   return ends;
 }
 
-/// A number of each item of a list.
+/// One number per item of a list.
 template <class Number, class List, class Member>
 std::vector<Number> of_each(const List& list, const Member& member) {
   std::vector<Number> numbers;
@@ -93,7 +93,7 @@ std::vector<Number> of_each(const List& list, const Member& member) {
 
 }  // namespace
 
-/// A buffer of so many bytes for the text that the next call reads.
+/// A buffer of this size (bytes) for the text that the next call reads.
 EXPORT(text_buffer) char* text_buffer(int bytes) {
   instance().text.assign(static_cast<size_t>(bytes), ' ');
   return instance().text.data();
@@ -112,7 +112,7 @@ EXPORT(steppers) const char* steppers_json() {
 /// Reads the scene in the text buffer.
 EXPORT(open) void open() { instance().run.emplace(parse_scene(std::string(instance().text), "lab.toml", "lab")); }
 
-/// The scene's single numbers and words as JSON.
+/// The scene's scalar properties as JSON.
 EXPORT(scene) const char* scene_json() {
   const Scene& s = run().scene();
   std::string spheres, planes, camera = "null";
@@ -130,7 +130,7 @@ EXPORT(scene) const char* scene_json() {
 
 EXPORT(pins) const int* pins() { return hand_out(run().scene().model.particles.pins); }
 
-/// Both ends of every spring, and of every hard distance.
+/// Both ends of every spring, and of every distance constraint.
 EXPORT(spring_ends) const int* spring_ends() { return hand_out(ends_of(springs())); }
 EXPORT(constraint_ends) const int* constraint_ends() { return hand_out(ends_of(constraints())); }
 
@@ -138,7 +138,7 @@ EXPORT(spring_families) const int* spring_families() { return hand_out(of_each<i
 
 /// Rest lengths, m.
 EXPORT(spring_rests) const double* spring_rests() { return hand_out(of_each<double>(springs(), &Spring::rest)); }
-/// m.
+/// Lengths of distance constraints, m.
 EXPORT(constraint_lengths) const double* constraint_lengths() {
   return hand_out(of_each<double>(constraints(), [](const auto& c) { return c.length; }));
 }
@@ -149,15 +149,15 @@ EXPORT(triangles) const int* triangles() {
   return hand_out(std::move(corners));
 }
 
-/// rad/s.
+/// Fastest vibration, rad/s.
 EXPORT(omega) double omega() { return run().omega(); }
 
-/// Of the stepper in this row of the table, s; nan where it is not known.
+/// Critical step of the stepper in this row of the table, s; nan if unknown.
 EXPORT(critical_step) double critical_step(int row) {
   return run().critical_step(steppers()[static_cast<size_t>(row)]).value_or(std::numeric_limits<double>::quiet_NaN());
 }
 
-/// The rule stands in the text buffer.
+/// Starts a run; the rule is in the text buffer.
 EXPORT(start) void start(double step, double tolerance, double duration, int keep_ledger) {
   run().start({std::string(instance().text), step, tolerance, duration, keep_ledger != 0});
 }
@@ -165,19 +165,19 @@ EXPORT(start) void start(double step, double tolerance, double duration, int kee
 EXPORT(advance) int advance(double t, int most) { return run().advance(t, most); }
 EXPORT(time) double time() { return run().time(); }
 
-/// What the run has come to, as JSON.
+/// The outcome of the run so far, as JSON.
 EXPORT(outcome) const char* outcome_json() {
   const Outcome out = run().outcome();
   return hand_out(fmt::format(R"({{"verdict":{},"reason":{},"step":{},"steps":{}}})", quoted(name_of(out.verdict)),
                               quoted(out.reason), std::isfinite(out.step) ? out.step : 0, out.steps));
 }
 
-/// m.
+/// Positions, m.
 EXPORT(positions) const double* positions() { return run().state().x.data(); }
-/// m/s.
+/// Velocities, m/s.
 EXPORT(velocities) const double* velocities() { return run().state().v.data(); }
 
-/// Of the spheres at a time, m.
+/// Centres of the spheres at a time (s), m.
 EXPORT(centres) const double* centres(double t) {
   std::vector<double> places;
   for (const Sphere& sphere : list_in_term<Spheres>())
@@ -185,8 +185,8 @@ EXPORT(centres) const double* centres(double t) {
   return hand_out(std::move(places));
 }
 
-/// Kinetic, elastic and gravitational energy, losses to drag, dashpots and contact, work of wind and pins, balance: J.
-/// Null in first-order scenes.
+/// Kinetic, elastic and gravitational energy; losses to drag, dashpots and contact; work of wind and pins; balance: J.
+/// Null for first-order scenes.
 EXPORT(energies) const double* energies() {
   const auto row = run().energies();
   if (!row) return nullptr;

@@ -1,4 +1,4 @@
-// Stands in for std::ifstream where libc++ has no files (WebAssembly, version 19 and later): toml++ mentions it and
+// Replaces std::ifstream for a libc++ without files (WebAssembly, version 19 and later): toml++ mentions it, but
 // nothing in the module opens a file.
 #pragma once
 

@@ -57,10 +57,9 @@ std::vector<Certificate> certificates_of(const TableSet& rows) {
 
 ReportData read_report(const fs::path& folder) {
   const Verification found = verify_report(folder);
-  // another version may say it in other words
+  // compares data only: another version may phrase sentences differently
   if (found.of_data > 0)
-    throw InputError(
-        fmt::format("{}: its data are not those that were reported: {}", folder.string(), found.mismatches[0]));
+    throw InputError(fmt::format("{}: its data differ from the report: {}", folder.string(), found.mismatches[0]));
   const JsonField report = JsonField::parse_file((folder / "report.json").string());
   ReportData data;
   for (const auto& [name, ignored] : report["scenes"].items())
@@ -92,7 +91,7 @@ fs::path picture_file(const fs::path& folder, const Scene& scene, const char* wh
 
 namespace {
 
-/// The page has its own letters.
+/// Removes titles and subtitles: the page has its own text.
 render::Picture without_letters(render::Picture picture) {
   for (auto& row : picture.rows)
     for (render::Panel& panel : row) panel.title.clear(), panel.subtitle.clear();
@@ -114,14 +113,14 @@ void draw_scene(const Scene& scene, const MethodResult& shown, bool full, const 
 
 namespace {
 
-/// A caption stands for itself wherever its figure goes; the page names the commit once.
+/// Removes the commit from a caption: captions are self-contained, but the page names the commit once.
 std::string without_commit(std::string caption) {
   static const Pattern commit(
       "; commit [^ ;]*(, with uncommitted changes)?\\.| Commit [^ ;]*(, with uncommitted changes)?\\.");
   return commit.replaced_in(caption, caption.find("; commit") == std::string::npos ? "" : ".");
 }
 
-/// Gathers what the page says.
+/// Collects the content of the page.
 class Assembly {
  public:
   Assembly(ReportData& data, const fs::path& folder, const fs::path& against)
@@ -148,7 +147,7 @@ class Assembly {
   WrittenReport write(const Workers& workers) {
     fs::create_directories(figures_);
     write_file(figures_ / "style.gp", asset("figures/style.gp"));
-    // first what moves first: the page may have no room for all
+    // the first screen's runs first: the page may not have room for all
     for (const ScenePart* part : first_scenes(page_)) add_own_runs(*part);
     for (const ScenePart& part : page_.scenes) add_own_runs(part);
     for (const Chart& chart : charts_) add(chart);
@@ -159,7 +158,7 @@ class Assembly {
                report_json(page_, findings_, charts_, data_.rows, name_of(data_.extent), data_.runs));
     std::vector<std::pair<std::string, size_t>> blocks;
     write_file(folder_ / "index.html", page_html(page_, &blocks));
-    bool agree = true;  // where the same rule must agree, it does
+    bool agree = true;  // engines with the same rule agree wherever they must
     for (const SceneData& facts : findings_.facts)
       for (const MethodData& method : facts.methods) agree &= !same_rule_differs(facts, method);
     return {std::move(page_), std::move(blocks), agree};
@@ -196,7 +195,7 @@ class Assembly {
     return images;
   }
 
-  /// Figures that open a chapter, for paper and for readers without scripts; renders that are not there yet.
+  /// Draws figures that open a chapter, for paper and for readers without scripts, and renders missing pictures.
   void draw(const Workers& workers) {
     std::vector<Point> points;
     for (const Chart& chart : charts_) {
@@ -226,7 +225,7 @@ class Assembly {
 
   bool may_run(const std::string& method) const { return !data_.received || !method.starts_with(program_prefix); }
 
-  /// The still picture of the first screen: the runs that move there, and the truth as a result of its own.
+  /// The still picture of the first screen: the runs that move there, and the truth as a separate result.
   void draw_first(const ScenePart& part) const {
     const Scene& scene = *part.scene;
     std::deque<MethodResult> results;
@@ -246,13 +245,13 @@ class Assembly {
     std::vector<const MethodResult*> shown;
     for (const Snapshot::Panel& panel : s.panels) {
       if (!may_run(panel.method))
-        throw InputError(fmt::format("{} is not run: a report's data named it, not you", panel.method));
+        throw InputError(fmt::format("{} is not run, because a report's data name it, not you", panel.method));
       results.push_back(recorded_result(find_method(panel.method), s.scene, panel.run));
       shown.push_back(&results.back());
     }
     const std::vector<PageImage> images = images_of(s);
     if (s.moments.empty()) return render::write_png(picture_of(s.scene, shown, s.shot), images[0].file);
-    // one camera for all moments: that of the first, before anything strays, and a little further off
+    // one camera for all moments: that of the first, before the run diverges, from a slightly larger distance
     std::vector<Shot> shots(s.moments.size(), s.shot);
     for (size_t i = 0; i < shots.size(); ++i) shots[i].at = s.moments[i].first;
     CommonView common = common_view(s.scene, shown, shots.front());
@@ -261,7 +260,7 @@ class Assembly {
       render::write_png(without_letters(picture_of(s.scene, shown, shots[i], common)), images[i].file);
   }
 
-  /// The runs of a set, once for all that play them; false where there are none.
+  /// Adds the runs of a set, once for all figures that play them; returns false if there are none.
   bool add_runs(const std::string& key, const std::string& only = "") {
     if (std::ranges::find(page_.runs, key, &PlayableRuns::key) != page_.runs.end()) return true;
     auto runs = key.empty() ? std::nullopt : runs_.take(key, only, page_.notes);
@@ -303,11 +302,11 @@ class Assembly {
     for (const char* set : {"-truth", "-engines"})
       if (!part.motions.empty()) add_runs(part.scene->name + set);
   }
-  /// The runs that the player of a scene begins with.
+  /// Adds the initial runs of a scene's player.
   void add_shown_runs(ScenePart& part) {
     if (part.motions.empty()) return;
     const std::string marks = part.scene->name + "-speed-accuracy";
-    if (part.take) add_runs(marks, part.take->method);  // all of them where a chart plays them
+    if (part.take) add_runs(marks, part.take->method);  // all of them if a chart plays them
     part.runs = shown_runs(part, data_.rows, [&](const std::string& method) {
       const auto set = std::ranges::find(page_.runs, marks, &PlayableRuns::key);
       return set != page_.runs.end() && std::ranges::find(set->files, method, &RunFile::method) != set->files.end();

@@ -1,4 +1,4 @@
-// A report made from its tables: findings, charts, pictures that are there, the page, report.json.
+// Makes a report from its tables: findings, charts, existing pictures, the page, report.json.
 #pragma once
 
 #include <filesystem>
@@ -17,43 +17,43 @@ namespace crosscheck {
 enum class Extent { quick, named, full };
 std::string_view name_of(Extent extent);
 
-/// Everything that a report says rests on: what experiments wrote into data/, and what was said while they did.
+/// The basis of a report: the tables that experiments wrote into data/, and their notes and failures.
 struct ReportData {
-  std::vector<Scene> scenes;  // with a part of their own
-  std::vector<Scene> all;     // of all experiments
+  std::vector<Scene> scenes;  // scenes with a card
+  std::vector<Scene> all;     // scenes of all experiments
   TableSet rows;
   Provenance provenance;
   Extent extent = Extent::quick;
-  std::vector<std::string> problems;  // what failed to be made
+  std::vector<std::string> problems;  // failures
   Json runs = Json::array();          // the index of recorded runs (report/player/runs.h)
-  bool received = false;              // read from a folder: no program that it names may be run
+  bool received = false;              // read from a folder: programs that it names must not be run
 
-  /// Whether each scene has charts of its own.
+  /// True if each scene has charts of its own.
   bool each_has_charts() const { return extent != Extent::quick; }
 };
 
-/// The data of a finished report, from its folder. Throws InputError where one of its files is missing or cannot be
-/// read, or is not the one that was reported.
+/// Reads the data of a finished report from its folder. Throws InputError if a file is missing, cannot be read, or
+/// differs from the reported one.
 ReportData read_report(const std::filesystem::path& folder);
 
-/// The certificates as a table, in which `report --from` finds them again.
+/// The certificates as a table, from which `report --from` reads them.
 Table certificate_table(const std::vector<Certificate>& certificates);
 
-/// Works on a list of points, several at a time, and returns what failed.
+/// Computes a list of points, several in parallel, and returns the failures.
 using Workers = std::function<std::vector<std::string>(const std::vector<Point>&)>;
 
-/// Writes the figures' data and scripts, draws those that open a chapter, renders the pictures that are not there yet,
-/// and writes report.json and index.html into the folder, whose data/ is there. `against`: an earlier report, or empty.
-/// Returns what the page says.
+/// Writes the figures' data and scripts, draws those that open a chapter, renders missing pictures, and writes
+/// report.json and index.html into the folder, which must contain data/. `against`: an earlier report, or empty.
+/// Returns the content of the page.
 struct WrittenReport {
   PageContent page;
-  std::vector<std::pair<std::string, size_t>> blocks;  // bytes of the page's parts
-  bool agree;                                          // engines with one rule agree where they must
+  std::vector<std::pair<std::string, size_t>> blocks;  // size in bytes of the page's parts
+  bool agree;                                          // engines with the same rule agree wherever they must
 };
 WrittenReport write_report(ReportData& data, const std::filesystem::path& folder, const std::filesystem::path& against,
                            const Workers& workers);
 
-/// Where the pictures of a scene stand: "-thumbnail", "-hero".
+/// File of a scene's picture: `which` is "-thumbnail" or "-hero".
 std::filesystem::path picture_file(const std::filesystem::path& folder, const Scene& scene, const char* which);
 
 /// Draws a scene's thumbnail from a run.

@@ -1,4 +1,4 @@
-// Chapters as data: the answer, the figures that open one, the text that teaches why, and the rest in folds.
+// Chapters as data: the answer, the opening figures, the explanation, and all else in folds.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -21,16 +21,16 @@ Json findings_data(const Findings& findings) {
   for (const Finding& f : findings) {
     const std::string tier = tier_of(f);
     const bool against = tier != "measured" && tier != "see each scene";
-    list.push_back({{"sentence", sentence_of(f)}, {"tier", (against ? "against: " : "") + tier}});
+    list.push_back({{"sentence", sentence_of(f)}, {"tier", (against ? "reference: " : "") + tier}});
   }
   return {{"findings", std::move(list)}};
 }
 
 namespace {
 
-constexpr size_t most_folds = 6;  // in one chapter
+constexpr size_t most_folds = 6;  // per chapter
 
-/// The part of a name in place of the pattern's star, empty without one; nothing where the name does not match.
+/// The part of a name that the pattern's star matches, empty without a star; nothing if the name does not match.
 std::optional<std::string> starred_part(const std::string& name, const std::string& pattern) {
   const size_t star = pattern.find('*');
   if (star == std::string::npos) return name == pattern ? std::optional("") : std::nullopt;
@@ -42,12 +42,12 @@ std::optional<std::string> starred_part(const std::string& name, const std::stri
 /// A figure that opens a chapter.
 struct Lead {
   const Chapter::Entry* entry;
-  size_t figure;       // its place in the entry
-  std::string choice;  // the part of its name in place of the pattern's star
+  size_t figure;       // its index in the entry
+  std::string choice;  // the part of its name that the pattern's star matches
   const PageFigure& of() const { return entry->figures[figure]; }
 };
 
-/// The figures of the first pattern that any has; that of the main scene before the others.
+/// The figures of the first pattern that matches any; the main scene's figure comes first.
 std::vector<Lead> leads_of(const Chapter& chapter, const PageContent& c) {
   for (const std::string& pattern : chapter.leads) {
     std::vector<Lead> leads;
@@ -60,7 +60,7 @@ std::vector<Lead> leads_of(const Chapter& chapter, const PageContent& c) {
   return {};
 }
 
-/// Data of choices.html: buttons that choose which of several elements is in sight, at first the first one.
+/// Data of choices.html: buttons that choose which of several elements is visible, initially the first.
 void add_choice(Json& choices, const std::string& id, const std::string& label) {
   choices.push_back({{"id", id}, {"label", label}, {"pressed", choices.empty() ? "true" : "false"}});
 }
@@ -70,7 +70,7 @@ Json entry_data(const Chapter::Entry& entry, const PageContent& c) {
   Json figures = Json::array(), images = Json::array(), tables = Json::array();
   for (const PageFigure& figure : entry.figures) figures.push_back(figure_data(figure, c));
   for (const PageImage& image : entry.images)
-    if (std::filesystem::exists(image.file)) images.push_back(image_data(image));  // why not, is among the problems
+    if (std::filesystem::exists(image.file)) images.push_back(image_data(image));  // missing files are reported
   for (const PageTable& table : entry.tables) tables.push_back(table_data(table));
   return {{"heading", entry.heading},
           {"text", entry.text},
@@ -79,14 +79,14 @@ Json entry_data(const Chapter::Entry& entry, const PageContent& c) {
           {"tables", std::move(tables)}};
 }
 
-/// An entry that is folded away. Entries of one fold have buttons, one of them in sight at a time.
+/// A folded entry. Entries of the same fold have buttons; one at a time is visible.
 struct Folded {
   std::string fold, label;  // the fold's heading, and the text of the entry's button
-  size_t worth;             // its place among the chapter's patterns
+  size_t worth;             // its index among the chapter's patterns
   Chapter::Entry entry;
 };
 
-/// In the order of their worth.
+/// Folded entries by importance.
 std::vector<Folded> folded(const Chapter& chapter, const std::vector<Lead>& leads) {
   std::vector<Folded> all;
   for (const Chapter::Entry& given : chapter.entries) {
@@ -129,7 +129,7 @@ Json fold_data(const std::string& heading, const std::vector<Folded>& all, const
   return folds.fold(heading, many, "group", {{"entries", std::move(entries)}, {"choices", std::move(choices)}});
 }
 
-/// The folds of a chapter: the findings, the relations, then its entries; the least of them share the last fold.
+/// The folds of a chapter: the findings, the relations, then its entries; the least important share the last fold.
 Json folds_data(const Chapter& chapter, const std::vector<Lead>& leads, const PageContent& c, Folds& folds) {
   Json all = Json::array();
   Findings said;
@@ -139,7 +139,7 @@ Json folds_data(const Chapter& chapter, const std::vector<Lead>& leads, const Pa
         (rule.chapter == chapter.id || std::ranges::find(chapter.joins, rule.chapter) != chapter.joins.end()))
       said.push_back(f);
   if (!said.empty())
-    all.push_back(folds.fold("What was found", counted(said.size(), "finding"), "findings", findings_data(said)));
+    all.push_back(folds.fold("Findings", counted(said.size(), "finding"), "findings", findings_data(said)));
   if (chapter.id == "same-answer" && !c.relations.empty())
     all.push_back(folds.fold("Invariants that need no reference solution", "table", "relations",
                              relations_data(c.relations), "relations"));
@@ -160,7 +160,7 @@ Json folds_data(const Chapter& chapter, const std::vector<Lead>& leads, const Pa
   return all;
 }
 
-/// The numbers of the main scene in formulas: data of critical.html. Null where its limit is not known. Leapfrog's is
+/// The numbers of the main scene in formulas: data of critical.html. Null if its limit is unknown. Leapfrog's limit is
 /// 2 / omega, whatever the drag.
 Json critical_data(const PageContent& c) {
   for (const ScenePart& part : c.scenes) {
@@ -187,7 +187,7 @@ Json chapter_data(const Chapter& chapter, size_t number, const PageContent& c, F
             {"step_lab", chapter.id == "stability" && !c.lab.empty() ? c.main_scene : ""},
             {"label", text(chapter.label)},
             {"answer", answers_of_chapter(chapter.id, c.findings)},
-            // a certificate of a few scenes is a few lines high: the text stands below it
+            // a certificate of few scenes has few lines: the text is below it
             {"short", certificates && leads.empty() && c.scenes.size() <= 4},
             {"parity", certificates ? parity_data(c.scenes) : Json()},
             {"choices", Json::array()},

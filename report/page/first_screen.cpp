@@ -1,4 +1,4 @@
-// The first screen as data: scenes that move, and an answer to each question.
+// The first screen as data: moving scenes, and an answer to each question.
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
@@ -26,7 +26,7 @@ std::vector<const ScenePart*> first_scenes(const PageContent& c) {
 
 namespace {
 
-/// Whose view it is, and its error: the largest, which the player replaces by that of its time.
+/// The method of each view and its error: the largest, which the player replaces by the current one.
 Json readouts_data(const ScenePart& part) {
   const SceneData& facts = *part.facts;
   Json all = Json::array();
@@ -84,7 +84,7 @@ std::string certificates_matched(const PageContent& c) {
 
 std::string engine_and_reader_name(const std::string& method, const std::vector<std::string>& among) {
   const MethodFamily& family = family_of(method);
-  if (family.role == Role::outside) return program_title(method, among);  // a program's name may hold spaces
+  if (family.role == Role::outside) return program_title(method, among);  // a program's name may contain spaces
   return (family.is_subject() ? "mysim " : "") + reader_name(method, among);
 }
 
@@ -93,7 +93,7 @@ std::string beside_mysim(const PageContent& c) {
   for (const ScenePart& part : c.scenes)
     for (const MethodData& m : part.facts->methods)
       if (is_rival(m.method)) add_once(names, name_in_sentence(engine_of(m.method)));
-  return names.empty() ? "" : " beside " + joined(names);
+  return names.empty() ? "" : " next to " + joined(names);
 }
 
 Json first_screen_data(const PageContent& c) {

@@ -1,4 +1,4 @@
-// Text as HTML, in which a number and its unit stay on one line; images inside the page.
+// Text as HTML in which a number and its unit stay on one line, and embedded images.
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -30,7 +30,7 @@ std::string escaped(const std::string& text) {
 }
 
 std::string prose_with_bold_numbers(const std::string& text) {
-  // a number that stands by itself, with its unit
+  // a separate number, with its unit
   static const Pattern number(
       "(^|[ (±])(\\d+(?:\\.\\d+)?(?:<span "
       "class=\"n\">[^/]*</sup></span>)?(?:\u00a0(?:%|mm|µm|nm|ms|µs|m|s|times))?)(?![\\w</])");
@@ -62,7 +62,7 @@ Json image_data(const PageImage& image) {
   const render::Image pixels = vectors ? render::Image() : render::read_png(image.file);
   const std::string bytes = vectors ? content_of_file(image.file) : render::webp_bytes(pixels);
   return {{"src", fmt::format("data:image/{};base64,{}", vectors ? "svg+xml" : "webp", base64(bytes))},
-          {"width", pixels.width},  // so that a page does not move while it loads
+          {"width", pixels.width},  // so that the page does not move while it loads
           {"height", pixels.height},
           {"alt", image.alt},
           {"caption", image.caption}};

@@ -21,7 +21,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// What the guided experiments open.
+/// Scenes of the guided experiments.
 constexpr std::string_view guided_scenes[] = {"circle", "pendulum", "cloth-hang", "slide", "cloth-sphere"};
 
 }  // namespace
@@ -45,7 +45,7 @@ std::string lab_page_html(const std::vector<Scene>& scenes) {
   if (!has_lab_module())
     throw InputError(
         fmt::format("lab: mysim was not compiled to WebAssembly; apt-get install --no-install-recommends "
-                    "{}, then start again",
+                    "{}, then run crosscheck again",
                     lab_packages));
   std::vector<std::string> methods;
   for (const Stepper& rule : steppers()) methods.push_back(fmt::format("mysim/{}", rule.name));

@@ -12,18 +12,18 @@
 
 namespace crosscheck {
 
-/// Debian's packages that make the module; they bring the C library along.
+/// Debian's packages for building the module; they include the C library.
 inline constexpr std::string_view lab_packages = "clang lld libc++-dev-wasm32 libclang-rt-dev-wasm32 binaryen";
 
-/// Whether the engine was built for the page, and where it lies then.
+/// True if the engine was compiled for the page; and its file.
 bool has_lab_module();
 std::filesystem::path lab_module_file();
 
-/// The module and the scenes for the end of a page: those given, and those of the guided experiments. Empty where there
-/// is no module.
+/// The module and the scenes for the end of a page: the given scenes, and those of the guided experiments. Empty if
+/// there is no module.
 Json lab_data(const std::vector<Scene>& scenes);
 
-/// A page with the lab alone. Throws InputError, with what to install, where there is no module.
+/// A page with the lab alone. Throws InputError with the packages to install if there is no module.
 std::string lab_page_html(const std::vector<Scene>& scenes);
 
 }  // namespace crosscheck

@@ -56,7 +56,7 @@ std::vector<std::string> figures_of(const PageContent& c) {
 
 namespace {
 
-/// The changes against an earlier report; null where there is none.
+/// The changes since an earlier report; null without one.
 Json changes_data(const PageContent& c) {
   if (c.against.empty()) return nullptr;
   int timed = 0;
@@ -76,7 +76,7 @@ Json scene_data(const ScenePart& part, const PageContent& c) {
   const Scene& scene = *part.scene;
   const SceneData& facts = *part.facts;
   Findings shown = part.findings;
-  std::erase_if(shown, [](const Finding& f) { return f.rule == "take"; });  // a row of a table
+  std::erase_if(shown, [](const Finding& f) { return f.rule == "take"; });  // shown as a row of a table instead
   Json data = findings_data(shown);
   data.update({{"name", scene.name},
                {"question", scene.question},
@@ -96,7 +96,7 @@ Json scene_data(const ScenePart& part, const PageContent& c) {
                {"certificates", Json::array()},
                {"continuum", Json::array()}});
   if (!part.motions.empty() && !part.runs.empty()) {
-    // the run recommended beside the first other engine's
+    // the recommended run, compared with the first run of another engine
     const auto other = std::ranges::find_if(part.runs, [&](const ShownRun& run) {
       return run.beside && family_of(run.method).name != family_of(part.runs[0].method).name;
     });
@@ -130,7 +130,7 @@ Json card_data(const ScenePart& part, const PageContent& c, Folds& folds) {
 
 Json words_data(const PageContent& c, Folds& folds) {
   Provenance lines = c.provenance;
-  std::erase_if(lines, [](const auto& line) { return line.first == "scene"; });  // the hash of each is on its card
+  std::erase_if(lines, [](const auto& line) { return line.first == "scene"; });  // each scene's card has its hash
   Json made = provenance_data(lines);
   made["notes"] = c.notes;
   return Json::array({folds.fold("Glossary", "explained", "glossary", {{"words", glossary_data()}}),
@@ -140,8 +140,8 @@ Json words_data(const PageContent& c, Folds& folds) {
 
 std::string packed(const Json& json) { return base64(gzipped(dump(json))); }
 
-/// Data for scripts, which stands at the page's end. The numbers of charts: of those in sight when the page opens, or
-/// is printed at once, as they are; the others packed.
+/// Data for scripts, at the page's end. Charts that are visible when the page opens, or in print, are stored plainly;
+/// the others are packed.
 Json scripts_data(const PageContent& c, const Folds& folds) {
   Json open = Json::object(), folded = c.charts;
   for (const std::string& figure : figures_in_sight(c)) open[figure] = folded[figure], folded.erase(figure);
@@ -154,7 +154,7 @@ Json scripts_data(const PageContent& c, const Folds& folds) {
   return all;
 }
 
-/// Bytes of the page by block.
+/// Size in bytes of the page's blocks.
 std::vector<std::pair<std::string, size_t>> blocks_of(const Json& page, const std::string& html) {
   std::vector<std::pair<std::string, size_t>> blocks{{"text and pictures", html.size()}};
   const auto count = [&](const std::string& block, size_t bytes) {
@@ -241,7 +241,7 @@ std::string report_json(const PageContent& page, const AllFindings& findings, co
           {{"name", f->name}, {"scene", c.scene}, {"caption", f->caption}, {"tier", f->tier}, {"finding", f->finding}});
   json["notes"] = page.notes;
   json["problems"] = page.problems;
-  // each entry on one line: numbers on lines of their own would be most of the file
+  // each entry on one line: one number per line would make up most of the file
   std::vector<std::string> chart_lines, run_lines;
   for (const auto& [name, chart] : page.charts.items())
     chart_lines.push_back(fmt::format("  {}: {}", dump(Json(name)), dump(chart)));

@@ -1,4 +1,4 @@
-// The player's part of the page: stages and the runs that the page holds.
+// The player's part of the page: stages, and the runs that the page contains.
 #pragma once
 
 #include <map>
@@ -20,10 +20,10 @@ class PageRuns {
  public:
   explicit PageRuns(std::vector<RunFile> files) : files_(std::move(files)) {}
 
-  /// The set of this key, of one method or of all, without a scene or stage yet; nothing where no run was kept.
-  /// Methods for which the page has no room left are left out, and a note says so.
+  /// The set with this key, for one method or for all, without scene and stage; nothing if it has no runs. Omits
+  /// methods for which the page has no room left, and adds a note.
   std::optional<PlayableRuns> take(const std::string& key, const std::string& only, std::vector<std::string>& notes);
-  /// The positions that a scene's camera has to show: those of the truth and of a run that goes to the end.
+  /// The positions that a scene's camera must show: those of the truth and of a completed run.
   std::vector<Points> seen_in(const Scene& scene) const;
 
  private:
@@ -31,7 +31,7 @@ class PageRuns {
   size_t room_ = 5'500'000;  // bytes of the page
 };
 
-/// The stage of a scene's own runs, and of the small scene of a map with this key; empty where nothing can be played.
+/// The stage of a scene's own runs, and of the small scene of a map with this key; empty if nothing can be played.
 std::string stage_of(const Scene& scene, const SceneData& facts, const PageRuns& runs);
 std::string stage_of_map(const std::string& key, const std::vector<Scene>& scenes, bool full);
 

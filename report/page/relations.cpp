@@ -1,4 +1,4 @@
-// Marks of the relations that need no truth: a row for each engine; and what is broken, by how much, and why.
+// Marks of the relations that need no truth, one row per engine; and the breaks with their size and cause.
 
 #include <fmt/format.h>
 
@@ -29,10 +29,10 @@ std::string_view css_class(RelationMark mark) {
 
 std::string sentence_of_relation(const std::string& name) {
   const Relation* relation = relation_named(name);
-  return relation ? std::string(relation->sentence) : name;  // in a report by another version
+  return relation ? std::string(relation->sentence) : name;  // unknown in a report by another version
 }
 
-/// "3e-3 J, 140 times the tolerance, since 0.4 s"; for a run that failed, its time.
+/// "3e-3 J, 140 times the tolerance, since 0.4 s"; for a failed run, its time.
 std::string size_of_break(const RelationRow& row) {
   std::string text;
   if (row.measured)
@@ -42,7 +42,7 @@ std::string size_of_break(const RelationRow& row) {
   return readable(text);
 }
 
-/// The breaks, the largest of each method and cause.
+/// The largest break of each method and cause.
 PageTable table_of_breaks(const std::vector<RelationRow>& rows) {
   std::vector<const RelationRow*> largest;
   for (const RelationRow& row : rows) {
@@ -55,12 +55,11 @@ PageTable table_of_breaks(const std::vector<RelationRow>& rows) {
     else if (row.ratio.value_or(0) > (*same)->ratio.value_or(0))
       *same = &row;
   }
-  PageTable breaks{"The largest break of each cause (relations.csv has all)",
-                   {"method", "invariant", "scene", "by how much", "why"},
-                   {}};
+  PageTable breaks{
+      "The largest break of each cause (relations.csv has all)", {"method", "invariant", "scene", "size", "cause"}, {}};
   for (const RelationRow* row : largest)
     breaks.rows.push_back({row->method, fmt::format("{}: {}", row->relation, sentence_of_relation(row->relation)),
-                           row->scene, size_of_break(*row), row->reason.empty() ? "not known" : readable(row->reason)});
+                           row->scene, size_of_break(*row), row->reason.empty() ? "unknown" : readable(row->reason)});
   return breaks;
 }
 

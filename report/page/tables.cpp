@@ -12,13 +12,13 @@
 namespace crosscheck {
 namespace {
 
-/// A cell; without a text it has a dash.
+/// A cell; an empty text becomes a dash.
 Json cell(const std::string& text, const std::string& css_class = "") {
   return {{"text", text.empty() ? "–" : text},
           {"class", text.empty() ? "none" : css_class},
           {"link", ""},
-          {"note", ""},  // beside the text, in grey
-          {"law", ""}};  // which other law the method has
+          {"note", ""},  // after the text, in grey
+          {"law", ""}};  // the method's different law
 }
 Json cell(const std::string& text, const std::string& css_class, const char* key, const std::string& value) {
   Json made = cell(text, css_class);
@@ -53,7 +53,7 @@ Json verdict_cell(const MethodData& m, const SceneData& facts) {
   return cell(fmt::format("{} at {:.3g} s", m.failure(), m.end), "failed");
 }
 
-/// The mean with as many digits as its deviation allows.
+/// The mean with as many digits as its deviation justifies.
 std::string with_digits_of(double mean, double spread) {
   if (std::abs(mean) < 1e-12) return "0";
   if (!(spread > 0) || std::abs(mean) < 1e-3) return nice(mean);
@@ -61,12 +61,12 @@ std::string with_digits_of(double mean, double spread) {
   return fmt::format("{:.{}f}", mean, decimals);
 }
 
-/// A program's path is no name for readers.
+/// The text, with the title of a program instead of its path.
 std::string shown_method(const std::string& text) {
   return text.starts_with(program_prefix) ? program_title(text) : text;
 }
 
-/// True for a number with its unit ("1.0e-7 m"), which is not broken over lines.
+/// True for a number with its unit ("1.0e-7 m"), which must stay on one line.
 bool is_number(const std::string& text) {
   return text.size() <= 12 && text.find_first_of("0123456789") <= 2 && !text.starts_with("1/");
 }
@@ -181,13 +181,13 @@ Json parity_data(const std::vector<ScenePart>& scenes) {
 }
 
 Json recommendations_data(const std::vector<ScenePart>& scenes) {
-  std::vector<std::string> engines;  // beside mysim; where there is one, the column is named after it
+  std::vector<std::string> engines;  // other than mysim; a single one gives the column its name
   for (const ScenePart& part : scenes)
     if (part.take)
       for (const EngineBeside& other : part.take->beside) add_once(engines, other.engine);
   const std::string others = engines.size() == 1 ? name_in_sentence(engines[0]) : "others";
-  Json all = table("", Json::array({cell("scene"), cell("take", "text"), cell("step or tolerance"), cell("error"),
-                                    cell("force evaluations"), cell("CPU time"), cell("× real time"),
+  Json all = table("", Json::array({cell("scene"), cell("recommended", "text"), cell("step or tolerance"),
+                                    cell("error"), cell("force evaluations"), cell("CPU time"), cell("× real time"),
                                     cell(others + " / mysim"), cell("step bound by", "text")}));
   for (const ScenePart& part : scenes) {
     if (!part.take) continue;

@@ -14,7 +14,7 @@
 namespace crosscheck {
 namespace {
 
-/// The ways in which a value becomes a part of the page, by the first word of its tag.
+/// Converters from a value to a part of the page, by the first word of the tag.
 const std::map<std::string, std::string (*)(const std::string&)>& writers() {
   static const std::map<std::string, std::string (*)(const std::string&)> table{
       {"", escaped},
@@ -34,7 +34,7 @@ bool is_true(const Json& value) {
 
 }  // namespace
 
-/// Turns a text into parts.
+/// Splits a text into parts.
 class Template::Reader {
  public:
   Reader(const Template& of, std::string_view text) : template_(of) {
@@ -43,7 +43,7 @@ class Template::Reader {
     text_.pop_back();
   }
 
-  /// Up to the end of the text, or of the block that begins on that line; `closed_by`: the tag that ended it.
+  /// Reads to the end of the text, or of the block that begins on line `begun`; `closed_by`: the tag that ended it.
   std::vector<Part> parts(const std::string& block, int begun, std::string& closed_by) {
     for (std::vector<Part> parts;;) {
       const size_t begin = std::min(text_.find("{{", at_), text_.size());
@@ -77,7 +77,7 @@ class Template::Reader {
   }
 
  private:
-  /// The text between the braces; a line of nothing but a block's tag goes with its end.
+  /// The text between the braces; removes the line end of a line that contains only a block's tag.
   std::string next_tag(int line) {
     const size_t end = text_.find("}}", at_);
     if (end == std::string::npos || end == at_ + 2) template_.fail(line, "a tag without its end or its name");
@@ -120,10 +120,10 @@ void Template::fill(const std::vector<Part>& parts, const Scopes& scopes, std::s
     } else if (const Json& found = value(part.key, part.line, scopes); part.kind == "#if") {
       fill(is_true(found) ? part.inside : part.otherwise, scopes, out);
     } else if (part.kind == "#each") {
-      if (!found.is_array()) fail(part.line, fmt::format("'{}' is no list", part.key));
+      if (!found.is_array()) fail(part.line, fmt::format("'{}' is not a list", part.key));
       for (const Json& item : found) fill(part.inside, within(item), out);
     } else {
-      if (!found.is_string() && !found.is_number()) fail(part.line, fmt::format("'{}' is no text", part.key));
+      if (!found.is_string() && !found.is_number()) fail(part.line, fmt::format("'{}' is not a text", part.key));
       out += writers().at(part.kind)(found.is_string() ? found.get<std::string>() : dump(found));
     }
   }

@@ -8,8 +8,8 @@
 //   {{#if key}} … {{else}} … {{/if}} unless the value is null, false, 0 or empty
 //   {{> name}}  {{> name key}}       another template, with the same data or with that value
 //
-// A key (`scene.name`) is looked up in the innermost item first, then in what surrounds it. The indentation of lines is
-// dropped, and with it lines that hold nothing but a block's tag.
+// A key (`scene.name`) is looked up in the innermost item first, then in the enclosing data. Indentation is removed,
+// and so are lines that contain only a block's tag.
 #pragma once
 
 #include <string>
@@ -22,10 +22,10 @@ namespace crosscheck {
 
 class Template {
  public:
-  /// Throws std::runtime_error ("NAME, line 3: …") where a block is not closed or a tag is unknown.
+  /// Throws std::runtime_error ("NAME, line 3: …") if a block is not closed or a tag is unknown.
   Template(std::string name, std::string_view text);
 
-  /// Throws std::runtime_error, with template, line and key, for a key that the data do not have or a value of the
+  /// Throws std::runtime_error, with template, line and key, for a key that is missing from the data or a value of the
   /// wrong type.
   std::string filled(const Json& data) const;
 

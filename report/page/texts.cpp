@@ -1,4 +1,4 @@
-// The texts of the page, from report/page/texts/: chapters and glossary.
+// Reads the texts of the page, chapters and glossary, from report/page/texts/.
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -50,7 +50,7 @@ Chapter chapter_of_text(const std::string& id, const std::string& text) {
       throw std::runtime_error(fmt::format("{}.md: unknown line '{}'", id, line));
   }
   if (chapter.title.empty() || chapter.label.empty() || end == text.size())
-    throw std::runtime_error(id + ".md: expected title, label and a text behind an empty line");
+    throw std::runtime_error(id + ".md: expected title, label and a text after an empty line");
   chapter.teaching = text.substr(end + 2);
   return chapter;
 }
@@ -64,7 +64,7 @@ std::vector<Chapter> chapters() {
 Json glossary_data() {
   Json words = Json::array();
   const std::string text = asset("page/texts/glossary.md");
-  for (size_t at = text.find("## "); at != std::string::npos;) {  // "## TERM {#ID}", then what it means
+  for (size_t at = text.find("## "); at != std::string::npos;) {  // "## TERM {#ID}", then its meaning
     const size_t brace = text.find(" {#", at), line = text.find('\n', at), next = text.find("\n## ", line);
     if (brace > line) throw std::runtime_error("glossary.md: a term without {#id}: " + text.substr(at, line - at));
     words.push_back(

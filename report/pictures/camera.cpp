@@ -1,4 +1,4 @@
-// Camera and light matrices, light samples, and the nearest view that holds everything.
+// Camera and light matrices, light samples, and the nearest view that contains everything.
 #include "report/pictures/camera.h"
 
 #include <Eigen/Geometry>
@@ -15,7 +15,7 @@ namespace {
 /// Rigid motion that puts `eye` at the origin, looking along -z at the frame's origin.
 Eigen::Matrix4f look_at_origin(const Eigen::Vector3f& eye) {
   const Eigen::Vector3f back = eye.normalized();
-  // straight from above the viewer's side is the lower edge of the picture
+  // in a view from straight above, the viewer's side is the lower edge of the picture
   const Eigen::Vector3f up = std::abs(back.y()) > 0.9999f ? Eigen::Vector3f(0, 0, -1) : Eigen::Vector3f(0, 1, 0);
   const Eigen::Vector3f right = up.cross(back).normalized();
   Eigen::Matrix4f m = Eigen::Matrix4f::Identity();
@@ -79,8 +79,8 @@ Eigen::Matrix4f light_matrix(const Eigen::Vector3f& direction, const Eigen::Vect
 
 namespace {
 
-constexpr float key_light_radius = 0.13f;  // of its distance: the width of the penumbra
-constexpr float pixel_width = 1.3f;        // of the box filter, pixels
+constexpr float key_light_radius = 0.13f;  // fraction of its distance: the width of the penumbra
+constexpr float pixel_width = 1.3f;        // width of the box filter, pixels
 
 float radical_inverse(int base, int i) {
   double inverse = 0, digit = 1.0 / base;
@@ -106,7 +106,7 @@ std::vector<Sample> light_samples(int passes) {
     const float flat = std::sqrt(1 - height * height);
     sample.sky = {flat * std::cos(angle), height, flat * std::sin(angle)};
 
-    // uniform over a disc, shifted so that it does not go in step with the pixel
+    // uniform over a disc, shifted to avoid correlation with the pixel
     const float radius = key_light_radius * std::sqrt(fraction(radical_inverse(3, i + 1) + 0.37f));
     const float turn = 2 * std::numbers::pi_v<float> * radical_inverse(5, i + 1);
     sample.key = (key + radius * (std::cos(turn) * across + std::sin(turn) * along)).normalized();
@@ -115,18 +115,19 @@ std::vector<Sample> light_samples(int passes) {
   return samples;
 }
 
-// Finds the nearest camera in a given direction with a view that holds everything.
+// Finds the nearest camera in a given direction with a view that contains everything.
 //
-// In camera axes (a to the right, b up, c towards the eye) a point is inside the left and right edges if
-// |a - A| <= s (C - c), with the eye at (A, B, C) and s the tangent of half the horizontal field of view. All these
-// conditions are linear in A and C, so the smallest C comes from the extremes of a + s c and -a + s c; likewise for b.
+// In camera axes (a to the right, b up, c towards the eye) a point is inside the left and right edges if |a - A| <= s
+// (C - c), with the eye at (A, B, C) and s the tangent of half the horizontal field of view. All these conditions are
+// linear in A and C, so the smallest C follows from the extremes of a + s c and -a + s c; likewise for b.
 
 namespace {
 
-constexpr double body_part = 1 - 2 * 0.06;  // of the view that bodies and balls may fill: a margin of 6 % on each side
-constexpr double least_part = 0.7;          // that they fill at least, though their shadows be cut
-constexpr double shadow_part = 1 - 2 * 0.015;  // of the view that shadows may fill
-constexpr double clearance = 0.08;             // of the size: height of the lowest point above the ground
+constexpr double body_part = 1 - 2 * 0.06;  // part of the view that bodies and balls may fill: a margin of 6 % on each
+                                            // side
+constexpr double least_part = 0.7;          // part that they fill at least, even if shadows are cut off
+constexpr double shadow_part = 1 - 2 * 0.015;  // part of the view that shadows may fill
+constexpr double clearance = 0.08;             // fraction of the size: height of the lowest point above the ground
 
 /// Conditions from both sides along one axis of the picture, for one slope.
 struct Wedge {
@@ -146,16 +147,16 @@ struct Wedge {
 /// `least` for the smallest.
 struct Axis {
   Wedge body, least, shadow;
-  /// Half the width of the view at distance 1 along this axis, and what beads may stick out beyond their middle.
+  /// Half the width of the view at distance 1 along this axis, and the extent of beads beyond their centre.
   Axis(double tangent, double bead)
       : body{tangent * body_part - bead}, least{tangent * least_part - bead}, shadow{tangent * shadow_part} {}
 
   void hold(double a, double c, double radius) { body.hold(a, c, radius), least.hold(a, c, radius); }
-  /// Coordinate of the eye with the bodies in the middle.
+  /// Coordinate of the eye with the bodies in the centre.
   double middle() const { return (body.upper - body.lower) / 2; }
   double nearest() const { return body.least_distance(); }
   double farthest() const { return least.least_distance(); }
-  /// Distance at which the shadows are seen whole while the bodies are in the middle.
+  /// Distance at which the shadows are completely visible while the bodies are in the centre.
   double shadows_seen() const { return std::max(shadow.upper - middle(), shadow.lower + middle()) / shadow.slope; }
 };
 

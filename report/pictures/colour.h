@@ -17,16 +17,16 @@ Colour from_hex(unsigned rrggbb);      // sRGB
 Colour to_linear(const Colour& srgb);  // linear light
 inline Colour linear(unsigned rrggbb) { return to_linear(from_hex(rrggbb)); }
 
-/// sRGB bytes of the linear intensities i / 16384: quick to look up, and the same everywhere.
+/// sRGB bytes of the linear intensities i / 16384: fast to look up, and the same on every machine.
 std::vector<unsigned char> srgb_table();
 
-/// Place of a value on the scale, clamped to 0..1.
+/// Position of a value on the scale, clamped to 0..1.
 float scale_position(const Scale& scale, double value);
 
-/// sRGB colour at a place in 0..1, from light to dark.
+/// sRGB colour at a position in 0..1, from light to dark.
 Colour scale_colour(float position);
 
-/// sRGB of a palette entry (Okabe-Ito, 7 entries); an index outside is grey.
+/// sRGB of a palette entry (Okabe-Ito, 7 entries); grey for an index out of range.
 unsigned palette_hex(int index);
 
 }  // namespace crosscheck::render

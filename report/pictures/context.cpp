@@ -1,4 +1,4 @@
-// The only file that knows the off-screen context: OSMesa where the build found it, else EGL's surfaceless platform
+// The only file that knows the off-screen context: OSMesa if the build found it, otherwise EGL's surfaceless platform
 // (Mesa removed OSMesa in version 25.1).
 #include "report/pictures/gl.h"
 
@@ -20,7 +20,7 @@ namespace crosscheck::render {
 
 struct Context::Handle {
   OSMesaContext context = nullptr;
-  std::array<unsigned char, 16 * 16 * 4> pixels{};  // OSMesa wants a buffer; all drawing goes to own framebuffers
+  std::array<unsigned char, 16 * 16 * 4> pixels{};  // OSMesa requires a buffer; all drawing uses separate framebuffers
   Handle() {
     const int attributes[] = {
         OSMESA_PROFILE, OSMESA_CORE_PROFILE, OSMESA_CONTEXT_MAJOR_VERSION, 3, OSMESA_CONTEXT_MINOR_VERSION, 3, 0};
@@ -49,7 +49,7 @@ struct Context::Handle {
     context = eglCreateContext(display, EGL_NO_CONFIG_KHR, EGL_NO_CONTEXT, attributes);
   }
   ~Handle() {
-    // the display is the process's: other contexts may use it
+    // the display belongs to the process: other contexts may use it
     if (context == EGL_NO_CONTEXT) return;
     if (eglGetCurrentContext() == context) eglMakeCurrent(display, EGL_NO_SURFACE, EGL_NO_SURFACE, EGL_NO_CONTEXT);
     eglDestroyContext(display, context);
@@ -62,11 +62,11 @@ struct Context::Handle {
 #endif
 
 Context::Context() {
-  // without this Mesa writes compiled shaders into the home folder
+  // otherwise Mesa writes compiled shaders into the home folder
   setenv("MESA_SHADER_CACHE_DISABLE", "true", 1);
   handle_ = std::make_unique<Handle>();
   if (!handle_->make_current()) throw std::runtime_error("Mesa gives no current OpenGL 3.3 core context");
-  // a libGL linked next to OSMesa would swallow every call in silence
+  // a libGL linked in addition to OSMesa would silently ignore every call
   const auto* name = reinterpret_cast<const char*>(glGetString(GL_RENDERER));
   const std::string renderer = name ? name : "nothing";
   if (!renderer.starts_with("llvmpipe") && !renderer.starts_with("softpipe"))

@@ -1,4 +1,4 @@
-// Turns the bodies of a panel into what the renderer draws.
+// Converts the bodies of a panel into the renderer's triangles and rods.
 #include "report/pictures/draw_list.h"
 
 #include <Eigen/Geometry>
@@ -26,7 +26,7 @@ struct PlacedBody {
   const Eigen::Vector3f& at(int i) const { return x[std::size_t(i)]; }
   bool coloured() const { return scale && !body.value.empty(); }
 
-  /// Place on the scale of a particle's value; 0 if the body has no values.
+  /// Position of a particle's value on the scale; 0 if the body has no values.
   float position(int i) const { return coloured() ? scale_position(*scale, body.value[std::size_t(i)]) : 0; }
 
   /// Median length of the edges; 0 if there are none.
@@ -44,14 +44,14 @@ struct PlacedBody {
   }
 };
 
-constexpr float absurd = 200;           // heights of the view: a body that reaches beyond this is left out
-constexpr float near_view = 2.5f;       // limit in the same unit beyond which nothing throws a shadow
-constexpr float no_thread = 1e6f;       // distance to an edge that is no thread
+constexpr float absurd = 200;           // heights of the view: bodies that reach beyond this are omitted
+constexpr float near_view = 2.5f;       // limit in the same unit beyond which nothing casts a shadow
+constexpr float no_thread = 1e6f;       // distance to an edge that is not a thread
 constexpr float thread_width = 0.075f;  // in spacings of the threads
 
 Edge sorted(int i, int j) { return {std::min(i, j), std::max(i, j)}; }
 
-/// Mean normal of the triangles around each particle, weighted by their area.
+/// Area-weighted mean normal of the triangles around each particle.
 std::vector<Eigen::Vector3f> smooth_normals(const PlacedBody& placed) {
   std::vector<Eigen::Vector3f> normal(placed.x.size(), Eigen::Vector3f::Zero());
   for (const auto& triangle : placed.body.triangles)
@@ -77,7 +77,7 @@ ClothVertex curved(const std::array<ClothVertex, 3>& corner, const Eigen::Vector
   return c;
 }
 
-/// Adds the triangle as pieces * pieces smaller ones of its curved surface.
+/// Adds the triangle as pieces * pieces smaller triangles of its curved surface.
 void add_curved(const std::array<ClothVertex, 3>& corner, int pieces, DrawList& list) {
   const unsigned first = unsigned(list.cloth.size());
   // rows of pieces + 1, pieces, ..., 1 corners
@@ -122,11 +122,11 @@ std::vector<Edge> add_cloth(const PlacedBody& placed, DrawList& list) {
   return {loose.begin(), loose.end()};
 }
 
-// A cloth triangle is flat, a ball is not: with all three corners exactly on a ball of radius R, the middle of an edge
-// of length l dips l^2 / (8 R) into it and the middle of the triangle l^2 / (6 R): the ball would poke through although
-// no particle is inside. The cloth is therefore drawn as a curved surface through the particles; `lift`
-// is the depth that its smaller flat pieces may still dip. The renderer moves the cloth towards the eye by as much, in
-// depth only, and takes its shadows from there. Whatever is deeper inside than `lift` is seen inside.
+// A cloth triangle is flat, a ball is not. If all three corners are exactly on a ball of radius R, the middle of an
+// edge of length l dips into the ball by l^2 / (8 R), and the middle of the triangle by l^2 / (6 R): the ball would
+// poke through although no particle is inside. Therefore the cloth is drawn as a curved surface through the particles.
+// `lift` is the depth that its smaller flat pieces may still dip. The renderer moves the cloth towards the eye by this
+// amount, in depth only, and computes its shadows from there. Cloth deeper inside than `lift` is visibly inside.
 
 // sizes chosen by the view, in heights of the view
 constexpr float few_tubes_radius = 0.0075f, view_bead_radius = 0.027f, pin_radius = 0.0085f, trail_radius = 0.0032f;
@@ -159,7 +159,7 @@ void add_rods(const PlacedBody& placed, const std::vector<Edge>& loose, const Fr
 void add_beads(const PlacedBody& placed, const Frame& frame, DrawList& list) {
   const Body& body = placed.body;
   const float radius = body.beads ? view_bead_radius : 0;
-  // a pin must show whatever is drawn around it
+  // a pin must be visible whatever is drawn around it
   const float least = std::max(0.8f * radius, body.tubes.empty() ? 0 : 1.7f * tube_radius(placed, frame));
   for (int i = 0; i < int(placed.x.size()); ++i) {
     const Eigen::Vector3f& x = placed.at(i);
@@ -171,9 +171,9 @@ void add_beads(const PlacedBody& placed, const Frame& frame, DrawList& list) {
   }
 }
 
-/// The path as rods that grow and darken towards now, the oldest first.
+/// The path as rods that grow and darken towards the present, the oldest first.
 void add_trail(const Body& body, const Frame& frame, DrawList& list) {
-  constexpr float least_step = 0.004f;  // heights of the view: shorter steps of the path are joined
+  constexpr float least_step = 0.004f;  // heights of the view: shorter steps of the path are merged
   std::vector<Eigen::Vector3f> path;
   for (const Vec3& point : body.trail) {
     const Eigen::Vector3f x = frame.place(point);
@@ -188,7 +188,7 @@ void add_trail(const Body& body, const Frame& frame, DrawList& list) {
   }
 }
 
-/// Longest edge of a triangle that has a corner close to the ball.
+/// Longest edge of a triangle with a corner close to the ball.
 float longest_edge_near(const DrawList& list, const Rod& ball) {
   float longest = 0;
   for (std::size_t i = 0; i + 2 < list.cloth_index.size(); i += 3) {
@@ -201,7 +201,7 @@ float longest_edge_near(const DrawList& list, const Rod& ball) {
   return longest;
 }
 
-/// A sphere around what is not absurdly far out of view: the shadow maps are spread over it.
+/// A sphere around everything that is not absurdly far outside the view; the shadow maps cover it.
 void enclose(DrawList& list) {
   std::vector<std::pair<Eigen::Vector3f, float>> all;
   for (const ClothVertex& c : list.cloth) all.emplace_back(c.x, 0);
@@ -237,7 +237,7 @@ DrawList draw_list_of(const Panel& panel, const Frame& frame, const std::optiona
   }
   for (const Rod& ball : list.balls) {
     const float edge = longest_edge_near(list, ball);
-    // the factor is for normals that are only near the ball's
+    // the factor allows for normals that only approximate the ball's
     list.lift = std::max(list.lift, std::min(2 * edge * edge / (6 * ball.radius), 0.006f));
   }
   enclose(list);

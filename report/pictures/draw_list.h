@@ -10,13 +10,14 @@
 
 namespace crosscheck::render {
 
-/// Corner of a cloth triangle. `rim` are the distances to the three edges in half widths of a thread; far if no thread.
+/// Corner of a cloth triangle. `rim` has the distances to the three edges in half widths of a thread; large if an edge
+/// is not a thread.
 struct ClothVertex {
   Eigen::Vector3f x, normal, rim;
-  float value;  // place on the scale, 0..1
+  float value;  // position on the scale, 0..1
 };
 
-/// A solid rod with round ends, or a ball where both ends are one point.
+/// A solid rod with round ends; a ball if both ends are the same point.
 struct Rod {
   Eigen::Vector3f a;
   float radius;
@@ -27,14 +28,15 @@ struct Rod {
 struct DrawList {
   std::vector<ClothVertex> cloth;     // corners of the triangles of all surfaces
   std::vector<unsigned> cloth_index;  // three per triangle
-  bool coloured = false;              // the cloth carries values
-  float lift = 0;                     // how far a flat triangle may dip into a ball it follows; see draw_list.cpp
+  bool coloured = false;              // the cloth has values
+  float lift = 0;                     // depth to which a flat triangle may dip into a ball that it follows; see
+                                      // draw_list.cpp
   std::vector<Rod> balls, beads, rods, trail;
-  Eigen::Vector3f centre = Eigen::Vector3f::Zero();  // of a sphere around all that throws a shadow
+  Eigen::Vector3f centre = Eigen::Vector3f::Zero();  // centre of a sphere around everything that casts a shadow
   float radius = 0.5f;
 };
 
-/// Leaves out bodies that are not finite or absurdly far away.
+/// Omits bodies that are not finite or absurdly far away.
 DrawList draw_list_of(const Panel& panel, const Frame& frame, const std::optional<Scale>& scale);
 
 struct RodMesh {
@@ -42,8 +44,8 @@ struct RodMesh {
   std::vector<unsigned> index;          // three per triangle, counter-clockwise from outside
 };
 
-/// A rod along its third axis with `around` sides and round ends of `rings` rings each. With around / 4 rings a ball
-/// has chords that dip 1 - cos(pi / around) of the radius below its surface.
+/// A rod along its third axis with `around` sides and round ends of `rings` rings each. With around / 4 rings, the
+/// chords of a ball dip below its surface by 1 - cos(pi / around) of its radius.
 RodMesh rod_mesh(int around, int rings);
 
 }  // namespace crosscheck::render

@@ -85,7 +85,7 @@ Target colour_target(int width, int height, GLint format, bool with_depth) {
 Target shadow_map(int texels) {
   const Target target =
       new_target(GL_DEPTH_ATTACHMENT, GL_DEPTH_COMPONENT32F, texels, texels, GL_DEPTH_COMPONENT, GL_LINEAR);
-  // nothing is ever drawn into the outermost texels: outside the map is as lit as its edge
+  // nothing is drawn into the outermost texels: outside the map, light equals that of its edge
   glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_S, GL_CLAMP_TO_EDGE);
   glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_T, GL_CLAMP_TO_EDGE);
   glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_COMPARE_MODE, GL_COMPARE_REF_TO_TEXTURE);

@@ -1,4 +1,4 @@
-// OpenGL 3.3 as far as the renderer uses it: the off-screen context, shaders, framebuffers, triangles.
+// The parts of OpenGL 3.3 that the renderer uses: off-screen context, shaders, framebuffers, triangles.
 #pragma once
 
 #include <GL/glcorearb.h>
@@ -13,8 +13,8 @@ namespace crosscheck::render {
 
 // in context.cpp
 
-/// Makes an OpenGL 3.3 core context of Mesa's software renderer current in this thread. All OpenGL objects made
-/// meanwhile die with it. Throws std::runtime_error if there is none.
+/// Makes an OpenGL 3.3 core context of Mesa's software renderer current in this thread. All OpenGL objects made during
+/// its lifetime are deleted with it. Throws std::runtime_error if there is no such context.
 class Context {
  public:
   Context();
@@ -27,12 +27,12 @@ class Context {
   std::unique_ptr<Handle> handle_;
 };
 
-// All that follows lives as long as the context that is current when they are made.
+// All objects below live as long as the context that is current when they are made.
 
 class Program {
  public:
-  /// Compiles shaders.glsl with these names (separated by spaces) as #define: they choose material and path. Throws
-  /// std::runtime_error with the compiler's words.
+  /// Compiles shaders.glsl with these names (separated by spaces) as #define; they select material and path. Throws
+  /// std::runtime_error with the compiler's messages.
   explicit Program(const std::string& defines);
   void use() const { glUseProgram(id_); }
 
@@ -48,7 +48,7 @@ class Program {
   GLuint id_;
 };
 
-/// A framebuffer with one texture: colours of RGBA floats, with a depth buffer on request.
+/// A framebuffer with one texture: colours as RGBA floats, optionally with a depth buffer.
 struct Target {
   GLuint framebuffer = 0, texture = 0;
 };
@@ -57,7 +57,7 @@ Target colour_target(int width, int height, GLint format, bool with_depth);
 /// A square depth texture that compares when sampled; everything outside it is lit.
 Target shadow_map(int texels);
 
-/// Corners or instances: rows of `stride` bytes, in which each of the columns is a vertex attribute.
+/// Corners or instances: rows of `stride` bytes, in which each column is a vertex attribute.
 struct VertexRows {
   struct Column {
     GLuint location;
@@ -69,7 +69,8 @@ struct VertexRows {
   std::vector<Column> columns;
 };
 
-/// Triangles ready for one draw call, once or once for each instance. Frees its buffers; must die before the context.
+/// Triangles ready for one draw call, once or once per instance. Frees its buffers; must be destroyed before the
+/// context.
 class Batch {
  public:
   Batch(const std::vector<unsigned>& index, const VertexRows& corners, const std::optional<VertexRows>& instances = {});

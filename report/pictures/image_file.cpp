@@ -1,4 +1,4 @@
-// Images as files: libpng, WebP, and pictures with their letters.
+// Image files: libpng, WebP, and pictures with their text.
 #include "report/pictures/picture.h"
 
 #include <fmt/format.h>
@@ -36,7 +36,7 @@ std::string png_bytes(const Image& image, double pixels_per_inch) {
   const auto append = [](png_structp png, png_bytep data, std::size_t size) {
     static_cast<std::string*>(png_get_io_ptr(png))->append(reinterpret_cast<const char*>(data), size);
   };
-  // libpng's simple interface does not write the resolution; errors are impossible here but for lack of memory
+  // libpng's simple interface does not write the resolution; here the only possible error is lack of memory
   png_structp png = png_create_write_struct(PNG_LIBPNG_VER_STRING, nullptr, nullptr, nullptr);
   png_infop info = png_create_info_struct(png);
   png_set_write_fn(png, &bytes, append, nullptr);
@@ -64,14 +64,15 @@ std::string webp_bytes(const Image& image) {
 
 namespace {
 
-/// The image without letters. Throws std::runtime_error where nothing stands before the ground: the picture is then
-/// nowhere darker by more than an eye can distinguish.
+/// The image without text. Throws std::runtime_error if there is nothing in front of the ground: the picture is then
+/// nowhere darker by a visible amount.
 Image drawn(const Picture& picture, const std::filesystem::path& file) {
   Image image = draw(picture);
-  constexpr int visible = 24;  // least difference, full scale 255; the ground of an empty picture is one colour
+  constexpr int visible = 24;  // smallest visible difference, full scale 255; the ground of an empty picture has a
+                               // single colour
   const auto [darkest, brightest] = std::minmax_element(image.rgb.begin(), image.rgb.end());
   if (darkest == image.rgb.end() || *brightest - *darkest <= visible)
-    throw std::runtime_error(file.stem().string() + ": nothing is to be seen in the picture");
+    throw std::runtime_error(file.stem().string() + ": the picture is empty");
   return image;
 }
 

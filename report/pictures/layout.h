@@ -1,5 +1,4 @@
-// Positions of panels, titles, colour bar and legend in the picture, in pixels from the top left, and widths
-// of texts.
+// Positions of panels, titles, colour bar and legend in the picture, in pixels from the top left, and widths of texts.
 #pragma once
 
 #include <string>
@@ -12,10 +11,10 @@ namespace crosscheck::render {
 /// Width of a text in DejaVu Sans (or its bold), in units of the font size; defined in lettering.cpp.
 double text_width(const std::string& text, bool bold);
 
-inline constexpr double line_height = 1.25;  // from one line of a text to the next, in units of the font size
+inline constexpr double line_height = 1.25;  // distance between the lines of a text, in units of the font size
 
-/// The text with line feeds where a line would be wider than the room (in units of the font size): after a slash, a
-/// comma with its space, or before a plus.
+/// Breaks lines that are wider than the room (in units of the font size): after a slash, after a comma with its space,
+/// or before a plus.
 std::string wrapped(const std::string& text, bool bold, double room);
 
 struct Layout {
@@ -24,21 +23,21 @@ struct Layout {
   int panel_width = 0, panel_height = 0;
   int left = 0;                    // edge of the first column
   std::vector<int> panel_top;      // one per row
-  std::vector<double> title_y;     // middle of the title's last line, one per row
-  std::vector<double> subtitle_y;  // middle of the subtitle's first line, one per row
+  std::vector<double> title_y;     // centre of the title's last line, one per row
+  std::vector<double> subtitle_y;  // centre of the subtitle's first line, one per row
   double legend = 0;               // font size of the legend, pixels
   double legend_width = 0;         // in units of that size
-  double legend_y = 0;             // middle of its line
+  double legend_y = 0;             // centre of its line
   double bar_top = 0, bar_height = 0, bar_left = 0, bar_width = 0;
 };
 
-/// A row with one title, in its first column, is a strip: the title heads the whole row.
+/// True for a row with a single title, in its first column: a strip, in which the title heads the whole row.
 bool is_strip(const std::vector<Panel>& row);
 
 /// Width of a legend entry with its swatch and the gap after it, in units of the font size.
 double legend_entry_width(const std::string& name);
 
-/// Throws std::runtime_error if the picture has no panels, InputError where its size has no room for them.
+/// Throws std::runtime_error if the picture has no panels, InputError if its size leaves no room for them.
 Layout layout_of(const Picture& picture);
 
 }  // namespace crosscheck::render

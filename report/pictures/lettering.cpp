@@ -1,4 +1,4 @@
-// Nothing here depends on the user's font settings but which files hold DejaVu Sans.
+// Independent of the user's font settings, except for the choice of files with DejaVu Sans.
 #include "report/pictures/lettering.h"
 
 #include <cairo-pdf.h>
@@ -32,7 +32,7 @@ void check(cairo_status_t status) {
     throw std::runtime_error(fmt::format("Cairo: {}", cairo_status_to_string(status)));
 }
 
-/// The pixels as Cairo keeps them.
+/// The pixels in Cairo's format.
 Owned<cairo_surface_t> surface_of(const Image& image) {
   Owned<cairo_surface_t> surface(cairo_image_surface_create(CAIRO_FORMAT_RGB24, image.width, image.height));
   check(cairo_surface_status(surface.get()));
@@ -43,7 +43,7 @@ Owned<cairo_surface_t> surface_of(const Image& image) {
   return surface;
 }
 
-/// Letters, boxes and lines at places in pixels from the top left.
+/// Draws text, boxes and lines at positions in pixels from the top left.
 class Page {
  public:
   explicit Page(cairo_surface_t* surface)
@@ -62,8 +62,8 @@ class Page {
     cairo_text_extents(cairo_.get(), printable(text).c_str(), &extents);
     return extents.x_advance / 100;
   }
-  /// Text with the middle of its first line at height y, further ones below; it begins at x (`before` 0) or has its
-  /// middle there (0.5). Size in pixels.
+  /// Draws text with the centre of its first line at height y, and further lines below. The text begins at x (`before`
+  /// 0) or is centred there (0.5). Size in pixels.
   void label(double x, double y, double before, const std::string& text, double size, bool bold, unsigned colour) {
     for (const std::string& line : split(text, '\n')) {
       const double start = x - before * size * width(line, bold);
@@ -71,7 +71,7 @@ class Page {
       cairo_move_to(cairo_.get(), start, y + 0.35 * size);
       if (letters_stay_)
         cairo_show_text(cairo_.get(), printable(line).c_str());
-      else  // as outlines, whose places are not rounded to pixels
+      else  // as outlines, whose positions are not rounded to pixels
         cairo_text_path(cairo_.get(), printable(line).c_str()), cairo_fill(cairo_.get());
       y += line_height * size;
     }

@@ -1,4 +1,4 @@
-// The content of a picture, apart from its drawing: panels of bodies in one common view.
+// The content of a picture, independent of its drawing: panels of bodies in one common view.
 #pragma once
 
 #include <array>
@@ -28,21 +28,21 @@ struct Body {
   std::vector<double> value;                  // one per particle: coloured by the scale; empty: plain cloth
   std::vector<int> pinned;                    // particles drawn as pins
   double tube_radius = 0;                     // m; 0: chosen from the size of the view
-  bool beads = false;                         // particles drawn as balls, as large as the view needs
-  std::vector<Vec3> trail;                    // path of one particle until now, drawn as a thin fading line
+  bool beads = false;                         // particles drawn as balls, sized by the view
+  std::vector<Vec3> trail;                    // path of one particle so far, drawn as a thin fading line
 };
 
 struct Panel {
-  std::string title;     // e.g. "mysim/leapfrog"; like the subtitle of several lines, with line feeds, or empty
-  std::string subtitle;  // e.g. "t = 2.5 s"
+  std::string title;     // for example "mysim/leapfrog"; may be empty; title and subtitle may have several lines
+  std::string subtitle;  // for example "t = 2.5 s"
   std::vector<Body> bodies;
   std::vector<Ball> balls;
 };
 
-/// One camera for all panels, so that what looks different is different. Up is +y.
+/// One camera for all panels, so that they are comparable. Up is +y.
 struct View {
   Vec3 eye, target;             // m
-  std::optional<double> floor;  // height of the shadow-catching ground, m; none: no ground
+  std::optional<double> floor;  // height of the shadow-catching ground, m; empty: no ground
 };
 inline constexpr double field_of_view = 25;  // degrees, vertical
 
@@ -58,12 +58,12 @@ using Legend = std::vector<std::string>;  // at most 7
 enum class Quality { fast, still };
 
 struct Picture {
-  std::vector<std::vector<Panel>> rows;  // rows of panels, all of one size
+  std::vector<std::vector<Panel>> rows;  // rows of panels, all of the same size
   View view;
   std::optional<Scale> scale;
   Legend legend;
-  int width = 1280, height = 720;  // pixels, of the whole picture
-  double text = 0;                 // height of all letters, pixels; 0: as the size needs them, titles larger
+  int width = 1280, height = 720;  // size of the whole picture, pixels
+  double text = 0;                 // height of all letters, pixels; 0: chosen from the size, with larger titles
   Quality quality = Quality::still;
 };
 
@@ -73,37 +73,37 @@ struct Image {
   std::vector<unsigned char> rgb;  // 3 * width * height
 };
 
-/// Throws std::runtime_error that names the file.
+/// Throws std::runtime_error with the file's name.
 Image read_png(const std::filesystem::path& file);
 
-/// The bytes of a PNG file that says how many of its pixels make an inch, if that is given.
+/// The bytes of a PNG file, with its resolution if given.
 std::string png_bytes(const Image& image, double pixels_per_inch = 0);
 
-/// The bytes of a lossy WebP file, half as large as a PNG of 128 colours: for small pictures on a page.
+/// The bytes of a lossy WebP file, half the size of a PNG with 128 colours: for small pictures on a page.
 std::string webp_bytes(const Image& image);
 
-/// The panels without letters, drawn off screen. Same input, same bytes. Throws std::runtime_error with the cause.
+/// Draws the panels off screen, without text. Deterministic. Throws std::runtime_error with the cause.
 Image draw(const Picture& picture);
 
-/// Writes the picture with titles, colour bar and legend as PNG. Throws std::runtime_error with the cause (nothing to
-/// be seen, file not writable).
+/// Writes the picture with titles, colour bar and legend as PNG. Throws std::runtime_error with the cause (empty
+/// picture, file not writable).
 void write_png(const Picture& picture, const std::filesystem::path& file);
 
-/// The same as PNG and as PDF for a page on which so many pixels make an inch; on that page letters are letters.
+/// Writes the picture as PNG, and as PDF for a page with this resolution, with text as text.
 void write_print(const Picture& picture, double pixels_per_inch, const std::filesystem::path& png,
                  const std::filesystem::path& pdf);
 
-/// Width / height of one panel after room for the letters is taken away: the aspect to give to fit_view. Depends
-/// on the size, the rows, whether there are titles, subtitles, a scale and a legend, and not on bodies or view.
+/// Width / height of one panel after the room for text is subtracted: the aspect for fit_view. Depends on the size, the
+/// rows, and the presence of titles, subtitles, a scale and a legend, but not on bodies or view.
 double panel_aspect(const Picture& picture);
 
-/// Puts the panels of a picture of one row, that says how large its letters are, into as many rows as their titles need
-/// to keep that size, wraps titles and subtitles, and chooses the height.
+/// Distributes the panels of a picture with one row and a given letter height over as many rows as their titles need at
+/// that height, wraps titles and subtitles, and chooses the picture's height.
 void arrange(Picture& picture, double aspect);
 
-/// A view with all the points (and balls) given in its middle, seen from the direction (from the target to the eye, of
-/// any length). They fill 70 to 88 % of its width or height, as much as leaves room for their shadow. Points that are
-/// not finite are left out. The ground is a little below the lowest point.
+/// A view with all the given points and balls in its centre, seen from this direction (from the target to the eye, of
+/// any length). They fill 70 to 88 % of its width or height, depending on the room for their shadow. Ignores points
+/// that are not finite. The ground is slightly below the lowest point.
 View fit_view(const std::vector<Points>& points, const std::vector<Ball>& balls, const Vec3& direction, double aspect,
               bool ground = true);
 

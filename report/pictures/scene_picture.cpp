@@ -1,4 +1,4 @@
-// Strain of springs, bodies, views and scales of pictures.
+// Strain of springs, and the bodies, views and scales of pictures.
 #include "report/pictures/scene_picture.h"
 
 #include <fmt/format.h>
@@ -16,12 +16,12 @@
 namespace crosscheck {
 namespace {
 
-/// Extension of the line between two particles, % of its length at rest; compression counts as zero.
+/// Extension of the line between two particles, % of its rest length; compression counts as zero.
 double extension(const Points& x, int a, int b, double rest) {
   return rest > 0 ? std::max(0.0, (x.col(a) - x.col(b)).norm() / rest - 1) * 100 : 0;
 }
 
-/// Springs, then hard distances, which count as structural.
+/// Springs, then distance constraints, which count as structural.
 std::vector<Spring> links_of(const Scene& scene) {
   std::vector<Spring> links;
   if (const auto* springs = scene.model.find<Springs>()) links = springs->list;
@@ -30,7 +30,7 @@ std::vector<Spring> links_of(const Scene& scene) {
   return links;
 }
 
-/// Mean of the links' strains at each particle; shear and bend springs do not count.
+/// Mean of the links' strains at each particle, ignoring shear and bend springs.
 std::vector<double> mean_at_particles(const std::vector<Spring>& links, const std::vector<double>& strain, size_t n) {
   std::vector<double> sum(n, 0), count(n, 0);
   for (size_t i = 0; i < links.size(); ++i)
@@ -72,13 +72,13 @@ render::Body body_of(const Scene& scene, const MethodResult& answer, int frame, 
     body.value.resize(body.x.cols());
     for (int i = 0; i < body.x.cols(); ++i) body.value[i] = 1000 * (body.x.col(i) - base->col(i)).norm();
   }
-  // the last particle of a scene without cloth draws its path
+  // in a scene without cloth, the last particle draws its path
   if (scene.triangles.empty())
     for (int i = 0; i <= frame; ++i) body.trail.push_back(answer.trajectory.x[i].col(body.x.cols() - 1));
   return body;
 }
 
-/// The families that the scene's springs belong to, in the order of the legend.
+/// The families of the scene's springs, in the order of the legend.
 std::vector<Family> families_of(const Scene& scene) {
   std::vector<Family> present;
   if (!scene.model.find<Springs>()) return present;
@@ -87,8 +87,8 @@ std::vector<Family> families_of(const Scene& scene) {
   return present;
 }
 
-/// The springs of a cloth as tubes, one body per family: structural ones thick, shear and bend ones thin. Bend springs
-/// lie on the structural ones; they are lifted towards the eye so that both are seen.
+/// The springs of a cloth as tubes, one body per family: structural springs thick, shear and bend springs thin. Bend
+/// springs coincide with structural ones; they are shifted towards the eye so that both are visible.
 std::vector<render::Body> tubes_of(const Scene& scene, const Points& x, const Vec3& towards_eye) {
   const auto& springs = scene.model.find<Springs>()->list;
   double spacing = 1e300;
@@ -117,11 +117,11 @@ std::vector<render::Ball> balls_of(const Scene& scene, double t) {
   return balls;
 }
 
-/// A plane is drawn as a floor, as a slope that is seen from above, or not at all.
+/// A plane is drawn as a floor, as a slope that is visible from above, or not at all.
 bool is_floor(const Plane& plane) { return plane.normal.y() > 1 - 1e-9; }
 bool is_slope(const Plane& plane) { return plane.normal.y() > 0.1 && !is_floor(plane); }
 
-/// The box of all places of the runs that did not fail; empty if the scene has no planes, as nothing else needs it.
+/// The bounding box of the completed runs; empty if the scene has no planes, because only planes need it.
 Eigen::AlignedBox3d box_over_planes(const Scene& scene, const std::vector<const MethodResult*>& answers) {
   Eigen::AlignedBox3d box;
   if (!scene.model.find<Planes>()) return box;
@@ -132,7 +132,7 @@ Eigen::AlignedBox3d box_over_planes(const Scene& scene, const std::vector<const 
   return box;
 }
 
-/// Square pieces of the scene's slopes at t (s) under a box.
+/// Square patches of the scene's slopes at time t (s) under a box.
 std::vector<render::Body> slopes_of(const Scene& scene, double t, const Eigen::AlignedBox3d& box) {
   std::vector<render::Body> patches;
   if (box.isEmpty()) return patches;
@@ -150,7 +150,7 @@ std::vector<render::Body> slopes_of(const Scene& scene, double t, const Eigen::A
 }
 
 constexpr int strip_columns = 5;
-constexpr double panel_in_print = 1.2;  // width over height
+constexpr double panel_in_print = 1.2;  // width / height
 
 /// Index of the sample nearest to t, or the last one for negative t.
 int frame_at(const Trajectory& path, double t) {
@@ -167,20 +167,20 @@ int drawable(const Scene& scene, const Trajectory& path, int frame) {
   return frame;
 }
 
-/// Whether all that is shown lies in one plane that faces the viewer, so that no ground belongs below it.
+/// True if everything shown lies in one plane that faces the viewer, so that it has no ground.
 bool is_flat(const Scene& scene, const std::vector<Points>& shown) {
   double depth = 0;
   for (const Points& x : shown) depth = std::max(depth, x.row(2).maxCoeff() - x.row(2).minCoeff());
   return scene.triangles.empty() && depth < 1e-9;
 }
 
-/// The scene's camera says from where; how far away is chosen so that panels of every shape hold everything.
+/// The scene's camera gives the direction; the distance is chosen so that panels of every shape contain everything.
 Vec3 towards_eye(const Scene& scene, bool flat) {
   if (scene.camera) return scene.camera->eye - scene.camera->target;
   return flat ? Vec3(0, 0, 1) : Vec3(0.55, 0.35, 1);
 }
 
-/// The scene's camera, or one that holds everything that the panels show.
+/// The scene's camera, or one that contains everything that the panels show.
 render::View view_of(const Scene& scene, const std::vector<Points>& shown, const std::vector<render::Ball>& balls,
                      double aspect) {
   const bool flat = is_flat(scene, shown);
@@ -191,13 +191,13 @@ render::View view_of(const Scene& scene, const std::vector<Points>& shown, const
   return view;
 }
 
-/// The method, and its step where another picture is of the same method.
+/// The method, with its step if another picture shows the same method.
 std::string title_of(const MethodResult& answer, const std::vector<const MethodResult*>& all) {
   const auto same = std::ranges::count(all, answer.method, &MethodResult::method);
   return same > 1 ? fmt::format("{}, step {}", answer.method, step_text(answer.outcome.step)) : answer.method;
 }
 
-/// The time, and of a run that failed how and when.
+/// The time; for a failed run also how and when it failed.
 std::string time_text(const MethodResult& answer, int frame) {
   const std::string t = fmt::format("t = {:.3g} s", answer.trajectory.t[frame]);
   const Outcome& outcome = answer.outcome;
@@ -213,7 +213,7 @@ std::vector<const MethodResult*> usable_of(const Scene& scene, const std::vector
     if (a->trajectory.frames() > 0) usable.push_back(a);
   if (usable.empty())
     throw InputError(
-        fmt::format("{}: none of the methods gives a picture; expected one that can run the scene", scene.name));
+        fmt::format("{}: no method has a result to draw; expected one that can run the scene", scene.name));
   if (shot.mode == Mode::difference && usable.size() < 2)
     throw InputError(fmt::format("{}: --mode difference: expected two methods that can run the scene", scene.name));
   return usable;
@@ -227,8 +227,8 @@ std::vector<int> frames_of(const Scene& scene, const Trajectory& path, const Sho
   return frames;
 }
 
-/// The motions that view and scale must have room for. A run that blew up would leave neither room nor colour for the
-/// others.
+/// The motions that view and scale must accommodate. A run that blew up is excluded: it would leave neither room nor
+/// colours for the others.
 struct Seen {
   std::vector<Points> healthy, all, trails;
   std::vector<render::Ball> balls;
@@ -254,7 +254,7 @@ struct Seen {
   }
 };
 
-/// The picture but for its view and the top of its scale.
+/// The picture, except its view and the top of its scale.
 render::Picture panels_of(const Scene& scene, const std::vector<const MethodResult*>& answers, const Shot& shot,
                           Seen& seen) {
   const std::vector<const MethodResult*> usable = usable_of(scene, answers, shot);
@@ -269,7 +269,8 @@ render::Picture panels_of(const Scene& scene, const std::vector<const MethodResu
   const Mode mode = strip || no_stretch ? Mode::shaded : shot.mode;
   const auto base_frames = frames_of(scene, usable[0]->trajectory, shot);
   if (!strip) picture.rows.emplace_back();
-  const Eigen::AlignedBox3d box = box_over_planes(scene, usable);  // one: each panel has the same slopes
+  const Eigen::AlignedBox3d box = box_over_planes(scene, usable);  // the same for all panels: each shows the same
+                                                                   // slopes
   for (const MethodResult* a : usable) {
     if (strip) picture.rows.emplace_back();
     const std::vector<int> frames = frames_of(scene, a->trajectory, shot);
@@ -327,7 +328,7 @@ std::vector<std::string> pictured_methods(const Scene& scene) {
     if (shown && m.family().by_default()) names.push_back(m.name);
   }
   if (first_order || hard) return names;
-  // what is meant for long steps first, and what fails there next to it
+  // first the methods meant for long steps, with a method that fails there for comparison
   if (find_method(scene.method).implicit)
     names = {find_method(scene.method).name,
              subject_method([](const Stepper& s) { return s.evaluations == 0 && s.symplectic; }),
@@ -339,7 +340,7 @@ std::vector<std::string> pictured_methods(const Scene& scene) {
 Shot usual_shot(const Scene& scene, bool full) {
   Shot shot;
   shot.at = scene.camera && scene.camera->at ? *scene.camera->at : -1;
-  // soft light is worth its seconds on cloth; a few beads look the same without
+  // soft light is worth its seconds on cloth; a few beads look the same without it
   shot.quality = full || !scene.triangles.empty() ? render::Quality::still : render::Quality::fast;
   shot.mode = scene.triangles.empty() ? Mode::shaded : Mode::stretch;
   shot.width = 1440;

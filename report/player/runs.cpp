@@ -1,4 +1,4 @@
-// Positions on lattices, entries of the index, and their way back.
+// Positions on lattices, entries of the index, and reading them back.
 #include "report/player/runs.h"
 
 #include <fmt/ranges.h>
@@ -22,7 +22,7 @@ constexpr int most_frames = 150, most_frames_of_mark = 30, fewest_frames = 25;
 constexpr int most_places = most_frames * 64 * 64;  // frames x particles
 constexpr double largest_number = 65535;
 
-/// The wanted resolution of positions in parts of the scene's size; infinite: as fine as 16 bits allow.
+/// The resolution of positions as a fraction of the scene's size; infinite: as fine as 16 bits allow.
 constexpr double of_shown = INFINITY, of_own_run = 8192, of_mark = 4096, of_cell = 1024;
 
 double rounded(double value) { return std::strtod(fmt::format("{:.4g}", value).c_str(), nullptr); }
@@ -32,7 +32,7 @@ struct Frames {
   std::vector<Points> x, v;
 };
 
-/// The frames of a run, as far as they are finite.
+/// The frames of a run, up to the first that is not finite.
 Frames every(const Trajectory& path, int stride) {
   Frames out;
   for (size_t i = 0; i < path.x.size() && path.x[i].allFinite(); i += static_cast<size_t>(stride))
@@ -42,7 +42,7 @@ Frames every(const Trajectory& path, int stride) {
 
 double distance_from(const Points& x, const Points& start) { return (x - start).cwiseAbs().maxCoeff(); }
 
-/// Cuts a run that failed where it leaves three times the bounds of the true motion: no camera shows it further out.
+/// Truncates a failed run where it leaves a box three times as large as the true motion: no camera shows more.
 void cut(Frames& run, const Scene& scene, const std::optional<Truth>& truth) {
   double reach = scene.size();
   if (truth)
@@ -52,13 +52,13 @@ void cut(Frames& run, const Scene& scene, const std::optional<Truth>& truth) {
   run.t.resize(keep), run.x.resize(keep), run.v.resize(keep);
 }
 
-/// {"frames", "low", "unit", "bound", "offset", "bytes"} of positions, whose bytes are appended. All runs of about one
-/// size share a lattice, because its unit is a power of two: equal motions have equal numbers.
+/// {"frames", "low", "unit", "bound", "offset", "bytes"} of positions; appends their bytes. Runs of similar size share
+/// a lattice, because its unit is a power of two: equal motions have equal numbers.
 Json packed_run(const std::vector<Points>& x, double unit, std::string& bytes) {
   Vec3 low = x[0].rowwise().minCoeff(), high = low;
   for (const Points& frame : x)
     low = low.cwiseMin(frame.rowwise().minCoeff()), high = high.cwiseMax(frame.rowwise().maxCoeff());
-  // one number is spared for the rounding of the lower corner
+  // one number is reserved for the rounding of the lower corner
   unit = std::max({unit, (high - low).maxCoeff() / (largest_number - 1), 1e-300});
   unit = std::exp2(std::ceil(std::log2(unit)));
   low = (low / unit).array().floor() * unit;
@@ -74,7 +74,7 @@ Json packed_run(const std::vector<Points>& x, double unit, std::string& bytes) {
   return json;
 }
 
-/// Times (s): the first and the last of frames that are evenly apart, else all.
+/// Times (s): the first and the last if the frames are equally spaced, otherwise all.
 Json times_json(const std::vector<double>& t) {
   const double apart = (t.back() - t.front()) / double(std::max<size_t>(1, t.size() - 1));
   for (size_t i = 0; i < t.size(); ++i)
@@ -82,7 +82,7 @@ Json times_json(const std::vector<double>& t) {
   return {t.front(), t.back()};
 }
 
-/// Adds the values of all frames, with four digits; nothing if none is known.
+/// Adds the values of all frames, with four digits; nothing if no value is known.
 void add_series(Json& json, const char* name, const std::vector<std::optional<double>>& values) {
   if (std::ranges::none_of(values, [](const auto& v) { return v && std::isfinite(*v); })) return;
   for (const auto& v : values) json[name].push_back(v && std::isfinite(*v) ? Json(rounded(*v)) : Json());
@@ -100,7 +100,7 @@ void add_values(Json& json, const Frames& run, const Scene& scene, const std::op
   add_series(json, "error", error), add_series(json, "energy", energy);
 }
 
-/// The reason why a run failed, without the words that it did, and when.
+/// The reason and kind of a failure, without its time.
 std::string why_failed(const Outcome& out) {
   const std::string words(in_words(out.verdict));
   const size_t open = words.find('(');
@@ -118,8 +118,8 @@ void add_outcome(Json& json, const Outcome& out) {
   if (out.verdict != Verdict::ok) json["failed"] = out.end, json["reason"] = why_failed(out);
 }
 
-/// The smallest multiple of the stride that leaves at most so many frames after the first; a divisor of the samples,
-/// unless that is twice as much.
+/// The smallest multiple of the stride that leaves at most `most` frames after the first. Prefers a divisor of the
+/// samples, unless that is twice as large.
 int thinned(const Scene& scene, int stride, int most) {
   const int least = std::max(1, (scene.samples + stride * most - 1) / (stride * most));
   for (int times = least; times < 2 * least; ++times)
@@ -127,7 +127,7 @@ int thinned(const Scene& scene, int stride, int most) {
   return stride * least;
 }
 
-/// A run of a scene, from its beginning; of a mark that failed its last pictures. Null without a second frame.
+/// A run of a scene from its beginning; for a failed run of a mark, its last pictures. Null without a second frame.
 Json scene_run(const Scene& scene, const std::optional<Truth>& truth, const RecordedRun& run, bool own, double unit,
                std::string& bytes) {
   const bool failed = run.outcome.verdict != Verdict::ok, last = failed && !own;
@@ -144,8 +144,8 @@ Json scene_run(const Scene& scene, const std::optional<Truth>& truth, const Reco
   return json;
 }
 
-/// The cells of a map as one run: of each the last picture in which nothing is further than twice the scene's size from
-/// rest, and its time; the rest itself, and no time, where there is none.
+/// The cells of a map as one run. For each cell: the last picture in which no particle is further from rest than twice
+/// the scene's size, with its time; if there is none, the state of rest, without a time.
 Json cells_of_map(const RecordedRuns& recorded, std::string& bytes) {
   std::vector<Points> pictures;
   Json times = Json::array();
@@ -235,7 +235,7 @@ Json take_index(const fs::path& report) {
 
 namespace {
 
-/// Numbers or, where there is none, null.
+/// Numbers; null if not available.
 void require_values(const JsonField& run, const char* name, size_t count) {
   const auto values = run.find(name);
   if (!values) return;
@@ -244,7 +244,7 @@ void require_values(const JsonField& run, const char* name, size_t count) {
     if (!value.is_null()) value.number();
 }
 
-/// Throws InputError unless an entry's run lies in a file of that size.
+/// Throws InputError unless an entry's run lies within a file of this size.
 void require_run(const JsonField& run, std::uintmax_t size) {
   const size_t frames = static_cast<size_t>(run["frames"].whole_number(1, 1'000'000));
   if (run["low"].numbers().size() != 3) run["low"].fail("three numbers");

@@ -1,4 +1,4 @@
-// Triangles, springs, pins, obstacles and the camera's place.
+// Triangles, springs, pins, obstacles and the camera.
 #include "report/player/stage.h"
 
 #include <nlohmann/json.hpp>
@@ -21,7 +21,7 @@ Json packed_json(const std::vector<std::uint16_t>& numbers, size_t columns) {
   return {{"count", numbers.size()}, {"columns", columns}, {"data", base64(pack(numbers, columns))}};
 }
 
-/// Corners of the surface; null without one.
+/// Corners of the surface's triangles; null without a surface.
 Json triangles_json(const Scene& scene) {
   if (scene.triangles.empty()) return nullptr;
   std::vector<std::uint16_t> corners;
@@ -30,7 +30,7 @@ Json triangles_json(const Scene& scene) {
   return packed_json(corners, 6);  // two triangles fill a cell of a grid
 }
 
-/// Ends and rest lengths of hard distances and springs, family after family; those of the surface's threads come first.
+/// Ends and rest lengths of distance constraints and springs, by family; those of the surface's threads come first.
 Json springs_json(const Scene& scene) {
   std::vector<std::uint16_t> ends;
   Json families = Json::array();
@@ -66,7 +66,7 @@ Json springs_json(const Scene& scene) {
           {"families", families}};
 }
 
-/// Obstacles; the centre of one that moves at each of the times (s).
+/// Obstacles; for a moving one, its centre at each of the times (s).
 Json spheres_json(const Scene& scene, const std::vector<double>& times) {
   Json list = Json::array();
   if (const auto* spheres = scene.model.find<Spheres>())
@@ -79,7 +79,7 @@ Json spheres_json(const Scene& scene, const std::vector<double>& times) {
   return list;
 }
 
-/// Planes where they are at the start.
+/// Planes at their initial positions.
 Json planes_json(const Scene& scene) {
   Json list = Json::array();
   if (const auto* planes = scene.model.find<Planes>())
@@ -110,7 +110,7 @@ std::string stage_json(const Scene& scene, const std::vector<Points>& shown, con
   std::vector<double> times;
   for (int i = 0; i <= scene.samples; i += stride) times.push_back(scene.duration * i / scene.samples);
   Json json = stage_of(scene, shown.empty() ? std::vector{scene.start.x} : shown, times);
-  json["at"] = scene.camera && scene.camera->at ? *scene.camera->at : scene.duration;  // the poster's time, s
+  json["at"] = scene.camera && scene.camera->at ? *scene.camera->at : scene.duration;  // time of the poster, s
   if (truth)
     json["truth"] = {{"name", truth->name}, {"rule", truth->rule}, {"bar", truth->bar}, {"motion", truth->motion}};
   return dump(json);

@@ -475,7 +475,7 @@ TEST_F(PageRoom, IsGivenToTheEnginesRepresentativesFirst) {
   ASSERT_EQ(taken->files.size(), 2u);
   EXPECT_EQ(taken->files[0].method, "mysim/symplectic-euler");
   EXPECT_EQ(taken->files[1].method, "mysim/leapfrog");
-  EXPECT_EQ(notes, std::vector<std::string>{"of a-engines the runs of 1 methods are too large for the page to play"});
+  EXPECT_EQ(notes, std::vector<std::string>{"a-engines: the runs of 1 methods are too large for the page to play"});
   EXPECT_FALSE(runs.take("b-engines", "", notes));
 }
 
@@ -685,7 +685,7 @@ TEST_F(Assembled, ReportsThatWereChangedOrAreOlderAreRefused) {
   EXPECT_TRUE(contains(with("\"extent\": \"named\"", "\"extent\": \"huge\""), "huge"));
   EXPECT_TRUE(contains(with("\"format\": 2", "\"format\": 1"), "expected a report of format 2, got 1"));
   EXPECT_TRUE(contains(with("\"format\": 2,", ""), "expected a report of format 2, got one without a format"));
-  EXPECT_TRUE(contains(with("\"hash\": \"", "\"hash\": \"0"), "its data are not those that were reported: scene "));
+  EXPECT_TRUE(contains(with("\"hash\": \"", "\"hash\": \"0"), "its data differ from the report: scene "));
   EXPECT_EQ(with("\"tier\": \"measured\"", "\"tier\": \"guessed\""), "") << "another version may say it otherwise";
   EXPECT_EQ(with("\"extent\"", "\"extent\""), "");
 }

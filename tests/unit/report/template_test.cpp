@@ -62,8 +62,8 @@ TEST(Templates, NameWhatIsMissing) {
   EXPECT_EQ(failure("\n{{#each b}}\n{{/each}}"), "probe, line 2: unknown key 'b'");
   EXPECT_EQ(failure("{{a.c}}", {{"a", {{"b", 1}}}}), "probe, line 1: unknown key 'a.c'");
   EXPECT_EQ(failure("{{#each a}}{{c}}{{/each}}", {{"a", {{{"b", 1}}}}}), "probe, line 1: unknown key 'c'");
-  EXPECT_EQ(failure("{{a}}", {{"a", nullptr}}), "probe, line 1: 'a' is no text");
-  EXPECT_EQ(failure("{{#each a}}{{/each}}", {{"a", "text"}}), "probe, line 1: 'a' is no list");
+  EXPECT_EQ(failure("{{a}}", {{"a", nullptr}}), "probe, line 1: 'a' is not a text");
+  EXPECT_EQ(failure("{{#each a}}{{/each}}", {{"a", "text"}}), "probe, line 1: 'a' is not a list");
   EXPECT_NE(failure("{{> no-such-template}}"), "");
 }
 
