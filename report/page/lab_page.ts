@@ -1,4 +1,4 @@
-// Entry of the page that holds the lab alone.
+// Entry point of the page with the lab alone.
 import {startGuide} from './lab/guide';
 import {startLab} from './lab/lab';
 import {startPlayers} from './player/player';

@@ -269,8 +269,7 @@ render::Picture panels_of(const Scene& scene, const std::vector<const MethodResu
   const Mode mode = strip || no_stretch ? Mode::shaded : shot.mode;
   const auto base_frames = frames_of(scene, usable[0]->trajectory, shot);
   if (!strip) picture.rows.emplace_back();
-  const Eigen::AlignedBox3d box = box_over_planes(scene, usable);  // the same for all panels: each shows the same
-                                                                   // slopes
+  const Eigen::AlignedBox3d box = box_over_planes(scene, usable);  // one box, so that all panels have the same slopes
   for (const MethodResult* a : usable) {
     if (strip) picture.rows.emplace_back();
     const std::vector<int> frames = frames_of(scene, a->trajectory, shot);

@@ -1,4 +1,4 @@
-// Axes of all charts: one unit and one form of number on each, ticks, grid lines, titles that are never cut.
+// Axes of all charts: each with one unit and one number format, ticks, grid lines, and titles that are never cut off.
 
 import {format} from 'd3-format';
 import {scaleLinear, scaleLog} from 'd3-scale';
@@ -22,9 +22,9 @@ function inPowers(value: number): string {
 }
 
 const prefixes: [string, number][] = [['', 1], ['m', 1e-3], ['µ', 1e-6], ['n', 1e-9], ['p', 1e-12]];
-const scalable = ['s', 'm', 'J', 'N'];  // units that have smaller ones
+const scalable = ['s', 'm', 'J', 'N'];  // units with smaller prefixes
 
-/** A value with its unit, three digits at most: "1.5 ms", "30 %", "10⁻⁷". */
+/** A value with its unit, at most three digits: "1.5 ms", "30 %", "10⁻⁷". */
 export function nice(value: number, unit = ''): string {
   const size = Math.abs(value), small = size > 0 && scalable.includes(unit);
   const [prefix, factor] = (small && prefixes.find(([, f]) => size >= 0.9995 * f)) || ['', 1];
@@ -45,14 +45,14 @@ export interface Axis {
   ticks: Tick[];
   title: string;  // quantity and unit
   unit: string;
-  size: number;  // unit in the spec's unit
+  size: number;  // size of the axis' unit in the spec's unit
   low: number;
   high: number;
 }
 
 const capital = (text: string) => text.charAt(0).toUpperCase() + text.slice(1);
 
-/** A unit in which all numbers of an axis read well: its name and its size. */
+/** A unit in which all numbers of an axis are readable: its name and its size. */
 function unitOf({unit = '', log}: AxisSpec, low: number, high: number): [string, number] {
   if (!scalable.includes(unit)) return [unit, 1];
   const most = Math.max(Math.abs(low), Math.abs(high));
@@ -60,10 +60,10 @@ function unitOf({unit = '', log}: AxisSpec, low: number, high: number): [string,
   return found ? [found[0] + unit, found[1]] : [unit, 1];
 }
 
-/** Tells whether values read well without powers of ten. */
+/** True if the values are readable without powers of ten. */
 const isPlain = (values: number[]) => values.every(v => v === 0 || (Math.abs(v) >= 0.9e-3 && Math.abs(v) < 1e6));
 
-/** Round values from low to high, about one in so many px. */
+/** Round values from low to high, about one per `apart` px. */
 function valuesOf(log: boolean, low: number, high: number, length: number, apart: number): number[] {
   const count = Math.max(2, Math.floor(length / apart));
   if (!log) return scaleLinear().domain([low, high]).ticks(count);
@@ -76,7 +76,7 @@ function valuesOf(log: boolean, low: number, high: number, length: number, apart
   return kept.length > 1 ? kept : scaleLinear().domain([low, high]).ticks(Math.min(count, 4)).filter(tick => tick > 0);
 }
 
-/** An axis between two places (px), with a tick in about so many px. */
+/** An axis between two positions (px), with a tick about every `apart` px. */
 export function axisOf(spec: AxisSpec, from: number, to: number, apart: number): Axis {
   let low = spec.low ?? 0, high = spec.high ?? 1;
   if (!(high > low)) low = spec.log ? low / 2 : low - 1, high = spec.log ? 2 * high : high + 1;
@@ -101,7 +101,7 @@ export function axisOf(spec: AxisSpec, from: number, to: number, apart: number):
   };
 }
 
-/** The room that tick texts of an upright axis take, px. */
+/** The width of the tick labels of a vertical axis, px. */
 export const widthOfTicks = (axis: Axis) => Math.max(0, ...axis.ticks.map(tick => widthOf(tick.text)));
 
 // Elements.
@@ -113,13 +113,13 @@ export interface Frame {
   bottom: number;
 }
 
-/** A title in lines within a width, its first baseline at y; the quantity is bold. */
+/** A title wrapped to a width, with its first baseline at y; the quantity is bold. */
 export function titleOf(text: string, x: number, y: number, width: number, anchor: Anchor = 'start'): Element[] {
   return wrapped(text, width, true).map((line, k) => label(line, x, y + lineHeight * k, anchor, {class: 'quantity'}));
 }
 export const linesOfTitle = (text: string, width: number) => wrapped(text, width, true).length;
 
-/** The title of a level axis below a plot, in the middle of it where there is room; returns the y below it. */
+/** The title of a horizontal axis below a plot, centred if there is room; returns the y below it. */
 export function titleBelow(elements: Element[], text: string, {left, right}: Frame, y: number, width: number): number {
   const half = Math.min(width, widthOf(text, true)) / 2,
         middle = Math.max(half, Math.min((left + right) / 2, width - half));
@@ -127,7 +127,7 @@ export function titleBelow(elements: Element[], text: string, {left, right}: Fra
   return y + 6 + lineHeight * (text ? linesOfTitle(text, width) - 1 : -1);
 }
 
-/** Grid lines and texts of an upright axis. */
+/** Grid lines and labels of a vertical axis. */
 export const uprightTicks = (axis: Axis, {left, right}: Frame, grid = true): Element[] => axis.ticks.flatMap(
     tick =>
         [...(grid ?
@@ -136,7 +136,7 @@ export const uprightTicks = (axis: Axis, {left, right}: Frame, grid = true): Ele
                  []),
          label(tick.text, left - 6, tick.place + 4, 'end')]);
 
-/** Texts of a level axis, of those that meet the first, within a width; grid lines upwards where asked for. */
+/** Labels of a horizontal axis within a width, without overlaps; on request with grid lines upwards. */
 export function levelTicks(axis: Axis, {top, bottom}: Frame, width: number, grid = false): Element[] {
   let end = -Infinity;
   const elements: Element[] = [];
@@ -156,7 +156,7 @@ export function levelTicks(axis: Axis, {top, bottom}: Frame, width: number, grid
   return elements;
 }
 
-/** Names of categories below an axis: level where there is room, else slanted; the room that they take is `high`. */
+/** Names of categories below an axis: horizontal if there is room, otherwise slanted. `high`: their height. */
 export function categoryTicks(
     categories: readonly[number, string][], axis: Axis, {left, right, bottom}: Frame,
     width: number): {elements: Element[], high: number} {

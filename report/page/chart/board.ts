@@ -1,10 +1,10 @@
-// Places for names: beside the curve, joined to its end by a leader line, or in a column right of the plot.
+// Positions of labels: next to the curve, joined to its end by a leader line, or in a column to the right of the plot.
 
 import {Frame} from './axes';
 import {Box, letters, lineHeight, widthOf} from './sheet';
 import {Pair} from './spec';
 
-/** Points along a path, at most so many px apart. */
+/** Points along a path, at most `apart` px from each other. */
 export function dense(path: readonly Pair[], apart = 6): Pair[] {
   const points: Pair[] = path.slice(0, 1);
   for (let i = 1; i < path.length; ++i) {
@@ -14,7 +14,7 @@ export function dense(path: readonly Pair[], apart = 6): Pair[] {
   return points;
 }
 
-/** The distance of a box from the nearest of some points, px. */
+/** The distance of a box from the nearest of the points, px. */
 export function distance(box: Box, points: readonly Pair[]): number {
   let least = Infinity;
   for (const [x, y] of points)
@@ -25,14 +25,14 @@ export function distance(box: Box, points: readonly Pair[]): number {
 
 const cell = 3;  // px
 
-/** A box for a text, with a penalty; more of it is computed where the rest is low. */
+/** A box for a text, with a penalty; `more` is only computed if the rest of the cost is low. */
 export interface Candidate {
   box: Box;
   penalty: number;
   more?: () => number;
 }
 
-/** What stands on a plot already. */
+/** The occupied areas of a plot. */
 export class Board {
   private readonly across: number;
   private readonly cells: Uint8Array;
@@ -53,13 +53,13 @@ export class Board {
 
   add(box: Box) { this.mark(box, 2); }
   addMark([x, y]: Pair) { this.add({left: x - 5, right: x + 5, top: y - 5, bottom: y + 5}); }
-  /** Names may cross a line that yields. */
+  /** Adds a line; labels may cross it if it yields. */
   addLine(path: readonly Pair[], yields: boolean) {
     for (const [x, y] of dense(path, cell))
       this.mark({left: x - 1, right: x + 1, top: y - 1, bottom: y + 1}, yields ? 1 : 2);
   }
 
-  /** Cells of yielding lines that a box covers; infinite where it covers something else or leaves the frame. */
+  /** Number of cells of yielding lines that a box covers; infinite if it covers anything else or leaves the frame. */
   cost(box: Box): number {
     const {left, right, top, bottom} = this.frame;
     if (box.left < left || box.right > right || box.top < top || box.bottom > bottom) return Infinity;
@@ -73,7 +73,7 @@ export class Board {
     return sum;
   }
 
-  /** The cheapest of some boxes, which is taken then; null where none is free. */
+  /** Occupies the cheapest of the boxes and returns it; null if none is free. */
   take(boxes: Iterable<Candidate>): Box|null {
     let best = 60, found: Box|null = null;
     for (const {box, penalty, more} of boxes) {
@@ -97,7 +97,7 @@ export const boxOfLines = (lines: readonly string[], left: number, baseline: num
   bottom: baseline + 0.24 * letters + lineHeight * (lines.length - 1)
 });
 
-/** Boxes of a name around the ends and along the paths of its curve, where it is nearer to it than any other's. */
+/** Boxes for a label around the ends and along the paths of its curve, where it is nearest to its own curve. */
 export function* boxesBeside(name: string, paths: readonly Pair[][], others: readonly Pair[]) {
   const width = widthOf(name, true), own = paths.flat();
   const at = (left: number, middle: number, penalty: number) => {
@@ -123,7 +123,7 @@ export function* boxesBeside(name: string, paths: readonly Pair[][], others: rea
   }
 }
 
-/** Boxes of lines of text around a point, further and further; each has a leader line from its nearer end. */
+/** Boxes for lines of text around a point, at growing distances; each has a leader line from its nearer end. */
 export function* boxesAround(lines: readonly string[], [x, y]: Pair, bold = false) {
   const high = lineHeight * (lines.length - 1);
   for (let away = 18; away < 110; away += 8)
@@ -135,11 +135,11 @@ export function* boxesAround(lines: readonly string[], [x, y]: Pair, bold = fals
     }
 }
 
-/** The place of a box that is nearest to a point: where its leader line ends. */
+/** The point of a box that is nearest to a given point: the end of its leader line. */
 export const nearestOf = (box: Box, [x, y]: Pair):
     Pair => [Math.max(box.left - 2, Math.min(x, box.right + 2)), Math.max(box.top, Math.min(y, box.bottom))];
 
-/** Heights that are at least so far apart and as near as can be to those wanted, between two ends. */
+/** Heights between two limits that are at least `apart` from each other and as close as possible to the wanted ones. */
 export function pushedApart(wanted: readonly number[], low: number, high: number, apart: number): number[] {
   const order = wanted.map((_, i) => i).sort((a, b) => wanted[a] - wanted[b]), places = order.map(i => wanted[i]);
   for (let pass = 0; pass < 200; ++pass)
@@ -156,7 +156,7 @@ export function pushedApart(wanted: readonly number[], low: number, high: number
 export const isInside = ([x, y]: Pair, {left, right, top, bottom}: Frame) =>
     x >= left - 1 && x <= right + 1 && y >= top - 1 && y <= bottom + 1;
 
-/** The stretches of a path that lie within a frame. */
+/** The parts of a path inside a frame. */
 export function clipped(path: readonly Pair[], {left, right, top, bottom}: Frame): Pair[][] {
   const runs: Pair[][] = path.length === 1 && isInside(path[0], {left, right, top, bottom}) ? [[path[0]]] : [];
   let open = false;

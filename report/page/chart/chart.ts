@@ -1,10 +1,10 @@
-// Charts of the page: laid out as wide as their figure, written as SVG, walked through by keys.
+// Charts of the page: laid out to the width of their figure, written as SVG, and navigable by keyboard.
 
 import {layout} from './layout';
 import {css, Element, font, letters, widthOf} from './sheet';
 import {ChartSpec} from './spec';
 
-/** Looks of the page's methods (methods-data). */
+/** Appearance of the page's methods (methods-data). */
 export type Looks = Record<string, {colour: string}>;
 
 const svgNames = 'http://www.w3.org/2000/svg';
@@ -18,7 +18,8 @@ export function svgOf({tag, attributes, children}: Element): SVGElement {
 }
 
 /**
- * Arrows step from mark to mark; up and down to the next curve. The page says what a mark is, and Enter plays its run.
+ * Left and right arrows move from mark to mark, up and down to the next curve. The tooltip describes the mark, and
+ * Enter plays its run.
  */
 function walk(event: KeyboardEvent) {
   const step = ({ArrowRight: 1, ArrowDown: 1, ArrowLeft: -1, ArrowUp: -1} as Record<string, number>)[event.key];
@@ -38,7 +39,7 @@ function walk(event: KeyboardEvent) {
   chosen.focus({preventScroll: true});
 }
 
-/** Compares the browser's letters with those that layouts assume. */
+/** Compares the browser's font with the font widths that layouts assume. */
 function measureFont() {
   const ruler = document.createElement('canvas').getContext('2d'), text = 'Bullet explicit, 0.125 ms';
   if (!ruler) return;
@@ -50,14 +51,14 @@ function measureFont() {
 
 const drawnWidths = new WeakMap<HTMLElement, number>();
 
-/** Draws a chart into its box, as wide as that is. */
+/** Draws a chart into its box, at the box's width. */
 export function drawChart(box: HTMLElement, chart: ChartSpec, looks: Looks) {
   const width = Math.max(300, Math.round(box.clientWidth || 600)), before = drawnWidths.get(box);
   if (before === width) return;
   if (before === undefined) box.addEventListener('keydown', walk);
   drawnWidths.set(box, width);
   measureFont();
-  // a user's programs have the colours that the page chose for them
+  // user programs have the colours that the page chose for them
   const sheet = layout(chart, width, part => {
     const look = looks[part.method ?? '']?.colour ?? '';
     return css(/^outside\d/.test(look) ? look : part.colour);
@@ -84,5 +85,5 @@ export function drawChart(box: HTMLElement, chart: ChartSpec, looks: Looks) {
   }));
 }
 
-/** Whether a chart was drawn into a box. */
+/** True if a chart was drawn into the box. */
 export const isDrawn = (box: HTMLElement) => drawnWidths.has(box);

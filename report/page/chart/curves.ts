@@ -1,23 +1,23 @@
-// Curves, points and failures over two axes: names at the ends of curves, at most six of them in colour, the others
-// grey until they are pointed at.
+// Curves, points and failures over two axes: labels at the ends of curves, at most six curves in colour, the others
+// grey until the reader points at them.
 
 import {Axis, axisOf, categoryTicks, Frame, levelTicks, linesOfTitle, nice, titleBelow, titleOf, uprightTicks, widthOfTicks} from './axes';
 import {Board, boxesAround, boxesBeside, boxOfLines, Candidate, clipped, dense, isInside, nearestOf, pushedApart} from './board';
 import {Box, Element, element, group, key, KeyEntry, label, lineHeight, mark, pathOf, PlacedName, rectangle, rounded, saying, segment, Sheet, widthOf, wrapped} from './sheet';
 import {CurvesSpec, GuideSpec, Pair, PartSpec, SeriesSpec} from './spec';
 
-/** A part at its places. */
+/** A part with its positions. */
 interface Placed {
   part: PartSpec;
   index: number;
   colour: string;
-  series: {spec: SeriesSpec, points: Pair[], runs: Pair[][]}[];  // runs: its line within the axes
+  series: {spec: SeriesSpec, points: Pair[], runs: Pair[][]}[];  // runs: the parts of its line within the axes
   crosses: Pair[];
 }
 
-const strip = 11;  // px, of a row of failures
+const strip = 11;  // px, height of a row of failures
 
-/** Rows for crosses: those of a part in one row where there is room. */
+/** Rows for crosses: those of a part share a row if there is room. */
 function rowsOf(places: readonly number[][]): {rows: number[][], count: number} {
   const taken: number[][] = [];
   const free = (row: number, all: readonly number[]) =>
@@ -40,9 +40,9 @@ class CurvesLayout {
   private readonly y: Axis;
   private readonly parts: Placed[];
   private readonly board: Board;
-  private readonly column = new Set<PartSpec>();  // parts with names right of the plot
+  private readonly column = new Set<PartSpec>();  // parts with labels to the right of the plot
   private readonly height: number;
-  private readonly marksLower: boolean;  // marks below the axis lie on it as triangles
+  private readonly marksLower: boolean;  // marks below the axis are drawn on it as triangles
 
   constructor(private readonly chart: CurvesSpec, private readonly width: number, private readonly colours: Colours) {
     this.marksLower = chart.key.some(entry => entry.mark === 'down');
@@ -111,7 +111,7 @@ class CurvesLayout {
     };
   }
 
-  /** Chooses the names that stand right of the plot: those of curves that end there. Returns the plot's right edge. */
+  /** Chooses the labels to the right of the plot: those of curves that end there. Returns the plot's right edge. */
   private chooseColumn(): number {
     const {chart, width} = this, bare = axisOf(chart.x, 0, 1, 70);
     const edge =
@@ -146,7 +146,7 @@ class CurvesLayout {
     };
   }
 
-  /** Returns the y below the axis and its title. */
+  /** Draws the axes; returns the y below the axis and its title. */
   private drawAxes(): number {
     const {chart, frame, elements, width} = this, {left, right, top, bottom} = frame;
     if (chart.window !== undefined) {
@@ -173,7 +173,7 @@ class CurvesLayout {
         const place: Pair = [this.x.at(px), Math.min(this.frame.bottom, y.at(py))];
         if (stairs.length) stairs.push([place[0], stairs[stairs.length - 1][1]]);
         stairs.push(place);
-        if (isBelow(py, y.low)) break;  // down to the axis, not along it
+        if (isBelow(py, y.low)) break;  // down to the axis, but not along it
       }
       elements.push(element('path', {class: 'pareto', d: pathOf(stairs)}));
       board.addLine(stairs, true);
@@ -245,7 +245,7 @@ class CurvesLayout {
       this.unplaced.push({text, sample});
   }
 
-  /** A ring around the recommended run, with its words. */
+  /** A ring around the recommended run, with its label. */
   private drawTake() {
     const {take, parts} = this.chart;
     if (!take) return;
@@ -303,7 +303,7 @@ class CurvesLayout {
   }
 }
 
-/** A leader line, which begins so far from its first point. */
+/** A leader line that starts at a distance `gap` from its first point. */
 function leader(way: readonly Pair[], gap: number): Element {
   const [[x, y], [toX, toY]] = way, length = Math.hypot(toX - x, toY - y) || 1, part = Math.min(1, gap / length);
   return element('path', {class: 'leader', d: pathOf([[x + part * (toX - x), y + part * (toY - y)], ...way.slice(1)])});

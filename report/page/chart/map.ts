@@ -1,12 +1,12 @@
-// Maps: a cell for each run over two logarithmic axes, in panels that share them, with the predicted limit as a line
-// and the measured one as dots.
+// Maps: one cell per run over two logarithmic axes, in panels that share the axes, with the predicted limit as a line
+// and the measured limit as dots.
 
 import {axisOf, Frame, levelTicks, linesOfTitle, titleOf, uprightTicks, widthOfTicks} from './axes';
 import {clipped} from './board';
 import {Element, element, group, key, KeyEntry, label, lineHeight, pathOf, rectangle, rounded, saying, Sheet} from './sheet';
 import {AxisSpec, MapSpec, Pair} from './spec';
 
-/** The least and the largest of some values, and half the distance of neighbours, as a factor. */
+/** Minimum and maximum of the values, and half the distance of neighbours, as a factor. */
 function spanOf(values: readonly number[]): [number, number, number] {
   const sorted = [...new Set(values.map(v => Math.round(1e6 * Math.log(v)) / 1e6))].sort((a, b) => a - b);
   let least = Infinity;
@@ -15,7 +15,7 @@ function spanOf(values: readonly number[]): [number, number, number] {
 }
 
 export function map(chart: MapSpec, width: number): Sheet {
-  // panels of one colour are told in a sentence
+  // panels of a single colour are described in a sentence
   const plain = chart.panels.filter(panel => new Set(panel.cells.map(c => c[2])).size === 1), {kinds} = chart;
   const panels =
       plain.length < chart.panels.length ? chart.panels.filter(panel => !plain.includes(panel)) : chart.panels;
@@ -25,7 +25,7 @@ export function map(chart: MapSpec, width: number): Sheet {
   });
   const columns = Math.max(1, Math.min(3, Math.floor(width / 280), panels.length)),
         rows = Math.ceil(panels.length / columns);
-  // the axes are shared; each panel has cells of its own size
+  // the axes are shared; each panel has its own cell size
   const spans = panels.map(panel => [spanOf(panel.cells.map(c => c[0])), spanOf(panel.cells.map(c => c[1]))]);
   const whole = (spec: AxisSpec, i: number): AxisSpec => ({
     ...spec,

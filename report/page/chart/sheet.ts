@@ -1,5 +1,5 @@
-// A chart laid out: elements at their places, before they become SVG. Texts are measured without a browser, so that a
-// test can lay out every chart.
+// A laid-out chart: elements with their positions, before they become SVG. Text is measured without a browser, so that
+// a test can lay out every chart.
 
 import {line, symbol, symbolCircle, symbolDiamond, symbolSquare, symbolTriangle, SymbolType} from 'd3-shape';
 
@@ -23,7 +23,7 @@ export interface Box {
   bottom: number;
 }
 
-/** The name of a curve: beside it, or joined to its end by a leader line. */
+/** The label of a curve: next to it, or joined to its end by a leader line. */
 export interface PlacedName {
   text: string;
   box: Box;
@@ -31,21 +31,24 @@ export interface PlacedName {
   leader: boolean;
 }
 
-/** A chart of a width: what is drawn, and for tests where curves and names lie. */
+/** A chart at a given width: its elements and, for tests, the positions of curves and labels. */
 export interface Sheet {
   width: number;
   height: number;
   elements: Element[];
   names: PlacedName[];
   paths: Pair[][][];  // by part
-  notes: string[];    // said below the chart
+  notes: string[];    // sentences below the chart
 }
 
 // Texts.
 
 export const letters = 12.5, lineHeight = 15;  // px
 
-/** Thousandths of a letter's size from blank to tilde: Helvetica, whose widths Arial and Liberation Sans share. */
+/**
+ * Widths of characters from blank to tilde, in thousandths of the font size: Helvetica, with the same widths as Arial
+ * and Liberation Sans.
+ */
 const advances =
     ('278 278 355 556 556 889 667 191 333 333 389 584 278 333 278 278 556 556 556 556 556 556 556 556 556 ' +
      '556 278 278 584 584 584 556 1015 667 667 722 722 667 611 778 722 278 500 667 556 833 722 778 667 778 ' +
@@ -55,7 +58,7 @@ const advances =
         .map(Number);
 const narrowSigns = '⁻⁰¹²³⁴⁵⁶⁷⁸⁹°·\u202f';
 
-/** How much wider the letters of the browser's font are than Helvetica's regular ones. */
+/** Ratio of the browser's font widths to those of regular Helvetica. */
 export const font: Record<'regular'|'bold', number> = {
   regular: 1,
   bold: 1.07
@@ -71,7 +74,7 @@ export function widthOf(text: string, bold = false, size = letters): number {
   return sum * size / 1000 * (bold ? font.bold : font.regular);
 }
 
-/** Words in lines that are no wider. */
+/** Wraps a text into lines of at most this width. */
 export function wrapped(text: string, width: number, bold = false): string[] {
   const lines: string[] = [];
   for (const word of text.split(' ')) {
@@ -89,18 +92,18 @@ export type Anchor = 'start'|'middle'|'end';
 export const label = (text: string, x: number, y: number, anchor: Anchor = 'start', attributes: Attributes = {}) =>
     element('text', {x: rounded(x), y: rounded(y), 'text-anchor': anchor, ...attributes}, text);
 
-/** The box of a text: its place is the baseline. */
+/** The box of a text whose baseline starts at (x, y). */
 export function boxOf(text: string, x: number, y: number, anchor: Anchor = 'start', bold = false): Box {
   const width = widthOf(text, bold), left = anchor === 'end' ? x - width : anchor === 'middle' ? x - width / 2 : x;
   return {left, right: left + width, top: y - 0.76 * letters, bottom: y + 0.24 * letters};
 }
 
-/** A group whose colour lights up with its method. */
+/** A group that is highlighted together with its method. */
 export const group = (colour: string, method: string|undefined, ...children: Element[]) => element(
     'g', {class: 'series hero', style: `--own: ${colour}; --lit: ${colour}`, ...(method && {'data-method': method})},
     ...children);
 
-/** A line along both axes' directions, or from corner to corner. */
+/** A line between two points. */
 export const segment = (kind: string, x1: number, y1: number, x2: number, y2: number) =>
     element('line', {class: kind, x1: rounded(x1), y1: rounded(y1), x2: rounded(x2), y2: rounded(y2)});
 
@@ -108,7 +111,7 @@ export const rectangle = (kind: string, x: number, y: number, width: number, hei
     element(
         'rect', {class: kind, x: rounded(x), y: rounded(y), width: rounded(width), height: rounded(height), ...more});
 
-/** The attributes of an element that says what it is. */
+/** The attributes of an element with a tooltip. */
 export const saying = (words: string|undefined): Attributes =>
     words ? {'data-words': words, 'aria-label': words, role: 'img'} : {};
 
@@ -118,7 +121,7 @@ export const rounded = (value: number) => Math.round(10 * value) / 10;
 
 const drawLine = line();
 
-/** A path through points, at most one in a third of a px. */
+/** A path through points, without points closer than a third of a px. */
 export function pathOf(points: readonly Pair[]): string {
   const kept: Pair[] = [];
   for (const [x, y] of points) {
@@ -145,7 +148,7 @@ function shapeOf(name: MarkName, r: number): string {
   return name === 'cross' ? x : name === 'plus' ? plus : x + plus;
 }
 
-/** A mark that says what its run is, and plays it where there is one. */
+/** A mark with a tooltip, which plays its run if it has one. */
 export function mark(name: MarkName, [x, y]: Pair, r: number, open: boolean, tip: Tip = {}, colour = ''): Element {
   const kind = ['plus', 'cross', 'star'].includes(name) ? ' cross' : open ? ' open' : '';
   return element('path', {
@@ -158,7 +161,7 @@ export function mark(name: MarkName, [x, y]: Pair, r: number, open: boolean, tip
   });
 }
 
-/** A colour of style.css, or one that is lightened where the page is dark. */
+/** A colour of style.css, or one that is lightened on a dark page. */
 export const css = (colour: string) =>
     colour.startsWith('#') ? `color-mix(in srgb, ${colour}, white var(--lift))` : `var(--${colour})`;
 
@@ -166,11 +169,11 @@ export const css = (colour: string) =>
 
 export interface KeyEntry {
   text: string;
-  sample: (x: number, y: number) => Element;  // its middle, x 9 px from the left
+  sample: (x: number, y: number) => Element;  // its centre; x starts 9 px from the left
   method?: string;
 }
 
-/** A key in lines of a width, its first line's middle at `top` + 8; returns its height. */
+/** A key wrapped to a width, with the centre of its first line at `top` + 8; returns its height. */
 export function key(
     elements: Element[], entries: readonly KeyEntry[], left: number, top: number, width: number): number {
   if (!entries.length) return 0;

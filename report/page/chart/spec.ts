@@ -1,4 +1,4 @@
-// Chart specs as C++ writes them (report/figures/chart_json.h): all that a figure shows, in numbers and words.
+// Chart specs as C++ writes them (report/figures/chart_json.h): the full content of a figure, in numbers and words.
 
 export type Pair = [number, number];
 
@@ -12,13 +12,13 @@ export type AxisSpec = {
 
 export type MarkName = 'circle'|'square'|'diamond'|'triangle'|'down'|'pentagon'|'plus'|'cross'|'star';
 
-/** A mark of gnuplot's; open ones are hollow. */
+/** A mark with gnuplot's shapes; open marks are hollow. */
 export type MarkSpec = {
   mark?: MarkName,
   open?: boolean
 };
 
-/** The words of a mark, and the run that it plays. */
+/** The tooltip of a mark, and the run that it plays. */
 export type Tip = {
   words?: string,
   run?: string
@@ -39,8 +39,8 @@ type Info = {
 export interface SeriesSpec extends MarkSpec {
   title: string;
   line?: boolean;
-  dash?: string;  // lengths of dashes and gaps, in widths of the line
-  few?: boolean;  // a mark on a few points, to tell lines apart
+  dash?: string;  // lengths of dashes and gaps, in line widths
+  few?: boolean;  // marks on a few points only, to distinguish lines
   points: Pair[];
   scaled?: number[];  // 1: open mark
   tips?: Tip[];
@@ -51,8 +51,8 @@ export type FailureSpec = MarkSpec&Tip&{x: number, kind: string};
 /** Curves and failures that share a name and a colour. */
 export interface PartSpec extends Named {
   colour: string;   // name in style.css, or #RRGGBB
-  hero?: boolean;   // has its colour and its name; the others are grey until they are pointed at
-  keyed?: boolean;  // has its name in the key
+  hero?: boolean;   // has its colour and its label; the others are grey until the reader points at them
+  keyed?: boolean;  // its name is in the key
   series: SeriesSpec[];
   failures: FailureSpec[];
 }
@@ -71,7 +71,7 @@ export interface CurvesSpec extends Info {
   parts: PartSpec[];
   key: (MarkSpec&{text: string, line?: boolean})[];
   pareto?: Pair[];
-  window?: number;  // shaded from this x on
+  window?: number;  // shaded beyond this x
   categories?: [number, string][];
   guides?: GuideSpec[];
   flat?: boolean;

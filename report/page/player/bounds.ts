@@ -1,10 +1,10 @@
-// The bounds of a scene: the bodies that the camera has to hold, and the ball around them for light and shadow.
+// The bounds of a scene: the bodies that the camera must show, and the ball around them for light and shadow.
 
 import {HeldBall} from './orbit';
 import {StageScene} from './stage';
 import {minus, norm, Numbers, placeOf, plus, unit, Vec3} from './vectors';
 
-/** Places of a run over time, from `begin` to `end` (s); `well`: it did not fail. */
+/** Positions of a run over time, from `begin` to `end` (s); `well`: it did not fail. */
 export interface MovingPlaces {
   well: boolean;
   begin: number;
@@ -20,17 +20,17 @@ export interface Bounds {
   reach: number;  // radius of the ball around them, m
 }
 
-/** Towards the key light, from the left behind the viewer, for a viewer in this direction. */
+/** Direction to the key light, from the left behind the viewer, for a viewer in this direction. */
 function keyDirection(from: Numbers) {
   const back: Vec3 = Math.hypot(from[0], from[2]) > 1e-9 ? unit([from[0], 0, from[2]]) : [0, 0, 1];
   const right = [back[2], 0, -back[0]];
   return unit(plus(plus([0, 1, 0], -0.3, right), 0.44, back));
 }
 
-/** The point in which the light's ray through a position meets the ground. */
+/** The point where the light's ray through a position meets the ground. */
 export const footOf = (at: Numbers, floor: number, key: Vec3) => plus(at, -(at[1] - floor) / key[1], key);
 
-/** Bounds of some particles in some frames of the runs that went well, of obstacles, and of shadows. */
+/** Bounds of some particles in some frames of the completed runs, of obstacles, and of shadows. */
 export function boundsOf(scene: StageScene, motions: MovingPlaces[]): Bounds {
   const held: HeldBall[] = [], well = motions.filter(motion => motion.well);
   const stride = Math.max(1, Math.floor(scene.particles / 300)), places = new Float32Array(3 * scene.particles);

@@ -9,7 +9,7 @@ export const rgb =
     (hex: string) => [0, 2, 4].map(i => parseInt(hex.replace('#', '').slice(i, i + 2), 16) / 255) as Colour;
 export const mixed = (a: Colour, b: Colour, part: number) => a.map((v, k) => v + part * (b[k] - v)) as Colour;
 
-/** Dark, middle and light tones of cloth in a tint. */
+/** Dark, medium and light tones of cloth in a tint. */
 export const rampOf = (tint: Colour):
     Colour[] => [mixed(tint, [0, 0, 0], 0.15), mixed(tint, [1, 1, 1], 0.4), mixed(tint, [1, 1, 1], 0.84)];
 
@@ -23,7 +23,7 @@ interface MethodLook {
 export const looksOfPage: Record<string, MethodLook> =
     JSON.parse(document.getElementById('methods-data')?.textContent ?? '{}');
 
-/** Colours of a drawn run: plain, and dark, middle and light for cloth. */
+/** Colours of a drawn run: plain; and dark, medium and light for cloth. */
 export interface Look {
   title?: string;
   css: string;
@@ -31,7 +31,7 @@ export interface Look {
   ramp: Colour[];
 }
 
-/** A method's title and its present colours; each engine has one tint of cloth. */
+/** A method's title and its current colours; each engine has one cloth tint. */
 export function lookOf(method: string): Look {
   const known = looksOfPage[method], name = method === 'truth' ? 'truth' : known?.colour ?? 'grey';
   const style = getComputedStyle(document.documentElement);

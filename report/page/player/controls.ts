@@ -25,7 +25,7 @@ export const check = (label: string, on: boolean) => {
   return [make('label', {}, box, ` ${label}`), box] as const;
 };
 
-/** Seconds with as many digits as a frame needs. */
+/** Seconds, with the digits needed to distinguish frames. */
 const seconds = (time: number, end: number) => time.toFixed(end < 3 ? 3 : 2);
 
 /** A value with three digits. */
@@ -38,12 +38,12 @@ export const short = (value: number): string => {
   return (value < 0 ? '−' : '') + text;
 };
 
-/** The unit that suits a length: its name and its size, m. */
+/** A suitable unit for a length: its name and its size, m. */
 export const unitOf = (metres: number): [string, number] => {
   const units: [string, number][] = [['m', 1], ['mm', 1e-3], ['µm', 1e-6], ['nm', 1e-9]];
   return units.find(([, size]) => metres >= size) ?? units[0];
 };
-/** A length in it. */
+/** A length in a suitable unit. */
 export const length = (metres: number) => {
   const [name, size] = metres > 0 ? unitOf(metres) : ['mm', 1e-3] as const, value = metres / size;
   return `${value === 0 ? 0 : value < 1e-3 ? short(value) : Number(value.toPrecision(2))} ${name}`;
@@ -55,7 +55,7 @@ export function roundUp(value: number) {
   return Number(([1, 2, 5, 10].find(s => s * power >= value * (1 - 1e-9))! * power).toPrecision(1));
 }
 
-/** A method as engine and rule; a program goes by its own name. */
+/** A method as engine and rule; a program has its own name. */
 export const inTwo = (method: string) => {
   const known = looksOfPage[method];
   if (known?.engine) return [known.engine, known.rule ?? ''];
@@ -63,7 +63,7 @@ export const inTwo = (method: string) => {
   return [first, second.replace(/-/g, ' ')];
 };
 
-/** What was asked of a run: "980 µs", "tolerance 1e-6". */
+/** The setting of a run: "980 µs", "tolerance 1e-6". */
 export const settingOf = ({step, tolerance}: Run) => {
   if (tolerance) return `tolerance ${short(tolerance)}`;
   if (!step) return '';
@@ -75,7 +75,7 @@ const pointerHelp =
     'Drag to turn. With the picture in focus (click it, or Tab) the wheel zooms, arrow keys turn, + and − ' +
     'zoom, 0 resets.';
 
-/** Two selects, method and step, among the runs of a scene; `chosen` is called with the key of a run. */
+/** Two selects, method and step, among the runs of a scene; calls `chosen` with the key of a run. */
 class Picker {
   readonly box: HTMLElement;
   private readonly method: HTMLSelectElement;
@@ -120,7 +120,7 @@ export interface Look {
   colour: string;
   springs: boolean;
 }
-/** The functions that controls call. */
+/** The functions that the controls call. */
 export interface Acts {
   toggle: () => void;
   seek: (time: number) => void;  // s
@@ -171,7 +171,7 @@ export class Controls {
     this.slider.addEventListener(
         'input', () => act.seek(this.begin + Number(this.slider.value) / 300 * (this.end - this.begin)));
     this.colour = colour, this.springs = springs;
-    this.addPlots(act.pick ? 3 : 0);  // their room is there before they are
+    this.addPlots(act.pick ? 3 : 0);  // reserve their room before they are drawn
     speed.addEventListener('change', () => act.speed(Number(speed.value)));
     colour.addEventListener('change', () => act.look({colour: colour.value}));
     springs.addEventListener('change', () => act.look({springs: springs.checked}));
@@ -183,7 +183,7 @@ export class Controls {
     this.play.setAttribute('aria-label', `${playing ? 'Pause' : 'Play'} ${this.scene.scene}`);
   }
 
-  /** `top`: the largest difference, m, 0 below the resolution `least` (m); null where it is not known. */
+  /** `top`: the largest difference, m; 0 below the resolution `least` (m); null if unknown. */
   setPicks(picks: string[], top: number|null, least = 0) {
     this.pickers.forEach((picker, i) => picker.show(picks[i]));
     this.scale.replaceChildren(
@@ -207,7 +207,7 @@ export class Controls {
     }
   }
 
-  /** What is drawn over time: a list as Plot takes it. */
+  /** Sets the curves over time, in the format of Plot. */
   setPlots(list: Omit<Shown, 'begin'|'end'>[], begin: number, end: number) {
     this.begin = begin, this.end = end;
     list.forEach((each, i) => this.curves[i].show({...each, begin, end}));

@@ -10,12 +10,12 @@ export interface Program {
 }
 export type Uniforms = Record<string, number|number[]|WebGLTexture|undefined|null>;
 
-/** Corners shared by all instances, one row of `ints` whole numbers per instance, and an index. */
+/** Corners shared by all instances, one row of `ints` integers per instance, and an index. */
 export interface Mesh {
   corners?: Float32Array;
-  size?: number;  // numbers of a corner
+  size?: number;  // numbers per corner
   instances?: Int32Array;
-  slot?: number;  // attribute of the instances
+  slot?: number;  // attribute location of the instances
   ints?: number;
   index: Uint16Array;
 }
@@ -24,7 +24,7 @@ export interface Shape {
   indexed: number;
   instances: number;
 }
-/** A texture of four floats for each entry, with the numbers to fill it. */
+/** A texture with four floats per entry, and the numbers to fill it. */
 export interface Table {
   texture: WebGLTexture;
   wide: number;
@@ -35,14 +35,14 @@ export interface Table {
 export class Gl {
   readonly gl: WebGL2RenderingContext;
 
-  /** Throws `noContext` where the context cannot be had. */
+  /** Throws `noContext` if there is no context. */
   constructor(canvas: HTMLCanvasElement, antialias: boolean) {
     const gl = canvas.getContext('webgl2', {antialias, alpha: false, powerPreference: 'low-power'});
     if (!gl) throw noContext;
     this.gl = gl;
   }
 
-  // A context that is lost creates nothing and draws nothing: its nulls are passed on.
+  // A lost context creates nothing and draws nothing: its nulls are passed on.
 
   program(vertex: string, fragment: string, define = ''): Program {
     const gl = this.gl, program = gl.createProgram()!;
@@ -55,7 +55,7 @@ export class Gl {
     }
     ['corner', 'which', 'ends'].forEach((name, i) => gl.bindAttribLocation(program, i, name));
     gl.linkProgram(program);
-    // without this check a mistake is a blank canvas and no message
+    // without this check, an error results in a blank canvas without a message
     if (!gl.getProgramParameter(program, gl.LINK_STATUS) && !gl.isContextLost())
       throw new Error([
         gl.getProgramInfoLog(program), ...(gl.getAttachedShaders(program) ?? []).map(s => gl.getShaderInfoLog(s))
@@ -68,7 +68,7 @@ export class Gl {
     return {program, places};
   }
 
-  /** Makes the program current and sets what it has of these uniforms; textures are bound to units in order. */
+  /** Makes the program current and sets those of the uniforms that it has; binds textures to units in order. */
   use({program, places}: Program, uniforms: Uniforms) {
     const gl = this.gl;
     gl.useProgram(program);
@@ -139,7 +139,7 @@ export class Gl {
     gl.texSubImage2D(gl.TEXTURE_2D, 0, 0, 0, wide, high, gl.RGBA, gl.FLOAT, data);
   }
 
-  /** A row of colours (bytes, four each), read with interpolation. */
+  /** A row of colours (four bytes each), read with interpolation. */
   colours(bytes: Uint8Array) {
     const gl = this.gl, texture = gl.createTexture()!;
     gl.bindTexture(gl.TEXTURE_2D, texture);
@@ -151,7 +151,7 @@ export class Gl {
     return texture;
   }
 
-  /** A depth texture that compares, and the frame that draws into it. */
+  /** A depth texture with comparison, and the framebuffer that draws into it. */
   shadowMap(size: number) {
     const gl = this.gl, texture = gl.createTexture()!, frame = gl.createFramebuffer();
     gl.bindTexture(gl.TEXTURE_2D, texture);

@@ -4,7 +4,7 @@ import {SharedGeometry, StageScene} from './stage';
 import {bytesOf, Packed, unpackedBytes} from './unpack';
 import {Places} from './vectors';
 
-/** A run as report.json has it. */
+/** A run as in report.json. */
 export interface Run {
   step?: number;
   tolerance?: number;
@@ -22,7 +22,7 @@ export interface Run {
   energy?: (number|null)[];  // J
 }
 
-/** The runs of one method; `data`: their bytes in base64, which are decoded once. */
+/** The runs of one method; `data`: their bytes in base64, decoded once. */
 export interface RunFile {
   method: string;
   note?: string;
@@ -31,7 +31,7 @@ export interface RunFile {
   content?: Uint8Array;
 }
 
-/** A scene, or a map's small scene, as stage.cpp describes it. */
+/** A scene, or a map's small scene, as written by stage.cpp. */
 export interface SceneStage {
   scene: string;
   particles: number;
@@ -48,12 +48,12 @@ export interface SceneStage {
   };
   pins: number[];
   spheres: {radius: number, centres: number[][]}[];
-  at?: number;  // s, of the poster
+  at?: number;  // s, time of the poster
   truth?: {name: string, rule: boolean, bar: number, motion: number};
   toml?: string;
 }
 
-/** What is unpacked of a scene once. */
+/** The data of a scene that are unpacked once. */
 export interface Shared {
   triangles: Uint16Array;
   springs: Uint16Array;
@@ -66,7 +66,9 @@ interface RunSet {
   methods: Map<string, RunFile>;
 }
 
-/** The runs of a set of the page: "SCENE-engines", "SCENE-speed-accuracy", "SCENE-truth", a map's; null if none is. */
+/**
+ * The runs of a set of the page: "SCENE-engines", "SCENE-speed-accuracy", "SCENE-truth", or a map's; null without runs.
+ */
 export const runsOf = (() => {
   const known = new Map<string, RunSet|null>();
   return (key: string) => {
@@ -81,7 +83,7 @@ export const runsOf = (() => {
 })();
 
 /**
- * A key as method and place: "mysim/leapfrog 5" is the method's sixth run of the chart, "own" the one at the scene's
+ * A key as method and index: "mysim/leapfrog 5" is the method's sixth run of the chart, "own" the run at the scene's
  * own step.
  */
 export const parts = (key: string) => {
@@ -89,7 +91,7 @@ export const parts = (key: string) => {
   return {method: key.slice(0, at < 0 ? undefined : at), place: at < 0 ? '' : key.slice(at + 1)};
 };
 
-/** The file and the entry of a run; null where the page does not hold it. */
+/** The file and the entry of a run; null if the page does not contain it. */
 export function runOf(scene: {scene: string}, key: string) {
   const {method, place} = parts(key), chosen = key === 'truth' || place === 'own' ? 0 : Number(place);
   const set = key === 'truth' ? 'truth' : place === 'own' ? 'engines' : 'speed-accuracy';
@@ -97,7 +99,7 @@ export function runOf(scene: {scene: string}, key: string) {
   return file && run ? {file, run} : null;
 }
 
-/** All runs of a scene that the page holds: their keys by method, in the order of the steps. */
+/** The keys of all runs of a scene in the page, by method, in the order of the steps. */
 export function keysOf(scene: {scene: string}) {
   const all = new Map<string, string[]>();
   for (const [set, own] of [['engines', true], ['speed-accuracy', false]])
@@ -109,7 +111,7 @@ export function keysOf(scene: {scene: string}) {
   return all;
 }
 
-/** "blew up at 0.31 s" of a run that failed. */
+/** "blew up at 0.31 s" for a failed run. */
 export function failureOf({verdict, failed}: Run, short: (value: number) => string) {
   if (verdict === 'ok' || failed === undefined) return '';
   const words: Record<string, string> = {
@@ -125,7 +127,7 @@ export function failureOf({verdict, failed}: Run, short: (value: number) => stri
 const numbersOf = ({particles}: SceneStage, file: RunFile, {offset, bytes}: Run) =>
     unpackedBytes((file.content ??= bytesOf(file.data)).subarray(offset, offset + bytes), 3 * particles);
 
-/** The motion of a run of a scene; null where the page does not hold it. */
+/** The motion of a run of a scene; null if the page does not contain it. */
 export async function motionOf(scene: SceneStage, key: string) {
   const found = runOf(scene, key);
   if (!found) return null;
@@ -133,7 +135,7 @@ export async function motionOf(scene: SceneStage, key: string) {
   return new Motion(run, key, file.method, scene.particles, await numbersOf(scene, file, run));
 }
 
-/** The last picture of a map's cell, as a motion of one frame; null where there is none. */
+/** The last picture of a map's cell, as a motion of one frame; null if there is none. */
 export async function cellOf(stage: SceneStage, file: RunFile, place: number) {
   const [run] = file.runs, time = run?.times[place] ?? null, wide = 3 * stage.particles;
   if (!run || time === null) return null;
@@ -162,17 +164,17 @@ export class Motion {
 
   get well() { return this.run.verdict === 'ok' || this.run.verdict === undefined; }
 
-  /** The largest error of a particle's place, m: half a unit in each direction. */
+  /** The largest error of a particle's position, m: half a unit in each direction. */
   get bound() { return Math.sqrt(3) / 2 * this.run.unit; }
 
-  /** The frame at a time, with its fraction. */
+  /** The frame at a time, as a fraction. */
   private frameAt(time: number) {
     const {times} = this, t = Math.max(times[0], Math.min(this.end, time));
     const next = Math.max(1, times.findIndex(other => other >= t - 1e-12));
     return times.length < 2 ? 0 : next - 1 + (t - times[next - 1]) / (times[next] - times[next - 1]);
   }
 
-  /** Places at a time, between frames on a straight line; a run that ended earlier stays at its end: coordinates, m. */
+  /** Positions at a time, linear between frames; a run that ended earlier stays at its end. Coordinates, m. */
   placesAt(time: number, into = new Float32Array(3 * this.particles)) {
     const {particles, numbers, run} = this, frame = this.frameAt(time), first = Math.floor(frame), part = frame - first;
     const a = 3 * particles * first, b = part > 0 ? a + 3 * particles : a;
@@ -184,9 +186,9 @@ export class Motion {
   }
 
   /**
-   * Differences of places from those of another motion: coordinates, m. They are taken in the frames of the run that
-   * has fewer, which the other one has as well: between frames a straight line is further off than two good runs
-   * differ.
+   * Differences of positions from those of another motion: coordinates, m. They are evaluated at the frames of the run
+   * with fewer frames, which the other run has, too: between frames, the error of linear interpolation exceeds the
+   * difference of two accurate runs.
    */
   apartAt(time: number, other: Motion, into = new Float32Array(3 * this.particles)) {
     const {times} = this.times.length < other.times.length ? this : other;
@@ -202,14 +204,14 @@ export class Motion {
     return into;
   }
 
-  /** A value of the list of its frames at a time: between two that are there. */
+  /** A value of a per-frame list at a time, interpolated between two known values. */
   valueAt(list: (number|null)[], time: number) {
     const frame = this.frameAt(time), first = Math.floor(frame), a = list[first] ?? null, b = list[first + 1] ?? null;
     return time > this.end + 1e-9 || a === null ? null : b === null ? a : a + (frame - first) * (b - a);
   }
 }
 
-/** Distances of particles from departures, m. */
+/** Distances of particles, m, from differences of coordinates. */
 export const distances = (apart: Float32Array) => {
   const out = new Float32Array(apart.length / 3);
   for (let i = 0; i < out.length; ++i) out[i] = Math.hypot(apart[3 * i], apart[3 * i + 1], apart[3 * i + 2]);
@@ -217,7 +219,7 @@ export const distances = (apart: Float32Array) => {
 };
 export const rms = (values: Float32Array) => Math.sqrt(values.reduce((sum, v) => sum + v * v, 0) / values.length);
 
-/** Mean extension of the springs at each particle, %, without those that shear and bend. */
+/** Mean extension of the springs at each particle, %, without shear and bend springs. */
 export function stretchOf(scene: StageScene, {springs, rests}: SharedGeometry, places: Places) {
   const sum = new Float32Array(scene.particles), count = new Float32Array(scene.particles);
   let s = 0;

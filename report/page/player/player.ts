@@ -1,5 +1,5 @@
-// <motion-player>: the motions of a scene's methods in lock-step. It stands behind the figure with the poster and the
-// scene's data, and puts its canvas over the poster while it is in sight. Without WebGL2 the poster stays alone.
+// <motion-player>: the motions of a scene's methods in lock-step. It follows the figure with the poster and the scene's
+// data, and puts its canvas over the poster while it is visible. Without WebGL2 only the poster is shown.
 
 import {Acts, Controls, inTwo, length, Look, make, roundUp, settingOf, short} from './controls';
 import {Orbit} from './orbit';
@@ -11,31 +11,31 @@ import {lookOf} from './colours';
 import {noContext} from './gl';
 import {unpack} from './unpack';
 
-export const mostStages = 3;  // drawn scenes alive at once: browsers allow few contexts
+export const mostStages = 3;  // scenes drawn at the same time: browsers allow few contexts
 export const alive: MotionPlayer[] = [];
 
 export const stillWanted = matchMedia('(prefers-reduced-motion: reduce)');
 export const dark = matchMedia('(prefers-color-scheme: dark)');
 
-/** Whether this browser can play at all, by what it knows: to start WebGL takes long where it draws in software. */
+/** True if this browser may be able to play, by its features (starting WebGL takes long if it draws in software). */
 export let plays = 'DecompressionStream' in window && 'WebGL2RenderingContext' in window;
 document.documentElement.classList.toggle('plays', plays);
 
-/** Whether WebGL starts, for what is made of several parts that need it. */
+/** True if WebGL starts; for elements with several parts that need it. */
 export function startsWebGl() {
   const gl = document.createElement('canvas').getContext('webgl2');
   gl?.getExtension('WEBGL_lose_context')?.loseContext();
   return Boolean(gl);
 }
 
-/** At its first use WebGL turned out not to start: the posters stay, without controls. */
+/** Called if WebGL does not start at its first use: the posters remain, without controls. */
 function playNothing() {
   plays = false;
   document.documentElement.classList.remove('plays');
   document.querySelector<HTMLDialogElement>('dialog.run')?.close();
 }
 
-/** A scene's stage, as it stands at the end of the page. */
+/** A scene's stage, from the end of the page. */
 const sceneData = (() => {
   const known = new Map<string, SceneStage>();
   return (name: string) => {
@@ -45,7 +45,7 @@ const sceneData = (() => {
   };
 })();
 
-/** Controls of a player that has none: of the first screen, where one clock drives several. */
+/** Dummy controls for the players of the first screen, where one clock drives several. */
 const noControls: Pick<Controls, 'setLook'|'setPlaying'|'setTime'|'setPlots'|'setPicks'|'setHint'> = {
   setLook() {},
   setPlaying() {},
@@ -57,7 +57,7 @@ const noControls: Pick<Controls, 'setLook'|'setPlaying'|'setTime'|'setPlots'|'se
 
 const rmsOf = (metres: Float32Array|null) => metres && rms(metres);
 
-/** A motion's own look, and what it is called. */
+/** A motion with its look and its names. */
 interface PlayerView extends View {
   letter: string;
   method: string;
@@ -67,7 +67,7 @@ interface PlayerView extends View {
 const viewOf = (motion: Motion, letter: string): PlayerView =>
     ({motion, letter, method: motion.method, look: lookOf(motion.method)});
 
-/** The series of a plot that stands for a motion. */
+/** The series of a plot for a motion. */
 const seriesOf = ({motion, letter, look}: PlayerView, list: (number|null)[], dash = ''): Series => ({
   name: letter,
   css: look.css,
@@ -89,8 +89,8 @@ export class MotionPlayer extends HTMLElement {
   time = 0;  // s
   begin = 0;
   end = 0;
-  settled = Infinity;  // s: from then on all motions keep below 2 % of their largest kinetic energy
-  top = 0;             // m, of the scale of differences; 0: none is above the resolution
+  settled = Infinity;  // s: all motions stay below 2 % of their largest kinetic energy from then on
+  top = 0;             // m, of the scale of differences; 0: no difference exceeds the resolution
   seen = false;
   private controls: typeof noControls = noControls;
   private orbit!: Orbit;
@@ -103,7 +103,7 @@ export class MotionPlayer extends HTMLElement {
   private shared?: Promise<Shared>;
   private turn = {};
   private least = 0;  // m: the resolution of differences
-  private bound = 0;  // m: of positions
+  private bound = 0;  // m: error bound of positions
   private untouched = true;
   private speed = 1;
   private pace = 1;
@@ -141,7 +141,7 @@ export class MotionPlayer extends HTMLElement {
     dark.addEventListener('change', () => this.views.length && this.arrange());
   }
 
-  /** Comes into sight or leaves it: plays once, unless reduced motion is preferred, and pauses out of sight. */
+  /** Handles visibility: plays once when visible, unless reduced motion is preferred, and pauses when invisible. */
   private async setSeen(seen: boolean) {
     this.seen = seen;
     if (!seen) {
@@ -149,13 +149,13 @@ export class MotionPlayer extends HTMLElement {
       this.pause();
       return;
     }
-    // with reduced motion the poster stays until a control is used
+    // with reduced motion the poster remains until a control is used
     if (stillWanted.matches && !this.dataset.state) return;
     await this.wake();
     if (this.seen && !stillWanted.matches && !this.dataset.shown && (this.resume ?? true)) this.play();
   }
 
-  /** Unpacks what is shown (once) and opens a stage; one that is out of sight gives way. */
+  /** Unpacks the data (once) and opens a stage; an invisible player may have to release its own. */
   async wake() {
     const shared = this.shared ??=
         Promise.all([this.scene.triangles, this.scene.springs.ends, this.scene.springs.rests].map(unpack))
@@ -193,7 +193,7 @@ export class MotionPlayer extends HTMLElement {
     if (!performance.getEntriesByName('first-motion').length) performance.mark('first-motion');
   }
 
-  /** Gathers the motions that are shown. */
+  /** Loads the motions that are shown. */
   private async load() {
     const keys = this.hero ?? (this.picks ? [this.picks.a, this.picks.b] : []), letters = this.picks ? ['A', 'B'] : [];
     const turn = this.turn = {};
@@ -220,7 +220,7 @@ export class MotionPlayer extends HTMLElement {
     this.dispatchEvent(new Event('picked'));
   }
 
-  /** Lays out views, difference and plots of the motions. */
+  /** Sets up views, difference and plots of the motions. */
   private arrange() {
     const {scene, letters} = this;
     this.views = this.motions.map((motion, i) => viewOf(motion, letters[i] ?? ''));
@@ -233,7 +233,7 @@ export class MotionPlayer extends HTMLElement {
       const apart = times.map(
           t => (t <= Math.min(a.motion.end, b.motion.end) + 1e-9 ? distances(a.motion.apartAt(t, b.motion)) : null));
       const largest = apart.reduce((top, metres) => metres?.reduce((x, y) => Math.max(x, y), top) ?? top, 0);
-      // below the resolution of both runs their difference is none of motion
+      // below the resolution of both runs, their difference is not one of the motions
       this.least = a.motion.bound + b.motion.bound, this.bound = Math.max(a.motion.bound, b.motion.bound);
       this.top = largest > this.least ? roundUp(largest) : 0;
       this.views.push(
@@ -278,7 +278,7 @@ export class MotionPlayer extends HTMLElement {
     if (this.stage) this.showViews();
   }
 
-  /** What has to be said of the two runs. */
+  /** Remarks about the two runs. */
   private words() {
     const said: string[] = [];
     for (const letter of ['a', 'b'] as const) {
@@ -295,7 +295,7 @@ export class MotionPlayer extends HTMLElement {
     return said.join(' ');
   }
 
-  /** What is said where a truth ends before its scene. */
+  /** The end of a truth that ends before its scene. */
   private endOf(method: string, {times}: Run) {
     const end = times[times.length - 1] ?? 0;
     return method === 'truth' && end < this.scene.times[this.scene.times.length - 1] - 1e-9 ?
@@ -303,7 +303,7 @@ export class MotionPlayer extends HTMLElement {
         '';
   }
 
-  /** Puts the views on the stage, their titles over it. */
+  /** Puts the views on the stage, with their titles above. */
   private showViews() {
     this.stage!.show(this.views);
     this.titles.replaceChildren(...this.views.map(view => {
@@ -326,7 +326,7 @@ export class MotionPlayer extends HTMLElement {
     this.setLook({});
   }
 
-  /** Gives its context back; the poster is there again. */
+  /** Releases the context; the poster reappears. */
   sleep() {
     this.pause();
     alive.splice(alive.indexOf(this), 1);
@@ -341,13 +341,13 @@ export class MotionPlayer extends HTMLElement {
     this.wanted = true;
     await this.wake();
     if (this.playing || !this.wanted) return;
-    if (this.untouched || this.time >= this.end) this.seek(this.begin);  // at first the player shows the poster's time
+    if (this.untouched || this.time >= this.end) this.seek(this.begin);  // initially the player shows the poster's time
     this.playing = true;
     this.controls.setPlaying(true);
     let last: number|null = null;
     const tick = (now: number) => {
       if (!this.playing) return;
-      // after a pause of the whole page the motion continues where it was
+      // after a pause of the whole page, the motion continues where it stopped
       const passed = Math.min(0.1, last === null ? 0 : (now - last) / 1000);
       last = now;
       this.seek(this.time + this.speed * this.pace * passed);
@@ -425,14 +425,14 @@ export class MotionPlayer extends HTMLElement {
   }
 }
 
-/** The first screen: its players on one clock, over and over; a still picture where motion is unwanted. */
+/** The first screen: its players on one clock, in a loop; a still picture if motion is unwanted. */
 function runHero(hero: HTMLElement) {
   const players = [...hero.querySelectorAll<MotionPlayer>('motion-player')].filter(player => player.scene);
   const button = hero.querySelector('button')!, slider = hero.querySelector('input')!;
   const clock = hero.querySelector('.clock')!;
   const ends = players.map(player => player.end), end = Math.max(...ends);
   let time = 0, last: number|null = null, playing = false, seen = false;
-  // below each view its error at the time, in place of the largest
+  // below each view its current error, instead of the largest
   const readouts = players.map(player => {
     const spans = [...player.closest('.views')!.nextElementSibling?.querySelectorAll<HTMLElement>('[data-key]') ?? []];
     return spans.map(span => ({span, still: [...span.childNodes]}));
@@ -460,7 +460,7 @@ function runHero(hero: HTMLElement) {
     slider.value = String(1000 * time / end);
     clock.textContent = `${time.toFixed(2)} s, ${pace() < 1 ? '½' : '2'}× speed`;
   };
-  // half speed while something moves, then twice as fast as it happened
+  // half speed while anything moves, then twice real time
   const pace = () => (players.some((player, i) => time < Math.min(ends[i], player.settled)) ? 0.5 : 2);
   const tick = (now: number) => {
     if (!playing || !seen) return void (last = null);
@@ -494,7 +494,7 @@ function runHero(hero: HTMLElement) {
   Promise.all(players.map(player => player.wake())).then(() => plays && set(true));
 }
 
-/** Defines <motion-player>, and plays the scenes of the first screen when the page is there. */
+/** Defines <motion-player>, and plays the scenes of the first screen when the page is loaded. */
 export function startPlayers() {
   customElements.define('motion-player', MotionPlayer);
   document.addEventListener('DOMContentLoaded', () => {

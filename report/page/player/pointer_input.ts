@@ -14,7 +14,7 @@ export const orbitKeys = (orbit: Orbit): Record<string, () => void> => ({
   0: () => orbit.reset()
 });
 
-/** Lets the wheel zoom where the view has the focus, or with Control: elsewhere the page scrolls over it. */
+/** Lets the wheel zoom if the view has the focus, or with Control: otherwise the page scrolls over it. */
 export function attachWheel(layer: HTMLElement, orbit: () => Orbit, changed: () => void) {
   layer.addEventListener('wheel', event => {
     if (!event.ctrlKey && document.activeElement !== layer) return;
@@ -25,8 +25,8 @@ export function attachWheel(layer: HTMLElement, orbit: () => Orbit, changed: () 
 }
 
 /**
- * Calls `changed` after each change of the orbit. A finger that moves up or down scrolls the page; sideways it turns
- * the view.
+ * Calls `changed` after each change of the orbit. A finger that moves up or down scrolls the page; a sideways movement
+ * turns the view.
  */
 export function attachPointerInput(layer: HTMLElement, orbit: Orbit, changed: () => void) {
   layer.addEventListener('pointerdown', event => layer.setPointerCapture(event.pointerId));

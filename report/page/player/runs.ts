@@ -1,5 +1,5 @@
-// A click on a marker of a chart, or on a cell of a map, plays that run in a window over the page; below the figure the
-// same runs stand in a list, for who has no pointer.
+// A click on a marker of a chart, or on a cell of a map, plays that run in a window over the page. A list below the
+// figure offers the same runs to readers without a pointer.
 
 import {labStateOf, labStateOfRun} from '../lab/doors';
 import {openLab} from '../lab/lab';
@@ -9,13 +9,13 @@ import {dropdown, make, short} from './controls';
 import {cellOf, parts, runsOf} from './motion';
 import {MotionPlayer, plays} from './player';
 
-/** What a marker says: whose run it is first. */
+/** The tooltip of a marker, beginning with its method. */
 const tipOf = ({dataset: {run = '', words = ''}}: HTMLElement) => {
   const {method} = parts(run);
   return words.startsWith(method) ? words : `${method}, ${words}`;
 };
 
-/** Opens the window with the run of a marker: beside the truth; of a map's cell the last picture alone. */
+/** Opens the window with the run of a marker, next to the truth; for a map's cell, only its last picture. */
 async function playRun(key: string, marker: HTMLElement) {
   const set = runsOf(key), [head, ...lines] = tipOf(marker).split('\n'), chosen = marker.dataset.run ?? '';
   if (!set) return;
@@ -32,14 +32,14 @@ async function playRun(key: string, marker: HTMLElement) {
   const player = document.createElement('motion-player') as MotionPlayer;
   if (shown && !stage) Object.assign(player.dataset, {scene, a: chosen, b: 'truth'});
   if (shown) {
-    const caption = `The last picture of the run, at ${short(cell?.end ?? 0)} s, or the last in which it is in sight.`;
+    const caption = `The last picture of the run in which it is in view, at ${short(cell?.end ?? 0)} s.`;
     if (cell && stage) player.given = {scene: stage, motion: cell, caption};
     box.append(make('figure', {class: 'render'}, make('div', {class: 'stage'})), player);
   } else {
     box.append(make(
         'p', {class: 'none'},
-        file ? 'It ended before there was a picture of it to show.' :
-               'The runs of this method are too large for the page; the command run plays them.'));
+        file ? 'The run ended before its first picture.' :
+               'The runs of this method are too large for the page; the command below computes them.'));
   }
   const state = labStateOf(key, marker);
   if (state) {
@@ -64,19 +64,19 @@ async function playRun(key: string, marker: HTMLElement) {
   dialog.addEventListener('click', event => event.target === dialog && shut());
   dialog.addEventListener('close', shut);  // by Escape
   dialog.showModal();
-  if (shown) await player.wake();  // also where nothing moves by itself: who clicks wants to see it
+  if (shown) await player.wake();  // even with reduced motion, because the reader clicked to see it
 }
 
 /**
- * Below a figure the choice of one of its runs: by method, on a map by row, by what the run was asked; made when it is
- * opened first.
+ * The list of runs below a figure: by method, by row on a map, and by setting. It is built when it is opened for the
+ * first time.
  */
 export function listRuns(figure: HTMLElement) {
   if (!plays) return;
   const list = make('details', {class: 'run-list'}, make('summary', {}, 'Play a run'));
   list.addEventListener('toggle', () => {
     const markers = [...figure.querySelectorAll<HTMLElement>('[data-run]')];
-    if (list.querySelector('select') || markers.length === 0) return;  // a figure is drawn when it comes into sight
+    if (list.querySelector('select') || markers.length === 0) return;  // a figure is drawn when it becomes visible
     const ways = markers.map(marker => {
       const {method} = parts(marker.dataset.run!), [head, outcome = ''] = tipOf(marker).split('\n');
       const [asked, ...row] = head.replace(`${method}, `, '').split(', ');

@@ -1,4 +1,4 @@
-// GLSL: where things are, and how light falls on them. Light is linear; one key light with a shadow map, and a sky.
+// GLSL: positions of bodies, and their lighting. Light is linear; one key light with a shadow map, and a sky.
 
 export const header = `#version 300 es
 precision highp float;
@@ -9,8 +9,8 @@ precision highp sampler2DShadow;
 
 export const vertexCommon = `
 uniform mat4 to_clip;
-uniform vec3 eye;          // the light's own, far away, where shadows are drawn
-uniform sampler2D points;  // place of each particle (m), and its value: 0 to 1, negative for none
+uniform vec3 eye;          // the light's position, far away, when shadows are drawn
+uniform sampler2D points;  // position of each particle (m), and its value: 0 to 1, or negative for none
 out vec3 place, normal;
 out float value;
 vec4 point(int i) {
@@ -21,7 +21,7 @@ vec4 point(int i) {
 
 export const clothVertex = `
 uniform sampler2D normals;
-uniform float nearer;  // lifts threads off the surface, part of the depth
+uniform float nearer;  // lifts threads off the surface, as a part of the depth
 void main() {
   vec4 p = point(gl_VertexID);
   int wide = textureSize(points, 0).x;
@@ -66,7 +66,7 @@ void main() {
 `;
 
 export const floorVertex = `
-uniform vec3 floor_at, floor_u, floor_v;  // middle and half the edges, m
+uniform vec3 floor_at, floor_u, floor_v;  // centre and half edges, m
 in vec2 corner;
 void main() {
   place = floor_at + corner.x * floor_u + corner.y * floor_v, normal = vec3(0, 1, 0), value = -1.0;
@@ -78,21 +78,21 @@ export const fragmentCommon = `
 uniform vec3 eye, key;
 uniform mat4 to_key;
 uniform sampler2DShadow key_map;
-uniform float lift;      // m, off the surface before it is looked up
-uniform float shadowed;  // 0 where nothing casts a shadow
-uniform float taps;      // at most 12: places at which the shadow is looked up
+uniform float lift;      // m, offset from the surface for the shadow look-up
+uniform float shadowed;  // 0 if nothing casts a shadow
+uniform float taps;      // at most 12: number of shadow look-ups
 in vec3 place, normal;
 in float value;
 out vec4 result;
 vec3 linear(vec3 srgb) { return pow(srgb, vec3(2.2)); }
 vec4 shown(vec3 light) { return vec4(pow(light, vec3(1.0 / 2.2)), 1); }
 
-// part of the key light that arrives: places in a spiral, turned from pixel to pixel
+// part of the key light that arrives: samples on a spiral, rotated from pixel to pixel
 float lit(vec3 p, float spread) {
   if (shadowed < 0.5) return 1.0;
   vec3 q = (to_key * vec4(p, 1)).xyz * 0.5 + 0.5;
   if (any(lessThan(q.xy, vec2(0))) || any(greaterThan(q.xy, vec2(1)))) return 1.0;
-  q.z = min(q.z, 1.0);  // the ground lies behind all that casts shadows
+  q.z = min(q.z, 1.0);  // the ground is behind everything that casts shadows
   float turn = 6.2832 * fract(52.98 * fract(dot(gl_FragCoord.xy, vec2(0.0671, 0.00584)))), sum = 0.0;
   for (int i = 0; i < 12; ++i) {
     if (float(i) >= taps) break;
@@ -121,7 +121,7 @@ vec3 colour_of(vec3 own) {
 }
 `;
 
-// a method's own tint goes from dark to light with the light that falls on it
+// a method's own tint goes from dark to light with the incident light
 export const clothFragment = coloured + `
 uniform vec3 ramp[3];
 void main() {
@@ -165,15 +165,15 @@ void main() {
 }
 `;
 
-// the ground is the background, darkened where it loses light: without shadow it cannot be seen; a slope is tinted
+// the ground is the background, darkened where it loses light: without shadow it is invisible; a slope is tinted
 export const floorFragment = `
 uniform vec3 background, floor_at;
-uniform vec4 panel;         // its lower left corner and size, pixels
-uniform float reach, tint;  // half the width, m; by what a slope is darker than the background
+uniform vec4 panel;         // lower left corner and size, pixels
+uniform float reach, tint;  // half the width, m; amount by which a slope is darker than the background
 void main() {
   float away = length(place - floor_at) / reach;
   vec2 in_panel = (gl_FragCoord.xy - panel.xy) / panel.zw, border = min(in_panel, 1.0 - in_panel);
-  vec2 fade = smoothstep(vec2(0), vec2(0.07), border);  // before the next panel begins
+  vec2 fade = smoothstep(vec2(0), vec2(0.07), border);  // fades before the next panel begins
   float lost = (1.0 - lit(place, 0.04)) * (1.0 - smoothstep(0.5, 1.0, away)) * fade.x * fade.y;
   result = vec4(background * (1.0 - 0.3 * lost - tint), 1);
 }

@@ -1,4 +1,4 @@
-// Draws the methods of one scene side by side, seen by one camera, into one canvas.
+// Draws the methods of one scene side by side, with one camera, into one canvas.
 
 import {Bounds, boundsOf, footOf} from './bounds';
 import {heat, Look, palette, purple, rgb, scaleBytes} from './colours';
@@ -9,16 +9,16 @@ import {ballVertex, clothFragment, clothVertex, floorFragment, floorVertex, frag
 import {ShapeName, shapesOf} from './shapes';
 import {cross, dot, lightMatrix, minus, Numbers, placeOf, Places, plus, sumNormals, unit, Vec3} from './vectors';
 
-/** A scene as it is drawn. */
+/** A scene as the stage draws it. */
 export interface StageScene {
   scene: string;
   particles: number;
   times: number[];  // s, of its frames
   from: Numbers;    // direction of the viewer
   floor: number|null;
-  triangles: unknown;  // null or false where there is no cloth
+  triangles: unknown;  // null or false without a cloth
   pins: number[];
-  /** Families in the order of the springs; `threads`: springs that are drawn on a cloth, the first ones. */
+  /** Families in the order of the springs; `threads`: number of springs drawn on a cloth, which come first. */
   springs: {families: {name: string, count: number}[], threads: number, rest_unit: number};
   spheres: {radius: number, centres: Numbers[]}[];  // centres at even times
   planes?: PlaneFace[];
@@ -28,7 +28,7 @@ export interface PlaneFace {
   point: Numbers;
   normal: Numbers;
 }
-/** Floors are the ground; walls and ceilings would hide what they enclose and are left out. */
+/** Floors are the ground; walls and ceilings would hide their interior and are omitted. */
 export const isFloor = ({normal}: PlaneFace) => normal[1] > 1 - 1e-9;
 const isSlope = (plane: PlaneFace) => plane.normal[1] > 0.1 && !isFloor(plane);
 export interface SharedGeometry {
@@ -37,14 +37,14 @@ export interface SharedGeometry {
   rests: Numbers;        // rest lengths, in `rest_unit`
 }
 
-/** What stands in one panel. */
+/** Contents of one panel. */
 export interface Panel {
   look: Pick<Look, 'plain'|'ramp'>;
-  points: Table;        // place and value of each particle
+  points: Table;        // position and value of each particle
   normals: Table|null;  // cloth only
   scale: 'heat'|'apart';
 }
-/** Colouring: by the method, or by a value up to `top`; `from`: the motion that distances are measured from. */
+/** Colouring: by method, or by a value up to `top`; `from`: the motion from which distances are measured. */
 export interface Colouring {
   name: string;
   top: number;
@@ -58,14 +58,14 @@ export interface Shown {
   background: number[];
   title: number;  // CSS pixels that stay free above each panel
 }
-/** Part of the canvas that a panel takes, and its title with it. */
+/** The part of the canvas that a panel occupies, including its title. */
 export interface PanelPlace {
   left: number;
   top: number;
   wide: number;
   high: number;
 }
-/** A panel as it is drawn now. */
+/** A panel at the moment of drawing. */
 export interface PanelView<P> {
   panel: P;
   time: number;
@@ -77,10 +77,10 @@ export interface PanelView<P> {
   pixel: number;         // m
   valued: boolean;
   surface: boolean;
-  ghost: boolean;  // drawn over the panel before it
+  ghost: boolean;  // drawn over the previous panel
 }
 
-/** Panels in rows and columns so that the smaller side of each picture is as long as can be; `title` is above each. */
+/** Rows and columns of panels that maximise the smaller side of each picture; `title` is above each. */
 export function gridOf(count: number, wide: number, high: number, title: number) {
   let best = {columns: 1, least: 0};
   for (let columns = 1; columns <= count; ++columns) {
@@ -92,7 +92,7 @@ export function gridOf(count: number, wide: number, high: number, title: number)
 
 export type BodyPrograms = Record<'cloth'|'ball'|'rod', Program>;
 
-/** Programs, shapes and light of a scene; classes derived from it know where its particles are. */
+/** Programs, shapes and light of a scene; derived classes know the positions of its particles. */
 export class BaseStage<P extends Panel> {
   panels: P[] = [];
   protected readonly tools: Gl;
@@ -104,7 +104,7 @@ export class BaseStage<P extends Panel> {
   protected readonly triangles: Uint16Array;
   protected bounds: Bounds;
 
-  /** `coarse`: drawn for speed, with edges and shadows less smooth. */
+  /** `coarse`: drawn for speed, with less smooth edges and shadows. */
   constructor(
       readonly canvas: HTMLCanvasElement, readonly scene: StageScene, readonly shared: SharedGeometry,
       readonly coarse = false) {
@@ -129,10 +129,10 @@ export class BaseStage<P extends Panel> {
     gl.blendFunc(gl.SRC_ALPHA, gl.ONE_MINUS_SRC_ALPHA);
   }
 
-  /** Length of the diagonal of what is in view, m. */
+  /** Length of the diagonal of the visible bounds, m. */
   get size() { return this.bounds.size; }
 
-  /** Gives the context back. */
+  /** Releases the context. */
   release() { this.tools.gl.getExtension('WEBGL_lose_context')?.loseContext(); }
 
   protected dropTables(...tables: (Table|null)[]) {
@@ -140,7 +140,7 @@ export class BaseStage<P extends Panel> {
       if (table) this.tools.gl.deleteTexture(table.texture);
   }
 
-  /** Writes places and values (0 to 1 of `top`, none where there is no list) of a panel's particles. */
+  /** Writes positions and values (0 to 1 of `top`; none without a list) of a panel's particles. */
   protected fill({points, normals}: P, places: Numbers, values: Numbers|null, top: number) {
     const into = points.data;
     for (let i = 0; i < this.scene.particles; ++i) {
@@ -154,9 +154,9 @@ export class BaseStage<P extends Panel> {
   }
 
   /**
-   * Draws the panels in a grid, or over one another; `fitted` may hold the camera back, `prepare` writes a panel's
-   * places and says whether they have values. Returns the panels' places, pictures without titles in CSS pixels, and
-   * the camera.
+   * Draws the panels in a grid, or over one another; `fitted` may limit the camera, `prepare` writes a panel's
+   * positions and returns whether they have values. Returns the panels' places (pictures without titles, CSS pixels)
+   * and the camera.
    */
   protected drawPanels(
       {time, springs, orbit, background, title}: Omit<Shown, 'colour'>, over: boolean, fitted: (fit: Fit) => Fit,
@@ -252,7 +252,7 @@ export class BaseStage<P extends Panel> {
     };
   }
 
-  /** Cloth or springs, beads, pins, path and obstacles, with the programs given. */
+  /** Cloth or springs, beads, pins, path and obstacles, with these programs. */
   protected drawBodies(programs: BodyPrograms, view: PanelView<P>, light: Uniforms) {
     const {gl} = this.tools, {tools, scene, shapes} = this, {pixel} = view, lit = programs === this.programs;
     const all = this.uniformsOf(view, light), many = scene.particles > 60;
@@ -289,10 +289,10 @@ export class BaseStage<P extends Panel> {
     }
   }
 
-  /** The way that a particle has gone. */
+  /** Draws the path of a particle. */
   protected drawPath(_view: PanelView<P>, _all: Uniforms) {}
 
-  /** Frame of the scene at a time, with its fraction. */
+  /** Frame of the scene at a time, as a fraction. */
   protected frame(time: number) {
     const {times} = this.scene, last = times.length - 1;
     return last > 0 ? last * Math.min(1, time / times[last]) : 0;
@@ -309,7 +309,7 @@ export class BaseStage<P extends Panel> {
   }
 }
 
-/** A stored run to be shown; with `other` its difference from that run in colours up to `top` (m). */
+/** A stored run to be shown; with `other`, its difference from that run in colours up to `top` (m). */
 export interface View {
   motion: Motion;
   look: Pick<Look, 'plain'|'ramp'>;
@@ -320,7 +320,7 @@ type MotionPanel = Panel&View&{path: Table | null};
 
 /** The stage of stored runs. */
 export class Stage extends BaseStage<MotionPanel> {
-  /** Sets the runs that stand side by side. */
+  /** Sets the runs that are shown side by side. */
   show(views: View[]) {
     const {tools, scene} = this, cloth = this.triangles.length > 0, n = scene.particles, {times} = scene;
     for (const {points, normals, path} of this.panels) this.dropTables(points, normals, path);

@@ -1,9 +1,9 @@
-// Numbers from their packed form (report/CONTRACT.md): gzip, low and high bytes apart, zigzag, differences of rows.
+// Unpacks numbers (report/CONTRACT.md): gzip, separate low and high bytes, zigzag, differences of rows.
 
 // missing in the types of older compilers
 declare const DecompressionStream: new (format: string) => ReadableWritablePair<Uint8Array, Uint8Array>;
 
-/** Rows of whole numbers; `data`: base64. */
+/** Rows of integers; `data`: base64. */
 export interface Packed {
   count: number;
   columns: number;
@@ -22,7 +22,7 @@ const inflatedBytes = (bytes: Uint8Array) =>
     new Response(new Blob([bytes]).stream().pipeThrough(new DecompressionStream('gzip')));
 export const inflated = (base64: string) => inflatedBytes(bytesOf(base64));
 
-/** The numbers of bytes of gzip; sums wrap as the differences did. */
+/** Unpacks numbers from bytes of gzip; sums wrap as the differences did. */
 export async function unpackedBytes(bytes: Uint8Array, columns: number) {
   const planes = new Uint8Array(await inflatedBytes(bytes).arrayBuffer()), count = planes.length / 2;
   const values = new Uint16Array(count);

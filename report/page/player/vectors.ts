@@ -18,7 +18,7 @@ export const unit = (a: Numbers) => plus([0, 0, 0], 1 / (norm(a) || 1), a);
 export const placeOf = (places: Numbers, particle: number):
     Vec3 => [places[3 * particle], places[3 * particle + 1], places[3 * particle + 2]];
 
-/** Rigid motion that puts the eye at the origin, the axes along x, y and z. */
+/** Rigid motion that puts the eye at the origin, with the axes along x, y and z. */
 export function toEye([right, up, back]: Numbers[], eye: Numbers) {
   return [
     right[0], up[0], back[0], 0, right[1], up[1], back[1], 0, right[2], up[2], back[2], 0, -dot(right, eye),
@@ -43,7 +43,7 @@ export function perspective(tangent: number, aspect: number, near: number, far: 
   ];
 }
 
-/** Sums of the triangles' normals at each corner, as long as twice their areas; `stride` numbers for each point. */
+/** Sums of the triangles' normals at each corner, with length twice their areas; `stride` numbers per point. */
 export function sumNormals(places: Numbers, triangles: Numbers, sums: Float32Array|Float64Array, stride: number) {
   sums.fill(0);
   for (let t = 0; t < triangles.length; t += 3) {
@@ -58,7 +58,7 @@ export function sumNormals(places: Numbers, triangles: Numbers, sums: Float32Arr
   }
 }
 
-/** Clip space of a light far away: a box that holds the ball around `centre`. */
+/** Clip space of a distant light: a box that contains the ball around `centre`. */
 export function lightMatrix(direction: Numbers, centre: Numbers, radius: number) {
   const right = unit(cross(Math.abs(direction[1]) > 0.99 ? [1, 0, 0] : [0, 1, 0], direction));
   const up = cross(direction, right);
