@@ -117,7 +117,7 @@ void main() {
 }
 
 #elif defined(GROUND)
-// the ground is the background, darkened by what it loses of the light: without shadow it cannot be seen
+// the ground is the background, darkened where it loses light: without shadow it is invisible
 uniform vec3 background;
 uniform float unoccluded;  // mean light on the open ground
 uniform vec4 ground;

@@ -1,4 +1,4 @@
-// mysim in the page: the WebAssembly module, one instance of it for each scene and run (module.cpp is its other side).
+// mysim in the page: the WebAssembly module, with one instance per scene and run (module.cpp is its counterpart).
 
 import {inflated} from '../player/unpack';
 import {Vec3} from '../player/vectors';
@@ -7,7 +7,7 @@ import {Start, withMethod, withStart} from './scene_text';
 
 type FaultKind = 'input'|'unsupported'|'solver'|'fault';
 
-/** What the engine refused, in its own words. */
+/** An error of the engine, with its message. */
 export class LabError extends Error {
   constructor(readonly kind: FaultKind, message: string) { super(message); }
 }
@@ -28,7 +28,7 @@ interface Outcome {
   steps: number;
 }
 
-/** Single numbers and words of a scene. */
+/** Scalar properties of a scene. */
 interface SceneHead {
   duration: number;  // s
   samples: number;
@@ -57,7 +57,7 @@ export interface EngineScene extends SceneHead {
 /** Number of spheres and planes. */
 export const solidsOf = ({spheres, planes}: EngineScene) => spheres.length + planes.length;
 
-/** Energies now, losses and work since the start, J. */
+/** Current energies, and losses and work since the start, J. */
 export interface Energies {
   kinetic: number;
   elastic: number;
@@ -78,7 +78,7 @@ export interface RunSettings {
 type Call = (...values: number[]) => number;
 type Calls = Record<string, Call>&{memory: WebAssembly.Memory, _initialize: () => void};
 
-/** The module of the page, compiled at the first call; null where there is none, or where the browser runs none. */
+/** The page's module, compiled at the first call; null if there is none, or if the browser does not support it. */
 export const labModule = (() => {
   let compiled: Promise<Lab|null>|undefined;
   const compile = async () => {
@@ -87,7 +87,7 @@ export const labModule = (() => {
     try {
       return new Lab(await WebAssembly.compile(await inflated(JSON.parse(packed.textContent)).arrayBuffer()));
     } catch {
-      return null;  // no SIMD, or WebAssembly is switched off
+      return null;  // no SIMD, or WebAssembly is disabled
     }
   };
   return () => (compiled ??= compile());
@@ -98,7 +98,7 @@ class Instance {
   readonly calls: Calls;
 
   constructor(module: WebAssembly.Module) {
-    // the runtime's files: nothing is ever read or written, and nothing needs the rest
+    // the runtime's file functions are dummies: nothing is ever read or written
     const none = () => 0, files = new Proxy({}, {get: () => none});
     const page = {
       fail: (kind: number, message: number) => {
@@ -111,19 +111,19 @@ class Instance {
     this.calls._initialize();
   }
 
-  /** The text that ends with a zero byte at a place of the memory. */
+  /** The zero-terminated text at a position in memory. */
   text(at: number) {
     const bytes = new Uint8Array(this.calls.memory.buffer, at);
     return new TextDecoder().decode(bytes.subarray(0, bytes.indexOf(0)));
   }
 
-  /** Hands a text in, for the next call. */
+  /** Writes a text into the buffer, for the next call. */
   give(text: string) {
     const bytes = new TextEncoder().encode(text), at = this.calls.text_buffer(bytes.length);  // may grow the memory
     new Uint8Array(this.calls.memory.buffer, at, bytes.length).set(bytes);
   }
 
-  // Places are asked for before the memory is: a call may grow it, and its old buffer is then empty.
+  // Get the pointer before the buffer: a call may grow the memory, which detaches the old buffer.
   doubles(at: number, count: number) { return new Float64Array(this.calls.memory.buffer, at, count); }
   integers(at: number, count: number) { return new Int32Array(this.calls.memory.buffer, at, count); }
 }
@@ -136,26 +136,26 @@ export class Lab {
     this.steppers = JSON.parse(instance.text(instance.calls.steppers()));
   }
 
-  /** The stepper of a method, "implicit-euler+linear". */
+  /** The stepper of a method such as "implicit-euler+linear". */
   stepperOf(method: string) {
     const [name] = method.split('+');
     return this.steppers.find(stepper => stepper.name === name);
   }
 
-  /** The scene of a TOML text, ready to be run. Throws LabError where it is not read. */
+  /** Opens the scene in a TOML text. Throws LabError if it cannot be read. */
   open(toml: string) { return new Simulation(this, toml); }
 }
 
 const growthBudget = 50;  // ms
 
-/** Arrows with the longest of them 1; null where there is none. */
+/** Arrows scaled so that the longest is 1; null if all are zero. */
 function longestOne(arrows: Float64Array) {
   let most = 0;
   for (let i = 0; i < arrows.length; i += 3) most = Math.max(most, Math.hypot(arrows[i], arrows[i + 1], arrows[i + 2]));
   return most > 0 && Number.isFinite(most) ? arrows.map(part => part / most) : null;
 }
 
-/** A scene and one run of it. After an error that is not the scene's or a setting's the simulation is broken. */
+/** A scene and one run of it. After an error that is not caused by the scene or a setting, the simulation is broken. */
 export class Simulation {
   readonly scene: EngineScene;
   byHand = false;
@@ -191,7 +191,7 @@ export class Simulation {
     };
   }
 
-  /** Calls the engine. What it throws has ended the instance. */
+  /** Calls the engine. An exception ends the instance. */
   call(name: string, ...values: number[]): number {
     if (this.broken) throw new LabError('fault', 'the run has ended');
     try {
@@ -203,13 +203,10 @@ export class Simulation {
     }
   }
 
-  /** The fastest vibration at the start, rad/s; 0 where nothing vibrates. Computed when it is first asked for. */
+  /** The fastest vibration in the initial state, rad/s; 0 if nothing vibrates. Computed at the first access. */
   get omega() { return (this.fastest ??= this.call('omega')); }
 
-  /**
-   * The predicted critical step of a stepper, s: 0 where no step is stable, Infinity where all are, null where it
-   * cannot be told.
-   */
+  /** The predicted critical step of a stepper, s: 0 if no step is stable, Infinity if all are, null if unknown. */
   limit(rule: string) {
     const row = this.lab.steppers.indexOf(this.lab.stepperOf(rule)!);
     if (row < 0) return null;
@@ -219,8 +216,8 @@ export class Simulation {
   }
 
   /**
-   * Begins a run at the scene's start. Without `observe` losses and work are not added up, which large scenes are
-   * faster without. Throws LabError where the rule does not take the scene.
+   * Starts a run in the scene's initial state. Without `observe`, losses and work are not accumulated, which is faster
+   * for large scenes. Throws LabError if the rule does not support the scene.
    */
   start(
       {stepper, options = '', step = this.scene.step, tolerance = 1e-6, duration = this.scene.duration, observe = true}:
@@ -233,10 +230,10 @@ export class Simulation {
     this.remember();
   }
 
-  /** Steps until the time t (s), or so many ms of computing have passed. True while the run goes on. */
+  /** Steps until the time t (s), or for at most `budget` ms of computing. Returns true while the run goes on. */
   advance(t: number, budget = Infinity) {
     const until = performance.now() + budget;
-    let most = 1;  // steps between two looks at the clock
+    let most = 1;  // steps between two readings of the clock
     try {
       while (this.going && this.t < t - 1e-9 * this.run.step) {
         const begin = performance.now();
@@ -255,13 +252,13 @@ export class Simulation {
     return this.going;
   }
 
-  /** Keeps the state, for when the next is not finite. */
+  /** Saves the state, in case the next one is not finite. */
   private remember() {
     this.outcome = null;
     this.last = {positions: this.positions.slice(), velocities: this.velocities.slice(), t: this.t};
   }
 
-  /** What the run has come to. */
+  /** The outcome of the run so far. */
   private get result(): Outcome {
     return this.failure ?? (this.outcome ??= JSON.parse(this.instance.text(this.call('outcome'))) as Outcome);
   }
@@ -281,13 +278,13 @@ export class Simulation {
                          this.instance.doubles(this.call('velocities'), 3 * this.scene.particles);
   }
 
-  /** Centres of the spheres at a time, m. */
+  /** Centres of the spheres at a time (s), m. */
   centres(t: number) {
     const count = 3 * this.scene.spheres.length;
     return this.broken ? new Float64Array(count) : this.instance.doubles(this.call('centres', t), count).slice();
   }
 
-  /** Energies and their balance (losses and work added up); null in first-order scenes. */
+  /** Energies and their balance (accumulated losses and work); null for first-order scenes. */
   get energy(): Energies|null {
     const at = this.broken ? 0 : this.call('energies');
     if (!at) return null;
@@ -296,8 +293,8 @@ export class Simulation {
   }
 
   /**
-   * The mode that grows in a run that failed, its longest arrow 1. A run that failed late is not run once more, as no
-   * frame may take that long: its last finite velocities stand for the mode.
+   * The growing mode of a failed run, with its longest arrow 1. A run that failed late is not repeated, because that
+   * would delay a frame for too long: its last finite velocities replace the mode.
    */
   get growth() {
     if (this.going || this.verdict === 'ok' || this.scene.firstOrder) return null;
@@ -307,9 +304,9 @@ export class Simulation {
   }
 
   /**
-   * Growing mode of a copy of this run: the change of velocities in one step, taken before any particle moves by more
-   * than a tenth of the shortest spring per step (later the growth is no longer linear), and the positions at that
-   * time. The mode is null if the search exceeds the budget (ms).
+   * Growing mode of a copy of this run: the change of velocities in one step, and the positions at that time. It is
+   * taken before any particle moves by more than a tenth of the shortest spring per step; later the growth is no longer
+   * linear. The mode is null if the search exceeds the budget (ms).
    */
   growingMode(budget = Infinity) {
     const until = performance.now() + budget;
@@ -332,10 +329,10 @@ export class Simulation {
     return {mode: mode && longestOne(mode), places};
   }
 
-  /** 16 hexadecimal digits over the bits of positions and velocities. */
+  /** 16 hexadecimal digits, a hash of the bits of positions and velocities. */
   fingerprint() { return this.instance.text(this.call('fingerprint')); }
 
-  // By hand: the present state becomes the start of another scene, and the run goes on from there.
+  // Changes by hand: the present state becomes the initial state of another scene, and the run continues from there.
 
   hold(particle: number, [x, y, z]: Vec3) { this.change('hold', particle, x, y, z); }
   release() { this.change('release'); }
@@ -354,7 +351,7 @@ export class Simulation {
   }
 
   /**
-   * The scene as it is now, with this run's method and step as its own; changes by hand are in [start]. A run of it by
+   * The scene as it is now, with this run's method and step as its own; changes by hand are in [start]. Running it on
    * the command line gives the same bits.
    */
   sceneText() {

@@ -1,5 +1,5 @@
-// The guided experiments: the lab's state in each step, when the step is done, and the numbers of its reason. Words are
-// in words/ under EXPERIMENT.STEP.*; all numbers of results are read from the lab.
+// The guided experiments: the lab's state in each step, the condition that completes the step, and the numbers of its
+// explanation. Texts are in words/ under EXPERIMENT.STEP.*; all numbers of results are read from the lab.
 
 import {Places} from '../player/vectors';
 
@@ -7,38 +7,38 @@ import {Energies, Simulation} from './engine';
 import {msText} from './knobs';
 import {Changes, MethodSpec} from './scene_text';
 
-/** A run of the lab now. */
+/** The current state of a run of the lab. */
 interface RunReading {
   method: string;
   step: number;   // s
-  limit: number;  // predicted critical step, s; 0 where none is known
+  limit: number;  // predicted critical step, s; 0 if unknown
   t: number;      // s
   steps: number;
   ended: boolean;
   failed: boolean;
   energy: Energies|null;
-  gain: number;     // energy since the start that nothing explains, J; NaN where none is known
-  x: Float64Array;  // places, m
+  gain: number;     // energy since the start without a source, J; NaN if unknown
+  x: Float64Array;  // positions, m
   sim: Simulation;
 }
 
-/** The lab now. */
+/** The current state of the lab. */
 export interface Reading {
   scene: string;
   toml: string;
-  run: RunReading;  // the first one
+  run: RunReading;  // the first run
   runs: RunReading[];
   t: number;         // s
   duration: number;  // s
   omega: number;     // rad/s
   particles: number;
-  columns: number;  // particles along a cloth; 0 elsewhere
+  columns: number;  // particles along a cloth; 0 for other scenes
   rows: number;
   at(path: string): number;
   vector(path: string): number[];
 }
 
-/** The lab as it was beside the question. */
+/** The state of the lab next to the question. */
 export interface Before {
   limit: number;
   omega: number;
@@ -52,14 +52,14 @@ export interface Before {
 }
 
 type Memory = Record<string, number>;
-/** What was seen in a step: before the guess, in all runs, and in the present run. */
+/** Observations in a step: before the guess, in all runs, and in the present run. */
 export interface Seen {
   before: Before;
   all: Memory;
   run: Memory;
 }
 
-/** A state of the lab: numbers in the scene's own text, a further edit of it, the camera. */
+/** A state of the lab: changed numbers in the scene's own text, a further edit of it, the camera. */
 export interface GuideState {
   scene: string;
   numbers: Changes;
@@ -75,17 +75,17 @@ export interface GuideStep {
   name: string;
   choices?: string[];
   right?: string;
-  guess?: {unit: string, within: number, read: (r: Reading) => number};  // a number in place of choices
-  start: GuideState;                                                     // beside the question
+  guess?: {unit: string, within: number, read: (r: Reading) => number};  // a number instead of choices
+  start: GuideState;                                                     // next to the question
   then?: Wanted;                                                         // after the guess; default: start
-  acts?: Wanted[];  // do the task for the reader, each run until it ends or is `enough`
+  acts?: Wanted[];  // states that do the task for the reader; each runs until it ends or is `enough`
   enough?: (r: Reading) => boolean;
-  watch?: (r: Reading, seen: Seen) => void;  // keeps what matters of each reading
+  watch?: (r: Reading, seen: Seen) => void;  // records the relevant parts of each reading
   done: (r: Reading, seen: Seen) => boolean;
-  // numbers in its words, besides those that all words may name
+  // numbers in its texts, in addition to those available to all texts
   shown?: (before: Before) => Values;           // in question and task
-  values?: (r: Reading, seen: Seen) => Values;  // in the reason
-  arrows?: (r: Reading) => Mode;                // a motion that the lab shows in the end
+  values?: (r: Reading, seen: Seen) => Values;  // in the explanation
+  arrows?: (r: Reading) => Mode;                // a motion that the lab shows at the end
 }
 
 export interface GuideExperiment {
@@ -94,7 +94,7 @@ export interface GuideExperiment {
   steps: GuideStep[];
 }
 
-/** A growing motion, the places that it is seen at, and how long its longest arrow is, m. */
+/** A growing motion, the positions at which it is drawn, and the length of its longest arrow, m. */
 export interface Mode {
   mode: Float64Array;
   places: Float64Array;
@@ -112,7 +112,7 @@ export const centreOf = (x: Places) => [0, 1, 2].map(k => {
   return 3 * sum / x.length;
 });
 
-/** The sharpest fold along the rows and columns of a cloth, degrees: 0 where it is flat. */
+/** The sharpest fold along the rows and columns of a cloth, degrees: 0 if it is flat. */
 function sharpestFold(x: Places, columns: number, rows: number) {
   let least = 1;
   const fold = (p: number, q: number, r: number) => {
@@ -132,7 +132,7 @@ function sharpestFold(x: Places, columns: number, rows: number) {
   return Math.acos(Math.max(-1, least)) * 180 / Math.PI;
 }
 
-/** Share of the pairs of particles two cells apart that move against each other, weighted by how much they move. */
+/** Share of the pairs of particles two cells apart that move against each other, weighted by their motion. */
 function opposedPart(mode: Float64Array, columns: number, rows: number) {
   let against = 0, all = 0;
   const pair = (p: number, q: number) => {
@@ -148,7 +148,7 @@ function opposedPart(mode: Float64Array, columns: number, rows: number) {
   return against / all;
 }
 
-/** Factor by which leapfrog multiplies a vibration in a step of h omega = a; 1 up to 2. */
+/** Factor by which leapfrog multiplies a vibration in a step with h omega = a; 1 for a up to 2. */
 const leapfrogFactor = (a: number) => (a <= 2 ? 1 : (a / 2 + Math.sqrt(a * a / 4 - 1)) ** 2);
 /** Factor by which RK4 multiplies a radius. */
 const rk4Factor = (a: number) => Math.sqrt(1 - a ** 6 / 72 + a ** 8 / 576);
@@ -160,7 +160,7 @@ const degrees = (value: number) => String(Math.round(value));
 
 // Readings
 
-/** Whether a run of this method, or of any, came to its end. */
+/** True if a run of this method, or of any method, reached its end. */
 const finished = (run: RunReading|undefined, method = run?.method) =>
     Boolean(run?.ended && !run.failed && run.method === method);
 const holds = (run: RunReading, time: number) => !run.failed && run.t >= time;
@@ -170,10 +170,10 @@ const farthest = (seen: Memory, name: string, value: number) => {
 const nearest = (seen: Memory, name: string, value: number) => {
   if (Number.isFinite(value)) seen[name] = Math.min(seen[name] ?? Infinity, value);
 };
-/** Distance of the first particle from where it started, m. */
+/** Distance of the first particle from its initial position, m. */
 const movedBy = (r: Reading, {x}: RunReading) => Math.hypot(...r.vector('particle.position').map((c, k) => x[k] - c));
 
-// States: a scene with other numbers and the methods in it. With one sample any step may be taken.
+// States: a scene with other numbers, and the methods in it. With a single sample, any step is possible.
 
 type Row = [method: string, step: number];
 const state = (scene: string, numbers: Changes, ...methods: Row[]): GuideState =>
@@ -182,9 +182,9 @@ const circle = (numbers: Changes, ...methods: Row[]) => ({...state('circle', num
 const pendulum = (...method: Row) => state('pendulum', {'time.samples': 200}, method);
 const hangingCloth = (step: number, numbers: Changes = {}) => state('cloth-hang', numbers, ['leapfrog', step]);
 const heavyCloth = (step: number, {mass}: Before) => hangingCloth(step, {'grid.mass': 4 * mass});
-/** The same in slow motion: a burst takes less than a tenth of a second. */
+/** The state in slow motion: a burst takes less than a tenth of a second. */
 const slowly = (speed: number, what: GuideState) => ({...what, speed});
-/** The same from above, where motions within the cloth are seen. */
+/** The state seen from above, where motions within the cloth are visible. */
 const fromAbove = (what: GuideState) => ({...what, from: {yaw: 0, pitch: 1.3, zoom: 0.75}});
 const allSprings = (k: number) =>
     ({'grid.stiffness.structural': k, 'grid.stiffness.shear': k, 'grid.stiffness.bend': k});
@@ -193,7 +193,7 @@ const fastCircle = {
   'time.duration': Math.PI,
   'time.window': Math.PI
 };
-// its own step says how far the step's slider reaches
+// the scene's own step determines the range of the step's slider
 const longCircle = {
   'rotation.rate': 4,
   'time.duration': 8,
@@ -223,7 +223,9 @@ const resting = (friction: number) => state(
 const slidingCloth = (friction: number) =>
     state('cloth-sphere', {'time.samples': 150, 'sphere.friction': friction}, ['leapfrog', 1e-3]);
 
-/** Angle, speed and distance from the centre at the last contact in `slide`: the run again, looked at in every step. */
+/**
+ * Angle, speed and distance from the centre at the last contact in `slide`: repeats the run and observes every step.
+ */
 function lastContact({run, at, toml, duration}: Reading) {
   const sim = run.sim.lab.open(toml), reach = at('sphere.radius') + at('sphere.margin');
   const last = {angle: 0, v: 0, away: 0};
@@ -244,7 +246,7 @@ function finerCloth(toml: string) {
       .replace(/^particles = .*$/m, `particles = [0, ${2 * columns - 1}]`);
 }
 
-/** The mode that grows in the lab's run A. */
+/** The growing mode of the lab's run A. */
 function growingMode({run: {sim}}: Reading): Mode {
   const {mode, places} = sim.growingMode();
   return {mode: mode ?? new Float64Array(places.length), places, by: 0.7 * Math.min(...sim.scene.rests)};
@@ -558,7 +560,7 @@ export const labExperiments: GuideExperiment[] = [
   }
 ];
 
-/** Numbers that every question and task may name. */
+/** Numbers available to every question and task. */
 export const shownNumbers = (step: GuideStep, before: Before): Values => ({
   particles: before.particles,
   omegaBefore: digits(before.omega, 4),
@@ -570,7 +572,7 @@ export const shownNumbers = (step: GuideStep, before: Before): Values => ({
   ...step.shown?.(before)
 });
 
-/** Numbers that every reason may name. */
+/** Numbers available to every explanation. */
 export const foundNumbers = (step: GuideStep, r: Reading, seen: Seen): Values => ({
   h: msText(r.run.step),
   n: r.run.steps,

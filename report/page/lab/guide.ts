@@ -1,5 +1,6 @@
-// <lab-guide>: guided experiments in a <live-lab>, beside its picture. Each step asks for a guess, lets the reader do
-// it in the lab, ticks itself when it has happened, and then says why. Every step can be skipped, repeated or left.
+// <lab-guide>: guided experiments in a <live-lab>, next to its picture. Each step asks for a guess, lets the reader
+// perform the task in the lab, detects its completion, and then explains the result. Every step can be skipped,
+// repeated or left.
 
 import {make} from '../player/controls';
 import {stillWanted} from '../player/player';
@@ -10,7 +11,7 @@ import {labScenes, sceneText} from './lab_runs';
 import {numberAt, valueAt, withNumbers} from './scene_text';
 import {labLanguage, say} from './words';
 
-/** Numbers of the lab as the experiments read them; null before its first run. */
+/** Numbers of the lab for the experiments; null before its first run. */
 export function readingOf(lab: LiveLab): Reading|null {
   const {reading} = lab;
   if (!reading) return null;
@@ -49,7 +50,7 @@ export function readingOf(lab: LiveLab): Reading|null {
   };
 }
 
-/** What a step remembers of the lab as it was beside the question. */
+/** The state of the lab that a step remembers from its question. */
 const beforeOf = (r: Reading): Before => ({
   limit: r.runs[0].limit,
   omega: r.omega,
@@ -62,15 +63,15 @@ const beforeOf = (r: Reading): Before => ({
   centre: centreOf(r.runs[0].x)
 });
 
-/** What came of a step. */
+/** The result of a step. */
 interface Result {
   guess: string|number|null;
-  read?: number;  // the number that was guessed
+  read?: number;  // the actual value of the guessed number
   values: Record<string, string|number>;
   before: Before;
 }
 
-/** What was done so far, kept while the page's tab lives where that is allowed. */
+/** Completed steps, kept for the lifetime of the page's tab if the browser allows it. */
 export const guideProgress = (() => {
   const key = 'lab-guide', nameOf = (experiment: GuideExperiment, step: GuideStep) => `${experiment.name}.${step.name}`;
   let done: Record<string, Result> = {};
@@ -93,7 +94,7 @@ export const guideProgress = (() => {
 
 const experimentOfAddress = () => /^#experiment=([\w-]+)/.exec(location.hash)?.[1];
 
-/** Writes the experiment that is shown into the address, or none: then a link to it opens it again. */
+/** Writes the current experiment into the address, or removes it, so that a link opens it again. */
 function writeExperiment(name: string|null) {
   if (!name && !experimentOfAddress()) return;
   try {
@@ -111,14 +112,14 @@ const guideButton = (key: string, words: string, act: () => void, attributes: Re
   return button;
 };
 
-/** Where a step is: at the question, at the task, at the reason. */
+/** Phase of a step: question, task or explanation. */
 type Phase = 'ask'|'try'|'why';
 
 class LabGuide extends HTMLElement {
   lab!: LiveLab;
   phase: Phase = 'ask';
-  acting: number|null = null;  // index of the act that is done for the reader
-  setting = false;             // the lab is set to a state
+  acting: number|null = null;  // index of the act that is performed for the reader
+  setting = false;             // the lab is being set to a state
   seen: Omit<Seen, 'before'>&{before: Before | null} = {before: null, all: {}, run: {}};
   private experiment: GuideExperiment|null = null;
   private step: GuideStep|null = null;
@@ -150,7 +151,7 @@ class LabGuide extends HTMLElement {
     writeExperiment(null);
     this.experiment = this.step = null;
     this.sandbox = true;
-    this.lab.setSpeed(1);  // an experiment may have gone faster
+    this.lab.setSpeed(1);  // an experiment may have changed the speed
     this.render();
     this.focusFirst();
   }
@@ -161,7 +162,7 @@ class LabGuide extends HTMLElement {
     this.lab.classList.remove('guided');
   }
 
-  /** Opens an experiment, at its first step that is not done; the list where there is none of that name. */
+  /** Opens an experiment at its first unfinished step; shows the list if there is no experiment with this name. */
   show(name: string) {
     const experiment = experimentsHere().find(each => each.name === name);
     if (!experiment) return this.showList();
@@ -169,7 +170,7 @@ class LabGuide extends HTMLElement {
     return this.begin(experiment, Math.max(0, open));
   }
 
-  /** Sets the lab to the state beside a step's question. */
+  /** Sets the lab to the state next to a step's question. */
   private async begin(experiment: GuideExperiment, number: number, again = false) {
     const step = experiment.steps[number], known = again ? undefined : guideProgress.of(experiment, step);
     Object.assign(this, {experiment, number, step, sandbox: false, acting: null, phase: known ? 'why' : 'ask'});
@@ -196,7 +197,7 @@ class LabGuide extends HTMLElement {
     this.look();
   }
 
-  /** Takes the reader's guess, or null for none. */
+  /** Accepts the reader's guess, or null for none. */
   private async take(guess: string|number|null) {
     if (!this.step || !this.seen.before) return;
     Object.assign(this, {guess, phase: 'try'});
@@ -205,7 +206,7 @@ class LabGuide extends HTMLElement {
     if (this.step.then) await this.setLab(this.step.then);
   }
 
-  /** Does the task for the reader. */
+  /** Performs the task for the reader. */
   private async act(index = 0) {
     const {step} = this, acts = step?.acts ?? (step ? [step.then ?? step.start] : []);
     if (index >= acts.length) return;
@@ -215,7 +216,7 @@ class LabGuide extends HTMLElement {
     if (this.step === step && this.phase === 'try') this.acting = index;
   }
 
-  /** On a narrow page the lab lies below the guide: brings its picture into view, and the reason when it is there. */
+  /** On a narrow page the lab is below the guide: scrolls to its picture, and to the explanation when it appears. */
   private showLab(parent: HTMLElement = this.lab, selector = '.stage') {
     const {root} = this.lab.view ?? {};
     if (!root || this.getBoundingClientRect().bottom > root.getBoundingClientRect().top + 1) return;
@@ -223,7 +224,7 @@ class LabGuide extends HTMLElement {
         {block: 'nearest', behavior: stillWanted.matches ? 'auto' : 'smooth'});
   }
 
-  /** Looks at a new reading of the lab: whether the question's numbers are known, whether the task is done. */
+  /** Processes a new reading of the lab: are the question's numbers known, and is the task done? */
   private look() {
     const {step, seen} = this, r = step && !this.setting && this.isConnected ? readingOf(this.lab) : null;
     if (!r || !step) return;
@@ -256,7 +257,9 @@ class LabGuide extends HTMLElement {
         new CustomEvent('step-done', {bubbles: true, detail: {experiment: experiment?.name, step: step.name}}));
   }
 
-  /** Shows where the run has failed which motion grew: the cloth bent by it, up to `by` m, and arrows as long. */
+  /**
+   * Shows the motion that grew in a failed run: the cloth deformed by it, by up to `by` m, and arrows of that length.
+   */
   private showMode({mode, places, by}: Mode, r: Reading) {
     const {lab} = this, [run] = lab.runs, most = mode.reduce((top, part) => Math.max(top, Math.abs(part)), 0);
     if (!lab.growth || !lab.stage || r.runs[0].sim !== run.sim) return;
@@ -396,7 +399,7 @@ class LabGuide extends HTMLElement {
     return form;
   }
 
-  /** What came of the guess, in words. */
+  /** The result of the guess as a sentence. */
   private outcome(step: GuideStep, {guess, read = 0}: Result) {
     if (!step.guess) {
       const answer = this.words(step.right);
@@ -410,7 +413,7 @@ class LabGuide extends HTMLElement {
     return say(near ? 'guide.near' : 'guide.far', {guess: text(Number(guess)), answer: text(read)});
   }
 
-  /** What came of the guess, the reason, and the numbers of this run. */
+  /** The result of the guess, the explanation, and the numbers of this run. */
   private reason(experiment: GuideExperiment, step: GuideStep, result: Result): HTMLElement {
     const {values} = result, last = this.number + 1 === experiment.steps.length;
     return make(
@@ -423,7 +426,7 @@ class LabGuide extends HTMLElement {
   }
 }
 
-/** The guide beside an open lab, made where there is none. */
+/** The guide next to an open lab; creates it if necessary. */
 export function openGuide(lab: LiveLab) {
   const there = lab.querySelector<LabGuide>('lab-guide');
   if (there) return there;
@@ -434,8 +437,8 @@ export function openGuide(lab: LiveLab) {
 }
 
 /**
- * Opens an experiment in a lab, the list of them for a name that there is none of. Without a lab: on the lab's own page
- * in the one that is there, else in one of the experiment's scene.
+ * Opens an experiment in a lab, or the list of experiments if there is none with this name. Without a lab: on the lab's
+ * own page in the existing lab, otherwise in a lab with the experiment's scene.
  */
 export async function openExperiment(name: string, given?: LiveLab) {
   const scene = labExperiments.find(each => each.name === name)?.scenes[0] ?? 'cloth-hang';
@@ -448,7 +451,7 @@ const followExperiment = () => {
   if (name) openExperiment(name);
 };
 
-/** Defines <lab-guide> and opens the experiment that the address names. */
+/** Defines <lab-guide> and opens the experiment in the address. */
 export function startGuide() {
   customElements.define('lab-guide', LabGuide);
   addEventListener('hashchange', followExperiment);

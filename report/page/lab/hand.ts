@@ -1,5 +1,4 @@
-// The hand in the picture: it turns and zooms the view, and it holds, moves and pins particles, by pointer, finger or
-// key.
+// The hand in the picture: turns and zooms the view, and holds, moves and pins particles, by pointer, finger or key.
 
 import {Orbit, tangent} from '../player/orbit';
 import {attachWheel, orbitKeys} from '../player/pointer_input';
@@ -8,7 +7,7 @@ import {minus, norm, placeOf, plus, Vec3} from '../player/vectors';
 import {LiveRun} from './live_run';
 import {LiveStage} from './live_stage';
 
-/** Pixels around a particle that a pointer, or a finger, still meets. */
+/** Distance in pixels within which a pointer, or a finger, meets a particle. */
 const reachOf = (type: string) => type === 'touch' ? 30 : 16;
 
 interface At {
@@ -22,14 +21,14 @@ interface Hit {
   panel: {left: number, top: number, wide: number, high: number};
 }
 
-/** What the hand asks the lab for. */
+/** The lab's functions for the hand. */
 export interface HandActs {
   stage(): LiveStage|null;
   orbit(): Orbit;
-  runs(): (LiveRun|null)[];  // drawn, in the order of the panels
+  runs(): (LiveRun|null)[];  // the drawn runs, in the order of the panels
   draw(): void;
   hover(on: boolean): void;
-  /** False where there is nothing to hold. */
+  /** Returns false if there is nothing to hold. */
   hold(particle: number, place: Vec3, run: LiveRun): boolean;
   release(): void;
   choose(particle: number|null): void;
@@ -54,7 +53,7 @@ export class Hand {
       const hit = this.hit(event);
       if (hit) act.pin(hit.particle);
     });
-    // a finger on a particle does not scroll the page, nor do two
+    // a finger on a particle does not scroll the page, and neither do two fingers
     layer.addEventListener('touchstart', event => {
       if (event.touches.length > 1 || this.hit(event.touches[0], 'touch')) event.preventDefault();
     }, {passive: false});
@@ -63,7 +62,7 @@ export class Hand {
     layer.addEventListener('blur', () => this.held?.key && this.release());
   }
 
-  /** The particle under a pointer; null where there is none. */
+  /** The particle under a pointer; null if there is none. */
   private hit({clientX, clientY}: At, type = 'mouse'): Hit|null {
     const stage = this.act.stage();
     if (!stage) return null;
@@ -84,7 +83,7 @@ export class Hand {
     return front.sort((a, b) => a.depth - b.depth)[0] ?? null;
   }
 
-  /** The place in the plane through a particle, parallel to the picture, that lies under a pointer. */
+  /** The point under a pointer in the plane through a particle, parallel to the picture. */
   private under({clientX, clientY}: At, {panel}: Hit, from: Vec3): Vec3 {
     const stage = this.act.stage(), box = this.layer.getBoundingClientRect(), at = stage?.project(from, panel);
     if (!stage || !at) return from;
@@ -130,7 +129,7 @@ export class Hand {
     this.lead(event);
   }
 
-  /** Puts the grabbed particle under a pointer: where the pointer moves, and where the camera or the picture does. */
+  /** Puts the grabbed particle under a pointer after the pointer, the camera or the picture has moved. */
   lead({clientX, clientY}: At) {
     const {grabbed} = this, stage = this.act.stage();
     if (!grabbed?.run.places || !stage) return;
@@ -176,7 +175,7 @@ export class Hand {
     this.act.choose(particle);
   }
 
-  /** Forgets all, as the scene is another one. */
+  /** Resets the hand, because the scene has changed. */
   forget() { this.chosen = this.held = this.grabbed = null; }
 
   private key(event: KeyboardEvent) {
@@ -198,14 +197,14 @@ export class Hand {
       r: () => this.act.restart(),
     };
     const act = turned ? () => (turned(), this.act.draw()) : keys[event.key];
-    // Escape with nothing in the hand is the page's own: it closes windows
+    // without a chosen particle, Escape belongs to the page, which closes windows
     if (!act || (event.key === 'Escape' && this.chosen === null)) return;
     event.preventDefault();
     event.stopPropagation();
     act();
   }
 
-  /** The next particle or the one before. */
+  /** Chooses the next or previous particle. */
   private next(by: number) {
     const count = (this.act.runs()[0]?.places?.length ?? 0) / 3;
     if (count) this.choose(this.chosen === null ? (by > 0 ? 0 : count - 1) : (this.chosen + by + count) % count);

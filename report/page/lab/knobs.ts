@@ -7,22 +7,22 @@ import {LiveRun} from './live_run';
 import {Changes, MethodSpec, numberAt, numbersOf, stepOf, tomlNumber, Value, valueAt} from './scene_text';
 import {labLanguage, labWords, say} from './words';
 
-/** A number with a slider, and how far it reaches in parts of the scene's own value. */
+/** A number with a slider; its range is relative to the scene's own value. */
 interface KnobRow {
   path: string;
-  scales?: string[];  // paths below that go along
+  scales?: string[];  // paths below that are scaled along
   word: string;
   unit: string;
   from?: number;
   to?: number;
   most?: number;  // in the number's own unit
   zero?: boolean;
-  even?: boolean;  // linear, from 0 where there is no `from`
+  even?: boolean;  // linear, from 0 if there is no `from`
 }
 
-const shownKnobs = 4;  // beside the step; the others are folded
+const shownKnobs = 4;  // next to the step; the others are folded
 
-/** Those that teach most come first. */
+/** The most instructive come first. */
 const knobTable: KnobRow[] = [
   {
     path: 'grid.stiffness',
@@ -61,7 +61,7 @@ let knobCount = 0;
 
 type Changed = (value: number, done: boolean) => void;
 
-/** Reach of a slider; `snap` makes of a value one that can be taken. */
+/** Range of a slider; `snap` maps a value to a possible one. */
 interface Reach {
   low: number;
   high: number;
@@ -70,7 +70,7 @@ interface Reach {
   snap?: (value: number) => number;
 }
 
-/** A slider and a field for one number; `changed(value, done)` is called as it moves, and when it stands. */
+/** A slider and a field for one number; calls `changed(value, done)` while it moves and when it stops. */
 class Slider {
   readonly box: HTMLElement;
   readonly rail: HTMLElement;
@@ -107,7 +107,7 @@ class Slider {
     return snap(even ? low + part * (high - low) : low * (high / low) ** part);
   }
 
-  /** Part of the way along the slider at which a value stands. */
+  /** Position of a value along the slider, 0 to 1. */
   partOf(value: number) {
     const {low, high, even} = this.reached;
     const part = even ? (value - low) / (high - low) : value > 0 ? Math.log(value / low) / Math.log(high / low) : 0;
@@ -129,7 +129,7 @@ class Slider {
   }
 }
 
-/** The sliders of a scene's own numbers: the first few in sight, the others folded. */
+/** The sliders of a scene's own numbers: the first few visible, the others folded. */
 export class SceneKnobs {
   readonly box: HTMLElement = make('div', {class: 'knobs'});
   private knobs: {row: KnobRow, slider: Slider}[] = [];
@@ -138,7 +138,7 @@ export class SceneKnobs {
 
   constructor(private readonly changed: (changes: Changes, done: boolean) => void) {}
 
-  /** Makes the sliders that the text has; `original` says how far they reach. */
+  /** Makes the sliders for the numbers in the text; `original` determines their ranges. */
   build(toml: string, original: string) {
     const unfolded = this.box.querySelector('details')?.open;
     this.original = original;
@@ -163,14 +163,14 @@ export class SceneKnobs {
 
   private pathOf({path, scales}: KnobRow) { return scales ? `${path}.${scales[0]}` : path; }
 
-  /** Whether the text has the number, once or everywhere the same, and not zero. */
+  /** True if the text has the number, once or with the same value everywhere, and not zero. */
   private has(row: KnobRow, toml: string) {
     if (row.scales && row.scales.filter(k => numberAt(toml, `${row.path}.${k}`)).length < 2) return false;
     const path = this.pathOf(row), all = numbersOf(toml).filter(e => e.path === path).map(e => tomlNumber(e.value));
     return numberAt(toml, path) > 0 && all.every(value => value === all[0]);
   }
 
-  /** What a value of a slider changes in the text. */
+  /** Changes of the text for a value of a slider. */
   private changesOf(row: KnobRow, value: number): Changes {
     const {path, scales} = row;
     if (scales) {
@@ -229,11 +229,11 @@ export class MethodKnobs {
     remove.addEventListener('click', removed);
   }
 
-  /** The method as the controls say it, with a step or tolerance that was moved. */
+  /** Reads the method from the controls, with a step or tolerance that was moved. */
   private take(moved: Partial<MethodSpec>, done: boolean) {
     const stepper = this.steppers.find(s => s.name === this.select.value);
     if (!stepper) return;
-    // other options of the state, +events or +linear, stay with their stepper
+    // other options of the state, +events or +linear, are kept with their stepper
     const [name, ...options] = this.spec.method.split('+');
     const kept = this.sticky.checked && this.solids ? ['sticky'] :
         name === stepper.name                       ? options.filter(option => option !== 'sticky') :
@@ -242,13 +242,13 @@ export class MethodKnobs {
     this.changed(stepper.adaptive ? {method, tolerance: tolerance || 1e-6} : {method, step: step || this.own}, done);
   }
 
-  /** Shows a method beside its run; `scale`: critical step, s, by which the slider's range goes. */
+  /** Shows a method with its run; `scale`: critical step, s, that determines the slider's range. */
   show(spec: MethodSpec, run: LiveRun, steppers: Stepper[], scale: number|null) {
     const {scene} = run.sim, [name, ...options] = spec.method.split('+'), {limit} = run;
     const h = run.refusal ? 0 : run.sim.h;
     const stepper = steppers.find(s => s.name === name), interval = scene.duration / scene.samples;
     const known = limit !== null && Number.isFinite(limit) && limit > 0;
-    const bound = known && limit <= interval;  // no step is longer than the time between two samples
+    const bound = known && limit <= interval;  // no step is longer than the sampling interval
     Object.assign(this, {spec, steppers, own: scene.step, solids: solidsOf(scene)});
     const usable = steppers.filter(s => !scene.firstOrder || s.firstOrder);
     if (this.select.childElementCount !== usable.length)
@@ -285,7 +285,7 @@ export class MethodKnobs {
   }
 }
 
-/** A method's name in words: "symplectic Euler, sticky". A stepper without words goes by its name. */
+/** A method's name in words: "symplectic Euler, sticky". A stepper without a translation keeps its name. */
 export function nameOfMethod(method: string) {
   const [name, ...options] = method.split('+');
   const known = (key: string, otherwise: string) => (key in labWords.en ? say(key) : otherwise);
@@ -295,7 +295,7 @@ export function nameOfMethod(method: string) {
   ].join(say('comma'));
 }
 
-/** A stepper in the list to choose from: in words, with the name for the command line where these are not English. */
+/** A stepper in the selection: in words, followed by its command-line name if the language is not English. */
 const chosenAs = (name: string) => {
   const words = nameOfMethod(name);
   return labLanguage === 'en' || words === name ? words : [words, name].join(say('comma'));

@@ -1,7 +1,7 @@
-// <live-lab>: mysim itself in the page, the truth beside it. Nothing of it is laid out, compiled or computed before it
-// is opened: by its button, by an address, or by openLab(); with data-part="step", the picture with the step's slider,
-// when it comes in sight. Its state is a scene's text (TOML), one or two methods with a step or tolerance each, and a
-// look. Sliders change numbers in the text; then the scene is opened anew and the runs start again.
+// <live-lab>: mysim itself in the page, next to the truth. Nothing is laid out, compiled or computed before the lab is
+// opened, by its button, an address, or openLab(). With data-part="step", it shows only the picture with the step's
+// slider, and opens when it becomes visible. Its state is a scene's text (TOML), one or two methods with a step or
+// tolerance each, and a look. Sliders change numbers in the text; then the scene is reopened and the runs restart.
 
 import {make, short} from '../player/controls';
 import {dark, startsWebGl, stillWanted} from '../player/player';
@@ -19,22 +19,22 @@ import {LiveRun, messageOf} from './live_run';
 import {Changes, changesBetween, MethodSpec, textAt, withMethod, withNumbers} from './scene_text';
 import {labLanguage, questionInLanguage, say} from './words';
 
-const longestFrame = 120;  // ms, by which budgets go where drawing is slow
-const pauseAtEnd = 1200;   // ms, before a run that loops starts again
+const longestFrame = 120;  // ms, upper bound for budgets if drawing is slow
+const pauseAtEnd = 1200;   // ms, before a looping run restarts
 
 export class LiveLab extends LabPicture {
-  link = '';                                             // the last that was copied
+  link = '';                                             // the last link that was copied
   waiting: {particle: number, place: Vec3}|null = null;  // a move for the next frame
   private opening: Promise<boolean>|null = null;
-  private source: LiveRun|null = null;  // the run that the hand has
-  private loops = false;                // the run starts again at its end, until the reader does something
+  private source: LiveRun|null = null;  // the run that the hand holds
+  private loops = false;                // the run restarts at its end, until the reader does something
   private again = 0;                    // timers
   private later = 0;
   private asked = false;
   private lastFrame: number|null = null;
   private told = 0;
   private frames: number[] = [];
-  private average: number|null = null;  // ms of computing in a frame
+  private average: number|null = null;  // ms of computing per frame
 
   get alone() { return this.dataset.alone !== undefined; }
   get isPart() { return this.dataset.part !== undefined; }
@@ -66,9 +66,7 @@ export class LiveLab extends LabPicture {
     this.replaceChildren(make('div', {class: 'lab-door'}, button, make('span', {}, say('openHint'))));
   }
 
-  /**
-   * Opens the lab, in a state where one is given, else with its own scene running; resolves when it can be seen.
-   */
+  /** Opens the lab in the given state, or otherwise with its own scene running; resolves when it is visible. */
   async open(state?: LabState) {
     if (this.view) return this.setState(state ?? {});
     this.opening ??= this.begin();
@@ -82,7 +80,7 @@ export class LiveLab extends LabPicture {
   private async begin() {
     this.dataset.state = 'opening';
     if (!this.isPart) this.replaceChildren(make('p', {class: 'lab-plain', role: 'status'}, say('waiting')));
-    await new Promise(done => setTimeout(done));  // the words are there before the compiler takes the thread
+    await new Promise(done => setTimeout(done));  // the message is visible before the compiler blocks the thread
     const lab = await labModule(), missing = !lab ? 'noWasm' : !startsWebGl() ? 'noWebgl' : null;
     if (!lab || missing) {
       this.dataset.state = 'unavailable';
@@ -119,8 +117,8 @@ export class LiveLab extends LabPicture {
   // State.
 
   /**
-   * Sets what is given: a scene with its shipped text and method, a text or numbers to change in it, methods, a look.
-   * Resolves when it is shown.
+   * Sets the given parts: a scene with its shipped text and method, a text or changed numbers, methods, a look.
+   * Resolves when the state is displayed.
    */
   async setState(state: LabState): Promise<void> {
     if (!this.view) return this.open({scene: this.dataset.scene, ...state});
@@ -151,7 +149,7 @@ export class LiveLab extends LabPicture {
     this.tell();
   }
 
-  /** What a link holds. */
+  /** The content of a link. */
   get state(): LabState {
     const {sceneName: scene, original, toml, methods, look} = this, state: LabState = {scene, methods};
     if (this.byHand)
@@ -165,7 +163,7 @@ export class LiveLab extends LabPicture {
     return state;
   }
 
-  /** Numbers of the present, for the guide and for tests. */
+  /** Current numbers, for the guide and for tests. */
   get reading() {
     const {runs} = this, [a] = runs;
     if (!a) return null;
@@ -200,7 +198,7 @@ export class LiveLab extends LabPicture {
     this.showState();
   }
 
-  /** Says which runs have failed, and shows the mode that grows in the first that did. */
+  /** Reports failed runs, and shows the growing mode of the first of them. */
   judge() {
     const failed = this.runs.filter(run => run.failed), {stage} = this;
     for (const run of failed)
@@ -244,7 +242,7 @@ export class LiveLab extends LabPicture {
     this.wake();
   }
 
-  /** Asks for the next frame, once. */
+  /** Requests the next frame, once. */
   wake() {
     if (this.asked || !this.seen || !this.isConnected) return;
     this.asked = true;
@@ -255,7 +253,7 @@ export class LiveLab extends LabPicture {
     this.asked = false;
     if (!this.isConnected || !this.view || !this.runs.length) return;
     const begin = performance.now(), apart = this.lastFrame ? now - this.lastFrame : 0;  // ms
-    const passed = Math.min(0.1, apart / 1000);  // a page that was away goes on where it was
+    const passed = Math.min(0.1, apart / 1000);  // after an absence the page continues where it stopped
     this.lastFrame = now;
     this.frameTime = Math.max(shortestFrame, Math.min(longestFrame, 0.8 * this.frameTime + 200 * passed));
     this.frames = this.playing ? [...this.frames.filter(time => time >= now - 1000), now] : [];
@@ -289,7 +287,7 @@ export class LiveLab extends LabPicture {
     if (this.view) this.view.speed.value = String(speed);
   }
 
-  /** Runs after a change that the reader made: where it ran, or where a run had come to its end by itself. */
+  /** Runs after a change by the reader, if the lab was running or a run had ended by itself. */
   private goOn(change: () => void) {
     const over = this.runs.some(run => run.ended && !run.refusal) && !stillWanted.matches;
     const runs = this.playing || over;
@@ -298,7 +296,7 @@ export class LiveLab extends LabPicture {
     if (runs) this.play();
   }
 
-  /** Loads again and goes on running. */
+  /** Reloads, and keeps running. */
   private reload() {
     let well = false;
     this.goOn(() => (well = this.load()));
@@ -332,7 +330,7 @@ export class LiveLab extends LabPicture {
           this.wake();
         },
     speed: (speed: number) => this.setSpeed(speed),
-    /** A method was changed: its run starts again at once, and in the same scene if the rule is the same. */
+    /** A method was changed: its run restarts at once, and in the same scene if the rule is the same. */
     method:
         (i: number, spec: MethodSpec, done: boolean) => {
           if (!this.methods) return;
@@ -356,7 +354,7 @@ export class LiveLab extends LabPicture {
           this.methods = this.methods?.slice(0, 1) ?? null;
           this.reload();
         },
-    /** Numbers of the scene were moved. Large scenes are opened when the slider stands. */
+    /** Numbers of the scene were changed. Large scenes are opened when the slider stops. */
     numbers:
         (changes: Changes, done: boolean) => {
           this.toml = withNumbers(this.toml, changes);
@@ -385,7 +383,7 @@ export class LiveLab extends LabPicture {
           this.draw();
         },
     guide: () => openGuide(this),
-    /** The whole lab in place of its part. */
+    /** Replaces the part by the whole lab. */
     more:
         () => {
           delete this.dataset.part;
@@ -427,7 +425,7 @@ export class LiveLab extends LabPicture {
         }
   };
 
-  /** Gives everything back. */
+  /** Releases all resources. */
   private shut() {
     this.loops = this.playing = false;
     delete this.dataset.running;
@@ -444,7 +442,7 @@ export class LiveLab extends LabPicture {
     return this.byHand ? this.runs[0].sim.sceneText() : withMethod(this.toml, this.methods?.[0] ?? {method: ''});
   }
 
-  /** Whether the scene is the page's own, unchanged. */
+  /** True if the scene is the page's own, unchanged. */
   private get isShipped() { return !this.byHand && this.toml === sceneText(this.sceneName); }
 
   private dragged(event: DragEvent) {
@@ -472,7 +470,7 @@ export class LiveLab extends LabPicture {
     return true;
   }
 
-  /** Moves what is held; once a frame, as the engine goes on from there as another scene. */
+  /** Moves the held particle; once per frame, because the engine continues from there as another scene. */
   private moveHeld() {
     if (!this.waiting) return;
     const {particle, place} = this.waiting;
@@ -481,7 +479,7 @@ export class LiveLab extends LabPicture {
     this.draw();
   }
 
-  /** Changes by hand what every run has come to. */
+  /** Applies a change by hand to the present state of every run. */
   private changeRuns(act: (sim: Simulation) => void) {
     for (const run of this.runs) {
       if (run.refusal || run.failed) continue;
@@ -502,7 +500,7 @@ export class LiveLab extends LabPicture {
     this.together();
   }
 
-  /** After a change by hand all runs, and the truth, go on from the state of one of them. */
+  /** After a change by hand, all runs and the truth continue from the state of one of them. */
   private together() {
     const {source} = this, well = source && this.runs.includes(source) && !source.failed;
     const from = well ? source : this.runs.find(run => !run.failed && !run.refusal);
@@ -545,7 +543,7 @@ export class LiveLab extends LabPicture {
 
   // Words.
 
-  /** Everything in the language that was chosen. */
+  /** Updates all texts to the chosen language. */
   private relabel() {
     const {state, missing} = this.dataset, {view} = this;
     this.lang = labLanguage;
@@ -553,7 +551,7 @@ export class LiveLab extends LabPicture {
       document.documentElement.lang = labLanguage;
       document.querySelector('nav .made')?.replaceChildren(say('madeOf'));
     }
-    if (this.isPart && !view) return;  // a still, if any, stands there
+    if (this.isPart && !view) return;  // the still picture, if any, is there
     if (state === 'closed') return this.showDoor();
     if (state === 'unavailable') return this.replaceChildren(make('p', {class: 'lab-plain'}, say(missing ?? '')));
     if (!view) return;
@@ -565,7 +563,7 @@ export class LiveLab extends LabPicture {
     this.showState();
   }
 
-  /** Shows all that depends on scene and methods. */
+  /** Shows everything that depends on scene and methods. */
   private showState() {
     const {view, hand: {chosen}, runs: [a]} = this;
     if (!view || !this.methods) return;
@@ -579,7 +577,7 @@ export class LiveLab extends LabPicture {
     this.showNow(true);
   }
 
-  /** The numbers of the present: the clock each frame, curves and readings about ten times a second. */
+  /** Shows the current numbers: the clock in each frame, curves and readings about ten times per second. */
   showNow(all: boolean, now = performance.now()) {
     const {view, runs} = this;
     if (!view) return;
@@ -594,7 +592,7 @@ export class LiveLab extends LabPicture {
     this.tell();
   }
 
-  /** Words in place of curves. */
+  /** Texts shown instead of curves. */
   private withoutCurves() {
     const soon = say('beforeRun'), begins = this.clock === 0 || this.runs.every(run => run.ended);
     return {
@@ -627,7 +625,7 @@ export class LiveLab extends LabPicture {
     view.truthWords.textContent = this.truthWords();
   }
 
-  /** What the truth is here, or why there is none. */
+  /** Describes the truth, or the reason why there is none. */
   private truthWords() {
     const {truth, truthGone} = this;
     if (truthGone === 'slow') return say('truthSlow', {ms: Number(this.truthCost.toPrecision(2))});
@@ -640,11 +638,11 @@ export class LiveLab extends LabPicture {
   }
 }
 
-/** A state with one method written short, and an experiment to open. */
+/** A state with one method in short form, and an experiment to open. */
 type LabWish = LabState&{method?: string, step?: number, tolerance?: number, experiment?: string};
 
 /**
- * Opens the lab in a state: the scene's own lab on the page, another that is there, or one in a window over the page.
+ * Opens the lab in a state: the scene's own lab on the page, another existing lab, or one in a window over the page.
  */
 export async function openLab({method, step, tolerance, experiment, ...state}: LabWish) {
   if (!document.getElementById('lab-module')) return null;
@@ -675,7 +673,7 @@ async function followLabAddress() {
     document.querySelector<LiveLab>('live-lab[data-alone]')?.open();
 }
 
-/** Defines <live-lab> and opens the lab in the state that the address names. */
+/** Defines <live-lab> and opens the lab in the state of the address. */
 export function startLab() {
   customElements.define('live-lab', LiveLab);
   addEventListener('hashchange', followLabAddress);

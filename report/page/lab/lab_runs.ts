@@ -1,4 +1,4 @@
-// The runs of a lab: they share one clock, and the truth follows them. The first part of <live-lab> (lab.ts).
+// The runs of a lab share one clock, and the truth follows them. The first part of <live-lab> (lab.ts).
 
 import {EngineScene, Lab, LabError, solidsOf} from './engine';
 import {Hand} from './hand';
@@ -7,22 +7,22 @@ import {Growth} from './live_stage';
 import {MethodSpec, numberAt, textAt} from './scene_text';
 import {say} from './words';
 
-const computingBudget = 0.5;      // part of a frame's time, for the methods together
-const truthBudget = 0.45;         // part of a frame's time
+const computingBudget = 0.5;      // fraction of a frame's time, for all methods together
+const truthBudget = 0.45;         // fraction of a frame's time
 export const shortestFrame = 17;  // ms
 const slowestPace = 0.1;          // minimum clock rate while waiting for the reference solution
 const longestWait = 2500;         // ms of waiting for the truth
-export const smallScene = 1500;   // particles; larger ones have no truth and no energy balance
-const beginsRuns = 200;           // ms after a slider moved, before a truth is begun
+export const smallScene = 1500;   // particles; larger scenes have neither truth nor energy balance
+const beginsRuns = 200;           // ms after a slider moved, before a truth is started
 
-/** The scenes of the page by their names: texts as they are shipped. */
+/** The scenes of the page by name: the shipped texts. */
 export const labScenes = (() => {
   let scenes: Record<string, string>|undefined;
   return () =>
              (scenes ??=
                   JSON.parse(document.getElementById('lab-scenes')?.textContent || '{}') as Record<string, string>);
 })();
-/** The text of a scene of the page as it is shipped. */
+/** The shipped text of a scene of the page. */
 export const sceneText = (name: string): string|undefined => labScenes()[name];
 
 export abstract class LabRuns extends HTMLElement {
@@ -31,8 +31,8 @@ export abstract class LabRuns extends HTMLElement {
   runs: LiveRun[] = [];
   sceneName = '';
   toml = '';
-  original = '';  // the text that changes are measured from
-  good = '';      // the last text that was taken
+  original = '';  // the text with which changes are compared
+  good = '';      // the last valid text
   methods: MethodSpec[]|null = null;
   clock = 0;  // s
   end = 0;    // s
@@ -40,31 +40,31 @@ export abstract class LabRuns extends HTMLElement {
   playing = false;
   byHand = false;
   truth: Truth|null = null;
-  truthGone: 'large'|'none'|'slow'|null = null;  // why there is no truth
-  truthCost = 0;                                 // ms a frame
-  growth: Growth|null = null;                    // the mode that grows in a run that failed
+  truthGone: 'large'|'none'|'slow'|null = null;  // reason for a missing truth
+  truthCost = 0;                                 // ms per frame
+  growth: Growth|null = null;                    // the growing mode of a failed run
   pending = false;                               // the clock waits for the truth
   pace = 1;
-  late = 0;               // ms that the truth has been waited for
-  passed: number[] = [];  // rates of the clock, of those wanted
+  late = 0;               // ms spent waiting for the truth
+  passed: number[] = [];  // actual / requested rates of the clock
   frameTime = shortestFrame;
-  scale: number|null = null;  // critical step of the scene as it was opened, s
+  scale: number|null = null;  // critical step of the scene as opened, s
   private slow = 0;           // ms at the slowest pace
-  private settled = 0;        // when sliders stand
+  private settled = 0;        // time at which sliders count as at rest
 
-  /** Runs were opened anew, of another scene (`fresh`) or of the same. */
+  /** Called after runs were opened, for another scene (`fresh`) or the same one. */
   protected abstract opened(fresh: boolean): void;
   protected abstract refused(words: string): void;
   protected abstract judge(): void;
   abstract pause(): void;
 
-  /** A slider moves, or stands: while it moves no truth is begun. */
+  /** Called when a slider moves, or stops: while it moves, no truth is started. */
   protected settle(done: boolean) { this.settled = done ? 0 : performance.now() + beginsRuns; }
 
-  /** Whether the energy balance of a scene is kept. */
+  /** True if the energy balance of a scene is computed. */
   protected observes(scene: EngineScene) { return scene.particles <= smallScene; }
 
-  /** Opens the scene for every method and starts again; false, with the reason said, where it is not taken. */
+  /** Opens the scene for every method and restarts; returns false, with the reason displayed, if it is invalid. */
   load(fresh = false) {
     const opened: LiveRun[] = [];
     try {
@@ -91,13 +91,13 @@ export abstract class LabRuns extends HTMLElement {
     return true;
   }
 
-  /** The method that the scene's text names, where it is one of mysim's. */
+  /** The method in the scene's text, if it is one of mysim's. */
   private ownMethod(): MethodSpec {
     const name = textAt(this.toml, 'method').replace(/^mysim\//, '');
     return {method: this.lab.stepperOf(name) ? name : 'leapfrog', step: numberAt(this.toml, 'time.step')};
   }
 
-  /** After runs were opened: clock and truth are at the beginning. */
+  /** Resets clock and truth after runs were opened. */
   private start(fresh: boolean) {
     const [a] = this.runs;
     this.clock = 0, this.end = a.sim.scene.duration, this.byHand = false, this.growth = null, this.passed = [];
@@ -112,7 +112,7 @@ export abstract class LabRuns extends HTMLElement {
     this.start(false);
   }
 
-  /** The truth is opened when it is needed first. */
+  /** Opens the truth when it is needed for the first time. */
   private findTruth() {
     if (this.truth || this.truthGone) return;
     const run = this.runs.find(r => !r.refusal && !r.failed);
@@ -135,7 +135,10 @@ export abstract class LabRuns extends HTMLElement {
     this.late = this.slow = 0, this.pace = 1, this.pending = false;
   }
 
-  /** Lets time pass: runs go on up to the clock, as far as the frame's computing allows. `wanted`: at full speed. */
+  /**
+   * Advances time: runs proceed up to the clock, as far as the frame's computing budget allows. `wanted`: at full
+   * speed.
+   */
   advance(passed: number, wanted = passed) {
     const before = this.clock;
     let aim = Math.min(this.end, before + passed), left = computingBudget * this.frameTime;
@@ -154,11 +157,11 @@ export abstract class LabRuns extends HTMLElement {
   }
 
   /**
-   * Compares runs that moved on with the truth, and keeps what they have come to. Where the truth is not there within
-   * the frame's computing, `pending` makes the clock wait for it, and go more slowly from then on; but not for ever.
+   * Compares advanced runs with the truth, and records samples. If the truth is not ready within the frame's budget,
+   * `pending` makes the clock wait for it, and the clock slows down from then on, but only for a limited time.
    */
   sample() {
-    // at the start nothing is off yet, and while a slider moves no truth is begun
+    // at the start there is no error yet, and while a slider moves no truth is started
     const free = !this.hand.held && this.clock > 0 && performance.now() > this.settled;
     if (free) this.findTruth();
     const begin = performance.now(), truth = free ? this.truth : null;

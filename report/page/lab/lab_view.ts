@@ -1,4 +1,4 @@
-// View of the lab: picture, controls and words; lab.ts holds their behaviour.
+// View of the lab: picture, controls and texts; lab.ts has their behaviour.
 
 import {Look, rampOf, rgb} from '../player/colours';
 import {check, dropdown, make} from '../player/controls';
@@ -12,12 +12,12 @@ import {LiveRun} from './live_run';
 import {Changes, MethodSpec} from './scene_text';
 import {labLanguage, say, setLabLanguage} from './words';
 
-export const titleHeight = 26;  // CSS pixels, of methods over one another
+export const titleHeight = 26;  // CSS pixels, for overlaid methods
 
 /** Colours of a run, with the dash of its curves. */
 export type RunLook = Look&{dash: string};
 
-/** The colours of a run: A and B apart in light and dark, B dashed; the truth grey. */
+/** The colours of a run: A and B differ in light and dark mode, B is dashed; the truth is grey. */
 export function lookOfRun(letter: string): RunLook {
   const name = letter === 'A' ? 'mysim2' : letter === 'B' ? 'second' : 'truth';
   const style = getComputedStyle(document.querySelector('live-lab') ?? document.documentElement);
@@ -30,7 +30,7 @@ export function lookOfRun(letter: string): RunLook {
   };
 }
 
-/** What is chosen of the picture. */
+/** Settings of the picture. */
 export interface LabLook {
   view: 'over'|'side';
   colour: 'plain'|'stretch'|'error';
@@ -38,7 +38,7 @@ export interface LabLook {
   truth: boolean;
 }
 
-/** What the controls call. */
+/** The functions that the controls call. */
 export interface LabActs {
   toggle(): void;
   step(): void;
@@ -103,7 +103,7 @@ export class LabView {
   private readonly prompt: HTMLElement = make('p', {class: 'prompt'});
   private readonly otherPlots: HTMLDetailsElement = make('details', {class: 'other-plots'});
   private methods: MethodKnobs[] = [];
-  // made anew in another language
+  // rebuilt for another language
   sceneChoice!: HTMLSelectElement;
   particle!: HTMLElement;
   pin!: HTMLElement;
@@ -131,7 +131,7 @@ export class LabView {
     this.build();
   }
 
-  /** Makes everything with words in it; again in another language. */
+  /** Builds everything that contains text; called again after a change of language. */
   build() {
     const {act} = this, button = (name: string, run: () => void) => labButton(name, say(name), run);
     this.sceneChoice = make('select', {'data-act': 'scene', 'aria-label': say('scene')});
@@ -215,7 +215,7 @@ export class LabView {
     this.plots.name();
   }
 
-  /** The scenes to choose from; `own` is one that the page does not have. */
+  /** The scenes to choose from; a scene that the page does not have is marked as the reader's own. */
   setScene(names: string[], name: string, question: string, changed: boolean, alone: boolean) {
     const own = names.includes(name) ? [] : [name];
     this.sceneChoice.replaceChildren(...[...names, ...own].map(
@@ -246,7 +246,7 @@ export class LabView {
     this.springs[1].checked = springs, this.truth.checked = truth;
     this.viewChoice[0].hidden = count < 2;
     this.springs[0].hidden = !cloth;
-    if (firstOrder) this.otherPlots.open = true;  // errors alone are known there
+    if (firstOrder) this.otherPlots.open = true;  // only errors are known there
     this.scale.replaceChildren(...(scale ? ['0', make('i', {class: 'scale'}), scale] : []));
   }
 
@@ -262,7 +262,7 @@ export class LabView {
     this.progress.hidden = byHand;
   }
 
-  /** Names of the panels, with what is known of each run now. */
+  /** Names of the panels, with the current state of each run. */
   setTitles(titles: PanelTitle[], places: PanelPlace[], over: boolean) {
     while (this.titles.childElementCount > titles.length) this.titles.lastChild?.remove();
     titles.forEach((title, i) => {

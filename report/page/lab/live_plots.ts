@@ -13,7 +13,7 @@ const energyKinds = {
 };
 type Quantity = 'error'|'residual'|keyof typeof energyKinds;
 
-/** The parts of a run of the lab that are plotted. */
+/** The plotted parts of a run of the lab. */
 interface PlottedRun {
   letter: string;
   look: {css: string, dash?: string};
@@ -51,7 +51,7 @@ export class LivePlots {
     if (this.shown) this.show(...this.shown);
   }
 
-  /** `runs` with samples, up to `end` (s); `none`: the words in place of curves. */
+  /** Shows `runs` with samples, up to `end` (s); `none`: texts instead of curves. */
   show(runs: PlottedRun[], end: number, time: number, none: Absent) {
     this.shown = [runs, end, time, none];
     const kind = (this.choice.value || 'total') as keyof typeof energyKinds, [error, energy, residual] = this.plots;

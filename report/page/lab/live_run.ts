@@ -1,4 +1,4 @@
-// Runs of the engine in this page: a method's own, and the truth beside it.
+// Runs of the engine in this page: one per method, and the truth.
 
 import {placeOf, Places, Vec3} from '../player/vectors';
 
@@ -9,7 +9,7 @@ import {MethodSpec} from './scene_text';
 
 export const messageOf = (problem: unknown) => problem instanceof Error ? problem.message : String(problem);
 
-/** A method as the engine's start() takes it. */
+/** A method as settings for the engine's start(). */
 export function startOf({method, step, tolerance}: MethodSpec, duration: number, observe: boolean): RunSettings {
   const [stepper, ...options] = method.split('+');
   return {
@@ -22,14 +22,16 @@ export function startOf({method, step, tolerance}: MethodSpec, duration: number,
   };
 }
 
-/** State of a run: time (s), places, velocities. */
+/** State of a run: time (s), positions, velocities. */
 interface State {
   t: number;
   x: Float64Array;
   v: Float64Array;
 }
 
-/** Places at a time between two states: the cubic through both with their velocities, a line where there are none. */
+/**
+ * Positions at a time between two states: the cubic through both with their velocities, or a line without velocities.
+ */
 function between(from: State, to: State, t: number, into: Float64Array) {
   const h = to.t - from.t, u = h > 0 ? Math.min(1, Math.max(0, (t - from.t) / h)) : 1, a = from.x, b = to.x;
   if (u === 1)
@@ -43,7 +45,7 @@ function between(from: State, to: State, t: number, into: Float64Array) {
   return into;
 }
 
-/** RMS distance of the particles of two sets of places, m. */
+/** RMS distance of the particles of two sets of positions, m. */
 export function rmsDistance(a: Places, b: Places) {
   let sum = 0;
   for (let i = 0; i < a.length; ++i) sum += (a[i] - b[i]) ** 2;
@@ -56,7 +58,7 @@ export const isFinite3 = (places: Places) => {
   return Number.isFinite(sum);
 };
 
-/** What a run has come to at a time (s): error and its bar (m), energies (J), relative residual. */
+/** A run at a time (s): error and its bar (m), energies (J), relative residual. */
 export interface Sample {
   t: number;
   error: number|null;
@@ -73,15 +75,15 @@ export class LiveRun {
   readonly stepper: Stepper|undefined;
   sim: Simulation;
   look: RunLook;
-  places: Float64Array|null = null;  // the last that are numbers
+  places: Float64Array|null = null;  // the last finite ones
   samples: Sample[] = [];
-  trail: Vec3[] = [];  // way of the last particle
+  trail: Vec3[] = [];  // path of the last particle
   bursting = false;
-  shown = false;                 // a failure was shown
-  offset = 0;                    // s, when the engine's clock was 0
+  shown = false;                 // the failure was shown
+  offset = 0;                    // s, time at which the engine's clock was 0
   since = 0;                     // s, of the last change by hand
   last = 0;                      // ms of computing in the last frame
-  handWork: number|null = null;  // J, put in by the hand
+  handWork: number|null = null;  // J, work done by the hand
   refusal: string|null = null;
   fault: string|null = null;
   first: Energies|null = null;  // start of the balance
@@ -95,8 +97,8 @@ export class LiveRun {
   private past = false;  // beyond the critical step
 
   /**
-   * Throws the engine's LabError where the scene is not read; a refused method leaves `refusal` instead. `observe` says
-   * of a scene whether its energy balance is kept.
+   * Throws the engine's LabError if the scene cannot be read; a refused method sets `refusal` instead. `observe`
+   * decides for a scene whether its energy balance is computed.
    */
   constructor(
       lab: Lab, toml: string, readonly letter: string, public spec: MethodSpec,
@@ -119,7 +121,7 @@ export class LiveRun {
       this.first = this.sim.energy;
     } catch (problem) {
       this.refusal = messageOf(problem);
-      this.sim = this.sim.lab.open(this.sim.toml);  // an exception ends the instance; its scene and limits are needed
+      this.sim = this.sim.lab.open(this.sim.toml);  // an exception ends the instance, whose scene and limits are needed
     }
     const {limit} = this;
     this.trails = !this.sim.scene.triangles.length;
@@ -133,18 +135,16 @@ export class LiveRun {
   get reason() { return this.refusal ?? this.fault ?? this.sim.reason; }
   get limit() { return this.sim.limit(this.spec.method); }
   get lastSample(): Sample|undefined { return this.samples[this.samples.length - 1]; }
-  /** The step that the run takes, s: the one asked for where it has not begun. */
+  /** The step of the run, s; before its start, the requested step. */
   get step() { return (this.refusal ? 0 : this.sim.h) || this.spec.step || this.sim.scene.step; }
-  /** Time at which the run will have ended, s. */
+  /** Time at which the run ends, s. */
   get end() { return this.offset + this.sim.scene.duration; }
-  /** Real time over computing time, of the whole run so far. */
+  /** Simulated time / computing time, of the whole run so far. */
   get factor() { return this.spent > 0 ? 1000 * this.stepped / this.spent : null; }
-  /**
-   * Name of a distance from the truth: where balls or planes are touched the truth is that of the same contact rule.
-   */
+  /** Name of the distance from the truth: with balls or planes, the truth has the same contact rule. */
   get errorWord() { return solidsOf(this.sim.scene) ? 'difference' : 'error'; }
 
-  /** Takes the steps that end by a time (s), as far as so many ms of computing allow; false where they do not. */
+  /** Takes the steps up to a time (s), with at most `budget` ms of computing; returns false if that is not enough. */
   advance(time: number, budget: number) {
     this.last = 0;
     if (this.ended) return true;
@@ -153,7 +153,7 @@ export class LiveRun {
     const goes = () => !sim.ended && sim.t < aim && performance.now() - begin < budget;
     if (sim.t >= aim) return true;
     try {
-      // beyond the critical step each step is looked at: once the balance is lost quickly, a frame shows one step
+      // beyond the critical step, observe each step: if the balance is lost quickly, a frame shows a single step
       if (this.past) {
         while (goes()) {
           sim.advance(sim.t + 0.5 * h, budget);
@@ -181,7 +181,7 @@ export class LiveRun {
     return this.ended || (!this.bursting && sim.t >= aim - 1e-9 * (h || 1));
   }
 
-  /** Keeps the last places that are numbers. */
+  /** Saves the last finite positions. */
   keepPlaces() {
     if (this.fault) return;
     const {positions} = this.sim;
@@ -190,18 +190,18 @@ export class LiveRun {
     this.places.set(positions);
     this.recent.push(positions.slice());
     if (this.recent.length > 24) this.recent.shift();
-    // the way of the last particle, at even times
+    // the path of the last particle, at equal time intervals
     if (this.trail.length <= (this.time - this.since) / this.sim.scene.duration * (trailPoints - 1))
       this.trail.push(placeOf(positions, positions.length / 3 - 1));
   }
 
-  /** After a failure: goes back to the last places that `good` finds fit to be shown. */
+  /** After a failure: returns to the last positions that `good` accepts. */
   stepBack(good: (places: Float64Array) => boolean) {
     const found = [...this.recent].reverse().find(good);
     if (found) this.places?.set(found);
   }
 
-  /** The relative energy residual now; 0 where none is known. */
+  /** The current relative energy residual; 0 if unknown. */
   private residual(energy = this.sim.energy) {
     const {first} = this;
     if (!energy || !first || !Number.isFinite(energy.balance)) return 0;
@@ -226,7 +226,7 @@ export class LiveRun {
     this.samples.push(row);
   }
 
-  /** A change by hand: the engine goes on as a new scene whose clock starts at 0. */
+  /** A change by hand: the engine continues as a new scene whose clock starts at 0. */
   change(act: (sim: Simulation) => void) {
     const {time, sim} = this, before = sim.energy?.total;
     act(sim);
@@ -241,7 +241,7 @@ export class LiveRun {
   close() { this.sim.close(); }
 }
 
-/** A run that is asked for its places at given times, each later than the one before. */
+/** A run that is queried for its positions at increasing times. */
 class Follower {
   readonly sim: Simulation;
   readonly out: Float64Array;
@@ -264,12 +264,12 @@ class Follower {
     return {t: this.offset + sim.t, x: sim.positions.slice(), v: sim.velocities.slice()};
   }
 
-  /** Places at a time; null where they are not there within so many ms. */
+  /** Positions at a time; null if they are not available within `budget` ms. */
   placesAt(time: number, budget: number) {
     const {sim} = this, h = this.step, begin = performance.now(), from = this.now.t;
     const tiny = 1e-6 * h, left = () => budget - (performance.now() - begin);
     if (this.now.t < time - tiny) {
-      // up to the last step before the time, then over it
+      // up to the last step before the time, then beyond it
       if (this.now.t < time - h - tiny) sim.advance(time - this.offset - h - tiny, budget);
       this.before = this.state();
       if (!sim.ended && this.before.t < time - tiny && left() > 0) sim.advance(time - this.offset - tiny, left());
@@ -285,12 +285,12 @@ class Follower {
 }
 
 /**
- * The truth: a rule of order four at a quarter of its critical step, and once more at half of it, whose difference is
- * the error bar. Its steps divide those of the first method, so that their times meet.
+ * The truth: a rule of order four at a quarter of its critical step, and again at half of it; the difference is the
+ * error bar. Its steps divide those of the first method, so that their times coincide.
  */
 export class Truth {
   spec: MethodSpec = {method: ''};
-  same = false;  // it is the run's own stepper at a finer step
+  same = false;  // the run's own stepper with a finer step
   readonly followers: Follower[] = [];
   private readonly whole: boolean;  // the whole difference is the error bar
 
@@ -318,10 +318,10 @@ export class Truth {
 
   get known() { return this.followers.length > 0; }
   get places() { return this.followers[0].out; }
-  /** Whether places of the truth are there yet. */
+  /** True if the truth has any positions yet. */
   get begun() { return this.followers[0].spent > 0; }
 
-  /** Error and error bar of places at a time, m; null where the truth is not there within so many ms. */
+  /** Error and error bar of positions at a time, m; null if the truth is not available within `budget` ms. */
   compare(places: Places, time: number, budget: number) {
     const begin = performance.now(), [fine, coarse] = this.followers, truth = fine.placesAt(time, budget);
     if (!truth || !isFinite3(truth)) return null;
@@ -330,16 +330,16 @@ export class Truth {
     return {error: rmsDistance(places, truth), bar};
   }
 
-  /** Whether a time is still to come for the truth. */
+  /** True if the truth has not reached this time. */
   isBefore(time: number) {
     const {now, sim} = this.followers[0];
     return !sim.ended && now.t < time - 1e-6 * (sim.h || 1);
   }
 
-  /** Computing for a second of the scene, ms. */
+  /** Computing time per second of the scene, ms. */
   get cost() { return this.followers.reduce((sum, {spent, stepped}) => sum + (stepped > 0 ? spent / stepped : 0), 0); }
 
-  /** Gives up the error bar, then all; false when nothing is left. */
+  /** Gives up the error bar, then the truth; returns false when nothing is left. */
   shed() {
     this.followers.pop()?.close();
     return this.known;

@@ -1,5 +1,5 @@
-// The stage of a running engine: it draws the places that runs have now, over one another or side by side, with what
-// the hand holds, the way that was gone, and the mode that grows.
+// The stage of a running engine: draws the current positions of the runs, overlaid or side by side, with the held
+// particle, its path, and the growing mode.
 
 import {boundsOf} from '../player/bounds';
 import {rgb} from '../player/colours';
@@ -17,11 +17,11 @@ import {LiveRun} from './live_run';
 
 export const trailPoints = 600;
 
-/** The scene of an engine as the stage takes it. */
+/** The engine's scene in the stage's format. */
 export function stageScene(name: string, {scene}: Simulation, floor: number|null, from: Numbers): StageScene&
     {shared: SharedGeometry} {
   const names = ['single', 'structural', 'shear', 'bend'], ranks = [1, 0, 2, 3];
-  // hard distances, then springs in the order of their families, the threads first
+  // distance constraints, then springs in the order of their families, with the threads first
   const order = [...scene.families.keys()];
   order.sort((a, b) => ranks[scene.families[a]] - ranks[scene.families[b]] || a - b);
   const hard = scene.constraintLengths.length, families = hard ? [{name: 'hard distance', count: hard}] : [];
@@ -54,7 +54,7 @@ export function stageScene(name: string, {scene}: Simulation, floor: number|null
   };
 }
 
-/** What is drawn of a run, or of the truth (no run), which is faint. */
+/** Drawing of a run, or of the truth (no run), which is faint. */
 export interface LiveView {
   run: LiveRun|null;
   letter: string;
@@ -80,7 +80,7 @@ export interface LiveShown extends Omit<Shown, 'colour'> {
 }
 
 export class LiveStage extends BaseStage<LivePanel> {
-  made = '';  // counts that it was made for
+  made = '';  // counts for which the stage was made
   aspect = 1;
   boxes: PanelPlace[] = [];  // pictures without titles, CSS pixels
   moving = false;
@@ -102,7 +102,7 @@ export class LiveStage extends BaseStage<LivePanel> {
     this.arrows = this.tools.table(2 * scene.particles);
   }
 
-  /** The true course, drawn from the start on, whatever the runs do; none for no points. */
+  /** The true path, drawn from the start, independent of the runs; empty: none. */
   setCourse(points: Vec3[]) {
     const {course} = this;
     course.count = Math.max(0, points.length - 1);
@@ -112,7 +112,7 @@ export class LiveStage extends BaseStage<LivePanel> {
     this.tools.fill(table);
   }
 
-  /** Pins after a change by hand. */
+  /** Updates the pins after a change by hand. */
   setPins(pins: number[]) {
     if (pins.join() === this.scene.pins.join()) return;
     this.scene.pins = pins;
@@ -120,7 +120,7 @@ export class LiveStage extends BaseStage<LivePanel> {
     this.shapes.pins = balls(this.tools, this.scene.particles, pins);
   }
 
-  /** Holds in view: places that were there, and obstacles. */
+  /** Keeps past positions and obstacles in view. */
   hold(pictures: Places[]) {
     const last = pictures.length - 1;
     const placesAt = (t: number, into = new Float32Array(3 * this.scene.particles)) =>
@@ -138,7 +138,7 @@ export class LiveStage extends BaseStage<LivePanel> {
       }
   }
 
-  /** Whether places lie within what is in view, but for a small part of it. */
+  /** True if the positions are in view, except for a small fraction. */
   sees(places: Places, part = 0.03) {
     const {low, high, size} = this;
     for (let i = 0; i < places.length; ++i)
@@ -146,7 +146,7 @@ export class LiveStage extends BaseStage<LivePanel> {
     return true;
   }
 
-  /** Sets what is drawn, each in a panel. */
+  /** Sets the drawn views, each in a panel. */
   show(views: LiveView[]) {
     const {tools, scene: {particles}} = this, cloth = this.triangles.length > 0;
     for (const {points, normals, way} of this.panels) this.dropTables(points, normals, way);
@@ -160,18 +160,18 @@ export class LiveStage extends BaseStage<LivePanel> {
                             }));
   }
 
-  /** The way of the last particle: its points up to now, taken from the run's trail. */
+  /** The path of the last particle: its points so far, from the run's trail. */
   private extend(panel: LivePanel, way: Table) {
     const {trail, places} = panel;
     if (panel.gone > trail.length) panel.gone = 0;
     for (; panel.gone < Math.min(trail.length, trailPoints - 1); ++panel.gone)
       way.data.set([...trail[panel.gone], -1], 4 * panel.gone);
-    // from the last point kept to where the particle is
+    // from the last stored point to the particle
     way.data.set([...placeOf(places, places.length / 3 - 1), -1], 4 * panel.gone);
     this.tools.fill(way);
   }
 
-  /** Draws the panels and keeps what pointers need; returns the panels' places. */
+  /** Draws the panels, and keeps the data that pointers need; returns the panels' places. */
   draw(shown: LiveShown) {
     const {colour, over, centres} = shown;
     this.shown = shown;
@@ -190,7 +190,7 @@ export class LiveStage extends BaseStage<LivePanel> {
     return places;
   }
 
-  /** The camera moves on to what it has to hold; at once where it has not been before. */
+  /** The camera moves smoothly to its new target; at once if there is no previous one. */
   private eased(fit: Fit) {
     const was = this.fit, part = 0.12;
     // a picture of another shape is another view
@@ -207,7 +207,7 @@ export class LiveStage extends BaseStage<LivePanel> {
     };
   }
 
-  /** A ghost lets what lies behind it be seen. */
+  /** A ghost is transparent. */
   protected drawBodies(programs: BodyPrograms, view: PanelView<LivePanel>, light: Uniforms) {
     if (programs === this.programs && view.ghost && view.surface)
       this.drawGhost(view, light);
@@ -232,7 +232,7 @@ export class LiveStage extends BaseStage<LivePanel> {
     this.drawPath(view, {...all, nearer: 0, by_family: 0});
   }
 
-  /** The course, the way of a particle, the particle in the hand, and the growing mode. */
+  /** The true path, the path of a particle, the held particle, and the growing mode. */
   protected drawPath({panel, pixel, ghost}: PanelView<LivePanel>, all: Uniforms) {
     const {tools, shapes, course} = this, {gl} = tools, {places, way} = panel, {marked, growth} = this.shown!;
     const rod = (table: Table, shape: Shape, radius: number, plain: number[], count?: number) => {
@@ -261,7 +261,7 @@ export class LiveStage extends BaseStage<LivePanel> {
     return this.scene.spheres.map(({radius, centres: [centre]}) => [radius, placeOf(centre, 0)]);
   }
 
-  /** A place (m) in pixels of the canvas, in a panel: [x, y, distance]; null behind the eye. */
+  /** A position (m) in pixels of the canvas, within a panel: [x, y, distance]; null behind the eye. */
   project(place: Numbers, {left, top, wide, high}: PanelPlace): Vec3|null {
     const m = this.toClip, [x, y, z] = placeOf(place, 0);
     const w = m[3] * x + m[7] * y + m[11] * z + m[15];
@@ -271,6 +271,6 @@ export class LiveStage extends BaseStage<LivePanel> {
   }
 }
 
-/** Distance of each particle from its place elsewhere, m. */
+/** Distance of each particle from its position in `from`, m. */
 const apart = (places: Places, from: Places) =>
     Float32Array.from({length: places.length / 3}, (_, i) => norm(minus(placeOf(places, i), placeOf(from, i))));

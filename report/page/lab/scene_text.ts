@@ -1,12 +1,12 @@
-// A scene's text, TOML: numbers are read from it and changed in it, comments and order stay as they are.
+// A scene's text, TOML: reads and changes numbers; comments and order are preserved.
 
 import {norm, Places} from '../player/vectors';
 
-/** A number of a text, or a list of three. */
+/** A number in a text, or a list of three. */
 export type Value = number|number[];
 /** Numbers to change: {path: value}. */
 export type Changes = Record<string, Value>;
-/** A method with its step (s) or, of adaptive steppers, its tolerance. */
+/** A method with its step (s) or, for adaptive steppers, its tolerance. */
 export interface MethodSpec {
   method: string;
   step?: number;
@@ -20,13 +20,13 @@ interface NumberEntry {
   line: number;
   begin: number;  // extent of the value in its line
   end: number;
-  out: boolean;  // the line is left out
+  out: boolean;  // the line is commented out
 }
 
-/** What a number that must lie above zero becomes at zero: its line is left out, and can come back. */
+/** Marks the line of a number that must be positive and was set to zero: it is commented out, and can be restored. */
 const leftOutMark = '# left out: ';
 
-/** The numbers of a text. Strings, inline tables and lists over several lines are skipped. */
+/** The numbers in a text. Skips strings, inline tables and multi-line lists. */
 export function numbersOf(toml: string) {
   const found: NumberEntry[] = [];
   let section = '';
@@ -47,30 +47,30 @@ export function numbersOf(toml: string) {
   return found;
 }
 
-/** A number as TOML writes it: the shortest text that gives the same double again. */
+/** A number in TOML: the shortest text that restores the same double. */
 export const tomlNumber = (value: Value): string => Array.isArray(value) ? `[${value.map(tomlNumber).join(', ')}]` :
     Object.is(value, -0) ? '-0.0' :
                            String(value);
 
-/** The first value at a path; 0 where it is left out, undefined where there is none. */
+/** The first value at a path; 0 if it is commented out, undefined if there is none. */
 export function valueAt(toml: string, path: string): Value|undefined {
   const entry = numbersOf(toml).find(e => e.path === path);
   return entry && (entry.out ? (Array.isArray(entry.value) ? entry.value.map(() => 0) : 0) : entry.value);
 }
 
-/** The first value at a path as a number: the length of a list, 0 where there is none. */
+/** The first value at a path as a number: the norm of a list, 0 if there is none. */
 export function numberAt(toml: string, path: string) {
   const value = valueAt(toml, path) ?? 0;
   return Array.isArray(value) ? norm(value) : value;
 }
 
-/** What zero means at a path: the line goes, its whole section goes, or it is a number as any other. */
+/** The effect of zero at a path: comment out the line, or the whole section, or write the number. */
 const zeroOf = (path: string) =>
     (/^(grid\.(stiffness\.(shear|bend)|bending|dashpot)|spring\.dashpot)$/.test(path) ? 'line' :
          /^drag\./.test(path)                                                         ? 'section' :
                                                                                         'number');
 
-/** The text with another number at a path, in all tables of that name ([[sphere]], [[spring]]). */
+/** The text with another number at a path, in all tables with that name ([[sphere]], [[spring]]). */
 function withNumber(toml: string, path: string, value: Value) {
   const lines = toml.split('\n'), zero = zeroOf(path), gone = value === 0 && zero !== 'number';
   const leave = (line: string) => (line.startsWith(leftOutMark) ? line : leftOutMark + line);
@@ -82,7 +82,7 @@ function withNumber(toml: string, path: string, value: Value) {
     else if (zero === 'line')
       lines[line] = leave(lines[line]);
     if (zero !== 'section') continue;
-    // the head of the section and all that belongs to it, up to the next head
+    // the head of the section and its lines, up to the next head
     let first = line, last = line;
     const isHead = (text: string) => /^\s*\[/.test(bring(text));
     while (first > 0 && !isHead(lines[first])) --first;
@@ -97,7 +97,7 @@ function withNumber(toml: string, path: string, value: Value) {
 export const withNumbers = (toml: string, changes: Changes) =>
     Object.entries(changes).reduce((text, [path, value]) => withNumber(text, path, value), toml);
 
-/** The changes that lead from one text to another: {path: value}; null where they are more than numbers. */
+/** The changes from one text to another: {path: value}; null if more than numbers differ. */
 export function changesBetween(from: string, to: string) {
   const changes: Changes = {};
   for (const path of new Set(numbersOf(from).map(e => e.path))) {
@@ -113,11 +113,11 @@ export function withMethod(toml: string, {method, step = 0, tolerance}: MethodSp
   return tolerance ? text : withNumber(text, 'time.step', step);
 }
 
-/** A text of the scene, as "question"; empty where there is none. */
+/** A string of the scene, such as "question"; empty if there is none. */
 export const textAt = (toml: string, key: string) =>
     new RegExp(`^\\s*${key}\\s*=\\s*"((?:[^"\\\\]|\\\\.)*)"`, 'm').exec(toml)?.[1] ?? '';
 
-/** The shortest step, s, in three or more digits, with which a run takes `count` steps between two samples. */
+/** The shortest step, s, with three or more digits, for which a run takes `count` steps between two samples. */
 export function stepOf(interval: number, count: number) {
   const exact = interval / count;
   for (let digits = 3; digits < 16; ++digits) {
@@ -128,7 +128,7 @@ export function stepOf(interval: number, count: number) {
   return exact;
 }
 
-/** The section [start] of places and velocities. */
+/** The section [start] with positions and velocities. */
 function startSection(x: Places, v: Places) {
   const list = (values: Places) => {
     const lines: string[] = [];
@@ -139,14 +139,14 @@ function startSection(x: Places, v: Places) {
   return `[start]\npositions = ${list(x)}\n${v.length ? `velocities = ${list(v)}\n` : ''}`;
 }
 
-/** The state that a scene starts from: places and velocities of particles, centres of spheres. */
+/** The initial state of a scene: positions and velocities of particles, centres of spheres. */
 export interface Start {
   positions: Places;
   velocities: Places;
   centres: Places;
 }
 
-/** The text with the state that a run starts from, its pins, and its spheres where they start. */
+/** The text with the initial state of a run, its pins, and its spheres at their initial positions. */
 export function withStart(toml: string, pins: Int32Array, {positions: x, velocities: v, centres}: Start) {
   const pinned = `particles = [${[...pins].join(', ')}]`;
   let text = /^\[pins\]/m.test(toml) ?

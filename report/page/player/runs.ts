@@ -39,7 +39,7 @@ async function playRun(key: string, marker: HTMLElement) {
     box.append(make(
         'p', {class: 'none'},
         file ? 'The run ended before its first picture.' :
-               'The runs of this method are too large for the page; the command below computes them.'));
+               'The runs of this method are too large for the page; crosscheck run computes them.'));
   }
   const state = labStateOf(key, marker);
   if (state) {
