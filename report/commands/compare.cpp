@@ -67,7 +67,7 @@ bool equal_rules_differ(const Request& request, const Scene& scene, MethodResult
                  without_folders(a.method), largest,
                  allowed
                      ? fmt::format("at most {:.3g} m is round-off: {}", *allowed, over ? "NOT THE SAME" : "the same")
-                     : fmt::format("but a perturbation grows {:.1g}-fold here: nothing can be said", growth));
+                     : fmt::format("but a perturbation grows {:.1g}-fold here: no conclusion", growth));
       differ |= over;
     }
   return differ;

@@ -130,8 +130,9 @@ int to_engine(const TranslateOptions& options) {
                    ? ""
                    : fmt::format(", n = {} ({})", target.iterations, target.numbers->iterations));
     if (std::abs(t.h - run.step) > 1e-9 * run.step)
-      fmt::print("  the step asked is {:.6g} s, the step taken {:.6g} s: it must divide the {:.6g} s between samples\n",
-                 run.step, t.h, run.duration / run.samples);
+      fmt::print(
+          "  the requested step is {:.6g} s, the step used is {:.6g} s: it must divide the {:.6g} s between samples\n",
+          run.step, t.h, run.duration / run.samples);
     for (const TranslatedNumber& number : t.numbers) print(number);
     for (const std::string& lost : t.lost) fmt::print("  lost: {}\n", lost);
     if (!target.numbers->source.empty()) fmt::print("  formulas from {}\n", target.numbers->source);

@@ -37,7 +37,7 @@ void append_tier(Chart& chart) {
   std::visit(
       []<class F>(F& figure) {
         if constexpr (std::derived_from<F, FigureInfo>) {
-          if (figure.tier.empty()) throw std::logic_error("figure " + figure.name + " does not say what it rests on");
+          if (figure.tier.empty()) throw std::logic_error("figure " + figure.name + " has no tier");
           figure.caption += (figure.tier == "measured"             ? " Measured."
                              : figure.tier.starts_with("measured") ? " It is " + figure.tier + "."
                                                                    : " Reference: " + figure.tier + ".");

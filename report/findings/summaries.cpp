@@ -17,7 +17,7 @@ std::string residual_class(const EnergyRow& run) {
   if (run.verdict != Verdict::ok) return failure_class(run.verdict);
   // 1e5 roundings of the accumulated energies
   if (worst < 1e-11 * turned) return residual_none;
-  if (worst > 0.3 * turned) return lost ? "takes much of the energy" : "makes much energy";
+  if (worst > 0.3 * turned) return lost ? "loses much of the energy" : "gains much energy";
   // half a decade more than in the first tenth of the run; growth proportional to time gives a whole decade
   if (run.growth.value_or(0) > 0.5) return lost ? "drifts down" : "drifts up";
   return residual_bounded;

@@ -223,7 +223,7 @@ std::string readable(std::string text) {
 }
 
 Json methods_data(const std::vector<std::string>& shown) {
-  Json all = table("", cells({"method", "what it is", "order", "force evaluations per time step",
+  Json all = table("", cells({"method", "description", "order", "force evaluations per time step",
                               "stable for (ω: largest angular frequency, γ: drag rate, h: time step)"}));
   all["class"] = "methods";
   for (const Method& method : all_methods()) {

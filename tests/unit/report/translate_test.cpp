@@ -57,12 +57,12 @@ TEST_F(CliTranslate, AStepThatDoesNotFitTheSamplesIsNamedBesideTheOneTaken) {
   write("own.toml", own_scene);
   expect({"translate", "own.toml", "--to", "jolt", "--step", "0.0167"}, 0,
          {"step h = 0.01 s",
-          "the step asked is 0.0167 s, the step taken 0.01 s: it must divide the 0.02 s between samples"});
+          "the requested step is 0.0167 s, the step used is 0.01 s: it must divide the 0.02 s between samples"});
   const JsonField json =
       JsonField::parse(call({"translate", "own.toml", "--to", "jolt", "--step", "0.0167", "--json"}).out, "translate");
   EXPECT_EQ(json["step"].number(), 0.01);
   EXPECT_EQ(json["step_asked"].number(), 0.0167);
-  EXPECT_FALSE(contains(call({"translate", "own.toml", "--to", "jolt", "--step", "0.005"}).out, "the step asked"));
+  EXPECT_FALSE(contains(call({"translate", "own.toml", "--to", "jolt", "--step", "0.005"}).out, "the requested step"));
 }
 
 TEST_F(CliTranslate, WhatIsNotRunHereSaysSo) {
