@@ -63,11 +63,10 @@ bool equal_rules_differ(const Request& request, const Scene& scene, MethodResult
       };
       const std::optional<double> allowed = std::max(bound(methods[i]), bound(methods[j]));
       const bool over = allowed && largest > *allowed;
-      fmt::print("\n{} and {} are the same rule: they differ by {:.3g} m, {}\n", without_folders(b.method),
+      fmt::print("\n{} and {} use the same rule: they differ by {:.3g} m, {}\n", without_folders(b.method),
                  without_folders(a.method), largest,
-                 allowed
-                     ? fmt::format("at most {:.3g} m is round-off: {}", *allowed, over ? "NOT THE SAME" : "the same")
-                     : fmt::format("but a perturbation grows {:.1g}-fold here: no conclusion", growth));
+                 allowed ? fmt::format("round-off allows {:.3g} m: {}", *allowed, over ? "NOT THE SAME" : "the same")
+                         : fmt::format("but a perturbation grows {:.1g}-fold here: no conclusion", growth));
       differ |= over;
     }
   return differ;

@@ -42,7 +42,8 @@ Frames every(const Trajectory& path, int stride) {
 
 double distance_from(const Points& x, const Points& start) { return (x - start).cwiseAbs().maxCoeff(); }
 
-/// Truncates a failed run where it leaves a box three times as large as the true motion: no camera shows more.
+/// Truncates a failed run where a coordinate has moved by three times the larger of the scene's size and the true
+/// motion's largest displacement: no camera shows more.
 void cut(Frames& run, const Scene& scene, const std::optional<Truth>& truth) {
   double reach = scene.size();
   if (truth)

@@ -285,8 +285,11 @@ class Follower {
 }
 
 /**
- * The truth: a rule of order four at a quarter of its critical step, and again at half of it; the difference is the
- * error bar. Its steps divide those of the first method, so that their times coincide.
+ * The truth: a rule of order four at no more than a quarter of its critical step (without a critical step: a quarter of
+ * the run's step, a twentieth for first-order scenes), and again with twice that step. If neither rule supports the
+ * scene, the run's own stepper at a hundredth of its step. The error bar is 3 / (2^4 - 1) of the difference of both;
+ * with contact, or with the run's own stepper, it is the whole difference. The steps divide those of the first method,
+ * so that their times coincide.
  */
 export class Truth {
   spec: MethodSpec = {method: ''};

@@ -32,7 +32,7 @@ TEST_P(PackagedEngine, IsSymplecticEulerToRoundOff) {
   const ProgramResult compared = call({"compare", "chain", "--methods", "symplectic-euler," + method});
   EXPECT_EQ(compared.status, 0) << compared.out << compared.err;
   EXPECT_TRUE(contains(compared.out, "read back, no mismatch\n")) << compared.out;
-  EXPECT_TRUE(contains(compared.out, "mysim/symplectic-euler and " + method + " are the same rule")) << compared.out;
+  EXPECT_TRUE(contains(compared.out, "mysim/symplectic-euler and " + method + " use the same rule")) << compared.out;
   EXPECT_FALSE(contains(compared.out, "NOT THE SAME")) << compared.out;
 }
 
