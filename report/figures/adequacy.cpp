@@ -43,8 +43,9 @@ bool still_falls(const Curve& c) {
   return c.points.size() > 1 && c.points.back().second < 0.9 * c.points[c.points.size() - 2].second;
 }
 
-/// True if the sag at rest grows with the logarithm of the number of cells without slowing down. If it converged like 1
-/// / cells, its growth would halve from the first two of four grids from 8 to 24 particles to the last two.
+/// True if the sag at rest grows with the logarithm of the number of cells without slowing down. If its error were
+/// proportional to 1/cells, its growth would halve from the first two of four grids from 8 to 24 particles to the last
+/// two.
 bool sag_runs_on(const std::vector<GridRow>& rows, const std::string& scene) {
   std::vector<double> growth;
   const GridRow* before = nullptr;

@@ -88,8 +88,8 @@ struct EffectiveMeasure {
   const char *name, *net;
   OptionalNumber EffectiveStiffnessRow::*value;
 };
-// the period is measured on a chain only: a cloth this small oscillates so fast that implicit rules stop it within two
-// periods
+// the period is measured on a chain only: a cloth this small oscillates so fast that implicit rules stop it before its
+// second turning point
 constexpr EffectiveMeasure effective_measures[] = {
     {"stiffness-effective", "cloth", &EffectiveStiffnessRow::by_sag},
     {"stiffness-effective-period", "chain", &EffectiveStiffnessRow::by_period}};
