@@ -205,9 +205,8 @@ void add_bench(CLI::App& app, Invocation& call) {
   auto [bench, options] =
       add_command(app, call, "bench", "measures speed as ratios to other implementations, in one session", measure);
   bench.add_option("--out", options.out, "folder (out/bench)");
-  bench.add_option(
-      "--methods", options.methods,
-      "A,B,...: further methods to compare with, on cloths of 32 and 64 particles a side, with --full 128");
+  bench.add_option("--methods", options.methods,
+                   "A,B,...: further methods to compare with, on cloths of 16 and 32 particles a side");
   add_quick_and_full(bench, options.full);
 }
 

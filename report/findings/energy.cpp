@@ -103,7 +103,9 @@ void taken_by_contact(const TableSet& rows, Findings& out) {
       // unreported contact energy is inferred from the balance; for rules with numerical damping that is more than
       // contact
       if (may_move_alike(row.method)) others.push_back(&row);
-      if (!row.contact_inferred && row.method != ours && (!furthest || off(&row) > off(furthest))) furthest = &row;
+      if (!row.contact_inferred && row.method != ours && family_of(row.method).is_subject() &&
+          (!furthest || off(&row) > off(furthest)))
+        furthest = &row;
     }
     // above a tenth, the truth does not resolve shares of it
     if (!first || *first->contact_bar > 0.1 * std::abs(*first->contact_in_truth)) continue;

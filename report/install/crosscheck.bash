@@ -12,7 +12,7 @@ _crosscheck() {
     {{/each}}
   esac
   case ${COMP_WORDS[1]} in
-    list) words="scenes methods experiments assignments" ;;
+    list) words="scenes methods engines experiments assignments" ;;
   esac
   case $prev in
     --method | --methods | --against) kinds=methods ;;
