@@ -1,4 +1,4 @@
-// Ablations of models on small scenes, grids of another resolution, and the least model.
+// Model ablations on small scenes, grids of another resolution, and the cheapest adequate model.
 
 #include "experiments/adequacy/ablation.h"
 #include "experiments/adequacy/resolution.h"
@@ -40,7 +40,7 @@ TEST(Ablations, NothingCanBeLeftOutOfTheAssignmentsScenes) {
     const ReferenceSolution y = reference_solution_of(scene, scene.tolerance);
     EXPECT_LE(y.floor, scene.tolerance / 5);
     const std::vector<AblatedModel> models = ablations_of(scene, y, scene.tolerance);
-    EXPECT_EQ(models.size(), 1 + ingredients_of(scene).size());  // no second removal after one that is too much
+    EXPECT_EQ(models.size(), 1 + ingredients_of(scene).size());  // no second removal after one that is too large
     for (const AblatedModel& r : models)
       if (!r.out.empty() && r.error) {
         EXPECT_GT(*r.error, scene.tolerance) << r.name;
@@ -50,7 +50,7 @@ TEST(Ablations, NothingCanBeLeftOutOfTheAssignmentsScenes) {
 }
 
 TEST(Ablations, LeavesOutWhatDoesNotMatterAndOnlyThat) {
-  // a breath of wind and hardly any drag: x changes by some 1e-6 m and by 1e-3 m in a second
+  // A weak wind changes x by about 1e-6 m in a second, and a weak drag by 1e-3 m.
   const Scene scene = small_scene(spring_text("[drag]\ngamma = 0.01\n[wind]\nacceleration = [0, 1e-5, 0]\n"));
   const ReferenceSolution y = reference_solution_of(scene, 1e-4);
   const std::vector<AblatedModel> models = ablations_of(scene, y, 0.02);
@@ -60,11 +60,11 @@ TEST(Ablations, LeavesOutWhatDoesNotMatterAndOnlyThat) {
   const AblatedModel& least = least_model(models, 0.01);
   EXPECT_EQ(least.name, "without wind, drag");
   EXPECT_FALSE(least.single);
-  EXPECT_EQ(least.cost(), models.front().cost());  // one spring and as many evaluations
+  EXPECT_EQ(least.cost(), models.front().cost());  // one spring and the same number of evaluations
 }
 
 TEST(Ablations, SaysWhyItHasNoReference) {
-  // a double pendulum of soft springs for a minute: no truth
+  // A double pendulum of soft springs for a minute has no reference solution.
   const Scene scene = small_scene(
       "[[particle]]\nposition = [0, 0, 0]\nmass = 1\n[[particle]]\nposition = [1, 0, 0]\nmass = 1\n[[particle]]\n"
       "position = [1, 1, 0]\nmass = 1\n[[spring]]\nends = [0, 1]\nstiffness = 50\n[[spring]]\nends = [1, 2]\n"
@@ -116,7 +116,7 @@ TEST(Grids, AnotherResolutionIsTheSameCloth) {
       EXPECT_EQ(std::max(g.nu, g.nv), n);
       EXPECT_NEAR(double(g.nu - 1) / (g.nv - 1), double(grid.nu - 1) / (grid.nv - 1), 0.2);
       EXPECT_NEAR(other.model.particles.mass.sum(), scene.model.particles.mass.sum(), 1e-12);
-      // the same box, and pins that span the same part of the material
+      // same bounding box, and pins on the same part of the material
       EXPECT_TRUE(other.start.x.rowwise().minCoeff().isApprox(scene.start.x.rowwise().minCoeff(), 1e-12));
       const auto span = [](const Scene& s) {
         const Points& home = s.model.particles.pin_home;
@@ -158,7 +158,7 @@ TEST(Bending, SkipOneSpringsStiffenAsTheFourthPowerOfTheCells) {
   for (const BendSprings& b : bending_stiffness({8, 10, 13})) points.emplace_back(b.cells, b.stiffness);
   const auto law = power_law(points);
   ASSERT_TRUE(law);
-  // the first cell is clamped: (n - 2) cells bend, which moves the exponent of so few by some tenths
+  // The first cell is clamped, so only n - 2 cells bend. With so few cells this changes the exponent by some tenths.
   EXPECT_NEAR(law->exponent, 4, 0.7);
 }
 

@@ -1,4 +1,4 @@
-// One trial of an advice: computed, written, run again from its file, and compared with everything that was tried.
+// One trial of `advise`: computes the advice, writes it, runs its file again and compares with every candidate tried.
 #pragma once
 
 #include "experiments/advise/advice.h"
@@ -11,13 +11,13 @@ namespace crosscheck::testing_tools {
 
 struct AdviseCase {
   bool promised = false, met = false;
-  bool cheaper = false;  // something that was tried met the tolerance at less than 0.8 of the advised cost
-  std::string why;       // it was not promised
+  bool cheaper = false;  // a tried candidate met the tolerance at less than 0.8 of the advised cost
+  std::string why;       // why nothing was promised
   std::string method;
   double tolerance = 0, error = 0;  // m
 };
 
-/// Advice within a part of the scene's motion.
+/// Requests advice for a tolerance of `part` of the scene's motion.
 inline AdviseCase advise_case(const Scene& scene, double part) {
   AdviseCase c;
   const auto truth = truth_of(scene, default_run(scene));
@@ -41,8 +41,8 @@ inline AdviseCase advise_case(const Scene& scene, double part) {
   return c;
 }
 
-/// Advice on a scene with contact within a part of its motion, and its file run against the event-driven route after
-/// every step.
+/// Advice on a scene with contact for a tolerance of a fraction of its motion. The advised file is compared with the
+/// event-driven solution after every step.
 struct ContactCase {
   bool promised = false, met = false;
   std::string why, method;
@@ -51,7 +51,7 @@ struct ContactCase {
   double duration = 0, until = 0, step = 0, tolerance = 0, error = 0, bar = 0;  // s and m
 };
 
-/// Observes every step.
+/// Records every step.
 class StepRecorder : public Observer {
  public:
   bool every_step() const override { return true; }
@@ -75,8 +75,8 @@ inline ContactCase contact_case(const Scene& scene, double part) {
     c.method = written.method;
     StepRecorder run;
     const Outcome out = run_method(method, written, default_run(written), {&run});
-    // the other route, at every step of the run up to where the promise ends; where a rule chooses its steps these are
-    // the ends of the steps that it may take at most
+    // Sample the event-driven solution at every step of the run until the promise ends. For adaptive methods, use the
+    // maximum step size.
     Run dense = default_run(scene);
     const double h = method.adaptive ? written.step : out.step;
     dense.samples = scene.samples * std::max(1, static_cast<int>(std::lround(scene.duration / scene.samples / h)));

@@ -1,4 +1,4 @@
-// Measures with closed forms, parameters fitted to wishes, and advice on scenes of known order.
+// Measured quantities against closed forms, parameters fitted to wishes, and advice on scenes of known order.
 
 #include <fmt/ranges.h>
 
@@ -19,7 +19,7 @@ namespace {
 
 using namespace testing_tools;
 
-/// A mass on a vertical spring of 1 m that starts unstretched.
+/// A mass on a vertical spring of 1 m that starts at its rest length.
 std::string mass_on_spring(const std::string& mass, const std::string& k, const std::string& more = "") {
   return scene_text("[[particle]]\nposition = [0, 0, 0]\nmass = 1\n[[particle]]\nposition = [0, -1, 0]\nmass = " +
                         mass + "\n[[spring]]\nends = [0, 1]\nstiffness = " + k +
@@ -33,19 +33,19 @@ TEST(Measures, OfASpringHaveClosedForms) {
               damped = parse_scene(mass_on_spring("0.5", "80", "[drag]\ngamma = 1.5\n"), "damped");
   EXPECT_NEAR(*sag_of(free), m * 9.81 / k, 1e-4 * m * 9.81 / k);
   const double period = 2 * std::numbers::pi * std::sqrt(m / k);
-  // converged to 1e-4
+  // converged value, to 1e-4
   for (const double about : {period, 3 * period, period / 10})
     EXPECT_NEAR(*period_of(free, about), period, 1e-4 * period);
   EXPECT_NEAR(*max_stretch_of(free), 2 * m * 9.81 / k, 1e-4 * 2 * m * 9.81 / k);
-  // the file's own: leapfrog runs (h omega)^2 / 24 fast, here by 6.7e-4
+  // The scene's own method: leapfrog runs fast by (h omega)^2 / 24, here 6.7e-4.
   EXPECT_NEAR(*period_of(free, period, MeasuredBy::own_method), period * (1 - 16e-3 / 24), 1e-4 * period);
-  // the energy falls as exp(-gamma t), but for a ripple of gamma / omega
+  // The energy decays as exp(-gamma t), with a ripple of gamma / omega.
   const double settle = std::log(1e3) / gamma, ripple = 1 / std::sqrt(k / m);
   for (const double about : {settle, settle / 2, 3 * settle})
     EXPECT_NEAR(*settle_time_of(damped, about), settle, ripple);
   EXPECT_FALSE(sag_of(load_scene("circle")));
   EXPECT_FALSE(period_of(load_scene("circle"), 1));
-  EXPECT_FALSE(period_of(load_scene("projectile"), 1));  // it does not swing
+  EXPECT_FALSE(period_of(load_scene("projectile"), 1));  // no oscillation
 }
 
 TEST(Fit, ReachesWishesWithinTwoPercent) {
@@ -70,7 +70,7 @@ TEST(Fit, ReachesWishesWithinTwoPercent) {
     ASSERT_EQ(fitted.unknowns.size(), 1u);
     EXPECT_EQ(fitted.unknowns[0].name, row.unknown);
     EXPECT_NEAR(fitted.wishes[0].reached, fitted.wishes[0].wished, 0.02 * fitted.wishes[0].wished);
-    // a stiffness goes with the square of a period; the ripple of a settle time is gamma / omega, 0.1 here
+    // Stiffness scales with the square of the period. The ripple of a settling time is gamma / omega, here 0.1.
     EXPECT_NEAR(fitted.unknowns[0].value, row.expected, (row.unknown == "drag rate" ? 0.1 : 0.04) * row.expected);
     EXPECT_FALSE(has_unknowns(fitted.toml, "fitted"));
     EXPECT_EQ(parse_scene(fitted.toml, "wish.toml").hash, fitted.scene.hash);
@@ -79,7 +79,7 @@ TEST(Fit, ReachesWishesWithinTwoPercent) {
   }
 }
 
-/// One mass under many springs, each to a pin of its own.
+/// One mass under many springs, each attached to a separate pin.
 std::string mass_under_pins(int pins, const std::string& k, const std::string& more) {
   std::string text = "[[particle]]\nposition = [0, -1, 0]\nmass = 0.5\n", list;
   for (int i = 1; i <= pins; ++i) {
@@ -103,7 +103,7 @@ TEST(Fit, WishesHoldInARunOfItsFile) {
                                 : *settle_time_of(s, w.wished, MeasuredBy::own_method);
     };
     EXPECT_EQ(at(fitted.scene), w.own);
-    // the scene's value is the limit of its runs as their steps shrink
+    // The value of the scene is the limit of its runs as the step tends to zero.
     Scene finer = fitted.scene;
     finer.step /= 16;
     EXPECT_NEAR(at(finer), w.reached, 3e-4 * w.reached);
@@ -123,7 +123,7 @@ TEST(Fit, FindsTwoAtOnce) {
 }
 
 TEST(Fit, RefusesWhatItCannotDo) {
-  // the reader sends such a file to advise
+  // The error message for such a file refers to `advise`.
   EXPECT_TRUE(contains(message_of(mass_on_spring("0.5", "\"fit\"")),
                        "spring[0].stiffness: expected a number above zero; \"fit\" is for `crosscheck advise`"));
   EXPECT_TRUE(contains(message_of(mass_on_spring("0.5", "80", "[wish]\n")), "expected at least one of sag, period"));
@@ -151,7 +151,7 @@ TEST(Fit, RefusesWhatItCannotDo) {
   const Row never[] = {
       {mass_on_spring("0.5", "\"fit\"", "[sphere]\ncentre = [0, -9, 0]\nradius = 1\n[wish]\nsag = 0.05\n"),
        {"sag cannot be measured in this scene"}},
-      // no drag changes what a spring sags by
+      // drag does not change the sag of a spring
       {mass_on_spring("0.5", "80", "[drag]\ngamma = \"fit\"\n[wish]\nsag = 1\n"), {"sag = 1 m cannot be reached"}},
   };
   for (const Row& row : never) try {
@@ -194,7 +194,7 @@ TEST(Advise, TakesTheLongestStepThatMeetsTheTolerance) {
       const Trial& t = a.trials[a.chosen];
       EXPECT_LE(*t.error + a.error_bar, tolerance);
       EXPECT_NEAR(a.checked, *t.error, 1e-9 * tolerance + 1e-12);
-      // order 1 at least: twice the step errs by twice as much or nearly so, and steps are whole parts of a sample
+      // The order is at least 1, so doubling the step about doubles the error. Steps divide the sampling interval.
       const auto truth = truth_of(scene, default_run(scene));
       crosscheck::Run twice = default_run(scene);
       twice.step = 2 * t.step;
@@ -207,8 +207,8 @@ TEST(Advise, TakesTheLongestStepThatMeetsTheTolerance) {
   }
 }
 
-/// Half a kilogram pulled down by 0.1 m on a spring of 1 m, 300 N/m, without gravity, with `samples` samples in twelve
-/// of its periods; in a row of springs, where there are more.
+/// A mass of 0.5 kg, pulled down by 0.1 m, on a spring of 1 m and 300 N/m without gravity. The run lasts twelve
+/// periods. For `springs` > 1, a row of such springs.
 Scene sampled_spring(double samples_in_a_period, int springs = 1) {
   const double period = 2 * std::numbers::pi * std::sqrt(0.5 / 300), duration = 12 * period;
   std::string text = "[[particle]]\nposition = [0, 0, 0]\nmass = 1\n";
@@ -222,8 +222,8 @@ Scene sampled_spring(double samples_in_a_period, int springs = 1) {
 }
 
 TEST(Advise, KeepsItsPromiseBetweenTheSamples) {
-  // a sample in each period sees nothing move, one in each half period sees turning points alone; a bent row of two
-  // springs has no closed form
+  // One sample per period sees no motion; one per half period sees only turning points. A bent row of two springs has
+  // no closed form.
   for (const auto& [scene, truth_is] : {std::pair{sampled_spring(1), Tier::exact},
                                         {sampled_spring(2), Tier::exact},
                                         {sampled_spring(3), Tier::exact},
@@ -233,7 +233,7 @@ TEST(Advise, KeepsItsPromiseBetweenTheSamples) {
       const Advice a =
           advise(scene, tolerance, find_methods("leapfrog,symplectic-euler,rk4,dopri5,implicit-midpoint,suzuki4"));
       EXPECT_EQ(a.tier, truth_is);
-      // beside the truth after every one of its steps, or at 1000 times where it chooses its steps itself
+      // Compare with the truth after every step, or at 1000 times if the method is adaptive.
       const Scene written = parse_scene(a.toml, "sampled");
       crosscheck::Run run = default_run(written);
       const Method method = find_method(written.method);
@@ -245,7 +245,7 @@ TEST(Advise, KeepsItsPromiseBetweenTheSamples) {
       ASSERT_TRUE(truth);
       const double error = largest_rms_distance(dense, truth->trajectory, a.until);
       EXPECT_LE(error, tolerance) << written.method;
-      EXPECT_GT(error, 0.02 * tolerance) << "and no more precise than it must be: " << written.method;
+      EXPECT_GT(error, 0.02 * tolerance) << "more precise than necessary: " << written.method;
     }
 }
 
@@ -274,7 +274,7 @@ TEST(Advise, ChecksTheVeryRunOfItsFile) {
     run_method(find_method("dopri5"), written, observed_run(find_method("dopri5"), written, path), {&farthest});
     EXPECT_EQ(farthest.distance(), a.checked);
     EXPECT_EQ(*a.trials[a.chosen].error, a.checked);
-    // a run that is not observed takes the same steps
+    // a run without an observer takes the same steps
     const Trajectory plain = run_and_record("dopri5", written, default_run(written)).trajectory;
     const Trajectory observed =
         run_and_record("dopri5", written, observed_run(find_method("dopri5"), written, path)).trajectory;
@@ -299,7 +299,7 @@ TEST(Advise, StepKeepsTheWishesOfAScene) {
 TEST(Advise, SeesTheFastestMotionOfAScene) {
   EXPECT_NEAR(fastest_motion(sampled_spring(1)), std::sqrt(300 / 0.5), 1e-2);
   EXPECT_EQ(fastest_motion(load_scene("projectile")), 0);
-  // what leads a pin may be faster than what hangs on it
+  // The motion of a pin may be faster than the motion of the particle on its spring.
   const Scene led = parse_scene(
       mass_on_spring("0.5", "80", "[pins.motion]\namplitude = [0, 0.01, 0]\nfrequency = 40\nramp = 0.1\n"), "led");
   EXPECT_NEAR(fastest_motion(led), 80 * std::numbers::pi, 1e-9);

@@ -1,8 +1,9 @@
-// Trials of `crosscheck advise`, not part of the suite: five shipped scenes and thirty random ones, three tolerances
-// each, and parameters fitted to wishes. Prints every case; exits 1 when a wish is not reached within 2 %, fewer than
-// 95 % of the promised ones meet their tolerance, or something that was tried meets it at less than 0.8 of the advised
-// cost. `advise_trials contact FIRST LAST [PART]`: random scenes with contact instead, of those seeds, within a part of
-// their motion (0.01); exits 1 when a promise is broken.
+// Trials of `crosscheck advise`, not part of the suite: five shipped scenes and thirty random ones with three
+// tolerances each, and parameters fitted to wishes. Prints every case. Exits 1 if a wish is not reached within 2 %,
+// fewer than 95 % of the promised cases meet their tolerance, or a tried candidate meets it at less than 0.8 of the
+// advised cost.
+// `advise_trials contact FIRST LAST [PART]` tries random scenes with contact of these seeds instead, with a tolerance
+// of PART (default 0.01) times their motion. Exits 1 if a promise is broken.
 
 #include <cstdio>
 
@@ -14,7 +15,7 @@ using namespace crosscheck::testing_tools;
 
 namespace {
 
-/// A cloth, or a mass on a spring, with values to fit and wishes.
+/// A cloth, or a mass on a spring, with parameters to fit and wishes.
 struct WishCase {
   std::string name, text;
 };
@@ -43,7 +44,7 @@ std::vector<WishCase> wish_cases() {
   return cases;
 }
 
-/// Prints every wish; false when one that was promised is not reached within 2 %.
+/// Prints every wish. Returns false if a promised wish is not reached within 2 %.
 bool fit_all() {
   bool good = true;
   for (const WishCase& c : wish_cases()) try {
@@ -60,7 +61,7 @@ bool fit_all() {
   return good;
 }
 
-/// Prints one case for each seed; false where a promise is broken.
+/// Prints one case per seed. Returns false if a promise is broken.
 bool contact_trials(unsigned first, unsigned last, double part) {
   int promised = 0, broken = 0;
   for (unsigned seed = first; seed <= last; ++seed) {

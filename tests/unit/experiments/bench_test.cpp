@@ -1,4 +1,4 @@
-// The bench: its scenes, its rows, and its ratios beside its times.
+// The bench: scenes, rows, and ratios next to times.
 
 #include <cstdlib>
 #include <set>
@@ -15,7 +15,7 @@
 
 namespace crosscheck {
 
-// Speeds themselves are never tested.
+// Tests never check speeds.
 
 namespace {
 
@@ -24,7 +24,7 @@ using namespace testing_tools;
 const TimedRunOptions hasty_turns{3, 1e-4};
 const MicrobenchmarkOptions hasty{3, 1e-4};
 
-/// The rows of a measurement, and its notes.
+/// Rows and notes of a measurement.
 class Measured {
  public:
   template <class Options>
@@ -41,7 +41,8 @@ class Measured {
   const std::vector<std::string>& notes() const { return record_.notes; }
 
  private:
-  /// In three rounds low and high are the least and the most; the quotient of a round lies between theirs.
+  /// With three rounds, low and high are the minimum and maximum, and the ratio of a round lies between their
+  /// quotients.
   static void expect_ratio_of_times(const BenchRow& row) {
     SCOPED_TRACE(row.work + ", " + row.scene + ", " + row.peer + ", " + row.mysim);
     if (!row.ratio) return;
@@ -102,8 +103,8 @@ TEST(BenchInstructions, AreAsBeforeAfterwards) {
 }
 
 TEST(BenchKernels, EachOneForEachInstructionSet) {
-  const Measured kernels(measure_kernels, 40);  // wide enough for single precision
-  // two loops that are compiled once; for each instruction set the general kernel and three fused steps
+  const Measured kernels(measure_kernels, 40);  // includes the tolerance of single precision
+  // two loops compiled once; for each instruction set the general kernel and three fused steps
   EXPECT_EQ(kernels.rows().size(), 2 + 4 * simd::supported_instruction_sets().size());
   std::set<std::string> names;
   for (const BenchRow& row : kernels.rows()) {
@@ -174,7 +175,7 @@ TEST_F(BenchEqualError, APeersRunThatFailsIsARow) {
   EXPECT_FALSE(measured.rows()[0].ratio);
 }
 
-/// The errors of one peer, from its first setting to its last.
+/// Errors of one peer, from its first setting to its last.
 std::vector<double> errors_of(const Measured& measured, const std::string& peer) {
   std::vector<double> errors;
   for (const BenchRow& row : measured.rows())
@@ -183,7 +184,7 @@ std::vector<double> errors_of(const Measured& measured, const std::string& peer)
   return errors;
 }
 
-/// Of a peer under error control at two tolerances.
+/// Expects the errors of an adaptive peer at two tolerances to follow the tolerance.
 void expect_tolerance_followed(const std::vector<double>& errors) {
   ASSERT_GE(errors.size(), 2u);
   EXPECT_LT(errors[0], 1e-4);
@@ -191,7 +192,7 @@ void expect_tolerance_followed(const std::vector<double>& errors) {
 }
 
 TEST_F(BenchEqualError, OthersComeToMysimsTruthAsTheirOrdersSay) {
-  // all of them on equations written apart, or in Bullet: truth and peers have no code in common
+  // Each peer uses independently written equations or Bullet: truth and peers share no code.
   const Measured measured = rows_of(
       {{"odeint/rk4", {0.5, 0.25}}, {"odeint/dopri5", {1e-6, 1e-8}}, {"bullet/deformable-explicit", {0.2, 0.1}}});
   const auto rk4 = errors_of(measured, "odeint/rk4"), euler = errors_of(measured, "bullet/deformable-explicit");
@@ -216,18 +217,18 @@ TEST(BenchLinks, PositionBasedOnesComeToTheirOwnLawsTruth) {
     EXPECT_TRUE(row.ratio);
   }
   const auto errors = errors_of(measured, "bullet/pbd");
-  EXPECT_NEAR(slope(errors[0], errors[1]), 1, 0.3);  // of first order, as backward Euler
+  EXPECT_NEAR(slope(errors[0], errors[1]), 1, 0.3);  // first order, as backward Euler
 }
 
 TEST(BenchThreads, OneIsAtWorkWhereASheetIsSmall) {
   const Measured measured(measure_threads, ThreadsOptions{{64, 96}, hasty_turns});
-  if (measured.rows().empty()) GTEST_SKIP() << "this machine has one core for it: " << measured.notes().at(0);
+  if (measured.rows().empty()) GTEST_SKIP() << "only one core available: " << measured.notes().at(0);
   ASSERT_EQ(measured.rows().size(), 2u);
   EXPECT_EQ(measured.rows()[0].variant, "too small for a second");
   EXPECT_EQ(measured.rows()[1].variant, "");
   for (const BenchRow& row : measured.rows()) {
     EXPECT_GT(*row.share, 0);
-    EXPECT_LT(*row.share, 1.1);  // clocks of the machine and of the process are read one after the other
+    EXPECT_LT(*row.share, 1.1);  // the clocks of machine and process are read one after the other
   }
 }
 
@@ -251,8 +252,8 @@ TEST(BenchSameStep, BothEnginesComeToTheSamePlaces) {
 TEST(BenchImplicit, BothWaysEndWhereTheOtherDoes) {
   const Measured measured(measure_implicit_steps, ImplicitStepOptions{{24}, {60, 240}, hasty});
   ASSERT_EQ(measured.rows().size(), 2 * compared_instruction_sets().size());
-  // solved to 1e-12 of the forces by one, to round-off by the other; what gives way most is as soft as inertia alone,
-  // and falls faster than 1 mm in a step
+  // One solves to 1e-12 of the forces, the other to round-off. The softest mode has only inertia as its stiffness and
+  // falls by more than 1 mm in a step.
   for (const BenchRow& row : measured.rows()) EXPECT_LE(*row.apart, 1e-13);
 }
 
@@ -263,7 +264,7 @@ TEST(FactorisedStep, RefusesDragThatIsNoRate) {
 }
 
 TEST(FactorisedStep, IsTheLinearImplicitStepOfAnyScene) {
-  // starts at random, on springs that are no cloth grid
+  // random initial state, and springs that form no cloth grid
   Scene scene = hanging_cloth(9);
   Random random(3);
   scene.model.find<Springs>()->list.resize(150);

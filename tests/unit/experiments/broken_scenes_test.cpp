@@ -1,5 +1,5 @@
-// Scene files as people break them: whoever sees the file and the message, and nothing else, mends it in one edit. So
-// each message names the line that is to be changed, the key, what was found there and what is expected in its place.
+// Common mistakes in scene files. A user who sees only the file and the message must be able to fix the mistake in one
+// edit, so each message names the line to change, the key, the value found and the value expected.
 
 #include <fstream>
 
@@ -12,7 +12,7 @@ namespace {
 
 using namespace testing_tools;
 
-// a good scene; the numbers of its lines are used below
+// a valid scene; the expectations below refer to its line numbers
 constexpr std::string_view net = R"(# A net that hangs, with a weight.
 question = "How far does a net hang?"
 parameters = "Picked by hand."
@@ -67,9 +67,9 @@ friction = 0.4
 
 struct Breakage {
   const char* name;
-  std::string_view good, broken;    // what stands in the good file, and in its place in the broken one
-  int line;                         // that the message names; 0: the file as a whole
-  std::vector<const char*> expect;  // parts of the message
+  std::string_view good, broken;    // text in the valid file, and its replacement in the broken one
+  int line;                         // in the message; 0: the file as a whole
+  std::vector<const char*> expect;  // substrings of the message
 };
 
 std::string net_with(std::string_view good, std::string_view broken) {
@@ -281,7 +281,7 @@ TEST(BrokenScenes, EachMessageNamesTheLineAndTheMend) {
     EXPECT_TRUE(begins(message, b.line > 0 ? fmt::format("{}:{}: ", file, b.line) : file + ": "));
     for (const char* part : b.expect) EXPECT_TRUE(contains(message, part));
     EXPECT_EQ(message.find('\n'), std::string::npos) << message;
-    if (std::getenv("CROSSCHECK_SHOW_MESSAGES"))  // to be read by somebody who has not seen the table
+    if (std::getenv("CROSSCHECK_SHOW_MESSAGES"))  // for a reader who has not seen the table
       fmt::print("{}\n", message.substr(file.size() - 8));
   }
 }

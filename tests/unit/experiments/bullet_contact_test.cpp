@@ -1,4 +1,4 @@
-// Bullet's contacts and traps: friction, moving spheres, and each trap seen failing where it is left open.
+// Bullet's contacts and traps: friction, moving spheres, and each trap reproduced and avoided.
 
 #include "experiments/metrics.h"
 #include "experiments/scenes/scenes.h"
@@ -10,7 +10,7 @@
 
 namespace crosscheck {
 
-// Bullet's contacts: friction by Coulomb's law in the deformable world and a creep in the position-based one, carried
+// Bullet's contacts: Coulomb friction in the deformable world, friction creep in the position-based one, carried
 // cloths, several spheres.
 
 namespace {
@@ -19,7 +19,7 @@ using namespace testing_tools;
 
 constexpr double g = 9.81, slope_angle = 0.52359877559829887;  // m/s^2; 30 degrees
 
-/// A particle on a slope of 30 degrees.
+/// A particle on a slope of 30 degrees, on a ball of radius 1000 m.
 Scene on_slope(double friction) {
   Scene scene = load_scene(CROSSCHECK_SOURCE "/experiments/scenes/disagreements/pbd-friction.toml");
   scene.model.find<Spheres>()->list[0].friction = friction;
@@ -39,7 +39,7 @@ TEST(BulletFriction, OfTheDeformableWorldIsCoulombs) {
         const Scene scene = on_slope(mu);
         const double coulomb = g * (std::sin(slope_angle) - mu * std::cos(slope_angle)) * scene.duration;
         const double found = speed_at_the_end(method, scene, h);
-        // three digits: on a ball of 1000 m the slope steepens by 5e-4 over 0.5 m, which adds 3e-4
+        // Three digits: on a ball of 1000 m the slope steepens by 5e-4 over 0.5 m, which adds 3e-4.
         EXPECT_NEAR(found / coulomb, 1, 1e-3) << fmt::format("{} mu {} h {}", method, mu, h);
       }
 }
@@ -53,9 +53,9 @@ TEST(BulletFriction, OfTheDeformableWorldHoldsAboveTheLimitAndSlidesBelow) {
       const Trajectory path = run_and_record(method, scene, {1e-3, scene.duration, scene.samples}).trajectory;
       return (path.x.back() - path.x.front()).norm();
     };
-    EXPECT_LT(way(1.05 * limit), 1e-5);  // it settles into the surface by what Bullet lets stand of the weight
+    EXPECT_LT(way(1.05 * limit), 1e-5);  // it settles in: Bullet leaves a part of the weight uncompensated
     EXPECT_LT(way(2 * limit), 1e-5);
-    // below the limit by a twentieth: a twentieth of g sin(30) for 0.5 s
+    // 5 % below the limit it accelerates by 5 % of g sin(30) for 0.5 s.
     EXPECT_NEAR(way(0.95 * limit), 0.05 * g * 0.5 * 0.125, 0.02 * 0.05 * g * 0.5 * 0.125);
   }
 }
@@ -65,25 +65,25 @@ TEST(BulletFriction, OfThePositionBasedWorldIsACreepInProportionToTheStep) {
     for (const double h : {5e-4, 1e-3, 5e-3}) {
       const Trajectory path = run_and_record("bullet/pbd", on_slope(f), {h, 0.5, 50}).trajectory;
       const double creep = g * std::sin(slope_angle) * h * (1 - f) / f;
-      // at times a node is not in contact for one step and is faster for some: the median leaves that out
+      // Sometimes a node is out of contact for one step and is faster for a few. The median ignores this.
       std::vector<double> speeds;
       for (int i = 25; i <= 50; ++i) speeds.push_back(path.v[i].col(0).norm());
       std::nth_element(speeds.begin(), speeds.begin() + 13, speeds.end());
       const double found = speeds[13];
       EXPECT_NEAR(found / creep, 1, 1e-3) << fmt::format("f {} h {}", f, h);
     }
-  // it holds what it is meant to hold; a speed is reported all the same, which the monitor does not mind
+  // Sufficient friction holds the particle. Bullet still reports a speed, which the divergence monitor accepts.
   Recorder recorder;
   find_method("bullet/pbd").engine(on_slope(0.7), {1e-3, 0.5, 50}, recorder);
   EXPECT_LT((recorder.trajectory.x.back() - recorder.trajectory.x.front()).norm(), 1e-5);
 }
 
 TEST(BulletFriction, AHeldParticleHasNotBlownUpAndAThrownOneHas) {
-  // pushed out of the contact it is handed 3e-4 m/s, where it had no energy at all: that is a correction, no blow-up
+  // Bullet pushes the particle out of the contact at 3e-4 m/s from zero energy: a correction, not a blow-up.
   EXPECT_GE(speed_at_the_end("bullet/pbd", on_slope(0.7), 1e-3), 0);
-  // the other side: moving with more than ten times the energy of a fall by 1/256 of the ball, 1 km here
+  // Conversely, a blow-up needs more than ten times the energy of a fall by 1/256 of the ball (1 km here).
   const Scene scene = on_slope(0.7);
-  for (const double speed : {0.1, 50.0}) {  // m/s: 5 mJ and 1.25 kJ, against 10 times 38 J
+  for (const double speed : {0.1, 50.0}) {  // m/s: 5 mJ and 1.25 kJ, compared with 10 times 38 J
     DivergenceMonitor monitor(scene.model);
     State s = scene.start;
     Verdict verdict = monitor.observe(s, true);
@@ -112,8 +112,8 @@ TEST(BulletMovingSphere, CarriesTheClothAlong) {
       closest = std::min(closest, *clearance(scene, a.trajectory.t[i], a.trajectory.x[i]));
     const double along = centre_of_mass(scene, a.trajectory.x.back()).x() - centre_of_mass(scene, scene.start.x).x();
     fmt::print("{}: clearance {:.2g} m, carried {:.3f} of {:.3f} m\n", method, closest, along, moved);
-    // contact is solved with the ball where it was at the start of the step: |u| h = 0.6 m/s x 1 ms, and the hop on its
-    // curvature (v h)^2 / 2R, some 1e-6 m
+    // Bullet resolves contact against the ball's position at the start of the step: |u| h = 0.6 m/s x 1 ms, and the hop
+    // due to its curvature (v h)^2 / 2R, about 1e-6 m.
     EXPECT_GE(closest, -1e-3);
     EXPECT_NEAR(along, moved, 0.1 * moved);  // the cloth sags and slips a little
   }
@@ -154,8 +154,8 @@ TEST(BulletSpheres, TwoHoldAChainBetweenThem) {
     }
     EXPECT_GT(touched[0], 10);
     EXPECT_GT(touched[1], 10);
-    EXPECT_GE(closest, -2e-3);  // impact at 1.5 m/s goes in by less than 1.5 m/s x 1 ms
-    // impacts are solved by other rules; position-based friction holds what slides here
+    EXPECT_GE(closest, -2e-3);  // penetration on impact at 1.5 m/s: less than 1.5 m/s x 1 ms
+    // Impacts follow different rules. Position-based friction holds particles that slide here.
     EXPECT_LE(sup_rms(ours, a.trajectory, method == explicit_world ? 0.6 : 0.25), 0.01);
   }
 }
@@ -179,8 +179,7 @@ TEST(BulletSpheres, WhatABodyOfBulletCannotHaveIsRefused) {
 
 }  // namespace
 
-// Bullet's traps, each seen failing where it is left open and holding where it is closed; and runs in which nothing
-// moves.
+// Bullet's traps, each reproduced and avoided, and runs in which nothing moves.
 
 namespace {
 
@@ -209,11 +208,11 @@ TEST(BulletTraps, ShippedImplicitForceBlowsUpWhereSpringsArePushed) {
   const Scene scene = trap("indefinite-hessian");
   const MethodRun shipped = play("bullet/deformable-implicit+shipped", scene),
                   clamped = play("bullet/deformable-implicit", scene);
-  // it clamps speeds: what blows up is seen by its length before it is seen by its energy
+  // Bullet clamps speeds, so that a blow-up shows in lengths before it shows in the energy.
   EXPECT_TRUE(shipped.outcome.verdict == Verdict::energy || shipped.outcome.verdict == Verdict::stretch)
       << shipped.outcome.reason;
   EXPECT_EQ(clamped.outcome.verdict, Verdict::ok);
-  // where springs are pulled only, it is the same force
+  // under tension only, both forces are the same
   Scene pulled = load_scene("spring");
   pulled.start.x(1, 1) = -1.15;
   EXPECT_LE(sup_distance(play("bullet/deformable-implicit+shipped", pulled).trajectory,
@@ -225,7 +224,8 @@ TEST(BulletTraps, SpeedLimitActsOnlyWithTheDefaultMargin) {
   const Scene scene = trap("speed-clamp");
   const MethodRun open = play("bullet/deformable-explicit+default-margin", scene),
                   closed = play("bullet/deformable-explicit", scene), ours = play("symplectic-euler", scene);
-  // a lone particle's box is a cube of twice the margin: its diagonal in a step, here below the 80 m/s of the scene
+  // The box of a lone particle is a cube of twice the margin. The limit is its diagonal per step, less than 80 m/s
+  // here.
   const double limit = 2 * 0.25 * std::sqrt(3) / scene.step;
   for (size_t i = 1; i < open.trajectory.v.size(); ++i)
     EXPECT_LE(open.trajectory.v[i].col(0).norm(), limit * (1 + 1e-12));
@@ -243,7 +243,7 @@ TEST(BulletTraps, OwnWindDoesNotBeginOnAClothAtRest) {
   double fastest = 0;
   for (int i = 0; i < own.frames() && own.t[i] <= 0.3; ++i) fastest = std::max(fastest, largest_column(own.v[i]));
   EXPECT_LT(fastest, 1e-6);
-  // 13.5 m/s^2 at first, half of it at 0.9 m/s of 3
+  // 13.5 m/s^2 at first, half of that at 0.9 m/s of 3 m/s
   EXPECT_GT(largest_column(added.v[added.frames() / 4]), 1);
 }
 
@@ -251,7 +251,7 @@ TEST(BulletTraps, RestLengthsAreOverwrittenUnlessTheFlagIsCleared) {
   const Scene scene = trap("rest-lengths");
   for (const std::string world : {"bullet/deformable-explicit", "bullet/pbd"}) {
     const Outcome open = play(world + "+default-rest", scene).outcome, closed = play(world, scene).outcome;
-    EXPECT_NEAR(open.readback->links[0].rest, 0.9, 1e-12) << world;  // what it found
+    EXPECT_NEAR(open.readback->links[0].rest, 0.9, 1e-12) << world;  // measured from the initial state
     EXPECT_EQ(closed.readback->links[0].rest, 1.0) << world;
     EXPECT_TRUE(certify(world, scene, open).mismatch());
     EXPECT_FALSE(certify(world, scene, closed).mismatch());
@@ -267,7 +267,7 @@ TEST(BulletTraps, DistanceFieldIsWrongByTheSquareOfItsVoxel) {
   };
   const double coarse = gap("bullet/pbd+default-voxel"), fine = gap("bullet/pbd");
   fmt::print("distance field: {:.3g} m with 0.25 m, {:.3g} m with 0.02 m\n", coarse, fine);
-  // between two nodes a distance is interpolated: off by a^2 / 8R along one axis, twice that across a cell
+  // Trilinear interpolation of the distance errs by a^2 / 8R along one axis and by twice that across a cell.
   EXPECT_LE(coarse, 0.25 * 0.25 / (4 * radius));
   EXPECT_LE(fine, 0.02 * 0.02 / (4 * radius));
   EXPECT_GT(coarse, 1e-3);
@@ -275,12 +275,12 @@ TEST(BulletTraps, DistanceFieldIsWrongByTheSquareOfItsVoxel) {
 }
 
 TEST(BulletTraps, SlowBodiesStayAwake) {
-  // 1e-3 m at 10 rad/s: at most 0.01 m/s, and Bullet puts to sleep what is slower than 0.04 m/s for 2 s
+  // 1e-3 m at 10 rad/s is at most 0.01 m/s. Bullet deactivates bodies that are slower than 0.04 m/s for 2 s.
   Scene scene = load_scene("spring");
   std::erase_if(scene.model.terms, [](const Term& t) { return std::holds_alternative<Gravity>(t); });
   scene.start.x(1, 1) = -1 - 1e-3;
   for (const auto& [method, kept] : {std::pair{"bullet/deformable-explicit", 1.},
-                                     // backward Euler takes exp(-omega^2 h t / 2) off
+                                     // backward Euler damps by exp(-omega^2 h t / 2)
                                      {"bullet/deformable-implicit", std::exp(-0.05 * 4.5)},
                                      {"bullet/pbd", std::exp(-0.05 * 4.5)}}) {
     const MethodRun a = play(method, scene);
@@ -293,7 +293,7 @@ TEST(BulletTraps, SlowBodiesStayAwake) {
       }
     EXPECT_NEAR((high - low) / 2, 1e-3 * kept, 3e-5) << method;
   }
-  // left to itself it stops after two seconds, wherever it is
+  // with sleeping enabled it stops after two seconds, wherever it is
   const MethodRun asleep = play("bullet/deformable-explicit+default-sleep", scene);
   EXPECT_TRUE(asleep.outcome.readback->may_sleep.value());
   for (int i = 1; i < asleep.trajectory.frames(); ++i)
@@ -309,7 +309,7 @@ TEST(Frozen, IsWhatGetsForcesAndDoesNotMove) {
   EXPECT_EQ(monitor.observe(state, true), Verdict::ok);
   state.t = 0.01;
   EXPECT_EQ(monitor.observe(state, true), Verdict::frozen);
-  // one bit of motion, or of speed, is motion
+  // the smallest change of position or velocity counts as motion
   for (const bool speed : {false, true}) {
     DivergenceMonitor other(scene.model);
     other.observe(scene.start, true);
@@ -320,7 +320,7 @@ TEST(Frozen, IsWhatGetsForcesAndDoesNotMove) {
 }
 
 TEST(Frozen, IsNotWhatAPlaneHoldsAtTheOrigin) {
-  // in 10 ms the particle would fall by 0.49 mm, a millionth of which is rounding
+  // In 10 ms the particle would fall by 0.49 mm. A millionth of that counts as rounding.
   for (const double gap : {0., 4e-10, 6e-10}) {
     const Scene scene = small_scene(
         fmt::format("[[particle]]\nposition = [0, {}, 0]\nmass = 1\n[plane]\npoint = [0, 0, 0]\nnormal = [0, 1, 0]\n{}",
@@ -352,7 +352,7 @@ TEST(Frozen, IsNotWhatIsAtRestByItself) {
       EXPECT_EQ(a.outcome.verdict, Verdict::ok) << s.what << ", " << method << ": " << a.outcome.reason;
       EXPECT_LT(motion_of(a.trajectory), 1e-5) << s.what << ", " << method;
     }
-  // explicit Euler moves nothing in its first step from rest, but it gives speed
+  // The first step of explicit Euler from rest changes velocities but no positions.
   const MethodRun first = run_and_record("explicit-euler", load_scene("chain"), {1e-3, 1e-3, 1});
   EXPECT_EQ(first.trajectory.x[1], first.trajectory.x[0]);
   EXPECT_GT(largest_column(first.trajectory.v[1]), 0);

@@ -1,4 +1,5 @@
-// Bullet's position-based world: the stiffness of its links, the law its networks converge to, drag and added forces.
+// Bullet's position-based world: the stiffness of its links, the law to which its networks converge, drag and added
+// forces.
 
 #include <numbers>
 
@@ -30,7 +31,7 @@ TEST(BulletPbdStiffness, OfOneLinkIsTheFormulas) {
         fmt::format("kLST {}, h {}, n {}", share, number(table, row, "step"), number(table, row, "iterations")));
     count += share == 0.1 || share == 0.5;
     EXPECT_LT(std::abs(deviation), 2e-3);  // the bound
-    // the last Gauss-Seidel pass finds the strain 1e-4 / (1 - kLST) and removes more than Hooke's share by half of that
+    // The last Gauss-Seidel pass finds the strain 1e-4 / (1 - kLST) and removes half of that more than Hooke's share.
     EXPECT_NEAR(deviation, 0.5e-4 / (1 - share), 0.02 * 0.5e-4 / (1 - share));
   }
   EXPECT_EQ(count, 18);  // 2 shares, 3 steps, 3 iterations
@@ -53,7 +54,7 @@ TEST(BulletPbdStiffness, OfANetworkIsTheFormulasOnlyWhereTheStepIsSmall) {
     }
     EXPECT_GT(at_largest, 0.1);
     EXPECT_LT(at_smallest, 0.01);
-    EXPECT_GT(at_smallest, 1e-4);     // and is more than round-off
+    EXPECT_GT(at_smallest, 1e-4);     // and is above round-off
     EXPECT_NEAR(last_slope, 4, 0.2);  // as k h^2/mu, to first order
   }
 }
@@ -71,7 +72,7 @@ TEST(EffectiveStiffness, ComesBackWithSubStepsAndNotWithIterations) {
     SCOPED_TRACE(net);
     const double game = 1. / 60;
     for (const std::string method : {"bullet/pbd", "mysim/xpbd"}) {
-      // in one pass softer than asked, and by more than its halved step
+      // With one pass it is softer than requested, and softer than with half the step.
       const double long_step = at(net, method, game, 1).by_sag.value(),
                    half = at(net, method, game / 2, 1).by_sag.value();
       EXPECT_LT(long_step, 0.8);
@@ -79,24 +80,25 @@ TEST(EffectiveStiffness, ComesBackWithSubStepsAndNotWithIterations) {
       EXPECT_LT(half, 1);
       EXPECT_NEAR(at(net, method, 1. / 480, 1).by_sag.value(), 1, 0.03);
     }
-    // sixteen sub-steps are a step of a sixteenth: k h^2 / mu falls to a 256th, and with it what is missing
+    // Sixteen sub-steps equal a sixteenth of the step: k h^2 / mu falls by a factor of 256, and so does the deficit.
     const double one = 1 - at(net, "mysim/xpbd", game, 1).by_sag.value(),
                  sixteen = 1 - at(net, "mysim/xpbd", game, 16).by_sag.value();
     EXPECT_LT(sixteen, one / 50);
     EXPECT_GT(at(net, "bullet/pbd", game, 1).by_sag.value() * 1.1, at(net, "bullet/pbd", game, 16).by_sag.value())
-        << "iterations among which a link's stiffness is split do not help";
-    // the implicit world solves all springs at once: rest is the scene's, up to the relaxation that found it (1e-5)
+        << "iterations do not help because they share a link's stiffness";
+    // The implicit world solves all springs at once: its equilibrium is the scene's, up to the tolerance of the
+    // relaxation that computes it (1e-5).
     EXPECT_NEAR(at(net, "bullet/deformable-implicit", game, 1).by_sag.value(), 1, 2e-5);
   }
-  // of the chain both are known: m g / k n (n + 1) / 2, and 2 sqrt(k/m) sin(pi / (4 n + 2))
+  // The chain has closed forms for both: sag m g / k n (n + 1) / 2, and frequency 2 sqrt(k/m) sin(pi / (4 n + 2)).
   const EffectiveStiffnessRow chain = at("chain of 8", "mysim/xpbd", 1. / 60, 1);
   EXPECT_NEAR(chain.expected_sag, 0.05 * 0.05 / 200 * 36, 1e-5 * chain.expected_sag);
   const double omega = 2 * std::sqrt(200 / 0.05) * std::sin(std::numbers::pi / 34);
-  // higher modes of the fall move its turning points
+  // higher modes of the fall shift its turning points
   EXPECT_NEAR(chain.expected_period, 2 * std::numbers::pi / omega, 2e-3 * chain.expected_period);
 }
 
-/// A soft cloth of 16 x 16, let go upright: its springs stretch by about a sixth.
+/// A soft cloth of 16 x 16, released upright: its springs stretch by about a sixth.
 Scene soft_cloth() {
   return small_scene(std::string("[grid]\nsize = [16, 16]\norigin = [0, 0, 0]\nu = [0.95, 0, 0]\nv = [0, -0.95, 0]\n"
                                  "mass = 5\n[grid.stiffness]\nstructural = 200\nshear = 200\nbend = 20\n[pins]\n"
@@ -124,7 +126,7 @@ TEST(BulletPbdNetwork, ConvergesToTheLinkLawAndNotToHookes) {
   }
   fmt::print("soft cloth: {:.3g} to {:.3g} m from the link law, {:.3g} to {:.3g} m from Hooke's\n", from_link.front(),
              from_link.back(), from_hooke.front(), from_hooke.back());
-  // first order: half the step, half the error; k h^2/mu = 0.02 adds its square at the largest step
+  // First order: half the step, half the error. At the largest step the square of k h^2/mu = 0.02 contributes.
   for (size_t i = 1; i < from_link.size(); ++i) EXPECT_NEAR(slope(from_link[i - 1], from_link[i]), 1, 0.1);
   EXPECT_LE(from_link.back(), from_link.front() / 4);  // the bound
   EXPECT_GT(from_hooke.back(), from_hooke.front() / 2);
@@ -139,7 +141,8 @@ TEST(BulletPbdDrag, OfAFreeParticleIsExact) {
           "[[particle]]\nposition = [0, 0, 0]\nmass = 0.3\nvelocity = [1, -2, 0.5]\n[drag]\ngamma = {}\n", gamma));
       const int steps = 60;
       const Trajectory path = run_and_record("bullet/pbd", scene, {h, steps * h, steps}).trajectory;
-      // velocities are differences of positions over h: each step rounds them by an ulp of the way over h
+      // Velocities are differences of positions divided by h, so each step rounds them by an ulp of the path length
+      // over h.
       const double rounding = steps * eps * path.x.back().norm() / h;
       for (int i = 0; i <= steps; ++i)
         EXPECT_LE((path.v[i] - std::exp(-gamma * i * h) * scene.start.v).norm(), rounding) << i;
@@ -147,7 +150,7 @@ TEST(BulletPbdDrag, OfAFreeParticleIsExact) {
 }
 
 TEST(BulletPbdDashpot, ConvergesToTheDampedOscillatorAtFirstOrder) {
-  // strains of 1e-4, where the link law is Hooke's to 5e-5
+  // strains of 1e-4, where the link law agrees with Hooke's law to 5e-5
   const Scene scene = small_scene(
       "[[particle]]\nposition = [0, 0, 0]\nmass = 1\n[[particle]]\nposition = [0, -1.0001, 0]\nmass = 1\n[[spring]]\n"
       "ends = [0, 1]\nstiffness = 100\nrest = 1\ndashpot = 3\n[pins]\nparticles = [0]\n");
@@ -171,7 +174,7 @@ TEST(BulletPbdForces, AddedToNodesConvergeToTheScenesSolution) {
     for (const double h : {1e-3, 5e-4, 2.5e-4})
       error.push_back(sup_rms(with_law(scene, SpringLaw::bullet_link, "bullet/pbd", h), truth));
     fmt::print("{}: {:.3g}, {:.3g}, {:.3g} m\n", what, error[0], error[1], error[2]);
-    // first order; two-sided: what does not come with the step would stop the fall
+    // First order. The bound is two-sided because an error independent of the step would stop the convergence.
     EXPECT_NEAR(slope(error[1], error[2]), 1, 0.15) << what;
     EXPECT_LT(error[2], 2e-3) << what;
   }

@@ -1,4 +1,4 @@
-// Bullet against mysim on the shipped scenes, in both precisions, beside the measured growth of a perturbation.
+// Bullet against mysim on the shipped scenes, in both precisions, compared with the measured growth of a perturbation.
 
 #include "experiments/experiment.h"
 #include "experiments/metrics.h"
@@ -16,7 +16,7 @@ namespace {
 
 using namespace testing_tools;
 
-/// The whole run of a method at the scene's own step, which must come to its end.
+/// Runs a method over the whole scene at the scene's own step and expects it to finish.
 MethodRun play(const std::string& method, const Scene& scene) {
   MethodRun a = run_and_record(method, scene, default_run(scene));
   EXPECT_EQ(a.outcome.verdict, Verdict::ok) << method << ": " << a.outcome.reason;
@@ -32,7 +32,7 @@ void expect_identity(const std::string& name, const std::string& carried_by) {
   const double apart = sup_distance(ours.trajectory, theirs.trajectory, scene.window);
   const double growth = perturbation_growth(find_method("symplectic-euler"), scene, scene.step, scene.window);
   fmt::print("{}: {:.3g} m apart, growth {:.3g}\n", name, apart, growth);
-  EXPECT_LE(apart, 1e-12);  // the issue's bound: round-off of the summation order, 1e-15 m, times the growth
+  EXPECT_LE(apart, 1e-12);  // the issue's bound: round-off of the summation order (1e-15 m) times growth
   EXPECT_LT(growth, 1e3);
 }
 
@@ -56,15 +56,15 @@ TEST(Scenes, PerturbationsGrowLessThanAThousandfoldInTheWindowForEveryStableStep
     const Scene scene = load_scene(std::string(name));
     const double omega = scene.model.first_order() ? 0 : highest_frequency(scene.model, scene.start);
     int stable = 0;
-    bool own = false;  // the scene's own method holds
+    bool own = false;  // the scene's own method is stable
     for (const Stepper& s : steppers()) {
-      // implicit steps cost many evaluations: they are tried where a scene is meant for them
+      // Implicit steps cost many evaluations, so they run only on scenes that use them.
       if (s.evaluations == 0 && s.name != scene.method) continue;
       if (omega > 0 && s.limit(omega, uniform_drag_rate(scene.model).value_or(0)) < scene.step) continue;
-      if (s.adaptive) continue;  // its steps change with the perturbation: what is seen is its tolerance
+      if (s.adaptive) continue;  // its steps change with the perturbation, so growth shows only the tolerance
       SCOPED_TRACE(fmt::format("{} {}", name, s.name));
       const Method method = find_method(std::string(s.name));
-      // the scene's own method to the end, to see where its window really ends; the others in the declared window
+      // Run the scene's own method to the end to find the end of its window, and the others in the declared window.
       const bool to_the_end = s.name == scene.method;
       Recorder r;
       crosscheck::Run run = default_run(scene);
@@ -79,22 +79,23 @@ TEST(Scenes, PerturbationsGrowLessThanAThousandfoldInTheWindowForEveryStableStep
       fmt::print("{:12} {:16} growth {:.3g}\n", name, s.name, growth);
       if (to_the_end) {
         fmt::print("{:12} declared window {:.3g} s, measured {:.3g} s\n", name, scene.window, growing.window());
-        // the last sample within the declared window is predictable
+        // the last sample in the declared window must be predictable
         EXPECT_GT(growing.window(), scene.window - 1.001 * scene.duration / scene.samples);
       }
       EXPECT_GT(growth, 0);
-      // the bound by which windows were chosen; rules of first order that damp see a cloth of another stiffness (xpbd
-      // sweeps once a step: 6e3 measured on cloth-hang)
+      // Bound by which the windows were chosen. Dissipative first-order rules effectively simulate a cloth of another
+      // stiffness (xpbd, with one sweep per step: 6e3 measured on cloth-hang).
       EXPECT_LT(growth, s.order == 1 && !s.symplectic ? 1e4 : 1e3);
     }
     EXPECT_TRUE(own) << name;
-    // the two symplectic rules and rk4, or the three that take first-order scenes; elsewhere only few rules can do it
+    // The two symplectic rules and rk4, or the three for first-order scenes. On special scenes only few rules are
+    // stable.
     const bool special = scene.model.find<Constraints>() || scene.method == "implicit-euler";
     EXPECT_GE(stable, special ? 1 : 3) << name;
   }
 }
 
-/// Time (s) at the end of the first step in which something touched.
+/// Records the time (s) at the end of the first step with a contact.
 class FirstTouch : public Observer {
  public:
   bool every_step() const override { return true; }
@@ -117,7 +118,7 @@ TEST(BulletDrape, AgreesUntilTheWindowAndInTheMeanAfterwards) {
   EXPECT_NEAR(scene.window, touch.time + 0.3, 0.01);  // the window is written to two digits
   const auto sampled = first_contact(scene, ours.trajectory);
   ASSERT_TRUE(sampled);
-  EXPECT_NEAR(*sampled, touch.time, 0.02 + scene.step);  // a touch is seen at the next sample, 0.02 s later at most
+  EXPECT_NEAR(*sampled, touch.time, 0.02 + scene.step);  // a touch shows at the next sample, at most 0.02 s later
   const double rms = sup_rms(ours.trajectory, theirs.trajectory, scene.window);
   double mean_apart = 0, closest = 0;
   for (int i = 0; i < ours.trajectory.frames(); ++i) {
@@ -129,24 +130,24 @@ TEST(BulletDrape, AgreesUntilTheWindowAndInTheMeanAfterwards) {
   }
   fmt::print("cloth-sphere: touch {:.3g} s, rms {:.3g} m, centre of mass {:.3g} m, clearance {:.3g} m\n", touch.time,
              rms, mean_apart, closest);
-  EXPECT_LE(rms, 2e-3);         // the issue's bounds: Bullet's normals are those of the old position,
+  EXPECT_LE(rms, 2e-3);         // bounds of the issue: Bullet uses normals of the old position,
   EXPECT_LE(mean_apart, 5e-3);  // so that nodes hop by (v h)^2 / 2R in each step
-  EXPECT_GE(closest, -1e-3);    // distance field at 0.005 m voxels: 6e-6 m, and one hop
+  EXPECT_GE(closest, -1e-3);    // distance field with voxels of 0.005 m: 6e-6 m, and one hop
 }
 
 }  // namespace
 
 // Bullet's explicit world is mysim's symplectic Euler: on every contact-free shipped scene at three steps and in three
-// sizes, on 200 random networks, and bit for bit where the sums are taken in Bullet's order.
+// sizes, on 200 random networks, and bit for bit if the sums are taken in Bullet's order.
 
 namespace {
 
 using namespace testing_tools;
 
-/// Both sum the same forces in another order: a difference of some 1e-15 m (an ulp of some metres) in each step, which
-/// adds up like a random walk over thousands of steps, to 100 times that, and grows as every perturbation does. No
-/// tighter than 1e-12 m: what rounding does to velocities drifts on, by sqrt(N) T h eps k L / m in N steps. (Springs of
-/// 200 000 N/m in a cloth coarser than those tried here reach 4e-12 m by that.)
+/// Both sum the same forces in a different order, which differs by about 1e-15 m (an ulp of some metres) in each step.
+/// Over thousands of steps this accumulates like a random walk, to 100 times that, and grows like any perturbation.
+/// The bound is at least 1e-12 m because rounding of velocities adds a drift of sqrt(N) T h eps k L / m in N steps.
+/// (Springs of 200 000 N/m in a cloth coarser than those tried here reach 4e-12 m that way.)
 double allowed(double growth) { return 1e-13 * std::max(10.0, growth); }
 
 struct Comparison {
@@ -161,7 +162,7 @@ Comparison compare(const Scene& scene, const crosscheck::Run& run) {
   EXPECT_TRUE(theirs.outcome.different_law.empty());
   EXPECT_FALSE(certify("bullet/deformable-explicit", scene, theirs.outcome).mismatch());
   EXPECT_GT(motion_of(ours.trajectory), 1e-4);
-  Scene shortened = scene;  // the growth is measured at the samples of this run
+  Scene shortened = scene;  // growth is measured at the samples of this run
   shortened.duration = run.duration, shortened.samples = run.samples;
   return {sup_distance(ours.trajectory, theirs.trajectory),
           perturbation_growth(find_method("symplectic-euler"), shortened, run.step, run.duration)};
@@ -188,7 +189,7 @@ TEST(BulletIdentity, OnEveryContactFreeShippedSceneAtThreeStepsInThreeSizes) {
                                  scene.size(), step));
         const auto [apart, growth] = compare(scene, {step, std::min(scene.window, 1500 * step), 20});
         EXPECT_LE(apart, allowed(growth)) << "growth " << growth;
-        EXPECT_LT(growth, 1e3);  // else little would be tested
+        EXPECT_LT(growth, 1e3);  // otherwise the bound would test little
         worst = std::max(worst, apart / allowed(growth)), most = std::max(most, growth);
       }
     }
@@ -203,7 +204,7 @@ TEST(BulletIdentity, OnTwoHundredRandomContactFreeScenes) {
   for (unsigned seed = 0; seed < 200; ++seed) {
     SCOPED_TRACE(seed);
     Scene scene = random_contact_free_scene(seed);
-    if (seed % 2 == 1)  // two stiffnesses, softer than before: Bullet's own force can carry them
+    if (seed % 2 == 1)  // two stiffnesses, softer than before, within Bullet's own force
       for (Spring& s : scene.model.find<Springs>()->list) s.k = s.k < 100 ? 10 : 100;
     const auto [apart, growth] = compare(scene, default_run(scene));
     EXPECT_LE(apart, allowed(growth)) << "growth " << growth;
@@ -217,8 +218,8 @@ TEST(BulletIdentity, OnTwoHundredRandomContactFreeScenes) {
              by_bullet);
 }
 
-/// Symplectic Euler in Bullet's order: impulses h f are summed link by link, then gravity's; v += w (1/m); v loses the
-/// share h gamma; x += h v. The force of a link is k (d - n r) with n = d (1 / |d|).
+/// Symplectic Euler in Bullet's order: impulses h f are summed link by link, then those of gravity; v += w (1/m); v
+/// loses the fraction h gamma; x += h v. The force of a link is k (d - n r) with n = d (1 / |d|).
 std::vector<Points> in_bullets_order(const Scene& scene, const crosscheck::Run& run) {
   const Model& model = scene.model;
   const int n = model.particles.size();
@@ -272,7 +273,7 @@ TEST(Bullet32, IsSymplecticEulerWithinTheRoundOffOfSinglePrecision) {
     const Scene scene = load_scene(std::string(name));
     if (has_contact(scene.model)) continue;
     SCOPED_TRACE(name);
-    // a second of the cloths: 2000 steps are a walk long enough
+    // one second of the cloths: 2000 steps are long enough for the random walk
     const double until = scene.start.x.cols() > 50 ? std::min(1.0, scene.window) : scene.window;
     const int samples = std::max(2, static_cast<int>(std::lround(scene.samples * until / scene.duration)));
     const crosscheck::Run run{scene.step, until, samples};
@@ -284,7 +285,7 @@ TEST(Bullet32, IsSymplecticEulerWithinTheRoundOffOfSinglePrecision) {
     const MethodRun ours = run_and_record("symplectic-euler", scene, run);
     ASSERT_EQ(theirs.outcome.verdict == Verdict::ok, ours.outcome.verdict == Verdict::ok) << theirs.outcome.reason;
     if (ours.outcome.verdict != Verdict::ok) {
-      // a stiff cloth blows up at this step in any precision; Bullet clamps speeds, so that lengths may show it first
+      // A stiff cloth blows up at this step in any precision. Bullet clamps speeds, so lengths may show it first.
       EXPECT_EQ(ours.outcome.verdict, Verdict::energy);
       EXPECT_TRUE(theirs.outcome.verdict == Verdict::energy || theirs.outcome.verdict == Verdict::stretch)
           << theirs.outcome.reason;
@@ -297,7 +298,7 @@ TEST(Bullet32, IsSymplecticEulerWithinTheRoundOffOfSinglePrecision) {
     ASSERT_TRUE(bound);
     const double apart = sup_distance(ours.trajectory, theirs.trajectory);
     EXPECT_LE(apart, *bound);
-    // and it is single precision: half an ulp of the motion is lost at least once, which double precision would not do
+    // Single precision loses at least half an ulp of the motion once; double precision would not.
     EXPECT_GT(apart, 3e-8 * motion);
     EXPECT_GT(apart,
               1e6 * sup_distance(ours.trajectory, run_and_record("bullet/deformable-explicit", scene, run).trajectory));
@@ -325,7 +326,7 @@ TEST(Bullet32, SaysThatItIsSingleAndPassesOptionsOn) {
       said |= row.quantity == "precision" && row.parity == Parity::different_law;
     EXPECT_TRUE(said);
   }
-  // a contact, and a refusal, come through as they are
+  // contacts and refusals are passed on unchanged
   EXPECT_EQ(run_and_record("bullet32/deformable-explicit", load_scene("slide"), {1e-3, 0.1, 2}).outcome.verdict,
             Verdict::ok);
   EXPECT_TRUE(
@@ -338,7 +339,7 @@ TEST(Bullet32, RunsWhenNamedOnly) {
   int known = 0;
   for (const Method& m : all_methods()) known += m.name.starts_with("bullet32/");
   EXPECT_GE(known, 2);
-  EXPECT_EQ(find_method("bullet32/deformable-explicit").rule, "") << "its round-off is of another size";
+  EXPECT_EQ(find_method("bullet32/deformable-explicit").rule, "") << "its round-off is of a different magnitude";
 }
 
 }  // namespace

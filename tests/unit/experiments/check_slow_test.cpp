@@ -1,4 +1,5 @@
-// Relations: no engine here breaks what is not known, no defect is taken for another, no seed gives a false alarm.
+// Relations: no shipped engine has an unknown violation, each defect is attributed correctly, and no seed raises a
+// false alarm.
 
 #include "experiments/check/check.h"
 #include "experiments/scenes/scenes.h"
@@ -38,7 +39,7 @@ TEST(Defects, AreNamedByTheirOwnRelationAndNoOther) {
       for (const std::string& name : broken)
         EXPECT_TRUE(name == defect.relation || defect.also.contains(name) ||
                     (base != std::string("leapfrog") && defect.also_in_bullet.contains(name)))
-            << name << " is named too";
+            << name << " is broken too";
     }
 }
 
@@ -64,7 +65,7 @@ TEST(IterationError, CoversAStripWhoseErrorIsAllAsymmetry) {
     Subject subject(find_method(name));
     const Answer answer = ask(mirror, subject, scene, 1, {});
     EXPECT_EQ(answer.mark, RelationMark::holds) << name << ": " << answer.sentence();
-    // and by no more than its derivation leaves: four times the distance of n and 2n iterations are reached
+    // The measured value approaches the bound, which is four times the distance between n and 2n iterations.
     EXPECT_GT(answer.finding.ratio(), 0.6) << name;
   }
 }

@@ -1,4 +1,4 @@
-// Relations: each finds the engine that breaks it, and a good engine breaks none.
+// Relations: each detects the engine that breaks it, and a correct engine breaks none.
 
 #include "experiments/check/check.h"
 #include "experiments/check/transformations.h"
@@ -77,8 +77,8 @@ TEST(Relations, OfPlacedRunsCountWhatAnImplicitStepLeavesUnsolvedOfABendingStrip
   Subject implicit(find_method("implicit-midpoint")), explicit_rule(find_method("leapfrog"));
   const Answer shifted = ask(find_relation("shifted"), implicit, strip, 1, {});
   EXPECT_EQ(shifted.mark, RelationMark::holds) << shifted.sentence();
-  EXPECT_GT(shifted.finding.measured, implicit.noise(strip).x.back());  // more than rounding
-  EXPECT_LT(shifted.finding.tolerance, 1e-6 * strip.size());            // and no defect that anybody would see
+  EXPECT_GT(shifted.finding.measured, implicit.noise(strip).x.back());  // exceeds rounding
+  EXPECT_LT(shifted.finding.tolerance, 1e-6 * strip.size());            // far below any visible defect
   EXPECT_EQ(ask(find_relation("turned"), implicit, strip, 1, {}).mark, RelationMark::holds);
   const Answer rounded = ask(find_relation("shifted"), explicit_rule, strip, 1, {});
   EXPECT_EQ(rounded.mark, RelationMark::holds) << rounded.sentence();
@@ -110,7 +110,7 @@ TEST(Relations, CannotBeAskedOfAMethodThatEndsNoRun) {
   for (const Answer& a : answers) EXPECT_EQ(a.mark, RelationMark::not_asked) << a.relation->name;
   EXPECT_TRUE(contains(answers.front().sentence(), "it did not start"));
   EXPECT_EQ(status_of(answers), 1);
-  // one that runs some scenes to their end breaks what it dies of
+  // An engine that completes some scenes breaks the relations of the scenes on which it fails.
   weak.engine = [&dead, alive = weak.engine](const Scene& scene, const crosscheck::Run& run, Observer& observer) {
     return (scene.model.find<Springs>() ? dead.engine : alive)(scene, run, observer);
   };
@@ -163,7 +163,7 @@ TEST(Relations, PassWhereNothingButKnownBreaksWasFound) {
 class KnownBreaks : public InFolder {};
 
 TEST_F(KnownBreaks, CoverAMethodOrARuleARelationAndASize) {
-  // one pass after the other: the order of springs moves the net by some 1e6 tolerances
+  // Gauss-Seidel: the order of springs moves the net by about 1e6 tolerances.
   for (const char* whose : {"method = \"mysim/xp*\"", "rule = \"xpbd\""}) {
     SCOPED_TRACE(whose);
     const auto known = read_known_breaks(
@@ -178,7 +178,7 @@ TEST_F(KnownBreaks, CoverAMethodOrARuleARelationAndASize) {
     };
     EXPECT_EQ(mark(find_method("xpbd"), 1e9), RelationMark::known);
     EXPECT_EQ(mark(find_method("xpbd"), 2), RelationMark::broken);
-    // an engine of that name and another rule is not excused by the rule
+    // an engine of that name with another rule is not excused by the rule
     Method other = with_defect("leapfrog", [](Scene& s, const crosscheck::Run&) { springs_in(s)[0].k *= 1.01; });
     other.name = "mysim/xpbd";
     EXPECT_EQ(mark(other, 1e15), known[0].rule.empty() ? RelationMark::known : RelationMark::broken);

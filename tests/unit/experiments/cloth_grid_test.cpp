@@ -1,4 +1,4 @@
-// The fused step of regular cloths: the same steps as the general engine, on every instruction set and on several
+// The fused step of regular cloths takes the same steps as the general engine, on every instruction set and on several
 // threads.
 
 #include <gtest/gtest.h>
@@ -28,7 +28,7 @@ TEST(ClothGrid, TakesTheSameStepsAsTheGeneralEngine) {
     for (const char* rule : fused_rules) {
       const Trajectory plain = path_of(std::string(rule) + "+plain", scene);
       const double motion = motion_of(plain);
-      // what 200 steps make of a perturbation, measured; summing in another order is one
+      // Measured growth of a perturbation over 200 steps. A different summation order is such a perturbation.
       const double growth = perturbation_growth(find_method(std::string(rule) + "+plain"), scene, scene.step, 0.2);
       for (const InstructionSet isa : simd::supported_instruction_sets()) {
         const ScopedInstructionSet only(isa);
@@ -49,7 +49,7 @@ TEST(ClothGrid, TakesTheSameStepsAsTheGeneralEngine) {
 
 TEST(ClothGrid, ReproducibleIsTheSameBitsOnAvx2AndAvx512) {
   const auto all = simd::supported_instruction_sets();
-  if (all.size() < 3) GTEST_SKIP() << "this machine has no AVX-512 to compare with";
+  if (all.size() < 3) GTEST_SKIP() << "no AVX-512 on this machine";
   for (const Cloth& cloth : cloths())
     for (const char* rule : fused_rules) {
       const Scene scene = scene_of(cloth);
@@ -65,8 +65,8 @@ TEST(ClothGrid, ReproducibleIsTheSameBitsOnAvx2AndAvx512) {
     }
 }
 
-/// Without a ledger contacts are resolved in lanes, with one by the rule of terms/surface.h: not a bit is different, on
-/// one ball, on two and on a ball and a plane that touch the same particles, which slide, stick, come from above at
+/// Contacts are resolved in SIMD lanes without a ledger, and by the rule of terms/surface.h with one. Both agree bit
+/// for bit on one ball, on two, and on a ball and a plane that touch the same particles, which slide, stick, hit at
 /// speed, or bounce.
 TEST(ClothGrid, ContactsInLanesHaveTheBitsOfTheRule) {
   std::string cloth = load_scene("cloth-sphere").source;
@@ -105,7 +105,7 @@ TEST(ClothGrid, ContactsInLanesHaveTheBitsOfTheRule) {
       }
 }
 
-/// The fused step takes the scenes that it is for, and leaves those that it cannot do to the general engine.
+/// The fused step accepts the scenes it supports and leaves others to the general engine.
 TEST(ClothGrid, RecognisesRegularCloths) {
   for (const char* name :
        {"cloth-hang", "cloth-swing", "cloth-sphere", "cloth-wind", "cloth-carried", "flag", "cloth-stiff"})
@@ -119,7 +119,7 @@ TEST(ClothGrid, RecognisesRegularCloths) {
   EXPECT_EQ(topology->families[0]->k, 40);
   EXPECT_EQ(topology->families[3]->k, 25);
   EXPECT_EQ(topology->families[5]->k, 10);
-  // families may be missing
+  // spring families may be missing
   EXPECT_TRUE(grid_topology_in(scene_of(cloth, "structural = 40")));
   const struct {
     const char* what;
@@ -180,7 +180,7 @@ TEST(ClothGrid, CountsAndObserversAreThoseOfTheGeneralEngine) {
     EXPECT_EQ(a.evaluations, b.evaluations);
     EXPECT_EQ(a.steps, b.steps);
     EXPECT_EQ(plain.trajectory.t, fused.trajectory.t);
-    EXPECT_EQ(plain.trajectory.x.front(), fused.trajectory.x.front()) << "the start is the scene's";
+    EXPECT_EQ(plain.trajectory.x.front(), fused.trajectory.x.front()) << "the initial state is the scene's";
     for (const int pin : scene.model.particles.pins)
       EXPECT_EQ(plain.trajectory.x.back().col(pin), fused.trajectory.x.back().col(pin));
   }
@@ -211,18 +211,18 @@ TEST(ClothGrid, InverseRootsAreGoodToTwoUnitsInTheLastPlace) {
 }
 
 TEST(ClothGrid, InstructionsThatAreNotThereAreNamed) {
-  const ScopedInstructionSet as_before(InstructionSet::baseline);  // afterwards
+  const ScopedInstructionSet as_before(InstructionSet::baseline);  // restored afterwards
   setenv("CROSSCHECK_INSTRUCTIONS", "mmx", 1);
   try {
     path_of("leapfrog", scene_of(cloths()[0]));
-    ADD_FAILURE() << "it ran";
+    ADD_FAILURE() << "expected an error";
   } catch (const InputError& error) {
     EXPECT_NE(std::string(error.what()).find("CROSSCHECK_INSTRUCTIONS=mmx: expected baseline, avx2 or avx512"),
               std::string::npos);
   }
 }
 
-/// Large enough for the requested threads; the other terms reach into the rows beside every border.
+/// Large enough for the requested threads. The other terms reach into the rows next to every border.
 std::vector<Cloth> large_cloths() {
   return {
       {"hangs and is carried", 131, 101,
@@ -241,7 +241,7 @@ TEST(ClothGrid, ThreadsChangeNoBit) {
     Scene scene = scene_of(cloth);
     scene.duration = 0.02, scene.samples = 2, scene.step = 2e-4;
     for (const std::string rule : {"leapfrog", "leapfrog+single", "suzuki4"}) {
-      if (cloth.rows == 128 && rule == "suzuki4") continue;  // spheres are left to the general engine there
+      if (cloth.rows == 128 && rule == "suzuki4") continue;  // the general engine handles spheres there
       const Trajectory one = path_of(rule, scene);
       EXPECT_GT(motion_of(one), 1e-4) << cloth.name;
       for (const char* threads : {"+threads=2", "+threads=3"}) {
@@ -270,7 +270,7 @@ TEST(ThreadPool, CountsWhatTheOthersWork) {
       }
       own[which] += s;
     });
-  // the reading of clocks comes on top; what the first did is twenty times as much
+  // The pool also counts clock reads. The first thread's work is twenty times as much.
   EXPECT_GE(pool.seconds(), own[1] + own[2]);
   EXPECT_LT(pool.seconds(), own[0]);
 }

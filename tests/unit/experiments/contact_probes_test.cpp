@@ -1,4 +1,4 @@
-// Probes of collision response: depths by hand, both sides of every law, a symmetric scene.
+// Probes of collision response: depths computed by hand, both sides of every law, a symmetric scene.
 
 #include "experiments/contact/probes.h"
 #include "experiments/experiment.h"
@@ -17,11 +17,11 @@ constexpr auto sticky = "symplectic-euler+sticky";
 TEST(TriangleDepth, NearestPointsByHand) {
   const Vec3 a(0, 0, 0), b(4, 0, 0), c(0, 3, 0);
   EXPECT_EQ(nearest_on_triangle({1, 1, 5}, a, b, c), Vec3(1, 1, 0));    // above the face
-  EXPECT_EQ(nearest_on_triangle({2, -1, 2}, a, b, c), Vec3(2, 0, 0));   // beside an edge
+  EXPECT_EQ(nearest_on_triangle({2, -1, 2}, a, b, c), Vec3(2, 0, 0));   // next to an edge
   EXPECT_EQ(nearest_on_triangle({-1, -2, 2}, a, b, c), Vec3(0, 0, 0));  // beyond a corner
   EXPECT_EQ(nearest_on_triangle({9, -1, -2}, a, b, c), Vec3(4, 0, 0));
   EXPECT_NEAR((nearest_on_triangle({4, 3, 1}, a, b, c) - Vec3(2.56, 1.08, 0)).norm(), 0, 8 * eps);  // the long edge
-  EXPECT_EQ(nearest_on_triangle({1, 5, 0}, a, b, b), Vec3(1, 0, 0));                                // no area
+  EXPECT_EQ(nearest_on_triangle({1, 5, 0}, a, b, b), Vec3(1, 0, 0));  // degenerate triangle without area
   EXPECT_EQ(nearest_on_triangle({1, 5, 0}, b, b, b), b);
 }
 
@@ -34,7 +34,7 @@ TEST(TriangleDepth, NoPointOfTheTriangleIsNearer) {
     for (int i = 0; i <= 60; ++i)
       for (int j = 0; i + j <= 60; ++j) best = std::min(best, (a + i / 60. * (b - a) + j / 60. * (c - a) - p).norm());
     EXPECT_LE(found, best + 8 * eps) << seed;
-    EXPECT_GT(found, best - 2 * 3.5 / 60) << seed;  // a mesh's width of sides up to 2 sqrt(3)
+    EXPECT_GT(found, best - 2 * 3.5 / 60) << seed;  // mesh width for sides up to 2 sqrt(3)
   }
 }
 
@@ -46,12 +46,12 @@ TEST(TriangleDepth, CutsTheBallBetweenCornersThatLieOnIt) {
   scene.triangles = {{0, 1, 2}};
   Points x = scene.start.x;
   x.col(0) = Vec3(2, 0, 0), x.col(1) = Vec3(0, 2, 0), x.col(2) = Vec3(0, 0, 2);
-  EXPECT_NEAR(*depth_of_triangles(scene, 0, x), 2 - 2 / std::sqrt(3), 8 * eps);  // its middle is at 2 / sqrt(3)
-  EXPECT_EQ(*clearance(scene, 0, x), 0);                                         // and no particle is inside
-  x.col(2) = Vec3(0, 0, 9);  // the nearest point is then near the edge between the others
+  EXPECT_NEAR(*depth_of_triangles(scene, 0, x), 2 - 2 / std::sqrt(3), 8 * eps);  // its centre is at 2 / sqrt(3)
+  EXPECT_EQ(*clearance(scene, 0, x), 0);                                         // no particle is inside
+  x.col(2) = Vec3(0, 0, 9);  // the nearest point is now near the edge between the others
   EXPECT_NEAR(*depth_of_triangles(scene, 0, x), 2 - 1 / std::sqrt(0.25 + 0.25 + 1. / 81), 8 * eps);
   x.col(0) = Vec3(2, 1, 0), x.col(1) = Vec3(2, -1, 0), x.col(2) = Vec3(9, 0, 0);
-  EXPECT_NEAR(*depth_of_triangles(scene, 0, x), 0, 8 * eps);                  // an edge that touches
+  EXPECT_NEAR(*depth_of_triangles(scene, 0, x), 0, 8 * eps);                  // touching edge
   EXPECT_NEAR(*depth_of_triangles(scene, 0, scene.start.x), 2 - 3, 8 * eps);  // outside: negative
   scene.triangles.clear();
   EXPECT_FALSE(depth_of_triangles(scene, 0, x));
@@ -70,14 +70,14 @@ TEST(SphereCone, EnginesStickAndSlideOnBothSidesOfTheLine) {
       EXPECT_EQ(below->state, ContactState::slides);
       EXPECT_GT(below->distance, 0.01);
     }
-    // two that fail: the position-based world creeps, the sticky sphere holds everything
+    // two failures: the position-based world creeps, the sticky sphere holds everything
     EXPECT_EQ(cone(find_method("bullet/pbd"), degrees, 0.5 * limit, Ground::ball, 1e-3, out)->state,
               ContactState::neither);
     EXPECT_EQ(cone(find_method(sticky), degrees, 0, Ground::ball, 1e-3, out)->state, ContactState::sticks);
   }
 }
 
-/// All methods of mysim that follow Coulomb's law, and those of them that locate events.
+/// All methods of mysim that follow Coulomb's law, including those that locate events.
 std::vector<Method> coulomb_methods() {
   std::vector<Method> methods;
   for (const Method& m : builtin_methods()) {
@@ -102,8 +102,8 @@ TEST(PlaneCone, HoldsAThousandthInsideAndSlidesAThousandthOutside) {
       ASSERT_TRUE(held) << out.reason;
       EXPECT_EQ(held->state, ContactState::sticks);
       EXPECT_EQ(held->coulomb, 0);
-      // roundings of h v in 500 steps, and what implicit rules leave unsolved: 1e-10 of the weight in each; a node of
-      // Bullet's implicit world that leaves the face falls freely for a step or two (experiments/check/known.toml)
+      // Rounding of h v in 500 steps, and the residual of implicit rules: 1e-10 of the weight in each step. A node of
+      // Bullet's implicit world that leaves the face falls freely for a step or two (experiments/check/known.toml).
       const double free_step = 9.81 * 1e-3 * 1e-3;
       EXPECT_LT(held->distance, 1e-13 + (!method.implicit  ? 0
                                          : !method.stepper ? 2 * free_step
@@ -115,7 +115,7 @@ TEST(PlaneCone, HoldsAThousandthInsideAndSlidesAThousandthOutside) {
       ASSERT_TRUE(exact);
       EXPECT_NEAR((exact->at(0.5).x - scene.start.x).norm(), slid->coulomb, 1e-13);  // a thousandth of 1 m, cancelled
     }
-  // two that fail: the position-based world creeps, the sticky rule holds everything
+  // two failures: the position-based world creeps, the sticky rule holds everything
   EXPECT_EQ(cone(find_method("bullet/pbd"), 35, 0.35, Ground::plane, 1e-3, out)->state, ContactState::neither);
   EXPECT_EQ(cone(find_method(sticky), 35, 0, Ground::plane, 1e-3, out)->state, ContactState::sticks);
 }
@@ -131,13 +131,14 @@ TEST(PlaneProbes, ClosedFormsHoldWithinTheOrderOfEachMethod) {
         EXPECT_TRUE(value) << out.reason;
         return std::abs(value.value_or(NAN) - by_theory(probe));
       };
-      // an impact errs in speed by (1 + e) g h at most, three of them by v / g times as much in the height after 1.24
-      // m/s, and a step of that speed; with events only the highest sample is g h^2 / 8 below the apex; over 0.3 m
+      // An impact errs in speed by at most (1 + e) g h. Three impacts err by v / g times as much in the height after
+      // 1.24 m/s, plus one step at that speed. With events, only the highest sample errs: it is g h^2 / 8 below the
+      // apex. All relative to 0.3 m.
       EXPECT_LT(off(PlaneProbe::apex), events ? 9.81 * h * h / 8 / 0.3 + 1e-9 : (3 * 1.8 + 1) * 1.24 * h / 0.3);
-      // each of two impacts in 0.467 s lasts to the end of its step
+      // each of two impacts in 0.467 s lasts until the end of its step
       EXPECT_LT(off(PlaneProbe::period), events ? 1e-9 : 2 * h / (1.4 / 3) * (1 + 1e-9));
-      EXPECT_LT(off(PlaneProbe::loss), 1e-12);  // roundings
-      // the position of explicit Euler does not see the fall of the same step: it touches in the next one
+      EXPECT_LT(off(PlaneProbe::loss), 1e-12);  // rounding
+      // Explicit Euler moves with the velocity before the fall, so it touches one step later.
       EXPECT_EQ(off(PlaneProbe::held), method.name == "mysim/explicit-euler" ? 0.5 : 0);
     }
   }
@@ -161,7 +162,7 @@ TEST(PlaneProbes, RefusalsAreVerdictsAndOtherProbesGoOn) {
     EXPECT_TRUE(contains(out.reason, "no restitution"));
     EXPECT_NEAR(measured(PlaneProbe::loss, find_method(name), 1e-3, out).value(), 0, 1e-3);
   }
-  EXPECT_EQ(measured(PlaneProbe::apex, find_method(sticky), 1e-3, out), 0.) << "it never rises";
+  EXPECT_EQ(measured(PlaneProbe::apex, find_method(sticky), 1e-3, out), 0.) << "expected no rise";
   EXPECT_FALSE(measured(PlaneProbe::period, find_method(sticky), 1e-3, out));
 }
 
@@ -181,7 +182,7 @@ TEST(SphereRebound, ComesToTheSquareOfRestitution) {
       for (const double h : {1e-3, 1e-4}) {
         const auto height = rebound(find_method(name), scene, h, out);
         ASSERT_TRUE(height);
-        // the impact falls anywhere in a step at 2.4 m/s, and Euler lags by as much again
+        // The impact occurs anywhere within a step at 2.4 m/s, and Euler lags by as much again.
         EXPECT_NEAR(*height, 0.3 * e * e, 2 * 2.43 * h) << h;
       }
     }
@@ -189,7 +190,7 @@ TEST(SphereRebound, ComesToTheSquareOfRestitution) {
   EXPECT_FALSE(rebound(find_method("bullet/pbd"), drop_on_ball(0.5), 1e-3, out));
   EXPECT_EQ(out.verdict, Verdict::unsupported);
   EXPECT_TRUE(contains(out.reason, "no restitution"));
-  // without restitution the position-based world throws back all the same
+  // the position-based world rebounds even without restitution
   EXPECT_GT(*rebound(find_method("bullet/pbd"), drop_on_ball(0), 1. / 240, out), 1e-5);
 }
 
@@ -205,7 +206,7 @@ TEST(SphereOrder, EveryProbeHasATruthAndEventsAreOfOrderTwoOnIt) {
       return largest_rms_distance(run_and_record(method, scene, run).trajectory, truth->trajectory);
     };
     if (scene.name == "bounces") {
-      EXPECT_LT(error("leapfrog+events", 10), 1e-12);  // parabolas are exact: roundings of a hundred steps
+      EXPECT_LT(error("leapfrog+events", 10), 1e-12);  // parabolas are exact: rounding of a hundred steps
     } else {
       EXPECT_NEAR(slope(error("leapfrog+events", 10), error("leapfrog+events", 40)) / 2, 2, 0.1);
       EXPECT_GT(error("leapfrog", 40), 10 * error("leapfrog+events", 40));
@@ -214,7 +215,7 @@ TEST(SphereOrder, EveryProbeHasATruthAndEventsAreOfOrderTwoOnIt) {
 }
 
 TEST(SphereLeaving, IsWhereEnergyAndFreeFlightSay) {
-  // on the ball v^2 = 2 g R (1 - cos); it leaves at cos = 2/3, and falls freely until the gap is a millimetre
+  // On the ball v^2 = 2 g R (1 - cos). It leaves at cos = 2/3, then falls freely until the gap is a millimetre.
   const double r = 1.02, g = 9.81, c = 2. / 3, s = std::sqrt(1 - c * c), v = std::sqrt(g * r * c);
   double t = 0, x = 0, y = 0;
   while (std::hypot(x, y) < r + 1e-3) {
@@ -222,15 +223,15 @@ TEST(SphereLeaving, IsWhereEnergyAndFreeFlightSay) {
     x = r * s + v * c * t, y = r * c - v * s * t - g * t * t / 2;
   }
   const Leaving exact = leaving_by_theory();
-  EXPECT_NEAR(exact.angle, std::atan2(x, y) * 57.29577951308232, 2e-4);  // 1e-6 s at 150 degrees a second
+  EXPECT_NEAR(exact.angle, std::atan2(x, y) * 57.29577951308232, 2e-4);  // 1e-6 s at 150 degrees per second
   EXPECT_NEAR(exact.speed, std::hypot(v * c, v * s + g * t), 2e-5);
   EXPECT_GT(exact.angle, 48.19);
   Outcome out;
   for (const auto name : {"leapfrog", "rk4", "bullet/deformable-explicit"}) {
     const auto found = leaving(find_method(name), 1e-3, out);
     ASSERT_TRUE(found) << name;
-    // a step is 0.15 degrees there; where contact ends the gap grows as the cube of the time, so that a step more or
-    // less of contact is a degree at most
+    // A step is 0.15 degrees there. After contact ends the gap grows as the cube of the time, so a step more or less of
+    // contact changes the angle by at most a degree.
     EXPECT_NEAR(found->angle, exact.angle, 1) << name;
     EXPECT_NEAR(found->speed, exact.speed, 0.02 * exact.speed) << name;
   }
@@ -247,7 +248,7 @@ TEST(MirrorSymmetry, FindsPartnersAndMeasuresWhatIsMissing) {
   x(0, 5) += 1e-6;
   EXPECT_NEAR(mirror->asymmetry(x), 1e-6, 1e-15);
   x = scene.start.x;
-  x.row(1) *= 3;  // stays symmetric
+  x.row(1) *= 3;  // remains symmetric
   EXPECT_LT(mirror->asymmetry(x), 4 * eps);
   EXPECT_FALSE(MirrorSymmetry::of(drop_aside()));
   EXPECT_FALSE(MirrorSymmetry::of(small_cloth()));
@@ -256,13 +257,13 @@ TEST(MirrorSymmetry, FindsPartnersAndMeasuresWhatIsMissing) {
 TEST(SphereDrape, ASymmetricClothStaysSymmetricUnlessLinksAreSwept) {
   const Scene scene = drop_centred();
   const auto mirror = MirrorSymmetry::of(scene);
-  const crosscheck::Run run{2e-3, 0.6, 10};  // it touches at 0.18 s
+  const crosscheck::Run run{2e-3, 0.6, 10};  // first touch at 0.18 s
   auto skew = [&](const char* method) {
     const Trajectory t = run_and_record(method, scene, run).trajectory;
     EXPECT_LT(*clearance(scene, t.t.back(), t.x.back()), 1e-3);
     return mirror->asymmetry(t.x.back());
   };
-  // rounding, grown ten-thousandfold at most
+  // rounding, amplified at most ten-thousandfold
   EXPECT_LT(skew("leapfrog"), 1e-11);
   EXPECT_LT(skew("symplectic-euler"), 1e-11);
   EXPECT_GT(skew("xpbd"), 1e-5);

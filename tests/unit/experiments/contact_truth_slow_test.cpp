@@ -1,4 +1,4 @@
-// Contact: what the in-house rule converges to, for as long as an order is seen; and statistics where it is not.
+// Contact: the limit of the in-house rule while an order is observed, and statistics beyond that.
 
 #include "experiments/experiment.h"
 #include "experiments/metrics.h"
@@ -42,13 +42,13 @@ TEST(ContactTruth, OfADrapeIsThatOfTwoRulesWithoutACommonEquationUntilItIsSensit
   ASSERT_TRUE(truth);
   EXPECT_FALSE(truth->under_contact_rule);
   EXPECT_EQ(truth->tier, Tier::converged);
-  // a perturbation has grown a thousandfold at 0.56 s: from there on the two rules part
+  // A perturbation has grown a thousandfold at 0.56 s. From there on the two rules differ.
   EXPECT_GT(truth->until, 0.47);
   EXPECT_LT(truth->until, 0.57);
   EXPECT_EQ(truth->trajectory.t.back(), truth->until);
   EXPECT_EQ(truth->error_bars.size(), truth->trajectory.t.size());
   EXPECT_LE(truth->error_bar, scene.tolerance / 3);
-  // a rule of mysim's that is neither route
+  // a third rule of mysim, used by neither route
   Recorder recorder;
   Ledger ledger(scene.model, ContactLoss::reported);
   run_method(find_method("rk4"), scene, {scene.step / 16, truth->until, truth->trajectory.frames() - 1},
@@ -57,7 +57,7 @@ TEST(ContactTruth, OfADrapeIsThatOfTwoRulesWithoutACommonEquationUntilItIsSensit
   fmt::print("drape: bar {:.2g} m, {:.2g} m from another rule, until {:.2g} s\n", truth->error_bar, off, truth->until);
   EXPECT_LT(off, truth->error_bar);
   EXPECT_GT(off, truth->error_bar / 40);
-  // and what its impulses took, which neither route is asked
+  // also compare the energy lost to contact, which neither route computes
   ASSERT_EQ(truth->contact.size(), truth->trajectory.t.size());
   const double taken = ledger.rows().back().contact, bar = truth->contact_bars.back();
   fmt::print("drape: contact takes {:.6g} J, bar {:.2g} J, {:.6g} J by another rule\n", truth->contact.back(), bar,
@@ -68,7 +68,7 @@ TEST(ContactTruth, OfADrapeIsThatOfTwoRulesWithoutACommonEquationUntilItIsSensit
 }
 
 TEST(ContactTruth, ThatEndsEarlyIsHeldAgainstNothingLater) {
-  // what is later than the truth's end has a motion, and no error
+  // samples after the end of the truth have a motion but no error
   Scene scene = load_scene("cloth-sphere");
   scene.duration = scene.window = 0.7, scene.samples = 35;
   Request request;
@@ -99,12 +99,12 @@ TEST(ContactTruth, OfOneParticleCoversTheExactSlide) {
       error = std::max(error, rms_distance(truth->trajectory.x[i], exact->at(truth->trajectory.t[i]).x));
     fmt::print("slide: bar {:.2g} m, error {:.2g} m, {}\n", truth->error_bar, error, truth->how);
     EXPECT_LT(error, truth->error_bar) << truth->how;
-    // friction is all that takes energy there
+    // friction is the only dissipation there
     const auto energy = [&](int i) { return energy_of(scene.model, exact->at(truth->trajectory.t[i])).total(); };
     for (size_t i = 0; i < truth->contact.size(); ++i)
       EXPECT_NEAR(truth->contact[i], energy(0) - energy(static_cast<int>(i)), truth->contact_bars[i] + 1e-12) << i;
     EXPECT_EQ(truth->contact.empty(), truth->under_contact_rule);
-    // the bar of a route of order 1 says little of one of order 2 beside it
+    // The error bar of a first-order route says little about a second-order route.
     if (truth->under_contact_rule) {
       EXPECT_GT(error, truth->error_bar / 40);
     }
@@ -126,13 +126,13 @@ TEST(ContactTruth, BarsCoverThirtyRandomScenesOnPlanes) {
     const Trajectory& path = truth->trajectory;
     const double bar = truth->error_bar;
     const crosscheck::Run run{scene.step, path.t.back(), path.frames() - 1};
-    // from event to event at a hundredth of the truth's finest tolerance
+    // event-driven, at a hundredth of the truth's finest tolerance
     Recorder finer;
     run_event_driven(scene, {run.step, run.duration, run.samples, 1e-14}, finer);
     const double off = sup_rms(path, finer.trajectory);
     EXPECT_LE(off, bar);
     closest = std::min(closest, bar / off);
-    // a rule that is neither route: its own last change at fine steps is what it does not know
+    // a third rule, with its last refinement at fine steps as its own uncertainty
     Recorder coarse, fine;
     for (const auto& [recorder, part] : {std::pair{&coarse, 64}, {&fine, 128}})
       run_method(method, scene, {scene.step / part, run.duration, run.samples}, {recorder});
@@ -146,7 +146,7 @@ TEST(ContactTruth, BarsCoverThirtyRandomScenesOnPlanes) {
 
 TEST(ContactTruth, IsNoneWhereNothingTouchesOrNoOrderIsSeen) {
   const Scene drape = load_scene("cloth-sphere");
-  EXPECT_FALSE(contact_truth(drape, {1e-3, 0.1, 10}));  // it still falls
+  EXPECT_FALSE(contact_truth(drape, {1e-3, 0.1, 10}));  // still falling
   const Scene jelly = load_scene("jelly");
   EXPECT_FALSE(contact_truth(jelly, default_run(jelly)));  // its corners hit the ball one after the other
 }
@@ -158,7 +158,7 @@ TEST(ContactTruth, IsCalledADifferenceInTheTables) {
   request.scenes[0].samples = 20;
   request.scenes[0].window = 0.4;
   request.methods = find_methods("leapfrog,symplectic-euler");
-  // two spheres at once the second route refuses: what is left is the contact rule's own limit
+  // The second route does not support two spheres at once, so only the contact rule's own limit remains.
   auto& spheres = std::get<Spheres>(*std::ranges::find_if(
       request.scenes[0].model.terms, [](const Term& t) { return std::holds_alternative<Spheres>(t); }));
   spheres.list.push_back(spheres.list.front());
@@ -169,7 +169,7 @@ TEST(ContactTruth, IsCalledADifferenceInTheTables) {
   for (size_t i = 0; i < summary.rows.size(); ++i) {
     EXPECT_TRUE(std::holds_alternative<std::monostate>(summary.at(i, "largest error")));
     EXPECT_GT(std::get<double>(summary.at(i, "largest difference from converged contact")), 0);
-    EXPECT_NEAR(std::get<double>(summary.at(i, "truth until")), 0.36, 1e-9);  // touches at 0.06 s
+    EXPECT_NEAR(std::get<double>(summary.at(i, "truth until")), 0.36, 1e-9);  // first touch at 0.06 s
     EXPECT_EQ(std::get<std::string>(summary.at(i, "truth tier")), "converged, in-house contact rule");
   }
   const Table& rows = *result.table("cloth-carried-engines");
@@ -181,7 +181,7 @@ TEST(ContactTruth, IsCalledADifferenceInTheTables) {
 }
 
 TEST(ContactTruth, AdvicePromisesOnRandomScenesAndKeepsItAfterEveryStep) {
-  // particles, a chain and a net; twenty seeds are those of `advise_trials contact 1 20`
+  // particles, a chain and a net; the first twenty seeds are those of `advise_trials contact 1 20`
   for (const unsigned seed : {6u, 7u, 20u}) {
     const ContactCase c = contact_case(random_contact_scene(seed), 0.01);
     EXPECT_TRUE(c.promised) << seed << ": " << c.why;
@@ -210,12 +210,12 @@ TEST(FloorDrop, KeepsAPerturbationSmallToTheEndOfItsWindowAndEndsInOneState) {
       if (path.t[i] <= scene.window * (1 + 1e-9))
         growth = std::max(growth, largest_column(path.x[i] - plain.x[i]) / size);
     }
-    // height, clearance, energies and outline at the end: differences of the order of the perturbation
+    // Height, clearance, energies and outline at the end differ by about the size of the perturbation.
     const auto end = contact_quantities(start, path);
     for (size_t q = 0; q < end.size(); ++q) EXPECT_NEAR(end[q].mean, expected[q].mean, 10 * size) << end[q].quantity;
   }
   fmt::print("floor-drop: a perturbation grows {:.3g}-fold at most\n", growth);
-  EXPECT_LT(growth, 10);  // as the scene's text says
+  EXPECT_LT(growth, 10);  // as the scene's text states
   EXPECT_GT(growth, 1);
   EXPECT_EQ(scene.window, scene.duration);
 }
@@ -227,7 +227,7 @@ TEST(FloorDrop, TruthCoversAnotherRuleToTheEnd) {
   EXPECT_FALSE(truth->under_contact_rule);
   EXPECT_GE(std::min(truth->until, scene.duration), scene.window);
   EXPECT_LE(truth->error_bar, scene.tolerance / 3);
-  // rk4 is neither route
+  // rk4 is not one of the two routes
   const Trajectory other = run_and_record("rk4", scene, {scene.step / 16, scene.duration, scene.samples}).trajectory;
   const double off = sup_rms(truth->trajectory, other);
   fmt::print("floor-drop: bar {:.2g} m, {:.2g} m from another rule\n", truth->error_bar, off);
@@ -250,13 +250,13 @@ TEST(ContactStatistics, SpreadIsThatOfThePerturbationAndSeedsAreFixed) {
     EXPECT_EQ(first[i].deviation, again[i].deviation);
   }
   EXPECT_EQ(first[0].quantity, "height of the centre of mass at the end");
-  // the motion is hardly sensitive: the mean is the plain run's, to the spread of 216 particles moved by 1e-6 m and
-  // what contact makes of it
+  // The motion is hardly sensitive: the mean agrees with the unperturbed run up to the spread of 216 particles moved by
+  // 1e-6 m, as modified by contact.
   EXPECT_NEAR(first[0].mean, plain_values[0], 1e-5);
   EXPECT_GT(first[0].deviation, 1e-10);
   EXPECT_LT(first[0].deviation, 1e-5);
-  EXPECT_GT(first[3].mean, 0.05);  // J; pressed by a weight of 49 N over some millimetres
-  // who does not take the scene has none
+  EXPECT_GT(first[3].mean, 0.05);  // J; compressed by some millimetres under a weight of 49 N
+  // unsupported methods have no statistics
   EXPECT_TRUE(contact_statistics(find_method("odeint/rk4"), scene, run).empty());
 }
 

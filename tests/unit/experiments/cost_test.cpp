@@ -1,5 +1,5 @@
-// Experiment `cost`: the cloth at other sizes, phases from given times, kernels of known work. No time is compared with
-// another.
+// Experiment `cost`: the cloth at other sizes, phases from given times, kernels of known work. No test compares two
+// times.
 
 #include <set>
 
@@ -28,7 +28,7 @@ TEST(Cost, TheSizedClothIsTheShippedRecipe) {
       EXPECT_EQ(a[i].k, b[i].k);
       EXPECT_EQ(a[i].rest, b[i].rest);
     }
-    // pins begin where they are held; others up to 5 cm off the plane
+    // pins start at their fixed positions; other particles up to 5 cm off the plane
     for (const int pin : sized.model.particles.pins) EXPECT_NEAR(sized.start.x(1, pin), 0, 1e-15);
     EXPECT_NEAR(sized.start.x.row(1).cwiseAbs().maxCoeff(), 0.05, 0.01);
   }
@@ -37,13 +37,13 @@ TEST(Cost, TheSizedClothIsTheShippedRecipe) {
 TEST(Cost, TheStepKeepsItsDistanceFromTheLimitAtEverySize) {
   for (const int n : {8, 20, 40}) {
     const Scene cloth = sized_cloth(n);
-    // the limit of symplectic Euler is near 2 / omega; edges weigh more where there are few particles
+    // The limit of symplectic Euler is near 2 / omega. Edges matter more if there are few particles.
     EXPECT_NEAR(cloth.step * highest_frequency(cloth.model, cloth.start) / 2, 0.45, 0.03) << n;
   }
 }
 
 TEST(Cost, PhasesAreTheDifferencesOfTimings) {
-  // springs, forces, a step without and with the sphere, fused, another engine; each known to +-0.1 or +-0.2
+  // springs, forces, step without and with the sphere, fused step, another engine; uncertainty +-0.1 or +-0.2
   const std::vector<Timing> times = {{1, 0.9, 1.1, 5}, {3, 2.8, 3.2, 5}, {4, 3.9, 4.1, 7},
                                      {6, 5.8, 6.2, 5}, {2, 1.9, 2.1, 5}, {8, 7, 9, 5}};
   const Table t = phases_table(8, {"general", "fused", "other"}, times);
@@ -82,7 +82,7 @@ TEST(Cost, PhasesAreThoseOfTheMethodsThatAreAskedFor) {
   for (size_t i = 0; i < 5; ++i) EXPECT_EQ(std::get<std::string>(t.at(i, "method")), "mysim/leapfrog+plain");
   EXPECT_EQ(std::get<std::string>(t.at(5, "method")), "mysim/leapfrog");
   EXPECT_EQ(std::get<std::string>(t.at(6, "method")), "bullet/deformable-explicit");
-  // phases are timed by themselves and subtracted: that says what a step spends only where it evaluates the forces once
+  // Phases are timed separately and subtracted, which describes a step only if it evaluates the forces once.
   const Scene scene = sized_cloth(8);
   const Outcome out = run_and_record("mysim/leapfrog+plain", scene, {scene.step, 10 * scene.step, 1}).outcome;
   EXPECT_EQ(out.evaluations, out.steps);
@@ -121,7 +121,7 @@ TEST(Cost, PointsAreDistinctAndTheQuickOnesAreAmongAll) {
   ASSERT_EQ(points.size(), others.size());
   for (size_t i = 0; i < points.size(); ++i) {
     EXPECT_TRUE(quick.insert(points[i].name).second && all.contains(points[i].name)) << points[i].name;
-    // what is computed depends on the methods and on --full, on nothing else
+    // the content depends on the methods and on --full only
     EXPECT_NE(points[i].content, others[i].content);
     EXPECT_NE(points[i].content, cost_points(full)[i].content);
   }

@@ -1,4 +1,5 @@
-// Engines with one defect each, made from a good one: which relation must find it, and which others it must break too.
+// Engines with a single defect each, made from a correct one: the relation that must detect it, and others that it may
+// break.
 #pragma once
 
 #include <functional>
@@ -12,7 +13,7 @@
 
 namespace crosscheck::testing_tools {
 
-/// Shows another observer changed states.
+/// Passes modified states to another observer.
 class ChangedStates : public Observer {
  public:
   using Change = std::function<void(State&)>;
@@ -33,7 +34,7 @@ class ChangedStates : public Observer {
 using ChangeScene = std::function<void(Scene&, const crosscheck::Run&)>;
 using ChangeState = std::function<void(const Scene&, State&)>;
 
-/// The method on scenes, and with answers, that are not what was asked.
+/// The method applied to a modified scene, or with modified states.
 inline Method with_defect(const std::string& base, ChangeScene scene_change, ChangeState state_change = nullptr) {
   Method method = find_method(base);
   method.engine = [inner = method.engine, scene_change, state_change](const Scene& scene, const crosscheck::Run& run,
@@ -50,9 +51,9 @@ inline Method with_defect(const std::string& base, ChangeScene scene_change, Cha
 struct Defect {
   std::string relation, what;
   std::function<Method(const std::string& base)> make;
-  std::set<std::string> also = {};  // relations that it must break, or may, too
+  std::set<std::string> also = {};  // other relations that it must or may break
   std::string because = {};
-  int least_order = 1;  // of the rule in which it is a defect
+  int least_order = 1;  // minimum order of the rules in which this counts as a defect
   std::set<std::string> also_in_bullet = {};
 };
 
@@ -65,7 +66,7 @@ inline void multiply_stiffness(Scene& s, double by) {
 inline void multiply_gravity(Scene& s, double by) {
   if (auto* g = s.model.find<Gravity>()) g->acceleration *= by;
 }
-/// How many steps are between two samples: what a scaled scene has too.
+/// Steps between two samples, which scaling the scene does not change.
 inline double steps_between(const crosscheck::Run& run) { return run.duration / run.samples / run.step; }
 
 inline const std::vector<Defect>& defects() {
@@ -88,12 +89,12 @@ inline const std::vector<Defect>& defects() {
          if (has_pins(s)) multiply_stiffness(s, 1 + 1e-3 * s.model.particles.pin_home.col(0).norm());
        })},
       {"no-force",
-       "gravity of its own where there is none",
+       "own gravity added where the scene has none",
        scene_defect([](Scene& s, R) {
          if (!s.model.find<Gravity>()) s.model.terms.emplace_back(Gravity{{0, -1e-6, 0}});
        }),
        {"momentum", "angular-momentum"},
-       "a force from outside acts on free nets too"},
+       "an external force acts on free nets too"},
       {"rest-shape",
        "gravity depends on drag",
        scene_defect([](Scene& s, R) {
@@ -109,7 +110,7 @@ inline const std::vector<Defect>& defects() {
          for (Spring& e : springs_in(s)) e.k = mean * std::pow(e.k / mean, 1.1);
        })},
       {"stiffness",
-       "stiffness is made of weight and length alone",
+       "stiffness is computed from weight and length alone",
        scene_defect([](Scene& s, R) {
          const auto* g = s.model.find<Gravity>();
          if (!g) return;
@@ -118,14 +119,14 @@ inline const std::vector<Defect>& defects() {
          for (Spring& e : springs_in(s)) e.k = 10 * s.model.particles.mass.sum() * g->acceleration.norm() / rest;
        }),
        {"extension"},
-       "springs of other stiffness extend alike"},
+       "springs of different stiffness extend equally"},
       {"one-answer",
        "springs are stiffer at every other halving of the step",
        scene_defect([](Scene& s, R run) {
          if (std::lround(std::log2(steps_between(run))) % 2 != 0) multiply_stiffness(s, 1.01);
        }),
        {"half-step"},
-       "what has no limit has no order"},
+       "without a limit there is no order"},
       {"particle-order",
        "springs of particle 1 are stiffer",
        scene_defect([](Scene& s, R) {
@@ -133,23 +134,23 @@ inline const std::vector<Defect>& defects() {
            if (e.a == 1 || e.b == 1) e.k *= 1 + 1e-6;
        }),
        {"mirror"},
-       "the image of particle 1 is another"},
+       "the mirror image of particle 1 is a different particle"},
       {"spring-order",
        "the first spring is stiffer",
        scene_defect([](Scene& s, R) { springs_in(s)[0].k *= 1 + 1e-6; }),
        {"mirror"},
-       "the image of the first spring is another"},
+       "the mirror image of the first spring is a different spring"},
       {"half-step",
-       "stiffness is off by a part of order one in the step",
+       "stiffness has an error of first order in the step",
        scene_defect([](Scene& s, R run) { multiply_stiffness(s, 1 + 0.1 / steps_between(run)); }),
        {"extension"},
-       "a rule of order one has such an error by itself, and the tension is off by it",
+       "a first-order rule has such an error by itself, and the tension inherits it",
        2},
       {"scaling", "1e-6 N/m are added to every spring", scene_defect([](Scene& s, R) {
          for (Spring& e : springs_in(s)) e.k += 1e-6;
        })},
       {"momentum",
-       "what moves is pushed on",
+       "moving nets get an extra push",
        scene_defect([](Scene& s, R) {
          if (in_motion(s) && !s.model.find<Gravity>())
            s.model.terms.emplace_back(Wind{WindSignal{{1e-7, 0, 0}, std::nullopt}});
@@ -180,7 +181,7 @@ inline const std::vector<Defect>& defects() {
          for (const int pin : s.model.particles.pins) state.x.col(pin) += 1e-9 * state.t * state.t * g->acceleration;
        })},
       {"energy",
-       "springs have dashpots that nobody asked for",
+       "springs have dashpots that the scene does not have",
        scene_defect([](Scene& s, R run) {
          if (s.model.find<Dashpots>()) return;
          Dashpots dashpots;

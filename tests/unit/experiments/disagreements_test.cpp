@@ -1,4 +1,4 @@
-// Every known disagreement is there by its own criterion, with a sentence of numbers, and in no healthy method.
+// Every known disagreement is reproduced by its own criterion, with a sentence of numbers, and by no healthy method.
 
 #include <map>
 #include <numbers>
@@ -61,7 +61,7 @@ TEST(Disagreements, EachIsThereAndSaysSo) {
     ASSERT_EQ(series.size(), all[d].variants.size());
     for (const Series& s : series) {
       EXPECT_NE(s.outcome.verdict, Verdict::unsupported) << s.variant.method << ": " << s.outcome.reason;
-      // of one that hangs the start alone
+      // a hanging run has only its initial state
       EXPECT_GE(s.points.size(), s.outcome.verdict == Verdict::timeout ? 1u : 2u) << s.variant.method;
     }
     EXPECT_EQ(series[0].outcome.verdict, Verdict::ok);  // the scene's own definition
@@ -81,7 +81,7 @@ TEST(Disagreements, EachIsThereAndSaysSo) {
 TEST(Disagreements, AHealthyMethodHasNone) {
   for (Disagreement d : disagreements()) {
     SCOPED_TRACE(d.name);
-    // what is asked in place of each world, at a step that it holds
+    // Replace each Bullet world by the reference method, at its own step.
     for (Variant& v : d.variants)
       if (find_method(v.method).family().role == Role::peer) v.method = d.variants[0].method, v.step = 0;
     EXPECT_EQ(name_of(state_of(d, run_variants(d, scene_of(d)))), "not reproduced");
@@ -118,14 +118,14 @@ TEST(Disagreements, ConditionsLookAtCommonTimesAndAtVerdicts) {
   EXPECT_TRUE(holds({apart, 1, 0, 2}, all));
   EXPECT_FALSE(holds({apart, 1, 0, 3}, all));
   EXPECT_FALSE(holds({apart, 1, 0, 2, 2}, all)) << "later times do not count";
-  EXPECT_FALSE(holds({apart, 2, 0, 2}, all)) << "nor those that only one of them reached";
+  EXPECT_FALSE(holds({apart, 2, 0, 2}, all)) << "times reached by one run only do not count";
   EXPECT_TRUE(holds({within, 1, 0, 3}, all));
   EXPECT_FALSE(holds({within, 1, 0, 2}, all));
-  EXPECT_FALSE(holds({within, 2, 0, 3}, all)) << "a failed run is within nothing";
+  EXPECT_FALSE(holds({within, 2, 0, 3}, all)) << "a failed run is never within a bound";
   EXPECT_TRUE(holds({apart, 4, 0, 1e300}, all));
   EXPECT_FALSE(holds({within, 4, 0, 1e300}, all));
   EXPECT_TRUE(holds({hangs, 3, 0, 9}, all));
-  EXPECT_FALSE(holds({hangs, 3, 0, 11}, all)) << "a slow start is no hang";
+  EXPECT_FALSE(holds({hangs, 3, 0, 11}, all)) << "a slow start is not a hang";
   EXPECT_FALSE(holds({hangs, 1, 0, 0}, all));
 }
 
@@ -145,7 +145,7 @@ TEST(Disagreements, StateFollowsFromSymptomAndCause) {
   EXPECT_EQ(state_of(d, all), TroubleState::not_asked);
   EXPECT_EQ(why_not_asked(d, all), "curve (method): no such thing");
   all.back() = series(Verdict::frozen, {{0, 0}});
-  EXPECT_EQ(state_of(d, all), TroubleState::not_asked) << "what failed does not do what is asked";
+  EXPECT_EQ(state_of(d, all), TroubleState::not_asked) << "a failed run cannot meet the condition";
   EXPECT_TRUE(why_not_asked(d, all).starts_with("curve (method): no such thing, ")) << why_not_asked(d, all);
   d.symptom = {{apart, 1, 0, 1}};
   EXPECT_EQ(state_of(d, all), TroubleState::reproduced) << "another run's failure does not hide the symptom";
@@ -159,7 +159,7 @@ TEST(Disagreements, AProgramTakesThePlaceOfBulletsWorlds) {
   EXPECT_EQ(with_worlds_of(row("one-stiffness"), "exec:./other").world, "exec:./other+world=deformable-explicit");
 }
 
-/// Its rows on a program: the adapter in single precision, or an engine that knows nothing of Bullet's worlds.
+/// Rows on an external program: the single-precision adapter, or an engine that knows nothing of Bullet's worlds.
 TEST(Disagreements, AreAskedOfAProgram) {
   const std::string adapter = "exec:" CROSSCHECK_BULLET32_PROGRAM, healthy = "exec:" CROSSCHECK_EXAMPLE;
   for (const auto name : {"one-stiffness", "gravity-factor"}) {
@@ -170,7 +170,7 @@ TEST(Disagreements, AreAskedOfAProgram) {
     EXPECT_EQ(state(adapter), "explained") << name;
     EXPECT_EQ(state(healthy), "not reproduced") << name;
   }
-  // a program without spheres, or without the option, says so
+  // A program without spheres, or without the option, reports it.
   Disagreement d = with_worlds_of(row("gravity-factor"), adapter);
   d.variants[1].method += "+no-such-option";
   EXPECT_TRUE(contains(why_not_asked(d, run_variants(d, scene_of(d))), "unknown option '+no-such-option'"));
@@ -185,7 +185,7 @@ TEST(Disagreements, AreAskedOfAProgram) {
   request.methods = {find_method(healthy)};
   EXPECT_EQ(find_experiment("disagreements").points(request)[0].content,
             find_experiment("disagreements").points({})[0].content)
-      << "a program that is asked for no world is no Bullet";
+      << "a program without +world is not treated as Bullet";
 }
 
 TEST(Disagreements, LinkLawInMysimIsThePositionBasedWorlds) {
@@ -194,7 +194,7 @@ TEST(Disagreements, LinkLawInMysimIsThePositionBasedWorlds) {
   EXPECT_LT(apart(all[1], all[2]), 0.1 * apart(all[0], all[1]));
 }
 
-/// The direction of a field of distances to a ball that is read from a grid, trilinear within a voxel: its gradient.
+/// Contact direction of a ball's distance field on a grid: the gradient of the trilinear interpolation in a voxel.
 Vec3 gradient_of_the_grid(const Vec3& x, double radius, double voxel) {
   const Eigen::Array3d at = (x / voxel).array(), low = at.floor(), part = at - low;
   Vec3 gradient = Vec3::Zero();
@@ -217,13 +217,13 @@ TEST(Disagreements, DirectionOfContactIsTheGradientOfTheGridInAVoxel) {
     double largest = 0;
     for (const DirectionError& e : errors) {
       SCOPED_TRACE(fmt::format("{:.3g} degrees, voxel {:g} m", e.angle * 180 / std::numbers::pi, voxel));
-      // no angle has its place within 0.3 mm of a face between voxels; the particle begins on the surface and stays
-      // within a tenth of a millimetre of it
+      // No angle is within 0.3 mm of a face between voxels. The particle starts on the surface and stays within a tenth
+      // of a millimetre of it.
       const Vec3 n = gradient_of_the_grid(1.02 * Vec3(std::sin(e.angle), std::cos(e.angle), 0), 1, voxel);
       const double in_plane = std::atan2(n.x(), n.y()) - e.angle, sideways = std::asin(n.z());
       fmt::print("{:.4f} rad, voxel {:g} m: in plane {:+.2e}, by the grid {:+.2e}; sideways {:+.2e}, {:+.2e}\n",
                  e.angle, voxel, e.in_plane, in_plane, e.sideways, sideways);
-      // its way turns the gradient by d / R = 6e-5 of what it is at most
+      // Its displacement d turns the gradient by at most d / R = 6e-5.
       EXPECT_NEAR(e.in_plane, in_plane, 1e-4);
       EXPECT_NEAR(e.sideways, sideways, 1e-4);
       largest = std::max(largest, std::abs(e.in_plane));
