@@ -1,4 +1,4 @@
-// Energy over long runs: what the ledger of many steps says, what rules damp by theory, which parts are exact.
+// Energy over long runs: the ledger's residual over many steps, theoretical numerical damping, and parts known exactly.
 
 #include "experiments/energy/long_run.h"
 #include "experiments/scenes/scenes.h"
@@ -25,7 +25,7 @@ TEST(ThinnedLedger, SeesEveryStepAndKeepsFewRows) {
   const crosscheck::Run run{1e-3, 1, 10};
   run_method(find_method("leapfrog"), scene, run, {&all, &few});
   EXPECT_LT(few.rows().size(), 80u);
-  EXPECT_EQ(few.rows()[1].t, 1e-3);  // the first states are there
+  EXPECT_EQ(few.rows()[1].t, 1e-3);  // the first states are kept
   size_t met = 0;
   for (const LedgerRow& row : all.rows())
     for (const LedgerRow& other : few.rows())
@@ -49,11 +49,11 @@ TEST(ResidualStatistics, TellsDriftFromOscillation) {
     swinging.push_back({t, {kinetic, 0.5 * std::sin(2 * t), 0}, 0, 0, 0, 0, 0});
   }
   const ResidualStatistics a = residual_statistics(drifting), b = residual_statistics(swinging);
-  EXPECT_NEAR(a.drift, -3e-3, 1e-12);  // a straight line, but for rounding of 2 J
-  EXPECT_LT(a.oscillation, 1e-6);      // the root of the rounding of r^2
+  EXPECT_NEAR(a.drift, -3e-3, 1e-12);  // a straight line up to rounding of 2 J
+  EXPECT_LT(a.oscillation, 1e-6);      // square root of the rounding of r^2
   EXPECT_NEAR(a.growth, 1, 1e-12);
   EXPECT_NEAR(a.equivalent_drag, 0.3 / (2 * 2 * 100), 1e-12);    // 0.3 J of 2 K over 100 s
-  EXPECT_LT(std::abs(b.drift), 0.5 * 6 / (2 * 100 * 100.) * 2);  // a sine's slope is at most 6 A / (omega T^2)
+  EXPECT_LT(std::abs(b.drift), 0.5 * 6 / (2 * 100 * 100.) * 2);  // slope of a fitted sine: at most 6 A / (omega T^2)
   EXPECT_NEAR(b.oscillation, 0.5 / std::sqrt(2), 0.01);
   EXPECT_LT(b.growth, 0.01);
   EXPECT_NEAR(b.worst, 0.5, 0.01);
@@ -62,8 +62,8 @@ TEST(ResidualStatistics, TellsDriftFromOscillation) {
 TEST(NumericalDamping, IsWhatTheStabilityFunctionSays) {
   EXPECT_DOUBLE_EQ(*damping_by_theory(find_method("implicit-euler"), 0.1, 10), std::log(2) / 0.1);
   EXPECT_EQ(*damping_by_theory(find_method("leapfrog"), 0.1, 10), 0);
-  EXPECT_LT(*damping_by_theory(find_method("explicit-euler"), 0.01, 10), 0);  // it makes energy
-  EXPECT_FALSE(damping_by_theory(find_method("dopri5"), 0.1, 10));            // has no step
+  EXPECT_LT(*damping_by_theory(find_method("explicit-euler"), 0.01, 10), 0);  // it adds energy
+  EXPECT_FALSE(damping_by_theory(find_method("dopri5"), 0.1, 10));            // no fixed step
   int damped = 0;
   for (const auto name : {"explicit-euler", "trapezoidal", "rk4", "symplectic-euler", "leapfrog", "suzuki4",
                           "implicit-euler", "implicit-euler+linear", "implicit-midpoint", "xpbd",
@@ -75,13 +75,13 @@ TEST(NumericalDamping, IsWhatTheStabilityFunctionSays) {
       const auto theory = damping_by_theory(method, h, 10);
       ASSERT_TRUE(found.rate && theory);
       if (*theory == 0) {
-        // the slope through an oscillation of ln(E) by at most h omega, over the run
+        // fitted slope over the run of an oscillation of ln(E) with amplitude at most h omega
         EXPECT_LT(std::abs(*found.rate), 6 * 10 * h / (400 * h));
         continue;
       }
       ++damped;
-      // rounding of 1e-13 of 1 mm and solves to 1e-10 of the forces; the link of the position-based world is stiffer
-      // than Hooke's by half the strain, of 1e-3
+      // Rounding of 1e-13 of 1 mm, and solves to 1e-10 of the forces. The link of the position-based world is stiffer
+      // than Hooke's law by half the strain, which is 1e-3.
       const bool linked = std::string(name) == "bullet/pbd";
       EXPECT_NEAR(*found.rate, *theory, (linked ? 5e-4 : 1e-7) * std::abs(*theory) + 1e-10);
     }
@@ -94,15 +94,15 @@ TEST(LongEnergy, SymplecticRulesDoNotDrift) {
     for (const auto method : {"symplectic-euler", "leapfrog", "suzuki4", "bullet/deformable-explicit"}) {
       SCOPED_TRACE(fmt::format("{} {}", name, method));
       const ResidualStatistics r = long_run(method, scene, 2e-3, 20000);
-      // what wanders grows by 0.5, what drifts by 1: a tenth of the lesser, as tops of two vibrations do not meet at
-      // once
+      // A random walk grows with exponent 0.5 and a drift with 1. A tenth of 0.5 is allowed because the maxima of two
+      // vibrations rarely coincide.
       EXPECT_LT(r.growth, 0.05);
-      // 6 A / (Omega T) as above: 0.03 at twice the slowest, the pendulum's swing, with room for two
+      // 6 A / (Omega T) as above: 0.03 at twice the slowest frequency, the swing of the pendulum, with a margin of two
       EXPECT_LT(std::abs(r.drift) * 40, 0.06 * r.worst);
     }
     for (const auto method : {"trapezoidal", "rk4"}) {
       SCOPED_TRACE(fmt::format("{} {}", name, method));
-      // in proportion to time; an oscillation beside it may be a tenth of the drift of the first tenth: log10(1.1)
+      // Proportional to time. A superposed oscillation may reach a tenth of the drift in the first tenth: log10(1.1).
       EXPECT_NEAR(long_run(method, scene, 2e-3, 20000).growth, 1, 0.045);
     }
   }
@@ -117,12 +117,12 @@ TEST(LongEnergy, ImplicitMidpointKeepsItWhereForcesAreLinear) {
       fmt::print("{} h = {}: residual {:.2g} of the energy per step\n", name, h,
                  exact.worst / exact.energy_scale / steps);
       EXPECT_LT(exact.worst, 1e-12 * exact.energy_scale * steps);
-      // the other side: a rule of the same order that is not exact
+      // in contrast, a rule of the same order that is not exact
       EXPECT_GT(long_run("leapfrog", scene, h, steps).worst, 100 * exact.worst);
     }
 }
 
-/// The small cloth swinging, one state and one row a step, and what it is made of by hand.
+/// The small cloth swinging, with one state and one row per step, and its constants written out.
 struct Swinging : Observer {
   static constexpr double h = 1e-3, mass = 0.25 / 25, g = 9.81;
   static constexpr int first_free = 5, particles = 25;  // the upper edge is pinned
@@ -145,7 +145,7 @@ struct Swinging : Observer {
 };
 
 TEST(LongEnergy, KineticAndGravityOfTheLedgerAreTheSumsOverTheSteps) {
-  // half m (v1^2 - v0^2) = m (v1 - v0) . (v1 + v0) / 2, and m g . (x1 - x0): from the trajectory, by hand
+  // independent sums over the trajectory: half m (v1^2 - v0^2) = m (v1 - v0) . (v1 + v0) / 2, and m g . (x1 - x0)
   for (const Method& method : all_methods()) {
     if (!method.name.starts_with("mysim/") && !method.name.starts_with("bullet/")) continue;
     SCOPED_TRACE(method.name);
@@ -158,7 +158,7 @@ TEST(LongEnergy, KineticAndGravityOfTheLedgerAreTheSumsOverTheSteps) {
         gravity += s.mass * s.g * (now_at.x - before.x)(1, p);
       }
       const Energy &now = s.rows[i].energy, &start = s.rows[0].energy;
-      const double scale = now.kinetic + s.g * 0.25;  // J: 0.25 kg that fall by up to a metre
+      const double scale = now.kinetic + s.g * 0.25;  // J: 0.25 kg falling by up to a metre
       worst = std::max({worst, std::abs(now.kinetic - start.kinetic - kinetic) / scale,
                         std::abs(now.gravitational - start.gravitational - gravity) / scale});
     }
@@ -168,8 +168,8 @@ TEST(LongEnergy, KineticAndGravityOfTheLedgerAreTheSumsOverTheSteps) {
 }
 
 TEST(LongEnergy, WorkOfAStepIsForceTimesWayAsEachRuleMoves) {
-  // x1 - x0 = h (old v0 + next v1): what gravity does is m g times that; and where the force is that of the start of
-  // the step, m (v1 - v0) = h F(x0, v0), so that the kinetic energy changes by h F . (v0 + v1) / 2
+  // x1 - x0 = h (old v0 + next v1), and gravity's work is m g times that. If the rule uses the force at the start of
+  // the step, m (v1 - v0) = h F(x0, v0), and the kinetic energy changes by h F . (v0 + v1) / 2.
   struct Rule {
     const char* method;
     double old, next;
@@ -196,7 +196,7 @@ TEST(LongEnergy, WorkOfAStepIsForceTimesWayAsEachRuleMoves) {
       off_gravity = std::max(off_gravity, std::abs(now.gravitational - last.gravitational - gravity));
       off_kinetic = std::max(off_kinetic, std::abs(now.kinetic - last.kinetic - kinetic));
     }
-    // some ulps of the energies of 2.5 J in each row; elsewhere the force of the start is off by h over its period
+    // Some ulps of 2.5 J in each row. For other rules the force at the start is off by a relative h / period.
     EXPECT_LT(off_gravity, 8 * eps * s.g * 0.25);
     EXPECT_EQ(off_kinetic < 8 * eps * s.g * 0.25, rule.force_at_start);
   }
@@ -218,7 +218,7 @@ TEST(LongEnergy, OfBulletsExplicitWorldIsSymplecticEulers) {
     const ResidualStatistics ours = residual_statistics(rows[0]);
     for (size_t i = 0; i < rows[0].size(); ++i)
       EXPECT_NEAR(rows[0][i].balance(), rows[1][i].balance(), 1e-12 * ours.energy_scale * 500);
-    EXPECT_GT(ours.worst, 1e-4 * ours.energy_scale);  // the residual of a first-order rule, well above that
+    EXPECT_GT(ours.worst, 1e-4 * ours.energy_scale);  // the residual of a first-order rule is well above the difference
   }
 }
 

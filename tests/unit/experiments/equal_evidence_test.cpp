@@ -19,7 +19,7 @@ namespace {
 using namespace testing_tools;
 using EngineRun = crosscheck::Run;
 
-/// A method as an outside program shows it: the states that verdicts are based on, and nothing else.
+/// A method restricted to the output of an external program: only the states on which verdicts are based.
 Method as_program(Method method) {
   method.engine = [inner = method.engine](const Scene& scene, const EngineRun& asked, Observer& observer) {
     const TimeGrid grid = time_grid(asked);
@@ -47,7 +47,7 @@ Outcome outcome_of(const Method& method, const Scene& scene, const EngineRun& ru
 }
 
 TEST(Verdicts, AreTheSameInAllUnits) {
-  // powers of two scale every number without rounding
+  // scaling by powers of two is exact
   const Scaling scalings[] = {{0x1p-10, 1, 1}, {1, 0x1p13, 1}, {1, 1, 0x1p-7}, {0x1p20, 0x1p-20, 0x1p10}};
   int failed = 0;
   for (unsigned seed = 0; seed < 40; ++seed) {
@@ -70,7 +70,7 @@ TEST(Verdicts, AreTheSameInAllUnits) {
 }
 
 TEST(Verdicts, DoNotDependOnALengthInMetres) {
-  // a cloth on a ball, 11 % above the limit of its fastest vibration, in m and in mm
+  // a cloth on a ball, 11 % above the stability limit of its fastest vibration, in m and in mm
   const Scene cloth = parse_scene(
       "question = \"q\"\nparameters = \"p\"\n[time]\nduration = 0.5\nstep = 0.001\nwindow = 0.5\nsamples = 7\n"
       "tolerance = 1e-3\nmethod = \"leapfrog\"\n[grid]\nsize = [7, 7]\norigin = [-0.25, 1.05, -0.2]\n"
@@ -78,7 +78,7 @@ TEST(Verdicts, DoNotDependOnALengthInMetres) {
       "[gravity]\nacceleration = [0, -9.81, 0]\n[[sphere]]\ncentre = [0, 0, 0]\nradius = 0.98\nmargin = 0.02\n"
       "friction = 0.5\n[drag]\ngamma = 3\n",
       "cloth-in-m");
-  const Scaling millimetres{1e-3, 1e-6, std::sqrt(1e-3)};  // gravity stays as it is
+  const Scaling millimetres{1e-3, 1e-6, std::sqrt(1e-3)};  // gravity keeps its value
   const EngineRun run{5.4945054945e-3, 0.14285714285714285, 2, 1e-6, false};
   EngineRun other = run;
   other.step *= millimetres.time, other.duration *= millimetres.time;
@@ -93,7 +93,7 @@ TEST(Verdicts, AreThoseOfAProgramWithTheSameRule) {
     const TrialScene trial = trial_scene(random);
     const Method method = find_method(std::array{"leapfrog", "symplectic-euler", "rk4", "implicit-euler"}[seed % 4]);
     const double step = std::array{0.5, 1.9, 2.1, 3.1}[seed / 4 % 4] / trial.omega;
-    // 3000 steps in 3 samples, all of which are seen, and 30 000, of which every fifth is
+    // 3000 steps in 3 samples, all observed, and 30 000, of which every fifth is observed
     const EngineRun run{step, step * (seed % 8 == 0 ? 30000 : 3000), 3, 1e-6, false};
     const Outcome inside = outcome_of(method, trial.scene, run),
                   outside = outcome_of(as_program(method), trial.scene, run);
@@ -103,11 +103,11 @@ TEST(Verdicts, AreThoseOfAProgramWithTheSameRule) {
 }
 
 TEST(Verdicts, SeeWhatHappensBetweenSamples) {
-  // leapfrog a hundredth above its limit; the only sample is where the run ends
+  // leapfrog 1 % above its limit; the only sample is at the end of the run
   const Scene scene = small_scene(
       "[[particle]]\nposition = [0, 0, 0]\nmass = 1\n[[particle]]\nposition = [1.1, 0, 0]\nmass = 1\n[[spring]]\n"
       "ends = [0, 1]\nstiffness = 100\nrest = 1\n[pins]\nparticles = [0]\n");
-  // in one step of another spring the mass is caught again, as a sphere may do
+  // A large excursion in one step, after which the mass is caught again, as by a sphere.
   Method caught = with_defect("leapfrog", nullptr, [](const Scene& s, State& state) {
     if (state.t > 19 * 0.1)
       state.x = s.start.x, state.v = s.start.v;
@@ -118,7 +118,7 @@ TEST(Verdicts, SeeWhatHappensBetweenSamples) {
 }
 
 TEST(Verdicts, NoteVibrationsThatReverseInEveryStep) {
-  // leapfrog 3 % above the limit of a chain that lies on a ball: differences over two steps hide most of the vibration
+  // Leapfrog 3 % above the limit of a chain that lies on a ball: differences over two steps hide most of the vibration.
   std::string text =
       "question = \"q\"\nparameters = \"p\"\n[time]\nduration = 0.79\nstep = 0.001\nwindow = 0.79\nsamples = 20\n"
       "tolerance = 1e-3\nmethod = \"leapfrog\"\n[gravity]\nacceleration = [0, -9.81, 0]\n[[sphere]]\n"
@@ -180,7 +180,7 @@ TEST(WhichRule, IsTheOneThatTheProgramFollows) {
 }
 
 TEST(WhichRule, TellsDragApart) {
-  // drag outside the rule: exact or implicit, after the step
+  // drag applied after the step, exact or implicit
   struct Case {
     const char* name;
     double (*factor)(double z);
@@ -222,7 +222,7 @@ TEST(WhichRule, NamesTheNearestWhereItIsNone) {
   EXPECT_EQ(stepper_of(wrong), nullptr);
 }
 
-/// Takes steps of its own, whatever the one asked for.
+/// Uses its own step and ignores the requested one.
 Method with_step(const char* base, double step) {
   Method method = find_method(base);
   method.engine = [inner = method.engine, step](const Scene& scene, const EngineRun& asked, Observer& observer) {
@@ -261,12 +261,13 @@ TEST(WhichRule, OfBulletsWorldsIsMeasuredToo) {
   EXPECT_EQ(same("bullet/deformable-explicit", "symplectic-euler"), true);
   EXPECT_EQ(same("bullet/deformable-explicit", "leapfrog"), false);
   EXPECT_EQ(same("bullet/deformable-implicit+tight", "implicit-euler+linear"), true);
-  EXPECT_EQ(same("bullet/deformable-implicit", "implicit-euler+linear"), std::nullopt) << "its solver leaves more";
+  EXPECT_EQ(same("bullet/deformable-implicit", "implicit-euler+linear"), std::nullopt)
+      << "its solver leaves a larger residual";
   EXPECT_EQ(same("bullet/pbd", "symplectic-euler"), false);
   EXPECT_EQ(rule_of(find_method("bullet/deformable-implicit")), "implicit-euler+linear, solver above rounding");
 }
 
-/// The positions that are kept in single precision, and velocities as their differences.
+/// Positions stored in single precision, and velocities as their differences.
 Method in_single_precision(const char* rule, bool reversed) {
   Method method = find_method(rule);
   method.engine = [step = stepper(rule).step, reversed](const Scene& asked, const EngineRun& run, Observer& observer) {
@@ -295,7 +296,7 @@ TEST(WhichRule, IsFoundInSinglePrecision) {
   EXPECT_EQ(rule_of(same), "symplectic-euler, single precision") << sentence_of(same.identify());
   EXPECT_EQ(same_rule(same, find_method("symplectic-euler"), shipped_scene("chain").model), true);
   const Method other_order = in_single_precision("xpbd", true);
-  EXPECT_EQ(other_order.identify().kind, FoundRule::nearest) << "one spring after the other, in another order";
+  EXPECT_EQ(other_order.identify().kind, FoundRule::nearest) << "a Gauss-Seidel sweep in another order";
   EXPECT_EQ(rule_of(other_order), "xpbd on one spring, single precision") << sentence_of(other_order.identify());
 }
 
@@ -314,7 +315,7 @@ TEST(RowsOfRules, HangOnTheRuleFoundAndNotOnAName) {
   EXPECT_TRUE(contains(breaks, "known")) << breaks;
   for (const char* name : {"exec:./jolt", "exec:./leapfrog", "exec:./bullet/pbd"})
     EXPECT_EQ(marks(xpbd, name), breaks) << name;
-  // a name excuses nobody
+  // a name excuses no defect
   Method idle = right;
   idle.engine = [](const Scene& scene, const EngineRun& run, Observer& observer) {
     Outcome out{.step = time_grid(run).h};
@@ -334,7 +335,7 @@ std::vector<std::string> broken_by(const Method& method) {
 }
 
 TEST(RelationsOfPrograms, AreBrokenByNoRuleThatIsRight) {
-  // rk4 and explicit Euler gain and lose energy, by errors of their order; kicks in two parts fall as they should
+  // rk4 and explicit Euler change the energy by errors of their order, which is correct behaviour for them
   for (const char* name : {"rk4", "explicit-euler", "dopri5"})
     for (const std::string& broken : broken_by(as_program(name))) ADD_FAILURE() << name << ": " << broken;
   Method unknown = as_program("rk4");
@@ -370,7 +371,7 @@ TEST(RelationsOfPrograms, AreBrokenByControlEngines) {
   EXPECT_TRUE(breaks(leaking, "energy"));
 }
 
-/// Falls by kicks and drifts in so many parts, each of which is rounded, under a force that is wrong by a factor.
+/// Free fall with kicks and drifts split into parts, each of which is rounded, and with the force scaled by a factor.
 Method in_parts(int kicks, int drifts, bool kick_first, double factor) {
   Method method = find_method("leapfrog");
   method.engine = [=](const Scene& scene, const EngineRun& run, Observer& observer) {
@@ -400,7 +401,7 @@ Method in_parts(int kicks, int drifts, bool kick_first, double factor) {
 }
 
 TEST(FreeFall, AllowsForTheRoundingOfKicksInPartsAndNoMore) {
-  // a force that is wrong by 1e-9 moves a net by 5e-9 m in 1 s, rounding by 1e-13 m
+  // A force error of 1e-9 moves a net by 5e-9 m in 1 s; rounding moves it by 1e-13 m.
   for (const bool kick_first : {true, false})
     for (const auto& [kicks, drifts] : {std::pair{1, 1}, {2, 1}, {1, 2}, {3, 2}})
       for (const double step : {1.0, 0.7, 0.31})

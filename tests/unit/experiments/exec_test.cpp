@@ -1,4 +1,4 @@
-// Programs that misbehave: each way is a verdict with a clear line, and never a crash of ours.
+// Misbehaving programs: each failure gives a verdict with a clear message and never crashes the suite.
 
 #include <signal.h>
 #include <nlohmann/json.hpp>
@@ -41,7 +41,7 @@ class Exec : public InFolder {
     write("few-frames.npy", npy_bytes({right.x.begin(), right.x.end() - 1}));
     write("few-particles.npy", npy_bytes(std::vector<Points>(5, Points::Zero(3, 3))));
   }
-  /// Shell command that delivers a file as the trajectory.
+  /// Shell command that copies a file to the output as the trajectory.
   std::string deliver(const std::string& file, const std::string& as = "trajectory.npy") const {
     return "cp '" + (folder_ / file).string() + "' \"$2/" + as + "\"\n";
   }
@@ -49,11 +49,11 @@ class Exec : public InFolder {
     return run_and_record("exec:" + script("engine", text) + options, scene_, run_);
   }
   const Scene scene_ = load_scene("chain");
-  const crosscheck::Run run_{1e-3, 0.004, 4};  // a sample a step: programs deliver no other states
+  const crosscheck::Run run_{1e-3, 0.004, 4};  // a sample per step: programs write no other states
 };
 
 TEST_F(Exec, AReadbackWithoutProbeDoesNotAttestTheLaw) {
-  // an engine that has every number right and pulls by another law: nothing that it reports is wrong
+  // An engine with correct parameters but another spring law: every number that it reports is right.
   Json readback{{"precision", "double"}};
   const Particles& p = scene_.model.particles;
   readback["mass"] = std::vector<double>(p.mass.begin(), p.mass.end());
@@ -125,7 +125,7 @@ TEST_F(Exec, EachMisbehaviourIsAVerdictWithAClearLine) {
     const MethodRun a = run(c.text, c.options);
     EXPECT_EQ(name_of(a.outcome.verdict), name_of(c.verdict));
     EXPECT_TRUE(contains(a.outcome.reason, c.reason));
-    EXPECT_EQ(a.outcome.reason.find('\n'), std::string::npos) << "one line";
+    EXPECT_EQ(a.outcome.reason.find('\n'), std::string::npos) << "expected one line";
     EXPECT_FALSE(a.outcome.readback);
   }
 }
@@ -137,11 +137,11 @@ TEST_F(Exec, NoiseIsARemarkOnAGoodRun) {
   const MethodRun a = run(noise + deliver("x.npy"));
   EXPECT_EQ(a.outcome.verdict, Verdict::ok) << a.outcome.reason;
   EXPECT_EQ(a.outcome.remark, "it wrote on stderr, last: bell ? and ? byte");
-  EXPECT_EQ(run(deliver("x.npy") + "echo fine\n").outcome.remark, "") << "stdout is no remark";
+  EXPECT_EQ(run(deliver("x.npy") + "echo fine\n").outcome.remark, "") << "stdout gives no remark";
 }
 
 TEST_F(Exec, WhatAProgramLeavesBehindIsKilled) {
-  // each leaves something behind that writes on until it is killed, with its output closed or not
+  // Each case leaves a process that keeps writing until it is killed, with its output closed or open.
   write("beat.sh", "while :; do echo >> '" + (folder_ / "beats").string() + "'; sleep 0.02; done\n");
   const std::string beat = "sh '" + (folder_ / "beat.sh").string() + "'", quiet = " > /dev/null 2>&1 &\n",
                     wait = "while ! [ -s '" + (folder_ / "beats").string() + "' ]; do sleep 0.01; done\n";
@@ -159,8 +159,8 @@ TEST_F(Exec, WhatAProgramLeavesBehindIsKilled) {
     EXPECT_EQ(a.outcome.remark, "it left a process behind, which was killed");
     const auto beats = std::filesystem::file_size(folder_ / "beats");
     EXPECT_GT(beats, 0u);
-    usleep(100000);  // five beats
-    EXPECT_EQ(std::filesystem::file_size(folder_ / "beats"), beats) << "it lives on";
+    usleep(100000);  // the duration of five beats
+    EXPECT_EQ(std::filesystem::file_size(folder_ / "beats"), beats) << "the process is still alive";
   }
 }
 
@@ -179,7 +179,7 @@ TEST_F(Exec, TemporaryFoldersOfAKilledProgramGoWithIt) {
 
 TEST_F(Exec, AProgramThatKillsItsParentHarmsNobody) {
   const MethodRun a = run("kill -KILL $PPID\n" + deliver("x.npy"));
-  // in a pid namespace nothing happens; elsewhere its watcher is gone, and that is said
+  // In a pid namespace nothing happens. Elsewhere the watcher is killed, which is reported.
   if (a.outcome.verdict == Verdict::ok)
     EXPECT_EQ(a.trajectory.frames(), 5);
   else
@@ -195,7 +195,7 @@ TEST_F(Exec, AHugeRunJsonIsRefusedByItsSize) {
 }
 
 TEST_F(Exec, PositionsWhoseSquaresAreInfiniteAreAFailedRun) {
-  for (const int particle : {0, 2}) {  // a pin too
+  for (const int particle : {0, 2}) {  // including a pin
     auto far = run_and_record("symplectic-euler", scene_, run_).trajectory.x;
     far[4](1, particle) = 1e300;
     write("far.npy", npy_bytes(far));
@@ -208,7 +208,7 @@ TEST_F(Exec, APinThatIsLedAwayIsTold) {
   const struct {
     double off;
     std::string remark;
-  } cases[] = {{1e-7, ""},  // what single precision may do: sixteen half ulps of 3 m are 3e-6 m
+  } cases[] = {{1e-7, ""},  // allowed rounding in single precision: sixteen half ulps of 3 m are 3e-6 m
                {1e-3, "it led the pinned particle 0 away from where it is prescribed: 0.001 m at t = 0.002 s"}};
   for (const auto& [off, remark] : cases) {
     auto x = right.x;
@@ -219,7 +219,7 @@ TEST_F(Exec, APinThatIsLedAwayIsTold) {
     EXPECT_TRUE(begins(out.remark, remark)) << out.remark;
     EXPECT_EQ(out.remark.empty(), remark.empty()) << out.remark;
   }
-  // an engine that says that it computes in double precision is held to it
+  // an engine that declares double precision is checked against it
   Json readback{{"mass", Json::array({1, 1, 1, 1})},
                 {"pinned", Json::array({1, 0, 0, 0})},
                 {"links", Json::array()},
@@ -255,7 +255,7 @@ TEST_F(Exec, SeesTheSceneAndIsSeenAsOtherMethodsAre) {
   EXPECT_EQ(a.outcome.step, 1e-3);
   EXPECT_DOUBLE_EQ(a.outcome.end, 0.004);
   EXPECT_GT(a.outcome.process_seconds, 0);
-  EXPECT_LT(a.outcome.process_seconds, 25);  // a shell's: its word on its own time is not ours
+  EXPECT_LT(a.outcome.process_seconds, 25);  // the shell's time; the program's own statement is not used
   EXPECT_EQ(a.outcome.different_law, std::vector<std::string>{"drag: none"});
 }
 
@@ -276,7 +276,7 @@ TEST_F(Exec, WithoutVelocitiesThereIsNoEnergy) {
     EXPECT_EQ(a.ledger.empty(), a.method != "mysim/symplectic-euler");
   }
   const Table& energies = *result.table("engines-energy");
-  EXPECT_EQ(energies.rows.size(), 2u);  // of mysim, on both scenes
+  EXPECT_EQ(energies.rows.size(), 2u);  // rows of mysim on both scenes
   bool said = false;
   for (const std::string& note : result.notes) said |= note.find("gave no velocities") != std::string::npos;
   EXPECT_TRUE(said);
@@ -289,14 +289,14 @@ TEST_F(Exec, WithoutVelocitiesThereIsNoEnergy) {
   const Table& cost = *result.table("engines-cost");
   for (size_t i = 0; i < cost.rows.size(); ++i) {
     const bool outside = std::get<std::string>(cost.at(i, "method")).starts_with("exec:");
-    // the time of the process stands apart; its own time is empty, as it reported none
+    // The CPU time of the process has its own column. The program's own time is empty because it reported none.
     EXPECT_EQ(std::holds_alternative<double>(cost.at(i, "cpu of process")), outside);
     EXPECT_EQ(std::holds_alternative<double>(cost.at(i, "cpu")), !outside);
   }
 }
 
 TEST_F(Exec, ClosureIsClaimedOnlyWhereEveryStepIsSeen) {
-  EXPECT_TRUE(Ledger(scene_.model, ContactLoss::sampled).contact_inferred());  // drag between samples is a guess
+  EXPECT_TRUE(Ledger(scene_.model, ContactLoss::sampled).contact_inferred());  // drag between samples is an estimate
   EXPECT_FALSE(Ledger(without_drag(scene_).model, ContactLoss::sampled).contact_inferred());
   EXPECT_FALSE(Ledger(scene_.model, ContactLoss::inferred).contact_inferred());
 }
@@ -304,14 +304,14 @@ TEST_F(Exec, ClosureIsClaimedOnlyWhereEveryStepIsSeen) {
 TEST_F(Exec, NamesAreFilesFirstAndOptionsThen) {
   const std::string plain = script("engine", ""), odd = script("engine+n=2", "");
   EXPECT_EQ(find_program(plain).path, plain);
-  EXPECT_EQ(find_program(odd).path, odd);  // a file of the whole name exists
+  EXPECT_EQ(find_program(odd).path, odd);  // a file with the full name exists
   EXPECT_TRUE(find_program(odd).options.empty());
   const Program more = find_program(odd + "+n=3+timeout=7.5+path=/a/b");
   EXPECT_EQ(more.path, odd);
   EXPECT_EQ(more.options, (std::vector<std::string>{"n=3", "path=/a/b"}));
   EXPECT_EQ(more.timeout, 7.5);
   EXPECT_EQ(find_program(plain).timeout, 600);
-  EXPECT_TRUE(find_program("sh").path.is_absolute());  // a bare word is looked up in PATH
+  EXPECT_TRUE(find_program("sh").path.is_absolute());  // bare names are looked up in PATH
   EXPECT_EQ(find_method("exec:" + plain + "+n=3").name, "exec:" + plain + "+n=3");
   EXPECT_EQ(find_methods("rk4,exec:" + plain).size(), 2u);
   EXPECT_TRUE(contains(refusal_of([&] { find_method("exec:" + script("a\n`touch PWNED`\n#", "")); }),
@@ -360,8 +360,8 @@ TEST_F(Exec, ATrajectoryFromAFileIsAMethod) {
   }
 }
 
-// Serve mode. The program counts its starts; `answer` is what its server does with the request in $line, whose paths
-// are $scene and $out.
+// Serve mode. The program counts its starts. `answer` is the server's reaction to the request in $line, with its paths
+// in $scene and $out.
 class ExecServer : public Exec {
  protected:
   Method server(const std::string& answer, const std::string& options = "") const {
@@ -390,14 +390,14 @@ TEST_F(ExecServer, IsStartedOnceForManyRuns) {
   const MethodRun first = run(method);
   ASSERT_EQ(first.outcome.verdict, Verdict::ok) << first.outcome.reason;
   for (int i = 0; i < 5; ++i) {
-    const Method copy = method;  // shares the server
+    const Method copy = method;  // shares the server process
     const MethodRun again = run(copy);
     ASSERT_EQ(again.outcome.verdict, Verdict::ok) << again.outcome.reason;
     for (size_t frame = 0; frame < first.trajectory.x.size(); ++frame)
       EXPECT_EQ(again.trajectory.x[frame], first.trajectory.x[frame]);
     EXPECT_GT(again.outcome.process_seconds, 0);
   }
-  EXPECT_EQ(count_starts(), 2) << "one call, then one server";
+  EXPECT_EQ(count_starts(), 2) << "expected one call, then one server";
 }
 
 TEST_F(ExecServer, IsNotStartedForAProgramThatDoesNotServeOrDoesNotTellItsTime) {
@@ -424,7 +424,7 @@ TEST_F(ExecServer, RefusesAndFailsInItsOwnWords) {
   const MethodRun failed = run(fails);
   EXPECT_EQ(failed.outcome.verdict, Verdict::crash);
   EXPECT_TRUE(contains(failed.outcome.reason, "out of luck"));
-  const Method empty = server("echo '{\"status\": 0}'");  // and no files
+  const Method empty = server("echo '{\"status\": 0}'");  // without files
   run(empty);
   EXPECT_TRUE(contains(run(empty).outcome.reason, "trajectory.npy: missing"));
 }
@@ -437,7 +437,7 @@ TEST_F(ExecServer, ThatDoesNotAnswerIsReplacedByACallForEachRun) {
       const MethodRun done = run(method);
       EXPECT_EQ(done.outcome.verdict, Verdict::ok) << answer << ": " << done.outcome.reason;
     }
-    EXPECT_EQ(count_starts(), 4) << answer << ": three calls, and one server that failed";
+    EXPECT_EQ(count_starts(), 4) << answer << ": expected three calls and one failed server";
   }
 }
 
@@ -456,8 +456,8 @@ TEST_F(ExecServer, LeavesNothingBehindAtTheTimeLimitAndWithItsMethod) {
     }
     const auto size = fs::file_size(beats);
     EXPECT_GT(size, 0u);
-    usleep(100000);  // five beats
-    EXPECT_EQ(fs::file_size(beats), size) << "it lives on";
+    usleep(100000);  // the duration of five beats
+    EXPECT_EQ(fs::file_size(beats), size) << "the process is still alive";
   }
 }
 

@@ -1,5 +1,5 @@
-// Strips of cloth against the elastica: the two-point problem against published and limiting values, drops and
-// frequencies over the grid, and what skip-one springs make of the same.
+// Strips of cloth against the elastica: the two-point boundary value problem against published and limiting values,
+// drops and frequencies under grid refinement, and the behaviour of skip-one springs in the same tests.
 
 #include <Eigen/Geometry>
 #include <Eigen/LU>
@@ -25,8 +25,8 @@ TEST(Elastica, HasItsLimits) {
   // a stiff strip is a beam: w L^4 / 8 B and P L^3 / 3 B, with deviations of second order
   EXPECT_NEAR(Elastica(strip_of(1e-4)).tip().drop, 1e-4 / 8, 1e-12);
   EXPECT_NEAR(Elastica(strip_of(0, 1e-4)).tip().drop, 1e-4 / 3, 1e-11);
-  // under a tip load B theta'^2 / 2 = P (sin theta_L - sin theta), so that sqrt(2 P L^2 / B) is the integral of
-  // dtheta / sqrt(sin theta_L - sin theta) from 0 to theta_L; with theta = theta_L - u^2 it has no singularity
+  // Under a tip load, B theta'^2 / 2 = P (sin theta_L - sin theta), so sqrt(2 P L^2 / B) is the integral of dtheta /
+  // sqrt(sin theta_L - sin theta) from 0 to theta_L. Substituting theta = theta_L - u^2 removes the singularity.
   const Elastica loaded(strip_of(0, 2));
   const double end = loaded.tip().angle, top = std::sqrt(end);
   double integral = 0, drop = 0;
@@ -37,8 +37,8 @@ TEST(Elastica, HasItsLimits) {
     integral += ds;
     drop += std::sin(end - u * u) * ds;
   }
-  EXPECT_NEAR(integral, std::sqrt(2 * 2.), 1e-7);  // the midpoint rule's error, (top / n)^2 of the second derivative
-  // moments about the clamp: B theta'(0) = P x(L), seen in the angle of the first thousandth
+  EXPECT_NEAR(integral, std::sqrt(2 * 2.), 1e-7);  // midpoint rule: (top / n)^2 times the second derivative
+  // moments about the clamp: B theta'(0) = P x(L), estimated from the angle over the first thousandth
   EXPECT_NEAR(loaded.at(1e-3).angle / 1e-3, 2 * loaded.tip().x, 2e-3);
   // the same substitution (K. E. Bisshopp and D. C. Drucker, Quart. Appl. Math. 3, 1945, with elliptic integrals)
   EXPECT_NEAR(loaded.tip().drop, drop / std::sqrt(2 * 2.), 1e-7);
@@ -56,7 +56,7 @@ TEST(Elastica, DropsDeeperTheHeavierAndKeepsItsLength) {
       const auto a = elastica.at(i * 1e-3), b = elastica.at((i + 1) * 1e-3);
       length += std::hypot(b.x - a.x, b.drop - a.drop);
     }
-    // chords of an arc of a thousandth at curvatures of up to some gamma^(1/3): shorter by their square over 24
+    // Chords of arcs of a thousandth at curvatures up to about gamma^(1/3): shorter by their square over 24.
     EXPECT_NEAR(length, 1, std::pow(gamma, 2. / 3) * 2e-7);
     before = tip.drop;
   }
@@ -87,17 +87,17 @@ TEST(Fabric, ACantileverHangsAsTheElasticaToTheSecondOrder) {
 
 TEST(HangingStrip, IsACatenaryInTheLimit) {
   const HangingStrip loose(2, 1.4, 3, 0);
-  // a height h at arc length s is that of a catenary of c = (s^2 - h^2) / 2 h, which holds for every s
+  // height h at arc length s belongs to a catenary of c = (s^2 - h^2) / 2 h for every s
   const double h = loose.at(0.5).height, c = (0.25 - h * h) / (2 * h);
   EXPECT_NEAR(loose.at(1).x, 0.7, 1e-12);
   EXPECT_NEAR(loose.at(-1).x, -0.7, 1e-12);
   EXPECT_NEAR(loose.sag(), c * (std::cosh(0.7 / c) - 1), 1e-12);
-  // with little rigidity the sag differs in proportion to it, but for what acts within (B / H)^(1/2) of the hinges,
-  // a twentieth of the half, and falls with the root of the rigidity
+  // With little rigidity the sag changes in proportion to it, except for boundary layers of (B / H)^(1/2) at the
+  // hinges. They cover a twentieth of the half strip and shrink with the square root of the rigidity.
   const HangingStrip limp(2, 1.4, 3, 0.006), limper(2, 1.4, 3, 0.003);
   EXPECT_NEAR((limp.sag() - loose.sag()) / (limper.sag() - loose.sag()), 2, 0.25);
   EXPECT_NEAR(limp.at(1).x, 0.7, 1e-9);
-  // between two steps of the integration as on them
+  // interpolated values between two integration steps agree with those on them
   EXPECT_NEAR((limp.at(0.50005).height - limp.at(0.49995).height) / 1e-4,
               (limp.at(0.5005).height - limp.at(0.4995).height) / 1e-3, 1e-6);
 }
@@ -120,7 +120,7 @@ TEST(Fabric, AStripBetweenHingesHangsAsTheContinuumToTheSecondOrder) {
 }
 
 TEST(DrapedDisc, BendsAsAPlateOfGivenDeflection) {
-  // the flat sheet, and any sheet that is linear in it, hold no energy
+  // a flat sheet, tilted or not, has no energy
   const DrapedDisc disc{16, 2e-5};
   const auto energy_of_heights = [](const DrapedDisc& d, auto height) {
     const Scene scene = disc_scene(d);
@@ -131,9 +131,9 @@ TEST(DrapedDisc, BendsAsAPlateOfGivenDeflection) {
   };
   EXPECT_LT(energy_of_heights(disc, [](double r, double t) { return r * std::cos(t + 1); }),
             1e-22 * energy_of_heights(disc, [](double r, double) { return r * r; }));
-  // r^3 cos 3t has x_rr = 6 r cos 3t = -(x_r / r + x_tt / r^2) and (x_t / r)_r = -6 r sin 3t; of constant r each gives
-  // 36 pi r^3 B / 2, the twist twice. x_rr counts up to half a spacing before the rim, where no moment acts, the twist
-  // from half a spacing inside the disc's edge
+  // r^3 cos 3t has x_rr = 6 r cos 3t = -(x_r / r + x_tt / r^2) and (x_t / r)_r = -6 r sin 3t. For constant r each of
+  // them contributes 36 pi r^3 B / 2, the twist twice. The x_rr part extends to half a spacing before the rim, which
+  // carries no moment, and the twist starts half a spacing inside the edge of the disc.
   const auto deviation = [&](int rings) {
     const DrapedDisc d{rings, 2e-5};
     const double half = d.spacing() / 2;
@@ -158,7 +158,7 @@ TEST(DrapedDisc, ItsForcesAreTheSlopeOfItsEnergy) {
   add_force(bending, scene.model.particles, s, forces);
   for (const int i : {disc.particle(2, 0), disc.particle(5, 11), disc.particle(9, 79)})
     for (int axis = 0; axis < 3; ++axis) {
-      // the energy is quadratic: the central difference has no error but rounding
+      // the energy is quadratic, so the central difference has only rounding errors
       const double at = s.x(axis, i), step = 1e-3;
       s.x(axis, i) = at + step;
       const double above = potential_energy(bending, scene.model.particles, s);
@@ -170,7 +170,7 @@ TEST(DrapedDisc, ItsForcesAreTheSlopeOfItsEnergy) {
 }
 
 TEST(DrapedDisc, IsIsotropicInItsPlane) {
-  // a uniform strain of axes at any angle: C11 (a^2 + b^2) / 2 + C12 a b per area, with C12 = C11 / 3
+  // uniform strain along axes at any angle: C11 (a^2 + b^2) / 2 + C12 a b per area, with C12 = C11 / 3
   const DrapedDisc disc{8, 2e-5};
   const Scene scene = disc_scene(disc);
   const double a = 1e-6, b = -0.4e-6, c11 = 3 * disc.shear;
@@ -186,13 +186,14 @@ TEST(DrapedDisc, IsIsotropicInItsPlane) {
       s.x(0, i) = at.x(), s.x(2, i) = at.y();
     }
     const double energy = potential_energy(*scene.model.find<Springs>(), scene.model.particles, s);
-    // spokes at angles of 2 pi / 80: cells are trapezia, the ring's first spring has a half of a cell too much
+    // With spokes at angles of 2 pi / 80 the cells are trapezia, and the first spring of the ring has half a cell too
+    // much.
     EXPECT_NEAR(energy / (area * (c11 * (a * a + b * b) / 2 + c11 / 3 * a * b)), 1, 0.03);
   }
 }
 
-/// Deflection of the rim of a plate clamped at r = a and free at r = b under a load q per area, Poisson's ratio 0:
-/// w = q r^4 / 64 B + A + C ln r + D r^2 + E r^2 ln r with w = w' = 0 at a and w'' = 0, (w'' + w' / r)' = 0 at b (S.
+/// Deflection of the rim of a plate clamped at r = a and free at r = b under a load q per area, Poisson's ratio 0: w =
+/// q r^4 / 64 B + A + C ln r + D r^2 + E r^2 ln r with w = w' = 0 at a and w'' = 0, (w'' + w' / r)' = 0 at b (S.
 /// Timoshenko and S. Woinowsky-Krieger, chapter 3).
 double rim_of_plate(double a, double b, double q, double rigidity) {
   const double unit = q / (64 * rigidity);
@@ -228,9 +229,9 @@ TEST(DrapedDisc, SagsAsAPlateUnderALightLoad) {
 TEST(DrapedDisc, ItsCoefficientIsThatOfKnownShadows) {
   const DrapedDisc disc{8, 2e-5};
   Points x = disc_scene(disc).start.x;
-  // rows of 2 R / 2000 of a round edge
+  // sampling of a round edge by rows of height 2 R / 2000
   EXPECT_NEAR(drape_coefficient(disc, x), 100, 2e-3);
-  // folded over its disc: a shadow of radius r, from a part of it
+  // folded over its disc, with a shadow of radius r computed from one part of it
   for (int i = 2; i <= disc.rings + 1; ++i)
     for (int j = 0; j < disc.spokes(); ++j) {
       const double shrunk = (0.09 + 0.6 * (disc.radius(i) - 0.09)) / disc.radius(i);
@@ -257,7 +258,7 @@ TEST(DrapedDisc, FallsIntoFoldsToTheSecondOrderInTheNet) {
     guess = on_net(disc, *rest, finer), disc = finer;
   }
   EXPECT_NEAR(coefficients[0], coefficients[1], 2);
-  EXPECT_NEAR(coefficients[1], 72, 1);  // 72.05 on 32 rings
+  EXPECT_NEAR(coefficients[1], 72, 1);  // 72.05 with 32 rings
 }
 
 TEST(Fabric, AStripVibratesAsAClampedBeam) {
@@ -271,8 +272,8 @@ TEST(Fabric, AStripVibratesAsAClampedBeam) {
 }
 
 TEST(Fabric, SkipOneSpringsAreAnotherStripOnEveryGrid) {
-  // four times as many cells at the same k: the same angle in all is that of quarter angles in each, whose fourth
-  // powers count: the strip falls nearly as a chain
+  // Four times as many cells with the same k divide the total angle into quarter angles per cell. The energy depends on
+  // their fourth powers, so the strip behaves nearly like a chain.
   StripNet net{16, 5};
   net.skip_one = 2000;
   const auto drop = [&](int cells) {

@@ -1,4 +1,4 @@
-// What tests of experiments share: shipped scenes at other sizes, and a method that refuses long steps.
+// Shared by tests of experiments: shipped scenes at other sizes, and a method that refuses long steps.
 #pragma once
 
 #include <fmt/ranges.h>
@@ -17,7 +17,7 @@
 
 namespace crosscheck::testing_tools {
 
-/// Time of the first sample at which a particle touches the sphere (closer than 1e-9 of the scene's size), s.
+/// Time (s) of the first sample at which a particle touches the sphere (closer than 1e-9 of the scene's size).
 inline std::optional<double> first_contact(const Scene& scene, const Trajectory& trajectory) {
   for (int i = 0; i < trajectory.frames(); ++i)
     if (const auto gap = clearance(scene, trajectory.t[i], trajectory.x[i]); gap && *gap < 1e-9 * scene.size())
@@ -27,7 +27,7 @@ inline std::optional<double> first_contact(const Scene& scene, const Trajectory&
 
 // Shipped scenes at other sizes: grids with another number of particles, other scenes with other lengths.
 
-/// The text of a shipped scene.
+/// Source text of a shipped scene.
 inline std::string text_of(const std::string& name) {
   std::ifstream in(std::filesystem::path(CROSSCHECK_SOURCE) / "experiments/scenes" / (name + ".toml"));
   std::stringstream text;
@@ -35,7 +35,7 @@ inline std::string text_of(const std::string& name) {
   return text.str();
 }
 
-/// A shipped scene of one cloth with n x n particles. Pins stay what they were: one edge, or two corners.
+/// A shipped scene of one cloth with n x n particles. The pins remain on one edge or two corners.
 inline Scene with_grid(const std::string& name, int n) {
   const Scene shipped = load_scene(name);
   std::string text = text_of(name);
@@ -51,7 +51,7 @@ inline Scene with_grid(const std::string& name, int n) {
   return parse_scene(text, fmt::format("{}-{}", name, n));
 }
 
-/// The scene with all its lengths multiplied.
+/// The scene with all lengths scaled by `factor`.
 inline Scene with_lengths(Scene scene, double factor) {
   scene.start.x *= factor;
   scene.start.v *= factor;
@@ -76,7 +76,7 @@ inline std::vector<Scene> three_sizes(const std::string& name) {
   return scenes;
 }
 
-/// The continuum of a strip of two rows of particles, clamped half way between its first two columns.
+/// Continuum model of a strip of two rows of particles, clamped half way between its first two columns.
 inline ClampedStrip strip_of(const Scene& scene) {
   const Points& x = scene.start.x;
   const double d = x(0, 1) - x(0, 0), columns = static_cast<double>(x.cols()) / 2;
@@ -88,7 +88,7 @@ inline ClampedStrip strip_of(const Scene& scene) {
 
 // A method that refuses some steps, as Bullet's clamped world does.
 
-/// Leapfrog that does not take longer steps.
+/// Leapfrog that refuses steps longer than `step`.
 inline Method refusing_above(double step) {
   Method method = find_method("leapfrog");
   method.engine = [inner = method.engine, step](const Scene& scene, const crosscheck::Run& run, Observer& observer) {

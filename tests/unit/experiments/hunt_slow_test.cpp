@@ -1,4 +1,4 @@
-// The hunter finds an engine that is wrong in one thing, and makes the scene that shows it small.
+// The hunter detects an engine with a single defect and shrinks the scene that shows it.
 
 #include <ctime>
 
@@ -13,7 +13,7 @@ using namespace testing_tools;
 
 struct Mutant {
   const char* what;
-  const char* kind;  // of the smallest scene, a part of it
+  const char* kind;  // substring of the kind of the smallest scene
   const char* base;
   ChangeScene wrong;
   const char* beside;

@@ -40,7 +40,7 @@ TEST(Draw, GivesScenesWithEveryIngredientAndOneForEveryRelation) {
     for (const Relation& relation : relations())
       if (relation.excluded(scene).empty()) asked.emplace(relation.name);
   }
-  // air presses on the triangles of a grid, and what is drawn has none
+  // Aerodynamics acts on the triangles of a grid, and drawn scenes have none.
   EXPECT_EQ(terms, (std::set<std::string>{"rotation", "gravity", "springs", "dashpots", "constraints", "drag", "wind",
                                           "sphere"}));
   EXPECT_EQ(families.size(), 4U);
@@ -48,7 +48,7 @@ TEST(Draw, GivesScenesWithEveryIngredientAndOneForEveryRelation) {
   for (const Relation& relation : relations()) EXPECT_TRUE(asked.contains(std::string(relation.name))) << relation.name;
 }
 
-/// A net of many parts, and a question that only gravity and one shear spring answer.
+/// A net of many particles, and a property that depends only on gravity and one shear spring.
 SceneDraft large_draft() {
   for (long index = 0;; index += drawn_kinds) {
     SceneDraft draft = draw(5, index);
@@ -78,7 +78,7 @@ TEST(Shrink, FindsTheSmallestThatStillShowsIt) {
 }
 
 TEST(Shrink, KeepsWhatTogetherIsNeeded) {
-  // three particles of a sum of masses that no two have, and a time that must not be halved twice
+  // Needs a sum of masses that only three particles reach, and a duration that can be halved only once.
   SceneDraft draft = large_draft();
   for (auto& p : draft.particles) p.mass = 0.4;
   const double duration = draft.duration;
@@ -103,7 +103,7 @@ TEST(Shrink, StopsAfterSoManyTrialsAndAsksNothingTwice) {
   EXPECT_TRUE(has_shear_and_gravity(smallest.draft.scene()));
 }
 
-/// Gravity a hundredth too strong.
+/// Gravity 1 % too strong.
 Method heavy(const std::string& base) {
   return with_defect(base, [](Scene& s, const crosscheck::Run&) { multiply_gravity(s, 1.01); });
 }
@@ -126,7 +126,7 @@ TEST(Agreement, HoldsForRulesOfOneLimitAndNotForAnother) {
   EXPECT_EQ(agreement_of(heavy("leapfrog"), exact, spring).mark, RelationMark::broken);
 }
 
-/// One particle that flies, and nothing else.
+/// A single particle in free flight without forces.
 Scene flight(double step) {
   return parse_scene(fmt::format("question = \"q\"\nparameters = \"p\"\n[time]\nduration = 1\nsamples = 4\nstep = {}\n"
                                  "window = 1\ntolerance = 1e-3\nmethod = \"leapfrog\"\n[[particle]]\n"
@@ -144,10 +144,11 @@ TEST(ShippedKnownBreaks, HaveTheStepThatBulletRoundsToSinglePrecision) {
   const auto known = read_known_breaks(shipped_known_breaks());
   Subject pbd(find_method("bullet/pbd"));
   const Relation& momentum = find_relation("momentum");
-  EXPECT_EQ(ask(momentum, pbd, flight(1. / 128), 1, known).mark, RelationMark::holds) << "a step that it keeps";
+  EXPECT_EQ(ask(momentum, pbd, flight(1. / 128), 1, known).mark, RelationMark::holds)
+      << "this step is exact in single precision";
   const Answer rounded = ask(momentum, pbd, flight(0.01), 1, known);
   EXPECT_EQ(rounded.mark, RelationMark::known) << rounded.sentence();
-  // of the metre that it flies; 1 %: the sentence of the row has two digits
+  // Relative to its path of 1 m. The row's sentence has two digits, hence 1 %.
   const double expected = 1 - double(0.01F) / 0.01;
   EXPECT_NEAR(rounded.finding.measured, expected, 0.01 * expected) << rounded.sentence();
 }
@@ -174,7 +175,7 @@ TEST(Hunt, KeepsTheSmallestSceneOfEachBreak) {
   EXPECT_EQ(answer.relation->name, "agreement");
   EXPECT_EQ(smallest.draft.kind(), "gravity");
   EXPECT_EQ(smallest.draft.size(), 1);
-  // the file shows it, and nothing but it
+  // the file alone reproduces the answer
   Subject a(hunt.methods[0]), b(hunt.methods[1]);
   EXPECT_EQ(ask_agreement(a, b, smallest.draft.scene(), {}).sentence(), answer.sentence());
   const std::vector<Break> again = breaks_of(hunt, projectile, answers);

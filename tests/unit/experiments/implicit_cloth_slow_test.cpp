@@ -8,7 +8,7 @@
 namespace crosscheck {
 namespace {
 
-/// A flat cloth stays near saddles of the potential, from which it wrinkles to either side; Newton's steps are short
+/// A flat cloth stays near saddles of the potential, from which it wrinkles to either side. Newton's steps are short
 /// there.
 TEST(ImplicitCloth, WrinklesOfALargeSheetAtLongStepsAreFound) {
   const Scene scene = hanging_cloth(128);

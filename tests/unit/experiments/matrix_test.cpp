@@ -1,4 +1,4 @@
-// Experiment `matrix`: the damping that it measures is that of theory.
+// Experiment `matrix`: the measured damping agrees with theory.
 
 #include <gtest/gtest.h>
 
@@ -41,7 +41,7 @@ TEST(Matrix, DampingOfASpringIsThatOfTheory) {
     const auto theory =
         damping_by_theory(find_method(example ? "symplectic-euler" : row.method), step, oscillator_omega);
     ASSERT_TRUE(theory && row.value && row.bar);
-    // the smallest rate here is rk4's, 7e-7 /s; the step differs from the theory's by 1e-9 of itself
+    // The smallest rate here is rk4's, 7e-7 /s. The step differs from the theoretical one by a relative 1e-9.
     EXPECT_LT(*row.bar, 2e-7);
     EXPECT_NEAR(*row.value, *theory, *row.bar + 2e-9 * std::abs(*theory));
     ++compared;
@@ -49,7 +49,7 @@ TEST(Matrix, DampingOfASpringIsThatOfTheory) {
   EXPECT_EQ(compared, 6);
 }
 
-/// The example engine under the name of a kept program whose engine has another rule for springs as forces.
+/// The example engine under the name of a kept program whose engine treats springs as forces by another rule.
 TEST_F(MatrixInFolder, SpringsAsForcesAreAnAnswerOfTheirOwn) {
   const SetVariable cache("CROSSCHECK_CACHE", folder_.c_str());
   const auto program = kept_program("rapier");
@@ -59,7 +59,7 @@ TEST_F(MatrixInFolder, SpringsAsForcesAreAnAnswerOfTheirOwn) {
   for (const auto& row : rows_of<MatrixRow<false>>(untimed_rows("leapfrog,exec:" + program.string()))) {
     if (row.question != EngineQuestion::damping_by_forces) continue;
     EXPECT_EQ(row.method, "exec:" + program.string());
-    // the example engine knows no options
+    // the example engine has no options
     EXPECT_FALSE(row.value);
     EXPECT_TRUE(contains(row.words, "springs=forces")) << row.words;
     ++answers;

@@ -1,4 +1,4 @@
-// Methods: names, options and their messages; what a method lacks is a row; every method meets every shipped scene.
+// Methods: names, options and messages; missing features give a row; every method runs on every shipped scene.
 
 #include <fmt/format.h>
 
@@ -32,7 +32,7 @@ TEST(Methods, NamesAreUniqueAndFoundAgain) {
   std::set<std::string> names;
   for (const Method& m : all_methods()) {
     SCOPED_TRACE(m.name);
-    EXPECT_TRUE(names.insert(m.name).second) << "twice";
+    EXPECT_TRUE(names.insert(m.name).second) << "duplicate name";
     EXPECT_EQ(find_method(m.name).name, m.name);
     EXPECT_FALSE(m.what.empty());
     EXPECT_TRUE(m.engine);
@@ -63,13 +63,13 @@ TEST(Methods, NoProductFileAsksForAnEngineByTheBeginningOfAName) {
       for (const MethodFamily& family : method_families())
         EXPECT_FALSE(contains(text, fmt::format("starts_with(\"{}", family.name)) && family.name != "file" &&
                      family.name != "exec")
-            << entry.path() << " asks for " << family.name;
+            << entry.path() << " tests for " << family.name;
     }
   EXPECT_GT(files, 100);
 }
 
-/// Files whose data are named methods: settings of Bullet's own, a bench's rows, the look of methods in charts, a
-/// class's charts.
+/// Files that contain method names as data: Bullet's settings, the rows of the bench, chart styles of methods, and
+/// charts of a class.
 constexpr std::string_view name_methods_as_data[] = {
     "experiments/disagreements/table.cpp", "experiments/stiffness/stiffness.cpp", "experiments/stiffness/effective.cpp",
     "experiments/bench/bench.cpp",         "report/commands/grader.cpp",          "report/figures/figure.cpp"};
@@ -115,7 +115,7 @@ TEST(Methods, ABareNameMeansMysimAndOptionsFollowAPlus) {
   EXPECT_EQ(find_method("rk4").stepper, &stepper("rk4"));
   EXPECT_EQ(find_method("leapfrog+sticky").name, "mysim/leapfrog+sticky");
   EXPECT_EQ(find_method("bullet/pbd+n=10").name, "bullet/pbd+n=10");
-  // what must be equal where nothing touches: a contact rule changes nothing there, all else makes another rule
+  // Methods of one rule must agree on contact-free scenes: a contact rule does not change the rule, other options do.
   EXPECT_EQ(rule_of(find_method("symplectic-euler")), rule_of(find_method("bullet/deformable-explicit")));
   EXPECT_EQ(rule_of(find_method("symplectic-euler+sticky")), rule_of(find_method("symplectic-euler")));
   EXPECT_EQ(rule_of(find_method("implicit-euler+linear")), rule_of(find_method("bullet/deformable-implicit+tight")));
@@ -223,17 +223,17 @@ TEST(Methods, EveryOneMeetsEveryShippedScene) {
         continue;
       }
       ++accepted;
-      // adaptive methods follow their tolerance; their mean step is at most the run
+      // Adaptive methods follow their tolerance, and their mean step is at most the duration.
       EXPECT_LE(out.step, out.tolerance > 0 ? 0.05 : scene.step * (1 + 1e-9));
       if (out.verdict != Verdict::ok) continue;  // explicit Euler on a stiff cloth: a row with its verdict
       ASSERT_EQ(r.trajectory.frames(), 3);
       EXPECT_NEAR(out.end, 0.05, 4 * eps);
       for (const Points& x : r.trajectory.x) EXPECT_TRUE(x.allFinite());
-      // single precision holds the start rounded to 24 bits
+      // single precision rounds the initial state to 24 bits
       const double rounding = m.name.starts_with("bullet32/") ? 6e-8 * largest_column(scene.start.x) : 0;
       EXPECT_LE(largest_column(r.trajectory.x[0] - scene.start.x), rounding);
     }
-    // every stepper that takes the scene, at least
+    // at least every stepper that supports the scene
     for (const Stepper& s : steppers()) accepted -= takes(s, scene);
     EXPECT_GE(accepted, 0);
   }
@@ -249,7 +249,7 @@ TEST(Methods, EveryMethodAgreesWithTheTruthOnTheSpring) {
     Recorder r;
     const Outcome out = run_method(m, scene, run, {&r});
     if (out.verdict == Verdict::unsupported || !out.different_law.empty()) continue;
-    // a rule of first order is off by at most the amplitude of 0.2 m times h omega^2 t / 2 = 5e-3
+    // A first-order rule is off by at most h omega^2 t / 2 = 5e-3 times the amplitude of 0.2 m.
     EXPECT_LT(sup_rms(r.trajectory, exact.trajectory), 1e-3);
   }
 }
@@ -259,13 +259,13 @@ TEST(Metrics, OfKnownStates) {
       "[[particle]]\nposition = [0, 0, 0]\nmass = 9\n[[particle]]\nposition = [2, 0, 0]\nmass = 1\n"
       "[[particle]]\nposition = [0, 4, 0]\nmass = 3\n[pins]\nparticles = [0]\n[sphere]\n"
       "centre = [2, -1.5, 0]\nradius = 1\nmargin = 0.25\n");
-  EXPECT_EQ(centre_of_mass(scene, scene.start.x), Vec3(0.5, 3, 0));  // pins left out
+  EXPECT_EQ(centre_of_mass(scene, scene.start.x), Vec3(0.5, 3, 0));  // excluding pins
   EXPECT_DOUBLE_EQ(*clearance(scene, 0, scene.start.x), 0.25);
-  EXPECT_FALSE(creep(scene, 0, scene.start.x, scene.start.v));  // nothing touches
+  EXPECT_FALSE(creep(scene, 0, scene.start.x, scene.start.v));  // no contact
   Points x = scene.start.x, v = scene.start.v;
   x.col(1) = Vec3(2, -0.25, 0);
   v.col(1) = Vec3(0.3, 5, 0.4);
-  EXPECT_DOUBLE_EQ(*creep(scene, 0, x, v), 0.5);  // along the surface only
+  EXPECT_DOUBLE_EQ(*creep(scene, 0, x, v), 0.5);  // only along the surface
   EXPECT_FALSE(clearance(small_cloth(), 0, small_cloth().start.x));
   Trajectory t{{0, 1}, {scene.start.x, x}, {v, v}};
   EXPECT_DOUBLE_EQ(motion_of(t), 0.25 / std::sqrt(3.0));

@@ -1,4 +1,4 @@
-// Moduli of nets: the formula of their springs against the energy of strained nets.
+// Moduli of nets: the formula for their springs against the energy of strained nets.
 #include <gtest/gtest.h>
 
 #include <map>
@@ -16,8 +16,9 @@ namespace {
 
 using namespace testing_tools;
 
-// springs are not linear: strains of 1e-4 err by their square in energies that are symmetric in the strain's sign, and
-// differences of energies of 1e-8 of k d^2 are rounded to 1e-16 of the energy of all the springs, 1e3 times as much
+// Springs are not linear: strains of 1e-4 have a relative error of their square in energies averaged over the sign of
+// the strain. Differences of energies of 1e-8 of k d^2 are rounded to 1e-16 of the energy of all springs, which is 1e3
+// times as large.
 constexpr double enough = 1e-5;
 
 std::string cloth(const std::string& size, const std::string& u, const std::string& v, const std::string& stiffness,
@@ -50,7 +51,7 @@ TEST(Moduli, OfTwentyRandomNetsTheyAreThoseOfStrainedEnergies) {
     EXPECT_NEAR(m.c22, c(1, 1), enough * m.c11);
     EXPECT_NEAR(m.c12, c(0, 1), enough * m.c11);
     EXPECT_NEAR(m.c66, c(2, 2), enough * m.c11);
-    // the closed forms of a square net
+    // closed forms of a square net
     EXPECT_NEAR(m.c11, net.structural + net.shear + 4 * net.bend, 1e-9 * m.c11);
     EXPECT_NEAR(m.c12, net.shear, 1e-9 * m.c11);
     for (const double angle : {0., 0.3, 0.7})
@@ -70,7 +71,7 @@ TEST(Moduli, OfACubeTheyAreThoseOfStrainedEnergies) {
   EXPECT_NEAR(m.c66, c(2, 2), enough * m.c11);
 }
 
-/// A square net with one diagonal in each cell, all one way, of stiffness k.
+/// A square net with one diagonal of stiffness k per cell, all in the same direction.
 Scene net_with_one_diagonal(int n, double spacing, double k) {
   std::string text;
   for (int i = 0; i < n * n; ++i)
@@ -91,7 +92,7 @@ TEST(Moduli, OneDiagonalCouplesStretchAndShear) {
   for (const double k : {100., 3e-4}) {
     const Scene scene = net_with_one_diagonal(5, 0.1, k);
     const Moduli m = *moduli_of(scene.model, scene.start).moduli;
-    // edges give k to C11 and C22; a diagonal of length 2^(1/2) d along (1, 1) gives k / 2 to each modulus
+    // Edges contribute k to C11 and C22. A diagonal of length 2^(1/2) d along (1, 1) contributes k / 2 to each modulus.
     EXPECT_NEAR(m.c11, 1.5 * k, 1e-9 * k);
     EXPECT_NEAR(m.c22, 1.5 * k, 1e-9 * k);
     for (const double modulus : {m.c12, m.c66, m.c16, m.c26}) EXPECT_NEAR(modulus, k / 2, 1e-9 * k);
@@ -103,7 +104,7 @@ TEST(Moduli, OneDiagonalCouplesStretchAndShear) {
     EXPECT_NEAR(m.anisotropy(), 0.2, 1e-4);
     EXPECT_EQ(sentences_of(m)[1].find(": isotropic"), std::string::npos);
   }
-  // a turned net has the same moduli along its axes
+  // a rotated net has the same moduli along its axes
   Scene turned = net_with_one_diagonal(5, 0.1, 100);
   turned.start.x = Eigen::AngleAxisd(0.4, Vec3(1, 2, 3).normalized()).toRotationMatrix() * turned.start.x.eval();
   EXPECT_NEAR(moduli_of(turned.model, turned.start).moduli->young_range().first, 40, 1e-2);
@@ -123,7 +124,7 @@ TEST(Moduli, AreKnownOfShippedScenesOrWhyNot) {
   Scene uneven = load_scene("cloth-hang");
   uneven.model.find<Springs>()->list[0].k *= 2;
   EXPECT_EQ(moduli_of(uneven.model, uneven.start).why_not, "its springs differ from place to place");
-  Scene twice = load_scene("cloth-hang");  // a particle that no spring holds, at the place of another
+  Scene twice = load_scene("cloth-hang");  // an extra particle without springs, at the position of another
   const long n = twice.start.x.cols();
   twice.start.x.conservativeResize(3, n + 1);
   twice.start.x.col(n) = twice.start.x.col(210);
@@ -152,7 +153,7 @@ TEST(Moduli, WishedOnesBecomeStiffnesses) {
   ASSERT_EQ(fitted.unknowns.size(), 2u);
   EXPECT_EQ(fitted.unknowns[0].name, "shear stiffness");
   EXPECT_EQ(fitted.unknowns[1].name, "structural stiffness");
-  // a block's are pressures
+  // moduli of a block are pressures
   const FitResult block = fit_to_wishes(cloth("[4, 4, 4]", "[0.3, 0, 0]", "[0, 0.3, 0]\nw = [0, 0, 0.3]",
                                               "structural = \"fit\"\nshear = \"fit\"\n", "[wish]\nc11 = 9000\n"),
                                         "block");

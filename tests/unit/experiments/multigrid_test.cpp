@@ -1,5 +1,5 @@
-// Linear systems of implicit steps on cloths: solved to their tolerance, whatever the size, the pins and the
-// instruction set, and in nearly as few iterations on a large cloth as on a small one.
+// Linear systems of implicit steps on cloths: solved to tolerance for any size, pins and instruction set, with
+// iteration counts that hardly depend on the size of the cloth.
 
 #include <Eigen/Dense>
 #include <Eigen/SparseCholesky>
@@ -16,7 +16,7 @@ namespace {
 
 using namespace testing_tools;
 
-/// A crumpled cloth with pins anywhere: what a linear system needs, and its matrix as a list of pairs.
+/// A crumpled cloth with arbitrary pins: data of a linear system, and its matrix in sparse form.
 struct Problem {
   simd::GridTopology topology;
   std::vector<int> pins;
@@ -30,7 +30,7 @@ struct Problem {
     const int n = rows * columns;
     Springs springs;
     for (int d = 0; d < simd::directions; ++d) {
-      if (random.between(0, 1) < 0.15 && d > 0) continue;  // a family that is not there
+      if (random.between(0, 1) < 0.15 && d > 0) continue;  // a missing spring family
       const auto [down, right] = simd::direction[d];
       topology.families[d] = {stiff * random.between(0.1, 1), std::hypot(down, right) * random.between(0.9, 1.1)};
       for (int i = 0; i < n; ++i)
@@ -53,7 +53,7 @@ struct Problem {
     p.pins = pins;
   }
 
-  /// inertia + K, 1 on the diagonal of pins.
+  /// inertia + K, with 1 on the diagonal of pins.
   Eigen::SparseMatrix<double> matrix(Curvature curvature) const {
     Tangent tangent;
     add_tangent(*model.find<Springs>(), model.particles, {0, x, {}}, curvature, tangent);
@@ -85,7 +85,7 @@ CgResult solve(const Problem& p, simd::InstructionSet isa, Curvature curvature, 
   return multigrid::MultigridSolver(p.topology, p.pins).solve(p.inertia, p.x, curvature, p.b, tolerance, u);
 }
 
-// around the 16 lanes and their halves, rows odd and even, and one cloth of several levels
+// sizes around 16 lanes and half of that, odd and even rows, and one cloth with several levels
 constexpr std::pair<int, int> sizes[] = {{12, 20}, {13, 31}, {20, 32}, {33, 33},
                                          {15, 48}, {40, 64}, {31, 65}, {3, 100}};
 
@@ -98,28 +98,29 @@ TEST(Multigrid, SolvesWhatAFactorisationSolves) {
       const Points wanted = p.by_factorisation(Curvature::clamped);
       Points u;
       EXPECT_TRUE(solve(p, isa, Curvature::clamped, 1e-12, u).converged);
-      // |u - A^-1 b| <= |A^-1| |b - A u|, and A is at least the least inertia, 1 N/m; ten times for the recurrence
+      // |u - A^-1 b| <= |A^-1| |b - A u|, and A is at least the smallest inertia, 1 N/m. A factor of ten covers the
+      // recurrence.
       EXPECT_LE((u - wanted).norm(), 1e-11 * p.b.norm());
       for (const int pin : p.pins) EXPECT_EQ(u.col(pin), Vec3::Zero());
     }
 }
 
 TEST(Multigrid, TakesCurvatureAsItIs) {
-  // springs up to a tenth too long for their places: some are shortened, and inertia keeps the matrix definite
+  // Springs are up to a tenth too long for their positions. Some are compressed, and inertia keeps the matrix definite.
   for (unsigned seed = 1; seed <= 5; ++seed) {
     Problem p(seed, 20, 40, 0.05, 20);
     p.inertia += 100;
     const Points exact = p.by_factorisation(Curvature::exact), clamped = p.by_factorisation(Curvature::clamped);
     Points u;
     ASSERT_TRUE(solve(p, simd::active_instruction_set(), Curvature::exact, 1e-12, u).converged);
-    EXPECT_LE((u - exact).norm(), 1e-13 * p.b.norm());  // inertia is 100 N/m and more
+    EXPECT_LE((u - exact).norm(), 1e-13 * p.b.norm());  // inertia is at least 100 N/m
     EXPECT_GT((exact - clamped).norm(), 1e-6 * p.b.norm());
   }
 }
 
 TEST(Multigrid, StopsAtNegativeCurvature) {
   Problem p(7, 20, 40, 0.01, 400);
-  p.x *= 0.5;  // all springs at half their length, nothing holds them straight
+  p.x *= 0.5;  // all springs at half their length, without lateral support
   Points u;
   const CgResult result = solve(p, simd::active_instruction_set(), Curvature::exact, 1e-12, u);
   EXPECT_TRUE(result.negative_curvature);
@@ -159,7 +160,7 @@ Points cycle(multigrid::VCycle& matrix, const Points& r) {
 
 TEST(Multigrid, APreconditionerIsSymmetricAndPositive) {
   for (const auto& [rows, columns] : sizes)
-    for (const double heavier : {1., 30., 1e3}) {  // all grids; fewer; the finest alone
+    for (const double heavier : {1., 30., 1e3}) {  // all grids; fewer; only the finest
       SCOPED_TRACE(fmt::format("{} x {}, {} times as heavy", rows, columns, heavier));
       const Problem p(11, rows, columns), other(12, rows, columns);
       multigrid::VCycle matrix(p.topology, p.pins);
@@ -169,7 +170,7 @@ TEST(Multigrid, APreconditionerIsSymmetricAndPositive) {
       const Points z = cycle(matrix, p.b), w = cycle(matrix, second);
       EXPECT_GT(dot(p.b, z), 0);
       EXPECT_GT(dot(second, w), 0);
-      // single precision, and a few hundred roundings one after the other
+      // single precision, with a few hundred consecutive roundings
       const double scale = std::sqrt(dot(p.b, z) * dot(second, w));
       EXPECT_NEAR(dot(second, z), dot(p.b, w), 300 * std::numeric_limits<float>::epsilon() * scale);
     }
@@ -177,7 +178,7 @@ TEST(Multigrid, APreconditionerIsSymmetricAndPositive) {
 
 TEST(Multigrid, SameBitsOnEveryAvx) {
   const std::vector<simd::InstructionSet> all = simd::supported_instruction_sets();
-  if (all.back() != simd::InstructionSet::avx512) GTEST_SKIP() << "this machine has no AVX-512";
+  if (all.back() != simd::InstructionSet::avx512) GTEST_SKIP() << "no AVX-512 on this machine";
   for (const auto& [rows, columns] : sizes) {
     const Problem p(5, rows, columns);
     Points a, b;
@@ -187,7 +188,7 @@ TEST(Multigrid, SameBitsOnEveryAvx) {
   }
 }
 
-/// A hanging cloth, and the iterations of one linear step from it.
+/// Iterations of one linear step of a hanging cloth.
 int iterations(int side, double rate, bool plain) {
   const Scene scene = hanging_cloth(side);
   Recorder recorder;
@@ -202,7 +203,8 @@ TEST(Multigrid, IterationsHardlyGrowWithTheSheet) {
   for (const double rate : {60.0, 240.0}) {
     const int small = iterations(24, rate, false), large = iterations(96, rate, false);
     const int small_plain = iterations(24, rate, true), large_plain = iterations(96, rate, true);
-    // four times as wide: by blocks on the diagonal alone about four times as many, as the root of the condition says
+    // Four times as wide. With block-diagonal preconditioning alone about four times as many iterations, the square
+    // root of the condition number.
     EXPECT_LT(large, 2 * small) << rate;
     EXPECT_GT(large_plain, 3 * small_plain) << rate;
     EXPECT_LT(large, 60) << rate;
@@ -211,14 +213,15 @@ TEST(Multigrid, IterationsHardlyGrowWithTheSheet) {
 
 TEST(ImplicitCloth, StepsAreThoseOfTheListOfPairs) {
   Scene scene = hanging_cloth(24);
-  // at the shortest steps inertia rules and relaxation alone is the preconditioner
+  // At the shortest steps inertia dominates, and relaxation alone is the preconditioner.
   for (const double h : {1 / 60., 1 / 240., 1 / 1000., 1 / 4000.}) {
     System f(scene.model), g(scene.model);
     ImplicitStep fast(f), plain(g, true);
     State s = scene.start;
     for (int i = 0; i < 12; ++i) {
       const State a = fast.solve(s, h), b = plain.solve(s, h);
-      // both leave forces of 1e-12 of the largest (or round-off); the softest way to give way is inertia, m / h^2
+      // Both leave forces of 1e-12 of the largest (or round-off). The softest mode has the stiffness of inertia, m /
+      // h^2.
       const double force = std::max(fast.potential().force_scale() * 1e-12, fast.potential().force_rounding());
       const double inertia = 0.25 / (24 * 24) / (h * h);
       EXPECT_LE(largest_column(a.x - b.x), 2 * force / inertia * 24) << i;
@@ -245,8 +248,8 @@ TEST(ImplicitCloth, BeyondSinglePrecisionItIsSolvedAllTheSame) {
     p.gradient(Points::Zero(3, u.cols()), g);
     p.linearise(Points::Zero(3, u.cols()), Curvature::clamped);
     p.apply(u, product);
-    // the solve stops at 1e-12 of the right side; where some parts of u are the condition times others, A u itself is
-    // rounded by eps |A| |u|, and |A| <= inertia + 2 (sum of a particle's springs, 4 to each side)
+    // The solve stops at 1e-12 of the right-hand side. Components of u differ by up to the condition number, so A u
+    // itself has a rounding error of eps |A| |u|, and |A| <= inertia + 2 (sum of a particle's springs, 4 to each side).
     const double inertia = p.inertia().maxCoeff(), size = inertia + 2 * 8 * 620 * stiffer;
     EXPECT_LE((product + g).norm(), 1e-11 * g.norm() + 10 * eps * size * u.norm()) << stiffer;
     EXPECT_GT(u.norm(), 0);

@@ -1,4 +1,4 @@
-// An adapter that is spoiled on purpose, and what the conformance kit finds lacking in it.
+// An adapter with deliberate defects, and the findings of the conformance kit.
 #pragma once
 
 #include <set>
@@ -10,7 +10,7 @@ namespace crosscheck::testing_tools {
 
 class ProtocolKit : public InFolder {
  protected:
-  /// The shipped example behind a script that spoils the scene or the answer.
+  /// Runs the conformance kit on the shipped example, wrapped in a script that corrupts the scene or the answer.
   ConformanceReport spoiled(const std::string& before, const std::string& after = "") const {
     return try_adapter("exec:" + script("adapter", before + CROSSCHECK_EXAMPLE " \"$1\" \"$2\" || exit $?\n" + after));
   }

@@ -1,4 +1,4 @@
-// Regression tests tested: baselines and shapes, tolerances, verdicts on single quantities.
+// Tests of the regression tests: baselines and shapes, tolerances, verdicts on single quantities.
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
@@ -61,7 +61,7 @@ TEST(Baselines, ThatAreLinksOrPipesAreNotRead) {
   EXPECT_THROW(read_shape(folder.path, "chain", 4), InputError);
 }
 
-/// Tolerances come from perturbed runs: where these go wrong, a tolerance grows until nothing fails any more.
+/// Tolerances come from perturbed runs. If those are wrong, a tolerance may become so large that nothing fails.
 TEST(Baselines, ShippedOnesAreOfTheScenesAsTheyAreAndTheirTolerancesCanFail) {
   long all = 0, unpredictable = 0;
   for (const std::string_view name : shipped_scenes()) {
@@ -77,15 +77,15 @@ TEST(Baselines, ShippedOnesAreOfTheScenesAsTheyAreAndTheirTolerancesCanFail) {
       ++all;
       const bool beyond = e.what.derivation.ends_with("beyond prediction");
       unpredictable += beyond;
-      // explicit Euler gains energy: what it amplifies is not the scene's
+      // explicit Euler gains energy and amplifies perturbations more than the scene does
       if (beyond && (!e.without.empty() || e.method == "mysim/explicit-euler")) continue;
-      if (e.method.starts_with("bullet32/")) continue;  // beside a quantity that is nearly zero its rounding is large
-      if (e.what.quantity.name == time_of_failure) {    // known to the sample; beside a ball to a few of them
+      if (e.method.starts_with("bullet32/")) continue;  // large relative rounding of quantities near zero
+      if (e.what.quantity.name == time_of_failure) {    // known to within a sample; with a ball, to within a few
         EXPECT_LE(e.what.tolerance, 8 * scene.duration / scene.samples) << name << ", " << e.method;
         continue;
       }
-      // a scene that lacks an ingredient may be less predictable than its window says (the flag without air buckles);
-      // 1e-8 of a unit bounds what is zero but for rounding
+      // A scene without one ingredient may be less predictable than its window states (the flag without air buckles). A
+      // floor of 1e-8 covers quantities that are zero up to rounding.
       EXPECT_LE(e.what.tolerance, std::max(1e-8, (e.without.empty() ? 0.02 : 0.1) * largest[key(e)]))
           << name << ", " << e.method << " without '" << e.without << "', " << e.what.quantity.name;
     }
@@ -120,7 +120,7 @@ TEST(Baselines, EachDamageIsNamedWithItsLine) {
     write_file(file_of(folder.path, "chain"), text);
     try {
       read_baseline(folder.path, "chain");
-      ADD_FAILURE() << "it was read";
+      ADD_FAILURE() << "expected an error";
     } catch (const InputError& error) {
       EXPECT_NE(std::string(error.what()).find(says), std::string::npos) << error.what();
       EXPECT_NE(std::string(error.what()).find("chain.csv:"), std::string::npos) << error.what();
@@ -182,7 +182,7 @@ TEST(Regression, RefusesScenesOfTheSameNameOrFileName) {
   EXPECT_FALSE(cases({{path("a/s.toml"), path("b/s-s.toml")}}).empty());
 }
 
-/// A regression of one scene under one method, in a folder of its own.
+/// A regression test of one scene and one method, in its own folder.
 class RegressionOfOneScene : public testing::Test {
  protected:
   Regression regression_with(const std::string& method, const std::string& scene) const {
@@ -257,7 +257,7 @@ TEST(Comparison, NewMethodsAreThoseOfWhichASceneKnowsNothing) {
   for (const char* scene : {"spring", "chain"})
     for (const char* quantity : {"sag", "period"}) add(scene, "mysim/new", quantity, Status::added);
   add("chain", "mysim/new", "energy", Status::not_finite);
-  add("chain", "mysim/rk4", "sag", Status::added);  // known elsewhere, not there
+  add("chain", "mysim/rk4", "sag", Status::added);  // known for another method, missing here
   const std::vector<NewMethod> all = new_methods(rows);
   ASSERT_EQ(all.size(), 2u);
   EXPECT_EQ(all[0].method, "mysim/new");
@@ -281,7 +281,7 @@ TEST(Comparison, OfEachQuestionTheRowToLookAtFirstIsAWordThenANumberThenACount) 
       worst_comparisons({row("spring", "steps", 2, 0), row("spring", "sag", 2, 0.1), row("spring", "period", 2, 0.5),
                          row("chain", "sag", 9, 1e-9), word, row("rod", "steps", 3, 0)});
   ASSERT_EQ(worst.size(), 3u);
-  EXPECT_EQ(worst[0].quantity, "sag") << "ten tolerances off, not two, and no count";
+  EXPECT_EQ(worst[0].quantity, "sag") << "ten tolerances off; neither the one that is two off nor the count";
   EXPECT_EQ(worst[1].quantity, "verdict");
   EXPECT_EQ(worst[2].quantity, "steps");
 }
@@ -304,7 +304,7 @@ TEST(Shapes, ComeBackAndDamagedOnesAreNone) {
 
 using testing_tools::test_case;
 
-/// Observation by one quantity of the table.
+/// Quantities observed by one row of the table.
 Quantities taken(void (*row)(const Observation&, Quantities&), const Case& q, const CaseRun& case_run) {
   Quantities out;
   row({q, case_run}, out);
@@ -322,8 +322,8 @@ TEST(Quantities, SettleTimeIsWhereMotionHasDiedAway) {
   }
   const Quantities settled = taken(settle_time, q, decaying);
   ASSERT_EQ(settled.size(), 1u);
-  EXPECT_NEAR(settled[0].value, std::log(100.), 1e-12) << "an exponential is a line between samples";
-  decaying.ledger.resize(40);  // 4 s: not there yet
+  EXPECT_NEAR(settled[0].value, std::log(100.), 1e-12) << "the logarithm of an exponential is linear between samples";
+  decaying.ledger.resize(40);  // 4 s: not yet settled
   EXPECT_TRUE(taken(settle_time, q, decaying).empty());
 }
 
@@ -332,7 +332,7 @@ TEST(Quantities, OfARunThatSlidesOffABallTheAngleIsThatOfTheClosedForm) {
   const CaseRun case_run = run_case(q);
   const Quantities angle = taken(leaving_angle, q, case_run);
   ASSERT_EQ(angle.size(), 1u);
-  // contact ends at 53.1 degrees; a flight of 1 mm above the surface takes some more
+  // Contact ends at 53.1 degrees. A gap of 1 mm is reached somewhat later.
   EXPECT_GT(angle[0].value, 53.1);
   EXPECT_LT(angle[0].value, 60);
   EXPECT_TRUE(taken(leaving_angle, test_case("bounce"), run_case(test_case("bounce"))).empty());
@@ -347,7 +347,7 @@ TEST(Quantities, OfAFailedRunWhenItFailedAndWhatItDidBefore) {
   ASSERT_TRUE(by_name.contains(time_of_failure));
   const QuantityWithTolerance& when = by_name[time_of_failure];
   EXPECT_GT(when.quantity.value, 0);
-  EXPECT_GE(when.tolerance, q.scene.duration / q.scene.samples) << "failures are looked for at samples";
+  EXPECT_GE(when.tolerance, q.scene.duration / q.scene.samples) << "failures are detected at samples";
   EXPECT_LT(when.tolerance, 0.5 * when.quantity.value + 3 * q.scene.duration / q.scene.samples);
 }
 
@@ -366,7 +366,8 @@ TEST(Quantities, SettingsAreWhatTheEngineTells) {
   EXPECT_TRUE(settings_of("mysim/leapfrog").empty());
 }
 
-/// What the rounding of a step is taken for must hold where two engines take the same steps in other words.
+/// The assumed rounding of a step must cover the difference between two engines that implement the same rule
+/// differently.
 TEST(Tolerances, HoldBetweenTwoEnginesOfOneRule) {
   for (const char* scene : {"projectile", "chain", "pendulum", "spring"}) {
     const Case ours = test_case(scene, "symplectic-euler"), theirs = test_case(scene, "bullet/deformable-explicit");

@@ -1,4 +1,4 @@
-// Scenes as shipped and at random: the table, the fingerprint, and what every one must say of itself.
+// Shipped and random scenes: the table, the fingerprint, and required information.
 
 #include <map>
 
@@ -56,7 +56,7 @@ TEST(Grid, SpringsJoinTheRightNeighboursAtTheirDistance) {
     EXPECT_EQ(spring.k, spring.family == Family::structural ? 30 : spring.family == Family::shear ? 20 : 10);
     const double expected = std::hypot(di * 2.0 / (nu - 1), dj * std::hypot(0.3, 4) / (nv - 1));
     EXPECT_NEAR(spring.rest, expected, 32 * eps);  // differences of coordinates up to 7 m
-    EXPECT_EQ(++seen[std::minmax(spring.a, spring.b)], 1) << "the same pair twice";
+    EXPECT_EQ(++seen[std::minmax(spring.a, spring.b)], 1) << "duplicate pair";
   }
 }
 
@@ -152,7 +152,7 @@ TEST(ShippedScenes, SayWhatTheyAskAndHowTheyWereChosen) {
     EXPECT_GE(s.parameters.size(), 60u);
     EXPECT_LE(s.window, s.duration);
     EXPECT_NO_THROW(find_method(s.method));
-    EXPECT_EQ(++hashes[s.hash], 1) << "the same scene twice";
+    EXPECT_EQ(++hashes[s.hash], 1) << "duplicate scene";
     EXPECT_GT(s.size(), 0);
     EXPECT_TRUE(s.model.first_order() == (s.start.v.cols() == 0));
   }
@@ -212,7 +212,7 @@ TEST(RandomScenes, NetworksHoldTogetherAndArePredictable) {
     EXPECT_GE(m.particles.size(), 3);
     EXPECT_LE(m.particles.size(), 30);
     EXPECT_FALSE(m.find<Spheres>());
-    // the condition on a window (mysim/scene/scene.h); every fourth, for its time
+    // condition on a window (mysim/scene/scene.h); only every fourth scene, to save time
     if (seed % 4 == 1) {
       EXPECT_LT(perturbation_growth(find_method("symplectic-euler"), s, s.step, s.window), 1e3);
     }

@@ -1,5 +1,5 @@
-// What scenes say of themselves is so: every number in the words of a scene file is one of its own values, or is
-// computed here from the scene; and what is said to grow is measured.
+// Texts of scene files are true: every number in the words of a scene file is one of its values or is computed here
+// from the scene, and statements about growth are measured.
 
 #include <numbers>
 #include <regex>
@@ -22,9 +22,9 @@ using namespace testing_tools;
 constexpr double degree = std::numbers::pi / 180;
 
 double omega_of(const Scene& s) { return highest_frequency(s.model, s.start); }
-double part_of_limit(const Scene& s) { return s.step * omega_of(s) / 2; }  // leapfrog's limit is 2 / omega
+double part_of_limit(const Scene& s) { return s.step * omega_of(s) / 2; }  // the limit of leapfrog is 2 / omega
 
-/// m above its start, of the closed form.
+/// Height (m) of the closed-form solution above its start.
 double rise_of(const Scene& s) {
   const auto exact = exact_solution(s);
   double highest = 0;
@@ -32,14 +32,14 @@ double rise_of(const Scene& s) {
   return highest - s.start.x(1, 0);
 }
 
-/// Degrees from the top at which the closed form leaves the ball.
+/// Angle from the top (degrees) at which the closed-form solution leaves the ball.
 double leaving_angle(const Scene& s) {
   const auto exact = exact_solution(s);
   const Sphere& ball = s.model.find<Spheres>()->list.at(0);
   double angle = 0;
   for (int i = 0; i <= 20000; ++i) {
     const Vec3 off = exact->at(s.duration * i / 20000).x.col(0) - ball.centre;
-    if (off.norm() > ball.contact_radius() * (1 + 1e-12)) break;  // what rounding leaves
+    if (off.norm() > ball.contact_radius() * (1 + 1e-12)) break;  // beyond rounding
     angle = std::acos(off.y() / off.norm());
   }
   return angle / degree;
@@ -50,7 +50,7 @@ double growth_of_window(const Scene& s, double until) {
 }
 double growth_over_run(const Scene& s) { return growth_of_window(s, s.duration); }
 
-/// s, of a whole swing to and fro: from the passages below the anchor, three half swings apart.
+/// Period (s) of a full swing, from the first and last passage below the anchor.
 double swing_of(const Scene& s) {
   const Trajectory path =
       run_and_record("rk4", s, {s.step, s.duration, static_cast<int>(std::lround(s.duration / s.step))}).trajectory;
@@ -62,18 +62,18 @@ double swing_of(const Scene& s) {
   return 2 * (passages.back() - passages.front()) / static_cast<double>(passages.size() - 1);
 }
 
-/// The growth where the cloth is held at the two upper corners alone.
+/// Growth if only the two upper corners of the cloth are pinned.
 double growth_at_two_corners(const Scene& s) {
   TomlDocument file(s.source, s.name);
   const std::vector<int>& pins = s.model.particles.pins;
   file.set("pins.particles", std::vector<int>{pins.front(), pins.back()});
   Scene corners = parse_scene(file.text(), s.name);
-  // the step of an animation would blow up under the rule that measures it
+  // the step of an animation would blow up under the rule used for the measurement
   corners.step = std::min(corners.step, 1 / omega_of(corners));
   return perturbation_growth(find_method("symplectic-euler"), corners, corners.step, corners.duration);
 }
 
-/// m/s^2, the largest acceleration of the first sphere.
+/// Largest acceleration (m/s^2) of the first sphere.
 double largest_acceleration(const Scene& s) {
   const Sphere& ball = s.model.find<Spheres>()->list.at(0);
   const double dt = 1e-3;
@@ -90,7 +90,7 @@ double first_touch(const Scene& s) {
   return *first_contact(s, run_and_record("leapfrog", s, run).trajectory);
 }
 
-/// How many times shorter than the scene's step the longest one is that a rule can take.
+/// Ratio of the scene's step to the longest stable step of a rule.
 double times_shorter(const char* rule, const Scene& s) {
   return s.step / stepper(rule).limit(omega_of(s), *uniform_drag_rate(s.model));
 }
@@ -121,7 +121,7 @@ const ClaimedNumber claims[] = {
      [](const Scene& s) { return s.model.find<Springs>()->list[0].rest + s.start.x(1, 1) - s.start.x(1, 0); }},
     {"spring", "h omega = {}", [](const Scene& s) { return s.step * omega_of(s); }},
     {"normal-modes", "start with {} and 5 mm",
-     // what is left of each particle's start when the modes' sines are taken off is nothing
+     // subtracting the sines of the modes from the initial displacements leaves zero
      [](const Scene& s) {
        double first = 0, left = 0;
        const double apart = (s.start.x(0, 9) - s.start.x(0, 0)) / 9;
@@ -205,7 +205,7 @@ const ClaimedNumber claims[] = {
     {"", "a picture of {} pixels", [](const Scene&) { return 1000.; }},
 };
 
-/// What is said of growth in words.
+/// A statement about growth in words.
 struct Grows {
   const char* scene;
   const char* words;
@@ -233,7 +233,7 @@ const std::vector<Scene>& all_scenes() {
   return scenes;
 }
 
-/// The words of a scene file: what it says of its values, and its comments, each behind the value that it is of.
+/// Words of a scene file: its text on parameters, and its comments, each preceded by the value to which it belongs.
 std::string words_of(const Scene& s) {
   std::string words = TomlTable::parse_text(s.source, s.name).text("parameters") + "\n";
   std::istringstream in(s.source);
@@ -247,7 +247,7 @@ std::string words_of(const Scene& s) {
   return words;
 }
 
-/// Every number among the values of the file, as a number.
+/// Every number among the values of the file.
 std::vector<double> values_of(const Scene& s) {
   std::string values;
   std::istringstream in(s.source);
@@ -260,14 +260,14 @@ std::vector<double> values_of(const Scene& s) {
   return all;
 }
 
-/// Half a unit of the last digit that is written and is no trailing zero.
+/// Half a unit of the last significant digit of `number`.
 double half_digit(const std::string& number) {
   const size_t point = number.find('.');
   if (point != std::string::npos) return 0.5 * std::pow(10, -static_cast<double>(number.size() - point - 1));
   return 0.5 * std::pow(10, static_cast<double>(number.size() - number.find_last_not_of('0') - 1));
 }
 
-/// Where the number of a sentence stands in a text, and how long it is; nothing where the text does not say it.
+/// Position and length of the number of a sentence in a text, or nothing if the text does not contain the sentence.
 std::optional<std::pair<size_t, size_t>> place_of(const ClaimedNumber& t, const std::string& text) {
   const std::string words = t.words, before = words.substr(0, words.find("{}")),
                     after = words.substr(before.size() + 2);
@@ -275,7 +275,7 @@ std::optional<std::pair<size_t, size_t>> place_of(const ClaimedNumber& t, const 
     const size_t from = at + before.size();
     size_t length = 0;
     while (from + length < text.size() && (std::isdigit(text[from + length]) || text[from + length] == '.')) ++length;
-    for (; length > 0; --length)  // a full stop behind it is none of the number
+    for (; length > 0; --length)  // a trailing full stop is not part of the number
       if (text[from + length - 1] != '.' && text.compare(from + length, after.size(), after) == 0)
         return std::pair{from, length};
   }
@@ -306,7 +306,7 @@ TEST(SceneWords, NoNumberIsLeftUnchecked) {
       if (!*claim.scene || s.name == claim.scene)
         if (const auto place = place_of(claim, text)) text.replace(place->first, place->second, place->second, ' ');
     text = std::regex_replace(text, std::regex("([0-9]) 000"), "$01000");
-    // what is written as a power, a unit or a part of a formula
+    // powers, units and parts of formulas
     text = std::regex_replace(text, std::regex("\\^[0-9]|1/s|10 Hz|1000 pixels|2 / omega|2 m/s\\^2 at|1/ "), " ");
     std::vector<double> values = values_of(s);
     for (const char* of : {"cloth-hang"})
@@ -318,7 +318,7 @@ TEST(SceneWords, NoNumberIsLeftUnchecked) {
       const double claimed = std::stod(at->str());
       EXPECT_TRUE(std::any_of(values.begin(), values.end(),
                               [&](double v) { return std::abs(v - claimed) <= 1e-9 * std::abs(v); }))
-          << s.name << " says " << at->str() << ", which is none of its values and not computed: ..."
+          << s.name << " says " << at->str() << ", which is neither one of its values nor computed here: ..."
           << text.substr(std::max<long>(0, at->position() - 30), 60);
     }
   }
@@ -333,7 +333,7 @@ TEST(SceneWords, WhatGrowsGrowsAsIsSaid) {
     EXPECT_GE(growth, g.low) << g.scene << ": " << g.words;
     EXPECT_LE(growth, g.high) << g.scene << ": " << g.words;
   }
-  // no other file speaks of growth in words
+  // no other file mentions growth in words
   for (const Scene& s : all_scenes()) {
     std::string text = words_of(s);
     for (const Grows& g : grows)

@@ -1,4 +1,4 @@
-// Experiment `speed-accuracy`: statistics of times, Pareto lines, the cheapest run, and what its rows say.
+// Experiment `speed-accuracy`: statistics of times, Pareto fronts, the cheapest run, and the statements of its rows.
 
 #include "experiments/speed_accuracy/speed_accuracy.h"
 #include "experiments/estimate.h"
@@ -17,12 +17,13 @@ namespace {
 using namespace testing_tools;
 
 TEST(Timing, MedianAndItsIntervalFollowTheOrderOfTheTimes) {
-  // of n times the k-th from each end bound the median with 90 %: k = 1 from 5 on, 2 from 8 on, 3 from 11 on, 4 from 13
+  // The k-th smallest and largest of n times bound the median with 90 % confidence: k = 1 from n = 5, 2 from 8, 3 from
+  // 11, 4 from 13.
   const std::vector<std::pair<int, int>> ranks = {{1, 1}, {3, 1}, {5, 1}, {7, 1}, {8, 2}, {10, 2}, {11, 3}, {13, 4}};
   for (const auto& [n, k] : ranks) {
     SCOPED_TRACE(n);
     std::vector<double> times;
-    for (int i = n; i > 0; --i) times.push_back(i);  // 1 to n, backwards
+    for (int i = n; i > 0; --i) times.push_back(i);  // n to 1, in descending order
     const Timing t = timing_of(times);
     EXPECT_DOUBLE_EQ(t.median, (n + 1) / 2.);
     EXPECT_DOUBLE_EQ(t.low, k);
@@ -43,8 +44,8 @@ TEST(Timing, RunsTakeTurnsAndShortOnesAreRepeated) {
   const std::vector<std::function<double()>> runs = {[&] { return order += 'a', 1.; },
                                                      [&] { return order += 'b', 0.4e-3; }};
   const auto times = time_round_robin(runs, {.least = 2, .most = 4, .enough = 1.5, .resolution = 1e-3});
-  // once each to warm up, which a second of a's is enough for to count; then b thrice a turn, until it took 1 ms; a has
-  // had enough after two
+  // One warm-up run each. The one of a takes 1 s, long enough to count. Then b runs three times per turn until it took
+  // 1 ms, and a stops after two runs.
   EXPECT_EQ(order, "ababbbbbbbbbbbb");
   EXPECT_EQ(times[0], (std::vector<double>{1, 1}));
   ASSERT_EQ(times[1].size(), 4u);
@@ -52,7 +53,8 @@ TEST(Timing, RunsTakeTurnsAndShortOnesAreRepeated) {
 }
 
 TEST(Timing, ARunThatTakesNoTimeEnds) {
-  // a program without a clock, or a refusal: each is a process, and 1000 of them show no more than one
+  // A program without a clock, or a refusal: each call is a process, and 1000 of them give no more information than
+  // one.
   int calls = 0;
   const std::vector<std::function<double()>> runs = {[&] { return ++calls, 0.; }, [] { return 1.; }};
   const auto times = time_round_robin(runs, {.least = 5, .most = 7});
@@ -71,12 +73,12 @@ TEST(Timing, ADifferenceCountsAboveTheNoiseOnly) {
 
 TEST(Timing, TheNoiseFloorIsWhatHalvesOfTheRepetitionsDifferBy) {
   using Times = std::vector<std::vector<double>>;
-  EXPECT_DOUBLE_EQ(noise_floor(Times{{1, 1, 1, 1}}), 0.01);  // never less
+  EXPECT_DOUBLE_EQ(noise_floor(Times{{1, 1, 1, 1}}), 0.01);  // lower bound
   EXPECT_NEAR(noise_floor(Times{{1, 1.2, 1, 1.2}}), 0.2 / 1.1, 1e-12);
-  EXPECT_DOUBLE_EQ(noise_floor(Times{{1}}), 0.01);  // one repetition shows no noise
+  EXPECT_DOUBLE_EQ(noise_floor(Times{{1}}), 0.01);  // a single repetition shows no noise
 }
 
-/// A hand-made case: cost, error.
+/// A hand-made example of cost and error.
 std::vector<WorkPrecisionPoint> tiny() {
   auto point = [](const char* method, double cost, std::optional<double> error) {
     return WorkPrecisionPoint{
@@ -90,7 +92,7 @@ std::vector<WorkPrecisionPoint> tiny() {
 TEST(SpeedAccuracy, TheParetoLineOfAHandMadeCase) {
   std::vector<std::pair<double, double>> line;
   for (const WorkPrecisionPoint& p : pareto_line(tiny(), 0)) line.emplace_back(p.cost, *p.error);
-  // the failed run is cheapest and stands for nothing; at the same cost the better run counts
+  // The failed run is cheapest and does not count. At equal cost the more accurate run counts.
   EXPECT_EQ(line, (std::vector<std::pair<double, double>>{{2, 0.1}, {4, 0.01}, {8, 0.001}, {16, 0.0005}}));
 }
 
@@ -119,7 +121,7 @@ TEST(SpeedAccuracy, TheCheapestWithinABoundOnBothSidesOfIt) {
   EXPECT_EQ(cheapest(points, 0.02, &MethodFamily::is_default_peer)->cost, 5);
   EXPECT_EQ(cheapest(points, 0.0199, &MethodFamily::is_default_peer)->cost, 16);
   EXPECT_EQ(cheapest(points, 1e-4), nullptr);
-  // mysim/d at 4.05 overlaps 4; bullet/b does not meet the bound
+  // mysim/d at 4.05 overlaps 4; bullet/b exceeds the bound
   EXPECT_EQ(statistically_tied(points, *cheapest(points, 0.01), 0.01, 0.01), std::vector<std::string>{"mysim/d"});
 }
 
@@ -134,24 +136,24 @@ TEST(Recommendation, IsTheCheapestConfirmedRunAndOfEqualsTheMostAccurate) {
                              tried("mysim/a", 1, 400, 4e-3),
                              tried("mysim/b", 2, 205, 2e-3),
                              tried("mysim/b", 1, 410, 1e-3),
-                             tried("mysim/c", 8, 50, 5e-3),  // by accident: the finer one misses
+                             tried("mysim/c", 8, 50, 5e-3),  // by accident: the finer run misses the bound
                              tried("mysim/c", 4, 100, 0.02),
-                             tried("mysim/d", 8, 50, 5e-3),  // nothing confirms it
+                             tried("mysim/d", 8, 50, 5e-3),  // not confirmed by another run
                              tried("mysim/e", 1, 300, 1e-3),
                              tried("mysim/e", 0.5, 600, 1e-3)};
   const auto chosen = recommend(runs, 0.01);
   ASSERT_TRUE(chosen);
-  EXPECT_EQ(runs[chosen->run].method, "mysim/b") << "costs 2.5 % more, which the search does not resolve";
+  EXPECT_EQ(runs[chosen->run].method, "mysim/b") << "costs 2.5 % more, below the resolution of the search";
   EXPECT_EQ(chosen->tied, std::vector<size_t>{1});
   EXPECT_EQ(chosen->second, std::optional<size_t>(1));
   EXPECT_EQ(chosen->bound, StepBound::none);
-  runs[3].cost = 230;  // no tie any more
+  runs[3].cost = 230;  // no longer tied
   EXPECT_EQ(recommend(runs, 0.01)->run, 1u);
   EXPECT_EQ(recommend(runs, 0.01)->bound, StepBound::stability);
   runs[0].verdict = Verdict::ok, runs[0].error = 0.5;
   EXPECT_EQ(recommend(runs, 0.01)->bound, StepBound::accuracy);
   runs[0].verdict = Verdict::timeout;
-  EXPECT_EQ(recommend(runs, 0.01)->bound, StepBound::failure) << "no word of stability";
+  EXPECT_EQ(recommend(runs, 0.01)->bound, StepBound::failure) << "a timeout says nothing about stability";
   EXPECT_FALSE(recommend(runs, 1e-4));
   EXPECT_FALSE(recommend({}, 1));
 }
@@ -160,7 +162,7 @@ TEST(StepSearch, FindsTheSameStepWithTheLadderAndWithout) {
   const Scene scene = load_scene("cloth-hang");
   const crosscheck::Run base = default_run(scene);
   const double interval = base.duration / base.samples, limit = 1.12e-3;
-  // rk4 is bound by accuracy above its rivals' cost, leapfrog by its limit, explicit Euler by nothing that is tried
+  // rk4 is limited by accuracy at a higher cost than its rivals, leapfrog by stability, explicit Euler by no step tried
   const auto trial = [&](const Method& m, const Setting& s) -> std::optional<TriedRun> {
     const double evaluations = m.stepper->evaluations * base.duration / s.value;
     const bool fails = m.name == "mysim/leapfrog" ? s.value > limit : m.name == "mysim/explicit-euler";
@@ -184,11 +186,11 @@ TEST(StepSearch, FindsTheSameStepWithTheLadderAndWithout) {
     ASSERT_TRUE(chosen);
     const TriedRun& run = runs[chosen->run];
     EXPECT_EQ(run.method, "mysim/leapfrog");
-    EXPECT_DOUBLE_EQ(run.setting.value, interval / 30) << "the longest that divides the time between samples";
+    EXPECT_DOUBLE_EQ(run.setting.value, interval / 30) << "the longest step that divides the sampling interval";
     EXPECT_EQ(chosen->bound, StepBound::stability);
   }
   EXPECT_LE(seeded.size() - ladder, 6u);
-  EXPECT_LE(std::ranges::count(alone, "mysim/rk4", &TriedRun::method), 7) << "given up once it cannot win";
+  EXPECT_LE(std::ranges::count(alone, "mysim/rk4", &TriedRun::method), 7) << "the search stops once it cannot win";
 }
 
 TEST(Point, ATimedOneIsGivenTheRowsOfItsOwn) {
@@ -210,7 +212,7 @@ TEST(SpeedAccuracy, DistancesOverTimeAreLargestAndRms) {
   }
   EXPECT_DOUBLE_EQ(distance_over_time(a, b, 2).largest, 4);
   EXPECT_DOUBLE_EQ(distance_over_time(a, b, 2).over_time, std::sqrt(25 / 3.));
-  EXPECT_DOUBLE_EQ(distance_over_time(a, b, 1.5).largest, 3);  // what lies beyond is not looked at
+  EXPECT_DOUBLE_EQ(distance_over_time(a, b, 1.5).largest, 3);  // the later difference is ignored
 }
 
 TEST(SpeedAccuracy, LaddersHalveTheStep) {
@@ -219,13 +221,13 @@ TEST(SpeedAccuracy, LaddersHalveTheStep) {
   const auto limited = settings_of(find_method("leapfrog"), scene, run, true),
              unlimited = settings_of(find_method("implicit-euler"), scene, run, true),
              adaptive = settings_of(find_method("dopri5"), scene, run, false);
-  // steps divide the sampling interval; at the limit of 2 / omega leapfrog fails, and one or two such runs are enough
+  // Steps divide the sampling interval. At its limit of 2 / omega leapfrog fails, and one or two such runs suffice.
   const double limit = 2 / highest_frequency(scene.model, scene.start);
   const auto beyond = std::count_if(limited.begin(), limited.end(), [&](const Setting& s) { return s.value > limit; });
   EXPECT_GE(limited.front().value, std::min(limit, 64e-3 * 0.9));
   EXPECT_LE(beyond, 2);
   const auto stiff = settings_of(find_method("explicit-euler"), scene, run, true);
-  EXPECT_NEAR(stiff.front().value, 8e-3, 1e-4) << "no step holds without drag: those of old are enough to see it";
+  EXPECT_NEAR(stiff.front().value, 8e-3, 1e-4) << "no step is stable without drag: the default settings show it";
   EXPECT_NEAR(limited.back().value, 1e-3 / 16, 1e-6);
   EXPECT_NEAR(unlimited.front().value, 64e-3, 5e-3);
   ASSERT_EQ(adaptive.size(), 4u);
@@ -249,7 +251,7 @@ TEST(SpeedAccuracy, OfLongRunsTheFirstPartIsTimed) {
   const Scene cloth = load_scene("cloth-hang"), ball = load_scene("slide");
   const Setting step{false, cloth.step}, tolerance{true, 1e-4};
   const Method leapfrog = find_method("leapfrog");
-  EXPECT_EQ(part_of(leapfrog, cloth, default_run(cloth), step, true).share, 1) << "takes less than a fifth of a second";
+  EXPECT_EQ(part_of(leapfrog, cloth, default_run(cloth), step, true).share, 1) << "the run takes less than 0.2 s";
   crosscheck::Run run = default_run(cloth);
   run.duration *= 10, run.samples *= 10;
   const TimedPart part = part_of(leapfrog, cloth, run, step, true);
@@ -259,8 +261,8 @@ TEST(SpeedAccuracy, OfLongRunsTheFirstPartIsTimed) {
   EXPECT_NEAR(part.run.duration, part.share * run.duration, 1e-9);
   const TimedPart adaptive = part_of(find_method("dopri5"), cloth, run, tolerance, true);
   EXPECT_LT(adaptive.share, 0.7);
-  EXPECT_NEAR(adaptive.run.duration / adaptive.run.samples, run.duration / run.samples, 1e-12);  // whole samples
-  // what may touch, and what runs elsewhere, is timed whole
+  EXPECT_NEAR(adaptive.run.duration / adaptive.run.samples, run.duration / run.samples, 1e-12);  // whole intervals
+  // scenes with contact and external programs are timed over the whole run
   EXPECT_EQ(part_of(leapfrog, ball, {1e-7, 1, 10}, {false, 1e-7}, true).share, 1);
   Method outside = leapfrog;
   outside.fingerprint = "a program";
@@ -294,7 +296,7 @@ TEST(SpeedAccuracy, AMethodThatRefusesTheLongestStepIsTimedAtTheOthers) {
 TEST(SpeedAccuracy, ABoundIsMetWithTheTruthsOwnBar) {
   TableSet tables;
   Table t = table_of<SpeedAccuracyRow>();
-  // motion 1 m, bar 2 mm; errors of 7 and 9 mm at 20 and 10 evaluations
+  // motion 1 m, error bar 2 mm; errors of 7 and 9 mm at 20 and 10 evaluations
   for (const auto& [step, evaluations, error] : {std::tuple{0.1, 10l, 9e-3}, std::tuple{0.05, 20l, 7e-3}})
     add(t, SpeedAccuracyRow{.scene = "s",
                             .method = "mysim/a",
@@ -317,7 +319,7 @@ TEST(SpeedAccuracy, ABoundIsMetWithTheTruthsOwnBar) {
   EXPECT_EQ(std::get<std::string>(best.at(2, "remark")), "below the error bar of the truth");
 }
 
-/// The rows of one scene and some methods; no times.
+/// Untimed rows of one scene and some methods.
 TableSet rows_of(const Scene& scene, const std::string& methods) {
   Request request;
   request.scenes = {scene};
@@ -329,7 +331,7 @@ TableSet rows_of(const Scene& scene, const std::string& methods) {
   return tables;
 }
 
-/// The value in a row of a method; the row is the i-th of it.
+/// A cell of the i-th row of a method.
 const Cell& cell(const TableSet& tables, const std::string& method, int i, const std::string& column) {
   const Table& t = *tables.table("speed-accuracy");
   for (size_t row = 0; row < t.rows.size(); ++row)
@@ -342,7 +344,7 @@ TEST(SpeedAccuracy, RowsAreTheSameTwiceAndFailedRunsAreRows) {
       "[[particle]]\nposition = [0, 0, 0]\nmass = 1\n[[particle]]\nposition = [1.1, 0, 0]\nmass = 1\n[[spring]]\nends "
       "= [0, 1]\n"
       "stiffness = 400\nrest = 1\n[pins]\nparticles = [0]\n",
-      1, 0.04, 5);  // omega = 20/s: leapfrog holds to 0.1 s
+      1, 0.04, 5);  // omega = 20/s: leapfrog is stable up to 0.1 s
   const TableSet once = rows_of(spring, "leapfrog,bullet/deformable-explicit"),
                  twice = rows_of(spring, "leapfrog,bullet/deformable-explicit");
   ASSERT_FALSE(once.tables.empty());
@@ -352,13 +354,13 @@ TEST(SpeedAccuracy, RowsAreTheSameTwiceAndFailedRunsAreRows) {
   EXPECT_GT(std::get<long>(cell(once, "mysim/leapfrog", 0, "evaluations")), 0);
   EXPECT_LT(std::get<double>(cell(once, "mysim/leapfrog", 0, "end")), 1);
   EXPECT_TRUE(std::holds_alternative<std::monostate>(cell(once, "mysim/leapfrog", 0, "largest error")));
-  // the error falls with the square of the step, and so does the distance from the finest run
+  // The error falls with the square of the step, and so does the distance from the finest run.
   const double coarse = std::get<double>(cell(once, "mysim/leapfrog", 3, "largest error")),
                fine = std::get<double>(cell(once, "mysim/leapfrog", 4, "largest error"));
   EXPECT_NEAR(slope(coarse, fine), 2, 0.2);
   EXPECT_NEAR(std::get<double>(cell(once, "mysim/leapfrog", 4, "distance to own finest")) / fine, 1, 0.1);
 
-  // Bullet follows symplectic Euler, of order 1: leapfrog needs fewer evaluations for the same error
+  // Bullet implements symplectic Euler, of order 1, so leapfrog needs fewer evaluations for the same error.
   const Table& best = *once.table("speed-accuracy-cheapest");
   ASSERT_EQ(best.rows.size(), 3u);
   for (size_t i = 0; i < 3; ++i) EXPECT_EQ(std::get<std::string>(best.at(i, "measure")), "error");
@@ -370,11 +372,11 @@ TEST(SpeedAccuracy, RowsAreTheSameTwiceAndFailedRunsAreRows) {
 TEST(SpeedAccuracy, FirstOrderScenesAreAnsweredByWhoTakesThem) {
   const TableSet tables = rows_of(load_scene("circle"), "rk4,leapfrog,explicit-euler,dopri5");
   auto of_rk4 = [&](int i, const char* column) { return std::get<double>(cell(tables, "mysim/rk4", i, column)); };
-  // steps divide the sampling interval, and so are not quite halves; order 4
+  // Order 4. Steps divide the sampling interval, so they are not exactly halved.
   EXPECT_NEAR(std::log(of_rk4(2, "largest error") / of_rk4(3, "largest error")) /
                   std::log(of_rk4(2, "step") / of_rk4(3, "step")),
               4, 0.1);
-  EXPECT_THROW(cell(tables, "mysim/leapfrog", 0, "verdict"), std::out_of_range);  // it needs velocities
+  EXPECT_THROW(cell(tables, "mysim/leapfrog", 0, "verdict"), std::out_of_range);  // needs velocities
   EXPECT_EQ(std::get<std::string>(cell(tables, "mysim/dopri5", 0, "setting")), "tolerance [1]");
   EXPECT_GT(tables.table("speed-accuracy-pareto")->rows.size(), 2u);
 }
@@ -392,8 +394,8 @@ TEST(SpeedAccuracy, WhereNothingMovesNothingIsCompared) {
 std::string twice(const std::string& text) { return text + text; }
 
 TEST(SpeedAccuracy, FromTheContactRulesAnswerThereAreDifferencesOnly) {
-  // a particle that slides over a ball that moves and stands there twice: the second route refuses two at once, and
-  // what the in-house rule converges to is no truth
+  // A particle slides over a moving ball that is listed twice. The second route does not support two spheres, and the
+  // limit of the in-house rule alone does not count as truth.
   const Scene scene = small_scene(
       "[[particle]]\nposition = [0, 1.02, 0]\nmass = 1\nvelocity = [1, 0, 0]\n" +
       twice("[[sphere]]\ncentre = [0, 0, 0]\nradius = 1\nmargin = 0.02\nfriction = 0.2\n[sphere.motion]\namplitude = "

@@ -1,4 +1,4 @@
-// The kernels of the general spring kernel, DIA and COO, against the plain edge loop, on every instruction set.
+// The DIA and COO kernels for general springs against the plain edge loop, on every instruction set.
 
 #include <cstdlib>
 #include <set>
@@ -20,12 +20,12 @@ struct SpringGraph {
   Points x;
 };
 
-/// The plain loop costs so much that it takes no spring; DIA costs nothing, or too much.
+/// The plain loop is too expensive to get any spring; DIA is either free or too expensive.
 constexpr Costs into_dia{.coefficient_row = 0, .tile = 0, .coo_spring = 1, .coo_particle = 0, .plain = 1e9, .call = 0};
 constexpr Costs into_coo{
     .coefficient_row = 1e9, .tile = 0, .coo_spring = 1, .coo_particle = 0, .plain = 1e9, .call = 0};
 
-/// As SpringKernel, but with a given instruction set and other costs.
+/// SpringKernel with a given instruction set and other costs.
 struct PartitionedSprings {
   spring_graph::SpringPartition partition;
   spring_graph::Kernels kernels;
@@ -63,8 +63,7 @@ SpringGraph random_points(Random& random, int particles, SpringLaw law) {
 
 int whole(Random& random, int end) { return std::min(end - 1, static_cast<int>(random.between(0, end))); }
 
-/// So many springs between any two of few particles, of which the last has none: springs repeat, some lie between ends
-/// that meet.
+/// Random springs between few particles, the last of which has none. Springs repeat, and some have coincident ends.
 SpringGraph tangle(unsigned seed, int springs, SpringLaw law) {
   Random random(seed);
   const int n = 3 + springs / 3;
@@ -77,7 +76,7 @@ SpringGraph tangle(unsigned seed, int springs, SpringLaw law) {
   return net;
 }
 
-/// Particles with 1, 2, 3 ... 40 springs to others of many.
+/// Particles with 1, 2, 3 ... 40 springs each, to many other particles.
 SpringGraph hubs(unsigned seed, SpringLaw law) {
   Random random(seed);
   const int n = 200;
@@ -88,8 +87,8 @@ SpringGraph hubs(unsigned seed, SpringLaw law) {
   return net;
 }
 
-/// Springs of the given offsets, one in five left out, one in twenty twice; the last offset begins late and ends early.
-/// Some neighbours meet.
+/// Springs of the given offsets, with one in five omitted and one in twenty duplicated. The last offset starts late and
+/// ends early. Some neighbours coincide.
 SpringGraph strands(unsigned seed, int particles, const std::vector<int>& offsets, SpringLaw law) {
   Random random(seed);
   SpringGraph net = random_points(random, particles, law);
@@ -113,14 +112,14 @@ std::vector<std::pair<std::string, SpringGraph>> networks(SpringLaw law) {
   for (unsigned seed = 1; seed <= 5; ++seed) all.emplace_back(fmt::format("hubs {}", seed), hubs(seed, law));
   for (int particles = 2; particles <= 70; ++particles)
     all.emplace_back(fmt::format("strands of {}", particles), strands(particles, particles, {1, 2, 3, 8, 21}, law));
-  // rings that are just long enough, and offsets around tiles
+  // rings of minimal length, and offsets around tile sizes
   for (unsigned seed = 1; seed <= 5; ++seed)
     all.emplace_back(fmt::format("strands far apart {}", seed),
                      strands(seed, 700, {1, 7, 8, 9, 39, 40, 41, 103, 104, 232, 233, 5}, law));
   return all;
 }
 
-/// Each spring's force is the plain loop's to the last bit. Sums are rounded once for each spring, in either order.
+/// Each spring's force equals the plain loop's bit for bit. Sums have one rounding per spring, in either order.
 void expect_close(const SpringGraph& net, const Forces& fast, const Forces& plain) {
   const int n = static_cast<int>(net.x.cols());
   Eigen::ArrayXd sizes = Eigen::ArrayXd::Zero(n);
@@ -153,13 +152,13 @@ TEST(SpringGraph, DiaAndCooAreTheEdgeLoopButForTheOrderOfTheSum) {
           EXPECT_TRUE(sorted.partition.plain.empty());
           const Forces fast = sorted.forces(net.x);
           expect_close(net, fast, plain);
-          EXPECT_EQ(sorted.forces(net.x).f, fast.f) << "asked again";
-          // elsewhere and back: nothing of one evaluation is left for the next
+          EXPECT_EQ(sorted.forces(net.x).f, fast.f) << "repeated evaluation";
+          // an evaluation elsewhere leaves no traces in the next one
           sorted.forces(2 * net.x.rowwise().reverse());
           EXPECT_EQ(sorted.forces(net.x).f, fast.f);
         }
     }
-  EXPECT_GE(degenerate_springs, 100);  // ends that meet were tried
+  EXPECT_GE(degenerate_springs, 100);  // includes coincident ends
 }
 
 TEST(SpringGraph, InstructionsGiveTheSameBits) {
@@ -173,7 +172,7 @@ TEST(SpringGraph, InstructionsGiveTheSameBits) {
         }
 }
 
-/// A force near the rest length is the small difference of large numbers: at rest it is 0, not the rounding of these.
+/// Forces near the rest length are small differences of large numbers. At rest they are exactly 0, not rounding errors.
 TEST(SpringGraph, SpringsAtRestPullAtNothing) {
   Random random(3);
   SpringGraph net = random_points(random, 100, SpringLaw::hooke);
@@ -190,10 +189,10 @@ TEST(SpringGraph, PartitionsAtTheLeastCost) {
   const auto partition = [](const SpringGraph& net) {
     return spring_graph::partition_springs(net.springs.list, static_cast<int>(net.x.cols()), {});
   };
-  // a pendulum and a short chain are not worth lanes
+  // a pendulum and a short chain are too small for SIMD lanes
   EXPECT_EQ(partition(strands(1, 2, {1}, SpringLaw::hooke)).plain.size(), 1u);
   EXPECT_EQ(partition(strands(1, 8, {1}, SpringLaw::hooke)).dia.size(), 0u);
-  // what is numbered row by row is taken, but for springs that are there twice and a few across
+  // springs numbered row by row go to DIA, except duplicates and a few long ones
   SpringGraph net = strands(1, 400, {1, 2, 20, 21, 19, 40}, SpringLaw::hooke);
   net.springs.list.push_back({3, 350, 1, 1, Family::single});
   const spring_graph::SpringPartition parts = partition(net);
@@ -224,7 +223,7 @@ TEST(SpringGraph, SpringKernelRunsOnTheRequestedInstructions) {
     kernel.add_force(net.x, fast);
     expect_close(net, fast, plain);
   }
-  const ScopedInstructionSet any_set(InstructionSet::baseline);  // and all is as before, afterwards
+  const ScopedInstructionSet any_set(InstructionSet::baseline);  // restores the instruction set afterwards
   unsetenv("CROSSCHECK_INSTRUCTIONS");
   EXPECT_EQ(SpringKernel(net.springs, 300).isa(), simd::supported_instruction_sets().back());
 }
