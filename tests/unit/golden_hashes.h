@@ -1,5 +1,5 @@
-// Hashes of the state after 1000 steps of every shipped scene, by every rule with the same bits on every machine
-// (has_same_bits_everywhere), kept in reference/baselines/golden-hashes.csv.
+// Hashes of the state after 1000 steps of every shipped scene, for every rule with identical results on every machine
+// (has_same_bits_everywhere), stored in reference/baselines/golden-hashes.csv.
 #pragma once
 
 #include <map>
@@ -29,7 +29,7 @@ inline GoldenHashes golden_hashes() {
 }
 
 inline constexpr int golden_steps = 1000;
-/// s: long enough for these steps, and a whole number of the scene's sampling intervals.
+/// Duration (s) that covers these steps and is a multiple of the scene's sampling interval.
 inline double golden_duration(const Scene& scene) {
   const double interval = scene.duration / scene.samples;
   return std::max(scene.duration, std::ceil(golden_steps * scene.step / interval) * interval);

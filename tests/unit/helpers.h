@@ -1,4 +1,4 @@
-// What unit tests share: seeded numbers, small scenes, shipped scenes by name, runs, and distances over time.
+// Shared by unit tests: seeded random numbers, small scenes, shipped scenes by name, runs, and distances over time.
 #pragma once
 
 #include <fmt/format.h>
@@ -19,16 +19,16 @@
 
 namespace crosscheck::testing_tools {
 
-// What several unit tests share: seeded numbers, small scenes, runs, and distances over time.
+// Shared by unit tests: seeded random numbers, small scenes, runs, and distances over time.
 
 inline constexpr double eps = std::numeric_limits<double>::epsilon();
 
-/// Seeded numbers, the same with every standard library.
+/// Seeded random numbers, identical with every standard library.
 class Random {
  public:
   explicit Random(unsigned seed) : engine_(seed) {}
   double between(double low, double high) { return low + (high - low) * uniform(engine_); }
-  Vec3 vector() {  // each part in [-1, 1]; drawn in a fixed order
+  Vec3 vector() {  // components in [-1, 1], drawn in a fixed order
     Vec3 v;
     for (double& part : v) part = between(-1, 1);
     return v;
@@ -44,24 +44,24 @@ inline const Stepper& stepper(std::string_view name) {
   throw std::out_of_range("no stepper " + std::string(name));
 }
 
-/// The same rule at a fixed step, where the stepper would choose its steps by itself.
+/// The stepper with a fixed step, even if it is adaptive.
 inline Stepper at_fixed_step(Stepper s) {
   s.adaptive = false;
   return s;
 }
-/// Every row of the table, at a fixed step.
+/// Every row of the table, with a fixed step.
 inline std::vector<Stepper> fixed_steppers() {
   std::vector<Stepper> list;
   for (const Stepper& s : steppers()) list.push_back(at_fixed_step(s));
   return list;
 }
 
-/// Whether the stepper takes scenes with what this one has.
+/// True if the stepper supports the scene.
 inline bool takes(const Stepper& s, const Scene& scene) {
   return (!scene.model.first_order() || s.first_order) && (!scene.model.find<Constraints>() || s.hard_constraints);
 }
 
-/// The heading that every scene file needs; `more` holds particles and terms.
+/// Text of a scene file: the mandatory header, then `more`, which contains particles and terms.
 inline std::string scene_text(const std::string& more, double duration = 1, double step = 1e-3, int samples = 10) {
   return fmt::format(
              "question = \"q\"\nparameters = \"p\"\n[time]\nduration = {}\nsamples = {}\nstep = {}\nwindow = {}\n"
@@ -73,10 +73,10 @@ inline Scene small_scene(const std::string& more, double duration = 1, double st
   return parse_scene(scene_text(more, duration, step, samples), "small");
 }
 
-/// Where the scenes that come with Crosscheck stand, and one of them.
+/// Folder of the scenes that come with Crosscheck.
 inline std::filesystem::path shipped_scene_folder() { return CROSSCHECK_SOURCE "/experiments/scenes"; }
 inline Scene shipped_scene(const std::string& name) { return read_scene(shipped_scene_folder() / (name + ".toml")); }
-/// The names of all, in the order of the alphabet.
+/// Names of all shipped scenes, sorted.
 inline std::vector<std::string> shipped_scene_names() {
   std::vector<std::string> names;
   for (const auto& entry : std::filesystem::directory_iterator(shipped_scene_folder()))
@@ -85,7 +85,7 @@ inline std::vector<std::string> shipped_scene_names() {
   return names;
 }
 
-/// The message of the InputError that the text causes; empty when it is a good scene.
+/// Message of the InputError that the text causes, or "" if the scene is valid.
 inline std::string message_of(const std::string& text) {
   try {
     parse_scene(text, "bad.toml");
@@ -97,8 +97,8 @@ inline std::string message_of(const std::string& text) {
 
 inline constexpr auto gravity_text = "[gravity]\nacceleration = [0, -9.81, 0]\n";
 
-/// A 5 x 5 cloth held along its upper edge, moved by hand, in gusts, with drag: every smooth ingredient at once but
-/// those of the next. `of_grid`: more keys of its grid, each with its line.
+/// A 5 x 5 cloth held along its moving upper edge, in gusts, with drag. It has every smooth ingredient except those of
+/// small_cloth_in_air. `of_grid`: more lines for the [grid] table.
 inline Scene small_cloth(const std::string& of_grid = "") {
   return small_scene("[grid]\nsize = [5, 5]\norigin = [-0.5, 0, 0]\nu = [1, 0, 0]\nv = [0, -0.9, 0.4]\n" + of_grid +
                      std::string("mass = 0.25\n[grid.stiffness]\nstructural = 40\nshear = 30\nbend = 20\n"
@@ -109,7 +109,7 @@ inline Scene small_cloth(const std::string& of_grid = "") {
                      gravity_text);
 }
 
-/// The same with bending and without wind, with springs that damp, in air that streams past.
+/// As small_cloth, with bending and dashpots, and with streaming air instead of wind.
 inline Scene small_cloth_in_air() {
   Scene scene = small_cloth("bending = 0.1\n");
   std::erase_if(scene.model.terms, [](const Term& t) { return std::holds_alternative<Wind>(t); });
@@ -130,14 +130,14 @@ inline Scene with_drag(Scene scene, double gamma) {
   return scene;
 }
 
-/// Runs mysim with Coulomb contact and without a watch.
+/// Runs mysim with Coulomb contact and without a divergence monitor.
 inline Trajectory trajectory_of(const Stepper& s, const Scene& scene, const Run& run) {
   Recorder recorder;
   simulate(s, ContactRule::coulomb, scene, run, recorder);
   return recorder.trajectory;
 }
 
-/// Largest RMS distance of two trajectories over time up to `until`, m. Both must have the same samples.
+/// Largest RMS distance (m) of two trajectories over time up to `until`. Both must have the same samples.
 inline double sup_rms(const Trajectory& a, const Trajectory& b, double until = INFINITY) {
   EXPECT_EQ(a.frames(), b.frames());
   double largest = 0;
@@ -148,7 +148,7 @@ inline double sup_rms(const Trajectory& a, const Trajectory& b, double until = I
   return largest;
 }
 
-/// Largest distance of a particle from its other self over time, m.
+/// Largest distance (m) over time between corresponding particles.
 inline double sup_distance(const Trajectory& a, const Trajectory& b, double until = INFINITY) {
   EXPECT_EQ(a.frames(), b.frames());
   double largest = 0;
@@ -159,7 +159,7 @@ inline double sup_distance(const Trajectory& a, const Trajectory& b, double unti
   return largest;
 }
 
-/// Largest deviation of the energy balance from its start, J.
+/// Largest deviation (J) of the energy balance from its initial value.
 inline double imbalance(const Stepper& s, const Scene& scene, const Run& run) {
   Ledger ledger(scene.model, ContactLoss::reported);
   simulate(s, ContactRule::coulomb, scene, run, ledger);
@@ -169,10 +169,10 @@ inline double imbalance(const Stepper& s, const Scene& scene, const Run& run) {
   return worst;
 }
 
-/// Same bits in every frame.
+/// True if both agree bit for bit in every frame.
 inline bool identical(const Trajectory& a, const Trajectory& b) { return a.t == b.t && a.x == b.x && a.v == b.v; }
 
-/// Messages: what is asked of them, and what was there when it is not so.
+/// Checks on messages; failures show the actual text.
 inline ::testing::AssertionResult contains(const std::string& text, const std::string& part) {
   if (text.find(part) != std::string::npos) return ::testing::AssertionSuccess();
   return ::testing::AssertionFailure() << "'" << part << "' is not in '" << text << "'";
@@ -182,7 +182,7 @@ inline ::testing::AssertionResult begins(const std::string& text, const std::str
   return ::testing::AssertionFailure() << "'" << text << "' does not begin with '" << part << "'";
 }
 
-/// True if the sentence has these numbers, names and key words, in this order; the words around them are free.
+/// Succeeds if the sentence contains these numbers, names and key words in this order. The words in between are free.
 inline ::testing::AssertionResult says(const std::string& sentence, std::initializer_list<std::string_view> parts) {
   size_t at = 0;
   for (const std::string_view part : parts) {
@@ -193,12 +193,12 @@ inline ::testing::AssertionResult says(const std::string& sentence, std::initial
   return ::testing::AssertionSuccess();
 }
 
-/// Slope of the error between a step and half of it.
+/// Order of convergence from the errors with a step and half of it.
 inline double slope(double coarse, double fine) { return std::log2(coarse / fine); }
 
-// What bad input is told.
+// Messages on bad input.
 
-/// The message of the InputError that f throws; empty when it throws none.
+/// Message of the InputError that f throws, or "".
 template <class F>
 std::string refusal_of(F f) {
   try {
@@ -209,9 +209,9 @@ std::string refusal_of(F f) {
   return "";
 }
 
-// Runs that nobody stops.
+// Runs without a stop.
 
-/// The first step at which a run that nobody stops is more than ten times as fast as `speed`, by central differences.
+/// First step at which an unstopped run is more than ten times as fast as `speed`, by central differences.
 inline long step_of_leaving(const Scene& scene, const crosscheck::Run& run, const char* rule, double speed) {
   struct Free : Observer {
     explicit Free(double fastest) : most(fastest) {}

@@ -1,5 +1,5 @@
-// Limits of whole scenes: spectra against closed forms and against the code's own Jacobian, and runs that hold just
-// below the predicted limit and fail just above.
+// Stability limits of whole scenes: spectra against closed forms and against the code's own Jacobian, and runs that are
+// stable just below the predicted limit and fail just above it.
 
 #include "experiments/stability/limit.h"
 #include "experiments/stability/margin.h"
@@ -39,19 +39,20 @@ TEST(Spectrum, OfAStretchedChainIsItsClosedForm) {
   std::vector<double> expected;
   for (int i = 1; i <= 8; ++i) {
     const double sine = 2 * std::sin(i * M_PI / 18);
-    expected.push_back(std::sqrt(100 / 0.1) * sine);  // along
+    expected.push_back(std::sqrt(100 / 0.1) * sine);  // longitudinal
     for (int side : {0, 1})
-      (void)side, expected.push_back(std::sqrt(2.5 / 0.275 / 0.1) * sine);  // across: tension over length
+      (void)side, expected.push_back(std::sqrt(2.5 / 0.275 / 0.1) * sine);  // transverse: tension over length
   }
   std::sort(expected.begin(), expected.end());
   const auto found = frequencies(base.spectrum);
   ASSERT_EQ(found.size(), expected.size());
-  // the rest is found to 1e-11 of what the springs could do, 2e-8 m/s^2, which the slowest mode (11 / s^2) turns into
-  // 2e-9 m: 1e-7 of the stretch and the tension, half of it of frequencies
+  // The equilibrium is solved to 1e-11 of what the springs could exert, 2e-8 m/s^2. The slowest mode (11 / s^2) turns
+  // this into 2e-9 m: 1e-7 of the stretch and the tension, and half of that for frequencies.
   for (size_t i = 0; i < found.size(); ++i) EXPECT_NEAR(found[i], expected[i], 1e-7 * expected.back());
 }
 
-/// Eigenvalues of the code's Jacobian by central differences of its own accelerations, offsets and speeds.
+/// Eigenvalues of the code's Jacobian, by central differences of its accelerations with respect to positions and
+/// velocities.
 Eigen::VectorXcd rates_by_differences(const Scene& scene) {
   System f(scene.model);
   const Linearised l = linearised(scene.model, scene.start);
@@ -74,7 +75,7 @@ Eigen::VectorXcd rates_by_differences(const Scene& scene) {
   return eigenvalues(a);
 }
 
-/// A small net at rest whose drag rates differ and whose springs damp: damping and stiffness have different modes.
+/// A small net at rest with differing drag rates and damped springs: damping and stiffness do not share modes.
 Scene mixed_net() {
   Scene scene = small_scene(std::string("[grid]\nsize = [3, 3]\norigin = [0, 0, 0]\nu = [1, 0, 0]\nv = [0, 0, 1]\n"
                                         "mass = 0.9\n[grid.stiffness]\nstructural = 100\nshear = 60\nbend = 40\n"
@@ -99,7 +100,7 @@ TEST(Spectrum, OfMixedDampingHasTheRatesOfTheCode) {
     double nearest = INFINITY;
     for (const Vibration& v : base.spectrum.modes)
       nearest = std::min(nearest, std::hypot(v.omega - std::abs(z), v.gamma + 2 * z.real()));
-    // differences over 1e-5 m of accelerations of thousands of m/s^2, third derivatives included
+    // Differences over 1e-5 m of accelerations of thousands of m/s^2, including third derivatives.
     EXPECT_LT(nearest, 1e-4 * base.spectrum.omega) << z.real() << " + " << z.imag() << " i";
   }
 }
@@ -114,13 +115,13 @@ TEST(Spectrum, LanczosFindsTheEndsOfTheDenseSpectrum) {
   EXPECT_NEAR(found.front(), std::sqrt(dense[0]), 1e-4 * found.front());
 }
 
-/// Largest absolute eigenvalue of one step of the code about the state, by central differences.
+/// Spectral radius of one step of the code, linearised about the state by central differences.
 double step_radius(const Stepper& rule, const Scene& scene, double h) {
   const Linearised l = linearised(scene.model, scene.start);
   const int n = l.size();
   constexpr double d = 1e-6;
   Eigen::MatrixXd a(2 * n, 2 * n);
-  const double unit = 1 / h;  // velocities in units of offsets a step
+  const double unit = 1 / h;  // velocities in units of displacement per step
   for (int j = 0; j < 2 * n; ++j) {
     State side[2] = {scene.start, scene.start};
     for (const int s : {0, 1}) {
@@ -148,7 +149,7 @@ TEST(PredictedLimit, OfMixedDampingIsWhereTheStepMatrixTurnsUnstable) {
     if (!std::isfinite(p.limit)) continue;
     ++finite;
     ASSERT_GT(p.limit, 0);
-    // differences: some 1e-9; eigenvalues that meet are known to the root of that
+    // Differences are accurate to about 1e-9. Coincident eigenvalues are known to the square root of that.
     EXPECT_LE(step_radius(rule, base.scene, 0.98 * p.limit), 1 + 1e-4);
     EXPECT_GT(step_radius(rule, base.scene, 1.02 * p.limit), 1 + 1e-4);
   }
@@ -170,7 +171,8 @@ TEST(PredictedLimit, OfFastRatesAloneIsToldWhereTheyBind) {
   net.model.find<Drag>()->c[20] *= 3;
   const BaseState base = base_state_of(net);
   ASSERT_FALSE(base.spectrum.complete || base.spectrum.commuting);
-  // bound by the least damping beside its stiffness, which none of the four fastest rates need have
+  // These rules are limited by the mode with the least damping relative to its stiffness, which need not be among the
+  // four fastest.
   for (const char* rule : {"explicit-euler", "trapezoidal", "dopri5"})
     EXPECT_TRUE(contains(predicted_limit(stepper(rule), base.spectrum).missing, "only the fastest rates")) << rule;
   const PredictedLimit p = predicted_limit(stepper("rk4"), base.spectrum);
@@ -215,7 +217,7 @@ TEST(LargestStep, IsBracketedFromBothSides) {
   EXPECT_EQ(largest_step([](double) { return false; }, 1, 1e-4, 100, 0.01).kind, MeasuredLimit::no_step);
 }
 
-/// Every fixed-step method of mysim's, and those of others that follow one of their rules.
+/// Every fixed-step method of mysim, and other methods that follow one of their rules.
 std::vector<Method> methods_with_limits() {
   std::vector<Method> methods;
   for (Method& m : all_methods())
@@ -244,7 +246,7 @@ TEST(MeasuredLimit, OnLinearScenesHoldsTwoPerCentBelowAndFailsTwoPerCentAbove) {
   EXPECT_EQ(tried, 3 * 6 + 3 * 8);  // without drag explicit Euler and trapezoidal have no stable step
 }
 
-/// Rounding in single precision is no growth: the limit is that of the same rule in double precision.
+/// Rounding in single precision does not count as growth: the limit equals that of the same rule in double precision.
 TEST(MeasuredLimit, OfSinglePrecisionIsThePredictedOneToTwoPerCent) {
   const BaseState base = base_state_of(load_scene("chain-link"));
   const Method single = find_method("bullet32/deformable-explicit");
@@ -258,7 +260,7 @@ TEST(MeasuredLimit, IsThePredictedOneToOnePerCent) {
   for (const Scene& scene : {with_drag(load_scene("spring"), 2), with_drag(load_scene("normal-modes"), 5)}) {
     const BaseState base = base_state_of(scene);
     for (const Method& method : methods_with_limits()) {
-      if (!method.stepper) continue;  // theirs are tried above
+      if (!method.stepper) continue;  // methods without a stepper of mysim are tested above
       SCOPED_TRACE(fmt::format("{} on {}", method.name, scene.name));
       const PredictedLimit p = predicted_limit(*method.stepper, base.spectrum);
       const MeasuredLimit m = measured_limit(method, base, 1000, {p.mode}, 0.005);
@@ -279,19 +281,19 @@ TEST(MeasuredLimit, OfAKilogramOnASpringIsThatOfTheRuleWhereverTheSearchBegins) 
       const MeasuredLimit m = measured_limit(find_method(name), base, 4000, {}, 0.002);
       ASSERT_EQ(m.kind, MeasuredLimit::found);
       EXPECT_NEAR(m.limit() / (stepper(name).limit(10, 0)), 1, 0.01);
-      // no power of two of the time scale, as where a search begins at theory's
+      // A search that started at the theoretical limit would hit it exactly. This one stays below.
       EXPECT_LT(m.held, stepper(name).limit(10, 0));
     }
   }
 }
 
 TEST(Equilibrium, ThatIsASaddleIsLeftForTheRestBesideIt) {
-  // upright, held at two corners: in its plane the springs between the corners are pushed together
+  // Upright and held at two corners: the springs between the corners are compressed in the plane of the cloth.
   const Scene cloth = small_scene(
       std::string("[grid]\nsize = [6, 7]\norigin = [-0.5, 0, 0]\nu = [1, 0, 0]\nv = [0, -1, 0]\nmass = 0.25\n"
                   "[grid.stiffness]\nstructural = 200\nshear = 200\nbend = 200\n[pins]\nparticles = [0, 5]\n") +
       gravity_text);
-  // a mass that stands on its spring
+  // a mass balanced on top of its spring
   const Scene upright = small_scene(
       std::string("[[particle]]\nposition = [0, 0, 0]\nmass = 1\n[[particle]]\nposition = [0, 1, 0]\nmass = 1\n"
                   "[[spring]]\nends = [0, 1]\nstiffness = 100\nrest = 1\n[pins]\nparticles = [0]\n") +
@@ -303,7 +305,7 @@ TEST(Equilibrium, ThatIsASaddleIsLeftForTheRestBesideIt) {
     EXPECT_TRUE(contains(saddle_note(base), "is a saddle, not a rest"));
     const Eigen::VectorXd squares = symmetric_eigenvalues(Eigen::MatrixXd(base.spectrum.system.k));
     EXPECT_GT(squares[0], -1e-8 * squares[squares.size() - 1]);
-    // what the table measures there is what theory says there
+    // the measured limit agrees with theory at the neighbouring equilibrium
     const MeasuredLimit m = measured_limit(find_method("leapfrog"), base, 1000, {}, 0.005);
     ASSERT_EQ(m.kind, MeasuredLimit::found);
     EXPECT_NEAR(m.limit() * base.spectrum.omega, 2, 0.02);
@@ -312,7 +314,7 @@ TEST(Equilibrium, ThatIsASaddleIsLeftForTheRestBesideIt) {
 }
 
 TEST(Outlook, TellsSmallMarginsAndCertainGrowth) {
-  // pulled along and free across: at rest omega^2 = 2 k / m along, and no more however far it is stretched
+  // Stretched along and free across: omega^2 = 2 k / m along the springs at rest, and no more for any stretch.
   const Scene net = with_grid("cloth-hang", 5);
   Scene free = net;
   std::erase_if(free.model.terms, [](const Term& t) { return std::holds_alternative<Drag>(t); });
@@ -342,7 +344,8 @@ TEST(MeasuredLimit, WithoutDragTwoRulesHaveNoStableStepAndGrowAsTheFormulaSays) 
       for (const double z : {0.1, 0.3}) {
         const double expected = method.stepper->order == 1 ? std::sqrt(1 + z * z) : std::sqrt(1 + z * z * z * z / 4);
         const PerturbedRun trial = run_perturbed(method, base, z / omega, 200, {mode});
-        // rounding of 1e-16 m in a kick of 1.5e-8 of a spring, two hundred times, and the kick's own nonlinearity
+        // Rounding of 1e-16 m relative to a kick of 1.5e-8 of a spring, accumulated over two hundred steps, and the
+        // nonlinearity of the kick.
         EXPECT_NEAR(std::log(trial.per_step) / std::log(expected), 1, 1e-2);
       }
     }
@@ -351,7 +354,8 @@ TEST(MeasuredLimit, WithoutDragTwoRulesHaveNoStableStepAndGrowAsTheFormulaSays) 
 }
 
 TEST(MeasuredLimit, ImplicitRulesHaveNone) {
-  // one Gauss-Seidel pass over springs that pull against each other rests beside their rest: that is no growth
+  // One Gauss-Seidel pass over springs that pull against each other settles next to their equilibrium, which is not
+  // growth.
   for (const char* scene : {"spring", "normal-modes"}) {
     const BaseState base = base_state_of(load_scene(scene));
     for (const char* rule : {"implicit-euler", "implicit-midpoint", "xpbd", "implicit-euler+linear"})
@@ -374,7 +378,7 @@ TEST(MeasuredLimit, EndsAtARefusalOnlyWhereThatComesFirst) {
     EXPECT_EQ(m.kind, refused < limit ? MeasuredLimit::refused_above : MeasuredLimit::found);
     EXPECT_LT(m.held, std::min(refused, limit));
     EXPECT_GT(m.held, std::min(refused, limit) / 1.1);
-    // above the limit no step so long was tried
+    // If the limit is below the refusal threshold, no refused step was tried.
     EXPECT_EQ(m.reason.ends_with(" s has no answer: too long"), refused < limit) << m.reason;
   }
 }
@@ -389,7 +393,7 @@ TEST(MeasuredLimit, OfAProgramThatDiesIsNone) {
       return out;
     };
     const MeasuredLimit m = measured_limit(dying, base_state_of(load_scene("spring")), 300, {}, 0.1);
-    EXPECT_EQ(m.kind, MeasuredLimit::unsupported) << "and not: no step holds";
+    EXPECT_EQ(m.kind, MeasuredLimit::unsupported) << "must not be reported as 'no stable step'";
     EXPECT_EQ(m.reason, "it lacks a library");
   }
 }
@@ -400,7 +404,7 @@ TEST(MeasuredLimit, OfARotationIsSeenInTheFactorOfEachStep) {
     EXPECT_EQ(measured_limit(find_method(rule), base, 4000, {0}, 0.01).kind, MeasuredLimit::no_step) << rule;
   const PerturbedRun slow = run_perturbed(find_method("trapezoidal"), base, 1. / 16, 4000, {0});
   ASSERT_TRUE(slow.of_mode);
-  // 1.9e-6 a step, to the rounding of |x| in each of 4000 steps
+  // growth of 1.9e-6 per step, up to the rounding of |x| in each of 4000 steps
   EXPECT_NEAR(slow.per_step - 1, std::sqrt(1 + std::pow(16., -4) / 4) - 1, 1e-12);
   const MeasuredLimit rk4 = measured_limit(find_method("rk4"), base, 1000, {0}, 0.002);
   EXPECT_EQ(rk4.kind, MeasuredLimit::found);
@@ -408,7 +412,7 @@ TEST(MeasuredLimit, OfARotationIsSeenInTheFactorOfEachStep) {
 }
 
 TEST(Kicks, AreBesideTheShortestSpringThatHasALength) {
-  // a particle on a spring, and one that sits on it by a spring of no length
+  // a particle on a spring, and another at the same place, attached by a spring of zero length
   const Scene scene = small_scene(
       "[[particle]]\nposition = [0, 0, 0]\nmass = 1\n[[particle]]\nposition = [0.5, 0, 0]\nmass = 1\n"
       "[[particle]]\nposition = [0.5, 0, 0]\nmass = 1\n[[spring]]\nends = [0, 1]\nstiffness = 100\n"
@@ -419,8 +423,8 @@ TEST(Kicks, AreBesideTheShortestSpringThatHasALength) {
 }
 
 TEST(MeasuredLimit, OfASceneWithoutRestIsHeldAgainstTheTruthOnBothSides) {
-  // two masses on a spring, stretched a little, fall on a ball: by 2 / omega = 2 / sqrt(2 k / m) leapfrog holds up to
-  // 14 ms
+  // Two masses on a slightly stretched spring fall on a ball. From 2 / omega = 2 / sqrt(2 k / m), leapfrog is stable up
+  // to 14 ms.
   Scene scene = small_scene(std::string("[[particle]]\nposition = [0, 1.1, 0]\nmass = 0.1\n[[particle]]\n"
                                         "position = [0.501, 1.1, 0]\nmass = 0.1\n[[spring]]\nends = [0, 1]\n"
                                         "stiffness = 1000\nrest = 0.5\n[sphere]\ncentre = [0, 0, 0]\nradius = 1\n"
@@ -438,13 +442,13 @@ TEST(MeasuredLimit, OfASceneWithoutRestIsHeldAgainstTheTruthOnBothSides) {
   EXPECT_LE(*row.step_below, *row.held);
   EXPECT_GE(*row.step_above, *row.failed);
   for (const double step : {*row.step_below, *row.step_above})
-    EXPECT_NEAR(0.03 / step, std::round(0.03 / step), 1e-9) << "it divides the time between samples";
+    EXPECT_NEAR(0.03 / step, std::round(0.03 / step), 1e-9) << "the step must divide the sampling interval";
   fmt::print("pair on a ball: {:.3g} of the motion below, {:.3g} above\n", *row.error_below / *row.motion,
              *row.error_above / *row.motion);
   EXPECT_GT(*row.error_below, *row.truth_bar);
   EXPECT_LT(*row.error_below, 0.1 * *row.motion);
   EXPECT_GT(*row.error_above, 0.1 * *row.motion);
-  // a scene with a rest is told by theory
+  // scenes with an equilibrium need theory only
   TableSet of_rest;
   add_limit(vertical_chain(0), find_method("leapfrog"), {400, 0.01}, of_rest);
   EXPECT_FALSE(rows_of<LimitRow>(*of_rest.table("stability"))[0].error_below);

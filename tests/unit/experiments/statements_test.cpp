@@ -1,4 +1,4 @@
-// Statements that were once untrue, in texts that no table feeds: they stay mended.
+// Corrected statements in texts that no table feeds must remain correct.
 
 #include <fstream>
 
@@ -19,7 +19,7 @@ std::string file_text(const std::string& name) {
   return {std::istreambuf_iterator<char>(in), {}};
 }
 
-/// The lines of the README of `reference` that hold a word.
+/// Lines of the README of `reference` that contain a string.
 std::vector<std::string> lines_with(const std::string& word) {
   std::vector<std::string> lines;
   std::istringstream in(file_text("reference/README.md"));
@@ -29,7 +29,7 @@ std::vector<std::string> lines_with(const std::string& word) {
 }
 
 TEST(Statements, BulletsExplicitWorldIsSymplecticEulerWhereItSaysSoItself) {
-  // with dashpots the world reports another law, and the README must not claim the same rule there
+  // With dashpots the world reports a different law, so the README must not claim the same rule there.
   const Scene jelly = load_scene("jelly");
   ASSERT_TRUE(jelly.model.find<Dashpots>());
   const Outcome with = run_and_record("bullet/deformable-explicit", jelly, {jelly.step, 2 * jelly.step, 1}).outcome;
@@ -41,7 +41,7 @@ TEST(Statements, BulletsExplicitWorldIsSymplecticEulerWhereItSaysSoItself) {
 }
 
 TEST(Statements, MethodsNameNoOptionThatTheyRefuse) {
-  // `run` refuses --step for whoever chooses its steps
+  // `run` refuses --step for adaptive methods
   for (const Stepper& s : steppers()) {
     if (!s.adaptive) continue;
     std::string what(s.what);
@@ -56,7 +56,7 @@ TEST(Statements, OrderSaysWhyItLeavesOutLargeScenes) {
   request.scenes = {load_scene("cloth-hang")};
   const TableSet tables = computed(find_experiment("order").points(request));
   ASSERT_EQ(tables.notes.size(), 1u);
-  // the order of four rules shows on it in speed-accuracy: 1.00, 2.02, 4.14 and 4.02 are measured
+  // speed-accuracy shows the order of four rules on this scene: 1.00, 2.02, 4.14 and 4.02 are measured
   EXPECT_EQ(tables.notes[0],
             "order leaves out cloth-hang: its runs would cost much; speed-accuracy has its error over the step");
 }

@@ -1,4 +1,4 @@
-// Sweeps: points are computed once, wherever and in whatever order; what fails is named; parts join to the whole.
+// Sweeps: each point is computed once, wherever and in whatever order; failures are named; shards merge into the whole.
 
 #include <fcntl.h>
 #include <sys/file.h>
@@ -28,7 +28,7 @@ namespace {
 using namespace testing_tools;
 namespace fs = std::filesystem;
 
-/// Whether the call throws an E whose message has the part.
+/// Succeeds if the call throws an E whose message contains `part`.
 template <class E, class F>
 ::testing::AssertionResult throws(F call, const std::string& part) {
   try {
@@ -36,7 +36,7 @@ template <class E, class F>
   } catch (const E& error) {
     return contains(error.what(), part);
   }
-  return ::testing::AssertionFailure() << "nothing was thrown";
+  return ::testing::AssertionFailure() << "no exception was thrown";
 }
 
 class Sweep : public InFolder {
@@ -54,7 +54,7 @@ class Sweep : public InFolder {
     for (int i = 0; i < count; ++i) points.push_back(point("p" + std::to_string(i), 1.0 / (i + 3)));
     return points;
   }
-  /// Points run in other processes: they say that they ran in a file.
+  /// Records in a file that a point ran, because points run in other processes.
   void note(const std::string& name) const { std::ofstream(folder_ / "ran", std::ios::app) << name << "\n"; }
   std::vector<std::string> ran() const {
     std::ifstream in(folder_ / "ran");
@@ -73,7 +73,7 @@ class Sweep : public InFolder {
 
   void SetUp() override {
     InFolder::SetUp();
-    setenv("CROSSCHECK_LOCK", (folder_ / "lock").c_str(), 1);  // or another run on this machine is waited for
+    setenv("CROSSCHECK_LOCK", (folder_ / "lock").c_str(), 1);  // avoids waiting for other runs
     store = Store(folder_ / "points");
   }
   Store store{""};
@@ -160,7 +160,7 @@ TEST_F(Sweep, WaitsForTheMachineALimitedTimeAndMarksTimesMeasuredBesideOtherWork
   EXPECT_TRUE(missing.empty());
   ASSERT_EQ(all.notes.size(), 2u);
   EXPECT_TRUE(contains(all.notes[0], "p2 was timed beside other work"));
-  // the patience is one for all locks, and one that is free is had without any
+  // All locks share one patience, and a free lock is acquired without any.
   LockPatience little(0.1), none(0);
   EXPECT_FALSE(MachineLock(MachineLock::Mode::shared, little).held());
   close(other);
@@ -185,7 +185,7 @@ TEST_F(Sweep, AllMeasurementsOfACommandWaitTogetherNoLongerThanTheLimit) {
     EXPECT_EQ(whole(timed).notes.size(), 1u);
     EXPECT_EQ(time_round_robin(turns, {1, 1e-5}, patience).size(), 1u);
   }
-  // six waits of their own would take 6 limits; the work itself takes 20 ms
+  // Six separate waits would take 6 limits. The work itself takes 20 ms.
   EXPECT_LT(std::chrono::duration<double>(std::chrono::steady_clock::now() - begun).count(), 4 * limit);
   close(other);
 }
@@ -240,7 +240,7 @@ TEST_F(Sweep, AnotherContentOrNameIsAnotherPoint) {
   Point a = point("a", 1), b = a, c = a;
   b.content += " step=2";
   c.name = "b";
-  EXPECT_EQ(a.hash(), point("a", 2).hash());  // what is computed does not count, what it depends on does
+  EXPECT_EQ(a.hash(), point("a", 2).hash());  // the hash ignores the computation and includes its inputs
   EXPECT_NE(a.hash(), b.hash());
   EXPECT_NE(a.hash(), c.hash());
   EXPECT_EQ(a.hash().size(), 16u);
@@ -259,7 +259,7 @@ TEST_F(Sweep, WhatThrowsOrDiesIsNamedAndTheOthersGoOn) {
   EXPECT_EQ(failed["p4"], "it ended early");
   whole(points);
   EXPECT_EQ(missing, (std::vector<std::string>{"p1", "p3", "p4"}));
-  // mended, they are computed, and no failure stays behind
+  // once repaired, the points are computed, and no failure remains
   EXPECT_TRUE(run(several(6)).empty());
 }
 
@@ -296,7 +296,7 @@ TEST_F(Sweep, EndsWhereChildrenAreIgnored) {
   const auto before = std::signal(SIGCHLD, SIG_IGN);
   const pid_t child = fork();
   if (child == 0) {
-    alarm(20);  // it would wait for ever
+    alarm(20);  // otherwise it would wait for ever
     _exit(run(several(3)).empty() ? 0 : 1);
   }
   std::signal(SIGCHLD, before);
@@ -318,14 +318,14 @@ TEST_F(Sweep, KilledInTheMiddleItLosesNothingThatWasFinished) {
     run(points, {LockPatience(), 1});
     _exit(0);
   }
-  while (ran().size() < 6) usleep(1000);  // five points, and the slow one has begun
-  kill(child, SIGKILL);                   // the worker dies with it
+  while (ran().size() < 6) usleep(1000);  // five points, and the slow one has started
+  kill(child, SIGKILL);                   // and its worker
   waitpid(child, nullptr, 0);
   usleep(700000);
   run(several(8), {LockPatience(), 1});
   const std::vector<std::string> names = ran();
   EXPECT_EQ(std::set<std::string>(names.begin(), names.end()).size(), 9u);
-  EXPECT_EQ(names.size(), 9u) << "nothing twice";
+  EXPECT_EQ(names.size(), 9u) << "no point runs twice";
   EXPECT_EQ(text(whole(several(8))), text(computed(several(8))));
 }
 
@@ -363,7 +363,7 @@ TEST_F(Sweep, TimedPointsOfOneSweepWaitForThePointsOfAnother) {
   timed[0].timed = true;
   const pid_t child = fork();
   if (child == 0) {
-    setenv("TMPDIR", folder_.c_str(), 1);  // as batch systems give each job one of its own
+    setenv("TMPDIR", folder_.c_str(), 1);  // as batch systems set one per job
     run(others, {LockPatience(), 3});
     _exit(0);
   }

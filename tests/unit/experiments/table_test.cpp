@@ -1,4 +1,4 @@
-// Tables and files: CSV quoting, numbers that read back to the same bits, files written whole or not at all.
+// Tables and files: CSV quoting, numbers that survive a round trip bit for bit, and atomic writes.
 
 #include <unistd.h>
 
@@ -24,7 +24,7 @@ namespace {
 namespace fs = std::filesystem;
 using namespace testing_tools;
 
-/// An empty folder of its own, gone at the end.
+/// An empty temporary folder that the destructor removes.
 class Folder {
  public:
   explicit Folder(const std::string& name)
@@ -97,7 +97,7 @@ struct ProbeRow {
   bool operator==(const ProbeRow&) const = default;
 };
 
-/// The table as it comes back from its file.
+/// Writes the table and reads it back.
 Table read_back(const Table& table) {
   const Folder folder("rows");
   write_csv(table, {{"command", "test"}}, folder.path());
@@ -127,10 +127,10 @@ TEST(TypedTables, RowsComeBackFromTheirFileAsTheyWere) {
   EXPECT_EQ(rows_of<ProbeRow>(table), rows);
   EXPECT_EQ(rows_of<ProbeRow>(read_back(table)), rows);
   EXPECT_EQ(csv_row(table.rows[1]), "\"with, comma\",-3,-1,0,0,timeout,,,");
-  // columns without any value read as texts
+  // columns without any value are read as text
   table.rows = {table.rows[1]};
   EXPECT_EQ(rows_of<ProbeRow>(read_back(table)), std::vector{rows[1]});
-  // whole numbers of a file may stand for numbers, not the other way round
+  // A file's integers are accepted as floating-point numbers, but not vice versa.
   table.rows[0][2] = 0.5;
   EXPECT_TRUE(contains(refusal<ProbeRow>(table), "table probe, column count: expected a whole number"));
 }
@@ -158,7 +158,7 @@ TEST(Dictionary, SaysOfEveryColumnOnceWhatItIs) {
   std::set<std::pair<std::string, std::string>> seen;
   for (size_t i = 0; i < all.rows.size(); ++i) {
     const std::string table = text_at(all, i, "table"), column = text_at(all, i, "column");
-    EXPECT_TRUE(seen.insert({table, column}).second) << table << " " << column << " twice";
+    EXPECT_TRUE(seen.insert({table, column}).second) << table << " " << column << " is a duplicate";
     for (const char* said : {"unit", "type", "description"})
       EXPECT_FALSE(text_at(all, i, said).empty()) << table << " " << column;
   }
@@ -193,7 +193,7 @@ TEST(DeclaredTypes, AreThoseOfTheRowsWhateverTheFileLooksLike) {
     ASSERT_EQ(typed.rows.size(), table.rows.size());
     for (size_t i = 0; i < table.rows.size(); ++i) EXPECT_EQ(csv_row(typed.rows[i]), csv_row(table.rows[i]));
     if (table.name == "engines") {
-      EXPECT_EQ(std::get<double>(typed.at(0, "end")), 2) << "a number that happens to be whole";
+      EXPECT_EQ(std::get<double>(typed.at(0, "end")), 2) << "a floating-point number with an integer value";
     }
     EXPECT_EQ(typed.columns, table.columns);
     EXPECT_EQ(typed.name, table.name);
@@ -234,13 +234,13 @@ TEST(Files, UnwritablePathsAreNamedAndNothingIsLeft) {
   const Folder folder("unwritable");
   write_file(folder.path() / "file", "x");
   fs::create_directories(folder.path() / "taken" / "inside");
-  // below a file, in place of a folder that is not empty, in a file system that takes no files: root is refused as well
+  // Below a file, in place of a non-empty folder, and in a file system without regular files. These fail for root too.
   for (const fs::path& file :
        {folder.path() / "file" / "below.csv", folder.path() / "taken", fs::path("/proc/crosscheck.csv")}) {
     SCOPED_TRACE(file);
     try {
       write_file(file, "text");
-      ADD_FAILURE() << "written";
+      ADD_FAILURE() << "expected an error";
     } catch (const InputError& e) {
       EXPECT_TRUE(contains(e.what(), file.string() + ": cannot be written"));
       EXPECT_EQ(std::string(e.what()).find('\n'), std::string::npos);
@@ -265,7 +265,7 @@ TEST(Files, NamesKeepSafeCharactersOnly) {
   EXPECT_EQ(file_name_of("a b:c\\d*e?f\"g<h>i|j,k"), "a-b-c-d-e-f-g-h-i-j-k");
   EXPECT_EQ(file_name_of("AZaz09._=+-"), "AZaz09._=+-");
   EXPECT_EQ(file_name_of("caf\xc3\xa9"), "caf\xc3\xa9");
-  EXPECT_EQ(file_name_of("caf\xc3"), "caf-");  // no UTF-8
+  EXPECT_EQ(file_name_of("caf\xc3"), "caf-");  // invalid UTF-8
   EXPECT_EQ(file_name_of(""), "");
 }
 

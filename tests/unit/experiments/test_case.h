@@ -1,4 +1,4 @@
-// A case of regress: a shipped scene under a method.
+// A regression case: a shipped scene with a method.
 #pragma once
 
 #include "experiments/regress/cases.h"

@@ -1,4 +1,4 @@
-// The run of a translated scene beside the truth of its source.
+// Runs of translated scenes against the reference solution of the source scene.
 
 #include "experiments/translate/translated_run.h"
 
@@ -16,7 +16,8 @@ TranslatedRun run(const Scene& scene, const std::string& to, double h) {
 }
 
 TEST(TranslatedRun, ErrsAsTheEngineDoes) {
-  // what goes there and comes back is the scene but for rounding: the engine's own error at that step, above round-off
+  // Translating there and back yields the scene up to rounding. What remains is the engine's own error at this step,
+  // which is above round-off.
   const Scene scene = load_scene("chain");
   for (const std::string to : {"bullet/pbd+n=4", "bullet/deformable-implicit", "mysim/xpbd"}) {
     const crosscheck::Run at = default_run(scene);
@@ -33,7 +34,7 @@ TEST(TranslatedRun, ErrsAsTheEngineDoes) {
 }
 
 TEST(TranslatedRun, OfOneSliderIsWorseThanOfOneForEachLink) {
-  // strains of 1e-4, where the law of links is Hooke's to 5e-5
+  // strains of 1e-4, where the link law agrees with Hooke's law to 5e-5
   const Scene scene = small_scene(
       "[[particle]]\nposition = [0, 0, 0]\nmass = 0.1\n[[particle]]\nposition = [0, -1, 0]\nmass = 0.1\n[[particle]]\n"
       "position = [0, -2, 0]\nmass = 0.1\n[[spring]]\nends = [0, 1]\nstiffness = 200\n[[spring]]\nends = [1, 2]\n"
@@ -46,8 +47,8 @@ TEST(TranslatedRun, OfOneSliderIsWorseThanOfOneForEachLink) {
 }
 
 TEST(TranslatedRun, WithContactOfWhichNoTruthIsKnownIsADifferenceAndNoError) {
-  // two particles on a spring, above a ball that moves, which they reach after 0.2 s; it stands there twice, so that
-  // the second route refuses it: only the contact rule is left
+  // Two particles on a spring above a moving ball, which they reach after 0.2 s. The ball is listed twice, which the
+  // second route does not support, so only the contact rule is left.
   const std::string ball =
       "[[sphere]]\ncentre = [0, 0, 0]\nradius = 1\nmargin = 0.1\nfriction = 0.3\n"
       "[sphere.motion]\namplitude = [0, 0.01, 0]\nfrequency = 0.5\nramp = 0.5\n";
@@ -73,7 +74,7 @@ TEST(TranslatedRun, ThatFailsHasNoNumber) {
   EXPECT_EQ(refused.outcome.verdict, Verdict::unsupported);
   EXPECT_FALSE(refused.error || refused.difference);
   const TranslatedRun burst = run(scene, "mysim/leapfrog", 0.1);
-  EXPECT_NE(burst.outcome.verdict, Verdict::ok) << "far beyond its critical step";
+  EXPECT_NE(burst.outcome.verdict, Verdict::ok) << "expected a blow-up far beyond its critical step";
   EXPECT_FALSE(burst.error || burst.difference);
 }
 

@@ -1,4 +1,4 @@
-// Scenes written in other units of length, mass and time: truths, their bars and advice are the same numbers in them.
+// Scenes written in other units of length, mass and time give the same truths, error bars and advice.
 
 #include <regex>
 
@@ -22,7 +22,7 @@ struct Units {
   double length = 1, mass = 1, time = 1;
 };
 
-/// The text with each number that a unit follows in the given units. Exact for powers of two.
+/// Converts each number that is followed by a unit to the given units. Exact for powers of two.
 std::string in_units(const std::string& text, const Units& u) {
   const std::pair<const char*, double> factors[] = {
       {"kg/m3", u.mass / (u.length * u.length * u.length)},
@@ -133,7 +133,7 @@ Scene scene_in(const Kind& kind, const Units& u) {
   return parse_scene(in_units(head + kind.text, u), kind.name);
 }
 
-/// Each unit alone, larger and smaller by each of the factors, then some of all three at once.
+/// Each unit alone, scaled up and down by each of the factors, then `mixed` combinations of all three.
 std::vector<Units> units_by(std::vector<double> factors, int mixed, unsigned seed) {
   std::vector<Units> list;
   for (const double factor : factors)
@@ -199,7 +199,7 @@ TEST(Units, ByPowersOfTenKeepTierErrorsWithinTheBarsAndBarsWithinAFactorTwo) {
   }
 }
 
-/// The scene at a step (s, in the units of `kind`) by a rule, and where it ended.
+/// Runs the scene with a step (s) converted from the units of `kind`.
 MethodRun run_in(const Kind& kind, const Units& u, const std::string& method, double step) {
   const Scene scene = scene_in(kind, u);
   return run_and_record(method, scene, {step * u.time, 8 * step * u.time * 12, 8, 1e-6});
@@ -218,7 +218,7 @@ TEST(Units, ChangeNoVerdict) {
         for (const Units& u : units_by({0x1p10, 0x1p20}, 1, seed++)) {
           const MethodRun there = run_in(kind, u, method, step);
           SCOPED_TRACE(fmt::format("{} {} {} {:a} {:a} {:a}", kind.name, method, step, u.length, u.mass, u.time));
-          // the range of numbers is absolute: squares overflow in one unit a step earlier than in another
+          // The range of floating-point numbers is absolute: squares overflow one step earlier in some units.
           const auto blew_up = [](Verdict v) { return v == Verdict::energy || v == Verdict::nan; };
           if (there.outcome.verdict != here.outcome.verdict && blew_up(there.outcome.verdict) &&
               blew_up(here.outcome.verdict)) {
@@ -239,7 +239,7 @@ TEST(Units, ChangeNoVerdict) {
       }
   }
   EXPECT_GT(std::min(good, failed), 20);
-  EXPECT_LT(overflows, 10) << "of thousands";
+  EXPECT_LT(overflows, 10) << "of several thousand runs";
 }
 
 TEST(Units, ByPowersOfTwoChangeNoBitOfAdvice) {
@@ -260,7 +260,7 @@ TEST(Units, ByPowersOfTwoChangeNoBitOfAdvice) {
   }
 }
 
-/// The largest distance of the dense truth from the event-driven route at times between its samples, m.
+/// Largest distance (m) between the dense truth and the event-driven solution at times between its samples.
 double distance_between_samples(const Scene& scene, const DenseTruth& truth) {
   Run run = default_run(scene);
   run.samples = 7 * truth.dense().samples, run.tolerance = 1e-12;

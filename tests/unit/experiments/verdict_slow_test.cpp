@@ -1,5 +1,5 @@
-// A fixed sample of the verdict's trials (verdict_trials.cpp has all of them; what it wrote stands in data/ beside the
-// rooms).
+// A fixed sample of the verdict trials. verdict_trials.cpp runs all of them, and data/ next to the rooms contains its
+// output.
 
 #include <filesystem>
 
@@ -30,9 +30,9 @@ TEST(VerdictTrials, AFixedSampleIsJudgedRightly) {
   for (const TrialFamily& family : trial_families()) EXPECT_GE(cells[std::string(family.name)], 10) << family.name;
   EXPECT_GE(good, 200);
   EXPECT_GE(bad, 40);
-  // 5 of a thousand, and one more, as a sample may have
+  // 0.5 %, plus one for sampling
   EXPECT_LE(static_cast<double>(condemned), 1 + 0.005 * static_cast<double>(good));
-  // 10 of a thousand, and one more
+  // 1 %, plus one for sampling
   EXPECT_LE(static_cast<double>(passed), 1 + 0.01 * static_cast<double>(bad));
 }
 

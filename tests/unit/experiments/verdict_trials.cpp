@@ -1,7 +1,7 @@
-// Trials of the verdict on runs (mysim/run/observers.h), not part of the suite: random trials by seed, each run to its
-// end without being stopped. Prints by family how many good runs were condemned and how many bad ones were passed,
-// with 95 % intervals (C. J. Clopper and E. S. Pearson, 1934), as runs are judged and looking at every step, and writes
-// verdict-trials.csv and verdict-trials-by-family.csv.
+// Trials of run verdicts (mysim/run/observers.h), not part of the suite: random trials by seed, each run to its end
+// without being stopped. For each family, prints how many good runs were condemned and how many bad ones passed, with
+// 95 % intervals (C. J. Clopper and E. S. Pearson, 1934), once as runs are normally judged and once looking at every
+// step. Writes verdict-trials.csv and verdict-trials-by-family.csv.
 //
 //   verdict_trials [SEEDS=4000] [FOLDER=.] [FIRST=1]
 #include "tests/unit/experiments/verdict_trials.h"
@@ -20,7 +20,7 @@ struct Count {
   long cells = 0, wrong = 0, wrong_every = 0;
 };
 
-/// The 95 % interval of a rate, %.
+/// The 95 % confidence interval of a rate, in %.
 std::pair<double, double> interval(long wrong, long cells) {
   using Binomial = boost::math::binomial_distribution<>;
   const auto n = static_cast<double>(cells), k = static_cast<double>(wrong);
@@ -58,7 +58,7 @@ int main(int argc, char** argv) {
                {"margin", "1"}},
               {}};
   std::map<std::string, std::array<Count, 2>> counts;  // by family: stable, unstable
-  std::map<std::string, std::array<long, 2>> later;    // fails later; of these reported as a small margin
+  std::map<std::string, std::array<long, 2>> later;    // fails later; of these, reported as a small margin
   for (unsigned seed = first; seed <= last; ++seed) {
     std::optional<Trial> t;
     try {

@@ -1,5 +1,5 @@
-// Random trials of verdicts: a small scene, a method, and a step on either side of its limit; and the same run when it
-// is not stopped.
+// Random trials of verdicts: a small scene, a method and a step on either side of its stability limit, compared with
+// the same run without a stop.
 #pragma once
 
 #include <array>
@@ -12,7 +12,7 @@
 
 namespace crosscheck::testing_tools {
 
-/// Families of methods whose verdicts are counted apart.
+/// Families of methods with separate verdict counts.
 struct TrialFamily {
   std::string_view name;
   std::vector<std::string> methods;
@@ -32,29 +32,29 @@ inline const std::vector<TrialFamily>& trial_families() {
   return table;
 }
 
-/// A scene, and what its rates are about.
+/// A random scene and its characteristic rates.
 struct TrialScene {
   Scene scene;
-  std::string kind;  // body, and a letter for each ingredient
-  double omega = 0;  // rad/s, the fastest vibration at the start
+  std::string kind;  // body, and a letter per ingredient
+  double omega = 0;  // rad/s, fastest vibration at the start
   double gamma = 0;  // 1/s, drag rate
-  double beta = 0;   // s, dashpot over stiffness
+  double beta = 0;   // s, dashpot coefficient over stiffness
 };
 
-/// One mass, a chain or a net of springs, free or pinned, slack or prestressed; gravity, drag, dashpots, moved pins,
-/// winds and a sphere below (which may move) each in some. Lasts 60 to 300 radians of its fastest vibration.
+/// One mass, a chain or a net of springs, free or pinned, slack or prestressed. Some have gravity, drag, dashpots,
+/// moving pins, wind, or a sphere below, which may move. Lasts 60 to 300 radians of the fastest vibration.
 inline TrialScene trial_scene(Random& random) {
   SceneWriter w;
   TrialScene trial;
   const double d = decades(random, 0.05, 0.5), mass = decades(random, 0.01, 1), k = decades(random, 3, 3000);
-  const double omega = std::sqrt(k / mass);  // of one spring and one mass
+  const double omega = std::sqrt(k / mass);  // of a single spring and mass
   const int body = whole(random, 0, 2);
   const int nx = body == 0 ? 2 : whole(random, 3, body == 1 ? 7 : 5), ny = body == 2 ? whole(random, 3, 5) : 1;
   const double prestress = chance(random, 0.35) ? random.between(0.5, 0.95) : chance(random, 0.15) ? 1.1 : 1;
   const bool air = body == 2 && chance(random, 0.15), gravity = chance(random, 0.6);
   const bool ball = gravity && chance(random, 0.35), held = !ball || chance(random, 0.3);
   if (chance(random, 0.3)) trial.beta = decades(random, 1e-3, 0.2) / omega;
-  // from hanging down to lying flat
+  // from hanging vertically to lying flat
   const Vec3 u = body == 1 && chance(random, 0.5) ? Vec3(0, -1, 0) : Vec3(1, 0, 0),
              v = chance(random, 0.5) ? Vec3(0, 0, 1) : Vec3(0, -1, 0);
   const double speed = chance(random, 0.4) ? decades(random, 0.01, 1) * omega * d : 0, off = decades(random, 1e-3, 0.3);
@@ -116,7 +116,7 @@ inline TrialScene trial_scene(Random& random) {
   trial.scene = w.scene("trial", duration, 0.1 / omega, 10);
   Model& model = trial.scene.model;
   if (ball) {
-    // below the middle of the body, so near that what falls or swings meets it
+    // below the centre of the body, and close enough that a falling or swinging body hits it
     const Points& x = trial.scene.start.x;
     const double size = std::max(d, trial.scene.size()), radius = random.between(0.3, 1) * size;
     Vec3 centre = x.rowwise().mean();
@@ -139,7 +139,7 @@ inline TrialScene trial_scene(Random& random) {
         trial.scene.triangles.push_back({i, i + 1, i + nx});
         trial.scene.triangles.push_back({i + 1, i + nx + 1, i + nx});
       }
-    // a pressure that carries up to a third of what a spring's length does
+    // a pressure of up to a third of the force of a spring stretched by its length
     const double flow = omega * d, density = decades(random, 1e-3, 0.3) * mass / (d * d * d);
     model.terms.emplace_back(Aerodynamics{density, 1, WindSignal{flow * random.vector(), {}}, trial.scene.triangles});
     trial.kind += "a";
@@ -149,12 +149,12 @@ inline TrialScene trial_scene(Random& random) {
   return trial;
 }
 
-/// How far and how fast a run goes, at every step, by positions alone; and the verdicts of monitors, which do not end
-/// it.
+/// Extent and speed of a run at every step, computed from positions alone, and the verdicts of monitors that do not
+/// stop it.
 class UnstoppedRun : public Observer {
  public:
-  /// There are two monitors: one sees all steps, the other those that verdicts are based on. `most_*`: what counts as
-  /// within.
+  /// Uses two monitors: one observes all steps, the other only the states that verdicts are normally based on.
+  /// `most_stretch` and `most_speed` are the bounds of a good run.
   UnstoppedRun(const TrialScene& trial, const Run& run, double most_stretch, double most_speed)
       : trial_(trial),
         most_stretch_(most_stretch),
@@ -179,10 +179,10 @@ class UnstoppedRun : public Observer {
   }
   double largest_ratio() const { return all_.largest_ratio(); }
 
-  double stretch = 0, speed = 0;  // largest: 1, of a spring's length over its rest length; m/s, of a particle
-  long left = 0;                  // the first step of which either is beyond what counts as within; 0: none
+  double stretch = 0, speed = 0;  // largest values: spring length over rest length [1], and speed of a particle (m/s)
+  long left = 0;                  // first step beyond either bound, or 0
   Verdict by_all = Verdict::ok, by_pairs = Verdict::ok;
-  long when_all = 0, when_pairs = 0;  // the steps at which
+  long when_all = 0, when_pairs = 0;  // steps of these verdicts
 
  private:
   void measure(const State& state) {
@@ -206,7 +206,7 @@ class UnstoppedRun : public Observer {
   long step_ = 0;
 };
 
-/// How far and how fast the truth goes, at every step.
+/// Extent and speed of the reference solution at every step.
 struct TrueMotion : Observer {
   explicit TrueMotion(const Model& of) : model(of) {}
   bool every_step() const override { return true; }
@@ -225,27 +225,27 @@ struct TrueMotion : Observer {
 struct Trial {
   unsigned seed = 0;
   std::string family, method, kind;
-  double step = 0, share = 0;  // s; of the limit, 0 where there is none
+  double step = 0, share = 0;  // s; step over limit, or 0 without a limit
   long steps = 0;
-  double stretch = 0, speed = 0;          // over the truth's largest
-  bool within = false;                    // both within ten times to the end
-  bool later = false;                     // and not within, in a run ten times as long
-  long left = 0;                          // the step at which it was no longer
-  Verdict verdict = Verdict::ok;          // as runs are judged
-  Verdict every = Verdict::ok;            // of a monitor that is shown every step
-  long when_verdict = 0, when_every = 0;  // the steps of these
+  double stretch = 0, speed = 0;          // relative to the truth's maximum
+  bool within = false;                    // both within a factor of ten to the end
+  bool later = false;                     // but not in a run ten times as long
+  long left = 0;                          // first step beyond the bounds
+  Verdict verdict = Verdict::ok;          // with the states that runs are normally judged on
+  Verdict every = Verdict::ok;            // of a monitor that observes every step
+  long when_verdict = 0, when_every = 0;  // steps of these verdicts
   double most = 0;                        // K^ / B
-  double margin = 0;                      // 1: the limit with every spring stretched far, over the step, less 1
+  double margin = 0;                      // 1: limit with every spring stretched far, divided by the step, minus 1
   bool wrong(Verdict said) const { return within ? said != Verdict::ok : said == Verdict::ok; }
 };
 
-/// The limit of a rule on the fastest vibration of the scene, s.
+/// Stability limit (s) of a rule at the fastest vibration of the scene.
 inline double nominal_limit(const Stepper& rule, const TrialScene& trial, double omega) {
   return std::min(rule.limit(omega, trial.gamma + trial.beta * omega * omega), rule.limit(omega, trial.gamma));
 }
 
-/// The trial of a seed, or nothing where the method does not take the scene, the step lies within half a per cent of
-/// the limit, or truth hardly moves.
+/// Runs the trial of a seed. Returns nothing if the method does not support the scene, the step is within 0.5 % of the
+/// limit, or the reference solution hardly moves.
 inline std::optional<Trial> tried(unsigned seed, bool longer = true) {
   Random random(seed);
   const TrialFamily& family = trial_families()[seed % trial_families().size()];
@@ -272,7 +272,7 @@ inline std::optional<Trial> tried(unsigned seed, bool longer = true) {
   if (rule && limit > 0)
     trial.margin = nominal_limit(*rule, drawn, highest_frequency_bound(scene.model, scene.start)) / trial.step - 1;
 
-  // truth: rk4 at steps a tenth of its own limit
+  // reference solution: rk4 at a tenth of its own limit
   const Stepper& exact = stepper("rk4");
   const double fine =
       std::min(trial.step, 0.1 * nominal_limit(exact, drawn, highest_frequency_bound(scene.model, scene.start)));
@@ -293,7 +293,7 @@ inline std::optional<Trial> tried(unsigned seed, bool longer = true) {
     trial.verdict = freely.by_pairs, trial.every = freely.by_all;
     trial.when_verdict = freely.when_pairs, trial.when_every = freely.when_all;
     trial.most = freely.largest_ratio();
-    // what nothing holds only falls the further
+    // unpinned bodies only fall further
     const bool held = !scene.model.particles.pins.empty();
     if (longer && held && trial.within && trial.share > 0.8 && trial.verdict == Verdict::ok) {
       Run tenfold = run;

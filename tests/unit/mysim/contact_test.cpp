@@ -1,4 +1,4 @@
-// Contact with spheres, at rest and moving: leaving angle, Coulomb's cone, restitution, no penetration, symmetry.
+// Contact with fixed and moving spheres: leaving angle, Coulomb's cone, restitution, no penetration, symmetry.
 
 #include <numbers>
 
@@ -12,14 +12,14 @@ using namespace testing_tools;
 
 constexpr double degree = std::numbers::pi / 180;
 
-/// A particle at rest on a sphere of 1 m about the origin, `angle` (rad) off its top.
+/// A particle at rest on a sphere of 1 m about the origin, `angle` (rad) from its top.
 Scene on_sphere(double angle, const std::string& surface = "") {
   return small_scene(
       fmt::format("[[particle]]\nposition = [{:.17g}, {:.17g}, 0]\nmass = 1\n", std::sin(angle), std::cos(angle)) +
       "[sphere]\ncentre = [0, 0, 0]\nradius = 1\n" + surface + gravity_text);
 }
 
-/// Remembers the angle (rad) at which the last push was needed, and how far inside a particle ever ended a step.
+/// Records the angle (rad) of the last contact, and the deepest penetration at the end of a step.
 class Slide : public Observer {
  public:
   explicit Slide(const Scene& scene) : sphere_(scene.model.find<Spheres>()->list.at(0)) {}
@@ -36,12 +36,12 @@ class Slide : public Observer {
     ++contacts;
   }
   double angle = 0;    // rad
-  double nearest = 1;  // of the contact radius
+  double nearest = 1;  // distance to the centre, relative to the contact radius
   long contacts = 0;
 
  private:
   const Sphere& sphere_;
-  bool touched_ = false;  // in the step whose state comes next
+  bool touched_ = false;  // during the step that ends with the next observed state
 };
 
 double leaving_angle(const Stepper& s, double h) {
@@ -52,7 +52,7 @@ double leaving_angle(const Stepper& s, double h) {
   return slide.angle;
 }
 
-// energy: v^2 = 2 g R (cos theta0 - cos theta); the push ends where v^2 / R = g cos theta
+// Energy: v^2 = 2 g R (cos theta0 - cos theta). The normal force vanishes where v^2 / R = g cos theta.
 const double exact_leaving_angle = std::acos(2.0 / 3 * std::cos(1 * degree));
 
 TEST(SinglePrecision, OnSpheresIsForRulesOfOneKickWithoutStickyAndOthersSaySo) {
@@ -77,7 +77,7 @@ TEST(SinglePrecision, OnSpheresIsForRulesOfOneKickWithoutStickyAndOthersSaySo) {
 TEST(Contact, FrictionlessParticleLeavesAtTheExactAngleInEveryStepper) {
   for (const Stepper& s : steppers()) {
     SCOPED_TRACE(s.name);
-    // first-order rules start late or early by about h g: measured 0.16 degrees at 1e-5 s
+    // First-order rules are early or late by about h g: 0.16 degrees measured at 1e-5 s.
     EXPECT_NEAR(leaving_angle(s, 1e-5) / degree, exact_leaving_angle / degree, 0.5);
   }
 }
@@ -86,7 +86,7 @@ TEST(Contact, SecondOrderRulesLeaveWithinATenthOfADegreeAtAMillisecond) {
   for (const Stepper& s : steppers()) {
     if (s.order < 2) continue;
     SCOPED_TRACE(s.name);
-    // one step at the leaving speed of 2.6 m/s is 0.15 degrees; the last push falls within the last step before
+    // One step at the leaving speed of 2.6 m/s is 0.15 degrees. The last contact falls within the last step before.
     EXPECT_NEAR(leaving_angle(s, 1e-3) / degree, exact_leaving_angle / degree, 0.1);
   }
 }
@@ -97,15 +97,15 @@ TEST(Contact, HoldsBelowCoulombsLimitAndSlidesAboveInEveryStepper) {
     SCOPED_TRACE(s.name);
     const Scene held = on_sphere(angle, fmt::format("friction = {:.17g}\n", 1.05 * std::tan(angle)));
     const Trajectory still = trajectory_of(s, held, {1e-3, 10, 100});
-    for (const Points& x : still.x) EXPECT_LT((x - held.start.x).norm(), 1e-9);  // the issue's bound; 0 m was measured
+    for (const Points& x : still.x) EXPECT_LT((x - held.start.x).norm(), 1e-9);  // bound of the issue; measured: 0 m
     const Scene loose = on_sphere(angle, fmt::format("friction = {:.17g}\n", 0.95 * std::tan(angle)));
     const Trajectory slid = trajectory_of(s, loose, {1e-3, 10, 100});
-    EXPECT_LT(slid.x.back()(1, 0), 0) << "still on the sphere";
+    EXPECT_LT(slid.x.back()(1, 0), 0) << "the particle must have slid off";
   }
 }
 
 TEST(Contact, SlidesAtTheAccelerationThatCoulombLeaves) {
-  // close to the start the slope hardly changes: s = g (sin theta - mu cos theta) t^2 / 2
+  // near the start the slope hardly changes: s = g (sin theta - mu cos theta) t^2 / 2
   const double angle = 30 * degree, mu = 0.3, t_end = 0.1;
   const double expected = 9.81 * (std::sin(angle) - mu * std::cos(angle)) * t_end * t_end / 2;
   const Scene scene = on_sphere(angle, "friction = 0.3\n");
@@ -113,8 +113,8 @@ TEST(Contact, SlidesAtTheAccelerationThatCoulombLeaves) {
     SCOPED_TRACE(s.name);
     const Trajectory t = trajectory_of(s, scene, {1e-4, t_end, 10});
     const double path = std::acos(t.x.back()(1, 0)) - angle;
-    // slope and centripetal relief change by the path (1.2 %) over R times 2 / tan-like factors; first order in h: 0.4
-    // %
+    // Slope and centripetal relief change by path over R (1.2 %), times factors of about 2 / tan. First order in h: 0.4
+    // %.
     EXPECT_NEAR(path / expected, 1, 0.05);
   }
 }
@@ -129,14 +129,14 @@ Scene dropped_cloth(double offset, const std::string& surface = "friction = 0.3\
 }
 
 TEST(Contact, NoParticleEndsAStepInsideNotEvenInABlowUp) {
-  const Scene scene = dropped_cloth(0.1);  // close above: it touches before it is torn to pieces
+  const Scene scene = dropped_cloth(0.1);  // close above the sphere, so that it touches before it blows up
   for (const Stepper& s : steppers())
     for (const double h : {1e-3, 5e-2}) {  // the larger one blows up in every stepper
       SCOPED_TRACE(fmt::format("{} h = {}", s.name, h));
       Slide slide(scene);
       simulate(s, ContactRule::coulomb, scene, {h, 1, 5}, slide);
       EXPECT_GT(slide.contacts, 0);
-      EXPECT_GE(slide.nearest, 1 - 1e-13);  // put on the surface and measured again: some ulps of the radius
+      EXPECT_GE(slide.nearest, 1 - 1e-13);  // projected to the surface and measured again: some ulps of the radius
     }
 }
 
@@ -153,10 +153,11 @@ TEST(Contact, ReboundsToTheSquareOfRestitutionTimesTheDrop) {
         bool bounced = false;
         for (int i = 0; i < t.frames(); ++i) {
           bounced |= t.v[i](1, 0) > 0;
-          if (bounced && t.x[i](1, 0) - 1 < peak - 1e-6) break;  // over the top of the first rebound
+          if (bounced && t.x[i](1, 0) - 1 < peak - 1e-6) break;  // past the top of the first rebound
           if (bounced) peak = std::max(peak, t.x[i](1, 0) - 1);
         }
-        // the step of the impact and a first-order rule each move heights by a step's path, sampling by g (1 ms)^2
+        // The step of the impact and a first-order rule each change heights by a step's path, and sampling by g (1
+        // ms)^2.
         EXPECT_NEAR(peak, e * e * drop, 3 * speed * h + 1e-5);
       }
     }
@@ -180,7 +181,7 @@ TEST(Contact, OutcomeSaysThatRestitutionHopsAtRest) {
         double hop = 0;  // m, in the last half second, long after the last bounce
         for (int i = 150; i <= 200; ++i)
           hop = std::max(hop, clearance_from(surfaces_of(scene.model), 0, path.trajectory.x[i].col(0)));
-        // explicit Euler adds energy in each flight: a bounce of a centimetre goes on
+        // explicit Euler adds energy in each flight, so bounces of a centimetre continue
         if (s.name != "explicit-euler" && hop > 0.1 * 9.81 * out.step * out.step) {
           EXPECT_TRUE(contains(out.remark, "never quite at rest")) << hop;
         }
@@ -201,7 +202,7 @@ TEST(Contact, StickyFreezesWhereCoulombSlides) {
     Recorder sticky, coulomb;
     simulate(s, ContactRule::sticky, scene, {1e-3, 2, 20}, sticky);
     simulate(s, ContactRule::coulomb, scene, {1e-3, 2, 20}, coulomb);
-    EXPECT_LT((sticky.trajectory.x.back() - scene.start.x).norm(), 1e-9);  // it is put back where it came from
+    EXPECT_LT((sticky.trajectory.x.back() - scene.start.x).norm(), 1e-9);  // moved back to its position at the start
     EXPECT_GT((coulomb.trajectory.x.back() - scene.start.x).norm(), 0.5);
   }
 }
@@ -212,8 +213,8 @@ TEST(Contact, SymmetricSceneStaysSymmetric) {
     if (auto* spheres = std::get_if<Spheres>(&term)) spheres->list[0].centre = Vec3(0, -0.05, 0);
   const int n = 9;
   for (const Stepper& s : steppers()) {
-    if (s.order == 1 && s.first_order) continue;  // explicit Euler is unstable here: it would blow up any rounding
-    if (s.hard_constraints) continue;             // a Gauss-Seidel pass begins at one side
+    if (s.order == 1 && s.first_order) continue;  // explicit Euler is unstable here and amplifies rounding
+    if (s.hard_constraints) continue;             // a Gauss-Seidel pass starts at one side
     SCOPED_TRACE(s.name);
     const Trajectory t = trajectory_of(s, scene, {1e-3, 0.3, 30});
     double worst = 0;
@@ -225,38 +226,38 @@ TEST(Contact, SymmetricSceneStaysSymmetric) {
           worst = std::max(worst, (here - Vec3(-mirrored_x.x(), mirrored_x.y(), mirrored_x.z())).norm());
           worst = std::max(worst, (here - Vec3(mirrored_z.x(), mirrored_z.y(), -mirrored_z.z())).norm());
         }
-    // 300 steps of round-off (eps each, sums in other orders), grown tenfold by the contact; implicit rules leave 1e-10
-    // of the force m v / (h/2) at 2 m/s, which acts for 0.3 s
+    // 300 steps of round-off (eps each, because sums are in different orders), grown tenfold by the contact. Implicit
+    // rules leave 1e-10 of the force m v / (h/2) at 2 m/s, which acts for 0.3 s.
     EXPECT_LT(worst, 10 * (300 * eps + (s.evaluations == 0 ? 1e-10 * 2 / 5e-4 * 0.3 * 0.3 / 2 : 0)));
   }
 }
 
 TEST(Contact, RuleOnOneParticle) {
   const Sphere sphere{{0, 0, 0}, 1, 0, 0.5, 0, std::nullopt};
-  {  // outside and on the surface: nothing happens
+  {  // outside and on the surface: no change
     Vec3 x(0, 1, 0), v(1, -1, 0);
     EXPECT_EQ(resolve_contact(sphere, sphere.centre, x, x, v), 0);
     EXPECT_EQ(v, Vec3(1, -1, 0));
   }
-  {  // the push is the depth; a fast slider keeps what friction cannot take: 1 - 0.5 * 0.1
+  {  // the impulse equals the depth; a fast slider keeps speed 1 - 0.5 * 0.1
     Vec3 x(0, 0.9, 0), v(1, -0.1, 0);
-    EXPECT_NEAR(resolve_contact(sphere, sphere.centre, {0, 1, 0}, x, v), 0.1, 2 * eps);  // 1 - 0.9 as rounded
+    EXPECT_NEAR(resolve_contact(sphere, sphere.centre, {0, 1, 0}, x, v), 0.1, 2 * eps);  // rounded 1 - 0.9
     EXPECT_EQ(x, Vec3(0, 1, 0));
     EXPECT_NEAR(v.x(), 0.95, 4 * eps);
     EXPECT_NEAR(v.y(), 0, eps);
   }
-  {  // a slow slider stops, in place and velocity
+  {  // a slow slider stops: position and velocity
     Vec3 x(0.01, 0.95, 0), v(0.01, -1, 0);
     resolve_contact(sphere, sphere.centre, {0, 1, 0}, x, v);
-    EXPECT_LT((x - Vec3(0, 1, 0)).norm(), 2e-4);  // the displacement's curvature, d^2 / 2R = 5e-5
+    EXPECT_LT((x - Vec3(0, 1, 0)).norm(), 2e-4);  // curvature effect of the displacement, d^2 / 2R = 5e-5
     EXPECT_LT(std::abs(v.dot(Vec3(x.y(), -x.x(), 0))), 4 * eps);
   }
-  {  // a velocity that already points outward is left alone
+  {  // an outward velocity does not change
     Vec3 x(0, 0.99, 0), v(0.3, 0.2, 0);
     resolve_contact(sphere, sphere.centre, {0, 1, 0}, x, v);
     EXPECT_EQ(v, Vec3(0.3, 0.2, 0));
   }
-  {  // the very centre: some direction, and finite
+  {  // at the exact centre: an arbitrary direction, finite values
     Vec3 x(0, 0, 0), v(0, -1, 0);
     EXPECT_EQ(resolve_contact(sphere, sphere.centre, {0, 0, 0}, x, v), 1);
     EXPECT_NEAR(x.norm(), 1, 2 * eps);
@@ -273,7 +274,7 @@ TEST(Contact, NeverAddsEnergyOfMotion) {
     resolve_contact(sphere, sphere.centre, x_n, x, v);
     EXPECT_LE(v.norm(), v0.norm() * (1 + 8 * eps));
     EXPECT_GE(x.norm(), 1.1 * (1 - 4 * eps));
-    EXPECT_GE(v == v0 ? 0.0 : v.dot(x), -16 * eps);  // not inward any more
+    EXPECT_GE(v == v0 ? 0.0 : v.dot(x), -16 * eps);  // no longer inward
   }
 }
 
@@ -296,7 +297,7 @@ Vec3 displacement(const Scene& scene, double t) {
 }
 
 TEST(MovingSphere, CarriesWhatRestsOnItByFriction) {
-  // accelerations stay below 60 A / ramp^2 / 10 = 1 m/s^2, a tenth of g: mu = 0.5 holds with room
+  // Accelerations stay below 60 A / ramp^2 / 10 = 1 m/s^2, a tenth of g, well below what mu = 0.5 can hold.
   const Scene scene = on_moving_sphere(0.5, {0.03, 0, 0.02}, 0.5);
   for (const Stepper& s : steppers()) {
     SCOPED_TRACE(s.name);
@@ -308,9 +309,9 @@ TEST(MovingSphere, CarriesWhatRestsOnItByFriction) {
       moved = std::max(moved, (t.x[i].col(0) - Vec3(0, 1, 0)).norm());
     }
     EXPECT_GT(moved, 0.02);
-    // friction takes all of the tangential displacement of a step; what is put on the surface again is second order in
-    // it (h a h = 1e-6 m relative to the sphere): 1e-12 m a step. Explicit Euler drifts before it kicks, so that it is
-    // pushed, and held, in every other step only; in between it slips by h^2 a / 2: 1e-3 m in all
+    // Friction removes the whole tangential displacement of a step. The projection to the surface is of second order in
+    // it (h a h = 1e-6 m relative to the sphere): 1e-12 m per step. Explicit Euler drifts before it kicks, so contact,
+    // and hence friction, acts in every other step only. In between it slips by h^2 a / 2: 1e-3 m in total.
     const bool drifts_first = s.first_order && s.order == 1;
     EXPECT_LT(furthest, drifts_first ? 1e-3 : 1e-8);
   }
@@ -321,7 +322,8 @@ TEST(MovingSphere, WithoutFrictionItIsLeftBehind) {
   for (const Stepper& s : steppers()) {
     SCOPED_TRACE(s.name);
     const Trajectory t = trajectory_of(s, scene, {1e-3, 1, 10});
-    // a smooth sphere cannot hold a ball on its top: it has slid off by several times what the sphere moved
+    // A frictionless sphere cannot hold the particle on its top: it slides off by several times the sphere's
+    // displacement.
     const Vec3 relative = t.x.back().col(0) - displacement(scene, t.t.back()) - Vec3(0, 1, 0);
     EXPECT_GT(std::hypot(relative.x(), relative.z()), 0.05);
   }
@@ -333,13 +335,13 @@ TEST(MovingSphere, RaisesWhatRestsOnIt) {
     SCOPED_TRACE(s.name);
     const Trajectory t = trajectory_of(s, scene, {1e-3, 2, 20});
     for (int i = 0; i < t.frames(); ++i)
-      // it never leaves the surface (accelerations below g) but for the flight of one step, g h^2
+      // Accelerations below g: it never leaves the surface except for a flight of one step, g h^2.
       EXPECT_NEAR(t.x[i](1, 0), 1 + displacement(scene, t.t[i]).y(), 2 * 9.81 * 1e-6);
   }
 }
 
 TEST(MovingSphere, OnlyTheMotionRelativeToTheSphereCounts) {
-  // pushed aside slowly, and the same in the sphere's frame: there the ball feels minus the sphere's acceleration
+  // A slowly moving sphere, and the same motion in the sphere's frame, where the particle feels minus its acceleration.
   const Scene scene = on_moving_sphere(0.05, {0.05, 0, 0}, 0.5);
   const Motion motion = *scene.model.find<Spheres>()->list.at(0).motion;
   const double h = 1e-4;
@@ -352,7 +354,7 @@ TEST(MovingSphere, OnlyTheMotionRelativeToTheSphereCounts) {
   State s = frame.start;
   double furthest = 0, path = 0;
   for (int n = 0; n < 10000; ++n) {
-    // the sphere's acceleration in this step, as its velocity's change
+    // the sphere's acceleration in this step, as its change of velocity
     const Vec3 inertial = -(velocity_at(motion, (n + 1) * h) - velocity_at(motion, n * h)) / h;
     frame.model.find<Gravity>()->acceleration = Vec3(0, -9.81, 0) + inertial;
     System f(frame.model);
@@ -368,8 +370,8 @@ TEST(MovingSphere, OnlyTheMotionRelativeToTheSphereCounts) {
       path = std::max(path, (relative - Vec3(0, 1, 0)).norm());
     }
   }
-  // the drifts differ by the rounding of the sphere's motion in a step, h^2 a' h / 24, which the slope of the top makes
-  // grow as e^(sqrt(g/R) t) = e^3: measured 1e-8 m
+  // The drifts differ by the discretisation of the sphere's motion in a step, h^2 a' h / 24. The unstable top amplifies
+  // this by e^(sqrt(g/R) t) = e^3: 1e-8 m measured.
   EXPECT_LT(furthest, 1e-5 * path + 1e-7);
   EXPECT_GT(path, 0.01);
 }
@@ -377,7 +379,7 @@ TEST(MovingSphere, OnlyTheMotionRelativeToTheSphereCounts) {
 constexpr auto two_spheres =
     "[[sphere]]\ncentre = [-0.8, 0, 0]\nradius = 0.7\n[[sphere]]\ncentre = [0.8, 0.1, 0]\nradius = 0.6\n";
 
-/// How deep a particle ever was inside a sphere at the end of a step, m, and which spheres were touched.
+/// Records the largest penetration (m) at the end of a step, and which spheres were touched.
 class Inside : public Observer {
  public:
   explicit Inside(const Scene& scene) : spheres_(*scene.model.find<Spheres>()), touched(spheres_.list.size()) {}
@@ -413,17 +415,18 @@ TEST(SeveralSpheres, EachActsAndNothingEndsInside) {
       Inside inside(scene);
       simulate(s, ContactRule::coulomb, scene, {1e-3, 1, 5}, inside);
       EXPECT_TRUE(inside.touched[0] && inside.touched[1]);
-      EXPECT_LT(inside.deepest, 4 * eps * 2);  // put on the surface and measured again: some ulps of 2 m
+      EXPECT_LT(inside.deepest, 4 * eps * 2);  // projected to the surface and measured again: some ulps of 2 m
     }
   }
 }
 
 TEST(SeveralSpheres, ALedgerClosesWithWhatMovingSpheresGave) {
-  // the loss of contact is what is not there after it: negative where a moving sphere pushes
+  // Contact loss is the energy missing after contact: negative if a moving sphere pushes.
   const Scene scene = on_moving_sphere(0.5, {0, 0.03, 0}, 0.5);
   for (const Stepper& s : steppers()) {
     SCOPED_TRACE(s.name);
-    // the kick of each resting step works along its own path, over 1 s: m g (g h t / 2), and as much for the sphere's
+    // In each resting step gravity's kick does work along its own path, over 1 s: m g (g h t / 2). The sphere's motion
+    // contributes as much.
     EXPECT_LT(imbalance(s, scene, {1e-3, 1, 20}), 2 * 9.81 * 9.81 * 1e-3 / 2);
   }
 }

@@ -1,4 +1,4 @@
-// Crossings of a surface with itself, pieces of a network, and particles at the same place.
+// Self-intersections of a surface, connected components of a network, and coincident particles.
 
 #include <gtest/gtest.h>
 
@@ -35,7 +35,7 @@ mass = 0.1
 structural = 10
 )";
 
-/// Edges through triangles without a common particle, pair by pair, by solving for the point of intersection.
+/// Brute-force count of edges that pierce triangles without a common particle, by solving for the intersection point.
 int counted_pair_by_pair(const Points& x, const std::vector<std::array<int, 3>>& triangles) {
   std::set<std::pair<int, int>> edges, piercing;
   for (const auto& t : triangles)
@@ -80,11 +80,11 @@ TEST(Crossings, AreNoneInSheetsThatAreFlatRolledOrFoldedApart) {
   EXPECT_EQ(detector.piercing_edges(folded), 0);
   EXPECT_GT(detector.piercing_edges(through), 0);
   through(1, 5) = NAN;
-  EXPECT_EQ(detector.piercing_edges(through), 0) << "positions that are no numbers have a verdict of their own";
+  EXPECT_EQ(detector.piercing_edges(through), 0) << "non-finite positions have their own verdict";
 }
 
 TEST(Crossings, OfARunAreARemarkAndNoVerdict) {
-  // the right half lies 2 cm above the left half and falls through it, as only the left edge is held
+  // The right half lies 2 cm above the left half and falls through it, because only the left edge is held.
   std::string text = std::string(sheet) +
                      "[pins]\nparticles = [0, 4, 9, 13, 18, 22, 27, 31, 36, 40, 45, 49, 54, 58]\n" +
                      "[gravity]\nacceleration = [0, -9.81, 0]\n[start]\npositions = [";

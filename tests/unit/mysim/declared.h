@@ -1,4 +1,4 @@
-// What a stepper's row declares, measured: order, stability on both sides of the limit, repeatability.
+// Measures the properties that a stepper's row declares: order, stability on both sides of the limit, repeatability.
 #pragma once
 
 #include <Eigen/Dense>
@@ -10,19 +10,20 @@
 
 namespace crosscheck::testing_tools {
 
-/// h omega of the coarser step: small enough for the leading error term, large enough to stay above round-off.
+/// Coarse h omega for order measurements: small enough for the leading error term, large enough to stay above
+/// round-off.
 inline double h_omega_for(int order) { return order == 1 ? 0.002 : order == 2 ? 0.04 : 0.3; }
 
-/// Measures the order of a stepper between a step of at most h and half of it, by the largest RMS error over time.
+/// Measured order of a stepper between a step of at most h and half of it, from the largest RMS error over time.
 inline double measured_order(const Stepper& s, const Scene& scene, const Trajectory& truth, double h, const Run& run) {
   const double used = time_grid({h, run.duration, run.samples}).h;
   const double coarse = sup_rms(trajectory_of(s, scene, {used, run.duration, run.samples}), truth);
   const double fine = sup_rms(trajectory_of(s, scene, {used / 2, run.duration, run.samples}), truth);
-  EXPECT_GT(fine, 1e-13) << "error at round-off: the slope would be noise";
+  EXPECT_GT(fine, 1e-13) << "the error is at round-off, so the slope would be noise";
   return slope(coarse, fine);
 }
 
-/// 1 kg that hangs still on a vertical spring of 1 m and omega^2 N/m (none: omega = 0, and no gravity), with drag.
+/// 1 kg at rest on a vertical spring of 1 m and omega^2 N/m, with drag. If omega = 0, without spring and gravity.
 inline Scene hanging(double omega, double gamma) {
   Scene scene = shipped_scene("spring");
   std::erase_if(scene.model.terms, [&](const Term& t) {
@@ -35,8 +36,8 @@ inline Scene hanging(double omega, double gamma) {
   return gamma > 0 ? with_drag(scene, gamma) : scene;
 }
 
-/// One step of the code as a matrix on (vertical offset, vertical velocity): exact but for round-off, since the spring
-/// is linear along its line. The offset is small beside the spring, so that nothing passes the anchor.
+/// One step of the code as a matrix on (vertical offset, vertical velocity). Exact up to round-off, since the spring is
+/// linear along its axis and offsets are too small to pass the anchor.
 inline Eigen::Matrix2d step_matrix(const Stepper& s, double omega, double gamma, double h) {
   const Scene scene = hanging(omega, gamma);
   auto stepped = [&](double offset, double velocity) {
@@ -56,7 +57,7 @@ inline Eigen::Matrix2d step_matrix(const Stepper& s, double omega, double gamma,
   return m;
 }
 
-/// Largest absolute eigenvalue, of the matrix in the unit of time 1/rate so that its entries are of one size.
+/// Spectral radius. Rescales time by `rate` first so that the entries have similar magnitudes.
 inline double spectral_radius(const Eigen::Matrix2d& m, double rate) {
   Eigen::Matrix2d scaled = m;
   scaled(0, 1) *= rate;
@@ -64,14 +65,14 @@ inline double spectral_radius(const Eigen::Matrix2d& m, double rate) {
   return eigenvalues(scaled).cwiseAbs().maxCoeff();
 }
 
-/// The damped oscillators on which limits are tried, rad/s and 1/s.
+/// Damped oscillators for tests of the limits, rad/s and 1/s.
 struct Oscillation {
   double omega, gamma;
 };
 inline constexpr Oscillation oscillations[] = {{10, 0}, {10, 2}, {10, 15}, {10, 20}, {10, 50}, {3, 0.1}, {40, 7}};
 
-/// A step just above the limit: the worse one of two, since a composition with a part that goes backwards is unstable
-/// in a window only (1.2 % wide for suzuki4 at gamma = 5 omega). A fixed step where the limit is 0.
+/// A step just above the limit: the less stable one of two, because a composition with a backward substep is unstable
+/// only in a window (1.2 % wide for suzuki4 at gamma = 5 omega). If the limit is 0, a fixed step.
 inline double just_above(const Stepper& s, double omega, double gamma) {
   const double limit = s.limit(omega, gamma);
   auto radius = [&](double h) { return spectral_radius(step_matrix(s, omega, gamma, h), omega); };
@@ -79,12 +80,12 @@ inline double just_above(const Stepper& s, double omega, double gamma) {
   return radius(1.005 * limit) > radius(1.02 * limit) ? 1.005 * limit : 1.02 * limit;
 }
 
-/// What contradicts the row, one sentence for each, with the numbers; empty when all is as declared.
+/// One sentence with numbers for each contradiction to the row; empty if everything is as declared.
 inline std::string contradiction(const Stepper& row) {
   const Stepper s = at_fixed_step(row);
   std::string found;
 
-  // order, on the pendulum under drag; the next term of the error is smaller by h omega
+  // Order, on the pendulum with drag. The next error term is smaller by a factor of h omega.
   const Scene pendulum = with_drag(shipped_scene("pendulum"), 2);
   const double omega = std::sqrt(1000.0);
   const Run run{0, 1, 20};
@@ -93,12 +94,12 @@ inline std::string contradiction(const Stepper& row) {
   if (!(std::abs(order - s.order) < 0.15))
     found += fmt::format("order {} is declared, {:.2f} was measured. ", s.order, order);
 
-  // stability: the step matrix has eigenvalues of at most 1 just below the limit, and of more just above
+  // Stability: the step matrix has a spectral radius of at most 1 just below the limit, and above 1 just above it.
   for (const auto& [w, gamma] : oscillations) {
     const double limit = s.limit(w, gamma);
     auto radius = [&](double h) { return spectral_radius(step_matrix(s, w, gamma, h), w); };
-    // offsets of 1e-3 m are differences of lengths of about 1 m: some ulps of them, over the offset. A pair of
-    // eigenvalues that coincide is known to the root of that. Solvers stop at 1e-10 of the forces.
+    // Offsets of 1e-3 m are differences of lengths of about 1 m, so their relative error is some ulps over the offset.
+    // Coincident eigenvalues are known only to its square root. Solvers stop at 1e-10 of the forces.
     const double noise = s.evaluations == 0 ? 1e-6 : 1e-11;
     const double below = limit == 0 ? 0 : std::isinf(limit) ? 100 / w : 0.98 * limit;
     if (below > 0 && !(radius(below) <= 1 + noise))
@@ -111,7 +112,7 @@ inline std::string contradiction(const Stepper& row) {
                            above, limit);
   }
 
-  // growth on `circle`, where a first-order rule multiplies the radius by |R(i h)| in each step
+  // Growth on `circle`: a first-order rule multiplies the radius by |R(i h)| in each step.
   if (s.first_order) {
     const std::span<const double> polynomial = limits::stability_polynomial(s.limit);
     if (polynomial.empty()) found += "a first-order rule needs a limit with a stability polynomial. ";
@@ -124,7 +125,7 @@ inline std::string contradiction(const Stepper& row) {
       double largest = 0;
       for (int i = 0; i < steps; ++i)
         largest = std::max(largest, std::abs(t.x[i + 1].norm() / t.x[i].norm() / std::abs(r) - 1));
-      // each stage rounds a few times, by half an ulp of numbers of the size of the radius
+      // each stage has a few roundings of half an ulp of the radius
       if (!(largest <= (8 + 4 * s.evaluations) * eps))
         found += fmt::format("h = {} on circle: the growth of the radius differs from {} by {:.2g}. ", h, std::abs(r),
                              largest);

@@ -1,5 +1,5 @@
-// Energies and the ledger: exact integrals, balance that closes to the order of the stepper, and the implicit midpoint
-// rule, which keeps the energy.
+// Energies and the ledger: exact integrals, balance that closes to the order of the stepper, and energy conservation of
+// the implicit midpoint rule.
 
 #include <numbers>
 
@@ -9,8 +9,8 @@
 
 namespace crosscheck {
 
-// Energies and the ledger: exact integrals, balance that closes to the order of the stepper, losses of contact, the
-// monitor.
+// Energies and the ledger: exact integrals, balance that closes to the order of the stepper, contact losses, the
+// divergence monitor.
 
 namespace {
 
@@ -24,8 +24,8 @@ TEST(Integral, IsExactForCubics) {
   integral.add(f(0), 0);
   for (int i = 1; i <= 50; ++i) {
     integral.add(f(h * i), h);
-    if (i == 1) continue;  // two values know no cubic
-    // some roundings of each of the terms, the largest is 1.25 t^4
+    if (i == 1) continue;  // two values do not determine a cubic
+    // some roundings of each term; the largest term is 1.25 t^4
     EXPECT_NEAR(integral.value(), whole(h * i), 4 * i * eps * std::max(1.0, 5 * std::pow(h * i, 4)));
   }
 }
@@ -41,25 +41,25 @@ TEST(Integral, HasOrderFourOnSmoothCurves) {
     }
     return worst;
   };
-  EXPECT_NEAR(slope(error(40), error(80)), 4, 0.15);  // the next term is h = 0.05 of the leading one
+  EXPECT_NEAR(slope(error(40), error(80)), 4, 0.15);  // the next term is smaller by h = 0.05
 }
 
-/// Order of the balance between a step that suits the stepper and half of it.
+/// Order of the balance between a suitable step for the stepper and half of it.
 double order_of_balance(const Stepper& s, const Scene& scene) {
-  // steps that divide the ramp, where the third derivative of the pins' motion jumps
+  // The steps divide the ramp, at whose end the third derivative of the pins' motion jumps.
   const double h = s.order == 1 ? 1.25e-4 : s.order == 2 ? 2.5e-4 : 6.25e-4;
   const double coarse = imbalance(s, scene, {h, 0.5, 10}), fine = imbalance(s, scene, {h / 2, 0.5, 10});
-  EXPECT_GT(fine, 1e-13) << "at round-off the slope is noise";
+  EXPECT_GT(fine, 1e-13) << "the imbalance is at round-off, so the slope would be noise";
   return slope(coarse, fine);
 }
-/// What the balance can show: its integrals are of order 4.
+/// Measurable order of the balance, whose integrals are of order 4.
 int shown(const Stepper& s) { return std::min(s.order, 4); }
 
 TEST(Ledger, ClosesToTheOrderOfTheStepperUnderDragWindAndMovedPins) {
   for (const Stepper& s : fixed_steppers()) {
     SCOPED_TRACE(s.name);
-    // the next term is h times the highest frequency, 0.1 at most; of rk4 it is large, since what it damps is of order
-    // 5
+    // The next term is smaller by h times the highest frequency, at most 0.1. For rk4 it is large, because its damping
+    // is of order 5.
     EXPECT_NEAR(order_of_balance(s, small_cloth()), shown(s), 0.25);
   }
 }
@@ -80,7 +80,7 @@ TEST(Ledger, OfAnAdaptiveRunFollowsItsTolerance) {
     double before = INFINITY;
     for (const double tolerance : {1e-3, 1e-5, 1e-7}) {
       const double residue = imbalance(s, scene, {1e-3, 1, 20, tolerance});
-      // a hundredth at best; the ledger's integrals at 1e-3 s add their own error, below that
+      // ideally a hundredth; the ledger's integrals at 1e-3 s add a smaller error
       EXPECT_LT(residue, before / 10);
       before = residue;
     }
@@ -98,14 +98,14 @@ TEST(Ledger, EveryEntryIsNeeded) {
 }
 
 TEST(Ledger, ClosesToFirstOrderInContact) {
-  // a ball dropped on a sphere off its top: it lands, loses its normal speed, slides with friction, leaves, under drag
+  // A ball dropped on a sphere off its top lands, loses its normal speed, slides with friction and leaves, under drag.
   const Scene scene = small_scene(std::string("[[particle]]\nposition = [0.3, 1.2, 0]\nmass = 1\n[sphere]\n"
                                               "centre = [0, 0, 0]\nradius = 1\nfriction = 0.1\n[drag]\ngamma = 1\n") +
                                   gravity_text);
   for (const Stepper& s : steppers())
     for (const double h : {1e-3, 1e-4}) {
       SCOPED_TRACE(fmt::format("{} h = {}", s.name, h));
-      // m g times a step's path at the top speed of 5 m/s, for the step of the landing, and as much for Euler's lag
+      // m g times a step's path at the top speed of 5 m/s, once for the landing step and once for Euler's lag
       EXPECT_LT(imbalance(s, scene, {h, 1, 50}), 2 * 9.81 * 5 * h);
     }
 }
@@ -119,13 +119,13 @@ TEST(Ledger, ContactLossIsWhatTheRuleTook) {
     Ledger ledger(scene.model, ContactLoss::reported);
     const double h = 1e-4;  // s
     simulate(s, ContactRule::coulomb, scene, {h, 1, 10}, ledger);
-    // the ball falls 0.2 m and stays: all of m g 0.2 is lost, but for m g times the last step's path (2 m/s), and for
-    // Euler's lag in flight and the kick of each resting step, which together make m g (g t h / 2) over the run of 1 s
+    // The ball falls 0.2 m and stays, so it loses m g 0.2, up to m g times the path of the last step (2 m/s). Euler's
+    // lag in flight and the kick of each resting step together add m g (g t h / 2) over the run of 1 s.
     EXPECT_NEAR(ledger.rows().back().contact, 2 * 9.81 * 0.2, 2 * 9.81 * (2 + 9.81 / 2) * h);
   }
 }
 
-/// A particle of the mass (kg) on or above a ball of radius 1 m at the origin.
+/// A particle of the given mass (kg) on or above a ball of radius 1 m at the origin.
 Scene on_a_ball(double mass, const Vec3& x, const Vec3& v, double friction, double restitution = 0,
                 const std::string& more = "") {
   return small_scene(
@@ -151,13 +151,13 @@ TEST(Ledger, WhatRestsOnABallLosesNothing) {
     Scene scene;
     double allowed;  // J
   };
-  // impulses m g h times ways that are rounded by some ulps of the radius, over the step
+  // impulses m g h times displacements that are rounded by some ulps of the radius, over the step
   const double rounding = 8 * eps * steps * weight;
   const Rest rests[] = {
       {"on the top", on_a_ball(1, {0, 1, 0}, {0, 0, 0}, 0.3), rounding},
       {"with restitution", on_a_ball(1, {0, 1, 0}, {0, 0, 0}, 0, 0.5), rounding},
-      // the rule that holds it back takes the normal where the step would end, turned by g h^2 / R: what is left of the
-      // push g h^2 after that turn, twice, is a creep in every step
+      // The friction rule uses the normal at the end of the step, turned by g h^2 / R. The residual of the displacement
+      // g h^2 after this rotation, twice, causes a creep in every step.
       {"held by friction on a slope", on_a_ball(1, {std::sin(slope), std::cos(slope), 0}, {0, 0, 0}, 1),
        steps * weight * std::pow(2 * 9.81e-4, 3)},
       {"between two balls",
@@ -170,9 +170,9 @@ TEST(Ledger, WhatRestsOnABallLosesNothing) {
     }
   for (const Stepper& s : steppers()) {
     SCOPED_TRACE(s.name);
-    // the sticky sphere takes no more from what lies still
+    // the sticky sphere takes no more energy from a resting particle
     EXPECT_NEAR(ledger_of(s, rests[0].scene, run, ContactRule::sticky).back().contact, 0, rounding);
-    // nor does anything else: the balance of a particle at rest is that of the start, but for the kick of a step
+    // The balance of a resting particle stays constant, except for the kick of one step.
     if (!s.adaptive) {
       const auto rows = ledger_of(s, rests[0].scene, run);
       EXPECT_NEAR(rows.back().balance(), rows.front().balance(), weight * 9.81 * 1e-4);
@@ -184,13 +184,13 @@ TEST(Ledger, FrictionlessContactTakesNothing) {
   const Scene scene = on_a_ball(1, {0, 1, 0}, {1, 0, 0}, 0);
   for (const Stepper& s : steppers()) {
     SCOPED_TRACE(s.name);
-    // from the top until it flies off; roundings of impulses along the normal, times its way of a metre
+    // From the top until it leaves: rounding of impulses along the normal, times its path of a metre.
     EXPECT_NEAR(ledger_of(s, scene, {1e-3, 1, 10}).back().contact, 0, 1000 * 8 * eps * 9.81);
   }
 }
 
-/// What friction takes from a block of 1.5 kg at 2 m/s on the top of a ball of a kilometre, mu = 0.3, until it stops,
-/// J: with u = theta'^2 the motion is du/dtheta = 2 (g/R) (sin theta - mu cos theta) + 2 mu u
+/// Energy (J) lost to friction by a block of 1.5 kg at 2 m/s on the top of a ball of 1 km, mu = 0.3, until it stops.
+/// With u = theta'^2 the motion is du/dtheta = 2 (g/R) (sin theta - mu cos theta) + 2 mu u
 /// (reference/truth/exact/contact.cpp).
 double lost_by_the_block() {
   const double mu = 0.3, w = 9.81 / 1000, u0 = 4e-6;
@@ -214,9 +214,9 @@ TEST(Ledger, FrictionOfASlidingBlockIsItsEnergyToTheOrderOfTheRule) {
     const double coarse = error(2e-3), fine = error(1e-3);
     fmt::print("sliding block, {:18} {:.3g} J at 2 ms, {:.3g} J at 1 ms\n", s.name, coarse, fine);
     const bool new_velocity = s.name == "symplectic-euler" || s.name == "implicit-euler" || s.name == "xpbd";
-    // friction m g mu over ways of h v' instead of h (v + v') / 2: less by m g mu h v / 2 in all, at the 2 m/s of the
-    // start; all others are off by the last step's way, (mu g h)^2 / 2 each kilogram, and by what the ball is round:
-    // (v h)^2 / 2 R of a height in each step, v^2 / 3 in the mean
+    // These rules apply friction m g mu along h v' instead of h (v + v') / 2: less by m g mu h v / 2 in total, with the
+    // initial 2 m/s. All others err by the path of the last step, (mu g h)^2 / 2 per kilogram, and by the ball's
+    // curvature: a height of (v h)^2 / 2 R in each step, with a mean of v^2 / 3.
     const double lag = new_velocity ? 1.5 * 9.81 * 0.3 * 2 / 2 * 1e-3 : 0;
     const double rest = 1.5 * (std::pow(0.3 * 9.81 * 1e-3, 2) + 9.81 * 0.68 * 2 / 3 / 1000 * 1e-3);
     EXPECT_NEAR(fine, -lag, 2 * rest);
@@ -228,7 +228,7 @@ TEST(Ledger, FrictionOfASlidingBlockIsItsEnergyToTheOrderOfTheRule) {
 }
 
 TEST(Ledger, ImpactsTakeWhatRestitutionLeaves) {
-  // from 0.2 m: m g 0.2 (1 - e^2) in the first bounce, whatever happens in the step in which it lies
+  // from 0.2 m: m g 0.2 (1 - e^2) in the first bounce, independent of the position within the step
   for (const double e : {0.0, 0.3, 0.7, 1.0})
     for (const Stepper& s : steppers()) {
       SCOPED_TRACE(fmt::format("{} e = {}", s.name, e));
@@ -236,7 +236,7 @@ TEST(Ledger, ImpactsTakeWhatRestitutionLeaves) {
       auto error = [&](double h) {
         return ledger_of(s, scene, {h, 0.25, 10}).back().contact - 9.81 * 0.2 * (1 - e * e);
       };
-      // Euler's lag in flight, m g (g t h / 2), and a rebound that begins within a step, m g v h
+      // Euler's lag in flight, m g (g t h / 2), and a rebound that starts within a step, m g v h
       for (const double h : {1e-3, 1e-4}) EXPECT_NEAR(error(h), 0, 9.81 * (9.81 * 0.25 / 2 + 2 * e) * h + 1e-12);
     }
 }
@@ -249,7 +249,7 @@ TEST(Ledger, LossesThatAnEngineDoesNotReportAreInferredAndMarked) {
   Ledger inferred(onto.model, ContactLoss::inferred), reported(onto.model, ContactLoss::reported);
   ASSERT_TRUE(inferred.contact_inferred());
   simulate(stepper("leapfrog"), ContactRule::coulomb, onto, {1e-4, 1, 10}, reported);
-  // the same run seen by an engine that does not call contact()
+  // the same run by an engine that does not call contact()
   struct Mute : Observer {
     explicit Mute(Ledger& l) : ledger(l) {}
     bool every_step() const override { return true; }
@@ -259,7 +259,7 @@ TEST(Ledger, LossesThatAnEngineDoesNotReportAreInferredAndMarked) {
   simulate(stepper("leapfrog"), ContactRule::coulomb, onto, {1e-4, 1, 10}, mute);
   for (size_t i = 0; i < inferred.rows().size(); ++i) {
     EXPECT_NEAR(inferred.rows()[i].balance(), inferred.rows()[0].balance(), 16 * eps * 40);    // by definition, 40 J
-    EXPECT_NEAR(inferred.rows()[i].contact, reported.rows()[i].contact, 2 * 9.81 * 2 * 1e-4);  // a step's path
+    EXPECT_NEAR(inferred.rows()[i].contact, reported.rows()[i].contact, 2 * 9.81 * 2 * 1e-4);  // path of a step
   }
 }
 
@@ -272,7 +272,7 @@ TEST(Energy, OfAKnownState) {
   const Energy e = energy_of(s.model, s.start);
   EXPECT_DOUBLE_EQ(e.kinetic, 9);                   // 2 kg at 3 m/s
   EXPECT_DOUBLE_EQ(e.elastic, 5);                   // 10 N/m by 1 m
-  EXPECT_DOUBLE_EQ(e.gravitational, 2 * 9.81 * 4);  // the pin counts nowhere
+  EXPECT_DOUBLE_EQ(e.gravitational, 2 * 9.81 * 4);  // pins do not count
   EXPECT_DOUBLE_EQ(e.total(), e.kinetic + e.elastic + e.gravitational);
 }
 
@@ -295,7 +295,7 @@ TEST(DivergenceMonitor, NoGoodRunIsCondemned) {
       SCOPED_TRACE(fmt::format("{} {}", name, method));
       DivergenceMonitor monitor(scene.model);
       const double duration = std::min(scene.duration, 0.3);
-      // within the limit of both rules: a scene may be meant for longer steps
+      // Within the limit of both rules, because a scene may be designed for longer steps.
       const double omega = highest_frequency(scene.model, scene.start);
       const double step = omega > 0 ? std::min(scene.step, 1.5 / omega) : scene.step;
       const Outcome out = simulate(stepper(method), ContactRule::coulomb, scene, {step, duration, 30}, monitor);
@@ -304,7 +304,7 @@ TEST(DivergenceMonitor, NoGoodRunIsCondemned) {
 }
 
 TEST(DivergenceMonitor, ASceneAtRestIsNotCondemnedForItsRounding) {
-  // a spring whose written rest length is its length but for rounding: a motion of 1e-15 m with 1e-29 J to work with
+  // A spring whose rest length equals its length up to rounding: a motion of 1e-15 m with energies of 1e-29 J.
   for (unsigned seed = 1; seed <= 10; ++seed) {
     Random random(seed);
     std::string text;
@@ -330,11 +330,11 @@ TEST(DivergenceMonitor, BlowUpsAreFoundWhetherOrNotTheWindBlowsAndPinsMove) {
     for (const Stepper& s : fixed_steppers()) {
       SCOPED_TRACE(s.name);
       DivergenceMonitor monitor(scene.model);
-      // omega_max is about sqrt(8 k n / m) = 200 rad/s: h omega = 10 is beyond every explicit rule
+      // omega_max is about sqrt(8 k n / m) = 200 rad/s: h omega = 10 is unstable for every explicit rule
       const Outcome out = simulate(s, ContactRule::coulomb, scene, {0.05, 5, 100}, monitor);
       if (std::isinf(s.limit(200, 2))) {
-        // rules that solve the whole step are stable; one Gauss-Seidel pass leaves springs unsolved, whose energy may
-        // pass for a blow-up, but the cloth stays in one place: within its fall and its size
+        // Rules that solve the whole step are stable. One Gauss-Seidel pass leaves residuals in springs, whose energy
+        // may look like a blow-up, but the cloth stays within its fall and its size.
         if (s.evaluations == 0) {
           EXPECT_EQ(out.verdict, Verdict::ok) << out.reason;
         }
@@ -342,7 +342,7 @@ TEST(DivergenceMonitor, BlowUpsAreFoundWhetherOrNotTheWindBlowsAndPinsMove) {
         for (const Points& x : t.x) EXPECT_LT(x.cwiseAbs().maxCoeff(), 3);
         continue;
       }
-      // between two samples a spring may get too long before two differences show a speed
+      // A spring may exceed its allowed length before two differences reveal the speed.
       EXPECT_NE(out.verdict, Verdict::ok);
       EXPECT_LT(out.end, 2);
       EXPECT_FALSE(out.reason.empty());
@@ -364,16 +364,16 @@ TEST(ImplicitMidpoint, KeepsTheEnergyOfOneSpringAtAnyStep) {
   for (const double h : {1e-3, 1e-2, 0.1, 1.0}) {
     const double error = largest_energy_error(stepper("implicit-midpoint"), scene, {h, 5, 5});
     fmt::print("spring, h = {}: energy error {:.2g} J\n", h, error);
-    // a solve leaves 1e-10 of the largest force at work on the path: the inertia m v / (h/2) or the spring's
-    // k x = 30 N, over 2 m/s times 5 s
+    // The residual of a solve is 1e-10 of the largest force, and does work along the path. The force is the inertia m v
+    // / (h/2) or the spring's k x = 30 N, the path 2 m/s times 5 s.
     EXPECT_LT(error, 1e-10 * (2 * 2 / h + 30) * 2 * 5) << h;
   }
-  // a rule of the same order that is not exact: it oscillates by (h omega)^2 / 8 of the energy and more
+  // in contrast, a rule of the same order that is not exact oscillates by (h omega)^2 / 8 of the energy or more
   EXPECT_GT(largest_energy_error(stepper("leapfrog"), scene, {1e-2, 5, 100}), 1e-3);
 }
 
 TEST(ImplicitMidpoint, KeepsTheEnergyOfACollinearChain) {
-  // three masses on a line between two pins, springs always stretched and never turned: linear
+  // Three masses on a line between two pins, with springs that are always stretched and never rotate: a linear system.
   std::string text;
   const double at[] = {0, 0.62, 1.13, 1.71, 2.4};
   for (const double x : at) text += fmt::format("[[particle]]\nposition = [{}, 0, 0]\nmass = 0.5\n", x);
@@ -394,13 +394,13 @@ TEST(ImplicitMidpoint, EnergyOfASwingingChainIsBoundedToOrderTwo) {
   for (const double h : {2e-3, 1e-3, 5e-4}) {
     const double error = largest_energy_error(stepper("implicit-midpoint"), scene, {h, 3, 300});
     fmt::print("swinging chain, h = {}: energy error {:.3g} J\n", h, error);
-    // the maximum is met at another moment each time: measured slopes 2.0 to 2.1
+    // samples hit the maximum at different phases: measured slopes 2.0 to 2.1
     if (before > 0) {
       EXPECT_NEAR(slope(before, error), 2, 0.3);
     }
     before = error;
   }
-  EXPECT_GT(before, 1e-7);  // not exact: springs that turn are not linear
+  EXPECT_GT(before, 1e-7);  // not exact: rotating springs are not linear
 }
 
 }  // namespace

@@ -1,4 +1,4 @@
-// Forces of all terms: minus the gradient of their energy, their tangents, what they conserve, how they turn.
+// Forces of all terms: negative gradients of their energies, their tangents, conservation laws, rotation invariance.
 
 #include <Eigen/Dense>
 
@@ -14,7 +14,7 @@ using namespace testing_tools;
 
 constexpr SpringLaw laws[] = {SpringLaw::hooke, SpringLaw::bullet_link};
 
-/// Calls look(type) for each type of the table of terms, through a null pointer of that type.
+/// Calls look(type) for each type of the table of terms, with a null pointer of that type.
 template <class Look, size_t... I>
 void for_each_term_type(Look look, std::index_sequence<I...>) {
   (look(static_cast<std::variant_alternative_t<I, Term>*>(nullptr)), ...);
@@ -24,14 +24,14 @@ void for_each_term_type(Look look) {
   for_each_term_type(look, std::make_index_sequence<std::variant_size_v<Term>>());
 }
 
-/// A network that has every term with a force.
+/// A network with every term that exerts a force.
 Network full_network(unsigned seed, SpringLaw law) {
   Network net = busy_network(seed, law);
   net.model.terms.emplace_back(random_air(seed));
   return net;
 }
 
-const double step = std::cbrt(eps);  // truncation and round-off of a central difference are then of one size
+const double step = std::cbrt(eps);  // balances truncation and round-off of a central difference
 
 TEST(Forces, AreMinusTheGradientOfEveryEnergyThereIs) {
   int energies = 0;
@@ -42,7 +42,7 @@ TEST(Forces, AreMinusTheGradientOfEveryEnergyThereIs) {
       for_each_term_type([&]<class T>(T*) {
         if constexpr (HasPotential<T>) {
           const T* term = net.model.find<T>();
-          ASSERT_TRUE(term) << "a new term with an energy needs its place in the network: " << T::name;
+          ASSERT_TRUE(term) << "add the new term with an energy to the network: " << T::name;
           const Points f = force_of(*term, net);
           auto energy = [&](int axis, int i, double by) {
             State moved = net.state;
@@ -51,21 +51,21 @@ TEST(Forces, AreMinusTheGradientOfEveryEnergyThereIs) {
           };
           for (int i = 0; i < f.cols(); ++i)
             for (int axis = 0; axis < 3; ++axis) {
-              // energies leave pins out of what is theirs alone; those of springs and bending are shared
+              // Terms with their own energy omit pins; the energies of springs and bending include them.
               if (net.model.particles.pinned[i] && !HasTangent<T>) continue;
               const double slope_there = (energy(axis, i, step) - energy(axis, i, -step)) / (2 * step);
-              // eps^(2/3) times the size of E''' (up to 5 springs of 3 k r / L^2 = 7000 N/m^2 each, a sixth counts; the
-              // link law is no steeper) and of E
+              // eps^(2/3) times the size of E''' / 6 (up to 5 springs of 3 k r / L^2 = 7000 N/m^2 each; the link law is
+              // no steeper) and of E
               EXPECT_NEAR(f(axis, i), -slope_there, 6000 * std::pow(eps, 2.0 / 3)) << T::name;
             }
           ++energies;
         }
       });
     }
-  EXPECT_EQ(energies, 3 * 2 * 20);  // springs, bending and gravity
+  EXPECT_EQ(energies, 3 * 2 * 20);  // springs, bending, gravity
 }
 
-/// The product of the tangent of one term with d.
+/// Product of the tangent of one term with d.
 template <class T>
 Points product(const Network& net, Curvature curvature, double stiffness, double damping, const Points& d) {
   Tangent tangent;
@@ -93,7 +93,7 @@ TEST(Tangents, OfSpringsIsTheSlopeOfTheForce) {
       down.state.x -= step * d;
       const Springs& springs = *net.model.find<Springs>();
       const Points slope_there = (force_of(springs, up) - force_of(springs, down)) / (2 * step);
-      // eps^(2/3) times a sixth of the force's third derivative, five springs of 15 k r / L^3 times |d|^3 at 0.3 m
+      // eps^(2/3) times a sixth of the force's third derivative: five springs of 15 k r / L^3 times |d|^3 at 0.3 m
       EXPECT_LT((product<Springs>(net, Curvature::exact, 1, 0, d) + slope_there).cwiseAbs().maxCoeff(),
                 1e6 * std::pow(eps, 2.0 / 3));
     }
@@ -108,12 +108,12 @@ TEST(Tangents, OfDashpotsIsExactAlongFixedDirections) {
     faster.state.v += d;
     const Dashpots& dashpots = *net.model.find<Dashpots>();
     const Points change = force_of(dashpots, faster) - force_of(dashpots, net);
-    // the force is linear in the velocities: some roundings of five forces up to 2 N s/m times 4 m/s
+    // The force is linear in the velocities: some roundings of five forces up to 2 N s/m times 4 m/s.
     EXPECT_LT((product<Dashpots>(net, Curvature::exact, 0, 1, d) + change).cwiseAbs().maxCoeff(), 5 * 8 * 16 * eps);
   }
 }
 
-/// The 3n x 3n matrix K of the springs.
+/// The 3n x 3n stiffness matrix K of the springs.
 Eigen::MatrixXd matrix_of(const Network& net, Curvature curvature) {
   const int n = static_cast<int>(net.state.x.cols());
   Eigen::MatrixXd k(3 * n, 3 * n);
@@ -135,13 +135,13 @@ TEST(Tangents, ClampedIsPositiveSemidefiniteAndExactWhereAllSpringsAreStretched)
       const Eigen::MatrixXd clamped = matrix_of(net, Curvature::clamped), exact = matrix_of(net, Curvature::exact);
       const double size = clamped.norm();
       auto lowest = [](const Eigen::MatrixXd& k) { return symmetric_eigenvalues(k)[0]; };
-      EXPECT_GE(lowest(clamped), -32 * eps * size);  // the solver's round-off, 18 unknowns
+      EXPECT_GE(lowest(clamped), -32 * eps * size);  // round-off of the eigenvalue solver, 18 unknowns
       EXPECT_LT((exact - exact.transpose()).cwiseAbs().maxCoeff(), 4 * eps * size);
       indefinite += lowest(exact) < -1e-6 * size;
-      for (Spring& s : net.model.find<Springs>()->list) s.rest *= 0.1;  // distances are 0.3 m at least, rests now 0.2 m
+      for (Spring& s : net.model.find<Springs>()->list) s.rest *= 0.1;  // distances >= 0.3 m, rest lengths now <= 0.2 m
       EXPECT_EQ(matrix_of(net, Curvature::clamped), matrix_of(net, Curvature::exact));
     }
-  EXPECT_GT(indefinite, 20);  // otherwise the clamp was not tried
+  EXPECT_GT(indefinite, 20);  // otherwise the clamp would not be tested
 }
 
 /// Sum of forces and of torques about the origin.
@@ -162,7 +162,8 @@ TEST(Forces, InsideABodyKeepMomentumAndAngularMomentum) {
       for (const Points& f : {force_of(*net.model.find<Springs>(), net), force_of(*net.model.find<Bending>(), net),
                               force_of(*net.model.find<Dashpots>(), net)}) {
         const auto [sum, torque] = resultant(f, net.state.x);
-        // thirty additions of forces up to 900 N (the link law has k L at most) at points up to 2 m from the origin
+        // about thirty additions of forces up to 900 N (the link law has at most k L) at points up to 2 m from the
+        // origin
         EXPECT_LT(sum.norm(), 30 * eps * 900);
         EXPECT_LT(torque.norm(), 60 * eps * 900 * 2);
       }
@@ -189,9 +190,9 @@ TEST(Forces, TurnAndMoveWithTheBody) {
       for_each_term_type([&]<class T>(T*) {
         if constexpr (HasForce<T>) {
           const T *here = net.model.find<T>(), *there = moved.model.find<T>();
-          ASSERT_TRUE(here && there) << "a new force needs its place in the network: " << T::name;
+          ASSERT_TRUE(here && there) << "add the new force to the network: " << T::name;
           const Points expected = turn * force_of(*here, net);
-          // lengths lose some ulps of 3 m, each times k of up to 100 N/m in five springs; other forces are weaker
+          // Lengths lose some ulps of 3 m, multiplied by k of up to 100 N/m in five springs. Other forces are weaker.
           EXPECT_LT((force_of(*there, moved) - expected).cwiseAbs().maxCoeff(), 5 * 100 * 3 * 16 * eps) << T::name;
         }
       });
@@ -221,7 +222,7 @@ TEST(Dashpots, LeaveRigidMotionAlone) {
     Random random(seed + 7);
     const Vec3 velocity = random.vector(), spin = 5 * random.vector();
     for (int i = 0; i < 6; ++i) net.state.v.col(i) = velocity + spin.cross(Vec3(net.state.x.col(i)));
-    // (v_a - v_b) . d cancels to some ulps of 9 rad/s times (3.5 m)^2; over d it is divided by 0.3 m at worst
+    // (v_a - v_b) . d cancels to some ulps of 9 rad/s times (3.5 m)^2. The division by d is at worst by 0.3 m.
     EXPECT_LT(force_of(random_dashpots(seed, net), net).cwiseAbs().maxCoeff(), 5 * 2 * 8 * eps * 9 * 12 / 0.3);
   }
 }
@@ -234,10 +235,10 @@ TEST(LinkLaw, HasTheTensionAndTheEnergyOfItsFormulas) {
     const auto [force, slope_there] = tension_of(s, SpringLaw::bullet_link, length);
     EXPECT_NEAR(force, s.k * length * (l2 - r2) / (l2 + r2), 8 * eps * s.k * length);
     auto tension = [&](double at) { return tension_of(s, SpringLaw::bullet_link, at).force; };
-    // a sixth of the third derivative, below 24 k / r^2, and the force's own size, times eps^(2/3)
+    // (a sixth of the third derivative, below 24 k / r^2, plus the size of the force) times eps^(2/3)
     EXPECT_NEAR(slope_there, (tension(length + step) - tension(length - step)) / (2 * step),
                 (4 * s.k / r2 + s.k * 3) * std::pow(eps, 2.0 / 3));
-    // the energy is the integral of the tension from the rest length: Simpson's rule in 2000 intervals
+    // the energy is the integral of the tension from the rest length, here by Simpson's rule with 2000 intervals
     const int n = 2000;
     double integral = 0;
     for (int j = 0; j <= n; ++j)
@@ -258,7 +259,7 @@ TEST(LinkLaw, IsHookesToFirstOrderInTheStretch) {
     return std::abs(tension_of(s, SpringLaw::bullet_link, s.rest + stretch).force - s.k * stretch);
   };
   for (const double stretch : {1e-2, 1e-3}) {
-    // the next term of the tension is k e^2 / (2 r): second order, two-sided
+    // the next term of the tension is k e^2 / (2 r): second order, on both sides
     EXPECT_NEAR(difference(stretch), s.k * stretch * stretch / (2 * s.rest), 2 * s.k * stretch * stretch * stretch);
     EXPECT_NEAR(slope(difference(stretch), difference(stretch / 2)), 2, 0.05);
   }
