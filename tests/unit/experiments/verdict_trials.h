@@ -47,7 +47,7 @@ inline TrialScene trial_scene(Random& random) {
   SceneWriter w;
   TrialScene trial;
   const double d = decades(random, 0.05, 0.5), mass = decades(random, 0.01, 1), k = decades(random, 3, 3000);
-  const double omega = std::sqrt(k / mass);  // of a single spring and mass
+  const double omega = std::sqrt(k / mass);  // single spring and mass
   const int body = whole(random, 0, 2);
   const int nx = body == 0 ? 2 : whole(random, 3, body == 1 ? 7 : 5), ny = body == 2 ? whole(random, 3, 5) : 1;
   const double prestress = chance(random, 0.35) ? random.between(0.5, 0.95) : chance(random, 0.15) ? 1.1 : 1;
@@ -232,7 +232,7 @@ struct Trial {
   bool later = false;                     // but not in a run ten times as long
   long left = 0;                          // first step beyond the bounds
   Verdict verdict = Verdict::ok;          // with the states that runs are normally judged on
-  Verdict every = Verdict::ok;            // of a monitor that observes every step
+  Verdict every = Verdict::ok;            // with every step observed
   long when_verdict = 0, when_every = 0;  // steps of these verdicts
   double most = 0;                        // K^ / B
   double margin = 0;                      // 1: limit with every spring stretched far, divided by the step, minus 1

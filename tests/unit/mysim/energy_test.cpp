@@ -249,7 +249,7 @@ TEST(Ledger, LossesThatAnEngineDoesNotReportAreInferredAndMarked) {
   Ledger inferred(onto.model, ContactLoss::inferred), reported(onto.model, ContactLoss::reported);
   ASSERT_TRUE(inferred.contact_inferred());
   simulate(stepper("leapfrog"), ContactRule::coulomb, onto, {1e-4, 1, 10}, reported);
-  // the same run by an engine that does not call contact()
+  // an identical run by an engine that does not call contact()
   struct Mute : Observer {
     explicit Mute(Ledger& l) : ledger(l) {}
     bool every_step() const override { return true; }
