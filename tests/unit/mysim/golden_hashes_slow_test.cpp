@@ -1,4 +1,4 @@
-// Every rule of sums in one order gives the same bits on every instruction set and processor.
+// Rules with a fixed summation order give identical bits on every instruction set and processor.
 
 #include <array>
 
@@ -10,7 +10,7 @@ namespace {
 
 using namespace testing_tools;
 
-/// The hash after 1000 steps, or where the run blew up; empty where the rule does not take the scene.
+/// Hash after 1000 steps, or the time of a blow-up. Empty if the rule does not support the scene.
 std::string hash_of(const Scene& scene, const Stepper& rule) {
   const Run run{.step = scene.step,
                 .duration = golden_duration(scene),
@@ -29,7 +29,7 @@ std::string hash_of(const Scene& scene, const Stepper& rule) {
   }
 }
 
-/// CROSSCHECK_WRITE_GOLDEN_HASHES=1 writes the table instead.
+/// With CROSSCHECK_WRITE_GOLDEN_HASHES=1, writes the table instead.
 TEST(GoldenHashes, AreThoseOfTheTable) {
   GoldenHashes computed;
   for (const std::string& name : shipped_scene_names()) {
@@ -63,7 +63,7 @@ TEST(GoldenHashes, AreThoseOfTheTable) {
   }
 }
 
-/// Three weighted means of a state's coordinates, m; no weight is above 1 in size.
+/// Three weighted means (m) of a state's coordinates, with weights of at most 1 in magnitude.
 std::array<double, 3> projections(const Points& x) {
   std::array<double, 3> sums{};
   for (Eigen::Index i = 0; i < x.size(); ++i)
@@ -73,7 +73,7 @@ std::array<double, 3> projections(const Points& x) {
   return sums;
 }
 
-/// Implicit rules on small scenes, 20 steps. CROSSCHECK_WRITE_GOLDEN_HASHES=1 writes the table.
+/// Implicit rules on small scenes, 20 steps. With CROSSCHECK_WRITE_GOLDEN_HASHES=1, writes the table instead.
 TEST(GoldenProjections, OfImplicitRulesAgreeWithTheTable) {
   const std::filesystem::path file = CROSSCHECK_SOURCE "/reference/baselines/implicit-projections.csv";
   std::map<std::string, std::array<double, 3>> computed;
@@ -100,7 +100,7 @@ TEST(GoldenProjections, OfImplicitRulesAgreeWithTheTable) {
     const std::vector<std::string> words = split(line, ',');
     const auto found = computed.find(words.at(0) + ',' + words.at(1));
     ASSERT_NE(found, computed.end()) << line;
-    // solvers stop at 1e-12 of their residual; 1e-7 m is also what WebAssembly is granted (lab_slow_test.cpp)
+    // Solvers stop at 1e-12 of their residual. WebAssembly has the same tolerance of 1e-7 m (lab_slow_test.cpp).
     for (int j = 0; j < 3; ++j) EXPECT_NEAR(found->second[j], std::stod(words.at(2 + j)), 1e-7) << line;
     ++compared;
   }

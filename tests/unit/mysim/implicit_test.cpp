@@ -24,7 +24,7 @@ Network busy_network_in_air(unsigned seed, SpringLaw law) {
   return net;
 }
 
-/// The potential of one step of a random network with every ingredient, and a random place to look at it.
+/// Potential of one step of a random network with every ingredient, and a random point at which to evaluate it.
 struct Problem {
   Network net;
   System f;
@@ -38,7 +38,7 @@ struct Problem {
     u = direction(0.02);
     potential.freeze(u);
   }
-  /// Random columns up to `size`, zero at pins.
+  /// Random columns with components up to `size`, zero at pins.
   Points direction(double size) {
     Points p(3, net.model.particles.size());
     for (int i = 0; i < p.cols(); ++i) p.col(i) = size * random.vector();
@@ -56,7 +56,7 @@ void for_each_problem(unsigned seeds, const std::function<void(Problem&)>& look)
     }
 }
 
-const double difference_step = std::cbrt(eps);  // m: truncation and round-off of a central difference are of one size
+const double difference_step = std::cbrt(eps);  // m; balances truncation and round-off
 
 TEST(IncrementalPotential, GradientIsTheSlopeOfTheValue) {
   for_each_problem(20, [](Problem& p) {
@@ -66,8 +66,8 @@ TEST(IncrementalPotential, GradientIsTheSlopeOfTheValue) {
       const Points d = p.direction(1);
       const double up = p.potential.value(p.u + difference_step * d), noise = p.potential.rounding(),
                    down = p.potential.value(p.u - difference_step * d);
-      // a sixth of the third derivative (five springs of 3 k r / L^2 at each particle, as in terms_test.cpp) times the
-      // direction's size cubed, and the rounding of the values
+      // (a sixth of the third derivative, with five springs of 3 k r / L^2 at each particle as in terms_test.cpp) times
+      // the cube of the direction's size, plus the rounding of the values
       EXPECT_NEAR(dot(g, d), (up - down) / (2 * difference_step),
                   6000 * std::pow(d.norm(), 3) * std::pow(eps, 2.0 / 3) + noise / difference_step);
     }
@@ -84,15 +84,15 @@ TEST(IncrementalPotential, MatrixIsTheSlopeOfTheGradient) {
       p.potential.apply(d, product);
       p.potential.gradient(p.u + difference_step * d, up);
       p.potential.gradient(p.u - difference_step * d, down);
-      // a sixth of the fourth derivative of the energy (five springs of 15 k r / L^3 at 0.3 m) and the gradients' own
-      // size of some 1e3 N, each times eps^(2/3)
+      // (a sixth of the fourth derivative of the energy, with five springs of 15 k r / L^3 at 0.3 m, plus the gradients
+      // of about 1e3 N) times eps^(2/3)
       EXPECT_LT((product - (up - down) / (2 * difference_step)).cwiseAbs().maxCoeff(),
                 1e5 * std::pow(d.norm(), 3) * std::pow(eps, 2.0 / 3));
     }
   });
 }
 
-/// Rows and columns of the unknowns that are not pinned.
+/// Matrix of the unpinned unknowns; fills `free` with their indices.
 Eigen::MatrixXd assembled(Problem& p, std::vector<int>& free) {
   free.clear();
   for (int i = 0; i < 3 * p.u.cols(); ++i)
@@ -114,7 +114,7 @@ TEST(ConjugateGradients, SolveTheAssembledMatrixLikeADirectSolver) {
       p.potential.linearise(p.u, curvature);
       std::vector<int> free;
       const Eigen::MatrixXd a = assembled(p, free);
-      EXPECT_LT((a - a.transpose()).cwiseAbs().maxCoeff(), 16 * eps * a.cwiseAbs().maxCoeff());  // sums in other orders
+      EXPECT_LT((a - a.transpose()).cwiseAbs().maxCoeff(), 16 * eps * a.cwiseAbs().maxCoeff());  // summation order
       const Eigen::VectorXd values = symmetric_eigenvalues(a);
       if (curvature == Curvature::clamped) {
         EXPECT_GT(values[0], 0);
@@ -132,7 +132,7 @@ TEST(ConjugateGradients, SolveTheAssembledMatrixLikeADirectSolver) {
       ASSERT_TRUE(result.converged);
       EXPECT_LE(result.iterations, 3 * static_cast<int>(free.size()));
       const Eigen::VectorXd direct = a.ldlt().solve(b.reshaped()(free));
-      // a residual of 1e-13 is an error of at most the condition number times that
+      // The error is at most the condition number times the residual of 1e-13.
       const double condition = values[values.size() - 1] / values[0];
       EXPECT_LT((x.reshaped()(free) - direct).norm(), 2e-13 * condition * direct.norm());
       for (int pin : p.net.model.particles.pins) EXPECT_EQ(Vec3(x.col(pin)), Vec3::Zero());
@@ -152,7 +152,7 @@ TEST(ImplicitEuler, StepsSatisfyTheEquations) {
       for (int n = 0; n < 20; ++n) {
         State end = step.solve(s, h);
         EXPECT_NEAR(end.t, s.t + h, 4 * eps);
-        // what the solver promises: 1e-10 of the largest force, or the rounding of the forces; u / h rounds once more
+        // Tolerance of the solver: 1e-10 of the largest force, or the rounding of the forces. u / h rounds once more.
         const double promised =
             1e-10 * step.potential().force_scale() + 2 * step.potential().force_rounding() + 1e-12 / h;
         Points a(3, particles.size());
@@ -169,8 +169,8 @@ TEST(ImplicitEuler, StepsSatisfyTheEquations) {
     }
 }
 
-/// What gravity gives cancels where heights have both signs, and so do not its rounding errors: nets at rest that fall
-/// through the height 0 are stepped, wherever their centre of mass is.
+/// The gravitational potential cancels if heights have both signs, but its rounding errors do not. Tests steps of nets
+/// at rest that fall through height 0, wherever their centre of mass is.
 TEST(ImplicitEuler, FallsThroughTheHeightZero) {
   const double small = 0x1p-10;  // s
   for (unsigned seed = 1; seed <= 10; ++seed) {
@@ -185,15 +185,15 @@ TEST(ImplicitEuler, FallsThroughTheHeightZero) {
     ImplicitStep step(f);
     State s = net.state;
     for (int n = 1; n <= 512; ++n) ASSERT_NO_THROW(s = step.solve(s, small)) << "step " << n;
-    // backward Euler's own fall, n (n + 1) / 2 g h^2; a force of 1e-12 m v / h that is left each time adds n^2 / 2 of
-    // 1e-12 v h, v up to 5 m/s
+    // Backward Euler falls by n (n + 1) / 2 g h^2. A residual force of 1e-12 m v / h in each step adds n^2 / 2 times
+    // 1e-12 v h, with v up to 5 m/s.
     for (int i = 0; i < s.x.cols(); ++i)
       EXPECT_NEAR(s.x(1, i) - net.state.x(1, i), -9.81 * small * small * 512 * 513 / 2,
                   512 * 512 / 2 * 1e-12 * 5 * small);
   }
 }
 
-/// One particle that falls in drag: the potential is a sum of few parts, each of which is rounded more than once.
+/// A single particle falling with drag: the potential has few summands, each of which is rounded more than once.
 TEST(Implicit, OneParticleFallsInDrag) {
   for (unsigned seed = 1; seed <= 60; ++seed) {
     SCOPED_TRACE(seed);
@@ -220,7 +220,7 @@ TEST(ImplicitEuler, LinearOptionIsOneStepOfTheClampedFormula) {
     const Particles& particles = net.model.particles;
     const int n = particles.size();
 
-    // by the formula: q = x + h v, (M (1 + h gamma) + h^2 K+(q)) dv = h (f(q) + m g - c v), v' = v + dv, x' = x + h v'
+    // Formula: q = x + h v, (M (1 + h gamma) + h^2 K+(q)) dv = h (f(q) + m g - c v), v' = v + dv, x' = x + h v'
     State q = net.state;
     q.x += h * q.v;
     q.t += h;
@@ -264,7 +264,7 @@ TEST(ImplicitEuler, LinearOptionIsOneStepOfTheClampedFormula) {
     Workspace w(s);
     stepper("implicit-euler").linear(f, s, h, w);
     const Eigen::VectorXd values = symmetric_eigenvalues(a);
-    // the solver stops at 1e-12 of the right-hand side: an error of at most the condition number times that
+    // The solver stops at 1e-12 of the right-hand side, and the error is at most the condition number times that.
     const double bound = 1e-12 * values[values.size() - 1] / values[0] * dv.norm() + 64 * eps;
     for (int i = 0; i < n; ++i) {
       if (particles.pinned[i]) continue;
@@ -281,7 +281,7 @@ TEST(ImplicitEuler, LinearOptionIsOfTheFirstOrderToo) {
   const Scene scene = small_cloth();
   const Trajectory truth = trajectory_of(stepper("rk4"), scene, {2.5e-4, 0.25, 5});
   auto error = [&](double step) { return sup_rms(trajectory_of(linear, scene, {step, 0.25, 5}), truth); };
-  EXPECT_NEAR(slope(error(2e-4), error(1e-4)), 1, 0.1);  // the next term is h omega = 0.04
+  EXPECT_NEAR(slope(error(2e-4), error(1e-4)), 1, 0.1);  // the next term is smaller by h omega = 0.04
 }
 
 TEST(Implicit, LinksAtRestAreSolvedWhereRoundingLeavesThemNoEnergy) {
@@ -298,7 +298,7 @@ TEST(Implicit, LinksAtRestAreSolvedWhereRoundingLeavesThemNoEnergy) {
 }
 
 TEST(Implicit, AStrutOfStiffSpringsBuckles) {
-  // twenty springs, pressed together by a tenth of their length and a millimetre off the straight line
+  // twenty springs, compressed by a tenth of their length and a millimetre off the straight line
   constexpr int n = 20;
   std::string text;
   for (int i = 0; i <= n; ++i)

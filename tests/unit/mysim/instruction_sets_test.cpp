@@ -1,4 +1,4 @@
-// What is compiled for one instruction set is no other code's.
+// Objects compiled for one instruction set share no code with others.
 
 #include <gtest/gtest.h>
 
@@ -9,8 +9,8 @@
 namespace crosscheck::testing_tools {
 namespace {
 
-/// Code for a newer machine must not be what the linker takes for every machine: objects compiled for an instruction
-/// set share no function with others. Each holds the table of its functions.
+/// The linker must not pick code for a newer machine as the common version of a function. Therefore objects compiled
+/// for an instruction set share no function with others. Each contains the table of its functions.
 TEST(InstructionSets, OfAnInstructionSetKeepTheirCodeToThemselves) {
   std::istringstream objects(CROSSCHECK_KERNEL_OBJECTS);
   int count = 0;
@@ -20,7 +20,7 @@ TEST(InstructionSets, OfAnInstructionSetKeepTheirCodeToThemselves) {
         << object;
     std::istringstream lines(listed);
     for (std::string line; std::getline(lines, line);) {
-      if (line.find("DW.ref.") != std::string::npos) continue;  // data of the sanitizers: no instructions
+      if (line.find("DW.ref.") != std::string::npos) continue;  // data of the sanitizers, not instructions
       const char kind = line.size() > 17 ? line[17] : ' ';
       EXPECT_EQ(std::string("WwVvu").find(kind), std::string::npos) << object << ": " << line;
       EXPECT_EQ(line.find("std::"), std::string::npos) << object << ": " << line;

@@ -1,4 +1,4 @@
-// JSON: what is built is written as ever, comes back to the bit, and every error of a file names its place.
+// JSON: output in insertion order, exact round trips, and errors that name their position in the file.
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -22,7 +22,7 @@ TEST(Json, IsWrittenInTheOrderInWhichItWasBuilt) {
   json["list"].push_back(1.5);
   json["list"].push_back({{"k", true}});
   json["list"].push_back(Json::array());
-  json["b"] = 2u;  // keeps its place
+  json["b"] = 2u;  // keeps its position
   EXPECT_EQ(dump(json), R"({"b":2,"a":{"text":"x","none":null},"null":null,"list":[1.5,{"k":true},[]]})");
   EXPECT_EQ(dump(json, 1),
             "{\n \"b\": 2,\n \"a\": {\n  \"text\": \"x\",\n  \"none\": null\n },\n \"null\": null,\n"
@@ -138,7 +138,7 @@ TEST(JsonField, EveryErrorNamesFilePlaceAndWhatWasExpected) {
   for (const auto& [look, message] : cases)
     EXPECT_EQ(refusal_of([&] { look(f); }).substr(0, 12 + std::string_view(message).size()),
               fmt::format("dir/f.json: {}", message));
-  // of a long text the beginning is enough
+  // long texts are abbreviated
   const JsonField wordy = JsonField::parse(dump(std::string(1000, 'w')), "f");
   EXPECT_EQ(refusal_of([&] { wordy.number(); }), "f: expected a number, got \"" + std::string(60, 'w') + "\"...");
 }

@@ -1,4 +1,4 @@
-// The library behind one header: the same numbers as mysim's own run, refusals with a message, an observer that ends a
+// The library behind one header: identical numbers to mysim's own run, refusals with a message, an observer that ends a
 // run.
 
 #include <gtest/gtest.h>
@@ -68,8 +68,8 @@ mysim::Network oscillator() {
 }
 
 TEST(Library, ANetworkSwingsAsItsClosedForm) {
-  // omega = sqrt(k / m) = 20 rad/s; leapfrog's frequency is too high by (omega h)^2 / 24 of it, which in 1 s is a phase
-  // of omega^3 h^2 / 24, and of the amplitude of 0.1 m as much where the motion is fastest
+  // omega = sqrt(k / m) = 20 rad/s. The frequency of leapfrog is too high by a relative (omega h)^2 / 24. In 1 s this
+  // is a phase error of omega^3 h^2 / 24, and the same fraction of the amplitude of 0.1 m where the motion is fastest.
   const mysim::Scene scene = mysim::Scene::of(oscillator(), 1);
   EXPECT_LE(scene.step(), 2 * M_PI / 20 / 20 * (1 + eps));
   double worst = 0, first = -1, drift = 0;
@@ -83,7 +83,7 @@ TEST(Library, ANetworkSwingsAsItsClosedForm) {
   EXPECT_LT(worst, 0.1 * 20 * 20 * 20 * scene.step() * scene.step() / 24 * 1.1);
   EXPECT_GT(worst, 0.1 * 20 * 20 * 20 * scene.step() * scene.step() / 24 / 4);
   EXPECT_NEAR(first, 1, 1e-12);  // J, k a^2 / 2
-  // leapfrog keeps an energy that is off by (omega h)^2 / 4 of it
+  // the energy that leapfrog conserves is off by a relative (omega h)^2 / 4
   EXPECT_LT(drift, 400 * scene.step() * scene.step() / 4 * 1.1);
 }
 

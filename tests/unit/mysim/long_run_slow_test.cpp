@@ -9,7 +9,7 @@ namespace {
 
 using namespace testing_tools;
 
-/// Largest deviation of the energy in the last tenth of the run over that in the first.
+/// Largest deviation of the energy in the last tenth of the run, divided by that in the first tenth.
 double late_over_early(const Stepper& s, double h, long steps) {
   const Scene scene = without_drag(shipped_scene("chain"));
   const int samples = static_cast<int>(std::min(steps, 100000l));
@@ -29,16 +29,17 @@ double late_over_early(const Stepper& s, double h, long steps) {
 TEST(AMillionSteps, SymplecticRulesKeepTheEnergyBounded) {
   for (const Stepper& s : steppers()) {
     if (!s.symplectic) continue;
-    // implicit rules cost some fifty times as much a step; the first tenth must still be longer than the 20 s in which
-    // the chain's swings become irregular and fast
-    // a drift would make the last tenth ten times worse than the first; a bounded error repeats itself, but the chain
-    // swings irregularly and its fastest moment, which makes the error, is met to within a factor of two
+    // Implicit steps cost about fifty times as much, so these rules run fewer of them. Their first tenth must still be
+    // longer than the 20 s in which the chain's swings become irregular and fast.
+    // A drift would make the last tenth ten times worse than the first. A bounded error recurs, but the chain swings
+    // irregularly, and its fastest moments, which cause the error, differ by up to a factor of two.
     EXPECT_LT(late_over_early(s, 1e-3, s.evaluations > 0 ? 1000000 : 300000), 3) << s.name;
   }
 }
 
 TEST(AMillionSteps, RulesThatAreNotSymplecticDrift) {
-  // rk4 takes (h omega)^6 / 72 of the fastest vibrations' energy in each step (h omega = 0.2): all of it in the end
+  // rk4 damps (h omega)^6 / 72 of the energy of the fastest vibrations in each step (h omega = 0.2): eventually all of
+  // it.
   EXPECT_GT(late_over_early(stepper("rk4"), 1e-3, 1000000), 3);
 }
 
@@ -73,7 +74,7 @@ TEST(ImplicitEulerForAMinute, DescendsInEveryStepOfAStiffClothAndStaysBounded) {
     newton_steps += static_cast<long>(values.size()) - 1;
     most = std::max(most, static_cast<int>(values.size()) - 1);
     ASSERT_EQ(monitor.observe(s, true), Verdict::ok) << n;
-    // the cloth hangs within its diagonal (1.4 m) of its pins, but for what the springs give: m g / k = 1e-5 m
+    // The cloth stays within its diagonal (1.4 m) of its pins, up to the stretch of its springs: m g / k = 1e-5 m.
     ASSERT_LT(s.x.colwise().norm().maxCoeff(), 2);
   }
   fmt::print("stiff cloth: {:.1f} Newton steps a step, {} at most, {} evaluations, highest rise {:.2g} roundings\n",
@@ -86,18 +87,18 @@ TEST(LedgerOfShippedScenes, ClosesToTheOrderOfTheStepperWithoutContact) {
   for (const auto name : {"pendulum", "chain", "cloth-swing", "cloth-wind"}) {
     const Scene scene = shipped_scene(name);
     for (const Stepper& s : fixed_steppers()) {
-      // explicit Euler needs steps of microseconds on these; on a cloth the other rules that are not symplectic damp
-      // the fastest waves by h^(order + 1), which hides the order at these steps: energy_test.cpp has a small cloth for
-      // them
+      // Explicit Euler would need steps of microseconds on these scenes. On a cloth the other non-symplectic rules damp
+      // the fastest waves by h^(order + 1), which hides the order at these steps. energy_test.cpp tests them on a small
+      // cloth.
       const bool cloth = !scene.triangles.empty();
       if (!s.symplectic && (s.order == 1 || cloth)) continue;
       SCOPED_TRACE(fmt::format("{} {}", name, s.name));
-      // rules of higher order are at round-off at a quarter of the scene's step
+      // higher-order rules are at round-off at a quarter of the scene's step
       const double h = scene.step * (s.order < 4 ? 0.25 : cloth ? 1 : 2);
       const double order = slope(imbalance(s, scene, {h, 1, 20}), imbalance(s, scene, {h / 2, 1, 20}));
       fmt::print("{:12} {:18} order of the balance {:.2f}\n", name, s.name, order);
-      // the next term is h omega: below 0.1 up to order 2 (0.2 squared on cloth), 0.4 squared above it, where the
-      // integrals of the ledger, of order 4, may lead
+      // The next term is h omega: below 0.1 up to order 2 (0.2 squared on cloth), and 0.4 squared above. There the
+      // integrals of the ledger, which are of order 4, may dominate.
       EXPECT_GT(order, std::min(s.order, 4) - (s.order < 4 ? 0.1 : 0.25));
       EXPECT_LT(order, s.order + (s.order < 4 ? 0.1 : 0.25));
     }
@@ -108,18 +109,18 @@ TEST(LedgerOfShippedScenes, ClosesToFirstOrderWithContact) {
   const Scene scene = shipped_scene("cloth-sphere");
   for (const Stepper& s : steppers()) {
     if (s.order == 1 && s.first_order) continue;  // explicit Euler blows up at these steps
-    if (s.evaluations == 0) continue;             // implicit rules would take minutes: contact_test.cpp has them
+    if (s.evaluations == 0) continue;             // implicit rules would take minutes; see contact_test.cpp
     SCOPED_TRACE(s.name);
     std::vector<double> errors;
     for (const double part : {1, 2, 4, 8}) errors.push_back(imbalance(s, scene, {scene.step / part, 1, 50}));
     fmt::print("cloth-sphere {:16} {:.3g} J, halved thrice {:.3g} J\n", s.name, errors[0], errors[3]);
     for (int i = 1; i < 4; ++i) EXPECT_LT(errors[i], errors[i - 1]);
-    if (s.hard_constraints)
-      continue;  // one Gauss-Seidel pass a step: first order shows at smaller steps only (0.67 here)
-    // 900 particles land at other parts of a step each time: the spread of their mean is some per cent, of order 0.1;
-    // the explicit trapezoidal rule, near its limit of stability at the largest step, comes to it last
-    // What contact takes is an impulse times a mean velocity: a rule of order one keeps its own error in it, of the
-    // others only the places where particles touch are left, between order one and two, and their own.
+    if (s.hard_constraints) continue;  // one Gauss-Seidel pass per step: first order only at smaller steps (0.67 here)
+    // At each step size the 900 particles land at different fractions of a step. The spread of their mean is a few per
+    // cent, which changes the order by 0.1. The explicit trapezoidal rule, near its stability limit at the largest
+    // step, converges last.
+    // Contact loss is an impulse times a mean velocity. First-order rules contribute their own error. For the others,
+    // the contact positions contribute an error between order one and two, besides their own.
     const double order = slope(errors[2], errors[3]);
     EXPECT_GT(order, 0.8);
     EXPECT_LT(order, s.order == 1 ? 1.2 : 2.2);

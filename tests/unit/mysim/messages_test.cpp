@@ -1,5 +1,4 @@
-// Proposals for misspelt words, lines of progress, the system's complaints, words that a shell reads back, and
-// bytes as text.
+// Suggestions for misspelt words, progress lines, system error messages, words quoted for a shell, and bytes as text.
 
 #include <gtest/gtest.h>
 
@@ -49,7 +48,7 @@ TEST(UnknownName, NamesTheNearestFirstInAtMost200Bytes) {
   EXPECT_EQ(unknown_name("scene", "chian", names, "list"),
             "unknown scene 'chian'; did you mean 'chain'? (`list` shows all)");
   EXPECT_EQ(unknown_name("scene", "", names, "list"), "unknown scene ''; `list` shows all");
-  std::string umlauts;  // two bytes each, so that the cut falls inside one of them at every other length
+  std::string umlauts;  // two bytes each, so that every other length cuts inside a character
   for (int i = 0; i < 300; ++i) {
     for (const std::string& word : {std::string(i, 'x'), umlauts, "c" + umlauts, "chain" + umlauts}) {
       const std::string message = unknown_name("assignment", word, names, "crosscheck list assignments");
@@ -61,13 +60,13 @@ TEST(UnknownName, NamesTheNearestFirstInAtMost200Bytes) {
 }
 
 TEST(ProgressLine, TellsNumberPartAndWhatIsLeft) {
-  // one step, a quarter done in 10 s
+  // a single step, a quarter done after 10 s
   EXPECT_EQ(progress_line({1, 1, 0.25, 10, 0, 10, "a run"}), "a run (25 %, 10 s, about 30 s left)");
-  // three of four begun, two behind: half is done
+  // three of four started, two of them finished: half done
   EXPECT_EQ(progress_line({3, 4, 0, 600, 0, 1, "x"}), "[3/4] x (10 min, about 10 min left)");
-  // nothing is done yet: the estimate from before
+  // nothing done yet: the earlier estimate
   EXPECT_EQ(progress_line({1, 1, 0, 5, 65, 5, "x"}), "x (5 s, about 60 s left)");
-  // the number of runs is not known
+  // the number of runs is unknown
   EXPECT_EQ(progress_line({5, 0, 0.5, 50, 0, 20, "x"}), "[5] x (50 %, 50 s, about 20 s left of this run)");
   EXPECT_EQ(progress_line({1, 0, 0, 50, 0, 50, "x"}), "x (50 s)");
   EXPECT_EQ(format_duration(3.2e9), "1e+02 years");
@@ -139,7 +138,7 @@ TEST(ShellWords, ComeBackFromAShellAndStandOnOneLine) {
 }
 
 TEST(Base64, IsThatOfTheStandard) {
-  // RFC 4648, 10
+  // RFC 4648, section 10
   const char* const rows[][2] = {{"", ""},
                                  {"f", "Zg=="},
                                  {"fo", "Zm8="},

@@ -48,7 +48,7 @@ TEST(Names, WithControlHiddenOrBrokenCharactersAreRefused) {
 
 TEST(Names, FileNamesMadeOfTwoNamesFitEveryFileSystemAndStayApart) {
   const TemporaryFolder here("test");
-  std::string scene, method;  // characters of one, two, three and four bytes
+  std::string scene, method;  // characters of one to four bytes
   for (const char* sign : {"a", "\xc3\xa9", "\xe5\xb8\x83", "\xf0\x9f\xa7\xb5"})
     for (int i = 0; i < 20; ++i) scene += sign, method = sign + method;
   ASSERT_EQ(scene.size(), 200u);
@@ -68,12 +68,13 @@ TEST(Names, FileNamesMadeOfTwoNamesFitEveryFileSystemAndStayApart) {
       pairs.insert(pair), files.insert(file);
     }
   EXPECT_EQ(files.size(), pairs.size());
-  // the longest ending: a user's changed file that is kept
+  // longest suffix: a file that the user changed and that is kept
   const std::string last = file_name_of(std::string(412, 'b')) + ".json.yours";
   write_file(here.path / last, "whole");
   EXPECT_LE(last.size() + std::string(".4194304.part").size() + 1, 255u);
   for (size_t bytes = 1; bytes <= 200; ++bytes)
-    EXPECT_EQ(file_name_of(longest_prefix(scene, bytes)), longest_prefix(scene, bytes)) << "a name alone is kept";
+    EXPECT_EQ(file_name_of(longest_prefix(scene, bytes)), longest_prefix(scene, bytes))
+        << "a short name must not change";
 }
 
 TEST(Names, StandardStreamsPrintTextOnlyAndSplitCharactersStayWhole) {
@@ -117,7 +118,7 @@ TEST(Names, FilesWithoutAnEndAreRefusedAndNotRead) {
   EXPECT_FALSE(try_read_file(here.path));
   EXPECT_FALSE(try_read_file(here.path / "none"));
   std::error_code full;
-  fs::resize_file(file, std::uintmax_t{1} << 42, full);  // a hole, which takes no room
+  fs::resize_file(file, std::uintmax_t{1} << 42, full);  // a sparse file, which occupies no space
   if (!full) {
     EXPECT_THROW(try_read_file(file), InputError);
   }
@@ -131,7 +132,7 @@ TEST_F(PathsInside, NeitherLeaveTheFolderNorFollowLinks) {
   fs::create_symlink("a.csv", folder_ / "in/data/b.csv");
   const fs::path root = folder_ / "in";
   EXPECT_EQ(path_inside(root, "data/a.csv"), root / "data/a.csv");
-  EXPECT_EQ(path_inside(root, "data/..."), root / "data/...");  // a file may be called so, and need not exist
+  EXPECT_EQ(path_inside(root, "data/..."), root / "data/...");  // a valid file name, existing or not
   const std::string deep(300, 'a');
   for (const std::string path : {"", ".", "..", "../x", "data/../..", "/etc/passwd", "data//a.csv", "data/", "./data",
                                  "link/a.csv", "data/b.csv", "a\nb", deep.c_str()})

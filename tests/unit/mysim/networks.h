@@ -1,4 +1,4 @@
-// Random networks of springs, with as many of the other ingredients as a test wants.
+// Random networks of springs, with a choice of other ingredients.
 #pragma once
 
 #include <Eigen/Geometry>
@@ -12,7 +12,7 @@ struct Network {
   State state;
 };
 
-/// Six particles at random, none closer than 0.3 m to another, joined each with each, with random masses.
+/// Six particles at random, at least 0.3 m apart, all connected to each other, with random masses.
 inline Network random_network(unsigned seed, SpringLaw law = SpringLaw::hooke) {
   Random random(seed);
   const int n = 6;
@@ -52,7 +52,7 @@ inline Dashpots random_dashpots(unsigned seed, const Network& net) {
   return dashpots;
 }
 
-/// Two rows, a cell, and a stencil of five.
+/// Bending stencils: two rows, a cell, and one of five particles.
 inline Bending random_bending(unsigned seed) {
   Random random(seed + 4000);
   const auto k = [&] { return random.between(1, 5); };
@@ -79,7 +79,7 @@ inline void pin(Network& net, std::vector<int> pins, std::optional<Motion> motio
   p.place_pins(net.state);
 }
 
-/// The network with bending, drag, dashpots, gusts, and the first and fourth particle moved by hand.
+/// The network with bending, drag, dashpots and gusts, and with moving first and fourth particles.
 inline Network busy_network(unsigned seed, SpringLaw law = SpringLaw::hooke) {
   Network net = random_network(seed, law);
   Random random(seed + 2000);

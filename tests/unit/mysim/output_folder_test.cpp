@@ -1,5 +1,5 @@
-// Folders of results and temporary folders: nothing of the user's is lost, a finished result stays until the next is
-// whole, what dead processes left goes.
+// Result folders and temporary folders: user files are never lost, a finished result stays until the next one is
+// complete, and leftovers of dead processes are removed.
 
 #include <fcntl.h>
 #include <fmt/format.h>
@@ -28,7 +28,7 @@ bool exchange_is_refused = false;
 
 }  // namespace
 
-/// In place of the C library's: a file system that cannot exchange names, as NFS.
+/// Replaces the C library's function to emulate a file system that cannot exchange names, such as NFS.
 extern "C" int renameat2(int from, const char* old_name, int to, const char* new_name, unsigned flags) noexcept {
   if (!exchange_is_refused) return static_cast<int>(syscall(SYS_renameat2, from, old_name, to, new_name, flags));
   errno = EINVAL;
@@ -37,8 +37,8 @@ extern "C" int renameat2(int from, const char* old_name, int to, const char* new
 
 namespace crosscheck {
 
-// Folders of results: nothing of the user's is lost, a finished result stays until the next is whole, and there is one
-// writer.
+// Result folders: user files are never lost, a finished result stays until the next one is complete, and there is only
+// one writer.
 
 namespace {
 
@@ -64,7 +64,7 @@ class Output : public InFolder, public testing::WithParamInterface<bool> {
     for (const auto& [path, text] : files) write_file(folder.path() / path, text);
     folder.finish();
   }
-  /// Everything below a folder, the manifest aside.
+  /// Everything below a folder except the manifest.
   static Files in(const fs::path& folder) {
     Files files;
     for (const std::string& path : paths_in(folder)) files[path] = path.ends_with("/") ? "" : read(folder / path);
@@ -130,7 +130,7 @@ TEST_P(Output, WhatIsTheUsersSurvives) {
   EXPECT_EQ(read(target_ / "data/a.csv.yours"), "1, and what I think of it");
   EXPECT_EQ(read(target_ / "data/a.csv.yours-2"), "again");
   EXPECT_EQ(read(target_ / "mine/deep/er.txt"), "mine");
-  EXPECT_FALSE(fs::exists(target_ / "figures")) << "nothing in it is anybody's";
+  EXPECT_FALSE(fs::exists(target_ / "figures")) << "contains no user files, so it must be removed";
   expect_no_working_folder();
 }
 
@@ -191,11 +191,11 @@ TEST_P(Output, TheSecondWriterIsToldWhoIsTheFirst) {
     EXPECT_EQ(read(target_ / "index.html"), "one");
   }
   EXPECT_EQ(refusal(), "");
-  EXPECT_EQ(read(target_ / "index.html"), "one") << "what was not finished has changed nothing";
+  EXPECT_EQ(read(target_ / "index.html"), "one") << "an unfinished result must not change anything";
   expect_no_working_folder();
 }
 
-/// Whatever it is that a process is at when it is killed, the one result is there or the other.
+/// Whenever the process is killed, one of the two results must be complete.
 TEST_P(Output, KilledAtAnyMomentTheFirstIsWholeOrTheSecond) {
   Files one, two;
   for (int i = 0; i < 60; ++i) {
@@ -204,7 +204,7 @@ TEST_P(Output, KilledAtAnyMomentTheFirstIsWholeOrTheSecond) {
   }
   const auto with_mine = [](Files files) {
     files["data/mine.txt"] = "mine";
-    files["crosscheck.json.mine.part"] = "mine";  // called nearly as half a manifest is
+    files["crosscheck.json.mine.part"] = "mine";  // resembles the name of a partial manifest
     return files;
   };
   put(one);
@@ -214,7 +214,7 @@ TEST_P(Output, KilledAtAnyMomentTheFirstIsWholeOrTheSecond) {
   int undisturbed = 0;
   for (int trial = 0; trial < 60; ++trial) {
     const pid_t child = fork();
-    while (child == 0) {  // never ends by itself, so however fast the machine is, the kill interrupts a write
+    while (child == 0) {  // endless, so the kill interrupts a write on any machine
       put(two);
       put(one);
     }
@@ -225,7 +225,7 @@ TEST_P(Output, KilledAtAnyMomentTheFirstIsWholeOrTheSecond) {
     ASSERT_TRUE(WIFSIGNALED(status)) << trial;
     const Files at_once = in(target_);
     const bool whole = at_once == with_mine(one) || at_once == with_mine(two);
-    if (!GetParam()) {  // by two renames it may be away until the next writer
+    if (!GetParam()) {  // two renames: it may be absent until recovery
       EXPECT_TRUE(whole) << trial;
     }
     undisturbed += whole;
@@ -309,7 +309,7 @@ TEST_P(Output, WorkingFolderOfAnotherUserIsRefused) {
   fs::remove(folder_ / ".out.crosscheck");
   write_file(folder_ / ".out.crosscheck/old/index.html", "theirs");
   if (chown((folder_ / ".out.crosscheck").c_str(), 12345, 12345) != 0)
-    GTEST_SKIP() << "this machine does not let its user give a folder to another one";
+    GTEST_SKIP() << "this user cannot change the owner of a folder";
   EXPECT_TRUE(contains(refusal(), ".out.crosscheck is not a folder of yours"));
   recover_output(target_);
   EXPECT_EQ(in(target_), (Files{{"index.html", "one"}}));
@@ -388,7 +388,7 @@ TEST_P(Output, AResultGrowsInPlaceAndGoesOn) {
     write_file(target_ / table, table);
     folder.finish();
   };
-  grow(false, {"a", "b"}, "", false);  // interrupted: what is there is announced, no more
+  grow(false, {"a", "b"}, "", false);  // interrupted: existing files are announced
   EXPECT_FALSE(read_manifest(target_)->finished);
   std::ofstream(target_ / "points/mine") << "mine";
   grow(true, {"a", "b", "c"}, "one.csv", true);
@@ -426,12 +426,12 @@ class TemporaryFolders : public testing_tools::InFolder {
   void wait_for(long folders) const {
     while (count() != folders) usleep(1000);
   }
-  /// Does the work in a process of its own.
+  /// Runs the work in a child process.
   template <class F>
   static pid_t in_child(F work) {
     const pid_t child = fork();
     if (child == 0) {
-      // who started the tests in the background may have had them ignored, and a program leaves that as it is
+      // Signals may be ignored if the tests were started in the background, and child processes inherit this.
       for (const int number : {SIGINT, SIGTERM, SIGHUP}) signal(number, SIG_DFL);
       _exit(work());
     }
@@ -445,12 +445,12 @@ class TemporaryFolders : public testing_tools::InFolder {
   std::optional<std::string> before_;
 };
 
-/// A folder, and processes below that have one too: a worker, and one that has left its session.
+/// Creates a temporary folder, and two child processes with one each: a worker, and one that leaves the session.
 int work_with_children() {
   const TemporaryFolder own("own");
   for (const bool leaves : {false, true})
     if (fork() == 0) {
-      close_range(3, ~0U, 0);  // as exec does, by which programs start
+      close_range(3, ~0U, 0);  // as exec does
       if (leaves)
         setsid();
       else
@@ -470,13 +470,13 @@ TEST_F(TemporaryFolders, ThoseOfKilledProcessesAreSweptAndNoOthers) {
   });
   wait_for(1);
   const TemporaryFolder living("living");
-  // these belong to other programs and to the user
+  // these belong to other programs or to the user
   const std::vector<std::string> foreign = {"crosscheck-mine-abcdef", "crosscheck-notes", "crosscheck-report.backup",
                                             "crosscheck-1.latest", "crosscheck-run-2.backup"};
   for (const std::string& name : foreign) fs::create_directory(folder_ / name);
   const long others = std::ssize(foreign) + 1;
   remove_stale_temporary_folders();
-  EXPECT_EQ(count(), others + 1) << "it lives";
+  EXPECT_EQ(count(), others + 1) << "its process is still alive";
   kill(child, SIGKILL);
   end_of(child);
   remove_stale_temporary_folders();
@@ -501,7 +501,7 @@ TEST_F(TemporaryFolders, WhatAKilledProgramLeavesTheNextStartRemoves) {
   wait_for(3);
   kill(child, SIGKILL);
   end_of(child);
-  // its processes die with it, but nobody here can wait for them
+  // The processes die with their parent, but nothing here can wait for them.
   const auto next = [] { return run_supervised([] { return 7; }); };
   int status = 0;
   for (int attempt = 0; attempt < 200; ++attempt) {
@@ -510,7 +510,7 @@ TEST_F(TemporaryFolders, WhatAKilledProgramLeavesTheNextStartRemoves) {
     usleep(20000);
   }
   EXPECT_EQ(WEXITSTATUS(status), 7);
-  EXPECT_LE(count(), 1) << "a process that has left its session and its parents cannot be found";
+  EXPECT_LE(count(), 1) << "only a process that left its session and has no parent may remain";
   for (const auto& entry : fs::directory_iterator(folder_))
     if (fs::exists(entry.path() / "process")) kill(std::stoi(read(entry.path() / "process")), SIGKILL);
 }

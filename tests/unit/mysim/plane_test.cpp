@@ -1,4 +1,4 @@
-// Planes as contact surfaces: gap and normal, what the file must say, Coulomb's limit, restitution, walls, corners.
+// Planes as contact surfaces: gap and normal, scene-file errors, Coulomb's limit, restitution, walls, corners.
 
 #include <numbers>
 
@@ -25,7 +25,7 @@ struct NamedRule {
   const Stepper stepper;
   ContactRule contact;
 };
-/// Every stepper under the rule for whole steps, and those that locate events.
+/// Every stepper with per-step contact, and those that locate events.
 std::vector<NamedRule> rules() {
   std::vector<NamedRule> list;
   for (const Stepper& s : fixed_steppers()) {
@@ -35,7 +35,7 @@ std::vector<NamedRule> rules() {
   return list;
 }
 
-/// Implicit rules leave 1e-10 of the largest force in each step: 1e-10 g t^2 / h / 2 of displacement.
+/// Displacement from residuals of implicit rules: 1e-10 of the largest force in each step gives 1e-10 g t^2 / h / 2.
 double unsolved(const NamedRule& rule, double t, double h) {
   return rule.stepper.evaluations == 0 ? 1e-10 * g * t * t / h : 0;
 }
@@ -54,7 +54,7 @@ TEST(Surface, NormalIsTheGradientOfTheGapAndTheNearestPlaceLiesOnIt) {
                                 Sphere{point, 0.5, 0.1, 0, 0, std::nullopt}};
     for (const Surface& surface : surfaces) {
       const Vec3 d = random.vector(), n = surface.normal(d), along = random.vector();
-      const double step = std::cbrt(eps);  // m; central differences err by its square
+      const double step = std::cbrt(eps);  // m; the error of central differences is of second order
       const double slope = (surface.gap(d + step * along) - surface.gap(d - step * along)) / (2 * step);
       EXPECT_NEAR(slope, n.dot(along), 100 * step * step / d.norm());
       EXPECT_NEAR(n.norm(), 1, 4 * eps);
@@ -69,7 +69,7 @@ TEST(Surface, NormalIsTheGradientOfTheGapAndTheNearestPlaceLiesOnIt) {
 }
 
 TEST(Surface, PlaneIsTheLimitOfALargeSphere) {
-  // over a way of 1 m a sphere of radius R falls off by 1 / 2R
+  // over a path of 1 m a sphere of radius R falls off by 1 / 2R
   const double radius = 1e7;
   const auto text = [&](const std::string& surface) {
     return "[[particle]]\nposition = [0, 0.2, 0]\nmass = 1\nvelocity = [1, 0, 0]\n" + surface + "friction = 0.2\n" +
@@ -79,10 +79,10 @@ TEST(Surface, PlaneIsTheLimitOfALargeSphere) {
               sphere =
                   small_scene(text(fmt::format("[sphere]\ncentre = [0, {0}, 0]\nradius = {1}\n", -radius, radius)));
   for (const NamedRule& rule : rules()) {
-    if (rule.stepper.evaluations == 0) continue;  // their equations are solved to a part of the largest coordinate
+    if (rule.stepper.evaluations == 0) continue;  // their equations are solved relative to the largest coordinate
     SCOPED_TRACE(rule.name);
     const Trajectory a = path_of(rule, plane, {1e-3, 1, 20}), b = path_of(rule, sphere, {1e-3, 1, 20});
-    // the rounding of 1e7 m, and the fall
+    // rounding of 1e7 m, and the fall-off
     EXPECT_LT(largest_rms_distance(a, b), 100 * radius * eps + 1 / radius);
   }
 }
@@ -115,13 +115,12 @@ TEST(PlaneFile, ReportsWhatIsWrongWithFileLineAndKey) {
       {"[[plane]]\npoint = [0, -1, 0]\n", "normal"},
   };
   for (const auto& [text, expected] : bad) {
-    // the pin is particle 1: the upper one, which a plane from above cuts off
+    // The pin is particle 1, the upper one, which a plane from above cuts off.
     const std::string message = message_of(scene_text(particle + pins + text));
     EXPECT_TRUE(contains(message, expected)) << text << message;
     EXPECT_TRUE(contains(message, "bad.toml:")) << message;
   }
-  // opposite planes that leave less than the margins: a particle in the middle of both, in the plane of each by
-  // rounding
+  // Opposite planes with a gap smaller than their margins: a particle in the middle, on both planes up to rounding.
   const std::string middle = "[[particle]]\nposition = [0, 0, 0]\nmass = 1\n";
   const std::string thin = message_of(scene_text(middle + plane("0, 0, 0", "0, 1, 0") + plane("0, 0, 0", "0, -1, 0")));
   EXPECT_TRUE(contains(thin, "plane[1].point: expected more than the two margins, 0 m, to the opposite plane, got 0 m"))
@@ -138,14 +137,13 @@ TEST(Plane, HoldsAThousandthBelowCoulombsLimitAndSlidesAThousandthAbove) {
       const double h = 1e-3, t = 1;
       const Scene held = on_slope(angle, fmt::format("friction = {:.17g}", std::tan(angle) / 0.999));
       for (const Points& x : path_of(rule, held, {h, t, 100}).x)
-        EXPECT_LT((x - held.start.x).norm(),
-                  1e-3 * eps + unsolved(rule, t, h) + 1e-13);  // roundings of h v, 1000 times
+        EXPECT_LT((x - held.start.x).norm(), 1e-3 * eps + unsolved(rule, t, h) + 1e-13);  // rounding of h v, 1000 times
       const double mu = std::tan(angle) / 1.001, a = g * (std::sin(angle) - mu * std::cos(angle));
       const Scene loose = on_slope(angle, fmt::format("friction = {:.17g}", mu));
       const Trajectory slid = path_of(rule, loose, {h, t, 1});
       const double way = slid.x.back().col(0).norm();
-      // a rule of order one is off by a step's displacement in all, h v = h a t and that of a step's free fall,
-      // h^2 g, in the way to friction's first step; located events make no error under constant forces
+      // First-order rules err by the displacement of a step, h v = h a t, and by the free fall of a step, h^2 g, before
+      // friction first acts. Located events are exact under constant forces.
       const double allowed = rule.contact == ContactRule::events ? 1e-12 : 2 * h * a * t + 2 * h * h * g;
       EXPECT_NEAR(way, a * t * t / 2, allowed + unsolved(rule, t, h));
       EXPECT_LT(slid.x.back()(0, 0), 0);  // downhill
@@ -159,8 +157,8 @@ TEST(Plane, RestingParticlesLoseNothing) {
       const Scene scene = on_slope(angle, "friction = 0.6");
       Ledger ledger(scene.model, ContactLoss::reported);
       simulate(rule.stepper, rule.contact, scene, {1e-3, 1, 10}, ledger);
-      // J: roundings of m g h in a thousand steps. Explicit Euler holds it every other step only; what a step of free
-      // fall gives and the next one takes is no loss either
+      // J: rounding of m g h in a thousand steps. Explicit Euler is in contact in every other step only. Free fall adds
+      // energy in one step and contact removes it in the next, which is no loss either.
       for (const LedgerRow& row : ledger.rows()) EXPECT_NEAR(row.contact, 0, 1e-12 + unsolved(rule, 1, 1e-3)) << row.t;
     }
 }
@@ -193,7 +191,7 @@ TEST(Plane, ApicesFallByTheSquareOfRestitution) {
         for (int i = 1; i < n; ++i) t += 2 * fall * std::pow(e, i);
         t += fall * std::pow(e, n);
         const Trajectory path = path_of(rule, scene, {t / 97, t, 1});
-        // the time of an impact is found to its last bits, which the speed turns into as many of a metre
+        // Impact times are exact to their last bits, and the speed converts the error to metres.
         EXPECT_NEAR(path.x.back()(1, 0), drop * std::pow(e, 2 * n), 1e-13 + unsolved(rule, t, t / 97) * 5);
         EXPECT_NEAR(path.v.back()(1, 0), 0, 1e-12 + unsolved(rule, t, t / 97) * 50);
       }
@@ -210,14 +208,15 @@ TEST(Plane, ParticleBetweenTwoWallsReturnsAfterTwiceTheWayOverItsSpeed) {
     SCOPED_TRACE(rule.name);
     const double t = 20 * period;
     const auto off = [&](double h) { return std::abs(path_of(rule, scene, {h, t, 20}).x.back()(0, 0) - 0.3); };
-    // each impact of a whole step puts the particle on the wall, up to a step's way v h behind where it should be;
-    // located ones take 1e-12 of the coordinates for touching, and here every impact falls on the end of a step
+    // Each impact of a whole step puts the particle on the wall, up to a step's path v h behind its exact position.
+    // Located events count as contact within 1e-12 of the coordinates, and here every impact falls on the end of a
+    // step.
     for (const double h : {1e-3, 2.5e-4})
       EXPECT_LT(off(h), rule.contact == ContactRule::events ? 40 * 1e-12 * 6 : 40 * speed * h) << h;
   }
 }
 
-/// A particle that falls into a corner of planes at right angles, which are turned by a rotation.
+/// A particle that falls into a corner of rotated planes at right angles.
 Scene corner(int planes, const Eigen::Matrix3d& turn) {
   const auto list = [](const Vec3& v) { return fmt::format("[{:.17g}, {:.17g}, {:.17g}]", v.x(), v.y(), v.z()); };
   std::string text = "[[particle]]\nposition = " + list(turn * Vec3(0.1, 0.2, 0.3)) + "\nmass = 1\n";
@@ -240,7 +239,7 @@ TEST(Plane, CornerAtRightAnglesStopsEachCoordinateByItself) {
           const Vec3 x = turn.transpose() * path.x[i].col(0), free = start + path.t[i] * path.t[i] / 2 * a;
           for (int k = 0; k < 3; ++k) {
             const double exact = k < planes ? std::max(0.0, free[k]) : free[k];
-            // order one: the way of a step, at 4 m/s at most; the events of several planes are located one by one
+            // First order: the path of a step, at 4 m/s at most. The events of several planes are located one by one.
             const double allowed = rule.stepper.order == 1 || rule.contact == ContactRule::coulomb ? 3 * h : 1e-12;
             EXPECT_NEAR(x[k], exact, allowed + unsolved(rule, 1, h)) << path.t[i];
           }
@@ -263,7 +262,7 @@ TEST(Plane, NoParticleEndsAStepBehindOneNotEvenInABlowUp) {
       const Trajectory path = path_of(rule, scene, {h, 1, 20});
       for (int i = 0; i < path.frames(); ++i) {
         if (!path.x[i].allFinite()) break;
-        // put on the plane and measured again: some ulps of the coordinates
+        // projected to the plane and measured again: some ulps of the coordinates
         for (int p = 0; p < path.x[i].cols(); ++p)
           EXPECT_GE(clearance_from(surfaces, path.t[i], path.x[i].col(p)), -8 * eps * (1 + path.x[i].col(p).norm()));
       }
@@ -271,7 +270,7 @@ TEST(Plane, NoParticleEndsAStepBehindOneNotEvenInABlowUp) {
 }
 
 TEST(MovingPlane, CarriesWhatLiesOnItAndItsWorkIsAccountedFor) {
-  // upwards and aside: friction takes the particle along once it has slipped for v / (mu g)
+  // Upwards and sideways: friction carries the particle along once it has slipped for v / (mu g).
   const Scene scene = on_slope(0, "friction = 0.5\nvelocity = [0.6, 0.4, 0]");
   for (const NamedRule& rule : rules()) {
     SCOPED_TRACE(rule.name);
@@ -281,13 +280,13 @@ TEST(MovingPlane, CarriesWhatLiesOnItAndItsWorkIsAccountedFor) {
     Observers both({&recorder, &ledger});
     simulate(rule.stepper, rule.contact, scene, {h, 1, 20}, both);
     const State last{1, recorder.trajectory.x.back(), recorder.trajectory.v.back()};
-    // the impact at the start has mu 0.4 m/s of friction at once, which leaves less to slip
+    // The initial impact applies the friction of mu times 0.4 m/s at once, which shortens the slip.
     const double at_once = 0.5 * 0.4, rest = (0.6 - at_once) / (0.5 * g);
     const double x = 0.6 - (0.6 - at_once) * rest / 2;
     EXPECT_LT(rest, slip);
     EXPECT_NEAR(last.x(1, 0), 0.4, 1e-12 + unsolved(rule, 1, h) + (rule.name == "explicit-euler" ? g * h * h : 0));
     EXPECT_NEAR(last.x(0, 0), x, rule.contact == ContactRule::events ? 1e-12 + unsolved(rule, 1, h) : 2e-3);
-    // J: what the plane gave is what the particle has, m (v^2 / 2 + g y); first order in the slip
+    // J: the plane's work equals the particle's energy, m (v^2 / 2 + g y). First order in the slip.
     const double off = ledger.rows().back().balance() - ledger.rows().front().balance();
     EXPECT_NEAR(off, 0, rule.contact == ContactRule::events ? 1e-11 + 10 * unsolved(rule, 1, h) : 0.03);
   }
@@ -307,7 +306,7 @@ TEST(Plane, RotatedAndScaledScenesGiveTheSameMotion) {
     SCOPED_TRACE(rule.name);
     const Scene si = parse_scene(text(1, 1), "si"), milli = parse_scene(text(1e3, 1e3), "milli");
     const Trajectory a = path_of(rule, si, {1e-3, 1, 20}), b = path_of(rule, milli, {1, 1e3, 20});
-    // decimal units are rounded, and an impact turns that into another step's end in a rule for whole steps: seldom
+    // Decimal units are rounded, which may move an impact to the end of another step in per-step rules. This is rare.
     for (int i = 0; i < a.frames(); ++i)
       EXPECT_LT((a.x[i] - 1e-3 * b.x[i]).norm(), 1e-9 + 10 * unsolved(rule, 1, 1e-3)) << i;
   }

@@ -1,5 +1,5 @@
-// A new stepper is one function and one row: Ralston's rule is added here, runs, and meets the check that all rows of
-// the table meet. Rows that declare what is not so fail it.
+// A new stepper takes one function and one row. This test adds Ralston's rule, runs it, and applies the check that all
+// rows of the table must pass. Rows with false declarations must fail.
 
 #include "mysim/run/observers.h"
 #include "mysim/steppers/steppers.h"
@@ -22,16 +22,15 @@ void ralston(System& f, State& s, double h, Workspace& w) {
   s.v += h / 4 * (k1.v + 3 * k2.v);
 }
 
-constexpr Stepper ralston_row = {
-    .name = "ralston",
-    .step = ralston,
-    .order = 2,
-    .evaluations = 2,
-    .first_order = true,
-    .symplectic = false,
-    .limit = limits::trapezoidal,  // every rule of two stages and order 2 has its polynomial
-    .limit_formula = "|1 + z + z^2/2| < 1 at z = h lambda",
-    .what = "a newcomer"};
+constexpr Stepper ralston_row = {.name = "ralston",
+                                 .step = ralston,
+                                 .order = 2,
+                                 .evaluations = 2,
+                                 .first_order = true,
+                                 .symplectic = false,
+                                 .limit = limits::trapezoidal,  // all two-stage rules of order 2 share its polynomial
+                                 .limit_formula = "|1 + z + z^2/2| < 1 at z = h lambda",
+                                 .what = "a newcomer"};
 
 TEST(Recipe, EveryRowOfTheTableIsWhatItDeclares) {
   for (const Stepper& s : steppers()) EXPECT_EQ(contradiction(s), "") << s.name;

@@ -1,4 +1,4 @@
-// Dependencies of rooms: no file of a room, nor of its tests, includes a header of a room above it.
+// Dependencies of rooms: neither files nor tests of a room include headers of a room above it.
 
 #include <gtest/gtest.h>
 
@@ -18,7 +18,7 @@ namespace fs = std::filesystem;
 
 constexpr std::array<std::string_view, 4> rooms = {"mysim", "reference", "experiments", "report"};
 
-/// The headers in a text of a room that belong to rooms above, or to the tests of these.
+/// Headers included by a text of a room that belong to higher rooms or their tests.
 std::vector<std::string> headers_from_above(const std::string& text, std::string_view room) {
   std::vector<std::string> found;
   std::istringstream lines(text);
@@ -57,7 +57,7 @@ TEST(Rooms, NoneIncludesHeadersFromAbove) {
     }
 }
 
-/// The grader uses mysim only, and of the protocol the one header that engines are written with.
+/// The grader uses mysim only, and from the protocol only the header for engines.
 TEST(Rooms, TheGraderIncludesMysimOnly) {
   int files = 0;
   for (const auto& entry : fs::recursive_directory_iterator(fs::path(CROSSCHECK_SOURCE) / "tests/coursework")) {

@@ -1,4 +1,4 @@
-// Scene files: every error is one line with file, line, key and what was expected; grids expand as counted by hand.
+// Scene files: every error is one line with file, line, key and the expected value; grids expand as computed by hand.
 
 #include <unistd.h>
 
@@ -16,7 +16,7 @@ namespace {
 
 using namespace testing_tools;
 
-// one scene with every key there is; the numbers of its lines are used below
+// a scene with every available key; the expectations below refer to its line numbers
 constexpr auto whole = R"(question = "q"
 parameters = "p"
 [time]
@@ -74,7 +74,7 @@ eye = [0, 0, 9]
 target = [0, 0, 0]
 )";
 
-/// The whole scene with one line replaced (an empty text removes what the line says but keeps the count).
+/// The whole scene with one line replaced. An empty text blanks the line but keeps the line count.
 std::string with_line(int number, const std::string& text) {
   std::istringstream in(whole);
   std::string out, line;
@@ -94,10 +94,10 @@ TEST(SceneFile, WholeSceneIsRead) {
 }
 
 struct Fault {
-  int line;                 // of the whole scene, replaced
-  const char* text;         // by this
-  const char* starts_with;  // of the message
-  const char* expected;     // in the message
+  int line;                 // line of the whole scene to replace
+  const char* text;         // its replacement
+  const char* starts_with;  // beginning of the message
+  const char* expected;     // substring of the message
 };
 
 void expect_messages(std::span<const Fault> faults) {
@@ -216,7 +216,7 @@ TEST(SceneFaults, Contradictions) {
       {55, "target = [0, 0, 9]", "bad.toml:55: camera.target: ", "expected a point other than the eye"},
       {55, "target = [0, 0, 0]\nat = 1.5", "bad.toml:56: camera.at: ", "expected a time not after the end of the run"},
       {55, "target = [0, 0, 0]\nat = -1", "bad.toml:56: camera.at: ", "expected a number not below zero"},
-      // 1e12 steps are no run: the count does not fit and must not wrap into a single step of a second
+      // 1e12 steps are too many: the count overflows and must not wrap into a single step of a second.
       {6, "step = 1e-13", "bad.toml:6: time.step: ", "expected"}};
   expect_messages(faults);
 }
@@ -251,7 +251,7 @@ TEST(SceneFaults, LinesOfBracketsAloneAreNamedLikeAnyOther) {
       const auto letter = static_cast<size_t>(random.between(0, static_cast<double>(letters.size()) + 3));
       text += letter < letters.size() ? letters[letter] : '\n';
     }
-    const std::string message = message_of(text);  // fails on anything but an InputError
+    const std::string message = message_of(text);  // fails for any exception but InputError
     EXPECT_TRUE(begins(message, "bad.toml:")) << text;
     EXPECT_EQ(message.find('\n'), std::string::npos) << text;
   }

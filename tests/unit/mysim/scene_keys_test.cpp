@@ -1,4 +1,4 @@
-// Scene files: the keys for constraints, spring laws, dashpots, air, spheres and blocks, and what blocks expand to.
+// Scene files: keys of constraints, spring laws, dashpots, air, spheres and blocks, and the expansion of blocks.
 
 #include <map>
 
@@ -8,14 +8,14 @@
 
 namespace crosscheck {
 
-// Scene files: the keys for constraints, spring laws, dashpots, air, several and moving spheres, blocks; their faults
-// and their part in the fingerprint.
+// Scene files: keys of constraints, spring laws, dashpots, air, several and moving spheres, and blocks; their errors
+// and their effect on the fingerprint.
 
 namespace {
 
 using namespace testing_tools;
 
-// the heading of scene_text() has nine lines: the numbers of the lines below begin at ten
+// the header from scene_text() has nine lines, so these start at line ten
 constexpr auto block_text = R"([grid]
 size = [3, 4, 2]
 origin = [0, 0, 0]
@@ -81,7 +81,7 @@ TEST(SceneKeys, AreAllRead) {
   EXPECT_EQ(springs->law, SpringLaw::bullet_link);
   const auto* dashpots = s.model.find<Dashpots>();
   ASSERT_TRUE(dashpots);
-  EXPECT_EQ(dashpots->list.size(), springs->list.size());  // every one of the grid, and the single one
+  EXPECT_EQ(dashpots->list.size(), springs->list.size());  // all of the grid, and the single one
   EXPECT_EQ(dashpots->list.front().c, 0.03);
   EXPECT_EQ(dashpots->list.back().c, 0.25);
   const auto* constraints = s.model.find<Constraints>();
@@ -102,9 +102,9 @@ TEST(SceneKeys, AreAllRead) {
 }
 
 struct Fault {
-  const char *from, *to;    // what is replaced by what
-  const char* starts_with;  // of the message
-  const char* expected;     // in the message
+  const char *from, *to;    // text and its replacement
+  const char* starts_with;  // beginning of the message
+  const char* expected;     // substring of the message
 };
 
 TEST(SceneKeys, FaultsNameTheLineTheKeyAndWhatWasExpected) {
@@ -254,15 +254,15 @@ TEST(SceneKeys, AHardGridIsAnotherSceneThanASoftOne) {
 
 }  // namespace
 
-// Blocks: springs of each family counted by formula, neighbours at their distance, a closed surface that faces
-// outwards.
+// Blocks: number of springs of each family by formula, distances of neighbours, and a closed surface with outward
+// orientation.
 
 namespace {
 
 using namespace testing_tools;
 
 constexpr std::array<int, 3> sizes[] = {{2, 2, 2}, {2, 3, 4}, {5, 3, 2}, {4, 4, 4}, {3, 2, 7}};
-const Vec3 sides[] = {{2, 0, 0}, {0.3, 1.5, 0}, {0.1, -0.2, 1.2}};  // a slanted box
+const Vec3 sides[] = {{2, 0, 0}, {0.3, 1.5, 0}, {0.1, -0.2, 1.2}};  // an oblique box
 
 Scene block(const std::array<int, 3>& n) {
   return small_scene(
@@ -280,7 +280,7 @@ TEST(Block, HasTheCountedSpringsAndMass) {
     std::map<std::pair<int, int>, int> seen;
     for (const Spring& spring : s.model.find<Springs>()->list) {
       ++count[spring.family];
-      EXPECT_EQ(++seen[std::minmax(spring.a, spring.b)], 1) << "the same pair twice";
+      EXPECT_EQ(++seen[std::minmax(spring.a, spring.b)], 1) << "duplicate pair";
     }
     int structural = 0, shear = 0, bend = 0;
     for (int axis = 0; axis < 3; ++axis) {
@@ -332,16 +332,16 @@ TEST(Block, SurfaceIsClosedAndFacesOutwards) {
       area += 0.5 * (y - x).cross(z - x);
       volume += x.dot(y.cross(z)) / 6;
       for (const auto& edge : {std::pair(a, b), std::pair(b, c), std::pair(c, a)})
-        EXPECT_EQ(++edges[edge], 1) << "two triangles on the same side of an edge";
+        EXPECT_EQ(++edges[edge], 1) << "two triangles traverse an edge in the same direction";
     }
-    // every edge belongs to two triangles that run along it in opposite senses
+    // every edge belongs to two triangles that traverse it in opposite directions
     for (const auto& [edge, count] : edges) EXPECT_TRUE(edges.contains({edge.second, edge.first}));
     const double expected = sides[0].cross(sides[1]).dot(sides[2]);
     EXPECT_EQ(static_cast<int>(s.triangles.size()),
               4 * ((n[0] - 1) * (n[1] - 1) + (n[1] - 1) * (n[2] - 1) + (n[2] - 1) * (n[0] - 1)));
-    // up to 150 triangles at coordinates up to 5 m: areas are sums of products of those, volumes of triples
+    // Up to 150 triangles with coordinates up to 5 m: areas sum products of two coordinates, volumes of three.
     EXPECT_LT(area.norm(), 150 * 25 * eps);
-    EXPECT_NEAR(volume, expected, 150 * 125 * eps);  // positive: outwards, by the divergence theorem
+    EXPECT_NEAR(volume, expected, 150 * 125 * eps);  // positive for outward orientation (divergence theorem)
   }
 }
 

@@ -1,5 +1,5 @@
 // The fast spring kernel against the plain edge loop: any network, within the round-off of another summation order.
-// Its ways over lanes are tested one by one in tests/unit/experiments/spring_graph_test.cpp.
+// tests/unit/experiments/spring_graph_test.cpp tests its SIMD variants one by one.
 
 #include <cstring>
 
@@ -17,8 +17,8 @@ struct Loose {
   State state;
 };
 
-/// Springs between random pairs (pairs repeat), stiffness over six decades, some rest lengths zero, some ends that
-/// meet, and two particles without any spring.
+/// Springs between random pairs (pairs repeat), with stiffness over six decades, some zero rest lengths, some
+/// coincident ends, and two particles without springs.
 Loose random_springs(unsigned seed, int springs, SpringLaw law) {
   Random random(seed);
   const int n = 2 + std::max(2, springs / 4);
@@ -26,7 +26,7 @@ Loose random_springs(unsigned seed, int springs, SpringLaw law) {
   net.particles.mass = Eigen::VectorXd::Ones(n);
   net.particles.pinned.assign(n, 0);
   for (int i = 0; i < n; ++i) net.state.x.col(i) = random.vector();
-  if (n > 6) {  // ends that meet
+  if (n > 6) {  // coincident ends
     net.state.x.col(3) = net.state.x.col(4);
     net.springs.list.push_back({3, 4, 100, 0.5, Family::single});
     net.springs.list.push_back({4, 3, 100, 0, Family::single});
@@ -57,8 +57,8 @@ TEST(SpringKernel, IsTheEdgeLoopButForTheOrderOfTheSum) {
         EXPECT_EQ(fast.degenerate_springs, plain.degenerate_springs);
         degenerate_springs += plain.degenerate_springs;
 
-        // each force is rounded some times on either way and each sum once a spring: 8 eps of all sizes, where the size
-        // of a Hooke force is k (L + r), since the difference of lengths carries their rounding
+        // Each force has a few roundings in either variant, and each sum one per spring: 8 eps of all magnitudes. The
+        // magnitude of a Hooke force is k (L + r), because the difference of lengths carries their rounding.
         Eigen::ArrayXd sizes_at = Eigen::ArrayXd::Zero(n);
         Eigen::ArrayXi springs_at = Eigen::ArrayXi::Zero(n);
         for (const Spring& s : net.springs.list)
@@ -73,7 +73,7 @@ TEST(SpringKernel, IsTheEdgeLoopButForTheOrderOfTheSum) {
           }
         }
       }
-  EXPECT_GE(degenerate_springs, 100);  // ends that meet were tried
+  EXPECT_GE(degenerate_springs, 100);  // includes coincident ends
 }
 
 TEST(SpringKernel, GivesTheSameBitsTwiceAndAddsToWhatIsThere) {
@@ -87,7 +87,7 @@ TEST(SpringKernel, GivesTheSameBitsTwiceAndAddsToWhatIsThere) {
       kernel.add_force(net.state.x, onto);
       other.add_force(net.state.x, again);
       EXPECT_EQ(once.f, again.f);
-      // rounded once for each spring at most, at the size of what is there
+      // one rounding per spring at most, of the magnitude of the existing value
       const double most = 1e6 + once.f.cwiseAbs().maxCoeff() * size;
       EXPECT_LE((onto.f.array() - once.f.array() - 1e6).abs().maxCoeff(), (size + 1) * eps * most);
       again.f.setZero();

@@ -1,5 +1,5 @@
-// Steppers: the table, what each row declares, stability on both sides of the limit, determinism, counts, and what
-// suzuki4 is for.
+// Steppers: the table, the declarations of each row, stability on both sides of the limit, determinism, counts, and the
+// advantage of suzuki4.
 
 #include <complex>
 #include <limits>
@@ -30,7 +30,7 @@ TEST(Steppers, LeapfrogIsItsOwnInverseUnderDrag) {
   const double h = 1e-3;
   for (int i = 0; i < 50; ++i) leapfrog(f, s, h, w), s.t = (i + 1) * h, scene.model.particles.place_pins(s);
   for (int i = 50; i > 0; --i) leapfrog(f, s, -h, w), s.t = (i - 1) * h, scene.model.particles.place_pins(s);
-  // a hundred steps of a few ulps of a scene of 1 m, with velocities of some m/s over h
+  // A hundred steps of a few ulps each of a scene of 1 m, with velocities of some m/s over h.
   EXPECT_LT((s.x - scene.start.x).cwiseAbs().maxCoeff(), 1e3 * eps);
 }
 
@@ -56,10 +56,10 @@ TEST(Steppers, EvaluationsAndStepsAreCounted) {
       const Outcome out = simulate(s, ContactRule::coulomb, scene, {0.01, 0.5, 10}, r);
       EXPECT_EQ(out.steps, 50);
       if (s.evaluations > 0)
-        // a rule that hands its last stage on does not know it at a fixed step's start: one more evaluation
+        // A rule that reuses its last stage must evaluate it at the start of a fixed step: one more evaluation.
         EXPECT_EQ(out.evaluations, 50 * (s.evaluations + stepper(s.name).adaptive));
       else
-        EXPECT_GE(out.evaluations, 2 * 50);  // the force at the start of the solve and at its end
+        EXPECT_GE(out.evaluations, 2 * 50);  // forces at the start and end of the solve
       EXPECT_EQ(r.trajectory.frames(), 11);
       EXPECT_DOUBLE_EQ(out.end, 0.5);
     }
@@ -81,20 +81,20 @@ TEST(TimeGrid, DividesTheSamplingIntervalAndIsNeverLongerThanAsked) {
   for (const double step : {1e-3, 3e-4, 0.0123, 0.5, 7.0})
     for (const int samples : {1, 7, 150}) {
       const TimeGrid p = time_grid({step, 3, samples});
-      EXPECT_LE(p.h, std::min(step, 3.0 / samples) * (1 + 1e-9));  // a step is kept when only round-off divides them
+      EXPECT_LE(p.h, std::min(step, 3.0 / samples) * (1 + 1e-9));  // unchanged if only round-off prevents division
       EXPECT_NEAR(p.h * p.steps_per_sample * p.samples, 3, 4 * eps * 3);
     }
 }
 
 TEST(TimeGrid, RefusesMoreStepsThanCanBeCounted) {
-  // 5e13 steps between two samples: a wrapped count would silently run one step of a whole sampling interval
+  // 5e13 steps per sampling interval: a count that wraps would silently use a single step per interval.
   EXPECT_THROW(time_grid({1e-13, 5, 1}), InputError);
   EXPECT_THROW(time_grid({1e-300, 5, 250}), InputError);
 }
 
 }  // namespace
 
-// Stability of every stepper on both sides of the limit in its row: by its step matrix, and by running it; and the
+// Stability of every stepper on both sides of the limit in its row, by its step matrix and by running it, and the
 // verdict on springs that only ever get longer.
 
 namespace {
@@ -109,15 +109,15 @@ TEST(Stability, StepMatrixTurnsUnstableAtTheLimit) {
       auto radius = [&](double h) { return spectral_radius(step_matrix(s, omega, gamma, h), omega); };
       if (std::isinf(limit)) {
         for (const double h_omega : {0.1, 1.0, 10.0, 100.0})
-          // implicit rules solve to 1e-10 of the forces, which are up to (h omega)^2 of the offset's
+          // Implicit rules solve to 1e-10 of the forces, which are up to (h omega)^2 times that of the offset.
           EXPECT_LE(radius(h_omega / omega), 1 + 1e-6);
       } else if (limit == 0) {
-        // the slowest of them grows by (h omega)^4 / 8 a step
+        // the slowest growth is (h omega)^4 / 8 per step
         for (const double h_omega : {0.1, 0.5}) EXPECT_GT(radius(h_omega / omega), 1 + 1e-6);
       } else {
-        // where two eigenvalues meet on the unit circle they are known to the root of the round-off (1e-13)
+        // Coincident eigenvalues on the unit circle are known only to the square root of the round-off (1e-13).
         for (const double part : {0.1, 0.5, 0.9, 0.999}) EXPECT_LE(radius(part * limit), 1 + 1e-11) << part;
-        EXPECT_GT(radius(1.001 * limit), 1 + 1e-8);  // dopri5 without drag is the flattest: 6e-7
+        EXPECT_GT(radius(1.001 * limit), 1 + 1e-8);  // the flattest is dopri5 without drag: 6e-7
       }
     }
 }
@@ -138,7 +138,7 @@ TEST(Stability, TheFormulaInWordsHasTheNumbersOfTheLimit) {
     SCOPED_TRACE(s.name);
     const double spring = number_after(s.limit_formula, "h omega < ", " without drag"),
                  drag = number_after(s.limit_formula, "h gamma < ", " without springs");
-    // written to two digits behind the point, one for dopri5
+    // documented to two decimal places, one for dopri5
     for (const auto& [written, limit] : {std::pair{spring, s.limit(1, 0)}, std::pair{drag, s.limit(0, 1)}}) {
       if (std::isnan(written)) continue;
       EXPECT_NEAR(limit, written, 0.01);
@@ -154,7 +154,7 @@ TEST(Stability, DragAloneHasTheLimitOfTheRowToo) {
     SCOPED_TRACE(s.name);
     const double limit = s.limit(0, gamma);
     EXPECT_GT(limit, 0);
-    // without a spring the position never comes back: of the matrix only what becomes of the velocity counts
+    // Without a spring the position never returns, so only the velocity entry of the matrix matters.
     auto factor = [&](double h) { return std::abs(step_matrix(s, 0, gamma, h)(1, 1)); };
     EXPECT_LE(factor(std::isinf(limit) ? 100 / gamma : 0.999 * limit), 1 + 1e-9);
     if (std::isfinite(limit)) {
@@ -163,7 +163,7 @@ TEST(Stability, DragAloneHasTheLimitOfTheRowToo) {
   }
 }
 
-/// Largest excursions in the first and the last tenth of a run, m.
+/// Largest excursions (m) in the first and the last tenth of a run.
 class Excursions : public Observer {
  public:
   Excursions(double rest, double duration) : rest_(rest), duration_(duration) {}
@@ -182,9 +182,9 @@ class Excursions : public Observer {
 
 struct Fate {
   Verdict verdict;
-  double growth;  // of the excursion, from the first to the last tenth of the run
+  double growth;  // ratio of excursions in the last and first tenth
 };
-/// The steps must be a multiple of the ten samples, or the run would shorten them.
+/// Runs h * steps seconds. `steps` must be a multiple of the ten samples, or the run would shorten them.
 Fate try_out(const Stepper& s, const Oscillation& o, double h, int steps) {
   Scene scene = hanging(o.omega, o.gamma);
   const double rest = scene.start.x(1, 1);
@@ -206,14 +206,14 @@ TEST(Stability, RunsHoldBelowTheLimitAndFailAbove) {
         const bool any = std::isinf(limit);
         const Fate below = try_out(s, o, any ? 100 / o.omega : 0.98 * limit, any ? 1000 : 10000);
         EXPECT_EQ(below.verdict, Verdict::ok);
-        // an orbit that goes round for ever meets its top to 1e-3 within a hundred steps
+        // a sampled stable orbit comes within 1e-3 of its maximum within a hundred steps
         EXPECT_LE(below.growth, 1 + 1e-3);
       }
       if (std::isfinite(limit)) {
         const double above = just_above(s, o.omega, o.gamma);
-        // steps for a factor of 1000 by the step matrix (where drag rules the growing vector is a thirtieth of the
-        // start), nine tenths of which lie between the first and the last tenth; dopri5 without drag is the slowest:
-        // 1.3e-5 a step
+        // Number of steps for a factor of 1000 according to the step matrix (if drag dominates, the growing vector is a
+        // thirtieth of the initial state). Nine tenths of them lie between the first and the last tenth of the run. The
+        // slowest is dopri5 without drag: 1.3e-5 per step.
         const double growth = spectral_radius(step_matrix(s, o.omega, o.gamma, above), o.omega);
         const int steps = 10 * (10 + static_cast<int>(std::min(1e5, 0.1 * std::log(1000) / std::log(growth))));
         const Fate fate = try_out(s, o, above, steps);
@@ -237,13 +237,13 @@ TEST(Stability, UndampedGrowthOnASpringIsTheFormula) {
           std::string_view(name) == "explicit-euler" ? std::sqrt(1 + z * z) : std::sqrt(1 + z * z * z * z / 4);
       auto amplitude = [&](int i) { return std::hypot(t.x[i](1, 1) - rest, t.v[i](1, 1) / omega); };
       for (int i = 0; i < 8; ++i)
-        // the offset is a difference of lengths of about 1.1 m: some ulps of them, over the amplitude
+        // The offset is a difference of lengths of about 1.1 m: some ulps of these, relative to the amplitude.
         EXPECT_NEAR(amplitude(i + 1) / amplitude(i), growth, 16 * eps * 1.1 / offset);
     }
 }
 
 TEST(Stability, WhatHangsStillStaysWhereItHangs) {
-  // rest does not depend on the step, nor on the drag
+  // equilibria depend neither on the step nor on drag
   for (const Stepper& s : fixed_steppers())
     for (const double gamma : {0.0, 4.0, 30.0}) {
       SCOPED_TRACE(fmt::format("{} gamma = {}", s.name, gamma));
@@ -254,7 +254,8 @@ TEST(Stability, WhatHangsStillStaysWhereItHangs) {
     }
 }
 
-/// 1 kg on a spring of 1 N/m and 1 m, held `extension` metres too long by an engine that lost the rest of its energy.
+/// Verdict for 1 kg on a spring of 1 N/m and 1 m that is suddenly stretched by `extension` (m), without the
+/// corresponding speed.
 Verdict verdict_at(double extension) {
   Scene scene = hanging(1, 0);
   scene.start.x(1, 1) = -1;
@@ -268,8 +269,8 @@ Verdict verdict_at(double extension) {
 }
 
 TEST(Stretch, IsAVerdictBesideEnergy) {
-  // the true motion, a fall from rest, comes to 2 W / k = 19.62 m more than a metre: ten times that length are 206.2 m,
-  // known to 3 %. Two states do not show how fast it came there
+  // The true motion, a fall from rest, exceeds a metre by 2 W / k = 19.62 m. Ten times this length is 206.2 m, known to
+  // 3 %. Two states do not reveal the speed.
   EXPECT_EQ(verdict_at(19.62), Verdict::ok);
   EXPECT_EQ(verdict_at(199), Verdict::ok);
   EXPECT_EQ(verdict_at(212), Verdict::stretch);
@@ -278,7 +279,7 @@ TEST(Stretch, IsAVerdictBesideEnergy) {
 
 using namespace testing_tools;
 
-/// Error of rk4 at h over that of suzuki4 at 1.25 h: both take 4 evaluations in each h.
+/// Error of rk4 at h over that of suzuki4 at 1.25 h: both use 4 evaluations per h.
 double advantage(const Scene& scene, double h, double duration) {
   // sampling at multiples of 5 h, which both steps divide
   const int samples = static_cast<int>(std::lround(duration / (20 * h)));

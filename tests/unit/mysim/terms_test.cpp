@@ -22,12 +22,12 @@ TEST(Terms, EndsThatMeetGetNoForceAndAreCounted) {
     Forces forces{Points::Zero(3, 2)};
     add_force(Springs{{{0, 1, 100, rest, Family::single}}}, model.particles, state, forces);
     EXPECT_TRUE(forces.f.isZero(0));
-    EXPECT_EQ(forces.degenerate_springs, rest > 0 ? 1 : 0);  // at rest length zero there is nothing undefined
+    EXPECT_EQ(forces.degenerate_springs, rest > 0 ? 1 : 0);  // with rest length zero nothing is undefined
   }
 }
 
 TEST(Terms, ARunCountsEndsThatMet) {
-  // two particles fly into one point in exactly representable steps, then out again
+  // Two particles meet in one point in exactly representable steps, then separate again.
   const Scene scene = small_scene(
       "[[particle]]\nposition = [-1, 0, 0]\nmass = 1\nvelocity = [1, 0, 0]\n"
       "[[particle]]\nposition = [1, 0, 0]\nmass = 1\nvelocity = [-1, 0, 0]\n"
@@ -57,14 +57,14 @@ TEST(Terms, DragTakesPowerAndIsLinear) {
   }
 }
 
-/// Of a value, in units in its last place.
+/// Error of a value in units in the last place (ulp).
 double error_of(double value, long double exact) {
   const double nearest = std::abs(static_cast<double>(exact));
   return static_cast<double>(std::abs(value - exact)) / (std::nextafter(nearest, INFINITY) - nearest);
 }
 
 TEST(PortableTrigonometry, IsRightToAUnitInTheLastPlaceUpToAMillionRadians) {
-  // half a unit is the rounding of the result; the rest, of the reduced angle and of the series, is under 0.6
+  // Rounding of the result is half an ulp. The reduced angle and the series add less than 0.6.
   const double allowed = 1.1;
   std::mt19937_64 engine(1);
   for (const double most : {1e-300, 1e-8, 0.8, 3.2, 10., 1e3, 1e6})
@@ -73,7 +73,7 @@ TEST(PortableTrigonometry, IsRightToAUnitInTheLastPlaceUpToAMillionRadians) {
       EXPECT_LE(error_of(portable_sin(x), std::sin(static_cast<long double>(x))), allowed) << x;
       EXPECT_LE(error_of(portable_cos(x), std::cos(static_cast<long double>(x))), allowed) << x;
     }
-  // next to multiples of pi/2, where the reduction cancels most
+  // next to multiples of pi/2, where the argument reduction cancels most
   for (int n = 1; n < 1000000; n = 3 * n + 1) {
     const double x = n * std::numbers::pi / 2;
     EXPECT_LE(error_of(portable_sin(x), std::sin(static_cast<long double>(x))), allowed) << n;
@@ -91,7 +91,7 @@ TEST(PortableTrigonometry, IsOddEvenAndNotANumberOfWhatIsNotFinite) {
     EXPECT_TRUE(std::isnan(portable_sin(x)) && std::isnan(portable_cos(x)));
 }
 
-/// Written down once: what any build must give, whichever C library it has.
+/// Recorded values that any build must reproduce, whatever its C library.
 TEST(PortableTrigonometry, HasTheseBits) {
   EXPECT_EQ(portable_sin(1), 0x1.aed548f090ceep-1);
   EXPECT_EQ(portable_cos(1), 0x1.14a280fb5068cp-1);
@@ -100,7 +100,7 @@ TEST(PortableTrigonometry, HasTheseBits) {
 }
 
 TEST(Vectors, AreSummedFromTheFirstToTheLast) {
-  // each order of the three gives another last digit
+  // each summation order gives a different last digit
   const Vec3 v(1, 0x1p-53, 0x1p-53);
   EXPECT_EQ(v.sum(), (1 + 0x1p-53) + 0x1p-53);
   EXPECT_NE(v.sum(), 1 + (0x1p-53 + 0x1p-53));
@@ -113,8 +113,8 @@ TEST(Vectors, AreSummedFromTheFirstToTheLast) {
 
 TEST(Wind, IsSeededBoundedAndSmooth) {
   const WindSignal wind = gusty(7), same = gusty(7), other = gusty(8);
-  const double bound = 0.8 * wind.mean.norm() + 2;    // variation times mean, plus side: gusts lie between -1 and 1
-  const double fastest = 2 * std::numbers::pi * 1.2;  // rad/s, of the waves
+  const double bound = 0.8 * wind.mean.norm() + 2;    // variation times mean, plus side; gusts lie in [-1, 1]
+  const double fastest = 2 * std::numbers::pi * 1.2;  // rad/s, fastest wave
   double difference = 0;
   for (int i = 0; i < 4000; ++i) {
     const double t = 0.005 * i, dt = 1e-4;
@@ -124,7 +124,7 @@ TEST(Wind, IsSeededBoundedAndSmooth) {
     EXPECT_LE((a - wind.mean).norm(), bound * (1 + 4 * eps));
     EXPECT_LE((wind.at(t + dt) - a).norm(), bound * fastest * dt);
   }
-  EXPECT_GT(difference, 0.1 * bound);  // other seeds blow otherwise
+  EXPECT_GT(difference, 0.1 * bound);  // other seeds give other gusts
 }
 
 TEST(Wind, GustsAlongAndAcrossDifferAndReachAFairShareOfTheirRange) {
@@ -136,10 +136,10 @@ TEST(Wind, GustsAlongAndAcrossDifferAndReachAFairShareOfTheirRange) {
       high = std::max(high, along.at(0.05 * i));
       apart = std::max(apart, std::abs(along.at(0.05 * i) - across.at(0.05 * i)));
     }
-    // four incommensurable waves come close to -1 and 1 in a hundred seconds
+    // four incommensurable waves come close to -1 and 1 within a hundred seconds
     EXPECT_LT(low, -0.5);
     EXPECT_GT(high, 0.5);
-    EXPECT_LE(std::max(-low, high), 1 + 4 * eps);  // weights add up to 1 but for rounding
+    EXPECT_LE(std::max(-low, high), 1 + 4 * eps);  // weights add up to 1 up to rounding
     EXPECT_GT(apart, 0.5);
   }
 }
@@ -158,7 +158,7 @@ TEST(PrescribedMotion, VelocityIsTheDerivativeOfDisplacement) {
   const double step = std::cbrt(eps);
   for (double t = 0.01; t < 2; t += 0.0137) {
     const Vec3 numeric = (displacement_at(motion, t + step) - displacement_at(motion, t - step)) / (2 * step);
-    // eps^(2/3) times a sixth of the third derivative, which the ramp makes as large as 60 A / ramp^3 and omega^3 A
+    // eps^(2/3) times a sixth of the third derivative, which the ramp makes as large as 60 A / ramp^3 plus omega^3 A
     EXPECT_LT((numeric - velocity_at(motion, t)).norm(), 200 * std::pow(eps, 2.0 / 3));
   }
 }
@@ -173,7 +173,7 @@ TEST(PrescribedMotion, StartsAtRestAndIsTwiceContinuousAtBothEndsOfTheRamp) {
   };
   for (const double joint : {0.0, 0.5}) {
     const double before = joint == 0 ? 0 : acceleration(joint - 2e-6).z(), after = acceleration(joint + 1e-6).z();
-    // the jerk beside a joint is at most 60 A / ramp^3 = 72 m/s^3: in 3e-6 s it changes the acceleration by 2.2e-4
+    // The jerk next to a joint is at most 60 A / ramp^3 = 72 m/s^3. In 3e-6 s it changes the acceleration by 2.2e-4.
     EXPECT_NEAR(before, after, 2.2e-4);
     EXPECT_LT((displacement_at(motion, joint + 1e-9) - displacement_at(motion, std::max(0.0, joint - 1e-9))).norm(),
               2e-9);  // speeds stay below 1 m/s
@@ -196,7 +196,7 @@ TEST(PrescribedMotion, PinsFollowItInEveryStepper) {
 
 using namespace testing_tools;
 
-/// One triangle of 0.5 m^2 in the plane z = 0, with its corners in the order given.
+/// A triangle of 0.5 m^2 in the plane z = 0, with its corners in the given order.
 Network flat(std::array<int, 3> corners = {0, 1, 2}) {
   Network net;
   net.model.particles.mass = Eigen::VectorXd::Ones(3);
@@ -220,7 +220,7 @@ TEST(Aerodynamics, FaceOnItIsHalfRhoCAreaSpeedSquared) {
     const Points f = force_in(flat(), {0, 0, w});
     const double expected = density * coefficient * area * w * std::abs(w) / 2;
     EXPECT_LT((total(f) - Vec3(0, 0, expected)).norm(), 8 * eps * std::abs(expected));  // a few roundings
-    for (int i = 0; i < 3; ++i) EXPECT_EQ(f.col(i), f.col(0));                          // a third on each corner
+    for (int i = 0; i < 3; ++i) EXPECT_EQ(f.col(i), f.col(0));                          // a third for each corner
   }
 }
 
@@ -234,7 +234,7 @@ TEST(Aerodynamics, AtAnAngleItFollowsTheSine) {
     const Vec3 f = total(force_in(flat(), {w * std::cos(angle), 0, w * std::sin(angle)}));
     const double expected = density * coefficient * area * w * w / 2 * std::sin(angle);
     EXPECT_NEAR(f.z(), expected, 16 * eps * expected + 4 * eps);
-    EXPECT_EQ(f.x(), 0);  // pressure is along the normal
+    EXPECT_EQ(f.x(), 0);  // pressure acts along the normal
     EXPECT_EQ(f.y(), 0);
   }
 }
@@ -246,7 +246,7 @@ TEST(Aerodynamics, WithoutRelativeMotionThereIsNone) {
     net.state.t = 0.3;
     const Vec3 wind = net.model.find<Aerodynamics>()->velocity.at(0.3);
     for (int i = 0; i < 6; ++i) net.state.v.col(i) = wind;
-    // what is left of w - (w + w + w) / 3 is an ulp of 7 m/s, and the force is quadratic in it
+    // The residual of w - (w + w + w) / 3 is an ulp of 7 m/s, and the force is quadratic in it.
     EXPECT_LT(force_of(*net.model.find<Aerodynamics>(), net).cwiseAbs().maxCoeff(), 10 * std::pow(8 * eps, 2) * 50);
   }
 }
@@ -260,7 +260,7 @@ TEST(Aerodynamics, OnlyTheRelativeVelocityCounts) {
     const Vec3 boost = random.vector();
     net.state.v.colwise() += boost;
     Aerodynamics& air = *net.model.find<Aerodynamics>();
-    // gusts act on the mean: a steady wind of the same value at this time
+    // Gusts act on the mean, so replace them by a steady wind of the same value at this time.
     air.velocity = {air.velocity.at(net.state.t) + boost, std::nullopt};
     EXPECT_LT((force_of(air, net) - f).cwiseAbs().maxCoeff(), 64 * eps * f.cwiseAbs().maxCoeff() + 64 * eps);
   }
@@ -283,7 +283,7 @@ TEST(Aerodynamics, InStillAirItOnlyTakesEnergyAndInWindItPushesAlong) {
     air.velocity = {Vec3::Zero(), std::nullopt};
     for (int i = 0; i < 6; ++i) net.state.v.col(i) = Vec3(0.3, -1, 0.7);
     Forces scratch{Points::Zero(3, 6)};
-    EXPECT_LT(power_of(net.model, net.state, scratch).wind, 0);  // a body that moves as one is held back
+    EXPECT_LT(power_of(net.model, net.state, scratch).wind, 0);  // a rigidly moving body is slowed down
     net.state.v.setZero();
     air.velocity.mean = Vec3(2, 1, -3);
     EXPECT_GT(total(force_of(air, net)).dot(air.velocity.mean), 0);
@@ -297,8 +297,8 @@ TEST(Aerodynamics, ATriangleWithoutAreaHasNoForce) {
 }
 
 TEST(Terms, EnergyOfALinkIsNeverBelowZero) {
-  // near the rest length both parts of it cancel: of lengths that differ by a few roundings one in a hundred had less,
-  // and an implicit step takes a root of the sum
+  // Near the rest length both parts of the energy cancel. A straightforward formula was negative for one in a hundred
+  // lengths within a few roundings of it, and an implicit step takes the square root of the sum.
   Random random(1);
   for (int i = 0; i < 2000; ++i) {
     const double rest = random.between(0.1, 3);

@@ -16,7 +16,7 @@ namespace {
 
 using namespace testing_tools;
 
-/// Largest distance of a particle between symplectic Euler and Bullet's explicit world, m.
+/// Largest distance (m) between corresponding particles of symplectic Euler and Bullet's explicit world.
 double apart(const Scene& scene, const Run& run, const std::string& carried_by) {
   const MethodRun ours = run_and_record("symplectic-euler", scene, run),
                   theirs = run_and_record("bullet/deformable-explicit", scene, run);
@@ -32,7 +32,7 @@ double apart(const Scene& scene, const Run& run, const std::string& carried_by) 
 
 constexpr auto bullets_force = "Bullet's own mass-spring force";
 constexpr auto own_force = "force class of our own";
-// the issue's bound: round-off of the summation order (1e-15 m) times the growth of a perturbation (below 1e3)
+// bound of the issue: round-off of the summation order (1e-15 m) times the growth of a perturbation (below 1e3)
 constexpr double identity = 1e-12;  // m
 
 TEST(BulletExplicit, IsSymplecticEulerOnSpringPendulumAndChain) {
@@ -46,7 +46,7 @@ TEST(BulletExplicit, IsSymplecticEulerOnSpringPendulumAndChain) {
 }
 
 TEST(BulletExplicit, IsSymplecticEulerOnASmallClothWithEveryIngredient) {
-  // three stiffnesses, wind, moved pins: our own force class
+  // three stiffnesses, wind, moving pins: our own force class
   EXPECT_LE(apart(small_cloth(), {1e-3, 1, 20}, own_force), identity);
 }
 
@@ -66,7 +66,7 @@ TEST(BulletExplicit, CarriesUnequalMassesUnderOneDragCoefficient) {
   scene.model.particles.mass << 0.1, 0.3, 0.05, 0.2;
   *scene.model.find<Drag>() = Drag{Eigen::VectorXd::Constant(4, 0.1)};
   EXPECT_LE(apart(scene, {1e-3, 3, 60}, bullets_force), identity);
-  *scene.model.find<Drag>() = Drag{2 * scene.model.particles.mass};  // one rate again
+  *scene.model.find<Drag>() = Drag{2 * scene.model.particles.mass};  // a single rate again
   EXPECT_LE(apart(scene, {1e-3, 3, 60}, bullets_force), identity);
 }
 
@@ -92,8 +92,9 @@ TEST(BulletExplicit, CarriesRestLengthZero) {
 }
 
 TEST(BulletExplicit, NeverLimitsASpeedInSilence) {
-  // the explicit world limits speeds to the diagonal of the body's box over the step, and beside a sphere the box of a
-  // lone particle is its margin: far from the sphere both must be in free flight, or the limit must be said
+  // The explicit world limits speeds to the diagonal of the body's box per step. With a sphere, the box of a lone
+  // particle has the size of its margin. Far from the sphere both must be in free flight, or the limit must be
+  // reported.
   for (const auto margin : {"", "margin = 0.02\n"}) {
     SCOPED_TRACE(margin);
     const Scene scene = small_scene(std::string("[[particle]]\nposition = [0, 3, 0]\nmass = 1\nvelocity = [30, 0, 0]\n"
@@ -140,9 +141,9 @@ TEST(BulletPbd, SingleLinkSwingsAtTheBackwardEulerFrequencyAndReadsBackItsStiffn
       }
       ASSERT_GT(periods, 3);
       const double measured = 2 * std::numbers::pi * periods / (last - first);
-      EXPECT_NEAR(measured / (std::atan(omega * h) / h), 1, 1e-3);  // facts/bullet.md measured 1e-4 in 27 cases
+      EXPECT_NEAR(measured / (std::atan(omega * h) / h), 1, 1e-3);  // 27 earlier measurements agreed to 1e-4
       ASSERT_TRUE(a.outcome.readback && a.outcome.readback->links[0].stiffness);
-      // k comes back from 1 - kLST: eps / (k h^2 / mu = 1e-4) is 2e-12, times n
+      // k is computed from 1 - kLST: eps / (k h^2 / mu = 1e-4) is 2e-12, times n
       EXPECT_NEAR(*a.outcome.readback->links[0].stiffness / k, 1, 1e-8);
       EXPECT_FALSE(certify(method, scene, a.outcome).mismatch());
     }
@@ -190,14 +191,14 @@ TEST(Bullet, RefusesWhatItLacksWithTheReason) {
   uneven.model.particles.mass[1] = 0.3;
   uneven.model.find<Drag>()->c.setConstant(0.1);
   EXPECT_TRUE(contains(run_and_record("bullet/pbd", uneven, {1e-3, 0.02, 2}).outcome.reason, "one drag rate"));
-  // the same network without a sphere is no problem
+  // the same network works without a sphere
   EXPECT_EQ(run_and_record("bullet/deformable-explicit", small_scene(lone + ball), {1e-2, 0.1, 1}).outcome.verdict,
             Verdict::ok);
 }
 
 using namespace testing_tools;
 
-/// An 8 x 8 cloth of 0.7 m held at two corners, with more ingredients; its springs are pulled and pushed.
+/// An 8 x 8 cloth of 0.7 m held at two corners, with more ingredients and springs under tension and compression.
 Scene cloth(const std::string& more, const std::string& grid = "", const std::string& pins = "") {
   return small_scene("[grid]\nsize = [8, 8]\norigin = [0, 0, 0]\nu = [0.7, 0, 0]\nv = [0, -0.2, 0.6]\nmass = 0.3\n" +
                          grid +
@@ -253,14 +254,14 @@ TEST(BulletImplicit, TightIsOneNewtonStepOfBackwardEuler) {
   for (const Case& c : cases()) {
     const double tight = distance_to_newton_step("bullet/deformable-implicit+tight", c.scene);
     fmt::print("{:24} {:.2g} m\n", c.name, tight);
-    // the issue's bound: both solve to round-off, 1e-15 m a step, and drag and implicitness damp what grows
+    // Bound of the issue: both solve to round-off, 1e-15 m per step, and drag and implicitness damp its growth.
     EXPECT_LE(tight, 1e-12) << c.name;
   }
 }
 
 TEST(BulletImplicit, DefaultToleranceCostsEightDigits) {
-  // conjugate gradients end at a squared residual of 2.2e-16 of what they began with: 1.5e-8 of each step's change of
-  // velocity is left; over the changes of a run, some m/s for 1.5 s, that makes some 1e-8 m
+  // Conjugate gradients stop at a squared residual of 2.2e-16 relative to the initial one: 1.5e-8 of each step's change
+  // of velocity remains. Over the changes of a run, some m/s for 1.5 s, this is about 1e-8 m.
   for (const Scene& scene : {shortened("chain", 1. / 240), cloth(""), cloth(drag)}) {
     const double tight = distance_to_newton_step("bullet/deformable-implicit+tight", scene),
                  loose = distance_to_newton_step("bullet/deformable-implicit", scene);
@@ -270,7 +271,7 @@ TEST(BulletImplicit, DefaultToleranceCostsEightDigits) {
   }
 }
 
-/// The pair of roots of y_{n+2} = p y_{n+1} - q y_n that fits a sequence best.
+/// The root with positive imaginary part of the best-fitting recurrence y_{n+2} = p y_{n+1} - q y_n.
 std::complex<double> root_of(const std::vector<double>& y) {
   Eigen::MatrixXd known(y.size() - 2, 2);
   Eigen::VectorXd next(y.size() - 2);
@@ -298,14 +299,14 @@ TEST(BulletImplicit, OneSpringHasBackwardEulersFrequencyAndDecayToSixDigits) {
       const std::complex<double> root = root_of(y);
       EXPECT_NEAR(std::arg(root) / std::atan(omega * h), 1, 1e-6);
       EXPECT_NEAR(std::abs(root) * std::sqrt(1 + omega * omega * h * h), 1, 1e-6);
-      // two-sided: neither the continuous spring's nor symplectic Euler's frequency, which are 1/3 (h omega)^2 or more
-      // away
+      // Conversely, neither the continuous spring's nor symplectic Euler's frequency, which differ by at least 1/3 (h
+      // omega)^2.
       const double away = omega * omega * h * h / 4;
       EXPECT_GT(std::abs(std::arg(root) / (omega * h) - 1), std::min(away, 0.05));
     }
 }
 
-/// The same scene with its particles in the opposite order.
+/// The scene with its particles in reverse order.
 Scene reversed(const Scene& scene) {
   Scene other = scene;
   const int n = scene.model.particles.size();
@@ -323,7 +324,7 @@ Scene reversed(const Scene& scene) {
 }
 
 TEST(Bullet, PinsFirstOrLastMakeNoDifference) {
-  // links keep their order: sums over links have the same bits; those of the implicit solver run over nodes
+  // Links keep their order, so sums over links agree bit for bit. The implicit solver sums over nodes.
   for (const Scene& scene : {shortened("chain", 1e-3), cloth(drag, "", moved)})
     for (const auto& [method, bound] : {std::pair{"bullet/deformable-explicit", 0.},
                                         {"bullet/pbd", 0.},
@@ -356,8 +357,8 @@ TEST(BulletLink, PositionBasedWorldConvergesToItsLinkLawAndNotToHookes) {
   fmt::print("bullet/pbd from its link law {:.3g} to {:.3g} m, from Hooke's {:.3g} to {:.3g} m\n", link.front(),
              link.back(), law.front(), law.back());
   for (size_t i = 1; i < link.size(); ++i)
-    EXPECT_NEAR(slope(link[i - 1], link[i]), 1, 0.1);  // first order; the next term is h omega = 0.03
-  // what is left against Hooke is the law: a tenth of the force at these strains
+    EXPECT_NEAR(slope(link[i - 1], link[i]), 1, 0.1);  // first order; the next term is smaller by h omega = 0.03
+  // The remaining difference from Hooke is due to the law: a tenth of the force at these strains.
   EXPECT_GT(law.back(), 10 * link.back());
   EXPECT_GT(law.back(), 0.01);
 }
@@ -366,9 +367,9 @@ TEST(BulletLink, ExplicitWorldFollowsTheLinkLawToRoundOff) {
   const Scene scene = shipped_scene("chain-link");
   const MethodRun ours = run_and_record("symplectic-euler", scene, default_run(scene)),
                   theirs = run_and_record("bullet/deformable-explicit", scene, default_run(scene));
-  EXPECT_LE(sup_distance(ours.trajectory, theirs.trajectory), 1e-12);  // the bound of the identity tests
+  EXPECT_LE(sup_distance(ours.trajectory, theirs.trajectory), 1e-12);  // bound of the identity tests
   EXPECT_FALSE(certify("bullet/deformable-explicit", scene, theirs.outcome).mismatch());
-  // an engine that pulled by Hooke's law would be found out
+  // the certificate must detect an engine that follows Hooke's law
   Scene hooke = scene;
   hooke.model.find<Springs>()->law = SpringLaw::hooke;
   const MethodRun other = run_and_record("bullet/deformable-explicit", hooke, default_run(scene));
@@ -395,7 +396,7 @@ TEST(BulletLink, HardDistancesAreLinksThatGiveWayToNothing) {
     EXPECT_LT(stretch(one), 0.02);
     EXPECT_LT(stretch(ten), 0.5 * stretch(one));  // more iterations help
     EXPECT_LT(sup_rms(one.trajectory, truth_of(scene, run)->trajectory), 0.02);
-    // a length that was changed on the way is a mismatch
+    // a length changed during the run is a mismatch
     Outcome wrong = one.outcome;
     wrong.readback->links.back().rest *= 1.001;
     EXPECT_TRUE(certify("bullet/pbd", scene, wrong).mismatch());

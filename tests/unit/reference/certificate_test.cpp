@@ -1,4 +1,4 @@
-// The parity certificate: it matches what was built, and catches every tampering, and mismatches that are really built.
+// The parity certificate: it matches the scene as built, and detects every manipulation and every real mismatch.
 
 #include <functional>
 
@@ -20,16 +20,16 @@ TEST(Certificate, MatchesOnEveryShippedSceneAndNamesOtherLaws) {
       const Scene scene = shipped_scene(std::string(name));
       if (scene.model.first_order()) continue;
       const Outcome out = run_and_record(method, scene, {scene.step, 2 * scene.step, 1}).outcome;
-      if (out.verdict == Verdict::unsupported) continue;  // refused with a reason: bullet_test.cpp
+      if (out.verdict == Verdict::unsupported) continue;  // see bullet_test.cpp for the reasons
       ASSERT_TRUE(out.readback);
       for (const CertificateRow& row : certify(method, scene, out).rows)
         EXPECT_EQ(row.parity, row.quantity.starts_with("law of ") ? Parity::different_law : Parity::match)
-            << row.quantity << ": asked " << row.requested << ", read back " << row.read_back;
+            << row.quantity << ": requested " << row.requested << ", read back " << row.read_back;
     }
 }
 
 TEST(Certificate, RestLengthsSurviveTheFirstStep) {
-  // Bullet overwrites them by the current lengths unless that is disabled: here they differ by 10 %
+  // Bullet overwrites rest lengths by the current lengths unless that is disabled. Here they differ by 10 %.
   for (const auto method : {"bullet/deformable-explicit", "bullet/pbd"}) {
     const Scene scene = shipped_scene("spring");
     const Outcome out = run_and_record(method, scene, {scene.step, 10 * scene.step, 1}).outcome;
@@ -67,7 +67,7 @@ TEST(Certificate, WhatIsNotToldHasARow) {
       {"restitution", [](Readback& r) { r.spheres->at(0).restitution.reset(); }},
       {"step", [](Readback& r) { r.step.reset(); }},
       {"sleeping", [](Readback& r) { r.may_sleep.reset(); }},
-      {"nothing else", [](Readback& r) { r.later.reset(); }},  // the sphere stands still in the scene
+      {"nothing else", [](Readback& r) { r.later.reset(); }},  // the sphere of the scene is at rest
       {"nothing else", [](Readback& r) { r.probe->wind.resize(3, 0); }},
   };
   EXPECT_TRUE(certify("engine", drape, honest).fully_attested());
@@ -89,7 +89,7 @@ TEST(Certificate, WhatIsNotToldHasARow) {
 TEST(Certificate, AProbeThatStrainsNothingAttestsNothing) {
   const Scene chain = shipped_scene("chain");
   Outcome lazy = run_and_record("bullet/deformable-explicit", chain, {1e-3, 2e-3, 1}).outcome;
-  // forces where all springs are at rest: every law says 0
+  // all springs at rest: every law gives 0
   for (int i = 1; i < chain.start.x.cols(); ++i)
     lazy.readback->probe->x.col(i) =
         lazy.readback->probe->x.col(i - 1) + chain.model.find<Springs>()->list[i - 1].rest * Vec3(1, 0, 0);
@@ -163,10 +163,10 @@ TEST(Certificate, CatchesIngredientsThatTheSceneDoesNotHaveAndOnesThatAreGone) {
     std::erase_if(s.model.terms, [&](const Term& t) { return name_of(t) == term; });
   };
   EXPECT_FALSE(certified([](Scene&) {}));
-  EXPECT_TRUE(certified([&](Scene& s) { without(s, "gravity"); })) << "gravity that nobody asked for";
-  EXPECT_TRUE(certified([&](Scene& s) { without(s, "drag"); })) << "drag that nobody asked for";
-  EXPECT_TRUE(certified([&](Scene& s) { without(s, "springs"); })) << "springs that nobody asked for";
-  // a sphere that the engine does not know of must not pass in silence
+  EXPECT_TRUE(certified([&](Scene& s) { without(s, "gravity"); })) << "gravity that is not in the scene";
+  EXPECT_TRUE(certified([&](Scene& s) { without(s, "drag"); })) << "drag that is not in the scene";
+  EXPECT_TRUE(certified([&](Scene& s) { without(s, "springs"); })) << "springs that are not in the scene";
+  // a sphere unknown to the engine must not go unnoticed
   Outcome blind = run_and_record("bullet/deformable-explicit", drape, {1e-3, 2e-3, 1}).outcome;
   blind.readback->spheres.reset();
   bool said = false;
@@ -177,8 +177,8 @@ TEST(Certificate, CatchesIngredientsThatTheSceneDoesNotHaveAndOnesThatAreGone) {
 
 }  // namespace
 
-// The certificate against mismatches that are really built: a mutant of the scene is run in each of Bullet's worlds and
-// certified against the honest scene.
+// The certificate against real mismatches: each of Bullet's worlds runs a mutant of the scene, and the result is
+// certified against the original scene.
 
 namespace {
 
@@ -208,7 +208,7 @@ void expect_caught(const Scene& honest, std::span<const Mutation> mutations) {
       m.mutate(mutant);
       const Certificate c = certificate_of(world, mutant, honest);
       if (m.blind.contains(world)) {
-        // exceptions stand in the table: when the world reports them, they are to go
+        // The table lists exceptions. Remove them once the world reports these values.
         EXPECT_FALSE(c.mismatch()) << world << ": " << m.what << ": " << mismatches(c);
         continue;
       }
@@ -228,7 +228,7 @@ TEST(SeededMismatch, OfPrescribedMotionsIsCaught) {
   expect_caught(small_cloth(), of_the_swing);
   expect_caught(shipped_scene("cloth-carried"), of_the_carried);
   expect_caught(draped(), of_a_still_one);
-  // an engine that does not report them is not taken to have them
+  // an engine that does not report them is assumed not to have them
   for (const Scene& scene : {small_cloth(), shipped_scene("cloth-carried")}) {
     Outcome silent = run_and_record("bullet/pbd", scene, {1e-3, 2e-3, 1}).outcome;
     silent.readback->later.reset();
@@ -243,7 +243,7 @@ TEST(SeededMismatch, OfTheStepIsCaught) {
   for (const std::string& world : worlds) {
     const Scene scene = draped();
     Outcome slow = run_and_record(world, scene, {2e-3, 4e-3, 1}).outcome;
-    slow.step = 1e-3;  // as the comparison requires
+    slow.step = 1e-3;  // as requested
     EXPECT_EQ(mismatches(certify(world, scene, slow)), "[step] ") << world;
   }
 }
