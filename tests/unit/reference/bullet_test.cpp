@@ -191,7 +191,7 @@ TEST(Bullet, RefusesWhatItLacksWithTheReason) {
   uneven.model.particles.mass[1] = 0.3;
   uneven.model.find<Drag>()->c.setConstant(0.1);
   EXPECT_TRUE(contains(run_and_record("bullet/pbd", uneven, {1e-3, 0.02, 2}).outcome.reason, "one drag rate"));
-  // the same network works without a sphere
+  // without a sphere this network works
   EXPECT_EQ(run_and_record("bullet/deformable-explicit", small_scene(lone + ball), {1e-2, 0.1, 1}).outcome.verdict,
             Verdict::ok);
 }
