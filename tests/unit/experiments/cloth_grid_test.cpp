@@ -49,7 +49,7 @@ TEST(ClothGrid, TakesTheSameStepsAsTheGeneralEngine) {
 
 TEST(ClothGrid, ReproducibleIsTheSameBitsOnAvx2AndAvx512) {
   const auto all = simd::supported_instruction_sets();
-  if (all.size() < 3) GTEST_SKIP() << "no AVX-512 on this machine";
+  if (all.size() < 3) GTEST_SKIP() << "this machine has no AVX-512";
   for (const Cloth& cloth : cloths())
     for (const char* rule : fused_rules) {
       const Scene scene = scene_of(cloth);

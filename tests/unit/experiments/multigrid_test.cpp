@@ -178,7 +178,7 @@ TEST(Multigrid, APreconditionerIsSymmetricAndPositive) {
 
 TEST(Multigrid, SameBitsOnEveryAvx) {
   const std::vector<simd::InstructionSet> all = simd::supported_instruction_sets();
-  if (all.back() != simd::InstructionSet::avx512) GTEST_SKIP() << "no AVX-512 on this machine";
+  if (all.back() != simd::InstructionSet::avx512) GTEST_SKIP() << "this machine has no AVX-512";
   for (const auto& [rows, columns] : sizes) {
     const Problem p(5, rows, columns);
     Points a, b;

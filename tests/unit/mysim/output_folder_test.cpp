@@ -309,7 +309,7 @@ TEST_P(Output, WorkingFolderOfAnotherUserIsRefused) {
   fs::remove(folder_ / ".out.crosscheck");
   write_file(folder_ / ".out.crosscheck/old/index.html", "theirs");
   if (chown((folder_ / ".out.crosscheck").c_str(), 12345, 12345) != 0)
-    GTEST_SKIP() << "this user cannot change the owner of a folder";
+    GTEST_SKIP() << "this machine does not let its user change the owner of a folder";
   EXPECT_TRUE(contains(refusal(), ".out.crosscheck is not a folder of yours"));
   recover_output(target_);
   EXPECT_EQ(in(target_), (Files{{"index.html", "one"}}));
