@@ -1,4 +1,4 @@
-// Contact located within the step: order 2 against closed forms and against an event-driven route of its own.
+// Contact located within the step: second order against closed forms and against an independent event-driven solution.
 
 #include <numbers>
 #include <numeric>
@@ -16,7 +16,7 @@ using namespace testing_tools;
 
 constexpr double g = 9.81, degrees_of_turn = 180 / std::numbers::pi;
 
-/// The rules that locate events.
+/// Rules that locate events.
 const std::vector<std::string> rules = {"leapfrog", "implicit-midpoint"};
 
 Trajectory with_events(const std::string& rule, const Scene& scene, double h, double until, int samples) {
@@ -25,14 +25,14 @@ Trajectory with_events(const std::string& rule, const Scene& scene, double h, do
   return recorder.trajectory;
 }
 
-/// Order between steps h, h/2 and h/4 by the errors at them.
+/// Orders between steps h, h/2 and h/4 from their errors.
 template <class Error>
 std::pair<double, double> orders(Error error, double h) {
   const double coarse = error(h), middle = error(h / 2), fine = error(h / 4);
   return {slope(coarse, middle), slope(middle, fine)};
 }
 
-/// Holds orders to 2 on both sides: leapfrog and trapezoidal within a tenth, the others from below.
+/// Expects orders of 2. Two-sided to a tenth for leapfrog, from below for the other rules.
 void expect_second_order(const std::string& rule, std::pair<double, double> seen) {
   for (const double order : {seen.first, seen.second}) {
     EXPECT_GT(order, 1.9) << rule;
@@ -51,8 +51,8 @@ Scene on_ball(double degrees, const std::string& surface, const std::string& vel
                   std::sin(angle), std::cos(angle), velocity, surface, more, gravity_text));
 }
 
-/// The angle (degrees) at which a particle left a ball of 1 m, from its state in free flight: it kept the horizontal
-/// speed v cos(theta) of the point where v^2 = g R cos(theta).
+/// Angle (degrees) at which a particle left a ball of 1 m, from its state in free flight. In flight it keeps the
+/// horizontal speed v cos(theta) of the point where v^2 = g R cos(theta).
 double left_at(const State& s) { return std::acos(std::cbrt(s.v(0, 0) * s.v(0, 0) / g)) * degrees_of_turn; }
 
 TEST(ContactEvents, ParticleLeavesABallWhereEnergySays) {
@@ -61,7 +61,7 @@ TEST(ContactEvents, ParticleLeavesABallWhereEnergySays) {
   for (const auto& rule : rules) {
     const auto error = [&](double h) {
       const Trajectory t = with_events(rule, scene, h, 1.5, 1);
-      EXPECT_LT(t.x.back()(1, 0), 0.6) << "still on the ball";
+      EXPECT_LT(t.x.back()(1, 0), 0.6) << "the particle must have left the ball";
       return std::abs(left_at({t.t.back(), t.x.back(), t.v.back()}) - exact);
     };
     EXPECT_LT(error(1e-3), 1e-3) << rule;
@@ -85,7 +85,8 @@ TEST(ContactEvents, FrictionOnABallLeavesToSecondOrderWhereTheWholeStepRuleIsFir
 }
 
 TEST(ContactEvents, StopsOnABallWhereCoulombSays) {
-  // u = theta'^2 obeys du/dtheta = 2 (g/R) (sin - mu cos) + 2 mu u: it stops at the root of its closed form
+  // u = theta'^2 satisfies du/dtheta = 2 (g/R) (sin - mu cos) + 2 mu u. The particle stops at the root of the closed
+  // form.
   const double mu = 0.5, v0 = 1;
   const double a = g * (4 * mu * mu - 2) / (1 + 4 * mu * mu), b = -6 * mu * g / (1 + 4 * mu * mu), c = v0 * v0 - a;
   double low = 0, high = 0.3;
@@ -93,7 +94,7 @@ TEST(ContactEvents, StopsOnABallWhereCoulombSays) {
     const double at = (low + high) / 2;
     (c * std::exp(2 * mu * at) + a * std::cos(at) + b * std::sin(at) > 0 ? low : high) = at;
   }
-  ASSERT_LT(std::tan(low), mu);  // and friction holds it there
+  ASSERT_LT(std::tan(low), mu);  // friction holds it there
   const Scene scene = on_ball(0, fmt::format("friction = {}", mu), fmt::format("[{}, 0, 0]", v0));
   for (const auto& rule : rules) {
     const auto error = [&](double h) {
@@ -107,7 +108,7 @@ TEST(ContactEvents, StopsOnABallWhereCoulombSays) {
 }
 
 TEST(ContactEvents, StopsOnAPlaneAfterVSquaredOverTwoMuG) {
-  // a ball of 1e6 m: its slope changes the way by its square over the radius, 1e-6 of it
+  // A ball of 1e6 m: its curvature changes the path by a relative 1e-6, the square of the path over the radius.
   const Scene scene = small_scene(std::string("[[particle]]\nposition = [0, 1e6, 0]\nmass = 1\nvelocity = [1, 0, 0]\n"
                                               "[sphere]\ncentre = [0, 0, 0]\nradius = 1e6\nfriction = 0.3\n") +
                                   gravity_text);
@@ -123,7 +124,7 @@ TEST(ContactEvents, HoldsAndSlidesWithinAThousandthOfCoulombsAngle) {
       const Scene held = on_ball(degrees, fmt::format("friction = {:.17g}", 1.001 * limit));
       EXPECT_LT((with_events(rule, held, 1e-3, 2, 2).x.back() - held.start.x).norm(), 8 * eps);
       const Scene loose = on_ball(degrees, fmt::format("friction = {:.17g}", 0.999 * limit));
-      // it goes by g (sin - mu cos) t^2 / 2 at least: the slope only grows
+      // It moves by at least g (sin - mu cos) t^2 / 2, because the slope only increases.
       const double way = g * 0.001 * std::sin(degrees / degrees_of_turn) * 0.25 / 2;
       EXPECT_GT((with_events(rule, loose, 1e-3, 0.5, 1).x.back() - loose.start.x).norm(), way);
     }
@@ -139,8 +140,8 @@ TEST(ContactEvents, ThirdApexIsExactAndEndlessBouncesEndInRest) {
       ASSERT_TRUE(exact);
       const double fall = std::sqrt(0.6 / g), apex = fall * (1 + 2 * e + 2 * e * e + e * e * e);
       const Trajectory t = with_events(rule, scene, 7e-3, apex, 30);
-      // some roundings of 1.3 m, and of the time of an impact at 2.4 m/s, in some hundred steps; Newton's method of
-      // implicit rules leaves 1e-10 of the force m v / h: 1e-10 g t^2 of 2 m/s / (h g)
+      // Some roundings of 1.3 m and of the impact time at 2.4 m/s, in a few hundred steps. Newton's method of implicit
+      // rules leaves 1e-10 of the force m v / h: 1e-10 g t^2 of 2 m/s / (h g).
       const double allowed = rule == "implicit-midpoint" ? 1e-7 : 1e-13 * 30;
       for (int i = 0; i < t.frames(); ++i) EXPECT_NEAR(t.x[i](1, 0), exact->at(t.t[i]).x(1, 0), allowed);
       EXPECT_NEAR(t.x.back()(1, 0) - 1, 0.3 * std::pow(e, 6), allowed);
@@ -162,14 +163,14 @@ TEST(ContactEvents, EnergyIsAccountedForInSlidesStopsAndImpacts) {
           worst = std::max(worst, std::abs(row.balance() - ledger.rows()[0].balance()));
         return worst;
       };
-      // J: second order, of some joules turned over at 1/s^2; bounces that are no more than a step high are left out,
-      // m g (g h^2 / 8) each
+      // J: second order, with some joules converted at 1/s^2. Bounces no higher than a step are ignored: m g (g h^2 /
+      // 8) each.
       EXPECT_LT(open(1e-3), 1e-4) << rule;
       EXPECT_LT(open(1e-4), 1e-6) << rule;
     }
 }
 
-/// Two balls of 1 m beside each other, `gap` apart between their centres, and a particle on the first.
+/// Two balls of 1 m next to each other, with centres `apart` (m), and a particle on the first one.
 Scene valley(double apart, double degrees, double friction) {
   const double angle = degrees / degrees_of_turn;
   return small_scene(
@@ -193,7 +194,7 @@ TEST(ContactEvents, ComesToRestInTheValleyBetweenTwoBalls) {
 }
 
 TEST(ContactEvents, ValleyAgreesWithTheEventDrivenRouteToSecondOrder) {
-  // it runs through the valley and up the other ball, several times
+  // the particle runs through the valley and up the other ball, several times
   const Scene scene = valley(0.8, 10, 0.05);
   Recorder truth;
   run_event_driven(scene, {1e-3, 1.2, 24, 1e-12}, truth);
@@ -211,12 +212,12 @@ TEST(EventDriven, IsWhatClosedFormsSay) {
     Recorder r;
     run_event_driven(scene, {1e-3, 1, 50, 1e-12}, r);
     for (int i = 0; i < r.trajectory.frames(); ++i)
-      // tolerance 1e-12 of some metres in each of a thousand steps
+      // a tolerance of 1e-12 of some metres in each of a thousand steps
       EXPECT_LT((r.trajectory.x[i] - exact->at(r.trajectory.t[i]).x).norm(), 1e-9) << name << ' ' << i;
   }
 }
 
-/// A chain of n particles along a great circle over the top of a ball, on springs stretched by their own weight alone.
+/// A chain of n particles along a great circle over the top of a ball. Only their weight stretches the springs.
 Scene chain_on_ball(int n, double friction, const std::string& more = "") {
   std::string text;
   for (int i = 0; i < n; ++i) {
@@ -241,7 +242,8 @@ TEST(ContactEvents, ChainOnABallAgreesWithTheEventDrivenRouteToSecondOrder) {
         if (friction == 0) {
           expect_second_order(rule, orders(error, 5e-3));
         } else {
-          // where in its step friction lets go changes an error by some per cent: four halvings together
+          // The instant in a step at which friction lets go changes errors by some per cent, so use four halvings
+          // together.
           EXPECT_NEAR(slope(error(2.5e-3), error(2.5e-3 / 16)) / 4, 2, 0.1);
         }
       }
@@ -260,13 +262,14 @@ TEST(EventTruth, OfAChainCoversItsErrorAndIsNoDifference) {
   run_event_driven(scene, {2e-4, 0.3, 6, 1e-13}, better);
   const double off = sup_rms(truth->trajectory, better.trajectory);
   EXPECT_LT(off, truth->error_bar);
-  // the bar is that of the route of order 2, which stops at 1e-8 of the scene's size
+  // The error bar is that of the second-order route, which stops at 1e-8 of the scene's size.
   EXPECT_LT(truth->error_bar, 1e-8 * scene.size());
 }
 
 TEST(EventDriven, StopsSlipsAndShortBouncesDoNotHoldItUp) {
-  // friction turns slow slides faster than any step: without creeping the second took 4e7 evaluations, the third came
-  // to no end; nor did the bounces of the first where an impact was seen 1e-13 of the radius inside
+  // Friction may reverse slow slides faster than any step. Without the creep rule, the second scene took 4e7
+  // evaluations and the third never ended. The bounces of the first scene also never ended if an impact was detected
+  // 1e-13 of the radius inside.
   for (const unsigned seed : {3u, 4u, 8u}) {
     const Scene scene = random_contact_scene(seed);
     NullObserver nobody;
@@ -286,7 +289,7 @@ Scene on_moving_ball(double friction, const char* position, const char* amplitud
 }
 
 TEST(EventTruth, BarsBesideMovingBallsAreThoseOfRoutesOfHighOrder) {
-  // roundings of the thousands of steps of the other route: some hundred eps of the places
+  // Rounding of the thousands of steps of the other route: a few hundred eps of the positions.
   const auto expect_bar = [](const Scene& scene, auto exact, double round_off) {
     const auto truth = event_truth(scene, default_run(scene));
     ASSERT_TRUE(truth);
@@ -302,16 +305,16 @@ TEST(EventTruth, BarsBesideMovingBallsAreThoseOfRoutesOfHighOrder) {
   const Motion motion = *carried.model.find<Spheres>()->list[0].motion;
   expect_bar(
       carried, [&](double t) { return Vec3(Vec3(0, 1, 0) + displacement_at(motion, t)); }, 1e-13);
-  // thrown past
+  // thrown over the ball
   const Scene thrown = on_moving_ball(0.9, "[0, 2, 0]", "[0.05, 0.02, 0.03]", "[4, 1, 0]");
   expect_bar(
       thrown, [&](double t) { return Vec3(4 * t, 2 + t - g * t * t / 2, 0); }, 1e-13);
-  // without friction a ball that falls away from under it, faster than by g, leaves it to fall freely
+  // Without friction, a ball that accelerates downwards by more than g leaves the particle in free fall.
   const Scene left = on_moving_ball(0, "[0, 1, 0]", "[0, -40, 0]");
   Recorder path;
   run_event_driven(left, {1e-3, 0.4, 8, 1e-12}, path);
   const Motion& away = *left.model.find<Spheres>()->list[0].motion;
-  // it follows the ball until that falls by g: where the ball's acceleration reaches it
+  // The particle follows the ball until the ball's downward acceleration reaches g.
   double low = 0, high = 0.2;
   const auto falls = [&](double t) { return (velocity_at(away, t + 1e-5) - velocity_at(away, t - 1e-5))[1] / 2e-5; };
   for (int i = 0; i < 50; ++i) (falls((low + high) / 2) < -g ? high : low) = (low + high) / 2;
@@ -321,7 +324,7 @@ TEST(EventTruth, BarsBesideMovingBallsAreThoseOfRoutesOfHighOrder) {
     const double height = s < 0 ? 1 + displacement_at(away, t)[1] : from + v * s - g * s * s / 2;
     EXPECT_NEAR(path.trajectory.x[i](1, 0), height, 1e-9) << t;  // differences of velocities over 2e-5 s
   }
-  // a slide with friction: against a run of the same route at a tighter tolerance
+  // a slide with friction, against a run of the same route with a tighter tolerance
   for (const double friction : {0., 0.1, 0.3}) {
     SCOPED_TRACE(friction);
     const Scene slide = on_moving_ball(friction, "[0, 1, 0]", "[0.05, 0.02, 0.03]", "[1, 0, 0.2]");
@@ -348,17 +351,17 @@ TEST(EventTruth, IsNoneWhereARouteKnowsNothingAndSaysWhy) {
     return "";
   };
   EXPECT_TRUE(contains(refused(shipped_scene("chain")), "no contact"));
-  // along the valley between two balls, across the plane of their centres
+  // moving along the valley between two balls, perpendicular to the plane of their centres
   Scene groove = valley(1, 10, 0);
   groove.start.x.col(0) = Vec3(0.5, std::sqrt(0.75) * std::cos(0.3), std::sqrt(0.75) * std::sin(0.3));
   EXPECT_TRUE(contains(refused(groove), "between two surfaces"));
-  EXPECT_EQ(refused(chain_on_ball(160, 0)), "");  // it can be run, but truths of so many are not claimed
+  EXPECT_EQ(refused(chain_on_ball(160, 0)), "");  // it runs, but no truth is claimed for so many particles
 }
 
 TEST(ContactEvents, NothingEndsInsideAndNothingPassesThrough) {
   for (const Stepper& s : steppers())
     for (const bool moving : {false, true})
-      for (const double h : {1e-3, 5e-2}) {  // the larger one tears the cloth apart in every explicit rule
+      for (const double h : {1e-3, 5e-2}) {  // the larger one blows up the cloth in every explicit rule
         SCOPED_TRACE(fmt::format("{} {} {}", s.name, moving, h));
         const Scene scene = small_scene(
             std::string("[grid]\nsize = [7, 7]\norigin = [-0.4, 1.05, -0.5]\nu = [1, 0, 0]\nv = [0, 0, 1]\nmass = 1\n"
@@ -371,11 +374,11 @@ TEST(ContactEvents, NothingEndsInsideAndNothingPassesThrough) {
         for (int i = 0; i < path.trajectory.frames(); ++i)
           for (int j = 0; j < path.trajectory.x[i].cols(); ++j) {
             const Vec3 x = path.trajectory.x[i].col(j);
-            // put on the surface of one ball after the other and measured again
+            // projected to one ball after the other and measured again
             EXPECT_FALSE(clearance_from(surfaces_of(scene.model), path.trajectory.t[i], x) < -1e-12);
           }
       }
-  // 100 m/s and steps of 1/20 s: it would be beyond the ball at once
+  // At 100 m/s, a step of 1/20 s would carry it past the ball at once.
   const Scene fast = on_ball(0, "restitution = 1", "[0, 0, 0]");
   Scene shot = fast;
   shot.start.x.col(0) = Vec3(0, 3.5, 0), shot.start.v.col(0) = Vec3(0, -100, 0);
@@ -398,7 +401,7 @@ TEST(ContactEvents, KeepAMirrorSymmetry) {
     for (const Points& x : r.trajectory.x)
       for (int i = 0; i < n * n; ++i) {
         const Vec3 here = x.col(i), there = x.col(i / n * n + n - 1 - i % n);
-        // roundings of 300 steps grow about a hundredfold; two paths differ by 1e-7 and more
+        // Rounding of 300 steps grows about a hundredfold. Two different paths differ by 1e-7 or more.
         EXPECT_LT((here - Vec3(-there[0], there[1], there[2])).norm(), 300 * 100 * eps);
       }
   }
@@ -417,7 +420,7 @@ TEST(ContactEvents, ChangeNoBitWhereNothingTouches) {
   }
 }
 
-/// A ball on a sphere that is moved aside, seen from the sphere: there gravity has its acceleration against it.
+/// A particle on a moving sphere. In the sphere's frame, gravity is reduced by the sphere's acceleration.
 TEST(ContactEvents, AMovingSphereIsFollowedToSecondOrder) {
   for (const double friction : {0., 0.1, 0.5}) {
     const Scene scene = small_scene(
@@ -430,13 +433,13 @@ TEST(ContactEvents, AMovingSphereIsFollowedToSecondOrder) {
       const Trajectory finest = with_events(rule, scene, 5e-5, 0.8, 8);
       const auto error = [&](double h) { return sup_rms(with_events(rule, scene, h, 0.8, 8), finest); };
       if (friction == 0) {
-        // the finest is off by 1/2500 of what the last one is
+        // the error of the finest run is 1/2500 of the last one's
         expect_second_order(rule, orders(error, 1e-2));
       } else if (friction == 0.1) {
-        // it sticks and slips: where in its step it lets go decides how much of h^2 is left
+        // It sticks and slips. The instant in a step at which it lets go determines the constant of h^2.
         EXPECT_LT(error(1.25e-3), 2e-6);
         EXPECT_GT(sup_rms(trajectory_of(stepper(rule), scene, {1.25e-3, 0.8, 8}), finest), 5e-5);
-      } else {  // it is carried along: the sphere's place is known exactly
+      } else {  // it is carried along the sphere's known path
         const Vec3 carried = displacement_at(*scene.model.find<Spheres>()->list[0].motion, 0.8);
         EXPECT_LT((finest.x.back().col(0) - Vec3(0, 1, 0) - carried).norm(), 1e-12);
         EXPECT_LT(error(1e-2), 1e-12);
@@ -445,7 +448,7 @@ TEST(ContactEvents, AMovingSphereIsFollowedToSecondOrder) {
   }
 }
 
-/// As contact_events.h states it, beside a route that shares no equation with the rule.
+/// Checks the statement of contact_events.h against a solution that shares no equation with the rule.
 TEST(ContactEvents, StickAndSlipOnAMovingSphereKeepTheOrderInTheTrendOnly) {
   const char* const motions[] = {"amplitude = [0.05, 0.02, 0.03]\nfrequency = 0.7\nramp = 0.5\n",
                                  "amplitude = [0.02, 0.01, 0.04]\nfrequency = 2\nramp = 0.3\n",
@@ -489,14 +492,14 @@ TEST(ContactEvents, AreTheSameInTheFusedStepOfACloth) {
       Recorder fused, general;
       simulate(stepper(rule), ContactRule::events, scene, {1e-3, 0.2, 10}, fused);
       simulate(stepper(rule), ContactRule::events, scene, {1e-3, 0.2, 10}, general, {ExecutionPath::general, 1});
-      // rounding, and the fused step's particles that end a step outside, pressed on by O(h): h^3 each time one leaves;
-      // a rule of order 1 passes them on to its own path, h^2 away
+      // Rounding, and particles that end a fused step outside while pressed on by O(h): h^3 each time one leaves. A
+      // first-order rule passes them on to its own path, h^2 away.
       EXPECT_LT(sup_rms(fused.trajectory, general.trajectory), rule == std::string_view("leapfrog") ? 1e-6 : 1e-3);
       double nearest = 1;
       for (int i = 0; i < general.trajectory.frames(); ++i)
         for (const auto& x : general.trajectory.x[i].colwise())
           nearest = std::min(nearest, clearance_from(surfaces_of(scene.model), general.trajectory.t[i], x));
-      EXPECT_LT(nearest, 1e-9) << "it never touched";
+      EXPECT_LT(nearest, 1e-9) << "expected a contact";
     }
   }
 }

@@ -1,4 +1,4 @@
-// Closed forms with contact and by modes: they keep their own laws, mysim converges to them, and other scenes are
+// Closed forms with contact and by modes: they satisfy their own laws, mysim converges to them, and other scenes are
 // refused.
 
 #include <Eigen/Geometry>
@@ -14,7 +14,7 @@ namespace {
 
 using namespace testing_tools;
 
-/// Largest distance of a particle from the closed form at any sample up to `until`, m.
+/// Largest distance (m) of a particle from the closed form at any sample up to `until`.
 double off(const Scene& scene, const ExactSolution& exact, const std::string& method, double h, double until) {
   const int samples = 50;
   const Trajectory t = trajectory_of(stepper(method), scene, {h, until, samples});
@@ -37,12 +37,12 @@ TEST(Bounces, ReturnTheSquareOfRestitutionAndEndInRest) {
       EXPECT_EQ(exact->at(1.001 * fall).v(1, i), 0);
       continue;
     }
-    // half way of the first rebound: the flight takes 2 e times the fall
+    // half way through the first rebound: the flight takes 2 e times the fall
     const State top = exact->at(fall + e * fall);
     EXPECT_NEAR(top.x(1, i), e * e * drop, 8 * eps) << e;
     EXPECT_NEAR(top.v(1, i), 0, 16 * eps) << e;
     if (e > 0.5) continue;
-    // all bounces together: fall (1 + e) / (1 - e); afterwards it lies still
+    // total time of all bounces: fall (1 + e) / (1 - e); afterwards it rests
     const double end = fall * (1 + e) / (1 - e);
     EXPECT_GT(exact->at(0.99 * end).x(1, i) + std::abs(exact->at(0.99 * end).v(1, i)), 0);
     EXPECT_NEAR(exact->at(1.01 * end).x(1, i), 0, eps);
@@ -58,10 +58,10 @@ TEST(Bounces, KeepEnergyBetweenImpacts) {
       const double energy = s.x(1, i) * 9.81 + s.v(1, i) * s.v(1, i) / 2, start = 0.3 * 9.81;
       EXPECT_LE(energy, start * (1 + 8 * eps));
       EXPECT_GE(s.x(1, i), -8 * eps);
-      // what is left is the start times a power of e^2
+      // the remaining energy is the initial one times a power of e^2
       const double e = i == 1 ? 0.5 : 0.9, impacts = std::log(energy / start) / std::log(e * e);
       if (i > 0 && energy > 1e-3) {
-        EXPECT_NEAR(impacts, std::round(impacts), 1e-9);  // a logarithm of some ulps
+        EXPECT_NEAR(impacts, std::round(impacts), 1e-9);  // a logarithm, to some ulps
       }
     }
   }
@@ -82,7 +82,7 @@ TEST(Slide, SatisfiesCoulombsLawOnTheBallAndFliesFreelyAfterwards) {
     EXPECT_LT(((up.x.col(0) - down.x.col(0)) / (2 * dt) - v).norm(), 1e-8);  // eps^(2/3) times some m/s^3
     if (d.norm() < radius * (1 + 1e-12)) {
       EXPECT_FALSE(left);
-      // the force of the ball: normal and not pulling, friction mu times that against the motion
+      // The ball's force: the normal component must not pull, and friction is mu times that, against the motion.
       const Vec3 force = a - g;
       const double normal = force.dot(n), along = force.dot(v.normalized());
       EXPECT_GT(normal, -1e-6);
@@ -100,14 +100,14 @@ TEST(Slide, WithoutFrictionItLeavesWhereEnergySays) {
   scene.model.find<Spheres>()->list[0].friction = 0;
   const auto exact = exact_solution(scene);
   ASSERT_TRUE(exact);
-  // v^2 = v0^2 + 2 g R (1 - cos), leaves at v^2 = g R cos: cos = (2 + v0^2 / (g R)) / 3
+  // v^2 = v0^2 + 2 g R (1 - cos); it leaves at v^2 = g R cos: cos = (2 + v0^2 / (g R)) / 3
   const double radius = 1.02, cosine = (2 + 1 / (9.81 * radius)) / 3;
   double low = 0, high = 2;
   for (int i = 0; i < 60; ++i) {
     const double middle = (low + high) / 2;
     (exact->at(middle).x.col(0).norm() > radius * (1 + 1e-13) ? high : low) = middle;
   }
-  // the gap grows as the cube of the time: at 1e-13 of the radius 5e-5 s have passed, at 2.6 m/s on 1 m
+  // The gap grows as the cube of the time: it reaches 1e-13 of the radius after 5e-5 s, at 2.6 m/s on 1 m.
   EXPECT_NEAR(exact->at(low).x(1, 0) / radius, cosine, 2e-4);
 }
 
@@ -119,14 +119,14 @@ TEST(ContactExact, MysimConvergesToTheClosedForms) {
       SCOPED_TRACE(fmt::format("{} {}", name, method));
       const double until = std::string_view(name) == "bounce" ? 0.6 : 1;
       const double coarse = off(scene, *exact, method, 1e-3, until), fine = off(scene, *exact, method, 1e-5, until);
-      // first order: a hundredth of the error, within a factor of 4 for where in its step an impact falls
+      // First order: a hundredth of the error, up to a factor of 4 for the position of an impact within its step.
       EXPECT_LT(fine, 0.04 * coarse);
-      EXPECT_LT(coarse, 2 * 3 * 1e-3 * 4);  // some steps' path at 3 m/s
+      EXPECT_LT(coarse, 2 * 3 * 1e-3 * 4);  // path of some steps at 3 m/s
     }
   }
 }
 
-/// A particle at rest on a ball, 20 degrees down its side, with friction in parts of the tangent.
+/// A particle at rest on a ball, 20 degrees from its top, with friction `part` times the tangent.
 Scene held(double part, const std::string& more = "") {
   const double angle = 20 * std::numbers::pi / 180;
   return small_scene(
@@ -142,7 +142,7 @@ TEST(FrictionHold, StaysWithinTheConeAndIsNotClaimedOutside) {
     const auto exact = exact_solution(scene);
     ASSERT_TRUE(exact) << more;
     EXPECT_EQ(exact->at(5).x, scene.start.x);
-    // a wind that adds to the slope drives it out of the cone
+    // a wind along the slope drives it out of the friction cone
     EXPECT_FALSE(exact_solution(held(1.001, "[wind]\nacceleration = [0.1, 0, 0]\n")));
   }
   Scene moving = held(1.001);
@@ -152,7 +152,7 @@ TEST(FrictionHold, StaysWithinTheConeAndIsNotClaimedOutside) {
   above.start.x *= 1.001;  // it falls first
   EXPECT_FALSE(exact_solution(above));
   Scene below = held(2);
-  below.start.x *= -1;  // nothing presses it on
+  below.start.x *= -1;  // no normal force
   EXPECT_FALSE(exact_solution(below));
   Scene wedged = held(1.001);
   wedged.model.find<Spheres>()->list.push_back({2 * wedged.start.x.col(0), 1, 0, 0.5, 0, {}});
@@ -162,16 +162,17 @@ TEST(FrictionHold, StaysWithinTheConeAndIsNotClaimedOutside) {
 TEST(FrictionHold, MysimHoldsIt) {
   for (const auto method : {"explicit-euler", "trapezoidal", "rk4", "symplectic-euler", "leapfrog"}) {
     const Scene in = held(1.01), out = held(0.99);
-    // a step puts the particle back on the surface to a few roundings of 1 m; friction swallows the rest of the step
+    // Each step puts the particle back on the surface to a few roundings of 1 m. Friction removes the rest of its
+    // motion.
     EXPECT_LT(off(in, *exact_solution(in), method, 1e-3, 1), 1000 * 4 * eps) << method;
-    // outside the cone it goes: g (sin - mu cos) t^2 / 2 = g sin / 200
+    // outside the cone it moves by g (sin - mu cos) t^2 / 2 = g sin / 200
     EXPECT_GT(off(out, *exact_solution(in), method, 1e-3, 1), 0.5 * 9.81 * 0.342 / 200) << method;
   }
 }
 
 TEST(ContactExact, IsNotClaimedElsewhere) {
   Scene moved = shipped_scene("bounce");
-  moved.start.x(0, 1) += 1e-6;  // off the axis: it is thrown aside
+  moved.start.x(0, 1) += 1e-6;  // off the axis: it is deflected sideways
   EXPECT_FALSE(exact_solution(moved));
   Scene dragged = with_drag(shipped_scene("bounce"), 1);
   EXPECT_FALSE(exact_solution(dragged));
@@ -179,7 +180,7 @@ TEST(ContactExact, IsNotClaimedElsewhere) {
   carried.model.find<Spheres>()->list[0].motion = Motion{{0, 0.1, 0}, 1, 1};
   EXPECT_FALSE(exact_solution(carried));
   Scene stopped = shipped_scene("slide");
-  stopped.model.find<Spheres>()->list[0].friction = 0.8;  // friction stops it on the ball
+  stopped.model.find<Spheres>()->list[0].friction = 0.8;  // stops on the ball
   EXPECT_FALSE(exact_solution(stopped));
   Scene sideways = shipped_scene("slide");
   sideways.start.x.col(0) = 1.02 * Vec3(std::sin(0.3), std::cos(0.3), 0);
@@ -191,14 +192,14 @@ TEST(NormalModes, FrequenciesAreThoseOfTheChain) {
   const Scene scene = shipped_scene("normal-modes");
   // omega_j = 2 sqrt(k/m) sin(j pi / (2 (n + 1))): the fastest of eight
   const double fastest = 2 * std::sqrt(100 / 0.1) * std::sin(8 * std::numbers::pi / 18);
-  EXPECT_NEAR(highest_frequency(scene.model, scene.start) / fastest, 1, 2e-3);  // power iteration stops at 1e-5 a turn
-  // one mode alone comes back after its period
+  EXPECT_NEAR(highest_frequency(scene.model, scene.start) / fastest, 1, 2e-3);  // power iteration stops at 1e-5
+  // a single mode returns after its period
   Scene first = scene;
   for (int i = 1; i <= 8; ++i) first.start.x(0, i) = 0.275 * i + 0.01 * std::sin(i * std::numbers::pi / 9);
   const auto exact = exact_solution(first);
   ASSERT_TRUE(exact);
   const double period = 2 * std::numbers::pi / (2 * std::sqrt(1000.0) * std::sin(std::numbers::pi / 18));
-  EXPECT_LT((exact->at(period).x - first.start.x).norm(), 1e-13);  // some hundred roundings of 2.5 m
+  EXPECT_LT((exact->at(period).x - first.start.x).norm(), 1e-13);  // a few hundred roundings of 2.5 m
   EXPECT_GT((exact->at(period / 2).x - first.start.x).norm(), 0.02);
 }
 
@@ -210,11 +211,11 @@ TEST(NormalModes, AreRefusedWhereSpringsAreNotLinear) {
   linked.model.find<Springs>()->law = SpringLaw::bullet_link;
   EXPECT_FALSE(exact_solution(linked));
   Scene wild = shipped_scene("normal-modes");
-  wild.start.v(0, 4) = 20;  // it would run into its neighbour
+  wild.start.v(0, 4) = 20;  // it would hit its neighbour
   EXPECT_FALSE(exact_solution(wild));
   Scene loose = shipped_scene("normal-modes");
   loose.model.particles.pins.clear();
-  loose.model.particles.pinned.assign(10, 0);  // it floats: no place of rest
+  loose.model.particles.pinned.assign(10, 0);  // without pins there is no equilibrium
   EXPECT_FALSE(exact_solution(loose));
 }
 

@@ -1,5 +1,5 @@
-// Closed forms of one-step rules: mysim's steppers and Bullet's explicit world produce them to round-off, each its own
-// and no other.
+// Closed forms of one-step rules: mysim's steppers and Bullet's explicit world agree to round-off with their own closed
+// form, and with no other.
 
 #include <numbers>
 
@@ -49,7 +49,7 @@ Scene spring(double gamma, double dashpot, double g = 9.81) {
   return w.scene(fmt::format("spring with drag {} and dashpot {}", gamma, dashpot), 2, 5e-3, 40);
 }
 
-/// Every shipped linear scene, and such as no shipped scene is.
+/// All linear shipped scenes, and linear scenes of kinds that are not shipped.
 std::vector<Scene> linear_scenes() {
   std::vector<Scene> scenes;
   for (const auto& name : shipped_scene_names()) {
@@ -64,8 +64,8 @@ std::vector<Scene> linear_scenes() {
   return scenes;
 }
 
-/// What the solver of an implicit rule may leave over: 1e-12 of the forces in each step (mysim/implicit/newton.cpp), as
-/// velocity, as position after 1 / omega.
+/// Residual of an implicit rule's solver: 1e-12 of the forces in each step (mysim/implicit/newton.cpp), converted to a
+/// velocity and to a position after 1 / omega.
 double left_by_solver(const Stepper& s, const Truth& truth, const Scene& scene, const crosscheck::Run& run) {
   if (s.evaluations > 0) return 0;
   const auto linear = linear_scene(scene);
@@ -97,20 +97,19 @@ TEST(ExactDiscrete, MysimProducesTheClosedFormOfItsRuleOverTime) {
       Stepper s = stepper(rule.name);
       const double allowed = truth->error_bar + left_by_solver(s, *truth, scene, run);
       EXPECT_LE(sup_distance(trajectory_of(s, scene, run), truth->trajectory), allowed);
-      if (s.linear) {  // on linear springs one Newton step is the whole solution
+      if (s.linear) {  // on linear springs one Newton step solves the equations
         s.step = s.linear;
         EXPECT_LE(sup_distance(trajectory_of(s, scene, run), truth->trajectory), allowed);
       }
-      // the bar is no excuse: far below what the rule itself is off by
+      // The error bar must be far below the error of the rule itself.
       EXPECT_LT(truth->error_bar, 1e-9 * (1 + scene.size()));
     }
   for (const DiscreteStepper& rule : discrete_steppers())
     EXPECT_GE(agreed[rule.name], rule.one_spring ? 8 : 15) << rule.name;
 }
 
-/// Rules that are one and the same on a scene: one Gauss-Seidel pass over one spring without a dashpot solves the
-/// implicit Euler equation, and where nothing depends on position leapfrog's mean of velocities is the implicit
-/// midpoint's.
+/// True if two rules coincide on a scene. One Gauss-Seidel pass over one spring without a dashpot solves the implicit
+/// Euler equation. If nothing depends on position, leapfrog's mean velocity is the implicit midpoint's.
 bool one_and_the_same(const Scene& scene, std::set<std::string_view> pair) {
   using Names = std::set<std::string_view>;
   return (pair == Names{"xpbd", "implicit-euler"} && !scene.model.find<Dashpots>()) ||
@@ -119,7 +118,7 @@ bool one_and_the_same(const Scene& scene, std::set<std::string_view> pair) {
 
 TEST(ExactDiscrete, NoRuleProducesTheClosedFormOfAnother) {
   for (const Scene& scene : linear_scenes()) {
-    // long steps, so that rules of high order differ by more than round-off
+    // long steps, so that high-order rules differ by more than round-off
     crosscheck::Run run = default_run(scene);
     run.step *= 20;
     for (const DiscreteStepper& rule : discrete_steppers()) {
@@ -152,7 +151,7 @@ TEST(ExactDiscrete, FallsToTheExactSolutionWithTheOrderOfTheRule) {
         worst = std::max(worst, (truth.trajectory.x[i] - exact->at(truth.trajectory.t[i]).x).norm());
       return worst;
     };
-    // h omega = 0.0125: the next order is about as much less
+    // h omega = 0.0125: the next order is smaller by about that factor
     EXPECT_NEAR(slope(off(1.25e-3), off(6.25e-4)), stepper(rule.name).order, 0.05);
   }
 }
@@ -162,7 +161,7 @@ TEST(ExactDiscrete, FrequencyAndDecayOfOneSpringAreTheTextbooks) {
   const Mode m{omega * omega, 0, 0, 0, 0, 1, 0, {}};
   struct RuleEigenvalue {
     const char* name;
-    double angle, decay;  // rad a step, factor a step
+    double angle, decay;  // rad per step, factor per step
   };
   const RuleEigenvalue expected[] = {{"implicit-euler", std::atan(z), 1 / std::sqrt(1 + z * z)},
                                      {"xpbd", std::atan(z), 1 / std::sqrt(1 + z * z)},
@@ -175,7 +174,7 @@ TEST(ExactDiscrete, FrequencyAndDecayOfOneSpringAreTheTextbooks) {
     SCOPED_TRACE(rule.name);
     const Eigen::Matrix2d step = discrete(rule.name).of_mode(m, h).topLeftCorner<2, 2>() + Eigen::Matrix2d::Identity();
     const std::complex<double> lambda = eigenvalues(step)[0];
-    EXPECT_NEAR(std::abs(std::arg(lambda)) / rule.angle, 1, 10 * eps / z);  // roundings of 1 beside an angle of z
+    EXPECT_NEAR(std::abs(std::arg(lambda)) / rule.angle, 1, 10 * eps / z);  // rounding of 1 relative to an angle of z
     EXPECT_NEAR(std::abs(lambda), rule.decay, 10 * eps);
   }
 }
@@ -192,8 +191,8 @@ TEST(ExactDiscrete, BulletsExplicitWorldIsSymplecticEulerOnTheSpring) {
 }
 
 TEST(ExactDiscrete, XpbdHangsAMassOnADashpotTooHigh) {
-  // the free step takes the dashpot's share, weight included, before the spring is projected: at rest the
-  // spring carries the weight over 1 + h c / m
+  // The free step applies the dashpot's share, including weight, before the spring is projected. In equilibrium the
+  // spring therefore carries the weight divided by 1 + h c / m.
   const Scene scene = spring(0, 2);  // 0.5 kg on 50 N/m: exp(-c t / 2m) is 2e-17 after 20 s
   for (const double h : {5e-3, 1e-2}) {
     const crosscheck::Run run{h, 20, 1};
@@ -206,7 +205,7 @@ TEST(ExactDiscrete, XpbdHangsAMassOnADashpotTooHigh) {
 
 TEST(ExactDiscrete, PowersAreThoseOfPlainProducts) {
   const Mode modes[] = {{100, 0, 0, -9.81, 0, 0, 0, {}},
-                        {100, 20, 0, 1, 0, 0, 0, {}},  // critical: eigenvalues of rk4 coincide
+                        {100, 20, 0, 1, 0, 0, 0, {}},  // critical damping: eigenvalues of rk4 coincide
                         {100, 3, 4, 1, 0, 0, 0, {}},
                         {0, 0, 0, -9.81, 0, 0, 0, {}},  // free fall: all three eigenvalues are 1
                         {0, 0.5, 0, 2, 0, 0, 0, {}}};
@@ -216,7 +215,8 @@ TEST(ExactDiscrete, PowersAreThoseOfPlainProducts) {
       Increment product = Increment::Zero();
       for (int n = 0; n <= 1000; ++n) {
         if (n < 5 || n % 111 == 0) {
-          // each product rounds all entries by some eps of the largest, which free fall and the push let grow as n
+          // Each product rounds all entries by some eps of the largest, which grows as n in free fall and with a
+          // constant push.
           EXPECT_LT((increment_power(e, n) - product).norm(), 10 * eps * (n + 1) * (1 + product.norm()))
               << rule.name << n;
         }
@@ -233,7 +233,8 @@ TEST(ExactDiscrete, SaysWhereARuleHasNoClosedForm) {
   EXPECT_TRUE(begins(reason("xpbd", shipped_scene("normal-modes"), run), "this rule sweeps the springs one by one"));
   EXPECT_TRUE(begins(reason("leapfrog", shipped_scene("circle"), run), "the scene is a first-order system"));
   EXPECT_TRUE(begins(reason("rk4", random_spring(2, false, true), run), "the pins are moved"));
-  // forward Euler gains (h omega)^2 / 2 a step: from 0.1981 m to the anchor at 1.0981 m in ln(5.54) / 0.5 s = 3.42 s
+  // Forward Euler grows by (h omega)^2 / 2 per step: from 0.1981 m to the anchor at 1.0981 m in ln(5.54) / 0.5 s = 3.42
+  // s.
   const Scene scene = shipped_scene("spring");
   EXPECT_TRUE(begins(reason("explicit-euler", scene, {0.01, 10, 100}), "at 3.5 s a spring may turn over"));
   EXPECT_EQ(reason("explicit-euler", scene, {0.01, 3.4, 34}), "");

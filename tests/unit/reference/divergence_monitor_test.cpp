@@ -1,5 +1,5 @@
-// The divergence monitor: its verdict is ok up to the limit of a rule, a failure beyond it, at the time of the failure,
-// and ok for what only looks like a failure.
+// The divergence monitor: its verdict is ok up to the limit of a rule, a failure beyond it at the right time, and ok
+// for runs that only resemble a failure.
 
 #include <numbers>
 #include <optional>
@@ -14,7 +14,7 @@ namespace {
 
 using namespace testing_tools;
 
-/// One kilogram on 100 N/m, without gravity; rest 1 m.
+/// One kilogram on 100 N/m, without gravity; rest length 1 m.
 Scene kilogram(double start, double speed, double duration = 20) {
   return small_scene(fmt::format("[[particle]]\nposition = [0, 0, 0]\nmass = 1\n[[particle]]\nposition = [{}, 0, 0]\n"
                                  "mass = 1\nvelocity = [{}, 0, 0]\n[[spring]]\nends = [0, 1]\nstiffness = 100\n"
@@ -33,8 +33,8 @@ TEST(DivergenceMonitorOnASpring, HoldsAHundredthBelowTheLimitAndFailsAHundredthA
           const double h = part * limit;
           const int samples = 4200 / per_sample;
           const MethodRun a = run_and_record(name, scene, {h, h * per_sample * samples, samples});
-          // speeds are central differences: of rk4 at its limit, where a step is 109 degrees of the vibration,
-          // they are a third of its own velocities, and 1.01 of it leaves it at four times the truth's
+          // Speeds are central differences. For rk4 at its limit, where a step is 109 degrees of the vibration, they
+          // are a third of its own velocities. At 1.01 of the limit they remain at four times the true speed.
           if (part < 1 || name == std::string("rk4"))
             EXPECT_EQ(a.outcome.verdict, Verdict::ok) << a.outcome.reason;
           else
@@ -44,8 +44,8 @@ TEST(DivergenceMonitorOnASpring, HoldsAHundredthBelowTheLimitAndFailsAHundredthA
 }
 
 TEST(DivergenceMonitorOnASpring, JudgesAtTheStepOfLeavingOrTheNextSample) {
-  // 1 % above the limit it goes through x_n = (-1)^n A cosh(n p), p = 2 acosh(1.01) = 0.28, with A = 0.1 m: K^ passes
-  // what there is, and the true motion is computed, before it is ten times as fast as that, 1 m/s
+  // 1 % above the limit the solution is x_n = (-1)^n A cosh(n p), p = 2 acosh(1.01) = 0.28, with A = 0.1 m. K^ exceeds
+  // the available energy, so the true motion is computed, before the speed is ten times the true one, 1 m/s.
   const Scene scene = kilogram(1.1, 0);
   const double h = 0.202;
   for (const int per_sample : {1, 40, 1000}) {
@@ -61,7 +61,8 @@ TEST(DivergenceMonitorOnASpring, JudgesAtTheStepOfLeavingOrTheNextSample) {
 }
 
 TEST(DivergenceMonitorOnASpring, SeesBlowUpsBetweenSamples) {
-  // a tenth above the limit K^ grows by exp(2 * 0.887) a step: from B to 1000 B in four, and all steps are seen
+  // 10 % above the limit K^ grows by exp(2 * 0.887) per step, from B to 1000 B in four steps, all of which are
+  // observed.
   const Scene scene = kilogram(1.1, 0);
   const double h = 0.22;
   const MethodRun a = run_and_record("leapfrog", scene, {h, h * 2000, 2});
@@ -70,8 +71,8 @@ TEST(DivergenceMonitorOnASpring, SeesBlowUpsBetweenSamples) {
 }
 
 TEST(DivergenceMonitorOnASpring, JudgesGrowthThatIsCertainAsRun) {
-  // explicit Euler's amplitude grows by (1 + z^2)^(1/2) a step: ten times the true speed after ln(100) / ln(1 + z^2) of
-  // them. One millimetre: the spring stays far from its own end
+  // The amplitude of explicit Euler grows by (1 + z^2)^(1/2) per step: ten times the true speed after ln(100) / ln(1 +
+  // z^2) steps. With an amplitude of 1 mm the spring stays far from zero length.
   const double z = 0.05, h = z / 10, steps_to_verdict = std::log(100) / std::log1p(z * z);
   for (const double part : {0.9, 1.1}) {
     const int steps = static_cast<int>(part * steps_to_verdict);
@@ -81,7 +82,7 @@ TEST(DivergenceMonitorOnASpring, JudgesGrowthThatIsCertainAsRun) {
 }
 
 TEST(DivergenceMonitorOnASpring, NeedsNoVelocities) {
-  struct WithoutVelocities : Observer {  // as an outside engine that reports no velocities
+  struct WithoutVelocities : Observer {  // as an external engine that reports no velocities
     explicit WithoutVelocities(DivergenceMonitor& w) : monitor(w) {}
     Verdict observe(const State& s, bool sample) override { return monitor.observe({s.t, s.x, Points(3, 0)}, sample); }
     DivergenceMonitor& monitor;
@@ -91,7 +92,7 @@ TEST(DivergenceMonitorOnASpring, NeedsNoVelocities) {
     for (const double h : {0.05, 0.205}) {
       DivergenceMonitor monitor(scene.model, &scene.start);
       WithoutVelocities positions(monitor);
-      // from rest at the spring's length nothing ever moves
+      // from rest at the spring's rest length nothing ever moves
       const Verdict expected = h > 0.2 && speed > 0 ? Verdict::energy : Verdict::ok;
       EXPECT_EQ(simulate(stepper("leapfrog"), ContactRule::coulomb, scene, {h, 400 * h, 400}, positions).verdict,
                 expected);
@@ -123,9 +124,9 @@ TEST(DivergenceMonitorOnSoftLinks, PassesPositionBasedClothsThatFallSmoothly) {
       }
 }
 
-/// The verdict on a particle on a spring that goes these ways, a second from one to the next, m.
+/// Verdict on a particle on a spring at these positions (m), a second apart.
 Verdict verdict_on(const std::vector<double>& along, bool knows_the_scene) {
-  const Scene scene = kilogram(1.1, 0);  // 0.5 J, and 100 kg m^2/s^4 of pull: B = 200.5 J at a second a step
+  const Scene scene = kilogram(1.1, 0);  // 0.5 J, pull 100 kg m^2/s^4: B = 200.5 J for steps of 1 s
   const crosscheck::Run run{1, 10, 10};
   DivergenceMonitor monitor =
       knows_the_scene ? DivergenceMonitor(scene, run) : DivergenceMonitor(scene.model, &scene.start);
@@ -139,7 +140,7 @@ Verdict verdict_on(const std::vector<double>& along, bool knows_the_scene) {
 }
 
 TEST(DivergenceMonitorOnSamples, HoldsSpeedsAndLengthsAgainstTheTrueMotion) {
-  // which comes to 1.1 m and 1 m/s: ten times that are 11 m and, over two samples, 20 m of way
+  // The true motion reaches 1.1 m and 1 m/s. Ten times these are 11 m and, over two samples, a path of 20 m.
   EXPECT_EQ(verdict_on({1.2, 10.9}, true), Verdict::ok);
   EXPECT_EQ(verdict_on({1.2, 11.2}, true), Verdict::stretch);
   EXPECT_EQ(verdict_on({1.2, 21}, true), Verdict::stretch);
@@ -148,7 +149,7 @@ TEST(DivergenceMonitorOnSamples, HoldsSpeedsAndLengthsAgainstTheTrueMotion) {
 }
 
 TEST(DivergenceMonitorOnSamples, GoesByEnergyWhereThereIsNothingToHoldThemAgainst) {
-  // K^ = (x_2 - x_0)^2 / 8 beside 10 B = 2005 J: 126.6 m; thirty times the length at the start: 33 m
+  // K^ = (x_2 - x_0)^2 / 8 compared with 10 B = 2005 J: 126.6 m; thirty times the initial length: 33 m
   EXPECT_EQ(verdict_on({1.2, 32}, false), Verdict::ok);
   EXPECT_EQ(verdict_on({1.2, 34}, false), Verdict::stretch);
   EXPECT_EQ(verdict_on({1.2, 140}, false), Verdict::energy);
@@ -175,7 +176,7 @@ TEST(Passages, AreToldWhereEveryStepEndsOutsideABallOnTheWay) {
   for (int i = 0; i < 60; ++i) {
     const double radius = random.between(0.02, 0.3), h = 0.01, speed = random.between(0.5, 6) * radius / h;
     const double aside = random.between(0, 1.5) * radius, start = -random.between(7, 12) * radius;
-    const double drift = i % 2 == 0 ? 0 : random.between(-1, 1);  // m/s, of the ball, once up to speed
+    const double drift = i % 2 == 0 ? 0 : random.between(-1, 1);  // m/s, final speed of the ball
     if (std::abs(aside / radius - 1) < 1e-3) continue;
     const int steps = static_cast<int>(16 * radius / (speed * h)) + 2;
     const Scene scene = small_scene(
@@ -186,8 +187,8 @@ TEST(Passages, AreToldWhereEveryStepEndsOutsideABallOnTheWay) {
                                : fmt::format("[sphere.motion]\namplitude = [0, {}, 0]\nfrequency = 1e-3\nramp = 1e-6\n",
                                              drift / (2 * std::numbers::pi * 1e-3))),
         steps * h, h, i % 3 == 0 ? 1 : steps);
-    // the ball hardly turns in this time: seen from it the particle flies along a line. A step that ends inside beyond
-    // the middle is pushed out on the far side: through as well
+    // The ball's motion is nearly uniform in this time, so the particle flies along a line relative to it. A step that
+    // ends inside the ball, past its centre, pushes the particle out on the far side, which is also a passage.
     int k = 0;
     while (k <= steps && std::hypot(start + k * h * speed, aside) >= radius) ++k;
     const bool touches = k <= steps && start + k * h * speed < 0, passes = !touches && aside < radius;
@@ -200,7 +201,7 @@ TEST(Passages, AreToldWhereEveryStepEndsOutsideABallOnTheWay) {
 }
 
 TEST(Passages, AreNotToldWhereOnlyTheChordOfACurvedPathCutsABall) {
-  for (const double over : {0.01, 0.5, 0.99, -4.}) {  // in g h^2 / 8, by which a chord lies below the top of its path
+  for (const double over : {0.01, 0.5, 0.99, -4.}) {  // in units of g h^2 / 8, the sagitta of a step's chord
     const double h = 0.02, speed = 3, bend = 9.81 * h * h / 8, top = 1 + over * bend;
     const Scene scene = small_scene(
         fmt::format("[[particle]]\nposition = [{}, {:.17g}, 0]\nmass = 1\nvelocity = [{}, {:.17g}, 0]\n[sphere]\n"

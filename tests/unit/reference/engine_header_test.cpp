@@ -1,4 +1,4 @@
-// The C++ header of the engine protocol as a library for adapters: readers, forces, options and the loop, against
+// The C++ header of the engine protocol as a library for adapters: readers, forces, options and the loop, compared with
 // mysim.
 
 #include "mysim/terms/bending.h"
@@ -18,7 +18,7 @@ namespace {
 using namespace testing_tools;
 namespace header = crosscheck_engine;
 
-using header::operator+, header::operator-, header::operator*;  // Vec is a std::array: not found by its arguments
+using header::operator+, header::operator-, header::operator*;  // Vec is a std::array, so ADL fails
 using Vecs = std::vector<header::Vec>;
 
 Vecs columns(const Points& points) {
@@ -39,7 +39,7 @@ class EngineHeader : public InFolder {
   }
 };
 
-/// A state in which all forces act; one spring has coincident ends.
+/// A state in which all forces act, and one spring has coincident ends.
 State moving(const Scene& scene) {
   State state = scene.start;
   state.t = 0.4;
@@ -67,11 +67,12 @@ TEST_F(EngineHeader, ComputesTheForcesOfMysimsTerms) {
       if (term) add_force(*term, scene.model.particles, state, ours);
       Vecs theirs(x.size(), header::Vec{});
       add(theirs);
-      // a dozen terms for each particle, each rounded a few times
+      // about a dozen terms per particle, with a few roundings each
       EXPECT_LE((points(theirs) - ours.f).norm(), 1e-14 * (1 + ours.f.norm()));
     };
-    compare(scene.model.find<Springs>(), "springs",
-            [&](Vecs& f) { EXPECT_EQ(header::add_springs(read, x, f), 1) << "coincident ends"; });
+    compare(scene.model.find<Springs>(), "springs", [&](Vecs& f) {
+      EXPECT_EQ(header::add_springs(read, x, f), 1) << "expected one spring with coincident ends";
+    });
     compare(scene.model.find<Dashpots>(), "dashpots", [&](Vecs& f) { header::add_dashpots(read, x, v, f); });
     compare(scene.model.find<Bending>(), "bending", [&](Vecs& f) { header::add_bending(read, x, f); });
     compare(scene.model.find<Wind>(), "wind", [&](Vecs& f) { header::add_wind(read, state.t, f); });
@@ -89,7 +90,7 @@ TEST_F(EngineHeader, ReadsSpheresPlanesAndMotions) {
   ASSERT_TRUE(sphere.motion);
   for (const double t : {0.1, 0.5, 2.}) {
     EXPECT_LE((points({sphere.centre_at(t)}) - ours.centre_at(t)).norm(), 1e-15);
-    constexpr double d = 1e-5;  // s: central differences err by d^2 and by round-off over d
+    constexpr double d = 1e-5;  // s; central differences err by d^2 and round-off over d
     const header::Vec slope = 1 / (2 * d) * (sphere.motion->velocity(t + d) - sphere.motion->velocity(t - d));
     EXPECT_LE(header::length(slope - sphere.motion->acceleration(t)), 1e-7) << t;
   }
@@ -118,7 +119,7 @@ TEST_F(EngineHeader, OptionsRefuseWhatIsNotExpected) {
   EXPECT_EXIT(get({"fast"}), exits, "unknown option fast: expected n=4, springs=tendon.callback");
 }
 
-/// Falls, and at a time of its own fails in one of two ways.
+/// Falls, and fails at a given time in one of two ways.
 struct Faller : header::World {
   explicit Faller(const header::Scene& s) : scene(s), x(s.x), v(s.v) {}
   void step(double t) override {

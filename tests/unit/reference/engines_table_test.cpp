@@ -1,4 +1,4 @@
-// The table of engines that adapters are shipped for.
+// The table of engines with shipped adapters.
 
 #include <gtest/gtest.h>
 

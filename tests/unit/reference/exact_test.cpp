@@ -1,5 +1,5 @@
-// Closed forms: they satisfy their equation, agree with a fine rk4, are claimed for the scenes they hold for, and are
-// what scenes tend to.
+// Closed forms: they satisfy their equations, agree with a fine rk4, are claimed only for valid scenes, and are the
+// limits of the corresponding scenes.
 
 #include <numbers>
 
@@ -22,7 +22,7 @@ std::string spring_text(const std::string& more = "", double start = -0.9, const
       "[[spring]]\nends = [0, 1]\nstiffness = 200\nrest = 1\n{}{}[pins]\nparticles = [0]\n{}",
       start, free_more, spring_more, gravity_text, more);
 }
-/// The same with its pin moved along the spring, at a part of its own 10 rad/s.
+/// The same, with its pin moved along the spring at `part` times its frequency of 10 rad/s.
 std::string driven_text(double part, double amplitude, double ramp, const std::string& more = "",
                         const std::string& spring_more = "") {
   return spring_text(fmt::format("[pins.motion]\namplitude = [0, {}, 0]\nfrequency = {}\nramp = {}\n{}", amplitude,
@@ -71,10 +71,10 @@ TEST(Exact, SatisfiesTheEquationOfMotion) {
     ASSERT_TRUE(exact);
     System f(c.scene.model);
     const auto* drag = c.scene.model.find<Drag>();
-    const double fastest = std::max(10.0, drag ? f.drag_rate().maxCoeff() : 0);  // 1/s: omega is 10 or less
+    const double fastest = std::max(10.0, drag ? f.drag_rate().maxCoeff() : 0);  // 1/s; omega is at most 10
     const double dt = std::cbrt(eps) / fastest;
-    // central differences: (rate dt)^2 from the third derivative, eps / dt from rounding, of positions up to 10 m;
-    // of velocities the same, faster by the rate
+    // Central differences: (rate dt)^2 from the third derivative and eps / dt from rounding, for positions up to 10 m.
+    // Velocities: the same times the rate.
     const double tolerance = 10 * (std::pow(fastest * dt, 2) + eps / dt);
     for (int i = 1; i < 20; ++i) {
       State s = exact->at(0.05 * i), rate = s;
@@ -84,7 +84,7 @@ TEST(Exact, SatisfiesTheEquationOfMotion) {
       EXPECT_LT(((up.x - down.x) / (2 * dt) - rate.x).norm(), tolerance);
       if (s.v.cols() == 0) continue;
       Points off = (up.v - down.v) / (2 * dt) - rate.v;
-      for (const int pin : c.scene.model.particles.pins) off.col(pin).setZero();  // they are moved by hand
+      for (const int pin : c.scene.model.particles.pins) off.col(pin).setZero();  // prescribed motion
       EXPECT_LT(off.norm(), fastest * tolerance);
     }
   }
@@ -106,14 +106,14 @@ TEST(Exact, AgreesWithAFineRungeKutta) {
     const auto exact = exact_solution(c.scene);
     double worst = 0;
     for (int i = 0; i < t.frames(); ++i) worst = std::max(worst, (t.x[i] - exact->at(t.t[i]).x).norm());
-    // half an ulp of positions up to 8 m, 1e4 times at worst; rk4 itself loses (h gamma)^4 / 120 = 4e-6 of 1e-3 m at
-    // most
+    // Half an ulp of positions up to 8 m, at worst 1e4 times. rk4 itself loses at most (h gamma)^4 / 120 = 4e-6 of 1e-3
+    // m.
     EXPECT_LT(worst, 1e4 * 4 * eps + (c.name.starts_with("overdamped") ? 1e-8 : 0));
   }
 }
 
 TEST(Exact, AgreesWithAnAdaptiveRuleOnRandomScenes) {
-  for (unsigned seed = 0; seed < 200; seed += 5) {  // a fifth of them, for their time: of each kind as many
+  for (unsigned seed = 0; seed < 200; seed += 5) {  // every fifth, to save time: the same number of each kind
     const Scene scene = random_exact_scene(seed);
     SCOPED_TRACE(scene.name);
     const auto exact = exact_solution(scene);
@@ -128,7 +128,7 @@ TEST(Exact, AgreesWithAnAdaptiveRuleOnRandomScenes) {
       worst = std::max(worst, (r.trajectory.x[i] - s.x).norm());
       farthest = std::max(farthest, largest_column(s.x));
     }
-    // each step may lose its tolerance, of the scene's size and of the position
+    // Each step may lose its tolerance, relative to the scene's size and to the position.
     EXPECT_LT(worst, static_cast<double>(out.steps) * run.tolerance * farthest);
   }
 }
@@ -150,13 +150,13 @@ TEST(Exact, IsClaimedOnlyWhereItHolds) {
       {"driven aside", small_scene(spring_text("[pins.motion]\namplitude = [0.01, 0, 0]\nfrequency = 1\nramp = 1\n"))},
       {"driven into its anchor", small_scene(driven_text(0.9, 0.2, 0.5))},  // 0.2 m / (1 - 0.81) = 1.05 m
       {"driven at resonance", small_scene(driven_text(1, 1e-6, 0.5))},      // undamped: it grows for ever
-      // hanging length 1.0981 m: let go 1.1 m from it, the mass reaches the anchor
+      // equilibrium length 1.0981 m: released 1.1 m from it, the mass reaches the anchor
       {"spring that reaches the anchor", small_scene(spring_text("", -2.2))}};
   for (const Case& c : none) {
     SCOPED_TRACE(c.name);
     EXPECT_FALSE(exact_solution(c.scene));
   }
-  EXPECT_TRUE(exact_solution(small_scene(spring_text("", -2.19))));  // 1.092 m from it: just not
+  EXPECT_TRUE(exact_solution(small_scene(spring_text("", -2.19))));  // 1.092 m from it: just below
 }
 
 TEST(Exact, TruthSaysItsTier) {
@@ -165,11 +165,11 @@ TEST(Exact, TruthSaysItsTier) {
   const auto converged = truth_of(shipped_scene("pendulum"), {0.05, 1, 10});
   ASSERT_TRUE(converged);
   EXPECT_EQ(converged->tier, Tier::converged);
-  EXPECT_EQ(truth_of(shipped_scene("cloth-sphere"), {1e-3, 0.1, 10})->tier, Tier::converged);  // it still falls
+  EXPECT_EQ(truth_of(shipped_scene("cloth-sphere"), {1e-3, 0.1, 10})->tier, Tier::converged);  // still falling
   // the error bar of the converged truth covers its distance to a far finer one
   const Trajectory finer = trajectory_of(stepper("rk4"), shipped_scene("pendulum"), {2e-5, 1, 10});
   EXPECT_LE(sup_rms(converged->trajectory, finer),
-            converged->error_bar + 5e4 * 0.5 * eps);  // 5e4 steps' worst rounding
+            converged->error_bar + 5e4 * 0.5 * eps);  // worst-case rounding of 5e4 steps
 }
 
 TEST(RigidPendulum, PeriodAgainstKnownValues) {
@@ -184,7 +184,7 @@ TEST(RigidPendulum, PeriodAgainstKnownValues) {
   EXPECT_NEAR(rigid_pendulum_period(1, 9.81, 0.1) / small, 1 + 0.01 / 16 + 11e-4 / 3072, 3e-10);
 }
 
-/// Mean period of the first swings of the shipped pendulum with another stiffness, from crossings of the plumb line.
+/// Mean period of the first swings of the shipped pendulum with another stiffness, from passages of the vertical.
 double swing_period(double stiffness) {
   Scene scene = shipped_scene("pendulum");
   for (Term& term : scene.model.terms)
@@ -208,8 +208,8 @@ TEST(RigidPendulum, IsTheLimitOfTheSpringPendulumToFirstOrderInOneOverK) {
   for (const double k : {1e3, 1e4, 1e5}) {
     SCOPED_TRACE(k);
     const double deviation = swing_period(k) / rigid - 1;
-    EXPECT_NEAR(deviation / (9.81 / k), 1.15, 0.1);  // the factor of facts/scenes.md, section 4, read to two digits
-    // the next order is m g / (k L), at most 1 % of the deviation
+    EXPECT_NEAR(deviation / (9.81 / k), 1.15, 0.1);  // 1.15 m g / (k L) at 60 degrees, two digits
+    // the next order is smaller by m g / (k L), at most 1 %
     if (before > 0) {
       EXPECT_NEAR(std::log10(before / deviation), 1, 0.05);
     }
@@ -220,7 +220,7 @@ TEST(RigidPendulum, IsTheLimitOfTheSpringPendulumToFirstOrderInOneOverK) {
 using namespace testing_tools;
 
 TEST(HangingRest, CarriesTheWeightBelow) {
-  SceneWriter w;  // a chain of two with a branch at the first
+  SceneWriter w;  // a chain of two, with a branch at the first
   w.particle({0, 0, 0}, 1);
   w.particle({1, 0, 0}, 0.5);
   w.particle({2, 0, 0}, 0.25);
@@ -241,12 +241,12 @@ TEST(HangingRest, CarriesTheWeightBelow) {
 TEST(HangingRest, IsNotClaimedElsewhere) {
   for (const auto name : {"normal-modes", "cloth-hang", "chain-link", "circle", "projectile"})
     EXPECT_FALSE(hanging_equilibrium(shipped_scene(name))) << name;
-  Scene loop = shipped_scene("chain");  // as many springs, but the last particle is loose
+  Scene loop = shipped_scene("chain");  // the same number of springs, but the last particle is free
   loop.model.find<Springs>()->list.back() = {0, 2, 100, 1, Family::single};
   EXPECT_FALSE(hanging_equilibrium(loop));
 }
 
-/// The chain with a drag of 3/s, let go from the horizontal.
+/// The chain with a drag of 3/s, released from the horizontal.
 Scene damped_chain() { return with_drag(without_drag(shipped_scene("chain")), 3); }
 
 TEST(HangingRest, IsWhereMysimComesToRest) {
@@ -255,14 +255,14 @@ TEST(HangingRest, IsWhereMysimComesToRest) {
   ASSERT_TRUE(rest);
   const double off = largest_column(scene.start.x - *rest), omega = highest_frequency(scene.model, scene.start);
   for (const Stepper& s : fixed_steppers()) {
-    if (s.hard_constraints) continue;  // Gauss-Seidel passes come to rest elsewhere, see below
+    if (s.hard_constraints) continue;  // Gauss-Seidel passes have another equilibrium, see below
     SCOPED_TRACE(s.name);
     const Trajectory t = trajectory_of(s, scene, {std::min(2e-3, 0.5 * s.limit(omega, 3)), 16, 8});
     for (int i = 0; i < t.frames(); ++i)
-      // every vibration is underdamped and falls as e^(-gamma t / 2), with twice the start for what drag adds to it at
-      // first; implicit rules leave 1e-12 of the forces, 4 N, on a swing that 1 N/m brings back
+      // Every vibration is underdamped and decays as e^(-gamma t / 2). The factor of two covers what drag adds
+      // initially. Implicit rules leave 1e-12 of the forces, 4 N, on a swing with a restoring stiffness of 1 N/m.
       EXPECT_LE(largest_column(t.x[i] - *rest), 2 * off * std::exp(-1.5 * t.t[i]) + 4e-12);
-    // the lengths of the springs alone are not it
+    // the rest lengths of the springs alone would not give this position
     EXPECT_GT(std::abs(t.x.back().col(3).norm() - scene.start.x.col(3).norm()), 1e-3);
   }
 }
@@ -273,14 +273,14 @@ TEST(HangingRest, OneSweepAStepHangsLongerByTheSquareOfTheStep) {
     const Trajectory t = trajectory_of(stepper("xpbd"), scene, {h, 16, 1});
     return (*hanging_equilibrium(scene) - t.x.back())(1, 3);
   };
-  // each step falls freely by h^2 g / (1 + h gamma) first, which one Gauss-Seidel pass hands on from link to link
+  // Each step first falls freely by h^2 g / (1 + h gamma), which one Gauss-Seidel pass propagates from link to link.
   const double coarse = lower(4e-3), fine = lower(2e-3);
-  EXPECT_NEAR(slope(coarse, fine), 2, 0.02);  // the next order is h gamma = 0.01
+  EXPECT_NEAR(slope(coarse, fine), 2, 0.02);  // the next order is smaller by h gamma = 0.01
   EXPECT_GT(fine, 2e-3 * 2e-3 * 9.81);
 }
 
-/// A flat cloth of n x n particles, 0.2 m apart, held along its edge, its springs stretched by a tenth; each free
-/// particle is moved by amplitude (m) times the bump sin sin, in the direction.
+/// A flat cloth of n x n particles, 0.2 m apart, held along its edge, with springs stretched by a tenth. Each free
+/// particle is displaced along `direction` by `amplitude` (m) times the bump sin sin.
 Scene flat_cloth(int n, double amplitude, const Vec3& direction, bool shear) {
   SceneWriter w;
   const double side = 0.2, stretch = 1.1;
@@ -311,7 +311,7 @@ TEST(Linearised, FrequenciesOfAMembrane) {
       linearised_solution(flat_cloth(n, 1e-3, Vec3(0, 1, 0), false), flat_cloth(n, 0, Vec3(0, 1, 0), false).start.x);
   ASSERT_TRUE(motion);
   EXPECT_EQ(motion->omega.size(), 3u * (n - 2) * (n - 2));
-  // out of the plane each spring pulls with tension / length: omega^2 = 4 T / (m L) (sin^2 + sin^2)
+  // out of the plane the stiffness is tension over length: omega^2 = 4 T / (m L) (sin^2 + sin^2)
   const double tension = 100 * (0.2 - 0.2 / 1.1);
   for (int p = 1; p < n - 1; ++p)
     for (int q = 1; q < n - 1; ++q) {
@@ -319,12 +319,12 @@ TEST(Linearised, FrequenciesOfAMembrane) {
       const double omega = 2 * std::sqrt(tension / (0.1 * 0.2) * (part(p) + part(q)));
       double nearest = INFINITY;
       for (const double each : motion->omega) nearest = std::min(nearest, std::abs(each - omega));
-      EXPECT_LT(nearest, 1e-13 * motion->omega.back());  // some hundred roundings of the largest eigenvalue
+      EXPECT_LT(nearest, 1e-13 * motion->omega.back());  // a few hundred roundings of the largest eigenvalue
     }
 }
 
-/// Largest deviation from the linearised motion over three periods of the slowest vibration, over the amplitude: in the
-/// plane and out of it.
+/// Largest deviation from the linearised motion over three periods of the slowest vibration, relative to the amplitude,
+/// in the plane and out of it.
 struct Deviation {
   double in_plane, out_of_plane;
 };
@@ -347,12 +347,12 @@ TEST(Linearised, FailsAsThePowerOfTheAmplitudeThatItsSymmetryGives) {
   const Vec3 up(0, 1, 0), aside(1, 0, 0);
   const Deviation a = deviation(0.005, up), b = deviation(0.0025, up);
   const Deviation c = deviation(0.005, aside), d = deviation(0.0025, aside);
-  // the next term is less by a power of the amplitude over the 0.2 m of a spring, 0.02
+  // the next term is smaller by the amplitude over the spring length of 0.2 m, 0.02
   EXPECT_NEAR(slope(a.out_of_plane, b.out_of_plane), 2, 0.04);
   EXPECT_NEAR(slope(a.in_plane, b.in_plane), 1, 0.04);
   EXPECT_NEAR(slope(c.in_plane, d.in_plane), 1, 0.04);
   EXPECT_LT(c.out_of_plane, 1e-13);  // it never leaves the plane
-  // where it is 1 % off, as reference/truth/exact/exact.h says to two digits
+  // amplitudes with a deviation of 1 %, as documented to two digits in tests/unit/reference/limits_of_motion.h
   EXPECT_NEAR(deviation(0.011, up).out_of_plane, 0.01, 0.001);
   EXPECT_NEAR(deviation(0.0088, aside).in_plane, 0.01, 0.001);
 }
@@ -362,34 +362,34 @@ TEST(Linearised, IsNotClaimedElsewhere) {
   const Scene flat = flat_cloth(6, 0, up, true);
   EXPECT_TRUE(linearised_solution(flat, flat.start.x));
   Scene slack = flat, pressed = flat, pulled = flat;
-  for (Spring& s : slack.model.find<Springs>()->list) s.rest *= 1.1;  // as long as at rest: no stiffness upwards
+  for (Spring& s : slack.model.find<Springs>()->list) s.rest *= 1.1;  // at rest length: no transverse stiffness
   for (Spring& s : pressed.model.find<Springs>()->list) s.rest *= 1.2;
   EXPECT_FALSE(linearised_solution(slack, flat.start.x));
   EXPECT_FALSE(linearised_solution(pressed, flat.start.x));
-  pulled.model.terms.emplace_back(Gravity{{0, -9.81, 0}});  // the flat cloth is then no equilibrium
+  pulled.model.terms.emplace_back(Gravity{{0, -9.81, 0}});  // so the flat cloth is no equilibrium
   EXPECT_FALSE(linearised_solution(pulled, flat.start.x));
   Scene moved = flat;
   moved.model.particles.move = Motion{up, 1, 1};
   EXPECT_FALSE(linearised_solution(moved, flat.start.x));
   EXPECT_FALSE(linearised_solution(shipped_scene("chain-link"), shipped_scene("chain-link").start.x));
-  // and it is no truth
+  // it must not be claimed as a reference solution either
   EXPECT_FALSE(exact_solution(flat_cloth(6, 1e-3, up, true)));
 }
 
 TEST(Linearised, AgreesWithTheExactModesOfAStretchedChain) {
-  // along the line nothing is left out: the limit is the solution
+  // Along the line the linearisation is exact, so it equals the solution.
   const Scene scene = shipped_scene("normal-modes");
   Scene resting = scene;
   for (int i = 0; i < 10; ++i) resting.start.x(0, i) = 0.275 * i;
   const auto motion = linearised_solution(scene, resting.start.x);
   const auto exact = exact_solution(scene);
   ASSERT_TRUE(motion && exact);
-  // 60 rad/s for 2 s from eigenvalues rounded by some eps of the largest
+  // 60 rad/s for 2 s, from eigenvalues with rounding errors of some eps of the largest
   for (double t = 0; t < 2; t += 0.1) EXPECT_LT((motion->at(t).x - exact->at(t).x).norm(), 1e-12) << t;
 }
 
 TEST(Linearised, HangingChainSwingsAsTheLimitSays) {
-  // about the shape of rest that hanging_equilibrium gives, 1e-4 m aside
+  // about the equilibrium from hanging_equilibrium, displaced by 1e-4 m
   Scene scene = damped_chain();
   const Points rest = *hanging_equilibrium(scene);
   scene.start.x = rest;
@@ -398,7 +398,7 @@ TEST(Linearised, HangingChainSwingsAsTheLimitSays) {
   ASSERT_TRUE(motion);
   const Trajectory t = trajectory_of(stepper("rk4"), scene, {1e-3, 3, 30});
   for (int i = 0; i < t.frames(); ++i)
-    // what is left out is of second order, 1e-8 m^2 over a link of 0.5 m
+    // neglected terms are of second order, 1e-8 m^2 over a link of 0.5 m
     EXPECT_LT(largest_column(t.x[i] - motion->at(t.t[i]).x), 1e-8 / 0.5);
 }
 

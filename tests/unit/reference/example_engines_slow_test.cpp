@@ -1,4 +1,4 @@
-// The two engines that are shipped as examples of the protocol do what mysim does.
+// The two example engines of the protocol agree with mysim.
 
 #include "reference/certificate/certificate.h"
 #include "reference/method.h"
@@ -13,7 +13,7 @@ using namespace testing_tools;
 
 class ExampleEngines : public InFolder {
  protected:
-  /// Debian's python3, for which python3-numpy is installed; another one may come first in PATH.
+  /// Debian's python3, for which python3-numpy is installed. Another python3 may come first in PATH.
   std::string python() const {
     return script("example_engine.py",
                   "exec /usr/bin/python3 '" CROSSCHECK_SOURCE "/reference/protocol/example_engine.py' \"$@\"\n");
@@ -23,7 +23,7 @@ class ExampleEngines : public InFolder {
 TEST_F(ExampleEngines, AreSymplecticEuler) {
   for (const auto name : {"spring", "pendulum", "chain", "projectile", "cloth-hang", "cloth-swing", "chain-link"}) {
     const Scene scene = shipped_scene(name);
-    // loops in Python take 0.2 ms for a step of the cloth
+    // Python loops need 0.2 ms per step of the cloth.
     const double part = scene.start.x.cols() > 50 ? 0.1 : 1;
     const crosscheck::Run run{scene.step, part * scene.duration, static_cast<int>(std::lround(part * scene.samples))};
     const MethodRun ours = run_and_record("symplectic-euler", scene, run);
@@ -33,7 +33,7 @@ TEST_F(ExampleEngines, AreSymplecticEuler) {
       ASSERT_EQ(theirs.outcome.verdict, Verdict::ok) << theirs.outcome.reason;
       EXPECT_EQ(theirs.outcome.remark, "");
       EXPECT_EQ(theirs.outcome.steps, ours.outcome.steps);
-      // the same rule, its sums in another order: 1e-15 m times a growth of perturbations below 1e3
+      // the same rule with another summation order: 1e-15 m times a growth of perturbations below 1e3
       EXPECT_LE(sup_distance(ours.trajectory, theirs.trajectory), 1e-12);
       for (int i = 0; i < ours.trajectory.frames(); ++i)
         EXPECT_LE(largest_column(ours.trajectory.v[i] - theirs.trajectory.v[i]), 1e-10);  // m/s; omega up to 100/s

@@ -1,5 +1,5 @@
-// One more term, as somebody would write it who is about to add it: included before everything else (g++ -include), it
-// stands in the list of terms without a line of the source being changed. Used by new_term_test.cpp.
+// An additional term, as a contributor would write it. The compiler includes it first (g++ -include), which adds it to
+// the list of terms without any change to the source. Used by new_term_slow_test.cpp.
 #pragma once
 
 #include "mysim/forces.h"

@@ -1,5 +1,5 @@
-// Hard distances: XPBD keeps them to order 2; the truth with Lagrange multipliers keeps the distances, the period and
-// the energy.
+// Hard distances: XPBD keeps them to second order. The solution with Lagrange multipliers conserves the distances, the
+// period and the energy.
 
 #include <Eigen/Dense>
 
@@ -14,14 +14,14 @@
 
 namespace crosscheck {
 
-// Hard distances: kept to order 2, the rigid pendulum's period, the equations with Lagrange multipliers; the other
+// Hard distances: kept to second order, the rigid pendulum's period, the equations with Lagrange multipliers. Other
 // rules refuse them.
 
 namespace {
 
 using namespace testing_tools;
 
-/// A rope of equal links, held at the origin, let go at the angle (rad) from the vertical.
+/// A rope of equal links, held at the origin, released at the angle (rad) from the vertical.
 Scene rope(int links, double length, double angle, double duration = 1) {
   std::string text;
   for (int i = 0; i <= links; ++i)
@@ -49,8 +49,8 @@ TEST(HardDistances, AreKeptToSecondOrder) {
       for (const Points& x : t.x)
         worst = std::max(worst, largest_constraint_error(*scene.model.find<Constraints>(), x));
       fmt::print("rope of ten links, h = {}: stretched by {:.3g}\n", h, worst);
-      // one Gauss-Seidel pass a step leaves what the step moved across the links, h^2 times an acceleration over a
-      // link's length: second order, but met at other moments of a whip
+      // One Gauss-Seidel pass per step leaves the transverse motion of a step, h^2 times an acceleration over a link's
+      // length. This is of second order, but a whip reaches its maximum at other moments.
       if (before > 0) {
         EXPECT_NEAR(slope(before, worst), 2, 0.5);
       }
@@ -64,7 +64,7 @@ TEST(HardDistances, APendulumHasTheRigidPeriodToFirstOrder) {
   const double length = 1, angle = std::numbers::pi / 3, period = rigid_pendulum_period(length, 9.81, angle);
   const Scene scene = rope(1, length, angle, 3);
   auto error = [&](const Stepper& s, double h) {
-    // the time between two passages of the vertical in the same sense, from samples at every step
+    // time between two passages of the vertical in the same direction, sampled at every step
     const int steps = static_cast<int>(std::lround(3 / h));
     const Trajectory t = trajectory_of(s, scene, {h, 3, steps});
     std::vector<double> passages;
@@ -77,15 +77,15 @@ TEST(HardDistances, APendulumHasTheRigidPeriodToFirstOrder) {
   for (const Stepper& s : hard_steppers()) {
     const double coarse = error(s, 2e-3), fine = error(s, 1e-3);
     fmt::print("{}: period off by {:.3g} s and {:.3g} s of {:.6g} s\n", s.name, coarse, fine, period);
-    // the rule damps by h omega^2 / 2: 1 % of the amplitude in a swing at 1e-3 s, and the period falls with it by
-    // theta^2 / 8 = 0.14 of that, 1.5e-3, and its elliptic corrections
+    // Numerical damping is h omega^2 / 2: 1 % of the amplitude per swing at 1e-3 s. The period decreases by theta^2 / 8
+    // = 0.14 times that, 1.5e-3, plus elliptic corrections.
     EXPECT_LT(fine, 3e-3 * period);
     EXPECT_NEAR(slope(coarse, fine), 1, 0.3);
   }
 }
 
-/// The rope by the equations with Lagrange multipliers, differentiated twice: (J M^-1 J^T) lambda = J M^-1 f + J' v,
-/// M v' = f - J^T lambda; rk4 with a dense solve.
+/// Integrates the rope by the equations with Lagrange multipliers, differentiated twice: (J M^-1 J^T) lambda = J M^-1 f
+/// + J' v, M v' = f - J^T lambda. Uses rk4 with a dense solve.
 class RopeByMultipliers {
  public:
   explicit RopeByMultipliers(const Scene& scene) : scene_(scene) {}
@@ -116,7 +116,7 @@ class RopeByMultipliers {
       inverse_mass.segment<3>(3 * i).setConstant(p.pinned[i] ? 0 : 1 / p.mass[i]);
       force.segment<3>(3 * i) = p.mass[i] * scene_.model.find<Gravity>()->acceleration;
     }
-    for (int c = 0; c < m; ++c) {  // of |x_a - x_b|^2 / 2
+    for (int c = 0; c < m; ++c) {  // gradient of |x_a - x_b|^2 / 2
       const Vec3 d = x.col(list[c].a) - x.col(list[c].b), dv = v.col(list[c].a) - v.col(list[c].b);
       j.block<1, 3>(c, 3 * list[c].a) = d.transpose();
       j.block<1, 3>(c, 3 * list[c].b) = -d.transpose();
@@ -136,7 +136,7 @@ TEST(HardDistances, ConvergeToTheEquationsWithMultipliersInFirstOrder) {
   const int samples = 12;
   const RopeByMultipliers rope_by_multipliers(scene);
   const Trajectory truth = rope_by_multipliers.run(1e-3, duration, samples);
-  // the reference is of order 4 and keeps its distances: 1e-3 s against half of it
+  // The reference is of order 4 and keeps its distances. Compares 1e-3 s with half of it.
   EXPECT_LT(sup_rms(truth, rope_by_multipliers.run(5e-4, duration, samples)), 1e-8);
   for (const Points& x : truth.x) EXPECT_LT(largest_constraint_error(*scene.model.find<Constraints>(), x), 1e-7);
   for (const Stepper& s : hard_steppers()) {
@@ -173,7 +173,7 @@ TEST(HardDistances, AreRefusedByRulesThatKnowForcesOnly) {
 }
 
 TEST(HardDistances, EndsThatMeetAreCountedAndFinite) {
-  // two ends fly into one point in exactly representable steps
+  // two ends meet in one point in exactly representable steps
   const Scene scene = small_scene(
       "[[particle]]\nposition = [-1, 0, 0]\nmass = 1\nvelocity = [4, 0, 0]\n"
       "[[particle]]\nposition = [1, 0, 0]\nmass = 1\nvelocity = [-4, 0, 0]\n[[constraint]]\nends = [0, 1]\n",
@@ -187,21 +187,21 @@ TEST(HardDistances, EndsThatMeetAreCountedAndFinite) {
 }
 
 TEST(Xpbd, OneSpringUnderDragIsImplicitEuler) {
-  // along its line a spring is linear: the linearised step of one pass is the whole step
+  // Along its line a spring is linear, so the linearised step of one pass is the full step.
   Scene scene = with_drag(shipped_scene("spring"), 3);
   for (const double h : {1e-3, 1e-2, 0.1}) {
     const crosscheck::Run run{h, 1, 10};
     const Trajectory one = trajectory_of(stepper("xpbd"), scene, run),
                      other = trajectory_of(stepper("implicit-euler"), scene, run);
-    // implicit Euler stops at 1e-10 of the forces, of 10 N to m v / h = 2000 N, on 1 kg in each step
+    // Implicit Euler stops at 1e-10 of the forces, from 10 N to m v / h = 2000 N, on 1 kg in each step.
     EXPECT_LT(sup_rms(one, other), 1e-10 * (10 + 2 / h) * h) << h;
   }
 }
 
 }  // namespace
 
-// Truth of hard distances: Lagrange multipliers keep the distances, the period and the energy; dependent ones are
-// refused.
+// Solutions with hard distances: Lagrange multipliers conserve the distances, the period and the energy. Dependent
+// constraints are refused.
 
 namespace {
 
@@ -229,7 +229,7 @@ TEST(Multipliers, KeepDistancesToTheFourthOrder) {
   };
   const double coarse = drift(4e-3), fine = drift(2e-3);
   EXPECT_GT(fine, 1e-13);
-  EXPECT_NEAR(slope(coarse, fine), 4, 0.5);  // the drift adds up errors of both signs
+  EXPECT_NEAR(slope(coarse, fine), 4, 0.5);  // the drift sums errors of both signs
 }
 
 TEST(Multipliers, OneRodIsTheRigidPendulum) {
@@ -239,7 +239,7 @@ TEST(Multipliers, OneRodIsTheRigidPendulum) {
       std::string(gravity_text));
   const double period = rigid_pendulum_period(1, 9.81, std::numbers::pi / 3);
   const Trajectory t = by_multipliers(scene, {1e-3, period, 1});
-  // back where it was, at rest: rk4's error in the phase is of order 1e-12, its square shows in the place
+  // It returns to rest at its start. The phase error of rk4 is about 1e-12, and its square enters the position.
   EXPECT_LT((t.x.back() - scene.start.x).norm(), 1e-9);
   EXPECT_LT(t.v.back().norm(), 1e-9);
 }
@@ -248,7 +248,7 @@ TEST(Multipliers, KeepEnergyAndXpbdConvergesToThem) {
   const Scene scene = without_drag(shipped_scene("rod"));
   const Trajectory t = by_multipliers(scene, {2.5e-4, 1, 20});
   for (int i = 0; i < t.frames(); ++i)
-    EXPECT_NEAR(energy_of(scene.model, {t.t[i], t.x[i], t.v[i]}).total(), 0, 1e-7);  // J; 2 J are turned over, h^4
+    EXPECT_NEAR(energy_of(scene.model, {t.t[i], t.x[i], t.v[i]}).total(), 0, 1e-7);  // J; 2 J are converted, h^4
   double before = 0;
   for (const double h : {4e-4, 2e-4, 1e-4}) {
     const double error = sup_rms(trajectory_of(stepper("xpbd"), shipped_scene("rod"), {h, 1, 20}),
@@ -261,7 +261,7 @@ TEST(Multipliers, KeepEnergyAndXpbdConvergesToThem) {
 }
 
 TEST(Multipliers, DependentDistancesAreRefused) {
-  // a straight row between two pins: its forces are not unique
+  // a straight row between two pins, whose forces are not unique
   const Scene scene = small_scene(
       "[[particle]]\nposition = [0, 0, 0]\nmass = 1\n[[particle]]\nposition = [1, 0, 0]\nmass = 1\n"
       "[[particle]]\nposition = [2, 0, 0]\nmass = 1\n[[constraint]]\nends = [0, 1]\n[[constraint]]\nends = [1, 2]\n"

@@ -1,4 +1,5 @@
-// What some tests need and the suite does not: where it is missing they are skipped, and say which package would help.
+// Requirements of some tests that the suite does not need. Without them, tests are skipped with the name of the missing
+// package.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -9,7 +10,7 @@
 #include "reference/truth/truth.h"
 #include "tests/unit/helpers.h"
 
-// At the head of a test: skips it, with what is not tried then, where Debian's package is not there.
+// Skips a test without Debian's `package`, at its beginning. `not_tried` names the part that is not tested.
 #define NEEDS_PROGRAM(program, package, not_tried) \
   if (!crosscheck::on_path(program)) GTEST_SKIP() << "package " package " is not installed: " not_tried
 #define NEEDS_CHROMIUM NEEDS_PROGRAM("chromium", "chromium", "the page is not tried in a browser")
@@ -19,7 +20,7 @@
 
 namespace crosscheck::testing_tools {
 
-/// Trajectory and outcome of a method, which is found by its name.
+/// Trajectory and outcome of a method that is given by its name.
 struct MethodRun {
   Trajectory trajectory;
   Outcome outcome;

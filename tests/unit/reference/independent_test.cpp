@@ -1,5 +1,5 @@
-// The right-hand side written apart: the same numbers as mysim's on every shipped scene, and a slip in any of them
-// shows.
+// Independently written right-hand side: identical to mysim's on every shipped scene, so that an error in either one is
+// detected.
 
 #include <array>
 #include <span>
@@ -15,14 +15,15 @@ namespace {
 
 using namespace testing_tools;
 
-/// Every shipped scene, its contacts left out, and two cloths with every smooth ingredient.
+/// Every shipped scene without contacts, and two cloths with every smooth ingredient.
 std::vector<Scene> smooth_scenes() {
   std::vector<Scene> scenes{small_cloth(), small_cloth_in_air()};
   for (const auto& name : shipped_scene_names()) scenes.push_back(without_contact(shipped_scene(std::string(name))));
   return scenes;
 }
 
-/// A state near the scene's start at a random time: free particles moved by a tenth of the scene, with speeds of 1 m/s.
+/// A state near the scene's initial state at a random time: free particles displaced by up to a tenth of the scene's
+/// size, with speeds of 1 m/s.
 State random_state(const Scene& scene, unsigned seed) {
   Random random(seed);
   State s = scene.start;
@@ -41,7 +42,7 @@ StateVector flat(const Scene& scene, const State& s) {
   return y;
 }
 
-/// mysim's rate of the free particles.
+/// mysim's time derivative of the free particles.
 StateVector rate_by_mysim(const Scene& scene, State s) {
   State rate = s;
   if (scene.model.find<Constraints>())
@@ -59,8 +60,8 @@ StateVector rate_apart(const Scene& scene, const State& s) {
   return rate;
 }
 
-/// What two ways of rounding may differ by, m/s^2: 16 roundings of the largest sum of magnitudes that meet in one
-/// particle. Lengths are rounded before they are subtracted, so that a spring counts with k (L + r).
+/// Allowed difference (m/s^2) of two ways of rounding: 16 roundings of the largest sum of magnitudes at one particle.
+/// Lengths are rounded before they are subtracted, so a spring contributes k (L + r).
 double round_off(const Scene& scene, const State& s) {
   const Particles& p = scene.model.particles;
   Eigen::VectorXd sum = Eigen::VectorXd::Zero(p.size());
@@ -78,7 +79,7 @@ double round_off(const Scene& scene, const State& s) {
       for (int corner : triangle) sum[corner] += air->density * air->coefficient * 100 * std::pow(scene.size(), 2);
   double largest = scene.model.first_order() ? scene.size() : 0;
   for (int i = 0; i < p.size(); ++i) largest = std::max(largest, sum[i] / p.mass[i] + 30);  // gravity, wind, drag
-  // hard distances spread a rounding over all who hang together
+  // hard distances spread rounding over all connected particles
   const auto* rods = scene.model.find<Constraints>();
   return 16 * eps * largest * (rods ? 10 * static_cast<double>(rods->list.size()) : 1);
 }
@@ -148,7 +149,7 @@ TEST(RightHandSide, ASlipInAnyIngredientShows) {
     double most = 0, allowed = 0;
     for (unsigned seed = 0; seed < 5; ++seed) {
       State s = random_state(slip.scene, seed);
-      s.t = 0.2 + 0.1 * seed;  // the hand still starts
+      s.t = 0.2 + 0.1 * seed;  // the pin's motion is still ramping up
       State placed = s;
       if (!wrong.model.first_order()) wrong.model.particles.place_pins(placed);
       most = std::max(most, apart(rate_apart(wrong, placed), rate_by_mysim(slip.scene, s)));
@@ -196,7 +197,7 @@ TEST(Integrators, OdeintsRungeKuttaIsMysims) {
     EXPECT_EQ(theirs.outcome.evaluations, 4 * theirs.outcome.steps);
     EXPECT_EQ(theirs.outcome.steps, ours.outcome.steps);
     EXPECT_EQ(ours.trajectory.t, theirs.trajectory.t);
-    // one rounding a step, some thousand steps, and a growth of at most a hundred
+    // one rounding per step, some thousand steps, and growth of at most a hundredfold
     EXPECT_LT(sup_rms(ours.trajectory, theirs.trajectory), 1e-11);
   }
 }
@@ -213,7 +214,7 @@ void expect_tolerances_followed(std::span<const char* const> names) {
       const MethodRun a = run_and_record(name, scene, {1e-3, 1, 20, tolerance});
       EXPECT_EQ(a.outcome.tolerance, tolerance);
       const double error = sup_rms(a.trajectory, fine);
-      EXPECT_LT(error, 300 * tolerance);  // tens of steps in the 5 vibrations and half swing of the run add up
+      EXPECT_LT(error, 300 * tolerance);  // sums over tens of steps in the 5 vibrations and half swing of the run
       if (before > 0) {
         EXPECT_LT(error, before / 10);
       }
@@ -264,7 +265,7 @@ TEST(Sundials, WhereItIsMissingItsMethodsAreRefusedWithThePackagesName) {
 }
 
 TEST(BulirschStoer, TakesNoSliverWhereARampEndsARoundingBesideASample) {
-  // 3 * 0.1 and its kin are not the decimal numbers of the ramps
+  // 3 * 0.1 and similar products differ from the decimal numbers of the ramps
   for (int tenths = 1; tenths < 10; ++tenths)
     for (const int samples : {10, 20, 30}) {
       SCOPED_TRACE(fmt::format("{} {}", tenths, samples));

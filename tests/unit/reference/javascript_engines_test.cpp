@@ -1,4 +1,5 @@
-// The JavaScript module for engines: its forces and motions are mysim's, and serve mode answers like single calls.
+// The JavaScript module for engines: its forces and motions agree with mysim's, and serve mode answers like single
+// calls.
 
 #include <fmt/format.h>
 
@@ -25,7 +26,7 @@ class JavaScriptEngines : public InFolder {
   static std::string engine() { return CROSSCHECK_SOURCE "/tests/unit/reference/module_engine.mjs"; }
   static crosscheck::Run short_run(const Scene& scene) { return {scene.step, 100 * scene.step, 4}; }
 
-  /// Files of an answer, without the CPU time, which no two runs share.
+  /// Files of an answer, without the CPU time, which varies between runs.
   std::string answer(const std::string& out) const {
     const std::string run = read(folder_ / out / "run.json");
     return read(folder_ / out / "trajectory.npy") + read(folder_ / out / "velocities.npy") +
@@ -51,7 +52,7 @@ TEST_F(JavaScriptEngines, ForcesAndMotionsAreThoseOfMysim) {
     const MethodRun theirs = run_and_record("exec:" + engine(), scene, short_run(scene));
     ASSERT_EQ(theirs.outcome.verdict, Verdict::ok) << theirs.outcome.reason;
     EXPECT_EQ(theirs.outcome.remark, "");
-    // sums differ in their order only: 1e-15 m, times a growth of perturbations below 1e3
+    // sums differ only in their order: 1e-15 m, times a growth of perturbations below 1e3
     EXPECT_LE(sup_distance(ours.trajectory, theirs.trajectory), 1e-12);
     for (const CertificateRow& row : certify("engine", scene, theirs.outcome).rows)
       EXPECT_EQ(row.parity, Parity::match) << row.quantity << ": " << row.read_back;
@@ -98,7 +99,7 @@ TEST_F(JavaScriptEngines, ServedAnswersEqualThoseOfSingleCalls) {
   }
   ASSERT_TRUE(std::getline(answers, line));
   EXPECT_EQ(JsonField::parse(line, "answer")["status"].whole(), 1);
-  EXPECT_FALSE(std::getline(answers, line)) << "stdout holds one line per scene: " << line;
+  EXPECT_FALSE(std::getline(answers, line)) << "expected one line per scene on stdout: " << line;
   EXPECT_TRUE(contains(read(folder_ / "served0/run.json"), "\"serves\":true"));
   EXPECT_TRUE(contains(read(folder_ / "served3/run.json"), "\"verdict\":\"solver\",\"reason\":\"option fail\""));
 }

@@ -1,4 +1,4 @@
-// Rest positions and limits of motion in closed form, which scenes are compared with.
+// Equilibria and limiting motions in closed form, for comparison with scenes.
 #pragma once
 
 #include <cmath>
@@ -12,12 +12,12 @@
 
 namespace crosscheck::testing_tools {
 
-/// Period of a rigid pendulum of length L (m) let go at the angle theta0 (rad), s: 2 pi sqrt(L/g) / agm(1,
-/// cos(theta0/2)), which is the complete elliptic integral of the first kind in Gauss's form. The limit of `pendulum`
-/// for k -> infinity.
+/// Period (s) of a rigid pendulum of length L (m) released at the angle theta0 (rad): 2 pi sqrt(L/g) / agm(1,
+/// cos(theta0/2)), Gauss's form of the complete elliptic integral of the first kind. The limit of `pendulum` for k ->
+/// infinity.
 inline double rigid_pendulum_period(double length, double gravity, double theta0) {
   double a = 1, b = std::cos(theta0 / 2);
-  while (std::abs(a - b) > 1e-15 * a) {  // quadratic convergence: four or five turns
+  while (std::abs(a - b) > 1e-15 * a) {  // quadratic convergence: four or five iterations
     const double mean = (a + b) / 2;
     b = std::sqrt(a * b);
     a = mean;
@@ -25,9 +25,8 @@ inline double rigid_pendulum_period(double length, double gravity, double theta0
   return 2 * std::numbers::pi * std::sqrt(length / gravity) / a;
 }
 
-/// The rest positions of a tree of Hooke's springs below its one pin, under gravity and steady wind (3 x n, m): each
-/// spring is longer by the weight that it carries over its stiffness. It need not start there. Nothing for other
-/// scenes.
+/// Equilibrium (3 x n, m) of a tree of Hooke springs below a single pin, under gravity and steady wind: each spring is
+/// extended by its load over its stiffness. The scene need not start there. Returns nothing for other scenes.
 inline std::optional<Points> hanging_equilibrium(const Scene& scene) {
   const Model& model = scene.model;
   const Particles& particles = model.particles;
@@ -41,8 +40,8 @@ inline std::optional<Points> hanging_equilibrium(const Scene& scene) {
   std::vector<std::vector<const Spring*>> at(n);
   for (const Spring& s : springs->list) at[s.a].push_back(&s), at[s.b].push_back(&s);
 
-  // from the pin downwards: what a particle carries, itself included; as many springs as free particles reach each of
-  // them once, or there is a loop and a particle is not reached
+  // Load of each particle, including its own weight, from the pin downwards. The number of springs equals the number of
+  // free particles, so each is reached once unless there is a loop, which leaves a particle unreached.
   std::vector<char> reached(n, 0);
   std::vector<double> carried(n, 0);  // kg
   std::vector<std::pair<const Spring*, int>> order;
@@ -67,22 +66,22 @@ inline std::optional<Points> hanging_equilibrium(const Scene& scene) {
   return x;
 }
 
-/// The limit of the motion as its amplitude goes to 0: no exact solution of any scene with springs off a line, and
-/// never given as one.
+/// The limit of the motion as its amplitude tends to 0. This is not an exact solution of a scene with springs off a
+/// line, and is never claimed as one.
 struct LinearisedSolution {
-  std::vector<double> omega;          // rad/s, of the vibrations, rising
+  std::vector<double> omega;          // rad/s, of the vibrations, ascending
   std::function<State(double t)> at;  // s -> state
 };
 
-/// The small motion of Hooke's springs under gravity, steady wind and one drag rate about an equilibrium (3 x n, m)
-/// that is near the start. Nothing where the given positions are no equilibrium, where it is not stable (a cloth that
-/// is not stretched has no stiffness out of its plane, one that is pressed buckles), and for other scenes.
+/// Small motion of Hooke springs under gravity, steady wind and one drag rate about an equilibrium (3 x n, m) near the
+/// initial state. Returns nothing if the given positions are no equilibrium, for an unstable one (an unstretched cloth
+/// has no transverse stiffness, and a compressed one buckles), and for other scenes.
 ///
-/// The terms left out begin with the square of the amplitude a. A flat cloth that moves out of its plane
-/// is symmetric in up and down: out of the plane the deviation over a falls as a^2, in the plane (where nothing moves
-/// to first order) as a. Motion in the plane is off by a to first order. A cloth of 6 x 6 particles held along its edge
-/// of 1 m, stretched by a tenth and let go in its first bump, is 1 % off within three periods from an amplitude of 11
-/// mm out of the plane, 8.8 mm in it.
+/// Neglected terms start with the square of the amplitude a. A flat cloth that moves out of its plane is symmetric in
+/// up and down. Out of the plane, the deviation over a decreases as a^2. In the plane, where nothing moves to first
+/// order, it decreases as a. Motion in the plane has a relative error of first order in a.
+/// A cloth of 6 x 6 particles, held along its edge of 1 m, stretched by a tenth and released in its first bump,
+/// deviates by 1 % within three periods from an amplitude of 11 mm out of the plane, or 8.8 mm in it.
 inline std::optional<LinearisedSolution> linearised_solution(const Scene& scene, const Points& equilibrium) {
   const Model& model = scene.model;
   const Particles& particles = model.particles;
@@ -93,7 +92,7 @@ inline std::optional<LinearisedSolution> linearised_solution(const Scene& scene,
       !has_only<Springs, Gravity, Wind, Drag>(model))
     return std::nullopt;
 
-  // each spring is stiff by k along itself, and by tension over length across
+  // each spring has stiffness k along its axis, and tension over length across it
   const int n = particles.size();
   Eigen::MatrixXd k = Eigen::MatrixXd::Zero(3 * n, 3 * n);
   Points force = *a * particles.mass.transpose();
@@ -112,7 +111,7 @@ inline std::optional<LinearisedSolution> linearised_solution(const Scene& scene,
     stiffness = std::max(stiffness, s.k);
   }
   for (int pin : particles.pins) force.col(pin).setZero();
-  // an equilibrium, but for the rounding of what was written
+  // check for an equilibrium, up to the rounding of the written values
   if (!(largest_column(force) <= 1e-10 * stiffness * scene.size())) return std::nullopt;
 
   std::vector<int> free;  // coordinates

@@ -1,4 +1,4 @@
-// Unit tests of crosscheck_engine.mjs: exits with 0 if all hold, else with the first assertion that does not.
+// Unit tests of crosscheck_engine.mjs. Exits with 0 if all assertions hold, otherwise stops at the first failure.
 import assert from 'node:assert/strict';
 import { motionAt, Scene } from '../../../reference/protocol/crosscheck_engine.mjs';
 
@@ -8,7 +8,7 @@ function sceneOf({ x, pinned = x.map(() => 0), terms = [], options = [], pins })
   return new Scene({ run, particles, terms, options, pins, size: 1 });
 }
 
-// a motion's velocity and acceleration are its derivatives, in the ramp and after it
+// velocity and acceleration of a motion are its derivatives, during the ramp and after it
 const motion = { amplitude: [0.3, -0.2, 0.1], frequency: 0.7, ramp: 1.5 }, d = 1e-5;  // m, Hz, s, s
 for (const t of [0, 0.2, 0.75, 1.4, 1.6, 3]) {
   const [before, now, after] = [t - d, t, t + d].map((time) => motionAt(motion, time));
@@ -19,7 +19,7 @@ for (const t of [0, 0.2, 0.75, 1.4, 1.6, 3]) {
 }
 assert.deepEqual(motionAt(undefined, 1).velocity, [0, 0, 0]);
 
-// springs: a tension of k (L - r), none where the ends coincide, which is counted; bullet-link's law
+// springs: tension k (L - r), no force for coincident ends, which are counted; the bullet-link law
 const x = [[0, 0, 0], [0, 2, 0], [0, 2, 0]], f = new Float64Array(9);
 const list = [{ a: 0, b: 1, stiffness: 10, rest_length: 1.5 }, { a: 1, b: 2, stiffness: 10, rest_length: 1 }];
 const hooke = sceneOf({ x, terms: [{ type: 'springs', law: 'hooke', list }] });
@@ -29,7 +29,7 @@ const link = sceneOf({ x, terms: [{ type: 'springs', law: 'bullet-link', list: l
 link.addSpringForces(link.x, g);
 assert(Math.abs(g[1] - (10 * 2 * (4 - 2.25)) / (4 + 2.25)) < 1e-14);
 
-// options: defaults, values, and refusals that say what is expected
+// options: defaults, values, and refusals that name the expected values
 const asked = sceneOf({ x, options: ['n=3', 'rule=b', 'm=2.5', 'fast'] });
 assert.equal(asked.option('n', 1), 3);
 assert.equal(asked.option('rule', ['a', 'b']), 'b');
@@ -38,13 +38,13 @@ assert.equal(asked.option('other', ['c', 'd']), 'c');
 assert.throws(() => asked.requireKnownOptions(), /unknown option fast: expected n=NUMBER .* or rule=a\|b/);
 assert.throws(() => sceneOf({ x, options: ['rule=e'] }).option('rule', ['a', 'b']), /rule=e: expected a or b/);
 
-// moved pins, and obstacles that move
+// moving pins and obstacles
 const led = sceneOf({ x, pinned: [1, 0, 0], pins: { particles: [0], home: [[0, 0, 0]], motion } });
 assert.deepEqual(led.pinsAt(2)[0].x, motionAt(motion, 2).displacement);
 const plane = { point: [0, 1, 0], normal: [0, 1, 0], velocity: [0, 2, 0] };
 assert.deepEqual(led.obstacleAt(plane, 3, 0.5), [0, 7.5, 0]);
 assert.deepEqual(led.obstacleAt({ centre: [1, 1, 1] }, 3), [1, 1, 1]);
 
-// drag as one number
+// drag as a single number
 assert.throws(() => sceneOf({ x, terms: [{ type: 'drag', coefficient: [1, 1, 1] }] }).oneDamping('differs'), /differs/);
 assert.equal(sceneOf({ x, terms: [{ type: 'drag', coefficient: [2, 4, 6] }] }).oneDamping('differs'), 2);

@@ -1,4 +1,4 @@
-// Scenes with one thing changed: what the parity certificate has to find.
+// Scenes with a single change each, which the parity certificate must detect.
 #pragma once
 
 #include <functional>
@@ -48,7 +48,7 @@ inline void add_pin(Scene& s) {
 struct Mutation {
   std::string what;
   std::function<void(Scene&)> mutate;
-  std::set<std::string> quantities;  // that may show it: rows of the certificate, by the beginning of their name
+  std::set<std::string> quantities;  // rows of the certificate that may show it, by prefix
   std::set<std::string> blind = {};  // worlds that cannot report it
 };
 

@@ -23,7 +23,7 @@ TEST(Orders, OnCircleAgainstTheExactSolution) {
   for (const Stepper& s : fixed_steppers()) {
     if (!s.first_order) continue;
     SCOPED_TRACE(s.name);
-    // the next term of the error changes the slope by about h omega: at most 0.04 here, 0.1 with room
+    // The next error term changes the slope by about h omega: at most 0.04 here, with a bound of 0.1.
     const double h = s.order == 1 ? 0.002 : s.order == 2 ? 0.02 : 0.1;
     EXPECT_NEAR(measured_order(s, scene, truth, h, run), s.order, 0.1);
   }
@@ -43,9 +43,9 @@ TEST(Orders, OnPendulumPlainDampedAndMovedByHand) {
     const Trajectory truth = trajectory_of(stepper("rk4"), c.scene, {0.005 / omega, run.duration, run.samples});
     for (const Stepper& s : fixed_steppers()) {
       SCOPED_TRACE(c.name + ", " + std::string(s.name));
-      ASSERT_LT(h_omega_for(s.order), 0.6);  // above it rk4 does not show its order (facts/scenes.md, section 4)
-      // the next term of the error is smaller by h omega (0.3 at most: it bends the slope by half of that), and
-      // amplitude growth (h omega^2 t / 2) bends order 1 by 0.05
+      ASSERT_LT(h_omega_for(s.order), 0.6);  // above it rk4 does not show its order (2.8 to 3.2 at 1.2)
+      // The next error term is smaller by h omega (at most 0.3, which changes the slope by half of that). Amplitude
+      // growth (h omega^2 t / 2) changes order 1 by 0.05.
       const double order = measured_order(s, c.scene, truth, h_omega_for(s.order) / omega, run);
       fmt::print("pendulum, {:18} {:18} order {:.3f}\n", c.name, s.name, order);
       EXPECT_NEAR(order, s.order, s.order > 4 ? 0.2 : 0.1);
@@ -55,7 +55,7 @@ TEST(Orders, OnPendulumPlainDampedAndMovedByHand) {
 
 TEST(Orders, SurviveDashpotsAirAndPinsMovedByHand) {
   const Scene scene = small_cloth_in_air();
-  const crosscheck::Run run{0, 0.25, 5};  // the ramp ends with it: its third derivative jumps there
+  const crosscheck::Run run{0, 0.25, 5};  // the ramp ends then: its third derivative jumps there
   const Trajectory truth = trajectory_of(stepper("rk4"), scene, {6.25e-5, run.duration, run.samples});
   for (const Stepper& s : fixed_steppers()) {
     SCOPED_TRACE(s.name);
@@ -63,7 +63,7 @@ TEST(Orders, SurviveDashpotsAirAndPinsMovedByHand) {
     const double h = s.order == 1 ? 1e-4 : s.order == 2 ? 2.5e-4 : 1.25e-3;
     const double order = measured_order(s, scene, truth, h, run);
     fmt::print("cloth in air, {:18} order {:.3f}\n", s.name, order);
-    EXPECT_NEAR(order, s.order, 0.25);  // the next term is h omega of the leading one
+    EXPECT_NEAR(order, s.order, 0.25);  // the next term is smaller by h omega
   }
 }
 
@@ -81,8 +81,8 @@ TEST(Adaptive, ErrorFollowsTheToleranceOverSixDecades) {
   for (const auto name : {"pendulum", "chain"}) {
     const Scene scene = with_drag(without_drag(shipped_scene(name)), 1);
     const int samples = 20;
-    // 1700 steps and more in a turn of the fastest spring: off by (2 pi / 1700)^4 / 120 of a vibration of 0.01 m in
-    // each radian, 3e-12 m in 180 of them
+    // At least 1700 steps per period of the fastest spring: an error of (2 pi / 1700)^4 / 120 times a vibration of 0.01
+    // m per radian, 3e-12 m in 180 radians.
     const Trajectory truth = trajectory_of(stepper("rk4"), scene, {2e-5, 1, samples});
     for (const Stepper& s : adaptive_steppers()) {
       double before = INFINITY, first = 0, last = 0;
@@ -93,14 +93,15 @@ TEST(Adaptive, ErrorFollowsTheToleranceOverSixDecades) {
         const double error = sup_rms(r.trajectory, truth);
         fmt::print("{:9} {} tolerance {:.0e} error {:.2e} m, mean step {:.2e} s\n", name, s.name, tolerance, error,
                    out.step);
-        EXPECT_LT(error, 10 * tolerance * scene.size());  // a second is some ten turns of the slow motion
+        EXPECT_LT(error, 10 * tolerance * scene.size());  // a second is about ten periods of the slow motion
         EXPECT_LT(error, before) << tolerance;
         before = error;
         if (decade == 5) first = error;
         last = error;
       }
-      // errors per step of R add up to R^(p/(p+1)) to R at the end, 0.83 to 1 at p = 5. From 1e-5 on: at 1e-4 the
-      // chain's steps are at the edge of stability (h omega = 2 in the mean), where the error sits at the tolerance
+      // Errors per step of R accumulate to between R^(p/(p+1)) and R, an exponent of 0.83 to 1 at p = 5. Start at 1e-5:
+      // at 1e-4 the chain's steps are at the edge of stability (mean h omega = 2), where the error stays at the
+      // tolerance.
       const double decades = std::log10(first / last) / 5;
       EXPECT_GT(decades, 0.7) << name;
       EXPECT_LT(decades, 1.3) << name;
@@ -118,7 +119,7 @@ TEST(Adaptive, StatesBetweenStepsAreAsGoodAsAtTheirEnds) {
         const Trajectory truth = trajectory_of(stepper("rk4"), scene, {5e-5, 1, samples});
         error[many] = sup_rms(trajectory_of(s, scene, {1e-3, 1, samples, tolerance}), truth);
       }
-      // the interpolant's own error is one order lower than the step's, with a small constant
+      // The interpolant's error is one order lower than the step's, with a small constant.
       EXPECT_LT(error[1], 3 * error[0]) << tolerance;
     }
 }
@@ -131,7 +132,7 @@ TEST(Adaptive, SamplesDoNotChangeTheSteps) {
     const Outcome b = simulate(s, ContactRule::coulomb, scene, {1e-3, 1, 1000, 1e-6}, many);
     EXPECT_EQ(a.evaluations, b.evaluations);
     EXPECT_EQ(a.steps, b.steps);
-    // the same polynomial evaluated at the same time, but for the rounding of the time
+    // the same polynomial evaluated at the same time, up to the rounding of the time
     EXPECT_LT((few.trajectory.x.back() - many.trajectory.x.back()).cwiseAbs().maxCoeff(), 1e-13);
   }
 }
@@ -148,7 +149,7 @@ TEST(Adaptive, ARunTellsItsToleranceStepsAndMeanStep) {
       EXPECT_DOUBLE_EQ(out.end, 2);
       EXPECT_DOUBLE_EQ(out.step, 2.0 / static_cast<double>(out.steps));
       EXPECT_GT(out.steps, before);
-      EXPECT_GE(out.evaluations, s.evaluations * out.steps + 1);  // and those of rejected steps
+      EXPECT_GE(out.evaluations, s.evaluations * out.steps + 1);  // plus those of rejected steps
       EXPECT_LT(out.evaluations, 2 * s.evaluations * out.steps + 60);
       before = out.steps;
     }
@@ -164,13 +165,13 @@ TEST(Adaptive, StepsGrowWithTheFifthRootOfTheTolerance) {
       Recorder r;
       return double(simulate(s, ContactRule::coulomb, scene, {1e-3, 4, 10, tolerance}, r).steps);
     };
-    // the estimate of a step is of order h^5: ten times as many steps for 1e5; swings mix slow and fast parts
+    // The estimate of a step is of order h^5, so 1e5 needs ten times as many steps. Swings mix slow and fast parts.
     EXPECT_NEAR(std::log10(steps(1e-10) / steps(1e-5)), 1, 0.15);
   }
 }
 
 TEST(Adaptive, AStepBelowRoundOffIsASolverFailureAndARow) {
-  // a force that no step is short enough for
+  // a force for which no step is short enough
   const Scene scene = small_scene(
       "[[particle]]\nposition = [0, 0, 0]\nmass = 1\n[[particle]]\nposition = [2, 0, 0]\nmass = 1\n"
       "[[spring]]\nends = [0, 1]\nstiffness = 1e300\nrest = 1\n[pins]\nparticles = [0]\n");
@@ -198,7 +199,8 @@ TEST(Adaptive, BesideASphereNoStepIsLongerThanTheRunsStep) {
 }
 
 TEST(Adaptive, EveryContactOnTheWayToAStateIsInTheLedger) {
-  // two particles on a stiff spring slide down a ball; many steps of theirs fit one of the run's, and each touches
+  // Two particles on a stiff spring slide down a ball. Many internal steps fit into one step of the run, and each has
+  // contact.
   const Scene scene = small_scene(
       "[[particle]]\nposition = [0.1, 1.05, 0]\nmass = 1\n[[particle]]\nposition = [0.3, 1.05, 0]\nmass = 1\n"
       "[[spring]]\nends = [0, 1]\nstiffness = 4000\nrest = 0.2\n" +
@@ -210,13 +212,14 @@ TEST(Adaptive, EveryContactOnTheWayToAStateIsInTheLedger) {
       run.tolerance = tolerance;
       const Outcome out = simulate(s, ContactRule::coulomb, scene, run, ledger);
       ASSERT_EQ(out.verdict, Verdict::ok);
-      ASSERT_GT(out.steps, 3 * 50) << "several to a step of the run";
+      ASSERT_GT(out.steps, 3 * 50) << "expected several internal steps per step of the run";
       const auto& rows = ledger.rows();
-      ASSERT_GT(rows.back().contact, 0.1) << "friction took something";
-      // nothing else is lost: what does not add up is the error of some hundred steps, each below the tolerance of the
-      // 20 J that the fall turns over, and that of the contact rule, which in each step puts a particle back by a h^2 /
-      // 2 (a = g cos theta - v^2 / R presses it on) and takes m (a h)^2 / 2: too little by m h^2 a (v^2 / R) / 2. On
-      // the way down from rest a v^2 / R is g^2 / 6 at most: g^2 h / 6 for two kilograms in a second
+      ASSERT_GT(rows.back().contact, 0.1) << "friction must dissipate energy";
+      // No other losses: the imbalance is the error of a few hundred steps, plus the error of the contact rule. Each
+      // step's error is below the tolerance times the 20 J that the fall converts.
+      // In each step the contact rule moves a particle back by a h^2 / 2, where a = g cos theta - v^2 / R presses it
+      // on, and takes m (a h)^2 / 2. This is too little by m h^2 a (v^2 / R) / 2. On the way down from rest a v^2 / R
+      // is at most g^2 / 6: g^2 h / 6 for two kilograms in a second.
       const double rule = 9.81 * 9.81 / 6 * out.step;
       fmt::print("{} tolerance {:.0e}: contact took {:.4g} J, open {:.2g} J, the rule's {:.2g} J\n", s.name, tolerance,
                  rows.back().contact, rows.back().balance() - rows.front().balance(), rule);

@@ -1,5 +1,5 @@
-// Numbers of scenes in other engines: there and back within the stated error, against values known from elsewhere, and
-// the messages of files that hold something else.
+// Scene parameters in other engines: round trips within the stated error, comparison with known values, and messages
+// for invalid files.
 
 #include "reference/parameters/parameters.h"
 
@@ -25,11 +25,11 @@ constexpr const char* targets[] = {"mysim/leapfrog",
                                    "mujoco",
                                    "godot"};
 
-// every kind of scene: single springs, a chain under another law, cloths, a block with dashpots on a ball, hard lengths
+// every kind of scene: single springs, a chain with another law, cloths, a block with dashpots on a ball, hard lengths
 constexpr const char* twelve[] = {"spring",      "normal-modes", "pendulum",   "chain", "chain-link",    "cloth-hang",
                                   "cloth-stiff", "cloth-swing",  "cloth-wind", "jelly", "cloth-carried", "flag"};
 
-/// All numbers of a scene, compared with those of another.
+/// Compares all numbers of a scene with those of another.
 void expect_within(const Scene& back, const Scene& scene, const Translation& t) {
   for (const TranslatedNumber& number : t.numbers) {
     const auto was = values_of(scene, number.rule->quantity), is = values_of(back, number.rule->quantity);
@@ -40,7 +40,7 @@ void expect_within(const Scene& back, const Scene& scene, const Translation& t) 
   }
 }
 
-/// The largest k h^2 / mu of its springs at its own step.
+/// Largest k h^2 / mu of the springs at the scene's own step.
 double largest_K(const Scene& scene) {
   double most = 0;
   for (const Spring& s : scene.model.find<Springs>()->list)
@@ -57,15 +57,15 @@ TEST(Translation, OfTwelveScenesThereAndBackIsWithinTheStatedError) {
       const Translation t = translate(scene, target, scene.step);
       EXPECT_GE(t.numbers.size(), 2u);
       expect_within(t.back, scene, t);
-      // and by way of a file
+      // and through a file
       const NumbersFile file = read_numbers(numbers_toml(scene, t), "numbers.toml", scene, target, 0);
       EXPECT_EQ(file.h, t.h);
       EXPECT_EQ(file.iterations, target.iterations);
       expect_within(scene_of(scene, *target.numbers, file), scene, t);
       for (const TranslatedNumber& number : t.numbers) {
-        if (number.rule->gather == NumberRule::Gather::median) continue;  // one slider for all springs: not one to one
-        // one to one: round-off of the precision, of links at most 2 + k h^2 / mu times as much, of frequencies, which
-        // are squared beside masses that come back rounded, three times
+        if (number.rule->gather == NumberRule::Gather::median) continue;  // one slider for all springs: not one-to-one
+        // One-to-one: round-off of the precision; for links up to 2 + k h^2 / mu times as much; three times for
+        // frequencies, which are squared and combined with rounded masses.
         const double rounding = 0.5 * (target.single_precision ? 1.2e-7 : eps) + 8 * eps;
         EXPECT_LE(number.stated, (1 + 1e-9) * rounding * (3 + largest_K(scene))) << name_of(number.rule->quantity);
       }
@@ -74,7 +74,8 @@ TEST(Translation, OfTwelveScenesThereAndBackIsWithinTheStatedError) {
 }
 
 TEST(Translation, StatedErrorIsReached) {
-  // the test above would pass with any bound that is large enough: single precision uses up a hundredth of it at least
+  // The test above would pass with any sufficiently large bound. Single precision must use up at least a hundredth of
+  // it.
   const Scene scene = shipped_scene("cloth-hang");
   for (const char* to : {"bullet32/pbd+n=4", "jolt"}) {
     const Translation t = translate(scene, find_target(to, 0), scene.step);
@@ -88,7 +89,7 @@ TEST(Translation, StatedErrorIsReached) {
   }
 }
 
-/// Two particles of 1 kg, the first of them pinned where `mu` is 1 kg, on a spring.
+/// Two particles of 1 kg on a spring. If the first one is pinned, `mu` is 1 kg.
 Scene one_spring(double k, bool pinned, const std::string& more = "") {
   return small_scene(
       fmt::format("[[particle]]\nposition = [0, 0, 0]\nmass = 1\n[[particle]]\nposition = [0, -1, 0]\n"
@@ -104,7 +105,7 @@ double engine_number(const Translation& t, SceneNumber quantity) {
 }
 
 TEST(Translation, OfALinkHasTheMeasuredValues) {
-  // measured once from sags of a mass on one link of Bullet: mu = 1 kg, N/m to five digits, kLST to as many
+  // Measured once from the sag of a mass on one link of Bullet: mu = 1 kg, N/m to five digits, kLST to as many.
   struct Case {
     double kLST, h;
     int n;
@@ -121,8 +122,8 @@ TEST(Translation, OfALinkHasTheMeasuredValues) {
     EXPECT_NEAR(engine_number(t, SceneNumber::stiffness), c.kLST, 3e-5 * c.kLST) << c.k;
     const Translation sliders = translate(scene, find_target("godot", c.n), c.h);
     EXPECT_NEAR(engine_number(sliders, SceneNumber::stiffness), c.kLST, 3e-5 * c.kLST);
-    EXPECT_EQ(engine_number(sliders, SceneNumber::mass), 2) << "all particles, the pin among them";
-    // two free ends: half the reduced mass, so that half the stiffness has the same share
+    EXPECT_EQ(engine_number(sliders, SceneNumber::mass), 2) << "all particles, including the pin";
+    // Two free ends have half the reduced mass, so half the stiffness gives the same share.
     const Translation free = translate(one_spring(c.k / 2, false), t.target, c.h);
     EXPECT_NEAR(engine_number(free, SceneNumber::stiffness), c.kLST, 3e-5 * c.kLST);
   }
@@ -132,13 +133,13 @@ TEST(Translation, ToSoftConstraintsIsFrequencyAndDampingRatioAtTheReducedMass) {
   const double k = 250, h = 0.01, gamma = 2;
   for (const bool held : {true, false}) {
     const Scene scene = one_spring(k, held, "[drag]\ngamma = 2\n");
-    double inverse = 0;  // the pin counts as infinite mass
+    double inverse = 0;  // pins count as infinite mass
     for (int i = 0; i < scene.model.particles.size(); ++i)
       if (!scene.model.particles.pinned[i]) inverse += 1 / scene.model.particles.mass[i];
     for (const char* to : {"rapier", "box3d"}) {
       const Translation t = translate(scene, find_target(to, 0), h);
       EXPECT_NEAR(engine_number(t, SceneNumber::stiffness), std::sqrt(k * inverse) / (2 * M_PI), 1e-6) << to;
-      // four sub-steps that each divide the velocity leave exp(-gamma h) of it
+      // four sub-steps that each divide the velocity must leave a factor of exp(-gamma h)
       const double damping = engine_number(t, SceneNumber::drag);
       EXPECT_NEAR(std::pow(1 + damping * h / 4, -4), std::exp(-gamma * h), 1e-7) << to;
     }
@@ -156,7 +157,7 @@ TEST(Translation, OfOtherNumbersIsTheFormulas) {
   EXPECT_DOUBLE_EQ(engine_number(in("bullet/deformable-implicit"), SceneNumber::stiffness), 250);
   EXPECT_DOUBLE_EQ(engine_number(in("mysim/xpbd"), SceneNumber::stiffness), 0.004);
   EXPECT_DOUBLE_EQ(engine_number(in("mysim/xpbd"), SceneNumber::dashpot), 0.5);
-  // sub-steps of 1 ms, each of which leaves 1 - 1e-3 value: ten of them leave exp(-0.02)
+  // Sub-steps of 1 ms, each with a factor of 1 - 1e-3 value: ten of them must give exp(-0.02).
   const Translation jolt = in("jolt+n=10");
   EXPECT_NEAR(std::pow(1 - 1e-3 * engine_number(jolt, SceneNumber::drag), 10), std::exp(-0.02), 1e-7);
   EXPECT_FLOAT_EQ(engine_number(jolt, SceneNumber::stiffness), 0.004);
@@ -166,7 +167,7 @@ TEST(Translation, OfOtherNumbersIsTheFormulas) {
 }
 
 TEST(Translation, IsWhatTheWorldsHold) {
-  // what Bullet's position-based world says of itself after a step, in N/m by its own formula
+  // stiffness (N/m) that Bullet's position-based world reports after a step, by its own formula
   const Scene scene = shipped_scene("cloth-hang");
   const Translation t = translate(scene, find_target("bullet/pbd+n=4", 0), scene.step);
   const Outcome out = run_and_record("bullet/pbd+n=4", t.back, {scene.step, scene.step, 1}).outcome;
@@ -177,7 +178,7 @@ TEST(Translation, IsWhatTheWorldsHold) {
 }
 
 TEST(Translation, OneSliderForManySpringsSaysWhatItCosts) {
-  // links to a pin have twice the reduced mass: at one kLST twice the stiffness
+  // Links to a pin have twice the reduced mass, so the same kLST means twice the stiffness.
   const Scene scene = shipped_scene("chain");
   const Translation t = translate(scene, find_target("godot", 0), scene.step);
   for (const TranslatedNumber& number : t.numbers)
@@ -207,11 +208,11 @@ TEST(Translation, SaysWhatHasNoNumber) {
   EXPECT_NE(refusal(uneven, "godot", 0.01).find("damping_coefficient for the whole body"), std::string::npos);
   EXPECT_EQ(refusal(uneven, "mysim/xpbd", 0.01), "");
   EXPECT_NE(refusal(shipped_scene("circle"), "bullet/pbd", 0.01).find("first-order"), std::string::npos);
-  // a drag that would stop all in a step
+  // drag that would stop all motion in one step
   EXPECT_NE(refusal(one_spring(1, true, "[drag]\ngamma = 200\n"), "bullet/deformable-explicit", 0.01)
                 .find("drag = 2; expected a number from 0 to below 1"),
             std::string::npos);
-  // a link that no float can tell from a rigid one
+  // a link indistinguishable from a rigid one in single precision
   EXPECT_NE(refusal(one_spring(1e12, true), "bullet32/pbd", 0.01).find("in single precision"), std::string::npos);
 }
 
@@ -292,7 +293,7 @@ TEST(NumbersFile, TheCommandsStepAndIterationsCountMore) {
 TEST(SceneFile, HoldsWhatComesBack) {
   for (const char* name : {"chain", "cloth-hang", "jelly", "cloth-carried"}) {
     const Scene scene = shipped_scene(name);
-    // nothing changed but for rounding: the same scene, to the last bit
+    // round trip without changes: the same scene bit for bit
     const Translation t = translate(scene, find_target("bullet/pbd", 0), scene.step);
     EXPECT_EQ(parse_scene(scene_toml(scene, t.back, 1e-12), "again").hash, scene.hash) << name;
     // every number changed

@@ -1,5 +1,5 @@
-// Planes: closed forms against their own laws, the event-driven route and located events against them, Bullet's worlds
-// beside them, and what the certificate and the protocol say of planes.
+// Planes: closed forms against their own laws, the event-driven route and located events against closed forms,
+// comparison with Bullet's worlds, and planes in the certificate and the protocol.
 
 #include <Eigen/Geometry>
 #include <functional>
@@ -104,7 +104,8 @@ TEST(BetweenPlanes, ApicesAndPeriodsAreThoseOfABall) {
 }
 
 TEST(BetweenPlanes, FrictionAtImpactsAndEndlessBouncesFollowsCoulomb) {
-  // each of the impacts u e^k takes mu (1 + e) u e^k of the speed along the plane, until it lies and slides to a stop
+  // Each of the impacts u e^k removes mu (1 + e) u e^k of the tangential speed, until the particle rests and slides to
+  // a stop.
   const double e = 0.5, mu = 0.1, u = std::sqrt(2 * g * 0.2), fall = u / g, end = fall * (1 + e) / (1 - e);
   const Scene scene = slope(0, mu, e, 0.2, 2, 3);
   const auto exact = exact_solution(scene);
@@ -122,7 +123,7 @@ TEST(BetweenPlanes, OtherScenesAreRefused) {
   for (const std::string& more : {floor + slanted + gravity_text, floor + gravity_text + "[drag]\ngamma = 1\n",
                                   plane_text(Vec3::Zero(), Vec3::UnitY(), rough) +
                                       plane_text(Vec3(-9, 0, 0), Vec3::UnitX(), rough) + gravity_text,
-                                  // across the fall of a rough slope: a curve without a closed form
+                                  // across the fall line of a rough slope: a curve without a closed form
                                   plane_text(Vec3::Zero(), Vec3(-0.6, 0.8, 0), rough) + gravity_text})
     EXPECT_FALSE(exact_solution(particle({0.01, 1, 0}, {0, 0, 1}, more))) << more;
 }
@@ -156,11 +157,11 @@ TEST(EventDriven, OnPlanesIsWhatClosedFormsSay) {
     try {
       run_event_driven(scene, {1e-3, scene.duration, 50, 1e-12}, r);
     } catch (const Unsupported& e) {
-      EXPECT_TRUE(name.starts_with("corner")) << e.what();  // it knows rest between several surfaces only
+      EXPECT_TRUE(name.starts_with("corner")) << e.what();  // it supports only rest between several surfaces
     }
     EXPECT_GT(r.trajectory.frames(), name.starts_with("corner") ? 0 : 50);
     for (int i = 0; i < r.trajectory.frames(); ++i)
-      // tolerance 1e-12 of some metres in each of a thousand steps
+      // a tolerance of 1e-12 of some metres in each of a thousand steps
       EXPECT_LT((r.trajectory.x[i] - exact->at(r.trajectory.t[i]).x).norm(), 1e-9) << i;
   }
 }
@@ -177,15 +178,15 @@ TEST(ContactEvents, OnFixedPlanesUnderConstantForcesMakesRoundingsOnly) {
         double worst = 0;
         for (int i = 0; i < r.trajectory.frames(); ++i)
           worst = std::max(worst, (r.trajectory.x[i] - exact->at(r.trajectory.t[i]).x).norm());
-        // a rebound that is back within a step is left out: of e = 0.5 to 0.9 a height of g h^2 / 8 and its friction;
-        // implicit rules leave 1e-10 of the force m v / h
+        // Rebounds within a step are ignored: for e = 0.5 to 0.9 a height of g h^2 / 8 and its friction. Implicit rules
+        // leave 1e-10 of the force m v / h.
         const bool ends_in_rest = contains(name, "bounces") || contains(name, "returns") || name == "lift";
         EXPECT_LT(worst, 1e-11 + (ends_in_rest ? g * h * h : 0) + (std::string(rule) == "leapfrog" ? 0 : 1e-6));
       }
 }
 
 TEST(ContactEvents, OnFixedPlanesIsOfOrderTwo) {
-  // a spring across the slope and drag: forces that change
+  // a spring across the slope, and drag: forces that vary
   const Vec3 n(-0.6, 0.8, 0), along(0.8, 0.6, 0);
   const auto scene_of = [&](double friction, double restitution, double height) {
     return small_scene(
@@ -204,7 +205,7 @@ TEST(ContactEvents, OnFixedPlanesIsOfOrderTwo) {
     ASSERT_EQ(truth.trajectory.frames(), 21);
     for (const char* rule : {"leapfrog", "implicit-midpoint"}) {
       SCOPED_TRACE(fmt::format("{} {} {}", rule, friction, restitution));
-      // the trend over three halvings: events fall anywhere in a step, which scatters single ones
+      // Use the trend over four halvings, because events fall anywhere in a step, which scatters single orders.
       const auto error = [&](double h) {
         Recorder r;
         simulate(stepper(rule), ContactRule::events, scene, {h, 1, 20, 1e-10}, r);
@@ -224,7 +225,7 @@ TEST(Truth, OfARoughCornerEndsWhereItIsReachedOrIsMarkedAsAContactModel) {
                                    plane_text(Vec3::Zero(), Vec3(-0.5, 1, 0).normalized(), rough) + gravity_text);
   const auto truth = truth_of(scene, default_run(scene));
   ASSERT_TRUE(truth);
-  // it slides into the corner at 0.27 s, and from one slope to the other until it lies there, before 0.5 s
+  // It slides into the corner at 0.27 s, then alternates between the slopes until it rests there, before 0.5 s.
   EXPECT_TRUE(truth->under_contact_rule || truth->until < 0.5);
   const auto closed = truth_of(corner(3), default_run(corner(3)));
   ASSERT_TRUE(closed);
@@ -264,7 +265,7 @@ TEST(BulletOnPlanes, HoldsAndSlidesAtCoulombsAngleAndDiffersFromOursByRoundings)
 }
 
 TEST(BulletOnPlanes, HoldsWhatSlidesFarOverAFaceThatIsNearlyAlongAnAxis) {
-  // a turn that Bullet was not told of showed where the face of the unturned cube ends: beside the particle
+  // If Bullet does not know the rotation, the face of the unrotated cube ends next to the particle.
   for (const Vec3& direction : {Vec3(0.09, -0.98, 0.2), Vec3(0.03, -1, 0.02), Vec3(0.1, 0.1, 0.99)}) {
     const Vec3 n = direction.normalized();
     int axis = 0;
@@ -278,7 +279,7 @@ TEST(BulletOnPlanes, HoldsWhatSlidesFarOverAFaceThatIsNearlyAlongAnAxis) {
       SCOPED_TRACE(fmt::format("{} {}", method, list(n)));
       const MethodRun run = run_and_record(method, scene, default_run(scene));
       ASSERT_EQ(run.outcome.verdict, Verdict::ok) << run.outcome.reason;
-      // a node that lies on the face by rounding is found one step later: it falls by g h^2 at most
+      // Rounding may delay contact of a node on the face by one step: it falls by at most g h^2.
       for (const Points& x : run.trajectory.x) EXPECT_GT(x.col(0).dot(n), 0.02 - g * 1e-6);
       EXPECT_GT(run.trajectory.x.back().col(0).dot(along), 2);
     }

@@ -1,5 +1,5 @@
-// scene.json, run.json and .npy: what is written is read back to the last bit, what is broken is named, and frames go
-// to disk as they come.
+// scene.json, run.json and .npy: written values are read back bit for bit, errors in files are named, and frames are
+// written to disk as they arrive.
 
 #include <sys/resource.h>
 
@@ -41,7 +41,7 @@ TEST_F(SceneJson, GivesEveryShippedSceneAndItsRunBackToTheBit) {
     EXPECT_EQ(time_grid(task.run).steps_per_sample, time_grid(run).steps_per_sample);
     EXPECT_EQ(task.run.tolerance, run.tolerance);
     EXPECT_EQ(task.options, (std::vector<std::string>{"n=10", "shipped"}));
-    // the same scene does the same: bits of trajectories, for what the hash does not see
+    // trajectories must agree bit for bit, which covers properties that are not part of the hash
     const Stepper& rule = stepper(scene.model.first_order() ? "rk4" : "symplectic-euler");
     if (!takes(rule, scene)) continue;
     const crosscheck::Run few{scene.step, 10 * scene.step, 10};
@@ -64,7 +64,7 @@ TEST_F(SceneJson, SaysPinsAndGustsOutright) {
     const double t = times[i];
     for (int j = 0; j < 3; ++j)
       EXPECT_EQ(displacements[i].numbers()[j], displacement_at(*scene.model.particles.move, t)[j]);
-    // an outsider's own sum of the waves
+    // sum of the waves as an external engine would compute it
     auto gust = [&](const char* which) {
       double sum = 0;
       for (const JsonField& w : gusts[which].elements())
@@ -73,7 +73,7 @@ TEST_F(SceneJson, SaysPinsAndGustsOutright) {
     };
     const Vec3 sum =
         wind_signal.mean * (1 + gusts["variation"].number() * gust("along")) + wind_signal.gusts->side * gust("across");
-    EXPECT_LE((sum - wind_signal.at(t)).norm(), 1e-14 * wind_signal.mean.norm());  // a handful of roundings
+    EXPECT_LE((sum - wind_signal.at(t)).norm(), 1e-14 * wind_signal.mean.norm());  // a few roundings
   }
 }
 
@@ -99,12 +99,12 @@ TEST_F(SceneJson, RefusesWhatIsBrokenAndNamesThePlace) {
     EXPECT_TRUE(begins(said, (folder_ / "scene.json").string()));
   }
   EXPECT_TRUE(contains(refusal_of([&] { read_scene_json(folder_ / "none.json"); }), "cannot be read"));
-  // a term of a later version is no fault of the file: engines refuse it
+  // a term of a later version is valid in the file: engines refuse it
   std::string later = good;
   later.replace(later.find("\"type\":\"gravity\""), 16, "\"type\":\"magnet\"");
   try {
     read_scene_json(write("scene.json", later));
-    ADD_FAILURE() << "it was read";
+    ADD_FAILURE() << "expected an error";
   } catch (const Unsupported& lack) {
     EXPECT_STREQ(lack.what(), "there is no term magnet here");
   }
@@ -136,7 +136,7 @@ TEST_F(RunJson, GivesAnOutcomeBack) {
   out.different_law = {"springs: otherwise"};
   Outcome back;
   read_run_json(write("run.json", run_json(out)), back);
-  EXPECT_EQ(run_json(back), run_json(out));  // the file holds all that is known of it
+  EXPECT_EQ(run_json(back), run_json(out));  // the file contains everything known about the run
   EXPECT_EQ(back.readback->mass, out.readback->mass);
   EXPECT_EQ(back.readback->pinned, out.readback->pinned);
   EXPECT_EQ(back.readback->probe->springs, out.readback->probe->springs);
@@ -200,7 +200,7 @@ TEST_F(RunJson, TheShippedHeaderWritesAllThatTheCertificateAsks) {
   EXPECT_EQ(out.end, 0.25);
   EXPECT_EQ(out.cpu_seconds, 0.5);
   EXPECT_EQ(out.steps, 7);
-  EXPECT_EQ(out.evaluations, 0) << "not counted";
+  EXPECT_EQ(out.evaluations, 0) << "evaluations are not counted";
   EXPECT_EQ(out.different_law, report.different_law);
   EXPECT_EQ(out.readback->settings, r.settings);
   out.different_law.clear();
@@ -227,7 +227,7 @@ TEST_F(RunJson, TheShippedHeaderLeavesOutWhatIsHardOrUnknown) {
                out.readback->probe);
 }
 
-/// A .npy file with this header and so many bytes behind it.
+/// A .npy file with this header, followed by `bytes` bytes of data.
 std::string npy_file(const std::string& dictionary, size_t bytes, int version = 1) {
   std::string text = "\x93NUMPY";
   text += static_cast<char>(version);
@@ -338,7 +338,7 @@ TEST_F(FramesOnDisk, LeaveWhatWasThereUntilTheyAreWhole) {
     EXPECT_EQ(read(folder_ / "trajectory.npy"), "old");
     EXPECT_FALSE(std::filesystem::exists(folder_ / "velocities.npy"));
   }
-  EXPECT_EQ(names(), std::vector<std::string>{"trajectory.npy"}) << "what was cut is gone";
+  EXPECT_EQ(names(), std::vector<std::string>{"trajectory.npy"}) << "incomplete files must be removed";
   EXPECT_EQ(read(folder_ / "trajectory.npy"), "old");
 
   TrajectoryWriter whole(folder_);
@@ -352,7 +352,7 @@ TEST_F(FramesOnDisk, SayWhichFileCannotBeWritten) {
   const Scene scene = small_cloth();
   EXPECT_TRUE(contains(refusal_of([&] { TrajectoryWriter(write("file", "") / "x").observe(scene.start, true); }),
                        "file/x/trajectory.npy: cannot be written; expected a folder with write permission"));
-  // a disk that is full, as a process sees it that may write 1000 bytes and no more
+  // emulates a full disk by a limit of 1000 bytes for the process
   const auto write_more = [&] {
     const rlimit limit{1000, 1000};
     setrlimit(RLIMIT_FSIZE, &limit);
