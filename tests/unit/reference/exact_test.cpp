@@ -22,7 +22,7 @@ std::string spring_text(const std::string& more = "", double start = -0.9, const
       "[[spring]]\nends = [0, 1]\nstiffness = 200\nrest = 1\n{}{}[pins]\nparticles = [0]\n{}",
       start, free_more, spring_more, gravity_text, more);
 }
-/// The same, with its pin moved along the spring at `part` times its frequency of 10 rad/s.
+/// The spring with its pin moved along the spring at `part` times its frequency of 10 rad/s.
 std::string driven_text(double part, double amplitude, double ramp, const std::string& more = "",
                         const std::string& spring_more = "") {
   return spring_text(fmt::format("[pins.motion]\namplitude = [0, {}, 0]\nfrequency = {}\nramp = {}\n{}", amplitude,
@@ -241,7 +241,7 @@ TEST(HangingRest, CarriesTheWeightBelow) {
 TEST(HangingRest, IsNotClaimedElsewhere) {
   for (const auto name : {"normal-modes", "cloth-hang", "chain-link", "circle", "projectile"})
     EXPECT_FALSE(hanging_equilibrium(shipped_scene(name))) << name;
-  Scene loop = shipped_scene("chain");  // the same number of springs, but the last particle is free
+  Scene loop = shipped_scene("chain");  // a spring per free particle, but the last one is not attached
   loop.model.find<Springs>()->list.back() = {0, 2, 100, 1, Family::single};
   EXPECT_FALSE(hanging_equilibrium(loop));
 }

@@ -33,7 +33,7 @@ TEST_F(ExampleEngines, AreSymplecticEuler) {
       ASSERT_EQ(theirs.outcome.verdict, Verdict::ok) << theirs.outcome.reason;
       EXPECT_EQ(theirs.outcome.remark, "");
       EXPECT_EQ(theirs.outcome.steps, ours.outcome.steps);
-      // the same rule with another summation order: 1e-15 m times a growth of perturbations below 1e3
+      // only the summation order differs: 1e-15 m times a growth of perturbations below 1e3
       EXPECT_LE(sup_distance(ours.trajectory, theirs.trajectory), 1e-12);
       for (int i = 0; i < ours.trajectory.frames(); ++i)
         EXPECT_LE(largest_column(ours.trajectory.v[i] - theirs.trajectory.v[i]), 1e-10);  // m/s; omega up to 100/s

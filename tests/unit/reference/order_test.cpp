@@ -132,7 +132,7 @@ TEST(Adaptive, SamplesDoNotChangeTheSteps) {
     const Outcome b = simulate(s, ContactRule::coulomb, scene, {1e-3, 1, 1000, 1e-6}, many);
     EXPECT_EQ(a.evaluations, b.evaluations);
     EXPECT_EQ(a.steps, b.steps);
-    // the same polynomial evaluated at the same time, up to the rounding of the time
+    // identical polynomials at identical times, up to the rounding of the time
     EXPECT_LT((few.trajectory.x.back() - many.trajectory.x.back()).cwiseAbs().maxCoeff(), 1e-13);
   }
 }

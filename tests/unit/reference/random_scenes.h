@@ -1,4 +1,4 @@
-// Random scenes, by seed: such as have a closed form, small contact-free networks, and few particles on balls at rest.
+// Random scenes by seed: scenes with a closed form, small contact-free networks, and few particles on balls at rest.
 #pragma once
 
 #include <fmt/ranges.h>
@@ -10,7 +10,7 @@
 
 namespace crosscheck::testing_tools {
 
-/// Collects the text of a scene file.
+/// Builds the text of a scene file.
 class SceneWriter {
  public:
   void particle(const Vec3& x, double mass, const Vec3& v = Vec3::Zero()) {
@@ -22,7 +22,7 @@ class SceneWriter {
     if (dashpot > 0) text_ += fmt::format("dashpot = {}\n", dashpot);
   }
   void pins(const std::vector<int>& pins) { text_ += fmt::format("[pins]\nparticles = {}\n", pins); }
-  /// After pins().
+  /// Call after pins().
   void motion(const Vec3& amplitude, double frequency, double ramp) {
     text_ +=
         fmt::format("[pins.motion]\namplitude = {}\nfrequency = {}\nramp = {}\n", list(amplitude), frequency, ramp);
@@ -42,7 +42,7 @@ class SceneWriter {
                          list(normal), friction, restitution);
   }
   void wind(const Vec3& a) { text_ += fmt::format("[wind]\nacceleration = {}\n", list(a)); }
-  /// After wind().
+  /// Call after wind().
   void gusts(const Vec3& side, int seed) {
     text_ += fmt::format("[wind.gusts]\nvariation = 1\nside = {}\nseed = {}\n", list(side), seed);
   }
@@ -55,16 +55,16 @@ class SceneWriter {
   std::string text_;
 };
 
-/// Between low and high, every decade as likely as another.
+/// Random number between low and high, uniform in its logarithm.
 inline double decades(Random& random, double low, double high) {
   return low * std::pow(high / low, random.between(0, 1));
 }
-/// True with the probability.
+/// True with the given probability.
 inline bool chance(Random& random, double probability) { return random.between(0, 1) < probability; }
 inline int whole(Random& random, int low, int high) { return static_cast<int>(random.between(low, high + 1)); }
 
-/// One mass on one spring along any direction; damped by drag, by a dashpot or by both, up to overdamped; driven by its
-/// pin, if requested.
+/// One mass on one spring in any direction. Damped by drag, a dashpot or both, up to overdamped. Driven by its pin on
+/// request.
 inline Scene random_spring(unsigned seed, bool damped, bool driven) {
   Random random(seed);
   SceneWriter w;
@@ -81,7 +81,7 @@ inline Scene random_spring(unsigned seed, bool damped, bool driven) {
   w.spring(0, 1, mass * omega * omega, rest, (1 - of_drag) * gamma * mass);
   w.pins({0});
   if (driven) {
-    // an undamped spring is driven off its resonance, so that it stays clear of its anchor
+    // an undamped spring is driven away from resonance, so that it does not reach its anchor
     const bool below = chance(random, 0.5);
     const double ratio = gamma > 0.2 * omega ? decades(random, 0.2, 5)
                          : below             ? decades(random, 0.2, 0.8)
@@ -95,7 +95,7 @@ inline Scene random_spring(unsigned seed, bool damped, bool driven) {
   return w.scene(fmt::format("random-spring-{}", seed), random.between(2, 6) * period, period / 100, 20);
 }
 
-/// One particle thrown, in drag and a steady wind or not.
+/// One particle thrown, with or without drag and a steady wind.
 inline Scene random_projectile(unsigned seed) {
   Random random(seed);
   SceneWriter w;
@@ -107,8 +107,8 @@ inline Scene random_projectile(unsigned seed) {
   return w.scene(fmt::format("random-projectile-{}", seed), duration, duration / 200, 20);
 }
 
-/// Two to six masses between springs on a line, pinned at one end or at both, damped in proportion to mass, to
-/// stiffness, to both or not at all.
+/// Two to six masses between springs on a line, pinned at one or both ends, undamped or damped in proportion to mass,
+/// stiffness or both.
 inline Scene random_chain(unsigned seed) {
   Random random(seed);
   SceneWriter w;
@@ -118,8 +118,8 @@ inline Scene random_chain(unsigned seed) {
   const double mass = decades(random, 0.01, 1), omega = decades(random, 3, 100), rest = decades(random, 0.1, 1);
   const double stretch = both ? random.between(1, 1.3) : 1, off = random.between(0.005, 0.03) * rest;
   const double gamma = chance(random, 0.5) ? omega * decades(random, 0.01, 1) : 0;
-  const double beta = chance(random, 0.4) ? decades(random, 0.003, 0.3) / omega : 0;  // s, dashpot over stiffness
-  // all of the weight stretches the first spring by less than a fifth
+  const double beta = chance(random, 0.4) ? decades(random, 0.003, 0.3) / omega : 0;  // s, dashpot / stiffness
+  // the total weight stretches the first spring by less than a fifth
   const double pull = random.between(0, 0.05) * rest * omega * omega / masses;
   double along = 0;
   w.particle(Vec3::Zero(), mass);
@@ -136,13 +136,13 @@ inline Scene random_chain(unsigned seed) {
   w.pins(both ? std::vector<int>{0, masses + 1} : std::vector<int>{0});
   w.gravity(pull * n);
   w.drag(gamma);
-  // the slowest mode takes about twice as many periods of one spring as there are masses
+  // the period of the slowest mode is about twice the number of masses times that of one spring
   const double duration = random.between(1, 2) * 2 * masses * 2 * std::numbers::pi / omega;
   return w.scene(fmt::format("random-chain-{}", seed), duration, 0.06 / omega, 20);
 }
 
-/// A scene that has an exact solution (reference/exact): springs with and without drag, dashpot and driven pin,
-/// projectiles, and chains on a line, with parameters over some decades and a duration of some periods.
+/// A scene with an exact solution (reference/exact): springs with and without drag, dashpot and driven pin,
+/// projectiles, and chains on a line. Parameters range over some decades, and the duration over some periods.
 inline Scene random_exact_scene(unsigned seed) {
   switch (seed % 6) {
     case 0:
@@ -158,16 +158,16 @@ inline Scene random_exact_scene(unsigned seed) {
   }
 }
 
-/// The seeds 0 to 199: what the error bars of the converged truth are calibrated on.
+/// Scenes of the seeds 0 to 199, on which the error bars of the converged truth are calibrated.
 inline std::vector<Scene> random_exact_scenes() {
   std::vector<Scene> scenes;
   for (unsigned seed = 0; seed < 200; ++seed) scenes.push_back(random_exact_scene(seed));
   return scenes;
 }
 
-/// 3 to 30 particles in a connected random network of springs, one or two of them pinned, under gravity; with drag,
-/// steady or gusty wind, moved pins and speeds at the start each in about half of the seeds. 0.5 s, in steps of a tenth
-/// of what is stable.
+/// 3 to 30 particles in a connected random network of springs under gravity, with one or two pins. About half of the
+/// seeds have drag, half steady or gusty wind, half moving pins and half initial velocities. Lasts 0.5 s, with steps of
+/// a tenth of the stability limit.
 inline Scene random_contact_free_scene(unsigned seed) {
   Random random(seed);
   SceneWriter w;
@@ -192,7 +192,7 @@ inline Scene random_contact_free_scene(unsigned seed) {
     w.spring(a, b, k, random.between(0.8, 1.2) * (x[a] - x[b]).norm());
     load[a] += k / mass[a], load[b] += k / mass[b];
   };
-  for (int i = 1; i < n; ++i) join(whole(random, 0, i - 1), i);  // a tree, then some more
+  for (int i = 1; i < n; ++i) join(whole(random, 0, i - 1), i);  // a tree, then more springs
   for (int i = 0; i < 2 * n; ++i) {
     const int a = whole(random, 0, n - 1);
     join(a, whole(random, 0, n - 1));
@@ -208,13 +208,14 @@ inline Scene random_contact_free_scene(unsigned seed) {
     w.wind(3 * random.vector());
     if (chance(random, 0.6)) w.gusts(2 * random.vector(), whole(random, 1, 1000));
   }
-  // omega^2 <= 2 max sum k / m (Gershgorin), and a step is stable to 2 / omega
+  // omega^2 <= 2 max sum k / m (Gershgorin), and steps are stable up to 2 / omega
   const double omega = std::sqrt(2 * *std::max_element(load.begin(), load.end()));
   return w.scene(fmt::format("random-network-{}", seed), 0.5, 0.2 / omega, 10);
 }
 
-/// Particles, a pendulum, a short chain or a small net that falls on one ball or two at rest, with friction from 0 to
-/// 0.6 and restitution from 0 to 0.9, in drag or not. 0.5 to 1.2 s, in steps of a tenth of what is stable.
+/// Particles, a pendulum, a short chain or a small net that falls on one or two balls at rest, with friction of 0 to
+/// 0.6 and restitution of 0 to 0.9, with or without drag. Lasts 0.5 to 1.2 s, with steps of a tenth of the stability
+/// limit.
 inline Scene random_contact_scene(unsigned seed) {
   Random random(seed);
   SceneWriter w;
@@ -225,12 +226,12 @@ inline Scene random_contact_scene(unsigned seed) {
   std::vector<std::pair<int, int>> joined;
   std::vector<int> pinned;
   double omega_2 = 1e3;  // 1/s^2, k/m of the springs
-  int most = 2;          // springs at a particle
+  int most = 2;          // maximum number of springs at a particle
   const int kind = seed % 5;
-  if (kind == 0) {  // one to four, thrown
+  if (kind == 0) {  // one to four particles, thrown
     for (int i = whole(random, 1, 4); i > 0; --i) x.push_back(Vec3(0, high, 0) + 0.4 * radius * random.vector());
     for (Vec3& at : x) at *= std::max(1., (radius + 0.003) / at.norm());
-  } else if (kind == 1) {  // a pendulum of one or two springs, let go beside the ball
+  } else if (kind == 1) {  // a pendulum of one or two springs, released next to the ball
     const double length = random.between(0.5, 1.2) * radius;
     const Vec3 anchor(-random.between(0, 0.4) * radius, radius + random.between(0.5, 0.9) * length, 0);
     const Vec3 along(-std::cos(random.between(0.1, 0.6)), std::sin(random.between(-0.2, 0.4)),
@@ -243,7 +244,7 @@ inline Scene random_contact_scene(unsigned seed) {
     }
     pinned = {0};
     omega_2 = decades(random, 500, 5000);
-  } else if (kind == 2) {  // a chain across the ball, on it or above
+  } else if (kind == 2) {  // a chain across the ball, on or above it
     const int n = whole(random, 3, 12);
     const double span = random.between(0.5, 1.5), from = random.between(-1, 0) * span, turn = random.between(0, 3);
     for (int i = 0; i < n; ++i) {
@@ -252,7 +253,7 @@ inline Scene random_contact_scene(unsigned seed) {
       if (i > 0) joined.emplace_back(i - 1, i);
     }
     omega_2 = decades(random, 500, 5000);
-  } else {  // a net, level or a little tilted, off the centre
+  } else {  // a net, level or slightly tilted, off centre
     const int rows = whole(random, 2, 7), columns = whole(random, 2, 7);
     const double side = random.between(0.4, 1.2) * radius, tilt = random.between(-0.1, 0.1);
     const Vec3 u(1, tilt, 0), v(0, random.between(-0.1, 0.1), 1);
@@ -279,7 +280,7 @@ inline Scene random_contact_scene(unsigned seed) {
   w.gravity({0, -9.81, 0});
   if (chance(random, 0.6)) w.drag(decades(random, 0.2, 5));
   w.sphere({0, 0, 0}, radius, friction, restitution);
-  if (chance(random, 0.3)) {  // a second ball below, that what slides off may meet
+  if (chance(random, 0.3)) {  // a second ball below, to catch what slides off
     const double turn = random.between(0, 6.28), other = random.between(0.3, 0.8) * radius;
     w.sphere({(radius + other) * std::cos(turn), -random.between(0.2, 0.6) * radius, (radius + other) * std::sin(turn)},
              other, friction, restitution);
@@ -288,8 +289,8 @@ inline Scene random_contact_scene(unsigned seed) {
   return w.scene(fmt::format("random-contact-{}", seed), random.between(0.5, 1.2), 0.2 / omega, 20);
 }
 
-/// Particles, a chain or a small net that falls on a floor or slope with none to two walls around it, with friction
-/// from 0 to 0.6 and restitution from 0 to 0.9, in drag or not. 0.5 to 1.2 s, in steps of a tenth of what is stable.
+/// Particles, a chain or a small net that falls on a floor or slope with zero to two walls, with friction of 0 to 0.6
+/// and restitution of 0 to 0.9, with or without drag. Lasts 0.5 to 1.2 s, with steps of a tenth of the stability limit.
 inline Scene random_plane_scene(unsigned seed) {
   Random random(seed);
   SceneWriter w;
@@ -303,12 +304,12 @@ inline Scene random_plane_scene(unsigned seed) {
   std::vector<Vec3> x;
   std::vector<std::pair<int, int>> joined;
   double omega_2 = 1e3;  // 1/s^2, k/m of the springs
-  int most = 2;          // springs at a particle
+  int most = 2;          // maximum number of springs at a particle
   const int kind = seed % 3;
-  if (kind == 0) {  // one to four, thrown
+  if (kind == 0) {  // one to four particles, thrown
     for (int i = whole(random, 1, 4); i > 0; --i)
       x.push_back(random.between(-0.4, 0.4) * up + random.between(-0.4, 0.4) * level + high * random.between(1, 3) * n);
-  } else if (kind == 1) {  // a chain, more or less along the plane
+  } else if (kind == 1) {  // a chain, roughly along the plane
     const int count = whole(random, 2, 12);
     const double spacing = random.between(0.03, 0.15), rise = random.between(-0.3, 0.3), side = random.between(-1, 1);
     for (int i = 0; i < count; ++i) {
@@ -317,7 +318,7 @@ inline Scene random_plane_scene(unsigned seed) {
       if (i > 0) joined.emplace_back(i - 1, i);
     }
     omega_2 = decades(random, 500, 5000);
-  } else {  // a net, tilted a little against the plane
+  } else {  // a net, slightly tilted relative to the plane
     const int rows = whole(random, 2, 7), columns = whole(random, 2, 7);
     const double spacing = random.between(0.05, 0.15), a = random.between(-0.2, 0.2), b = random.between(-0.2, 0.2);
     for (int r = 0; r < rows; ++r)

@@ -1,5 +1,5 @@
-// The cache of truths: found again bit for bit, by the same program and scene only; damage and lack of room do no
-// harm.
+// Cache of reference solutions: restored bit for bit, for the same program and scene only. Damage and a full disk are
+// harmless.
 
 #include <sys/wait.h>
 #include <unistd.h>
@@ -24,7 +24,7 @@ class Cache : public ::testing::Test {
   }
   ~Cache() override { fs::remove_all(folder); }
 
-  /// Looks a truth up, and counts how often it had to be computed.
+  /// Looks up a reference solution and counts computations.
   std::optional<Truth> look_up(const TruthCache& of, const Scene& requested, const crosscheck::Run& at) {
     return of.find_or_compute(requested, at, [&]() -> std::optional<Truth> {
       ++computed;
@@ -59,7 +59,7 @@ TEST_F(Cache, ReturnsTheSameBitsWithoutComputingAgain) {
   EXPECT_EQ(again->until, 0.25);
   EXPECT_EQ(again->contact, (std::vector{0., 2.}));
   EXPECT_EQ(again->contact_bars, (std::vector{0, 1e-3}));
-  // one file and its lock, and no half one beside it
+  // one file and its lock, and no partial file
   EXPECT_EQ(std::distance(fs::directory_iterator(folder), {}), 2);
   EXPECT_TRUE(fs::exists(cache.file_of(scene, run).string() + ".lock"));
 }
@@ -90,7 +90,7 @@ TEST_F(Cache, RemembersThatNothingIsKnown) {
 TEST_F(Cache, AnotherSceneOrProgramIsAnotherTruth) {
   look_up(cache, scene, run);
   Scene heavier = scene, finer = scene;
-  heavier.model.particles.mass[1] *= 1 + 1e-15;  // one bit, and the hash of the file is kept
+  heavier.model.particles.mass[1] *= 1 + 1e-15;  // changes a few bits; the file's hash remains
   finer.step /= 2;
   look_up(cache, heavier, run);
   look_up(cache, finer, run);
@@ -98,7 +98,7 @@ TEST_F(Cache, AnotherSceneOrProgramIsAnotherTruth) {
   look_up(cache, scene, {1e-2, 0.1, 5});
   look_up(TruthCache(folder, "another program"), scene, run);
   EXPECT_EQ(computed, 6);
-  // the step of what is compared does not matter
+  // the step of the methods to compare does not matter
   look_up(cache, scene, {1e-4, 0.1, 4});
   EXPECT_EQ(computed, 6);
 }
@@ -118,7 +118,7 @@ TEST_F(Cache, DamagedFilesAreComputedAgain) {
     EXPECT_EQ(computed, ++expected);
     EXPECT_TRUE(identical(first->trajectory, again->trajectory));
     look_up(cache, scene, run);
-    EXPECT_EQ(computed, expected);  // whole again
+    EXPECT_EQ(computed, expected);  // intact again
   }
 }
 

@@ -1,4 +1,4 @@
-// The error bars of the converged truth: compared with exact solutions, and as small as required.
+// Error bars of the converged truth: compared with exact solutions, and as small as required.
 
 #include "tests/unit/reference/helpers.h"
 #include "tests/unit/reference/truth_trials.h"
@@ -9,15 +9,15 @@ namespace {
 using namespace testing_tools;
 
 TEST(Truth, BarsCoverTheErrorAndAreNotMuchTooWide) {
-  // the seeds 0 to 199; truth_trials.cpp takes any
+  // seeds 0 to 199; truth_trials.cpp accepts any
   std::vector<BarTrial> trials;
   for (const Scene& scene : random_exact_scenes()) trials.push_back(bar_trial(scene));
   const BarSummary s = summary_of(trials);
   fmt::print("{}\n", text_of(s));
   EXPECT_EQ(s.scenes, 200u);
   EXPECT_GE(s.covered, 198u);
-  // a bar that is three times the estimate of a fourth-order rule is three times the error where that order shows; what
-  // is less than ten times round-off has no order
+  // A bar of three times the estimate of a fourth-order rule is three times the error, provided that this order is
+  // observed. Errors below ten times round-off show no order.
   EXPECT_GE(s.above, 100u);
   EXPECT_LE(s.median, 5);
   EXPECT_LE(s.high, 20);
@@ -38,7 +38,7 @@ TEST(Truth, BarsGrowWithTimeUpToTheLargest) {
 }
 
 TEST(Truth, BarsAreAsSmallAsAskedForInTheWindows) {
-  // m; a chain in closed form is computed too, by its converged part
+  // m; chains with a closed form also have a converged solution
   const std::pair<const char*, double> error_bars[] = {
       {"spring", 1e-9},       {"pendulum", 1e-9},      {"chain", 1e-9},      {"chain-link", 1e-9},
       {"normal-modes", 1e-9}, {"cloth-student", 1e-6}, {"cloth-hang", 1e-6}, {"cloth-swing", 1e-6},
@@ -46,7 +46,8 @@ TEST(Truth, BarsAreAsSmallAsAskedForInTheWindows) {
   for (const auto& [name, largest] : error_bars) {
     SCOPED_TRACE(name);
     const Scene scene = shipped_scene(name);
-    // of the cloths' windows the first half second, for time's sake: over the whole windows 2e-9 to 7e-9 m are measured
+    // To save time, only the first half second of the cloths' windows: 2e-9 to 7e-9 m are measured over the whole
+    // windows.
     const double until = scene.triangles.empty() ? scene.window : std::min(0.5, scene.window);
     const auto truth = converged_truth(scene, {scene.step, until, 20});
     ASSERT_TRUE(truth);
@@ -59,7 +60,7 @@ TEST(Truth, BarsAreAsSmallAsAskedForInTheWindows) {
 }
 
 TEST(Truth, IsNoneWhereTheMotionIsChaoticOrStiffnessDefeatsIt) {
-  // a double pendulum without drag, long enough for a perturbation to grow beyond all bounds
+  // An undamped double pendulum, long enough for a perturbation to grow without limit.
   const Scene chaos = small_scene(
       "[[particle]]\nposition = [0, 0, 0]\nmass = 1\n[[particle]]\nposition = [0.5, 0.8, 0]\nmass = 1\n"
       "[[particle]]\nposition = [0.5, 1.8, 0.1]\nmass = 1\n[[spring]]\nends = [0, 1]\nstiffness = 1000\n"

@@ -1,4 +1,4 @@
-// One trial of an error bar: the converged truth of a scene that has an exact solution, held against that.
+// One trial of an error bar: the converged truth of a scene, compared with its exact solution.
 #pragma once
 
 #include "reference/truth/exact/exact.h"
@@ -12,12 +12,12 @@ struct BarTrial {
   bool known = false;    // a converged truth was found
   double error_bar = 0;  // m
   double error = 0;      // m, the largest at any sample
-  /// m: what the closed form itself is known to, eps times the path that is turned or gone.
+  /// Uncertainty (m) of the closed form itself: 1e-15 times the scene's size plus the path length.
   double round_off = 0;
 
   double ratio() const { return error_bar / error; }
   bool covered() const { return known && error_bar >= error; }
-  /// Where the error is truncation, and not the last digits: there a bar can be too wide.
+  /// True if truncation dominates the error. Only then can a bar be too wide.
   bool above_round_off() const { return known && error > 10 * round_off; }
 };
 
@@ -37,11 +37,11 @@ inline BarTrial bar_trial(const Scene& scene) {
   return trial;
 }
 
-/// The statistics of many trials.
+/// Statistics of many trials.
 struct BarSummary {
   size_t scenes = 0, known = 0, covered = 0, above = 0;
-  double median = 0, high = 0;  // bar over error, of those above round-off: the median and the 95th percentile
-  double least = INFINITY;      // of all
+  double median = 0, high = 0;  // bar over error above round-off: median and 95th percentile
+  double least = INFINITY;      // smallest bar over error of all trials
 };
 
 inline BarSummary summary_of(const std::vector<BarTrial>& trials) {

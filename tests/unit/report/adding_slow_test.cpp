@@ -1,5 +1,5 @@
-// What the pages say of adding things: a new stepper, term, scene, engine, experiment, chart or assignment is one new
-// file and rows of one table; and then the program knows it, without anybody else being told.
+// Documented steps for additions: a new stepper, term, scene, engine, experiment, chart or assignment takes one new
+// file and rows of one table. Then the whole program knows it without further changes.
 
 #include <gtest/gtest.h>
 
@@ -28,7 +28,7 @@ std::vector<std::string> paths_of(const auto& files) {
 struct Place {
   const char* what;
   std::vector<std::string> tables;
-  const char* list;  // of sources; null: none, the file is a header or no source
+  const char* list;  // source list; null if the file is a header or no source
 };
 const std::vector<Place> places = {
     {"stepper", {"mysim/steppers/steppers.cpp"}, "mysim/CMakeLists.txt"},
@@ -37,11 +37,11 @@ const std::vector<Place> places = {
     {"experiment", {"experiments/experiment.cpp"}, "experiments/CMakeLists.txt"},
     {"chart", {"report/figures/charts.cpp"}, "report/CMakeLists.txt"},
     {"assignment", {"tests/coursework/grader/assignments.cpp"}, "tests/coursework/CMakeLists.txt"},
-    // the list of terms, and the table of those who read them
+    // the list of terms, and the table of their readers
     {"term", {"mysim/model/model.h", "mysim/scene/scene.cpp"}, nullptr},
 };
 
-/// Each change can be made as the files are, and no file gets more than so many lines.
+/// Checks that all changes apply to the current files, and that no file gets more than `most` changes or lines.
 void expect_changes(const std::map<std::string, std::vector<Addition::Change>>& files, long most) {
   for (const auto& [path, changes] : files) {
     const std::string before = read_file(source / path, "a source"), after = with_changes(before, changes);
@@ -60,7 +60,7 @@ TEST(Adding, TakesOneFileAndRowsOfTheTable) {
     for (const auto& [path, text] : a.created) EXPECT_FALSE(fs::exists(source / path)) << path;
     EXPECT_EQ(paths_of(a.edited), place.tables);
     EXPECT_EQ(paths_of(a.listed), place.list ? std::vector<std::string>{place.list} : std::vector<std::string>{});
-    // a row, and beside it the declaration of what it names
+    // a row, and for sources the declaration of what it names
     expect_changes(a.edited, a.created.begin()->first.ends_with(".toml") ? 1 : 2);
     expect_changes(a.listed, 1);
   }
@@ -73,7 +73,7 @@ TEST(Adding, ALineThatDoesNotStandThereOnceIsRefused) {
   EXPECT_THROW(with_changes("a\nb\nb \nb\n", change), std::invalid_argument);
 }
 
-/// The compiler's word on a file of ours, or of an addition, with the addition's files before ours.
+/// Checks the syntax of an original file or of an added one, with the addition's files first in the include path.
 ProgramResult compiled(const Addition& a, const std::string& file) {
   const TemporaryFolder folder("adding");
   write_addition(a, source, folder.path);
@@ -91,7 +91,8 @@ TEST(Adding, WhatIsNotLinkedHereCompilesAsItIsDescribed) {
   }
 }
 
-/// Who must answer for a term does not compile until it does: new_term_slow_test has the list. The engine takes it.
+/// Code that must handle every term does not compile until it does (listed in new_term_slow_test). The engine itself
+/// does.
 TEST(Adding, ATermIsTakenByTheEngineAndAskedAboutElsewhere) {
   const Addition term = addition("term");
   for (const char* file : {"mysim/model/system.cpp", "mysim/implicit/newton.cpp"}) {
@@ -103,7 +104,7 @@ TEST(Adding, ATermIsTakenByTheEngineAndAskedAboutElsewhere) {
   EXPECT_TRUE(contains(end.err, "Tide"));
 }
 
-/// The program with a stepper, a scene, an engine and an experiment more.
+/// Output of the program with an additional stepper, scene, engine and experiment.
 std::string told(std::vector<std::string> words) {
   const TemporaryFolder folder("adding");
   words.insert(words.begin(), CROSSCHECK_EXTENDED);
@@ -139,7 +140,7 @@ TEST(Adding, AThirdEngineIsInTablesChartsFindingsAndMaps) {
   int figures = 0;
   EXPECT_EQ(looking_alike_in(out / "figures", figures), "");
   EXPECT_GE(figures, 13);
-  // the second of the built-in methods without a look of its own, after the new stepper
+  // second of the built-in methods without its own style, after the new stepper
   const std::string chart = read_file(out / "figures/two-masses-error.gp", "a chart");
   EXPECT_TRUE(contains(chart, "toy/step"));
   EXPECT_TRUE(contains(chart, "(7,3,1,3,1,3)"));
@@ -148,7 +149,7 @@ TEST(Adding, AThirdEngineIsInTablesChartsFindingsAndMaps) {
                            "Same rule, same step: Toy's step differs from mysim by at most ",
                            "For an error of 1 % of the motion Toy needs "})
     EXPECT_TRUE(contains(report, said)) << said;
-  EXPECT_FALSE(contains(report, "of which Toy has none")) << "nothing is known of its rules";
+  EXPECT_FALSE(contains(report, "of which Toy has none")) << "nothing is known about its rules";
 }
 
 TEST(Adding, AThirdEngineIsNewToItsBaselines) {

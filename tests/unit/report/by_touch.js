@@ -1,6 +1,6 @@
-// Touches a page as a finger does, by the browser's own protocol, which the browser speaks over a pipe: events that a
-// page makes itself do not show whether the browser takes a touch for a scroll. Says as JSON what came of it.
-// Arguments: the page and a folder for the browser's profile.
+// Touches a page as a finger does, through the browser's own protocol over a pipe. Events that a page creates itself do
+// not show whether the browser interprets a touch as a scroll. Prints the result as JSON. Arguments: the page and a
+// folder for the browser's profile.
 const {spawn} = require('node:child_process');
 const [page, profile] = process.argv.slice(2);
 
@@ -40,7 +40,7 @@ const pause = ms => new Promise(done => setTimeout(done, ms));
       if (await read(expression)) return;
     throw new Error(`waited in vain for ${expression}`);
   };
-  /** One finger from a place to another, CSS pixels. */
+  /** Moves one finger between two places (CSS pixels). */
   const stroke = async ([x, y], [toX, toY]) => {
     await own('Input.dispatchTouchEvent', {type: 'touchStart', touchPoints: [{x, y}]});
     for (let i = 1; i <= 8; ++i) {
@@ -75,7 +75,7 @@ const pause = ms => new Promise(done => setTimeout(done, ms));
     return {left: box.left, width: box.width, y: box.top + box.height / 2, part: (range.value - range.min) / (range.max - range.min)};
   })()`);
   const was = await read(step), at = await scrolled();
-  // the middle of a thumb of 20 pixels stays half of it away from the ends
+  // the centre of a thumb of 20 pixels stays 10 pixels away from the ends
   const thumb = left + 10 + (width - 20) * part;
   await stroke([thumb, y], [thumb - 60, y]);
   seen.slider = {was, is: await read(step), scrolled: [at, await scrolled()]};

@@ -1,5 +1,5 @@
-// Findings and charts of the chapters on stability, energy and the least model, from tables made by hand: they say
-// what the rows say, also where rows contradict theory, fail or are missing.
+// Findings and charts of the chapters on stability, energy and the least model, from hand-made tables. They must follow
+// the rows, even if these contradict theory, contain failures or are missing.
 
 #include <algorithm>
 #include <set>
@@ -68,7 +68,7 @@ LimitRow words_row(const std::string& method, PredictionKind theory, std::option
           .reason = ""};
 }
 
-/// Effective stiffnesses by sag of a cloth, and the same by period of a chain.
+/// Effective stiffnesses from the sag of a cloth, and from the period of a chain.
 TableSet effective_stiffnesses() {
   Table table = crosscheck::table_of<EffectiveStiffnessRow>();
   for (const std::string net : {"chain of 8", "cloth of 6 x 6"})
@@ -92,14 +92,14 @@ TEST(StiffnessFigures, ShowTheClothBySagAndTheChainByPeriod) {
   for (size_t i = 0; i < 2; ++i) {
     const Figure& f = std::get<Figure>(charts[i].figure);
     EXPECT_EQ(f.name, i == 0 ? "stiffness-effective" : "stiffness-effective-period");
-    ASSERT_EQ(f.curves.size(), 4u) << "a world without iterations stands in the table alone";
+    ASSERT_EQ(f.curves.size(), 4u) << "a world without iterations is in the table only";
     EXPECT_EQ(f.curves[1].title, "16 iterations of pbd");
     EXPECT_EQ(f.curves[2].title, "1 sub-step of xpbd");
     ASSERT_EQ(f.curves[1].points.size(), 2u);
     EXPECT_DOUBLE_EQ(f.curves[1].points.back().second, i == 0 ? 20 : 10);  // %, at the longest step
     std::set<std::string> colours;
     for (const Curve& curve : f.curves) colours.insert(curve.style.colour);
-    EXPECT_EQ(colours.size(), 4u) << "curves of one colour would share one name";
+    EXPECT_EQ(colours.size(), 4u) << "curves of the same colour would share a name";
     EXPECT_EQ(f.finding,
               i == 0 ? "At a step of 16.7 ms with 16 iterations of pbd the cloth is 5 times softer than specified."
                      : "At a step of 16.7 ms with 16 iterations of pbd the chain is 10 times softer than "
@@ -117,14 +117,14 @@ TEST(StabilityFindings, LimitsThatTheoryConfirmsAreCountedWithDeviationAndBracke
   expect_short({f});
   EXPECT_EQ(f.words.at("confirmed"), "2");
   EXPECT_EQ(f.words.at("all"), "2");
-  EXPECT_NEAR(f.value, 5e-5, 1e-5) << "the deviation; the bracket is named beside it";
+  EXPECT_NEAR(f.value, 5e-5, 1e-5) << "the deviation; the bracket is stated separately";
   EXPECT_EQ(f.words.at("bracket"), "50 %");
 }
 
 TEST(StabilityFindings, ContradictionsAreCountedAndTheFurthestIsNamed) {
   std::vector<LimitRow> limits{
       limit_row("mysim/rk4", 1e-3, 0.999e-3, 1.001e-3), limit_row("mysim/explicit-euler", 1e-6, 4.99e-5, 5.01e-5),
-      words_row("bullet/x", PredictionKind::limit, 1., MeasuredLimit::refused_above, 0.5, {})};  // not told
+      words_row("bullet/x", PredictionKind::limit, 1., MeasuredLimit::refused_above, 0.5, {})};  // not reported
   const auto apart = [&] { return the(limit_findings(rows_of({stability(limits)})), "step-limits-apart"); };
   EXPECT_EQ(apart().value, 1);
   EXPECT_TRUE(says(sentence_of(apart()), {"1 of 2", "explicit-euler", "50 times"}));
@@ -132,7 +132,7 @@ TEST(StabilityFindings, ContradictionsAreCountedAndTheFurthestIsNamed) {
   limits.push_back(words_row("mysim/leapfrog", PredictionKind::limit, 1e-3, MeasuredLimit::no_step, {}, 1e-6));
   limits.push_back(limit_row("mysim/rk4", 1e-3, 2e-3, 2.01e-3, LimitState::start));
   EXPECT_EQ(apart().value, 3);
-  EXPECT_EQ(apart().method, "bullet/pbd") << "what has no step on one side is the furthest";
+  EXPECT_EQ(apart().method, "bullet/pbd") << "a row without a step on one side differs most";
   EXPECT_TRUE(says(sentence_of(apart()), {"every step tried", "1 ms"}));
   const auto all = limit_findings(rows_of({stability(limits)}));
   expect_short(all);
@@ -154,7 +154,7 @@ TEST(StabilityFindings, TheTruthConfirmsLimitsOfScenesWithoutRest) {
   expect_short({both});
   EXPECT_EQ(both.value, 2);
   EXPECT_TRUE(says(sentence_of(both), {"2 of 2", "at most 2 %", "at least 20 %"}));
-  // a run called blown up that is where the truth is, and one that held and is far from it
+  // a run marked as blown up that agrees with the truth, and a stable run that differs much from it
   const Finding failed = said({row("mysim/leapfrog", 3e-3, 0.02), row("mysim/rk4", 3e-3, 0.09)}),
                 held = said({row("mysim/leapfrog", 3e-3, 0.02), row("mysim/rk4", 0.042, 0.09)});
   expect_short({failed, held});
@@ -176,7 +176,7 @@ TEST(StabilityFindings, MethodsWithoutAStableStepAndTheRateOfTheirGrowth) {
        growth}));
   expect_short(all);
   EXPECT_EQ(the(all, "no-stable-step").method, "mysim/trapezoidal");
-  EXPECT_DOUBLE_EQ(the(all, "growth").value, 0.2) << "near a limit it is measured elsewhere";
+  EXPECT_DOUBLE_EQ(the(all, "growth").value, 0.2) << "near a limit the growth is measured elsewhere";
 }
 
 TEST(ChapterWords, LimitsWithoutTheoryStandInATableWithoutFigure) {
@@ -221,7 +221,7 @@ TEST(ChapterWords, ARunAboveItsLimitIsShownAtItsMoments) {
   ASSERT_EQ(chart->snapshots[0].moments.size(), 4u);
   EXPECT_DOUBLE_EQ(chart->snapshots[0].moments[0].first, 0.35 * 6);
   EXPECT_TRUE(contains(chart->snapshots[0].moments[0].second, "step 6\n2.5 J"));
-  // of a scene that fails too fast to be seen nothing is shown
+  // failures that are too fast to be visible are not shown
   failure.rows.resize(2);
   const TableSet fast = rows_of({stability({limit_row("mysim/rk4", 1e-3, 0.999e-3, 1.001e-3)}), failure});
   for (const Chart& each : stability_charts({scenes, facts, fast, "commit"})) EXPECT_FALSE(each.shown);
@@ -232,7 +232,7 @@ Table energy(const std::vector<EnergyRow>& rows) {
   for (const EnergyRow& row : rows) add(t, row);
   return t;
 }
-/// A long run on a spring, whose energy turned over is 4 J.
+/// A long run on a spring that converts 4 J of energy.
 EnergyRow long_run(const std::string& method, double largest, double growth, Verdict verdict = Verdict::ok) {
   return {.scene = "spring",
           .method = method,
@@ -304,7 +304,7 @@ TEST(EnergyFindings, WhatContactTakesIsHeldAgainstTheTruthAndNothingIsSaidBelowI
                                     "deformable-explicit 0 ± 0.45 %"}));
   EXPECT_NEAR(f.value, 100 * 0.21 / 11.1, 1e-9);
   EXPECT_NEAR(*f.low, 100 * 0.16 / 11.1, 1e-9);
-  EXPECT_TRUE(said(1.2).empty()) << "a tenth of it is not known";
+  EXPECT_TRUE(said(1.2).empty()) << "the bar exceeds a tenth of the value";
 }
 
 TEST(EnergyFindings, DampingNamesWhoWasAsked) {
@@ -382,7 +382,7 @@ TEST(SpeedFindings, TellWhatOtherEnginesTake) {
   std::vector<SpeedAccuracyRow> runs(4);
   runs[0].scene = "rod", runs[0].method = "bullet/pbd";
   runs[1].scene = "circle", runs[1].method = "bullet/pbd", runs[1].verdict = Verdict::unsupported;
-  // tells no time, and died
+  // reports no time, and crashed
   runs[2].scene = "rod", runs[2].method = "exec:./mine", runs[2].error = 9e-3, runs[2].motion = 1;
   runs[3].scene = "circle", runs[3].method = "exec:./mine", runs[3].verdict = Verdict::crash;
   const auto all = speed_findings(rows_of({table_with(cheapest), table_with(engines), table_with(runs)}));
@@ -427,7 +427,7 @@ TEST(SpeedFindings, AStepOfBothIsComparedLikeForLikeFirst) {
   EXPECT_TRUE(said({{plain, 8, 1e-6}, {kernel, 8, 1e-6}}).empty());
 }
 
-/// A cloth that touches a ball until 1 s, its single positions compared until 0.5 s.
+/// A cloth in contact with a ball until 1 s, with positions compared until 0.5 s.
 std::vector<Table> touched(double of_rules, double of_bullet) {
   std::vector<EngineRow> runs;
   Table rows = crosscheck::table_of<EngineTimeRow>("drape-engines");
@@ -438,7 +438,7 @@ std::vector<Table> touched(double of_rules, double of_bullet) {
     run.clearance = 1e-4;
     runs.push_back(run);
     const double apart = name.starts_with("bullet") ? of_bullet
-                         : name.ends_with("xpbd")   ? 1.  // no rule like the others
+                         : name.ends_with("xpbd")   ? 1.  // not comparable to the other rules
                          : name.ends_with("euler")  ? 0.
                                                     : of_rules;
     for (const double t : {0.5, 1.0})
@@ -453,7 +453,7 @@ TEST(SphereFindings, AfterContactEnginesAreStatedWithTheDifferencesOfOwnRules) {
   const Finding f = the(findings, "after-contact");
   EXPECT_EQ(f.scene, "drape");
   EXPECT_EQ(f.other, "bullet/deformable-explicit");
-  EXPECT_EQ(f.value, 2.97e-3) << "at the end, not at its largest";
+  EXPECT_EQ(f.value, 2.97e-3) << "the value at the end, not the maximum";
   EXPECT_TRUE(says(sentence_of(f), {"drape", "500 ms", "3 mm", "0.2 mm", "compared: 2"}));
   // an unpredictable motion shows in the same numbers
   EXPECT_TRUE(
@@ -507,7 +507,7 @@ TEST(ChapterWords, GridsWhoseFinestRunFailsKeepTheirTable) {
 }
 
 TEST(ChapterWords, BendSpringsStiffenByTheirNumber) {
-  const auto bending = [](double shift) {  // k goes as the fourth power of particles - shift
+  const auto bending = [](double shift) {  // k is proportional to the fourth power of particles - shift
     Table t = crosscheck::table_of<BendingRow>();
     for (const long n : {8l, 10l, 12l, 16l})
       add(t, BendingRow{n, static_cast<double>(n) - 1.5, std::pow(static_cast<double>(n) - shift, 4), 0.1});

@@ -1,4 +1,4 @@
-// Lays out stored chart specs at several widths and prints what is wrong with them, for chart_layout_test.cpp.
+// Lays out stored chart specs at several widths and prints layout errors, for chart_layout_test.cpp.
 
 import {axisOf} from '../../../report/page/chart/axes';
 import {dense, distance} from '../../../report/page/chart/board';
@@ -20,7 +20,7 @@ function* elementsOf(list: readonly Element[]): Generator<Element> {
 
 const textOf = ({children}: Element) => children.filter(child => typeof child === 'string').join('');
 
-/** The box of a text element; null of slanted ones, which overlap differently. */
+/** Bounding box of a text element, or null if it is slanted, because slanted boxes overlap differently. */
 function boxOfText(element: Element): Box|null {
   const {x, y, transform, class: kind = ''} = element.attributes, anchor = element.attributes['text-anchor'];
   if (transform || String(kind).includes('waiting')) return null;
@@ -31,7 +31,7 @@ function boxOfText(element: Element): Box|null {
 const meet = (a: Box, b: Box) =>
     a.left < b.right - 1 && b.left < a.right - 1 && a.top < b.bottom - 1 && b.top < a.bottom - 1;
 
-/** Nothing leaves the panel. */
+/** Checks that everything lies inside the panel. */
 function checkEdges(sheet: Sheet, complain: (words: string) => void) {
   for (const element of elementsOf(sheet.elements)) {
     const box = element.tag === 'text' ? boxOfText(element) : null;
@@ -45,7 +45,7 @@ function checkEdges(sheet: Sheet, complain: (words: string) => void) {
   }
 }
 
-/** A name lies nearest to its own curve, or has a leader line; no two names meet. */
+/** Checks that each name is nearest to its own curve or has a leader line, and that names do not overlap. */
 function checkNames(sheet: Sheet, complain: (words: string) => void) {
   sheet.names.forEach((name, i) => {
     ++names;
@@ -58,7 +58,7 @@ function checkNames(sheet: Sheet, complain: (words: string) => void) {
   });
 }
 
-/** Every name and key that a reader needs is there, and no title is cut. */
+/** Checks that all required names and keys exist, and that no title is truncated. */
 function checkWords(chart: ChartSpec, sheet: Sheet, complain: (words: string) => void) {
   const texts = [...elementsOf(sheet.elements)].filter(({tag}) => tag === 'text');
   const flat = texts.map(textOf).join(' ').replace(/\s+/g, ' ');
@@ -86,7 +86,7 @@ function checkWords(chart: ChartSpec, sheet: Sheet, complain: (words: string) =>
     for (const {name} of chart.panels) expect(name, `${flat} ${sheet.notes.join(' ')}`);
 }
 
-/** Marks, fillings, dashes and lines of which the caption speaks are in the spec. */
+/** Checks that marks, fillings, dashes and lines mentioned in the caption are in the spec. */
 function checkCaption(chart: ChartSpec, complain: (words: string) => void) {
   const caption = `${chart.finding} ${chart.caption}`;
   const series = chart.kind === 'curves' ? chart.parts.flatMap(part => part.series) : [];

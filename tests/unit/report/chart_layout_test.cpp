@@ -1,5 +1,5 @@
-// The charts of a stored quick report, laid out by the page's drawer as a browser would, and the type checker's opinion
-// of the page's scripts.
+// Charts of a stored quick report, laid out by the page's renderer as in a browser, and type checks of the page's
+// scripts.
 
 #include "mysim/base/files.h"
 #include "mysim/base/installation.h"
@@ -17,7 +17,7 @@ using namespace testing_tools;
 
 using ChartLayout = InFolder;
 
-// golden/charts.json: `charts` of the report.json of a quick report, with long curves thinned and tooltips left out
+// golden/charts.json: `charts` of the report.json of a quick report, with long curves thinned and tooltips removed
 TEST_F(ChartLayout, NamesLieAtTheirCurvesAndNothingIsCutOrMissing) {
   NEEDS_PROGRAM("node", "nodejs", "no chart is laid out outside a browser");
   const std::filesystem::path source =
@@ -30,7 +30,7 @@ TEST_F(ChartLayout, NamesLieAtTheirCurvesAndNothingIsCutOrMissing) {
   for (const std::string& complaint : saw["complaints"].texts()) ADD_FAILURE() << complaint;
   EXPECT_GT(saw["charts"].number(), 100);
   EXPECT_GT(saw["names"].number(), 500);
-  EXPECT_GT(saw["names"].number(), saw["leaders"].number()) << "some names lie beside their curves";
+  EXPECT_GT(saw["names"].number(), saw["leaders"].number()) << "some names must lie next to their curves";
 }
 
 TEST(Scripts, PassTheTypeChecker) {

@@ -1,5 +1,5 @@
-// Charts: stacked bars, who is fastest at an accuracy, distance to a method's own finest run, and their numbers as the
-// page draws them.
+// Charts: stacked bars, fastest methods at a given accuracy, distance to a method's own finest run, and their numbers
+// as drawn on the page.
 
 #include <algorithm>
 #include <cmath>
@@ -37,7 +37,7 @@ StackedBars two_bars() {
 
 TEST(StackedBars, StackEachSignFromZero) {
   const Table data = drawing_of(two_bars()).data;
-  // part, bar, place, from, to; heights of zero have no row
+  // part, bar, place, from, to; zero heights have no row
   const std::vector<std::vector<Cell>> expected = {{"drag", "mysim/a", 1., 0., 2.},
                                                    {"drag", "bullet/b", 2., 0., 1.},
                                                    {"contact (inferred)", "bullet/b", 2., 1., 4.},
@@ -58,7 +58,7 @@ TEST(StackedBars, InferredPartsAreHatchedAndOthersAreNot) {
     EXPECT_EQ(contains(element, "pattern"), inferred) << element;
     (inferred ? hatched : solid) += 1;
   }
-  EXPECT_EQ(hatched, 1u);  // plotted once, then drawn again for the other files
+  EXPECT_EQ(hatched, 1u);  // plotted once, and drawn again for the other file formats
   EXPECT_EQ(solid, 3u);
 }
 
@@ -100,14 +100,14 @@ const std::vector<WorkPrecisionPoint> runs = {point("mysim/rk4", 1e-6, 8),
 TEST(ByEngine, TheCheapestRunOfEachWithinTheBoundBesideMysims) {
   Table t = table_of<EngineSpeedRow>();
   add_by_engine("s", 0.01, Measure::error, 0.01, runs, t);
-  ASSERT_EQ(t.rows.size(), 3u) << "ARKODE failed, and failures are not fast";
+  ASSERT_EQ(t.rows.size(), 3u) << "ARKODE failed and must not count";
   EXPECT_EQ(word(t, 0, "method"), "mysim/leapfrog");
   EXPECT_EQ(number(t, 0, "times mysim"), 1);
   EXPECT_EQ(word(t, 1, "method"), "odeint/rk4");
   EXPECT_EQ(number(t, 1, "times mysim"), 2);
   EXPECT_EQ(word(t, 2, "engine"), "bullet");
   EXPECT_EQ(number(t, 2, "times mysim"), 30);
-  // as far as both intervals allow: (0.9 60) / (1.2 2) and (1.2 60) / (0.9 2)
+  // widest interval that both allow: (0.9 60) / (1.2 2) and (1.2 60) / (0.9 2)
   EXPECT_DOUBLE_EQ(number(t, 2, "times mysim low"), 22.5);
   EXPECT_DOUBLE_EQ(number(t, 2, "times mysim high"), 40);
 }
@@ -115,7 +115,7 @@ TEST(ByEngine, TheCheapestRunOfEachWithinTheBoundBesideMysims) {
 TEST(ByEngine, WithoutARunOfMysimThereIsNoQuotient) {
   Table t = table_of<EngineSpeedRow>();
   add_by_engine("s", 1e-5, Measure::error, 1e-7, runs, t);
-  EXPECT_TRUE(t.rows.empty()) << "nobody is as near";
+  EXPECT_TRUE(t.rows.empty()) << "no method is as accurate";
   add_by_engine("s", 0.1, Measure::error, 0.1, {runs[3]}, t);
   ASSERT_EQ(t.rows.size(), 1u);
   EXPECT_TRUE(std::holds_alternative<std::monostate>(t.at(0, "times mysim")));
@@ -142,7 +142,7 @@ TEST(Styles, StandInTheMethodsRows) {
   std::vector<MethodStyle> all;
   for (const Method& m : builtin_methods())
     if (m.family().role != Role::truth) all.push_back(style_of(m.name));
-  for (size_t place = 0; place < 20; ++place) all.push_back(spare_style(place));  // of engines that bring none
+  for (size_t place = 0; place < 20; ++place) all.push_back(spare_style(place));  // for engines without a style
   for (size_t i = 0; i < all.size(); ++i)
     for (size_t j = 0; j < i; ++j) EXPECT_FALSE(same(all[i], all[j])) << i << " " << j;
 }
@@ -152,7 +152,7 @@ TEST(CheapestChart, SaysWhoIsFastestWhereTheClockCanTell) {
   for (const double part : {0.1, 0.01, 0.001}) add_by_engine("cloth", part, Measure::error, part, runs, t);
   // odeint is no slower than mysim here, within the intervals
   add_by_engine("rod", 0.01, Measure::error, 0.01, {point("mysim/xpbd", 1e-3, 2), point("odeint/rk4", 1e-6, 2.1)}, t);
-  // held against a rule of mysim's own: no error, so no place in the figure
+  // compared with a rule of mysim, which gives no error, so it is not in the figure
   add_by_engine("drape", 0.01, Measure::difference, 0.01, runs, t);
   const auto charts = charts_of(t);
   ASSERT_EQ(charts.size(), 1u);
@@ -185,7 +185,7 @@ TEST(CheapestChart, NamesWhoIsThereAndWhichTimesAreScaled) {
   };
   std::vector<WorkPrecisionPoint> whole{point("mysim/rk4", 1e-3, 1), point("bullet/pbd", 1e-3, 8)}, part = whole;
   EXPECT_FALSE(contains(caption_of(whole), "scaled"));
-  EXPECT_FALSE(contains(caption_of(whole), "SUNDIALS")) << "where no run of it is there it is not named";
+  EXPECT_FALSE(contains(caption_of(whole), "SUNDIALS")) << "methods without a run are not named";
   EXPECT_FALSE(contains(caption_of(whole), "odeint"));
   part[1].part = 0.1;
   EXPECT_TRUE(contains(caption_of(part), "1 of 1 quotients"));
@@ -245,14 +245,14 @@ TEST(OwnCharts, AreOfScenesThatTheExperimentLooksAt) {
     }
   EXPECT_FALSE(has_own_charts("speed-accuracy", "spring", false));
   EXPECT_TRUE(has_own_charts("speed-accuracy", "spring", true));
-  EXPECT_TRUE(has_own_charts("order", "spring", false)) << "all have, where no few are named";
+  EXPECT_TRUE(has_own_charts("order", "spring", false)) << "all scenes have charts unless a selection is given";
 }
 
 using namespace testing_tools;
 
 JsonField json_of(const Chart& chart) { return JsonField::parse(dump(chart_json(chart)), "chart"); }
 
-/// A chart of one curve of that many points, which swings.
+/// A chart of one oscillating curve with `count` points.
 Chart swinging(int count) {
   Figure f;
   f.name = "swing", f.title = "a swing", f.caption = "c", f.finding = "It swings.";
@@ -270,9 +270,9 @@ TEST(ChartJson, CurvesOfUpTo600PointsAreWhole) {
     ASSERT_EQ(points.size(), static_cast<size_t>(count));
     const auto& drawn = std::get<Figure>(chart.figure).curves[0].points;
     for (int i = 0; i < count; ++i) {
-      ASSERT_NEAR(points[i][0].number(), drawn[i].first, 1e-4 * drawn.back().first) << "of what the axis shows";
+      ASSERT_NEAR(points[i][0].number(), drawn[i].first, 1e-4 * drawn.back().first) << "relative to the axis range";
       ASSERT_NEAR(points[i][1].number(), drawn[i].second, 5e-4 * drawn[i].second)
-          << "four digits of a logarithmic axis";
+          << "four digits on a logarithmic axis";
     }
   }
 }
@@ -288,7 +288,7 @@ TEST(ChartJson, LongerCurvesKeepTheirEndsAndExtremes) {
     EXPECT_GT(points.size(), 300u);
     double low = INFINITY, high = 0, last = -1;
     for (const JsonField& point : points.elements()) {
-      EXPECT_GT(point[0].number(), last) << "in their order, none twice";
+      EXPECT_GT(point[0].number(), last) << "strictly ascending";
       last = point[0].number();
       low = std::min(low, point[1].number()), high = std::max(high, point[1].number());
     }
@@ -322,15 +322,15 @@ TEST(ChartJson, OfCurvesSaysWhatIsDrawnBesideThem) {
   EXPECT_EQ(json["title"].text(), "everything");
   EXPECT_EQ(json["finding"].text(), "It falls.");
   EXPECT_EQ(json["caption"].text(), "c");
-  EXPECT_EQ(json["x"]["label"].text(), "CPU time") << "what is ringed on paper is open here";
+  EXPECT_EQ(json["x"]["label"].text(), "CPU time") << "points ringed on paper are open marks on the page";
   EXPECT_EQ(json["x"]["unit"].text(), "s");
   EXPECT_TRUE(json["x"]["log"].boolean());
-  EXPECT_EQ(json["y"]["low"].number(), 1e-4) << "lower values lie on the axis";
+  EXPECT_EQ(json["y"]["low"].number(), 1e-4) << "lower values are drawn on the axis";
   EXPECT_EQ(json["y"]["high"].number(), 1);
-  ASSERT_EQ(json["parts"].size(), 3u) << "neither rings around other marks nor empty curves";
+  ASSERT_EQ(json["parts"].size(), 3u) << "no rings around other marks, and no empty curves";
   const JsonField leapfrog = json["parts"][0], first = leapfrog["series"][0], theory = json["parts"][1];
   EXPECT_EQ(leapfrog["method"].text(), "mysim/leapfrog");
-  EXPECT_EQ(leapfrog["colour"].text(), "mysim") << "style.css has it for both modes";
+  EXPECT_EQ(leapfrog["colour"].text(), "mysim") << "style.css defines it for both modes";
   EXPECT_TRUE(leapfrog["hero"].boolean());
   EXPECT_EQ(first["mark"].text(), "circle");
   EXPECT_FALSE(first.find("open"));
@@ -339,7 +339,7 @@ TEST(ChartJson, OfCurvesSaysWhatIsDrawnBesideThem) {
   EXPECT_EQ(first["tips"][0]["run"].text(), "mysim/leapfrog 0");
   EXPECT_FALSE(first["tips"][1].find("run"));
   EXPECT_EQ(first["scaled"].dump(), "[0,1]") << "its second time is scaled";
-  EXPECT_FALSE(theory.find("method")) << "theory is no method";
+  EXPECT_FALSE(theory.find("method")) << "theory is not a method";
   EXPECT_EQ(theory["series"][0]["dash"].text(), "6 3");
   EXPECT_TRUE(theory["series"][0]["few"].boolean());
   const JsonField failed = json["parts"][2];
@@ -353,7 +353,7 @@ TEST(ChartJson, OfCurvesSaysWhatIsDrawnBesideThem) {
   EXPECT_EQ(json["pareto"].size(), 2u);
   EXPECT_EQ(json["window"].number(), 3);
   EXPECT_EQ(json["categories"][0][1].text(), "spring");
-  ASSERT_EQ(json["guides"].size(), 4u) << "with the names of the window and the floor";
+  ASSERT_EQ(json["guides"].size(), 4u) << "including the names of the window and the floor";
   EXPECT_EQ(json["guides"][0]["axis"].text(), "x");
   EXPECT_EQ(json["guides"][1]["text"].text(), "1 %");
   EXPECT_EQ(json["guides"][3]["kind"].text(), "floor");
@@ -361,7 +361,7 @@ TEST(ChartJson, OfCurvesSaysWhatIsDrawnBesideThem) {
   EXPECT_FALSE(json.find("flat"));
 }
 
-/// The marks of the only series of a figure's parts, with "open" before those that are.
+/// Mark of each series, with "open " in front if it is not filled.
 std::vector<std::string> marks_of(const JsonField& chart) {
   std::vector<std::string> marks;
   for (const JsonField& part : chart["parts"].elements())
@@ -378,9 +378,9 @@ TEST(ChartJson, MarksAreThoseOfThePaperWithTheirFilling) {
   f.curves.push_back({"mysim/rk4 sticks", {"#009E73", "1", 12}, {{1, 2}}, false, true});
   const JsonField json = json_of({"", f});
   EXPECT_EQ(marks_of(json), (std::vector<std::string>{"circle", "open circle", "triangle", "open diamond"}));
-  ASSERT_EQ(json["parts"].size(), 2u) << "one name for each method";
+  ASSERT_EQ(json["parts"].size(), 2u) << "one name per method";
   EXPECT_EQ(json["parts"][0]["name"].text(), "Bullet pbd");
-  EXPECT_TRUE(json["parts"][0]["keyed"].boolean()) << "scattered marks have no end that could bear a name";
+  EXPECT_TRUE(json["parts"][0]["keyed"].boolean()) << "scattered marks have no end to put a name at";
   EXPECT_TRUE(contains(drawing_of(f).script, "Bullet pbd"));
 }
 
@@ -448,7 +448,7 @@ TEST(ChartJson, OfDotsHasAnIntervalOrNothingForEachName) {
   EXPECT_EQ(json["kind"].text(), "dots");
   EXPECT_EQ(names_in(json), dots.names);
   EXPECT_EQ(json["guides"][0]["text"].text(), "mysim is faster");
-  EXPECT_TRUE(contains(drawing_of(dots).script, "mysim is faster")) << "beside its line on paper too";
+  EXPECT_TRUE(contains(drawing_of(dots).script, "mysim is faster")) << "also next to its line on paper";
   EXPECT_EQ(json["headings"][0][1].text(), "without cloth");
   EXPECT_EQ(json["series"][0]["dots"].size(), 2u);
   EXPECT_EQ(json["series"][0]["dots"][0].numbers(), (std::vector<double>{30, 22.5, 40}));
@@ -469,7 +469,7 @@ TEST(ChartJson, OfAMapHasEveryCellWithItsRun) {
   const JsonField json = json_of({"", map});
   EXPECT_EQ(json["kind"].text(), "map");
   EXPECT_EQ(json["x"]["unit"].text(), "s");
-  EXPECT_EQ(json["y"]["label"].text(), map.y_label) << "a ratio is no unit";
+  EXPECT_EQ(json["y"]["label"].text(), map.y_label) << "a ratio is not a unit";
   EXPECT_FALSE(json["y"].find("unit"));
   EXPECT_EQ(json["kinds"].size(), 2u);
   const JsonField cells = json["panels"][0]["cells"];
@@ -485,7 +485,7 @@ TEST(ChartJson, OfAMapHasEveryCellWithItsRun) {
   EXPECT_EQ(json["panels"][0]["measured"].size(), 1u);
 }
 
-/// A rule with a limit on two scenes, one that needs drag, one that holds at every step, one without theory.
+/// A rule with a limit on two scenes, one that needs drag, one that is stable at every step, and one without theory.
 std::vector<LimitRow> limit_rows() {
   const auto row = [](const char* scene, const char* method, PredictionKind theory, double predicted, double omega,
                       MeasuredLimit::Kind found, double measured, double held) {
@@ -510,24 +510,24 @@ TEST(StepLimits, FallOnOneLineWhateverTheScene) {
   const StepLimits f = step_limits_of(limit_rows(), "cloth");
   EXPECT_EQ(f.names,
             (std::vector<std::string>{"mysim/implicit-euler", "bullet/pbd", "mysim/leapfrog", "mysim/explicit-euler"}))
-      << "what holds at every step, then from long limits to short ones";
+      << "stable at every step, then in descending order of limits";
   EXPECT_EQ(f.columns_of, "cloth");
   ASSERT_EQ(f.scenes.size(), 2u);
-  EXPECT_EQ(f.scenes[0].name, "spring") << "from slow to fast";
+  EXPECT_EQ(f.scenes[0].name, "spring") << "in ascending order of omega";
   EXPECT_TRUE(f.rows[0].open);
   EXPECT_EQ(f.rows[0].words, "every step tried, up to h ω = 128");
-  EXPECT_FALSE(f.rows[1].marks.at(0).predicted) << "no theory, no tick";
+  EXPECT_FALSE(f.rows[1].marks.at(0).predicted) << "without theory there is no tick";
   const StepLimits::Row& leapfrog = f.rows[2];
   ASSERT_EQ(leapfrog.marks.size(), 2u);
   EXPECT_NEAR(leapfrog.marks[0].measured, 1.99, 1e-12);
   EXPECT_NEAR(leapfrog.marks[1].measured, 2.004, 1e-12);
   EXPECT_NEAR(*leapfrog.marks[1].predicted, 2, 1e-12);
-  EXPECT_NEAR(leapfrog.held, 1.99, 1e-12) << "up to here all hold";
+  EXPECT_NEAR(leapfrog.held, 1.99, 1e-12) << "stable on all scenes up to here";
   EXPECT_EQ(leapfrog.measured, "2.0040");
   EXPECT_EQ(leapfrog.predicted, "2.0000");
   EXPECT_EQ(f.rows[3].words, "0 without drag; 0.00201 with the drag of cloth");
-  EXPECT_EQ(f.rows[0].measured, "") << "not searched there";
-  EXPECT_EQ(step_limits_of(limit_rows(), "rod").columns_of, "cloth") << "of those that there are the fastest";
+  EXPECT_EQ(f.rows[0].measured, "") << "no search was made there";
+  EXPECT_EQ(step_limits_of(limit_rows(), "rod").columns_of, "cloth") << "the fastest scene with rows";
   EXPECT_TRUE(step_limits_of({}, "cloth").rows.empty());
   EXPECT_THROW(drawing_of(step_limits_of({}, "cloth")), std::runtime_error);
 }
@@ -542,7 +542,8 @@ TEST(StepLimits, OfManyScenesMarkFourThatLieFarApart) {
   ASSERT_EQ(f.scenes.size(), 4u);
   EXPECT_EQ(f.scenes.front().name, "a");
   EXPECT_EQ(f.scenes.back().name, "f");
-  EXPECT_TRUE(std::ranges::count(f.scenes, "e", &StepLimits::SceneMark::name)) << "the scene of the columns";
+  EXPECT_TRUE(std::ranges::count(f.scenes, "e", &StepLimits::SceneMark::name))
+      << "the scene of the columns is always marked";
   EXPECT_EQ(f.rows.at(0).marks.size(), 4u);
 }
 
@@ -565,7 +566,7 @@ TEST(StepLimits, AreTheSameOnPaperAndOnThePage) {
     bool found = false;
     for (const JsonField& mark : marks.elements())
       found |= std::abs(mark[1].number() / std::get<double>(drawing.data.at(i, "h omega")) - 1) < 1e-5;
-    EXPECT_TRUE(found) << "every mark of the csv is on the page";
+    EXPECT_TRUE(found) << "every mark of the CSV must be on the page";
   }
   EXPECT_EQ(measured, 4u);
   EXPECT_EQ(predicted, 3u);
@@ -625,15 +626,16 @@ TEST(MethodLooks, FamiliesHaveTheirColours) {
       "truth/converged",        "exec:./my/engine"};
   const JsonField looks = JsonField::parse(dump(method_looks_json(names)), "looks");
   ASSERT_EQ(looks.size(), names.size());
-  std::map<std::string, std::string> families;  // by their colours
+  std::map<std::string, std::string> families;  // by colour
   for (const std::string& name : names) {
     const JsonField look = looks[name];
     EXPECT_FALSE(look["title"].text().empty()) << name;
     const std::string colour = look["colour"].text(), family(family_of(name).name);
-    EXPECT_TRUE(contains(asset("page/style.css"), "--" + colour + ":")) << "the page's styles know each of them";
+    EXPECT_TRUE(contains(asset("page/style.css"), "--" + colour + ":"))
+        << "the page's style sheet must define each of them";
     if (colour == "outside") continue;
     const auto [known, fresh] = families.emplace(colour, family);
-    EXPECT_TRUE(fresh || known->second == family) << colour << " is of " << known->second << " and " << family;
+    EXPECT_TRUE(fresh || known->second == family) << colour << " belongs to " << known->second << " and " << family;
   }
   EXPECT_TRUE(begins(looks["mysim/rk4"]["colour"].text(), "mysim"));
   EXPECT_TRUE(begins(looks["mysim/symplectic-euler"]["colour"].text(), "mysim"));
@@ -678,7 +680,7 @@ struct Row {
   std::optional<double> own;
 };
 
-/// Rows of one method in the table that experiment `order` writes, from long steps to short ones.
+/// Rows of one method in the table of experiment `order`, from long steps to short ones.
 std::vector<Row> rows_of(const Scene& scene, const std::string& method, TableSet& result) {
   Request request;
   request.scenes = {scene};
@@ -703,10 +705,10 @@ TEST(OwnFinest, TellsWhoConvergesToAnotherLaw) {
     TableSet result;
     const std::vector<Row> rows = rows_of(*scene, "bullet/pbd", result);
     ASSERT_EQ(rows.size(), 5u);
-    EXPECT_FALSE(rows.back().own);  // no distance from itself
+    EXPECT_FALSE(rows.back().own);  // no distance to itself
     const Row& last = rows[3];
     EXPECT_DOUBLE_EQ(last.step, scene->step / 2);
-    // order 1: e and e/2 are left, e/2 apart; to another law the error stays while the distance falls
+    // Order 1: the errors e and e/2 have distance e/2. With another law the error remains while the distance falls.
     if (same_law) {
       EXPECT_NEAR(last.error / *last.own, 2, 0.1);
       EXPECT_NEAR(slope(rows[3].error, rows[4].error), 1, 0.05);
@@ -714,9 +716,9 @@ TEST(OwnFinest, TellsWhoConvergesToAnotherLaw) {
       EXPECT_GT(last.error / *last.own, 8);
       EXPECT_NEAR(rows[3].error / rows[4].error, 1, 0.1);
     }
-    // what is left is 3 and 1 of the finest step: a factor of 3 at order 1
+    // the remaining errors are 3 and 1 times that of the finest step, hence a factor of 3 at order 1
     EXPECT_NEAR(*rows[2].own / *rows[3].own, 3, 0.1);
-    // the error of another law has no order
+    // the error due to another law has no order
     EXPECT_EQ(result.table("order-slopes")->rows.size(), same_law ? 1u : 0u);
   }
 }
@@ -747,7 +749,7 @@ TEST(OwnFinest, OfAStepperFallsWithItsErrorAndRulesOfToleranceAreNamed) {
   TableSet result;
   const std::vector<Row> rows = rows_of(load_scene("pendulum"), "leapfrog,dopri5,odeint/dopri5", result);
   ASSERT_EQ(rows.size(), 7u);
-  // order 2: the distance is the error less what is left at the finest step
+  // order 2: the distance is the error minus that of the finest step
   for (int i = 2; i + 1 < 7; ++i) EXPECT_NEAR((rows[i].error - rows.back().error) / *rows[i].own, 1, 0.02);
   ASSERT_EQ(result.notes.size(), 1u);
   EXPECT_TRUE(contains(result.notes[0], "mysim/dopri5, odeint/dopri5: steps that follow a tolerance"));

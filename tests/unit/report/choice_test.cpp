@@ -1,5 +1,4 @@
-// Findings of scenes and of balls, which method to take, and the answers that the page opens with: rows from data made
-// by hand.
+// Findings on scenes and on balls, the choice of a method, and the answers at the top of the page, from hand-made rows.
 
 #include "experiments/scenes/scenes.h"
 #include "experiments/speed_accuracy/speed_accuracy.h"
@@ -50,7 +49,7 @@ SceneData facts(std::vector<MethodData> methods) {
   return f;
 }
 
-/// What is said of a scene from data made by hand.
+/// Findings on a scene from hand-made data.
 class OfAScene : public testing::Test {
  protected:
   std::vector<Finding> said(const SceneData& data) const {
@@ -113,7 +112,7 @@ TEST_F(OfAScene, AgreementIsOneOfFourRules) {
       if (each.other == theirs) return each.rule;
     return std::string();
   };
-  EXPECT_EQ(rule(), "") << "nothing was compared";
+  EXPECT_EQ(rule(), "") << "there is no comparison";
   peer.difference = 1e-12, set_round_off(f, 1e-11);
   EXPECT_EQ(rule(), "same-rule");
   peer.difference = 1e-9;
@@ -125,7 +124,7 @@ TEST_F(OfAScene, AgreementIsOneOfFourRules) {
   peer.clearance = 0;
   EXPECT_EQ(rule(), "same-rule.contact");
   peer.verdict = Verdict::energy;
-  EXPECT_EQ(rule(), "") << "a run that failed is compared with nothing";
+  EXPECT_EQ(rule(), "") << "failed runs are not compared";
 }
 
 TEST_F(OfAScene, AgreementOfAProgramIsJudgedByTheRuleFound) {
@@ -137,7 +136,7 @@ TEST_F(OfAScene, AgreementOfAProgramIsJudgedByTheRuleFound) {
   EXPECT_EQ(the(said(f), "same-rule.unknown").value, 1e-9);
   f.methods[1].same_rule = true;
   EXPECT_EQ(the(said(f), "same-rule.differs").value, 1e-9);
-  f.methods[1].round_off_bound = 1e-8;  // in single precision
+  f.methods[1].round_off_bound = 1e-8;  // single precision
   EXPECT_EQ(the(said(f), "same-rule").value, 1e-9);
   f.methods[1].same_rule = false;
   EXPECT_EQ(the(said(f), "same-rule.different").other, "exec:./mine");
@@ -199,10 +198,10 @@ TEST(LeastModels, WhatHoldsAtSeveralTolerancesIsSaidOnce) {
   EXPECT_EQ(ingredients_text(""), "nothing");
 }
 
-/// Runs of methods on a scene whose motion is 1 m, with their costs, and the row of the cheapest within 1 %.
+/// Runs of methods with their costs on a scene whose motion is 1 m, and the row of the cheapest one within 1 %.
 class Take : public testing::Test {
  protected:
-  /// With it goes one of half the step, where it holds.
+  /// Also adds a run with half the step, if the run succeeds.
   void add_run(const std::string& method, double step, double error, double cpu, Verdict verdict = Verdict::ok) {
     SpeedAccuracyRow run;
     run.scene = scene, run.method = method, run.requested = run.step = step, run.verdict = verdict, run.motion = 1;
@@ -249,7 +248,7 @@ TEST_F(Take, OfRunsOfTheSameCostTheNearestIsTakenWhateverTheClockSays) {
   add_run("mysim/symplectic-euler", 2e-3, 8e-3, 0.10);
   add_run("mysim/leapfrog", 2e-3, 7e-4, 0.101);
   add_run("mysim/rk4", 4e-3, 5e-3, 0.102);
-  add_run("bullet/deformable-explicit", 4e-3, 5e-3, 0.05);  // no candidate
+  add_run("bullet/deformable-explicit", 4e-3, 5e-3, 0.05);  // not a candidate
   add_cheapest("mysim/symplectic-euler", 2e-3, 8e-3, 0.10);
   const auto run = recommended_run(scene, 0.01, rows());
   ASSERT_TRUE(run);
@@ -260,9 +259,9 @@ TEST_F(Take, OfRunsOfTheSameCostTheNearestIsTakenWhateverTheClockSays) {
   EXPECT_EQ(run->evaluations, 10100);
   EXPECT_EQ(run->motion, 1);
   EXPECT_EQ(run->tied, (std::vector<std::string>{"mysim/symplectic-euler", "mysim/rk4"}));
-  ASSERT_EQ(run->beside.size(), 2u) << "integrators on our right-hand side are no engines";
+  ASSERT_EQ(run->beside.size(), 2u) << "integrators with our right-hand side are not engines";
   EXPECT_EQ(run->beside[0].engine, "bullet");
-  EXPECT_DOUBLE_EQ(run->beside[0].times, 25 * 0.10 / 0.101) << "compared with the recommended run";
+  EXPECT_DOUBLE_EQ(run->beside[0].times, 25 * 0.10 / 0.101) << "relative to the recommended run";
   EXPECT_EQ(run->beside[1].engine, "exec:./mine");
 
   const std::vector<Scene> scenes = load_scenes({scene});
@@ -275,7 +274,7 @@ TEST_F(Take, OfRunsOfTheSameCostTheNearestIsTakenWhateverTheClockSays) {
   EXPECT_EQ(all[0].method, "mysim/leapfrog");
   EXPECT_DOUBLE_EQ(all[0].value, 0.07);
   EXPECT_EQ(all[0].words.at("tied"), "symplectic-euler and rk4");
-  EXPECT_FALSE(recommended_run(scene, 1e-5, rows())) << "no run is as accurate";
+  EXPECT_FALSE(recommended_run(scene, 1e-5, rows())) << "no run is this accurate";
   EXPECT_FALSE(recommended_run("chain", 0.01, rows()));
   EXPECT_FALSE(recommended_run(scene, 0.01, {}));
 }
@@ -283,10 +282,10 @@ TEST_F(Take, OfRunsOfTheSameCostTheNearestIsTakenWhateverTheClockSays) {
 TEST_F(Take, WhatBindsTheStepIsWhatTheNextLongerOneDid) {
   add_run("mysim/leapfrog", 1e-3, 1e-3, 0.2);
   add_run("mysim/leapfrog", 4e-3, 0, 0, Verdict::energy);
-  add_run("mysim/rk4", 2e-3, 0, 0, Verdict::energy);  // of another method
+  add_run("mysim/rk4", 2e-3, 0, 0, Verdict::energy);  // another method
   add_cheapest("mysim/leapfrog", 1e-3, 1e-3, 0.2);
   EXPECT_EQ(recommended_run(scene, 0.01, rows())->bound, "stability");
-  add_run("mysim/leapfrog", 2e-3, 0.02, 0.1);  // holds, but is too far off
+  add_run("mysim/leapfrog", 2e-3, 0.02, 0.1);  // stable, but too inaccurate
   EXPECT_EQ(recommended_run(scene, 0.01, rows())->bound, "accuracy");
 }
 
@@ -314,11 +313,11 @@ TEST_F(Take, IsRingedInItsChartBesideTheCriticalStepOfItsRule) {
   };
   const Figure free = drawn();
   const OnPage& page = free.on_page;
-  ASSERT_EQ(free.guides.size(), 1u) << "no limit is known";
-  EXPECT_EQ(free.guides[0].at, scenes[0].duration) << "real time";
+  ASSERT_EQ(free.guides.size(), 1u) << "no stability limit is known";
+  EXPECT_EQ(free.guides[0].at, scenes[0].duration) << "the line of real time";
   ASSERT_TRUE(page.take);
   EXPECT_EQ(page.take->x, 0.2);
-  EXPECT_DOUBLE_EQ(page.take->y, 0.1) << "% of the motion";
+  EXPECT_DOUBLE_EQ(page.take->y, 0.1) << "in % of the motion";
   EXPECT_EQ(page.take->name, "recommended: 1 ms");
   EXPECT_EQ(page.take->more, "0.1 %, 200 ms");
   Table limits = table_of<LimitRow>();
@@ -328,11 +327,11 @@ TEST_F(Take, IsRingedInItsChartBesideTheCriticalStepOfItsRule) {
   all.add(limits);
   const Figure bound = drawn();
   ASSERT_EQ(bound.guides.size(), 2u);
-  EXPECT_DOUBLE_EQ(bound.guides[1].at, 0.1) << "at twice the step half of the cost";
+  EXPECT_DOUBLE_EQ(bound.guides[1].at, 0.1) << "twice the step is half of the cost";
   EXPECT_TRUE(contains(bound.guides[1].text, "2/ω = 2 ms")) << bound.guides[1].text;
 }
 
-/// What a report of several scenes would say: with tables of every kind, or with the engines' runs alone.
+/// Answers of a report on several scenes, with tables of every kind or with the engines' runs only.
 class Answers : public Take {
  protected:
   void SetUp() override {
@@ -404,10 +403,10 @@ TEST_F(Answers, AreOneToEachQuestion) {
     EXPECT_EQ(answer_to(questions()[i], all), &all[i]);
   }
   EXPECT_EQ(all[0].value, 3.4e-12);
-  EXPECT_EQ(all[1].scene, "cloth-hang") << "the cloth without contact stands for the others";
+  EXPECT_EQ(all[1].scene, "cloth-hang") << "the cloth without contact represents the others";
   EXPECT_EQ(all[1].method, "mysim/symplectic-euler");
   EXPECT_DOUBLE_EQ(all[1].value, 0.71);
-  EXPECT_EQ(all[1].other, "bullet") << "the next engine, no integrator";
+  EXPECT_EQ(all[1].other, "bullet") << "the next engine, not an integrator";
   EXPECT_EQ(all[2].rule, "answer-limit");
   EXPECT_EQ(all[2].value, 2.5075e-3);
   EXPECT_EQ(all[2].low, 2.5e-3);
@@ -416,7 +415,7 @@ TEST_F(Answers, AreOneToEachQuestion) {
   EXPECT_EQ(all[3].value, 72);
   EXPECT_TRUE(contains(sentence_of(all[3]), "pbd 36. On cloth-sphere"));
   EXPECT_TRUE(contains(sentence_of(all[3]), "480 ms, 2.8 mm at the end."));
-  EXPECT_EQ(all[4].method, "mysim/leapfrog") << "rk4 keeps it better here, and not for long";
+  EXPECT_EQ(all[4].method, "mysim/leapfrog") << "rk4 conserves it better here, but not for long";
   EXPECT_DOUBLE_EQ(all[4].value, 2e-3);
   EXPECT_TRUE(contains(sentence_of(all[4]), "a drag of 0.98 per second"));
   EXPECT_DOUBLE_EQ(all[5].value, 33);
@@ -453,7 +452,7 @@ TEST_F(Answers, GiveALimitAboutAStartOnlyWhereTheTruthConfirmsIt) {
   };
   EXPECT_EQ(failure(0.01).rule, "answer-limit");
   EXPECT_EQ(failure(0.01).value, 2.5075e-3);
-  EXPECT_EQ(failure(0.2).rule, "answer-failed") << "what is called stable there is of no use";
+  EXPECT_EQ(failure(0.2).rule, "answer-failed") << "runs called stable are too inaccurate there";
   EXPECT_EQ(failure({}).rule, "answer-failed");
 }
 
@@ -517,7 +516,7 @@ TEST_F(Answers, WithoutBulletTheyAreOfTheEngineThatIsThere) {
   for (const Finding& f : all) EXPECT_FALSE(contains(sentence_of(f), "Bullet")) << sentence_of(f);
   EXPECT_TRUE(says(sentence_of(all[0]), {"mine", "symplectic-euler", "0.1 mm"}));
   for (SceneData& each : facts_) each.methods.back().difference = 1e-12;
-  EXPECT_EQ(answers({})[0].rule, "answer-agreement.difference") << "contact has no bound";
+  EXPECT_EQ(answers({})[0].rule, "answer-agreement.difference") << "there is no bound with contact";
   facts_.pop_back();
   EXPECT_EQ(answers({})[0].rule, "answer-agreement.same-motion");
   for (SceneData& each : facts_) each.methods.back().same_rule = true;
@@ -618,7 +617,7 @@ TEST(SphereFindings, LeavingAnglesByEngineAndWhoGetsWorse) {
   const auto all = leaving_findings(only(t));
   expect_short(all);
   ASSERT_EQ(all.size(), 2u);
-  EXPECT_EQ(all[0].method, "mysim/rk4") << "the furthest of mysim";
+  EXPECT_EQ(all[0].method, "mysim/rk4") << "the least accurate method of mysim";
   EXPECT_NEAR(all[0].value, -0.01, 1e-9);
   EXPECT_NEAR(all[1].value, -1.6, 1e-9);
   EXPECT_TRUE(says(sentence_of(all[1]), {"pbd", "-1.6 degrees", "100 µs", "-0.2 degrees", "1 ms"}));

@@ -1,4 +1,4 @@
-// The program, called as people and scripts call it, in a folder of its own.
+// The program as users and scripts call it, in its own folder.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -40,7 +40,7 @@ class Cli : public testing::Test {
     text << in.rdbuf();
     return text.str();
   }
-  /// The rows of a table, without the provenance lines (they hold the date).
+  /// Rows of a table without the provenance lines, which contain the date.
   static std::string rows(const fs::path& file) {
     std::istringstream in(read(file));
     std::string out;

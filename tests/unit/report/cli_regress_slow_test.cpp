@@ -1,4 +1,4 @@
-// regress on the command line: what is blessed stays the same, what is changed is caught.
+// regress on the command line: blessed results remain valid, and changes are detected.
 
 #include <algorithm>
 
@@ -6,14 +6,13 @@
 
 namespace crosscheck::testing_tools {
 
-// regress on the command line: what is blessed stays the same, what is changed is caught, and nobody blesses by
-// mistake.
+// regress on the command line: blessed results remain valid, changes are detected, and nothing is blessed by mistake.
 
 namespace {
 
 class CliRegress : public Cli {
  protected:
-  /// In a shell where no CI runs, or in one where it does.
+  /// Runs regress in a shell without CI, or with the variable CI set to `ci`.
   ProgramResult regress(std::vector<std::string> words, const std::string& ci = "") const {
     words.insert(words.begin(), {CROSSCHECK_PROGRAM, "regress", "--baselines", "mine"});
     return run_program(words, folder_, {"ASAN_OPTIONS=detect_leaks=0", "CI=" + ci});
@@ -35,7 +34,7 @@ TEST_F(CliRegress, WhatIsBlessedIsTheSameAndTheFileStaysAsItIs) {
   const ProgramResult again = bless("pendulum");
   EXPECT_EQ(again.status, 0) << again.err;
   EXPECT_NE(again.out.find("0 quantities blessed"), std::string::npos) << again.out;
-  EXPECT_EQ(read(folder_ / "mine/pendulum.csv"), file) << "nothing moved, so nobody's word is needed";
+  EXPECT_EQ(read(folder_ / "mine/pendulum.csv"), file) << "nothing changed, so no blessing is needed";
 }
 
 TEST_F(CliRegress, AChangedValueIsCaughtNamedAndBlessedByItself) {
@@ -55,10 +54,10 @@ TEST_F(CliRegress, AChangedValueIsCaughtNamedAndBlessedByItself) {
 
   const ProgramResult other = bless("spring/mysim/leapfrog", "another method");
   EXPECT_EQ(other.status, 0) << other.err;
-  EXPECT_EQ(read(folder_ / "mine/spring.csv"), bad) << "a part that is the same changes nothing";
+  EXPECT_EQ(read(folder_ / "mine/spring.csv"), bad) << "blessing unchanged rows changes nothing";
   const ProgramResult blessed = bless("spring/mysim/rk4", "the digit was wrong");
   EXPECT_EQ(blessed.status, 0) << blessed.err;
-  EXPECT_NE(blessed.out.find("was 7"), std::string::npos) << "before and after: " << blessed.out;
+  EXPECT_NE(blessed.out.find("was 7"), std::string::npos) << "expected the value before the change: " << blessed.out;
   EXPECT_NE(read(folder_ / "mine/spring.csv").find("# blessing 2: "), std::string::npos);
   EXPECT_NE(read(folder_ / "mine/spring.csv").find("| the digit was wrong"), std::string::npos);
   EXPECT_EQ(regress({"--filter", "spring"}).status, 0);
@@ -113,21 +112,21 @@ TEST_F(CliRegress, BadUseIsNamed) {
     EXPECT_NE(result.err.find(says), std::string::npos) << result.err;
   }
   const ProgramResult bisected = regress({"--filter", "spring", "--method", "rk5", "--bisect"});
-  EXPECT_EQ(bisected.status, 125) << "what git takes for: cannot be tested";
+  EXPECT_EQ(bisected.status, 125) << "git bisect reads this as 'cannot be tested'";
   EXPECT_FALSE(fs::exists(folder_ / "mine"));
 }
 
 TEST_F(CliRegress, OneMethodBesideAnother) {
   const ProgramResult same = regress({"--filter", "chain", "--method", "leapfrog", "--against", "leapfrog"});
   EXPECT_EQ(same.status, 0) << same.out;
-  // the same rule in Bullet: other sums, within the rounding
+  // Bullet implements the same rule with other summation orders: differences within rounding.
   const ProgramResult twins =
       regress({"--filter", "spring", "--method", "bullet/deformable-explicit", "--against", "symplectic-euler"});
   EXPECT_EQ(twins.status, 0) << twins.out;
   const ProgramResult other = regress({"--filter", "spring", "--method", "symplectic-euler", "--against", "leapfrog"});
   EXPECT_EQ(other.status, 1) << other.out;
   EXPECT_NE(other.out.find("moved      spring, mysim/symplectic-euler"), std::string::npos) << other.out;
-  // another engine of the same rule, a program of its own: where nothing is in the way it falls as exactly
+  // An external engine that implements the same rule: without contact or springs the fall agrees exactly.
   const ProgramResult outside =
       regress({"--filter", "projectile", "--method", "exec:" CROSSCHECK_EXAMPLE, "--against", "symplectic-euler"});
   EXPECT_EQ(outside.status, 0) << outside.out;
@@ -161,18 +160,17 @@ TEST_F(CliRegress, AFailureHasItsCurvesItsPicturesAndTheTimeAtWhichTheyPart) {
   const std::string page = read(folder_ / "out/regress/index.html");
   EXPECT_NE(page.find("They differ by more than the tolerance between 0 s and"), std::string::npos);
   EXPECT_NE(page.find("quantities failed"), std::string::npos);
-  EXPECT_NE(page.find("data:image/webp"), std::string::npos) << "a picture of both";
+  EXPECT_NE(page.find("data:image/webp"), std::string::npos) << "a picture of both runs";
   for (const char* figure : {"curve.svg", "difference.svg", "shape.png"})
     EXPECT_TRUE(fs::exists(folder_ / "out/regress/figures" / (std::string("chain-mysim-symplectic-euler-") + figure)));
   regress({"--filter", "chain", "--method", "symplectic-euler", "--against", "leapfrog", "--figures", "0"});
-  EXPECT_FALSE(fs::exists(folder_ / "out/regress/index.html"))
-      << "a page of an earlier run would be taken for this one's";
+  EXPECT_FALSE(fs::exists(folder_ / "out/regress/index.html")) << "a page of an earlier run must not remain";
 }
 
 TEST_F(CliRegress, ABlessingKeepsAFigureOfWhatMovedAndTheShape) {
   ASSERT_EQ(bless("spring/mysim/leapfrog").status, 0);
   EXPECT_TRUE(fs::exists(folder_ / "mine/spring-shape.csv"));
-  EXPECT_FALSE(fs::exists(folder_ / "mine/spring-blessing-1.svg")) << "nothing was before";
+  EXPECT_FALSE(fs::exists(folder_ / "mine/spring-blessing-1.svg")) << "there was nothing before";
   std::string text = read(folder_ / "mine/spring.csv");
   const size_t row = text.find("mysim/leapfrog,,always,sag");
   ASSERT_NE(row, std::string::npos);
@@ -189,7 +187,7 @@ TEST_F(CliRegress, AUsersOwnSceneHasBaselinesToo) {
   std::string scene = read(fs::path(CROSSCHECK_SOURCE) / "experiments/scenes/pendulum.toml");
   write("my-swing.toml", scene);
   const std::vector<std::string> ask{"my-swing.toml", "--method", "leapfrog"};
-  EXPECT_EQ(regress(ask).status, 1) << "nobody blessed it";
+  EXPECT_EQ(regress(ask).status, 1) << "there is no baseline yet";
   ASSERT_EQ(regress({"my-swing.toml", "--method", "leapfrog", "--bless", "--reason", "mine", "--full"}).status, 0);
   EXPECT_TRUE(fs::exists(folder_ / "mine/my-swing.csv"));
   EXPECT_EQ(regress(ask).status, 0);
@@ -200,7 +198,7 @@ TEST_F(CliRegress, AUsersOwnSceneHasBaselinesToo) {
   EXPECT_NE(stale.out.find("stale      my-swing: baseline"), std::string::npos) << stale.out;
 }
 
-/// A method that is taken out of the suite takes its quantities with it; that must not look like success.
+/// Removing a method from the suite also removes its quantities, which must not look like success.
 TEST_F(CliRegress, WhatNobodyAsksAnyMoreIsSaid) {
   ASSERT_EQ(regress({"projectile", "--bless", "--full", "--reason", "all of it"}).status, 0);
   EXPECT_EQ(regress({"projectile"}).status, 0);
@@ -214,12 +212,12 @@ TEST_F(CliRegress, WhatNobodyAsksAnyMoreIsSaid) {
   EXPECT_EQ(rot.status, 1);
   EXPECT_NE(rot.out.find("gone       projectile, mysim/forgotten: all: nobody asks for it any more"), std::string::npos)
       << rot.out;
-  EXPECT_EQ(regress({"projectile", "--method", "leapfrog"}).status, 0) << "a part of it was asked, and is there";
+  EXPECT_EQ(regress({"projectile", "--method", "leapfrog"}).status, 0) << "the requested part exists";
   ASSERT_EQ(regress({"projectile", "--bless", "--full", "--reason", "it was taken out"}).status, 0);
   EXPECT_EQ(regress({"projectile"}).status, 0);
 }
 
-/// Five of the wrong changes, each on one scene that shows it; all of them by tests/mutants/prove.sh.
+/// Five of the mutants, each on one scene that reveals it. tests/mutants/prove.sh runs all of them.
 TEST_F(CliRegress, MutantsAreCaughtAndTheOriginalIsNot) {
   const struct {
     const char *mutant, *scene;
@@ -242,7 +240,7 @@ TEST_F(CliRegress, MutantsAreCaughtAndTheOriginalIsNot) {
   }
 }
 
-/// The C library's variants of sin, exp and pow that round twice where the usual ones fuse: no false alarm.
+/// Variants of the C library's sin, exp and pow that round twice instead of fusing must not raise false alarms.
 TEST_F(CliRegress, OtherVariantsOfTheLibraryPass) {
   const ProgramResult same =
       run_program({CROSSCHECK_PROGRAM, "regress", "--filter", "spring/mysim/*"}, folder_,

@@ -1,5 +1,4 @@
-// The program as people and scripts call it: exit statuses, messages of one line, run, engines, parts of sweeps,
-// advise.
+// The program as users and scripts call it: exit statuses, one-line messages, run, engines, shards of sweeps, advise.
 
 #include <fmt/format.h>
 #include <sys/resource.h>
@@ -23,7 +22,7 @@ using namespace testing_tools;
 
 TEST_F(Cli, BadInputExitsWith2AndOneHelpfulLine) {
   const std::string good = own_scene;
-  // a faulty copy of the scene, and the place of its fault as a message names it: "FILE:LINE:"
+  // writes a faulty copy of the scene and returns the position of its fault as in a message: "FILE:LINE:"
   auto with = [&](const std::string& name, const std::string& from, const std::string& to, const std::string& fault) {
     std::string text = good;
     text.replace(text.find(from), from.size(), to);
@@ -40,7 +39,7 @@ TEST_F(Cli, BadInputExitsWith2AndOneHelpfulLine) {
   write("a-file", "");
   struct Row {
     std::vector<std::string> words;
-    std::vector<std::string> expected;  // parts of the message
+    std::vector<std::string> expected;  // substrings of the message
   };
   const Row table[] = {
       {{"run", unknown_key}, {unknown_key_at, "gravity.strength", "unknown key", "acceleration"}},
@@ -108,10 +107,10 @@ TEST_F(Cli, BadInputExitsWith2AndOneHelpfulLine) {
     const ProgramResult result = call(row.words);
     SCOPED_TRACE(result.err);
     EXPECT_EQ(result.status, 2);
-    EXPECT_EQ(std::count(result.err.begin(), result.err.end(), '\n'), 1) << "one line";
+    EXPECT_EQ(std::count(result.err.begin(), result.err.end(), '\n'), 1) << "expected one line";
     for (const std::string& part : row.expected) EXPECT_NE(result.err.find(part), std::string::npos) << part;
   }
-  EXPECT_EQ(files(), before) << "bad input leaves nothing behind";
+  EXPECT_EQ(files(), before) << "bad input must leave no files";
 }
 
 TEST_F(Cli, RunWritesWhatPythonReads) {
@@ -120,8 +119,8 @@ TEST_F(Cli, RunWritesWhatPythonReads) {
   const std::string npy = read(folder_ / "out/trajectory.npy");
   ASSERT_GT(npy.size(), 128u);
   EXPECT_EQ(npy.substr(0, 8), std::string("\x93NUMPY\x01\x00", 8));
-  EXPECT_NE(npy.find("'shape': (26, 4, 3)"), std::string::npos);  // 25 samples of 0.02 s and the start
-  EXPECT_EQ(npy.size() % 64, (26 * 4 * 3 * sizeof(double)) % 64) << "data begin at a multiple of 64";
+  EXPECT_NE(npy.find("'shape': (26, 4, 3)"), std::string::npos);  // 25 samples of 0.02 s and the initial state
+  EXPECT_EQ(npy.size() % 64, (26 * 4 * 3 * sizeof(double)) % 64) << "data must start at a multiple of 64";
   EXPECT_EQ(read(folder_ / "out/velocities.npy").size(), npy.size());
   EXPECT_NE(read(folder_ / "out/run.json").find("\"verdict\": \"ok\""), std::string::npos);
   EXPECT_NE(read(folder_ / "out/energy.csv").find("method [1],t [s],kinetic [J]"), std::string::npos);
@@ -160,16 +159,16 @@ TEST_F(Cli, ReportOfOwnSceneIsWholeAndTheSameTwice) {
   const std::string page = with_folds_put_back(read(folder_ / "one/index.html"));
   EXPECT_NE(page.find("Does a scene that nobody shipped work everywhere?"), std::string::npos);
   std::string addresses = page;
-  const std::string svg = "http://www.w3.org/2000/svg";  // the name of a language, which nobody loads
+  const std::string svg = "http://www.w3.org/2000/svg";  // a namespace, which is never loaded
   for (size_t at; (at = addresses.find(svg)) != std::string::npos;) addresses.erase(at, svg.size());
-  EXPECT_EQ(addresses.find("http://"), std::string::npos) << "the page needs no network";
+  EXPECT_EQ(addresses.find("http://"), std::string::npos) << "the page must not need a network";
   EXPECT_EQ(page.find("https://"), std::string::npos);
   for (const char* figure : {"mine-error", "mine-agreement", "mine-energy", "mine-order"}) {
     for (const char* ending : {".gp", ".csv"})
       EXPECT_TRUE(fs::exists(folder_ / "one/figures" / (std::string(figure) + ending))) << figure << ending;
     EXPECT_NE(page.find(fmt::format("data-chart=\"{}\"", figure)), std::string::npos) << figure;
   }
-  // those that open a chapter are drawn for paper, each in every form, and others are not
+  // figures that open a chapter are drawn for paper, each in every format; others are not
   int drawn = 0;
   for (const auto& entry : fs::directory_iterator(folder_ / "one/figures")) {
     if (entry.path().extension() != ".svg") continue;
@@ -178,18 +177,20 @@ TEST_F(Cli, ReportOfOwnSceneIsWholeAndTheSameTwice) {
       EXPECT_TRUE(fs::exists(fs::path(entry.path()).replace_extension(ending))) << entry.path() << ending;
   }
   EXPECT_GE(drawn, 3);
-  EXPECT_LE(drawn, 5) << "a chapter has one";
+  EXPECT_LE(drawn, 5) << "one per chapter";
   int figures = 0;
   EXPECT_EQ(looking_alike_in(folder_ / "one/figures", figures), "");
   EXPECT_GE(figures, 15);
-  EXPECT_TRUE(fs::exists(folder_ / "one/figures/circle-speed-accuracy-cost.svg")) << "the last scene stands for others";
+  EXPECT_TRUE(fs::exists(folder_ / "one/figures/circle-speed-accuracy-cost.svg"))
+      << "the last scene represents the others";
   EXPECT_FALSE(fs::exists(folder_ / "one/figures/mine-agreement.svg"));
   EXPECT_TRUE(fs::exists(folder_ / "one/figures/mine-thumbnail.png"));
   EXPECT_TRUE(fs::exists(folder_ / "one/runs/mine-engines/mysim-symplectic-euler.u16.gz"));
-  EXPECT_FALSE(fs::exists(folder_ / "one/runs/mine-engines/mysim-symplectic-euler.json")) << "it is in report.json";
+  EXPECT_FALSE(fs::exists(folder_ / "one/runs/mine-engines/mysim-symplectic-euler.json"))
+      << "its data are in report.json";
   EXPECT_NE(page.find("<motion-player data-scene=\"mine\""), std::string::npos);
   EXPECT_NE(page.find("class=\"motion\" data-scene=\"mine\""), std::string::npos);
-  // the answers of the first screen
+  // answers at the top of the page
   const JsonField report = JsonField::parse_file(folder_ / "one/report.json");
   EXPECT_EQ(report["extent"].text(), "named");
   int answers = 0;
@@ -199,12 +200,12 @@ TEST_F(Cli, ReportOfOwnSceneIsWholeAndTheSameTwice) {
     answers += finding["topic"].text() == "answer";
   }
   EXPECT_GE(answers, 3);
-  // what was read back from the engines' memory
+  // values read back from the engines' memory
   EXPECT_NE(read(folder_ / "one/data/certificates.csv").find("mine,bullet/deformable-explicit,"), std::string::npos);
   EXPECT_NE(read(folder_ / "one/data/dictionary.csv").find("certificates,"), std::string::npos);
   EXPECT_EQ(call({"report", "--verify", "one"}).status, 0);
 
-  // from its data: the same page without running anything, beside it and in its place
+  // From its data: the identical page without running anything, next to the original and in its place.
   const std::string json = read(folder_ / "one/report.json");
   for (const char* out : {"from", "one"}) {
     const auto begin = std::chrono::steady_clock::now();
@@ -225,7 +226,7 @@ TEST_F(Cli, ReportOfOwnSceneIsWholeAndTheSameTwice) {
     EXPECT_FALSE(fs::exists(folder_ / "never"));
   }
 
-  // two runs: the same data rows, SVG, PNG and PDF; costs and what is drawn from them aside
+  // Two runs give identical data rows, SVG, PNG and PDF, except for costs and drawings of costs.
   int compared = 0;
   for (const auto& entry : fs::recursive_directory_iterator(folder_ / "one")) {
     const fs::path file = entry.path(), other = folder_ / "two" / fs::relative(file, folder_ / "one");
@@ -238,13 +239,13 @@ TEST_F(Cli, ReportOfOwnSceneIsWholeAndTheSameTwice) {
       EXPECT_TRUE(read(file) == read(other)) << file;
       ++compared;
     }
-    EXPECT_NE(ending, ".part") << "no half file is left";
+    EXPECT_NE(ending, ".part") << "no partial file may remain";
   }
   EXPECT_GT(compared, 30);
 }
 
 TEST_F(Cli, ReportClaimsNoAgreementWhereTheMotionIsChaotic) {
-  // four masses flung about without drag for 20 s: any two engines part, and the page must not call that round-off
+  // Four masses thrown about without drag for 20 s: any two engines diverge, and the page must not call that round-off.
   std::string text = own_scene;
   const auto replace = [&](const std::string& from, const std::string& to) {
     text.replace(text.find(from), from.size(), to);
@@ -276,7 +277,7 @@ TEST_F(Cli, ReportOfBodiesAtRestAndFreeFlightIsWhole) {
   int figures = 0;
   EXPECT_EQ(looking_alike_in(folder_ / "out/figures", figures), "");
   const std::string page = read(folder_ / "out/index.html");
-  for (const char* number : {"nan ", "-nan", ">nan", "inf "})  // none of these can stand in the images' base64
+  for (const char* number : {"nan ", "-nan", ">nan", "inf "})  // none of these can occur in base64
     EXPECT_EQ(page.find(number), std::string::npos) << number;
 }
 
@@ -300,15 +301,15 @@ namespace {
 class CliRun : public Cli {};
 
 TEST_F(CliRun, KilledLeavesNoHalfFile) {
-  // two thousand million steps of a chain take minutes, and frames come all the time
+  // Two thousand million steps of a chain take minutes, and frames are written all the time.
   const ProgramResult result = run_program({"timeout", "-s", "KILL", "1", CROSSCHECK_PROGRAM, "run", "chain",
                                             "--duration", "19000", "--step", "1e-5", "--out", "out"},
                                            folder_);
   EXPECT_EQ(result.status, 128 + 9) << result.err;
-  ASSERT_TRUE(fs::exists(folder_ / ".out.crosscheck/new")) << "it was running";
+  ASSERT_TRUE(fs::exists(folder_ / ".out.crosscheck/new")) << "the run must have started";
   EXPECT_FALSE(fs::exists(folder_ / "out"));
   EXPECT_EQ(call({"run", "chain", "--out", "out"}).status, 0);
-  EXPECT_EQ(files(), 6) << "the folder, its five files and nothing else";
+  EXPECT_EQ(files(), 6) << "expected the folder and its five files only";
 }
 
 TEST_F(CliRun, MoreFramesTakeNoMoreMemory) {
@@ -326,11 +327,11 @@ TEST_F(CliRun, MoreFramesTakeNoMoreMemory) {
               std::string::npos);
     rusage used{};
     getrusage(RUSAGE_CHILDREN, &used);
-    return used.ru_maxrss / 1024.;  // MiB: of the largest program so far
+    return used.ru_maxrss / 1024.;  // MiB; maximum over all child processes so far
   };
   constexpr double frame = 2. * 3 * side * side * sizeof(double) / (1 << 20);  // MiB, positions and velocities
   const double few = with_samples(2);
-  // the allocator's own moods: a tenth of what the frames would take
+  // allow a tenth of the size of the frames for variations of the allocator
   EXPECT_LT(with_samples(many) - few, 0.1 * many * frame);
 }
 
@@ -350,7 +351,7 @@ TEST_F(Cli, CompareStopsAtAMismatch) {
   EXPECT_NE(result.out.find("MISMATCH: bullet/deformable-explicit+default-rest was given another scene"),
             std::string::npos)
       << result.out;
-  // the other side of it
+  // conversely, without the mismatch
   EXPECT_EQ(call({"compare", "spring", "--methods", "leapfrog,bullet/deformable-explicit", "--out", "out"}).status, 0);
 }
 
@@ -374,7 +375,7 @@ TEST_F(Cli, CompareTakesATrajectoryFromAFile) {
   std::string name, verdict, error, difference;
   row >> name >> verdict >> error >> difference;
   EXPECT_EQ(verdict, "ok");
-  EXPECT_EQ(difference, "0") << "the same run";
+  EXPECT_EQ(difference, "0") << "expected identical runs";
   EXPECT_NE(result.out.find("parity of file:trajectory.npy"), std::string::npos);
   ASSERT_EQ(call({"run", "chain", "--duration", "1", "--out", "short"}).status, 0);
   const ProgramResult refused = call({"compare", "chain", "--trajectory", "short/trajectory.npy"});
@@ -400,7 +401,7 @@ namespace {
 
 class CliSweep : public Cli {
  protected:
-  /// Tables of a folder by name, without the provenance lines; costs aside.
+  /// Tables of a folder by name, without the provenance lines and except for costs.
   std::map<std::string, std::string> tables(const std::string& out) const {
     std::map<std::string, std::string> all;
     for (const auto& entry : fs::directory_iterator(folder_ / out))
@@ -415,7 +416,7 @@ TEST_F(CliSweep, MergedShardsAreTheWhole) {
     const ProgramResult result = call({"experiment", "order", "engines", "spring", "circle", "--shard", part, "--out",
                                        std::string("part") + part[0]});
     ASSERT_EQ(result.status, 0) << result.err;
-    EXPECT_TRUE(tables(std::string("part") + part[0]).empty()) << "a part is no table";
+    EXPECT_TRUE(tables(std::string("part") + part[0]).empty()) << "a shard must not write tables";
   }
   ASSERT_EQ(call({"experiment", "order", "engines", "spring", "circle", "--out", "whole"}).status, 0);
   ASSERT_EQ(call({"merge", "part2", "part1", "--out", "merged"}).status, 0);
@@ -443,7 +444,7 @@ TEST_F(CliSweep, ResumeKeepsWhatIsFinishedAndOthersAreNotJoined) {
   ASSERT_EQ(again.status, 0) << again.err;
   const auto after = finished();
   EXPECT_EQ(after.size(), 2u);
-  EXPECT_EQ(after.rbegin()->second, before.rbegin()->second) << "kept";
+  EXPECT_EQ(after.rbegin()->second, before.rbegin()->second) << "the finished point must be kept";
 
   ASSERT_EQ(call({"experiment", "order", "spring", "--out", "other"}).status, 0);
   const ProgramResult mixed = call({"merge", "out", "other", "--out", "mixed"});
@@ -452,7 +453,7 @@ TEST_F(CliSweep, ResumeKeepsWhatIsFinishedAndOthersAreNotJoined) {
       << mixed.err;
 }
 
-/// array.sbatch as Slurm starts it, with a program that says what it was called with.
+/// Runs array.sbatch as Slurm does, with a program that prints its arguments.
 class CliArray : public Cli {
  protected:
   void SetUp() override {
@@ -540,7 +541,7 @@ TEST_F(Cli, AdviseTakesAPartOfTheMotion) {
     EXPECT_EQ(refused.status, 2);
     EXPECT_TRUE(contains(refused.err, fmt::format("such as 1%, got '{}'", wrong))) << refused.err;
   }
-  // a scene without a truth whose step is too long
+  // a scene without a reference solution, because its step is too long
   std::string fails = load_scene("jelly").source;
   fails.replace(fails.find("step = 1e-3"), 11, "step = 2e-2");
   write("fails.toml", fails);

@@ -1,4 +1,4 @@
-// The contract of a report's folder (report/CONTRACT.md): its example reads a run, and matches the run itself.
+// The contract of a report's folder (report/CONTRACT.md): its example code reads a run and matches the run itself.
 
 #include "tests/unit/helpers.h"
 #include "tests/unit/report/cli.h"

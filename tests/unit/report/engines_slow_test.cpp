@@ -1,4 +1,4 @@
-// Adapters of engines that Debian packages: built by `engine`, they obey mysim's rule.
+// Adapters of engines packaged by Debian: built by `engine`, they follow mysim's rule.
 
 #include "tests/unit/helpers.h"
 #include "tests/unit/report/cli.h"
@@ -7,12 +7,12 @@ namespace crosscheck::testing_tools {
 namespace {
 
 struct Packaged {
-  std::string name, options;  // with these options it is symplectic Euler, drag included
+  std::string name, options;  // options that make it symplectic Euler, including drag
 };
 
 class PackagedEngine : public Cli, public ::testing::WithParamInterface<Packaged> {
  protected:
-  /// Builds the adapter. A missing package is named, and skips the test.
+  /// Builds the adapter. Skips the test with the package's name if a package is missing.
   void SetUp() override {
     Cli::SetUp();
     const ProgramResult made = call({"engine", GetParam().name, "-o", GetParam().name});

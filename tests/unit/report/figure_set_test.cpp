@@ -1,4 +1,4 @@
-// Sets of figures and PNG files: sizes as asked, words for text and LaTeX, drawings that gnuplot alone can make.
+// Figure sets and PNG files: requested sizes, text for plain text and LaTeX, drawings that gnuplot alone can redraw.
 
 #include "report/figures/figure_set.h"
 
@@ -68,7 +68,7 @@ TEST(CurveFigures, AreDrawnWithCategoryNamesOfEveryLength) {
       while (name.size() + 3 <= length) name += "布";
       f.categories = {{0, name + "a"}, {1, std::string(length, 's')}};
       f.curves = {{"mysim/rk4", style_of("mysim/rk4"), {{0, 1}, {1, 2}}, false, true}};
-      const std::string script = drawing_of(f).script;  // throws if nothing is left for the plot
+      const std::string script = drawing_of(f).script;  // throws if there is no room for the plot
       EXPECT_EQ(printable(script), script) << length << " in " << set;
     }
 }
@@ -104,7 +104,7 @@ class FigureSet : public InFolder {
           chart.figure);
     }
   }
-  /// Of a PDF's page, points.
+  /// Width (points) of a PDF's page.
   double width_of(const std::string& name) const { return page_of(read(folder_ / (name + ".pdf"))).first; }
   std::vector<Chart> all;
 };
@@ -112,7 +112,7 @@ class FigureSet : public InFolder {
 TEST_F(FigureSet, EveryKindHasTheWidthThatWasAsked) {
   for (const double width : {8.5, 12.0, 17.0}) {
     make({width, 8, false});
-    // a point is 1/72 inch, and gnuplot's pages are whole ones
+    // a point is 1/72 inch, and gnuplot rounds pages to whole points
     for (const char* name : {"lines", "bars", "map"}) EXPECT_NEAR(width_of(name), width / 2.54 * 72, 1.01) << name;
   }
 }
@@ -123,7 +123,7 @@ TEST_F(FigureSet, LettersOnThePageHaveTheSizeThatWasAsked) {
     for (const char* name : {"lines", "bars", "map"}) {
       const std::set<double> letters = letters_of(read(folder_ / (std::string(name) + ".pdf")));
       ASSERT_FALSE(letters.empty()) << name;
-      // of one size: exponents are letters of their own
+      // all letters have one size: exponents are separate characters
       EXPECT_NEAR(*letters.begin(), font, 0.05) << name;
       EXPECT_NEAR(*letters.rbegin(), font, 0.05) << name;
     }
@@ -132,7 +132,7 @@ TEST_F(FigureSet, LettersOnThePageHaveTheSizeThatWasAsked) {
   EXPECT_LE(figure_size("paper", "").font, 8);
 }
 
-/// A figure of many methods over wide ranges, some of which fail.
+/// A figure of many methods over wide ranges, with some failures.
 Figure crowded() {
   Figure f;
   f.name = "crowded", f.title = "many", f.x = {"time step / s", true}, f.y = {"error / m", true};
@@ -154,10 +154,10 @@ TEST_F(FigureSet, AtMostSixMethodsAreInColourAndTheOthersAreGrey) {
   std::set<std::string> colours;
   const std::regex colour("lc rgb \"(#[0-9A-F]+)\"");
   for (std::sregex_iterator i(plot.begin(), plot.end(), colour), end; i != end; ++i) colours.insert((*i)[1]);
-  EXPECT_EQ(colours.size(), 7u) << "six and grey";
+  EXPECT_EQ(colours.size(), 7u) << "expected six colours and grey";
   EXPECT_TRUE(contains(script, " others'"));
   EXPECT_FALSE(contains(script, "set title"));
-  EXPECT_FALSE(contains(script, "set label 'mysim/")) << "readers know it by another name";
+  EXPECT_FALSE(contains(script, "set label 'mysim/")) << "readers must see its display name";
 }
 
 TEST_F(FigureSet, NoTextLeavesTheSheet) {
@@ -255,7 +255,7 @@ TEST_F(FigureSet, WordsSayWhatEachShows) {
   EXPECT_TRUE(contains(read(folder_ / "CITATION.cff"), "version: \"abc\"\ndate-released: \"2026-11-22\""));
 }
 
-/// All letters beyond ASCII that stand in the C++ sources of a folder, each once.
+/// All non-ASCII characters in the C++ sources of a folder, without duplicates.
 std::set<std::string> letters_in(const std::filesystem::path& folder) {
   std::set<std::string> letters;
   for (const auto& entry : std::filesystem::recursive_directory_iterator(folder)) {
@@ -263,7 +263,7 @@ std::set<std::string> letters_in(const std::filesystem::path& folder) {
     std::ifstream in(entry.path());
     const std::string text{std::istreambuf_iterator<char>(in), {}};
     for (size_t i = 0; i < text.size(); ++i)
-      if ((text[i] & 0xC0) == 0xC0)  // the first byte of a letter in UTF-8
+      if ((text[i] & 0xC0) == 0xC0)  // first byte of a UTF-8 sequence
         letters.insert(text.substr(i, (text[i] & 0xF0) == 0xF0 ? 4 : (text[i] & 0xE0) == 0xE0 ? 3 : 2));
   }
   return letters;
@@ -272,7 +272,7 @@ std::set<std::string> letters_in(const std::filesystem::path& folder) {
 TEST_F(FigureSet, APaperWithTheSetCompiles) {
   NEEDS_PROGRAM("pdflatex", "texlive-latex-base", "no paper with a set of figures is compiled");
   all = charts();
-  // what captions are made of, and what is special to LaTeX
+  // characters that occur in captions, and LaTeX's special characters
   std::string letters = "a_b & 5 % of #1 {x} ~ ^ \\ $ < >";
   for (const char* room : {"report/figures", "report/findings", "experiments"})
     for (const std::string& letter : letters_in(std::filesystem::path(CROSSCHECK_SOURCE) / room))
@@ -288,7 +288,7 @@ TEST_F(FigureSet, APaperWithTheSetCompiles) {
     paper += "Figure~\\ref{fig:" + words.name + "} is input as it is.\n\\input{" + words.name + "}\n";
   }
   write("paper.tex", paper + "\\end{document}\n");
-  for (int pass = 0; pass < 2; ++pass) {  // the second one knows the labels
+  for (int pass = 0; pass < 2; ++pass) {  // the second pass resolves labels
     const ProgramResult compiled =
         run_program({"pdflatex", "-interaction=nonstopmode", "-halt-on-error", "paper.tex"}, folder_);
     ASSERT_EQ(compiled.status, 0) << compiled.out;
@@ -337,7 +337,7 @@ TEST_F(PngFile, KeepsEveryPixelAndNamesWhatIsNoPng) {
   const fs::path file = write("none.png", "\x89PNG, but not further than that: no chunk of it is whole");
   try {
     render::read_png(file);
-    FAIL() << "nothing is said";
+    FAIL() << "expected an error";
   } catch (const std::runtime_error& error) {
     EXPECT_TRUE(std::string(error.what()).starts_with("cannot read " + file.string())) << error.what();
   }

@@ -1,4 +1,5 @@
-// Lets the first screen of a cloth move and writes what it saw into the page. Stands after stage_selftest.js.
+// Runs the animation at the top of the page of a cloth and writes the observations into the page. Load it after
+// stage_selftest.js.
 addEventListener('load', async () => {
   const seen = {};
   try {

@@ -1,4 +1,4 @@
-// A page opened from a file in a browser without a window, and what a script in it wrote down. Chromium is optional.
+// Opens a page from a file in a headless browser and reads the results of a script in it. Chromium is optional.
 #pragma once
 
 #include "mysim/base/json.h"
@@ -10,24 +10,24 @@ namespace crosscheck::testing_tools {
 
 class InBrowser : public InFolder {
  protected:
-  /// Runs Chromium on the page with these flags besides the usual ones.
+  /// Runs Chromium on the page with the given flags in addition to the usual ones.
   ProgramResult browse(const std::filesystem::path& page, const std::vector<std::string>& flags) const {
     std::vector<std::string> call{"chromium",
                                   "--headless=new",
-                                  "--no-sandbox",  // in a container as root there is none
+                                  "--no-sandbox",  // there is none as root in a container
                                   "--use-angle=swiftshader",
                                   "--enable-unsafe-swiftshader",
                                   "--disable-background-networking",
-                                  "--disable-extensions",  // a quarter of what a start costs
+                                  "--disable-extensions",  // a quarter of the start-up time
                                   "--disable-component-update",
                                   "--disable-sync",
                                   "--no-first-run",
-                                  "--force-prefers-reduced-motion",  // nothing moves unless it is told to
+                                  "--force-prefers-reduced-motion",  // no animation unless requested
                                   "--user-data-dir=" + (folder_ / "profile").string(),
                                   "--window-size=900,800"};
     if (!real_time_) {
       call.emplace_back("--virtual-time-budget=60000");
-      // pictures of a quarter of the pixels, on a page that is laid out as ever: most of the cost is their drawing
+      // Render a quarter of the pixels without changing the layout, because drawing dominates the cost.
       call.emplace_back("--force-device-scale-factor=0.5");
     }
     call.insert(call.end(), flags.begin(), flags.end());
@@ -35,10 +35,10 @@ class InBrowser : public InFolder {
     return run_program(call, folder_);
   }
 
-  /// Time passes as it does for a reader; the page says by its load event when it is done (real_time.js).
+  /// Uses real time. The page reports its end by its load event (real_time.js).
   bool real_time_ = false;
 
-  /// These files of tests/unit as scripts, for the head of a page.
+  /// These files of tests/unit as script elements for the head of a page.
   static std::string scripts(const std::vector<std::string>& names) {
     std::string all;
     for (const std::string& name : names)
@@ -46,14 +46,14 @@ class InBrowser : public InFolder {
     return all;
   }
 
-  /// What the page's self-test wrote into <script id="seen">.
+  /// Results of the page's self-test, from <script id="seen">.
   JsonField seen(const std::filesystem::path& page, std::vector<std::string> flags) const {
     flags.emplace_back("--dump-dom");
     const ProgramResult result = browse(page, flags);
     const std::string begin = "<script type=\"application/json\" id=\"seen\">";
     const size_t at = result.out.find(begin);
     if (at == std::string::npos) {
-      ADD_FAILURE() << "the page did not come to its end: " << last_lines(result.err, 20);
+      ADD_FAILURE() << "the page did not finish: " << last_lines(result.err, 20);
       return JsonField::parse("{}", "what the page saw");
     }
     const size_t from = at + begin.size();

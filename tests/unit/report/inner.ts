@@ -1,4 +1,4 @@
-// The page of the lab for self-tests: the names that they read inside its scripts are global.
+// The lab's page for self-tests, which access names inside its scripts as globals.
 import '../../../report/page/lab_page';
 
 import * as engine from '../../../report/page/lab/engine';

@@ -1,4 +1,4 @@
-// The lab's engine alone, as Node runs it.
+// The lab's engine only, for Node.
 import {labModule} from '../../../report/page/lab/engine';
 
 Object.assign(globalThis, {labModule});

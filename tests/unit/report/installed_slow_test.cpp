@@ -1,4 +1,5 @@
-// What `cmake --install` writes works by itself: in a folder of its own, with the source tree out of sight.
+// The installation written by `cmake --install` works without the build: in its own folder, with the source tree
+// hidden.
 
 #include <gtest/gtest.h>
 
@@ -12,7 +13,7 @@
 namespace crosscheck::testing_tools {
 namespace {
 
-/// The installation, and an empty folder to work in.
+/// The installation, and an empty working folder.
 class Installed : public testing::Test {
  protected:
   static void SetUpTestSuite() {
@@ -28,7 +29,7 @@ class Installed : public testing::Test {
   static fs::path work() { return all_->path / "work"; }
   static fs::path program() { return prefix() / "bin/crosscheck"; }
 
-  /// Runs a shell's command where nothing is below the source tree.
+  /// Runs a shell command with an empty mount over the source tree.
   static ProgramResult unseen(const std::string& command) {
     std::vector<std::string> words{"unshare", "--mount"};
     if (geteuid() != 0) words.insert(words.end(), {"--user", "--map-root-user"});
@@ -57,7 +58,7 @@ TEST_F(Installed, NoFileNamesTheSourceTree) {
 }
 
 TEST_F(Installed, WorksWithoutTheSourceTree) {
-  if (!can_hide()) GTEST_SKIP() << "this machine makes no mount namespaces: the source tree is not hidden";
+  if (!can_hide()) GTEST_SKIP() << "this machine does not support mount namespaces, which hide the source tree";
   EXPECT_NE(unseen("cat " CROSSCHECK_SOURCE "/README.md").status, 0);
   const std::vector<std::string> calls = {
       "list scenes",
@@ -73,7 +74,7 @@ TEST_F(Installed, WorksWithoutTheSourceTree) {
     EXPECT_EQ(end.status, 0) << words << "\n" << end.out << end.err;
   }
   EXPECT_TRUE(fs::exists(work() / "handout"));
-  // nothing is written into the installation
+  // the program writes nothing into the installation
   const ProgramResult run = unseen(program().string() + " run chain --meshes obj");
   EXPECT_EQ(run.status, 0) << run.err;
   EXPECT_TRUE(fs::exists(work() / "out/run/meshes/frame-0001.obj"));
@@ -113,9 +114,9 @@ TEST_F(Installed, TheLibraryIsFoundAndRuns) {
   const ProgramResult rope = run_program({"rope/build/rope"}, work());
   EXPECT_EQ(rope.status, 0) << rope.err;
   EXPECT_TRUE(rope.out.starts_with("ok after ")) << rope.out;
-  // a shallow rope under the weight W = 0.883 N of nine particles is a parabola of depth d with tension W L / (8 d),
-  // and longer by 8 d^2 / (3 L) of L = 1 m; with springs of E A = k l = 10 N that is d^3 = 3 W L^3 / (64 E A). What the
-  // parabola leaves out, slopes and ten straight pieces, is of size (4 d / L)^2 / 6, 7 % of the length's change
+  // A shallow rope under the weight W = 0.883 N of nine particles is a parabola of depth d with tension W L / (8 d),
+  // and longer than L = 1 m by 8 d^2 / (3 L). With springs of E A = k l = 10 N this gives d^3 = 3 W L^3 / (64 E A). The
+  // parabola neglects slopes and the ten straight pieces, of size (4 d / L)^2 / 6, or 7 % of the change of length.
   double depth = 0, lost = 0;
   ASSERT_EQ(std::sscanf(rope.out.c_str(), "ok after %*d steps of %*g s: it hangs %lf m deep and has lost %lf J", &depth,
                         &lost),
@@ -145,7 +146,7 @@ TEST_F(Installed, ManualAndCompletionsKnowAllOfHelp) {
   for (const std::string& command : commands) {
     if (command.empty() || command.starts_with("-")) continue;
     EXPECT_TRUE(contains(page, "\n.SS " + command + "\n")) << command;
-    // every line of --help that begins with an option
+    // every line of --help that starts with an option
     const ProgramResult help = run_program({program().string(), command, "--help"}, work());
     EXPECT_EQ(help.status, 0) << command;
     const std::set<std::string> known = completed(command + " --");

@@ -1,4 +1,4 @@
-// Jolt as an engine: the programs that `engine jolt` writes, npm's build where npm is there, and a native one where
+// Jolt as an engine: the programs that `engine jolt` writes, npm's build if npm is available, and a native one if
 // CROSSCHECK_JOLT names a source tree of Jolt.
 
 #include <fmt/format.h>
@@ -15,7 +15,7 @@ namespace {
 
 class Jolt : public Cli, public ::testing::WithParamInterface<std::string> {
  protected:
-  /// What is fetched needs a registry, which a machine with nothing but its packages has not.
+  /// Skips the npm variant without access to a registry, and the native one without a source tree.
   void SetUp() override {
     Cli::SetUp();
     const char* tree = std::getenv("CROSSCHECK_JOLT");
@@ -23,15 +23,15 @@ class Jolt : public Cli, public ::testing::WithParamInterface<std::string> {
     if (is_native()) from_ = {"--prefix", tree};
     if (!is_native() && (!on_path("npm") ||
                          run_program({"npm", "view", "jolt-physics", "version", "--fetch-retries=0"}, folder_).status))
-      GTEST_SKIP() << "this machine has no npm that reaches a registry: Jolt is not fetched and tried";
+      GTEST_SKIP() << "this machine has no npm with access to a registry: Jolt is not tested";
   }
   static bool is_native() { return GetParam() == "native"; }
-  /// Builds the program; it is moved, since it needs nothing that was beside it. Empty where it was not built.
+  /// Builds the program and moves it, because it must not need files next to it. Returns "" if the build failed.
   std::string built() const {
     std::vector<std::string> words{"engine", "jolt", "-o", "made"};
     words.insert(words.end(), from_.begin(), from_.end());
     const ProgramResult made = call(words);
-    EXPECT_EQ(made.status, 0) << "npm has to reach its registry, or to have jolt-physics in its cache: " << made.err;
+    EXPECT_EQ(made.status, 0) << "npm needs its registry, or jolt-physics in its cache: " << made.err;
     if (made.status != 0) return "";
     fs::create_directories(folder_ / "moved");
     fs::rename(folder_ / "made", folder_ / "moved/jolt");
@@ -85,14 +85,16 @@ TEST_P(Jolt, AChainHangsWhereOnePassInSinglePrecisionLeavesIt) {
         call({"run", "chain.toml", "--method", fmt::format("{}+n={}", jolt, n), "--out", "chain"});
     ASSERT_EQ(run.status, 0) << run.err;
     const Points end = read_npy(folder_ / "chain/trajectory.npy", 7, 7, 4).back();
-    // a sub-step d lets all fall by s = g d^2 (1 - gamma d), and a pass from the pin downwards takes that back: edges
-    // that are e longer give m e_i / (k d^2) = j s with j particles below, and what a pass leaves is (j - 1) s
+    // In a sub-step d all particles fall by s = g d^2 (1 - gamma d), and a pass from the pin downwards corrects this.
+    // Edges that are longer by e_i give m e_i / (k d^2) = j s with j particles below, and a pass leaves (j - 1) s.
     const double d = h / n, s = g * d * d * (1 - gamma * d), soft = m / (k * d * d);
     const double sag = (3 * soft + 2) * s + (2 * soft + 1) * s + soft * s;
-    // three roundings of a coordinate below 1 m in each sub-step, by 3e-8 m, are forces too: of 1 + 2 + 3 particles
+    // Three roundings of a coordinate below 1 m per sub-step, of 3e-8 m each, also act as forces on 1 + 2 + 3
+    // particles.
     const double rounding = 6 * 3 * 3e-8 * soft;
     EXPECT_NEAR(-1.5 - end(1, 3), sag, rounding) << n;
-    EXPECT_LT(rounding, 0.5 * std::abs(sag - 6 * m * g / k)) << "the closed form is not that of exact springs";
+    EXPECT_LT(rounding, 0.5 * std::abs(sag - 6 * m * g / k))
+        << "the closed form must differ from that of exact springs";
   }
 }
 
@@ -100,18 +102,18 @@ TEST_P(Jolt, FreezesWhereAStepOfTheFallIsLessThanHalfAUnitInTheLastPlace) {
   const std::string jolt = built();
   ASSERT_FALSE(jolt.empty());
   struct Row {
-    double height;  // m, over the frame's origin
+    double height;  // m, above the frame's origin
     int power;      // the step is 2^power s
     bool frozen;
   };
-  // units in the last place are 2^-24 m at 0.9 m and 2^-17 m at 100 m; g h^2 is 0.61, 0.15, 1.2, 0.31 of them
+  // Units in the last place are 2^-24 m at 0.9 m and 2^-17 m at 100 m. g h^2 is 0.61, 0.15, 1.2 and 0.31 of them.
   for (const Row& row : {Row{0.9, -14, false}, {0.9, -15, true}, {100, -10, false}, {100, -11, true}}) {
     write("fall.toml", scene_text(0.125, 1, std::ldexp(1, row.power),
                                   fmt::format("[[particle]]\nposition = [0, {}, 0]\nmass = 1\n", row.height)));
     const ProgramResult run = call({"run", "fall.toml", "--method", jolt + "+frame=world", "--out", "fall"});
     EXPECT_EQ(contains(run.out, "frozen"), row.frozen) << row.height << " m, 2^" << row.power << ": " << run.out;
     const ProgramResult near = call({"run", "fall.toml", "--method", jolt, "--out", "near"});
-    EXPECT_FALSE(contains(near.out, "frozen")) << "the frame is where the particle starts";
+    EXPECT_FALSE(contains(near.out, "frozen")) << "the frame's origin is the particle's start";
   }
 }
 

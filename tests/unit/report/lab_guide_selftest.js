@@ -1,5 +1,5 @@
-// The guided experiments from end to end: every step is guessed, done and ticked, and what the reader sees on the way is
-// read. Frames are made by calls, each a tenth of a second after the one before, and nothing is drawn.
+// The guided experiments from end to end: answers and completes every step, and checks all texts shown on the way.
+// Calls produce the frames, each a tenth of a second after the previous one, and nothing is drawn.
 
 const labGuideTest = (() => {
   const guide = () => document.querySelector('lab-guide');
@@ -16,10 +16,10 @@ const labGuideTest = (() => {
     throw new Error(`waited in vain for ${what}: ${JSON.stringify({t, running, ended, verdict, seen: guide().seen, phase: guide().phase, acting: guide().acting})} ${toml} ${guide().innerText}`);
   }
 
-  /** What must not stand in words that a reader sees: a key, a place that was not filled in, a number that is none. */
+  /** Patterns that must not occur in visible text: keys, unfilled placeholders, invalid numbers. */
   const raw = /\{\w+\}|\b[a-z]+(-[a-z]+)*\.[a-z]+\.[a-z]+\b|\bguide\.|\bundefined\b|\bnull\b|\bNaN\b|Infinity|\[object/;
 
-  /** A lab whose frames are made by calls; without a picture it has no stage either. */
+  /** A lab whose frames are produced by calls. Without a picture it has no stage either. */
   async function quickLab(picture) {
     const lab = document.querySelector('live-lab');
     await until(() => lab.dataset.state === 'ready' && lab.reading, 'the lab');
@@ -40,7 +40,7 @@ const labGuideTest = (() => {
     return lab;
   }
 
-  /** All experiments in a language; guesses are right ones or wrong ones, and there is a picture or not. */
+  /** Runs all experiments in a language, with right or wrong guesses, and with or without a picture. */
   async function run(language, guessRight, picture) {
     const lines = [], seen = {lines, steps: [], longest: 0};
     const check = (holds, ...words) => holds || lines.push(words.join(' '));
@@ -48,13 +48,13 @@ const labGuideTest = (() => {
     if (language !== labLanguage) lab.querySelector('[data-act=language]').click();
     check(labLanguage === language && guide().lang === language, 'the language is', labLanguage);
 
-    /** Reads what the guide shows. */
+    /** Checks the texts that the guide shows. */
     const read = (where, selector) => {
       for (const part of guide().querySelectorAll(selector)) {
         const text = part.textContent.trim();
         check(text.length > 0, where, selector, 'is empty');
         check(!raw.test(text), where, selector, 'says', text);
-        // Chinese has words of its own everywhere but where there are numbers and formulas only
+        // Chinese text contains Chinese characters unless it consists of numbers and formulas.
         check(language === 'zh' ? /[\u4e00-\u9fff]/.test(text) : !/[\u3000-\u9fff\uff00-\uffef]/.test(text), where, selector, 'is in another language:', text);
         if (language !== 'en') continue;
         for (const sentence of text.split(/[.?!;](?:\s|$)/)) {
@@ -99,7 +99,7 @@ const labGuideTest = (() => {
         check(tick.classList.contains('done') && tick.textContent === '✓' && guideProgress.of(experiment, step), where, 'is not ticked');
         const right = step.guess ? 'guide.near' : 'guide.right', wrong = step.guess ? 'guide.far' : 'guide.wrong';
         const begins = say(guessRight ? right : wrong, {guess: '|', answer: '|'}).split('|')[0];
-        // a number that was read before the task may be read otherwise after it
+        // a number read before the task may change after it
         check(outcome.startsWith(begins) || (step.guess && guessRight), where, 'says of the guess:', outcome);
         if (!step.guess) check(outcome.includes(say(`${where}.${step.right}`)), where, 'gives the answer', outcome);
         check(guide().querySelectorAll('.guess.right').length === (step.guess ? 0 : 1), where, 'marks no answer as right');
@@ -112,7 +112,7 @@ const labGuideTest = (() => {
     check(location.hash === '', 'in the sandbox the address keeps', location.hash);
     byKey('all').click();
     check(guide().querySelectorAll('.entry.done').length === labExperiments.length, 'done are', guide().querySelectorAll('.entry.done').length);
-    // a step that was done says again what came of it, and can be repeated; and each has an address
+    // a completed step shows its result again and can be repeated; each step has an address
     location.hash = '#experiment=cloth-bursts';
     await until(() => guide().dataset.experiment === 'cloth-bursts' && !guide().setting, 'the experiment of the address');
     await until(() => guide().dataset.phase === 'why', 'what was done');
@@ -125,7 +125,7 @@ const labGuideTest = (() => {
     return seen;
   }
 
-  /** The table of words by itself: both languages of every key, with the same places to fill in. */
+  /** Checks the table of words: every key exists in both languages, with identical placeholders. */
   function table() {
     const lines = [], places = text => [...text.matchAll(/\{\w+\}/g)].map(m => m[0]).sort().join();
     for (const key of Object.keys({...labWords.en, ...labWords.zh})) {

@@ -1,6 +1,6 @@
-// Runs every scene of a page under every stepper of the lab's engine, in Node and in a browser alike: `runs` are
-// {scene, stepper, steps, exact, duration}, and what comes back is each one's fingerprint, time and, of those that are not exact,
-// places at the end.
+// Runs every scene of a page with every stepper of the lab's engine, in Node and in a browser. `runs` contains {scene,
+// stepper, steps, exact, duration}. Returns the fingerprint and time of each run, and the final positions of those that
+// are not exact.
 async function runAll(runs) {
   const lab = await labModule(), scenes = labScenes(), seen = [];
   for (const {scene, stepper, steps, exact, duration} of runs) {

@@ -1,5 +1,5 @@
-// Descriptions of what adding something to the project takes, beside this file: the new file with its text, and lines
-// of files that are there.
+// Descriptions of additions to the project, stored next to this file: the new file with its text, and changed lines of
+// existing files.
 #pragma once
 
 #include <fmt/format.h>
@@ -16,15 +16,15 @@ namespace crosscheck::testing_tools {
 struct Addition {
   std::map<std::string, std::string> created;  // text by path
   struct Change {
-    std::string line;         // that stands in the file exactly once
-    std::string replacement;  // with what is added behind it, if anything
+    std::string line;         // must occur in the file exactly once
+    std::string replacement;  // the line, followed by additional lines, if any
   };
   std::map<std::string, std::vector<Change>> edited;  // tables, by path
   std::map<std::string, std::vector<Change>> listed;  // CMake's lists of sources, by path
 };
 
-/// Reads `new: PATH` with its text, then `in: PATH` and `list: PATH`, each with pairs of lines: `after:` and `add:`, or
-/// `line:` and `becomes:`.
+/// Reads an addition: `new: PATH` and its text, then `in: PATH` and `list: PATH`, each followed by pairs of lines,
+/// `after:` and `add:` or `line:` and `becomes:`.
 inline Addition read_addition(const std::filesystem::path& file) {
   Addition addition;
   std::string* text = nullptr;
@@ -55,7 +55,7 @@ inline Addition read_addition(const std::filesystem::path& file) {
   return addition;
 }
 
-/// The text with its changes. Throws std::invalid_argument where a line does not stand there exactly once.
+/// Applies changes to a text. Throws std::invalid_argument if a line does not occur exactly once.
 inline std::string with_changes(std::string text, const std::vector<Addition::Change>& changes) {
   for (const Addition::Change& change : changes) {
     const std::string line = "\n" + change.line + "\n";
@@ -67,7 +67,7 @@ inline std::string with_changes(std::string text, const std::vector<Addition::Ch
   return text;
 }
 
-/// Writes the new files and the changed ones below `out`. Beside a new scene stand links to those that are there.
+/// Writes the new and the changed files below `out`. Next to a new scene, creates links to the existing ones.
 inline void write_addition(const Addition& addition, const std::filesystem::path& source,
                            const std::filesystem::path& out) {
   for (const auto& [path, text] : addition.created) {
