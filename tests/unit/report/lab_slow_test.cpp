@@ -1,5 +1,5 @@
-// mysim as WebAssembly gives what it gives natively: in Node and in a browser, for every shipped scene and stepper. And
-// the lab as its readers use it, in a browser.
+// mysim as WebAssembly reproduces native results in Node and in a browser, for every shipped scene and stepper. Also
+// tests the lab as users use it, in a browser.
 
 #include <fmt/ranges.h>
 #include <nlohmann/json.hpp>
@@ -23,11 +23,11 @@
 #include "tests/unit/reference/helpers.h"
 #include "tests/unit/report/in_browser.h"
 
-// clang's package first: CI installs what stands between "package" and the blank
+// clang's package first: CI installs the text between "package" and the next blank
 #define NEEDS_LAB                                                                                               \
   if (!has_lab_module())                                                                                        \
   GTEST_SKIP() << "package clang,lld,libc++-dev-wasm32,libclang-rt-dev-wasm32,binaryen was not installed when " \
-                  "this was built: mysim is not run as WebAssembly"
+                  "this was built: mysim is not tested as WebAssembly"
 
 namespace crosscheck {
 namespace {
@@ -35,12 +35,12 @@ namespace {
 using namespace testing_tools;
 namespace fs = std::filesystem;
 
-/// A run of so many steps, as a native build makes it.
+/// A run of `steps` steps with the native build.
 struct NativeRun {
   std::string scene, stepper;
   double duration = 0;
   int steps = 0;
-  bool exact = false;  // the same bits are asked for
+  bool exact = false;  // requires identical bits
   std::string fingerprint;
   double t = 0;
   Points x;
@@ -63,8 +63,8 @@ class LabModule : public InBrowser {
     return scenes;
   }
 
-  /// Every stepper that takes the scene, over so many steps; those that solve equations, or choose their steps, up to
-  /// where a perturbation grows a thousandfold.
+  /// Runs of every stepper that supports the scene, with `steps` steps. Implicit and adaptive ones stop where a
+  /// perturbation has grown a thousandfold.
   static std::vector<NativeRun> native_runs(const std::vector<Scene>& scenes, int steps) {
     std::vector<NativeRun> runs;
     for (const Scene& scene : scenes)
@@ -115,8 +115,8 @@ class LabModule : public InBrowser {
         ++exact;
         continue;
       }
-      // Solvers stop at 1e-12 of their residual, and sums in another order differ by less; 1e-10 m over a run of some
-      // metres, which a window lets grow a thousandfold at most.
+      // Solvers stop at 1e-12 of their residual, and different summation orders matter less: 1e-10 m over a run of some
+      // metres, which grows at most a thousandfold within a window.
       EXPECT_NEAR(entry["t"].number(), run.t, 1e-9);
       const std::vector<double> places = entry["places"].numbers();
       ASSERT_EQ(places.size(), static_cast<size_t>(run.x.size()));
@@ -124,10 +124,10 @@ class LabModule : public InBrowser {
       EXPECT_LT(largest_column(x - run.x), 1e-7);
     }
     EXPECT_EQ(i, native.size());
-    EXPECT_GT(exact, 60u);  // 20 scenes, most of which take seven such rules
+    EXPECT_GT(exact, 60u);  // 20 scenes, most of which support seven such rules
   }
 
-  /// The page with the lab alone, and a self-test in the scope of its scripts: a function that returns what it saw.
+  /// A page that contains only the lab, with a self-test in the scope of its scripts. `call` evaluates to its result.
   fs::path page_with(const std::vector<Scene>& scenes, const std::string& script, const std::string& call) const {
     std::string page = lab_page_html(scenes);
     const std::string own = page_script("lab_page");
@@ -153,8 +153,8 @@ class LabModule : public InBrowser {
     return scenes;
   }
 
-  /// What a self-test of the lab's use saw, in real time; its complaints are failures. `edit` changes the page before,
-  /// and it is opened at `place`.
+  /// Result of a self-test of the lab's use in real time. Reports its complaints as failures. `edit` changes the page
+  /// before, and `place` is appended to its address.
   JsonField use(const std::vector<Scene>& scenes, const std::string& call, void (*edit)(std::string& page) = nullptr,
                 const std::string& place = "") {
     real_time_ = true;
@@ -173,7 +173,7 @@ class LabModule : public InBrowser {
     return all;
   }
 
-  /// Scenes that the lab saved run natively to the same bits.
+  /// Expects scenes saved by the lab to run natively with identical bits.
   static void run_natively(const JsonField& all, size_t count) {
     const auto saves = all.find("saves");
     ASSERT_TRUE(saves);
@@ -192,10 +192,11 @@ class LabModule : public InBrowser {
 };
 
 TEST_F(LabModule, GivesTheNativeBitsInNode) {
-  NEEDS_PROGRAM("node", "nodejs", "mysim is not run as WebAssembly outside a browser");
+  NEEDS_PROGRAM("node", "nodejs", "mysim is not tested as WebAssembly outside a browser");
   NEEDS_LAB;
   const std::vector<Scene> scenes = shipped();
-  // Chromium's engine of WebAssembly is Node's: where it is there, long runs are its own test's
+  // Node and Chromium share their WebAssembly engine. If Chromium is available, the browser's test covers the long
+  // runs.
   const std::vector<NativeRun> native = native_runs(scenes, on_path("chromium") ? 100 : 1000);
   Json texts = Json::object();
   for (const Scene& scene : scenes) texts[scene.name] = scene.source;
@@ -224,7 +225,7 @@ TEST_F(LabModule, SlidersChangeTheirNumberAlone) {
   NEEDS_LAB;
   NEEDS_CHROMIUM;
   const JsonField all = use(shipped(), "labUse.sliders(Object.keys(labScenes()))");
-  EXPECT_GT(all["moved"].number(), 250);  // three places of each
+  EXPECT_GT(all["moved"].number(), 250);  // three positions of each
 }
 
 TEST_F(LabModule, MarksAreTheNativeCriticalSteps) {
@@ -255,7 +256,7 @@ TEST_F(LabModule, MarksAreTheNativeCriticalSteps) {
         ASSERT_TRUE(text.starts_with(before)) << text;
         const size_t unit = text.find(' ', before.size()) + 1;
         const double size = text.compare(unit, 3, "µs") == 0 ? 1e-6 : text.compare(unit, 2, "ms") == 0 ? 1e-3 : 1;
-        EXPECT_NEAR(std::stod(text.substr(before.size())) * size / *limit, 1, 0.006) << text;  // in three digits
+        EXPECT_NEAR(std::stod(text.substr(before.size())) * size / *limit, 1, 0.006) << text;  // to three digits
         ++marked;
       }
     }
@@ -263,7 +264,7 @@ TEST_F(LabModule, MarksAreTheNativeCriticalSteps) {
   EXPECT_GT(marked, 60);
 }
 
-/// Every stepper bursts above its critical step and holds below it.
+/// Every stepper blows up above its critical step and is stable below it.
 TEST_F(LabModule, BurstsAboveTheMarkAlone) {
   NEEDS_LAB;
   NEEDS_CHROMIUM;
@@ -281,7 +282,7 @@ TEST_F(LabModule, NoFrameComputesLongWhileItBursts) {
   NEEDS_CHROMIUM;
   const JsonField all = use(scenes_of({"cloth-hang"}), "labUse.burstsInFrames('cloth-hang')");
   EXPECT_GT(all["frames"].number(), 20);
-  // ms; a frame in which the machine did something else is passed over
+  // ms; ignores the two longest frames, in which the machine may have been busy
   EXPECT_LT(all["longest"].numbers().at(2), 100);
 }
 
@@ -369,13 +370,13 @@ TEST_F(LabModule, TabReachesEveryControl) {
   const auto found = all.find("stops");
   ASSERT_TRUE(found);
   const std::vector<std::string> stops = found->texts();
-  // from the head to the picture, then what drives it, methods, the scene's numbers, doors
+  // from the head to the picture, then its controls, the methods, the scene's numbers and the export buttons
   auto from = stops.begin();
   for (const char* next :
        {"scene", "language", "picture", "run", "step", "restart", "resetView", "A", "step-A range", "B", "step-B range",
         "sphere.friction range", "grid.mass range", "copyLink", "saveToml", "copyCommand", "openToml"}) {
     from = std::find(from, stops.end(), next);
-    ASSERT_NE(from, stops.end()) << next << " is not reached behind the one before, in " << fmt::format("{}", stops);
+    ASSERT_NE(from, stops.end()) << next << " is not reached after the previous one, in " << fmt::format("{}", stops);
   }
 }
 
@@ -419,7 +420,7 @@ TEST_F(LabModule, APartRunsWhenItIsInSightAndOpensTheWholeLab) {
 }
 
 TEST_F(LabModule, AFingerDragsAParticleAndMovesASlider) {
-  NEEDS_PROGRAM("node", "nodejs", "no finger touches the lab");
+  NEEDS_PROGRAM("node", "nodejs", "touch input in the lab is not tested");
   NEEDS_LAB;
   NEEDS_CHROMIUM;
   const fs::path page = folder_ / "lab.html";
@@ -430,14 +431,14 @@ TEST_F(LabModule, AFingerDragsAParticleAndMovesASlider) {
   ASSERT_EQ(result.status, 0) << last_lines(result.err, 20);
   const JsonField saw = JsonField::parse(result.out, "what was touched");
   const JsonField drag = saw["drag"], slider = saw["slider"];
-  // the finger goes 60 pixels to the left and 40 down; the camera follows a part of it
+  // The finger moves 60 pixels to the left and 40 down; the camera follows part of that.
   EXPECT_LT(drag["to"][0].number(), drag["from"][0].number() - 30);
   EXPECT_GT(drag["to"][1].number(), drag["from"][1].number() + 15);
   EXPECT_TRUE(drag["byHand"].boolean());
   EXPECT_LT(slider["is"].number(), 0.8 * slider["was"].number());
-  // words above may take another pixel; a finger that scrolls moves the page by 40
+  // Text above may need another pixel. A finger that scrolls moves the page by 40.
   for (const JsonField& each : {drag, slider})
-    EXPECT_NEAR(each["scrolled"][0][1].number(), each["scrolled"][1][1].number(), 3) << "the page scrolls meanwhile";
+    EXPECT_NEAR(each["scrolled"][0][1].number(), each["scrolled"][1][1].number(), 3) << "the page must not scroll";
 }
 
 TEST_F(LabModule, WordsAreThereInBothLanguages) {

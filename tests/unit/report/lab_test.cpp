@@ -1,5 +1,5 @@
-// A run that is looked at while it goes on and changed by hand is the run that the engine makes, bit for bit; and what
-// stands in [start] is where a scene starts.
+// A run that is watched and changed by hand while it proceeds equals the engine's run bit for bit, and a scene starts
+// in the state given by [start].
 
 #include <gtest/gtest.h>
 
@@ -52,7 +52,7 @@ TEST(LiveRun, PredictsTheCriticalStepAndFailsAboveItAlone) {
   for (const Stepper& stepper : steppers()) {
     const std::optional<double> limit = LiveRun(spring).critical_step(stepper);
     if (!limit || !(*limit > 0) || !std::isfinite(*limit)) continue;
-    // above its limit rk4 throws the mass over its pin, where the spring's force turns round, and stays bounded
+    // Above its limit rk4 throws the mass over its pin, where the spring's force reverses, and stays bounded.
     if (!stepper.symplectic) continue;
     ++tried;
     for (const double part : {0.98, 1.02}) {
@@ -84,7 +84,7 @@ TEST(LiveRun, AHandHoldsAParticleWhereItIsPut) {
   live.release();
   live.advance(0.1, 1000000);
   EXPECT_NE(live.state().x.col(last), place);
-  // a pin stays where it is, and moves again when it is let go
+  // a pin does not move; it moves again once it is released
   live.set_pinned(last, true);
   const Vec3 pinned = live.state().x.col(last);
   live.advance(0.1, 1000000);
@@ -92,7 +92,7 @@ TEST(LiveRun, AHandHoldsAParticleWhereItIsPut) {
   live.set_pinned(last, false);
   live.advance(0.1, 1000000);
   EXPECT_NE(live.state().x.col(last), pinned);
-  // what was pinned before a hand took it stays pinned
+  // a particle that was pinned before the hand took it remains pinned
   const int pin = scene.model.particles.pins.front();
   live.hold(pin, Vec3(0.05, 0, 0));
   live.release();
@@ -114,7 +114,7 @@ TEST(Words, HaveTheQuestionOfEveryShippedScene) {
   for (const std::string_view name : shipped_scenes()) {
     const Scene scene = load_scene(std::string(name));
     EXPECT_EQ(words[fmt::format("question.{}", name)].text(), scene.question)
-        << "the lab shows a question in Chinese only if its words have it as the scene's file asks it";
+        << "the lab translates a question only if its table of words contains the scene's exact text";
   }
 }
 

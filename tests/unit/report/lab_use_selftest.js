@@ -1,6 +1,5 @@
-// The lab as its readers use it: sliders, bursts, the hand, doors and keys, each a function that returns what it saw.
-// Frames are drawn where a test says so; elsewhere runs are stepped by calls, so that nothing depends on how fast frames
-// come.
+// The lab as users use it: sliders, blow-ups, dragging, export and keys. Each function returns its observations. Frames
+// are drawn only if a test requires it. Otherwise calls advance the runs, so that nothing depends on the frame rate.
 
 const labUse = (() => {
   const theLab = () => document.querySelector('live-lab');
@@ -18,10 +17,10 @@ const labUse = (() => {
     throw new Error(`waited in vain for ${what ?? holds}`);
   }
 
-  /** The next frame of the browser, by which the lab has drawn. */
+  /** Waits for the next frame of the browser, after which the lab has drawn. */
   const frame = () => new Promise(done => requestAnimationFrame(() => requestAnimationFrame(done)));
 
-  /** What a test finds wrong, as lines. */
+  /** Failures found by a test, one line each. */
   class Complaints {
     lines = [];
     checked = 0;
@@ -40,7 +39,7 @@ const labUse = (() => {
     return lab;
   }
 
-  /** Moves a slider to a place between 0 and 1 as a pointer or an arrow key does: input, then change. */
+  /** Moves a slider to a position between 0 and 1 as a pointer or an arrow key does: input, then change. */
   function slide(knob, part) {
     const range = knob.querySelector('input[type=range]');
     range.value = Number(range.min) + part * (range.max - range.min);
@@ -58,14 +57,14 @@ const labUse = (() => {
     select.dispatchEvent(new Event('change', {bubbles: true}));
   }
 
-  /** So many steps of a run, by a call. */
+  /** Advances a run by `count` steps and returns its fingerprint. */
   function steps(sim, count) {
     if (count > 0) sim.call('advance', Infinity, count);
     sim.outcome = null;
     return sim.fingerprint();
   }
 
-  /** The time that words say, s. */
+  /** Time (s) stated in a text. */
   function timeIn(words) {
     const [, value, unit] = /([\d.]+(?:e-?\d+)?) (µs|ms|s)\b/.exec(words) ?? [];
     return value === undefined ? NaN : Number(value) * {µs: 1e-6, ms: 1e-3, s: 1}[unit];
@@ -73,7 +72,7 @@ const labUse = (() => {
 
   // Sliders.
 
-  /** The places at which two texts differ, "section.key", by a reading of its own; a head of a section is "section". */
+  /** Keys at which two scene texts differ, as "section.key", or "section" for a header. Independent of the lab's parser. */
   function differences(from, to) {
     const a = from.split('\n'), b = to.split('\n'), places = new Set();
     if (a.length !== b.length) return ['the number of lines'];
@@ -86,10 +85,10 @@ const labUse = (() => {
     return [...places];
   }
 
-  /** Whether a slider may change a place of the text: drag at 0 leaves its whole section out. */
+  /** True if a slider may change this key. A drag of 0 removes its whole section. */
   const belongs = (place, name) => place === name || place.startsWith(`${name}.`) || (/^drag\./.test(name) && /^drag\b/.test(place));
 
-  /** Every slider of these scenes, at both its ends and back. */
+  /** Moves every slider of these scenes to both ends and back. */
   async function sliders(scenes) {
     const all = new Complaints();
     let moved = 0;
@@ -107,7 +106,7 @@ const labUse = (() => {
           const {reading} = lab, [run] = lab.runs, places = differences(shipped, lab.toml);
           well(lab.good === lab.toml && !run.refusal && !run.fault, 'is not taken:', run.refusal, run.fault, lab.view.said.textContent);
           if (lab.view.said.classList.contains('failed')) {
-            // a ball may not reach where particles start
+            // a ball must not reach the initial position of a particle
             well(name === 'sphere.radius' && part === 1 && lab.toml === before && /sphere/.test(lab.view.said.textContent), 'is refused:', lab.view.said.textContent);
             well(Number(knobOf(name).querySelector('input[type=number]').value) === numberAt(before, name), 'shows a number that was refused');
             lab.view.say('');
@@ -128,7 +127,7 @@ const labUse = (() => {
         await until(() => lab.toml === shipped, `${scene} as it is shipped`);
       }
     }
-    // the tolerance of a stepper that chooses its steps
+    // the tolerance of an adaptive stepper
     const lab = await opened({scene: scenes[0], methods: [{method: 'dopri5'}]}, false), tolerances = [];
     for (const part of [0, 1]) {
       slide(knobOf('tolerance-A'), part);
@@ -137,7 +136,7 @@ const labUse = (() => {
       all.check(!lab.runs[0].refusal && lab.runs[0].sim.steps > 0 && lab.toml === sceneText(scenes[0]), 'dopri5 does not run:', lab.runs[0].refusal);
     }
     all.check(tolerances[0] === 1e-10 && tolerances[1] === 1e-2, 'the tolerances are', tolerances);
-    // a slider that still moves is followed soon
+    // a slider that is still moving takes effect soon
     const knob = lab.querySelector('.knobs .knob'), range = knob.querySelector('input[type=range]');
     const before = lab.good;
     range.value = Number(range.value) + 50;
@@ -146,7 +145,7 @@ const labUse = (() => {
     return {...all, moved};
   }
 
-  /** The words at the step's slider for every stepper, and how its mark moves with the stiffness of all springs. */
+  /** Checks the text at the step's slider for every stepper, and its mark as the stiffness of all springs changes. */
   async function marks(scenes) {
     const all = new Complaints(), words = {}, refused = [];
     for (const scene of scenes) {
@@ -167,12 +166,12 @@ const labUse = (() => {
         if (lab.lab.steppers.find(s => s.name === value).adaptive) continue;
         words[scene][value] = lab.querySelector('.mark-words').textContent;
       }
-      if (![...select().options].some(option => option.value === 'leapfrog')) continue;  // a scene of first order
+      if (![...select().options].some(option => option.value === 'leapfrog')) continue;  // a first-order scene
       choose(select(), 'leapfrog');
       const said = () => timeIn(lab.querySelector('.mark-words').textContent);
       const knob = ['grid.stiffness', 'spring.stiffness'].map(knobOf).find(Boolean), limit = lab.reading?.limitA;
       if (!knob || !Number.isFinite(limit)) continue;
-      if (/^bending/m.test(lab.toml)) continue;  // a rigidity, which this knob does not turn, bounds the step too
+      if (/^bending/m.test(lab.toml)) continue;  // the rigidity, which this slider does not change, also limits the step
       const name = knob.dataset.knob, own = Number(knob.querySelector('input[type=number]').value), before = said();
       const at = () => Number(lab.querySelector('.method').style.getPropertyValue('--at'));
       const bound = () => lab.querySelector('.method').classList.contains('bound'), place = bound() && at();
@@ -181,7 +180,7 @@ const labUse = (() => {
       all.check(Math.abs(lab.reading.limitA / limit - 2) < 0.02, scene, 'the limit goes from', limit, 'to', lab.reading.limitA);
       if (bound() && place !== false) all.check(at() !== place, scene, 'the mark stays at', place);
     }
-    // the address may name a method that does not take the scene
+    // the address may name a method that does not support the scene
     for (const [scene, method] of refused.slice(-1).map(words => words.split(' '))) {
       const lab = await opened({scene, methods: [{method}]}, false), [run] = lab.runs;
       all.check(run.refusal && lab.querySelector('.method .note').textContent.includes(run.refusal), scene, method, 'is not refused when it is opened');
@@ -192,14 +191,14 @@ const labUse = (() => {
     return {...all, words, refused};
   }
 
-  // Bursts.
+  // Blow-ups.
 
   /**
-   * A scene in which each rule is tried: `above` and `below` are parts of its critical step. Explicit Euler's critical step
-   * is gamma / omega^2: on a cloth as it is shipped 1.3 µs, 2.4 million steps, and past it vibrations grow by gamma / 2 a
-   * second only. So its cloth is 50 times softer and has ten times the drag, as far as the sliders reach; so has that of
-   * the trapezoidal rule, whose growth past its step is slow as well. Both have no stable step where nothing damps:
-   * there every step is above. With one sample no step is shortened but the last.
+   * A scene for each rule. `above` and `below` are fractions of its critical step. Explicit Euler's critical step is
+   * gamma / omega^2: for a shipped cloth 1.3 µs, or 2.4 million steps, and beyond it vibrations grow by only gamma / 2
+   * per second. Its cloth is therefore 50 times softer and has ten times the drag, the limits of the sliders. The
+   * trapezoidal rule uses the same cloth, because its growth beyond the critical step is slow too. Without drag both
+   * have no stable step, so that every step is above. With a single sample only the last step is shortened.
    */
   const gentle = /^(explicit-euler|trapezoidal)$/;
   const softened = k => ({'grid.stiffness.structural': k, 'grid.stiffness.shear': k, 'grid.stiffness.bend': k, 'drag.gamma': 40});
@@ -208,7 +207,7 @@ const labUse = (() => {
     flag: rule => (gentle.test(rule) ? softened(4) : {}),
     spring: () => ({'time.duration': 60})
   };
-  /** RK4 and Suzuki's rule damp all but the fastest vibrations at such steps, and wind and wrinkles damp those. */
+  /** At such steps RK4 and Suzuki's rule damp all but the fastest vibrations, which wind and wrinkles damp. */
   const partsOf = rule => (gentle.test(rule) ? {above: 2.5, below: 0.9} : /^(rk4|suzuki4)$/.test(rule) ? {above: 1.2, below: 0.96} : {above: 1.06, below: 0.96});
 
   async function bursts() {
@@ -231,7 +230,7 @@ const labUse = (() => {
       const step = limit > 0 ? above * limit : 100 * lab.runs[0].sim.scene.step, run = await runAt(step), row = {method, above: run.sim.h / limit, at: run.time};
       well(run.failed && run.time < duration, 'holds at', step, 's,', above, 'of its critical step', limit);
       well(lab.dataset.verdict === run.verdict && run.verdict !== 'ok', 'is judged', lab.dataset.verdict);
-      // of a single spring that swings by more than a tenth of its length nothing small is there to grow
+      // if a single spring swings by more than a tenth of its length, there is no small mode to grow
       const {growth} = run.sim, most = growth && Math.max(...growth.map(Math.abs)), shown = growth || scene !== 'spring';
       if (shown) well(growth && growth.length === run.places.length && most > 0.5 && most <= 1 + 1e-12 && lab.growth?.letter === 'A', 'has no mode that grows');
       well(isFinite3(run.places), 'leaves no picture');
@@ -254,7 +253,7 @@ const labUse = (() => {
     return {...all, tried};
   }
 
-  /** Runs that burst in the browser's own frames, so many times above their critical step: how long the longest frames computed, ms. */
+  /** Runs above the critical step (by the given factors) in real frames. Returns the longest computing times per frame (ms). */
   async function burstsInFrames(scene, tried = {leapfrog: 1.5, rk4: 1.5, suzuki4: 1.5, 'symplectic-euler': 1.5}) {
     const all = new Complaints(), spent = [];
     const lab = await opened({scene});
@@ -281,16 +280,16 @@ const labUse = (() => {
     return {...all, frames: spent.length, longest: spent.slice(0, 5)};
   }
 
-  // The hand.
+  // Dragging by hand.
 
-  /** Where a particle of the first run is on the screen. */
+  /** Screen position of a particle of the first run. */
   function placeOf(particle) {
     const lab = theLab(), [x, y] = lab.stage.project(lab.runs[0].places.subarray(3 * particle, 3 * particle + 3), lab.stage.boxes[0]);
     const box = lab.view.layer.getBoundingClientRect();
     return {clientX: box.left + x, clientY: box.top + y};
   }
 
-  /** A pointer on the picture. No device is behind it, so that it cannot be captured. */
+  /** Dispatches a pointer event on the picture. Without a device the pointer cannot be captured. */
   function pointer(name, place, pointerType = 'mouse') {
     const {layer} = theLab().view;
     layer.setPointerCapture = () => {};
@@ -305,7 +304,7 @@ const labUse = (() => {
     return event.defaultPrevented;
   }
 
-  /** Drags a particle by so many pixels; the hand still holds it then, unless it is let go. */
+  /** Drags a particle by some pixels. The hand continues to hold it unless `letGo` is set. */
   async function drag(particle, across, down, letGo = true, type = 'mouse') {
     const lab = theLab();
     await frame();
@@ -320,13 +319,13 @@ const labUse = (() => {
     return to;
   }
 
-  /** Dragging, pinning and letting go by a pointer, in a scene whose corner is free. */
+  /** Drags, pins and releases particles by a pointer, in a scene whose corner is free. */
   async function handByPointer(scene, particle) {
     const all = new Complaints(), check = all.check.bind(all), errors = [], lab = await opened({scene});
     const pins = () => [...lab.runs[0].sim.scene.pins], words = () => lab.view.particle.textContent, {layer} = lab.view;
     const runOn = time => {
       const end = lab.clock + time;
-      lab.frameTime = 4000;  // ms: the truth and its error bar have the time that they need
+      lab.frameTime = 4000;  // ms; enough time for the truth and its error bar
       for (let i = 0; i < 200 && lab.clock < end - 1e-9; ++i) lab.advance(end - lab.clock);
     };
     runOn(0.2);
@@ -355,7 +354,7 @@ const labUse = (() => {
       await until(() => (lab.sample(), lab.reading.error > 0), 'the error after the hand');
       lab.showNow(true);
       check(lab.truth?.known && lab.view.truthWords.textContent.startsWith(say('truthByHand', {stepper: nameOfMethod(lab.truth.spec.method), h: '…'}).split('…')[0]), type, 'says', lab.view.truthWords.textContent);
-      // a run of this test's own, at an eighth of the step from where the hand let go
+      // an independent run at an eighth of the step, from the state in which the hand released the particle
       const last = free.samples[free.samples.length - 1], own = lab.lab.open(free.sim.sceneText());
       own.start({stepper: 'suzuki4', step: free.sim.h / 8, observe: false});
       own.advance(free.sim.t);
@@ -365,7 +364,7 @@ const labUse = (() => {
       own.close();
       errors.push(error);
     }
-    // a click chooses, a double click pins where the particle is and lets it go again
+    // a click selects, a double click pins the particle at its position and releases it again
     await frame();
     const other = particle - 1, place = placeOf(other);
     pointer('pointerdown', place);
@@ -380,7 +379,7 @@ const labUse = (() => {
     check(!pins().includes(other) && button('pin').textContent === say('pin'), 'a button lets go', pins());
     runOn(0.05);
     check(at.some((v, k) => v !== lab.runs[0].places[3 * other + k]), 'a pin stays though it was let go');
-    // the background turns the view, and restart takes all of it back
+    // dragging the background rotates the view, and restart resets everything
     await frame();
     const {yaw} = lab.orbit, box = layer.getBoundingClientRect(), corner = {clientX: box.left + 4, clientY: box.bottom - 4};
     pointer('pointerdown', corner);
@@ -392,7 +391,7 @@ const labUse = (() => {
     return {...all, errors};
   }
 
-  /** All keys of the picture. */
+  /** Tests all keys of the picture. */
   async function keysOfPicture(scene) {
     const all = new Complaints(), check = all.check.bind(all), lab = await opened({scene}), {orbit} = lab, [run] = lab.runs;
     const pins = () => [...lab.runs[0].sim.scene.pins], start = {yaw: orbit.yaw, pitch: orbit.pitch, zoom: orbit.zoom};
@@ -446,9 +445,9 @@ const labUse = (() => {
     return all;
   }
 
-  // Doors.
+  // Export and import.
 
-  /** What a button hands to the reader as a file. */
+  /** Text and name of the file that a button saves. */
   async function saved(act) {
     const {createObjectURL} = URL, {click} = HTMLAnchorElement.prototype, files = [];
     URL.createObjectURL = file => (files.push(file), 'blob:none');
@@ -460,7 +459,7 @@ const labUse = (() => {
 
   const countedSteps = 120;
 
-  /** Saves the present state by every door, goes on, and comes back to it by its link. */
+  /** Exports the present state in every way, continues, and restores it from its link and its file. */
   async function roundTrip(all, name) {
     const lab = theLab(), check = (holds, ...why) => all.check(holds, name, ...why), [run] = lab.runs, {sim} = run;
     lab.link = null;
@@ -474,7 +473,7 @@ const labUse = (() => {
     const {method, step, scene} = {...lab.methods[0], scene: lab.reading.scene};
     check(sim.steps < countedSteps, 'is', sim.steps, 'steps on');
     const fingerprint = steps(sim, countedSteps - sim.steps);
-    // elsewhere, and back by the address
+    // change the state, and restore it from the address
     await lab.setState({scene: 'pendulum', methods: [{method: 'rk4', step: 0.01}]});
     check(lab.reading.scene === 'pendulum', 'does not go elsewhere');
     location.hash = link.split('#')[1];
@@ -485,7 +484,7 @@ const labUse = (() => {
     check(!restored.refusal && lab.reading.t === 0, 'comes back refused:', restored.refusal);
     const again = restored.refusal ? '' : steps(restored.sim, countedSteps);
     check(again === fingerprint, 'comes back to', again, 'for', fingerprint);
-    // and by the file, as it is opened here
+    // restore it from the file, as opened here
     await lab.acts.file(new File([file.text], 'saved.toml'));
     check(lab.reading.scene === 'saved' && lab.methods[0].method === method, 'is opened as', lab.reading.scene, JSON.stringify(lab.methods), lab.view.said.textContent);
     const opened = lab.runs[0].refusal ? lab.runs[0].refusal : steps(lab.runs[0].sim, countedSteps);
@@ -493,7 +492,7 @@ const labUse = (() => {
     return {name, command, method, step, steps: countedSteps, fingerprint, link: link.length, text: file.text};
   }
 
-  /** States that are saved: changed scenes under some methods. */
+  /** Saves changed scenes with some methods. */
   async function changedScenes() {
     const all = new Complaints(), saves = [], keep = async name => saves.push(await roundTrip(all, name));
     const runOn = count => steps(theLab().runs[0].sim, count);
@@ -507,7 +506,7 @@ const labUse = (() => {
     return {...all, saves};
   }
 
-  /** States that are saved after a hand was there. */
+  /** Saves states that were changed by hand. */
   async function changedByHand() {
     const all = new Complaints(), saves = [], keep = async name => saves.push(await roundTrip(all, name));
     const runOn = count => steps(theLab().runs[0].sim, count);
@@ -522,14 +521,14 @@ const labUse = (() => {
     runOn(13);
     all.check(lab.byHand && [...lab.runs[0].sim.scene.pins].join() === '0,19,210', 'the pins are', lab.runs[0].sim.scene.pins.join());
     await keep('drag and pin');
-    // still in the hand
+    // while the hand holds the particle
     await opened({scene: 'cloth-hang'});
     runOn(30);
     lab.runs[0].keepPlaces();
     await drag(390, 30, -20, false);
     runOn(5);
     await keep('held');
-    // a ball that moves, some time after its start
+    // a moving ball, some time after its start
     await opened({scene: 'cloth-carried'});
     runOn(700);
     lab.runs[0].keepPlaces();
@@ -543,7 +542,7 @@ const labUse = (() => {
     all.check(lab.runs[0].sim.scene.pins.length === 0, 'pins are left:', lab.runs[0].sim.scene.pins);
     runOn(17);
     await keep('no pins');
-    // pins that move, one of which is let go
+    // moving pins, one of which is released
     await opened({scene: 'cloth-swing'});
     runOn(300);
     lab.hand.choose(19), button('pin').click();
@@ -552,7 +551,7 @@ const labUse = (() => {
     return {...all, saves};
   }
 
-  /** The state in which a page stands that was opened by an address. */
+  /** State of a page opened by an address. */
   async function byAddress() {
     const lab = theLab(), guide = () => document.querySelector('lab-guide');
     await until(() => lab.dataset.state === 'ready' && lab.reading, 'the lab of the address');
@@ -568,7 +567,7 @@ const labUse = (() => {
     for (const type of ['dragenter', 'dragover', 'drop']) theLab().dispatchEvent(new DragEvent(type, {dataTransfer, bubbles: true, cancelable: true}));
   }
 
-  /** Files that are dropped: a scene of the reader's own, and texts that are none. */
+  /** Drops files: a user's scene, and texts that are not scenes. */
   async function drops() {
     const all = new Complaints(), lab = await opened({scene: 'spring'}), shipped = sceneText('spring'), said = [];
     const line = shipped.split('\n').findIndex(text => /^mass/.test(text)) + 1, broken = {
@@ -604,9 +603,9 @@ const labUse = (() => {
     return {...all, said};
   }
 
-  // What is missing, what moves, what keys reach.
+  // Missing features, animations, keyboard focus.
 
-  /** What the page says where it cannot open the lab. */
+  /** Checks the page's message if it cannot open the lab. */
   async function unavailable() {
     const lab = theLab();
     await until(() => lab.dataset.state === 'unavailable', 'the lab to give up');
@@ -619,13 +618,13 @@ const labUse = (() => {
     return {...seen, still: lab.dataset.state, controls: lab.querySelectorAll('canvas, input, select').length};
   }
 
-  /** A page without the module: nothing stands where the lab would be, and nothing opens. */
+  /** A page without the module: the lab's place is empty, and nothing opens. */
   async function absent() {
     await openLab({scene: 'spring'});
     return {state: theLab().dataset.state, children: theLab().childElementCount, dialogs: document.querySelectorAll('dialog').length};
   }
 
-  /** The picture with the step's slider alone, far down a page. */
+  /** The picture with only the step's slider, far down a page. */
   async function part() {
     const all = new Complaints(), lab = theLab(), shown = name => [...lab.querySelectorAll(name)].some(each => each.checkVisibility());
     await pause(300);
@@ -643,7 +642,7 @@ const labUse = (() => {
     return all;
   }
 
-  /** Under reduced motion nothing moves before the reader presses run. */
+  /** With reduced motion nothing moves before the user presses run. */
   async function reducedMotion() {
     const all = new Complaints(), lab = await opened({scene: 'cloth-hang'});
     all.check(stillWanted.matches, 'the browser does not ask for less motion');
@@ -673,7 +672,7 @@ const labUse = (() => {
     return all;
   }
 
-  /** The circle stands in the picture before anything runs, with the particle on it; another rate makes it another course. */
+  /** The circle is drawn before anything runs, with the particle on it. Another rate changes the path. */
   async function courseFromTheStart() {
     const all = new Complaints(), lab = await opened({scene: 'circle'}), {stage} = lab, course = () => lab.stage.course;
     const points = () => Array.from({length: course().count + 1}, (_, i) => [...course().table.data.subarray(4 * i, 4 * i + 3)]);
@@ -701,10 +700,10 @@ const labUse = (() => {
     return all;
   }
 
-  /** Dragging while the lab runs and draws coarsely, as it does where drawing is slow. */
+  /** Drags while the lab runs and draws coarsely, as it does if drawing is slow. */
   async function dragsCoarsely(scene, particle) {
     const all = new Complaints(), check = all.check.bind(all), lab = await opened({scene}), fine = lab.stage;
-    // frames far apart that no script has taken
+    // pretend slow frames without computing time
     lab.play();
     await until(() => lab.playing && lab.reading.t > 0, 'the run');
     for (let i = 0; i < 40 && lab.stage === fine; ++i) lab.watchDrawing(100, 1);
@@ -714,7 +713,7 @@ const labUse = (() => {
     for (const type of ['mouse', 'touch']) {
       const to = await drag(particle, type === 'mouse' ? 40 : -40, -30, false, type), [run] = lab.runs;
       check(lab.hand.held?.particle === particle && lab.reading.byHand, type, 'does not hold the particle');
-      // a camera that moves takes the particle along a frame later
+      // a moving camera moves the particle a frame later
       await until(() => apart(placeOf(particle), to) < 3, `${type}: the particle under the pointer`);
       const {t} = lab.reading;
       await until(() => lab.reading.t > t + 0.02, `${type}: time passes while the hand holds`);
@@ -731,7 +730,7 @@ const labUse = (() => {
     return all;
   }
 
-  /** Names of steppers in Chinese, with their names for the command line beside. */
+  /** Chinese names of steppers, next to their names for the command line. */
   async function chineseNames() {
     const all = new Complaints(), lab = await opened({scene: 'cloth-hang'});
     setLabLanguage('zh');
@@ -746,8 +745,8 @@ const labUse = (() => {
   }
 
   /**
-   * The controls in the order of the Tab key: a page cannot press it, so that the browser's rule is followed: what takes
-   * focus, is shown and has no negative tabindex, in the order of the document, as no tabindex is above zero.
+   * Controls in the order of the Tab key. A page cannot press Tab, so this follows the browser's rule: elements that
+   * accept focus, are visible and have no negative tabindex, in document order, since no tabindex is above zero.
    */
   async function tabOrder(state) {
     const all = new Complaints(), lab = await opened(state);
@@ -760,10 +759,10 @@ const labUse = (() => {
       each.focus({preventScroll: true});
       return document.activeElement === each;
     });
-    // whatever takes clicks or values must be among them
+    // the focusable elements must include everything that can be clicked or edited
     for (const each of lab.querySelectorAll('button, input, select, a[href], textarea, [onclick], [role=button]'))
       if (shown(each) && !each.disabled) all.check(stops.includes(each), each.outerHTML.slice(0, 120), 'is not reached');
-    // each has a name, and a sign that it has the focus
+    // each has a name
     for (const each of stops) {
       const name = each.getAttribute('aria-label') ?? (each.labels?.[0]?.textContent || each.textContent);
       all.check(name.trim().length > 0, each.outerHTML.slice(0, 120), 'has no name');

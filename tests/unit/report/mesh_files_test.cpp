@@ -1,4 +1,4 @@
-// Mesh sequences: read back by readers of their own here, and by another program where it is there.
+// Mesh sequences: read back by independent readers here, and by another program if it is available.
 
 #include <gtest/gtest.h>
 
@@ -66,7 +66,7 @@ ReadBack read_ply(const std::string& bytes) {
   return read;
 }
 
-/// A short run's states, and the files of its samples.
+/// States of a short run, and the mesh files of its samples.
 struct Written {
   explicit Written(const std::string& scene_name, const std::string& form)
       : folder("meshes"), scene(load_scene(scene_name)), writer(folder.path, scene, form) {
@@ -105,7 +105,7 @@ TEST(MeshFiles, TrianglesAreClothLinesAreSprings) {
   EXPECT_EQ(chain.lines, (std::vector<std::pair<int, int>>{{0, 1}, {1, 2}, {2, 3}}));
 }
 
-/// The volume inside triangles that are seen counter-clockwise from outside, by the divergence theorem.
+/// Volume enclosed by triangles with counter-clockwise order seen from outside, by the divergence theorem.
 double volume_inside(const Points& x, const std::vector<std::array<int, 3>>& triangles) {
   double six_volumes = 0;
   for (const auto& [a, b, c] : triangles) six_volumes += x.col(a).dot(Vec3(x.col(b)).cross(Vec3(x.col(c))));
@@ -121,7 +121,8 @@ TEST(MeshFiles, ABallIsClosedAndRoundAndSeenFromOutside) {
     for (const auto& edge : {std::pair(a, b), {b, c}, {c, a}}) EXPECT_TRUE(edges.insert(edge).second);
   for (const auto& [a, b] : edges) EXPECT_TRUE(edges.count({b, a}));
   EXPECT_EQ(x.cols() - edges.size() / 2 + shape.triangles.size(), 2u);  // Euler's characteristic of a sphere
-  // the dips, of second order in the angles pi / 32 along and across, take their sum from the volume at most
+  // Facets lie below the sphere by second order in the angle pi / 32 in both directions. Their sum bounds the lost
+  // volume.
   const double ball = 4 * std::numbers::pi / 3 * std::pow(radius, 3), dip = std::pow(std::numbers::pi / 32, 2);
   EXPECT_LT(volume_inside(x, shape.triangles), ball);
   EXPECT_GT(volume_inside(x, shape.triangles), ball * (1 - dip));
@@ -152,7 +153,7 @@ TEST(MeshFiles, SpheresStandBesideTheFramesAndMoveWithThem) {
 TEST(MeshFiles, AnotherFormIsRefused) {
   try {
     MeshWriter("out", load_scene("chain"), "fbx");
-    ADD_FAILURE() << "fbx was taken";
+    ADD_FAILURE() << "expected an error for fbx";
   } catch (const InputError& error) {
     EXPECT_STREQ(error.what(), "--meshes fbx: expected obj or ply");
   }

@@ -1,5 +1,5 @@
-// Reports that are killed, on a full disk, two at once, and under other locales: what was there stays, and the bytes
-// are the same.
+// Reports that are killed, on a full disk, two at once, and under other locales: earlier results remain, and the bytes
+// are identical.
 
 #include <fmt/format.h>
 
@@ -17,7 +17,7 @@ namespace {
 
 class OutputOfReport : public Cli {
  protected:
-  /// The smallest report that there is.
+  /// Command line of the smallest possible report.
   std::vector<std::string> report(const std::string& out) const {
     return {CROSSCHECK_PROGRAM, "report", "circle", "--quick", "--methods", "rk4,leapfrog", "--out", out};
   }
@@ -25,14 +25,15 @@ class OutputOfReport : public Cli {
     before.insert(before.end(), words.begin(), words.end());
     return run_program(before, folder_, {"CROSSCHECK_LOCK=" + (folder_ / "lock").string()});
   }
-  /// All that one report wrote is there as it was written, and beside it the user's file.
+  /// Succeeds if all files of one report are intact, and the user's file is next to them.
   testing::AssertionResult whole(const fs::path& out) const {
     const auto manifest = read_manifest(out);
     if (!manifest || !manifest->finished) return testing::AssertionFailure() << "no finished result";
     for (const auto& [path, about] : manifest->files)
       if (!manifest->ours(out, path)) return testing::AssertionFailure() << path;
     for (const std::string& path : paths_in(out))
-      if (!manifest->names(path) && path != "data/mine.txt") return testing::AssertionFailure() << "also " << path;
+      if (!manifest->names(path) && path != "data/mine.txt")
+        return testing::AssertionFailure() << "unexpected file " << path;
     if (read(out / "data/mine.txt") != "mine") return testing::AssertionFailure() << "the user's file is gone";
     return testing::AssertionSuccess() << manifest->files.size() << " files";
   }
@@ -47,7 +48,8 @@ TEST_F(OutputOfReport, KilledAtTenMomentsTheFirstIsWholeOrTheSecond) {
   ASSERT_TRUE(whole(folder_ / "out"));
   std::mt19937 random(22);
   int killed = 0;
-  // one in each tenth: no two of them are further apart than the furthest of twenty that fall anywhere, a fifth
+  // One kill in each tenth of the run: the largest gap between them is at most a fifth, as expected for twenty random
+  // moments.
   for (int trial = 0; trial < 10; ++trial) {
     const double moment = std::uniform_real_distribution<>(trial, trial + 1)(random) / 10 * 1.05 * seconds;
     killed += start({"timeout", "-s", "KILL", fmt::format("{:.3f}", moment)}, report("out")).status == 128 + 9;
@@ -62,7 +64,7 @@ TEST_F(OutputOfReport, KilledAtTenMomentsTheFirstIsWholeOrTheSecond) {
 
 TEST_F(OutputOfReport, AFullDiskLeavesTheFirst) {
   if (run_program({"unshare", "-rm", "true"}, folder_).status != 0)
-    GTEST_SKIP() << "this machine makes no mount namespaces (unshare -rm), and so no small disk";
+    GTEST_SKIP() << "this machine does not support mount namespaces (unshare -rm), needed for a small disk";
   fs::create_directories(folder_ / "disk");
   write("try.sh", R"sh(set -e
 mount -t tmpfs -o size=40m tmpfs disk
@@ -87,7 +89,7 @@ cat disk/out/data/mine.txt
 
 TEST_F(OutputOfReport, MountPointIsRefusedBeforeTheWork) {
   if (run_program({"unshare", "-rm", "true"}, folder_).status != 0)
-    GTEST_SKIP() << "this machine makes no mount namespaces (unshare -rm)";
+    GTEST_SKIP() << "this machine does not support mount namespaces (unshare -rm)";
   fs::create_directories(folder_ / "disk");
   const ProgramResult refused = start(
       {"unshare", "-rm", "sh", "-c", "mount -t tmpfs -o size=40m tmpfs disk && exec \"$@\"", "sh"}, report("disk"));
@@ -107,7 +109,7 @@ TEST_F(OutputOfReport, FoldersOfOthersAndTwoWritersAreRefused) {
     EXPECT_EQ(files(), before);
     EXPECT_EQ(read(folder_ / "foreign/data/report.json"), "mine");
   }
-  // the second asks when the first is at it
+  // start the second one while the first one is running
   const ProgramResult two = start({"sh", "-c",
                                    "\"$@\" & first=$!; until test -s .out.crosscheck/lock; do sleep 0.01; done; "
                                    "\"$@\"; echo status $?; wait $first",
@@ -125,11 +127,11 @@ TEST_F(OutputOfReport, ASignalLeavesNothingBehind) {
         start({"env", "TMPDIR=" + (folder_ / "tmp").string(), "timeout", "-s", number, "2"},
               {CROSSCHECK_PROGRAM, "run", "chain", "--duration", "1e4", "--step", "1e-6", "--out", "out"});
     EXPECT_EQ(ended.status, 124) << ended.err;
-    EXPECT_EQ(files(), 1) << "the folder for temporary files, and nothing else";
+    EXPECT_EQ(files(), 1) << "expected the folder for temporary files only";
   }
 }
 
-/// What differs with the clock, and with nothing else.
+/// Replaces dates and times.
 std::string without_clock(const std::string& text) {
   static const std::regex clock("[0-9]{4}-[0-9]{2}-[0-9]{2}( [0-9]{2}:[0-9]{2}:[0-9]{2} UTC)?");
   return std::regex_replace(text, clock, "TIME");
@@ -137,7 +139,7 @@ std::string without_clock(const std::string& text) {
 
 class LocaleCli : public Cli {
  protected:
-  /// Runs the program with these entries as its environment, besides PATH, HOME and the folder of truths.
+  /// Runs the program with only these entries in its environment, besides PATH, HOME and the folder of cached truths.
   ProgramResult bare(const std::vector<std::string>& entries, const std::vector<std::string>& words) const {
     std::vector<std::string> call{"env", "-i", "HOME=" + folder_.string(), "ASAN_OPTIONS=detect_leaks=0"};
     for (const char* kept : {"PATH", "CROSSCHECK_CACHE"})
@@ -148,7 +150,7 @@ class LocaleCli : public Cli {
     return run_program(call, folder_);
   }
 
-  /// All files of a small set of figures and tables, by name; text files without the clock.
+  /// All files of a small set of figures and tables by name. Dates and times in text files are replaced.
   std::map<std::string, std::string> made_in(const std::vector<std::string>& entries) const {
     fs::remove_all(folder_ / "out");
     write("mine.toml", own_scene);
@@ -162,7 +164,7 @@ class LocaleCli : public Cli {
     }
     std::map<std::string, std::string> files;
     for (const auto& entry : fs::recursive_directory_iterator(folder_ / "out"))
-      // the manifest holds who wrote when, and hashes of files that hold the date
+      // the manifest contains the time of writing, and hashes of files with dates
       if (entry.is_regular_file() && entry.path().filename() != "crosscheck.json") {
         const std::string ending = entry.path().extension();
         const bool text = ending == ".csv" || ending == ".json" || ending == ".cff";
@@ -181,7 +183,7 @@ class LocaleCli : public Cli {
   }
 };
 
-/// What a run tells of its own time: run.json has costs.
+/// Removes run.json, which contains CPU times.
 std::map<std::string, std::string> without_costs(std::map<std::string, std::string> files) {
   files.erase("run/run.json");
   return files;
@@ -192,7 +194,7 @@ TEST_F(LocaleCli, ChangesNoByte) {
   for (const char* file : {"mine-order.svg", "mine-order.pdf", "mine-order.png", "mine-order.csv", "mine-picture.pdf",
                            "mine-picture.png", "figures.json", "run/energy.csv", "still.png"})
     EXPECT_TRUE(plain.contains(file)) << file;
-  // zones as POSIX writes them, which need no data base; St. John's half hour and Kathmandu's three quarters
+  // POSIX time zones, which need no database; offsets include half an hour (St. John's) and three quarters (Kathmandu)
   for (const std::vector<std::string>& entries :
        {std::vector<std::string>{"LC_ALL=C", "TZ=NPT-5:45"},
         {"LC_ALL=POSIX", "TZ=NST3:30NDT"},
@@ -205,13 +207,13 @@ TEST_F(LocaleCli, ChangesNoByte) {
 
 TEST_F(LocaleCli, WithDecimalCommasChangesNoByte) {
   if (!fs::exists("/usr/share/i18n/locales/de_DE"))
-    GTEST_SKIP() << "package locales is not installed: no locale with decimal commas is tried";
+    GTEST_SKIP() << "package locales is not installed: decimal commas are not tested";
   fs::create_directories(folder_ / "locales");
   const ProgramResult compiled =
       run_program({"localedef", "-i", "de_DE", "-f", "UTF-8", (folder_ / "locales/de_DE.UTF-8").string()}, folder_);
   ASSERT_TRUE(fs::exists(folder_ / "locales/de_DE.UTF-8")) << compiled.err;
   const std::vector<std::string> german{"LOCPATH=" + (folder_ / "locales").string(), "LC_ALL=de_DE.UTF-8"};
-  // that it is in force: bash writes numbers as its locale does
+  // check that the locale takes effect: bash formats numbers according to it
   std::vector<std::string> comma{"env"};
   comma.insert(comma.end(), german.begin(), german.end());
   comma.insert(comma.end(), {"bash", "-c", "printf %.1f 0,5"});
@@ -230,7 +232,7 @@ TEST_F(LocaleCli, TimesInTablesAreUtc) {
     ASSERT_NE(at, std::string::npos) << table.substr(0, 500);
     std::tm time{};
     ASSERT_NE(strptime(table.c_str() + at + 8, "%Y-%m-%d %H:%M:%S UTC", &time), nullptr);
-    EXPECT_NEAR(std::difftime(timegm(&time), before), 0, 3600) << zone << ": 14 and 12 hours off otherwise";
+    EXPECT_NEAR(std::difftime(timegm(&time), before), 0, 3600) << zone << ": local time would be off by 14 or 12 hours";
   }
 }
 

@@ -1,4 +1,4 @@
-// Outside engines as people meet them on the command line: the kit, reasons of failures, and what an interrupt leaves.
+// External engines on the command line: the conformance kit, reasons of failures, and interrupts.
 
 #include <fmt/format.h>
 
@@ -72,16 +72,16 @@ TEST_F(OutsideEngines, AnInterruptLeavesNoFolderAndNoProcess) {
     fs::create_directories(temporary);
     const std::string engine = script(std::string("beating-") + signal, "trap '' INT TERM\nwhile :; do echo >> '" +
                                                                             beats.string() + "'; sleep 0.02; done\n");
-    // the signal goes to the program alone, as by a person's kill; it is not deaf to INT, as shells make what they
-    // start in the background, this test perhaps
+    // Sends the signal to the program only, as a person's kill would. Shells, and possibly this test's parent, ignore
+    // INT in background processes, so the default handler is restored.
     const std::string shell = "set -m\nenv --default-signal=INT,TERM \"$0\" \"$@\" &\nuntil [ -s '" + beats.string() +
                               "' ]; do sleep 0.01; done\nkill -" + signal + " $!\nwait $!\n";
     const ProgramResult ended =
         run_program({"bash", "-c", shell, CROSSCHECK_PROGRAM, "run", "spring", "--method", engine, "--out", "out"},
                     folder_, {"TMPDIR=" + temporary.string(), "ASAN_OPTIONS=detect_leaks=0"});
     EXPECT_NE(ended.status, 0);
-    ASSERT_TRUE(fs::exists(beats)) << "the engine was started: " << ended.err;
-    // what clears up may end a little after what was killed
+    ASSERT_TRUE(fs::exists(beats)) << "the engine must have started: " << ended.err;
+    // clean-up may finish slightly after the killed processes
     const auto left = [&] { return std::distance(fs::directory_iterator(temporary), fs::directory_iterator()); };
     for (int tries = 0; tries < 100 && left() > 0; ++tries) usleep(50000);
     EXPECT_EQ(left(), 0);
@@ -93,7 +93,7 @@ TEST_F(OutsideEngines, AnInterruptLeavesNoFolderAndNoProcess) {
 
 TEST_F(OutsideEngines, JoltNamesThePackageThatItsToolsAreMissingFrom) {
   struct Row {
-    std::vector<std::string> tools;  // all that is in PATH; they fail
+    std::vector<std::string> tools;  // all programs in PATH; each fails
     std::string said;
   };
   for (const Row& row :

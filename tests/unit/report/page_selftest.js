@@ -1,4 +1,4 @@
-// Uses the page as a reader would and writes what it saw into it, for the test that reads it back. Stands after
+// Uses the page as a reader would and writes the observations into it, for the test that reads them. Load it after
 // stage_selftest.js.
 (() => {
   const column = (table, i) => [...table.tBodies[0].rows].filter(row => !row.hidden).map(row => row.cells[i].innerText.trim().replace(/\s+/g, ' '));
@@ -6,7 +6,7 @@
   const pointAt = element => element.dispatchEvent(new PointerEvent('pointerover', {bubbles: true}));
   const settle = () => new Promise(done => setTimeout(done, 50));
 
-  /** Sorting by pointer and keys, cutting down to rows with a word, and what would be saved. */
+  /** Sorts a table by pointer and keys, filters its rows by a word, and records the CSV that would be saved. */
   async function useTable(table, seen) {
     const [, size] = table.tHead.rows[0].cells, tools = table.closest('.scroll').nextElementSibling;
     size.click();
@@ -20,13 +20,13 @@
     seen.kept = column(table, 0);
     const made = [], create = URL.createObjectURL, click = HTMLAnchorElement.prototype.click;
     URL.createObjectURL = blob => (made.push(blob), create.call(URL, blob));
-    HTMLAnchorElement.prototype.click = () => {};  // nothing is saved on a tester's disk
+    HTMLAnchorElement.prototype.click = () => {};  // do not save files during tests
     tools.querySelector('button').click();
     HTMLAnchorElement.prototype.click = click;
     seen.csv = made.length ? await made[0].text() : '';
   }
 
-  /** A chart as it stands: how large its letters are, and how many of them stick out. */
+  /** Properties of a drawn chart, such as font size and texts beyond its edge. */
   function lookAtChart(chart) {
     const box = chart.getBoundingClientRect(), texts = [...chart.querySelectorAll('text')].filter(text => getComputedStyle(text).visibility !== 'hidden' && getComputedStyle(text).display !== 'none' && !text.matches('.waiting'));
     const beyond = text => {
@@ -62,7 +62,7 @@
     seen.lit = document.querySelectorAll('.lit').length;
     pointAt(document.body);
     seen.gone = tip.hidden;
-    // arrow keys step from mark to mark, and Enter plays its run as a click does
+    // arrow keys move between marks, and Enter plays a mark's run as a click does
     const chart = marker.closest('svg'), said = () => (tip.hidden ? '' : tip.innerText.replace(/^.*, /, ''));
     chart.focus();
     seen.walked = [];
@@ -76,7 +76,7 @@
     press(document.activeElement, 'Enter');
     seen.played = played;
     document.activeElement.blur();
-    // buttons choose whose chart it is
+    // buttons choose the scene of the chart
     const [first, second] = document.querySelectorAll('#speed-accuracy .choices button'), figure = button => document.getElementById(button.dataset.figure);
     second.click();
     await drawn(figure(second).querySelector('.drawn'));
@@ -85,7 +85,7 @@
     seen.back = !figure(first).hidden && figure(second).hidden;
   }
 
-  /** Chooses A and B as a reader would. */
+  /** Chooses runs A and B as a reader would. */
   async function comparesRuns(article, player, seen) {
     const [a, , b] = article.querySelectorAll('.pick select');
     const picks = async (select, method) => {

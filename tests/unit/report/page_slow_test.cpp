@@ -1,4 +1,4 @@
-// The page and its player in a browser: charts, folds, sorted tables, scenes that open, dark mode, paper, motions.
+// The page and its player in a browser: charts, folds, sorted tables, opening scenes, dark mode, paper, motions.
 
 #include <algorithm>
 #include <cmath>
@@ -27,10 +27,10 @@ namespace {
 
 using namespace testing_tools;
 
-/// An outside program, as far as a page knows it.
+/// An external program, as the page sees it.
 const std::string outside = "exec:/tools/my engine";
 
-/// Data of a scene, and its runs for the page. Of an outside program: those of the first method, told as its own.
+/// Data of a scene and its runs for the page. The external program gets the runs of the first method.
 struct Played {
   Scene scene;
   std::string motions;
@@ -62,7 +62,7 @@ struct Played {
         truth ? std::optional(StageTruth{"truth, converged", false, truth->error_bar, motion_of(truth->trajectory)})
               : std::nullopt);
   }
-  /// The runs as the page takes them.
+  /// Runs in the form that the page expects.
   std::vector<PlayableRuns> runs() const {
     std::vector<PlayableRuns> all;
     for (const RunFile& file : files) {
@@ -99,7 +99,7 @@ class Page : public InBrowser {
     content_.provenance = {{"commit", "abc"}};
     for (const Question& question : questions())
       content_.findings.push_back(made_up(finding_rule(question.rules[0]), "5 mm on 3 scenes"));
-    // a chart of each kind: curves open the chapter, the others are folded
+    // A chart of each kind. Curves open the chapter; the others are folded.
     Figure curves;
     curves.name = "chain-speed-accuracy-cost", curves.x = {"CPU time / s", true}, curves.y = {"error / m", true};
     curves.curves = {{"mysim/leapfrog", style_of("mysim/leapfrog"), {{1e-3, 3}, {1e-2, 2}, {1e-1, 1}}, true, true},
@@ -161,7 +161,7 @@ class Page : public InBrowser {
       if (std::ranges::find(content_.methods, method) == content_.methods.end()) content_.methods.push_back(method);
     content_.scenes = {part};
   }
-  /// The page, and what uses it as a reader would.
+  /// The page with a self-test that uses it as a reader would.
   std::filesystem::path page() {
     std::string html = page_html(content_);
     html.insert(html.find("</head>"), scripts({"stage_selftest.js", "page_selftest.js"}));
@@ -182,40 +182,40 @@ void expect_charts_are_drawn_and_speak(const JsonField& saw) {
     EXPECT_TRUE(contains(chart["says"].text(), std::string("A chart of ") + name));
     EXPECT_GT(chart["height"].number(), 100);
     EXPECT_GT(chart["shapes"].number(), 3);
-    EXPECT_EQ(chart["unseen"].number(), 0) << "a style of another part of the page hides its shapes";
-    EXPECT_GE(chart["letters"].number(), 12) << "pixels";
-    EXPECT_EQ(chart["outside"].number(), 0) << "letters beyond the chart's edge: " << chart.dump();
+    EXPECT_EQ(chart["unseen"].number(), 0) << "another style of the page hides its shapes";
+    EXPECT_GE(chart["letters"].number(), 12) << "font size in pixels";
+    EXPECT_EQ(chart["outside"].number(), 0) << "texts beyond the chart's edge: " << chart.dump();
   }
-  EXPECT_EQ(charts["chain-speed-accuracy-cost"]["marks"].number(), 3 + 2 + 1) << "every run, and the one that failed";
+  EXPECT_EQ(charts["chain-speed-accuracy-cost"]["marks"].number(), 3 + 2 + 1) << "every run, including the failed one";
   EXPECT_EQ(charts["map"]["cells"].number(), 16);
-  EXPECT_EQ(charts["limits"]["marks"].number(), 2) << "one for each scene";
+  EXPECT_EQ(charts["limits"]["marks"].number(), 2) << "one per scene";
   EXPECT_EQ(saw["walked"].texts(), (std::vector<std::string>{"first run", "second run", "fourth run", "third run"}));
   EXPECT_EQ(saw["played"].number(), 1);
   EXPECT_EQ(saw["chosen"].texts(), (std::vector<std::string>{"rod", "true", "true", "true"}));
   EXPECT_TRUE(saw["back"].boolean());
   EXPECT_EQ(saw["tip"].text(), "first run");
   EXPECT_TRUE(saw["gone"].boolean());
-  EXPECT_GT(saw["lit"].number(), 0) << "its method lights up";
-  EXPECT_LE(saw["width"].number(), 0) << "the page is no wider than the window";
+  EXPECT_GT(saw["lit"].number(), 0) << "its method is highlighted";
+  EXPECT_LE(saw["width"].number(), 0) << "the page must not be wider than the window";
   EXPECT_LE(saw["words"].number(), 3000);
   EXPECT_GT(saw["words"].number(), 50);
 }
 
 void expect_folds_open_and_their_tables_sort(const JsonField& saw) {
   SCOPED_TRACE("FoldsOpenAndTheirTablesSort");
-  EXPECT_EQ(saw["tablesBefore"].number(), 0) << "what is folded is not there";
-  EXPECT_EQ(saw["templates"].number(), 0) << "after it was opened";
-  // by size in metres, whatever the unit; words below numbers, either way
+  EXPECT_EQ(saw["tablesBefore"].number(), 0) << "folded contents must not be in the document";
+  EXPECT_EQ(saw["templates"].number(), 0) << "after the fold is opened";
+  // sorted by size in metres whatever the unit; in ascending order words follow numbers
   const std::vector<std::string> up{"< 3.0 × 10−13 m", "0.5 µm", "900 µm", "1.2 mm",
                                     "20 mm",           "2 m",    "–",      "blew up at 2 s"};
   for (size_t i = 0; i < 16; ++i) EXPECT_EQ(saw["up"][i].text(), up[i / 2]) << i;
   EXPECT_EQ(saw["down"][0].text(), "2 m");
   EXPECT_EQ(saw["down"][11].text(), "< 3.0 × 10−13 m");
   EXPECT_EQ(saw["says"].text(), "descending");
-  ASSERT_EQ(saw["kept"].size(), 6u) << "rows with a word";
+  ASSERT_EQ(saw["kept"].size(), 6u) << "rows that contain the word";
   for (const JsonField& method : saw["kept"].elements()) EXPECT_TRUE(begins(method.text(), "bullet/pbd"));
   EXPECT_TRUE(begins(saw["csv"].text(), "method,error\nbullet/pbd-"));
-  EXPECT_EQ(saw["csv"].text().find("mysim/rk4"), std::string::npos) << "rows that are hidden are not saved";
+  EXPECT_EQ(saw["csv"].text().find("mysim/rk4"), std::string::npos) << "hidden rows are not saved";
 }
 
 void expect_a_card_opens_its_scene_and_back_closes_it(const JsonField& saw) {
@@ -223,34 +223,35 @@ void expect_a_card_opens_its_scene_and_back_closes_it(const JsonField& saw) {
   EXPECT_FALSE(saw["openBefore"].boolean());
   EXPECT_TRUE(saw["opened"].boolean());
   EXPECT_EQ(saw["address"].text(), "#chain");
-  EXPECT_TRUE(saw["here"].boolean()) << "the card says that it is open";
+  EXPECT_TRUE(saw["here"].boolean()) << "the card is marked as open";
   EXPECT_EQ(saw["sceneCharts"].number(), 1);
   EXPECT_TRUE(saw["scenePlays"].boolean());
-  EXPECT_TRUE(saw["sameIsZero"].boolean()) << "a run less itself is nothing";
-  EXPECT_TRUE(saw["apart"].boolean()) << "and two runs are not";
-  EXPECT_TRUE(saw["cursor"].boolean()) << "it follows the time in each small chart";
+  EXPECT_TRUE(saw["sameIsZero"].boolean()) << "the difference of a run to itself is zero";
+  EXPECT_TRUE(saw["apart"].boolean()) << "the difference of two runs is not zero";
+  EXPECT_TRUE(saw["cursor"].boolean()) << "the cursor must follow the time in each small chart";
   EXPECT_EQ(saw["smallCharts"].number(), 3);
   EXPECT_TRUE(contains(saw["engines"].text(), "my engine")) << saw["engines"].dump();
   EXPECT_TRUE(saw["outsidePlays"].boolean());
-  EXPECT_TRUE(saw["buttonChooses"].boolean()) << "of the table";
+  EXPECT_TRUE(saw["buttonChooses"].boolean()) << "the button in the table chooses its run";
   EXPECT_LE(saw["nodes"].number(), 8000);
   EXPECT_TRUE(saw["closed"].boolean());
-  EXPECT_TRUE(saw["again"].boolean()) << "an address leads there too";
+  EXPECT_TRUE(saw["again"].boolean()) << "an address opens the scene too";
   EXPECT_TRUE(saw["closedByLink"].boolean());
 }
 
 void expect_the_first_screen_moves(const JsonField& saw) {
   SCOPED_TRACE("TheFirstScreenMoves");
   EXPECT_EQ(saw["questions"].number(), 6);
-  EXPECT_TRUE(saw["still"].boolean()) << "with reduced motion the picture stands until it is asked to move";
+  EXPECT_TRUE(saw["still"].boolean()) << "with reduced motion the picture does not move until requested";
   EXPECT_TRUE(saw["heroMoves"].boolean());
   EXPECT_EQ(saw["heroPanels"].number(), 3) << "both engines and the truth";
   EXPECT_TRUE(saw["heroStops"].boolean());
-  EXPECT_TRUE(contains(saw["readout"].text(), "now")) << "the error at the time: " << saw["readout"].text();
-  EXPECT_TRUE(saw["litTitle"].boolean()) << "a method lit in a chart is lit in the player";
+  EXPECT_TRUE(contains(saw["readout"].text(), "now"))
+      << "expected the error at the current time: " << saw["readout"].text();
+  EXPECT_TRUE(saw["litTitle"].boolean()) << "a method highlighted in a chart is highlighted in the player";
 }
 
-// One page that is opened twice tells all of these: a browser's start and the page's use cost some seconds.
+// One test for all of these, with the page opened twice, because starting a browser and using the page takes seconds.
 TEST_F(Page, IsUsedAsAReaderWouldInLightAndInTheDark) {
   NEEDS_CHROMIUM;
   const auto file = page();
@@ -264,9 +265,9 @@ TEST_F(Page, IsUsedAsAReaderWouldInLightAndInTheDark) {
   expect_the_first_screen_moves(light);
   EXPECT_EQ(light["background"].text(), "rgb(255, 255, 255)");
   EXPECT_EQ(dark["background"].text(), "rgb(17, 21, 26)");
-  EXPECT_NE(light["colour"].text(), dark["colour"].text()) << "of a method in a chart";
+  EXPECT_NE(light["colour"].text(), dark["colour"].text()) << "colour of a method in a chart";
   EXPECT_TRUE(contains(asset("page/style.css"), "@media screen and (prefers-color-scheme: dark)"))
-      << "what is printed never is";
+      << "printed pages are never dark";
 }
 
 TEST_F(Page, GoesOnPaper) {
@@ -282,7 +283,7 @@ TEST_F(Page, GoesOnPaper) {
 
 class PlayerPage : public testing_tools::InBrowser {
  protected:
-  /// The page that plays a scene: with the poster that a report has, and the self-test.
+  /// A page that plays a scene, with a poster as in a report, and the self-test.
   std::filesystem::path page(const Scene& scene, const std::vector<std::string>& methods) {
     const Played played(scene, methods);
     played.draw(720, 280, folder_ / "poster.png");
@@ -300,17 +301,17 @@ class PlayerPage : public testing_tools::InBrowser {
 
 TEST_F(PlayerPage, PlaysFromAFileAndObeysItsControls) {
   NEEDS_CHROMIUM;
-  // one that blows up is shown until then, and says so
+  // a run that blows up is shown until its end, and is labelled
   const auto file = page(load_scene("chain"), {"mysim/symplectic-euler", "bullet/pbd", "mysim/explicit-euler"});
   const JsonField saw = seen(file, {});
   ASSERT_TRUE(saw["able"].boolean()) << saw.dump();
   EXPECT_EQ(saw["complaints"].dump(), "[]");
   EXPECT_TRUE(saw["poster"].boolean());
   EXPECT_EQ(saw["canvases"].number(), 1);
-  EXPECT_GT(saw["drawn"].number(), 0.002) << "part of the picture that is not background";
+  EXPECT_GT(saw["drawn"].number(), 0.002) << "fraction of the picture that is not background";
   for (const char* what : {"moves", "returns", "slider", "colours", "springs", "turns", "plays"})
     EXPECT_TRUE(saw[what].boolean()) << what;
-  EXPECT_EQ(saw["jump"].number(), 0) << "pixels by which the page moved when the player came";
+  EXPECT_EQ(saw["jump"].number(), 0) << "pixels by which the page moved when the player appeared";
   EXPECT_NE(saw["titles"].text().find("blew up at"), std::string::npos) << saw["titles"].dump();
   EXPECT_NE(saw["says"].text().find("blew up at"), std::string::npos) << saw["says"].dump();
   EXPECT_EQ(saw["lines"].number(), 5) << "errors and energies of both, and their difference";
@@ -325,7 +326,7 @@ TEST_F(PlayerPage, AClothIsDrawnWithItsSphere) {
     EXPECT_TRUE(saw[what].boolean()) << what;
 }
 
-/// A page with a chart whose first marker came to its end, whose second blew up; and a map with a cell.
+/// A page with a chart whose first marker is a complete run and whose second one blew up, and a map.
 class RunsPage : public PlayerPage {
  protected:
   std::filesystem::path charts(bool lab = false) {
@@ -397,18 +398,19 @@ TEST_F(RunsPage, AClickOnAMarkerOrAChoiceInTheListPlaysItsRun) {
   for (const JsonField& w : saw["windows"].elements()) {
     EXPECT_GT(w["drawn"].number(), 0.001) << w.dump();
     EXPECT_TRUE(w["closed"].boolean()) << w.dump();
-    EXPECT_EQ(w["says"].text().find("Open in the lab"), std::string::npos) << "no door without a lab";
+    EXPECT_EQ(w["says"].text().find("Open in the lab"), std::string::npos) << "no link to the lab without a lab";
   }
   for (const size_t run : {0, 1, 3}) EXPECT_TRUE(saw["windows"][run]["moves"].boolean()) << run;
-  EXPECT_EQ(saw["windows"][0]["panels"].number(), 3) << "the run beside the truth, and their difference";
+  EXPECT_EQ(saw["windows"][0]["panels"].number(), 3) << "the run, the truth, and their difference";
   EXPECT_NE(saw["windows"][0]["says"].text().find("crosscheck run chain --method mysim/leapfrog --step"),
             std::string::npos)
       << saw["windows"][0]["says"].dump();
-  EXPECT_LT(saw["windows"][0]["apart"].number(), 1e-3) << "m: as near to the truth as the run is, with its lattice";
+  EXPECT_LT(saw["windows"][0]["apart"].number(), 1e-3)
+      << "m: the run's error, plus the resolution of its packed positions";
   EXPECT_EQ(saw["windows"][2]["panels"].number(), 1);
-  EXPECT_FALSE(saw["windows"][2]["moves"].boolean()) << "a still";
+  EXPECT_FALSE(saw["windows"][2]["moves"].boolean()) << "a still picture";
   EXPECT_NE(saw["windows"][1]["says"].text().find("last"), std::string::npos) << saw["windows"][1]["says"].dump();
-  EXPECT_EQ(saw["windows"][3]["says"].text(), saw["windows"][1]["says"].text()) << "the list has the same runs";
+  EXPECT_EQ(saw["windows"][3]["says"].text(), saw["windows"][1]["says"].text()) << "the list plays the same runs";
 }
 
 TEST_F(RunsPage, WithTheLabEachRunOfMysimHasADoorToIt) {
@@ -425,7 +427,7 @@ TEST_F(RunsPage, WithoutWebGlNothingPretendsToPlay) {
   NEEDS_CHROMIUM;
   const JsonField saw = seen(charts(), {"--disable-3d-apis"});
   EXPECT_EQ(saw["windows"].dump(), "[]");
-  EXPECT_EQ(saw["lists"].number(), 0) << "after the first click, which shows what the browser lacks";
+  EXPECT_EQ(saw["lists"].number(), 0) << "after the first click, which reveals the missing WebGL";
   EXPECT_EQ(saw["dialogs"].number(), 0);
   EXPECT_EQ(saw["complaints"].dump(), "[]");
 }
@@ -435,7 +437,7 @@ TEST_F(PlayerPage, WithoutWebGlThePosterStays) {
   const JsonField saw = seen(page(load_scene("chain"), {"mysim/symplectic-euler"}), {"--disable-3d-apis"});
   EXPECT_FALSE(saw["able"].boolean());
   EXPECT_TRUE(saw["poster"].boolean());
-  EXPECT_EQ(saw["height"].number(), 0) << "no controls that control nothing";
+  EXPECT_EQ(saw["height"].number(), 0) << "no controls without a function";
   EXPECT_EQ(saw["canvases"].number(), 0);
   EXPECT_EQ(saw["complaints"].dump(), "[]");
 }
@@ -461,12 +463,12 @@ TEST_F(PlayerPage, TheFirstScreenOfAClothMoves) {
   const JsonField still = seen(page, {"--disable-3d-apis"});
   EXPECT_EQ(still["complaints"].dump(), "[]");
   EXPECT_FALSE(still["able"].boolean());
-  EXPECT_TRUE(still["poster"].boolean()) << "without WebGL the still picture stays";
-  EXPECT_EQ(still["button"].text(), "▶") << "and no clock runs";
+  EXPECT_TRUE(still["poster"].boolean()) << "without WebGL the still picture remains";
+  EXPECT_EQ(still["button"].text(), "▶") << "the clock must not run";
   const JsonField saw = seen(page, {});
   EXPECT_EQ(saw["complaints"].dump(), "[]");
-  EXPECT_GT(saw["drawn"].number(), 0.05) << "part of the picture that is not background";
-  EXPECT_EQ(saw["panels"].number(), 3) << "both runs, and the truth";
+  EXPECT_GT(saw["drawn"].number(), 0.05) << "fraction of the picture that is not background";
+  EXPECT_EQ(saw["panels"].number(), 3) << "both runs and the truth";
   for (const char* what : {"moves", "returns", "turns", "poster"}) EXPECT_TRUE(saw[what].boolean()) << what;
 }
 

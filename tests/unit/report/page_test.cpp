@@ -1,5 +1,5 @@
-// The page: units stay together, linked words are explained, every part is listed; an assembled report has its charts'
-// numbers, its scenes and its certificates, and the same page comes of its data again.
+// The page: units stay with their numbers, linked words are explained, every part is listed. An assembled report
+// contains the numbers of its charts, its scenes and its certificates, and its data reproduce the same page.
 
 #include <nlohmann/json.hpp>
 
@@ -33,7 +33,7 @@ TEST(Prose, NumbersHoldOnToWhatBelongsToThem) {
   EXPECT_EQ(prose("to 0.25 % of 3 mm in 500 µs"), "to 0.25\u00a0% of 3\u00a0mm in 500\u00a0µs");
   EXPECT_EQ(prose("8 x 8 of 100 000, 0.32 ± 0.01"), "8\u00a0x\u00a08 of 100\u00a0000, 0.32\u00a0±\u00a00.01");
   EXPECT_EQ(prose("< 0.001 %"), "&lt;\u00a00.001\u00a0%");
-  EXPECT_EQ(prose("on 7 scenes and 3 methods"), "on 7 scenes and 3 methods");  // no s, no m
+  EXPECT_EQ(prose("on 7 scenes and 3 methods"), "on 7 scenes and 3 methods");  // neither seconds nor metres
   EXPECT_EQ(prose("2 of 13"), "2 of 13");
   EXPECT_EQ(prose("a < b & 1.0e-12 m"),
             "a &lt; b &amp; 1.0<span class=\"n\">\u00a0×\u00a010<sup>−12</sup></span>\u00a0m");
@@ -95,7 +95,7 @@ TEST(ChapterTexts, HaveAHeadOfKnownKeysAndABody) {
   EXPECT_TRUE(contains(failure("- title: T\n- label: L\n"), "expected title, label"));
 }
 
-/// The part of a text from one word to another.
+/// Substring from one word up to another.
 std::string between(const std::string& text, const std::string& from, const std::string& to) {
   const size_t begin = text.find(from);
   if (begin == std::string::npos) return "";
@@ -105,7 +105,7 @@ std::string between(const std::string& text, const std::string& from, const std:
 std::string section(const std::string& html, const std::string& id) {
   return between(html, fmt::format("<section class=\"chapter\" id=\"{}\"", id), "</section>");
 }
-/// What stands in the page without being asked for.
+/// The visible part of the page after loading.
 std::string at_load(std::string html) {
   for (const char* tag : {"template", "script", "style"}) {
     const std::string open = fmt::format("<{}", tag), close = fmt::format("</{}>", tag);
@@ -114,10 +114,10 @@ std::string at_load(std::string html) {
   }
   return html;
 }
-/// The page with its folds put back.
+/// The complete page, with folded contents inserted.
 std::string whole(const PageContent& content) { return with_folds_put_back(page_html(content)); }
 
-/// Whether every link inside the page leads to an element or to a scene that it opens.
+/// Expects every link inside the page to lead to an element or to a scene that it opens.
 void expect_links_lead_somewhere(const std::string& html) {
   std::set<std::string> targets;
   for (size_t at = html.find("href=\"#"); at != std::string::npos; at = html.find("href=\"#", at + 1))
@@ -140,8 +140,8 @@ TEST(Contents, LeadToEveryPartThatIsThere) {
   expect_links_lead_somewhere(html);
   for (const char* id : {"scenes", "same-answer", "speed-accuracy", "words"})
     EXPECT_TRUE(contains(nav, fmt::format("href=\"#{}\"", id))) << id;
-  EXPECT_FALSE(contains(nav, "#stability")) << "a chapter without entries has no part";
-  EXPECT_FALSE(contains(nav, "#changes")) << "nothing is compared";
+  EXPECT_FALSE(contains(nav, "#stability")) << "a chapter without entries is left out";
+  EXPECT_FALSE(contains(nav, "#changes")) << "there is no earlier report";
   for (const Chapter& chapter : chapters()) EXPECT_FALSE(chapter.label.empty()) << chapter.id;
 }
 
@@ -161,15 +161,15 @@ TEST(Chapters, AreFiveAndEachAnswersAQuestion) {
   for (const Chapter& chapter : chapters()) {
     ids.push_back(chapter.id);
     EXPECT_FALSE(chapter.teaching.empty()) << chapter.id;
-    EXPECT_EQ(chapter.leads.empty(), chapter.id == "same-answer") << "which opens with its certificates";
+    EXPECT_EQ(chapter.leads.empty(), chapter.id == "same-answer") << "same-answer opens with its certificates";
   }
   for (const Question& question : questions())
     if (asked.empty() || asked.back() != question.chapter) asked.emplace_back(question.chapter);
   EXPECT_EQ(ids, (std::vector<std::string>{"same-answer", "speed-accuracy", "stability", "energy", "adequacy"}));
-  EXPECT_EQ(asked, ids) << "a question leads to its chapter, in their order";
+  EXPECT_EQ(asked, ids) << "questions must lead to the chapters in order";
 }
 
-/// A page all of whose chapters have two charts and a table, with every answer.
+/// A page with two charts and a table in each chapter, and with every answer.
 class WholePage : public InFolder {
  protected:
   void SetUp() override {
@@ -197,7 +197,7 @@ class WholePage : public InFolder {
     write("more-2.csv", "x");
   }
   PageContent content_;
-  std::vector<std::string> answers_, others_;  // as the page writes them
+  std::vector<std::string> answers_, others_;  // in the page's wording
 };
 
 TEST_F(WholePage, OpensWithFiveAnswersThatLeadToTheirChapters) {
@@ -211,7 +211,7 @@ TEST_F(WholePage, OpensWithFiveAnswersThatLeadToTheirChapters) {
       EXPECT_TRUE(contains(first, fmt::format("href=\"#{}\"", question.chapter)));
     }
   }
-  EXPECT_FALSE(contains(first, "<table")) << "numbers in a table are not what a reader begins with";
+  EXPECT_FALSE(contains(first, "<table")) << "the page must not open with a table";
   expect_links_lead_somewhere(html);
 }
 
@@ -222,17 +222,17 @@ TEST_F(WholePage, AChapterHasItsAnswerItsLeadAndItsFolds) {
     SCOPED_TRACE(chapter.id);
     const std::string part = section(html, chapter.id), seen = at_load(part);
     EXPECT_TRUE(contains(seen, "<p class=\"answer\">" + answers_[i]));
-    EXPECT_EQ(count(seen, "data-chart="), i == 0 ? 0 : 1) << "the lead alone is open";
+    EXPECT_EQ(count(seen, "data-chart="), i == 0 ? 0 : 1) << "only the lead is open";
     if (i > 0) {
       EXPECT_TRUE(contains(seen, fmt::format("data-chart=\"{}\"", chapter.entries[0].figures[0].name)));
     }
     EXPECT_TRUE(contains(seen, "<div class=\"teach\">"));
     EXPECT_GT(words_in(between(seen, "<div class=\"teach\">", "</section>")), 40u);
-    // what was found, the other chart, the table
+    // the findings, the other chart, the table
     EXPECT_EQ(count(part, "<details class=\"fold\""), 3);
     EXPECT_EQ(count(part, "<template"), 3);
     EXPECT_EQ(count(part, fmt::format("data-chart=\"more-{}\"", i)), 1);
-    EXPECT_FALSE(contains(seen, "More caption.")) << "folded contents are not there until they are asked for";
+    EXPECT_FALSE(contains(seen, "More caption.")) << "folded contents are not visible until opened";
     EXPECT_FALSE(contains(seen, others_[i]));
     EXPECT_TRUE(contains(part, others_[i]));
     EXPECT_TRUE(contains(part, "More &lt; that"));
@@ -243,13 +243,13 @@ TEST_F(WholePage, OnlyFiguresThatOpenAChapterAreDrawnForPaper) {
   for (const std::string& name : figures_of(content_))
     EXPECT_EQ(opens_a_chapter(content_, name), !name.starts_with("more-")) << name;
   const std::string html = whole(content_);
-  EXPECT_EQ(count(at_load(html), "<noscript><img"), 1) << "where the drawing is there";
+  EXPECT_EQ(count(at_load(html), "<noscript><img"), 1) << "only where a drawing exists";
   EXPECT_TRUE(contains(section(html, "stability"), "<noscript><img src=\"data:image/svg+xml;base64," +
                                                        base64(read(folder_ / "stability-limits.svg")) +
                                                        "\" alt=\"t\">"));
   for (const char* way : {"stability-limits.pdf", "stability-limits.csv", "stability-limits.gp", "more-2.csv"})
     EXPECT_TRUE(contains(html, fmt::format("href=\"figures/{}\"", way)));
-  EXPECT_FALSE(contains(html, "more-2.pdf")) << "there is none";
+  EXPECT_FALSE(contains(html, "more-2.pdf")) << "this file does not exist";
 }
 
 TEST_F(WholePage, TheLeadIsThatOfTheMainSceneWhereThereIsOne) {
@@ -268,11 +268,11 @@ TEST_F(WholePage, ButtonsChooseWhoseFigureOpensAChapter) {
   const std::string part = section(whole(content_), chapter.id), seen = at_load(part);
   EXPECT_LT(seen.find("data-figure=\"figure-cloth-hang-speed-accuracy-cost\" aria-pressed=\"true\">cloth-hang<"),
             seen.find("data-figure=\"figure-chain-speed-accuracy-cost\" aria-pressed=\"false\">chain<"))
-      << "the main scene first";
+      << "the main scene comes first";
   EXPECT_EQ(count(part, " hidden>\n<div class=\"drawn\""), 1);
   EXPECT_TRUE(contains(part, "id=\"figure-chain-speed-accuracy-cost\" aria-label=\"t\" hidden>"));
-  EXPECT_EQ(count(part, "data-chart=\"cloth-hang-speed-accuracy-cost\""), 1) << "nowhere else";
-  EXPECT_EQ(count(section(whole(content_), "stability"), "class=\"choices\""), 0) << "nothing to choose";
+  EXPECT_EQ(count(part, "data-chart=\"cloth-hang-speed-accuracy-cost\""), 1) << "and nowhere else";
+  EXPECT_EQ(count(section(whole(content_), "stability"), "class=\"choices\""), 0) << "there is nothing to choose";
 }
 
 TEST_F(WholePage, WhatIsShownIsNotFoldedAway) {
@@ -286,7 +286,8 @@ TEST_F(WholePage, WhatIsShownIsNotFoldedAway) {
   const std::string seen = at_load(section(whole(content_), chapter.id));
   EXPECT_TRUE(contains(seen, "<h3>One step too large</h3>"));
   EXPECT_TRUE(contains(seen, "data-chart=\"stability-failure\""));
-  EXPECT_EQ(count(between(seen, "<div class=\"moments\">", "</figure>\n</div>"), "<img"), 1) << "those that there are";
+  EXPECT_EQ(count(between(seen, "<div class=\"moments\">", "</figure>\n</div>"), "<img"), 1)
+      << "existing pictures only";
 }
 
 TEST_F(WholePage, AChapterHasSixFoldsAtMostAndTheLastOneHoldsTheRest) {
@@ -298,16 +299,17 @@ TEST_F(WholePage, AChapterHasSixFoldsAtMostAndTheLastOneHoldsTheRest) {
   EXPECT_EQ(count(part, "<details class=\"fold\""), 6);
   for (const char* name : {"a", "b", "c", "d", "e", "kept-f", "more-2"})
     EXPECT_EQ(count(part, fmt::format("data-chart=\"{}\"", name)), 1) << name;
-  EXPECT_LT(part.find("Chart kept-f"), part.find("More &lt; that")) << "by worth";
+  EXPECT_LT(part.find("Chart kept-f"), part.find("More &lt; that")) << "in order of importance";
   const std::string last = part.substr(part.rfind("<details class=\"fold\""));
   EXPECT_TRUE(contains(last, "More figures and tables"));
-  EXPECT_EQ(count(last, "<button type=\"button\" data-figure="), 4) << "two of the charts and the table had room";
+  EXPECT_EQ(count(last, "<button type=\"button\" data-figure="), 4)
+      << "there was room for two of the charts and the table";
   EXPECT_TRUE(contains(last, "<span class=\"kind\">4 charts</span>"));
   EXPECT_EQ(count(last, "<div id=\"one-"), 4);
   EXPECT_EQ(count(last, "\" hidden>\n"), 3);
 }
 
-/// The start tags of an element in a page.
+/// Start tags of an element in a page.
 std::vector<std::string> tags(const std::string& html, const std::string& name) {
   std::vector<std::string> all;
   for (size_t at = html.find("<" + name); at != std::string::npos; at = html.find("<" + name, at + 1))
@@ -404,7 +406,7 @@ TEST_F(WholePage, TextsOfScenesCannotBecomeMarkup) {
   EXPECT_EQ(count(html, "<script"), count(html, "</script>"));
 }
 
-/// The runs that a scene's part shows of these runs of its chart: method, step (s), error (m), CPU time (s).
+/// Runs shown in a scene's part, given the runs of its chart: method, step (s), error (m), CPU time (s).
 class ShownRuns : public ::testing::Test {
  protected:
   void chart(const std::string& method, double step, double error, double cpu) {
@@ -444,8 +446,8 @@ TEST_F(ShownRuns, BeginWithEachEnginesOwnThenTheRecommendedOneAndTheCheapestOfTh
   EXPECT_EQ(keys(runs),
             (std::vector<std::string>{"mysim/symplectic-euler own beside", "bullet/deformable-explicit own beside",
                                       "mysim/leapfrog 0", "mysim/rk4 1"}))
-      << "of rk4 the cheapest within 1 %, of what failed nothing";
-  EXPECT_EQ(runs[2].run.step, 2e-3) << "what the page calls by this step was run at it";
+      << "rk4's cheapest run within 1 %, and no failed runs";
+  EXPECT_EQ(runs[2].run.step, 2e-3) << "the step that the page names must be the run's step";
   EXPECT_EQ(runs[0].run.step, default_run(scene_).step);
   EXPECT_EQ(runs[2].cpu, 1e-3);
 }
@@ -479,7 +481,7 @@ TEST_F(PageRoom, IsGivenToTheEnginesRepresentativesFirst) {
   EXPECT_FALSE(runs.take("b-engines", "", notes));
 }
 
-/// A small report, assembled as the program does it: two scenes under a few methods, their data in the folder.
+/// A small report, assembled as the program does it: two scenes with a few methods, and their data in the folder.
 class Assembled : public InFolder {
  protected:
   void SetUp() override {
@@ -495,7 +497,7 @@ class Assembled : public InFolder {
     data_.provenance = with_scenes(
         {{"command", "crosscheck report"}, {"commit", "abc"}, {"date", "2026-11-22 10:00:00 UTC"}}, request.scenes);
   }
-  /// Writes the tables and the report; no figure is drawn, no picture rendered. Their names are kept.
+  /// Writes the tables and the report without drawing figures or rendering pictures, and records their names.
   WrittenReport written(ReportData& data, const std::filesystem::path& folder) {
     drawn_.clear();
     return write_report(data, folder, "", [this](const std::vector<Point>& points) {
@@ -509,20 +511,20 @@ class Assembled : public InFolder {
     for (const Scene& scene : data_.scenes) write_file(folder_ / "data/scenes" / (scene.name + ".toml"), scene.source);
   }
   std::string page() const { return read(folder_ / "index.html"); }
-  /// The page as it is once its folds are put back.
+  /// The complete page, with folded contents inserted.
   std::string whole_page() const { return with_folds_put_back(page()); }
 
   ReportData data_;
   std::vector<std::string> drawn_;
 };
 
-/// The numbers of the charts that are in sight when the page opens.
+/// Data of the charts that are visible when the page opens.
 JsonField open_charts_in(const std::string& html) {
   const std::string begin = "<script type=\"application/json\" id=\"open-charts\">";
   return JsonField::parse(between(html, begin, "</script>").substr(begin.size()), "charts in sight");
 }
 
-/// Those of the others, as the page's script unpacks them.
+/// Data of the other charts, as the page's script unpacks them.
 JsonField packed_charts_in(const std::string& html) {
   const std::string begin = "<script type=\"text/plain\" id=\"charts\">";
   return JsonField::parse(unpacked_text(between(html, begin, "</script>").substr(begin.size())), "charts");
@@ -544,7 +546,7 @@ TEST_F(Assembled, EveryFigureHasAsManyPointsAsItsTable) {
     const auto chart = open.find(name) ? open.find(name) : packed.find(name);
     ASSERT_TRUE(chart);
     if (opens_a_chapter(report.page, name)) {
-      EXPECT_TRUE(open.find(name)) << "is drawn where a page is printed at once";
+      EXPECT_TRUE(open.find(name)) << "needed if the page is printed immediately";
     }
     EXPECT_EQ((*chart)["name"].text(), name);
     if ((*chart)["kind"].text() != "curves") continue;
@@ -570,7 +572,7 @@ TEST_F(Assembled, EveryFigureHasAsManyPointsAsItsTable) {
     EXPECT_EQ(failed, failures);
   }
   EXPECT_GT(compared, 10);
-  // those that open a chapter are drawn; others have numbers and script alone
+  // only figures that open a chapter are drawn; others have numbers and script only
   for (const std::string& name : drawn_) EXPECT_TRUE(opens_a_chapter(report.page, name)) << name;
 }
 
@@ -587,10 +589,10 @@ TEST_F(Assembled, EverySceneHasACardAndWhatItOpens) {
     EXPECT_TRUE(contains(inside, fmt::format("data-chart=\"{}-error\"", scene.name)));
     EXPECT_TRUE(contains(inside, fmt::format("crosscheck compare {}", scene.name)));
     EXPECT_TRUE(contains(inside, "Is it the same scene?"));
-    EXPECT_EQ(count(inside, "<tr data-method=\"mysim/explicit-euler\">"), 1) << "all runs, the failed ones too";
+    EXPECT_EQ(count(inside, "<tr data-method=\"mysim/explicit-euler\">"), 1) << "all runs, including failed ones";
     EXPECT_FALSE(contains(at_load(html), fmt::format("data-chart=\"{}-energy\"", scene.name)));
   }
-  // a dot for each quantity that was read back
+  // a dot for each quantity read back
   size_t quantities = 0;
   for (const Certificate& c : data_.rows.certificates) quantities += c.rows.size();
   EXPECT_GT(quantities, 0u);
@@ -649,7 +651,7 @@ TEST_F(WholePage, CountsEachByteInOneBlock) {
 
 TEST_F(Assembled, CertificatesSurviveTheirTable) {
   ASSERT_FALSE(data_.rows.certificates.empty());
-  // texts that look like numbers, and signs that a table must quote
+  // texts that look like numbers, and characters that CSV must quote
   data_.rows.certificates[0].rows = {{"mass", "4", "4", "4", Parity::match},
                                      {"pins", "1, 2", "say \"so\"", "two\nlines", Parity::mismatch},
                                      {"law", "", "1e-3", "–", Parity::different_law},
@@ -686,7 +688,7 @@ TEST_F(Assembled, ReportsThatWereChangedOrAreOlderAreRefused) {
   EXPECT_TRUE(contains(with("\"format\": 2", "\"format\": 1"), "expected a report of format 2, got 1"));
   EXPECT_TRUE(contains(with("\"format\": 2,", ""), "expected a report of format 2, got one without a format"));
   EXPECT_TRUE(contains(with("\"hash\": \"", "\"hash\": \"0"), "its data differ from the report: scene "));
-  EXPECT_EQ(with("\"tier\": \"measured\"", "\"tier\": \"guessed\""), "") << "another version may say it otherwise";
+  EXPECT_EQ(with("\"tier\": \"measured\"", "\"tier\": \"guessed\""), "") << "another version may use other words";
   EXPECT_EQ(with("\"extent\"", "\"extent\""), "");
 }
 

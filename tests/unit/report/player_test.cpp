@@ -1,5 +1,5 @@
-// The data of the page's player: packed numbers come back, positions lie within the stated bound, recorded runs are
-// those of the experiment, and entries that lie are refused.
+// Data of the page's player: packed numbers survive a round trip, positions are within the stated bound, recorded runs
+// are those of the experiment, and inconsistent entries are refused.
 
 #include <gtest/gtest.h>
 
@@ -44,8 +44,8 @@ TEST(PackedNumbers, RefuseBytesThatHoldOthers) {
   EXPECT_EQ(unpack(good, 100, 1).size(), 100u);
   for (const size_t count : {size_t{0}, size_t{99}, size_t{101}, size_t{1} << 36, size_t{1} << 62})
     EXPECT_ANY_THROW(unpack(good, count, 1)) << count;
-  EXPECT_ANY_THROW(unpack(good.substr(0, good.size() - 1), 100, 1)) << "cut off";
-  EXPECT_ANY_THROW(unpack(good + "x", 100, 1)) << "more than one member";
+  EXPECT_ANY_THROW(unpack(good.substr(0, good.size() - 1), 100, 1)) << "truncated data";
+  EXPECT_ANY_THROW(unpack(good + "x", 100, 1)) << "data after the end";
   EXPECT_ANY_THROW(unpack("no gzip at all", 100, 1));
 }
 
@@ -56,7 +56,7 @@ std::string all_rows(const TableSet& rows) {
   return all;
 }
 
-/// Recorded runs outlive the driver that made them.
+/// Copies of recorded runs, which outlive the driver that made them.
 struct Kept {
   std::string of, method;
   Scene scene;
@@ -70,7 +70,7 @@ RunCallback keeping(std::vector<Kept>& kept) {
 /// A report's folder with runs.
 class Runs : public InFolder {
  protected:
-  /// The scene's runs by these methods at its own step.
+  /// Stores the scene's runs by these methods at its own step.
   void keep(const Scene& scene, const std::vector<std::string>& methods) {
     RunsWriter writer(folder_);
     Request request;
@@ -91,7 +91,7 @@ class Runs : public InFolder {
       if (each.set == set && each.method == method) return each;
     throw std::out_of_range(set + " by " + method);
   }
-  /// A run's coordinates, frames x 3 x particles, by a reader written apart.
+  /// Coordinates of a run, frames x 3 x particles, by an independent reader.
   static std::vector<double> coordinates(const RunFile& file, const Json& run) {
     const std::string bytes = InFolder::read(file.file).substr(run["offset"].get<size_t>(), run["bytes"].get<size_t>());
     const size_t columns = 3 * static_cast<size_t>(file.particles);
@@ -102,7 +102,7 @@ class Runs : public InFolder {
     }
     return all;
   }
-  /// The largest distance of a coordinate from that of the run, m, in frames that are so many samples apart.
+  /// Largest difference (m) of a coordinate from the run's, with frames `stride` samples apart.
   static double largest_off(const RunFile& file, size_t place, const Trajectory& path, int stride) {
     const Json& run = file.entry["runs"][place];
     const std::vector<double> all = coordinates(file, run);
@@ -127,7 +127,8 @@ TEST_F(Runs, HoldPositionsErrorsAndEnergiesOfTheirFramesWithinTheBound) {
   const int stride = frame_stride(scene);
   const auto truth = truth_of(scene, default_run(scene));
   ASSERT_TRUE(truth);
-  EXPECT_LE(largest_off(file("chain-truth", "truth"), 0, truth->trajectory, stride), 4e-5) << "m: as fine as 16 bits";
+  EXPECT_LE(largest_off(file("chain-truth", "truth"), 0, truth->trajectory, stride), 4e-5)
+      << "m: the resolution of 16 bits";
   for (const MethodResult& r : results_) {
     SCOPED_TRACE(r.method);
     const RunFile& own = file("chain-engines", r.method);
@@ -152,7 +153,7 @@ TEST_F(Runs, HoldPositionsErrorsAndEnergiesOfTheirFramesWithinTheBound) {
   }
   EXPECT_EQ(positions_of(file("chain-engines", "mysim/symplectic-euler"), 0),
             positions_of(file("chain-engines", "bullet/deformable-explicit"), 0))
-      << "the same rule is the same motion: both lie on one lattice";
+      << "identical rules have identical motions on the same lattice";
 }
 
 TEST_F(Runs, ThatBlewUpEndInSightAndSayWhenAndWhy) {
@@ -164,7 +165,7 @@ TEST_F(Runs, ThatBlewUpEndInSightAndSayWhenAndWhy) {
   EXPECT_EQ(failed["verdict"], "energy");
   EXPECT_EQ(failed["reason"], "ten times too fast");
   EXPECT_LE(failed["times"].back(), failed["failed"]);
-  for (const Points& x : positions_of(own, 0)) EXPECT_LT(x.cwiseAbs().maxCoeff(), 20) << "m";
+  for (const Points& x : positions_of(own, 0)) EXPECT_LT(x.cwiseAbs().maxCoeff(), 20) << "coordinate in m";
 }
 
 TEST_F(Runs, HaveErrorsForAsLongAsTheTruthIsKnown) {
@@ -199,7 +200,7 @@ TEST(LastFrames, AreAtLeastEightToAPeriodOrEveryStep) {
     const Trajectory path = last.path();
     ASSERT_EQ(path.frames(), 25);
     for (int f = 1; f < 25; ++f) EXPECT_LE(path.t[f] - path.t[f - 1], std::max(h, 1 / 8. + h / 2) * (1 + 1e-9)) << h;
-    EXPECT_GT(path.t.back(), 10000 * h - std::max(h, 1 / 8. + h)) << "they are the last ones, h " << h;
+    EXPECT_GT(path.t.back(), 10000 * h - std::max(h, 1 / 8. + h)) << "expected the last frames, h " << h;
   }
 }
 
@@ -210,7 +211,7 @@ TEST(LastFrames, OfAShortRunAreAllOfItAsFarAsItIsFinite) {
   EXPECT_EQ(last.path().frames(), 5);
 }
 
-/// Each of the methods hands over its runs, and the rows are as without a watch. Counts the runs that failed.
+/// Expects every method to deliver its runs, and identical rows with and without recording. Counts failed runs.
 void expect_watching_changes_no_row(const std::string& methods, int& failed) {
   Request request;
   request.methods = find_methods(methods);
@@ -225,7 +226,7 @@ void expect_watching_changes_no_row(const std::string& methods, int& failed) {
   for (const Kept& k : kept)
     for (const RecordedRun& run : k.runs) {
       failed += run.outcome.verdict != Verdict::ok;
-      EXPECT_GT(run.path.frames(), 0) << k.method << ": also of what failed there is something to be seen";
+      EXPECT_GT(run.path.frames(), 0) << k.method << ": failed runs must have frames too";
     }
 }
 
@@ -277,7 +278,7 @@ TEST_F(Runs, OfAChartLieInTheOrderOfItsRows) {
       EXPECT_EQ(last, run["verdict"] != "ok");
       EXPECT_LE(largest_off(marks, r, path, last ? 1 : 5), run["bound"].get<double>() * (1 + 1e-9));
       if (last) {
-        EXPECT_NEAR(run["times"].back().get<double>(), k.runs[r].outcome.end, 0.5) << "they are the last ones";
+        EXPECT_NEAR(run["times"].back().get<double>(), k.runs[r].outcome.end, 0.5) << "expected the last frames";
       }
       ++(last ? failed : whole);
     }
@@ -299,7 +300,7 @@ TEST_F(Runs, OfAMapAreTheLastPicturesOfItsCells) {
     read_index();
     ASSERT_EQ(files_.size(), 1u);
     const Json& run = files_[0].entry["runs"][0];
-    ASSERT_EQ(run["frames"], 18) << "as many as the table has rows";
+    ASSERT_EQ(run["frames"], 18) << "one per row of the table";
     const std::vector<Points> pictures = positions_of(files_[0], 0);
     size_t shown = 0, cut = 0;
     for (size_t c = 0; c < 18; ++c) {
@@ -307,13 +308,13 @@ TEST_F(Runs, OfAMapAreTheLastPicturesOfItsCells) {
       EXPECT_LT((pictures[c] - *cell.rest).cwiseAbs().maxCoeff(), 2.01 * scene.size());
       if (run["times"][c].is_null()) continue;
       ++shown;
-      size_t at = 0;  // the frame of this picture
+      size_t at = 0;  // frame of this picture
       while (at + 1 < cell.path.t.size() && cell.path.t[at] < run["times"][c].get<double>() * (1 - 1e-3)) ++at;
       EXPECT_LT((pictures[c] - cell.path.x[at]).cwiseAbs().maxCoeff(), run["bound"].get<double>() * (1 + 1e-9)) << c;
       cut += at + 1 < cell.path.t.size();
     }
     EXPECT_GT(shown, 6u);
-    EXPECT_LT(cut, shown) << "most cells end in sight";
+    EXPECT_LT(cut, shown) << "most cells end within view";
   }
 }
 
@@ -380,7 +381,7 @@ TEST(Stage, HoldsSpringsPinsAndTimesOfItsScene) {
   const JsonField stage = JsonField::parse(stage_json(scene, {scene.start.x}, std::nullopt), "stage");
   EXPECT_EQ(stage["times"].size(), 151u);
   EXPECT_EQ(stage["springs"]["families"][0]["count"].number(), scene.model.particles.size() - 1);
-  EXPECT_TRUE(stage["floor"].is_null()) << "all lies in a plane";
+  EXPECT_TRUE(stage["floor"].is_null()) << "planar motions have no floor";
   const JsonField ends = stage["springs"]["ends"];
   const auto numbers =
       unpacked(bytes_of_base64(ends["data"].text()), ends["count"].natural(), ends["columns"].natural());

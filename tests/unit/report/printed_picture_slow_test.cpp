@@ -1,4 +1,4 @@
-// Pictures for print: letters keep their size, pages have that of the set, and everything beside a picture is true.
+// Pictures for print: letters keep their size, pages have the requested size, and all accompanying files are correct.
 
 #include <fmt/format.h>
 
@@ -66,7 +66,7 @@ TEST(PrintedPicture, ShotsHaveTheWidthOfThePaper) {
   const Shot paper = shot_for_print(scene, {8.5, 8, false}, false);
   EXPECT_EQ(paper.width, 1004);
   EXPECT_NEAR(paper.text, 8 / 72.0 * 300, 1e-12);
-  // a poster has letters of the same part of its width, and no more pixels than a page
+  // A poster has letters of the same relative size, and at most as many pixels as a page.
   EXPECT_EQ(shot_for_print(scene, {100, 8, false}, false).width, shot_for_print(scene, {30, 8, false}, false).width);
 }
 
@@ -85,13 +85,13 @@ TEST(PrintedPicture, LettersOnThePageHaveTheSizeThatWasAsked) {
   const std::set<double> letters = letters_of(pdf);
   ASSERT_FALSE(letters.empty());
   EXPECT_NEAR(*letters.rbegin(), 8, 0.01);
-  EXPECT_GT(*letters.begin(), 7);  // numbers at the bar are a little smaller
+  EXPECT_GT(*letters.begin(), 7);  // numbers at the colour bar are slightly smaller
 
   std::ifstream png(folder / "a.png", std::ios::binary);
   const std::string bytes{std::istreambuf_iterator<char>(png), {}};
   const std::string per_metre{"\0\0\x2e\x23", 4};  // 11811
   EXPECT_NE(bytes.find("pHYs" + per_metre + per_metre + '\1'), std::string::npos);
-  EXPECT_EQ(render::read_png(folder / "a.png").height, picture.height) << "still a PNG that libpng reads";
+  EXPECT_EQ(render::read_png(folder / "a.png").height, picture.height) << "libpng must still read the file";
   fs::remove_all(folder);
 }
 

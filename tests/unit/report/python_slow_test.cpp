@@ -1,4 +1,4 @@
-// The package crosscheck for Python: its own tests by Debian's python3, and what `pip install` from the tree makes.
+// The Python package crosscheck: its own tests with Debian's python3, and the result of `pip install` from the tree.
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -12,10 +12,10 @@ namespace {
 
 using namespace testing_tools;
 
-constexpr auto python = "/usr/bin/python3";  // Debian's: another one may come first in PATH
+constexpr auto python = "/usr/bin/python3";  // Debian's; another python3 may come first in PATH
 constexpr auto package_folder = CROSSCHECK_SOURCE "/report/python";
 
-/// Whether Debian's python3 has this module.
+/// True if Debian's python3 has this module.
 bool imports(const std::string& module) {
   return fs::exists(python) && run_program({python, "-c", "import " + module}, "/").status == 0;
 }
@@ -35,7 +35,7 @@ class PythonPackage : public Cli {
             "HOME=" + folder_.string(),
             "TMPDIR=" + folder_.string()};
   }
-  /// The tests of these classes in python/test_package.py.
+  /// Runs these test classes of python/test_package.py.
   void expect_good(std::vector<std::string> classes) const {
     for (std::string& name : classes) name = "test_package." + name;
     classes.insert(classes.begin(), {python, "-m", "unittest"});
@@ -81,10 +81,9 @@ TEST_F(PythonPackage, IsInstalledFromTheTreeWithoutANetwork) {
   for (const char* module : {"numpy", "pip", "setuptools", "wheel"})
     if (!imports(module)) missing.push_back(std::string("python3-") + module);
   if (!missing.empty())
-    GTEST_SKIP() << fmt::format(
-        "package {} is not installed: the package crosscheck is not installed into an environment",
-        fmt::join(missing, ","));
-  // setuptools builds beside its sources: a copy keeps the tree clean
+    GTEST_SKIP() << fmt::format("package {} is not installed: its installation into an environment is not tested",
+                                fmt::join(missing, ","));
+  // setuptools builds next to its sources, so a copy keeps the tree clean
   fs::copy(package_folder, folder_ / "python", fs::copy_options::recursive);
   const std::string own = (folder_ / "venv/bin/python").string();
   const ProgramResult made =
@@ -97,7 +96,7 @@ TEST_F(PythonPackage, IsInstalledFromTheTreeWithoutANetwork) {
   const std::string found = run_program({own, "-c", "import crosscheck; print(crosscheck.__file__)"}, folder_).out;
   EXPECT_TRUE(begins(found, (folder_ / "venv/lib").string()));
   if (!imports("matplotlib")) return;
-  // the first plot of the package's README
+  // the first plot in the package's README
   const std::string readme = read(fs::path(package_folder) / "README.md");
   const size_t start = readme.find("```python\n") + 10;
   std::string first = readme.substr(start, readme.find("```", start) - start);

@@ -1,4 +1,4 @@
-// What stands in a PDF as cairo writes it, and in the page's packed numbers: readers written apart from the writers.
+// Readers of cairo's PDFs and of the page's packed numbers, written independently of the writers.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -15,9 +15,9 @@
 
 namespace crosscheck::testing_tools {
 
-// What stands in a PDF as cairo writes it: the size of its page and of its letters.
+// Page size and letter sizes of a PDF written by cairo.
 
-/// The streams of a PDF that zlib unpacks.
+/// Streams of a PDF, decompressed by zlib.
 inline std::vector<std::string> streams_of(const std::string& pdf) {
   std::vector<std::string> streams;
   const std::string begin = "stream\n";
@@ -33,7 +33,7 @@ inline std::vector<std::string> streams_of(const std::string& pdf) {
   return streams;
 }
 
-/// Size of a PDF's first page, points. From version 1.18 on cairo packs the page's description into a stream.
+/// Size (points) of a PDF's first page. Since version 1.18 cairo compresses the page's description into a stream.
 inline std::pair<double, double> page_of(const std::string& pdf) {
   std::vector<std::string> texts = streams_of(pdf);
   texts.insert(texts.begin(), pdf);
@@ -45,7 +45,7 @@ inline std::pair<double, double> page_of(const std::string& pdf) {
   return {};
 }
 
-/// The heights of all letters on its pages, points.
+/// Heights (points) of all letters on the pages.
 inline std::set<double> letters_of(const std::string& pdf) {
   std::set<double> sizes;
   for (const std::string& text : streams_of(pdf)) {
@@ -57,7 +57,7 @@ inline std::set<double> letters_of(const std::string& pdf) {
   return sizes;
 }
 
-// The way back from packed numbers, written apart from the way there.
+// Independent decoder of packed numbers.
 
 inline std::string bytes_of_base64(const std::string& text) {
   static const std::string alphabet = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
@@ -84,7 +84,7 @@ inline std::string gunzipped(std::string bytes, size_t length) {
   return out;
 }
 
-/// What was packed as gzip in base64.
+/// Decodes text packed as gzip in base64.
 inline std::string unpacked_text(const std::string& base64) {
   const std::string bytes = bytes_of_base64(base64);
   size_t length = 0;  // gzip's last four bytes
@@ -92,7 +92,7 @@ inline std::string unpacked_text(const std::string& base64) {
   return gunzipped(bytes, length);
 }
 
-/// A page as it is once its folds are put back.
+/// The page with folded contents inserted.
 inline std::string with_folds_put_back(std::string page) {
   const std::string begin = "<script type=\"text/plain\" id=\"held\">";
   const size_t from = page.find(begin);
@@ -104,14 +104,14 @@ inline std::string with_folds_put_back(std::string page) {
     const std::string mark = " data-held=\"" + std::to_string(i++) + "\">";
     const size_t at = page.find(mark);
     if (at == std::string::npos)
-      ADD_FAILURE() << "no template holds fold " << i - 1;
+      ADD_FAILURE() << "no template for fold " << i - 1;
     else
       page.replace(at, mark.size(), ">" + fold.text());
   }
   return page;
 }
 
-/// Rows of numbers from bytes of gzip, as report/CONTRACT.md describes them.
+/// Rows of numbers from gzip data, in the format of report/CONTRACT.md.
 inline std::vector<std::uint16_t> unpacked(const std::string& gzip, size_t count, size_t columns) {
   const std::string planes = gunzipped(gzip, 2 * count);
   std::vector<std::uint16_t> numbers(count);

@@ -1,7 +1,7 @@
-// A self-test for which time passes as it does for a reader, with frames: the page counts as loaded, and the browser
-// writes it out, when the self-test has come to its end.
+// A self-test in real time with frames. The page's load event, after which the browser writes the page, waits for the
+// end of the self-test.
 
-/** What `act` returns, with errors of the page among its complaints. An iframe that is written to holds up the page's load event until then. */
+/** Result of `act`, with errors of the page added to its complaints. An open iframe delays the page's load event. */
 async function inRealTime(act) {
   const errors = [];
   addEventListener('error', ({message, error}) => errors.push(`an error in the page: ${message} ${error?.stack ?? ''}`));

@@ -1,4 +1,4 @@
-// A report that somebody else made: what the program makes of it runs no script and starts no program.
+// A report from an untrusted source: processing it runs no script and starts no program.
 
 #include <nlohmann/json.hpp>
 
@@ -37,8 +37,8 @@ class ReceivedReport : public InBrowser {
     return contains(browse(page, {"--dump-dom"}).out, "data-pwned=\"1\"");
   }
 
-  /// A report on a small cloth, whose scene, rows and notes hold the payload, and in which a program that touches PWNED
-  /// stands for rk4. Its fingerprints are right.
+  /// A report on a small cloth whose scene, rows and notes contain the payload, and in which a program that touches
+  /// PWNED replaces rk4. Its fingerprints are correct.
   void make_report() const {
     const std::string program = script(std::string("evil") + std::string(payload).substr(9) + ".sh",
                                        "touch '" + (folder_ / "PWNED").string() + "'\n"),
@@ -63,7 +63,7 @@ class ReceivedReport : public InBrowser {
       change(file, fmt::format("\"{}\": [", list),
              fmt::format("\"{}\": [{}{}", list, quoted(payload), json[list].size() > 0 ? "," : ""));
     for (const auto& entry : fs::directory_iterator(folder_ / "rep/figures"))
-      if (entry.path().extension() == ".png") fs::remove(entry.path());  // they are drawn again
+      if (entry.path().extension() == ".png") fs::remove(entry.path());  // so that they are drawn again
   }
 };
 
@@ -76,14 +76,14 @@ TEST_F(ReceivedReport, RunsNoScriptInThePageAndNoProgram) {
   call({"report", "--verify", "rep"});
   EXPECT_FALSE(fs::exists(folder_ / "PWNED"));
   const std::string page = read(folder_ / "again/index.html");
-  EXPECT_TRUE(contains(page, "onerror")) << "the payload is in the page";
+  EXPECT_TRUE(contains(page, "onerror")) << "the payload must be in the page";
   NEEDS_CHROMIUM;
-  // the folds put their parts into the page when they are opened
+  // folds insert their contents into the page when they are opened
   write("opened.html", page +
                            "<script>for (const fold of document.querySelectorAll('details')) fold.open = true;"
                            "</script>");
   write("control.html", std::string("<p>") + payload);
-  EXPECT_TRUE(runs_script(folder_ / "control.html")) << "the test can tell";
+  EXPECT_TRUE(runs_script(folder_ / "control.html")) << "the control page must run the script";
   EXPECT_FALSE(runs_script(folder_ / "opened.html"));
 }
 
@@ -100,7 +100,7 @@ TEST_F(ReceivedReport, WithPathsOutsideOrLinksIsRefused) {
       EXPECT_EQ(refused.status, 2);
       EXPECT_TRUE(contains(refused.err, said));
     }
-    EXPECT_FALSE(fs::exists(folder_ / "a")) << "nothing is written";
+    EXPECT_FALSE(fs::exists(folder_ / "a")) << "nothing may be written";
   };
   const fs::path file = folder_ / "rep/report.json";
   const std::string before = read(file);

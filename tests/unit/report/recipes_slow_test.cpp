@@ -1,5 +1,5 @@
-// The pages for people are true: their commands are run in an empty folder, one after the other, and print what is
-// shown. With CROSSCHECK_INSTALLED=/usr the pages, the program and the Python package are those installed there.
+// Documentation for users is correct: the commands of each page, run one after the other in an empty folder, print the
+// output shown. With CROSSCHECK_INSTALLED=/usr, tests the pages, the program and the Python package installed there.
 
 #include <fmt/format.h>
 
@@ -21,7 +21,7 @@ std::vector<std::string> lines_of(const std::string& text) {
 
 constexpr auto dots = "…";
 
-/// Whether the line is as it is shown, where dots stand for anything.
+/// True if the line matches the shown one, in which dots stand for any text.
 bool is_shown(const std::string& line, const std::string& shown) {
   std::string pattern;
   for (size_t i = 0; i < shown.size(); ++i) {
@@ -34,8 +34,8 @@ bool is_shown(const std::string& line, const std::string& shown) {
   return std::regex_match(line, std::regex(pattern));
 }
 
-/// The first line shown that the output lacks, in this order; empty where it has all. A line of dots stands for any
-/// number of lines, and without one the next line must follow.
+/// First mismatch between output and shown lines, or "" if they agree. A line of dots stands for any number of lines;
+/// otherwise lines must follow each other.
 std::string lacking(const std::vector<std::string>& output, const std::vector<std::string>& shown) {
   size_t at = 0;
   bool any = false;
@@ -62,15 +62,15 @@ TEST(Recipes, DotsStandForAnything) {
   EXPECT_EQ(lacking({"a", "b", "c"}, {"a", "b"}), "more: c");
 }
 
-/// A command of a page, and what the page shows of its output.
+/// A command of a page, and its output as shown.
 struct TypedCommand {
   std::string command;
   std::vector<std::string> shown;
 };
 
-/// What a page tells a reader to type: lines after "$ " in blocks of ```console, and whole blocks of ```sh with the
-/// block of ```text behind them. A block that begins with "# takes" says how long and is not tried. Where a page has a
-/// section "Ten minutes", nothing behind that section is tried.
+/// Commands that a page tells a reader to type: lines after "$ " in ```console blocks, and whole ```sh blocks with the
+/// following ```text block. A block that starts with "# takes" states its duration and is not run. If the page has a
+/// section "Ten minutes", everything after it is ignored.
 std::vector<TypedCommand> steps_of(const std::string& page) {
   const size_t path = page.find("\n## Ten minutes");
   const size_t end = path == std::string::npos ? path : page.find("\n## ", path + 1);
@@ -112,10 +112,10 @@ TEST(Recipes, StepsAreWhatAReaderTypes) {
 
 struct Document {
   const char *name, *file;
-  size_t least;  ///< commands that it holds at least
+  size_t least;  ///< minimum number of commands
 };
 
-/// What ctest calls it.
+/// Name of the test in ctest.
 void PrintTo(const Document& document, std::ostream* out) { *out << document.name; }
 
 class Documents : public Cli, public testing::WithParamInterface<Document> {
@@ -126,7 +126,7 @@ class Documents : public Cli, public testing::WithParamInterface<Document> {
     fs::create_directories(folder_);
     fs::create_directories(programs_);
     fs::create_symlink(program_, programs_ / "crosscheck");
-    // python3 in PATH may be another than Debian's, which has Debian's numpy
+    // python3 in PATH may differ from Debian's, which has Debian's NumPy
     fs::create_symlink("/usr/bin/python3", programs_ / "python3");
   }
   void TearDown() override {
@@ -142,11 +142,11 @@ class Documents : public Cli, public testing::WithParamInterface<Document> {
   const fs::path program_ = installation().empty() ? CROSSCHECK_PROGRAM : installation() / "bin/crosscheck";
 };
 
-// A page's commands are run in one empty folder, one after the other, with the program and the package found as an
-// installation has them.
+// Runs a page's commands one after the other in an empty folder, with the program and the package found as in an
+// installation.
 TEST_P(Documents, CommandsPrintWhatIsShown) {
   if (run_program({"/usr/bin/python3", "-c", "import numpy"}, "/").status != 0)
-    GTEST_SKIP() << "package python3-numpy is not installed: the commands of " << GetParam().file << " are not tried";
+    GTEST_SKIP() << "package python3-numpy is not installed: the commands of " << GetParam().file << " are not tested";
   const std::string page = read(pages_ / GetParam().file);
   std::vector<std::string> environment{"ASAN_OPTIONS=detect_leaks=0", "CROSSCHECK_LOCK=" + folder_.string() + ".lock",
                                        "PYTHONDONTWRITEBYTECODE=1",
@@ -157,7 +157,7 @@ TEST_P(Documents, CommandsPrintWhatIsShown) {
   const std::vector<TypedCommand> steps = steps_of(page);
   for (const TypedCommand& step : steps) {
     SCOPED_TRACE(step.command);
-    // baselines are blessed by people, never where CI is set; a status that is not 0 is shown by `echo $?`
+    // Users bless baselines, which is refused if CI is set. Pages show a nonzero status by `echo $?`.
     const ProgramResult end = run_program({"bash", "-c", "unset CI; " + step.command}, folder_, environment);
     if (end.err.find("Nothing here keeps a submission away") != std::string::npos) GTEST_SKIP() << end.err;
     EXPECT_EQ(end.status, 0) << end.err;
