@@ -1,4 +1,4 @@
-// A folder of a test's own, and programs in it.
+// A temporary folder for each test, and programs in it.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -34,7 +34,7 @@ class SetVariable {
   std::optional<std::string> was_;
 };
 
-/// A fresh folder, removed afterwards.
+/// A fresh folder, removed after the test.
 class InFolder : public ::testing::Test {
  protected:
   void SetUp() override {
@@ -49,7 +49,7 @@ class InFolder : public ::testing::Test {
     std::ofstream(folder_ / name, std::ios::binary) << text;
     return folder_ / name;
   }
-  /// A shell script that can be started; $1 is scene.json, $2 the folder for results.
+  /// An executable shell script. $1 is scene.json, $2 the folder for results.
   std::string script(const std::string& name, const std::string& text) const {
     const auto file = write(name, "#!/bin/sh\n" + text);
     std::filesystem::permissions(file, std::filesystem::perms::owner_all);

@@ -138,7 +138,7 @@ TEST(ClothGrid, RecognisesRegularCloths) {
     Scene scene = scene_of(cloth);
     change(springs_of(scene).list);
     EXPECT_FALSE(grid_topology_in(scene)) << what;
-    // the same result with and without +plain, the general engine
+    // +plain, the general engine, gives the same result
     EXPECT_EQ(path_of("leapfrog", scene).x.back(), path_of("leapfrog+plain", scene).x.back()) << what;
   }
 }

@@ -40,7 +40,8 @@ TEST(Elastica, HasItsLimits) {
   EXPECT_NEAR(integral, std::sqrt(2 * 2.), 1e-7);  // midpoint rule: (top / n)^2 times the second derivative
   // moments about the clamp: B theta'(0) = P x(L), estimated from the angle over the first thousandth
   EXPECT_NEAR(loaded.at(1e-3).angle / 1e-3, 2 * loaded.tip().x, 2e-3);
-  // the same substitution (K. E. Bisshopp and D. C. Drucker, Quart. Appl. Math. 3, 1945, with elliptic integrals)
+  // as above, with the same substitution (K. E. Bisshopp and D. C. Drucker, Quart. Appl. Math. 3, 1945, with elliptic
+  // integrals)
   EXPECT_NEAR(loaded.tip().drop, drop / std::sqrt(2 * 2.), 1e-7);
 }
 

@@ -13,7 +13,7 @@ namespace {
 using namespace testing_tools;
 
 TEST_F(ProtocolKit, TheExampleInJavaScriptLacksNothing) {
-  NEEDS_PROGRAM("node", "nodejs", "the example in JavaScript is not tried");
+  NEEDS_PROGRAM("node", "nodejs", "the JavaScript example is not tested");
   const ConformanceReport report = try_adapter("exec:" CROSSCHECK_SOURCE "/reference/protocol/example_engine.mjs");
   for (const ConformanceLine& line : report.lines)
     EXPECT_NE(line.state, Conformance::lacks) << line.scene << ", " << line.topic << ": " << line.told;

@@ -13,10 +13,10 @@
 // Skips a test without Debian's `package`, at its beginning. `not_tried` names the part that is not tested.
 #define NEEDS_PROGRAM(program, package, not_tried) \
   if (!crosscheck::on_path(program)) GTEST_SKIP() << "package " package " is not installed: " not_tried
-#define NEEDS_CHROMIUM NEEDS_PROGRAM("chromium", "chromium", "the page is not tried in a browser")
+#define NEEDS_CHROMIUM NEEDS_PROGRAM("chromium", "chromium", "the page is not tested in a browser")
 #define NEEDS_SUNDIALS                 \
   if (!crosscheck::sundials_version()) \
-  GTEST_SKIP() << "package libsundials-dev was not installed when this was built: its integrators are not tried"
+  GTEST_SKIP() << "package libsundials-dev was not installed when this was built: its integrators are not tested"
 
 namespace crosscheck::testing_tools {
 

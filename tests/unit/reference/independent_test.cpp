@@ -256,7 +256,7 @@ TEST(Sundials, SamplesAtTheTimesAskedForHoweverOftenItIsWatched) {
 }
 
 TEST(Sundials, WhereItIsMissingItsMethodsAreRefusedWithThePackagesName) {
-  if (sundials_version()) GTEST_SKIP() << "package libsundials-dev is installed: its absence is not tried";
+  if (sundials_version()) GTEST_SKIP() << "package libsundials-dev is installed: its absence is not tested";
   for (const char* name : sundials_methods) {
     const Outcome out = run_and_record(name, shipped_scene("pendulum"), {1e-3, 0.1, 2, 1e-6}).outcome;
     EXPECT_EQ(out.verdict, Verdict::unsupported) << name;

@@ -21,7 +21,7 @@ class JavaScriptEngines : public InFolder {
  protected:
   void SetUp() override {
     InFolder::SetUp();
-    NEEDS_PROGRAM("node", "nodejs", "the JavaScript module is not tried");
+    NEEDS_PROGRAM("node", "nodejs", "the JavaScript module is not tested");
   }
   static std::string engine() { return CROSSCHECK_SOURCE "/tests/unit/reference/module_engine.mjs"; }
   static crosscheck::Run short_run(const Scene& scene) { return {scene.step, 100 * scene.step, 4}; }

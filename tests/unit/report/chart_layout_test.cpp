@@ -19,7 +19,7 @@ using ChartLayout = InFolder;
 
 // golden/charts.json: `charts` of the report.json of a quick report, with long curves thinned and tooltips removed
 TEST_F(ChartLayout, NamesLieAtTheirCurvesAndNothingIsCutOrMissing) {
-  NEEDS_PROGRAM("node", "nodejs", "no chart is laid out outside a browser");
+  NEEDS_PROGRAM("node", "nodejs", "chart layout outside a browser is not tested");
   const std::filesystem::path source =
       std::filesystem::path(CROSSCHECK_SOURCE) / "tests/unit/report/golden/charts.json";
   write_file(folder_ / "layout.js",

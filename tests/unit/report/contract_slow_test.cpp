@@ -13,7 +13,7 @@ class Contract : public Cli {};
 TEST_F(Contract, ExampleReadsARunToWithinTheStatedBound) {
   constexpr auto python = "/usr/bin/python3";
   if (!fs::exists(python) || run_program({python, "-c", "import numpy"}, "/").status != 0)
-    GTEST_SKIP() << "package python3-numpy is not installed: the example of CONTRACT.md is not tried";
+    GTEST_SKIP() << "package python3-numpy is not installed: the example of CONTRACT.md is not tested";
   ASSERT_EQ(call({"report", "chain", "--quick", "--methods", "leapfrog,rk4", "--out", "rep"}).status, 0);
   ASSERT_EQ(call({"run", "chain", "--method", "leapfrog", "--out", "run"}).status, 0);
   const std::string text = read(fs::path(CROSSCHECK_SOURCE) / "report/CONTRACT.md"), begin = "```python\n";

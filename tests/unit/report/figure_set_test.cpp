@@ -270,7 +270,7 @@ std::set<std::string> letters_in(const std::filesystem::path& folder) {
 }
 
 TEST_F(FigureSet, APaperWithTheSetCompiles) {
-  NEEDS_PROGRAM("pdflatex", "texlive-latex-base", "no paper with a set of figures is compiled");
+  NEEDS_PROGRAM("pdflatex", "texlive-latex-base", "compiling a paper with a figure set is not tested");
   all = charts();
   // characters that occur in captions, and LaTeX's special characters
   std::string letters = "a_b & 5 % of #1 {x} ~ ^ \\ $ < >";

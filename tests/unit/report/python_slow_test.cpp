@@ -47,7 +47,7 @@ class PythonPackage : public Cli {
 };
 
 TEST_F(PythonPackage, ReadsTablesAndItsExamplesAreTrue) {
-  NEEDS_MODULE("numpy", "python3-numpy", "the package crosscheck for Python is not tried");
+  NEEDS_MODULE("numpy", "python3-numpy", "the Python package crosscheck is not tested");
   expect_good({"Documentation", "Tables"});
 }
 
@@ -62,17 +62,17 @@ TEST_F(PythonPackage, NamesNumPyWhereItIsMissing) {
 }
 
 TEST_F(PythonPackage, RunsScenesAndSaysWhatTheProgramSays) {
-  NEEDS_MODULE("numpy", "python3-numpy", "the package crosscheck for Python is not tried");
+  NEEDS_MODULE("numpy", "python3-numpy", "the Python package crosscheck is not tested");
   expect_good({"Runs", "Plots"});
 }
 
 TEST_F(PythonPackage, MakesAStepFunctionAnEngine) {
-  NEEDS_MODULE("numpy", "python3-numpy", "the package crosscheck for Python is not tried");
+  NEEDS_MODULE("numpy", "python3-numpy", "the Python package crosscheck is not tested");
   expect_good({"Engines"});
 }
 
 TEST_F(PythonPackage, DrawsWhatWasRun) {
-  NEEDS_MODULE("matplotlib", "python3-matplotlib", "no plot is drawn from Python, the notebook is not run");
+  NEEDS_MODULE("matplotlib", "python3-matplotlib", "plots and the notebook are not tested");
   expect_good({"Drawn"});
 }
 

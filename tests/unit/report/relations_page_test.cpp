@@ -59,7 +59,7 @@ TEST(RelationsOnThePage, AreToldEngineByEngine) {
   const std::vector<Finding> held = of_rule(all, "relations"), broken = of_rule(all, "relations-broken");
   ASSERT_EQ(held.size(), 2u);
   EXPECT_EQ(held[0].method, "mysim");
-  EXPECT_EQ(held[0].value, 1);  // of two applicable relations
+  EXPECT_EQ(held[0].value, 1);  // two relations are applicable
   EXPECT_TRUE(contains(sentence_of(held[0]), "known causes")) << sentence_of(held[0]);
   EXPECT_EQ(held[1].value, 2);
   EXPECT_FALSE(contains(sentence_of(held[1]), "known causes"));

@@ -1,4 +1,4 @@
-// Pictures: determinism, what must be seen and what must not crash, the view, and pictures as they looked last.
+// Pictures: determinism, required visibility, robustness, the view, and comparison with golden pictures.
 
 #include <gtest/gtest.h>
 #include <unistd.h>
@@ -48,7 +48,7 @@ TEST(Render, IsNotBlankAndEndsInBackground) {
   const Image image = draw(small_picture());
   const auto [least, most] = std::minmax_element(image.rgb.begin(), image.rgb.end());
   EXPECT_GT(*most - *least, 80);
-  // no seam: the rim of the picture is the background to the last bit
+  // no seam: the rim of the picture equals the background bit for bit
   for (int x = 0; x < image.width; ++x) {
     for (const int y : {0, image.height - 1}) {
       const unsigned char* pixel = &image.rgb[3 * std::size_t(y * image.width + x)];
@@ -58,7 +58,7 @@ TEST(Render, IsNotBlankAndEndsInBackground) {
 }
 
 TEST(Render, BothQualitiesShowTheSameScene) {
-  // light and shadow differ, places do not: the difference stays far below that of a picture with nothing in it
+  // Light and shadow differ but positions do not: the difference is far below that to an empty picture.
   Picture empty = small_picture();
   empty.rows[0][0].bodies.clear(), empty.rows[0][0].balls.clear();
   const Image fast = draw(small_picture(Quality::fast)), still = draw(small_picture(Quality::still));
@@ -83,14 +83,14 @@ TEST(Render, APictureOfNothingIsAnError) {
   picture.rows[0][0].bodies.clear();
   try {
     write_png(picture, std::filesystem::temp_directory_path() / "crosscheck-nothing.png");
-    FAIL() << "a blank picture was written";
+    FAIL() << "expected an error for a blank picture";
   } catch (const std::runtime_error& error) {
     EXPECT_NE(std::string(error.what()).find("crosscheck-nothing: the picture is empty"), std::string::npos);
   }
 }
 
 TEST(Render, PenetrationIsSeen) {
-  // a cloth lying on the ball hides its top; the same cloth 2 cm inside the ball must not
+  // A cloth lying on the ball hides its top. The same cloth 2 cm inside the ball must not.
   Picture on_top = small_picture();
   Body& body = body_of(on_top);
   for (int i = 0; i < body.x.cols(); ++i)
@@ -99,7 +99,7 @@ TEST(Render, PenetrationIsSeen) {
   body_of(inside).x *= 0.33 / 0.352;
   Picture bare = on_top;
   bare.rows[0][0].bodies.clear();
-  // seen: ten times what a hidden cloth may change by the light it lets through
+  // visible: ten times the change that a hidden cloth may cause by the light it lets through
   EXPECT_GT(changed(draw(on_top), draw(bare)), 0.02);
   EXPECT_LT(changed(draw(inside), draw(bare)), 0.002);
 }
@@ -115,7 +115,7 @@ TEST(Render, ShiftOfTwoPercentIsSeen) {
 }
 
 TEST(Render, SceneOfAnyUnitLooksTheSame) {
-  // the same scene in millimetres: the frame takes the unit out, round-off aside
+  // The scene in millimetres: the frame removes the unit, up to round-off.
   Picture scaled = small_picture();
   body_of(scaled).x *= 1000, scaled.rows[0][0].balls[0].radius *= 1000;
   scaled.view = fit_view({body_of(scaled).x}, scaled.rows[0][0].balls, {0.3, 0.4, 1}, panel_aspect(scaled));
@@ -145,7 +145,7 @@ TEST(Render, ScaleColoursLowAndHighApart) {
   };
   const Image low = with_value(0), high = with_value(5);
   EXPECT_GT(changed(low, high), 0.02);
-  EXPECT_EQ(changed(high, with_value(50)), 0) << "out of range is the end of the scale";
+  EXPECT_EQ(changed(high, with_value(50)), 0) << "values out of range have the colour at the end of the scale";
 }
 
 TEST(Render, TubesTakePaletteColours) {
@@ -171,14 +171,15 @@ TEST(Render, PngHasLettersAndTheSameBytes) {
   write_png(picture, scratch.path / "a.png");
   write_png(picture, scratch.path / "b.png");
   EXPECT_EQ(bytes_of(scratch.path / "a.png"), bytes_of(scratch.path / "b.png"));
-  EXPECT_EQ(std::distance(fs::directory_iterator(scratch.path), fs::directory_iterator()), 2) << "temporary files";
+  EXPECT_EQ(std::distance(fs::directory_iterator(scratch.path), fs::directory_iterator()), 2)
+      << "no temporary files may remain";
 
   const Image lettered = read_png(scratch.path / "a.png");
   ASSERT_EQ(lettered.width, 480);
   ASSERT_EQ(lettered.height, 270);
   EXPECT_GT(changed(lettered, draw(picture)), 0.01);
 
-  // a long title shrinks all titles and stays in its panel: the column between the panels and the rims are clear
+  // A long title shrinks all titles and stays in its panel: the column between the panels and the rims remain clear.
   for (int y = 0; y < 28; ++y) {
     for (const int x : {0, 1, 239, 240, 478, 479}) EXPECT_GT(lettered.rgb[3 * std::size_t(y * 480 + x)], 0xE0) << x;
   }
@@ -190,10 +191,10 @@ TEST(Render, UnwritablePlaceIsNamed) {
   for (const fs::path& file : {scratch.path / "file" / "picture.png", scratch.path}) {
     try {
       write_png(small_picture(), file);
-      FAIL() << "wrote " << file;
+      FAIL() << "expected an error for " << file;
     } catch (const std::runtime_error& error) {
       EXPECT_NE(std::string(error.what()).find(file.string()), std::string::npos) << error.what();
-      EXPECT_EQ(std::string(error.what()).find('\n'), std::string::npos) << "one line";
+      EXPECT_EQ(std::string(error.what()).find('\n'), std::string::npos) << "expected one line";
     }
   }
 }
@@ -211,7 +212,7 @@ TEST(Render, ProgramsAreRunWithoutAShell) {
 }
 
 TEST(Render, RodWithoutLengthIsARoundBall) {
-  // the picture's balls: no flat piece may dip more than 0.1 % of the radius below the surface
+  // the picture's balls: no facet may lie more than 0.1 % of the radius below the surface
   const RodMesh mesh = rod_mesh(112, 28);
   ASSERT_EQ(mesh.index.size() % 3, 0u);
   for (std::size_t i = 0; i < mesh.index.size(); i += 3) {
@@ -246,7 +247,7 @@ TEST(Render, ViewHoldsEverythingTightly) {
 }
 
 TEST(Render, ViewHasEverythingInItsMiddle) {
-  // a cloth whose shadow falls far to the side: the cloth stays in the middle and large, the shadow may be cut
+  // A cloth whose shadow falls far to the side: the cloth stays centred and large, and the shadow may be cut off.
   Points hanging(3, 4);
   hanging << -1, 1, -1, 1, 0, 0, 3, 3, 0, 0, 0, 0;
   for (const double aspect : {0.5, 1.0, 2.0}) {
@@ -272,13 +273,12 @@ TEST(Render, ViewOfHardCasesIsUsable) {
 
 }  // namespace
 
-// Pictures as they looked when somebody last looked at them: tests/unit/report/golden/NAME.png, with letters and colour
-// bar.
+// Golden pictures, approved by a person: tests/unit/report/golden/NAME.png, with letters and colour bar.
 //
-// Mesa draws the same bytes on the same kind of processor; on others single channels differ by up to 4 (measured: 292
-// of 691200 with the oldest instructions). So a picture is the same where no channel differs by more than 8, and at
-// most one in 200 by more than 2. What is meant to change a picture changes these files: the test says where it left
-// the new one.
+// Mesa's output is identical on the same kind of processor. On others, single channels differ by up to 4 (measured: 292
+// of 691200 with the oldest instructions). Pictures count as equal if no channel differs by more than 8, and at most
+// one in 200 by more than 2. Intended changes to a picture must update these files. The test reports the path of the
+// new picture.
 
 namespace {
 
@@ -286,8 +286,8 @@ namespace fs = std::filesystem;
 
 const fs::path golden = fs::path(CROSSCHECK_SOURCE) / "tests/unit/report/golden";
 
-/// `letters`: those of another version of Cairo may differ in their places by a part of a pixel, which is a tenth of
-/// the channels in the rows where letters stand.
+/// `letters`: compares letters as well. Another version of Cairo may shift them by a fraction of a pixel, which affects
+/// a tenth of the channels in the rows with letters.
 bool look_the_same(const Image& a, const Image& b, bool letters = true) {
   if (a.width != b.width || a.height != b.height || a.rgb.empty()) return false;
   std::size_t far = 0, in_letters = 0;
@@ -304,7 +304,7 @@ bool look_the_same(const Image& a, const Image& b, bool letters = true) {
   return far <= a.rgb.size() / 200 && in_letters <= 50 * row / 10;
 }
 
-/// A cloth above its ball, coloured by a value, beside the same as springs.
+/// A cloth above its ball, coloured by a value, next to the same cloth drawn as springs.
 Picture drape(Quality quality) {
   Picture picture = small_picture(quality);
   picture.width = 480, picture.height = 270;
@@ -323,7 +323,7 @@ Picture drape(Quality quality) {
   return picture;
 }
 
-/// The golden pictures were drawn with Cairo 1.16; letters of other versions may differ.
+/// True if Cairo is version 1.16, which drew the golden pictures. Letters of other versions may differ.
 bool has_golden_letters() {
   return run_program({"pkg-config", "--modversion", "cairo"}, fs::temp_directory_path()).out.starts_with("1.16");
 }
@@ -345,7 +345,7 @@ TEST_F(GoldenPicture, LooksAsItDidAndChangesAreNoticed) {
       const fs::path kept = fs::temp_directory_path() / name;
       fs::copy_file(folder_ / "drawn.png", kept, fs::copy_options::overwrite_existing);
       ADD_FAILURE() << (known.rgb.empty() ? "there is no picture " : "not as in ") << golden / name
-                    << "; the new one is " << kept << ": look at both, and copy it where the change is meant";
+                    << "; the new one is " << kept << ": compare both, and copy it if the change is intended";
       continue;
     }
     const std::pair<const char*, std::function<void(Picture&)>> changes[] = {
@@ -368,7 +368,7 @@ TEST_F(GoldenPicture, LooksAsItDidAndChangesAreNoticed) {
     for (const auto& [what, change] : changes) {
       Picture other = drape(quality);
       change(other);
-      EXPECT_FALSE(look_the_same(now, drawn(other))) << what << ", and nobody notices";
+      EXPECT_FALSE(look_the_same(now, drawn(other))) << what << ", and the comparison does not notice";
     }
   }
 }

@@ -1,4 +1,4 @@
-// Limits of a hanging cloth, rows of limits, maps of what becomes of runs, and the figure they are drawn in.
+// Limits of a hanging cloth, rows of limits, maps of outcomes, and the figure that shows them.
 
 #include <algorithm>
 #include <filesystem>
@@ -51,7 +51,7 @@ TEST(ClothHang, UnderDragSlowRulesGrowOrDecayAsPredictedBesideTheirLimit) {
       const PerturbedRun trial = run_perturbed(method, base, h, 2000, {p.mode});
       ASSERT_TRUE(trial.of_mode);
       EXPECT_EQ(trial.held(), part < 1);
-      // 1e-6 of the amplitude in 2000 steps is what rounding and nonlinearity may do
+      // rounding and nonlinearity may change the amplitude by 1e-6 in 2000 steps
       EXPECT_NEAR(std::log(trial.per_step), expected, 1e-6 / 2000 + 0.01 * std::abs(expected));
     }
   }
@@ -71,7 +71,7 @@ TEST(Map, FailsWhereTheoryDrawsTheLineAndHardlyChangesInRunsTenTimesLonger) {
       for (size_t i = 0; i < map.rows.size(); ++i) {
         const double h = std::get<double>(map.at(i, "step")),
                      limit = std::get<double>(limits.at(i / 9, "predicted limit"));
-        // the trapezoidal rule without drag grows by (h omega)^4 / 8 a step: by less than can be told at short ones
+        // Without drag the trapezoidal rule grows by (h omega)^4 / 8 per step, which is not measurable at short steps.
         const bool slow = limit == 0 && std::string(name) == "mysim/trapezoidal";
         if (!slow && std::abs(h / limit - 1) > 0.02) {
           EXPECT_EQ(std::get<std::string>(map.at(i, "verdict")) == "ok", h < limit) << h << " against " << limit;
@@ -103,9 +103,9 @@ TEST(Map, SaysWhichCellsWereRefusedAndIsNoneWhereAllWere) {
     EXPECT_EQ(std::holds_alternative<std::monostate>(cells.at(i, "end")), longer);
     refused += longer;
   }
-  EXPECT_EQ(refused, 3 * 4);  // 20, 8.4, 3.6 and 1.5 of a row's steps times omega
+  EXPECT_EQ(refused, 3 * 4);  // step times omega = 20, 8.4, 3.6 and 1.5 in each row
   EXPECT_EQ(std::get<long>(rows.table("stability-map-check")->at(0, "cells")), 27 - refused);
-  // at a hundred times the stiffness leapfrog fails before it refuses; at the hundredth nothing failed
+  // At a hundred times the stiffness leapfrog fails before it refuses. At a hundredth of it nothing fails.
   EXPECT_TRUE(std::holds_alternative<double>(limits.at(2, "failed")));
   EXPECT_TRUE(std::holds_alternative<std::monostate>(limits.at(0, "failed")));
 
@@ -127,7 +127,7 @@ TEST(Map, KnowsWhatItIsMadeOf) {
   EXPECT_FALSE(map_scene(load_scene("jelly"), false));
   EXPECT_EQ(map_scene(load_scene("jelly"), true)->name, "jelly");
   EXPECT_FALSE(map_scene(load_scene("projectile"), true));
-  // a scene of one's own that is called like a shipped one is mapped as it is
+  // a user's scene with the name of a shipped one is mapped as it is
   const Scene own =
       parse_scene(std::regex_replace(text_of("cloth-hang"), std::regex("mass = 0.25"), "mass = 0.5"), "cloth-hang");
   EXPECT_NEAR(map_scene(own, false)->model.particles.mass.sum(), 0.5, 1e-12);
@@ -172,7 +172,7 @@ TEST(Limits, AreSearchedAsFarAsTheirCostAllows) {
     }
 }
 
-/// The row of a limit, and what the growth table holds.
+/// The row of a limit, and the growth table.
 TableSet limit_of(const char* method, const char* scene, const Effort& effort) {
   TableSet rows;
   add_limit(load_scene(scene), find_method(method), effort, rows);
@@ -188,12 +188,12 @@ TEST(Limits, AreRowsWithTheWidthOfTheirBracket) {
   for (const auto& [rows, widest] : {std::pair{&fine, 0.005}, std::pair{&coarse, 0.5}}) {
     const Table& t = *rows->table("stability");
     const double precision = std::get<double>(t.at(0, "precision"));
-    // halving in the logarithm stops at once below; the search goes up in tenths
+    // bisection in the logarithm stops as soon as it is below; the search goes up in steps of a tenth
     EXPECT_GT(precision, std::min(widest / 2.1, 0.09));
     EXPECT_LE(precision, widest);
     EXPECT_DOUBLE_EQ(precision, std::get<double>(t.at(0, "failed")) / std::get<double>(t.at(0, "held")) - 1);
     EXPECT_LE(std::abs(std::get<double>(t.at(0, "deviation"))), precision);
-    EXPECT_EQ(reason_of(*rows), "");  // a deviation within the bracket needs none
+    EXPECT_EQ(reason_of(*rows), "");  // a deviation within the bracket needs no reason
   }
   EXPECT_GT(std::abs(std::get<double>(coarse.table("stability")->at(0, "deviation"))), 0.01);
   EXPECT_EQ(reason_of(limit_of("bullet/pbd", "spring", {300, 0.1})), "no linear theory: a rule of its own");
@@ -207,14 +207,14 @@ TEST(Failures, OfAClothGrowAsTheoryAndAreSeenInFourMoments) {
   ASSERT_GE(steps.size(), 4u);
   EXPECT_EQ(std::ranges::count(steps, true, &FailureRow::still), 4);
   EXPECT_NEAR(steps[0].h, 1.75 * steps[0].limit, 1e-12);
-  // h omega = 3.5: the amplitude grows 10.1 times in a step, the energy a hundred times
+  // h omega = 3.5: per step, the amplitude grows by a factor of 10.1 and the energy by a hundred
   EXPECT_NEAR(*steps[0].growth, 103, 3);
   for (size_t i = 0; i < steps.size(); ++i) {
     EXPECT_NEAR(steps[i].t, static_cast<double>(steps[i].step) * steps[i].h, 1e-9);
     EXPECT_EQ(steps[i].step, steps[0].step + static_cast<long>(i));
   }
   EXPECT_GT(steps.back().kinetic, 100 * *steps.back().holding);
-  // the same numbers from the same rule again, and none of a rule that is not the one shown
+  // Identical numbers from the same rule, and none from a rule that is not shown.
   TableSet again;
   add_failure(cloth, find_method("leapfrog"), steps[0].limit, steps[0].growth, again);
   EXPECT_EQ(rows.table("stability-failure")->rows, again.table("stability-failure")->rows);
@@ -224,7 +224,7 @@ TEST(Failures, OfAClothGrowAsTheoryAndAreSeenInFourMoments) {
 }
 
 TEST(Failures, AreNoneWhereNothingGrows) {
-  // at rest from its start on, so that there is nothing to grow from
+  // at rest from the start, so that nothing can grow
   const Scene still = small_scene(
       "[[particle]]\nposition = [0, 0, 0]\nmass = 1\n[[particle]]\nposition = [1, 0, 0]\nmass = 1\n[[spring]]\nends "
       "= [0, 1]\nstiffness = 100\nrest = 1\n[pins]\nparticles = [0]\n");
@@ -241,7 +241,7 @@ TEST(Limits, OfARotationAreThoseOfTheory) {
     EXPECT_EQ(std::get<std::string>(t.at(0, "measurement")), "no stable step");
     EXPECT_EQ(reason_of(rows), "");
     ASSERT_EQ(growth.rows.size(), 3u);
-    // rounding of 1e-16 in each of up to 2000 steps beside growth of at least 1.2e-5 a step
+    // rounding of 1e-16 in each of up to 2000 steps, compared with growth of at least 1.2e-5 per step
     for (size_t i = 0; i < 3; ++i) EXPECT_LT(std::abs(std::get<double>(growth.at(i, "deviation"))), 1e-8);
   }
 }

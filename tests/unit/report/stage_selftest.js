@@ -1,42 +1,42 @@
-// What tests of the player in a browser share: complaints, waiting, looking at the stage, and telling the test that
-// reads the page back. Stands before the file that uses it.
+// Shared by tests of the player in a browser: complaints, waiting, inspection of the stage, and output for the test
+// that reads the page. Load it before the file that uses it.
 const complaints = [];
 addEventListener('error', event => complaints.push(event.message));
 addEventListener('unhandledrejection', event => complaints.push(String(event.reason)));
 const consoleError = console.error;
 console.error = (...words) => (complaints.push(words.join(' ')), consoleError(...words));
 
-// while its clock is virtual a browser without a window shows no frames, and asks for none
+// with a virtual clock, a headless browser produces no frames
 window.requestAnimationFrame = callback => setTimeout(() => callback(performance.now()), 16);
 
-// A virtual clock jumps to its end as soon as nobody but other threads has work, unpacking or drawing: so something is
-// due every 4 ms of it that takes about 1 ms of true time, until the page has told what it saw.
+// A virtual clock jumps to its end as soon as only other threads have work, such as unpacking or drawing. Therefore a
+// timer runs every 4 virtual ms and takes about 1 ms of real time until the page has reported.
 let spun = 0;
 const metronome = setInterval(() => {
   for (let i = 0; i < 1e6; ++i) spun = (spun + i) | 0;
 }, 4);
 
-/** Waits until the condition holds, for ten seconds of the page's own clock at most. */
+/** Waits until the condition holds, for at most ten seconds of the page's clock. */
 async function until(condition) {
   const begun = performance.now();
   while (!condition() && performance.now() - begun < 1e4) await new Promise(done => setTimeout(done, 20));
   return Boolean(condition());
 }
 
-/** Waits until a chart is drawn. A browser without a window does not always say what came into sight: then the charts
+/** Waits until a chart is drawn. A headless browser does not always report visible elements. In that case the charts
  * are drawn as for printing. */
 async function drawn(box) {
   const there = () => box.querySelector('svg');
   box.scrollIntoView();
   for (let i = 0; i < 20 && !there(); ++i) {
-    box.style.outlineOffset = `${i % 2}px`;  // a page that changes asks for frames
+    box.style.outlineOffset = `${i % 2}px`;  // changes to the page request frames
     await new Promise(done => setTimeout(done, 20));
   }
   if (!there()) dispatchEvent(new Event('beforeprint'));
   return until(there);
 }
 
-/** The stage as it is now: its pixels, as text, and the part of them that is not background. */
+/** The current stage: its pixels as text, and the fraction of them that is not background. */
 function lookAt(player) {
   player.draw();
   const {canvas} = player.stage, copy = document.createElement('canvas');
@@ -50,7 +50,7 @@ function lookAt(player) {
   return {picture: copy.toDataURL(), drawn: drawn / (copy.width * copy.height)};
 }
 
-/** Writes what was seen into the page. */
+/** Writes the observations into the page. */
 function tell(seen) {
   clearInterval(metronome);
   seen.complaints = complaints;

@@ -1,4 +1,4 @@
-// What programs that are started find and leave: one locale and one time zone, and files that are whole.
+// Environment and output of child processes: a fixed locale and time zone, and complete files.
 
 #include <sys/wait.h>
 
@@ -37,7 +37,7 @@ TEST_F(StartedPrograms, FindWhatTheyAreGivenInPlaceOfIt) {
 
 class Gnuplot : public InFolder {
  protected:
-  /// What a script that must leave `file` warned of; or "failed: " and the message.
+  /// Warnings of a script that must write `file`, or "failed: " and the message.
   std::string said(const std::string& commands, const std::string& file) const {
     write("script.gp", commands);
     try {

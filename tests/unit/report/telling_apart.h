@@ -1,4 +1,4 @@
-// Whether what a figure draws is told apart in grey and by the colour-blind, computed from its gnuplot script.
+// Checks from its gnuplot script that the elements of a figure are distinguishable in grey and with colour blindness.
 #pragma once
 
 #include <fmt/format.h>
@@ -48,11 +48,11 @@ inline std::vector<Eigen::Matrix3d> colour_blindness() {
   return all;
 }
 
-/// Difference in lightness, CIE L*, 0..100.
+/// Difference in lightness, CIE L*, 0 to 100.
 inline double lightness_apart(const std::string& a, const std::string& b) {
   return std::abs(lab(linear_light(a))[0] - lab(linear_light(b))[0]);
 }
-/// The smallest CIE 1976 difference of colours that any of the three sees.
+/// Smallest CIE 1976 colour difference under the three kinds of colour blindness.
 inline double colour_apart(const std::string& a, const std::string& b) {
   double least = 1e300;
   for (const Eigen::Matrix3d& m : colour_blindness())
@@ -60,17 +60,17 @@ inline double colour_apart(const std::string& a, const std::string& b) {
   return least;
 }
 
-// A difference of 2.3 is just seen where patches touch (Mahy et al. 1994). Patches and marks that lie apart are told
-// apart at three to four times that.
+// A difference of 2.3 is just noticeable for adjacent patches (Mahy et al. 1994). Separate patches and marks need three
+// to four times as much.
 inline constexpr double least_lightness = 8, least_colour = 10;
 
-/// What is drawn under one name: the rows of the data that a plot element picks.
+/// Appearance of everything drawn under one name, i.e. the data rows that a plot element selects.
 struct Look {
   std::set<std::string> colours, dashes, marks, fills;
-  std::string key;  // the mark that says whose these crosses are
+  std::string key;  // mark that identifies the method of these crosses
 };
 
-/// Dashes that look alike: as many strokes in a period, the longest within a factor of 1.5.
+/// True if dashes look alike: the same number of strokes per period, with the longest within a factor of 1.5.
 inline bool alike_dashes(const std::string& a, const std::string& b) {
   const auto parts = [](std::string text) {
     std::vector<double> strokes;
@@ -86,10 +86,10 @@ inline bool alike_dashes(const std::string& a, const std::string& b) {
   return std::max(longest, other) < 1.5 * std::min(longest, other);
 }
 
-/// The looks of a script by name. What stands in a row or a panel of its own has its name there: it is left out.
+/// Appearances in a script by name. Leaves out elements of a row or panel with its own name.
 inline std::map<std::string, Look> looks_of(const std::string& script) {
   std::map<std::string, Look> looks;
-  std::map<std::string, std::string> signs;  // colour -> mark of labels without words
+  std::map<std::string, std::string> signs;  // colour -> mark of labels without text
   const auto first = [](const std::string& text, const std::string& pattern) {
     std::smatch found;
     return std::regex_search(text, found, std::regex(pattern)) ? found[1].str() : std::string();
@@ -101,7 +101,7 @@ inline std::map<std::string, Look> looks_of(const std::string& script) {
       signs[first(line, "lc rgb \"(#[0-9A-F]{6})\"")] = first(line, "point pt (\\d+)");
     if (line.starts_with("plot ")) plotting = true;
     if (!plotting || line.find(" with ") == std::string::npos) continue;
-    if (line.find("&& $3 == ") != std::string::npos) continue;  // a row of a named line
+    if (line.find("&& $3 == ") != std::string::npos) continue;  // row of a named line
     std::string name;
     const std::regex text("eq '([^']*)'");
     for (std::sregex_iterator i(line.begin(), line.end(), text), end; i != end; ++i) name = (*i)[1];
@@ -124,7 +124,7 @@ inline std::map<std::string, Look> looks_of(const std::string& script) {
   return looks;
 }
 
-/// Whether their forms differ: lines against marks or boxes, dashes, marks, fillings.
+/// True if the forms differ: lines against marks or boxes, dashes, marks, fillings.
 inline bool differ_in_form(const Look& a, const Look& b) {
   if (a.dashes.empty() != b.dashes.empty() || a.fills != b.fills || a.marks != b.marks || a.key != b.key) return true;
   return std::ranges::any_of(a.dashes, [&](const std::string& d) {
@@ -132,13 +132,14 @@ inline bool differ_in_form(const Look& a, const Look& b) {
   });
 }
 
-/// A line for each two things in a figure's script that look alike in grey or to the colour-blind; empty is good.
+/// One line for each pair of elements in a script that look alike in grey or with colour blindness. Empty if there are
+/// none.
 inline std::string looking_alike(const std::string& script) {
   std::string out;
   const std::map<std::string, Look> looks = looks_of(script);
   for (auto a = looks.begin(); a != looks.end(); ++a)
     for (auto b = looks.begin(); b != a; ++b) {
-      // curves of one colour share one name: a method's error and its crosses, or the others in grey
+      // curves of the same colour share a name: a method's error and its crosses, or the others in grey
       if (a->second.colours == b->second.colours || differ_in_form(a->second, b->second)) continue;
       for (const std::string& p : a->second.colours)
         for (const std::string& q : b->second.colours) {
@@ -151,7 +152,7 @@ inline std::string looking_alike(const std::string& script) {
   return out;
 }
 
-/// The same for all figures in a folder; counts them.
+/// As looking_alike, for all figures in a folder. Counts the figures.
 inline std::string looking_alike_in(const std::filesystem::path& folder, int& figures) {
   std::string out;
   figures = 0;

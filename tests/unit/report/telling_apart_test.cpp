@@ -1,5 +1,5 @@
-// Curves, marks and fillings are told apart in grey and by the colour-blind; figures of reports are asked where reports
-// are made (cli_slow_test, adding_slow_test).
+// Curves, marks and fillings are distinguishable in grey and with colour blindness. Figures of reports are checked by
+// the tests that create reports (cli_slow_test, adding_slow_test).
 
 #include <fmt/format.h>
 
@@ -19,10 +19,10 @@ TEST(TellingApart, SimulatesWhatIsKnownOfColourBlindness) {
   EXPECT_NEAR(lab(linear_light("#FFFFFF"))[0], 100, 1e-3);
   EXPECT_NEAR(lab(linear_light("#777777"))[0], 50.03, 0.01);
   for (const Eigen::Matrix3d& m : colour_blindness())
-    // the rows of each sum to one: greys stay as they are, to the six digits of the table
+    // the rows of each matrix sum to one, so greys do not change, to the six digits of the table
     EXPECT_LT((m * Rgb::Ones() - Rgb::Ones()).cwiseAbs().maxCoeff(), 2e-6);
-  EXPECT_LT(colour_apart("#CC6677", "#009E73"), least_colour) << "a red and a green of one lightness";
-  EXPECT_GT(colour_apart("#0072B2", "#D55E00"), 60) << "blue and orange, whoever looks";
+  EXPECT_LT(colour_apart("#CC6677", "#009E73"), least_colour) << "red and green of the same lightness";
+  EXPECT_GT(colour_apart("#0072B2", "#D55E00"), 60) << "blue and orange, with any colour blindness";
 }
 
 /// A script of two curves.

@@ -1,4 +1,4 @@
-// Templates: values are escaped, blocks nest, and what is missing or not closed is named with its line.
+// Templates: values are escaped, blocks nest, and errors name the line of missing keys and unclosed blocks.
 
 #include "report/page/template.h"
 
@@ -31,7 +31,7 @@ TEST(Templates, EscapeValuesUnlessTheyAreHtml) {
   EXPECT_EQ(fill("{{{a}}}", data), "<b> & \"c\"");
   EXPECT_EQ(fill("{{prose x}}|{{bold x}}", data),
             prose("at 3 mm < 2.0e-7 m") + "|" + prose_with_bold_numbers("at 3 mm < 2.0e-7 m"));
-  EXPECT_EQ(fill("{{a}}", Json{{"a", "{{n}}"}, {"n", 1}}), "{{n}}") << "values are no templates";
+  EXPECT_EQ(fill("{{a}}", Json{{"a", "{{n}}"}, {"n", 1}}), "{{n}}") << "values are not templates";
 }
 
 TEST(Templates, RepeatAndChooseAndNest) {
@@ -40,7 +40,7 @@ TEST(Templates, RepeatAndChooseAndNest) {
                   {"scene", {{"name", "chain"}, {"truth", {{"tier", "exact"}}}}}};
   EXPECT_EQ(fill("{{#each rows}}{{name}}:{{#each cells}}[{{title}} {{this}}]{{/each}};{{/each}}", data),
             "one:[T 1][T 2];two:;")
-      << "what surrounds an item is seen from inside";
+      << "outer values are visible inside an item";
   EXPECT_EQ(fill("{{#each rows}}{{#if cells}}yes {{name}}{{else}}no {{name}}{{/if}} {{/each}}", data),
             "yes one no two ");
   EXPECT_EQ(fill("{{scene.name}} {{scene.truth.tier}}", data), "chain exact");
@@ -53,12 +53,13 @@ TEST(Templates, RepeatAndChooseAndNest) {
 TEST(Templates, DropIndentationAndLinesOfBlocks) {
   EXPECT_EQ(fill("<ul>\n  {{#each a}}\n    <li>{{this}}</li>\n  {{/each}}\n</ul>\n", {{"a", {1, 2}}}),
             "<ul>\n<li>1</li>\n<li>2</li>\n</ul>\n");
-  EXPECT_EQ(fill("a {{#if a}}\nb{{/if}}\n", {{"a", true}}), "a \nb\n") << "a block that shares its line keeps it";
+  EXPECT_EQ(fill("a {{#if a}}\nb{{/if}}\n", {{"a", true}}), "a \nb\n")
+      << "a block on a shared line keeps the line break";
 }
 
 TEST(Templates, NameWhatIsMissing) {
   EXPECT_EQ(failure("a\n\n{{b}}"), "probe, line 3: unknown key 'b'");
-  EXPECT_EQ(failure("{{#if b}}{{/if}}"), "probe, line 1: unknown key 'b'") << "a condition is no excuse";
+  EXPECT_EQ(failure("{{#if b}}{{/if}}"), "probe, line 1: unknown key 'b'") << "conditions must have known keys too";
   EXPECT_EQ(failure("\n{{#each b}}\n{{/each}}"), "probe, line 2: unknown key 'b'");
   EXPECT_EQ(failure("{{a.c}}", {{"a", {{"b", 1}}}}), "probe, line 1: unknown key 'a.c'");
   EXPECT_EQ(failure("{{#each a}}{{c}}{{/each}}", {{"a", {{{"b", 1}}}}}), "probe, line 1: unknown key 'c'");

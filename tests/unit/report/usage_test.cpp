@@ -1,4 +1,4 @@
-// Slips on the command line and in its surroundings: one line that says what was meant, and an exit status that tells.
+// Mistakes on the command line and in the environment: a one-line message with a suggestion, and the exit status.
 
 #include <fmt/format.h>
 

@@ -1,4 +1,4 @@
-// validate, refusals of what is too large, and the words for what nobody knows, as the program gives them.
+// validate, refusals of excessive sizes, and messages for unknown names, as printed by the program.
 
 #include <fmt/format.h>
 
@@ -18,13 +18,13 @@ class CliValidate : public Cli {
     const ProgramResult result = call(words);
     SCOPED_TRACE(result.err);
     EXPECT_EQ(result.status, 2);
-    EXPECT_EQ(std::count(result.err.begin(), result.err.end(), '\n'), 1) << "one line";
+    EXPECT_EQ(std::count(result.err.begin(), result.err.end(), '\n'), 1) << "expected one line";
     for (const std::string& part : parts) EXPECT_NE(result.err.find(part), std::string::npos) << part;
   }
 };
 
 TEST_F(CliValidate, SaysWhatASceneIs) {
-  // one mass m on a spring k: omega = sqrt(k / m) = 20 rad/s, the steps of leapfrog end at 2 / omega
+  // one mass m on a spring k: omega = sqrt(k / m) = 20 rad/s; leapfrog is stable up to 2 / omega
   write("one.toml",
         "question = \"q\"\nparameters = \"p\"\n[time]\nduration = 1\nsamples = 10\nstep = 1e-2\nwindow = 1\ntolerance "
         "= 1e-3\n"
@@ -39,8 +39,8 @@ TEST_F(CliValidate, SaysWhatASceneIs) {
   EXPECT_EQ(told["format"].whole(), 1);
   const JsonField scene = told["scenes"][0];
   EXPECT_EQ(scene["springs"]["single"].whole(), 1);
-  EXPECT_NEAR(scene["largest_omega"].number(), 20, 20 * 1e-3);  // power iteration: to 1e-4
-  // explicit Euler is stable at no step, leapfrog up to 2 / omega, RK4 up to 2 sqrt(2) / omega
+  EXPECT_NEAR(scene["largest_omega"].number(), 20, 20 * 1e-3);  // power iteration, to 1e-4
+  // explicit Euler is never stable, leapfrog up to 2 / omega, RK4 up to 2 sqrt(2) / omega
   EXPECT_NEAR(scene["critical_steps"]["rk4"].number(), 2 * std::sqrt(2.) / 20, 1e-3);
   EXPECT_NEAR(scene["critical_steps"]["leapfrog"].number(), 0.1, 1e-4);
   EXPECT_EQ(scene["critical_steps"]["explicit-euler"].number(), 0);
@@ -48,8 +48,8 @@ TEST_F(CliValidate, SaysWhatASceneIs) {
 }
 
 TEST_F(CliValidate, SaysHowAClothBends) {
-  // a sheet of 0.2 kg/m^2 and B = 5e-5 N m: (5e-5 / (0.2 x 9.81))^(1/3) = 0.0294 m; springs ask for longer steps than
-  // bending does, whose omega is 8 / d^2 sqrt(B / rho) = 1265 rad/s on 1 cm
+  // A sheet of 0.2 kg/m^2 and B = 5e-5 N m: (5e-5 / (0.2 x 9.81))^(1/3) = 0.0294 m. Springs would allow longer steps
+  // than bending, whose omega is 8 / d^2 sqrt(B / rho) = 1265 rad/s on 1 cm.
   const std::string text =
       "question = \"q\"\nparameters = \"p\"\n[time]\nduration = 1\nsamples = 10\nstep = 2e-3\nwindow = 1\n"
       "tolerance = 1e-3\nmethod = \"leapfrog\"\n[grid]\nsize = [21, 21]\norigin = [0, 0, 0]\nu = [0.2, 0, 0]\n"
@@ -67,7 +67,7 @@ TEST_F(CliValidate, SaysHowAClothBends) {
 }
 
 TEST_F(CliValidate, TellsPiecesParticlesAtOnePlaceAndMasses) {
-  // two bars that touch in space only; the second one is held by nothing
+  // two bars that coincide in a point without a connection; the second one has no pins
   const std::string head =
       "question = \"q\"\nparameters = \"p\"\n[time]\nduration = 1\nsamples = 10\nstep = 1e-3\nwindow = 1\ntolerance = "
       "1e-3\n"
@@ -84,7 +84,7 @@ TEST_F(CliValidate, TellsPiecesParticlesAtOnePlaceAndMasses) {
   for (const char* part : {"2, 1 of them held by no pin", "the first 1 and 2", "0.1 to 0.5 kg each, 1.1 kg in total",
                            "particles 1 and 2 start at the same place, but no spring joins their pieces"})
     EXPECT_NE(text.out.find(part), std::string::npos) << part << " in " << text.out;
-  // 0.06 kg on 0.2 m^2, and a block, whose surface says nothing about its mass
+  // 0.06 kg on 0.2 m^2, and a block, whose surface is unrelated to its mass
   write("sheet.toml", head +
                           "[grid]\nsize = [3, 3]\norigin = [0, 0, 0]\nu = [0.5, 0, 0]\nv = [0, 0, 0.4]\nmass = 0.06\n"
                           "stiffness = { structural = 10 }\n");
@@ -124,11 +124,11 @@ TEST_F(CliValidate, WhatIsTooLargeIsRefusedBeforeItStarts) {
         "question = \"q\"\nparameters = \"p\"\n[time]\nduration = 1\nsamples = 1000000\nstep = 1e-6\nwindow = 1\n"
         "tolerance = 1e-3\nmethod = \"leapfrog\"\n[grid]\nsize = [60, 60, 60]\norigin = [0, 0, 0]\nu = [1, 0, 0]\n"
         "v = [0, 1, 0]\nw = [0, 0, 1]\nmass = 1\n[grid.stiffness]\nstructural = 1\nshear = 1\nbend = 1\n");
-  // 20 000 s at 50 samples a second are the most
+  // 20 000 s at 50 samples per second are the maximum
   expect_refusal({"run", "chain", "--duration", "1e10"},
                  {"--duration", "5e+11 samples", "steps", "days", "B of frames", "a million samples", "20000 s"});
   expect_refusal({"run", "chain", "--step", "1e-13"}, {"a step of 1e-13 s makes", "steps, about", "1e+12", "--step"});
-  // 216000 particles, a million frames of 48 bytes: 10 TB; 1.2 million springs and more
+  // 216000 particles and a million frames of 48 bytes per particle: 10 TB; more than 1.2 million springs
   expect_refusal({"run", "block.toml"}, {"out/run: 1000001 frames", "10.4 TB", "1e+06 steps", "free on the disk"});
   expect_refusal({"compare", "block.toml", "--methods", "rk4,leapfrog"}, {"block", "TB of memory", "216000 particles"});
   EXPECT_EQ(files(), 1);

@@ -1,5 +1,5 @@
-// Findings follow from the data: tables read back as they were written, every finding names its rule and its rows, and
-// a report whose data were changed does not pass.
+// Findings follow from the data: tables survive a round trip, every finding names its rule and its rows, and a report
+// with changed data does not pass.
 
 #include <fstream>
 
@@ -47,7 +47,7 @@ TEST_F(ReadCsv, RowsComeBackAsTheyWereWritten) {
   ASSERT_EQ(back.rows.size(), t.rows.size());
   for (size_t i = 0; i < t.rows.size(); ++i) EXPECT_EQ(csv_row(back.rows[i]), csv_row(t.rows[i]));
   EXPECT_EQ(std::get<long>(back.at(0, "steps")), 7);
-  EXPECT_EQ(std::get<std::string>(back.at(2, "note [odd], long")), "12");  // a text among texts
+  EXPECT_EQ(std::get<std::string>(back.at(2, "note [odd], long")), "12");  // text in a text column
   EXPECT_TRUE(std::signbit(std::get<double>(back.at(1, "error"))));
 }
 
@@ -67,7 +67,7 @@ TEST_F(ReadCsv, SaysWhatIsWrongAndWhere) {
   }
 }
 
-/// The names in braces of a sentence.
+/// Names in braces in a sentence.
 std::vector<std::string> placeholders_of(const std::string& sentence) {
   std::vector<std::string> names;
   for (size_t at = sentence.find('{'); at != std::string::npos; at = sentence.find('{', at + 1))
@@ -82,13 +82,13 @@ TEST(FindingRules, HaveTextsAndTheseAskForNothingElse) {
     EXPECT_FALSE(rule.tables.empty()) << rule.key;
     EXPECT_FALSE(rule.quantity.empty()) << rule.key;
   }
-  EXPECT_LE(keys.size(), 45u) << "a number that a table of the page shows needs no sentence";
+  EXPECT_LE(keys.size(), 45u) << "numbers shown in a table of the page need no sentence";
   const std::set<std::string> of_all{"scene", "method", "other", "value", "low", "high", "range", "value±"};
   std::set<std::string> asked;  // "key word"
   for (const auto& [key, text] : finding_texts()) {
     SCOPED_TRACE(key);
     EXPECT_FALSE(text.formula.empty());
-    const FindingRule& rule = finding_rule(key);  // throws where there is none
+    const FindingRule& rule = finding_rule(key);  // throws if there is none
     of_texts.insert(rule.key);
     const std::vector<std::string> words = split(rule.words, ' ');
     for (const std::string& name : placeholders_of(text.sentence)) {
@@ -100,7 +100,7 @@ TEST(FindingRules, HaveTextsAndTheseAskForNothingElse) {
     f.rule = key;
     expect_short({f});
   }
-  EXPECT_EQ(of_texts, keys) << "each rule has a text";
+  EXPECT_EQ(of_texts, keys) << "each rule must have a text";
   for (const FindingRule& rule : finding_rules())
     for (const std::string& name : split(rule.words, ' '))
       if (!name.empty()) {
@@ -118,7 +118,7 @@ TEST(FindingRules, TextsAreFilledInWithTheUnitOfTheirQuantity) {
   f.tier = "converged";
   EXPECT_EQ(tier_of(f), "converged");
   f.words.clear();
-  EXPECT_THROW(sentence_of(f), std::logic_error) << "a word is missing";
+  EXPECT_THROW(sentence_of(f), std::logic_error) << "expected an error for a missing word";
   const std::pair<const char*, const char*> written[] = {{"answer-contact", "differ by 5 mm until"},      // m
                                                          {"energy-failed", "after 5 ms ("},               // s
                                                          {"numerical-damping", "within 0.005 %."},        // %
@@ -153,7 +153,7 @@ TEST(FindingRules, NamesOfMethodsAndEnginesAreThoseThatPeopleUse) {
   EXPECT_EQ(listed({"a", "b", "c", "d", "e"}), "a, b, c and 2 more");
 }
 
-/// A small report: two scenes under a few methods, their data and report.json alone.
+/// A small report: two scenes with a few methods, reduced to their data and report.json.
 class Verify : public InFolder {
  protected:
   void SetUp() override {
@@ -173,7 +173,7 @@ class Verify : public InFolder {
     write_file(folder_ / "report.json", report_json(page, all, {}, rows_, "named"));
     findings_ = all.overall.size() + all.of_scenes[0].size() + all.of_scenes[1].size();
   }
-  /// Replaces the first place of a text in a file.
+  /// Replaces the first occurrence of a text in a file.
   void replace(const std::string& file, const std::string& from, const std::string& to) {
     std::string text = read(folder_ / file);
     const size_t at = text.find(from);
@@ -200,7 +200,7 @@ TEST_F(Verify, AReportFollowsFromItsData) {
 }
 
 TEST_F(Verify, EveryChangedRowIsNoticed) {
-  // each cell of the table that findings rest on, one after the other
+  // change each cell of the table on which findings rest, one at a time
   const Table& engines = *rows_.table("engines");
   const std::string whole = read(folder_ / "data/engines.csv");
   for (size_t row = 0; row < engines.rows.size(); ++row)
@@ -239,7 +239,7 @@ TEST_F(Verify, EveryPartOfAFindingIsComparedWithTheData) {
   const std::vector<JsonField> findings = report["findings"].elements();
   ASSERT_FALSE(findings.empty());
   for (const auto& [key, value] : findings.back().items()) {
-    if (key == "figure" || key == "evidence") continue;  // where it is shown; the rows have their own test
+    if (key == "figure" || key == "evidence") continue;  // figure: presentation only; evidence: another test
     const std::string line = fmt::format("\"{}\": {}", key, value.dump());
     std::string text = whole;
     const size_t at = text.rfind(line);

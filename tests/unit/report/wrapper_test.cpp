@@ -1,5 +1,5 @@
-// The wrapper at the root of the tree: whom it asks before it installs, and where it builds. apt-get, cmake and ninja
-// are scripts that record what they are told.
+// The wrapper at the root of the tree: confirmation before installations, and location of the build. Scripts that
+// record their arguments replace apt-get, cmake and ninja.
 
 #include <unistd.h>
 
@@ -35,7 +35,7 @@ class Wrapper : public Cli {
     for (size_t at = 0; (at = text.find("\n  \"", at)) != std::string::npos; ++at)
       packages += text.substr(at + 4, text.find(':', at) - at - 4) + "\n";
     write("packages", packages);
-    if (geteuid() == 0) {  // another user reaches the folder
+    if (geteuid() == 0) {  // give other users access to the folder
       fs::permissions(folder_, fs::perms::owner_all | fs::perms::group_all | fs::perms::others_all);
       for (const auto& entry : fs::recursive_directory_iterator(folder_ / "tree"))
         fs::permissions(entry, fs::perms::others_read | fs::perms::others_exec, fs::perm_options::add);
@@ -44,7 +44,7 @@ class Wrapper : public Cli {
   void script(const std::string& name, const std::string& text) const {
     fs::permissions(write(name, "#!/bin/sh\n" + text + "\n"), fs::perms(0755));
   }
-  /// Makes a build that is complete.
+  /// Creates a complete build.
   void build() const {
     fs::create_directories(folder_ / "tree/build/release");
     write("tree/build/release/build.ninja", "");
@@ -56,7 +56,7 @@ class Wrapper : public Cli {
         {"CI=" + ci, "HOME=" + (folder_ / "home").string(), "XDG_CACHE_HOME=", "STUBS=" + folder_.string(),
          "PATH=" + (folder_ / "bin").string() + ":/usr/bin:/bin:/usr/sbin"});
   }
-  /// As a user who may not write to the tree.
+  /// Runs as a user without write permission for the tree.
   ProgramResult start_as_other(std::vector<std::string> words) const {
     const std::vector<std::string> as{"setpriv", "--reuid=65534", "--regid=65534", "--clear-groups"};
     words.insert(words.begin(), as.begin(), as.end());
@@ -106,7 +106,7 @@ TEST_F(Wrapper, LeavesOutTheLabWhereAsked) {
   write("tree/build/release/lab.wasm", "");
   start({in_tree("crosscheck"), "report", "--yes", "--no-lab"});
   EXPECT_NE(log().find(" fonts-dejavu-core\n"), std::string::npos) << log();
-  EXPECT_FALSE(fs::exists(folder_ / "tree/build/release/lab.wasm")) << "with it the page would have a lab";
+  EXPECT_FALSE(fs::exists(folder_ / "tree/build/release/lab.wasm")) << "otherwise the page would contain a lab";
 }
 
 TEST_F(Wrapper, RunsThroughASymbolicLink) {
@@ -122,7 +122,7 @@ TEST_F(Wrapper, RunsThroughASymbolicLink) {
 TEST_F(Wrapper, UsesTheBuildOfATreeThatItMayNotWriteTo) {
   if (geteuid() != 0) GTEST_SKIP() << "this machine runs tests as a user who cannot become another";
   build();
-  write("missing", "");  // nobody but the owner could do anything about them
+  write("missing", "");  // only the owner could install them
   const ProgramResult result = start_as_other({in_tree("crosscheck"), "list", "scenes"});
   EXPECT_EQ(result.status, 0) << result.err;
   EXPECT_EQ(result.out, in_tree("build/release/crosscheck") + " list scenes\n");
@@ -139,7 +139,7 @@ TEST_F(Wrapper, BuildsInTheCacheForATreeThatItMayNotWriteTo) {
   EXPECT_FALSE(fs::exists(folder_ / "tree/build"));
   const ProgramResult second = start_as_other({in_tree("crosscheck"), "list", "scenes"});
   EXPECT_EQ(second.out, first.out);
-  EXPECT_EQ(second.err, "") << "said once";
+  EXPECT_EQ(second.err, "") << "the message must appear only once";
 }
 
 TEST_F(Wrapper, NamesACacheFolderThatCannotBeMade) {
