@@ -193,9 +193,9 @@ TEST(DrapedDisc, IsIsotropicInItsPlane) {
   }
 }
 
-/// Deflection of the rim of a plate clamped at r = a and free at r = b under a load q per area, Poisson's ratio 0: w =
-/// q r^4 / 64 B + A + C ln r + D r^2 + E r^2 ln r with w = w' = 0 at a and w'' = 0, (w'' + w' / r)' = 0 at b (S.
-/// Timoshenko and S. Woinowsky-Krieger, chapter 3).
+/// Deflection of the rim of a plate clamped at r = a and free at r = b under a load q per area, Poisson's ratio 0:
+/// w = q r^4 / 64 B + A + C ln r + D r^2 + E r^2 ln r. Boundary conditions: w = w' = 0 at a; w'' = 0 and
+/// (w'' + w' / r)' = 0 at b (S. Timoshenko and S. Woinowsky-Krieger, chapter 3).
 double rim_of_plate(double a, double b, double q, double rigidity) {
   const double unit = q / (64 * rigidity);
   Eigen::Matrix4d m;

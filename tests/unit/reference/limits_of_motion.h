@@ -80,8 +80,8 @@ struct LinearisedSolution {
 /// Neglected terms start with the square of the amplitude a. A flat cloth that moves out of its plane is symmetric in
 /// up and down. Out of the plane, the deviation over a decreases as a^2. In the plane, where nothing moves to first
 /// order, it decreases as a. Motion in the plane has a relative error of first order in a.
-/// A cloth of 6 x 6 particles, held along its edge of 1 m, stretched by a tenth and released in its first bump,
-/// deviates by 1 % within three periods from an amplitude of 11 mm out of the plane, or 8.8 mm in it.
+/// Example: a cloth of 6 x 6 particles, held along its edge of 1 m, stretched by a tenth and released in its first
+/// bump. It deviates by 1 % within three periods from an amplitude of 11 mm out of the plane, or 8.8 mm in it.
 inline std::optional<LinearisedSolution> linearised_solution(const Scene& scene, const Points& equilibrium) {
   const Model& model = scene.model;
   const Particles& particles = model.particles;
