@@ -257,7 +257,7 @@ TEST(Comparison, NewMethodsAreThoseOfWhichASceneKnowsNothing) {
   for (const char* scene : {"spring", "chain"})
     for (const char* quantity : {"sag", "period"}) add(scene, "mysim/new", quantity, Status::added);
   add("chain", "mysim/new", "energy", Status::not_finite);
-  add("chain", "mysim/rk4", "sag", Status::added);  // known for another method, missing here
+  add("chain", "mysim/rk4", "sag", Status::added);  // known on another scene, new on this one
   const std::vector<NewMethod> all = new_methods(rows);
   ASSERT_EQ(all.size(), 2u);
   EXPECT_EQ(all[0].method, "mysim/new");
