@@ -65,17 +65,11 @@ void drift(const std::vector<EnergyRow>& table, Findings& out) {
     if (first == table.end() || row.scene != first->scene || !share || row.symplectic ||
         (!std::ranges::count(shown, row.method) && family_of(row.method).role != Role::outside))
       continue;
-    const bool damps = row.residual.value_or(0) < 0 && row.equivalent_drag.value_or(0) > 0;
     if (row.verdict != Verdict::ok)
       out.push_back({.rule = "energy-failed",
                      .method = row.method,
                      .value = row.end,
                      .words = {{"where", row.scene}, {"how", failure_class(row.verdict)}}});
-    else if (damps)
-      out.push_back({.rule = "energy-damps",
-                     .method = row.method,
-                     .value = *row.equivalent_drag,
-                     .words = {{"where", row.scene}, {"step", step_text(row.step)}}});
   }
 }
 
@@ -150,20 +144,25 @@ void damping(const std::vector<DampingRow>& table, Findings& out) {
   out.insert(out.end(), all.begin(), all.end());
 }
 
-/// Damping that other engines add as they come, and what those gain that repeat forces of the user in sub-steps.
-void damping_of_engines(const std::vector<MatrixRow<false>>& table, Findings& out) {
+/// Damping that other engines add to an undamped spring, and energy gained where springs are applied as forces.
+void damping_of_engines(std::vector<MatrixRow<false>> table, Findings& out) {
+  std::erase_if(
+      table, [](const MatrixRow<false>& row) { return family_of(row.method).is_subject() || !row.value || !row.bar; });
+  std::ranges::stable_sort(table, std::greater(), [](const MatrixRow<false>& row) { return std::abs(*row.value); });
   const MatrixRow<false>* most = nullptr;
-  std::vector<std::string> none, gains;
+  std::vector<std::string> others, none, gains;
   for (const MatrixRow<false>& row : table) {
-    if (family_of(row.method).role != Role::outside || !row.value || !row.bar) continue;
     const bool zero = std::abs(*row.value) <= *row.bar;
-    if (row.question == EngineQuestion::damping_by_forces && !zero && *row.value < 0)
-      gains.push_back(fmt::format("{} ({:.2g} per second)", name_in_sentence(row.method), -*row.value));
+    const std::string name = name_in_sentence(row.method),
+                      with_rate = fmt::format("{} {:.2g}", name, std::abs(*row.value));
+    if (row.question == EngineQuestion::damping_by_forces && !zero && *row.value < 0) gains.push_back(with_rate);
     if (row.question != EngineQuestion::damping_of_spring) continue;
     if (zero)
-      none.push_back(name_in_sentence(row.method));
-    else if (*row.value > 0 && (!most || *row.value > *most->value))
+      none.push_back(name);
+    else if (*row.value > 0 && !most)
       most = &row;
+    else if (*row.value > 0)
+      others.push_back(with_rate);
   }
   if (most)
     out.push_back({.rule = "engines-damp",
@@ -171,7 +170,8 @@ void damping_of_engines(const std::vector<MatrixRow<false>>& table, Findings& ou
                    .value = *most->value,
                    .low = *most->value - *most->bar,
                    .high = *most->value + *most->bar,
-                   .words = {{"none", fmt::format("{}", fmt::join(none, ", "))},
+                   .words = {{"others", fmt::format("{}", fmt::join(others, ", "))},
+                             {"none", fmt::format("{}", fmt::join(none, ", "))},
                              {"gains", fmt::format("{}", fmt::join(gains, ", "))}}});
 }
 

@@ -222,7 +222,7 @@ const std::vector<Breakage>& breakages() {
        "method = \"leapfrog\"",
        "method = \"leapfrg\"",
        11,
-       {"time.method: expected a method", "'leapfrg'", "did you mean 'leapfrog'?"}},
+       {"time.method: expected an existing method", "'leapfrg'", "did you mean 'leapfrog'?"}},
       // signs and lines
       {"a typographic minus", "[0, -9.8100, 0]", "[0, \u22129.81, 0]", 42, {"typographic minus", "the plain one, -"}},
       {"an invisible blank", "gamma = 2", "gamma =\u00a02", 45, {"invisible character (U+00A0)", "plain space"}},

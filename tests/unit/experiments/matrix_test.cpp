@@ -33,7 +33,7 @@ TEST(Matrix, DampingOfASpringIsThatOfTheory) {
   const double step = 2 * std::numbers::pi / oscillator_omega / 72;
   int compared = 0;
   for (const auto& row :
-       rows_of<MatrixRow<false>>(untimed_rows("explicit-euler,implicit-euler,rk4,symplectic-euler,leapfrog,"
+       rows_of<MatrixRow<false>>(untimed_rows("trapezoidal,implicit-euler,rk4,symplectic-euler,leapfrog,"
                                               "exec:" CROSSCHECK_EXAMPLE))) {
     if (row.question != EngineQuestion::damping_of_spring) continue;
     SCOPED_TRACE(row.method);
@@ -59,9 +59,9 @@ TEST_F(MatrixInFolder, SpringsAsForcesAreAnAnswerOfTheirOwn) {
   for (const auto& row : rows_of<MatrixRow<false>>(untimed_rows("leapfrog,exec:" + program.string()))) {
     if (row.question != EngineQuestion::damping_by_forces) continue;
     EXPECT_EQ(row.method, "exec:" + program.string());
-    // the example engine has no options
-    EXPECT_FALSE(row.value);
-    EXPECT_TRUE(contains(row.words, "springs=forces")) << row.words;
+    // the example engine ignores options: symplectic Euler adds no damping
+    ASSERT_TRUE(row.value && row.bar);
+    EXPECT_LE(std::abs(*row.value), *row.bar);
     ++answers;
   }
   EXPECT_EQ(answers, 1);

@@ -241,7 +241,7 @@ TEST(BendingLength, IsTheCubeRootOfRigidityOverWeight) {
   EXPECT_NEAR(hanging.spacing, q, 1e-12 * q);
   EXPECT_TRUE(contains(sentence_of(hanging), "B = 0.0003 N m"));
   EXPECT_EQ(coarse_grid_warning({1, 0.05, 0.02}), "");
-  EXPECT_TRUE(contains(coarse_grid_warning({1, 0.03, 0.02}), "finer than two spacings of 0.02 m"));
+  EXPECT_TRUE(contains(coarse_grid_warning({1, 0.03, 0.02}), "finer than two grid spacings of 0.02 m"));
   EXPECT_TRUE(std::isinf(found(sheet()).length));
   EXPECT_EQ(sentence_of(found(sheet())), "B = 0.0003 N m, Poisson's ratio 0");
 }

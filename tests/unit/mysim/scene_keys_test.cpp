@@ -120,7 +120,7 @@ TEST(SceneKeys, FaultsNameTheLineTheKeyAndWhatWasExpected) {
       {"dashpot = 0.03", "inextensible = \"shear\"", "bad.toml:17: grid.inextensible: ", "expected \"structural\""},
       {"dashpot = 0.03", "inextensible = true", "bad.toml:17: grid.inextensible: ", "expected \"structural\""},
       {"dashpot = 0.03", "inextensible = \"structural\"",
-       "bad.toml:19: grid.stiffness.structural: ", "expected none beside"},
+       "bad.toml:19: grid.stiffness.structural: ", "expected none with"},
       {"dashpot = 0.25", "dashpot = -1", "bad.toml:31: spring[0].dashpot: ", "expected a number above zero, got -1"},
       {"dashpot = 0.25", "damping = 1", "bad.toml:31: spring[0].damping: ", "unknown key"},
       {"dashpot = 0.25", "family = \"bent\"", "bad.toml:31: spring[0].family: ",

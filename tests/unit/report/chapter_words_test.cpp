@@ -276,8 +276,7 @@ TEST(EnergyFindings, RulesThatAreNotSymplecticFailDampOrAdd) {
   pbd.equivalent_drag = 0.11, mine.residual = 0.4;
   const auto all = energy_findings(rows_of({energy({long_run("mysim/leapfrog", 4e-3, 0.01), euler, pbd, mine})}));
   expect_short(all);
-  EXPECT_EQ(rules_of(all), (std::vector<std::string>{"symplectic-energy", "energy-failed", "energy-damps"}));
-  EXPECT_EQ(all[2].value, 0.11);
+  EXPECT_EQ(rules_of(all), (std::vector<std::string>{"symplectic-energy", "energy-failed"}));
 }
 
 TEST(EnergyFindings, WhatContactTakesIsHeldAgainstTheTruthAndNothingIsSaidBelowItsBar) {
@@ -355,7 +354,8 @@ TEST(EnergyFindings, NameTheEngineThatDampsMostAndThoseThatGainEnergy) {
   EXPECT_NEAR(*f.low, 0.86, 1e-12);
   EXPECT_NEAR(*f.high, 0.88, 1e-12);
   EXPECT_EQ(f.words.at("none"), "ode");
-  EXPECT_EQ(f.words.at("gains"), "one (0.33 per second)");
+  EXPECT_EQ(f.words.at("others"), "one 0.2");
+  EXPECT_EQ(f.words.at("gains"), "one 0.33");
   EXPECT_TRUE(energy_findings(rows_of({table_with(std::vector{rows[0], rows[1]})})).empty());
 }
 

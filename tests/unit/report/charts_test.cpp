@@ -188,7 +188,7 @@ TEST(CheapestChart, NamesWhoIsThereAndWhichTimesAreScaled) {
   EXPECT_FALSE(contains(caption_of(whole), "SUNDIALS")) << "methods without a run are not named";
   EXPECT_FALSE(contains(caption_of(whole), "odeint"));
   part[1].part = 0.1;
-  EXPECT_TRUE(contains(caption_of(part), "1 of 1 quotients"));
+  EXPECT_TRUE(contains(caption_of(part), "1 of 1 ratios"));
 }
 
 TEST(FabricCharts, SayTheDeviationOnTheFinestGridAndItsOrder) {
@@ -205,7 +205,7 @@ TEST(FabricCharts, SayTheDeviationOnTheFinestGridAndItsOrder) {
   const auto charts = fabric_charts({{}, {}, rows, "commit"});
   ASSERT_EQ(charts.size(), 2u);
   for (const Chart& chart : charts) EXPECT_NO_THROW(drawing_of(std::get<Figure>(chart.figure)));
-  EXPECT_TRUE(contains(figure_info(charts[0])->finding, "right to 0.125 %")) << figure_info(charts[0])->finding;
+  EXPECT_TRUE(contains(figure_info(charts[0])->finding, "accurate to 0.125 %")) << figure_info(charts[0])->finding;
   EXPECT_TRUE(contains(figure_info(charts[0])->finding, "power 2.00 to 2.00"));
   EXPECT_TRUE(contains(figure_info(charts[1])->finding, "hangs 8 % to 32 % of its length"));
   EXPECT_TRUE(fabric_charts({{}, {}, {}, "commit"}).empty());
@@ -227,7 +227,7 @@ TEST(FabricCharts, SayTheDrapeAndWhatItDependsOn) {
   const auto charts = fabric_charts({{}, {}, rows, "commit"});
   ASSERT_EQ(charts.size(), 2u);
   for (const Chart& chart : charts) EXPECT_NO_THROW(drawing_of(std::get<Figure>(chart.figure)));
-  EXPECT_TRUE(contains(figure_info(charts[0])->finding, "right to 1 %, and")) << figure_info(charts[0])->finding;
+  EXPECT_TRUE(contains(figure_info(charts[0])->finding, "accurate to 1 %")) << figure_info(charts[0])->finding;
   EXPECT_TRUE(contains(figure_info(charts[0])->finding, "power 2.00 to 2.00"));
   EXPECT_TRUE(says(figure_info(charts[1])->finding, {"5 nodes", "71.5 %", "0.5 points", "8 rings", "71 to 74 %"}))
       << figure_info(charts[1])->finding;

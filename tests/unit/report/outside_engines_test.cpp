@@ -99,7 +99,7 @@ TEST_F(OutsideEngines, JoltNamesThePackageThatItsToolsAreMissingFrom) {
   for (const Row& row :
        {Row{{}, "node is missing; package nodejs is not installed"},
         {{"node"}, "npm is missing; package npm is not installed"},
-        {{"node", "npm"}, "there is no esbuild; package esbuild is not installed"},
+        {{"node", "npm"}, "esbuild is missing; package esbuild is not installed"},
         {{"node", "npm", "esbuild"}, "engine jolt: npm failed; the last lines of its output:\nno registry\n"}}) {
     fs::create_directories(folder_ / "bin");
     for (const std::string& tool : row.tools) script("bin/" + tool, "echo no registry >&2\nexit 1\n");

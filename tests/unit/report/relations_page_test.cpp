@@ -44,7 +44,7 @@ TEST(RelationsOnThePage, SayByHowMuchAndWhy) {
   EXPECT_TRUE(contains(breaks, "one pass goes through the springs in turn"));
   EXPECT_TRUE(contains(breaks, "30\u00a0times the tolerance")) << breaks;
   EXPECT_TRUE(contains(breaks, "since 0.25\u00a0s"));
-  EXPECT_TRUE(contains(breaks, "not known"));
+  EXPECT_TRUE(contains(breaks, "unknown"));
   RelationRow gone = row("exec:./mine", "turned", RelationMark::broken);
   gone.ratio = gone.measured = gone.tolerance = std::nullopt, gone.reason = "it fell over";
   EXPECT_TRUE(contains(relations_html({gone}), "fails at 0.25\u00a0s"));

@@ -123,7 +123,7 @@ TEST(FindingRules, TextsAreFilledInWithTheUnitOfTheirQuantity) {
                                                          {"energy-failed", "after 5 ms ("},               // s
                                                          {"numerical-damping", "within 0.005 %."},        // %
                                                          {"still-touches", "sliding at 5 mm/s."},         // m/s
-                                                         {"energy-damps", "a drag of 0.005 per second"},  // 1/s
+                                                         {"engines-damp", "a drag of 0.005 per second"},  // 1/s
                                                          {"leaving", "off by 0.005 degrees"},
                                                          {"bend-power", "to the power 0.01 ± 0.00;"}};
   for (const auto& [rule, text] : written)
