@@ -11,6 +11,7 @@
 #include "experiments/experiment.h"
 #include "experiments/metrics.h"
 #include "experiments/tables/order.h"
+#include "reference/engines/engines.h"
 
 namespace crosscheck {
 namespace {
@@ -111,7 +112,8 @@ void order_on(const Request& request, const Scene& scene, TableSet& tables) {
       add(slopes, OrderSlopeRow{scene.name, method.name, rule ? std::optional<long>(rule->order) : std::nullopt,
                                 fit->order, fit->from, fit->to});
     } else
-      tables.notes.push_back(fmt::format("order sees no steady slope of {} on {}", method.name, scene.name));
+      tables.notes.push_back(
+          fmt::format("order sees no steady slope of {} on {}", without_folders(method.name), scene.name));
   }
   if (!adaptive.empty())
     tables.notes.push_back(

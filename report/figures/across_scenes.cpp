@@ -55,18 +55,17 @@ std::string words_of_rule(const std::string& words) {
   return words.substr(0, begin) + (builtin_method(method) ? rule_name(method) : rule) + words.substr(end);
 }
 
-/// "-2.0e-4 ± 1e-6 /s", "0 ± 1e-6 /s", or the words if there is no number.
+/// "-2.0e-4 ± 1e-6", "0 ± 1e-6", or the words if there is no number.
 template <class Row>
 std::string cell_of(const Row& row) {
   const auto with_unit = [&](double value) { return row.unit == "s" ? step_text(value) : nice(value); };
-  const std::string per_second = row.unit == "1/s" ? " /s" : "";
   if (row.question == EngineQuestion::rule)
     return words_of_rule(row.words) + (row.value ? fmt::format(" ({})", nice(*row.value)) : "");
   if (!row.value || row.question == EngineQuestion::invariants || row.question == EngineQuestion::friction)
     return row.words;
   if (!row.bar) return with_unit(*row.value);
   const bool zero = std::abs(*row.value) <= *row.bar;
-  return fmt::format("{} ± {}{}", zero ? "0" : with_unit(*row.value), with_unit(*row.bar), per_second);
+  return fmt::format("{} ± {}", zero ? "0" : with_unit(*row.value), with_unit(*row.bar));
 }
 
 }  // namespace
@@ -108,11 +107,12 @@ std::vector<Chart> same_rule_charts(const ChartInput& input) {
       const MethodData* m = scene.find(method);
       if (!m || !m->ok() || !m->same_rule.value_or(false) || !m->difference || !(*m->difference > 0)) continue;
       const std::string name = scene.touched() ? scene.scene + " (contact)" : scene.scene;
-      if (std::ranges::find(f.names, name) == f.names.end()) f.names.push_back(name);
+      const auto at = static_cast<size_t>(std::ranges::find(f.names, name) - f.names.begin());
+      if (at == f.names.size()) f.names.push_back(name);
       const auto dot = [](double value) { return DotPlot::Dot{value, value, value}; };
       difference.dots.resize(f.names.size()), bound.dots.resize(f.names.size());
-      difference.dots.back() = dot(*m->difference);
-      if (m->round_off_bound && !scene.touched()) bound.dots.back() = dot(*m->round_off_bound);
+      difference.dots[at] = dot(*m->difference);
+      if (m->round_off_bound && !scene.touched()) bound.dots[at] = dot(*m->round_off_bound);
       shown.push_back(m);
     }
     if (!difference.dots.empty()) f.series.push_back(std::move(difference));

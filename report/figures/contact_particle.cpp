@@ -8,6 +8,7 @@
 #include <numbers>
 
 #include "experiments/tables/contact.h"
+#include "reference/engines/engines.h"
 #include "report/figures/chapter_parts.h"
 #include "report/figures/plot_layout.h"
 #include "report/findings/findings_text.h"
@@ -24,7 +25,7 @@ struct ConeAnswers {
   ConeAnswers(const std::vector<ConeRow>& rows, const std::string& method, double step) {
     for (const ConeRow& row : rows | with(&ConeRow::method, method)) {
       if (row.step != step) continue;
-      ++all;
+      all += row.verdict != Verdict::unsupported;
       if (row.verdict != Verdict::ok) {
         failed = row.verdict == Verdict::unsupported ? row.reason : failure_class(row.verdict);
         continue;
@@ -59,13 +60,13 @@ Chart cone_law(const std::vector<ConeRow>& rows, const std::vector<ConeRow>& pla
     if (ball.stuck) wrong += fmt::format("{}sticks where it should slide in {}", wrong.empty() ? "" : ", ", ball.stuck);
     if (!ball.failed.empty()) wrong += (wrong.empty() ? "" : "; ") + ball.failed;
     std::vector<std::string>& texts = page.rows.emplace_back();
-    texts = {method, std::to_string(ball.right), std::to_string(ball.all), wrong};
-    if (!planes.empty()) texts.insert(texts.begin() + 3, std::to_string(flat.right));
+    texts = {without_folders(method), ball.all > 0 ? std::to_string(ball.right) : "", std::to_string(ball.all), wrong};
+    if (!planes.empty()) texts.insert(texts.begin() + 3, flat.all > 0 ? std::to_string(flat.right) : "");
     if (ball.points.empty()) continue;
     const bool errs = ball.right < ball.all || flat.right < flat.all;
     if (errs)
       differing.push_back(fmt::format("{} (right in {}{})", name_in_sentence(method), ball.count(),
-                                      planes.empty() ? "" : fmt::format(" on balls, {} on planes", flat.right)));
+                                      flat.all == 0 ? "" : fmt::format(" on balls, {} on planes", flat.right)));
     if (errs || std::ranges::find(always, method) != always.end())
       f.curves.push_back({method, style_of(method), ball.points, false, true});
     if (flat.right < flat.all && method != sticky_sphere && !flat.points.empty()) {

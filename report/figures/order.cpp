@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "experiments/tables/order.h"
+#include "reference/engines/engines.h"
 #include "report/figures/charts.h"
 #include "report/findings/findings_text.h"
 
@@ -49,7 +50,8 @@ std::string slopes_sentence(const std::vector<OrderSlopeRow>& slopes) {
     const double apart = std::abs(row.measured_order - static_cast<double>(*row.declared_order));
     ++seen;
     if (apart > close)
-      other.push_back(fmt::format("{} ({:.2f} instead of {})", row.method, row.measured_order, *row.declared_order));
+      other.push_back(fmt::format("{} ({:.2f} instead of {})", without_folders(row.method), row.measured_order,
+                                  *row.declared_order));
     else
       off = std::max(off, apart);
   }

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "experiments/tables/engines.h"
+#include "reference/engines/engines.h"
 #include "report/figures/charts.h"
 #include "report/findings/findings_text.h"
 
@@ -190,7 +191,7 @@ Figure contact_figure(const Scene& scene, const SceneData& facts, const Table& t
     // the sticky sphere stops all particles in contact, which would dwarf the losses of other methods
     if (!m.ok() || m.method.ends_with("+sticky")) {
       left_out.push_back(m.ok() ? m.method + " (it stops all that touches)"
-                                : fmt::format("{} ({} at {:.3g} s)", m.method, m.failure(), m.end));
+                                : fmt::format("{} ({} at {:.3g} s)", without_folders(m.method), m.failure(), m.end));
       continue;
     }
     const bool inferred = !family_of(m.method).is_subject();
@@ -199,7 +200,7 @@ Figure contact_figure(const Scene& scene, const SceneData& facts, const Table& t
     if (curve.points.empty()) continue;
     if (inferred) guessed.push_back(m.method);
     if (const double given = largest_fall(curve.points); given > 0.01 * curve.points.back().second)
-      gave.push_back(fmt::format("{} ({} J)", m.method, nice(given)));
+      gave.push_back(fmt::format("{} ({} J)", without_folders(m.method), nice(given)));
     f.curves.push_back(std::move(curve));
   }
   f.finding = "Energy taken by friction and impacts, minus energy supplied by moving balls; bodies at rest take none.";

@@ -9,6 +9,7 @@
 
 #include "experiments/tables/speed_accuracy.h"
 #include "experiments/tables/stability.h"
+#include "reference/engines/engines.h"
 #include "report/figures/charts.h"
 #include "report/findings/answers.h"
 #include "report/findings/findings_text.h"
@@ -87,7 +88,7 @@ Tooltip tooltip(const SceneRuns& s, const Row& run, const std::string& outcome) 
                            !time              ? "evaluations"
                            : s.is_scaled(run) ? "of CPU (scaled from a part of the run)"
                                               : "of CPU");
-  return {fmt::format("{}, {}{}\n{}\n{}", run.method, run.setting == SettingKind::step ? "step " : "",
+  return {fmt::format("{}, {}{}\n{}\n{}", without_folders(run.method), run.setting == SettingKind::step ? "step " : "",
                       setting_text(std::string(name_of(run.setting)), run.requested), outcome, costs),
           name_of_run(s, run)};
 }

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <set>
 
+#include "reference/engines/engines.h"
 #include "report/figures/chapter_parts.h"
 #include "report/findings/findings_text.h"
 #include "report/findings/summaries.h"
@@ -57,7 +58,7 @@ class RowsAgainstTheory {
       worst_near_ = std::max(worst_near_, off);
     if (off <= worst_) return;
     worst_ = off;
-    which_ = fmt::format("{} at a {} of {}, which {}, by theory up to {}", row.method,
+    which_ = fmt::format("{} at a {} of {}, which {}, by theory up to {}", without_folders(row.method),
                          row.map == "drag" ? "drag rate" : "stiffness factor", nice(row.value),
                          held == 0 ? "fails at every step" : "holds up to " + step_text(held), step_text(predicted));
   }
@@ -117,7 +118,7 @@ Chart map_chart(const std::vector<MapRow>& cells, const std::vector<MapLimitRow>
         {row.step,
          row.value,
          kind_of(row.verdict),
-         {fmt::format("{}, step {}, {}\n{}", row.method, step_text(row.step),
+         {fmt::format("{}, step {}, {}\n{}", without_folders(row.method), step_text(row.step),
                       drag ? fmt::format("drag {} 1/s", nice(row.value)) : "stiffness × " + nice(row.value), outcome),
           fmt::format("{} {}", row.method, own.cells.size())}});
     if (row.verdict == Verdict::ok) steps.insert(std::lround(*row.end / row.step));
@@ -132,7 +133,8 @@ Chart map_chart(const std::vector<MapRow>& cells, const std::vector<MapLimitRow>
   map.finding = rows.sentence();
   std::vector<std::string> whole;
   for (const HeatMap::Panel& p : map.panels)
-    if (std::ranges::all_of(p.cells, [](const auto& cell) { return cell.kind == 0; })) whole.push_back(p.title);
+    if (std::ranges::all_of(p.cells, [](const auto& cell) { return cell.kind == 0; }))
+      whole.push_back(without_folders(p.title));
   if (!whole.empty()) map.finding += fmt::format(" No run of {} fails.", joined(whole));
   return described(drag ? "{scene}-drag-map" : "{scene}-stiffness-map", std::move(map), "scene"_a = first.scene,
                    "steps"_a = steps_of(steps), "commit"_a = commit);

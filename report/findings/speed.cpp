@@ -5,6 +5,7 @@
 
 #include "experiments/speed_accuracy/work_precision.h"
 #include "experiments/tables/cost.h"
+#include "reference/engines/engines.h"
 #include "report/findings/findings.h"
 #include "report/findings/findings_text.h"
 
@@ -63,6 +64,8 @@ Findings speed_findings(const Facts& facts) {
   for (const auto& [engine, span] : times) {
     Finding f = finding_of("engine-times", span);
     f.method = engine, f.other = std::string(subject().name);
+    const auto kept = kept_engine_of(engine);
+    f.words["built"] = kept && !kept->is_native() ? kept->built : "";
     out.push_back(std::move(f));
   }
   for (const auto& [engine, scenes] : without)

@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "experiments/speed_accuracy/work_precision.h"
+#include "reference/engines/engines.h"
 #include "report/figures/plot_layout.h"
 #include "report/findings/findings_text.h"
 #include "report/page/page_parts.h"
@@ -59,7 +60,7 @@ Json view_data(const ScenePart& part) {
   std::string difference;
   for (const ShownRun& run : part.runs)
     if (run.beside) {
-      keys.push_back(run.key), names.push_back(run.method);
+      keys.push_back(run.key), names.push_back(without_folders(run.method));
       if (difference.empty()) difference = run.difference;
     }
   if (!part.facts->tier.empty() || part.facts->contact_until) keys.push_back("truth"), names.emplace_back("truth");

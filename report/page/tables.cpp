@@ -6,6 +6,7 @@
 #include <cmath>
 #include <map>
 
+#include "reference/engines/engines.h"
 #include "report/findings/findings_text.h"
 #include "report/page/page_parts.h"
 
@@ -141,7 +142,7 @@ Json certificate_data(const Certificate& certificate) {
                                                                                     : "none"));
     add_row(all, "", cell(r.quantity), std::move(row));
   }
-  return {{"method", certificate.method},
+  return {{"method", without_folders(certificate.method)},
           {"summary", summary_of(certificate)},
           {"mismatch", certificate.mismatch()},
           {"table", std::move(all)}};
