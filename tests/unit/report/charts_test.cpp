@@ -16,6 +16,7 @@
 #include "report/figures/charts.h"
 #include "report/figures/figure.h"
 #include "report/findings/findings.h"
+#include "report/findings/findings_text.h"
 #include "tests/unit/helpers.h"
 #include "tests/unit/reference/helpers.h"
 
@@ -127,6 +128,30 @@ std::vector<Chart> charts_of(const Table& t) {
   const std::vector<Scene> scenes;
   const std::vector<SceneData> facts;
   return cheapest_charts({scenes, facts, rows, "commit"});
+}
+
+TEST(SameRuleChart, PutsEachEnginesDotsOnTheirScenes) {
+  const auto of = [](const std::string& method, double difference) {
+    MethodData m;
+    m.method = method, m.verdict = Verdict::ok, m.same_rule = true, m.difference = difference;
+    return m;
+  };
+  std::vector<SceneData> facts(3);
+  facts[0].scene = "chain", facts[0].methods = {of(theirs, 1e-15), of("exec:./mine", 2e-15)};
+  facts[1].scene = "cloth", facts[1].methods = {of(theirs, 3e-15)};
+  facts[2].scene = "rope", facts[2].methods = {of("exec:./mine", 4e-15)};
+  const TableSet none;
+  const std::vector<Chart> charts = same_rule_charts({{}, facts, none, "commit"});
+  ASSERT_EQ(charts.size(), 1u);
+  const auto& plot = std::get<DotPlot>(charts[0].figure);
+  EXPECT_EQ(plot.names, (std::vector<std::string>{"chain", "cloth", "rope"}));
+  for (const auto& [method, expected] :
+       {std::pair{theirs, std::array{1e-15, 3e-15, 0.}}, {std::string("exec:./mine"), std::array{2e-15, 0., 4e-15}}}) {
+    const auto series = std::ranges::find(plot.series, method, &DotPlot::Series::title);
+    ASSERT_NE(series, plot.series.end()) << method;
+    ASSERT_EQ(series->dots.size(), 3u);
+    for (size_t i = 0; i < 3; ++i) EXPECT_EQ(series->dots[i] ? series->dots[i]->value : 0, expected[i]) << method << i;
+  }
 }
 
 bool same(const MethodStyle& a, const MethodStyle& b) {
