@@ -653,7 +653,8 @@ export async function openLab({method, step, tolerance, experiment, ...state}: L
   if (!lab) {
     lab = document.createElement('live-lab') as LiveLab;
     lab.dataset.scene = state.scene;
-    const dialog: HTMLDialogElement = make('dialog', {class: 'run lab-window', 'aria-label': say('labTitle')}, lab);
+    const dialog: HTMLDialogElement =
+        make('dialog', {class: 'run lab-window', lang: labLanguage, 'aria-label': say('labTitle')}, lab);
     document.body.append(dialog);
     dialog.addEventListener('close', () => dialog.remove());
     dialog.showModal();

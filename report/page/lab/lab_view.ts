@@ -10,7 +10,7 @@ import {LabState} from './lab_link';
 import {LivePlots} from './live_plots';
 import {LiveRun} from './live_run';
 import {Changes, MethodSpec} from './scene_text';
-import {labLanguage, say, setLabLanguage} from './words';
+import {labLanguage, labWords, say, setLabLanguage} from './words';
 
 export const titleHeight = 26;  // CSS pixels, for overlaid methods
 
@@ -138,8 +138,8 @@ export class LabView {
     this.sceneChoice.addEventListener('change', () => act.scene(this.sceneChoice.value));
     this.changed = make('span', {class: 'changed'}, say('changed'), button('original', () => act.original()));
     const other = labLanguage === 'zh' ? 'en' : 'zh';
-    const language =
-        labButton('language', other === 'en' ? 'English' : '中文', () => setLabLanguage(other), say('language'));
+    const label = labWords[other].language;
+    const language = labButton('language', other === 'en' ? 'English' : '中文', () => setLabLanguage(other), label);
     language.lang = other;
     this.close = labButton('close', '✕', () => act.close());
     this.question = make('p', {class: 'question'});

@@ -3,7 +3,7 @@
 
 import {labStateOf, labStateOfRun} from '../lab/doors';
 import {openLab} from '../lab/lab';
-import {say} from '../lab/words';
+import {labLanguage, say} from '../lab/words';
 
 import {dropdown, make, short} from './controls';
 import {cellOf, parts, runsOf} from './motion';
@@ -43,7 +43,7 @@ async function playRun(key: string, marker: HTMLElement) {
   }
   const state = labStateOf(key, marker);
   if (state) {
-    const door = make('button', {type: 'button', class: 'to-lab'}, say('openInLab'));
+    const door = make('button', {type: 'button', class: 'to-lab', lang: labLanguage}, say('openInLab'));
     door.addEventListener('click', () => (shut(), openLab(state)));
     box.append(make('p', {class: 'door'}, door));
   }
