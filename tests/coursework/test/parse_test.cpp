@@ -236,7 +236,7 @@ TEST(Words, SayWhatWasExpectedWhatCameAndWhere) {
     return words(common_texts(language), own, what, answer, judge(what, answer));
   };
   EXPECT_EQ(say({How::answered, {1, 2, 3, 5}}, "en"), "First difference at step 1, x[1]: expected 4, got 5.");
-  EXPECT_EQ(say({How::answered, {1, 2, 3, 5}}, "zh"), "第一处不同在step 1 的 x[1]：应为 4，实得 5。");
+  EXPECT_EQ(say({How::answered, {1, 2, 3, 5}}, "zh"), "第一处不同：step 1 的 x[1] 应为 4，实得 5。");
   const Texts named = Texts::parse("[row.step]\nstep\n\n[row.step.first]\n1\n\n[column.state]\n(x, y)\n", "named");
   const Answer wrong{How::answered, {1, 2, 3, 5}};
   EXPECT_EQ(words(common_texts(), named, what, wrong, judge(what, wrong)),
