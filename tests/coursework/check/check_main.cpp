@@ -163,6 +163,7 @@ int check(const std::string& language, const std::vector<std::string>& which) {
   if (!in) throw std::runtime_error(file + ": cannot be read");
   const PublicTests all = read_cases(in);
   const Words words = Words::read(folder, language);
+  const std::string title = words.own.has("title") ? words.own.of("title") : all.title;
 
   const std::string crash =
       "\n" +
@@ -193,7 +194,8 @@ int check(const std::string& language, const std::vector<std::string>& which) {
     // after the verdict: what moves it may be another part of the student's, and that may crash
     shown.back().plots.push_back(motion(test.id, words));
     total = words.common.fill("total", std::to_string(earned), std::to_string(points));
-    std::ofstream(mine) << page(all.title, total, shown, words.common.of("passed"), words.common.of("failed"));
+    std::ofstream(mine) << page(words.common.of("page.lang"), title, total, shown, words.common.of("passed"),
+                                words.common.of("failed"));
   }
   if (shown.empty()) throw std::runtime_error("no public test has such a number or part");
   const std::string hidden = std::to_string(all.hidden);

@@ -7,10 +7,11 @@
 
 namespace coursework {
 
-std::string page(const std::string& title, const std::string& total, const std::vector<ShownTest>& tests,
-                 const std::string& passed, const std::string& failed) {
+std::string page(const std::string& language, const std::string& title, const std::string& total,
+                 const std::vector<ShownTest>& tests, const std::string& passed, const std::string& failed) {
   std::string out =
-      "<!doctype html>\n<html><head><meta charset=\"utf-8\"><title>" + escaped(title) +
+      "<!doctype html>\n<html lang=\"" + escaped(language) + "\"><head><meta charset=\"utf-8\"><title>" +
+      escaped(title) +
       "</title>\n<style>body{font:16px/1.5 sans-serif;max-width:50em;margin:2em auto;padding:0 1em}"
       "section{border-left:6px solid #c33;margin:1em 0;padding:0 1em}section.passed{border-color:#393}"
       "p{margin:.3em 0}pre{overflow-x:auto}b{font-weight:600}svg{margin-right:1em}</style></head><body>\n<h1>" +

@@ -14,9 +14,9 @@ struct ShownTest {
   std::vector<std::string> plots;  // SVG
 };
 
-/// The whole page; `total` is a line below the title.
-std::string page(const std::string& title, const std::string& total, const std::vector<ShownTest>& tests,
-                 const std::string& passed, const std::string& failed);
+/// The whole page; `language` is its lang attribute, `total` a line below the title.
+std::string page(const std::string& language, const std::string& title, const std::string& total,
+                 const std::vector<ShownTest>& tests, const std::string& passed, const std::string& failed);
 
 /// A paragraph for each line; lines of a table together as they stand.
 std::string paragraphs(const std::vector<std::string>& lines);

@@ -284,10 +284,10 @@ std::string class_page(const Assignment& assignment, const std::vector<GradedSub
       escaped(common.fill("class.title", std::string(assignment.title), std::to_string(all.size()),
                           std::to_string(graded), std::to_string(all.size() - graded)));
   std::string page = fmt::format(
-      "<!DOCTYPE html>\n<html><head><meta charset=\"utf-8\"><title>{0}</title><style>body{{font:16px/1.5 "
+      "<!DOCTYPE html>\n<html lang=\"{1}\"><head><meta charset=\"utf-8\"><title>{0}</title><style>body{{font:16px/1.5 "
       "system-ui,sans-serif;max-width:60rem;margin:2rem auto;padding:0 1rem}}td,th{{text-align:left;padding:.2rem "
       ".8rem;vertical-align:top;border-bottom:1px solid #ddd}}</style></head><body>\n<h1>{0}</h1>\n",
-      title);
+      title, escaped(common.of("page.lang")));
   page += "<table>\n" + head(common.of("class.tests"));
   for (const TestCount& test : counts_of(all))
     page += row({escaped(test.id + " " + test.title), std::to_string(test.passed), std::to_string(test.failed),

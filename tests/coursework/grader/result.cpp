@@ -238,11 +238,13 @@ std::string page_of(const Result& result, const Texts& common, const Texts& own,
   const std::string title =
       escaped(common.fill("page.title", own.has("title") ? own.of("title") : result.assignment, result.submission));
   std::string page = fmt::format(
-      "<!DOCTYPE html>\n<html><head><meta charset=\"utf-8\"><meta name=\"viewport\" content=\"width=device-width\">"
+      "<!DOCTYPE html>\n<html lang=\"{4}\"><head><meta charset=\"utf-8\"><meta name=\"viewport\" "
+      "content=\"width=device-width\">"
       "<title>{0}</title>\n{1}</head><body>\n<h1>{0}</h1>\n<p class=\"total\">{2}</p>\n<p>{3}</p>\n",
       title, style, escaped(total_of(result, common)),
       escaped(common.fill("page.sandbox", result.secret ? common.of("page.secret") : std::to_string(result.seed),
-                          result.sandbox)));
+                          result.sandbox)),
+      escaped(common.of("page.lang")));
   if (!result.complete) page += "<p class=\"remark\">" + escaped(common.of("page.not_done")) + "</p>\n";
   for (const std::string& line : result.preflight) page += "<p class=\"remark\">" + escaped(line) + "</p>\n";
   for (const std::string& line : causes_of(result, common)) page += "<p class=\"cause\">" + escaped(line) + "</p>\n";

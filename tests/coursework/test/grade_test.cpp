@@ -324,6 +324,7 @@ TEST(Class, IsGradedResumedAndPutIntoATable) {
   EXPECT_EQ(class_page(tiny(), with_cause, options.common).find("Likely cause"), std::string::npos);
   EXPECT_NE(class_page(tiny(), with_cause, options.common).find("<td>behaves like another</td>"), std::string::npos);
   EXPECT_NE(page.find("4 submissions, 2 graded, 2 not graded"), std::string::npos) << page;
+  EXPECT_NE(page.find("<html lang=\"en\">"), std::string::npos) << page;
   EXPECT_NE(page.find("The archive cannot be read"), std::string::npos) << page;
   EXPECT_NE(page.find("<tr><td>2.1 Sums of the first numbers</td><td>1</td><td>1</td><td>0</td><td></td></tr>"),
             std::string::npos)
@@ -371,6 +372,7 @@ TEST(Page, CarriesWordsAndPlotsAndNothingOfTheStudentsUnescaped) {
   result.tests[0].said += "\x1b[2J";  // a forged answer may bring it
   const std::string page = page_of(result, options.common, options.own), text = text_of(result, options.common);
   EXPECT_EQ(page.find("<script>"), std::string::npos);
+  EXPECT_NE(page.find("<html lang=\"en\">"), std::string::npos);
   EXPECT_NE(page.find("&lt;script&gt;"), std::string::npos);
   EXPECT_NE(page.find("<svg"), std::string::npos);
   EXPECT_EQ(page.find("http://") == std::string::npos,

@@ -425,7 +425,9 @@ TEST(Plot, DrawsBothCurvesAndSurvivesAnything) {
 }
 
 TEST(CheckPage, MarksStandBesideColours) {
-  const std::string text = page("t", "", {{"p", "1.1", true, "", {}}, {"p", "1.2", false, "wrong", {}}}, "yes", "no");
+  const std::string text =
+      page("zh", "t", "", {{"p", "1.1", true, "", {}}, {"p", "1.2", false, "wrong", {}}}, "yes", "no");
+  EXPECT_NE(text.find("<html lang=\"zh\">"), std::string::npos) << text;
   EXPECT_NE(text.find("<h3>&#10003; 1.1: yes"), std::string::npos) << text;
   EXPECT_NE(text.find("<h3>&#10007; 1.2: no"), std::string::npos) << text;
 }
