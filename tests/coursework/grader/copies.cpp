@@ -16,10 +16,10 @@ namespace {
 
 constexpr const char* leading[] = {"copy of ", "backup of ", "old_", "old ", "bak_"};
 /// With the separator before them, so that "threshold" stays what it is.
-constexpr const char* trailing[] = {" - copy",   " - kopie", " - 副本", "- copy", "-copy", "_copy",     " copy",
-                                    "_old",      "-old",     ".old",    " old",   ".orig", "_orig",     "-orig",
-                                    "_original", "_bak",     ".bak",    "-bak",   "~",     "_backup",   "-backup",
-                                    ".backup",   " backup",  ".save",   "_prev",  "-prev", "_previous", "副本"};
+constexpr const char* trailing[] = {
+    " - copy", " - kopie", " - 副本", "- copy", "-copy",     "_copy", " copy",     "_old",  "-old",   ".old",
+    " old",    ".orig",    "_orig",   "-orig",  "_original", "_bak",  ".bak",      "-bak",  "~",      "_backup",
+    "-backup", ".backup",  " backup", ".save",  "_prev",     "-prev", "_previous", " 副本", "的副本", "副本"};
 const std::set<std::string> backup_folders = {"old",      "backup", "backups", "bak",        "archive", "archived",
                                               "previous", "prev",   "trash",   "deprecated", "unused",  "copy"};
 /// Libraries that some bring along, by how the folder's name begins; vecmath is not among them, it is theirs to change.
@@ -33,7 +33,7 @@ bool ends(const std::string& text, const std::string& with) {
   return text.size() > with.size() && text.ends_with(with);
 }
 
-/// Cuts " (2)" and "(2)" off, and a number behind " copy"; false where there is none.
+/// Cuts " (2)" and "(2)" off, and a number behind " copy" and " 副本"; false where there is none.
 bool cut_number(std::string& stem) {
   std::size_t at = stem.size();
   const bool bracket = at > 0 && stem[at - 1] == ')';
@@ -41,7 +41,8 @@ bool cut_number(std::string& stem) {
   const std::size_t behind = at;
   while (at > 0 && std::isdigit(static_cast<unsigned char>(stem[at - 1]))) --at;
   if (at == behind || at == 0) return false;
-  if (bracket ? stem[at - 1] != '(' : !ends(lower(stem.substr(0, at)), " copy ")) return false;
+  const std::string before = lower(stem.substr(0, at));
+  if (bracket ? stem[at - 1] != '(' : !ends(before, " copy ") && !ends(before, " 副本 ")) return false;
   at -= 1;
   while (at > 0 && stem[at - 1] == ' ') --at;
   if (at == 0) return false;
