@@ -18,14 +18,4 @@ PublicTests public_tests(const Assignment& assignment);
 /// written, or the assignment lacks a file.
 void write_handout(const Assignment& assignment, const std::filesystem::path& folder);
 
-// The build file and the README of a hand-out.
-
-/// CMakeLists.txt for an assignment of one file per part. A whole program brings its own in its starter.
-std::string cmake_lists(const Assignment& assignment);
-
-/// README.md for an assignment of one file per part.
-std::string readme(const Assignment& assignment, const PublicTests& tests);
-/// README.md for a whole program.
-std::string readme_of_whole(const Assignment& assignment, const PublicTests& tests);
-
 }  // namespace coursework

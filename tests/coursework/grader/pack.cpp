@@ -152,46 +152,7 @@ namespace {
 
 using Files = std::map<std::string, std::string>;
 
-// Runs once, as root, when the lecturer uploads the zip; the image is kept.
-constexpr const char* setup = R"sh(#!/bin/sh
-# Ubuntu 22.04 or later. All other libraries of the grader consist of headers, which are in headers/.
-set -e
-export DEBIAN_FRONTEND=noninteractive
-apt-get update
-apt-get install -y --no-install-recommends g++ libarchive-dev libseccomp-dev zlib1g-dev
-sh /autograder/source/build.sh
-)sh";
-
 constexpr const char* secret_file = "secret.txt";
-
-constexpr const char* build = R"sh(#!/bin/sh
-# Builds the grader, and grades the starter and the solution once: what their gradings compile stays in the cache.
-set -e
-cd "$(dirname "$0")"
-mkdir -p objects cache
-export FLAGS="-std=c++20 -O1 -w -ffp-contract=off -fno-math-errno -DFMT_HEADER_ONLY -I. -isystem headers"
-xargs -P "$(nproc)" -I SOURCE sh -c '
-  object=objects/$(echo SOURCE | tr / _).o
-  test -e "$object" || g++ $FLAGS -c SOURCE -o "$object"' < sources.txt
-# as an archive: what nobody calls stays out, and with it what it would need
-ar rc objects/all.a objects/*.o
-g++ objects/tests_coursework_grader_main.cpp.o objects/all.a -larchive -lseccomp -lz -lpthread -o crosscheck-grade
-rm -r objects
-chmod 0700 .
-export CROSSCHECK_CACHE="$PWD/cache" CROSSCHECK_COURSEWORK="$PWD/tests/coursework"
-for folder in starter solution; do
-  ./crosscheck-grade grade {0} "$CROSSCHECK_COURSEWORK/{0}/$folder" --seed 1 --no-sandbox --lane bare | tail -n 1
-done
-)sh";
-
-constexpr const char* run = R"sh(#!/bin/sh
-# Gradescope starts this for every submission.
-root=${AUTOGRADER_ROOT:-/autograder}
-chmod 0700 "$root/source" "$root/results"
-export CROSSCHECK_CACHE="$root/source/cache" CROSSCHECK_COURSEWORK="$root/source/tests/coursework"
-exec "$root/source/crosscheck-grade" grade {0} "$root/submission" --secret "$root/source/secret.txt" \
-  --format gradescope --out "$root/results/results.json"
-)sh";
 
 std::string filled(std::string script, std::string_view name) {
   for (size_t at; (at = script.find("{0}")) != std::string::npos;) script.replace(at, 3, name);
@@ -272,9 +233,12 @@ Files files_of_package(const Assignment& assignment) {
   add_folder(files, assignment.folder(), ours);
   add_headers(files);
   files["sources.txt"] = sources;
-  files["setup.sh"] = setup;
-  files["build.sh"] = filled(build, name);
-  files["run_autograder"] = filled(run, name);
+  const auto script = [&](const char* file) {
+    return filled(content_of_file(coursework / "grader/package" / file), name);
+  };
+  files["setup.sh"] = script("setup");
+  files["build.sh"] = script("build");
+  files["run_autograder"] = script("run_autograder");
   return files;
 }
 
