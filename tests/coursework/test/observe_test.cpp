@@ -10,7 +10,6 @@
 #include "mysim/base/files.h"
 #include "tests/coursework/check/seen.h"
 #include "tests/coursework/check/words.h"
-#include "tests/coursework/grader/age.h"
 #include "tests/coursework/grader/fit.h"
 #include "tests/coursework/grader/observe.h"
 #include "tests/coursework/test/helpers.h"
@@ -302,16 +301,6 @@ TEST(Look, ReadsTheEquationOfAnImplicitStep) {
       equation(1, 0),
       "Read off your steps: the velocity is right along a line, and the new position is x + h v; right is x + h v "
       "+ h dv.");
-}
-
-TEST(Age, AGraderIsOlderThanWhatChangedAfterIt) {
-  const crosscheck::TemporaryFolder scratch("age");
-  const auto program = scratch.path / "grader";
-  crosscheck::write_file(program, "");
-  EXPECT_EQ(newer_than(program, tiny()), "");
-  std::filesystem::last_write_time(program, std::filesystem::file_time_type::min() + std::chrono::hours(1));
-  EXPECT_NE(newer_than(program, tiny()), "");
-  EXPECT_EQ(newer_than(scratch.path / "nothing", tiny()), "");
 }
 
 }  // namespace
