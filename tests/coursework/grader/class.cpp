@@ -3,11 +3,14 @@
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
+#include <fnmatch.h>
 
 #include <algorithm>
 #include <chrono>
+#include <functional>
 #include <map>
 #include <mutex>
+#include <optional>
 #include <set>
 
 #include "mysim/base/csv.h"
@@ -18,28 +21,30 @@
 #include "mysim/base/text.h"
 #include "tests/coursework/check/plot.h"
 #include "tests/coursework/grader/build.h"
+#include "tests/coursework/grader/formats.h"
 #include "tests/coursework/grader/parallel.h"
 
 namespace coursework {
 namespace fs = std::filesystem;
 namespace {
 
-/// What results depend on beside the submission: this program, the assignment, the sandbox, the seed and the language.
-std::string surroundings_of(const Assignment& assignment, const Sandbox& sandbox, const GradeOptions& options) {
+/// The fingerprint of this program and the assignment.
+std::string fingerprint_of(const Assignment& assignment) {
   std::vector<fs::path> files = {fs::read_symlink("/proc/self/exe")};
   for (const fs::path& folder : {assignment.folder(), folder_of_coursework() / "check"})
     for (const auto& entry : fs::recursive_directory_iterator(folder))
       if (entry.is_regular_file()) files.push_back(entry.path());
   std::sort(files.begin() + 1, files.end());
-  std::string all =
-      fmt::format("{} {} {} {}\n", options.seed, options.secret, options.common.of("total"), sandbox.name());
+  std::string all;
   for (const fs::path& file : files)
     all += fmt::format("{} {:016x}\n", file.filename().string(), crosscheck::Fnv1a::of(content_of_file(file)));
-  return all;
+  return fmt::format("{:016x}", crosscheck::Fnv1a::of(all));
 }
 
-std::string fingerprint_of(const Submission& submission, const std::string& surroundings) {
-  std::string all = surroundings;
+/// The fingerprint of a submission, the seed, the language and the sandbox.
+std::string fingerprint_of(const Submission& submission, const Sandbox& sandbox, const GradeOptions& options) {
+  std::string all =
+      fmt::format("{} {} {} {}\n", options.seed, options.secret, options.common.of("total"), sandbox.name());
   for (const auto& [name, content] : submission.files) all += fmt::format("{} {}\n{}", name, content.size(), content);
   for (const auto& [name, why] : submission.missing) all += fmt::format("{} {}\n", name, why.key);
   for (const Remark& remark : submission.remarks)
@@ -48,51 +53,41 @@ std::string fingerprint_of(const Submission& submission, const std::string& surr
   return fmt::format("{:016x}", crosscheck::Fnv1a::of(all));
 }
 
-/// True when the file holds the whole result of the same grading.
-bool finished(const fs::path& file, const std::string& assignment, const std::string& fingerprint, Result& result) {
-  if (!fs::exists(file)) return false;
+/// The whole result of an earlier grading, whose fingerprint ends so.
+std::optional<Result> earlier_result(const fs::path& file, const Assignment& assignment, const std::string& ending,
+                                     std::string& fingerprint) {
+  if (!fs::exists(file)) return {};
   try {
-    std::string of_then;
-    result = result_from_json(content_of_file(file), file.string(), &of_then);
-    return result.complete && result.assignment == assignment && of_then == fingerprint;
-  } catch (const std::exception&) {
-    return false;  // a file of something else: graded anew
+    Result result = result_from_json(content_of_file(file), file.string(), &fingerprint);
+    if (result.complete && result.assignment == assignment.name && fingerprint.ends_with(ending)) return result;
+  } catch (const std::exception&) {  // a file of something else: graded anew
   }
+  return {};
 }
 
-void write_result(const fs::path& file, const Result& result, const std::string& fingerprint) {
-  crosscheck::write_file(file, to_json(result, fingerprint));
-}
-
-/// A field of CSV. Spreadsheets take what begins like this for a formula, in the field and, where they part fields at
-/// semicolons or tabs, behind these.
-std::string quoted(const std::string& text) {
-  std::string safe;
-  bool begins = true;
-  for (const char c : text) {
-    if (begins && std::string_view("=+-@").find(c) != std::string_view::npos) safe += '\'';
-    safe += c;
-    begins = c == ';' || c == '\t' || c == '\r' || c == '\n' || (begins && (c == ' ' || c == '"'));
-  }
+/// A field of CSV.
+std::string csv_of(const std::string& text) {
+  const std::string safe = defused(text);
   return safe == text ? crosscheck::csv_field(text) : crosscheck::csv_quoted(safe);
 }
 
-std::string remark_of(const GradedSubmission& one) {
-  if (!one.failure.empty()) return "not graded: " + printable(one.failure);
-  for (const TestResult& test : one.result.tests)
-    if (test.ungraded) return printable(fmt::format("{}: {}", test.id, test.said));
-  return one.result.preflight.empty() ? "" : printable(one.result.preflight.front());
+/// Points of a test, public and hidden.
+std::string points_at(const Result& result, const std::string& id) {
+  double sum = 0;
+  for (const TestResult& test : result.tests) {
+    if (test.id == id && test.ungraded) return "not graded";
+    if (test.id == id) sum += test.earned;
+  }
+  return points_text(sum);
 }
 
-/// Points of the tests of a part, of all parts where it is empty; nothing where any of them could not be graded.
-std::string points_in(const GradedSubmission& one, std::string_view part = "") {
-  double sum = 0;
-  for (const TestResult& test : one.result.tests) {
-    if (!part.empty() && test.part != part) continue;
-    if (test.ungraded) return "";
-    sum += test.earned;
-  }
-  return one.failure.empty() ? points_text(sum) : "";
+/// The cells of a table of all: name, id, late, points in all and per part, remark.
+std::vector<std::string> cells_of(const Assignment& assignment, const GradedSubmission& one) {
+  // no result is no zero: the cells stay empty
+  std::vector<std::string> cells = {one.result.submission, one.id, one.late ? "late" : "", points_in(one)};
+  for (const Part& part : assignment.parts) cells.push_back(points_in(one, part.name));
+  cells.push_back(remark_of(one));
+  return cells;
 }
 
 /// A cause without "Likely cause:", below a heading that says so.
@@ -145,6 +140,21 @@ std::vector<TestCount> counts_of(const std::vector<GradedSubmission>& all) {
   return counts;
 }
 
+bool has_all_tests(const Result& result, const Assignment& assignment) {
+  std::size_t tests = 0;
+  for (const Test& test : assignment.tests) tests += (test.points > 0) + (test.hidden > 0);
+  return result.tests.size() == tests;
+}
+
+/// The result with those of its tests that were graded again.
+Result with_tests(Result result, const Result& again, const std::set<std::string>& only) {
+  result.preflight = again.preflight;
+  for (TestResult& test : result.tests)
+    for (const TestResult& other : again.tests)
+      if (only.contains(test.id) && other.id == test.id && other.hidden == test.hidden) test = other;
+  return result;
+}
+
 std::string row(const std::vector<std::string>& cells, const char* kind = "td") {
   std::string text = "<tr>";
   for (const std::string& cell : cells) text += fmt::format("<{0}>{1}</{0}>", kind, cell);
@@ -165,69 +175,129 @@ std::string link_to(const GradedSubmission& one) {
 
 }  // namespace
 
+std::string remark_of(const GradedSubmission& one) {
+  if (!one.failure.empty()) return "not graded: " + printable(one.failure);
+  for (const TestResult& test : one.result.tests)
+    if (test.ungraded) return printable(fmt::format("{}: {}", test.id, test.said));
+  return one.result.preflight.empty() ? "" : printable(one.result.preflight.front());
+}
+
+std::string points_in(const GradedSubmission& one, std::string_view part) {
+  double sum = 0;
+  for (const TestResult& test : one.result.tests) {
+    if (!part.empty() && test.part != part) continue;
+    if (test.ungraded) return "";
+    sum += test.earned;
+  }
+  return one.failure.empty() ? points_text(sum) : "";
+}
+
 std::string file_name_for(const std::string& submission) {
-  const std::string plain = crosscheck::file_name_of(submission);
-  // class.html and crosscheck.json are the class's own; '/' and '?' become the same dash
-  if (plain == submission && plain != "class" && plain != "crosscheck") return plain;
+  std::string plain = crosscheck::file_name_of(submission);
+  if (plain.starts_with('.')) plain[0] = '_';  // no hidden file
+  // class.html and crosscheck.json are the class's own, on disks that ignore case too; '/' and '?' become the same dash
+  if (plain == submission && lower(plain) != "class" && lower(plain) != "crosscheck") return plain;
   return fmt::format("{}-{:08x}", plain, crosscheck::Fnv1a::of(submission) & 0xffffffffu);
 }
 
-std::vector<GradedSubmission> grade_class(const Assignment& assignment, const fs::path& folder, const Sandbox& sandbox,
-                                          const GradeOptions& options, const fs::path& out) {
-  if (!fs::is_directory(folder))
-    throw crosscheck::InputError(fmt::format("{}: expected a folder of submissions", folder.string()));
-  const std::vector<Handed> entries = submissions_in(folder);
-  std::vector<GradedSubmission> all(entries.size());
-  const std::string surroundings = surroundings_of(assignment, sandbox, options);
+std::set<std::string> tests_named(const Assignment& assignment, const std::vector<std::string>& patterns) {
+  std::set<std::string> tests;
+  for (const std::string& pattern : patterns) {
+    bool any = false;
+    std::vector<std::string> names;
+    for (const Test& test : assignment.tests)
+      for (const std::string name : {std::string(test.id), std::string(test.part)}) {
+        names.push_back(name);
+        if (fnmatch(pattern.c_str(), name.c_str(), FNM_EXTMATCH) != 0) continue;
+        tests.emplace(test.id);
+        any = true;
+      }
+    if (!any)
+      throw crosscheck::InputError(fmt::format("--only {}: no test or part of {} has this name{}", pattern,
+                                               assignment.name, crosscheck::did_you_mean(pattern, names)));
+  }
+  return tests;
+}
+
+std::vector<GradedSubmission> grade_class(const Assignment& assignment, const std::vector<Handed>& submissions,
+                                          const Sandbox& sandbox, const GradeOptions& options, const fs::path& out,
+                                          const Rubric& rubric, const std::set<std::string>& only) {
+  std::vector<GradedSubmission> all(submissions.size());
+  std::vector<std::function<void()>> at_the_end(submissions.size());
+  const std::string ours = fingerprint_of(assignment);
+  GradeOptions mine = options, again = options;
+  mine.jobs = again.jobs = 1;
+  for (const Test& test : assignment.tests)
+    if (only.contains(std::string(test.id))) again.parts.emplace(test.part);
   std::mutex speaking;
   std::size_t done = 0;
   int graded = 0;
   const auto begun = std::chrono::steady_clock::now();
-  parallel_for(entries.size(), options.jobs, [&](std::size_t i) {
+  parallel_for(submissions.size(), options.jobs, [&](std::size_t i) {
     GradedSubmission& one = all[i];
-    one.result.submission = entries[i].name;
-    const fs::path base = out / file_name_for(one.result.submission);
+    one.late = submissions[i].late;
+    for (const Person& person : submissions[i].people)
+      if (!person.id.empty()) one.id += (one.id.empty() ? "" : " + ") + person.id;
+    const fs::path base = out / file_name_for(submissions[i].name);
+    const auto write = [base](const Result& result, const std::string& fingerprint) {
+      crosscheck::write_file(base.string() + ".json", to_json(result, fingerprint));
+    };
     bool known = false;
     try {
-      const Submission submission = submission_of(entries[i], assignment);
-      const std::string fingerprint = fingerprint_of(submission, surroundings);
-      known = finished(base.string() + ".json", std::string(assignment.name), fingerprint, one.result) &&
-              fs::exists(base.string() + ".html");
-      if (!known) {
-        GradeOptions mine = options;
-        mine.jobs = 1;
-        mine.on_progress = [&](const Result& result) { write_result(base.string() + ".json", result, fingerprint); };
-        one.result = grade(assignment, submission, sandbox, mine);
-        crosscheck::write_file(base.string() + ".html", page_of(one.result, options.common, options.own));
+      const Submission submission = submission_of(submissions[i], assignment);
+      const std::string theirs = "-" + fingerprint_of(submission, sandbox, options);
+      std::string fingerprint;
+      std::optional<Result> earlier =
+          earlier_result(base.string() + ".json", assignment, only.empty() ? ours + theirs : theirs, fingerprint);
+      known = earlier && only.empty();
+      if (known) {
+        one.result = std::move(*earlier);
+      } else if (earlier && has_all_tests(*earlier, assignment)) {
+        one.result = with_tests(*earlier, grade(assignment, submission, sandbox, again), only);
+        at_the_end[i] = [write, result = one.result, fingerprint] { write(result, fingerprint); };
+        rubric.apply(*earlier);
+      } else {
+        earlier.reset();
+        GradeOptions whole = mine;
+        whole.on_progress = [&](const Result& result) { write(result, ours + theirs); };
+        one.result = grade(assignment, submission, sandbox, whole);
       }
       one.failure = one.result.not_graded;
+      if (const std::string unused = rubric.apply(one.result); !one.failure.empty()) one.failure += unused;
+      for (const std::string& id : only)
+        if (earlier && points_at(*earlier, id) != points_at(one.result, id))
+          one.moved.push_back(fmt::format("{} {} -> {}", id, points_at(*earlier, id), points_at(one.result, id)));
     } catch (const std::exception& error) {
-      one.failure = error.what();
+      one.failure = one.result.not_graded = error.what();
     }
+    one.result.submission = submissions[i].name;
     const std::lock_guard<std::mutex> lock(speaking);
     ++done, graded += !known;
     const double elapsed = std::chrono::duration<double>(std::chrono::steady_clock::now() - begun).count();
     // those that were graded before cost nothing; of the others that are to come nobody knows
-    const std::size_t left = entries.size() - done;
+    const std::size_t left = submissions.size() - done;
     fmt::print(
-        stderr, "{} of {}: {}{}{}\n", done, entries.size(), printable(one.result.submission),
-        known ? " (graded before)" : "",
+        stderr, "{} of {}: {}{}{}\n", done, submissions.size(), submissions[i].name, known ? " (graded before)" : "",
         graded > 0 && left > 0
             ? fmt::format(", about {} left", crosscheck::format_duration(elapsed / graded * static_cast<double>(left)))
             : "");
   });
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    if (at_the_end[i]) at_the_end[i]();
+    crosscheck::write_file(out / (file_name_for(submissions[i].name) + ".html"),
+                           page_of(all[i].result, options.common, options.own));
+  }
   return all;
 }
 
 std::string class_csv(const Assignment& assignment, const std::vector<GradedSubmission>& all) {
-  std::string text = "submission,points [1]";
+  std::string text = "submission,id,late,points [1]";
   for (const Part& part : assignment.parts) text += fmt::format(",{} [1]", part.name);
   text += ",remark\n";
   for (const GradedSubmission& one : all) {
-    // no result is no zero: the cells stay empty
-    text += quoted(one.result.submission) + "," + points_in(one);
-    for (const Part& part : assignment.parts) text += "," + points_in(one, part.name);
-    text += "," + quoted(remark_of(one)) + "\n";
+    std::vector<std::string> cells = cells_of(assignment, one);
+    for (std::string& cell : cells) cell = csv_of(cell);
+    text += fmt::format("{}\n", fmt::join(cells, ","));
   }
   return text;
 }
@@ -239,13 +309,11 @@ std::string class_text(const Assignment& assignment, const std::vector<GradedSub
   for (const Part& part : assignment.parts) text += fmt::format(" {:>12}", part.name);
   text += "  remark\n";
   for (const GradedSubmission& one : all) {
-    const auto cell = [&](std::string_view part) {
-      const std::string points = points_in(one, part);
-      return points.empty() ? "-" : points;
-    };
-    text += fmt::format("{:<{}} {:>7}", printable(one.result.submission), width, cell(""));
-    for (const Part& part : assignment.parts) text += fmt::format(" {:>12}", cell(part.name));
-    text += "  " + remark_of(one) + "\n";
+    const std::vector<std::string> cells = cells_of(assignment, one);
+    text += fmt::format("{:<{}}", cells[0], width);
+    for (std::size_t i = 3; i + 1 < cells.size(); ++i)
+      text += fmt::format(" {:>{}}", cells[i].empty() ? "-" : cells[i], i == 3 ? 7 : 12);
+    text += fmt::format("  {}{}\n", one.late ? "late; " : "", cells.back());
   }
   text += fmt::format("\n{:<6} {:>7} {:>7} {:>11}  most frequent cause\n", "test", "passed", "failed", "not graded");
   for (const TestCount& test : counts_of(all))
@@ -258,8 +326,8 @@ std::string statistics_csv(const std::vector<GradedSubmission>& all) {
   std::string text = "test,title,passed [1],failed [1],not graded [1],most frequent cause,times [1]\n";
   for (const TestCount& test : counts_of(all)) {
     const std::string cause = test.most_frequent();
-    text += fmt::format("{},{},{},{},{},{},{}\n", test.id, quoted(test.title), test.passed, test.failed, test.ungraded,
-                        quoted(cause), cause.empty() ? 0 : test.causes.at(cause));
+    text += fmt::format("{},{},{},{},{},{},{}\n", test.id, csv_of(test.title), test.passed, test.failed, test.ungraded,
+                        csv_of(cause), cause.empty() ? 0 : test.causes.at(cause));
   }
   return text;
 }
@@ -298,7 +366,18 @@ std::string class_page(const Assignment& assignment, const std::vector<GradedSub
         row({escaped(bare(cause, common)), std::to_string(names.size()), fmt::format("{}", fmt::join(names, ", "))});
   page += "</table>\n";
   if (!open.empty()) page += "<h2>" + escaped(common.of("class.ungraded")) + "</h2>\n<table>\n" + open + "</table>\n";
-  return page + "</body></html>\n";
+  std::string submissions = common.of("class.submissions");
+  for (const Part& part : assignment.parts) submissions += fmt::format(", {}", part.name);
+  page += "<p></p>\n<table>\n" + head(submissions);
+  for (const GradedSubmission& one : all) {
+    std::vector<std::string> cells = cells_of(assignment, one);
+    cells.pop_back();  // those with a remark stand above, or have it on their page
+    for (std::string& cell : cells) cell = escaped(cell);
+    cells[0] = link_to(one);
+    if (one.late) cells[2] = "&#10003;";
+    page += row(cells);
+  }
+  return page + "</table>\n</body></html>\n";
 }
 
 }  // namespace coursework

@@ -2,12 +2,15 @@
 #include "tests/coursework/grader/commands.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <sys/stat.h>
 #include <nlohmann/json.hpp>
 
+#include <algorithm>
 #include <cstdlib>
 #include <fstream>
 #include <memory>
+#include <optional>
 #include <random>
 #include <thread>
 
@@ -22,9 +25,11 @@
 #include "tests/coursework/grader/class.h"
 #include "tests/coursework/grader/formats.h"
 #include "tests/coursework/grader/grade.h"
+#include "tests/coursework/grader/gradebook.h"
 #include "tests/coursework/grader/handout.h"
 #include "tests/coursework/grader/pack.h"
 #include "tests/coursework/grader/result.h"
+#include "tests/coursework/grader/rubric.h"
 
 namespace coursework {
 namespace fs = std::filesystem;
@@ -84,32 +89,61 @@ void tell(std::unique_ptr<crosscheck::Progress>& progress, const Result& result)
   progress->begin(next);
 }
 
-int grade_all(const Assignment& assignment, const GradeCommand& command, const Sandbox& sandbox,
-              const GradeOptions& options) {
-  const std::vector<Handed> submissions = submissions_in(command.submission);
-  if (submissions.empty()) {
-    fmt::print(stderr, "crosscheck: {}: no submissions found; nothing was graded\n", command.submission);
-    return 1;
+/// Which points moved in tests that were graded again.
+std::string moved_text(const std::vector<GradedSubmission>& all) {
+  std::string text;
+  std::size_t moved = 0;
+  for (const GradedSubmission& one : all) {
+    moved += !one.moved.empty();
+    for (const std::string& test : one.moved) text += fmt::format("{}: {}\n", one.result.submission, test);
   }
+  return text + fmt::format("points moved in {} of {} submissions\n", moved, all.size());
+}
+
+int grade_all(const Assignment& assignment, const GradeCommand& command, const Sandbox& sandbox,
+              const GradeOptions& options, const std::vector<Handed>& submissions) {
+  const std::set<std::string> only = tests_named(assignment, command.only);
+  const Rubric rubric = command.rubric.empty() ? Rubric() : read_rubric(command.rubric, assignment, submissions, true);
+  std::optional<Gradebook> gradebook;
+  if (!command.gradebook.empty())
+    gradebook.emplace(command.gradebook, command.roster, command.column, assignment, points_of(assignment, rubric));
   const fs::path out = command.out;
   crosscheck::ResumableOutput folder(out, "grade " + std::string(assignment.name));
   std::vector<std::string> files{"table.csv", "table.txt", "statistics.csv", "class.html"};
+  if (gradebook) files.emplace_back("gradebook.csv");
   for (const Handed& entry : submissions)
     for (const char* ending : {".json", ".html"}) files.push_back(file_name_for(entry.name) + ending);
   const bool keeps_seed = !command.seed && !options.secret;
   if (keeps_seed) files.emplace_back(seed_file);
   folder.announce(files);
   if (keeps_seed) crosscheck::write_file(out / seed_file, fmt::format("{}\n", options.seed));
-  const std::vector<GradedSubmission> all = grade_class(assignment, command.submission, sandbox, options, out);
+  const std::vector<GradedSubmission> all = grade_class(assignment, submissions, sandbox, options, out, rubric, only);
   crosscheck::write_file(out / "table.csv", class_csv(assignment, all));
   crosscheck::write_file(out / "table.txt", class_text(assignment, all));
   crosscheck::write_file(out / "statistics.csv", statistics_csv(all));
   crosscheck::write_file(out / "class.html", class_page(assignment, all, options.common));
+  std::vector<std::string> unmatched;
+  if (gradebook) {
+    unmatched = gradebook->fill(assignment, submissions, all, options.common);
+    crosscheck::write_file(out / "gradebook.csv", gradebook->text());
+  }
   folder.finish();
-  fmt::print("{}", class_text(assignment, all));
-  for (const GradedSubmission& one : all)
-    if (!one.failure.empty() || one.result.ungraded() > 0) return 1;
-  return 0;
+  fmt::print("{}", only.empty() ? class_text(assignment, all) : moved_text(all));
+  for (const std::string& line : unmatched) fmt::print(stderr, "crosscheck: gradebook: {}\n", line);
+  const bool open = std::ranges::any_of(
+      all, [](const GradedSubmission& one) { return !one.failure.empty() || one.result.ungraded() > 0; });
+  return open || !unmatched.empty() ? 1 : 0;
+}
+
+/// The submissions of a class; says what else is in the folder.
+std::vector<Handed> class_in(const std::string& folder) {
+  std::vector<std::string> skipped;
+  std::vector<Handed> submissions = submissions_in(folder, &skipped);
+  if (!skipped.empty())
+    fmt::print(stderr, "crosscheck: {}: skipped, left by an operating system or Git: {}\n", folder,
+               fmt::join(skipped, ", "));
+  if (submissions.empty()) fmt::print(stderr, "crosscheck: {}: no submissions found; nothing was graded\n", folder);
+  return submissions;
 }
 
 }  // namespace
@@ -145,22 +179,30 @@ int grade_command(const GradeCommand& given) {
                     "folder of one",
                     command.submission, submissions_in(command.submission).size(), layout));
   const Submission submission = command.all ? Submission() : submission_at(command.submission, assignment);
+  const std::vector<Handed> of_class = command.all ? class_in(command.submission) : std::vector<Handed>();
+  if (command.all && of_class.empty()) return 1;
+  Rubric rubric;
+  if (!command.all && !command.rubric.empty())
+    rubric = read_rubric(command.rubric, assignment,
+                         {{submission.name, {}, "", {{without_archive_ending(submission.name)}}}}, false);
   choose_seed(command, options);
   const std::unique_ptr<Sandbox> sandbox = choose_sandbox(command.sandbox, command.no_sandbox);
   fmt::print(stderr, "lane {}: {}\n", sandbox->name(), sandbox->says());
   require_hidden(assignment, command, *sandbox);
   umask(077);  // results are written while submissions run: nobody else reads them
-  if (command.all) return grade_all(assignment, command, *sandbox, options);
+  if (command.all) return grade_all(assignment, command, *sandbox, options, of_class);
 
   std::unique_ptr<crosscheck::Progress> progress;
-  options.on_progress = [&](const Result& result) {
+  options.on_progress = [&](Result result) {
     tell(progress, result);
+    rubric.apply(result);
     if (!command.out.empty()) crosscheck::write_file(command.out, format.write(result, options.common));
     if (!command.report.empty())
       crosscheck::write_file(command.report, page_of(result, options.common, options.own,
                                                      fs::exists(command.engines) ? command.charts : ""));
   };
-  const Result result = grade(assignment, submission, *sandbox, options);
+  Result result = grade(assignment, submission, *sandbox, options);
+  rubric.apply(result);
   progress.reset();
   if (command.out.empty())
     fmt::print("{}", format.write(result, options.common));

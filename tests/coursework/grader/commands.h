@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <optional>
 #include <string>
+#include <vector>
 
 namespace coursework {
 
@@ -13,6 +14,8 @@ struct GradeCommand {
   bool all = false, no_sandbox = false;
   std::optional<std::uint64_t> seed;
   std::string secret_file, report, engines, charts, out, format = "text", language = "en", sandbox;
+  std::string gradebook, roster, column, rubric;
+  std::vector<std::string> only;
 };
 int grade_command(const GradeCommand& command);
 

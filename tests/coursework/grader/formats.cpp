@@ -2,6 +2,7 @@
 #include "tests/coursework/grader/formats.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
@@ -28,6 +29,22 @@ std::string clean(const std::string& text) {
     i += std::max<size_t>(length, 1);
   }
   return out;
+}
+
+std::string defused(const std::string& text) {
+  // spreadsheets look behind blanks and quotes, and behind a separator of theirs; some read full-width signs as ASCII
+  static constexpr std::string_view signs[] = {"=", "+", "-", "@", "\t", "\r", "＝", "＋", "－", "＠"};
+  std::string safe;
+  bool begins = true;
+  for (std::size_t i = 0; i < text.size(); ++i) {
+    const char c = text[i];
+    const std::string_view rest = std::string_view(text).substr(i);
+    if (begins && std::ranges::any_of(signs, [&](std::string_view sign) { return rest.starts_with(sign); }))
+      safe += '\'';
+    safe += c;
+    begins = c == ';' || c == '\t' || c == '\r' || c == '\n' || (begins && (c == ' ' || c == '"'));
+  }
+  return safe;
 }
 
 std::string feedback_on(const Result& result, const TestResult& test, const Texts& common, bool alone) {
@@ -63,19 +80,10 @@ namespace {
 
 using crosscheck::Json;
 
-std::string html(const std::string& text) {
-  std::string out;
-  for (const char c : text) {
-    const std::string_view as = c == '&' ? "&amp;" : c == '<' ? "&lt;" : c == '>' ? "&gt;" : "";
-    as.empty() ? out.push_back(c) : void(out += as);
-  }
-  return out;
-}
-
 /// With a plot the text is HTML; the plot is an image of its own there, which can neither run nor restyle anything.
 void put_output(Json& to, const TestResult& test, const std::string& text) {
   to["output"] = test.plot.empty() ? text
-                                   : "<pre>" + html(text) + "</pre><img alt=\"your numbers and the right ones\" " +
+                                   : "<pre>" + escaped(text) + "</pre><img alt=\"your numbers and the right ones\" " +
                                          "src=\"data:image/svg+xml;base64," + crosscheck::base64(test.plot) + "\">";
   to["output_format"] = test.plot.empty() ? "text" : "html";
 }
@@ -243,15 +251,13 @@ std::span<const Format> formats() {
 }
 
 const Format& find_format(const std::string& name) {
-  std::string there;
   std::vector<std::string> names;
   for (const Format& format : formats()) {
     if (format.name == name) return format;
-    there += (there.empty() ? "" : ", ") + std::string(format.name);
     names.emplace_back(format.name);
   }
-  throw std::invalid_argument("unknown format '" + name + "'; expected one of: " + there +
-                              crosscheck::did_you_mean(name, names));
+  throw std::invalid_argument(fmt::format("unknown format '{}'; expected one of: {}{}", name, fmt::join(names, ", "),
+                                          crosscheck::did_you_mean(name, names)));
 }
 
 }  // namespace coursework

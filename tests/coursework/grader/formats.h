@@ -36,6 +36,9 @@ std::string autolab(const Result& result, const Texts& common);
 /// tab and line feed, become U+FFFD. What a student's program threw or printed may hold anything.
 std::string clean(const std::string& text);
 
+/// The text of a cell of CSV, with an apostrophe where a spreadsheet could take it for a formula.
+std::string defused(const std::string& text);
+
 /// What was said, the likely cause, and what to read, as on the terminal; empty where it was passed. `alone` as
 /// in lines_on().
 std::string feedback_on(const Result& result, const TestResult& test, const Texts& common, bool alone = false);

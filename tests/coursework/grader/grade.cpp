@@ -80,6 +80,7 @@ class Grading {
     for (const bool hidden : {false, true})
       for (const Test& test : assignment_.tests) {
         if ((hidden ? test.hidden : test.points) == 0) continue;
+        if (!options_.parts.empty() && !options_.parts.contains(test.part)) continue;
         TestResult one;
         one.id = test.id;
         one.part = test.part;

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <functional>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -24,6 +25,7 @@ struct GradeOptions {
   unsigned jobs = 1;                         // compilers at a time
   double least_cpu = coursework::least_cpu;  // s, that the calls of a test may take in any case (run.h)
   std::string engines;  // folder in which parts are left as engines, where the assignment has such; empty: nowhere
+  std::set<std::string, std::less<>> parts = {};  // parts whose tests are run; empty: all
   /// Called with what there is so far: before the first test, after every test, and at the end.
   std::function<void(const Result&)> on_progress = [](const Result&) {};
 };

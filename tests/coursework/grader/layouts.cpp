@@ -8,8 +8,11 @@
 #include <map>
 #include <set>
 
+#include "mysim/base/errors.h"
+#include "mysim/base/hash.h"
 #include "mysim/base/names.h"
 #include "mysim/base/pattern.h"
+#include "tests/coursework/grader/result.h"
 
 namespace coursework {
 namespace fs = std::filesystem;
@@ -19,16 +22,18 @@ namespace {
 struct Layout {
   const char* name;
   const char* pattern;
-  int person, number, file;  // groups; 0: none
+  int person, late, number, file;  // groups; 0: none
 };
 constexpr Layout layouts[] = {
-    {"Moodle", "(.+)_([0-9]+)_assignsubmission_(file|onlinetext)_?(.*)", 1, 2, 4},
-    {"Canvas", "([^_]+)(_LATE)?_([0-9]{2,})_([0-9]{2,})_(.+)", 1, 3, 5},
+    {"Moodle", "(.+)_([0-9]+)_assignsubmission_(file|onlinetext)_?(.*)", 1, 0, 2, 4},
+    {"Canvas", "([^_]+)(_LATE)?_([0-9]{2,})_([0-9]{2,})_(.+)", 1, 2, 3, 5},
 };
 
 struct Exported {
-  const char* layout;  // null: none of them
-  std::string person, file;
+  std::string layout;  // empty: none of them
+  std::string person, id, file;
+  bool late = false;
+  std::string key() const { return id.empty() ? person : person + "_" + id; }
 };
 
 Exported taken_apart(const std::string& name) {
@@ -36,34 +41,55 @@ Exported taken_apart(const std::string& name) {
     if (const auto parts = crosscheck::Pattern(layout.pattern).match(name)) {
       const auto group = [&](int i) { return (*parts)[static_cast<std::size_t>(i)]; };
       // Canvas numbers what is handed in again: rk4-1.cpp
-      return {layout.name, group(layout.person) + "_" + group(layout.number),
-              crosscheck::Pattern("-[0-9]+(\\.[^.]+)$").replaced_in(group(layout.file), "$1")};
+      return {layout.name, group(layout.person), group(layout.number),
+              crosscheck::Pattern("-[0-9]+(\\.[^.]+)$").replaced_in(group(layout.file), "$1"),
+              layout.late > 0 && !group(layout.late).empty()};
     }
-  return {nullptr, name, name};
+  return {"", name, "", name};
 }
 
 constexpr const char* gradescope_file = "submission_metadata.yml";
 
-/// Names of those who handed in, by submission: lines "submission_N:", below it "- :name: NAME" of each of them.
-std::map<std::string, std::string> gradescope_names(const fs::path& folder) {
-  std::map<std::string, std::string> names;
+/// Those who handed in, by submission: lines "submission_N:", below it "- :name: NAME" of each of them, then ids.
+std::map<std::string, std::vector<Person>> gradescope_people(const fs::path& folder) {
+  std::map<std::string, std::vector<Person>> people;
   std::ifstream in(crosscheck::path_inside(folder, gradescope_file));
-  const crosscheck::Pattern begins("(submission_[0-9]+):\\s*"), is_name("\\s*-?\\s*:name:\\s*['\"]?(.*?)['\"]?\\s*");
+  const crosscheck::Pattern begins("(submission_[0-9]+):\\s*"), is_name("\\s*-?\\s*:name:\\s*['\"]?(.*?)['\"]?\\s*"),
+      is_id("\\s*:(?:sid|email):\\s*['\"]?(.*?)['\"]?\\s*");
   std::string submission;
   for (std::string line; std::getline(in, line);) {
     if (const auto found = begins.match(line))
       submission = (*found)[1];
     else if (const auto name = is_name.match(line); name && !submission.empty())
-      names[submission] += (names[submission].empty() ? "" : " + ") + (*name)[1];
+      people[submission].push_back({(*name)[1]});
+    else if (const auto id = is_id.match(line); id && !people[submission].empty())
+      if (Person& last = people[submission].back(); last.id.empty()) last.id = (*id)[1];
   }
-  return names;
+  return people;
 }
 
-std::vector<fs::path> entries_of(const fs::path& folder) {
+/// Left in folders by macOS, Windows and Git.
+bool left_by_system(const std::string& name) {
+  static constexpr const char* names[] = {".DS_Store", "__MACOSX",       ".git",       ".gitignore",
+                                          "Thumbs.db", ".gitattributes", "desktop.ini"};
+  return name.starts_with("._") || std::find(std::begin(names), std::end(names), name) != std::end(names);
+}
+
+/// The name on one line; a name that has characters for which '?' must stand ends in a hash, so that no two are alike.
+std::string shown_name(const std::string& name) {
+  if (crosscheck::is_printable(name)) return name;
+  return fmt::format("{} ({:08x})", printable(crosscheck::printable(name)), crosscheck::Fnv1a::of(name) & 0xffffffffu);
+}
+
+std::vector<fs::path> entries_of(const fs::path& folder, std::vector<std::string>* skipped = nullptr) {
   std::vector<fs::path> entries;
   for (const auto& entry : fs::directory_iterator(folder))
-    if (entry.path().filename().string()[0] != '.') entries.push_back(entry.path());
+    if (!left_by_system(entry.path().filename().string()))
+      entries.push_back(entry.path());
+    else if (skipped)
+      skipped->push_back(shown_name(entry.path().filename().string()));
   std::sort(entries.begin(), entries.end());
+  if (skipped) std::sort(skipped->begin(), skipped->end());
   return entries;
 }
 
@@ -81,20 +107,37 @@ std::set<std::string> sources_in(const fs::path& folder) {
 
 }  // namespace
 
-std::vector<Handed> submissions_in(const fs::path& folder) {
-  const std::map<std::string, std::string> names = gradescope_names(folder);
+std::string without_archive_ending(std::string name) {
+  while (is_archive(name) && !fs::path(name).stem().empty()) name = fs::path(name).stem().string();
+  return name;
+}
+
+std::vector<Handed> submissions_in(const fs::path& folder, std::vector<std::string>* skipped) {
+  if (!fs::is_directory(folder))
+    throw crosscheck::InputError(fmt::format("{}: expected a folder of submissions", folder.string()));
+  const std::map<std::string, std::vector<Person>> people = gradescope_people(folder);
   std::map<std::string, Handed> all;
-  for (const fs::path& entry : entries_of(folder)) {
+  for (const fs::path& entry : entries_of(folder, skipped)) {
     const std::string name = entry.filename().string();
     if (name == gradescope_file) continue;
     const Exported one = taken_apart(name);
-    const auto known = names.find(name);
-    Handed& handed = all[one.person];
-    handed.name = known == names.end() ? one.person : fmt::format("{} ({})", known->second, name);
+    Handed& handed = all[one.key()];
+    handed.late |= one.late;
     handed.files.emplace_back(entry, one.file.empty() ? name : one.file);
+    if (handed.files.size() > 1) continue;
+    handed.layout = one.layout;
+    handed.name = shown_name(one.key());
+    handed.people = {{shown_name(one.layout.empty() ? without_archive_ending(name) : one.person), one.id}};
+    if (const auto known = people.find(name); known != people.end() && !known->second.empty()) {
+      handed.layout = "Gradescope";
+      handed.people = known->second;
+      std::string names;
+      for (const Person& person : handed.people) names += (names.empty() ? "" : " + ") + person.name;
+      handed.name = shown_name(fmt::format("{} ({})", names, name));
+    }
   }
   std::vector<Handed> list;
-  for (auto& [person, handed] : all) list.push_back(std::move(handed));
+  for (auto& [key, handed] : all) list.push_back(std::move(handed));
   return list;
 }
 
@@ -106,13 +149,14 @@ std::string class_layout(const fs::path& folder, const std::vector<std::string>&
   int clones = 0, archives = 0;
   for (const fs::path& entry : entries_of(folder)) {
     const std::string name = entry.filename().string();
+    if (name[0] == '.') continue;  // settings and histories of editors
     const Exported one = taken_apart(name);
-    if (one.layout) people[one.layout].insert(one.person);
+    if (!one.layout.empty()) people[one.layout].insert(one.key());
     if (fs::is_directory(entry)) {
       clones += fs::exists(entry / ".git");
       for (const std::string& source : sources_in(entry))
         if (wanted.empty() || std::find(wanted.begin(), wanted.end(), source) != wanted.end()) ++holds[source];
-    } else if (is_cpp(name) && !one.layout) {
+    } else if (is_cpp(name) && one.layout.empty()) {
       return "";  // of one
     } else {
       archives += is_archive(entry);

@@ -10,9 +10,13 @@
 namespace coursework {
 
 /// Who handed in what, in the order of names. What Moodle, Canvas and Gradescope put into names of files is taken off;
-/// several files of one person are one submission. Otherwise every entry is a submission. Entries that begin with a dot
-/// are none.
-std::vector<Handed> submissions_in(const std::filesystem::path& folder);
+/// several files of one person are one submission. Otherwise every entry is a submission, except what operating systems
+/// and Git leave in folders: the names of those go to `skipped`. Names are printable and differ. Throws InputError
+/// unless it is a folder.
+std::vector<Handed> submissions_in(const std::filesystem::path& folder, std::vector<std::string>* skipped = nullptr);
+
+/// The name of a submission's folder or archive without the archive's ending.
+std::string without_archive_ending(std::string name);
 
 /// Why a folder that should be one submission looks like a class ("Moodle", "Canvas", "Gradescope", "Git",
 /// "folders"); empty: it does not.

@@ -32,6 +32,22 @@ int run(int argc, char** argv) {
       grade->add_option("--seed", seed, "seed of the hidden tests (default: from the secret, else a new one)");
   grade->add_option("--secret", command.secret_file, "FILE: the seed of the hidden tests is made from its first line")
       ->excludes(seeded);
+  auto* all = grade->get_option("--all");
+  auto* roster = grade->add_option("--roster", command.roster, "FILE.csv: the export that --gradebook fills in");
+  grade
+      ->add_option("--gradebook", command.gradebook,
+                   "moodle, canvas or csv: writes the points into a copy of --roster, gradebook.csv")
+      ->check(CLI::IsMember({"moodle", "canvas", "csv"}))
+      ->needs(all, roster);
+  roster->needs("--gradebook");
+  grade->add_option("--column", command.column, "NAME of the roster's column for the points, if not the assignment's")
+      ->needs(roster);
+  grade->add_option("--rubric", command.rubric, "FILE.toml: points of tests, and of single students with a reason");
+  grade
+      ->add_option("--only", command.only,
+                   "GLOB: grades only tests of this number or part again, and lists moved points (repeatable)")
+      ->allow_extra_args(false)
+      ->needs(all);
   grade->add_option("--report", command.report, "FILE.html: writes a page with plots for the student");
   grade->add_option("--engines", command.engines, "DIR: writes the parts there as programs of the engine protocol")
       ->group("");

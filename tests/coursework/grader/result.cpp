@@ -11,6 +11,7 @@
 #include "mysim/base/json.h"
 #include "tests/coursework/check/page.h"
 #include "tests/coursework/check/plot.h"
+#include "tests/coursework/grader/formats.h"
 
 namespace coursework {
 
@@ -68,7 +69,9 @@ std::string_view status_of(const TestResult& test) {
   return test.ungraded ? "ungraded" : passed(test) ? "passed" : "failed";
 }
 
-bool passed(const TestResult& test) { return test.said.empty() && test.earned == test.points; }
+bool passed(const TestResult& test) {
+  return test.earned == test.points && (test.said.empty() || !test.reason.empty());
+}
 
 std::string to_json(const Result& result, const std::string& fingerprint) {
   Json json{{"assignment", result.assignment}, {"complete", result.complete}};
@@ -141,17 +144,21 @@ std::vector<std::string> causes_of(const Result& result, const Texts& common) {
 std::string printable(std::string text) {
   for (char& c : text)
     if (static_cast<unsigned char>(c) < 32 || c == 127) c = ' ';
-  return text;
+  return clean(text);
 }
 
 std::string points_text(double points) { return fmt::format("{:g}", points); }
 
 std::vector<std::string> lines_on(const Result& result, const TestResult& test, const Texts& common, bool alone) {
   std::vector<std::string> lines;
+  if (!test.reason.empty()) lines.push_back(common.fill("override", printable(test.reason)));
   if (passed(test)) return lines;
   const TestResult* twin = public_twin(result, test);
   const bool same = twin && !passed(*twin) && twin->said != common.of("shown_only") && twin->cause == test.cause;
-  if (same) return {common.of("as_public")};
+  if (same) {
+    lines.push_back(common.of("as_public"));
+    return lines;
+  }
   std::istringstream said(test.said);
   for (std::string line; std::getline(said, line);) lines.push_back(printable(line));
   if (!test.cause.empty())
@@ -235,8 +242,8 @@ std::string section_of(const Result& result, const TestResult& test, const Texts
 }  // namespace
 
 std::string page_of(const Result& result, const Texts& common, const Texts& own, const std::string& charts) {
-  const std::string title =
-      escaped(common.fill("page.title", own.has("title") ? own.of("title") : result.assignment, result.submission));
+  const std::string title = escaped(
+      common.fill("page.title", own.has("title") ? own.of("title") : result.assignment, clean(result.submission)));
   std::string page = fmt::format(
       "<!DOCTYPE html>\n<html lang=\"{4}\"><head><meta charset=\"utf-8\"><meta name=\"viewport\" "
       "content=\"width=device-width\">"
@@ -246,7 +253,7 @@ std::string page_of(const Result& result, const Texts& common, const Texts& own,
                           result.sandbox)),
       escaped(common.of("page.lang")));
   if (!result.complete) page += "<p class=\"remark\">" + escaped(common.of("page.not_done")) + "</p>\n";
-  for (const std::string& line : result.preflight) page += "<p class=\"remark\">" + escaped(line) + "</p>\n";
+  for (const std::string& line : result.preflight) page += "<p class=\"remark\">" + escaped(clean(line)) + "</p>\n";
   for (const std::string& line : causes_of(result, common)) page += "<p class=\"cause\">" + escaped(line) + "</p>\n";
   if (!charts.empty())
     page += fmt::format("<p><a href=\"{}\">{}</a></p>\n", escaped(charts), escaped(common.of("page.charts")));

@@ -23,6 +23,7 @@ struct TestResult {
   std::string read;   // heading of the handout
   std::string plot;   // SVG; empty: none
   double seconds = 0;
+  std::string reason = {};  // why the lecturer set the points (rubric.h); not part of the JSON
 };
 
 struct Result {
@@ -67,8 +68,8 @@ std::vector<std::string> causes_of(const Result& result, const Texts& common);
 std::vector<std::string> lines_on(const Result& result, const TestResult& test, const Texts& common,
                                   bool alone = false);
 
-/// One line without control characters: students' programs and archives may have put anything into what is said of
-/// them.
+/// One line of valid UTF-8 without control characters: students' programs and archives may have put anything into what
+/// is said of them.
 std::string printable(std::string text);
 
 /// "3 of 5 points", or that 5 are left open.

@@ -27,10 +27,18 @@ struct Submission {
   bool refused = false;                      // nothing of it can be graded; the last remark says why
 };
 
+struct Person {
+  std::string name;     // as far as names of files tell
+  std::string id = {};  // empty: unknown
+};
+
 /// What somebody handed in: folders, archives and files, each with the name that the student gave it.
 struct Handed {
   std::string name;  // whose it is
   std::vector<std::pair<std::filesystem::path, std::string>> files;
+  std::string layout = {};          // "Moodle", "Canvas", "Gradescope"; empty: another
+  std::vector<Person> people = {};  // one, or a group
+  bool late = false;
 };
 
 constexpr std::size_t largest_file = 1u << 20;    // byte, of a file that is graded

@@ -1,12 +1,9 @@
 // From a submission to a result, and a class of them: every way to fail has its message and costs its own part.
 
 #include <gtest/gtest.h>
-#include <sys/wait.h>
 
 #include <algorithm>
-#include <array>
 #include <atomic>
-#include <cstdio>
 #include <thread>
 
 #include "mysim/base/files.h"
@@ -17,6 +14,7 @@
 #include "tests/coursework/grader/run.h"
 #include "tests/coursework/grader/suspects.h"
 #include "tests/coursework/test/helpers.h"
+#include "tests/coursework/test/program.h"
 #include "tests/coursework/test/tiny/tiny_assignment.h"
 
 namespace coursework {
@@ -303,16 +301,16 @@ TEST(Class, IsGradedResumedAndPutIntoATable) {
   write_file(handed / ".DS_Store", "x");
   const auto sandbox = choose_sandbox("bare", true);
   GradeOptions options = options_for(tiny(), 7);
-  const std::vector<GradedSubmission> all = grade_class(tiny(), handed, *sandbox, options, out);
+  const std::vector<GradedSubmission> all = grade_class(tiny(), submissions_in(handed), *sandbox, options, out);
   ASSERT_EQ(all.size(), 4u);
   EXPECT_EQ(
       class_csv(tiny(), all),
-      "submission,points [1],twice [1],sums [1],remark\n"
-      "\"'-o\",50,50,0,\"sums.cpp is missing. Looked in the top folder, in src/ and one folder below.\"\n"
-      "all right,100,50,50,\n"
-      "\"rubbish, \"\"really\"\".zip\",,,,\"not graded: The archive cannot be read (neither zip nor tar). Hand "
+      "submission,id,late,points [1],twice [1],sums [1],remark\n"
+      "\"'-o\",,,50,50,0,\"sums.cpp is missing. Looked in the top folder, in src/ and one folder below.\"\n"
+      "all right,,,100,50,50,\n"
+      "\"rubbish, \"\"really\"\".zip\",,,,,,\"not graded: The archive cannot be read (neither zip nor tar). Hand "
       "in a folder, a .zip or a .tar.gz.\"\n"
-      "\"x;'=1+1;\"\"'-2\",,,,\"not graded: The archive cannot be read (neither zip nor tar). Hand in a folder, a "
+      "\"x;'=1+1;\"\"'-2\",,,,,,\"not graded: The archive cannot be read (neither zip nor tar). Hand in a folder, a "
       ".zip or a .tar.gz.\"\n");
   EXPECT_EQ(
       statistics_csv(all),
@@ -338,7 +336,7 @@ TEST(Class, IsGradedResumedAndPutIntoATable) {
   const auto written = [&](const char* name) { return fs::last_write_time(out / (file_name_for(name) + ".json")); };
   const auto right = written("all right"), other = written("-o");
   write_file(handed / "-o/sums.cpp", content_of_file(tiny().folder() / "solution/sums.cpp"));
-  const std::vector<GradedSubmission> again = grade_class(tiny(), handed, *sandbox, options, out);
+  const std::vector<GradedSubmission> again = grade_class(tiny(), submissions_in(handed), *sandbox, options, out);
   EXPECT_EQ(again[0].result.earned(), 100);
   EXPECT_EQ(again[1].result.earned(), 100);
   EXPECT_EQ(written("all right"), right);
@@ -347,7 +345,7 @@ TEST(Class, IsGradedResumedAndPutIntoATable) {
   write_file(out / (file_name_for("-o") + ".json"),
              content_of_file(out / (file_name_for("-o") + ".json")).substr(0, 100));
   options.seed = 8;
-  EXPECT_EQ(grade_class(tiny(), handed, *sandbox, options, out)[0].result.earned(), 100);
+  EXPECT_EQ(grade_class(tiny(), submissions_in(handed), *sandbox, options, out)[0].result.earned(), 100);
   EXPECT_NE(written("all right"), right);
 }
 
@@ -382,20 +380,6 @@ TEST(Page, CarriesWordsAndPlotsAndNothingOfTheStudentsUnescaped) {
     EXPECT_NE(said.find("Seed the lecturer"), std::string::npos);
     EXPECT_NE(said.find("Total: 50 of 100 points"), std::string::npos);
   }
-}
-
-struct Called {
-  int status;
-  std::string said;
-};
-
-Called call(const std::string& words) {
-  FILE* pipe = popen((std::string(CROSSCHECK_GRADER) + " " + words + " 2>&1").c_str(), "r");
-  Called result{-1, {}};
-  std::array<char, 4096> block;
-  for (std::size_t got; (got = fread(block.data(), 1, block.size(), pipe)) > 0;) result.said.append(block.data(), got);
-  result.status = WEXITSTATUS(pclose(pipe));
-  return result;
 }
 
 TEST(Program, BadUseIsToldInOneLine) {
