@@ -356,6 +356,13 @@ fs::path solution_of(const Assignment& assignment, const Builder& builder, const
   return assignment.folder() / "solution" / builder.file_of(part);
 }
 
+std::string filled(const std::string& file, const std::vector<std::string>& with) {
+  std::string text = content_of_file(folder_of_coursework() / "grader" / file);
+  for (std::size_t i = 0; i < with.size(); ++i)
+    for (std::size_t at; (at = text.find(fmt::format("{{{}}}", i))) != std::string::npos;) text.replace(at, 3, with[i]);
+  return text;
+}
+
 std::string content_of_file(const fs::path& file) {
   if (std::optional<std::string> content = crosscheck::try_read_file(file)) return *std::move(content);
   throw crosscheck::InputError(fmt::format("{}: cannot be read", file.string()));

@@ -110,5 +110,7 @@ std::unique_ptr<Builder> builder_for(const Assignment& assignment, const Sandbox
 std::filesystem::path solution_of(const Assignment& assignment, const Builder& builder, const std::string& part);
 
 std::string content_of_file(const std::filesystem::path& file);
+/// A file below grader/ with {0}, {1}, ... filled in.
+std::string filled(const std::string& file, const std::vector<std::string>& with);
 
 }  // namespace coursework

@@ -334,12 +334,9 @@ std::string statistics_csv(const std::vector<GradedSubmission>& all) {
 
 std::string class_page(const Assignment& assignment, const std::vector<GradedSubmission>& all, const Texts& common) {
   std::size_t graded = 0;
-  std::string open;
   std::map<std::string, std::vector<std::string>> whose;  // by cause
   for (const GradedSubmission& one : all) {
-    const bool whole = one.failure.empty() && one.result.ungraded() == 0;
-    graded += whole;
-    if (!whole) open += row({link_to(one), escaped(remark_of(one))});
+    graded += one.failure.empty() && one.result.ungraded() == 0;
     std::set<std::string> causes;
     for (const TestResult& test : one.result.tests)
       if (!test.cause.empty() && test.cause != common.of("no_cause")) causes.insert(test.cause);
@@ -365,13 +362,11 @@ std::string class_page(const Assignment& assignment, const std::vector<GradedSub
     page +=
         row({escaped(bare(cause, common)), std::to_string(names.size()), fmt::format("{}", fmt::join(names, ", "))});
   page += "</table>\n";
-  if (!open.empty()) page += "<h2>" + escaped(common.of("class.ungraded")) + "</h2>\n<table>\n" + open + "</table>\n";
-  std::string submissions = common.of("class.submissions");
-  for (const Part& part : assignment.parts) submissions += fmt::format(", {}", part.name);
-  page += "<p></p>\n<table>\n" + head(submissions);
+  std::vector<std::string_view> parts;
+  for (const Part& part : assignment.parts) parts.push_back(part.name);
+  page += "<p></p>\n<table>\n" + head(common.fill("class.submissions", fmt::format("{}", fmt::join(parts, ", "))));
   for (const GradedSubmission& one : all) {
     std::vector<std::string> cells = cells_of(assignment, one);
-    cells.pop_back();  // those with a remark stand above, or have it on their page
     for (std::string& cell : cells) cell = escaped(cell);
     cells[0] = link_to(one);
     if (one.late) cells[2] = "&#10003;";

@@ -89,17 +89,6 @@ void tell(std::unique_ptr<crosscheck::Progress>& progress, const Result& result)
   progress->begin(next);
 }
 
-/// Which points moved in tests that were graded again.
-std::string moved_text(const std::vector<GradedSubmission>& all) {
-  std::string text;
-  std::size_t moved = 0;
-  for (const GradedSubmission& one : all) {
-    moved += !one.moved.empty();
-    for (const std::string& test : one.moved) text += fmt::format("{}: {}\n", one.result.submission, test);
-  }
-  return text + fmt::format("points moved in {} of {} submissions\n", moved, all.size());
-}
-
 int grade_all(const Assignment& assignment, const GradeCommand& command, const Sandbox& sandbox,
               const GradeOptions& options, const std::vector<Handed>& submissions) {
   const std::set<std::string> only = tests_named(assignment, command.only);
@@ -128,7 +117,12 @@ int grade_all(const Assignment& assignment, const GradeCommand& command, const S
     crosscheck::write_file(out / "gradebook.csv", gradebook->text());
   }
   folder.finish();
-  fmt::print("{}", only.empty() ? class_text(assignment, all) : moved_text(all));
+  if (only.empty()) fmt::print("{}", class_text(assignment, all));
+  for (const GradedSubmission& one : all)
+    for (const std::string& test : one.moved) fmt::print("{}: {}\n", one.result.submission, test);
+  if (!only.empty())
+    fmt::print("points moved in {} of {} submissions\n",
+               std::ranges::count_if(all, [](const auto& one) { return !one.moved.empty(); }), all.size());
   for (const std::string& line : unmatched) fmt::print(stderr, "crosscheck: gradebook: {}\n", line);
   const bool open = std::ranges::any_of(
       all, [](const GradedSubmission& one) { return !one.failure.empty() || one.result.ungraded() > 0; });

@@ -13,8 +13,8 @@ struct GradeCommand {
   std::string assignment, submission;
   bool all = false, no_sandbox = false;
   std::optional<std::uint64_t> seed;
-  std::string secret_file, report, engines, charts, out, format = "text", language = "en", sandbox;
-  std::string gradebook, roster, column, rubric;
+  std::string secret_file, report, engines, charts, out, format = "text", language = "en", sandbox, gradebook, roster,
+                                                         column, rubric;
   std::vector<std::string> only;
 };
 int grade_command(const GradeCommand& command);

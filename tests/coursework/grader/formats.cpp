@@ -215,8 +215,6 @@ std::string junit(const Result& result, const Texts& common) {
                      xml(result.assignment), all.counts(), body);
 }
 
-using crosscheck::Json;
-
 std::string autolab(const Result& result, const Texts& common) {
   std::string text = summary_of(result, common) + "\n";
   std::vector<std::pair<std::string, double>> problems;
@@ -242,10 +240,10 @@ std::string autolab(const Result& result, const Texts& common) {
 
 std::span<const Format> formats() {
   static constexpr Format table[] = {
-      {"text", "result.txt", text_of, "plain text for the terminal, hidden tests included"},
-      {"gradescope", "results.json", gradescope, "Gradescope's results.json"},
-      {"junit", "junit.xml", junit, "JUnit XML, for GitHub Classroom and continuous integration"},
-      {"autolab", "autolab.txt", autolab, "feedback, and Autolab's scores on the last line"},
+      {"text", "result.txt", text_of},
+      {"gradescope", "results.json", gradescope},
+      {"junit", "junit.xml", junit},
+      {"autolab", "autolab.txt", autolab},
   };
   return table;
 }

@@ -14,7 +14,6 @@ struct Format {
   std::string_view name;
   std::string_view file;                                     // its usual name
   std::string (*write)(const Result&, const Texts& common);  // common: check/common.LANGUAGE.txt
-  std::string_view what;
 };
 
 std::span<const Format> formats();

@@ -23,14 +23,6 @@ void write_text(const fs::path& file, const std::string& content) {
   if (!out.flush()) throw std::runtime_error(file.string() + ": cannot be written");
 }
 
-/// A file of grader/handout/ with {0}, {1}, ... filled in.
-std::string filled(const char* file, const std::vector<std::string>& with) {
-  std::string text = content_of_file(folder_of_coursework() / "grader/handout" / file);
-  for (std::size_t i = 0; i < with.size(); ++i)
-    for (std::size_t at; (at = text.find(fmt::format("{{{}}}", i))) != std::string::npos;) text.replace(at, 3, with[i]);
-  return text;
-}
-
 /// CMakeLists.txt, which a whole program brings in its starter, and README.md.
 void write_instructions(const Assignment& assignment, const PublicTests& tests, const fs::path& folder) {
   const bool whole = assignment.takes_whole_program();
@@ -42,9 +34,10 @@ void write_instructions(const Assignment& assignment, const PublicTests& tests, 
   int points = 0, here = 0;  // as `check` counts: some tests are the grader's alone
   for (const PublicTest& test : tests.tests)
     if (whole || !test.cases.empty()) points += test.points, ++here;
-  if (!whole) write_text(folder / "CMakeLists.txt", filled("CMakeLists.txt", {std::string(assignment.name), built}));
+  if (!whole)
+    write_text(folder / "CMakeLists.txt", filled("handout/CMakeLists.txt", {std::string(assignment.name), built}));
   write_text(folder / "README.md",
-             filled(whole ? "README-whole.md" : "README.md",
+             filled(whole ? "handout/README-whole.md" : "handout/README.md",
                     {std::string(assignment.title), listed, std::to_string(here), std::to_string(points),
                      std::string(assignment.parts.front().name), std::to_string(tests.hidden)}));
 }

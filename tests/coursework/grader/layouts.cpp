@@ -75,9 +75,9 @@ bool left_by_system(const std::string& name) {
   return name.starts_with("._") || std::find(std::begin(names), std::end(names), name) != std::end(names);
 }
 
-/// The name on one line; a name that has characters for which '?' must stand ends in a hash, so that no two are alike.
+/// The name on one line. A name with characters for which '?' must stand ends in a hash.
 std::string shown_name(const std::string& name) {
-  if (crosscheck::is_printable(name)) return name;
+  if (const std::string text = plain_utf8(name); crosscheck::is_printable(text)) return text;
   return fmt::format("{} ({:08x})", printable(crosscheck::printable(name)), crosscheck::Fnv1a::of(name) & 0xffffffffu);
 }
 
@@ -137,7 +137,12 @@ std::vector<Handed> submissions_in(const fs::path& folder, std::vector<std::stri
     }
   }
   std::vector<Handed> list;
-  for (auto& [key, handed] : all) list.push_back(std::move(handed));
+  std::set<std::string> names;
+  for (auto& [key, handed] : all) {
+    if (!names.insert(handed.name).second)
+      handed.name = fmt::format("{} ({:08x})", handed.name, crosscheck::Fnv1a::of(key) & 0xffffffffu);
+    list.push_back(std::move(handed));
+  }
   return list;
 }
 

@@ -27,12 +27,12 @@ int run(int argc, char** argv) {
       ->required();
   grade->add_option("SUBMISSION", command.submission, "a folder, a zip or a tar.gz; with --all a folder of these")
       ->required();
-  grade->add_flag("--all", command.all, "grades every entry of the folder; continues where an earlier run was stopped");
+  auto* all = grade->add_flag("--all", command.all,
+                              "grades every entry of the folder; continues where an earlier run was stopped");
   auto* seeded =
       grade->add_option("--seed", seed, "seed of the hidden tests (default: from the secret, else a new one)");
   grade->add_option("--secret", command.secret_file, "FILE: the seed of the hidden tests is made from its first line")
       ->excludes(seeded);
-  auto* all = grade->get_option("--all");
   auto* roster = grade->add_option("--roster", command.roster, "FILE.csv: the export that --gradebook fills in");
   grade
       ->add_option("--gradebook", command.gradebook,

@@ -154,11 +154,6 @@ using Files = std::map<std::string, std::string>;
 
 constexpr const char* secret_file = "secret.txt";
 
-std::string filled(std::string script, std::string_view name) {
-  for (size_t at; (at = script.find("{0}")) != std::string::npos;) script.replace(at, 3, name);
-  return script;
-}
-
 void add_folder(Files& files, const fs::path& from, const std::string& to) {
   for (const auto& entry : fs::recursive_directory_iterator(from))
     if (entry.is_regular_file())
@@ -233,12 +228,9 @@ Files files_of_package(const Assignment& assignment) {
   add_folder(files, assignment.folder(), ours);
   add_headers(files);
   files["sources.txt"] = sources;
-  const auto script = [&](const char* file) {
-    return filled(content_of_file(coursework / "grader/package" / file), name);
-  };
-  files["setup.sh"] = script("setup");
-  files["build.sh"] = script("build");
-  files["run_autograder"] = script("run_autograder");
+  files["setup.sh"] = filled("package/setup", {});
+  files["build.sh"] = filled("package/build", {name});
+  files["run_autograder"] = filled("package/run_autograder", {name});
   return files;
 }
 

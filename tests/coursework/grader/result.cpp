@@ -155,10 +155,7 @@ std::vector<std::string> lines_on(const Result& result, const TestResult& test, 
   if (passed(test)) return lines;
   const TestResult* twin = public_twin(result, test);
   const bool same = twin && !passed(*twin) && twin->said != common.of("shown_only") && twin->cause == test.cause;
-  if (same) {
-    lines.push_back(common.of("as_public"));
-    return lines;
-  }
+  if (same) return lines.push_back(common.of("as_public")), lines;
   std::istringstream said(test.said);
   for (std::string line; std::getline(said, line);) lines.push_back(printable(line));
   if (!test.cause.empty())

@@ -112,8 +112,11 @@ TEST_F(TinyClass, PageLinksEverySubmissionAndItsPageIsThere) {
   std::vector<GradedSubmission> all = grade();
   all[0].id = "=17", all[0].late = true;
   const std::string page = class_page(tiny(), all, options.common);
-  EXPECT_NE(page.find("<th>id</th><th>late</th><th>points</th><th>twice</th><th>sums</th>"), std::string::npos) << page;
-  EXPECT_NE(page.find("<td>=17</td><td>&#10003;</td><td>100</td><td>50</td><td>50</td></tr>"), std::string::npos);
+  EXPECT_NE(page.find("<th>id</th><th>late</th><th>points</th><th>twice</th><th>sums</th><th>remark</th>"),
+            std::string::npos)
+      << page;
+  EXPECT_NE(page.find("<td>=17</td><td>&#10003;</td><td>100</td><td>50</td><td>50</td><td></td></tr>"),
+            std::string::npos);
   EXPECT_NE(class_csv(tiny(), all).find("ada,\"'=17\",late,100,50,50,\n"), std::string::npos);
   EXPECT_NE(class_text(tiny(), all).find("late; \n"), std::string::npos);
   for (const GradedSubmission& one : all) {

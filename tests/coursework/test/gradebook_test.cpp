@@ -315,17 +315,21 @@ TEST(Layouts, NothingIsSkippedInSilence) {
   std::ofstream(here.path / "\xcd\xf5.zip") << "x";
   std::ofstream(here.path / "\xcd\xf6.zip") << "x";
   std::ofstream(here.path / "\xe2\x80\xae\tbidi") << "x";
+  std::ofstream(here.path /
+                "\xef\xbb\xbf"
+                "ada.zip")
+      << "x";  // shown as the other one
   std::vector<std::string> skipped, names, stems;
   for (const Handed& one : submissions_in(here.path, &skipped)) {
     names.push_back(one.name);
     stems.push_back(one.people.at(0).name);
   }
   EXPECT_EQ(skipped, (std::vector<std::string>{".DS_Store", "._ada.zip", ".git", "Thumbs.db", "__MACOSX"}));
-  ASSERT_EQ(names.size(), 7u);
+  ASSERT_EQ(names.size(), 8u);
   EXPECT_EQ(names[0], ".hidden");
   EXPECT_EQ(stems[1], "ada");
   EXPECT_EQ(stems[2], "class");
-  EXPECT_EQ(std::set<std::string>(names.begin(), names.end()).size(), 7u);
+  EXPECT_EQ(std::set<std::string>(names.begin(), names.end()).size(), 8u);
   std::set<std::string> files;
   for (const std::string& name : names) {
     EXPECT_TRUE(crosscheck::is_printable(name)) << name;
