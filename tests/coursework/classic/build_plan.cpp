@@ -1,225 +1,161 @@
-// Lays a submission out so that every include of it is met, and plans the compiler's calls.
+// Lays a submission out in one folder, where every include of it is met, and plans the compiler's calls.
 #include "tests/coursework/classic/build_plan.h"
 
 #include <algorithm>
-#include <fstream>
+#include <cctype>
+#include <set>
 #include <sstream>
-#include <stdexcept>
 
+#include "mysim/base/files.h"
 #include "tests/coursework/grader/build.h"
 
 namespace coursework::classic {
 namespace fs = std::filesystem;
 namespace {
 
-/// Paths that lead out of the folder, or to another machine's disk, keep their last name, which is then looked for.
-std::string inside(const std::string& written) {
-  std::string name = written;
-  std::replace(name.begin(), name.end(), '\\', '/');
-  const bool leads_out =
-      name.find("..") != std::string::npos || name.find(':') != std::string::npos || name.rfind('/', 0) == 0;
-  return leads_out ? base_name(name) : name;
+std::string defined(const std::string& name, const fs::path& path) {
+  return "-D" + name + "=\"" + path.string() + "\"";
 }
 
-std::string defined(const std::string& name, const std::string& path) { return "-D" + name + "=\"" + path + "\""; }
+/// Our headers, lower-case path -> path, both below `folder`.
+std::map<std::string, std::string> headers_below(const fs::path& folder) {
+  std::map<std::string, std::string> all;
+  for (const auto& entry : fs::recursive_directory_iterator(folder))
+    if (const std::string path = entry.path().lexically_relative(folder).generic_string(); entry.is_regular_file())
+      all[lower(path)] = path;
+  return all;
+}
 
 }  // namespace
 
-BuildPlan::BuildPlan(const Files& submitted, fs::path tree, fs::path coursework,
-                     std::map<std::string, std::string> wanted)
-    : tree_(fs::absolute(tree)),
-      ours_(fs::absolute(coursework) / "classic"),
-      coursework_(fs::absolute(coursework)),
-      wanted_(std::move(wanted)) {
-  files_ = choose_files(submitted, notes_);
-  for (auto& [path, content] : files_) {
-    content = with_includes(content, inside);
-    tokens_[path] = tokens_of(content);
-  }
-  lay_out();
+BuildPlan::BuildPlan(const Files& files, const fs::path& tree, const fs::path& coursework)
+    : tree_(fs::absolute(tree)), ours_(fs::absolute(coursework) / "classic"), files_(files) {
+  fs::create_directories(tree_ / "out");
+  for (const auto& [path, content] : files_) tokens_[path] = tokens_of(content);
+  write_files();
   plan_objects();
-  list_classes();
-  plan_parts(classes_.choose({}, wanted_));
 }
 
-BuildStep BuildPlan::compile(const std::string& source, const std::string& object, const std::string& standard,
+/// All files lie in one folder under their flat names, and includes lead there whatever folder and letters' case they
+/// name. Errors and crashes still name the student's own paths (#line).
+void BuildPlan::write_files() {
+  const fs::path here = tree_ / "in" / "his";
+  bool newer = false;
+  std::set<std::string> his;
+  for (const auto& [path, words] : tokens_) {
+    his.insert(flat_name(path));
+    newer = newer || std::count(words.begin(), words.end(), "GLProgram") > 0 || base_name(path) == "timestepper.cpp";
+  }
+  const fs::path course = ours_ / (newer ? "stubs/course2016" : "starter");
+  auto base = headers_below(course);
+  const auto stubs = headers_below(ours_ / "stubs");
+  std::erase_if(base, [&](const auto& one) {
+    return !newer && one.first != "timestepper.hpp" && one.first != "particlesystem.h";
+  });
+  std::vector<std::string> left_to_the_course;  // headers of `base` that are included
+  const auto lead = [&](const std::string& written, bool in_brackets) -> std::string {
+    std::string name = written;
+    std::replace(name.begin(), name.end(), '\\', '/');
+    const std::string last = base_name(name), flat = lower(last);
+    // <time.h> beside a file Time.h
+    if (in_brackets && (fs::exists(fs::path("/usr/include") / name) || name.starts_with("sys/"))) return "";
+    if (const auto known = stubs.find(lower(name)); known != stubs.end() && (!his.count(flat) || flat != lower(name)))
+      return "<" + known->second + ">";
+    if (base.count(flat) && !his.count(flat)) left_to_the_course.push_back(flat);
+    if (base.count(flat) || his.count(flat)) return "\"" + flat + "\"";
+    for (const auto& [lower_case, path] : stubs)
+      if (base_name(lower_case) == flat) return "<" + path + ">";
+    const bool leads_out = name.starts_with("/") || name.find("..") != name.npos || name.find(':') != name.npos;
+    return leads_out ? "\"" + last + "\"" : "";
+  };
+  std::vector<ClassInfo> all;
+  const auto list = [&](const std::vector<std::string>& tokens, const std::string& path, bool ours) {
+    for (ClassInfo& one : classes_in(tokens, path)) one.ours = ours, all.push_back(std::move(one));
+  };
+  for (const bool headers : {true, false})
+    for (const auto& [path, content] : files_) {
+      if (is_header(path) != headers) continue;
+      const std::string named = "#line 1 \"" + std::string(student_folder) + "/" + path + "\"\n";
+      crosscheck::write_file(here / flat_name(path), named + with_includes(content, lead));
+      list(tokens_.at(path), path, false);
+    }
+  for (std::size_t i = 0; i < left_to_the_course.size(); ++i) {
+    const std::string name = left_to_the_course[i], content = content_of_file(course / base.at(name));
+    if (fs::exists(here / name)) continue;
+    crosscheck::write_file(here / name, with_includes(content, lead));
+    list(tokens_of(content), name, true);
+  }
+  // a class that a macro, a typedef or an alias makes
+  for (const Role& role : roles())
+    for (const std::string_view name : role.names)
+      for (const auto& [path, words] : tokens_) {
+        const auto at = std::find(words.begin(), words.end(), name);
+        if (at == words.end() || at == words.begin() || ClassList(all).named(name)) continue;
+        static const std::set<std::string> makers = {"using", "(", ",", ">"};
+        if (makers.count(at[-1]) ||
+            std::find(at - std::min<std::ptrdiff_t>(8, at - words.begin()), at, "typedef") != at)
+          all.push_back({std::string(name), "", path, {}});
+      }
+  classes_ = ClassList(std::move(all));
+  crosscheck::write_file(tree_ / "in" / "names.h", "");
+}
+
+BuildStep BuildPlan::compile(const fs::path& source, const std::string& object, const std::string& standard,
                              const std::vector<std::string>& more) const {
-  // no-strict-aliasing and no-lifetime-dse: old code reads memory as it likes, and finds it zeroed
+  // no-strict-aliasing and no-lifetime-dse: old code reads memory as it likes, and finds it zeroed; permissive: what
+  // Visual Studio accepts
   BuildStep step;
-  step.words = {"-std=" + standard,
-                "-O1",
-                "-w",
-                "-fno-strict-aliasing",
-                "-fno-lifetime-dse",
-                as_student_folder(tree_ / "in" / "his")};
-  step.words.insert(step.words.end(), options_.begin(), options_.end());
+  step.words = {"-std=" + standard, "-O1", "-w", "-fpermissive", "-fno-strict-aliasing", "-fno-lifetime-dse"};
+  for (const fs::path& forced : {ours_ / "stubs" / "prelude.h", tree_ / "in" / "names.h"})
+    step.words.insert(step.words.end(), {"-include", forced.string()});
+  step.words.push_back("-I" + (ours_ / "stubs").string());
   step.words.insert(step.words.end(), more.begin(), more.end());
   step.makes = tree_ / "out" / object;
   step.source = source;
-  step.words.insert(step.words.end(), {"-c", source, "-o", step.makes.string()});
+  step.words.insert(step.words.end(), {"-c", source.string(), "-o", step.makes.string()});
   return step;
 }
 
 void BuildPlan::plan_objects() {
-  int number = 0;
-  for (const auto& [path, content] : files_) {
-    if (!is_source(path)) continue;
-    BuildStep step = compile((tree_ / "in" / "his" / path).string(), "his" + std::to_string(number++) + ".o", "gnu++14",
-                             {"-fpermissive", "-Dmain=main_of_the_student"});
-    step.file = path;
-    objects_.push_back(step);
-  }
-  // tests/coursework/grader/main.cpp last: nobody waits for it
+  for (const auto& [path, content] : files_)
+    if (is_source(path)) {
+      objects_.push_back(compile(tree_ / "in" / "his" / flat_name(path), "his" + std::to_string(objects_.size()) + ".o",
+                                 "gnu++14", {"-Dmain=main_of_the_student"}));
+      objects_.back().file = path;
+    }
+  // main.cpp last: nobody waits for it
   std::stable_partition(objects_.begin(), objects_.end(),
-                        [](const BuildStep& step) { return lower(base_name(step.file)).rfind("main.", 0) != 0; });
-  const auto lacks = [&](const char* owner, const char* name) {
-    return std::none_of(files_.begin(), files_.end(),
-                        [&](const auto& file) { return defines_member(tokens_.at(file.first), owner, name); });
-  };
-  std::string file, name;
-  if (find({"RK4"}, file, name) && lacks("RK4", "takeStep"))
-    objects_.push_back(
-        compile((ours_ / "base" / "rk4.cpp").string(), "base_rk4.o", "gnu++14", {defined("STEPPERS", file)}));
-  if (find({"ParticleSystem"}, file, name) && lacks("ParticleSystem", "ParticleSystem"))
-    objects_.push_back(
-        compile((ours_ / "base" / "system.cpp").string(), "base_system.o", "gnu++14", {defined("SYSTEM", file)}));
+                        [](const BuildStep& step) { return !flat_name(step.file).starts_with("main."); });
+  for (const auto& [owner, member] : {std::pair{"RK4", "takeStep"}, {"ParticleSystem", "ParticleSystem"}})
+    if (const ClassInfo* one = classes_.named(owner);
+        one && std::none_of(tokens_.begin(), tokens_.end(),
+                            [&](const auto& file) { return defines_member(file.second, owner, member); }))
+      objects_.push_back(compile(ours_ / "base" / "given.cpp", std::string("given") + owner + ".o", "gnu++14",
+                                 {defined("GIVEN", file_on_disk(*one)), std::string("-DGIVEN_") + owner}));
 }
 
-bool BuildPlan::find(const std::vector<std::string_view>& names, std::string& file, std::string& name) const {
-  for (const int round : {0, 1, 2})  // the student's headers, his sources, ours
-    for (const std::string_view wanted : names)
-      for (const auto& [path, words] : tokens_) {
-        const bool his = files_.count(path) > 0;
-        if (round != (his ? (is_header(path) ? 0 : 1) : 2)) continue;
-        const auto found = defines_class(words, std::string(wanted));
-        if (!found) continue;
-        file = his ? (tree_ / "in" / "his" / path).string() : path;
-        name = *found;
-        return true;
-      }
-  return false;
-}
+fs::path BuildPlan::file_on_disk(const ClassInfo& one) const { return tree_ / "in" / "his" / flat_name(one.file); }
 
-void BuildPlan::list_classes() {
-  std::vector<ClassInfo> all;
-  for (const int round : {0, 1, 2})  // the student's headers, his sources, ours
-    for (const auto& [path, words] : tokens_) {
-      const bool his = files_.count(path) > 0;
-      if (round != (his ? (is_header(path) ? 0 : 1) : 2)) continue;
-      for (ClassInfo& one : classes_in(words, path)) {
-        one.ours = !his;
-        all.push_back(std::move(one));
-      }
-    }
-  classes_ = ClassList(std::move(all));
-}
-
-std::string BuildPlan::file_on_disk(const ClassInfo& one) const {
-  return one.ours ? one.file : (tree_ / "in" / "his" / one.file).string();
-}
-
-std::string BuildPlan::base_file() const {
-  const auto base = classes_.named("ParticleSystem");
-  return base && !classes_.at(*base).ours ? classes_.at(*base).file : "";
-}
-
-std::vector<std::string> BuildPlan::names_of(int of) const {
-  const ClassInfo& one = classes_.at(of);
-  std::vector<std::string> more = {defined("STUDENT_HEADER", file_on_disk(one)),
-                                   "-DSTUDENT_CLASS=" + one.full(),
-                                   "-DANSWER=answer",
-                                   "-DOWN_PROCESS",
-                                   "-I" + ours_.string(),
-                                   "-I" + (coursework_ / "check").string()};
+BuildStep BuildPlan::calls(const std::string& name, const ClassInfo& of, bool stepper, const ClassInfo* chain) const {
+  std::vector<std::string> more = {defined("STUDENT_HEADER", file_on_disk(of)), "-DSTUDENT_CLASS=" + of.full(),
+                                   "-DOWN_PROCESS", "-I" + ours_.string(), "-I" + (ours_ / ".." / "check").string()};
+  if (stepper) more.push_back("-DSTEPPER");
+  if (chain)
+    more.insert(more.end(),
+                {defined("STUDENT_CHAIN_HEADER", file_on_disk(*chain)), "-DSTUDENT_CHAIN=" + chain->full()});
   // a class that stands in the file of a main of its own
-  if (!is_header(one.file)) more.push_back("-Dmain=main_of_the_student");
-  const auto base = classes_.named("ParticleSystem");
-  if (!base) return more;
-  // a source that holds both has no guard against being included twice
-  if (classes_.at(*base).file != one.file) more.push_back(defined("PARTICLE_HEADER", file_on_disk(classes_.at(*base))));
-  if (const std::string& scope = classes_.at(*base).scope; !scope.empty()) more.push_back("-DPARTICLE_SCOPE=" + scope);
-  return more;
-}
-
-std::vector<Scout> BuildPlan::scouts() const {
-  std::vector<Scout> all;
-  constexpr std::size_t most = 16;  // of each kind, a few seconds each; a course's program has four
-  for (const bool stepper : {false, true}) {
-    if (!classes_.ambiguous(stepper)) continue;
-    std::vector<int> candidates = classes_.candidates(stepper);
-    candidates.resize(std::min(candidates.size(), most));
-    for (const int of : candidates) {
-      Scout scout{of, stepper, {}};
-      scout.build.part = "scout" + std::to_string(of);
-      std::vector<std::string> more = names_of(of);
-      if (stepper) more.push_back("-DSTEPPER");
-      scout.build.calls = compile((ours_ / "base" / "scout.cpp").string(), scout.build.part + ".o", "gnu++20", more);
-      all.push_back(std::move(scout));
-    }
+  if (!is_header(of.file)) more.push_back("-Dmain=main_of_the_student");
+  if (const ClassInfo* base = classes_.named("ParticleSystem")) {
+    // a source that holds both has no guard against being included twice
+    if (base->file != of.file) more.push_back(defined("PARTICLE_HEADER", file_on_disk(*base)));
+    if (!base->scope.empty()) more.push_back("-DPARTICLE_SCOPE=" + base->scope);
   }
-  return all;
+  return compile(ours_ / "base" / "class_calls.cpp", name + ".o", "gnu++20", more);
 }
 
-void BuildPlan::choose(const std::map<int, Fits>& fits) {
-  parts_.clear();
-  const Chosen chosen = classes_.choose(fits, wanted_);
-  plan_parts(chosen);
-  if (!fits.empty() || !wanted_.empty()) tell_choice(chosen, !fits.empty());
-}
-
-void BuildPlan::tell_choice(const Chosen& chosen, bool tried) {
-  for (const auto& [role, name] : wanted_) {
-    const auto of = chosen.of.find(role);
-    const bool met =
-        of != chosen.of.end() && (classes_.at(of->second).name == name || classes_.at(of->second).full() == name);
-    if (!met) notes_.insert(notes_.begin(), {"choice.class", {role, name}});
-  }
-  std::string graded, others;
-  for (const Role& role : roles())
-    if (const auto of = chosen.of.find(role.name); of != chosen.of.end()) {
-      const ClassInfo& one = classes_.at(of->second);
-      graded += (graded.empty() ? "" : ", ") + std::string(role.name) + " = " + one.full();
-      if (!one.ours) graded += " (" + one.file + ")";
-    }
-  for (const int i : chosen.others)
-    if (!classes_.at(i).ours && classes_.at(i).name != "RK4")
-      others += (others.empty() ? "" : ", ") + classes_.at(i).full();
-  const bool all = others.empty() || !tried;
-  notes_.insert(notes_.begin(), {all ? "whole.graded" : "whole.graded_of", {graded, others}});
-}
-
-void BuildPlan::plan_parts(const Chosen& chosen) {
-  for (const Role& role : roles()) {
-    if (role.name != role.part) continue;  // the chain, which the pendulum's program calls
-    PartBuild plan;
-    plan.part = role.part;
-    const auto of = chosen.of.find(role.name);
-    if (of == chosen.of.end()) {
-      plan.missing = role.names.front();
-      parts_.push_back(plan);
-      continue;
-    }
-    std::vector<std::string> more = names_of(of->second), names = {classes_.at(of->second).name};
-    const auto chain = chosen.of.find("chain");
-    if (role.part == "pendulum" && chain != chosen.of.end() && chain->second != of->second) {
-      const ClassInfo& other = classes_.at(chain->second);
-      more.insert(more.end(),
-                  {defined("STUDENT_CHAIN_HEADER", file_on_disk(other)), "-DSTUDENT_CHAIN=" + other.full()});
-      names.push_back(other.name);
-    }
-    plan.calls =
-        compile((ours_ / ("calls_" + plan.part + ".cpp")).string(), "calls_" + plan.part + ".o", "gnu++20", more);
-    for (const auto& [path, content] : files_) {
-      const std::vector<std::string>& words = tokens_.at(path);
-      for (const std::string& name : names)
-        if (defines_class(words, name) || defines_member(words, name, "evalF") ||
-            defines_member(words, name, "takeStep") || defines_member(words, name, name)) {
-          plan.files.push_back(path);
-          break;
-        }
-    }
-    parts_.push_back(plan);
-  }
+bool BuildPlan::concerns(const std::string& file, const ClassInfo& of) const {
+  return file == of.file || defines_member(tokens_.at(file), of.name, "evalF") ||
+         defines_member(tokens_.at(file), of.name, "takeStep") || defines_member(tokens_.at(file), of.name, of.name);
 }
 
 std::vector<BuildStep> BuildPlan::archives() const {
@@ -232,165 +168,36 @@ std::vector<BuildStep> BuildPlan::archives() const {
   return {his, base};
 }
 
-BuildStep BuildPlan::link(const PartBuild& part, const fs::path& child) const {
-  const fs::path out = tree_ / "out" / part.part;
-  return {{child.string(), part.calls.makes.string(), (tree_ / "out" / "libhis.a").string(),
+BuildStep BuildPlan::link(const BuildStep& calls, const fs::path& child) const {
+  const fs::path out = fs::path(calls.makes).replace_extension();
+  return {{child.string(), calls.makes.string(), (tree_ / "out" / "libhis.a").string(),
            (tree_ / "out" / "libbase.a").string(), "-o", out.string()},
           out,
           "",
           false};
 }
 
-// Lays a submission out so that every include of it is met: the student's files, ours for what is missing, and headers
-// that lead to those written in another case.
-
-namespace {
-
-void write(const fs::path& file, const std::string& content) {
-  fs::create_directories(file.parent_path());
-  std::ofstream out(file, std::ios::binary);
-  out << content;
-  if (!out.flush()) throw std::runtime_error(file.string() + ": cannot be written");
-}
-
-bool has_control(const std::string& name) {
-  return std::any_of(name.begin(), name.end(), [](char c) { return static_cast<unsigned char>(c) < 32; });
-}
-
-/// Whether a file can be written there: nothing above it is a file, and it is no folder.
-bool free_place(const fs::path& top, const fs::path& name) {
-  fs::path at = top;
-  for (const fs::path& part : name.parent_path())
-    if (fs::is_regular_file(at /= part)) return false;
-  return !fs::is_directory(top / name);
-}
-
-}  // namespace
-
-void BuildPlan::lay_out() {
-  fs::create_directories(tree_ / "out");
-  for (const auto& [path, content] : files_) write(tree_ / "in" / "his" / path, content);
-  bool newer = false;
-  for (const auto& [path, words] : tokens_)
-    newer = newer || std::count(words.begin(), words.end(), "GLProgram") > 0 || base_name(path) == "timestepper.cpp";
-  add_base(ours_ / "base" / (newer ? "2016" : "2012"));
-
-  std::vector<std::string> folders = this->folders();
-  folders.insert(folders.end(), {(tree_ / "in" / "base").string(), (ours_ / "stubs").string()});
-  add_forwarders(folders);
-  folders.insert(folders.begin(), (tree_ / "in" / "case").string());
-  options_ = {"-include", (ours_ / "stubs" / "prelude.h").string()};
-  add_drawing();
-  for (const std::string& folder : folders) options_.push_back("-I" + folder);
-}
-
-/// Headers of ours for what the student left to the course. One whose name or class is the student's own is none.
-void BuildPlan::add_base(const fs::path& base) {
-  fs::create_directories(tree_ / "in" / "base");
-  std::map<std::string, std::vector<std::string>> ours;
-  for (const auto& entry : fs::directory_iterator(base)) {
-    const std::string name = entry.path().filename().string();
-    bool his = !is_header(name);
-    for (const auto& [path, words] : tokens_) {
-      his = his || lower(base_name(path)) == lower(name);
-      for (const char* known : {"ParticleSystem", "TimeStepper", "GLProgram"})
-        his = his || (defines_class(tokens_of(content_of_file(entry.path())), known) && defines_class(words, known));
-    }
-    if (his) continue;
-    const fs::path copy = tree_ / "in" / "base" / name;
-    write(copy, content_of_file(entry.path()));
-    ours[copy.string()] = tokens_of(content_of_file(copy));
-  }
-  tokens_.insert(ours.begin(), ours.end());
-}
-
-/// Those of the student's that hold headers, those with most first, and the folders above them.
-std::vector<std::string> BuildPlan::folders() const {
-  std::map<std::string, int> counts;
-  for (const auto& [path, content] : files_)
-    if (is_header(path)) ++counts[folder_name(path)];
-  std::vector<std::pair<int, std::string>> order;
-  for (const auto& [folder, count] : counts) order.push_back({-count, folder});
-  for (const auto& [folder, count] : counts)
-    for (std::string up = folder; !up.empty();) {
-      up = folder_name(up);
-      if (!counts.count(up)) order.push_back({0, up});
-    }
-  std::sort(order.begin(), order.end());
-  order.erase(std::unique(order.begin(), order.end()), order.end());
-  std::vector<std::string> folders;
-  for (const auto& [count, folder] : order) folders.push_back((tree_ / "in" / "his" / folder).string());
-  return folders;
-}
-
-/// For an include that is met only when letters' case is forgotten, or by its last name: a file that leads there.
-void BuildPlan::add_forwarders(const std::vector<std::string>& folders) {
-  std::map<std::string, fs::path> known;  // lower-case name -> file
-  for (auto folder = folders.rbegin(); folder != folders.rend(); ++folder) {
-    if (!fs::is_directory(*folder)) continue;
-    for (const auto& entry : fs::recursive_directory_iterator(*folder)) {
-      if (!entry.is_regular_file()) continue;
-      const fs::path within = entry.path().lexically_relative(*folder);
-      if (within.has_parent_path()) known[lower(within.generic_string())] = entry.path();
-      // the stubs' gl.h in its folder is not what "gl.h" alone means
-      if (!within.has_parent_path() || *folder != folders.back())
-        known[lower(entry.path().filename().string())] = entry.path();
+bool BuildPlan::declare_drawing(const std::string& captured_output) const {
+  const fs::path names = tree_ / "in" / "names.h";
+  std::string text = content_of_file(names), line;
+  if (text.empty()) text = "#pragma once\n#include <GL/glut.h>\n";
+  bool added = false;
+  for (std::istringstream lines(captured_output); std::getline(lines, line);) {
+    // "'glFoo' was not declared in this scope", "use of undeclared identifier 'GL_FOO'"
+    const std::size_t error = line.find("error: "), quote = line.find('\'', error);
+    if (error == line.npos || quote == line.npos || line.find("declared") == line.npos) continue;
+    std::string word = line.substr(quote + 1, line.find_first_of("'( ", quote + 1) - quote - 1);
+    for (const std::string prefix : {"gl", "glu", "glut", "glfw", "GL_", "GLU_", "GLUT_", "GLFW_"}) {
+      if (!word.starts_with(prefix) || !std::isupper(static_cast<unsigned char>(word[prefix.size()]))) continue;
+      const bool constant = prefix.back() == '_';
+      const std::string one =
+          constant ? "#define " + word + " " + std::to_string(text.size()) : "CLASSIC_NOTHING(" + word + ")";
+      if (text.find(constant ? "#define " + word + " " : one) != text.npos) continue;
+      text += one + "\n", added = true;
     }
   }
-  Files all = files_;
-  for (const auto& entry : fs::directory_iterator(tree_ / "in" / "base"))
-    all["../base/" + entry.path().filename().string()] = content_of_file(entry.path());
-  for (const auto& [path, content] : all)
-    for (const std::string& name : includes_of(content)) {
-      // nothing that we would make is called so
-      if (name.empty() || name.size() > 200 || has_control(name)) continue;
-      bool met = fs::exists(tree_ / "in" / "his" / folder_name(path) / name);
-      for (const std::string& folder : folders) met = met || fs::exists(fs::path(folder) / name);
-      if (met) continue;
-      auto found = known.find(lower(name));
-      if (found == known.end()) found = known.find(lower(base_name(name)));
-      // <string> stays the standard's
-      if (found == known.end() || name.find('.') == std::string::npos) continue;
-      if (!free_place(tree_ / "in" / "case", name)) {
-        notes_.push_back({"whole.include", {path, name}});
-        continue;
-      }
-      write(tree_ / "in" / "case" / name, "#include \"" + found->second.string() + "\"\n");
-    }
-}
-
-/// Names of OpenGL that our stubs lack.
-void BuildPlan::add_drawing() {
-  GlNames used;
-  for (const auto& [path, content] : files_) {
-    const GlNames here = gl_names_in(tokens_.at(path));
-    used.functions.insert(here.functions.begin(), here.functions.end());
-    used.constants.insert(here.constants.begin(), here.constants.end());
-  }
-  std::set<std::string> known;
-  for (const char* name : {"GL/gl.h", "GL/glu.h", "GL/glut.h", "GLFW/glfw3.h"}) {
-    const std::string text = content_of_file(ours_ / "stubs" / name);
-    for (std::string word : tokens_of(text)) known.insert(std::move(word));
-    std::istringstream lines(text);
-    for (std::string define, word; lines >> define;)
-      if (define == "#define" && lines >> word) known.insert(word);
-  }
-  // a function that the student defines in another file is his as well
-  for (const auto& [path, words] : tokens_)
-    for (std::size_t i = 1; i + 1 < words.size(); ++i)
-      if (used.functions.count(words[i]) && words[i + 1] == "(" && words[i - 1] == "void")
-        used.functions.erase(words[i]);
-  std::string text;
-  for (const std::string& name : used.functions)
-    if (!known.count(name)) text += "CLASSIC_NOTHING(" + name + ")\n";
-  int value = 0x50000;
-  for (const std::string& name : used.constants)
-    if (!known.count(name))
-      text += "#ifndef " + name + "\n#define " + name + " " + std::to_string(value++) + "\n#endif\n";
-  if (text.empty()) return;
-  const fs::path file = tree_ / "in" / "names.h";
-  write(file, "#pragma once\n#include <GL/glut.h>\n" + text);
-  options_.insert(options_.end(), {"-include", file.string()});
+  if (added) crosscheck::write_file(names, text), fs::permissions(names, fs::perms(0644));
+  return added;
 }
 
 }  // namespace coursework::classic

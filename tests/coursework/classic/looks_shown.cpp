@@ -1,214 +1,192 @@
 // What a probe asked of a system and what came, told of the first particle or spring that is not as it should be.
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <set>
 
 #include "tests/coursework/check/words.h"
 #include "tests/coursework/classic/looks.h"
+#include "tests/coursework/classic/oracles.h"
 #include "tests/coursework/classic/replay.h"
 #include "tests/coursework/classic/springs.h"
 
 namespace coursework::classic {
 namespace {
 
+using probe::Plain;
+
+std::string listed(const std::vector<std::string>& all, const std::string& between = ", ") {
+  std::string list;
+  for (const std::string& one : all) list += (list.empty() ? "" : between) + one;
+  return list.empty() ? "-" : list;
+}
+
 std::string four_digits(double value) { return with_digits(std::abs(value) < 1e-9 ? 0 : value, 4); }
-std::string vector_text(const double* v) {
+std::string vector_text(const Plain& v) {
   return "(" + four_digits(v[0]) + ", " + four_digits(v[1]) + ", " + four_digits(v[2]) + ")";
 }
-
-bool near(double a, double b) { return std::abs(a - b) <= 1e-5 * std::max({1.0, std::abs(a), std::abs(b)}); }
-bool near(const double* a, const double* b) { return near(a[0], b[0]) && near(a[1], b[1]) && near(a[2], b[2]); }
-bool none(const double* v) { return v[0] == 0 && v[1] == 0 && v[2] == 0; }
-
-std::size_t count_in(const Numbers& raw, std::size_t each, std::size_t before = 1) {
-  const auto n = raw.empty() || !(raw[0] >= 1) || raw[0] > 1e5 ? 0 : static_cast<std::size_t>(raw[0]);
-  return raw.size() >= before + n * each ? n : 0;
+std::string three_text(const float* v) {
+  return four_digits(v[0]) + ", " + four_digits(v[1]) + ", " + four_digits(v[2]);
 }
 
-/// Entries in their order: evalF with another state stored, the same again, with the same state stored, and what the
-/// stored one has changed by.
-std::string purity_shown(const Texts& own, const Numbers& raw) {
-  constexpr std::size_t most_in_order = 200;  // of a larger state some are drawn (probe/draws.h)
-  if (raw.size() < 14 || raw[0] > static_cast<double>(most_in_order)) return "";
-  for (std::size_t i = 0; 2 + 12 * i + 12 <= raw.size(); ++i) {
-    double f[4][3];
-    for (std::size_t k = 0; k < 3; ++k)
-      for (std::size_t what = 0; what < 4; ++what) f[what][k] = raw[2 + 12 * i + 4 * k + what];
+bool near(float a, float b) { return std::abs(a - b) <= 1e-5f * std::max({1.f, std::abs(a), std::abs(b)}); }
+bool near(const Plain& a, const Plain& b) { return near(a[0], b[0]) && near(a[1], b[1]) && near(a[2], b[2]); }
+bool none(const Plain& v) { return probe::same(v, {}); }
+
+constexpr std::size_t most_in_order = 200;  // more entries or particles are sampled (probe/draws.h)
+
+std::string purity_shown(const Texts& own, const Findings& found) {
+  if (found.n >= most_in_order) return "";
+  for (std::size_t i = 0; i < found.n; ++i) {
+    const auto& [f, again, stored_too, change] = found.row(i);
     const std::string entry = std::to_string(i);
-    if (!none(f[3])) return own.fill("shown.kept", entry, vector_text(f[3]));
-    if (f[0][0] != f[1][0] || f[0][1] != f[1][1] || f[0][2] != f[1][2])
-      return own.fill("shown.again", entry, vector_text(f[0]), vector_text(f[1]));
-    if (!near(f[0], f[2])) return own.fill("shown.purity", entry, vector_text(f[0]), vector_text(f[2]));
+    if (!none(change)) return own.fill("shown.kept", entry, vector_text(change));
+    if (!probe::same(f, again)) return own.fill("shown.again", entry, vector_text(f), vector_text(again));
+    if (!near(f, stored_too)) return own.fill("shown.purity", entry, vector_text(f), vector_text(stored_too));
   }
+  return std::all_of(found.rows.begin(), found.rows.end(), [](const auto& row) { return none(row[0]); })
+             ? own.of("shown.zero")
+             : "";
+}
+
+std::string motion_shown(const Texts& own, const Findings& found) {
+  for (std::size_t i = 0; i < found.n; ++i)
+    if (const auto& [v, slope, pull, start] = found.row(i); !near(v, slope) && !none(slope))
+      return own.fill("shown.motion", std::to_string(i), vector_text(v), vector_text(slope), vector_text(pull));
   return "";
 }
 
-std::string motion_shown(const Texts& own, const Numbers& raw) {
-  const std::size_t n = count_in(raw, 30);
-  for (std::size_t i = 0; i < n; ++i) {
-    const double* v = &raw[1 + 3 * n + i * 9];  // v, x', v'
-    if (!near(v, v + 3) && !none(v + 3))
-      return own.fill("shown.motion", std::to_string(i), vector_text(v), vector_text(v + 3), vector_text(v + 6));
-  }
-  return "";
+/// The free particle on which `on` finds least; entries `first` to `last` tell which are free.
+std::optional<std::size_t> least_of(const Findings& found, std::size_t first, std::size_t last,
+                                    double (*on)(const Findings&, std::size_t)) {
+  std::optional<std::size_t> least;
+  for (std::size_t i = 0; i < found.n; ++i)
+    if (is_free(found, i, first, last) && (!least || on(found, i) < on(found, *least))) least = i;
+  return least;
 }
 
 /// Of three draws the first: v' of each particle at x and at its mirror image.
-std::string gravity_shown(const Texts& own, const Numbers& raw) {
-  const std::size_t n = count_in(raw, 18);
-  std::vector<std::pair<double, std::size_t>> down;
-  const auto mean = [&](std::size_t i, std::size_t k) { return (raw[1 + 6 * i + k] + raw[4 + 6 * i + k]) / 2; };
-  for (std::size_t i = 0; i < n; ++i)
-    if (!none(&raw[1 + 6 * i]) || !none(&raw[4 + 6 * i])) down.emplace_back(-mean(i, 1), i);
-  if (down.empty()) return "";
-  const std::size_t i = std::min_element(down.begin(), down.end())->second;
-  const double gravity[3] = {mean(i, 0), mean(i, 1), mean(i, 2)};
-  return own.fill("shown.gravity", std::to_string(i), vector_text(&raw[1 + 6 * i]), vector_text(&raw[4 + 6 * i]),
-                  vector_text(gravity));
+std::string gravity_shown(const Texts& own, const Findings& found) {
+  const auto i = least_of(found, 0, 1, gravity_on);
+  if (!i) return "";
+  const Plain &a = found.row(*i)[0], &mirrored = found.row(*i)[1];
+  return own.fill("shown.gravity", std::to_string(*i), vector_text(a), vector_text(mirrored),
+                  vector_text(probe::plus(probe::plus({}, 0.5f, a), 0.5f, mirrored)));
 }
 
-/// The velocity w that a particle alone gets, and its v' at 0, w and 2 w: of the one that it slows least.
-std::string drag_shown(const Texts& own, const Numbers& raw) {
-  constexpr std::size_t most_in_order = 200;  // of more some are drawn
-  const std::size_t n = count_in(raw, 12);
-  std::vector<std::pair<double, std::size_t>> slowed;
-  for (std::size_t i = 0; i < n; ++i) {
-    const double* w = &raw[1 + 12 * i];
-    if (none(w + 3) && none(w + 6)) continue;
-    double along = 0;
-    for (int k = 0; k < 3; ++k) along += (w[3 + k] - w[6 + k]) * w[k];
-    slowed.emplace_back(along, i);
-  }
-  if (slowed.empty() || n >= most_in_order) return "";
-  const auto [least, most] = std::minmax_element(slowed.begin(), slowed.end());
-  const double* w = &raw[1 + 12 * least->second];
+/// The velocity w that a particle alone gets, and its v' at 0 and w: of the one that it slows least.
+std::string drag_shown(const Texts& own, const Findings& found) {
+  const auto i = least_of(found, 1, 3, drag_on);
+  if (!i || found.n >= most_in_order) return "";
+  const auto& [w, at_rest, once, twice] = found.row(*i);
   std::string text =
-      own.fill("shown.drag", std::to_string(least->second), vector_text(w + 3), vector_text(w + 6), vector_text(w));
-  std::string list;
-  std::size_t alike = 0;  // what slows these least
-  for (const auto& [along, i] : slowed)
-    if (std::abs(along - least->first) < 0.02 * std::abs(most->first) && ++alike <= 6)
-      list += (list.empty() ? "" : ", ") + std::to_string(i);
-  if (alike < slowed.size()) text += " " + own.fill("shown.drag_of", list + (alike > 6 ? ", ..." : ""));
+      own.fill("shown.drag", std::to_string(*i), vector_text(at_rest), vector_text(once), vector_text(w));
+  std::vector<std::string> alike;
+  for (std::size_t k = 0; k < found.n; ++k)
+    if (is_free(found, k, 1, 3) && std::abs(drag_on(found, k) - drag_on(found, *i)) < 1e-3)
+      alike.push_back(std::to_string(k));
+  if (alike.size() > 1 && alike.size() <= 6) text += " " + own.fill("shown.drag_of", listed(alike));
   return text;
-}
-
-/// Where the records of pairs begin (probe/forces.h); the end where there are none.
-std::size_t pairs_in(const Numbers& raw, std::size_t particles) {
-  const std::size_t at = 1 + 6 * particles + 2;
-  return at > raw.size() ? raw.size() : at + static_cast<std::size_t>(std::clamp(raw[at - 1], 0.0, 1e5));
 }
 
 /// The first spring that does not draw together, is not linear, has no rest length, or pulls otherwise at its other
 /// end.
-std::string law_shown(const Texts& own, const Numbers& raw, const Springs& s) {
-  const auto record = [&](int a, int b) -> const double* {
-    for (std::size_t at = pairs_in(raw, static_cast<std::size_t>(s.particles)); at + 11 <= raw.size(); at += 11)
-      if (raw[at] == b && raw[at + 1] == a) return &raw[at];
-    return nullptr;
-  };
-  const auto told = [&](int a, int b) {
-    const double* r = record(a, b);
-    if (!r) return std::string();
-    return own.fill("shown.spring", std::to_string(b), std::to_string(a),
-                    four_digits(r[2]) + ", " + four_digits(r[3]) + ", " + four_digits(r[4]),
-                    four_digits(r[5]) + ", " + four_digits(r[7]) + ", " + four_digits(r[9]));
+std::string law_shown(const Texts& own, const Springs& s) {
+  const auto told = [&](const Spring& one) {
+    return own.fill("shown.spring", std::to_string(one.b), std::to_string(one.a), three_text(one.as_found.at),
+                    three_text(one.as_found.along));
   };
   for (const Spring& one : s.all) {
-    if (s.fixed[static_cast<std::size_t>(one.a)]) continue;
-    if (!one.linear || one.k <= 0 || one.rest <= 1e-3) return told(one.a, one.b);
+    if (s.fixed[static_cast<std::size_t>(one.a)] || !one.measured) continue;
+    if (!one.linear || one.k <= 0 || one.rest <= 1e-3) return told(one);
     if (s.fixed[static_cast<std::size_t>(one.b)] || !s.moved[static_cast<std::size_t>(one.a)]) continue;
-    const double *here = record(one.a, one.b), *there = record(one.b, one.a);
-    if (!there || !(std::abs(here[5] - there[5]) <= 0.02 * std::abs(here[5]) + 1e-4)) {
-      const std::string back = told(one.b, one.a);
-      return told(one.a, one.b) + " " +
-             (back.empty() ? own.fill("shown.no_pull", std::to_string(one.a), std::to_string(one.b)) : back);
-    }
+    const auto back =
+        std::find_if(s.all.begin(), s.all.end(), [&](const Spring& two) { return two.a == one.b && two.b == one.a; });
+    if (back == s.all.end())
+      return told(one) + " " + own.fill("shown.no_pull", std::to_string(one.a), std::to_string(one.b));
+    const float here = one.as_found.along[0], there = back->as_found.along[0];
+    if (!(std::abs(here - there) <= 0.02f * std::abs(here) + 1e-4f)) return told(one) + " " + told(*back);
   }
   return "";
 }
 
 using Pairs = std::set<std::pair<int, int>>;
 
-std::string place_text(const Grid& grid, int i) {
-  return "(" + std::to_string(grid.row(i)) + ", " + std::to_string(grid.column(i)) + ")";
+/// "(row, column) - (row, column)" of the first three, and how many there are.
+std::string pairs_shown(const Texts& own, const char* key, const Grid& grid, const Pairs& pairs) {
+  const auto place = [&](int i) {
+    return "(" + std::to_string(grid.row(i)) + ", " + std::to_string(grid.column(i)) + ")";
+  };
+  std::vector<std::string> first;
+  for (const auto& [a, b] : pairs)
+    if (first.size() < 3) first.push_back(place(a) + " - " + place(b));
+  return pairs.empty() ? "" : own.fill(key, std::to_string(pairs.size()), listed(first, "; "));
 }
 
-/// The first few springs of these offsets that nothing shows from either end.
+/// Springs of these offsets that nothing shows from either end.
 std::string missing_shown(const Texts& own, const Springs& s, const std::vector<std::pair<int, int>>& offsets) {
   const auto grid = grid_of(s);
   if (!grid) return "";
-  Pairs pairs;
-  for (const Spring& one : s.all) pairs.insert({one.a, one.b}), pairs.insert({one.b, one.a});
+  Pairs pairs, missing;
+  for (const Spring& one : s.all) pairs.insert(std::minmax(one.a, one.b));
   const auto seen = [&](int a, int b) {
     return s.moved[static_cast<std::size_t>(b)] && !s.fixed[static_cast<std::size_t>(a)];
   };
-  std::string list;
-  int count = 0;
   for (const auto& [down, side] : offsets)
     for (int i = 0; i < s.particles; ++i) {
       const int row = grid->row(i) + down, column = grid->column(i) + side;
       if (row >= grid->rows || column < 0 || column >= grid->columns) continue;
       const int other = row * grid->columns + column;
-      if (pairs.count({i, other}) || (!seen(i, other) && !seen(other, i)) || ++count > 3) continue;
-      list += (list.empty() ? "" : "; ") + place_text(*grid, i) + " - " + place_text(*grid, other);
+      if (!pairs.count({i, other}) && (seen(i, other) || seen(other, i))) missing.insert({i, other});
     }
-  return count == 0 ? "" : own.fill("shown.missing", std::to_string(count), list);
+  return pairs_shown(own, "shown.missing", *grid, missing);
 }
 
-/// The first few springs that are of no family.
+/// Springs that are of no family.
 std::string others_shown(const Texts& own, const Springs& s) {
   const auto grid = grid_of(s);
   if (!grid) return "";
-  std::string list;
-  int count = 0;
-  Pairs told;
-  for (const Spring& one : s.all) {
-    const int down = std::abs(grid->row(one.a) - grid->row(one.b)),
-              side = std::abs(grid->column(one.a) - grid->column(one.b));
-    const bool within = (down <= 1 && side <= 1) || (down + side == 2 && down * side == 0);
-    if (within || !told.insert(std::minmax(one.a, one.b)).second || ++count > 3) continue;
-    list += (list.empty() ? "" : "; ") + place_text(*grid, one.a) + " - " + place_text(*grid, one.b);
-  }
-  return count == 0 ? "" : own.fill("shown.others", std::to_string(count), list);
+  Pairs others;
+  for (const Spring& one : s.all)
+    if (!of_a_family(*grid, one.a, one.b)) others.insert(std::minmax(one.a, one.b));
+  return pairs_shown(own, "shown.others", *grid, others);
 }
 
 std::string links_shown(const Texts& own, const Springs& s) {
-  Pairs pairs;
-  for (const Spring& one : s.all) pairs.insert(std::minmax(one.a, one.b));
-  std::string springs, fixed;
-  for (const auto& [a, b] : pairs)
-    springs += (springs.empty() ? "" : ", ") + std::to_string(a) + "-" + std::to_string(b);
+  std::set<std::string> springs;
+  std::vector<std::string> fixed;
+  for (const Spring& one : s.all)
+    springs.insert(std::to_string(std::min(one.a, one.b)) + "-" + std::to_string(std::max(one.a, one.b)));
   for (int i = 0; i < s.particles; ++i)
-    if (s.fixed[static_cast<std::size_t>(i)]) fixed += (fixed.empty() ? "" : ", ") + std::to_string(i);
-  return own.fill("shown.links", springs.empty() ? "-" : springs, fixed.empty() ? "-" : fixed);
+    if (s.anchors[static_cast<std::size_t>(i)]) fixed.push_back(std::to_string(i));
+  return own.fill("shown.links", listed({springs.begin(), springs.end()}), listed(fixed));
 }
 
 std::string pins_shown(const Texts& own, const Springs& s) {
   const auto grid = grid_of(s);
   if (!grid) return "";
-  std::string list;
-  int count = 0;
+  std::vector<std::string> pins;
   for (int i = 0; i < s.particles; ++i)
-    if (s.fixed[static_cast<std::size_t>(i)] && ++count <= 6) list += (list.empty() ? "" : ", ") + place_text(*grid, i);
-  return own.fill("shown.pins", std::to_string(grid->rows), std::to_string(grid->columns),
-                  count == 0 ? "-" : list + (count > 6 ? ", ..." : ""));
+    if (s.anchors[static_cast<std::size_t>(i)])
+      pins.push_back("(" + std::to_string(grid->row(i)) + ", " + std::to_string(grid->column(i)) + ")");
+  if (pins.size() > 6) pins.resize(6), pins.push_back("...");
+  return own.fill("shown.pins", std::to_string(grid->rows), std::to_string(grid->columns), listed(pins));
 }
 
 }  // namespace
 
 std::string shown(const Texts& own, const Case& what, const Numbers& answers) {
   if (what.column == "vector") return "";
-  const Numbers raw = replay(what, answers);
-  if (raw.empty()) return "";
+  const Findings found = replay(what, answers);
+  if (found.empty()) return "";
   const std::string& column = what.column;
-  if (column == "purity") return purity_shown(own, raw);
-  if (column == "motion" || column == "cloth_motion") return motion_shown(own, raw);
-  if (column == "gravity") return gravity_shown(own, raw);
-  if (column == "drag") return drag_shown(own, raw);
-  const Springs s = springs_of(raw);
-  if (s.particles == 0 || !s.repeats) return "";
-  if (column == "law") return law_shown(own, raw, s);
+  if (column == "purity") return purity_shown(own, found);
+  if (column == "motion" || column == "cloth_motion") return motion_shown(own, found);
+  if (column == "gravity") return gravity_shown(own, found);
+  if (column == "drag") return drag_shown(own, found);
+  const Springs s = springs_of(found);
+  if (!s.repeats) return "";
+  if (column == "law") return law_shown(own, s);
   if (column == "links") return links_shown(own, s);
   if (column == "structural") return missing_shown(own, s, {{0, 1}, {1, 0}});
   if (column == "shear") return missing_shown(own, s, {{1, 1}, {1, -1}});

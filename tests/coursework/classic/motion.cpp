@@ -4,6 +4,7 @@
 #include <complex>
 
 #include "calls.h"
+#include "tests/coursework/classic/oracles.h"
 #include "tests/coursework/classic/replay.h"
 #include "tests/coursework/classic/springs.h"
 
@@ -17,35 +18,29 @@ struct Pendulum {
   double gravity = 0, drag = 0;  // m/s^2, 1/s (drag by mass)
 };
 
-Numbers raw_of(const char* call) {
+probe::Findings found_by(const char* call) {
   Case what;
   what.call = call, what.in = {2, 1};
   Numbers record;
-  return answer(call, what.in, record) ? classic::replay(what, record) : Numbers();
+  return answer(call, what.in, record) ? classic::replay(what, record) : probe::Findings();
 }
 
 /// False where no spring moves either particle. Signs are taken as they should be; where gravity or the rest length is
 /// missing, the earth's or the distance at the start stands in.
 bool read(Pendulum& p) {
-  const classic::Springs springs = classic::springs_of(raw_of("pendulum.springs"));
-  const Numbers gravity = raw_of("pendulum.gravity"), drag = raw_of("pendulum.drag");
-  if (springs.particles != 2 || gravity.size() < 13 || drag.size() < 25) return false;
-  const auto place = [&](std::size_t i) { return Numbers{springs.x[i], springs.y[i], springs.z[i]}; };
+  const classic::Springs springs = classic::springs_of(found_by("pendulum.springs"));
+  const probe::Findings gravity = found_by("pendulum.gravity"), drag = found_by("pendulum.drag");
+  if (springs.particles != 2 || gravity.n != 2 || drag.n != 2) return false;
+  const auto place = [&](std::size_t i) { return Numbers(springs.places[i].at, springs.places[i].at + 3); };
   p.bob = springs.fixed[1] && !springs.fixed[0] ? 0 : 1;
   p.anchor = place(1 - p.bob), p.first = place(1);
   for (const classic::Spring& spring : springs.all)
     if (spring.a == static_cast<int>(p.bob)) p.k = std::abs(spring.k), p.rest = spring.rest;
   const Numbers start = place(p.bob);
   if (!(p.rest > 1e-3)) p.rest = std::hypot(start[0] - p.anchor[0], start[1] - p.anchor[1], start[2] - p.anchor[2]);
-  // v' at a state and at its mirror image: gravity is what does not turn around with it
-  const double* pulled = &gravity[1 + 6 * p.bob];
-  const double even = std::abs(pulled[1] + pulled[4]) / 2;
-  p.gravity = even > 1e-3 ? even : 9.81;
-  // a velocity w, v' without it, v' with it
-  const double* w = &drag[1 + 12 * p.bob];
-  double along = 0, size = 0;
-  for (int i = 0; i < 3; ++i) along += w[i] * (w[3 + i] - w[6 + i]), size += w[i] * w[i];
-  p.drag = std::abs(along / size);
+  const double down = std::abs(classic::gravity_on(gravity, p.bob));
+  p.gravity = down > 1e-3 ? down : 9.81;
+  p.drag = std::abs(classic::drag_on(drag, p.bob));
   return p.k > 0 && p.rest > 0;
 }
 

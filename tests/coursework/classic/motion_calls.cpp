@@ -1,8 +1,10 @@
-// Calls of what the hand-out's check draws: the student's systems, moved by his own trapezoidal rule.
+// The hand-out's calls of all but the cloth, under the starter's names; and of what it draws: the student's systems,
+// moved by the student's trapezoidal rule.
 #include "TimeStepper.hpp"
 #include "calls.h"
 #include "pendulumSystem.h"
-#include "probe/system.h"
+#include "probe/roles.h"
+#include "probe/stepper.h"
 #include "simpleSystem.h"
 
 namespace coursework {
@@ -26,11 +28,12 @@ void follow(T& system, std::size_t entry, float h, double steps, Numbers& out) {
 
 }  // namespace
 
-/// All begin with h (s) and steps; a row per step, the start among them: position (3).
+namespace {
+
+/// Both begin with h (s) and steps; a row per step, the start among them: position (3).
 ///   simple.turn       nothing more
 ///   pendulum.bounce   which particle is followed, where particle 1 starts (3), where the followed one is let go (3)
 bool answer_motion(const std::string& call, const Numbers& in, Numbers& out) {
-  if (call != "simple.turn" && call != "pendulum.bounce") return false;
   const float h = static_cast<float>(in.at(0));
   if (call == "simple.turn") {
     follow(probe::ready<SimpleSystem>(1, false), 0, h, in.at(1), out);
@@ -46,6 +49,15 @@ bool answer_motion(const std::string& call, const Numbers& in, Numbers& out) {
   probe::store(pendulum, state);
   follow(pendulum, entry, h, in.at(1), out);
   return true;
+}
+
+}  // namespace
+
+bool answer_moving(const std::string& call, const Numbers& in, Numbers& out) {
+  if (call == "simple.turn" || call == "pendulum.bounce") return answer_motion(call, in, out);
+  if (call.rfind("euler.", 0) == 0) return probe::path<ForwardEuler>(call, in, out);
+  if (call.rfind("trapezoidal.", 0) == 0) return probe::path<Trapzoidal>(call, in, out);
+  return probe::simple<SimpleSystem>(call, in, out) || probe::pendulum<PendulumSystem, PendulumSystem>(call, in, out);
 }
 
 }  // namespace coursework

@@ -2,20 +2,24 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdlib>
 #include <vector>
 
 namespace coursework::classic {
 namespace {
 
-using std::size_t;
+using probe::Plain, std::size_t;
+using Flags = std::vector<bool>;
 
-double length(const double* v) { return std::hypot(v[0], v[1], v[2]); }
-double dot(const double* a, const double* b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
-bool zero(const double* v) { return v[0] == 0 && v[1] == 0 && v[2] == 0; }
+double dot(const Plain& a, const Plain& b) { return double(a[0]) * b[0] + double(a[1]) * b[1] + double(a[2]) * b[2]; }
+bool zero(const Plain& v) { return probe::same(v, {}); }
+int count(const Flags& flags) { return static_cast<int>(std::count(flags.begin(), flags.end(), true)); }
 
 /// Of single-precision numbers that went the same way.
-bool close(double a, double b) { return std::abs(a - b) <= 1e-5 * std::max({1.0, std::abs(a), std::abs(b)}); }
+bool close(const Plain& a, const Plain& b) {
+  for (int k = 0; k < 3; ++k)
+    if (!(std::abs(a[k] - b[k]) <= 1e-5 * std::max({1.f, std::abs(a[k]), std::abs(b[k])}))) return false;
+  return true;
+}
 
 /// 1 where all are positive, -1 where all are negative, 0 where all are neither; else 0.5.
 double sign(int plus, int minus, int all) {
@@ -23,102 +27,127 @@ double sign(int plus, int minus, int all) {
   return plus == all ? 1 : minus == all ? -1 : 0.5;
 }
 
-size_t count_of(const Numbers& raw, size_t each) {
-  if (raw.empty() || !(raw[0] >= 1) || raw[0] > 1e6) return 0;
-  const auto n = static_cast<size_t>(raw[0]);
-  return raw.size() >= 1 + n * each ? n : 0;
+/// True if the particles in `odd` are anchors of an unusual kind: most particles are not, and none is held or tied.
+bool few(const Flags& odd, const Flags& anchors) {
+  return count(anchors) == 0 && 2 * static_cast<size_t>(count(odd)) <= odd.size();
 }
 
 }  // namespace
 
 Feature share(int good, int all) { return all == 0 ? Feature(0) : Feature(double(good) / all, all); }
 
-Features purity(const Numbers& raw) {
-  if (raw.size() < 6) return {0, 0, 0, 0};
-  int all = 0, again = 0, kept = 0, given = 0;
+Features purity(const Findings& found) {
+  const int all = static_cast<int>(found.n);
+  int again = 0, kept = 0, given = 0;
   bool something = false;
-  for (size_t i = 2; i + 3 < raw.size(); i += 4, ++all) {
-    again += raw[i] == raw[i + 1];
-    given += close(raw[i], raw[i + 2]);
-    kept += raw[i + 3] == 0;
-    something = something || raw[i] != 0;
+  for (const auto& [f, once_more, stored_too, change] : found.rows) {
+    again += probe::same(f, once_more);
+    given += close(f, stored_too);
+    kept += zero(change);
+    something = something || !zero(f);
   }
   // an evalF that is zero whatever it is given uses nothing
-  return {raw[1] / raw[0], something ? share(again, all) : 0, something ? share(kept, all) : 0,
+  return {found.per_entry, something ? share(again, all) : 0, something ? share(kept, all) : 0,
           something ? share(given, all) : 0};
 }
 
-Features motion(const Numbers& raw, int wanted) {
-  const size_t n = count_of(raw, 30);
-  if (n == 0) return {0, 0, 0, 0};
-  int fixed = 0, still = 0, right = 0;
+Features motion(const Findings& found, int wanted) {
+  const size_t n = found.n;
+  Flags anchors(n), still(n), driven(n);
+  int right = 0;
   for (size_t i = 0; i < n; ++i) {
-    const bool at_rest = zero(&raw[1 + 3 * i]);
-    bool stays = true, rests = true, follows = true;
+    bool stays = true, rests = true, follows = true, constant = true;
     for (size_t draw = 0; draw < 3; ++draw) {
-      const double* v = &raw[1 + 3 * n + (draw * n + i) * 9];
-      stays = stays && zero(v + 3);
-      rests = rests && zero(v + 6);
-      for (int k = 0; k < 3; ++k) follows = follows && close(v[k], v[3 + k]);
+      const auto& [v, slope, pull, start] = found.row(i, draw);
+      stays = stays && zero(slope);
+      rests = rests && zero(pull);
+      follows = follows && close(v, slope);
+      constant = constant && probe::same(slope, found.row(i)[1]);
     }
-    fixed += stays || rests;
-    still += stays || (rests && at_rest);
-    right += stays || follows;
+    anchors[i] = stays || rests;
+    still[i] = stays || (rests && zero(found.row(i)[3]));
+    driven[i] = constant;
+    right += stays || rests || follows;
   }
-  const int particles = static_cast<int>(n);
-  return {share(std::min(particles, wanted), wanted), share(right, particles), double(fixed), share(still, fixed)};
+  // if none is held, those are anchors that hang in the world, or else those with a prescribed velocity
+  const bool any_tied = count(found.tied) > 0;
+  if (few(any_tied ? found.tied : driven, anchors)) {
+    if (!any_tied) right += count(driven);
+    anchors = any_tied ? found.tied : driven;
+    if (any_tied) still = found.tied;
+  }
+  const int particles = static_cast<int>(n), fixed = count(anchors);
+  return {share(std::min(particles, wanted), wanted), share(right, particles), double(fixed),
+          share(count(still), fixed)};
 }
 
-Features gravity(const Numbers& raw) {
-  const size_t n = count_of(raw, 18);
-  if (n == 0) return {0, 0};
-  std::vector<double> down;
-  int plus = 0, minus = 0;
-  for (size_t i = 0; i < n; ++i) {
-    bool moves = false;
-    std::vector<double> draws;
-    for (size_t draw = 0; draw < 3; ++draw) {
-      const double* a = &raw[1 + (draw * n + i) * 6];
-      moves = moves || !zero(a) || !zero(a + 3);
-      double even[3];
-      for (int k = 0; k < 3; ++k) even[k] = -(a[k] + a[k + 3]) / 2;
-      // y is up; a few take z
-      const double here = std::abs(even[1]) < 1e-3 * std::abs(even[2]) ? even[2] : even[1];
-      // what single precision leaves of springs that cancel
-      draws.push_back(std::abs(here) < 1e-5 * (length(a) + length(a + 3)) ? 0 : here);
-    }
-    if (!moves) continue;
-    // an obstacle may be in the way of one draw
-    std::sort(draws.begin(), draws.end());
-    down.push_back(draws[1]);
-    plus += draws[1] > 0;
-    minus += draws[1] < 0;
+double gravity_on(const Findings& found, size_t i) {
+  std::vector<double> draws;
+  for (size_t draw = 0; draw < 3; ++draw) {
+    const Plain &a = found.row(i, draw)[0], &mirrored = found.row(i, draw)[1];
+    double even[3];
+    for (int k = 0; k < 3; ++k) even[k] = -(double(a[k]) + mirrored[k]) / 2;
+    // y is up; a few take z
+    const double here = std::abs(even[1]) < 1e-3 * std::abs(even[2]) ? even[2] : even[1];
+    // rounding error of springs that cancel in single precision
+    draws.push_back(std::abs(here) < 1e-5 * (length(a) + length(mirrored)) ? 0 : here);
   }
+  // an obstacle may be in the way of one draw
+  std::sort(draws.begin(), draws.end());
+  return draws[1];
+}
+
+double drag_on(const Findings& found, size_t i) {
+  const auto& [w, at_rest, once, twice] = found.row(i);
+  const double rate = (dot(at_rest, w) - dot(once, w)) / dot(w, w);
+  // weaker than any that was seen (0.03), and above what rounding leaves of stiff springs
+  return std::abs(rate) > 1e-3 ? rate : 0;
+}
+
+bool is_free(const Findings& found, size_t i, size_t first, size_t last) {
+  for (size_t draw = 0; draw * found.n < found.rows.size(); ++draw)
+    for (size_t k = first; k <= last; ++k)
+      if (!zero(found.row(i, draw)[k])) return true;
+  return false;
+}
+
+Features gravity(const Findings& found) {
+  std::vector<double> down;
+  Flags anchors(found.n), weightless;
+  for (const bool with_tied : {false, true})  // a tie may be all that is measured
+    for (size_t i = 0; i < found.n && (!with_tied || down.empty()); ++i) {
+      anchors[i] = !is_free(found, i, 0, 1);
+      if (anchors[i] || (found.tied[i] && !with_tied)) continue;
+      down.push_back(gravity_on(found, i));
+      weightless.push_back(down.back() == 0);
+    }
+  // an anchor that is set free by what is added later has no weight; whether it holds is asked elsewhere
+  if (few(weightless, anchors)) std::erase(down, 0.0);
   if (down.empty()) return {0, 0};
   const auto [low, high] = std::minmax_element(down.begin(), down.end());
   const double largest = std::max(std::abs(*low), std::abs(*high));
   const bool alike = largest > 0 && *high - *low < 0.02 * largest;
-  return {sign(plus, minus, static_cast<int>(down.size())), alike ? 1.0 : 0.0};
+  const auto plus = std::count_if(down.begin(), down.end(), [](double d) { return d > 0; }),
+             minus = std::count_if(down.begin(), down.end(), [](double d) { return d < 0; });
+  return {sign(static_cast<int>(plus), static_cast<int>(minus), static_cast<int>(down.size())), alike ? 1.0 : 0.0};
 }
 
-Features drag(const Numbers& raw) {
-  const size_t n = count_of(raw, 12);
+Features drag(const Findings& found) {
   int all = 0, plus = 0, minus = 0, straight = 0;
-  for (size_t i = 0; i < n; ++i) {
-    const double* w = &raw[1 + i * 12];
-    const double *a0 = w + 3, *a1 = w + 6, *a2 = w + 9;
-    if (zero(a0) && zero(a1) && zero(a2)) continue;
+  Flags anchors(found.n), loose(found.n);
+  for (size_t i = 0; i < found.n; ++i) {
+    const auto& [w, at_rest, at_w, at_2w] = found.row(i);
+    anchors[i] = !is_free(found, i, 1, 3);
+    if (anchors[i]) continue;
     ++all;
-    double once[3], bent[3];
-    for (int k = 0; k < 3; ++k) once[k] = a1[k] - a0[k], bent[k] = a2[k] - a1[k] - once[k];
-    const double rate = -dot(once, w) / dot(w, w);
-    // weaker than any that was seen (0.03), and above what rounding leaves of stiff springs
-    plus += rate > 1e-3;
-    minus += rate < -1e-3;
-    double across[3];
-    for (int k = 0; k < 3; ++k) across[k] = once[k] + rate * w[k];
-    straight += length(once) > 0 && length(bent) < 0.03 * length(once) && length(across) < 0.03 * length(once);
+    const double rate = drag_on(found, i);
+    plus += rate > 0, minus += rate < 0, loose[i] = rate == 0;
+    const Plain once = probe::plus(at_w, -1, at_rest), bent = probe::plus(probe::plus(at_2w, -1, at_w), -1, once);
+    const Plain across = probe::plus(once, static_cast<float>(rate), w);
+    straight += rate != 0 && length(bent) < 0.03f * length(once) && length(across) < 0.03f * length(once);
   }
+  // as of gravity
+  if (few(loose, anchors)) all -= count(loose);
   return {sign(plus, minus, all), share(straight, all)};
 }
 

@@ -80,8 +80,8 @@ class Recorded : public probe::Asker {
 
 }  // namespace
 
-Numbers replay(const Case& what, const Numbers& answers) {
-  Numbers found;
+probe::Findings replay(const Case& what, const Numbers& answers) {
+  probe::Findings found;
   try {
     Recorded recorded(answers);
     probe::Forces forces(recorded, static_cast<std::uint64_t>(what.in.at(1)));

@@ -3,11 +3,12 @@
 #pragma once
 
 #include "tests/coursework/check/case.h"
+#include "tests/coursework/classic/probe/findings.h"
 
 namespace coursework::classic {
 
-/// The numbers of probe/forces.h that oracles.h reads. `answers` is what probe/ask.h records; empty where it cannot be
-/// that, whoever wrote it.
-Numbers replay(const Case& what, const Numbers& answers);
+/// The findings of probe/forces.h, which oracles.h reads. `answers` is what probe/ask.h records; empty where it cannot
+/// be that, whoever wrote it.
+probe::Findings replay(const Case& what, const Numbers& answers);
 
 }  // namespace coursework::classic

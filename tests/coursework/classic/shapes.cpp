@@ -27,7 +27,7 @@ std::set<std::pair<int, int>> pairs_of(const Springs& s) {
 double rest_of(const Springs& s, const Grid& grid, int down, int side) {
   std::vector<double> rests;
   for (const Spring& one : s.all)
-    if (grid.row(one.b) - grid.row(one.a) == down && grid.column(one.b) - grid.column(one.a) == side)
+    if (one.measured && grid.row(one.b) - grid.row(one.a) == down && grid.column(one.b) - grid.column(one.a) == side)
       rests.push_back(one.rest);
   if (rests.empty()) return 0;
   std::sort(rests.begin(), rests.end());
@@ -54,8 +54,8 @@ bool one_line(const Springs& s) {
 
 }  // namespace
 
-Features spring_law(const Numbers& raw) {
-  const Springs s = springs_of(raw);
+Features spring_law(const Findings& found_here) {
+  const Springs s = springs_of(found_here);
   int movable = 0, joined = 0, all = 0, plus = 0, minus = 0, linear = 0, rest = 0, both = 0, equal = 0;
   std::set<int> hangs;
   std::map<std::pair<int, int>, const Spring*> by_pair;
@@ -64,7 +64,7 @@ Features spring_law(const Numbers& raw) {
   double stiffest = 0;
   for (const Spring& one : s.all) stiffest = std::max(stiffest, std::abs(one.k));
   for (const Spring& one : s.all) {
-    if (held(s, one.a)) continue;
+    if (held(s, one.a) || !one.measured) continue;
     ++all;
     plus += one.k > 1e-6 * stiffest;
     minus += one.k < -1e-6 * stiffest;
@@ -85,8 +85,8 @@ Features spring_law(const Numbers& raw) {
   return {seen ? share(joined, movable) : share(all > 0, 1), sign, share(linear, all), share(rest, all), mutual};
 }
 
-Features chain_links(const Numbers& raw) {
-  const Springs s = springs_of(raw);
+Features chain_links(const Findings& found_here) {
+  const Springs s = springs_of(found_here);
   const int n = s.particles;
   const auto pairs = pairs_of(s);
   int there = 0, expected = 0, ends = 0, inner = 0;
@@ -103,14 +103,15 @@ Features chain_links(const Numbers& raw) {
   }
   const bool line = n > 2 && one_line(s);
   for (int i = 0; i < n; ++i)
-    if (held(s, i)) ((line ? next[i].size() == 1 : i == 0 || i == n - 1) ? ends : inner) += 1;
+    if (s.anchors[static_cast<std::size_t>(i)])
+      ((line ? next[i].size() == 1 : i == 0 || i == n - 1) ? ends : inner) += 1;
   const double fixed = inner ? 2 : ends ? 1 : 0;
   if (line) return {1, 0, fixed};
   return {share(there, expected), others, fixed};
 }
 
-Features cloth_family(const Numbers& raw, Family first, Family second) {
-  const Springs s = springs_of(raw);
+Features cloth_family(const Findings& found_here, Family first, Family second) {
+  const Springs s = springs_of(found_here);
   const auto grid = grid_of(s);
   if (!grid) return {0, 0, 0, 0};
   const auto pairs = pairs_of(s);
@@ -143,8 +144,8 @@ Features cloth_family(const Numbers& raw, Family first, Family second) {
   return found;
 }
 
-Features cloth_others(const Numbers& raw) {
-  const Springs s = springs_of(raw);
+Features cloth_others(const Findings& found_here) {
+  const Springs s = springs_of(found_here);
   const auto grid = grid_of(s);
   if (!grid || s.all.empty()) return {0, 0, 0};
   double others = 0;
@@ -153,19 +154,19 @@ Features cloth_others(const Numbers& raw) {
   for (const auto& [a, b] : pairs) {
     if (a > b && pairs.count({b, a})) continue;
     ++all;
-    const int down = std::abs(grid->row(a) - grid->row(b)), side = std::abs(grid->column(a) - grid->column(b));
-    if ((down <= 1 && side <= 1) || (down + side == 2 && down * side == 0)) {
+    if (of_a_family(*grid, a, b)) {
       ++within;
       continue;
     }
+    const int down = std::abs(grid->row(a) - grid->row(b)), side = std::abs(grid->column(a) - grid->column(b));
     const bool across = side >= grid->columns - 2 || down >= grid->rows - 2;
     others = std::max(others, across ? 1.0 : 2.0);
   }
   return {share(within, all), others, 1};
 }
 
-Features cloth_lengths(const Numbers& raw) {
-  const Springs s = springs_of(raw);
+Features cloth_lengths(const Findings& found_here) {
+  const Springs s = springs_of(found_here);
   const auto grid = grid_of(s);
   if (!grid) return {0, 0, 0};
   const double row = rest_of(s, *grid, 0, 1), column = rest_of(s, *grid, 1, 0);
@@ -179,15 +180,16 @@ Features cloth_lengths(const Numbers& raw) {
   return {shear, ratio(rest_of(s, *grid, 0, 2), row), ratio(rest_of(s, *grid, 2, 0), column)};
 }
 
-Features cloth_pins(const Numbers& raw) {
-  const Springs s = springs_of(raw);
+Features cloth_pins(const Findings& found_here) {
+  const Springs s = springs_of(found_here);
   const auto grid = grid_of(s);
   if (!grid || s.all.empty()) return {0, 0, 0};
   const int rows = grid->rows, columns = grid->columns;
   std::set<std::pair<int, int>> pins;
   int still = 0;
   for (int i = 0; i < s.particles; ++i)
-    if (held(s, i)) pins.insert({grid->row(i), grid->column(i)}), still += s.still[static_cast<std::size_t>(i)];
+    if (s.anchors[static_cast<std::size_t>(i)])
+      pins.insert({grid->row(i), grid->column(i)}), still += s.still[static_cast<std::size_t>(i)];
   const int count = static_cast<int>(pins.size());
   const auto all = [&](auto&& good) { return std::all_of(pins.begin(), pins.end(), good); };
   const auto edge = [](int at, int all_of) { return at == 0 || at == all_of - 1; };

@@ -3,7 +3,10 @@
 
 #include <algorithm>
 #include <cctype>
+#include <set>
 #include <sstream>
+#include <tuple>
+#include <utility>
 
 namespace coursework::classic {
 namespace {
@@ -56,170 +59,104 @@ std::vector<std::string> tokens_of(const std::string& text) {
   return tokens;
 }
 
-std::optional<std::string> defines_class(const std::vector<std::string>& tokens, const std::string& name) {
-  for (std::size_t i = 0; i + 2 < tokens.size(); ++i) {
-    if ((tokens[i] != "class" && tokens[i] != "struct") || lower(tokens[i + 1]) != lower(name)) continue;
-    const std::string& next = tokens[i + 2] == "final" && i + 3 < tokens.size() ? tokens[i + 3] : tokens[i + 2];
-    if (next == ":" || next == "{") return tokens[i + 1];
+std::vector<ClassInfo> classes_in(const std::vector<std::string>& tokens, const std::string& file) {
+  static const std::set<std::string> no_bases = {"public", "protected", "private", "virtual", "typename"};
+  const auto at = [&](std::size_t i) { return i < tokens.size() ? tokens[i] : std::string(" "); };
+  std::vector<ClassInfo> found;
+  std::vector<std::pair<std::string, bool>> open;  // for each open brace its name, and whether it has a scope's
+  std::pair<std::string, bool> next;
+  for (std::size_t i = 0; i < tokens.size(); ++i) {
+    if (tokens[i] == "{") {
+      open.push_back(std::exchange(next, {}));
+    } else if (tokens[i] == "}") {
+      if (!open.empty()) open.pop_back();
+    } else if (tokens[i] == "extern" && at(i + 1) == "{") {
+      next.second = true;
+    } else if (tokens[i] == "namespace") {
+      std::string name;
+      for (; starts_word(at(i + 1)[0]) || at(i + 1) == ":"; ++i) name += at(i + 1);
+      if (at(i + 1) == "{") next = {name, true};
+    } else if ((tokens[i] == "class" || tokens[i] == "struct") && starts_word(at(i + 1)[0])) {
+      const std::string before = i > 0 ? tokens[i - 1] : "";
+      std::size_t end = i + 2;
+      if (at(end) == "final") ++end;
+      if (before == "enum" || before == "friend" || (at(end) != ":" && at(end) != "{")) continue;
+      ClassInfo one{tokens[i + 1], "", file, {}, before != ">"};
+      next = {one.name, true};
+      for (; end < tokens.size() && at(end) != "{" && at(end) != ";"; ++end)
+        if (starts_word(at(end)[0]) && !no_bases.count(at(end))) one.bases.push_back(at(end));
+      for (const auto& [name, is_scope] : open) {
+        one.usable = one.usable && is_scope;
+        if (!name.empty()) one.scope += (one.scope.empty() ? "" : "::") + name;
+      }
+      found.push_back(std::move(one));
+      i = end - 1;
+    }
   }
-  return {};
+  return found;
 }
 
 bool defines_member(const std::vector<std::string>& tokens, const std::string& owner, const std::string& name) {
-  for (std::size_t i = 0; i + 3 < tokens.size(); ++i)
-    if (tokens[i] == owner && tokens[i + 1] == ":" && tokens[i + 2] == ":" && tokens[i + 3] == name) return true;
-  return false;
+  const std::string words[] = {owner, ":", ":", name};
+  return std::search(tokens.begin(), tokens.end(), std::begin(words), std::end(words)) != tokens.end();
 }
 
-GlNames gl_names_in(const std::vector<std::string>& tokens) {
-  GlNames found;
-  std::set<std::string> own;
-  const auto begins = [](const std::string& word, const char* prefix) {
-    const std::size_t size = std::string(prefix).size();
-    return word.size() > size && word.compare(0, size, prefix) == 0;
-  };
-  for (std::size_t i = 0; i < tokens.size(); ++i) {
-    const std::string& word = tokens[i];
-    for (const char* prefix : {"GL_", "GLU_", "GLUT_", "GLFW_"})
-      if (begins(word, prefix)) found.constants.insert(word);
-    const bool called = i + 1 < tokens.size() && tokens[i + 1] == "(";
-    if (!called || (i > 0 && (tokens[i - 1] == "." || tokens[i - 1] == ":" || tokens[i - 1] == ">"))) continue;
-    for (const char* prefix : {"gl", "glu", "glut", "glfw"})
-      if (begins(word, prefix) && std::isupper(static_cast<unsigned char>(word[std::string(prefix).size()])))
-        found.functions.insert(word);
-    // "void glFlag(": a function of the student's that is only called so
-    if (i > 0 && starts_word(tokens[i - 1][0]) && tokens[i - 1] != "return" && tokens[i - 1] != "else")
-      own.insert(word);
-  }
-  for (const std::string& word : own) found.functions.erase(word);
-  return found;
-}
-
-namespace {
-
-/// Where the name of an include begins and how long it is; nothing where the line is none.
-std::optional<std::pair<std::size_t, std::size_t>> include_in(const std::string& line) {
-  std::size_t at = line.find_first_not_of(" \t");
-  if (at == std::string::npos || line[at] != '#') return {};
-  at = line.find_first_not_of(" \t", at + 1);
-  if (at == std::string::npos || line.compare(at, 7, "include") != 0) return {};
-  at = line.find_first_of("\"<", at + 7);
-  if (at == std::string::npos) return {};
-  const std::size_t end = line.find(line[at] == '<' ? '>' : '"', at + 1);
-  if (end == std::string::npos) return {};
-  return std::pair{at + 1, end - at - 1};
-}
-
-}  // namespace
-
-std::vector<std::string> includes_of(const std::string& text) {
-  std::vector<std::string> found;
-  std::istringstream lines(text);
-  for (std::string line; std::getline(lines, line);)
-    if (const auto place = include_in(line)) found.push_back(line.substr(place->first, place->second));
-  return found;
-}
-
-std::string with_includes(const std::string& text, std::string (*rename)(const std::string&)) {
+std::string with_includes(const std::string& text,
+                          const std::function<std::string(const std::string& name, bool in_brackets)>& lead) {
   std::string out;
   std::istringstream lines(text);
-  for (std::string line; std::getline(lines, line);) {
-    if (const auto place = include_in(line))
-      line.replace(place->first, place->second, rename(line.substr(place->first, place->second)));
-    out += line + "\n";
+  for (std::string line; std::getline(lines, line); out += line + "\n") {
+    std::size_t at = line.find_first_not_of(" \t");
+    if (at == std::string::npos || line[at] != '#') continue;
+    at = line.find_first_not_of(" \t", at + 1);
+    if (at == std::string::npos || line.compare(at, 7, "include") != 0) continue;
+    at = line.find_first_of("\"<", at + 7);
+    if (at == std::string::npos) continue;
+    const bool in_brackets = line[at] == '<';
+    const std::size_t end = line.find(in_brackets ? '>' : '"', at + 1);
+    if (end == std::string::npos) continue;
+    if (const std::string to = lead(line.substr(at + 1, end - at - 1), in_brackets); !to.empty())
+      line.replace(at, end + 1 - at, to);
   }
   return out;
 }
 
 namespace {
 
-const std::set<std::string> of_vecmath = {"vecmath",  "vector2f", "vector3f", "vector4f",
-                                          "matrix2f", "matrix3f", "matrix4f", "quat4f"};
-std::string stem(const std::string& path) {
-  const std::string name = lower(base_name(path));
-  return name.substr(0, name.rfind('.'));
-}
-
-std::vector<std::string> words_of(const std::string& path) {
-  std::vector<std::string> words;
-  std::size_t begin = 0;
-  for (std::size_t end; (end = path.find('/', begin)) != std::string::npos; begin = end + 1)
-    words.push_back(path.substr(begin, end - begin));
-  words.push_back(path.substr(begin));
-  return words;
-}
-
-bool counts(const std::string& path) {
-  if (!is_header(path) && !is_source(path)) return false;
-  // what a quoted name in an option or an include cannot hold
-  for (const char c : path)
-    if (static_cast<unsigned char>(c) < 32 || c == '"' || c == '\\' || c == '<' || c == '>') return false;
-  const std::vector<std::string> words = words_of(path);
-  for (const std::string& word : words)
-    if (word.empty() || word[0] == '.') return false;
-  return !in_library(path);
-}
-
-/// Longer than file systems take, with room for the folders above.
-bool too_long_name(const std::string& path) {
-  const std::vector<std::string> words = words_of(path);
-  return path.size() > 1000 ||
-         std::any_of(words.begin(), words.end(), [](const std::string& word) { return word.size() > 255; });
-}
-
-/// A file that would have to be a folder for this one to be written.
-std::string file_above(const Files& files, const std::string& path) {
-  for (std::size_t at = 0; (at = path.find('/', at)) != std::string::npos; ++at)
-    if (files.count(path.substr(0, at))) return path.substr(0, at);
-  return "";
-}
-
-/// The hand-out's `check`, which comes along with whole folders; its files would stand in for the student's of the same
-/// name. With a slash at its end; empty: there is none.
-std::string folder_of_check(const Files& files) {
-  for (const auto& [path, content] : files)
-    if (base_name(path) == "check_main.cpp" && base_name(folder_name(path)) == "check") return folder_name(path) + "/";
-  return "";
-}
-
-bool brings_vecmath(const Files& files) {
-  for (const auto& [path, content] : files) {
-    if (stem(path) != "vector3f") continue;
-    if (is_source(path)) return true;
-    // or header only: the length is computed there
-    const std::vector<std::string> tokens = tokens_of(content);
-    const std::vector<std::string> body = {"abs", "(", ")", "const", "{"};
-    if (std::search(tokens.begin(), tokens.end(), body.begin(), body.end()) != tokens.end()) return true;
-  }
-  return false;
-}
-
-}  // namespace
-
-std::string folder_name(const std::string& path) {
-  const std::size_t slash = path.rfind('/');
-  return slash == std::string::npos ? "" : path.substr(0, slash);
-}
-namespace {
 bool ends(const std::string& path, const std::set<std::string>& endings) {
   const std::size_t dot = path.rfind('.');
   return dot != std::string::npos && endings.count(lower(path.substr(dot + 1))) > 0;
 }
-}  // namespace
-bool is_header(const std::string& path) { return ends(path, {"h", "hpp", "hh", "hxx", "inl"}); }
-bool is_source(const std::string& path) { return ends(path, {"cpp", "cc", "cxx", "c++"}); }
-
-namespace {
-
-/// Whether the text is about particles: such files say which of two copies of a whole is the submission.
-bool about_particles(const std::vector<std::string>& tokens) {
-  return std::any_of(tokens.begin(), tokens.end(), [](const std::string& word) {
-    return word == "evalF" || word == "takeStep" || word == "ParticleSystem" || word == "TimeStepper";
-  });
+std::string stem(const std::string& path) {
+  const std::string name = flat_name(path);
+  return name.substr(0, name.rfind('.'));
 }
 
-/// Owners of what stands outside of its class: "A" of "A::evalF(" and "A::takeStep(".
-std::set<std::string> owners_in(const std::vector<std::string>& tokens) {
+bool counts(const std::string& path) {
+  // no hidden files, and nothing that a quoted name in an option or an include cannot hold
+  const bool plain = std::none_of(path.begin(), path.end(), [](char c) {
+    return static_cast<unsigned char>(c) < 32 || c == '"' || c == '\\' || c == '<' || c == '>';
+  });
+  return plain && (is_header(path) || is_source(path)) && path[0] != '.' && path.find("/.") == std::string::npos &&
+         !in_library(path);
+}
+
+/// The folder of the hand-out's `check`, with a slash at its end, where it was handed in along with the rest.
+std::string folder_of_check(const Files& files) {
+  for (const auto& [path, content] : files)
+    if (path.ends_with("check/check_main.cpp")) return path.substr(0, path.rfind('/') + 1);
+  return "/";  // no path begins so
+}
+
+bool is_of_vecmath(const std::string& path) {
+  static const std::set<std::string> stems = {"vecmath",  "vector2f", "vector3f", "vector4f",
+                                              "matrix2f", "matrix3f", "matrix4f", "quat4f"};
+  return stems.count(stem(path)) > 0;
+}
+
+/// Classes whose evalF or takeStep is defined outside of them: "A" of "A::evalF(".
+std::set<std::string> owners_in(const std::string& text) {
+  const std::vector<std::string> tokens = tokens_of(text);
   std::set<std::string> owners;
   for (std::size_t i = 0; i + 4 < tokens.size(); ++i)
     if (tokens[i + 1] == ":" && tokens[i + 2] == ":" && (tokens[i + 3] == "evalF" || tokens[i + 3] == "takeStep") &&
@@ -228,80 +165,85 @@ std::set<std::string> owners_in(const std::vector<std::string>& tokens) {
   return owners;
 }
 
-/// Sources that define nothing but what others define too, whatever they are called: the linker would take one of them.
-void leave_out_doubles(Files& files, const FullerCopy& fuller, std::vector<Remark>& notes) {
-  std::map<std::string, std::set<std::string>> owners;  // by path
-  std::map<std::string, std::vector<std::string>> paths;
-  for (const auto& [path, content] : files)
-    if (is_source(path))
-      for (const std::string& owner : owners[path] = owners_in(tokens_of(content))) paths[owner].push_back(path);
-  const auto better = [&](const std::string& a, const std::string& b) {
-    // the one that is called as a class that it defines
-    const auto fits = [&](const std::string& path) {
-      return std::any_of(owners[path].begin(), owners[path].end(),
-                         [&](const std::string& owner) { return lower(owner) == stem(path); });
-    };
-    if (fits(a) != fits(b)) return fits(a);
-    if (owners[a].size() != owners[b].size()) return owners[a].size() > owners[b].size();
-    return fuller(a, b);
-  };
-  for (const auto& [path, mine] : owners) {
-    std::string kept;
-    const bool others = !mine.empty() && std::all_of(mine.begin(), mine.end(), [&](const std::string& owner) {
-      const auto& all = paths[owner];
-      const auto best = std::min_element(all.begin(), all.end(), better);
-      kept = *best;
-      return *best != path;
-    });
-    if (!others) continue;
-    notes.push_back({"whole.same_class", {path, kept, *mine.begin()}});
-    files.erase(path);
-  }
+/// The highest folder that holds `path` and not `other`; `path` itself where they lie in the same one.
+std::string apart_from(const std::string& path, const std::string& other) {
+  const auto differ = std::mismatch(path.begin(), path.end(), other.begin(), other.end()).first;
+  const std::size_t slash = path.find('/', static_cast<std::size_t>(differ - path.begin()));
+  return slash == std::string::npos ? path : path.substr(0, slash + 1);
 }
 
 }  // namespace
 
-Files choose_files(const Files& all, std::vector<Remark>& notes) {
-  Files files;
-  const std::string check = folder_of_check(all);
-  for (const auto& [path, content] : all) {
-    if (!counts(path) || (!check.empty() && path.rfind(check, 0) == 0)) continue;
-    if (too_long_name(path))
-      notes.push_back({"whole.name", {path.substr(0, 100) + "..."}});
-    else
-      files[path] = content;
-  }
-  if (!brings_vecmath(files))
-    for (auto it = files.begin(); it != files.end();)
-      it = of_vecmath.count(stem(it->first)) ? files.erase(it) : std::next(it);
+bool is_header(const std::string& path) { return ends(path, {"h", "hpp", "hh", "hxx", "inl"}); }
+bool is_source(const std::string& path) { return ends(path, {"cpp", "cc", "cxx", "c++"}); }
+std::string flat_name(const std::string& path) { return lower(base_name(without_copy_marks(path))); }
 
-  std::map<std::string, double> weights;
-  for (const auto& [path, content] : files)
-    if (!of_vecmath.count(stem(path))) weights[path] = about_particles(tokens_of(content)) ? 1000 : 1;
-  const FullerCopy fuller(std::move(weights));
-  std::map<std::string, std::string> taken;  // lower-case name, without what backups add -> path
-  const auto key = [](const std::string& path) { return lower(base_name(without_copy_marks(path))); };
-  for (const auto& [path, content] : files) {
-    std::string& chosen = taken[key(path)];
-    if (chosen.empty() || fuller(path, chosen)) chosen = path;
+Selection choose_files(const Files& all, const std::string& preferred) {
+  Selection chosen;
+  const std::string check = folder_of_check(all);
+  std::vector<std::string> paths;
+  bool own_vecmath = false;
+  for (const auto& [path, content] : all) {
+    if (!counts(path) || path.starts_with(check)) continue;
+    paths.push_back(path);
+    // the header alone will do where it computes lengths itself
+    own_vecmath =
+        own_vecmath || (stem(path) == "vector3f" && (is_source(path) || content.find("sqrt") != content.npos));
   }
-  Files kept;
-  for (const auto& [path, content] : files) {
-    const std::string& chosen = taken[key(path)];
-    if (chosen != path)
-      notes.push_back({"whole.twice", {path, chosen}});
+  if (!own_vecmath) std::erase_if(paths, is_of_vecmath);
+  const auto leave_out = [&](const char* key, const std::string& path, const std::string& kept,
+                             const std::string& word = "") {
+    chosen.notes.push_back({key, {path, kept, word}});
+    chosen.files.erase(path);
+    if (const std::string other = apart_from(path, kept);
+        all.at(path) != all.at(kept) && !std::count(chosen.others.begin(), chosen.others.end(), other))
+      chosen.others.push_back(other);
+  };
+
+  const auto rank = [&](const std::string& path) {
+    return std::tuple(!path.starts_with(preferred), is_backup(path), std::count(path.begin(), path.end(), '/'));
+  };
+  std::sort(paths.begin(), paths.end(),
+            [&](const auto& a, const auto& b) { return std::tuple(rank(a), a) < std::tuple(rank(b), b); });
+  std::map<std::string, std::string> by_name;
+  for (const std::string& path : paths) {
+    const std::string name = flat_name(path);
+    constexpr std::size_t longest = 200;  // byte; file systems take 255
+    if (name.size() > longest)
+      chosen.notes.push_back({"whole.name", {path.substr(0, 100) + "..."}});
+    else if (const auto [at, added] = by_name.emplace(name, path); added)
+      chosen.files[path] = all.at(path);
     else
-      kept[without_copy_marks(path)] = content;  // where only the copy is there, includes mean it by its old name
+      leave_out("whole.twice", path, at->second);
   }
-  files = std::move(kept);
-  leave_out_doubles(files, fuller, notes);
-  // an archive may hold a file and files below it; the shorter name comes first
-  for (auto it = files.begin(); it != files.end();) {
-    const std::string above = file_above(files, it->first);
-    if (!above.empty()) notes.push_back({"whole.below", {it->first, above}});
-    it = above.empty() ? std::next(it) : files.erase(it);
+
+  // sources of different names that define the same classes: the one called like its class first
+  std::map<std::string, std::set<std::string>> owners;
+  std::erase_if(paths, [&](const std::string& path) { return !is_source(path) || !chosen.files.count(path); });
+  for (const std::string& path : paths) owners[path] = owners_in(all.at(path));
+  const auto called_otherwise = [&](const std::string& path) {
+    return std::none_of(owners[path].begin(), owners[path].end(),
+                        [&](const auto& x) { return lower(x) == stem(path); });
+  };
+  std::stable_sort(paths.begin(), paths.end(), [&](const auto& a, const auto& b) {
+    return std::tuple(!a.starts_with(preferred), called_otherwise(a)) <
+           std::tuple(!b.starts_with(preferred), called_otherwise(b));
+  });
+  std::map<std::string, std::string> defined;  // class -> path
+  for (const std::string& path : paths) {
+    std::string clash;
+    bool needed = owners[path].empty();
+    for (const std::string& owner : owners[path])
+      if (const auto [at, added] = defined.emplace(owner, path); added)
+        needed = true;
+      else
+        clash = at->second;
+    if (!needed)
+      leave_out("whole.same_class", path, clash, *owners[path].begin());
+    else if (!clash.empty())
+      chosen.others.push_back(path);
   }
-  return files;
+  return chosen;
 }
 
 }  // namespace coursework::classic

@@ -1,10 +1,9 @@
-// Reads C++ as far as finding things takes: which file declares a class, what is included, which names of OpenGL are
-// used. A tokeniser of its own: no regular expression runs on a text that anybody may have written.
+// Reads C++ as far as finding things takes: which classes a file declares and what it includes. A tokeniser of its own:
+// no regular expression runs on a text that anybody may have written.
 #pragma once
 
+#include <functional>
 #include <map>
-#include <optional>
-#include <set>
 #include <string>
 #include <vector>
 
@@ -18,29 +17,38 @@ using Files = std::map<std::string, std::string>;
 /// Identifiers and single characters, without comments, strings, numbers and lines of the preprocessor.
 std::vector<std::string> tokens_of(const std::string& text);
 
-/// What the lines `#include "X"` and `#include <X>` name, in order.
-std::vector<std::string> includes_of(const std::string& text);
-/// The text with each include renamed by `rename`, line by line; all else as it was.
-std::string with_includes(const std::string& text, std::string (*rename)(const std::string&));
+struct ClassInfo {
+  std::string name, scope;         // scope: namespaces and classes around it, as "a::b"; empty: none
+  std::string file;                // path in the submission; of a header of ours its flat name
+  std::vector<std::string> bases;  // every name between ':' and '{', arguments of templates among them
+  bool usable = true;              // no template, and not within a function
+  bool ours = false;               // from a header that stands in for one that the course ships
 
-/// The name as the file spells it where it defines (not only announces) such a class, letters' case apart.
-std::optional<std::string> defines_class(const std::vector<std::string>& tokens, const std::string& name);
-/// Whether `owner::name` stands there, and, for a constructor or method, outside of its class.
+  std::string full() const { return scope.empty() ? name : scope + "::" + name; }
+};
+std::vector<ClassInfo> classes_in(const std::vector<std::string>& tokens, const std::string& file);
+
+/// True if the tokens hold `owner::name`.
 bool defines_member(const std::vector<std::string>& tokens, const std::string& owner, const std::string& name);
 
-struct GlNames {
-  std::set<std::string> functions, constants;
-};
-/// Names of gl, glu, glut and glfw that are called or used and that the tokens do not define themselves.
-GlNames gl_names_in(const std::vector<std::string>& tokens);
+/// The text with the name of each include, its quotes or brackets included, replaced by what `lead` returns for it;
+/// empty: it stays.
+std::string with_includes(const std::string& text,
+                          const std::function<std::string(const std::string& name, bool in_brackets)>& lead);
 
-std::string folder_name(const std::string& path);
 bool is_header(const std::string& path);
 bool is_source(const std::string& path);
 
-/// What of a submission counts: C++ files, no hidden ones, no drawing library brought along, a vecmath of its own only
-/// where its sources came too, and one file of each name (that of the folder with most files), which can be written as
-/// it is called. What was left out and matters is said in `notes`.
-Files choose_files(const Files& all, std::vector<Remark>& notes);
+/// The one name under which a file is kept, whatever its folder, its letters' case and the marks of copies.
+std::string flat_name(const std::string& path);
+
+struct Selection {
+  Files files;                      // no two of them have the same flat name
+  std::vector<Remark> notes;        // on files left out
+  std::vector<std::string> others;  // folders and files to prefer in further tries: they hold other versions
+};
+/// The C++ files of a submission that count: none of a drawing library or of the hand-out's check, vecmath only if its
+/// sources came too. Of several versions it takes the one below `preferred`, no backup, the shallowest.
+Selection choose_files(const Files& all, const std::string& preferred = "");
 
 }  // namespace coursework::classic

@@ -45,7 +45,7 @@ TEST(Classic, EveryWayToFailHasItsMessageAndCostsItsOwnPart) {
       {"a constructor that nobody can call",
        {{"ClothSystem.h", "ClothSystem();", "ClothSystem(const char* file);"},
         {"ClothSystem.cpp", "::ClothSystem()", "::ClothSystem(const char*)"}},
-       "The tests cannot use ClothSystem.cpp as the starter's program would: "},
+       "ClothSystem (ClothSystem.h) does not compile where the tests use it: "},
       {"does not compile", {{"ClothSystem.cpp", "evalF(", "evalF(int, "}}, "ClothSystem.cpp, line "},
       {"crashes",
        {{"ClothSystem.cpp", "evalF(vector<Vector3f> state) {", "evalF(vector<Vector3f> state) { *(int*)8 = 1;"}},
@@ -86,29 +86,57 @@ TEST(Classic, OutputAndAMissingFileCostNothingElse) {
   }
 }
 
-// Names leave a choice, and one class does not even compile where it is used: the compiler says why.
-TEST(Classic, AClassThatCannotBeTriedIsToldTheCompilersFirstError) {
-  const Assignment& whole = find_assignment("classic");
-  const auto sandbox = choose_sandbox("bare", true);
-  classic::Files files;
-  for (const char* name : {"particleSystem.h", "particleSystem.cpp", "simpleSystem.h", "simpleSystem.cpp"})
-    files[name] = content_of_file(whole.folder() / "solution" / name);
-  files["Spare.h"] =
-      "#include \"particleSystem.h\"\nclass Spare : public ParticleSystem {\n  Spare() {}\n public:\n"
-      "  vector<Vector3f> evalF(vector<Vector3f> state) { return state; }\n  void draw() {}\n};\n";
+/// Remarks on these files, and on a part that cannot be built; nothing is run.
+std::string said_of(const classic::Files& files, const std::string& part) {
   const crosscheck::TemporaryFolder scratch("test");
-  crosscheck::write_file(scratch.path / "child.o", "");  // nothing is run
+  crosscheck::write_file(scratch.path / "child.o", "");
   const Compiler compiler;
-  const classic::Programs programs =
-      classic::build_programs(files, scratch.path / "tree", folder_of_coursework(), *sandbox,
-                              {compiler.command(), "/usr/bin/ar", scratch.path / "child.o"}, {"simple"},
-                              [](const auto&, bool) { return classic::Fits(); });
-  std::string notes;
-  for (const Remark& note : programs.notes) notes += said(common_texts(), note) + "\n";
-  EXPECT_NE(notes.find("Spare was tried, since names leave a choice, and cannot be used: static assertion failed: no "
-                       "constructor that can be called with a count, or without arguments"),
-            std::string::npos)
-      << notes;
+  const auto sandbox = choose_sandbox("bare", true);
+  const classic::Programs programs = classic::build_programs(
+      files, scratch.path / "tree", folder_of_coursework(), *sandbox,
+      {compiler.command(), "/usr/bin/ar", scratch.path / "child.o"}, {part}, [](const auto&, const auto&) {
+        return classic::Earned{0, 1};
+      });
+  std::string text;
+  for (const Remark& note : programs.notes) text += said(common_texts(), note) + "\n";
+  return text + said(common_texts(), programs.of.at(part).why);
+}
+
+classic::Files base_and(const std::string& name, const std::string& text) {
+  const std::filesystem::path solution = find_assignment("classic").folder() / "solution";
+  classic::Files files = {{name, text}};
+  for (const char* shared : {"particleSystem.h", "particleSystem.cpp", "TimeStepper.hpp"})
+    files[shared] = content_of_file(solution / shared);
+  return files;
+}
+
+TEST(Classic, WhatKeepsAClassFromBeingUsedIsToldWithoutDenyingIt) {
+  const std::string begin = "#include \"particleSystem.h\"\nclass SimpleSystem : public ParticleSystem {\n",
+                    draws = " public:\n  void draw() {}\n", end = "};\n";
+  const std::string evalF = "  vector<Vector3f> evalF(vector<Vector3f> state)";
+  struct {
+    std::string text, says;
+  } const table[] = {
+      {begin + "  SimpleSystem() {}\n" + draws + evalF + " { return state; }\n" + end,
+       "no constructor that can be called"},
+      {begin + draws + evalF + " const { return state; }\n" + end, "the class is abstract"},
+      {begin + draws + "  SimpleSystem();\n" + evalF + " { return state; }\n" + end,
+       "SimpleSystem::SimpleSystem() is declared, but no file of yours that compiles defines it."},
+      {begin + draws + evalF + ";\n" + end, "The first virtual function that the class SimpleSystem declares"},
+      {"template <class T> " + begin.substr(begin.find("class")) + draws + end,
+       "SimpleSystem (simple.h) does not compile"},
+      {begin + draws + "  vector<Vector3f> SimpleSystem::evalF(vector<Vector3f> state) { return state; }\n" + end,
+       "undefined reference"},  // to main, of which there is none here: everything else was accepted
+  };
+  for (const auto& [text, says] : table) {
+    const std::string said = said_of(base_and("simple.h", text), "simple");
+    if (says != "undefined reference") EXPECT_NE(said.find(says), std::string::npos) << text << "\n" << said;
+    EXPECT_EQ(said.find("No class called"), std::string::npos) << said;
+    EXPECT_EQ(said.find("vtable"), std::string::npos) << said;
+    EXPECT_EQ(said.find("simpleSystem.cpp"), std::string::npos) << "a file that was not handed in: " << said;
+  }
+  EXPECT_NE(said_of(base_and("other.h", "struct Other {};"), "simple").find("No class called SimpleSystem was found"),
+            std::string::npos);
 }
 
 // Whatever a fault is like, it is told as what it is: features of answers say nothing of precision.

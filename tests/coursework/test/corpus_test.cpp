@@ -159,6 +159,16 @@ TEST_P(Corpus, KnownMistakesLoseExactlyTheirTestsAndAreNamed) {
   }
 }
 
+// Right programs that are unlike the solution, and wrong ones of which only this much is wrong.
+TEST_P(Corpus, UnusualProgramsLoseExactlyTheirTests) {
+  if (!fs::exists(assignment_.folder() / "unusual.txt")) GTEST_SKIP() << "this assignment has none";
+  for (const Mistake& one : read_mistakes(assignment_.folder() / "unusual.txt"))
+    for (int seed = 0; seed < seeds_; ++seed)
+      EXPECT_EQ(lost(ask(one.part, builder_->ours(one.part, with_mistake(solution(one.part), one)), seed)),
+                std::set<std::string>(one.loses.begin(), one.loses.end()))
+          << one.name << ", seed " << seed;
+}
+
 TEST_P(Corpus, NewMistakesAreGivenNoName) {
   for (const Mistake& mistake : first(read_mistakes(assignment_.folder() / "novel.txt")))
     expect_no_name(mistake.part, with_mistake(solution(mistake.part), mistake), mistake.name);

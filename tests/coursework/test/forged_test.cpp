@@ -123,9 +123,14 @@ TEST_P(Forged, AnswersOfAnotherSeedEarnNothing) {
 TEST_P(Forged, WhatTheGraderFindsEarnsNothingWhenItIsSent) {
   Lines lines;
   for (const auto& [call, one] : recorded(12)) {
-    const Numbers found = classic::replay(one.cases.front(), one.answers.front().got);
+    const probe::Findings found = classic::replay(one.cases.front(), one.answers.front().got);
     EXPECT_FALSE(found.empty()) << call;
-    lines[call] = line_of(found);
+    Numbers sent = {double(found.n)};
+    for (const auto& row : found.rows)
+      for (const probe::Plain& vector : row) sent.insert(sent.end(), vector.at, vector.at + 3);
+    for (const probe::Pull& pull : found.pulls)
+      sent.insert(sent.end(), {double(pull.b), double(pull.a), pull.along[0]});
+    lines[call] = line_of(sent);
   }
   EXPECT_EQ(passed(forging(lines), 1), std::set<std::string>());
   for (auto& [call, line] : lines) {

@@ -380,6 +380,69 @@ const Odd programs[] = {
        f["first/more.cpp"] = broken(now.at(clothcpp));
        f["grade.toml"] = "folder = \"first\"\n[[leave_out]]\npath = \"first/more.cpp\"\n";
      }},
+    {"classes of a template", "solution",
+     [](Files& f) {
+       f["TimeStepper.hpp"] =
+           "#ifndef T_H\n#define T_H\n#include <vecmath.h>\n#include \"particleSystem.h\"\nstruct TimeStepper {\n  "
+           "virtual "
+           "~TimeStepper() {}\n  virtual void takeStep(ParticleSystem*, float) = 0;\n};\n"
+           "template <int N> struct Rule : TimeStepper {\n  void takeStep(ParticleSystem* s, float h) {\n"
+           "    const vector<Vector3f> x = s->getState();\n    vector<Vector3f> y = x, at = x;\n"
+           "    for (int k = 0; k < N; ++k) {\n      const vector<Vector3f> f = s->evalF(at);\n"
+           "      for (size_t i = 0; i < x.size(); ++i) y[i] += h / N * f[i], at[i] = x[i] + h * f[i];\n    }\n"
+           "    s->setState(y);\n  }\n};\nstruct ForwardEuler : Rule<1> {};\ntypedef Rule<2> Trapezoidal;\n#endif\n";
+       f.erase("TimeStepper.cpp"), f.erase("main.cpp");
+       put(f, pendh, "class PendulumSystem",
+           "template <class T> class Sprung : public T {\n public:\n  "
+           "Sprung(int n) : T(n) {}\n};\nclass PendulumSystem");
+       put(f, pendh, ": public ParticleSystem", ": public Sprung<ParticleSystem>");
+       put(f, pendcpp, ": ParticleSystem(numParticles)", ": Sprung<ParticleSystem>(numParticles)");
+     }},
+    {"classes that a macro makes", "solution",
+     [](Files& f) {
+       put(f, "TimeStepper.hpp", "class ForwardEuler : public TimeStepper {",
+           "#define STEPPER(name) class name : public TimeStepper {\nSTEPPER(ForwardEuler)");
+       put(f, "simpleSystem.h", "class SimpleSystem", "struct Outer {\n class SimpleSystem");
+       put(f, "simpleSystem.h", "};\n\n#endif", "};\n};\nusing SimpleSystem = Outer::SimpleSystem;\n#endif");
+       put(f, "simpleSystem.cpp", "SimpleSystem::SimpleSystem()", "Outer::SimpleSystem::SimpleSystem()");
+       f.erase("main.cpp");
+     }},
+    {"names of their class within classes", "solution",
+     [](Files& f) {
+       put(f, "ClothSystem.h", "vector<Vector3f> evalF", "vector<Vector3f> ClothSystem::evalF");
+       put(f, pendh, "PendulumSystem(int", "PendulumSystem::PendulumSystem(int");
+     }},
+    {"an older copy that is larger", "solution",
+     [](Files& f) {
+       const Files now = f;
+       for (const auto& [path, text] : now) f["2015/final/" + path] = broken(text);
+       for (int i = 0; i < 9; ++i) f["2015/final/more" + std::to_string(i) + ".h"] = "class TimeStepper;\n";
+     }},
+    {"a complete copy within a half one", "solution",
+     [](Files& f) {
+       const Files now = f;
+       for (const auto& [path, text] : now) f["hand in/src/" + path] = text;
+       f[clothcpp] = broken(now.at(clothcpp)), f[pendcpp] = broken(now.at(pendcpp));
+       for (const char* gone : {"TimeStepper.cpp", "simpleSystem.cpp", "particleSystem.h"}) f.erase(gone);
+     }},
+    {"the better of two sources of one class", "solution",
+     [](Files& f) { f["better.cpp"] = f[clothcpp], f[clothcpp] = broken(f[clothcpp]); }},
+    {"a count of vectors", "solution",
+     [](Files& f) {
+       put(f, pendcpp, "PendulumSystem::PendulumSystem(int numParticles) : ParticleSystem(numParticles) {",
+           "PendulumSystem::PendulumSystem(int vectors) : ParticleSystem(vectors / 2) {\n  const int numParticles = "
+           "vectors / 2;");
+     }},
+    {"an evalF of 6 ms", "solution",
+     [](Files& f) {
+       put(f, clothcpp, begin_evalF,
+           std::string(begin_evalF) +
+               "\n  volatile double work = 0;\n  for (int i = 0; i < 3000000; ++i) work = work + 1e-3 * i;");
+     }},
+    {"drawing that nobody has heard of", "solution",
+     [](Files& f) {
+       put(f, clothcpp, "  glBegin(GL_LINES);", "  glFrobnicate(GL_UNHEARD, 3.0f);\n  glBegin(GL_LINES);");
+     }},
     {"random wind that nobody can repeat", "solution",
      [](Files& f) {
        f[clothcpp] = "#include <random>\n" + f[clothcpp];

@@ -456,66 +456,97 @@ TEST(Whole, ALargerOneThanAProgramIsIsRefused) {
 
 /// Keys of what is said of the files, in order.
 std::vector<std::string> notes_on(const classic::Files& files) {
-  const TemporaryFolder here("test");
-  const classic::BuildPlan plan(files, here.path / "tree", folder_of_coursework());
   std::vector<std::string> keys;
-  for (const Remark& note : plan.notes()) keys.push_back(note.key);
+  for (const Remark& note : classic::choose_files(files).notes) keys.push_back(note.key);
   return keys;
 }
 
-TEST(Whole, NamesThatCannotBeWrittenAreLeftOut) {
+TEST(Whole, FilesAreChosenByNameAndTheOthersAreSaid) {
   using Keys = std::vector<std::string>;
   EXPECT_EQ(notes_on({{"a.h", "class ClothSystem {"}, {"b.cpp", ""}}), Keys());
   EXPECT_EQ(notes_on({{"a.h", ""}, {"old/a.h", ""}}), Keys{"whole.twice"});
-  EXPECT_EQ(notes_on({{"a.h", ""}, {"a.h/b.h", ""}, {"a.h/c/d.h", ""}}), (Keys{"whole.below", "whole.below"}));
-  EXPECT_EQ(notes_on({{std::string(300, 'x') + ".h", ""}, {std::string(300, 'x') + "/b.h", ""}}),
-            (Keys{"whole.name", "whole.name"}));
-  std::string deep;
-  for (int i = 0; i < 2000; ++i) deep += "d/";
-  EXPECT_EQ(notes_on({{deep + "a.h", ""}}), Keys{"whole.name"});
-}
-
-TEST(Whole, ClassesAreFoundWithTheirBasesAndNamespaces) {
-  const std::string text =
-      "namespace a { namespace b { class S : public virtual x::ParticleSystem, private Q<int, P> {\n"
-      "  struct Inner { int evalF(int); };\n  virtual V evalF(V s) const = 0; }; }\n"
-      "struct T final : S { V evalF(V s) { return s; } }; }\n"
-      "template <class C> class U : public S {}; class Announced; enum class E { x }; class Step { void takeStep(); "
-      "};\n";
-  const std::vector<classic::ClassInfo> all = classic::classes_in(classic::tokens_of(text), "a.h");
-  ASSERT_EQ(all.size(), 3u);
-  EXPECT_EQ(all[0].full(), "a::b::S");
-  EXPECT_EQ(all[0].bases, (std::vector<std::string>{"ParticleSystem", "Q"}));
-  EXPECT_TRUE(all[0].abstract && all[0].declares_eval && !all[0].declares_step);
-  EXPECT_EQ(all[1].full(), "a::T");
-  EXPECT_TRUE(!all[1].abstract && all[1].declares_eval);
-  EXPECT_TRUE(all[2].declares_step);
-}
-
-TEST(Whole, ADoubleUnderAnotherNameAndAWishThatCannotBeMetAreSaid) {
-  using Keys = std::vector<std::string>;
+  EXPECT_EQ(notes_on({{"a.h", ""}, {"a.h/b.h", ""}, {"a.h/c/d.h", ""}}), Keys());
+  EXPECT_EQ(notes_on({{std::string(300, 'x') + ".h", ""}, {std::string(300, 'x') + "/b.h", ""}}), Keys{"whole.name"});
   const std::string defines = "vector<Vector3f> ClothSystem::evalF(vector<Vector3f> s) { return s; }";
   EXPECT_EQ(notes_on({{"ClothSystem.cpp", defines}, {"attempt.cpp", defines}}), Keys{"whole.same_class"});
   EXPECT_EQ(notes_on({{"ClothSystem.cpp", defines}, {"ClothSystem - Copy.cpp", defines}}), Keys{"whole.twice"});
-  const TemporaryFolder here("test");
-  classic::BuildPlan plan({{"a.h", "class Rope : public ParticleSystem { V evalF(V s); };"}}, here.path / "tree",
-                          folder_of_coursework(), {{"chain", "Rope"}, {"cloth", "Sail"}});
-  plan.choose({});
-  ASSERT_EQ(plan.notes().size(), 2u);
-  EXPECT_EQ(plan.notes()[0].key, "whole.graded");
-  EXPECT_NE(plan.notes()[0].with.at(0).find("chain = Rope (a.h)"), std::string::npos) << plan.notes()[0].with[0];
-  EXPECT_EQ(plan.notes()[1].key, "choice.class");
-  EXPECT_EQ(plan.notes()[1].with, (std::vector<std::string>{"cloth", "Sail"}));
 }
 
-TEST(Whole, IncludesThatCannotBeLedAnywhereAreSaid) {
-  using Keys = std::vector<std::string>;
-  const std::string odd = "#include \"A.h\"\n#include \"A.h/b.h\"\n#include \"x/B.h/a.h\"\n#include \"x/B.h\"\n";
-  EXPECT_EQ(notes_on({{"a.h", ""}, {"b.h", odd}}), (Keys{"whole.include", "whole.include"}));
+TEST(Whole, OtherVersionsAreWorthATryWhereTheyDiffer) {
+  const classic::Files files = {
+      {"a.h", "1"}, {"b.h", "1"}, {"all/final/a.h", "2"}, {"all/final/b.h", "2"}, {"zz/a.h", "1"}};
+  const classic::Selection first = classic::choose_files(files);
+  EXPECT_EQ(first.others, std::vector<std::string>{"all/"});
+  EXPECT_EQ(first.files, (classic::Files{{"a.h", "1"}, {"b.h", "1"}}));
+  EXPECT_EQ(classic::choose_files(files, "all/").files,
+            (classic::Files{{"all/final/a.h", "2"}, {"all/final/b.h", "2"}}));
+}
+
+TEST(Whole, ClassesAreFoundWithTheirBasesAndScopes) {
+  const std::string text =
+      "namespace a { namespace b { class S : public virtual x::ParticleSystem, private Q<int, P> {\n"
+      "  struct Inner { int evalF(int); };\n  virtual V evalF(V s) const = 0; }; }\n"
+      "struct T final : S { V evalF(V s) { struct Local { int x; }; return s; } }; }\n"
+      "template <class C> class U : public S {}; class Announced; enum class E { x }; class Step { void takeStep(); "
+      "};\n";
+  std::vector<std::string> usable;
+  std::vector<classic::ClassInfo> all = classic::classes_in(classic::tokens_of(text), "a.h");
+  for (const classic::ClassInfo& one : all)
+    if (one.usable) usable.push_back(one.full());
+  EXPECT_EQ(usable, (std::vector<std::string>{"a::b::S", "a::b::S::Inner", "a::T", "Step"}));
+  ASSERT_FALSE(all.empty());
+  EXPECT_EQ(all[0].bases, (std::vector<std::string>{"x", "ParticleSystem", "Q", "int", "P"}));
+}
+
+TEST(Whole, ClassesAreTriedByNameAndThenAllOthersOfTheKind) {
+  const std::string text =
+      "class ClothSystem : public ParticleSystem {}; template <int N> struct Rule : TimeStepper {};\n"
+      "struct ForwardEuler : Rule<1> {}; struct Other : Rule<2> {}; struct RK4 : TimeStepper {}; struct Spring {};\n"
+      "class PendulumSystem : ParticleSystem {}; class Rope : PendulumSystem {}; class Boids : ParticleSystem {};";
+  const classic::ClassList list(classic::classes_in(classic::tokens_of(text), "a.h"));
+  const auto tried = [&](const char* role, const std::map<std::string, std::string>& says = {}) {
+    std::string names;
+    for (const auto& one : list.candidates(classic::role_of(role), says))
+      names += list.at(one.of).name + (one.named ? "! " : " ");
+    return names;
+  };
+  EXPECT_EQ(tried("euler"), "ForwardEuler! Other ");
+  EXPECT_EQ(tried("cloth"), "ClothSystem! Rope Boids ");
+  EXPECT_EQ(tried("pendulum"), "PendulumSystem! Rope Boids ");
+  EXPECT_EQ(tried("chain"), "PendulumSystem Rope Boids ");
+  EXPECT_EQ(tried("chain", {{"chain", "Boids"}, {"cloth", "Sail"}}), "Boids! ");
+  EXPECT_EQ(tried("simple"), "Rope Boids ");
+}
+
+/// Includes are led to the one folder in which all files lie; the paths of errors are the student's own.
+TEST(Whole, IncludesAreMetWhateverTheyAreCalled) {
+  const TemporaryFolder here("test");
   const std::string long_name(4000, 'x');
-  for (const std::string& name : {long_name + ".h", long_name + "/a.h", std::string("a\0.h/a.h", 8),
-                                  std::string("a.h/"), std::string("/"), std::string("..")})
-    EXPECT_EQ(notes_on({{"a.h", ""}, {"b.h", "#include \"" + name + "\"\n"}}), Keys()) << name;
+  const std::string odd = "#include \"../A.H\"\n#include <time.h>\n#include \"C:\\x\\Time.h\"\n#include <GL/GLUT.h>\n" +
+                          ("#include \"" + long_name + "/a.h\"\n#include \"particlesystem.h\"\n# include <vector>\n") +
+                          "#include \"/etc/shadow\"\n";
+  const classic::BuildPlan plan({{"A.h", "class ClothSystem {};"}, {"src/Time.h", ""}, {"b.cpp", odd}},
+                                here.path / "tree", folder_of_coursework());
+  EXPECT_EQ(content_of_file(here.path / "tree/in/his/b.cpp"),
+            "#line 1 \"/handed-in/b.cpp\"\n#include \"a.h\"\n#include <time.h>\n#include \"time.h\"\n#include "
+            "<GL/glut.h>\n#include \"a.h\"\n#include \"particlesystem.h\"\n# include <vector>\n#include \"shadow\"\n");
+  ASSERT_TRUE(plan.classes().named("ParticleSystem"));
+  EXPECT_TRUE(plan.classes().named("ParticleSystem")->ours);
+  EXPECT_FALSE(plan.classes().named("TimeStepper"));
+}
+
+TEST(Whole, NamesOfDrawingThatTheCompilerMissesAreDeclaredOnce) {
+  const TemporaryFolder here("test");
+  const classic::BuildPlan plan({{"b.cpp", ""}}, here.path / "tree", folder_of_coursework());
+  const std::string said =
+      "/handed-in/b.cpp:3:4: error: 'glFoo' was not declared in this scope; did you mean 'glFog'?\n"
+      "/handed-in/b.cpp:4:4: error: use of undeclared identifier 'GL_BAR'\n"
+      "/handed-in/b.cpp:5:4: error: 'glance' was not declared in this scope\n";
+  EXPECT_TRUE(plan.declare_drawing(said));
+  EXPECT_FALSE(plan.declare_drawing(said));
+  const std::string names = content_of_file(here.path / "tree/in/names.h");
+  EXPECT_NE(names.find("CLASSIC_NOTHING(glFoo)\n#define GL_BAR "), std::string::npos) << names;
+  EXPECT_EQ(names.find("glance"), std::string::npos) << names;
 }
 
 }  // namespace

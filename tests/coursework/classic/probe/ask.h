@@ -78,7 +78,7 @@ class Ask : public Asker {
 template <class T>
 bool answered(T& system, std::uint64_t seed, const std::string& call, coursework::Numbers& out) {
   Ask<T> asker(system, out);
-  coursework::Numbers found;
+  Findings found;
   return Forces(asker, seed).answer(call, found);
 }
 

@@ -1,4 +1,4 @@
-// Raw numbers about a system of particles with velocities: what oracles.cpp makes features of. All on random states
+// Questions to a system of particles with velocities, whose findings oracles.cpp judges. All on random states
 // around the one that the system starts with. Runs twice, on the student's system and on what it answered (asker.h).
 #pragma once
 
@@ -6,10 +6,12 @@
 #include <cmath>
 #include <stdexcept>
 #include <string>
+#include <utility>
 
 #include "../../check/calls.h"
 #include "asker.h"
 #include "draws.h"
+#include "findings.h"
 
 namespace probe {
 
@@ -26,30 +28,33 @@ class Forces {
       if (std::isfinite(d) && d > 1e-6f && (spacing_ == 0 || d < spacing_)) spacing_ = d;
     }
     if (spacing_ == 0) spacing_ = 1;
-    leave_obstacles();
+    if (!leave_obstacles()) find_ties();
+    tied_.resize(n_);
   }
 
-  bool answer(const std::string& call, Numbers& out) {
-    if (!found(call, out)) return false;
+  /// False where the call is no question.
+  bool answer(const std::string& call, Findings& out) {
+    out.tied = tied_;
+    if (call == "purity" || call == "kept")
+      purity(out, call == "kept");
+    else if (call == "motion")
+      motion(out);
+    else if (call == "gravity")
+      gravity(out);
+    else if (call == "drag")
+      drag(out);
+    else if (call == "springs")
+      springs(out);
+    else
+      return false;
     asker_.end(draws_.number(0, 1));
     return true;
   }
 
  private:
-  bool found(const std::string& call, Numbers& out) {
-    if (call == "purity") return purity(out, false);
-    if (call == "kept") return purity(out, true);
-    if (call == "motion") return motion(out);
-    if (call == "gravity") return gravity(out);
-    if (call == "drag") return drag(out);
-    if (call == "springs") return springs(out);
-    return false;
-  }
-
-  /// Entries in the state, entries of evalF; then for every entry f with another state stored, the same again, f with
-  /// the same state stored, and what the stored one has changed by; where a base class that loses what is stored was
-  /// asked for already, `from_there`: since it was stored.
-  bool purity(Numbers& out, bool from_there) {
+  /// `from_there`: count changes from the state as it was stored, since a base class that loses it costs its points
+  /// elsewhere.
+  void purity(Findings& out, bool from_there) {
     const State stored = around(1), given = around(1);
     const Indices chosen = draws_.sample(start_.size());
     asker_.store(stored);
@@ -58,54 +63,45 @@ class Forces {
     const Some after = asker_.stored(chosen);
     asker_.store(given);
     const Some same = asker_.some(given, chosen);
-    out = {double(start_.size()), double(f.size)};
-    for (std::size_t i = 0; i < chosen.size(); ++i)
-      for (int k = 0; k < 3; ++k) {
-        const double since = from_there ? before.entries[i][k] : stored[chosen[i]][k];
-        const double change = double(after.entries[i][k]) - since;
-        out.insert(out.end(), {f.entries[i][k], again.entries[i][k], same.entries[i][k], change});
-      }
-    return true;
+    out.n = chosen.size(), out.per_entry = double(f.size) / double(start_.size());
+    for (std::size_t i = 0; i < chosen.size(); ++i) {
+      const Plain& since = from_there ? before.entries[i] : stored[chosen[i]];
+      out.rows.push_back({f.entries[i], again.entries[i], same.entries[i], plus(after.entries[i], -1, since)});
+    }
   }
 
-  /// Count of particles, the velocity of each at the start; then three states after each other, for every particle v,
-  /// x' and v'.
-  bool motion(Numbers& out) {
-    out = {double(n_)};
-    for (std::size_t i = 0; i < n_; ++i) push(out, {start_[v(i)]});
+  void motion(Findings& out) {
+    out.n = n_;
     for (int draw = 0; draw < 3; ++draw) {
       const State given = around(1), f = derivative(given);
-      for (std::size_t i = 0; i < n_; ++i) push(out, {given[v(i)], entry(f, x(i)), entry(f, v(i))});
+      for (std::size_t i = 0; i < n_; ++i)
+        out.rows.push_back({given[v(i)], entry(f, x(i)), entry(f, v(i)), start_[v(i)]});
     }
-    return true;
   }
 
-  /// Count; three states, for every particle v' at x and at its mirror image, both at rest; then 1 where evalF repeats
-  /// itself.
-  bool gravity(Numbers& out) {
-    out = {double(n_)};
+  void gravity(Findings& out) {
+    out.n = n_;
+    // the mirror stands in the tie's other end, so that its pull turns around like all others
+    const Plain mirror = silent_.empty() ? far_ : home_[x(silent_.front())];
     for (int draw = 0; draw < 3; ++draw) {
       const State given = around(0);
       State mirrored = given;
       for (std::size_t i = 0; i < n_; ++i) {
-        const Plain from = plus(given[x(i)], -1, far_);  // exact, and so is the next line (away())
-        mirrored[x(i)] = plus(far_, -1, from);
+        const Plain from = plus(given[x(i)], -1, mirror);  // exact for far_, and so is the next line (away())
+        mirrored[x(i)] = plus(mirror, -1, from);
       }
       const State f = pulls(given, velocities()), g = pulls(mirrored, velocities());
-      for (std::size_t i = 0; i < n_; ++i) push(out, {f[i], g[i]});
+      for (std::size_t i = 0; i < n_; ++i) out.rows.push_back({f[i], g[i]});
     }
-    out.push_back(repeats(around(0)));
-    return true;
+    out.repeats = repeats(around(0));
   }
 
-  /// Count of those looked at; for each the velocity w that it alone gets, and its v' at 0, w and 2 w; then 1 where
-  /// evalF repeats itself.
-  bool drag(Numbers& out) {
+  void drag(Findings& out) {
     State state = around(0);
     Indices chosen = draws_.sample(n_);
     for (std::size_t& i : chosen) i = v(i);
     const State f0 = pulls(state, chosen);
-    out = {double(chosen.size())};
+    out.n = chosen.size();
     for (std::size_t i = 0; i < chosen.size(); ++i) {
       // long, so that weak drag stands out from the rounding of stiff springs
       const Plain w = plus({}, 40, draws_.direction());
@@ -114,11 +110,10 @@ class Forces {
       moved = w;
       const Plain f1 = pull(state, chosen[i]);
       moved = plus(w, 1, w);
-      push(out, {w, f0[i], f1, pull(state, chosen[i])});
+      out.rows.push_back({w, f0[i], f1, pull(state, chosen[i])});
       moved = rest;
     }
-    out.push_back(repeats(state));
-    return true;
+    out.repeats = repeats(state);
   }
 
   bool repeats(const State& state) {
@@ -126,13 +121,8 @@ class Forces {
     return alike(f, again(state, f));
   }
 
-  /// Count, where the particles start (three each), the largest entry of x' and of v' of each on three states, its
-  /// speed at the start; then 1 where evalF repeats itself; the count of those that were moved and which; then for each
-  /// pair where moving b changes the v' of a: b, a, three distances, and at each the pull of a towards b and what of it
-  /// is across.
-  bool springs(Numbers& out) {
-    out = {double(n_)};
-    for (std::size_t i = 0; i < n_; ++i) push(out, {home_[x(i)]});
+  void springs(Findings& out) {
+    out.n = n_;
     Numbers speed(n_), pull(n_);
     for (int draw = 0; draw < 3; ++draw) {
       const State f = derivative(around(1));
@@ -142,26 +132,26 @@ class Forces {
           pull[i] = std::fmax(pull[i], std::fabs(entry(f, v(i))[k]));
         }
     }
-    out.insert(out.end(), speed.begin(), speed.end());
-    out.insert(out.end(), pull.begin(), pull.end());
-    for (std::size_t i = 0; i < n_; ++i) out.push_back(length(start_[v(i)]));
+    for (std::size_t i = 0; i < n_; ++i) {
+      out.places.push_back(home_[x(i)]);
+      out.fixed.push_back(speed[i] == 0 || pull[i] == 0);
+      out.still.push_back(speed[i] == 0 || length(start_[v(i)]) == 0);
+    }
     State state = around(0);
     const State f = derivative(state);
     const Indices chosen = draws_.sample(n_, n_ <= 144 ? n_ : std::max<std::size_t>(24, 20000 / n_));
-    Numbers found;
-    const bool repeats = alike(f, again(state, f)) && pairs(state, f, chosen, found);
-    out.insert(out.end(), {double(repeats), double(chosen.size())});
-    for (const std::size_t b : chosen) out.push_back(double(b));
-    if (repeats) out.insert(out.end(), found.begin(), found.end());
-    return true;
+    out.moved.resize(n_);
+    for (const std::size_t b : chosen) out.moved[b] = true;
+    out.repeats = alike(f, again(state, f)) && pairs(state, f, chosen, out.pulls);
   }
 
   /// False where evalF did not repeat itself. Particles are moved in no foreseeable order, and as often none is: so
   /// that answers written down on another seed do not fit, although springs join the same particles there.
-  bool pairs(State& state, const State& f, const Indices& chosen, Numbers& found) {
+  bool pairs(State& state, const State& f, const Indices& chosen, std::vector<Pull>& found) {
     Indices order = chosen;
     order.resize(2 * chosen.size(), n_);
     draws_.shuffle(order);
+    std::vector<std::pair<std::size_t, std::size_t>> affected, joined;
     for (const std::size_t b : order) {
       if (b == n_) {
         if (!alike(f, again(state, f))) return false;
@@ -171,31 +161,72 @@ class Forces {
       state[x(b)] = plus(place, 0.37f * spacing_, draws_.direction());
       const State g = again(state, f);
       for (std::size_t a = 0; a < n_; ++a)
-        if (a != b && !same(entry(f, v(a)), entry(g, v(a)))) pair(state, b, a, found);
+        if (a != b && !same(entry(f, v(a)), entry(g, v(a)))) affected.emplace_back(b, a);
       state[x(b)] = place;
+    }
+    // measured are some of each kind: a pair's distance in the list says which it is
+    for (const auto& [b, a] : affected) joined.emplace_back(std::max(a, b) - std::min(a, b), std::min(a, b));
+    std::sort(joined.begin(), joined.end());
+    joined.erase(std::unique(joined.begin(), joined.end()), joined.end());
+    constexpr std::size_t most = 60;
+    auto measured = joined;
+    const float begin = draws_.number(0, 1);
+    for (std::size_t i = 0; joined.size() > most && i < most; ++i)
+      measured[i] = joined[static_cast<std::size_t>((float(i) + begin) * float(joined.size()) / float(most))];
+    measured.resize(std::min(measured.size(), most));
+    for (const auto& [b, a] : affected) {
+      const Plain place = state[x(b)];
+      if (std::binary_search(measured.begin(), measured.end(),
+                             std::pair(std::max(a, b) - std::min(a, b), std::min(a, b))))
+        found.push_back(pair(state, b, a, false));
+      else
+        found.push_back({b, a, false, {}, {}, {}});
+      state[x(b)] = place;
+    }
+    for (std::size_t a = 0; a < n_; ++a) {
+      Pull best{};
+      float least = 0.01f;
+      for (const std::size_t b : tied_[a] ? silent_ : Indices()) {
+        float off = 0;
+        const Pull tie = pair(state, b, a, true, &off);
+        if (off < least) least = off, best = tie;
+      }
+      if (best.measured) found.push_back(best);
     }
     return true;
   }
 
-  /// Leaves b anywhere.
-  void pair(State& state, std::size_t b, std::size_t a, Numbers& out) {
+  /// Leaves b anywhere; where a is tied to the place of b, all particles move instead, which changes the tie alone.
+  /// `off`: how much of a's pull does not turn around when a is on the other side, as one towards another place would
+  /// not.
+  Pull pair(State& state, std::size_t b, std::size_t a, bool is_tie, float* off = nullptr) {
     float apart = length(plus(start_[x(b)], -1, start_[x(a)]));
     if (!(apart > 1e-6f)) apart = spacing_;
     const Plain u = draws_.direction();
-    out.insert(out.end(), {double(b), double(a)});
-    Numbers found;
-    for (const float part : {0.6f, 1.1f, 1.9f}) {
-      const float s = part * apart;
-      out.push_back(s);
-      state[x(b)] = plus(state[x(a)], s, u);
-      const Plain ahead = pull(state, v(a));
-      state[x(b)] = plus(state[x(a)], -s, u);
+    const auto pull_at = [&](float at) {
+      if (!is_tie) {
+        state[x(b)] = plus(state[x(a)], at, u);
+        return pull(state, v(a));
+      }
+      const Plain all = plus(plus(home_[x(b)], -at, u), -1, state[x(a)]);
+      State moved = state;
+      for (std::size_t i = 0; i < n_; ++i) moved[x(i)] = plus(state[x(i)], 1, all);
+      return pull(moved, v(a));
+    };
+    Pull found{b, a, true, {0.6f * apart, 1.1f * apart, 1.9f * apart}, {}, {}};
+    Plain first;
+    float odd = 0, most = 0;
+    for (int i = 0; i < 3; ++i) {
       // what other springs and gravity do to a is in both, and cancels
-      const Plain twice = plus(ahead, -1, pull(state, v(a)));
+      const Plain ahead = pull_at(found.at[i]), behind = pull_at(-found.at[i]), twice = plus(ahead, -1, behind);
       const float along = twice[0] * u[0] + twice[1] * u[1] + twice[2] * u[2];
-      found.insert(found.end(), {along / 2.0, length(plus(twice, -along, u)) / 2.0});
+      found.along[i] = along / 2, found.across[i] = length(plus(twice, -along, u)) / 2;
+      if (i == 0) first = plus(ahead, 1, behind);
+      odd = std::fmax(odd, std::fmax(2 * found.across[i], length(plus(plus(ahead, 1, behind), -1, first))));
+      most = std::fmax(most, std::fabs(along));
     }
-    out.insert(out.end(), found.begin(), found.end());
+    if (off) *off = odd / most;
+    return found;
   }
 
   // Stored first, so that an evalF that looks at the stored state shows its forces all the same, and loses only where
@@ -240,7 +271,7 @@ class Forces {
   /// place. Where they are the same at two places far away, each as far as any obstacle that was seen, and apart from
   /// each other, all is asked at the first of them. Where they differ there too (particles drawn to a place), nothing
   /// is moved.
-  void leave_obstacles() {
+  bool leave_obstacles() {
     Plain low = start_[x(0)], high = low;
     for (std::size_t i = 0; i < n_; ++i)
       for (int k = 0; k < 3; ++k) {
@@ -250,7 +281,7 @@ class Forces {
     const Plain centre = plus(low, 0.5f, plus(high, -1, low));
     // twenty times what the system spans, and twenty whatever it spans; obstacles are as large as the system
     const float size = 20 * std::fmax(length(plus(high, -1, low)), 1.0f);
-    if (!(size < 1e6f)) return;
+    if (!(size < 1e6f)) return false;
     const State given = around(1);
     const State first = pulls(away(given, centre, size, 0), velocities());
     const State second = pulls(away(given, centre, size, 1), velocities());
@@ -259,9 +290,41 @@ class Forces {
     for (const Plain& one : first) largest = std::fmax(largest, length(one));
     // positions are rounded to 1e-5 of the span out there, springs are drawn by about a tenth of their length
     for (std::size_t i = 0; i < n_; ++i) alike += length(plus(first[i], -1, second[i])) <= 1e-2f * largest;
-    if (!(largest > 0) || alike < static_cast<int>(n_)) return;
+    if (!(largest > 0) || alike < static_cast<int>(n_)) return false;
     start_ = away(start_, centre, size, 0);
     far_ = corner(size, 0);
+    return true;
+  }
+
+  /// Particles whose forces change when all are moved alike hang on something that is no particle: a hinge in the
+  /// world, or held particles whose places evalF does not read from the state (silent_). Where most do, it is no tie.
+  void find_ties() {
+    const State given = around(0);
+    State moved = given;
+    const Plain d = draws_.direction();
+    for (std::size_t i = 0; i < n_; ++i) moved[x(i)] = plus(given[x(i)], 0.37f * spacing_, d);
+    const State here = pulls(given, velocities()), there = pulls(moved, velocities());
+    float largest = 0;
+    for (const Plain& one : here) largest = std::fmax(largest, length(one));
+    std::vector<bool> tied;
+    std::size_t count = 0;
+    for (std::size_t i = 0; i < n_; ++i) {
+      // positions are rounded to 1e-6 of the distance by which they move
+      tied.push_back(length(plus(here[i], -1, there[i])) > 1e-4f * largest);
+      count += tied.back();
+    }
+    if (count == 0 || 2 * count > n_) return;
+    tied_ = tied;
+    constexpr std::size_t most = 8;
+    for (std::size_t i = 0; i < n_ && silent_.size() < most; ++i) {
+      if (!same(here[i], {}) || !same(there[i], {})) continue;
+      State one = given;
+      one[x(i)] = plus(given[x(i)], 0.37f * spacing_, d);
+      const State f = pulls(one, velocities());
+      bool alike = true;
+      for (std::size_t k = 0; k < n_; ++k) alike = alike && same(f[k], here[k]);
+      if (alike) silent_.push_back(i);
+    }
   }
 
   /// 1.5 times a power of two each way: what is added to it, and taken from it, is rounded alike.
@@ -294,18 +357,16 @@ class Forces {
     return state;
   }
 
-  static void push(Numbers& out, const State& vectors) {
-    for (const Plain& one : vectors) out.insert(out.end(), one.at, one.at + 3);
-  }
-
   Asker& asker_;
   Draws draws_;
   State start_;  // around which all is asked
   State home_;   // which the system starts with
   std::size_t n_;
-  Plain far_;           // from there to start_, where that is elsewhere
-  float spacing_ = 0;   // the least distance of two that follow each other
-  bool apart_ = false;  // all positions, then all velocities
+  Plain far_;               // from there to start_, where that is elsewhere
+  float spacing_ = 0;       // the least distance of two that follow each other
+  bool apart_ = false;      // all positions, then all velocities
+  std::vector<bool> tied_;  // particles that hang on something that is no particle
+  Indices silent_;          // held ones that pull at nobody, where some are tied
 };
 
 }  // namespace probe

@@ -14,31 +14,36 @@ auto kind_of_init(int) -> decltype(std::declval<B&>().initState());
 template <class B>
 void kind_of_init(...);
 
-/// x' = A x + q * (x x, y y, z z) for each of the state's vectors: numbers that a stepper cannot know.
+/// x_i' = A x_i + q (x x, y y, z z) + c x_(i+1) for each vector of the state, the first one following the last: numbers
+/// that a stepper cannot know, and vectors that act on each other.
 class Own : public ParticleSystem {
  public:
   using ParticleSystem::ParticleSystem;
   using Init = decltype(kind_of_init<ParticleSystem>(0));
 
-  /// a: nine numbers, row after row.
-  void become(const double* a, double q, const Vec& state) {
-    for (int i = 0; i < 9; ++i) a_[i] = static_cast<float>(a[i]);
-    q_ = static_cast<float>(q);
+  /// Nine numbers of A, row after row, q and c.
+  void become(const double* numbers, const Vec& state) {
+    for (int i = 0; i < 9; ++i) a_[i] = static_cast<float>(numbers[i]);
+    q_ = static_cast<float>(numbers[9]), c_ = static_cast<float>(numbers[10]);
     enlarge(*this, state);
     store(base_of(*this), state);
   }
 
   Vec f(const Vec& state) const {
     coursework::calling("evalF");
+    ++asked;
     Vec out;
-    for (const Vector3f& s : state) {
+    for (std::size_t k = 0; k < state.size(); ++k) {
+      const Vector3f &s = state[k], &next = state[(k + 1) % state.size()];
       float row[3];
       for (int i = 0; i < 3; ++i)
-        row[i] = a_[3 * i] * s[0] + a_[3 * i + 1] * s[1] + a_[3 * i + 2] * s[2] + q_ * s[i] * s[i];
+        row[i] = a_[3 * i] * s[0] + a_[3 * i + 1] * s[1] + a_[3 * i + 2] * s[2] + q_ * s[i] * s[i] + c_ * next[i];
       out.push_back(Vector3f(row[0], row[1], row[2]));
     }
     return out;
   }
+
+  mutable int asked = 0;  // evaluations of f
 
   Vec evalF(Vec s) { return f(s); }
   Vec evalF(Vec s) const { return f(s); }
@@ -72,7 +77,7 @@ class Own : public ParticleSystem {
     if constexpr (requires { own.m_numParticles = 1; }) own.m_numParticles = static_cast<int>(state.size());
   }
 
-  float a_[9] = {}, q_ = 0;
+  float a_[9] = {}, q_ = 0, c_ = 0;
 };
 
 }  // namespace probe

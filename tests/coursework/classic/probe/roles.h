@@ -33,14 +33,17 @@ template <class Pendulum, class Chain>
 bool pendulum(const std::string& call, const coursework::Numbers& in, coursework::Numbers& out) {
   const int count = static_cast<int>(in[0]);
   const auto seed = static_cast<std::uint64_t>(in[1]);
-  if (call.rfind("pendulum.", 0) == 0) return answered(ready<Pendulum>(count, true), seed, call.substr(9), out);
+  // if the argument turns out to count the entries of the state, twice as many are asked for
+  const std::size_t least = 2 * static_cast<std::size_t>(count);
+  if (call.rfind("pendulum.", 0) == 0)
+    return answered(ready<Pendulum>(count, true, least, 2 * count), seed, call.substr(9), out);
   if (call.rfind("chain.", 0) != 0) return false;
   if constexpr (std::is_same_v<Pendulum, Chain>) {
     // one of another size was asked before: nothing of it may be kept
-    auto& other = ready<Pendulum>(2, true);
+    auto& other = ready<Pendulum>(2, true, 4, 4);
     evaluate(other, state_of(other));
   }
-  return answered(ready<Chain>(count, true), seed, call.substr(6), out);
+  return answered(ready<Chain>(count, true, least, 2 * count), seed, call.substr(6), out);
 }
 
 /// A call of forces.h with "cloth." before it; in the particles along a side and the seed; out is what evalF answered.

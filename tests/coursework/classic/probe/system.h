@@ -74,6 +74,8 @@ void* zeroed() {
 template <class T>
 T* make(int count, bool counted) {
   quiet();
+  static_assert(!std::is_abstract_v<T>,
+                "the class is abstract: it lacks a virtual function that its base class requires");
   void* at = zeroed<T>();
   const Filler f{count};
   if constexpr (std::is_constructible_v<T, int>)
@@ -148,15 +150,18 @@ void fill_state(T& system) {
     system.reset();
 }
 
-/// A system with at least `least` entries in its state where one can be had.
+/// A system of `count` whatever its constructor counts; where its state then has fewer than `least` entries, one of
+/// `other_count` if that has more.
 template <class T>
 T& ready(int count, bool counted, std::size_t least = 1, int other_count = 0) {
-  T* system = make<T>(count, counted);
-  if (state_of(*system).empty()) fill_state(*system);
-  if (state_of(*system).size() < least && other_count && !std::is_default_constructible_v<T>) {
-    system = make<T>(other_count, counted);
+  const auto made = [&](int of) {
+    T* system = make<T>(of, counted);
     if (state_of(*system).empty()) fill_state(*system);
-  }
+    return system;
+  };
+  T* system = made(count);
+  if (state_of(*system).size() < least && (counted || !std::is_default_constructible_v<T>))
+    if (T* other = made(other_count); state_of(*other).size() > state_of(*system).size()) system = other;
   if (state_of(*system).empty()) throw coursework::Unusable("state_empty");
   return *system;
 }

@@ -1,4 +1,4 @@
-// What every system of the newer family derives from; used where a submission does not bring its own.
+// The base of every system of the newer family; used where a submission does not bring its own.
 #ifndef PARTICLESYSTEM_H
 #define PARTICLESYSTEM_H
 

@@ -1,2 +1,0 @@
-// The same as gl.h here.
-#include "gl.h"

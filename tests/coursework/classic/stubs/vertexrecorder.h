@@ -1,0 +1,2 @@
+// Drawing is in gl.h.
+#include "gl.h"
