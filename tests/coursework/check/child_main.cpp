@@ -1,6 +1,8 @@
 // The program around a student's code in the grader: calls come on standard input, answers go out on descriptor 3.
 // It never sees what is right. Runs on Linux only; the hand-out has a main of its own.
+#include <malloc.h>
 #include <sys/resource.h>
+#include <sys/sysinfo.h>
 #include <unistd.h>
 #include <unwind.h>
 
@@ -142,6 +144,9 @@ std::string answer_line(const Call& call) {
 
 }  // namespace
 
+/// The number behind std::thread::hardware_concurrency(): one thread per processor has to fit into the limits everywhere.
+extern "C" int get_nprocs() noexcept { return 4; }
+
 void coursework::calling(const char* function) {
   int i = 0;
   while (i + 1 < Watched::most && watched.function[i] && std::strcmp(watched.function[i], function) != 0) ++i;
@@ -150,6 +155,8 @@ void coursework::calling(const char* function) {
 }
 
 int main() {
+  // each arena of a thread's own would take 64 MB of the address space that is limited
+  mallopt(M_ARENA_MAX, 1);
   // the token lives on main's stack only, and all is read before anything of the student's is called
   const std::string all{std::istreambuf_iterator<char>(std::cin), {}};
   std::istringstream lines(all);

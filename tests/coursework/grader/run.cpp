@@ -7,6 +7,7 @@
 #include <cctype>
 #include <csignal>
 #include <cstdlib>
+#include <map>
 #include <random>
 #include <sstream>
 
@@ -21,24 +22,16 @@ std::string fresh_token() {
 }
 
 std::string signal_name(int signal) {
-  switch (signal) {
-    case SIGSEGV:
-      return "segmentation fault";
-    case SIGABRT:
-      return "aborted";
-    case SIGFPE:
-      return "division of an integer by zero";
-    case SIGBUS:
-      return "bus error";
-    case SIGILL:
-      return "illegal instruction; does a function end without return?";
-    case SIGSYS:
-      return "a call to the system that is not allowed here";
-    case SIGXFSZ:
-      return "wrote too large a file";
-    default:
-      return fmt::format("signal {}", signal);
-  }
+  static const std::map<int, const char*> names = {
+      {SIGSEGV, "segmentation fault"},
+      {SIGABRT, "aborted"},
+      {SIGFPE, "division of an integer by zero"},
+      {SIGBUS, "bus error"},
+      {SIGILL, "illegal instruction, as where a function ends without return"},
+      {SIGSYS, "a call to the system that is not allowed here"},
+      {SIGXFSZ, "wrote too large a file"}};
+  const auto found = names.find(signal);
+  return found == names.end() ? fmt::format("signal {}", signal) : found->second;
 }
 
 Answer ending(const End& end, const Limits& limits) {
@@ -176,6 +169,7 @@ std::string shown_exception(const std::string& text, const std::map<std::string,
                                           "std::bad_array_new_length",
                                           "std::bad_cast",
                                           "bad optional access",
+                                          "Resource temporarily unavailable",  // no more threads
                                           "std::exception",
                                           "something that is no std::exception"};
   constexpr std::size_t most_pieces = 4, most_digits = 6;

@@ -4,10 +4,12 @@
 #include <fcntl.h>
 #include <fmt/core.h>
 #include <sys/mman.h>
+#include <sys/utsname.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
 #include <cerrno>
+#include <cstdio>
 #include <cstring>
 #include <optional>
 #include <stdexcept>
@@ -85,6 +87,17 @@ class MemoryFile {
   int fd_;
 };
 
+/// Since Linux 5.14 a limit on processes counts those of its namespace; before, all of the user's.
+bool counts_by_namespace() {
+  utsname system{};
+  int major = 0, minor = 0;
+  return uname(&system) == 0 && std::sscanf(system.release, "%d.%d", &major, &minor) == 2 &&
+         (major > 5 || (major == 5 && minor >= 14));
+}
+
+/// The limit on tasks of the program's user, the program itself included.
+long tasks(const Limits& limits) { return limits.processes > 0 ? limits.processes + 1 : limits.threads; }
+
 std::vector<std::string> arguments(const Job& job, const StagingFolder& staging) {
   std::vector<std::string> all{bwrap, "--unshare-all", "--die-with-parent", "--new-session", "--cap-drop",
                                "ALL", "--hostname",    "sandbox",           "--clearenv"};
@@ -105,6 +118,10 @@ std::vector<std::string> arguments(const Job& job, const StagingFolder& staging)
        "/tmp"});
   add({"--chdir", job.writable.empty() ? "/tmp" : job.writable.string()});
   add({"--seccomp", "4", "--json-status-fd", "5", "--"});
+  // within the namespace, where only its own count; the first of both is bash's word, the second dash's
+  if (job.limits.processes == 0 && geteuid() != 0 && counts_by_namespace())
+    add({"/bin/sh", "-c", R"({ ulimit -u "$0" || ulimit -p "$0"; } 2>/dev/null; exec "$@")",
+         std::to_string(job.limits.threads + 1)});
   all.insert(all.end(), job.command.begin(), job.command.end());
   return all;
 }
@@ -131,8 +148,9 @@ class BwrapSandbox final : public Sandbox {
     start.input = job.input;
     start.limits = job.limits;
     // bwrap itself, its first process inside, and the program. Without a user of its own all that its user, you, runs
-    // would count as well: then the clock and the end of the namespace are the limit.
-    start.processes = user ? job.limits.processes + 3 : -1;
+    // would count as well: then the limit on threads is set inside, and on processes the clock and the end of the
+    // namespace are the limit.
+    start.processes = user ? tasks(job.limits) + 2 : -1;
     ProcessResult ended = spawn(start);
     const bool stopped = ended.wall || ended.idle || ended.output || ended.full;
     if (!stopped && status.content().find("exit-code") == std::string::npos && WIFEXITED(ended.status))
@@ -175,7 +193,7 @@ class UidSandbox final : public Sandbox {
     start.filter = filter_program({job.limits.processes > 0, !job.writable.empty()});
     start.input = job.input;
     start.limits = job.limits;
-    start.processes = job.limits.processes + 1;
+    start.processes = tasks(job.limits);
     End end = classify(spawn(start), job.limits, false);
     staging.give_back();
     return end;

@@ -13,7 +13,8 @@ struct Limits {
   double cpu = 2, wall = 5;  // s; cpu is that of all its processes, and each alone is stopped at the next full second
   double idle = 30;          // s without any of its processes running or waiting for a processor or a disk
   long memory = 1024;        // MB of address space, of each process
-  long processes = 0;        // that it may start; 0: none, fork and clone are refused
+  long processes = 0;        // that it may start; 0: none, only threads
+  long threads = 64;         // the main one included, where no process may be started
   long output = 4096;        // kB of captured_output
   long answers = 4096;       // kB on the answers' pipe
   long file = 16;            // MB, of any file that it writes

@@ -17,59 +17,22 @@
 namespace coursework {
 namespace {
 
-constexpr const char* refused[] = {"socket",
-                                   "socketpair",  // network
-                                   "ptrace",
-                                   "process_vm_readv",
-                                   "process_vm_writev",
-                                   "process_madvise",  // other processes
-                                   "pidfd_open",
-                                   "pidfd_getfd",
-                                   "kcmp",  //
-                                   "unshare",
-                                   "setns",
-                                   "mount",
-                                   "umount2",
-                                   "pivot_root",
-                                   "chroot",  // namespaces and mounts
-                                   "fsopen",
-                                   "fsconfig",
-                                   "fsmount",
-                                   "fspick",
-                                   "open_tree",
-                                   "move_mount",
-                                   "mount_setattr",  //
-                                   "add_key",
-                                   "request_key",
-                                   "keyctl",  // keys outlive a process
-                                   "shmget",
-                                   "shmat",
-                                   "semget",
-                                   "msgget",
-                                   "mq_open",
-                                   "memfd_create",
-                                   "memfd_secret",  // so do these
-                                   "bpf",
-                                   "perf_event_open",
-                                   "userfaultfd",
-                                   "fanotify_init",
-                                   "open_by_handle_at",  // kernel interfaces
-                                   "io_uring_setup",
-                                   "io_uring_enter",
-                                   "io_uring_register",  // would go round the filter
-                                   "init_module",
-                                   "finit_module",
-                                   "delete_module",
-                                   "kexec_load",
-                                   "kexec_file_load",  //
-                                   "reboot",
-                                   "swapon",
-                                   "swapoff",
-                                   "acct",
-                                   "quotactl",
-                                   "syslog",
-                                   "personality"};
-constexpr const char* starting[] = {"fork", "vfork", "clone"};
+constexpr const char* refused[] = {
+    // network
+    "socket", "socketpair",
+    // other processes
+    "ptrace", "process_vm_readv", "process_vm_writev", "process_madvise", "pidfd_open", "pidfd_getfd", "kcmp",
+    // namespaces and mounts
+    "unshare", "setns", "mount", "umount2", "pivot_root", "chroot", "fsopen", "fsconfig", "fsmount", "fspick",
+    "open_tree", "move_mount", "mount_setattr",
+    // keys and memory outlive a process
+    "add_key", "request_key", "keyctl", "shmget", "shmat", "semget", "msgget", "mq_open", "memfd_create",
+    "memfd_secret",
+    // kernel interfaces; io_uring would bypass the filter
+    "bpf", "perf_event_open", "userfaultfd", "fanotify_init", "open_by_handle_at", "io_uring_setup", "io_uring_enter",
+    "io_uring_register", "init_module", "finit_module", "delete_module", "kexec_load", "kexec_file_load", "reboot",
+    "swapon", "swapoff", "acct", "quotactl", "syslog", "personality"};
+constexpr const char* starting[] = {"fork", "vfork"};
 constexpr const char* creating[] = {"creat",     "mkdir", "mkdirat", "mknod",  "mknodat",  "symlink",
                                     "symlinkat", "link",  "linkat",  "rename", "renameat", "renameat2"};
 // Waiting costs no processor time, which is what a student's program has a limit of: they return at once, as if the
@@ -103,12 +66,12 @@ std::string filter_program(Allowed allowed) {
   if (!filter) throw std::runtime_error("libseccomp: no filter can be made");
   for (const char* name : refused) refuse(filter.get(), name, EPERM);
   refuse(filter.get(), "clone3", ENOSYS);
-  if (allowed.starts)
-    for (const unsigned long flag : spaces) refuse_if(filter.get(), "clone", SCMP_A0(SCMP_CMP_MASKED_EQ, flag, flag));
-  else
+  for (const unsigned long flag : spaces) refuse_if(filter.get(), "clone", SCMP_A0(SCMP_CMP_MASKED_EQ, flag, flag));
+  if (!allowed.starts) {
     for (const char* name : starting) refuse(filter.get(), name, EPERM);
-  if (!allowed.starts)
+    refuse_if(filter.get(), "clone", SCMP_A0(SCMP_CMP_MASKED_EQ, CLONE_THREAD, 0));
     for (const char* name : waiting) refuse(filter.get(), name, 0);
+  }
   if (!allowed.creates) {
     for (const char* name : creating) refuse(filter.get(), name, EPERM);
     refuse(filter.get(), "openat2", ENOSYS);

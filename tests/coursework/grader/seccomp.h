@@ -6,7 +6,7 @@
 namespace coursework {
 
 struct Allowed {
-  bool starts = false;   // other processes
+  bool starts = false;   // other processes; else threads only
   bool creates = false;  // files, folders, links
 };
 

@@ -292,16 +292,21 @@ class IdleWatch {
  private:
   using Clock = std::chrono::steady_clock;
 
-  /// Any process below this one that is in no interruptible sleep; true where it cannot be known.
+  /// Any thread below this process that is in no interruptible sleep; true where it cannot be known.
   static bool anything_runs(pid_t parent) {
     const std::string children =
         crosscheck::try_read_file(fmt::format("/proc/{0}/task/{0}/children", parent)).value_or("");
     const char* at = children.c_str();
     char* end = nullptr;
     for (long child; (child = std::strtol(at, &end, 10)) > 0 && end != at; at = end) {
-      const std::string stat = crosscheck::try_read_file(fmt::format("/proc/{}/stat", child)).value_or("");
-      const std::size_t name = stat.rfind(") ");
-      if (name == std::string::npos || stat[name + 2] != 'S' || anything_runs(static_cast<pid_t>(child))) return true;
+      std::error_code gone;
+      std::filesystem::directory_iterator thread(fmt::format("/proc/{}/task", child), gone), last;
+      for (; !gone && thread != last; thread.increment(gone)) {
+        const std::string stat = crosscheck::try_read_file(thread->path() / "stat").value_or("");
+        const std::size_t name = stat.rfind(") ");
+        if (name == std::string::npos || stat[name + 2] != 'S') return true;
+      }
+      if (gone || anything_runs(static_cast<pid_t>(child))) return true;
     }
     return false;
   }

@@ -3,6 +3,7 @@
 
 #include <arpa/inet.h>
 #include <fcntl.h>
+#include <pthread.h>
 #include <sys/ipc.h>
 #include <sys/mman.h>
 #include <sys/msg.h>
@@ -109,6 +110,22 @@ const std::map<std::string, std::function<int(const char*)>> things = {
      }},
     {"throw", [](const char* amount) { return std::vector<char>(std::strtoul(amount, nullptr, 10) << 20)[0] + 0; }},
     {"processes", [](const char* amount) { return sleepers(std::atol(amount)) == std::atol(amount) ? 0 : 1; }},
+    {"threads",
+     [](const char* amount) {
+       const std::function<int(long)> start = [&start](long more) {
+         pthread_t thread{};
+         const auto wait = [](void*) -> void* { return pause(), nullptr; };
+         return more == 0 ? 0 : pthread_create(&thread, nullptr, wait, nullptr) != 0 ? 1 : start(more - 1);
+       };
+       return start(std::atol(amount));
+     }},
+    {"worker",
+     [](const char* amount) {
+       pthread_t thread{};
+       const auto work = [](void* seconds) -> void* { return burn(*static_cast<double*>(seconds)), nullptr; };
+       double seconds = std::atof(amount);
+       return pthread_create(&thread, nullptr, work, &seconds) | pthread_join(thread, nullptr);
+     }},
     {"answers", [](const char* amount) { return fill(3, std::atol(amount) << 10); }},
     {"output", [](const char* amount) { return fill(2, std::atol(amount) << 10); }},
     {"file",

@@ -97,6 +97,19 @@ TEST_P(SandboxTest, ItStartsNoMoreProcessesThanItMay) {
   }
 }
 
+TEST_P(SandboxTest, ThreadsRunWhereNoProcessMayUpToTheirLimit) {
+  EXPECT_TRUE(done(sandbox().run(job("threads", "40"))));
+  Job waiting = job("worker", "4");  // the first thread waits for another, which is not idle
+  waiting.limits = {.cpu = 9, .wall = 60, .idle = 2};
+  EXPECT_TRUE(done(sandbox().run(waiting)));
+  if (GetParam() == "bare") return;  // only the clock bounds it
+  for (const long limit : {8, 9}) {
+    Job counting = job("threads", "8");
+    counting.limits.threads = limit;
+    EXPECT_EQ(done(sandbox().run(counting)), limit == 9) << limit;
+  }
+}
+
 TEST_P(SandboxTest, SignalsAreToldFromExitCodes) {
   for (const int number : {SIGSEGV, SIGABRT, SIGKILL, SIGFPE}) {
     const End end = sandbox().run(job("signal", std::to_string(number)));
