@@ -126,18 +126,24 @@ Remark too_large(const std::string& file) {
   return {"build.memory", {file, std::to_string(compile_limits.memory), std::to_string(compile_limits.file)}};
 }
 
-Remark first_error(const std::string& file, const std::string& said) {
+Remark first_error(const std::string& file, const std::string& said, const std::vector<std::string>& own) {
+  constexpr std::size_t longest = 8000;  // a line with long names of types has its point at its end
   std::istringstream lines(said);
   std::optional<std::string> number, what;
   for (std::string line; std::getline(lines, line);) {
     const std::size_t error = line.find("error: ");
     if (!what && error != std::string::npos && line.find("ld returned") == std::string::npos) {
-      what = line.substr(error + 7, 300);
+      what = line.substr(error + 7, longest);
+      for (const std::string& one : own)
+        if (const auto there = line_of(one, line)) return {"build.compile", {one, *there, *what}};
       if (const auto here = line_of(file, line)) number = here;
     }
     // an error inside a header: the student's line is where the compiler says that it came from
     if (!number) number = line_of(file, line);
-    if (what && number) return {"build.compile", {file, *number, *what}};
+    if (!what || !number) continue;
+    const std::size_t lacks = what->find(": No such file or directory");
+    if (lacks != std::string::npos) return {"build.include", {file, *number, what->substr(0, lacks)}};
+    return {"build.compile", {file, *number, *what}};
   }
   if (const auto name = quoted_after("multiple definition of", said)) {
     if (*name == "main") return {"build.main", {file}};
@@ -146,7 +152,7 @@ Remark first_error(const std::string& file, const std::string& said) {
   if (const auto name = quoted_after("undefined reference to", said)) return {"build.undefined", {file, *name}};
   if (what) return {"build.no_line", {file, *what}};
   if (said.find_first_not_of(" \n") == std::string::npos) return {"build.silent", {file}};
-  return {"build.other", {file, said.substr(0, said.find('\n')).substr(0, 300)}};
+  return {"build.other", {file, said.substr(0, said.find('\n')).substr(0, longest)}};
 }
 
 namespace {
@@ -170,7 +176,7 @@ class PartBuilder : public Builder {
         folder_(assignment.folder()),
         check_(folder_of_coursework() / "check"),
         command_(compiler_.command()) {
-    command_.insert(command_.end(), {"-std=c++17", "-O1"});
+    command_.insert(command_.end(), {"-std=c++17", "-O1", "-pthread"});
     // an index outside a vector or an array ends the program; where charts time it, it costs what it costs at home
     if (checking)
       command_.insert(command_.end(), checking_options().begin(), checking_options().end());
@@ -199,7 +205,7 @@ class PartBuilder : public Builder {
     const std::size_t count = assignment_.parts.size();
     std::vector<Built> objects(count), built(count);
     parallel_for(count, jobs, [&](std::size_t i) { objects[i] = compiled(part(i), submission, folder / part(i)); });
-    parallel_for(count, jobs, [&](std::size_t i) { built[i] = linked(i, objects, folder / part(i), {}); });
+    parallel_for(count, jobs, [&](std::size_t i) { built[i] = linked(i, objects, submission, folder / part(i), {}); });
     std::map<std::string, Built> all;
     for (std::size_t i = 0; i < count; ++i) all[part(i)] = built[i];
     return all;
@@ -219,7 +225,7 @@ class PartBuilder : public Builder {
     Around beside;
     if (!around.empty()) beside.object = object("around.cpp", around);
     for (const std::string& name : wrapped) beside.words.push_back("-Wl,--wrap=" + name);
-    return linked(i, objects, folder, beside);
+    return linked(i, objects, submission, folder, beside);
   }
 
  private:
@@ -278,7 +284,7 @@ class PartBuilder : public Builder {
 
   /// The compiler in the sandbox, on what stands in `in`; `file` is what is talked about where nothing is made.
   Built made_in_sandbox(const std::vector<std::string>& more, const fs::path& in, const fs::path& made,
-                        const std::string& file) const {
+                        const std::string& file, const std::vector<std::string>& own = {}) const {
     fs::create_directories(made.parent_path());
     std::vector<std::string> command = command_;
     command.insert(command.end(), more.begin(), more.end());
@@ -288,7 +294,8 @@ class PartBuilder : public Builder {
     if (end.how == End::How::cpu || end.how == End::How::wall) return {{}, {"build.time", {file}}};
     if (end.how == End::How::memory || end.how == End::How::output) return {{}, too_large(file)};
     const bool there = fs::symlink_status(made).type() == fs::file_type::regular;
-    if (end.how != End::How::exited || end.code != 0 || !there) return {{}, first_error(file, end.captured_output)};
+    if (end.how != End::How::exited || end.code != 0 || !there)
+      return {{}, first_error(file, end.captured_output, own)};
     return {made};
   }
 
@@ -297,43 +304,90 @@ class PartBuilder : public Builder {
     const std::string file = file_of(part);
     if (const auto missing = submission.missing.find(file); missing != submission.missing.end())
       return {{}, missing->second, true};
-    const fs::path in = folder / "in";
-    fs::create_directories(in);
-    crosscheck::write_file(in / file, submission.files.at(file));
-    for (const fs::path& header : files_in(folder_ / "starter", "", ".h"))
-      fs::copy_file(header, in / header.filename());
-    return made_in_sandbox({"-I" + in.string(), as_student_folder(in), "-c", (in / file).string()}, in,
-                           folder / "object" / (part + ".o"), file);
+    const auto at = submission.places.find(file);
+    const fs::path place = at == submission.places.end() ? file : at->second;
+    return compiled(file, place.parent_path() / file, submission, folder);
   }
 
-  /// Earlier parts are ours, so that a mistake in one costs nothing here. Later ones are never ours, since a solution
-  /// that is linked in can be called: the student's, which an earlier part may build on; where that cannot be linked,
-  /// those of the hand-out.
-  Built linked(std::size_t i, const std::vector<Built>& objects, const fs::path& folder, const Around& around) const {
+  /// A source of the student's at `path` as an object, with the student's own headers laid out around it.
+  Built compiled(const std::string& file, const fs::path& path, const Submission& submission,
+                 const fs::path& folder) const {
+    const fs::path in = folder / "in", here = (in / path).parent_path();
+    std::vector<std::string> own;  // names of the student's other files
+    for (const auto& [looked_for, other] : own_includes(submission.files, path.string(), submission.files.at(file)))
+      try {
+        crosscheck::write_file(in / looked_for, submission.files.at(other));
+        own.push_back(base_name(looked_for));
+      } catch (const std::exception&) {
+        // an archive may name a file and a folder alike: then the compiler says which file it lacks
+      }
+    crosscheck::write_file(in / path, submission.files.at(file));
+    // ours last: they replace the student's files of the same names
+    for (const fs::path& header : files_in(folder_ / "starter", "", ".h")) {
+      crosscheck::write_file(here / header.filename(), content_of_file(header));
+      for (const auto& entry : fs::recursive_directory_iterator(in))
+        if (entry.path().filename() == header.filename()) crosscheck::write_file(entry.path(), content_of_file(header));
+      own.erase(std::remove(own.begin(), own.end(), header.filename().string()), own.end());
+    }
+    return made_in_sandbox({"-I" + here.string(), as_student_folder(here), "-c", (in / path).string()}, in,
+                           folder / "object" / (path.stem().string() + ".o"), base_name(path.string()), own);
+  }
+
+  /// The student's other sources, those that compile; so few that none can hold the grader up for long.
+  std::vector<fs::path> other_objects(const Submission& submission, const fs::path& folder) const {
+    constexpr int most = 8;
+    std::vector<fs::path> made;
+    int tried = 0;
+    for (const auto& [path, content] : submission.files) {
+      const bool is_part = std::any_of(assignment_.parts.begin(), assignment_.parts.end(),
+                                       [&](const Part& one) { return file_of(std::string(one.name)) == path; });
+      if (is_part || !is_source(path)) continue;
+      const Built built = compiled(path, path, submission, folder / std::to_string(tried));
+      if (!built.program.empty()) made.push_back(built.program);
+      if (++tried == most || built.error.key == "build.time") break;
+    }
+    return made;
+  }
+
+  /// Earlier parts are ours, so that a mistake in one costs nothing here; where the part asks for functions of the
+  /// student's own that stand in earlier ones or in other sources, these stand behind ours, which are taken first.
+  /// Later ones are never ours, since a solution that is linked in can be called: the student's, which an earlier part
+  /// may build on; where that cannot be linked, those of the hand-out.
+  Built linked(std::size_t i, const std::vector<Built>& objects, const Submission& submission, const fs::path& folder,
+               const Around& around) const {
     if (objects[i].program.empty()) return objects[i];
-    for (bool their_later = true;; their_later = false) {
-      const fs::path in = folder / (their_later ? "in-theirs" : "in-starter");
+    Built built;
+    for (const auto& [their_later, their_earlier] :
+         {std::pair{true, false}, {true, true}, {false, false}, {false, true}}) {
+      if (their_earlier && built.error.key != "build.undefined") continue;
+      const std::string way = fmt::format("{:d}{:d}", their_later, their_earlier);
+      const fs::path in = folder / ("in" + way);
       fs::create_directories(in);
       std::vector<std::string> words = around.words;
       const auto add = [&](const fs::path& object, const std::string& name) {
         fs::copy_file(object, in / name);
         words.push_back((in / name).string());
       };
-      add(objects[i].program, part(i) + ".o");
-      if (!around.object.empty()) add(around.object, "around.o");
       int number = 0;
+      if (!their_earlier) add(objects[i].program, part(i) + ".o");
+      if (!around.object.empty()) add(around.object, "around.o");
       for (const fs::path& object : shared()) add(object, "ours" + std::to_string(number++) + ".o");
       for (std::size_t k = 0; k < i; ++k) add(solution(part(k)), "ours-" + part(k) + ".o");
-      bool theirs_used = false;
+      if (their_earlier) {
+        words.push_back("-Wl,--allow-multiple-definition");  // the first counts: ours
+        for (std::size_t k = 0; k <= i; ++k)
+          if (!objects[k].program.empty()) add(objects[k].program, part(k) + ".o");
+        for (const fs::path& object : other_objects(submission, folder / ("other" + way)))
+          add(object, "other" + std::to_string(number++) + ".o");
+      }
       for (std::size_t k = i + 1; k < objects.size(); ++k) {
         const bool theirs = their_later && !objects[k].program.empty();
         add(theirs ? objects[k].program : starter(part(k)), (theirs ? "" : "starter-") + part(k) + ".o");
-        theirs_used |= theirs;
       }
-      Built built =
-          made_in_sandbox(words, in, folder / (their_later ? "out" : "out-starter") / "program", file_of(part(i)));
-      if (!built.program.empty() || !theirs_used) return built;
+      built = made_in_sandbox(words, in, folder / ("out" + way) / "program", file_of(part(i)));
+      if (!built.program.empty()) break;
     }
+    return built;
   }
 
   const Assignment& assignment_;

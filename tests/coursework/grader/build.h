@@ -61,9 +61,9 @@ std::string key_of(const std::string& content);
 /// That compiling the file takes more memory, or a larger file, than it may.
 Remark too_large(const std::string& file);
 
-/// The first error that concerns the student's `file` (its bare name): where and what. `said` is what g++ or clang++
-/// wrote, in English.
-Remark first_error(const std::string& file, const std::string& said);
+/// The first error that concerns the student's `file` (its bare name), or one of `own` that it includes: where and
+/// what. `said` is what g++ or clang++ wrote, in English.
+Remark first_error(const std::string& file, const std::string& said, const std::vector<std::string>& own = {});
 
 struct Built {
   std::filesystem::path program;   // empty: there is none

@@ -2,12 +2,14 @@
 #include "tests/coursework/grader/copies.h"
 
 #include <fmt/ranges.h>
+#include <iconv.h>
 
 #include <algorithm>
 #include <cctype>
 #include <set>
 
 #include "mysim/base/errors.h"
+#include "mysim/base/text.h"
 #include "mysim/scene/toml.h"
 #include "tests/coursework/grader/submission.h"
 
@@ -98,10 +100,29 @@ bool in_library(const std::string& path) {
   });
 }
 
+namespace {
+
+/// As it is where it is UTF-8, or no GB18030 either.
+std::string from_gb18030(const std::string& text) {
+  std::size_t at = 0, length = 0;
+  while (at < text.size() && (length = crosscheck::utf8_length(text, at)) > 0) at += length;
+  if (at == text.size()) return text;
+  const iconv_t converter = iconv_open("UTF-8", "GB18030");
+  if (converter == iconv_t(-1)) return text;
+  std::string out(2 * text.size(), '\0');  // two bytes become three at most
+  char *from = const_cast<char*>(text.data()), *to = out.data();
+  std::size_t left = text.size(), room = out.size();
+  const bool whole = iconv(converter, &from, &left, &to, &room) != std::size_t(-1) && left == 0;
+  iconv_close(converter);
+  return whole ? out.substr(0, out.size() - room) : text;
+}
+
+}  // namespace
+
 std::string plain_utf8(std::string text) {
   if (text.starts_with("\xef\xbb\xbf")) return text.substr(3);
   const bool little = text.starts_with("\xff\xfe");
-  if (!little && !text.starts_with("\xfe\xff")) return text;
+  if (!little && !text.starts_with("\xfe\xff")) return from_gb18030(text);
   std::string out;
   for (std::size_t i = 2; i + 1 < text.size(); i += 2) {
     const auto byte = [&](std::size_t k) { return static_cast<unsigned>(static_cast<unsigned char>(text[k])); };

@@ -17,7 +17,9 @@ bool is_backup(const std::string& path);
 /// Whether a folder above holds somebody else's library ("glfw-3.1.2/", "eigen/") or what a build left.
 bool in_library(const std::string& path);
 
-/// The text as UTF-8 without a mark at its start; UTF-16 with such a mark is converted, as some editors save it.
+/// The text as UTF-8 without a mark at its start; UTF-16 with such a mark is converted, as some editors save it, and
+/// GB18030 (with it GBK and GB2312): in these the second byte of a letter may be the backslash that continues a
+/// comment.
 std::string plain_utf8(std::string text);
 
 /// Of two files that take each other's place, the one that stands in the fuller copy of the whole. `weight` is how much

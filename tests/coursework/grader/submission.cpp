@@ -16,11 +16,15 @@
 #include <memory>
 #include <new>
 #include <optional>
+#include <set>
+#include <sstream>
 
 #include "mysim/base/errors.h"
+#include "mysim/base/files.h"
 #include "mysim/base/names.h"
 
 namespace coursework {
+namespace fs = std::filesystem;
 
 std::string lower(std::string text) {
   for (char& c : text) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
@@ -36,6 +40,8 @@ bool is_cpp(const std::string& path) {
   return dot != std::string::npos &&
          std::find(std::begin(endings), std::end(endings), base.substr(dot + 1)) != std::end(endings);
 }
+
+bool is_source(const std::string& path) { return is_cpp(path) && lower(path.substr(path.rfind('.')))[1] == 'c'; }
 
 int depth_of(const std::string& path) {
   int depth = 0;
@@ -57,9 +63,70 @@ std::string FileMatcher::match(const std::string& path) const {
   return "";
 }
 
+bool FileMatcher::may_be_included(const std::string& path) const {
+  static const std::set<std::string> others = {".c", ".inc", ".ipp", ".tpp", ".tcc", ".txx", ".def"};
+  return !wanted_.empty() && path.size() <= longest_path &&
+         (is_cpp(path) || others.count(lower(fs::path(path).extension().string())) > 0) &&
+         path.rfind("__MACOSX/", 0) != 0 && !in_library(path);
+}
+
 void FileMatcher::take(const std::string& path, std::string content) {
-  taken_ += content.size();
-  found_[match(path)].push_back({path, {}, plain_utf8(std::move(content))});
+  const std::string name = match(path);
+  if (!name.empty()) {
+    taken_ += content.size();
+    found_[name].push_back({path, {}, plain_utf8(std::move(content))});
+  } else if (beside_.size() < most_program_files && (beside_size_ += content.size()) <= largest_program) {
+    beside_[path] = plain_utf8(std::move(content));
+  }
+}
+
+namespace {
+
+/// The names in lines `#include "X"` and `#include <X>`.
+std::vector<std::string> includes_of(const std::string& text) {
+  std::vector<std::string> found;
+  std::istringstream lines(text);
+  for (std::string line; std::getline(lines, line);) {
+    const std::size_t sign = line.find_first_not_of(" \t"), word = line.find_first_not_of("# \t", sign);
+    if (word == std::string::npos || line[sign] != '#' || line.compare(word, 7, "include") != 0) continue;
+    const std::size_t begin = line.find_first_of("\"<", word), end = line.find_first_of("\">", begin + 1);
+    if (begin != std::string::npos && end != std::string::npos)
+      found.push_back(line.substr(begin + 1, end - begin - 1));
+  }
+  return found;
+}
+
+}  // namespace
+
+std::map<std::string, std::string> own_includes(const std::map<std::string, std::string>& files,
+                                                const std::string& path, const std::string& content) {
+  const auto normal = [](const std::string& folder, std::string name) {
+    std::replace(name.begin(), name.end(), '\\', '/');
+    return (fs::path(folder) / name).lexically_normal().generic_string();
+  };
+  const auto folder_of = [](const std::string& file) { return fs::path(file).parent_path().generic_string(); };
+  std::map<std::string, std::string> found;
+  std::vector<std::pair<std::string, const std::string*>> open = {{path, &content}};  // places and contents
+  const auto add = [&](const std::string& place, const std::string& file) {
+    if (place != path && found.emplace(place, file).second) open.emplace_back(place, &files.at(file));
+  };
+  for (std::size_t i = 0; i < open.size(); ++i)
+    for (const std::string& name : includes_of(*open[i].second)) {
+      const std::string beside = normal(folder_of(open[i].first), name), here = normal(folder_of(path), name);
+      if (name.empty() || fs::path(name).is_absolute()) continue;
+      if (files.count(beside) || files.count(here)) {
+        add(files.count(beside) ? beside : here, files.count(beside) ? beside : here);
+        continue;
+      }
+      // in another folder, or with other letters: where there is just one
+      const std::string end =
+          "/" + lower(here.substr(here.rfind("../") == std::string::npos ? 0 : here.rfind("../") + 3));
+      std::vector<std::string> alike;
+      for (const auto& [file, text] : files)
+        if (lower("/" + file).ends_with(end)) alike.push_back(file);
+      if (alike.size() == 1 && crosscheck::is_path_inside(here)) add(here, alike.front());
+    }
+  return found;
 }
 
 std::optional<Remark> FileMatcher::too_large() const {
@@ -104,6 +171,9 @@ void FileMatcher::into(Submission& submission) const {
     for (const Found& one : all)
       if (name != choice_file) weights[one.path] = 1;
   const FullerCopy fuller(std::move(weights));
+  std::map<std::string, std::string> beside;
+  for (const auto& [path, content] : beside_)
+    if (choice.takes(path)) beside[path] = content;
   for (const std::string& name : wanted_) {
     std::vector<Found> found;
     if (const auto all = found_.find(name); all != found_.end())
@@ -122,10 +192,20 @@ void FileMatcher::into(Submission& submission) const {
       return rank(a) != rank(b) ? rank(a) < rank(b) : fuller(a.path, b.path);
     });
     const Found& best = found.front();
-    if (!best.refused.empty())
+    if (!best.refused.empty()) {
       submission.missing[name] = {best.refused, {name}};
-    else
+    } else {
       submission.files[name] = best.content;
+      if (best.path.size() <= longest_path) submission.places[name] = best.path;
+      const auto add_included = [&](const std::string& path, const std::string& content) {
+        for (const auto& [place, file] : own_includes(beside, path, content)) submission.files[file] = beside.at(file);
+      };
+      add_included(best.path, best.content);
+      // the hand-out builds every source of its folder
+      for (const auto& [path, content] : beside)
+        if (is_source(path) && !is_backup(path) && fs::path(path).parent_path() == fs::path(best.path).parent_path())
+          submission.files[path] = content, add_included(path, content);
+    }
     for (const Found& other : found)
       if (other.path != best.path && other.content != best.content)
         submission.remarks.push_back({"file.left_out", {other.path, best.path}});
@@ -137,7 +217,6 @@ void FileMatcher::into(Submission& submission) const {
 // Folders by the file system, archives by libarchive: a parser of untrusted zip and tar files that others have
 // hardened for years.
 
-namespace fs = std::filesystem;
 namespace {
 
 struct Refused {
@@ -201,16 +280,21 @@ struct Free {
   void operator()(archive* a) const { archive_read_free(a); }
 };
 
-/// Unpacks the entry to its end, so that what it claims of its size counts for nothing; keeps what a graded file may
-/// hold and one byte more.
-std::string unpack(archive* from, std::size_t& total) {
+/// Entries and bytes unpacked so far, from an archive and those inside it.
+struct Unpacked {
+  std::size_t entries = 0, total = 0;
+};
+
+/// Unpacks the entry to its end, so that what it claims of its size counts for nothing; keeps `most` bytes and some
+/// more.
+std::string unpack(archive* from, std::size_t& total, std::size_t most) {
   std::string content;
   std::string block(1u << 16, '\0');
   for (la_ssize_t got; (got = archive_read_data(from, block.data(), block.size())) != 0;) {
     if (got < 0) throw Refused{{"archive.unreadable", {"damaged, or locked with a password"}}};
     total += static_cast<std::size_t>(got);
     if (total > largest_total) throw Refused{too_much()};
-    if (content.size() <= largest_file) content.append(block.data(), static_cast<std::size_t>(got));
+    if (content.size() <= most) content.append(block.data(), static_cast<std::size_t>(got));
   }
   return content;
 }
@@ -250,29 +334,41 @@ void require_whole_gzip(const fs::path& file) {
   }
 }
 
-void read_archive(const fs::path& file, FileMatcher& matcher) {
+/// The path of an entry, with '/' and in UTF-8: packers of Chinese systems write GBK, whose bytes hold backslashes.
+std::string path_of(archive_entry* entry) {
+  const char* name = archive_entry_pathname_utf8(entry);
+  if (!name) name = archive_entry_pathname(entry);
+  std::string path = plain_utf8(name ? name : "?");   // a name in an unknown encoding matches no wanted file
+  std::replace(path.begin(), path.end(), '\\', '/');  // as some packers on Windows write them
+  while (path.rfind("./", 0) == 0) path.erase(0, 2);
+  return path;
+}
+
+void read_archive(const fs::path& file, FileMatcher& matcher, Unpacked& sum, int depth = 1) {
   const std::unique_ptr<archive, Free> from(archive_read_new());
-  archive_read_support_format_zip(from.get());
-  archive_read_support_format_tar(from.get());
-  archive_read_support_filter_gzip(from.get());
-  if (archive_read_open_filename(from.get(), file.c_str(), 1u << 16) != ARCHIVE_OK)
-    throw Refused{{"archive.unreadable", {"neither zip nor tar"}}};
+  // common formats only, and no filter that starts an external program
+  for (const auto support :
+       {archive_read_support_format_zip, archive_read_support_format_tar, archive_read_support_format_7zip,
+        archive_read_support_format_rar, archive_read_support_format_rar5, archive_read_support_filter_gzip,
+        archive_read_support_filter_bzip2, archive_read_support_filter_xz})
+    support(from.get());
+  const Refused unreadable{{"archive.unreadable", {"damaged, or of a kind that is not known"}}};
+  if (archive_read_open_filename(from.get(), file.c_str(), 1u << 16) != ARCHIVE_OK) throw unreadable;
   archive_entry* entry = nullptr;
-  std::size_t entries = 0, total = 0;
+  std::size_t inner_count = 0;
+  const crosscheck::TemporaryFolder inner("archive");
   for (int status; (status = archive_read_next_header(from.get(), &entry)) != ARCHIVE_EOF;) {
-    if (status < ARCHIVE_WARN) throw Refused{{"archive.unreadable", {"damaged, or neither zip nor tar"}}};
-    if (++entries > most_entries) throw Refused{too_many()};
-    const char* name = archive_entry_pathname_utf8(entry);
-    if (!name) name = archive_entry_pathname(entry);
-    std::string path = name ? name : "?";               // a name in an unknown encoding matches no wanted file
-    std::replace(path.begin(), path.end(), '\\', '/');  // as some packers on Windows write them
-    while (path.rfind("./", 0) == 0) path.erase(0, 2);
+    if (status < ARCHIVE_WARN) throw unreadable;
+    if (++sum.entries > most_entries) throw Refused{too_many()};
+    std::string path = path_of(entry);
     if (path.empty()) continue;
     if (points_outside(path)) throw Refused{{"archive.path", {path.substr(0, 200)}}};
     path = fs::path(path).lexically_normal().string();
     const bool link = archive_entry_filetype(entry) != AE_IFREG || archive_entry_hardlink(entry);
     const bool folder = archive_entry_filetype(entry) == AE_IFDIR;
-    std::string content = unpack(from.get(), total);
+    const bool is_inner = !link && is_archive(path) && depth_of(path) <= 1 && path.rfind("__MACOSX/", 0) != 0;
+    std::string content = unpack(from.get(), sum.total, is_inner ? largest_total : largest_file);
+    if (is_inner && ++inner_count == 1) crosscheck::write_file(inner.path / "inner", content);
     if (folder || !crosscheck::is_path_inside(path) || !matcher.wants(path)) continue;
     if (link)
       matcher.refuse(path, "file.link");
@@ -283,12 +379,17 @@ void read_archive(const fs::path& file, FileMatcher& matcher) {
     if (const auto why = matcher.too_large()) throw Refused{*why};
   }
   if (archive_filter_code(from.get(), 0) == ARCHIVE_FILTER_GZIP) require_whole_gzip(file);
+  if (!matcher.empty() || inner_count == 0) return;
+  if (inner_count > 1) throw Refused{{"submission.archives", {std::to_string(inner_count)}}};
+  if (depth == deepest_archive) throw Refused{{"archive.nested", {std::to_string(deepest_archive)}}};
+  read_archive(inner.path / "inner", matcher, sum, depth + 1);
 }
 
 }  // namespace
 
 bool is_archive(const fs::path& file) {
-  static constexpr const char* endings[] = {".zip", ".tar", ".gz", ".tgz", ".7z", ".rar", ".bz2", ".xz"};
+  static constexpr const char* endings[] = {".zip", ".tar", ".gz",   ".tgz", ".7z", ".rar",
+                                            ".bz2", ".tbz", ".tbz2", ".txz", ".xz"};
   const std::string ending = lower(file.extension().string());
   return std::find(std::begin(endings), std::end(endings), ending) != std::end(endings);
 }
@@ -296,13 +397,14 @@ bool is_archive(const fs::path& file) {
 namespace {
 
 void read_one(const fs::path& path, const std::string& name, FileMatcher& matcher) {
+  Unpacked sum;
   // in a folder that students share, a link would be graded as somebody's who did not write it
   if (fs::is_symlink(path)) throw Refused{{"submission.link", {}}};
   if (fs::is_directory(path)) {
     const std::vector<fs::path> archives = read_folder(path, matcher);
     if (!matcher.empty() || archives.empty()) return;
     if (archives.size() > 1) throw Refused{{"submission.archives", {std::to_string(archives.size())}}};
-    read_archive(archives.front(), matcher);
+    read_archive(archives.front(), matcher, sum);
   } else if (matcher.wants(name)) {
     if (auto content = content_of(path))
       matcher.take(name, std::move(*content));
@@ -310,7 +412,7 @@ void read_one(const fs::path& path, const std::string& name, FileMatcher& matche
       matcher.refuse(name, "file.large");
   } else {
     if (!fs::is_regular_file(path)) throw Refused{{"archive.unreadable", {"neither a file nor a folder"}}};
-    read_archive(path, matcher);
+    read_archive(path, matcher, sum);
   }
 }
 

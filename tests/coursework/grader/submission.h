@@ -1,4 +1,4 @@
-// A submission is a folder, zip or tar, from which only the wanted files are read.
+// A submission is a folder or an archive, from which only the wanted files are read, and what they include.
 #pragma once
 
 #include <filesystem>
@@ -20,17 +20,19 @@ struct Remark {
 
 struct Submission {
   std::string name;
-  std::map<std::string, std::string> files;  // contents of the wanted files that were found, by name
+  std::map<std::string, std::string> files;  // contents: wanted files by name, own sources and headers by path
   std::map<std::string, Remark> missing;     // why a wanted file cannot be used
   std::vector<Remark> remarks;               // on the whole
   StudentChoice choice = {};                 // what the student's grade.toml says
   bool refused = false;                      // nothing of it can be graded; the last remark says why
+  // paths of the wanted files, where they differ from their names
+  std::map<std::string, std::string> places = {};
 };
 
-struct Person {
-  std::string name;     // as far as names of files tell
-  std::string id = {};  // empty: unknown
-};
+/// Those of `files` (contents by path) that a file includes, directly or through others: the place where the compiler
+/// looks for each, and its path. An include that leads nowhere is met by the only file of that name.
+std::map<std::string, std::string> own_includes(const std::map<std::string, std::string>& files,
+                                                const std::string& path, const std::string& content);
 
 /// What somebody handed in: folders, archives and files, each with the name that the student gave it.
 struct Handed {
@@ -44,6 +46,8 @@ struct Handed {
 constexpr std::size_t largest_file = 1u << 20;    // byte, of a file that is graded
 constexpr std::size_t largest_total = 64u << 20;  // byte, unpacked
 constexpr std::size_t most_entries = 2000;
+constexpr std::size_t longest_path = 200;  // byte, of files that are laid out as they were handed in
+constexpr int deepest_archive = 3;         // an archive in an archive in an archive
 // of a whole program, all of which is compiled
 constexpr std::size_t most_program_files = 200;
 constexpr std::size_t largest_program = 4u << 20;  // byte, of its C++ files together
@@ -58,7 +62,7 @@ Submission read_submission(const std::filesystem::path& path, const std::vector<
 Submission read_submission(const Handed& handed, const std::vector<std::string>& wanted,
                            const std::vector<std::string>& roles = {});
 
-/// By its ending: zip, tar, gz, tgz, and kinds that cannot be read, to say so.
+/// By its ending.
 bool is_archive(const std::filesystem::path& file);
 
 // Matches the names in a submission with the wanted files; without wanted files every C++ file matches.
@@ -67,10 +71,12 @@ class FileMatcher {
  public:
   explicit FileMatcher(std::vector<std::string> wanted, std::vector<std::string> roles = {})
       : wanted_(std::move(wanted)), roles_(std::move(roles)) {}
-  /// Whether the file at this path ("src/rk4.cpp") is a wanted file in one of the folders that are searched.
-  bool wants(const std::string& path) const { return !match(path).empty(); }
+  /// True for a wanted file in one of the folders that are searched ("src/rk4.cpp"), and for files that it may include.
+  bool wants(const std::string& path) const { return !match(path).empty() || may_be_included(path); }
   void take(const std::string& path, std::string content);
-  void refuse(const std::string& path, const std::string& key) { found_[match(path)].push_back({path, key, {}}); }
+  void refuse(const std::string& path, const std::string& key) {
+    if (const std::string name = match(path); !name.empty()) found_[name].push_back({path, key, {}});
+  }
   bool empty() const { return found_.empty(); }
   /// Why a whole program is refused as soon as it is too large; never where files are wanted by name.
   std::optional<Remark> too_large() const;
@@ -84,14 +90,18 @@ class FileMatcher {
     std::string path, refused, content;
   };
   std::string match(const std::string& path) const;
+  bool may_be_included(const std::string& path) const;
   void choose(Submission& submission) const;
   std::vector<std::string> wanted_, roles_;
   std::map<std::string, std::vector<Found>> found_;  // by wanted name, in the order met
-  std::size_t taken_ = 0;                            // byte
+  std::map<std::string, std::string> beside_;        // by path: what wanted files may include
+  std::size_t taken_ = 0, beside_size_ = 0;          // byte
 };
 
 /// By its ending.
 bool is_cpp(const std::string& path);
+/// No header.
+bool is_source(const std::string& path);
 
 std::string lower(std::string text);
 /// What stands behind the last slash.

@@ -14,6 +14,7 @@
 #include "tests/coursework/grader/build.h"
 #include "tests/coursework/grader/class.h"
 #include "tests/coursework/grader/submission.h"
+#include "tests/coursework/test/helpers.h"
 
 namespace coursework {
 namespace {
@@ -29,13 +30,22 @@ struct Entry {
   std::string link = {};
 };
 
+/// By the ending of its name, else zip or tar.gz.
 void pack(const fs::path& file, const std::vector<Entry>& entries, bool zip) {
   archive* to = archive_write_new();
-  if (zip) {
+  const std::string ending = file.extension().string();
+  if (ending == ".7z") {
+    archive_write_set_format_7zip(to);
+  } else if (zip) {
     archive_write_set_format_zip(to);
   } else {
     archive_write_set_format_pax_restricted(to);
-    archive_write_add_filter_gzip(to);
+    if (ending == ".xz")
+      archive_write_add_filter_xz(to);
+    else if (ending == ".bz2")
+      archive_write_add_filter_bzip2(to);
+    else
+      archive_write_add_filter_gzip(to);
   }
   archive_write_open_filename(to, file.c_str());
   for (const Entry& one : entries) {
@@ -219,6 +229,102 @@ TEST(Submission, TextsOfOtherEncodingsBecomePlain) {
   EXPECT_EQ(plain_utf8("\xff\xfe" + utf16), "int\xc3\xa9");
   EXPECT_EQ(plain_utf8("\xfe\xff" + std::string("\0i\0n\x20\xac", 6)), "in\xe2\x82\xac");
   EXPECT_EQ(plain_utf8("int\xe9"), "int\xe9");
+  // GBK, where the second byte of a letter is a backslash at the end of a comment
+  EXPECT_EQ(plain_utf8("// \xd6\xd0\x81\x5c\nint x;"), "// \xe4\xb8\xad\xe4\xb9\x97\nint x;");
+  EXPECT_EQ(plain_utf8("// \xe4\xb8\xad"), "// \xe4\xb8\xad");
+}
+
+TEST(Submission, WhatPartsIncludeIsTakenAlong) {
+  const TemporaryFolder here("test");
+  const std::map<std::string, std::string> all = {
+      {"src/rk4.cpp",
+       "#include \"helper.h\"\n#include <vector>\n#include \"util/more.h\"\n#include \"../inc/far.h\"\n"},
+      {"src/euler.cpp", "#include \"Odd.H\"\n#include \"/etc/passwd\"\n#include \"../../out.h\"\n"},
+      {"src/helper.h", "#include \"table.inc\"\n"},
+      {"src/table.inc", "#include \"helper.h\"\n"},
+      {"src/util/more.h", "#include \"helper.h\"\n"},
+      {"inc/far.h", "far"},
+      {"src/odd.h", "odd"},
+      {"src/unused.h", "unused"},
+      {"elsewhere/a/vector", "no header of this name is ours to take"}};
+  for (const auto& [path, content] : all) write_file(here.path / "handed" / path, content);
+  std::vector<Entry> entries;
+  for (const auto& [path, content] : all) entries.push_back({path, content});
+  pack(here.path / "handed.zip", entries, true);
+  for (const char* name : {"handed", "handed.zip"}) {
+    const Submission one = read_submission(here.path / name, wanted);
+    std::vector<std::string> taken;
+    for (const auto& [file, content] : one.files) taken.push_back(file);
+    EXPECT_EQ(taken, (std::vector<std::string>{"euler.cpp", "inc/far.h", "rk4.cpp", "src/helper.h", "src/odd.h",
+                                               "src/table.inc", "src/util/more.h"}))
+        << name;
+    const auto found = own_includes(one.files, one.places.at("rk4.cpp"), one.files.at("rk4.cpp"));
+    EXPECT_EQ(found, (std::map<std::string, std::string>{{"inc/far.h", "inc/far.h"},
+                                                         {"src/helper.h", "src/helper.h"},
+                                                         {"src/table.inc", "src/table.inc"},
+                                                         {"src/util/more.h", "src/util/more.h"}}))
+        << name;
+    EXPECT_EQ(own_includes(one.files, "src/euler.cpp", one.files.at("euler.cpp")),
+              (std::map<std::string, std::string>{{"src/Odd.H", "src/odd.h"}}))
+        << name;
+  }
+}
+
+TEST(Submission, ArchivesOfManyKindsAndInsideEachOtherAreRead) {
+  for (const char* ending : {".zip", ".7z", ".tar.xz", ".tar.bz2"}) {
+    const TemporaryFolder here("test");
+    const fs::path inner = here.path / (std::string("inner") + ending), outer = here.path / "outer.zip";
+    pack(inner, {{"work/rk4.cpp", "rk4"}, {"work/euler.cpp", "euler"}}, inner.extension() == ".zip");
+    pack(outer, {{"report.pdf", "x"}, {"homework/inner" + std::string(ending), content_of_file(inner)}}, true);
+    for (const fs::path& one : {inner, outer}) {
+      const Submission read = read_submission(one, wanted);
+      EXPECT_EQ(read.files.size(), 2u) << one << (read.remarks.empty() ? "" : read.remarks[0].key);
+    }
+  }
+}
+
+// Packed on a Chinese system: the name of the folder is GBK, and its last byte a backslash.
+TEST(Submission, FoldersWithNamesInGBKAreRead) {
+  const TemporaryFolder here("test");
+  pack(here.path / "a.tar.gz", {{"\xd7\xf7\x81\x5c/rk4.cpp", "rk4"}}, false);
+  const Submission one = read_submission(here.path / "a.tar.gz", wanted);
+  EXPECT_EQ(one.files.count("rk4.cpp"), 1u);
+  EXPECT_EQ(one.places.at("rk4.cpp"), "\xe4\xbd\x9c\xe4\xb9\x97/rk4.cpp");
+  // a place that cannot be laid out is left where it is
+  const std::string far = std::string(300, 'x') + "/rk4.cpp";
+  pack(here.path / "b.zip", {{far, "rk4"}}, true);
+  EXPECT_EQ(read_submission(here.path / "b.zip", wanted).places.count("rk4.cpp"), 0u);
+}
+
+TEST(Submission, LimitsHoldForArchivesInsideOthers) {
+  const TemporaryFolder here("test");
+  const fs::path inner = here.path / "inner.zip", outer = here.path / "outer.zip";
+  const auto refused = [&](const std::vector<Entry>& entries, std::size_t copies = 1) {
+    pack(inner, entries, true);
+    std::vector<Entry> outside;
+    for (std::size_t i = 0; i < copies; ++i) outside.push_back({std::to_string(i) + ".zip", content_of_file(inner)});
+    pack(outer, outside, true);
+    const Submission read = read_submission(outer, wanted);
+    EXPECT_TRUE(read.files.empty());
+    return read.remarks.empty() ? "" : read.remarks.back().key;
+  };
+  const std::string block(largest_total / 4, 'x');
+  EXPECT_EQ(refused({{"rk4.cpp", "rk4"}, {"a", block}, {"b", block}, {"c", block}, {"d", block}}), "archive.size");
+  EXPECT_EQ(refused(std::vector<Entry>(most_entries, {"data", ""})), "archive.entries");
+  EXPECT_EQ(refused({{"../rk4.cpp", "x"}}), "archive.path");
+  EXPECT_EQ(refused({{"rk4.cpp", "rk4"}}, 2), "submission.archives");
+  pack(outer, {{"rk4.cpp", "", AE_IFLNK, "/etc/passwd"}}, true);
+  pack(inner, {{"a.zip", content_of_file(outer)}}, true);
+  EXPECT_EQ(read_submission(inner, wanted).missing.at("rk4.cpp").key, "file.link");
+  pack(inner, {{"rk4.cpp", "rk4"}}, true);
+  for (int depth = 1; depth <= deepest_archive; ++depth) {
+    const Submission read = read_submission(inner, wanted);
+    EXPECT_EQ(read.files.count("rk4.cpp"), 1u) << depth;
+    pack(outer, {{"a.zip", content_of_file(inner)}}, true);
+    fs::rename(outer, inner);
+  }
+  const Remark nested = read_submission(inner, wanted).remarks.at(0);
+  EXPECT_NE(said(common_texts(), nested).find("Archives stand in archives more than 3 deep"), std::string::npos);
 }
 
 TEST(Submission, GradeTomlChoosesFoldersFilesAndClasses) {
