@@ -38,7 +38,7 @@ struct Move {
 Move random_move(Random& random, const Sphere& sphere, double depth, double multiple) {
   const Vec3 n = random_direction(random), along = random_tangent(random, n);
   const double r = sphere.contact_radius(), mu = sphere.friction > 0 ? sphere.friction : 1;
-  const Vec3 before = sphere.centre + r * n - multiple * mu * depth * along + random.uniform(0.01, 0.03) * n;
+  const Vec3 before = sphere.centre + r * n - multiple * mu * depth * along + random.uniform(0.02, 0.06) * n;
   return {before, sphere.centre + (r - depth) * n};
 }
 
@@ -47,7 +47,11 @@ Cases moves(Random& random, double friction, double least, double most) {
   Case c = contact_case("corrected_position", sphere, places, "position", 3);
   for (int i = 0; i < places; ++i) {
     const double depth = random.uniform(0.04, 0.1);
-    Move move = random_move(random, sphere, depth, random.uniform(least, most));
+    // every other one is near the limit of friction, where what is compared with it shows
+    const double multiple = i % 2 == 0 ? random.uniform(least, most)
+                            : most < 1 ? random.uniform(0.9, 0.97)
+                                       : random.uniform(1.05, 1.3);
+    Move move = random_move(random, sphere, depth, multiple);
     if (friction == 0 && i == 0)  // straight down: nothing moves along the sphere, to the last digit
       move = {sphere.centre + Vec3(0, sphere.contact_radius() + 0.02, 0),
               sphere.centre + Vec3(0, sphere.contact_radius() - depth, 0)};

@@ -232,6 +232,15 @@ std::vector<Case> accurate_steps(Random& random) {
       const double duration = (random.uniform(8, 40) + (random.rounds() ? 0.5 : 0)) * wanted;
       add(c, omega, duration, constant * omega * duration * std::pow(wanted * omega, order), wanted);
     }
+    // one step is enough
+    const double omega = random.uniform(2, 30), wanted = random.uniform(0.1, 0.5) / omega,
+                 duration = random.uniform(0.3, 0.8) * wanted;
+    add(c, omega, duration, constant * omega * duration * std::pow(wanted * omega, order), wanted);
+    if (rule == implicit_euler) {
+      // a whole number of steps already: omega and h are powers of two, so that every formula finds it without rounding
+      const double h = 1.0 / 32, whole = random.integer(5, 30) * h;
+      c.in.insert(c.in.end(), {4, whole, constant * 4 * whole * 4 * h}), c.expected.push_back(h);
+    }
     cases.push_back(c);
   }
   return cases;

@@ -3,6 +3,7 @@
 //   verlet.orders      omega, h, steps, amplitude, phase, halvings
 //                      the motion amplitude cos(omega t + phase), computed with h, h/2 and so on: the order of the
 //                      error of a single step, and of that after the time steps h
+//   verlet.observed    count, errors                      the order that they show
 //   verlet.predicted   omega, h, steps, error, times, then what a belief says, which is told and not used
 //                      the error predicted for a step so many times smaller
 #include <cmath>
@@ -57,6 +58,12 @@ bool answer_verlet(const std::string& call, const Numbers& in, Numbers& out) {
       of_all.push_back(error_of(motion, h / parts, steps * parts));
     }
     out = {order_of(of_one), order_of(of_all)};
+    return true;
+  }
+  if (call == "verlet.observed") {
+    std::vector<double> errors(static_cast<std::size_t>(reader.integer()));
+    for (double& error : errors) error = reader.number();
+    out = {order_of(errors)};
     return true;
   }
   if (call != "verlet.predicted") return false;

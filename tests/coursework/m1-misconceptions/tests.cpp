@@ -125,6 +125,15 @@ std::vector<Case> both_orders(Random& random) {
     c.row = "run", c.column = "orders";
     cases.push_back(c);
   }
+  // errors that fall by another factor each time: all of them count
+  for (const int count : {2, 3, 5}) {
+    Numbers errors = {random.uniform(1, 3)};
+    while (errors.size() < static_cast<std::size_t>(count)) errors.push_back(errors.back() / random.uniform(2, 9));
+    Case c{"verlet.observed", {double(count)}, {std::log2(errors[0] / errors.back()) / (count - 1)}, 1, 1e-12};
+    c.in.insert(c.in.end(), errors.begin(), errors.end());
+    c.row = "run", c.column = "order";
+    cases.push_back(c);
+  }
   return cases;
 }
 

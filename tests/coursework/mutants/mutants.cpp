@@ -83,6 +83,8 @@ class Mutation {
       names(i);
       terms(i);
       types(i);
+      counts(i);
+      late(i);
     }
     statements();
     std::stable_sort(made_.begin(), made_.end(), [](const Mutant& a, const Mutant& b) { return a.line < b.line; });
@@ -245,6 +247,48 @@ class Mutation {
     const size_t k = i - 1;
     if (is(k, {")", "]"}) || t_[k].kind == Kind::end || (k > 0 && is(k - 1, {".", "::", "->"}))) return;
     add("term left out", t_[k].begin, t_[i + 1].begin, text(i) == "-" ? "-" : "");
+  }
+
+  /// Whole numbers at their bounds, and what is judged by two of many.
+  void counts(size_t i) {
+    const string other = text(i) == "ceil" ? "floor" : text(i) == "floor" ? "ceil" : "";
+    if (!other.empty() && is(i + 1, {"("})) {
+      const size_t from = i >= 2 && is(i - 1, {"::"}) ? i - 2 : i;
+      const string rest = s_.substr(t_[i].end, t_[closing(i + 1)].end - t_[i].end);
+      add("count", t_[from].begin, t_[closing(i + 1)].end,
+          fmt::format("({}{}{} {} 1)", s_.substr(t_[from].begin, t_[i].begin - t_[from].begin), other, rest,
+                      other == "floor" ? "+" : "-"));
+    }
+    if (is(i, {"<", "<="}))
+      if (const size_t end = behind(i + 1); end > 0 && is(end, {";"})) {
+        add("count", t_[end].begin, t_[end].begin, " - 1");
+        if (is(end - 1, {")"})) add("few", t_[i + 1].begin, t_[end].begin, "1");
+      }
+    if (is(i, {"."}) && is(i + 1, {"back"}) && is(i + 2, {"("})) add("few", t_[i].begin, t_[i + 3].end, "[1]");
+    if (is(i, {"size"}) && is(i + 1, {"("}) && is(i + 3, {"-"}) && i >= 2 && is(i - 1, {"."}))
+      add("few", t_[i - 2].begin, t_[i + 4].end, "1");
+  }
+
+  /// `const T name = f(x);` asked again where name is used: one call more, or, where a copy of x moves by then, at
+  /// that.
+  void late(size_t i) {
+    if (!is(i, {"="}) || i < 3 || t_[i - 1].kind != Kind::name || t_[i - 2].kind != Kind::name) return;
+    if (t_[i + 1].kind != Kind::name || !is(i + 2, {"("}) || !is(closing(i + 2) + 1, {";"})) return;
+    const string name = text(i - 1), asks = s_.substr(t_[i + 1].begin, t_[closing(i + 2)].end - t_[i + 1].begin);
+    std::vector<string> moved;  // with one of its names replaced by that of a copy
+    int depth = 0;
+    for (size_t k = closing(i + 2) + 1; k + 1 < t_.size() && depth >= 0; ++k) {
+      depth += is(k, {"{"}) ? 1 : is(k, {"}"}) ? -1 : 0;
+      if (is(k, {"="}) && is(k + 2, {";"}))  // State next = x;
+        for (size_t from = i + 3; from < closing(i + 2); ++from)
+          if (text(from) == text(k + 1) && is(from + 1, {",", ")"}))
+            moved.push_back(s_.substr(t_[i + 1].begin, t_[from].begin - t_[i + 1].begin) + text(k - 1) +
+                            s_.substr(t_[from].end, t_[closing(i + 2)].end - t_[from].end));
+      if (text(k) != name || is(k - 1, {".", "->"})) continue;
+      if (text(i + 1) == "f") instead("asked again", k, asks);
+      if (is(k + 1, {"["}))
+        for (const string& one : moved) instead("half moved", k, one);
+    }
   }
 
   void types(size_t i) {

@@ -126,8 +126,9 @@ TEST_F(Mutants, ThereAreEnoughOfEveryRule) {
   EXPECT_GE(all_.size(), 300u);
   std::map<std::string, int> of_rule;
   for (const Tried& one : all_) ++of_rule[one.mutant.rule];
-  for (const char* rule : {"operator", "sign", "constant", "index", "swapped name", "term left out", "left out",
-                           "order", "float", "integer", "integer division", "static", "alias"})
+  for (const char* rule :
+       {"operator", "sign", "constant", "index", "swapped name", "term left out", "left out", "order", "float",
+        "integer", "integer division", "static", "alias", "count", "few", "half moved", "asked again"})
     EXPECT_GE(of_rule[rule], 3) << rule;
 }
 
