@@ -6,6 +6,7 @@
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
+#include <iterator>
 #include <set>
 #include <vector>
 
@@ -51,39 +52,11 @@ std::string place(const Texts& common, const Texts& own, const Case& what, const
   return common.fill("place", name_text(own, "row.", what.row), std::to_string(row), column);
 }
 
-std::string key_of(How how) {
-  switch (how) {
-    case How::answered:
-      return "answered";
-    case How::threw:
-      return "threw";
-    case How::unusable:
-      return "unusable";
-    case How::crashed:
-      return "crashed";
-    case How::recursion:
-      return "recursion";
-    case How::out_of_time:
-      return "out_of_time";
-    case How::waiting:
-      return "waiting";
-    case How::out_of_memory:
-      return "out_of_memory";
-    case How::too_much_output:
-      return "too_much_output";
-    case How::too_much_answered:
-      return "too_much_answered";
-    case How::undecided:
-      return "undecided";
-    case How::no_token:
-      return "no_token";
-    case How::not_compiled:
-      return "not_compiled";
-    case How::missing:
-      return "missing";
-  }
-  return "no_token";
-}
+/// In the order of How.
+constexpr const char* how_keys[] = {"answered",    "threw",    "unusable",      "crashed",         "recursion",
+                                    "out_of_time", "waiting",  "out_of_memory", "too_much_output", "too_much_answered",
+                                    "undecided",   "no_token", "not_compiled",  "missing"};
+static_assert(std::size(how_keys) == static_cast<std::size_t>(How::missing) + 1);
 
 std::string count_text(const Answer& answer, std::size_t i) {
   return i < answer.counts.size() ? std::to_string(answer.counts[i].second) : "?";
@@ -95,14 +68,17 @@ std::string ending(const Texts& common, const Answer& answer) {
                                                                                            : "unusable.other",
                                                    count_text(answer, 0), count_text(answer, 1)));
   if (answer.how == How::threw) {
+    if (answer.detail == "Resource temporarily unavailable") return common.of("how.threads");
     std::size_t index = 0, size = 0;  // as libstdc++ says them
     for (const char* form : {"vector::_M_range_check: __n (which is %zu) >= this->size() (which is %zu)",
                              "array::at: __n (which is %zu) >= _Nm (which is %zu)"})
       if (std::sscanf(answer.detail.c_str(), form, &index, &size) == 2)
         return common.fill("how.threw_index", std::to_string(static_cast<std::ptrdiff_t>(index)), std::to_string(size));
   }
-  if (answer.how == How::crashed) return common.fill("how.crashed", answer.detail) + " " + common.of("crash.guess");
-  if (answer.how != How::out_of_time) return common.fill("how." + key_of(answer.how), answer.detail);
+  if (answer.how == How::crashed)
+    return common.fill("how.crashed", name_text(common, "signal.", answer.detail)) + " " + common.of("crash.guess");
+  if (answer.how != How::out_of_time)
+    return common.fill(std::string("how.") + how_keys[static_cast<std::size_t>(answer.how)], answer.detail);
   std::string text = common.fill("how.out_of_time", answer.detail, with_digits(answer.reference, 2));
   std::string others;
   for (std::size_t i = 0; i + 1 < answer.counts.size(); ++i)
@@ -240,16 +216,26 @@ std::string as_set(const Texts& common, const Texts& own, const Case& what, cons
 std::string words(const Texts& common, const Texts& own, const Case& what, const Answer& answer, const Judged& judged) {
   if (judged.right) return "";
   if (judged.how != How::answered) return ending(common, answer);
-  if (judged.wrong_size)
-    return common.fill("size", number_text(judged.expected, judged.got), number_text(judged.got, judged.expected)) +
-           as_set(common, own, what, answer);
+  if (judged.wrong_size) {
+    std::string text = common.fill("size", count_text(judged.expected), count_text(judged.got));
+    const auto columns = static_cast<double>(what.columns);
+    if (columns > 1 && std::fmod(judged.got, columns) == 0)
+      text += " " + common.fill("size.rows", count_text(judged.expected / columns), count_text(judged.got / columns),
+                                name_text(own, "row.", what.row));
+    return text + as_set(common, own, what, answer);
+  }
+  std::string legend;
+  for (const std::string& key : {"row." + what.row + ".legend", "column." + what.column + ".legend"})
+    if (own.has(key)) legend += " " + own.of(key);
   if (judged.of > 0 && !judged.not_finite)
     return common.fill("counted", place(common, own, what, judged), count_text(judged.expected * judged.of),
-                       count_text(judged.got * judged.of));
+                       count_text(judged.got * judged.of)) +
+           legend;
   if (!judged.not_finite)
     if (const std::string set = as_set(common, own, what, answer); !set.empty()) return set.substr(1);
   return common.fill(judged.not_finite ? "not_finite" : "differs", place(common, own, what, judged),
-                     number_text(judged.expected, judged.got), number_text(judged.got, judged.expected));
+                     number_text(judged.expected, judged.got), number_text(judged.got, judged.expected)) +
+         legend;
 }
 
 namespace {

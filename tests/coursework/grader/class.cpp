@@ -71,14 +71,11 @@ std::string csv_of(const std::string& text) {
   return safe == text ? crosscheck::csv_field(text) : crosscheck::csv_quoted(safe);
 }
 
-/// Points of a test, public and hidden.
-std::string points_at(const Result& result, const std::string& id) {
-  double sum = 0;
-  for (const TestResult& test : result.tests) {
-    if (test.id == id && test.ungraded) return "not graded";
-    if (test.id == id) sum += test.earned;
-  }
-  return points_text(sum);
+std::string remark_of(const GradedSubmission& one) {
+  if (!one.failure.empty()) return "not graded: " + printable(one.failure);
+  for (const TestResult& test : one.result.tests)
+    if (test.ungraded) return printable(fmt::format("{}: {}", test.id, test.said));
+  return printable(one.result.remark);
 }
 
 /// The cells of a table of all: name, id, late, points in all and per part, remark.

@@ -68,6 +68,7 @@ class Grading {
     for (const Part& part : assignment_.parts) look_for_cause(std::string(part.name));
     require_unseen();
     tell_measured();
+    result_.remark = most_helpful();
     keep_engines();
     result_.complete = true;
     options_.on_progress(result_);
@@ -360,6 +361,24 @@ class Grading {
     return any;
   }
 
+  /// The sentence that explains the most lost points: a cause, or the first line on a test. If no points were lost, the
+  /// first remark that precedes the tests.
+  std::string most_helpful() const {
+    std::map<std::string, std::pair<bool, double>> lost;  // (a file is there, points)
+    std::string most = result_.preflight.empty() ? "" : result_.preflight.front();
+    for (const TestResult& test : result_.tests) {
+      if (passed(test) || test.said == options_.common.of("shown_only")) continue;
+      const bool known = !test.cause.empty() && test.cause != options_.common.of("no_cause");
+      const bool ran = unusable_.count(test.part) == 0;
+      const std::string first = test.said.substr(0, test.said.find('\n'));
+      const std::string sentence = known ? test.cause : ran ? test.id + ": " + first : first;
+      std::pair<bool, double>& its = lost[sentence];
+      its = {ran || unusable_.at(test.part).how != How::missing, its.second + test.points};
+      if (its > lost[most]) most = sentence;
+    }
+    return most;
+  }
+
   /// What no test judges.
   void tell_measured() {
     if (!assignment_.measured) return;
@@ -402,7 +421,7 @@ class Grading {
 
 std::string said(const Texts& common, const Remark& remark) {
   const auto& with = remark.with;
-  auto word = [&](std::size_t i) { return i < with.size() ? with[i] : std::string(); };
+  auto word = [&](std::size_t i) { return i < with.size() ? name_text(common, "reason.", with[i]) : std::string(); };
   return common.fill(remark.key, word(0), word(1), word(2));
 }
 

@@ -142,6 +142,7 @@ class Observer {
       const Case less = expecting(*subject_, right[i]);
       if (!usable(less, theirs[i]) || !judge(less, theirs[i]).right || !says_something(right[i].got)) continue;
       if (hands_through(right[i].got) || !told.insert(right[i].got).second) continue;
+      if (!is_right_everywhere(changes[made[i]])) continue;
       if (++count > 2) return "";
       const std::string name = change_text(with_.common, changes[made[i]]);
       text += (text.empty() ? "" : " ") + with_.common.fill("seen.without", name);
@@ -149,6 +150,36 @@ class Observer {
       if (!added.empty()) text += " " + with_.common.fill("seen.adds", added);
     }
     return text;
+  }
+
+  /// True if the change makes every wrong case with generic numbers right, and there is one. Special numbers (a radius
+  /// of 1, equal masses) make wrong formulas right by accident.
+  bool is_right_everywhere(const Change& change) const {
+    constexpr std::size_t enough = 8;
+    std::vector<Case> cases;
+    for (const auto& [what, answer] : asked_)
+      if (const auto in = changed(with_.own, what, change); cases.size() < enough && what.in.size() <= most_numbers &&
+                                                            is_general(what) && !judge(what, answer).right && in)
+        cases.push_back(with_numbers(what, *in));
+    const std::vector<Answer> right = with_.reference(cases), theirs = with_.student(cases);
+    for (std::size_t i = 0; i < cases.size(); ++i) {
+      if (!usable(cases[i], right[i])) return false;
+      const Case less = expecting(cases[i], right[i]);
+      if (!usable(less, theirs[i]) || !judge(less, theirs[i]).right) return false;
+    }
+    return !cases.empty();
+  }
+
+  /// True if most non-zero numbers of the case have more than three decimals, as random ones do.
+  bool is_general(const Case& what) const {
+    std::size_t all = 0, long_ones = 0;
+    for (const Param& p : params_of(CallLayout::of(with_.own, what)))
+      for (const std::size_t at : p.at) {
+        const double thousands = what.in[at] * 1000;
+        if (p.whole || what.in[at] == 0) continue;
+        ++all, long_ones += thousands != std::round(thousands);
+      }
+    return 2 * long_ones > all;
   }
 
   /// A number of the case by its name; nothing where it has none, or several.

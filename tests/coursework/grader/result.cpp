@@ -79,6 +79,7 @@ std::string to_json(const Result& result, const std::string& fingerprint) {
   json.update({{"lane", result.sandbox},
                {"not graded", result.not_graded},
                {"preflight", result.preflight},
+               {"remark", result.remark},
                {"secret", result.secret},
                {"seed", result.seed},
                {"submission", result.submission},
@@ -97,6 +98,7 @@ Result result_from_json(const std::string& text, const std::string& file, std::s
                   .secret = f["secret"].boolean(),
                   .preflight = f["preflight"].texts(),
                   .tests = {},
+                  .remark = f.find("remark") ? f["remark"].text() : "",
                   .not_graded = f["not graded"].text(),
                   .complete = f["complete"].boolean()};
     for (const JsonField& test : f["tests"].elements()) result.tests.push_back(test_of(test));

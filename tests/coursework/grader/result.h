@@ -32,6 +32,7 @@ struct Result {
   bool secret = false;                 // the seed was made from the lecturer's secret: it must not be shown
   std::vector<std::string> preflight;  // lines: files missing, first errors of the compiler in plain words
   std::vector<TestResult> tests;
+  std::string remark = {};      // the sentence on it that helps most
   std::string not_graded = {};  // why nothing of it could be graded; empty: it was
   bool complete = false;        // false while tests are still to run
   double earned() const;

@@ -93,6 +93,70 @@ TEST(Grade, EveryWayToFailHasItsMessageAndCostsItsOwnPart) {
   }
 }
 
+// As in the hand-out: headers beside the parts, names of ours among them, functions that stand in an earlier part.
+TEST(Grade, OwnHeadersAreTakenAndOursAreNotReplaced) {
+  Submission submission =
+      submission_of(tiny(), {{"twice.cpp",
+                              "#include \"own/case.h\"\ndouble twice(double x) { return two * x; }\n"
+                              "double half(double x) { return x / two; }\n"},
+                             {"sums.cpp",
+                              "#include <calls.h>\n#include \"tiny.h\"\n"
+                              "std::vector<double> sums(const std::vector<double>& n) {\n  std::vector<double> all;\n"
+                              "  double sum = 0;\n  for (double x : n) all.push_back(sum += half(twice(x)));\n"
+                              "  return all;\n}\n"}});
+  submission.files["own/case.h"] = "#include \"tiny.h\"\nconst double two = 2;\n";
+  submission.files["calls.h"] = "double half(double);\nnamespace coursework { struct Case {}; struct Unusable {}; }\n";
+  submission.files["tiny.h"] = "#error this one is ours\n";
+  const auto sandbox = choose_sandbox("bare", true);
+  const Result result = grade(tiny(), submission, *sandbox, options_for(tiny(), 7));
+  EXPECT_EQ(result.earned(), 100) << text_of(result, common_texts());
+  // in a source of its own
+  submission.files["twice.cpp"] = "double twice(double x) { return 2 * x; }";
+  submission.files["half.cpp"] =
+      "#include \"calls.h\"\ndouble half(double x) { return x / 2; }\nint main() {}\n"
+      "double twice(double) { return 0; }\n";
+  const Result beside = grade(tiny(), submission, *sandbox, options_for(tiny(), 7));
+  EXPECT_EQ(beside.earned(), 100) << text_of(beside, common_texts());
+  submission.files["calls.h"] = "inline double half(double x) { return y / 2; }\n";
+  const Result wrong = grade(tiny(), submission, *sandbox, options_for(tiny(), 7));
+  EXPECT_EQ(earned_by(wrong, "twice"), 50);
+  EXPECT_NE(wrong.remark.find("calls.h, line 1: 'y' was not declared"), std::string::npos) << wrong.remark;
+  submission.files.erase("calls.h");
+  const Result without = grade(tiny(), submission, *sandbox, options_for(tiny(), 7));
+  EXPECT_NE(without.remark.find("sums.cpp, line 1: calls.h is not there."), std::string::npos) << without.remark;
+}
+
+TEST(Grade, ThreadsAreAllowedUpToALimitThatIsNamed) {
+  const std::string begin = "#include <future>\n#include <memory>\n#include <thread>\n#include \"tiny.h\"\n";
+  const std::string many =
+      "double twice(double x) {\n  std::vector<std::future<double>> all;\n  std::promise<void> go;\n"
+      "  const std::shared_future<void> gone = go.get_future().share();\n  for (int i = 0; i < N; ++i)\n"
+      "    all.push_back(std::async(std::launch::async, [x, gone] { gone.wait(); return x; }));\n"
+      "  go.set_value();\n  double sum = 0;\n  for (auto& one : all) sum += one.get();\n"
+      "  std::unique_ptr<double[]> mine;\n  std::thread t([&] { mine.reset(new double[50 << 20]); });\n  t.join();\n"
+      "  return sum * 2 / N + (std::thread::hardware_concurrency() > 8);\n}\n";
+  for (const char* name : {"bwrap", "uid"}) {
+    std::unique_ptr<Sandbox> sandbox;
+    try {
+      sandbox = choose_sandbox(name, false);
+    } catch (const std::runtime_error&) {
+      continue;
+    }
+    for (const bool too_many : {false, true}) {
+      const std::string count = std::to_string(Limits{}.threads + (too_many ? 0 : -2));
+      const Submission submission =
+          submission_of(tiny(), {{"twice.cpp", begin + "const int N = " + count + ";\n" + many}});
+      const Result result = grade(tiny(), submission, *sandbox, options_for(tiny(), 7));
+      EXPECT_EQ(earned_by(result, "twice"), too_many ? 0 : 50) << name << ": " << text_of(result, common_texts());
+      if (too_many) {
+        EXPECT_NE(result.tests[0].said.find("it may have " + std::to_string(Limits{}.threads) + " at once"),
+                  std::string::npos)
+            << name << ": " << result.tests[0].said;
+      }
+    }
+  }
+}
+
 /// Slow enough to be near no limit and far from the official solution: eight hundred times as slow.
 const char* const slow_sums =
     "#include \"tiny.h\"\n"
@@ -305,13 +369,13 @@ TEST(Class, IsGradedResumedAndPutIntoATable) {
   ASSERT_EQ(all.size(), 4u);
   EXPECT_EQ(
       class_csv(tiny(), all),
-      "submission,id,late,points [1],twice [1],sums [1],remark\n"
-      "\"'-o\",,,50,50,0,\"sums.cpp is missing. Looked in the top folder, in src/ and one folder below.\"\n"
-      "all right,,,100,50,50,\n"
-      "\"rubbish, \"\"really\"\".zip\",,,,,,\"not graded: The archive cannot be read (neither zip nor tar). Hand "
-      "in a folder, a .zip or a .tar.gz.\"\n"
-      "\"x;'=1+1;\"\"'-2\",,,,,,\"not graded: The archive cannot be read (neither zip nor tar). Hand in a folder, a "
-      ".zip or a .tar.gz.\"\n");
+      "submission,points [1],twice [1],sums [1],remark\n"
+      "\"'-o\",50,50,0,\"sums.cpp is missing, so its tests cannot run.\"\n"
+      "all right,100,50,50,\n"
+      "\"rubbish, \"\"really\"\".zip\",,,,\"not graded: The archive cannot be read (damaged, or of a "
+      "kind that is not known). Hand in a folder or a .zip.\"\n"
+      "\"x;'=1+1;\"\"'-2\",,,,\"not graded: The archive cannot be read (damaged, or of a kind that is not known). Hand "
+      "in a folder or a .zip.\"\n");
   EXPECT_EQ(
       statistics_csv(all),
       "test,title,passed [1],failed [1],not graded [1],most frequent cause,times [1]\n"

@@ -149,7 +149,14 @@ TEST(Seen, SumsAreFittedOrRefused) {
   EXPECT_TRUE(coefficients({a, a}, a, 1e-12).empty());
 }
 
-std::string observed(Numbers (*student)(const Numbers&)) {
+/// Numbers that are nothing in particular.
+Case in_general(Case c) {
+  for (std::size_t i = 1; i < c.in.size(); ++i) c.in[i] *= 1 + 0.0123456789 * static_cast<double>(i);
+  c.expected = right_rates(c.in);
+  return c;
+}
+
+std::string observed(Numbers (*student)(const Numbers&), double mass = 0.5) {
   const auto answers = [](Numbers (*of)(const Numbers&)) {
     return [of](const std::vector<Case>& cases) {
       std::vector<Answer> all;
@@ -159,7 +166,8 @@ std::string observed(Numbers (*student)(const Numbers&)) {
   };
   const Texts common = common_texts();
   const Test test{"1.1", "part", 1, 0, {}, "", nullptr};
-  const Case what = falling(), other = falling(0.3);
+  Case what = falling(), other = in_general(falling(0.3));
+  what.in[1] = mass, what.in[2] = 1.6 * mass, what.expected = right_rates(what.in);
   const Assignment assignment{"test/tiny", "", {}, {}};
   return seen_at({answers(student), answers(right_rates), common, layouts()}, assignment, "part",
                  {{&test, {what, other}, {{How::answered, student(what.in)}, {How::answered, student(other.in)}}}},
@@ -174,8 +182,8 @@ TEST(Observe, TellsWithWhichNumbersTheAnswersWouldBeRight) {
   EXPECT_EQ(observed([](const Numbers& in) {
               return rates(in, [&](double, double g, double drag, double v) { return in[1] * g - drag * v; });
             }),
-            "Tried with other numbers: with g = 0 your answer to this case is right: it goes wrong only where that "
-            "comes in. Of what it adds: Where v' is wrong, it is the right one times m[0]/m.");
+            "Tried with other numbers: with g = 0 your answers are right: they go wrong only where that comes "
+            "in. Of what it adds: Where v' is wrong, it is the right one times m[0]/m.");
 }
 
 TEST(Observe, TellsWithoutWhichTermTheAnswerIsRight) {
@@ -183,10 +191,18 @@ TEST(Observe, TellsWithoutWhichTermTheAnswerIsRight) {
               return rates(in,
                            [](double m, double g, double drag, double v) { return m * g - drag * v * std::abs(v); });
             }),
-            "Tried with other numbers: with drag = 0 your answer to this case is right: it goes wrong only where that "
-            "comes in. Tried with other numbers: with v = 0 your answer to this case is right: it goes wrong only "
-            "where that comes in.");
+            "Tried with other numbers: with drag = 0 your answers are right: they go wrong only where that comes "
+            "in. Tried with other numbers: with v = 0 your answers are right: they go wrong only where that comes in.");
   EXPECT_EQ(observed([](const Numbers& in) { return rates(in, [](double, double, double, double) { return 7.; }); }),
+            "");
+  // right without drag where the first mass is 1 and the second moves along no axis: by accident
+  EXPECT_EQ(observed(
+                [](const Numbers& in) {
+                  return rates(in, [](double m, double g, double drag, double v) {
+                    return m * g * (m == 1 || m == 1.6 ? 1 : 2) - drag * v * std::abs(v);
+                  });
+                },
+                1),
             "");
 }
 
@@ -262,7 +278,7 @@ TEST(Look, ReadsAStepperOffItsCalls) {
             "Your step returns x + 1/2 h k1 + 1/4 h k2, where k1 is the first slope, k2 the second; right is x + 1/2 h "
             "k1 + 1/2 h k2.");
   EXPECT_EQ(looked([](auto f, double t, const Numbers& x, double h) { return moved(x, h, f(t, x)); }),
-            "Your step calls f so often: expected 2, got 1.");
+            "Your step calls f so often, for a system of five numbers: expected 2, got 1.");
 }
 
 TEST(Look, ReadsTheEquationOfAnImplicitStep) {
