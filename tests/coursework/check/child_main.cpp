@@ -144,7 +144,8 @@ std::string answer_line(const Call& call) {
 
 }  // namespace
 
-/// The number behind std::thread::hardware_concurrency(): one thread per processor has to fit into the limits everywhere.
+/// The number behind std::thread::hardware_concurrency(): one thread per processor has to fit into the limits
+/// everywhere.
 extern "C" int get_nprocs() noexcept { return 4; }
 
 void coursework::calling(const char* function) {

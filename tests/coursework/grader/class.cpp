@@ -71,13 +71,6 @@ std::string csv_of(const std::string& text) {
   return safe == text ? crosscheck::csv_field(text) : crosscheck::csv_quoted(safe);
 }
 
-std::string remark_of(const GradedSubmission& one) {
-  if (!one.failure.empty()) return "not graded: " + printable(one.failure);
-  for (const TestResult& test : one.result.tests)
-    if (test.ungraded) return printable(fmt::format("{}: {}", test.id, test.said));
-  return printable(one.result.remark);
-}
-
 /// The cells of a table of all: name, id, late, points in all and per part, remark.
 std::vector<std::string> cells_of(const Assignment& assignment, const GradedSubmission& one) {
   // no result is no zero: the cells stay empty
@@ -149,6 +142,8 @@ Result with_tests(Result result, const Result& again, const std::set<std::string
   for (TestResult& test : result.tests)
     for (const TestResult& other : again.tests)
       if (only.contains(test.id) && other.id == test.id && other.hidden == test.hidden) test = other;
+  // the earlier remark may be about a test that was replaced
+  if (!again.remark.empty() || std::ranges::all_of(result.tests, passed)) result.remark = again.remark;
   return result;
 }
 
@@ -176,7 +171,7 @@ std::string remark_of(const GradedSubmission& one) {
   if (!one.failure.empty()) return "not graded: " + printable(one.failure);
   for (const TestResult& test : one.result.tests)
     if (test.ungraded) return printable(fmt::format("{}: {}", test.id, test.said));
-  return one.result.preflight.empty() ? "" : printable(one.result.preflight.front());
+  return printable(one.result.remark);
 }
 
 std::string points_in(const GradedSubmission& one, std::string_view part) {
