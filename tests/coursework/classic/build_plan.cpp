@@ -57,10 +57,11 @@ void BuildPlan::write_files() {
     std::string name = written;
     std::replace(name.begin(), name.end(), '\\', '/');
     const std::string last = base_name(name), flat = lower(last);
-    // <time.h> beside a file Time.h
-    if (in_brackets && (fs::exists(fs::path("/usr/include") / name) || name.starts_with("sys/"))) return "";
     if (const auto known = stubs.find(lower(name)); known != stubs.end() && (!his.count(flat) || flat != lower(name)))
       return "<" + known->second + ">";
+    // <time.h> beside a file Time.h
+    if (in_brackets && (fs::exists(fs::path("/usr/include") / name) || name.starts_with("sys/")))
+      return "<" + name + ">";
     if (base.count(flat) && !his.count(flat)) left_to_the_course.push_back(flat);
     if (base.count(flat) || his.count(flat)) return "\"" + flat + "\"";
     for (const auto& [lower_case, path] : stubs)
