@@ -1,10 +1,19 @@
-// Calls of part 1. Each takes a sphere, a count and that many points.
+// Calls of part 1. Each takes a sphere, or a plane, a count and that many points.
 #include "calls_read.h"
 
 namespace coursework {
 
-/// gap, normal, nearest: of each point. normal_and_nearest: one after the other.
+/// gap, normal, nearest: of each point. normal_and_nearest: one after the other. plane: its gap and nearest point.
 bool answer_closest(const std::string& call, const Numbers& in, Numbers& out) {
+  if (call == "plane") {
+    Reader reader(in);
+    const Plane plane = read_plane(reader);
+    for (const Vec3& x : reader.vectors<Vec3>(reader.count())) {
+      out.push_back(gap(plane, x));
+      put(out, nearest(plane, x));
+    }
+    return true;
+  }
   if (call != "gap" && call != "normal" && call != "nearest" && call != "normal_and_nearest") return false;
   Reader reader(in);
   const Sphere sphere = read_sphere(reader);

@@ -3,14 +3,16 @@
 
 namespace coursework {
 
-/// corrected_position (sphere, count, before and proposed of each).
+/// corrected_position (sphere, count, before and proposed of each); on_plane (plane, ...).
 bool answer_position(const std::string& call, const Numbers& in, Numbers& out) {
-  if (call != "corrected_position") return false;
+  if (call != "corrected_position" && call != "on_plane") return false;
   Reader reader(in);
-  const Sphere sphere = read_sphere(reader);
+  const bool flat = call == "on_plane";
+  const Plane plane = flat ? read_plane(reader) : Plane();
+  const Sphere sphere = flat ? Sphere() : read_sphere(reader);
   for (int left = reader.integer(); left > 0; --left) {
     const Vec3 before = reader.vector<Vec3>(), proposed = reader.vector<Vec3>();
-    put(out, corrected_position(sphere, before, proposed));
+    put(out, flat ? corrected_position(plane, before, proposed) : corrected_position(sphere, before, proposed));
   }
   return true;
 }

@@ -17,6 +17,14 @@ inline Sphere read_sphere(Reader& in) {
   return sphere;
 }
 
+/// Point (3), normal (3), margin, friction.
+inline Plane read_plane(Reader& in) {
+  Plane plane;
+  plane.point = in.vector<Vec3>(), plane.normal = in.vector<Vec3>();
+  plane.margin = in.number(), plane.friction = in.number();
+  return plane;
+}
+
 /// Positions, then velocities.
 inline State read_state(Reader& in, int count) {
   State state;

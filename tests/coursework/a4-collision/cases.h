@@ -38,6 +38,7 @@ Cases gap(Random& random);
 Cases normal(Random& random);
 Cases nearest(Random& random);
 Cases very_centre(Random& random);
+Cases plane_places(Random& random);
 Cases small_place(Random& random);
 // part 2
 Cases untouched(Random& random);
@@ -45,6 +46,7 @@ Cases pushed_out(Random& random);
 Cases sliding(Random& random);
 Cases holding(Random& random);
 Cases inside_at_the_start(Random& random);
+Cases plane_moves(Random& random);
 Cases small_move(Random& random);
 // part 3
 Cases going_away(Random& random);

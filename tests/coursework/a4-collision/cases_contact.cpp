@@ -200,6 +200,56 @@ Cases inside_at_the_start(Random& random) {
   return {c};
 }
 
+namespace {
+
+crosscheck::Plane random_plane(Random& random, double friction) {
+  return {random_vector(random, 1), random_direction(random), random.uniform(0.02, 0.05), friction, 0, std::nullopt};
+}
+Case plane_case(const char* call, const crosscheck::Plane& plane, const char* column, int columns) {
+  Case c{.call = call, .columns = columns, .tolerance = round_off, .row = "place", .column = column};
+  put(c.in, plane.point);
+  put(c.in, plane.normal);
+  c.in.insert(c.in.end(), {plane.margin, plane.friction, double(places)});
+  return c;
+}
+
+}  // namespace
+
+/// Outside and inside by turns, beside a point of the contact plane.
+Cases plane_places(Random& random) {
+  const crosscheck::Plane plane = random_plane(random, 0);
+  Case c = plane_case("plane", plane, "gap_and_nearest", 4);
+  for (int i = 0; i < places; ++i) {
+    const double height = (i % 2 == 0 ? 1 : -1) * random.uniform(0.1, 1);
+    const Vec3 on =
+        plane.point + plane.margin * plane.normal + random.uniform(1, 3) * random_tangent(random, plane.normal);
+    put(c.in, Vec3(on + height * plane.normal));
+    c.expected.push_back(height);
+    put(c.expected, on);
+  }
+  return {c};
+}
+
+/// Every third particle stays outside; the others slide and are held by turns.
+Cases plane_moves(Random& random) {
+  const crosscheck::Plane plane = random_plane(random, random.uniform(0.3, 0.8));
+  Case c = plane_case("on_plane", plane, "position", 3);
+  const Vec3 origin = plane.point + plane.margin * plane.normal;
+  for (int i = 0; i < places; ++i) {
+    const double depth = (i % 3 == 0 ? -1 : 1) * random.uniform(0.04, 0.1);
+    const double multiple = i % 3 == 1 ? random.uniform(1.5, 4) : random.uniform(0.2, 0.8);
+    const Vec3 on = origin + random_tangent(random, plane.normal), proposed = on - depth * plane.normal;
+    const Vec3 before = on + random.uniform(0.01, 0.03) * plane.normal -
+                        multiple * plane.friction * std::abs(depth) * random_tangent(random, plane.normal);
+    Vec3 x = proposed, v = Vec3::Zero();
+    resolve_contact(plane, origin, before, x, v);
+    put(c.in, before);
+    put(c.in, proposed);
+    put(c.expected, x);
+  }
+  return {c};
+}
+
 Cases going_away(Random& random) {
   return velocities(random, random.uniform(0.3, 0.8), random.uniform(0.3, 0.7), 1, 0.5, 2);
 }

@@ -14,6 +14,7 @@ const Assignment& a2_pendulum();
 const Assignment& a3_cloth();
 const Assignment& a4_collision();
 const Assignment& a5_stiff();
+const Assignment& a6_solvers();
 const Assignment& m1_misconceptions();
 const Assignment& classic_particles();
 
@@ -31,7 +32,8 @@ std::span<const Assignment> assignments() {
       a3_cloth(),           // a grid of springs
       a4_collision(),       // a sphere in the way
       a5_stiff(),           // implicit Euler
-      m1_misconceptions(),  // four beliefs, tried
+      a6_solvers(),         // its equation solved by passes
+      m1_misconceptions(),  // five beliefs, tried
       classic_particles(),  // all of it, in the interface of old
   };
   return all;

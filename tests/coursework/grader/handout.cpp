@@ -118,13 +118,14 @@ void write_handout(const Assignment& assignment, const fs::path& folder) {
   const bool whole = assignment.takes_whole_program();
   const PublicTests tests = public_tests(assignment);
   fs::create_directories(check);
-  write_text(folder / "handout.md", content_of_file(from / "handout.md"));
   for (const fs::path& file : sorted(from / "starter")) write_text(folder / file.filename(), content_of_file(file));
   for (const fs::path& file : sorted(shared))
     if (file.filename() != "child_main.cpp" && !(whole && file.filename() == "as_given.cpp"))
       write_text(check / file.filename(), content_of_file(file));
   for (const fs::path& file : sorted(from)) {
     const std::string name = file.filename().string();
+    if (name.starts_with("handout."))
+      write_text(folder / name, content_of_file(file));  // handout.zh.md where there is one
     if (name.starts_with("texts.") && ends(file, {".txt"})) write_text(check / name, shown_texts(file));
     if (is_of_check(name) && ends(file, {".cpp", ".h"})) write_text(check / name, source_in_check(file));
   }

@@ -1,6 +1,7 @@
-// The tests of m1-misconceptions: parts, points, and the cases of the first two parts. Where there is one, the number
-// that the belief predicts stands at the end of a call, to be told beside what is right.
+// The tests of m1-misconceptions: parts, points, and the cases of kick_drift, verlet and rk4. Where there is one, the
+// number that the belief predicts stands at the end of a call, to be told beside what is right.
 #include <cmath>
+#include <numbers>
 
 #include "tests/coursework/grader/assignment.h"
 #include "tests/coursework/m1-misconceptions/cases.h"
@@ -160,31 +161,86 @@ std::vector<Case> smaller_steps(Random& random) {
   return cases;
 }
 
+// ---- rk4: on a spring its step is the series of cos and sin up to the fourth power
+
+struct Turned {
+  double cosine, sine;
+  explicit Turned(double a) : cosine(1 - a * a / 2 + std::pow(a, 4) / 24), sine(a - std::pow(a, 3) / 6) {}
+  double energy() const { return cosine * cosine + sine * sine; }
+};
+
+std::vector<Case> rk4_steps(Random& random) {
+  std::vector<Case> cases;
+  for (int i = 0; i < 3; ++i) {
+    const Oscillator o = oscillator(random, 0.5, 1.5);
+    const Turned turned(o.angle());
+    Case c{"rk4.step", o.numbers(), {}, 2, 1e-13 * std::sqrt(o.energy()) * 10,
+           "state",    "swing"};  // two dozen roundings
+    c.expected = {turned.cosine * o.x + turned.sine * o.v / o.omega, turned.cosine * o.v - turned.sine * o.omega * o.x};
+    cases.push_back(c);
+  }
+  return cases;
+}
+/// It loses at an ordinary step, and near 2.83 it loses on one side and gains on the other.
+std::vector<Case> rk4_energies(Random& random) {
+  std::vector<Case> cases;
+  for (const auto& [low, high] : {std::pair{0.4, 0.7}, std::pair{2.826, 2.828}, std::pair{2.829, 2.831}}) {
+    const Oscillator o = oscillator(random, low, high);
+    Case c{"rk4.energy", o.numbers(), {}, 1, 0, "hundred", "energy_of_rk4"};
+    const double factor = Turned(o.angle()).energy();
+    c.in.push_back(std::pow(2 - factor, 1000));
+    for (int steps = 100; steps <= 1000; steps += 100) {
+      c.expected.push_back(std::pow(factor, steps));
+      c.tolerance = std::max(c.tolerance, 1e-10 * c.expected.back());  // a thousand steps of two dozen roundings
+    }
+    c.plot_y = 0, c.row_size = 100 * o.h;
+    cases.push_back(c);
+  }
+  return cases;
+}
+std::vector<Case> rk4_limits(Random& random) {
+  Case factor{"rk4.factor", {}, {}, 1, 1e-11, "step", "factor"},
+      largest{"rk4.largest", {}, {}, 1, 1e-11, "spring", "h"};
+  for (const double about : {0.5, 1.5, 2.7, 3.0}) {
+    factor.in.push_back(about * random.uniform(0.95, 1.04));
+    factor.expected.push_back(Turned(factor.in.back()).energy());
+  }
+  for (int i = 0; i < 3; ++i) {
+    const double omega = random.uniform(2, 9);
+    largest.in.push_back(omega), largest.expected.push_back(2 * std::numbers::sqrt2 / omega);
+  }
+  return {factor, largest};
+}
+
 constexpr Part parts[] = {{"kick_drift", "kick_drift.title"},
                           {"verlet", "verlet.title"},
                           {"sag", "sag.title"},
-                          {"iterations", "iterations.title"}};
+                          {"iterations", "iterations.title"},
+                          {"rk4", "rk4.title"}};
 
 const Test tests[] = {
-    {"1.1", "kick_drift", 4, 3, {"semi-implicit Euler"}, "Kick and drift", one_step},
-    {"1.2", "kick_drift", 6, 5, {"semi-implicit Euler", "energy"}, "A thousand steps", energy_of_both},
-    {"1.3", "kick_drift", 4, 3, {"semi-implicit Euler", "conservation"}, "What is kept", kept_energy},
-    {"2.1", "verlet", 4, 3, {"Verlet"}, "Position Verlet", next_position},
-    {"2.2", "verlet", 5, 4, {"Verlet", "order"}, "Order of a step, order of a run", both_orders},
-    {"2.3", "verlet", 5, 4, {"Verlet", "order"}, "A smaller step", smaller_steps},
-    {"3.1", "sag", 5, 4, {"catenary"}, "A chain in its own weight", m1::catenaries},
-    {"3.2", "sag", 4, 4, {"parabola"}, "A bridge on a cable", m1::parabolas},
-    {"3.3", "sag", 4, 4, {"catenary", "elasticity"}, "A chain that stretches", m1::elastic_chains},
-    {"4.1", "iterations", 4, 3, {"position-based dynamics"}, "A frame by a plan", m1::frames},
-    {"4.2", "iterations", 3, 3, {"position-based dynamics", "iterations"}, "Where iterations lead", m1::many},
-    {"4.3", "iterations", 3, 3, {"measuring"}, "Measure, then choose", m1::tables},
-    {"4.4", "iterations", 3, 3, {"measuring", "iterations"}, "Measure, then choose", m1::measured},
+    {"1.1", "kick_drift", 3, 2, {"semi-implicit Euler"}, "Kick and drift", one_step},
+    {"1.2", "kick_drift", 5, 4, {"semi-implicit Euler", "energy"}, "A thousand steps", energy_of_both},
+    {"1.3", "kick_drift", 3, 3, {"semi-implicit Euler", "conservation"}, "What is kept", kept_energy},
+    {"2.1", "verlet", 3, 2, {"Verlet"}, "Position Verlet", next_position},
+    {"2.2", "verlet", 4, 4, {"Verlet", "order"}, "Order of a step, order of a run", both_orders},
+    {"2.3", "verlet", 4, 3, {"Verlet", "order"}, "A smaller step", smaller_steps},
+    {"3.1", "sag", 4, 4, {"catenary"}, "A chain in its own weight", m1::catenaries},
+    {"3.2", "sag", 3, 3, {"parabola"}, "A bridge on a cable", m1::parabolas},
+    {"3.3", "sag", 3, 3, {"catenary", "elasticity"}, "A chain that stretches", m1::elastic_chains},
+    {"4.1", "iterations", 3, 2, {"position-based dynamics"}, "A frame by a plan", m1::frames},
+    {"4.2", "iterations", 3, 2, {"position-based dynamics", "iterations"}, "Where iterations lead", m1::many},
+    {"4.3", "iterations", 3, 2, {"measuring"}, "Measure, then choose", m1::tables},
+    {"4.4", "iterations", 3, 2, {"measuring", "iterations"}, "Measure, then choose", m1::measured},
+    {"5.1", "rk4", 3, 3, {"RK4"}, "Four slopes", rk4_steps},
+    {"5.2", "rk4", 4, 3, {"RK4", "energy"}, "The energy of RK4", rk4_energies},
+    {"5.3", "rk4", 4, 3, {"RK4", "stability"}, "The energy of RK4", rk4_limits},
 };
 
 }  // namespace
 
 const Assignment& m1_misconceptions() {
-  static const Assignment assignment{"m1-misconceptions", "Four beliefs", parts, tests};
+  static const Assignment assignment{"m1-misconceptions", "Five beliefs", parts, tests};
   return assignment;
 }
 

@@ -13,3 +13,7 @@ Vec3 normal(const Sphere& sphere, const Vec3& x) {
 Vec3 nearest(const Sphere& sphere, const Vec3& x) {
   return sphere.centre + (sphere.radius + sphere.margin) * normal(sphere, x);
 }
+
+double gap(const Plane& plane, const Vec3& x) { return dot(x - plane.point, plane.normal) - plane.margin; }
+
+Vec3 nearest(const Plane& plane, const Vec3& x) { return x - gap(plane, x) * plane.normal; }

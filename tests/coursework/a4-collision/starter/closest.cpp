@@ -1,4 +1,4 @@
-// Part 1: where is the sphere? Handout, "Distance and normal".
+// Part 1: where are the sphere and the plane? Handout, "Distance and normal", "A plane".
 #include "contact.h"
 
 double gap(const Sphere& /*sphere*/, const Vec3& /*x*/) {
@@ -10,5 +10,13 @@ Vec3 normal(const Sphere& /*sphere*/, const Vec3& /*x*/) {
 }
 
 Vec3 nearest(const Sphere& /*sphere*/, const Vec3& x) {
+  return x;  // yours
+}
+
+double gap(const Plane& /*plane*/, const Vec3& /*x*/) {
+  return 0;  // yours
+}
+
+Vec3 nearest(const Plane& /*plane*/, const Vec3& x) {
   return x;  // yours
 }

@@ -16,6 +16,15 @@ struct Sphere {
   double restitution = 0;  // e, 0 to 1
 };
 
+/// A solid half-space that does not move: a floor, a slope, a wall. Particles stay outside its contact surface, the
+/// plane that lies `margin` above its face.
+struct Plane {
+  Vec3 point;           // m, somewhere on the face
+  Vec3 normal;          // out of the solid, length 1
+  double margin = 0;    // m
+  double friction = 0;  // Coulomb's mu, 1
+};
+
 // ---- closest.cpp
 
 /// Distance from the contact surface, m: positive outside, negative inside.
@@ -24,12 +33,17 @@ double gap(const Sphere& sphere, const Vec3& x);
 Vec3 normal(const Sphere& sphere, const Vec3& x);
 /// The point of the contact surface that is nearest to x; at the very centre the topmost one.
 Vec3 nearest(const Sphere& sphere, const Vec3& x);
+/// Distance, normal and nearest point of a plane's contact surface.
+double gap(const Plane& plane, const Vec3& x);
+inline Vec3 normal(const Plane& plane, const Vec3& /*x*/) { return plane.normal; }
+Vec3 nearest(const Plane& plane, const Vec3& x);
 
 // ---- position.cpp
 
 /// Where a particle ends that began the step at `before` and would go to `proposed`. Unchanged where that is not
 /// inside.
 Vec3 corrected_position(const Sphere& sphere, const Vec3& before, const Vec3& proposed);
+Vec3 corrected_position(const Plane& plane, const Vec3& before, const Vec3& proposed);
 
 // ---- velocity.cpp
 

@@ -4,3 +4,7 @@
 Vec3 corrected_position(const Sphere& /*sphere*/, const Vec3& /*before*/, const Vec3& /*proposed*/) {
   return {};  // yours
 }
+
+Vec3 corrected_position(const Plane& /*plane*/, const Vec3& /*before*/, const Vec3& /*proposed*/) {
+  return {};  // yours
+}

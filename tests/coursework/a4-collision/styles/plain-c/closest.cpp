@@ -29,3 +29,12 @@ Vec3 normal(const Sphere& s, const Vec3& p) {
 
 // from where it is, back along the normal by the gap
 Vec3 nearest(const Sphere& s, const Vec3& p) { return p - gap(s, p) * normal(s, p); }
+
+double gap(const Plane& p, const Vec3& x) {
+  double height = (x.x - p.point.x) * p.normal.x;
+  height += (x.y - p.point.y) * p.normal.y;
+  height += (x.z - p.point.z) * p.normal.z;
+  return height - p.margin;
+}
+
+Vec3 nearest(const Plane& p, const Vec3& x) { return x - gap(p, x) * p.normal; }

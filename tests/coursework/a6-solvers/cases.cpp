@@ -1,0 +1,384 @@
+// Forces and tangents are mysim's, the weights and what passes leave are Chebyshev polynomials in closed form, the
+// exact step is mysim's implicit Euler, and what averaging leaves at rest is a power of a matrix.
+#include "tests/coursework/a6-solvers/cases.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "mysim/steppers/steppers.h"
+
+namespace coursework::a6 {
+
+using crosscheck::Points;
+using crosscheck::Vec3;
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+
+namespace {
+
+/// T_n(s) over e^(n acosh s) where that is large: cos or cosh of n times an angle.
+double chebyshev(int n, double s) {
+  if (std::abs(s) <= 1) return std::cos(n * std::acos(s));
+  return (s < 0 && n % 2 == 1 ? -1 : 1) * std::cosh(n * std::acosh(std::abs(s)));
+}
+
+double weight(int pass, double rho) {
+  if (pass == 1 || rho == 0) return 1;
+  return 2 * chebyshev(pass - 1, 1 / rho) / (rho * chebyshev(pass, 1 / rho));
+}
+
+crosscheck::Model model_of(const Scene& s, double stiffness, bool gravity) {
+  crosscheck::Model model;
+  crosscheck::Particles& p = model.particles;
+  p.mass = VectorXd::Constant(s.x.cols(), s.mass);
+  p.pinned.assign(s.held.begin(), s.held.end());
+  for (int i = 0; i < s.x.cols(); ++i)
+    if (s.held[i]) p.pins.push_back(i);
+  p.pin_home = s.x(Eigen::all, p.pins);
+  std::vector<crosscheck::Spring> springs = s.springs;
+  for (auto& spring : springs) spring.k = stiffness;
+  model.terms.emplace_back(crosscheck::Springs{springs});
+  if (gravity) model.terms.emplace_back(crosscheck::Gravity{s.gravity});
+  return model;
+}
+
+/// Forces for another stiffness, with or without gravity; 0 at held particles.
+Points forces(const Scene& s, const Points& x, double stiffness, bool gravity) {
+  const crosscheck::Model model = model_of(s, stiffness, gravity);
+  crosscheck::System system(model);
+  crosscheck::State state{0, x, Points::Zero(3, x.cols())};
+  Points a(3, x.cols());
+  system.acceleration(state, a);
+  return s.mass * a;
+}
+
+Points gradient(const Scene& s, const Points& ahead, const Points& x) {
+  Points g = s.mass / (s.h * s.h) * (x - ahead) - forces(s, x, s.stiffness, true);
+  for (int i = 0; i < x.cols(); ++i)
+    if (s.held[i]) g.col(i).setZero();
+  return g;
+}
+
+constexpr double velocity_kept = 0.99;
+
+/// The forces of springs of 1/2 N/m pull a particle half as far as each is stretched: the mean of what it is told.
+Points averaged(const Scene& s, const Points& x) {
+  Eigen::ArrayXd count = Eigen::ArrayXd::Constant(x.cols(), 0.2);
+  for (const auto& spring : s.springs) count[spring.a] += 1, count[spring.b] += 1;
+  return x.array() + forces(s, x, 0.5, false).array().rowwise() / count.transpose();
+}
+
+void averaging_step(Scene& s, int passes) {
+  Points x = s.x;
+  for (int i = 0; i < x.cols(); ++i)
+    if (!s.held[i]) x.col(i) += s.h * (velocity_kept * s.v.col(i) + s.h * s.gravity);
+  for (int k = 0; k < passes; ++k) x = averaged(s, x);
+  s.v = (x - s.x) / s.h, s.x = x;
+}
+
+// ---- scenes and how they are told
+
+Vec3 vector(Random& random, double size) {
+  Vec3 v;
+  for (double& part : v) part = random.uniform(-size, size);
+  return v;
+}
+
+void add(Numbers& out, const Points& p) { out.insert(out.end(), p.data(), p.data() + p.size()); }
+
+Numbers numbers(const Scene& s) {
+  Numbers in = {double(s.x.cols()),      s.mass, s.stiffness, s.gravity[0], s.gravity[1], s.gravity[2],
+                double(s.springs.size())};
+  for (const auto& spring : s.springs) in.insert(in.end(), {double(spring.a), double(spring.b), spring.rest});
+  in.insert(in.end(), s.held.begin(), s.held.end());
+  return in;
+}
+
+Case about(const char* call, const Scene& s, const char* column, int columns) {
+  return {.call = call, .in = numbers(s), .columns = columns, .row = "particle", .column = column};
+}
+
+/// Everything is a few dozen roundings of numbers of this size.
+void compared(Case& c) {
+  for (const double value : c.expected) c.tolerance = std::max(c.tolerance, 1e-11 * std::abs(value));
+}
+
+/// Corners of a tetrahedron, bent, each on a spring to every other one, the first held where `held` says so. k h^2 / m
+/// is some 5, as in the net of the course.
+Scene tangle(Random& random, int count, bool held) {
+  Scene s;
+  s.mass = random.uniform(0.5, 2), s.h = random.uniform(0.02, 0.05);
+  s.stiffness = std::round(random.uniform(3, 9) * s.mass / (s.h * s.h));
+  s.gravity = vector(random, 9);
+  s.x.resize(3, count), s.v.resize(3, count);
+  const double corners[4][3] = {{1, 1, 1}, {1, -1, -1}, {-1, 1, -1}, {-1, -1, 1}};
+  for (int i = 0; i < count; ++i) {
+    s.held.push_back(held && i == 0);
+    s.x.col(i) = Vec3(corners[i][0], corners[i][1], corners[i][2]) + vector(random, 0.3);
+    s.v.col(i) = s.held[i] ? Vec3(0, 0, 0) : vector(random, 2);
+    for (int j = 0; j < i; ++j)
+      s.springs.push_back(
+          {j, i, 0, (s.x.col(i) - s.x.col(j)).norm() * random.uniform(0.7, 1.2), crosscheck::Family::single});
+  }
+  return s;
+}
+
+Case of_pass(const char* call, const Scene& s, const Points& ahead) {
+  const bool whole = std::string(call) == "pass.jacobi";
+  Case c = about(call, s, whole ? "position" : "gradient", 3);
+  c.in.push_back(s.h);
+  add(c.in, ahead), add(c.in, s.x);
+  const Points g = gradient(s, ahead, s.x);
+  add(c.expected, whole ? Points(s.x - g / s.slope()) : g);
+  compared(c);
+  return c;
+}
+Points near(Random& random, const Scene& s) {
+  Points ahead = s.x;
+  for (int i = 0; i < s.x.cols(); ++i)
+    if (!s.held[i]) ahead.col(i) += vector(random, 0.2);
+  return ahead;
+}
+Scene met(Scene s) {
+  s.x.col(1) = s.x.col(2);
+  return s;
+}
+
+Case of_steps(const char* call, Scene s, int steps, int passes, double rho) {
+  const bool averaging = std::string(call) == "averaging.state";
+  Case c = about(call, s, "motion", 6);
+  add(c.in, s.x), add(c.in, s.v);
+  c.in.push_back(s.h);
+  if (!averaging) c.in.push_back(rho);
+  c.in.insert(c.in.end(), {double(passes), double(steps)});
+  for (int k = 0; k < steps; ++k) averaging ? averaging_step(s, passes) : step(s, passes, rho);
+  for (int i = 0; i < s.x.cols(); ++i)
+    for (const Points* p : {&s.x, &s.v}) c.expected.insert(c.expected.end(), p->col(i).begin(), p->col(i).end());
+  compared(c);
+  return c;
+}
+
+struct HangingChain {
+  int n;
+  double mass, stiffness, rest, gravity, h;
+  Numbers in() const { return {double(n), mass, stiffness, rest, gravity}; }
+};
+HangingChain hanging(Random& random, int n) {
+  return {n,
+          random.uniform(0.5, 2),
+          std::round(random.uniform(4000, 9000)),
+          random.uniform(0.2, 0.9),
+          random.uniform(8, 12),
+          random.uniform(0.02, 0.05)};
+}
+
+}  // namespace
+
+MatrixXd Scene::iteration() const {
+  crosscheck::Tangent tangent;
+  const crosscheck::Model model = model_of(*this, stiffness, false);
+  crosscheck::add_stiffness(model, {0, x, Points::Zero(3, x.cols())}, crosscheck::Curvature::exact, tangent);
+  std::vector<int> free;
+  for (int i = 0; i < x.size(); ++i)
+    if (!held[i / 3]) free.push_back(i);
+  const int n = static_cast<int>(free.size());
+  MatrixXd k(n, n);
+  for (int j = 0; j < n; ++j) {
+    Points unit = Points::Zero(3, x.cols()), column = unit;
+    unit.data()[free[j]] = 1;
+    tangent.add_product(1, 0, unit, column);
+    for (int i = 0; i < n; ++i) k(i, j) = column.data()[free[i]];
+  }
+  return MatrixXd::Identity(n, n) * (1 - mass / (h * h) / slope()) - k / slope();
+}
+
+double left_over(double mu, double rho, int passes) {
+  return rho == 0 ? std::pow(mu, passes) : chebyshev(passes, mu / rho) / chebyshev(passes, 1 / rho);
+}
+
+namespace {
+
+double left_after_step(double mu, double inertia, double rho, int passes) {
+  return 1 - (1 - inertia / (1 - mu)) * (1 - left_over(mu, rho, passes));
+}
+
+}  // namespace
+
+void step(Scene& s, int passes, double rho) {
+  const Points ahead = s.x + s.h * velocity_kept * s.v;
+  Points x = ahead, last = ahead;
+  for (int k = 1; k <= passes; ++k) {
+    const Points next = last + weight(k, rho) * (x - gradient(s, ahead, x) / s.slope() - last);
+    last = x, x = next;
+  }
+  s.v = (x - s.x) / s.h, s.x = x;
+}
+
+double step_growth(double mu, double inertia, double rho, int passes) {
+  const double q = left_after_step(mu, inertia, rho, passes);
+  Eigen::Matrix2d step;  // acts on the places now and before
+  step << (1 + velocity_kept) * q, -velocity_kept * q, 1, 0;
+  return Eigen::EigenSolver<Eigen::Matrix2d>(step, false).eigenvalues().cwiseAbs().maxCoeff();
+}
+
+// deviations grow where the part that a step leaves of a place is above 1 or below -1 / (1 + 2 c)
+bool grows(const VectorXd& mu, double inertia, double rho, int passes) {
+  return std::any_of(mu.begin(), mu.end(), [&](double one) {
+    const double q = left_after_step(one, inertia, rho, passes);
+    return q > 1 + 1e-11 || q < -1 / (1 + 2 * velocity_kept);
+  });
+}
+
+double diverges_from(const VectorXd& mu, double inertia, int passes) {
+  double low = 0, high = 0;
+  for (int k = 1; k <= 4000 && !grows(mu, inertia, high, passes); ++k) low = high, high = k / 4000.;
+  if (high == 1) return 1;
+  while (high - low > 1e-9) {
+    const double middle = (low + high) / 2;
+    (grows(mu, inertia, middle, passes) ? high : low) = middle;
+  }
+  return low;
+}
+
+Scene square(int side, double width, double rest_of_length) {
+  Scene s;
+  const double spacing = width / (side - 1);
+  s.x.resize(3, side * side), s.v.setZero(3, side * side), s.held.assign(side * side, 0);
+  s.held[0] = s.held[side - 1] = 1;
+  for (int i = 0; i < side * side; ++i) s.x.col(i) = spacing * Vec3(i % side, 0, i / side);
+  for (int i = 0; i < side * side; ++i) {
+    const bool right = i % side + 1 < side, down = i / side + 1 < side;
+    for (const auto& [there, to] : {std::pair{right, i + 1}, {down, i + side}, {right && down, i + side + 1}})
+      if (there)
+        s.springs.push_back({i, to, 0, rest_of_length * (s.x.col(i) - s.x.col(to)).norm(), crosscheck::Family::single});
+  }
+  return s;
+}
+
+// ---- pass
+
+std::vector<Case> inertia_alone(Random& random) {
+  std::vector<Case> cases;
+  for (const bool jacobi : {false, true}) {
+    Scene s = tangle(random, 3, true);
+    s.springs.clear();
+    cases.push_back(of_pass(jacobi ? "pass.jacobi" : "pass.gradient", s, near(random, s)));
+  }
+  return cases;
+}
+std::vector<Case> gradients(Random& random) {
+  const Scene a = tangle(random, 2, true), b = tangle(random, 3, false), c = tangle(random, 4, true);
+  return {of_pass("pass.gradient", a, near(random, a)), of_pass("pass.gradient", b, near(random, b)),
+          of_pass("pass.gradient", met(c), near(random, c))};
+}
+std::vector<Case> passes(Random& random) {
+  const Scene a = tangle(random, 2, true), b = tangle(random, 4, false);
+  return {of_pass("pass.jacobi", a, near(random, a)), of_pass("pass.jacobi", b, near(random, b))};
+}
+// ---- step
+
+std::vector<Case> steps(Random& random) {
+  const double rho = random.uniform(0.5, 0.95);
+  return {of_steps("step.state", tangle(random, 2, true), 1, 1, 0),
+          of_steps("step.state", tangle(random, 2, true), 1, 2, rho),
+          of_steps("step.state", tangle(random, 3, false), 1, 4, rho),
+          of_steps("step.state", tangle(random, 3, true), 3, 3, 0)};
+}
+/// Springs without a rest length are linear: passes multiply each error of the same kind alike, and the exact step is
+/// mysim's.
+std::vector<Case> falling_errors(Random& random) {
+  std::vector<Case> cases;
+  for (const double rho : {0., std::round(random.uniform(0.6, 0.9) * 100) / 100}) {
+    Scene s = tangle(random, 4, true);
+    for (auto& spring : s.springs) spring.rest = 0;
+    Case c = about("step.errors", s, "distance", 1);
+    add(c.in, s.x), add(c.in, s.v);
+    c.in.insert(c.in.end(), {s.h, rho});
+    const crosscheck::Model model = model_of(s, s.stiffness, true);
+    crosscheck::System system(model);
+    crosscheck::State exact{0, s.x, velocity_kept * s.v};
+    crosscheck::Workspace work(exact);
+    crosscheck::implicit_euler(system, exact, s.h, work);
+    add(c.in, exact.x);
+    const Points first = s.x + s.h * velocity_kept * s.v - exact.x;
+    const VectorXd error = first.rightCols(3).reshaped();
+    const Eigen::SelfAdjointEigenSolver<MatrixXd> kinds(s.iteration());
+    for (int n = 1; n <= 128; n *= 2) {
+      const auto part = [&](double mu) { return left_over(mu, rho, n); };
+      const VectorXd left = kinds.eigenvectors() * (kinds.eigenvalues().unaryExpr(part).asDiagonal() *
+                                                    (kinds.eigenvectors().transpose() * error));
+      c.expected.push_back(left.reshaped(3, 3).colwise().norm().maxCoeff());
+    }
+    c.row = "passes", c.tolerance = 1e-8 * first.norm(), c.plot_y = 0;  // residual of mysim's own solve
+    cases.push_back(c);
+  }
+  return cases;
+}
+
+std::vector<Case> rest_by_passes(Random& random) {
+  const HangingChain chain = hanging(random, random.integer(2, 4));
+  Case c{"step.rest", chain.in(), Numbers(6, 100.), 1, 1e-6, "passes", "stretch"};
+  c.in.insert(c.in.end(), {chain.h, std::round(random.uniform(0.5, 0.9) * 100) / 100});
+  return {c};
+}
+
+std::vector<Case> course_net(Random& random) {
+  Scene s = square(21, 10, 1);
+  s.stiffness = 8000, s.gravity = {0, -9.8, 0}, s.h = 0.0333;
+  const int passes = random.integer(8, 40), steps = 20;
+  const double rho = random.integer(80, 99) / 100.;
+  Case c{"step.net", {21, 10, s.mass, s.stiffness, 9.8, s.h, rho, double(passes), steps}, {}, 3, 0, "step", "position"};
+  for (int k = 0; k < steps; ++k) {
+    step(s, passes, rho);
+    add(c.expected, s.x.col(s.x.cols() / 2));
+  }
+  c.tolerance = 1e-7, c.plot_y = 1, c.row_size = s.h;
+  return {c};
+}
+
+// ---- averaging
+
+namespace {
+
+Case of_averaging(const Scene& s) {
+  Case c = about("averaging.pass", s, "position", 3);
+  add(c.in, s.x), add(c.expected, averaged(s, s.x));
+  compared(c);
+  return c;
+}
+
+}  // namespace
+
+std::vector<Case> averages(Random& random) {
+  return {of_averaging(tangle(random, 2, true)), of_averaging(tangle(random, 3, false)),
+          of_averaging(met(tangle(random, 4, true)))};
+}
+std::vector<Case> averaged_steps(Random& random) {
+  return {of_steps("averaging.state", tangle(random, 2, true), 1, 1, 0),
+          of_steps("averaging.state", tangle(random, 3, false), 3, 2, 0)};
+}
+/// On a line a pass is linear: stretches y of the depths become B y. At rest y = B^n (y + h^2 g).
+std::vector<Case> rest_by_averaging(Random& random) {
+  const HangingChain chain = hanging(random, random.integer(2, 4));
+  const int n = chain.n;
+  MatrixXd b = MatrixXd::Zero(n, n);
+  for (int i = 0; i < n; ++i) {
+    const double springs = i + 1 < n ? 2 : 1, all = 0.2 + springs;
+    b(i, i) = (0.2 + springs / 2) / all;
+    if (i > 0) b(i, i - 1) = 0.5 / all;
+    if (i + 1 < n) b(i, i + 1) = 0.5 / all;
+  }
+  Case c{"averaging.rest", chain.in(), {}, 1, 0, "passes", "stretch"};
+  c.in.push_back(chain.h);
+  MatrixXd power = b;
+  for (int passes = 1; passes <= 32; passes *= 2, power = power * power) {
+    const VectorXd pushed = power * VectorXd::Constant(n, chain.h * chain.h * chain.gravity);
+    const double depth = (MatrixXd::Identity(n, n) - power).lu().solve(pushed)[n - 1];
+    c.expected.push_back(100 * depth * chain.stiffness / (chain.mass * chain.gravity * n * (n + 1) / 2));
+  }
+  // depths of some metres are rounded, and the exact stretch is some millimetres of them
+  c.tolerance = 1e-8 * c.expected[0];
+  return {c};
+}
+
+}  // namespace coursework::a6

@@ -1,0 +1,54 @@
+// Cases of the passes: nets, and the right answers, from mysim's forces, eigenvalues and Chebyshev's closed forms.
+#pragma once
+
+#include <Eigen/Dense>
+#include <vector>
+
+#include "mysim/model/model.h"
+#include "tests/coursework/check/case.h"
+#include "tests/coursework/check/random.h"
+
+namespace coursework::a6 {
+
+/// A net in the numbers of the calls, at a state.
+struct Scene {
+  double mass = 1, stiffness = 1, h = 1;
+  crosscheck::Vec3 gravity = crosscheck::Vec3::Zero();
+  std::vector<crosscheck::Spring> springs;  // their own stiffness is not read
+  std::vector<int> held;                    // 0 or 1 each
+  crosscheck::Points x, v;
+
+  double slope() const { return mass / (h * h) + 4 * stiffness; }  // N/m
+  /// Matrix of a plain pass for small errors at this state: I - (m/h^2 + K) / (m/h^2 + 4 k), with K = -dF/dx of the
+  /// springs for the coordinates of the particles that are not held.
+  Eigen::MatrixXd iteration() const;
+};
+
+/// T_n(mu / rho) / T_n(1 / rho): the part of an error that n passes leave; mu^n where rho is 0.
+double left_over(double mu, double rho, int passes);
+
+/// One step by so many accelerated passes.
+void step(Scene& scene, int passes, double rho);
+
+/// Growth of a deviation from rest in a step of so many passes, in the long run; whether any of several grows; and the
+/// first rho at which one does (1: none does).
+double step_growth(double mu, double inertia, double rho, int passes);
+bool grows(const Eigen::VectorXd& mu, double inertia, double rho, int passes);
+double diverges_from(const Eigen::VectorXd& mu, double inertia, int passes);
+
+/// side x side particles in a plane, a diagonal in each cell, two corners held; rest lengths are so many times the
+/// lengths in the flat net.
+Scene square(int side, double width, double rest_of_length);
+
+std::vector<Case> gradients(Random& random);
+std::vector<Case> inertia_alone(Random& random);
+std::vector<Case> passes(Random& random);
+std::vector<Case> steps(Random& random);
+std::vector<Case> falling_errors(Random& random);
+std::vector<Case> rest_by_passes(Random& random);
+std::vector<Case> course_net(Random& random);
+std::vector<Case> averages(Random& random);
+std::vector<Case> averaged_steps(Random& random);
+std::vector<Case> rest_by_averaging(Random& random);
+
+}  // namespace coursework::a6

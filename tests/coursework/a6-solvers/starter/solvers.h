@@ -1,0 +1,117 @@
+// Implicit Euler by passes, and position-based averaging: what the five parts share. Do not change this file: the
+// grader uses its own copy. Units: m, kg, s, N.
+#pragma once
+
+#include <functional>
+#include <vector>
+
+#include "vec3.h"
+
+/// Between particles a and b. With d = x_a - x_b and L = |d| the force on a is -k (L - rest) d / L, and the force on b
+/// is the opposite. Where L is 0 it has no direction: no force.
+struct Spring {
+  int a, b;
+  double rest;  // m
+};
+
+/// All particles have the same mass and all springs the same stiffness.
+struct Net {
+  double mass, stiffness;  // kg, N/m
+  Vec3 gravity;            // m/s^2
+  std::vector<Spring> springs;
+  std::vector<bool> held;  // these particles never move; their velocity is 0
+};
+
+struct State {
+  std::vector<Vec3> x, v;  // m, m/s
+};
+
+/// The part of a velocity that damping leaves at the start of each step.
+constexpr double velocity_kept = 0.99;
+/// Weight of a particle's own place in the averaging; each of its springs has the weight 1.
+constexpr double own_weight = 0.2;
+
+/// side x side particles at rest, `width` metres on each side, in the plane of x and z.
+inline State square_state(int side, double width) {
+  State state;
+  const double spacing = width / (side - 1);
+  for (int i = 0; i < side * side; ++i) state.x.push_back({spacing * (i % side), 0, spacing * (i / side)});
+  state.v.resize(state.x.size());
+  return state;
+}
+
+/// The net that is at its rest lengths in this state: springs along the sides of all cells and along one diagonal of
+/// each; the first and the last particle of the first row are held.
+inline Net square_net(int side, double mass, double stiffness, const Vec3& gravity, const State& state) {
+  Net net{mass, stiffness, gravity, {}, std::vector<bool>(state.x.size(), false)};
+  const auto add = [&](int a, int b) {
+    net.springs.push_back({a, b, length(state.x[static_cast<std::size_t>(a)] - state.x[static_cast<std::size_t>(b)])});
+  };
+  for (int i = 0; i < side * side; ++i) {
+    const bool right = i % side + 1 < side, down = i / side + 1 < side;
+    if (right) add(i, i + 1);
+    if (down) add(i, i + side);
+    if (right && down) add(i, i + side + 1);
+  }
+  net.held[0] = net.held[static_cast<std::size_t>(side) - 1] = true;
+  return net;
+}
+
+// ---- pass.cpp
+
+/// g = m/h^2 (x - ahead) - F(x) of each particle, N; 0 for held ones. It is 0 everywhere where x is the implicit step.
+std::vector<Vec3> gradient(const Net& net, const std::vector<Vec3>& ahead, const std::vector<Vec3>& x, double h);
+
+/// Each particle moved by -g / (m/h^2 + 4 k), all at once.
+std::vector<Vec3> jacobi_pass(const Net& net, const std::vector<Vec3>& ahead, const std::vector<Vec3>& x, double h);
+
+// ---- step.cpp
+
+/// Chebyshev's weights of the passes 1, 2, ... `passes`.
+std::vector<double> weights(int passes, double rho);
+
+/// One step of implicit Euler by so many accelerated passes.
+State implicit_step(const Net& net, const State& state, double h, int passes, double rho);
+
+// ---- rate.cpp
+
+/// A plain pass as a function of the errors: pass(e) = B e, with B symmetric.
+using Pass = std::function<std::vector<double>(const std::vector<double>&)>;
+
+/// The largest |mu| of the eigenvalues mu of B, to six digits; `error` is something to start from.
+double spectral_radius(const Pass& pass, std::vector<double> error);
+
+/// By how much one accelerated pass multiplies, in the long run, the size of an error with the eigenvalue mu. rho is
+/// 0 or more and below 1.
+double factor(double mu, double rho);
+
+/// The eigenvalues of B lie between these two, both included. The rho above which accelerated passes are slower, in the
+/// long run, than plain ones; 0 where plain ones diverge.
+double slower_from(double lowest, double highest);
+
+// ---- leftover.cpp
+
+/// The part of an error with the eigenvalue mu that so many accelerated passes leave.
+double left_over(double mu, double rho, int passes);
+
+/// The acceleration, m/s^2, with which a net begins to fall that nothing holds and no spring pulls.
+double falling(double mass, double stiffness, double h, double rho, int passes, double gravity);
+
+/// By how much one step of so many passes multiplies, in the long run, the size of a deviation from rest with the
+/// eigenvalue mu. `inertia` is the share of m/h^2 in m/h^2 + 4 k.
+double step_growth(double mu, double inertia, double rho, int passes);
+
+/// The smallest rho, to six digits, at which step_growth is above 1 + 1e-9 for one of the eigenvalues at least; 1 where
+/// no rho below 1 does that.
+double diverges_from(const std::vector<double>& eigenvalues, double inertia, int passes);
+
+// ---- averaging.cpp
+
+/// One pass of position-based averaging.
+std::vector<Vec3> averaging_pass(const Net& net, const std::vector<Vec3>& x);
+
+/// One step by so many passes of averaging.
+State averaging_step(const Net& net, const State& state, double h, int passes);
+
+/// The stiffness (N/m) that so many passes give to a spring by which one particle hangs on a held one.
+double stiffness_of(double mass, double h, int passes);

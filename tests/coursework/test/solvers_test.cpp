@@ -1,0 +1,59 @@
+// Too much acceleration in a6-solvers: the hand-out's formulas beside steps that are run.
+#include <gtest/gtest.h>
+
+#include "tests/coursework/a6-solvers/cases.h"
+
+namespace coursework::a6 {
+namespace {
+
+/// The net of the course, smaller, flat and at rest, without gravity, its particles moved a little within its plane.
+Scene disturbed() {
+  Scene s = square(5, 2, 1);
+  s.stiffness = 8000, s.h = 0.0333;
+  Random random(3);
+  for (int i = 0; i < s.x.cols(); ++i)
+    if (!s.held[i]) s.x.col(i) += 1e-7 * crosscheck::Vec3(random.uniform(-1, 1), 0, random.uniform(-1, 1));
+  return s;
+}
+
+/// True where speeds are higher after twice as many steps. A deviation that grows changes its sign in each step, so
+/// that it is fast.
+bool explodes(int passes, double rho) {
+  Scene s = disturbed();
+  double before = 0;
+  for (int i = 1; i <= 1000; ++i) {
+    step(s, passes, rho);
+    if (i == 500) before = s.v.norm();
+  }
+  return !(s.v.norm() < before);
+}
+
+double theory(int passes) {
+  const Scene s = disturbed();
+  const Eigen::MatrixXd b = s.iteration();
+  return diverges_from(Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(b).eigenvalues(), 1 / (s.h * s.h) / s.slope(),
+                       passes);
+}
+
+// In 1 - rho, which is what counts near 1; passes alone converge for every rho below 1.
+TEST(Solvers, ExplodeFromTheRhoThatEigenvaluesSay) {
+  for (const int passes : {4, 8}) {
+    const double expected = theory(passes);
+    ASSERT_GT(expected, 0.5);
+    ASSERT_LT(expected, 0.999);
+    double stable = 0.5, grown = 1;
+    while (grown - stable > 1e-3 * (1 - expected)) {
+      const double middle = (stable + grown) / 2;
+      (explodes(passes, middle) ? grown : stable) = middle;
+    }
+    EXPECT_NEAR((1 - grown) / (1 - expected), 1, 0.01) << passes << " passes: " << grown << " beside " << expected;
+  }
+}
+
+TEST(Solvers, ThirtyTwoPassesAreSafeWithTheRhoOfTheCourse) {
+  EXPECT_GT(theory(32), 0.995);
+  EXPECT_LT(theory(8), 0.995);
+}
+
+}  // namespace
+}  // namespace coursework::a6
