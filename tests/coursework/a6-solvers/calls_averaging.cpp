@@ -30,10 +30,10 @@ bool answer_averaging(const std::string& call, const Numbers& in, Numbers& out) 
       out.push_back(stiffness_of(mass, h, reader.integer()));
     }
   } else if (call == "averaging.rest") {
-    const Chain chain(reader);
+    const Net chain = read_chain(reader);
     const double h = reader.number();
     for (int passes = 1; passes <= 32; passes *= 2)
-      out.push_back(chain.stretched(2000, "averaging_step", step(chain.net, h, passes)));
+      out.push_back(stretch_at_rest(chain, 2000, "averaging_step", step(chain, h, passes)));
   } else {
     return false;
   }

@@ -55,31 +55,20 @@ inline void put(Numbers& out, const State& state) {
   for (std::size_t i = 0; i < state.x.size(); ++i) put(out, state.x[i]), put(out, state.v[i]);
 }
 
-/// A chain of so many particles that hang below a held one: mass, stiffness, rest, gravity.
-struct Chain {
-  Net net;
-  double exact;  // its stretch at rest, m
+/// The stretch of a chain after so many steps, in percent of that of its springs at rest.
+template <class Step>
+double stretch_at_rest(const Net& chain, int steps, const char* function, const Step& step) {
+  State state = straight_state(chain);
+  const double length = -state.x.back().y, n = static_cast<double>(chain.springs.size());
+  for (int k = 0; k < steps; ++k) advance(state, function, step);
+  return 100 * (-state.x.back().y - length) * chain.stiffness / (-chain.mass * chain.gravity.y * n * (n + 1) / 2);
+}
 
-  Chain(Reader& in) : net{}, exact(0) {
-    const int n = in.integer();
-    net.mass = in.number(), net.stiffness = in.number();
-    const double rest = in.number(), g = in.number();
-    net.gravity = {0, -g, 0};
-    net.held.assign(static_cast<std::size_t>(n) + 1, false), net.held[0] = true;
-    for (int i = 1; i <= n; ++i) net.springs.push_back({i - 1, i, rest});
-    exact = net.mass * g / net.stiffness * n * (n + 1) / 2;
-  }
-  /// By how much it is stretched after so many steps, in percent of `exact`.
-  template <class Step>
-  double stretched(int steps, const char* function, const Step& step) const {
-    State state;
-    const double rest = net.springs[0].rest;
-    for (std::size_t i = 0; i < net.held.size(); ++i) state.x.push_back({0, -rest * static_cast<double>(i), 0});
-    state.v.resize(state.x.size());
-    const double flat = state.x.back().y;
-    for (int k = 0; k < steps; ++k) advance(state, function, step);
-    return 100 * (flat - state.x.back().y) / exact;
-  }
-};
+/// Number of particles, mass, stiffness, rest length, gravity.
+inline Net read_chain(Reader& in) {
+  const int n = in.integer();
+  const double mass = in.number(), stiffness = in.number(), rest = in.number();
+  return hanging_chain(n, mass, stiffness, rest, {0, -in.number(), 0});
+}
 
 }  // namespace coursework

@@ -48,10 +48,10 @@ bool answer_step(const std::string& call, const Numbers& in, Numbers& out) {
       out.push_back(farthest(after.x, exact));
     }
   } else if (call == "step.rest") {
-    const Chain chain(reader);
+    const Net chain = read_chain(reader);
     const double h = reader.number(), rho = reader.number();
     for (int passes = 1; passes <= 32; passes *= 2)
-      out.push_back(chain.stretched(2000, "implicit_step", step(chain.net, h, rho, passes)));
+      out.push_back(stretch_at_rest(chain, 2000, "implicit_step", step(chain, h, rho, passes)));
   } else if (call == "step.net") {
     const int side = reader.integer();
     State state = square_state(side, reader.number());

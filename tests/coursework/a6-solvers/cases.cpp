@@ -123,7 +123,10 @@ Scene tangle(Random& random, int count, bool held) {
   return s;
 }
 
-Case of_pass(const char* call, const Scene& s, const Points& ahead) {
+Case of_pass(const char* call, Random& random, const Scene& s) {
+  Points ahead = s.x;
+  for (int i = 0; i < s.x.cols(); ++i)
+    if (!s.held[i]) ahead.col(i) += vector(random, 0.2);
   const bool whole = std::string(call) == "pass.jacobi";
   Case c = about(call, s, whole ? "position" : "gradient", 3);
   c.in.push_back(s.h);
@@ -132,12 +135,6 @@ Case of_pass(const char* call, const Scene& s, const Points& ahead) {
   add(c.expected, whole ? Points(s.x - g / s.slope()) : g);
   compared(c);
   return c;
-}
-Points near(Random& random, const Scene& s) {
-  Points ahead = s.x;
-  for (int i = 0; i < s.x.cols(); ++i)
-    if (!s.held[i]) ahead.col(i) += vector(random, 0.2);
-  return ahead;
 }
 Scene met(Scene s) {
   s.x.col(1) = s.x.col(2);
@@ -158,17 +155,24 @@ Case of_steps(const char* call, Scene s, int steps, int passes, double rho) {
   return c;
 }
 
+Case of_averaging(const Scene& s) {
+  Case c = about("averaging.pass", s, "position", 3);
+  add(c.in, s.x), add(c.expected, averaged(s, s.x));
+  compared(c);
+  return c;
+}
+
+/// Particles, mass, stiffness, rest length, gravity, step.
 struct HangingChain {
   int n;
   double mass, stiffness, rest, gravity, h;
-  Numbers in() const { return {double(n), mass, stiffness, rest, gravity}; }
+  Case asked(const char* call) const {
+    return {call, {double(n), mass, stiffness, rest, gravity, h}, {}, 1, 0, "passes", "stretch"};
+  }
 };
-HangingChain hanging(Random& random, int n) {
-  return {n,
-          random.uniform(0.5, 2),
-          std::round(random.uniform(4000, 9000)),
-          random.uniform(0.2, 0.9),
-          random.uniform(8, 12),
+HangingChain hanging(Random& random) {
+  const double mass = random.uniform(0.5, 2), stiffness = std::round(random.uniform(4000, 9000));
+  return {random.integer(2, 4),      mass, stiffness, random.uniform(0.2, 0.9), random.uniform(8, 12),
           random.uniform(0.02, 0.05)};
 }
 
@@ -214,11 +218,15 @@ void step(Scene& s, int passes, double rho) {
   s.v = (x - s.x) / s.h, s.x = x;
 }
 
+double growth(double sum, double product) {
+  Eigen::Matrix2d step;
+  step << sum, -product, 1, 0;
+  return Eigen::EigenSolver<Eigen::Matrix2d>(step, false).eigenvalues().cwiseAbs().maxCoeff();
+}
+
 double step_growth(double mu, double inertia, double rho, int passes) {
   const double q = left_after_step(mu, inertia, rho, passes);
-  Eigen::Matrix2d step;  // acts on the places now and before
-  step << (1 + velocity_kept) * q, -velocity_kept * q, 1, 0;
-  return Eigen::EigenSolver<Eigen::Matrix2d>(step, false).eigenvalues().cwiseAbs().maxCoeff();
+  return growth((1 + velocity_kept) * q, velocity_kept * q);
 }
 
 // deviations grow where the part that a step leaves of a place is above 1 or below -1 / (1 + 2 c)
@@ -262,18 +270,18 @@ std::vector<Case> inertia_alone(Random& random) {
   for (const bool jacobi : {false, true}) {
     Scene s = tangle(random, 3, true);
     s.springs.clear();
-    cases.push_back(of_pass(jacobi ? "pass.jacobi" : "pass.gradient", s, near(random, s)));
+    cases.push_back(of_pass(jacobi ? "pass.jacobi" : "pass.gradient", random, s));
   }
   return cases;
 }
 std::vector<Case> gradients(Random& random) {
-  const Scene a = tangle(random, 2, true), b = tangle(random, 3, false), c = tangle(random, 4, true);
-  return {of_pass("pass.gradient", a, near(random, a)), of_pass("pass.gradient", b, near(random, b)),
-          of_pass("pass.gradient", met(c), near(random, c))};
+  return {of_pass("pass.gradient", random, tangle(random, 2, true)),
+          of_pass("pass.gradient", random, tangle(random, 3, false)),
+          of_pass("pass.gradient", random, met(tangle(random, 4, true)))};
 }
 std::vector<Case> passes(Random& random) {
-  const Scene a = tangle(random, 2, true), b = tangle(random, 4, false);
-  return {of_pass("pass.jacobi", a, near(random, a)), of_pass("pass.jacobi", b, near(random, b))};
+  return {of_pass("pass.jacobi", random, tangle(random, 2, true)),
+          of_pass("pass.jacobi", random, tangle(random, 4, false))};
 }
 // ---- step
 
@@ -316,9 +324,10 @@ std::vector<Case> falling_errors(Random& random) {
 }
 
 std::vector<Case> rest_by_passes(Random& random) {
-  const HangingChain chain = hanging(random, random.integer(2, 4));
-  Case c{"step.rest", chain.in(), Numbers(6, 100.), 1, 1e-6, "passes", "stretch"};
-  c.in.insert(c.in.end(), {chain.h, std::round(random.uniform(0.5, 0.9) * 100) / 100});
+  const HangingChain chain = hanging(random);
+  Case c = chain.asked("step.rest");
+  c.in.push_back(std::round(random.uniform(0.5, 0.9) * 100) / 100);
+  c.expected.assign(6, 100), c.tolerance = 1e-6;
   return {c};
 }
 
@@ -338,17 +347,6 @@ std::vector<Case> course_net(Random& random) {
 
 // ---- averaging
 
-namespace {
-
-Case of_averaging(const Scene& s) {
-  Case c = about("averaging.pass", s, "position", 3);
-  add(c.in, s.x), add(c.expected, averaged(s, s.x));
-  compared(c);
-  return c;
-}
-
-}  // namespace
-
 std::vector<Case> averages(Random& random) {
   return {of_averaging(tangle(random, 2, true)), of_averaging(tangle(random, 3, false)),
           of_averaging(met(tangle(random, 4, true)))};
@@ -359,7 +357,7 @@ std::vector<Case> averaged_steps(Random& random) {
 }
 /// On a line a pass is linear: stretches y of the depths become B y. At rest y = B^n (y + h^2 g).
 std::vector<Case> rest_by_averaging(Random& random) {
-  const HangingChain chain = hanging(random, random.integer(2, 4));
+  const HangingChain chain = hanging(random);
   const int n = chain.n;
   MatrixXd b = MatrixXd::Zero(n, n);
   for (int i = 0; i < n; ++i) {
@@ -368,8 +366,7 @@ std::vector<Case> rest_by_averaging(Random& random) {
     if (i > 0) b(i, i - 1) = 0.5 / all;
     if (i + 1 < n) b(i, i + 1) = 0.5 / all;
   }
-  Case c{"averaging.rest", chain.in(), {}, 1, 0, "passes", "stretch"};
-  c.in.push_back(chain.h);
+  Case c = chain.asked("averaging.rest");
   MatrixXd power = b;
   for (int passes = 1; passes <= 32; passes *= 2, power = power * power) {
     const VectorXd pushed = power * VectorXd::Constant(n, chain.h * chain.h * chain.gravity);

@@ -30,6 +30,8 @@ double left_over(double mu, double rho, int passes);
 /// One step by so many accelerated passes.
 void step(Scene& scene, int passes, double rho);
 
+/// The largest |z| with z^2 - sum z + product = 0.
+double growth(double sum, double product);
 /// Growth of a deviation from rest in a step of so many passes, in the long run; whether any of several grows; and the
 /// first rho at which one does (1: none does).
 double step_growth(double mu, double inertia, double rho, int passes);
@@ -40,15 +42,8 @@ double diverges_from(const Eigen::VectorXd& mu, double inertia, int passes);
 /// lengths in the flat net.
 Scene square(int side, double width, double rest_of_length);
 
-std::vector<Case> gradients(Random& random);
-std::vector<Case> inertia_alone(Random& random);
-std::vector<Case> passes(Random& random);
-std::vector<Case> steps(Random& random);
-std::vector<Case> falling_errors(Random& random);
-std::vector<Case> rest_by_passes(Random& random);
-std::vector<Case> course_net(Random& random);
-std::vector<Case> averages(Random& random);
-std::vector<Case> averaged_steps(Random& random);
-std::vector<Case> rest_by_averaging(Random& random);
+using Cases = std::vector<Case>(Random&);
+Cases gradients, inertia_alone, passes, steps, falling_errors, rest_by_passes, course_net, averages, averaged_steps,
+    rest_by_averaging;
 
 }  // namespace coursework::a6

@@ -58,12 +58,10 @@ std::vector<Case> radii(Random& random) {
           radius_of(random, mirror * mu.asDiagonal() * mirror, -mu[0])};
 }
 
-/// The larger of the two solutions of an accelerated pass with its final weight, as eigenvalues of its matrix.
+/// In the long run, of an accelerated pass.
 double growth(double mu, double rho) {
   const double w = 2 / (1 + std::sqrt(1 - rho * rho));
-  Eigen::Matrix2d step;
-  step << w * mu, 1 - w, 1, 0;
-  return Eigen::EigenSolver<Eigen::Matrix2d>(step, false).eigenvalues().cwiseAbs().maxCoeff();
+  return a6::growth(w * mu, w - 1);
 }
 std::vector<Case> factors(Random& random) {
   std::vector<Case> cases;

@@ -57,6 +57,23 @@ inline Net square_net(int side, double mass, double stiffness, const Vec3& gravi
   return net;
 }
 
+/// A chain of n particles below a held one.
+inline Net hanging_chain(int n, double mass, double stiffness, double rest, const Vec3& gravity) {
+  Net net{mass, stiffness, gravity, {}, std::vector<bool>(static_cast<std::size_t>(n) + 1, false)};
+  for (int i = 1; i <= n; ++i) net.springs.push_back({i - 1, i, rest});
+  net.held[0] = true;
+  return net;
+}
+
+/// Its state with all springs at their rest lengths, straight down from the origin.
+inline State straight_state(const Net& chain) {
+  State state;
+  state.x.resize(1);
+  for (const Spring& spring : chain.springs) state.x.push_back(state.x.back() - Vec3(0, spring.rest, 0));
+  state.v.resize(state.x.size());
+  return state;
+}
+
 // ---- pass.cpp
 
 /// g = m/h^2 (x - ahead) - F(x) of each particle, N; 0 for held ones. It is 0 everywhere where x is the implicit step.
