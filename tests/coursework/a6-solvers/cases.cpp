@@ -52,11 +52,9 @@ Points forces(const Scene& s, const Points& x, double stiffness, bool gravity) {
   return s.mass * a;
 }
 
+/// `ahead` is x at held particles.
 Points gradient(const Scene& s, const Points& ahead, const Points& x) {
-  Points g = s.mass / (s.h * s.h) * (x - ahead) - forces(s, x, s.stiffness, true);
-  for (int i = 0; i < x.cols(); ++i)
-    if (s.held[i]) g.col(i).setZero();
-  return g;
+  return s.mass / (s.h * s.h) * (x - ahead) - forces(s, x, s.stiffness, true);
 }
 
 constexpr double velocity_kept = 0.99;

@@ -202,11 +202,8 @@ std::vector<Case> rk4_limits(Random& random) {
   Case factor{"rk4.factor", {}, {}, 1, 1e-11, "step", "factor"},
       largest{"rk4.largest", {}, {}, 1, 1e-11, "spring", "h"};
   for (const double about : {0.5, 1.5, 2.7, 3.0}) {
-    factor.in.push_back(about * random.uniform(0.95, 1.04));
-    factor.expected.push_back(Turned(factor.in.back()).energy());
-  }
-  for (int i = 0; i < 3; ++i) {
-    const double omega = random.uniform(2, 9);
+    const double angle = about * random.uniform(0.95, 1.04), omega = random.uniform(2, 9);
+    factor.in.push_back(angle), factor.expected.push_back(Turned(angle).energy());
     largest.in.push_back(omega), largest.expected.push_back(2 * std::numbers::sqrt2 / omega);
   }
   return {factor, largest};
