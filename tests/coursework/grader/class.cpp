@@ -49,6 +49,7 @@ std::string fingerprint_of(const Submission& submission, const Sandbox& sandbox,
   for (const auto& [name, why] : submission.missing) all += fmt::format("{} {}\n", name, why.key);
   for (const Remark& remark : submission.remarks)
     all += fmt::format("{} {}\n", remark.key, fmt::join(remark.with, " "));
+  for (const auto& [name, place] : submission.places) all += fmt::format("{} {}\n", name, place);
   for (const auto& [role, name] : submission.choice.classes) all += fmt::format("{} {}\n", role, name);
   return fmt::format("{:016x}", crosscheck::Fnv1a::of(all));
 }
@@ -69,6 +70,16 @@ std::optional<Result> earlier_result(const fs::path& file, const Assignment& ass
 std::string csv_of(const std::string& text) {
   const std::string safe = defused(text);
   return safe == text ? crosscheck::csv_field(text) : crosscheck::csv_quoted(safe);
+}
+
+/// Points of a test, public and hidden.
+std::string points_at(const Result& result, const std::string& id) {
+  double sum = 0;
+  for (const TestResult& test : result.tests) {
+    if (test.id == id && test.ungraded) return "not graded";
+    if (test.id == id) sum += test.earned;
+  }
+  return points_text(sum);
 }
 
 /// The cells of a table of all: name, id, late, points in all and per part, remark.

@@ -34,6 +34,11 @@ struct Submission {
 std::map<std::string, std::string> own_includes(const std::map<std::string, std::string>& files,
                                                 const std::string& path, const std::string& content);
 
+struct Person {
+  std::string name;     // as far as names of files tell
+  std::string id = {};  // empty: unknown
+};
+
 /// What somebody handed in: folders, archives and files, each with the name that the student gave it.
 struct Handed {
   std::string name;  // whose it is
