@@ -144,8 +144,7 @@ std::string answer_line(const Call& call) {
 
 }  // namespace
 
-/// The number behind std::thread::hardware_concurrency(): one thread per processor has to fit into the limits
-/// everywhere.
+/// The number behind std::thread::hardware_concurrency(): one thread per processor has to fit into the limits.
 extern "C" int get_nprocs() noexcept { return 4; }
 
 void coursework::calling(const char* function) {

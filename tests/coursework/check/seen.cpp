@@ -97,7 +97,14 @@ class Seen {
       if (wrong_at(b, row, k)) return true;
     return false;
   }
-  std::string block_text(const Block& block) const { return block.name.empty() ? common_.of("seen.row") : block.name; }
+  std::string block_text(const Block& block) const {
+    if (!block.name.empty()) return block.name;
+    if (block.width == columns_) return common_.of("seen.row");
+    std::string parts;
+    for (size_t k = 0; k < block.width; ++k)
+      parts += (k ? ", " : "") + column_text(own_, what_, static_cast<int>(block.begin + k));
+    return parts;
+  }
 
   std::string rows_text(const std::vector<size_t>& rows) const {
     const std::string name = name_text(own_, "row.", what_.row), first = "row." + what_.row + ".first";

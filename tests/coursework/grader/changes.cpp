@@ -2,6 +2,7 @@
 #include "tests/coursework/grader/changes.h"
 
 #include <algorithm>
+#include <set>
 
 #include "tests/coursework/check/params.h"
 
@@ -147,12 +148,16 @@ std::vector<Change> removals_of(const Texts& own, const Case& what) {
   if (!layout.fits) return all;
   for (const Listed& list : lists_in(layout))
     if (!is_told_by_rows(list, what)) all.push_back({Change::without, list.name});
-  for (const Param& p : params_of(layout)) {
+  const std::vector<Param> params = params_of(layout);
+  const bool meets = find(params, "radius") != nullptr;
+  for (const Param& p : params) {
     if (p.name == "on") all.push_back({Change::choice, p.name, {}, 0});
-    // without a step nothing moves, without a radius nothing is met, and nothing is wrong; a place is no term
-    const bool is_no_term = p.name == "h" || p.name == "frame" || p.name == "duration" || p.name == "radius" ||
-                            p.name == "before" || p.name == "proposed";
-    if (!p.whole && !is_no_term) all.push_back({Change::zero, p.name});
+    // without a step nothing moves, without a radius or at another place nothing is met, and nothing is wrong
+    static const std::set<std::string> no_terms = {"h",      "frame",  "duration", "radius", "margin",
+                                                   "centre", "before", "proposed", "x"};
+    // nor where what moves the particle into the obstacle is left out
+    const bool makes_contact = meets && (p.name == "g" || p.name == "v");
+    if (!p.whole && no_terms.count(p.name) == 0 && !makes_contact) all.push_back({Change::zero, p.name});
   }
   return all;
 }
