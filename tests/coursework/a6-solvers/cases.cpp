@@ -324,7 +324,7 @@ std::vector<Case> falling_errors(Random& random) {
 std::vector<Case> rest_by_passes(Random& random) {
   const HangingChain chain = hanging(random);
   Case c = chain.asked("step.rest");
-  c.in.push_back(std::round(random.uniform(0.5, 0.9) * 100) / 100);
+  c.in.push_back(std::round(random.uniform(0.3, 0.5) * 100) / 100);
   c.expected.assign(6, 100), c.tolerance = 1e-6;
   return {c};
 }
