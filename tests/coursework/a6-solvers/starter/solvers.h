@@ -95,7 +95,7 @@ State implicit_step(const Net& net, const State& state, double h, int passes, do
 /// A plain pass as a function of the errors: pass(e) = B e, with B symmetric.
 using Pass = std::function<std::vector<double>(const std::vector<double>&)>;
 
-/// The largest |mu| of the eigenvalues mu of B, to six digits; `error` is something to start from.
+/// The largest |mu| of the eigenvalues mu of B, to eight digits; `error` is something to start from.
 double spectral_radius(const Pass& pass, std::vector<double> error);
 
 /// By how much one accelerated pass multiplies, in the long run, the size of an error with the eigenvalue mu. rho is
