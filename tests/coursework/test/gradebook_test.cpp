@@ -145,7 +145,7 @@ TEST(Gradebook, DoubtfulRowsAreReportedAndLeftAlone) {
 TEST(Gradebook, TextOfOursIsDefused) {
   EXPECT_EQ(filled("csv", "name,remark,points\nAda,,\n", {{"Ada", {}, "", {{"Ada"}}}}, {[] {
                      GradedSubmission one = graded("Ada");
-                     one.result.preflight = {"=1+1, \"x\""};
+                     one.result.remark = "=1+1, \"x\"";
                      return one;
                    }()})
                 .text,
