@@ -6,10 +6,16 @@
 namespace coursework::a6 {
 namespace {
 
-/// The net of the course, smaller, flat and at rest, without gravity, its particles moved a little within its plane.
-Scene disturbed() {
+/// The net of the course, smaller, flat and at rest, without gravity.
+Scene flat() {
   Scene s = square(5, 2, 1);
   s.stiffness = 8000, s.h = 0.0333;
+  return s;
+}
+
+/// Its particles moved a little within its plane.
+Scene disturbed() {
+  Scene s = flat();
   Random random(3);
   for (int i = 0; i < s.x.cols(); ++i)
     if (!s.held[i]) s.x.col(i) += 1e-7 * crosscheck::Vec3(random.uniform(-1, 1), 0, random.uniform(-1, 1));
@@ -29,7 +35,7 @@ bool explodes(int passes, double rho) {
 }
 
 double theory(int passes) {
-  const Scene s = disturbed();
+  const Scene s = flat();
   const Eigen::MatrixXd b = s.iteration();
   return diverges_from(Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(b).eigenvalues(), 1 / (s.h * s.h) / s.slope(),
                        passes);
