@@ -367,15 +367,15 @@ TEST(Class, IsGradedResumedAndPutIntoATable) {
   GradeOptions options = options_for(tiny(), 7);
   const std::vector<GradedSubmission> all = grade_class(tiny(), submissions_in(handed), *sandbox, options, out);
   ASSERT_EQ(all.size(), 4u);
-  EXPECT_EQ(
-      class_csv(tiny(), all),
-      "submission,points [1],twice [1],sums [1],remark\n"
-      "\"'-o\",50,50,0,\"sums.cpp is missing, so its tests cannot run.\"\n"
-      "all right,100,50,50,\n"
-      "\"rubbish, \"\"really\"\".zip\",,,,\"not graded: The archive cannot be read (damaged, or of a "
-      "kind that is not known). Hand in a folder or a .zip.\"\n"
-      "\"x;'=1+1;\"\"'-2\",,,,\"not graded: The archive cannot be read (damaged, or of a kind that is not known). Hand "
-      "in a folder or a .zip.\"\n");
+  EXPECT_EQ(class_csv(tiny(), all),
+            "submission,id,late,points [1],twice [1],sums [1],remark\n"
+            "\"'-o\",,,50,50,0,\"sums.cpp is missing, so its tests cannot run.\"\n"
+            "all right,,,100,50,50,\n"
+            "\"rubbish, \"\"really\"\".zip\",,,,,,\"not graded: The archive cannot be read (damaged, or of a "
+            "kind that is not known). Hand in a folder or a .zip.\"\n"
+            "\"x;'=1+1;\"\"'-2\",,,,,,\"not graded: The archive cannot be read (damaged, or of a kind that is not "
+            "known). Hand "
+            "in a folder or a .zip.\"\n");
   EXPECT_EQ(
       statistics_csv(all),
       "test,title,passed [1],failed [1],not graded [1],most frequent cause,times [1]\n"
