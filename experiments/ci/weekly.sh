@@ -24,7 +24,7 @@ cd "$(dirname "${BASH_SOURCE[0]}")/../.."
 
 parts=(mutants builds corpus kill rehearsals node engines latex sanitizers arm64 debian-13 testing)
 declare -A tests=( # names as ctest knows them; a part without tests runs something else
-  [corpus]='All/(EachCheat|OddPrograms)\.|All/Corpus\..*/classic|Mutants\.LosePointsAtTheirPart'
+  [corpus]='All/(EachCheat|OddPrograms|UnusualPrograms)\.|All/Corpus\..*/classic|Mutants\.LosePointsAtTheirPart'
   [kill]='OutputOfReport\.(KilledAtTenMoments|AFullDisk)'
   [rehearsals]='NewTerm\.|Adding\.'
   [node]='LabModule\.(AFinger|CellsOfMaps|GivesTheNativeBitsInNode)|ProtocolKit\.TheExampleInJavaScript|Both/Jolt\..*/npm'

@@ -160,8 +160,9 @@ TEST_P(Corpus, KnownMistakesLoseExactlyTheirTestsAndAreNamed) {
 }
 
 // Right programs that are unlike the solution, and wrong ones of which only this much is wrong.
-TEST_P(Corpus, UnusualProgramsLoseExactlyTheirTests) {
-  if (!fs::exists(assignment_.folder() / "unusual.txt")) GTEST_SKIP() << "this assignment has none";
+class UnusualPrograms : public Corpus {};
+
+TEST_P(UnusualPrograms, LoseExactlyTheirTests) {
   for (const Mistake& one : read_mistakes(assignment_.folder() / "unusual.txt"))
     for (int seed = 0; seed < seeds_; ++seed)
       EXPECT_EQ(lost(ask(one.part, builder_->ours(one.part, with_mistake(solution(one.part), one)), seed)),
@@ -193,6 +194,8 @@ std::vector<const Assignment*> all_assignments() {
 }
 
 INSTANTIATE_TEST_SUITE_P(All, Corpus, testing::ValuesIn(all_assignments()),
+                         [](const auto& of) { return name_of_test(of.param->name); });
+INSTANTIATE_TEST_SUITE_P(All, UnusualPrograms, testing::Values(&find_assignment("classic")),
                          [](const auto& of) { return name_of_test(of.param->name); });
 
 }  // namespace
