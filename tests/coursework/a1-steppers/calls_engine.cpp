@@ -1,4 +1,4 @@
-// Particles on springs as a first-order system, carried by the student's steppers: so they stand in the charts beside
+// Particles on springs as a first-order system, advanced by the student's steppers, for charts that compare them with
 // other engines.
 #include <cmath>
 #include <ctime>
@@ -15,7 +15,8 @@ struct Spring {
   double stiffness, rest;
 };
 
-/// X holds all places, then all speeds: x' = v, v' = (springs + drag) / m + g. Held particles do not move.
+/// State x holds all positions, then all velocities: x' = v, v' = (springs + drag) / m + g. Fixed particles do not
+/// move.
 struct Particles {
   explicit Particles(Reader& in) {
     count = in.count();
@@ -43,7 +44,7 @@ struct Particles {
       double d[3];
       for (std::size_t k = 0; k < 3; ++k) d[k] = x[3 * s.a + k] - x[3 * s.b + k];
       const double length = std::sqrt(d[0] * d[0] + d[1] * d[1] + d[2] * d[2]);
-      if (length == 0) continue;  // ends that meet get no force
+      if (length == 0) continue;  // coincident ends: no force
       for (std::size_t k = 0; k < 3; ++k) {
         const double force = s.stiffness * (length - s.rest) * d[k] / length;
         pull(s.a, k, -force);
@@ -73,8 +74,8 @@ struct Particles {
 
 }  // namespace
 
-/// engine.RULE: in step (s), steps between samples, samples, then the particles as read above; out the state at the
-/// start and at each sample, evaluations of the right-hand side, and the CPU time of the steps, s.
+/// engine.RULE. Input: step (s), steps between samples, number of samples, then the particles as read above. Output:
+/// the state at the start and at each sample, evaluations of the right-hand side, and the CPU time of the steps (s).
 bool answer_engine(const std::string& call, const Numbers& in, Numbers& out) {
   const auto step = call == "engine.euler"         ? euler_step
                     : call == "engine.trapezoidal" ? trapezoidal_step

@@ -1,4 +1,4 @@
-// Systems made of numbers, and what is looked at when a stepper advances them.
+// Test systems given by numbers, and the quantities recorded while a stepper advances them.
 #include "calls_steppers.h"
 
 #include <cmath>
@@ -75,7 +75,7 @@ Derivative seasonal_growth(Reader& in, std::size_t n) {
 
 void put(const State& x, Numbers& out) { out.insert(out.end(), x.begin(), x.end()); }
 
-/// One step; a state of the wrong size would only confuse what comes after it.
+/// Advances one step; throws on a state of the wrong size, which would only confuse the following calls.
 State advanced(Stepper step, const Derivative& f, double t, const State& x, double h) {
   calling("step");
   State next = step(f, t, x, h);
@@ -83,7 +83,7 @@ State advanced(Stepper step, const Derivative& f, double t, const State& x, doub
   return next;
 }
 
-/// Each step a row.
+/// Appends one row per step.
 void march(Stepper step, const Derivative& f, Start s, Numbers& out) {
   for (std::size_t k = 0; k < s.steps; ++k) {
     s.x = advanced(step, f, s.t + static_cast<double>(k) * s.h, s.x, s.h);

@@ -1,5 +1,5 @@
-// The calls that each of the three steppers answers. All begin with the same numbers: n, steps, t, h, x (n); the
-// system's own follow.
+// Calls that each of the three steppers answers. All begin with n, steps, t, h, x (n), followed by the numbers of the
+// system:
 //   PART.linear   A (n x n, by rows), b (n), c (n): x' = A x + b + c t    a row per step: x
 //   PART.circle   omega; n is 2: x' = omega (-y, x)                       a row per step: x, y, |X| over |X| before
 //   PART.cosine   a, w, p (n each): x_i' = a_i cos(w_i t + p_i)           a row per step: x
@@ -20,7 +20,7 @@ namespace coursework {
 
 using Stepper = State (*)(const Derivative& f, double t, const State& x, double h);
 
-/// Answers the calls PART.*; false where the call is another part's.
+/// Answers the calls PART.*; returns false for calls of other parts.
 bool answer_stepper(const std::string& part, Stepper step, const std::string& call, const Numbers& in, Numbers& out);
 
 }  // namespace coursework

@@ -1,4 +1,4 @@
-// What the three rules are, as numbers: everything that the right answers are made of. No stepper is in here.
+// The three rules as numbers, from which all expected answers are computed. Contains no stepper.
 #pragma once
 
 #include <Eigen/Core>
@@ -9,18 +9,18 @@
 namespace coursework::a1 {
 
 struct Node {
-  double time, weight;  // of an integral over one step, both in units of h
+  double time, weight;  // quadrature node over one step, both in units of h
 };
 
 struct Stage {
-  double time;                     // where f is called, in units of h after the start
-  std::vector<double> polynomial;  // and at which X, on X' = A X: this polynomial in h A, times the X at the start
+  double time;                     // time of the call of f, in units of h after the start
+  std::vector<double> polynomial;  // state of the call for X' = A X: this polynomial in h A, times the initial X
 };
 
 struct Rule {
   const char* part;
-  int order;                // on X' = A X a step multiplies by 1 + h A + ... + (h A)^order / order!
-  std::vector<Node> nodes;  // what the rule does where f depends on t alone
+  int order;                // for X' = A X a step multiplies by 1 + h A + ... + (h A)^order / order!
+  std::vector<Node> nodes;  // quadrature if f depends on t alone
   std::vector<Stage> stages;
 };
 
@@ -29,11 +29,11 @@ inline Rule trapezoidal() { return {"trapezoidal", 2, {{0, 1. / 2}, {1, 1. / 2}}
 inline Rule rk4() {
   return {"rk4",
           4,
-          {{0, 1. / 6}, {1. / 2, 4. / 6}, {1, 1. / 6}},  // Simpson's
+          {{0, 1. / 6}, {1. / 2, 4. / 6}, {1, 1. / 6}},  // Simpson's rule
           {{0, {1}}, {1. / 2, {1, 1. / 2}}, {1. / 2, {1, 1. / 2, 1. / 4}}, {1, {1, 1, 1. / 2, 1. / 4}}}};
 }
 
-/// 1, 1, 1/2, 1/6, ... up to the power `order`.
+/// Returns 1, 1, 1/2, 1/6, ... up to the power `order`.
 inline std::vector<double> amplification(int order) {
   std::vector<double> p{1};
   for (int j = 1; j <= order; ++j) p.push_back(p.back() / j);

@@ -1,4 +1,4 @@
-// Seeded systems: the numbers of a call, and what the rule makes of them.
+// Seeded systems: the numbers of a call, and the solution by the rule.
 #pragma once
 
 #include <algorithm>
@@ -12,16 +12,16 @@ namespace coursework::a1 {
 
 using Eigen::VectorXd;
 
-/// x' = A x + b + c t, written without t: (x, t, 1)' = M (x, t, 1). An explicit Runge-Kutta rule whose stage times are
-/// the row sums of its stages moves t exactly, so that it does the same to both.
+/// x' = A x + b + c t in autonomous form: (x, t, 1)' = M (x, t, 1). An explicit Runge-Kutta rule whose stage times are
+/// the row sums of its stages advances t exactly, so both forms give the same result.
 struct Linear {
   int n;
   Eigen::MatrixXd m;  // (n + 2) x (n + 2)
-  Eigen::VectorXd z;  // n + 2: x, t, 1 at the start
+  Eigen::VectorXd z;  // n + 2: initial x, t, 1
 };
 
-/// A step of n numbers takes fewer than 10 n + 40 sums and products in any style, each off by half an epsilon of
-/// numbers below `size`; what one step leaves, the next ones carry along.
+/// Round-off bound: a step of n numbers takes fewer than 10 n + 40 sums and products in any style, each with an error
+/// of half an epsilon of numbers below `size`; the errors of steps add up.
 inline double round_off(int n, int steps, double size) { return steps * (10 * n + 40) * 1.2e-16 * size; }
 
 inline std::string call(const Rule& rule, const char* what) { return std::string(rule.part) + "." + what; }
@@ -32,7 +32,7 @@ inline void put_random(Random& random, int n, double low, double high, Numbers& 
   for (int i = 0; i < n; ++i) out.push_back(random.uniform(low, high));
 }
 
-/// n, steps, t, h, x: what every call begins with. t is never 0, so that a forgotten t shows.
+/// Numbers that begin every call: n, steps, t, h, x. t is never 0, so that a forgotten t is detected.
 inline Numbers start(Random& random, int n, int steps, double h) {
   Numbers in{static_cast<double>(n), static_cast<double>(steps), random.uniform(0.5, 2), h};
   put_random(random, n, 0.5, 2, in);
@@ -41,18 +41,18 @@ inline Numbers start(Random& random, int n, int steps, double h) {
 
 enum class Depends { on_state, on_state_and_time };
 
-/// Adds a seeded A (and b and c) to the call and returns the same system with M.
+/// Adds a seeded A (and b and c) to the call and returns the system with the matching M.
 inline Linear add_linear(Random& random, Depends depends, Numbers& in) {
   const int n = static_cast<int>(in[0]);
   Linear s{n, Eigen::MatrixXd::Zero(n + 2, n + 2), VectorXd::Ones(n + 2)};
-  // rows that sum to about 1 keep the states of 8 numbers as small as those of 1
+  // row sums of about 1 keep the states of 8 numbers as small as those of 1
   for (int i = 0; i < n; ++i)
     for (int j = 0; j < n; ++j) {
       const double scale = random.rounds() ? 1 : std::sqrt(n);
       in.push_back(random.uniform(0.3, 1.5) * (random.integer(0, 1) ? 1 : -1) / scale);
       s.m(i, j) = in.back();
     }
-  for (const int column : {n + 1, n})  // b belongs to the 1, c to t
+  for (const int column : {n + 1, n})  // b multiplies the 1, c multiplies t
     for (int i = 0; i < n; ++i) {
       in.push_back(depends == Depends::on_state ? 0 : random.uniform(0.5, 1.5));
       s.m(i, column) = in.back();

@@ -1,5 +1,5 @@
-// Reads a stepper's coefficients off its calls of f and its result: where each slope is taken, in terms of the slopes
-// before it, and how they are summed.
+// Recovers a stepper's coefficients from its calls of f and its result: the time and state of each slope in terms of
+// the earlier slopes, and the weights of the final sum.
 #include <cmath>
 
 #include "tests/coursework/a1-steppers/systems.h"
@@ -12,9 +12,9 @@ namespace {
 constexpr double tolerance = 1e-9;  // sums of a dozen numbers below 10: 1e-14
 
 struct Tableau {
-  std::vector<double> times;           // of each call of f, in units of h after the start
-  std::vector<std::vector<double>> a;  // of each state: the slopes before it
-  std::vector<double> b;               // of the result
+  std::vector<double> times;           // one per call of f, in units of h after the start
+  std::vector<std::vector<double>> a;  // weights of the earlier slopes, one row per state
+  std::vector<double> b;               // weights of the result
 };
 
 Tableau right_tableau(const std::string& part) {
@@ -23,14 +23,14 @@ Tableau right_tableau(const std::string& part) {
   return {{0, 1. / 2, 1. / 2, 1}, {{}, {1. / 2}, {0, 1. / 2}, {0, 0, 1}}, {1. / 6, 1. / 3, 1. / 3, 1. / 6}};
 }
 
-/// What came of several steps, one after the other in each vector.
+/// Recorded data of several steps, concatenated in each vector.
 struct Steps {
   std::size_t calls = 0;
   Numbers start, result, t, h;
-  std::vector<Numbers> times, states, slopes;  // of each call
+  std::vector<Numbers> times, states, slopes;  // one per call
 };
 
-/// False where the code did not answer, or called f more often in one step than in another.
+/// Returns false if the code did not answer, or if the number of calls of f differs between steps.
 bool taken(const std::string& part, const Ask& student, Steps& steps) {
   constexpr int n = 5, count = 3;
   Random random(20);
@@ -68,8 +68,8 @@ bool taken(const std::string& part, const Ask& student, Steps& steps) {
   return true;
 }
 
-/// A sum of x and the first slopes. Of slopes that are the same one only the sum of their weights can be found: it is
-/// divided as it should be, where it is what it should be. Empty: it is no such sum.
+/// Weights of x and the first slopes in `sum`. For identical slopes only the sum of their weights can be determined; it
+/// is divided as in the right answer if it matches. Empty if `sum` is no such combination.
 Numbers as_sum(const Steps& steps, std::size_t slopes, const Numbers& sum, const Numbers& right) {
   std::vector<Numbers> columns{steps.start};
   std::vector<std::size_t> used;
@@ -132,7 +132,7 @@ Looked tableau_text(const Texts& common, const std::string& part, const Ask& stu
   Numbers expected{1};
   expected.insert(expected.end(), right.b.begin(), right.b.end());
   const Numbers found = as_sum(steps, steps.calls, steps.result, expected);
-  // where a state is wrong already, sums of slopes may come out otherwise: they are told by themselves
+  // after a wrong state, sums of slopes may differ as well: report the states alone
   if (found.empty())
     add(common.fill("rule.no_result", sum_text(terms(steps.calls), expected, 1e-8)));
   else if (!same(found, expected))

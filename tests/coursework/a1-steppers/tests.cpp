@@ -1,5 +1,5 @@
-// The tests of a1-steppers. Right answers are closed forms of each rule: amplification polynomials in h A, complex
-// powers on the circle, quadrature where f depends on t alone, and exact solutions for the order.
+// The tests of a1-steppers. Expected answers are closed forms of each rule: amplification polynomials in h A, complex
+// powers on the circle, quadrature if f depends on t alone, and exact solutions for the order.
 #include <cmath>
 #include <complex>
 
@@ -22,11 +22,11 @@ std::vector<Case> one_step(Random& random) {
   return cases;
 }
 
-/// On x' = omega (-y, x) the number x + i y is multiplied by p(i omega h) in every step.
+/// For x' = omega (-y, x) every step multiplies the complex number x + i y by p(i omega h).
 template <Rule rule()>
 std::vector<Case> circle(Random& random) {
   std::vector<Case> cases;
-  // a step that every course uses; one that is too large for accuracy; one beyond the limit of RK4, 2 sqrt 2
+  // a typical step; one that is too large for accuracy; one beyond the limit of RK4, 2 sqrt 2
   for (const auto& [angle, steps] : {std::pair{random.uniform(0.2, 0.4), 40}, std::pair{random.uniform(0.8, 1.2), 12},
                                      std::pair{random.uniform(2.9, 3.1), 5}}) {
     const double omega = random.uniform(0.5, 3);
@@ -42,7 +42,7 @@ std::vector<Case> circle(Random& random) {
       const std::complex<double> z = begin * std::polar(std::pow(std::abs(factor), k), k * std::arg(factor));
       c.expected.insert(c.expected.end(), {z.real(), z.imag(), std::abs(factor)});
     }
-    // stages reach exp(angle) times the state; the state is largest at one of the two ends of the march
+    // stages reach exp(angle) times the state; the state is largest at one of the two ends of the run
     const double size = std::abs(begin) * std::max(1., std::pow(std::abs(factor), steps)) * std::exp(angle);
     c.tolerance = round_off(2, steps, size);
     c.plot_x = 0, c.plot_y = 1;
@@ -51,7 +51,7 @@ std::vector<Case> circle(Random& random) {
   return cases;
 }
 
-/// x_i' = a_i cos(w_i t + p_i): the rule is then a sum over its nodes.
+/// x_i' = a_i cos(w_i t + p_i): the rule reduces to a sum over its nodes.
 Case cosine_case(const Rule& rule, Random& random) {
   const int n = 2, steps = 12;
   const double h = random.uniform(0.3, 0.5);
@@ -129,10 +129,10 @@ double seasonal_growth(double x, double r, double w, double p, double from, doub
   return 1 / (1 + (1 / x - 1) * std::exp(-grown));
 }
 
-/// log2 of the largest error with h over the largest one with h/2, both over the whole march.
+/// log2 of the largest error with h over the largest error with h/2, both over the whole run.
 Found observed_order(const Case& c, const Numbers& raw) {
   const int n = static_cast<int>(c.in[0]), steps = static_cast<int>(c.in[1]);
-  if (static_cast<int>(raw.size()) != 2 * n * steps) return raw;  // judged as of the wrong size
+  if (static_cast<int>(raw.size()) != 2 * n * steps) return raw;  // reported as an answer of the wrong size
   const double *x = &c.in[4], *r = x + n, *w = r + n, *p = w + n;
   double whole = 0, halves = 0;
   for (int k = 0; k < steps; ++k)
@@ -144,7 +144,7 @@ Found observed_order(const Case& c, const Numbers& raw) {
   return Numbers{std::log2(whole / halves)};
 }
 
-/// The error is C h^p (1 + O(h)): with the steps below the last factor moves the order by less than 0.1, and the
+/// The error is C h^p (1 + O(h)): with the steps below, the last factor changes the order by less than 0.1, and the
 /// errors stay a thousand times above round-off.
 template <Rule rule()>
 std::vector<Case> order(Random& random) {

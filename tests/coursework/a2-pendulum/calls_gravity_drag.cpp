@@ -1,4 +1,4 @@
-// Calls of gravity_force and drag_force. In: how many, then for each one:
+// Calls of gravity_force and drag_force. Input: the number of particles, then for each one:
 //   gravity   mass, g (3)   a row per particle: force (3)
 //   drag      drag, v (3)   a row per particle: force (3)
 #include "calls_numbers.h"

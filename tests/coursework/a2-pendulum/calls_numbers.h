@@ -1,4 +1,4 @@
-// States that come back from a student.
+// States returned by a student's function.
 #pragma once
 
 #include "calls.h"

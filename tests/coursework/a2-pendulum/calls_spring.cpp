@@ -1,4 +1,4 @@
-// Calls of spring_force. In: how many springs, then for each one: stiffness, rest, a (3), b (3).
+// Calls of spring_force. Input: the number of springs, then for each one: stiffness, rest, a (3), b (3).
 //   spring   two rows per spring: the force on the particle at a (3), that on the particle at b (3)
 #include "calls_numbers.h"
 

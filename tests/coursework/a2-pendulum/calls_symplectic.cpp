@@ -1,4 +1,4 @@
-// Calls of symplectic_step. In: n, steps, h, then the system's K (n x n, by rows), c, g (3), state (6 n): particle i
+// Calls of symplectic_step. Input: n, steps, h, then the system's K (n x n, by rows), c, g (3), state (6 n): particle i
 // has the acceleration g - c v_i - sum_j K_ij x_j.
 //   symplectic          a row per step: position (3) and velocity (3) of each particle
 //   symplectic.points   one step; a row per call of f: the state at which it was called; then the argument afterwards

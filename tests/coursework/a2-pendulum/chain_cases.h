@@ -9,7 +9,7 @@
 
 namespace coursework::a2 {
 
-/// The chain that every course has: four particles of 1 kg, three equal springs.
+/// The standard chain: four particles of 1 kg, three equal springs.
 inline std::vector<Case> four_cases(Random& random) {
   std::vector<Case> cases;
   for (int i = 0; i < 2; ++i) {
@@ -19,7 +19,8 @@ inline std::vector<Case> four_cases(Random& random) {
   return cases;
 }
 
-/// The fixed particle and one more, with gravity alone, drag alone, a spring alone; then three with springs alone.
+/// The fixed particle and a free one, with gravity alone, drag alone, a spring alone; then three particles with springs
+/// alone.
 inline std::vector<Case> small_chain_cases(Random& random) {
   std::vector<Case> cases;
   for (int force = 0; force < 4; ++force) {
@@ -58,8 +59,8 @@ inline Found total_force_and_moment(const Case& c, const Numbers& raw) {
   return reduced;
 }
 
-/// By the third law only what comes from outside is left: gravity, drag, and the first spring, which pulls towards the
-/// fixed particle and so has no moment about it.
+/// By the third law only external forces remain: gravity, drag, and the first spring, which pulls towards the fixed
+/// particle and so has no moment about it.
 inline std::vector<Case> third_law_cases(Random& random) {
   std::vector<Case> cases;
   for (const std::size_t n : {3, 6}) {
@@ -82,8 +83,9 @@ inline std::vector<Case> third_law_cases(Random& random) {
   return cases;
 }
 
-/// At rest spring i is longer by the weight below it over its stiffness. The second case pulls the last particle down
-/// by some more: only the last two feel it, along the line, by the last spring's stiffness times that much.
+/// At rest, spring i is longer than its rest length by the weight below it over its stiffness. The second case
+/// displaces the last particle further down: only the last two particles feel it, along the line, by the last spring's
+/// stiffness times this displacement.
 inline std::vector<Case> hanging_cases(Random& random) {
   const std::size_t n = 5;
   const Row row = random_row(random, n, Members::different);

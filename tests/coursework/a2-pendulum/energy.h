@@ -1,8 +1,8 @@
-// The right answers' own physics: accelerations from one energy, differentiated by complex steps. No force formula is
-// in here, and no spring is pulled at.
+// Reference physics of the expected answers: accelerations from one energy, differentiated by complex steps. Contains
+// no force formula and evaluates no spring force.
 //
-// For an analytic E, Im E(x + i s) / s is dE/dx up to s^2 (Squire and Trapp 1998): with s = 1e-40 nothing is cancelled
-// and nothing is truncated, so that the gradient is right to round-off.
+// For an analytic E, Im E(x + i s) / s equals dE/dx up to s^2 (Squire and Trapp 1998): with s = 1e-40 there is neither
+// cancellation nor truncation error, so the gradient is exact to round-off.
 #pragma once
 
 #include <Eigen/Core>
@@ -18,13 +18,13 @@ using Vector = Eigen::Vector3d;
 
 inline void put(const Vector& v, Numbers& out) { out.insert(out.end(), v.begin(), v.end()); }
 
-/// In [-size, size) each.
+/// Each component in [-size, size).
 inline Vector random_vector(Random& random, double size) {
   Vector v;
   for (double& component : v) component = random.uniform(-size, size);
   return v;
 }
-/// Of length 1; never along an axis.
+/// Unit vector, never along an axis.
 inline Vector random_direction(Random& random) {
   Vector v(0.36, 0.48, 0.8);
   if (random.rounds()) {
@@ -40,7 +40,7 @@ struct Motion {
   Vector x, v;  // m, m/s
 };
 
-/// Particles in a row, the first one fixed; the pendulum is one of two.
+/// Particles in a row, the first one fixed; the pendulum is a row of two.
 struct Row {
   Vector gravity = Vector::Zero();  // m/s^2
   double drag = 0;                  // N s/m
@@ -50,7 +50,7 @@ struct Row {
 
   std::size_t size() const { return mass.size(); }
 
-  /// J; of springs and gravity, the fixed particle's own left out.
+  /// Potential energy of springs and gravity (J), without the fixed particle's own.
   template <class Number>
   Number potential(const std::vector<Eigen::Matrix<Number, 3, 1>>& x) const {
     Number energy = 0;
@@ -83,7 +83,7 @@ struct Row {
     return slope;
   }
 
-  /// x' and v' of each particle; those of the fixed one are zero.
+  /// x' and v' of each particle; zero for the fixed one.
   std::vector<Motion> derivative(const std::vector<Motion>& state) const {
     std::vector<Motion> rate(size(), {Vector::Zero(), Vector::Zero()});
     const std::vector<Vector> slope = gradient(state);
@@ -91,7 +91,7 @@ struct Row {
     return rate;
   }
 
-  /// J; kinetic too.
+  /// Total energy (J), kinetic energy included.
   double energy(const std::vector<Motion>& state) const {
     std::vector<Vector> x;
     double kinetic = 0;
@@ -107,7 +107,8 @@ inline void put(const std::vector<Motion>& state, Numbers& out) {
   for (const Motion& one : state) put(one.x, out), put(one.v, out);
 }
 
-/// A force law takes fewer than 60 sums, products and roots, each off by half an epsilon of numbers below `size`.
+/// Round-off bound: a force law takes fewer than 60 sums, products and roots, each with an error of half an epsilon of
+/// numbers below `size`.
 inline double round_off(double size) { return 60 * 1.2e-16 * size; }
 
 }  // namespace coursework::a2

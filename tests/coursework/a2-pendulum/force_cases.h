@@ -7,7 +7,7 @@
 
 namespace coursework::a2 {
 
-/// Particles of seeded masses under seeded gravities, along no axis.
+/// Particles of seeded masses under seeded gravities, none of them along an axis.
 inline std::vector<Case> gravity_cases(Random& random) {
   Case c{"gravity", {5}, {}, 3, round_off(100), "particle", "force"};
   for (int i = 0; i < 5; ++i) {
@@ -18,7 +18,7 @@ inline std::vector<Case> gravity_cases(Random& random) {
   return {c};
 }
 
-/// The last one is at rest.
+/// Drag on moving particles; the last one is at rest.
 inline std::vector<Case> drag_cases(Random& random) {
   Case c{"drag", {5}, {}, 3, round_off(100), "particle", "force"};
   for (int i = 0; i < 5; ++i) {
@@ -34,7 +34,7 @@ inline void add_spring(double stiffness, double rest, const Vector& a, const Vec
   put(a, c.in), put(b, c.in);
 }
 
-/// Springs along the x axis: stretched, then shortened. Force and stretch are one product.
+/// Springs along the x axis: stretched, then shortened. The force is the product of stiffness and stretch.
 inline std::vector<Case> straight_spring_cases(Random& random) {
   std::vector<Case> cases;
   for (const double sign : {1., -1.}) {
@@ -52,7 +52,7 @@ inline std::vector<Case> straight_spring_cases(Random& random) {
   return cases;
 }
 
-/// Springs in any direction: minus the gradient of the energy, at both ends.
+/// Springs in any direction: minus the gradient of the energy at both ends.
 inline std::vector<Case> spring_cases(Random& random) {
   Case c{"spring", {6}, {}, 3, round_off(1000), "end", "force"};
   for (int i = 0; i < 6; ++i) {
@@ -67,7 +67,8 @@ inline std::vector<Case> spring_cases(Random& random) {
   return {c};
 }
 
-/// At rest length; of rest length zero, which pulls with stiffness times distance; and with ends that meet.
+/// Special springs: at rest length; with rest length zero, which pull with stiffness times distance; and with
+/// coincident ends.
 inline std::vector<Case> special_spring_cases(Random& random) {
   Case at_rest{"spring", {2}, Numbers(12), 3, 0, "end", "force"};
   Case no_rest{"spring", {2}, {}, 3, round_off(1000), "end", "force"};

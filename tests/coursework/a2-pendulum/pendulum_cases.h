@@ -60,8 +60,9 @@ inline Found path_and_energy(const Case& c, const Numbers& raw) {
   return reduced;
 }
 
-/// A swing in the x-y plane without drag under RK4, beside the same rule on the energy's gradient. The energy is that
-/// of the start: per step RK4 takes (omega h)^6 / 72 of what is in the spring, and ten times that allows for the swing.
+/// A swing in the x-y plane without drag under RK4, compared with the same rule on the energy's gradient. The energy is
+/// that of the start: per step RK4 dissipates (omega h)^6 / 72 of the spring energy; ten times that allows for the
+/// swing.
 inline std::vector<Case> swing_cases(Random& random) {
   const std::size_t steps = 120;
   Row row;

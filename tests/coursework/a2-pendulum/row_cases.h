@@ -20,7 +20,7 @@ inline Numbers chain_numbers(const Row& row) {
   return in;
 }
 
-/// Accelerations are forces below 200 N over masses above 0.2 kg.
+/// Bound on accelerations (m/s^2): forces below 200 N over masses above 0.2 kg.
 inline constexpr double largest_acceleration = 1000;
 
 /// n particles with all forces; masses 1 and equal springs, or all different.
@@ -37,7 +37,8 @@ inline Row random_row(Random& random, std::size_t n, Members members) {
   return row;
 }
 
-/// Somewhere, moving, with springs between half and twice their rest length; the fixed particle does not move.
+/// Random positions and velocities, with springs between half and twice their rest length; the fixed particle does not
+/// move.
 inline std::vector<Motion> random_state(Random& random, const Row& row) {
   std::vector<Motion> state{{random_vector(random, 1), Vector::Zero()}};
   for (std::size_t i = 1; i < row.size(); ++i) {
@@ -48,7 +49,7 @@ inline std::vector<Motion> random_state(Random& random, const Row& row) {
   return state;
 }
 
-/// One derivative; `head` holds the numbers of the row.
+/// Case of one derivative; `head` holds the numbers of the row.
 inline Case derivative_case(const char* call, Numbers head, const Row& row, const std::vector<Motion>& state) {
   Case c{call, head, {}, 6, round_off(largest_acceleration), "particle", "rate"};
   put(state, c.in);
@@ -62,7 +63,7 @@ inline Case chain_case(const Row& row, const std::vector<Motion>& state) {
   return derivative_case("chain", chain_numbers(row), row, state);
 }
 
-/// A derivative at A, at B, at A once more, and A itself.
+/// Case of a derivative at A, at B, at A once more, and A itself.
 inline Case twice_case(const char* call, Numbers head, const Row& row, Random& random) {
   const int numbers = 6 * static_cast<int>(row.size());
   Case c{call, head, {}, numbers, round_off(largest_acceleration), "try", "rates"};
@@ -73,7 +74,7 @@ inline Case twice_case(const char* call, Numbers head, const Row& row, Random& r
   return c;
 }
 
-/// A state that gives the fixed particle a velocity: its rates are zero all the same.
+/// States that give the fixed particle a velocity: its rates must still be zero.
 inline std::vector<Case> fixed_cases(Random& random, std::size_t n) {
   const Row row = random_row(random, n, Members::equal);
   auto state = random_state(random, row);

@@ -1,4 +1,4 @@
-// Tests of symplectic Euler, on systems of our own.
+// Tests of symplectic Euler on systems of the grader.
 #pragma once
 
 #include <cmath>
@@ -97,7 +97,7 @@ inline std::vector<Case> oscillator_cases(Random& random) {
   return cases;
 }
 
-/// f is called once, at the state given; the argument stays.
+/// f must be called once, at the given state, and the argument must not change.
 inline std::vector<Case> evaluation_cases(Random& random) {
   std::vector<Case> cases;
   for (const int n : {1, 3}) {

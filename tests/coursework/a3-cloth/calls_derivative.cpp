@@ -58,9 +58,10 @@ State trapezoidal(const Cloth& cloth, const State& state, double t, double h) {
 }  // namespace
 
 /// derivative (cloth, state, t): x' and v' of each particle.
-/// derivative_again (cloth, state, another state, t): the same, asked before and after the other state.
-/// cloth_path (cloth, state, h, steps, watched): where that particle is after each step.
-/// cloth_end (cloth, state, h, steps): where every particle is after all of them.
+/// derivative_again (cloth, state, another state, t): x' and v' at the state, before and after a call at the other
+/// state.
+/// cloth_path (cloth, state, h, steps, watched): position of the watched particle after each step.
+/// cloth_end (cloth, state, h, steps): positions of all particles after the last step.
 bool answer_derivative(const std::string& call, const Numbers& in, Numbers& out) {
   if (call != "derivative" && call != "derivative_again" && call != "cloth_path" && call != "cloth_end") return false;
   Reader reader(in);

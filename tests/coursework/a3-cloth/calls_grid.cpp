@@ -1,12 +1,12 @@
-// Calls of part 1. Each takes a grid.
+// Calls of part 1. Each begins with a grid.
 #include <algorithm>
 
 #include "calls_read.h"
 
 namespace coursework {
 
-/// index: the number of each particle, row after row.
-/// neighbours: for each particle how many there are, then the first four in ascending order; -1 where there are fewer.
+/// index: the number of each particle, row by row.
+/// neighbours: for each particle the number of neighbours, then the first four in ascending order, padded with -1.
 /// positions: x, y, z of each particle.
 bool answer_grid(const std::string& call, const Numbers& in, Numbers& out) {
   if (call != "index" && call != "neighbours" && call != "positions") return false;

@@ -1,4 +1,4 @@
-// Reads what the calls of the cloth assignment have in common. A grid is rows, columns, across, down, corner (3).
+// Readers shared by the calls of the cloth assignment. A grid is rows, columns, across, down, corner (3).
 #pragma once
 
 #include "cloth.h"
@@ -16,7 +16,7 @@ inline Grid read_grid(Reader& in) {
   return grid;
 }
 
-/// Count, then a, b, k, rest of each.
+/// Count, then a, b, k, rest of each spring.
 inline std::vector<Spring> read_springs(Reader& in) {
   std::vector<Spring> all(in.integer());
   for (Spring& s : all) {
@@ -38,7 +38,7 @@ inline Wind read_wind(Reader& in) {
   return wind;
 }
 
-/// Count, then three corners of each.
+/// Count, then three corners of each triangle.
 inline std::vector<Triangle> read_triangles(Reader& in) {
   std::vector<Triangle> all(in.integer());
   for (Triangle& t : all) {

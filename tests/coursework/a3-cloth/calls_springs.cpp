@@ -13,7 +13,7 @@ namespace {
 using Family = std::vector<Spring> (*)(const Grid&, double);
 const std::map<std::string, Family> families = {{"structural", structural}, {"shear", shear}, {"flexion", flexion}};
 
-/// The two ends of each spring, the smaller one first, in ascending order.
+/// The two ends of each spring, the smaller index first, in ascending order.
 Numbers pairs(const std::vector<Spring>& springs) {
   std::vector<std::array<int, 2>> ends;
   for (const Spring& s : springs) ends.push_back({std::min(s.a, s.b), std::max(s.a, s.b)});
@@ -23,8 +23,8 @@ Numbers pairs(const std::vector<Spring>& springs) {
   return out;
 }
 
-/// For each step on the grid that a family makes (rows down, columns across): smallest and largest rest length,
-/// smallest and largest stiffness.
+/// For each offset of a family on the grid (rows down, columns across): smallest and largest rest length, smallest and
+/// largest stiffness.
 Numbers steps(const Grid& grid, const std::vector<Spring>& springs) {
   std::map<std::array<int, 2>, std::array<double, 4>> found;
   for (const Spring& s : springs) {
@@ -48,8 +48,8 @@ Numbers steps(const Grid& grid, const std::vector<Spring>& springs) {
 }  // namespace
 
 /// structural, shear, flexion (a grid, then k): the pairs.
-/// spring_steps (a grid, then k of each family): what steps() says, of the three families one after the other.
-/// spring_counts (how many, then that many grids): of each grid the number of springs of each family.
+/// spring_steps (a grid, then k of each family): the result of steps() for the three families, one after the other.
+/// spring_counts (number of grids, then the grids): the number of springs of each family, for each grid.
 bool answer_springs(const std::string& call, const Numbers& in, Numbers& out) {
   Reader reader(in);
   if (const auto family = families.find(call); family != families.end()) {

@@ -1,4 +1,4 @@
-// Random sheets of cloth, and how they are told to the student's code.
+// Random sheets of cloth, and their encoding as numbers of the calls.
 #include "tests/coursework/a3-cloth/cases.h"
 
 #include <cmath>
@@ -49,7 +49,7 @@ Sheet random_sheet(Random& random, int smallest, int largest, double bent) {
 }
 
 Sheet small_sheet(Random& random, int size, double bent) {
-  // no row of mysim's grid has one particle: a row is made here
+  // mysim's grid has no rows of one particle, so a row is made here
   const double across = 0.1, down = 0.2, k = 100;
   Sheet sheet{size < 4 ? Mesh{1, size, across, down, {1, 2, -1}} : Mesh{2, 2, across, down, {1, 2, -1}}, {}, {}};
   sheet.x = sheet.mesh.points();
@@ -110,7 +110,7 @@ Vec3 Breeze::at(double t) const {
 Breeze random_breeze(Random& random) {
   const Vec3 direction = random_direction(random);
   const double speed = random.uniform(2, 4), gust = random.uniform(0.3, 0.6), frequency = random.uniform(0.4, 0.9);
-  // away from 45 degrees and its like, where sine and cosine are the same
+  // away from 45 degrees and similar angles, at which sine and cosine coincide
   const double offset = random.uniform(0.1, 0.6);
   return {true, direction, speed, gust, frequency, offset, random.uniform(1, 1.4), random.uniform(1, 2)};
 }

@@ -1,4 +1,4 @@
-// Part 5: the whole right-hand side, and what follows from it.
+// Part 5: the complete right-hand side and its consequences.
 #include <cmath>
 
 #include "mysim/steppers/steppers.h"
@@ -63,7 +63,7 @@ Scene scene_of(Random& random, const Sheet& sheet) {
   scene.v.resize(3, count);
   for (int i = 0; i < count; ++i) {
     scene.v.col(i) = random_vector(random, 1);
-    // in round numbers two could be the same by chance
+    // in round numbers, two random masses could coincide
     scene.mass.push_back(random.rounds() ? 0.02 + 0.01 * i : random.uniform(0.02, 0.04));
   }
   if (scene.sheet.mesh.rows > 1) scene.faces = grid_triangles(grid_of(scene.sheet.mesh, 1, 0, 0));
@@ -73,7 +73,7 @@ Scene scene_of(Random& random, const Sheet& sheet) {
 
 Scene random_scene(Random& random) { return scene_of(random, random_sheet(random, 3, 4, 0.03)); }
 
-/// One particle, two with a spring, a cell with wind.
+/// Small scenes: one particle, two with a spring, a cell with wind.
 template <class Make>
 Cases small_scenes(Random& random, Make make) {
   Cases cases;
@@ -85,7 +85,7 @@ Cases small_scenes(Random& random, Make make) {
   return cases;
 }
 
-/// x' and v' of each particle by mysim.
+/// x' and v' of each particle, computed by mysim.
 Points rates_of(const Scene& scene, const Points& x, const Points& v, double t) {
   const crosscheck::Model model = scene.model(t);
   crosscheck::System system(model);
@@ -97,7 +97,7 @@ Points rates_of(const Scene& scene, const Points& x, const Points& v, double t) 
 }
 
 Case rates_case(const char* call, const Scene& scene) {
-  // accelerations of at most 3000 m/s^2, sums of some 20 terms: exact to 1e-11
+  // accelerations of at most 3000 m/s^2, sums of some 20 terms: round-off below 1e-11
   return {.call = call, .in = scene.numbers(), .columns = 6, .tolerance = 1e-8, .row = "particle", .column = "rates"};
 }
 
@@ -124,7 +124,7 @@ Cases small_rates(Random& random) {
   return small_scenes(random, [](const Scene& scene) { return rates_at(scene, 1); });
 }
 
-// pins have velocities here: they must not move all the same
+// pins have velocities here, but must not move
 Cases pinned_rates(Random& random) {
   Scene scene = random_scene(random);
   pin_upper_corners(scene);
@@ -165,12 +165,12 @@ Case again(Random& random, const Scene& scene) {
 Cases rates_again(Random& random) { return {again(random, random_scene(random))}; }
 Cases small_rates_again(Random& random) {
   Cases cases = small_scenes(random, [&](const Scene& scene) { return again(random, scene); });
-  cases.pop_back();  // two states of a cell are more than anybody would read
+  cases.pop_back();  // two states of a cell are too many numbers to read
   return cases;
 }
 
 Cases hanging_strip(Random& random) {
-  // one column, held at its first particle: spring i stretches by the weight below it over its stiffness
+  // one column, fixed at its first particle: spring i stretches by the weight below it over its stiffness
   Scene scene{};
   const int count = random.integer(4, 6);
   const double g = random.uniform(5, 12);
@@ -198,7 +198,7 @@ Cases hanging_strip(Random& random) {
     rest(1, i) -= fallen;
   }
   c.expected = numbers_of(rest);
-  // drag lets every mode decay as exp(-4 t) at least: after 8 s 1e-14 of some 0.5 m is left; round-off 1e-13
+  // drag damps every mode at least as exp(-4 t): after 8 s, 1e-14 of some 0.5 m is left; round-off 1e-13
   c.tolerance = 1e-9;
   c.plot_x = 0;
   c.plot_y = 1;
@@ -209,7 +209,7 @@ Cases swinging_cloth(Random& random) {
   Scene scene = random_scene(random);
   pin_upper_corners(scene);
   for (int pin : scene.pins) scene.v.col(pin).setZero();
-  scene.breeze.gust = 0;  // mysim's gusts are others
+  scene.breeze.gust = 0;  // mysim defines gusts differently
   const double h = 0.004;
   const int steps = 75, watched = scene.sheet.mesh.size() - 1;
   Case c{.call = "cloth_path", .in = scene.numbers(), .columns = 3, .row = "step", .column = "position"};
@@ -223,8 +223,8 @@ Cases swinging_cloth(Random& random) {
     state.t = (n + 1) * h;
     put(c.expected, Vec3(state.x.col(watched)));
   }
-  // the same rule in the same order of stages: round-off only, 1e-14 m at most on 20 seeds; 0.3 s is too short for a
-  // cloth with this drag to make it grow by 1e5
+  // identical rule and order of stages: round-off only, 1e-14 m at most on 20 seeds; 0.3 s is too short for a cloth
+  // with this drag to amplify it by 1e5
   c.tolerance = 1e-9;
   c.plot_x = 0;
   c.plot_y = 1;

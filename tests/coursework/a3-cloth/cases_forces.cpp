@@ -10,7 +10,7 @@ using crosscheck::Spring;
 using crosscheck::Springs;
 using crosscheck::State;
 
-// at most a dozen springs of at most 100 N meet at a particle: their sum is exact to 1e-12 N in any order
+// at most a dozen springs of at most 100 N meet at a particle: their sum has a round-off of 1e-12 N in any order
 constexpr double round_off = 1e-9;
 
 Case force_case(const char* call) {
@@ -109,8 +109,8 @@ Case laws_of(Random& random, const Sheet& sheet) {
   put(c.in, u);
   c.expected.assign(8, 0.0);
   c.expected.push_back(power(sheet.springs, sheet.x, u));
-  // some 5 J differenced over 1e-3 m: round-off of 1e-12 N. What is left of the truncation goes with the fourth power
-  // of step over length, (0.001 / 0.05)^4 = 2e-7, of some 10 N (measured on 20 seeds: 6e-7 N)
+  // some 5 J differenced over 1e-3 m: round-off of 1e-12 N. The truncation error scales with the fourth power of step
+  // over length, (0.001 / 0.05)^4 = 2e-7, of some 10 N (measured on 20 seeds: 6e-7 N)
   c.tolerance = 1e-5;
   return c;
 }

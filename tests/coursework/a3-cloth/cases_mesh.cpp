@@ -1,4 +1,4 @@
-// Parts 1 and 2: the grid and its springs. All right numbers are whole ones or exact to round-off.
+// Parts 1 and 2: the grid and its springs. All expected numbers are integers or exact to round-off.
 #include <algorithm>
 #include <cmath>
 
@@ -7,8 +7,8 @@
 namespace coursework::a3 {
 namespace {
 
-// positions and lengths are of the order of a metre, made by two or three operations: 1e-9 is far above their round-off
-// and far below any cell
+// positions and lengths are of the order of a metre, computed in two or three operations: 1e-9 is far above their
+// round-off and far below any cell size
 constexpr double mesh_round_off = 1e-9;
 
 Case mesh_case(const char* call, const Mesh& mesh, const char* row, const char* column, int columns) {
@@ -58,7 +58,7 @@ Cases neighbours(Random& random) {
   for (int i = 0; i < 2; ++i) {
     const Mesh mesh = random_mesh(random, 3, 5);
     Case c = mesh_case("neighbours", mesh, "particle", "neighbours", 5);
-    // those at the other ends of mysim's structural springs
+    // neighbours are the other ends of mysim's structural springs
     const auto springs = family_of(mesh, Family::structural);
     for (int n = 0; n < mesh.size(); ++n) {
       std::vector<double> beside;
@@ -91,7 +91,7 @@ Cases structural(Random& random) { return pairs_cases("structural", Family::stru
 Cases shear(Random& random) { return pairs_cases("shear", Family::shear, random); }
 Cases flexion(Random& random) { return pairs_cases("flexion", Family::bend, random); }
 
-/// On one grid.
+/// Case of one grid.
 Case spring_steps_of(Random& random) {
   const Mesh mesh = random_mesh(random, 4, 6);
   Case c = mesh_case("spring_steps", mesh, "offset", "rest", 6);
@@ -109,11 +109,11 @@ Case spring_steps_of(Random& random) {
   return c;
 }
 
-// two of them: nothing may be kept from one call to the next
+// two grids: a solution must not keep state between calls
 Cases spring_steps(Random& random) { return {spring_steps_of(random), spring_steps_of(random)}; }
 
 Cases spring_counts(Random& random) {
-  // the classic one, a single row, a single column, a band of two rows, and any other
+  // the classic grid, a single row, a single column, a band of two rows, and an arbitrary one
   const std::array<int, 2> sizes[] = {{8, 8},
                                       {1, random.integer(3, 6)},
                                       {random.integer(3, 6), 1},

@@ -62,7 +62,7 @@ Cases one_triangle(Random& random) {
     const Vec3 edge = random.uniform(0.3, 0.6) * random_direction(random);
     const Vec3 other = random.uniform(0.3, 0.6) * edge.unitOrthogonal() + random.uniform(0.2, 0.5) * edge;
     const Vec3 area = 0.5 * edge.cross(other), n = area.normalized();
-    // the air comes at 30 to 60 degrees to the triangle, once from each side
+    // the air meets the triangle at 30 to 60 degrees, once from each side
     const double angle = random.uniform(0.5, 1.0);
     breeze.direction = std::cos(angle) * edge.normalized() + side * std::sin(angle) * n;
     Points x(3, 3);
@@ -70,7 +70,7 @@ Cases one_triangle(Random& random) {
     x << here, here + edge, here + other;
     const double t = random.uniform(0.2, 2);
     Case c = wind_case(breeze, {{0, 1, 2}}, x, Points::Zero(3, 3), t);
-    // the closed form: 1/2 rho C A |w|^2 sin(angle) along the normal, away from where the wind comes
+    // the closed form: 1/2 rho C A |w|^2 sin(angle) along the normal, in the direction of the wind
     const Vec3 whole = 0.5 * breeze.density * breeze.coefficient * area.norm() * breeze.at(t).squaredNorm() *
                        std::sin(angle) * side * n;
     for (int corner = 0; corner < 3; ++corner) put(c.expected, Vec3(whole / 3));
@@ -80,7 +80,7 @@ Cases one_triangle(Random& random) {
 }
 
 Cases small_triangle(Random&) {
-  // 6 m^2 that the air meets head on; from behind; slantwise; as it flies with half the wind; as one corner moves
+  // 6 m^2 that the air meets head on; from behind; at an angle; moving with half the wind; with one moving corner
   Points x(3, 3);
   x << 0, 0, 4, 0, 0, 0, 0, 3, 0;
   Cases cases;
@@ -102,7 +102,7 @@ Cases small_triangle(Random&) {
 
 namespace {
 
-/// From one side, from the other, and switched off.
+/// Wind from one side, from the other, and switched off.
 Cases wind_on(Random& random, const Sheet& sheet, const std::vector<std::array<int, 3>>& faces) {
   Breeze breeze = random_breeze(random);
   Points v(3, sheet.mesh.size());
