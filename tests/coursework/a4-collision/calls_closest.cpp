@@ -1,9 +1,10 @@
-// Calls of part 1. Each takes a sphere, or a plane, a count and that many points.
+// Calls of part 1. Each takes a sphere or a plane, a count, and that many points.
 #include "calls_read.h"
 
 namespace coursework {
 
-/// gap, normal, nearest: of each point. normal_and_nearest: one after the other. plane: its gap and nearest point.
+/// gap, normal, nearest: for each point. normal_and_nearest: both, one after the other. plane: its gap and nearest
+/// point.
 bool answer_closest(const std::string& call, const Numbers& in, Numbers& out) {
   if (call == "plane") {
     Reader reader(in);

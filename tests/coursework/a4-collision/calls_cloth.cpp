@@ -1,5 +1,5 @@
-// Calls of part 5. A cloth is count, masses, number of pins, pins, number of springs, a, b, k, rest of each, gravity,
-// drag; then comes its state.
+// Calls of part 5. A cloth is count, masses, number of pins, pins, number of springs, a, b, k, rest of each spring,
+// gravity, drag; its state follows.
 #include "calls.h"
 #include "calls_read.h"
 
@@ -24,9 +24,9 @@ Cloth read_cloth(Reader& in) {
 
 }  // namespace
 
-/// accelerations (cloth, state): of each particle.
+/// accelerations (cloth, state): acceleration of each particle.
 /// cloth_step (cloth, state, number of spheres, spheres, h, steps): position and velocity of each particle at the end.
-/// cloth_path (the same, then a particle): the position of that one after each step.
+/// cloth_path (the same arguments, then a particle): position of this particle after each step.
 bool answer_cloth(const std::string& call, const Numbers& in, Numbers& out) {
   if (call != "accelerations" && call != "cloth_step" && call != "cloth_path") return false;
   Reader reader(in);

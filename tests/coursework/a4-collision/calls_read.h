@@ -1,4 +1,4 @@
-// Reads what the calls of the collision assignment have in common.
+// Readers shared by the calls of the collision assignment.
 #pragma once
 
 #include <utility>
@@ -33,7 +33,7 @@ inline State read_state(Reader& in, int count) {
   return state;
 }
 
-/// Takes a step of the student's. It may read the state that it is given, and no more.
+/// Performs a step of the student's code, which may read the given state but not change it.
 template <class Step>
 void advance(State& state, const char* function, Step step) {
   const State given = state;

@@ -1,4 +1,4 @@
-// Random spheres, and how they are told to the student's code.
+// Random spheres, and their encoding as numbers of the calls.
 #include "tests/coursework/a4-collision/cases.h"
 
 #include <Eigen/Geometry>

@@ -1,5 +1,5 @@
-// Inputs and right answers of the collision assignment. The right ones come from mysim's contact rule, its stepper and
-// closed forms; nothing of the student's headers is known here.
+// Inputs and expected answers of the collision assignment. Expected answers come from mysim's contact rule, its stepper
+// and closed forms; this file includes none of the student's headers.
 #pragma once
 
 #include <vector>
@@ -15,19 +15,19 @@ using crosscheck::Sphere;
 using crosscheck::Vec3;
 using Cases = std::vector<Case>;
 
-Vec3 random_vector(Random& random, double size);  // each number in +-size
+Vec3 random_vector(Random& random, double size);  // each component in [-size, size]
 Vec3 random_direction(Random& random);            // length 1
-/// A unit vector at a right angle to n.
+/// A random unit vector perpendicular to n.
 Vec3 random_tangent(Random& random, const Vec3& n);
 Sphere random_sphere(Random& random, double friction, double restitution);
-/// Of some 10 m/s^2, in any direction.
+/// Gravity of about 10 m/s^2 in a random direction.
 Vec3 random_gravity(Random& random);
 
 void put(Numbers& out, const Vec3& v);
 void put(Numbers& out, const Points& points);
 void put(Numbers& out, const Sphere& sphere);
 
-/// mysim's rule on one particle: x and v after contact.
+/// Result of mysim's contact rule for one particle: x and v after contact.
 struct Resolved {
   Vec3 x, v;
 };

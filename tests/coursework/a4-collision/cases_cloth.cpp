@@ -1,4 +1,4 @@
-// Part 5: a cloth among spheres, by mysim's terms, its symplectic Euler and its contacts.
+// Part 5: a cloth among spheres, computed with mysim's terms, its symplectic Euler and its contacts.
 #include <Eigen/Geometry>
 #include <cmath>
 #include <numbers>
@@ -25,7 +25,7 @@ struct Scene {
   Case run(const char* call, double h, int steps, int watched) const;
 };
 
-/// Masses, pins and terms, where particles and springs are there.
+/// Adds masses, pins and terms to a scene that has particles and springs.
 void complete(Random& random, Scene& scene, const std::vector<int>& pins) {
   const int count = static_cast<int>(scene.start.x.cols());
   scene.gravity = {0, -random.uniform(8, 12), 0};
@@ -41,7 +41,7 @@ void complete(Random& random, Scene& scene, const std::vector<int>& pins) {
                        crosscheck::Drag{Eigen::VectorXd::Constant(count, scene.drag)}};
 }
 
-/// A row of a few particles that fall, with springs between neighbours.
+/// A row of a few falling particles, with springs between neighbours.
 Scene few(Random& random, int count, const std::vector<int>& pins) {
   Scene scene;
   scene.start = {0, Points::Zero(3, count), Points::Zero(3, count)};
@@ -54,7 +54,7 @@ Scene few(Random& random, int count, const std::vector<int>& pins) {
   return scene;
 }
 
-/// A square cloth of n x n particles with its middle at `middle` and its sides along u and v (length 1).
+/// A square cloth of n x n particles, centred at `middle`, with sides along u and v (length 1).
 Scene square(Random& random, int n, double side, const Vec3& middle, const Vec3& u, const Vec3& v,
              const std::vector<int>& pins) {
   Scene scene;
@@ -87,7 +87,7 @@ Numbers Scene::cloth() const {
   return in;
 }
 
-/// Runs mysim; watched < 0: position and velocity of every particle at the end, else the path of that one.
+/// Runs mysim. watched < 0: position and velocity of every particle at the end; otherwise the path of this particle.
 Case Scene::run(const char* call, double h, int steps, int watched) const {
   Case c{.call = call, .in = cloth(), .columns = watched < 0 ? 6 : 3};
   c.in.push_back(static_cast<double>(spheres.size()));
@@ -160,22 +160,22 @@ Cases small_accelerations(Random& random) {
 }
 
 Cases small_cloth_step(Random& random) {
-  // far from the sphere, inside it, inside it with a spring, the same with a pin inside, inside two spheres
+  // far from the sphere, inside it, inside it with a spring, inside it with a pin inside, inside two spheres
   Cases cases;
   for (int kind = 0; kind < 5; ++kind) {
     Scene scene = few(random, kind == 2 || kind == 3 ? 2 : 1, kind == 3 ? std::vector<int>{1} : std::vector<int>{});
     scene.spheres.push_back({{0.1, kind == 0 ? -2 : -0.5, 0}, 0.5, 0.03, 0.5, 0.5, std::nullopt});
     if (kind == 4) scene.spheres.push_back({{-0.1, -0.5, 0}, 0.5, 0.03, 0.5, 0.5, std::nullopt});
     cases.push_back(scene.run("cloth_step", 0.01, 1, -1));
-    cases.back().tolerance = 1e-9;  // as one step of a cloth
+    cases.back().tolerance = 1e-9;  // the tolerance of one step of a cloth
   }
   return cases;
 }
 
-/// n x n particles.
+/// Case of a cloth of n x n particles.
 Case pins_and_spheres_of(Random& random, int n) {
-  // a cloth that falls on two spheres that overlap. One pin is inside, and stays; the middle particle is 0.07 m inside
-  // both, and still 0.02 m inside the second when the first has pushed it out
+  // a cloth that falls on two overlapping spheres. One pin is inside a sphere and stays there; the middle particle is
+  // 0.07 m inside both, and still 0.02 m inside the second after the first has pushed it out
   const Vec3 middle = random_vector(random, 1);
   Scene scene = square(random, n, 0.8, middle, Vec3::UnitX(), Vec3::UnitZ(), {0, 2 * n + 1});
   shake(random, scene, 0.01, 0.5);
@@ -191,7 +191,7 @@ Case pins_and_spheres_of(Random& random, int n) {
   return c;
 }
 
-// the second time fewer: nothing may be kept from one call to the next
+// the second cloth is smaller: a solution must not keep state between calls
 Cases pins_and_spheres(Random& random) { return {pins_and_spheres_of(random, 5), pins_and_spheres_of(random, 4)}; }
 
 Cases patch_on_a_slope(Random& random) {
@@ -223,7 +223,7 @@ Cases drape(Random& random) {
   Scene scene = square(random, 6, 0.7, middle, Vec3::UnitX(), Vec3::UnitZ(), {});
   scene.spheres = {sphere};
   Case c = scene.run("cloth_path", 0.004, 120, 0);
-  // round-off only, 2e-14 m at most on 20 seeds; a drape may make it grow by 1e5 in half a second where it crumples
+  // round-off only, 2e-14 m at most on 20 seeds; crumpling may amplify it by 1e5 in half a second
   c.tolerance = 1e-6;
   return {c};
 }

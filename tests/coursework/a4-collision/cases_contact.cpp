@@ -4,7 +4,7 @@
 namespace coursework::a4 {
 namespace {
 
-// a handful of operations on numbers of some 10 m or m/s: 1e-14; friction divides by lengths of 0.01 at least: 1e-12
+// a handful of operations on numbers of about 10 m or m/s: 1e-14; friction divides by lengths of at least 0.01: 1e-12
 constexpr double round_off = 1e-9;
 
 Case contact_case(const char* call, const Sphere& sphere, int count, const char* column, int columns) {
@@ -16,7 +16,7 @@ Case contact_case(const char* call, const Sphere& sphere, int count, const char*
 
 constexpr int places = 6;
 
-/// Places outside and inside by turns, in seeded directions; `expect` adds what is right there.
+/// Positions alternately outside and inside, in seeded directions; `expect` appends the expected numbers.
 template <class Expect>
 Cases around(Random& random, const char* call, const char* column, int columns, Expect expect) {
   const Sphere sphere = random_sphere(random, 0, 0);
@@ -30,8 +30,8 @@ Cases around(Random& random, const char* call, const char* column, int columns, 
   return {c};
 }
 
-/// A particle that began at `before` and would go to `proposed`, `depth` inside: its displacement along the sphere, as
-/// a multiple of mu times depth, says whether it slides (> 1) or holds (< 1).
+/// A particle that began at `before` and proposes to go to `proposed`, `depth` inside: its displacement along the
+/// sphere, as a multiple of mu times depth, decides whether it slides (> 1) or sticks (< 1).
 struct Move {
   Vec3 before, proposed;
 };
@@ -47,12 +47,12 @@ Cases moves(Random& random, double friction, double least, double most) {
   Case c = contact_case("corrected_position", sphere, places, "position", 3);
   for (int i = 0; i < places; ++i) {
     const double depth = random.uniform(0.04, 0.1);
-    // every other one is near the limit of friction, where what is compared with it shows
+    // every other particle is near the limit of friction, where an incorrect comparison shows
     const double multiple = i % 2 == 0 ? random.uniform(least, most)
                             : most < 1 ? random.uniform(0.9, 0.97)
                                        : random.uniform(1.05, 1.3);
     Move move = random_move(random, sphere, depth, multiple);
-    if (friction == 0 && i == 0)  // straight down: nothing moves along the sphere, to the last digit
+    if (friction == 0 && i == 0)  // straight down: no motion along the sphere, to the last digit
       move = {sphere.centre + Vec3(0, sphere.contact_radius() + 0.02, 0),
               sphere.centre + Vec3(0, sphere.contact_radius() - depth, 0)};
     put(c.in, move.before);
@@ -62,8 +62,8 @@ Cases moves(Random& random, double friction, double least, double most) {
   return {c};
 }
 
-/// Velocities with a part along n and a tangential one of `ratio` times mu (1 + e) times that (times 1 without
-/// friction).
+/// Velocities with a component along n, and a tangential one of `ratio` times mu (1 + e) times the normal one (times 1
+/// without friction).
 Cases velocities(Random& random, double friction, double restitution, double sign, double least, double most) {
   const Sphere sphere = random_sphere(random, friction, restitution);
   Case c = contact_case("corrected_velocity", sphere, places, "velocity", 3);
@@ -73,7 +73,7 @@ Cases velocities(Random& random, double friction, double restitution, double sig
     const double normal = random.uniform(0.5, 2), change = (1 + restitution) * normal;
     const double most_lost = friction * change;  // Coulomb
     double tangential = random.uniform(least, most) * (friction > 0 ? most_lost : normal);
-    if (friction == 0 && i == 0) n = Vec3::UnitY(), tangential = 0;  // straight down: nothing is along the sphere
+    if (friction == 0 && i == 0) n = Vec3::UnitY(), tangential = 0;  // straight down: no tangential component
     const Vec3 v = sign * normal * n + tangential * along;
     put(c.in, n);
     put(c.in, v);
@@ -87,7 +87,8 @@ Cases velocities(Random& random, double friction, double restitution, double sig
 
 namespace {
 
-/// A sphere around the origin that a particle touches at the height 1, so that each number is one thing only.
+/// A sphere around the origin that a particle touches at the height 1, so that every number of the result has one
+/// cause.
 Sphere plain_sphere(double friction, double restitution) {
   return {Vec3::Zero(), 0.75, 0.25, friction, restitution, std::nullopt};
 }
@@ -108,7 +109,7 @@ Case move_case(double friction, const Vec3& before, const Vec3& proposed) {
   return c;
 }
 
-/// At the top of the sphere.
+/// A contact at the top of the sphere.
 Case velocity_case(double friction, double restitution, const Vec3& v, const Vec3& after) {
   Case c = contact_case("corrected_velocity", plain_sphere(friction, restitution), 1, "velocity", 3);
   put(c.in, Vec3(0, 1, 0));
@@ -127,14 +128,14 @@ Cases small_place(Random&) {
 }
 
 Cases small_move(Random&) {
-  // outside, straight down, along without friction, held by friction, with friction
+  // outside, straight down, along without friction, sticking by friction, sliding with friction
   return {move_case(0.5, {0, 3, 0}, {0.5, 2, 0}), move_case(0, {0, 1.5, 0}, {0, 0.75, 0}),
           move_case(0, {-0.5, 1.5, 0}, {0, 0.75, 0}), move_case(0.5, {-0.0625, 1.5, 0}, {0, 0.75, 0}),
           move_case(0.5, {-0.5, 1.5, 0}, {0, 0.75, 0})};
 }
 
 Cases small_velocity(Random&) {
-  // going away, straight in, in and along, with restitution, with friction, held by friction, with both
+  // separating, straight in, in and along, with restitution, with friction, sticking by friction, with both
   return {velocity_case(0.25, 0.5, {3, 2, 0}, {3, 2, 0}),    velocity_case(0, 0, {0, -2, 0}, {0, 0, 0}),
           velocity_case(0, 0, {3, -2, 0}, {3, 0, 0}),        velocity_case(0, 0.5, {3, -2, 0}, {3, 1, 0}),
           velocity_case(0.25, 0, {3, -2, 0}, {2.5, 0, 0}),   velocity_case(0.25, 0, {0.25, -2, 0}, {0, 0, 0}),
@@ -169,7 +170,7 @@ Cases untouched(Random& random) {
   const Sphere sphere = random_sphere(random, random.uniform(0.3, 0.8), 0);
   Case c = contact_case("corrected_position", sphere, places, "position", 3);
   for (int i = 0; i < places; ++i) {
-    const double depth = -random.uniform(0.005, 0.3);  // not inside: nothing may change, not even the last digit
+    const double depth = -random.uniform(0.005, 0.3);  // not inside: the answer must be unchanged to the last digit
     const Move move = random_move(random, sphere, depth, 1);
     put(c.in, move.before);
     put(c.in, move.proposed);
@@ -188,7 +189,7 @@ Cases inside_at_the_start(Random& random) {
   const double r = sphere.contact_radius();
   Case c = contact_case("corrected_position", sphere, places, "position", 3);
   for (int i = 0; i < places; ++i) {
-    // both ends are inside; one proposed place is the very centre
+    // both ends are inside; one proposed position is the exact centre
     const Vec3 n = random_direction(random);
     const double depth = random.uniform(0.1, 0.2) * r, along = random.uniform(1.5, 2.5) * sphere.friction * depth;
     const Vec3 proposed = i == 0 ? sphere.centre : Vec3(sphere.centre + (r - depth) * n);
@@ -215,7 +216,7 @@ Case plane_case(const char* call, const crosscheck::Plane& plane, const char* co
 
 }  // namespace
 
-/// Outside and inside by turns, beside a point of the contact plane.
+/// Positions alternately outside and inside, relative to a point of the contact plane.
 Cases plane_places(Random& random) {
   const crosscheck::Plane plane = random_plane(random, 0);
   Case c = plane_case("plane", plane, "gap_and_nearest", 4);
@@ -230,7 +231,7 @@ Cases plane_places(Random& random) {
   return {c};
 }
 
-/// Every third particle stays outside; the others slide and are held by turns.
+/// Every third particle stays outside; the others alternately slide and stick.
 Cases plane_moves(Random& random) {
   const crosscheck::Plane plane = random_plane(random, random.uniform(0.3, 0.8));
   Case c = plane_case("on_plane", plane, "position", 3);

@@ -1,4 +1,4 @@
-// Part 4: free particles that fly, slide, hold and bounce.
+// Part 4: free particles that fly, slide, stick and bounce.
 #include <Eigen/Geometry>
 #include <cmath>
 #include <numbers>
@@ -34,13 +34,13 @@ Case path_case(const Start& s, double tolerance) {
   return c;
 }
 
-/// Symplectic Euler and mysim's contact rule.
+/// One step of symplectic Euler and mysim's contact rule.
 Resolved next(const Start& s, const Vec3& x, const Vec3& v) {
   const Vec3 faster = v + s.h * s.g;
   return resolved(s.sphere, x, x + s.h * faster, faster);
 }
 
-/// On the surface, at an angle (rad) from the top, whichever way up is.
+/// On the surface, at an angle (rad) from the top; "up" is a random direction.
 Start on_the_slope(Random& random, double angle, double friction) {
   Start s{random_sphere(random, friction, 0), random_gravity(random), 0, 0, {}, {Vec3::Zero()}};
   const Vec3 up = -s.g.normalized();
@@ -53,17 +53,17 @@ Start on_the_slope(Random& random, double angle, double friction) {
 
 Cases free_flight(Random& random) {
   Start s{random_sphere(random, 0.5, 0.5), random_gravity(random), random.uniform(0.01, 0.02), 40, {}, {}};
-  // it comes near, and passes: the closed sum of symplectic Euler is x0 + n h v0 + n (n + 1) / 2 h^2 g
+  // a near miss: the closed sum of symplectic Euler is x0 + n h v0 + n (n + 1) / 2 h^2 g
   const Vec3 n = random_tangent(random, s.g.normalized());
   s.x = {s.sphere.centre + (s.sphere.contact_radius() + random.uniform(0.5, 1)) * n};
   s.v = {-random.uniform(0.1, 0.3) * n + random.uniform(1, 2) * n.cross(s.g.normalized())};
-  Case c = path_case(s, 1e-10);  // 40 sums of numbers of some metres: 1e-14
+  Case c = path_case(s, 1e-10);  // 40 sums of numbers of a few metres: 1e-14
   for (int k = 1; k <= s.steps; ++k)
     put(c.expected, Vec3(s.x[0] + k * s.h * s.v[0] + 0.5 * k * (k + 1) * s.h * s.h * s.g));
   return {c};
 }
 
-/// `count` particles around one sphere; the first is of this kind.
+/// `count` particles around one sphere; `kind` is the situation of the first.
 Case one_step_of(Random& random, int count, int kind = 0) {
   Start s{random_sphere(random, random.uniform(0.3, 0.8), random.uniform(0.3, 0.7)),
           random_gravity(random),
@@ -74,7 +74,7 @@ Case one_step_of(Random& random, int count, int kind = 0) {
   const double r = s.sphere.contact_radius();
   Numbers expected;
   for (int i = 0; i < count; ++i) {
-    // far outside, just above and moving in (slowly or fast along), or inside from the start
+    // far outside, just above and approaching (slowly, or fast along the surface), or inside from the start
     const Vec3 n = random_direction(random), along = random_tangent(random, n);
     const double height[] = {random.uniform(0.5, 1), random.uniform(0.001, 0.005), random.uniform(0.001, 0.005),
                              -random.uniform(0.05, 0.1) * r};
@@ -90,7 +90,7 @@ Case one_step_of(Random& random, int count, int kind = 0) {
   return c;
 }
 
-// the second time fewer: nothing may be kept from one call to the next
+// the second case has fewer particles: a solution must not keep state between calls
 Cases one_step(Random& random) { return {one_step_of(random, 8), one_step_of(random, 4)}; }
 // one particle of each kind
 Cases small_step(Random& random) {
@@ -105,8 +105,8 @@ Cases leaving_angle(Random& random) {
   s.h = 2e-4 * std::sqrt(s.sphere.contact_radius() / s.g.norm());
   s.steps = 30000;
   // symplectic Euler falls by half a step's gravity too much, which holds the particle on the surface for another
-  // sqrt(h v cos / (3 R sin)) = 0.4 degrees, or 0.6 percent of speed (measured: the same); a slide that sticks, rubs or
-  // loses speed ends 5 degrees or more away
+  // sqrt(h v cos / (3 R sin)) = 0.4 degrees, or 0.6 percent of speed (as measured); a slide that sticks, rubs or loses
+  // speed ends 5 degrees or more away
   Case c = step_case("leaving", s, "whole", "leaving", 2, 1.0);
   const double cosine = 2.0 / 3 * std::cos(start);
   c.expected = {std::acos(cosine) * 180 / std::numbers::pi, 100 * std::sqrt(cosine)};
@@ -118,7 +118,7 @@ Cases rebound_height(Random& random) {
   Start s{random_sphere(random, 0.5, e), random_gravity(random), 0, 6000, {}, {Vec3::Zero()}};
   s.x = {s.sphere.centre - (s.sphere.contact_radius() + drop) * s.g.normalized()};
   s.h = 5e-4 * std::sqrt(2 * drop / s.g.norm());
-  // a step shifts the moment of impact by h at most: 2 h / fall time = 0.1 percent of the speed, 0.2 of the height
+  // a step shifts the moment of impact by at most h: 2 h / fall time = 0.1 percent of the speed, 0.2 of the height
   Case c = step_case("rebound", s, "whole", "rebound", 1, 0.5);
   c.expected = {100 * e * e};
   return {c};
@@ -131,7 +131,7 @@ Cases coulomb_cone(Random& random) {
     Start s = on_the_slope(random, angle, factor * std::tan(angle));
     s.h = 0.01 * std::sqrt(s.sphere.contact_radius() / s.g.norm());
     s.steps = 100;
-    // holding: exactly where it began. Sliding: the same rule by mysim, round-off of 1e-16 m in each step
+    // sticking: exactly at the start. Sliding: the same rule computed by mysim, round-off of 1e-16 m in each step
     Case c = path_case(s, 1e-9);
     Resolved now{s.x[0], s.v[0]};
     for (int k = 0; k < s.steps; ++k) {

@@ -1,5 +1,5 @@
 // Calls of solve. Both begin with n, a (n x n, by rows), b (n).
-//   linear.solve       x, a row each
+//   linear.solve       a row for each component of x
 //   linear.singular    1 when std::domain_error is thrown, 0 when something is returned
 #include <stdexcept>
 

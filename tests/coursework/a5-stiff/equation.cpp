@@ -1,5 +1,5 @@
-// Reads the equation that a student's implicit step solves off its answers: on a line each term is a number, and the
-// change of the velocity times the mass is a sum of them.
+// Recovers the equation that a student's implicit step solves from its answers: on a line each term is a number, and
+// the change of the velocity times the mass is a linear combination of the terms.
 #include <cmath>
 
 #include "tests/coursework/grader/assignment.h"
@@ -40,7 +40,7 @@ struct Read {
   Numbers right, found;
 };
 
-/// The sum that m dv of the particle is, in terms of one another; nothing found where it is none.
+/// Coefficients of m dv of particle i as a sum of the terms; `found` is empty if m dv is no such sum.
 Read read_off(const std::vector<Pair>& pairs, const std::vector<Answer>& answers, int i, bool beside_fixed) {
   Read read{{{"h m g"}, {"h c v"}, {"h c dv"}, {"h k e"}, {"h^2 k v"}, {"h^2 k dv"}}, {1, -1, -1, -1, -1, -1}, {}};
   if (!beside_fixed) {
@@ -54,7 +54,7 @@ Read read_off(const std::vector<Pair>& pairs, const std::vector<Answer>& answers
     const int j = 1 - i;
     const auto velocity = [&](int of) { return answers[n].got[static_cast<std::size_t>(6 * of + 3)]; };
     const double dv = velocity(i) - p.v[i], dv_other = velocity(j) - p.v[j], k = p.h * p.h * p.k;
-    // positive where the spring pulls the particle back
+    // positive if the spring pulls the particle back
     const double e = (p.x[1] - p.x[0] - p.rest) * (i == 1 ? 1 : -1);
     const double terms[] = {p.h * p.mass[i] * p.gravity,
                             p.h * p.drag * p.v[i],
@@ -102,7 +102,7 @@ Looked equation_text(const Texts& common, const std::string& part, const Ask& st
                                          : "equation.b",
                             sum_text(read.terms, read.found, near_one), sum_text(read.terms, read.right, near_one)),
                 true};
-      // where the velocity is right the position may not be
+      // the position may be wrong although the velocity is right
       std::vector<Numbers> columns(3);
       Numbers moved;
       for (std::size_t n = 0; n < pairs.size(); ++n) {

@@ -1,4 +1,4 @@
-// a5-stiff: tests, points, and right answers from mysim's tangents and limits, whole numbers, and closed forms.
+// a5-stiff: tests, points, and expected answers from mysim's tangents and limits, integers, and closed forms.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -17,7 +17,7 @@ namespace {
 namespace limits = crosscheck::limits;
 using crosscheck::Points;
 
-// places in the starter's enum
+// order of the starter's enum
 enum Rule { explicit_euler, trapezoidal, rk4, symplectic_euler, leapfrog, implicit_euler };
 
 // ---- jacobian: from mysim's tangent of one spring
@@ -43,7 +43,7 @@ Case jacobian(const Points& ends, double k, double rest) {
   return c;
 }
 
-/// At lengths from 0.2 m to 0.7 m; with the length a random part of the rest length, between these.
+/// Springs of 0.2 m to 0.7 m; the ratio of length to rest length is random between the two bounds.
 std::vector<Case> springs(Random& random, double shortest, double longest) {
   std::vector<Case> cases;
   while (cases.size() < 3) {
@@ -62,7 +62,7 @@ std::vector<Case> at_rest(Random& random) {
   return cases;
 }
 
-/// Along an axis, where the matrix has nothing beside its diagonal: stretched, pressed, at rest; then across two.
+/// Along an axis, for which the matrix is diagonal: stretched, compressed, at rest; then across two axes.
 std::vector<Case> small_springs(Random&) {
   std::vector<Case> cases;
   for (const auto& [x, y, rest] : {std::array{2., 0., 1.}, std::array{2., 0., 3.}, std::array{2., 0., 2.},
@@ -74,12 +74,13 @@ std::vector<Case> small_springs(Random&) {
   return cases;
 }
 
-// ---- linear: whole numbers, so that b = a x is exact
+// ---- linear: integers, so that b = a x is exact
 
 using Rows = std::vector<Numbers>;
 
-/// Diagonal entries 20, 22, ... 40, the others from low to high, at most 3: each column's diagonal entry outweighs the
-/// others by at least 5 when n <= 6, so the inverse is below 0.2, the condition below 12, and the error below 1e-13.
+/// Diagonal entries 20, 22, ... 40, the others from low to high, at most 3: each column's diagonal entry exceeds the
+/// sum of the others by at least 5 if n <= 6, so the norm of the inverse is below 0.2, the condition number below 12,
+/// and the error below 1e-13.
 Rows strong_diagonal(Random& random, int n, int low, int high) {
   Rows a(n, Numbers(n));
   for (int i = 0; i < n; ++i)
@@ -108,7 +109,7 @@ Numbers whole(Random& random, int n) {
 std::vector<Case> plain_systems(Random& random) {
   return {linear("linear.solve", strong_diagonal(random, 3, -3, 3), whole(random, 3)),
           linear("linear.solve", strong_diagonal(random, 6, -3, 3), whole(random, 6)),
-          // everything very small, by a power of two: singular it is not
+          // all entries very small, scaled by a power of two, but not singular
           linear("linear.solve", strong_diagonal(random, 4, -3, 3), whole(random, 4), 0x1p-60)};
 }
 std::vector<Case> pivoting(Random& random) {
@@ -116,7 +117,7 @@ std::vector<Case> pivoting(Random& random) {
   for (const int sign : {-1, 1}) {
     Rows a = strong_diagonal(random, 5, -3, -1);
     for (int i = 0; i < 5; ++i) a[i][i] *= sign;
-    std::rotate(a.begin(), a.begin() + 1, a.end());  // the large entries leave the diagonal
+    std::rotate(a.begin(), a.begin() + 1, a.end());  // moves the large entries off the diagonal
     for (int i = 0; i < 5; ++i) a[i][i] = 0;
     cases.push_back(linear("linear.solve", a, whole(random, 5)));
   }
@@ -133,7 +134,7 @@ std::vector<Case> singular(Random& random) {
   return cases;
 }
 
-/// Two unknowns: a diagonal, then what stands below it alone, then above, then all.
+/// Two unknowns: a diagonal matrix, then with an entry below the diagonal alone, then above, then both.
 std::vector<Case> small_plain(Random& random) {
   return {linear("linear.solve", {{4, 0}, {0, 8}}, whole(random, 2)),
           linear("linear.solve", {{8, 0}, {4, 2}}, whole(random, 2)),
@@ -155,7 +156,7 @@ std::vector<Case> small_singular(Random& random) {
 
 using Limit = double (*)(double, double);
 
-/// As many oscillators as there are ratios gamma / omega; a negative one stands for omega = 0.
+/// One oscillator per ratio gamma / omega; a negative ratio stands for omega = 0.
 Case limit(Random& random, Rule rule, Limit right, const std::vector<double>& ratios) {
   Case c;
   c.call = "limits.step", c.columns = 2, c.row = "oscillator", c.column = "limit";
@@ -169,7 +170,7 @@ Case limit(Random& random, Rule rule, Limit right, const std::vector<double>& ra
     c.expected.insert(c.expected.end(), {kind, kind == 1 ? h : 0});
     if (kind == 1) smallest = std::min(smallest, h);
   }
-  c.tolerance = 1e-7 * smallest;  // the handout asks for eight digits
+  c.tolerance = 1e-7 * smallest;  // the hand-out asks for eight digits
   return c;
 }
 
@@ -197,7 +198,7 @@ std::vector<Case> none_and_all(Random& random) {
   return cases;
 }
 
-// ---- choose: the handout's table of errors, solved for h
+// ---- choose: the hand-out's table of errors, solved for h
 
 struct Accuracy {
   Rule rule;
@@ -211,7 +212,7 @@ Case predicted(Rule rule) {
   c.call = "choose.predicted", c.row = "oscillator", c.column = "chosen", c.in = {static_cast<double>(rule)};
   return c;
 }
-/// Divides the duration into steps of at most h. False where rounding could decide how many.
+/// Divides the duration into steps of at most h. Returns false if rounding could decide the number of steps.
 bool add(Case& c, double omega, double duration, double tolerance, double h) {
   const double steps = duration / h, over = steps - std::floor(steps);
   if (over < 0.05 || over > 0.95) return false;
@@ -228,16 +229,17 @@ std::vector<Case> accurate_steps(Random& random) {
     while (c.expected.size() < 3) {
       // h omega from 0.1 to 0.5: far below every limit
       const double omega = random.uniform(2, 30), wanted = random.uniform(0.1, 0.5) / omega;
-      // in round numbers: half a step more, so that rounding cannot decide how many there are
+      // in round numbers: half a step more, so that rounding cannot decide the number of steps
       const double duration = (random.uniform(8, 40) + (random.rounds() ? 0.5 : 0)) * wanted;
       add(c, omega, duration, constant * omega * duration * std::pow(wanted * omega, order), wanted);
     }
-    // one step is enough
+    // a single step suffices
     const double omega = random.uniform(2, 30), wanted = random.uniform(0.1, 0.5) / omega,
                  duration = random.uniform(0.3, 0.8) * wanted;
     add(c, omega, duration, constant * omega * duration * std::pow(wanted * omega, order), wanted);
     if (rule == implicit_euler) {
-      // a whole number of steps already: omega and h are powers of two, so that every formula finds it without rounding
+      // an exact integer number of steps: omega and h are powers of two, so that every formula finds it without
+      // rounding
       const double h = 1.0 / 32, whole = random.integer(5, 30) * h;
       c.in.insert(c.in.end(), {4, whole, constant * 4 * whole * 4 * h}), c.expected.push_back(h);
     }
@@ -254,11 +256,11 @@ std::vector<Case> stable_steps(Random& random) {
     Case c = predicted(rule);
     while (c.expected.size() < 2) {
       const double omega = random.uniform(2, 30), h = 0.9 * limit_of(omega, 0);
-      // so large a tolerance that accuracy would allow more than ten times the limit
+      // a tolerance so large that accuracy would allow more than ten times the limit
       add(c, omega, (random.uniform(4, 12) + (random.rounds() ? 0.5 : 0)) * h, 1e6, h);
     }
     cases.push_back(c);
-    cases.back().tolerance *= 1e3;  // limits are asked to eight digits, ours have eleven
+    cases.back().tolerance *= 1e3;  // limits are required to eight digits, ours have eleven
   }
   for (const Rule rule : {explicit_euler, trapezoidal}) {
     Case c = predicted(rule);
@@ -283,7 +285,7 @@ std::vector<Case> measured_steps(Random& random) {
       c.in.push_back(random.uniform(0.5, 3) * (random.integer(0, 1) ? 1 : -1));
       largest = std::max(largest, std::abs(c.in.back()));
     }
-    // the error of a run is c h^p exactly
+    // the error of a run is exactly c h^p
     c.expected = {std::pow(tolerance / largest, 1. / order)};
     c.tolerance = 1e-10 * c.expected[0];  // two runs of size 1 whose difference is above 1e-3
     cases.push_back(c);

@@ -1,5 +1,5 @@
-// Right answers: on a line and in free fall closed forms; elsewhere mysim's forces and tangents in a dense solve by
-// Eigen, or, where forces are linear, mysim's own implicit Euler.
+// Expected answers: closed forms on a line and in free fall; elsewhere mysim's forces and tangents in a dense solve by
+// Eigen, or, for linear forces, mysim's own implicit Euler.
 #include "tests/coursework/a5-stiff/tests_motion.h"
 
 #include <Eigen/Dense>
@@ -72,7 +72,7 @@ Case watched(const Scene& start, int steps, int particle, void (*step)(Scene&)) 
   }
   c.columns = 6, c.row = "step", c.column = "motion", c.row_size = start.h;
   for (const double value : c.expected) c.tolerance = std::max(c.tolerance, accuracy * std::abs(value));
-  // the part that moves most
+  // the component with the largest range
   double widest = -1;
   for (int part = 0; part < 3; ++part) {
     double low = c.expected[part], high = low;
@@ -103,7 +103,7 @@ Mysim as_mysim(const Scene& s) {
   return m;
 }
 
-/// mysim's whole implicit Euler step, Newton's method and all: the same where forces are linear in the positions.
+/// mysim's complete implicit Euler step with Newton's method: identical for forces that are linear in the positions.
 void whole_step(Scene& s) {
   Mysim m = as_mysim(s);
   crosscheck::System f(m.model);
@@ -112,7 +112,7 @@ void whole_step(Scene& s) {
   s.x = m.state.x, s.v = m.state.v;
 }
 
-/// (M + h C + h^2 K) dv = h (F - h K v) on the particles that move.
+/// Solves (M + h C + h^2 K) dv = h (F - h K v) for the free particles.
 void linearised_step(Scene& s) {
   Mysim m = as_mysim(s);
   crosscheck::System f(m.model);
@@ -148,8 +148,8 @@ void linearised_step(Scene& s) {
   }
 }
 
-/// On the line through both ends the spring is linear: with e = L - r, v' = (v - h w^2 e) / (1 + (h w)^2), e' = e + h
-/// v'.
+/// Along the line through both ends the spring is linear: with e = L - r, v' = (v - h w^2 e) / (1 + (h w)^2), e' = e +
+/// h v'.
 void oscillator_step(Scene& s) {
   const crosscheck::Spring& spring = s.springs[0];
   const int free = s.fixed[0] ? 1 : 0;
@@ -167,7 +167,7 @@ void falling_step(Scene& s) {
   }
 }
 
-/// n particles on a line from fixed end to fixed end, each spring longer than its rest length.
+/// n particles on a line between two fixed ends, each spring longer than its rest length.
 Scene chain(Random& random, double rest_of_length, int n = 6) {
   Scene s;
   s.x.resize(3, n), s.v.setZero(3, n);
@@ -198,12 +198,12 @@ std::vector<Case> one_spring(Random& random) {
     const Vec3 u = direction(random);
     s.x.resize(3, 2), s.v.setZero(3, 2);
     s.x.col(fixed) = vector(random, 1);
-    // less energy than it takes to reach the fixed end
+    // less energy than reaching the fixed end requires
     s.x.col(1 - fixed) = s.x.col(fixed) + u * rest * random.uniform(1.2, 1.4);
     s.v.col(1 - fixed) = u * rest * omega * random.uniform(0.2, 0.4) * (random.integer(0, 1) ? 1 : -1);
     s.mass = {mass, mass}, s.fixed = {fixed == 0, fixed == 1};
     s.springs = {{0, 1, k, rest, crosscheck::Family::single}};
-    // 1 + (h omega)^2 is all there is to divide by
+    // the only divisor is 1 + (h omega)^2
     cases.push_back(watched(s, long_step < 1 ? 25 : 6, 1 - fixed, oscillator_step));
   }
   return cases;
@@ -222,21 +222,21 @@ std::vector<Case> gravity_and_drag(Random& random) {
 
 namespace {
 
-/// Of a tetrahedron's corners so many.
+/// Springs between `count` corners of a tetrahedron.
 Case network_of(Random& random, int count) {
   Scene s;
   s.h = random.uniform(0.02, 0.1), s.drag = random.uniform(0.5, 3);
   s.gravity = direction(random) * random.uniform(5, 12);
   s.x.resize(3, count), s.v.resize(3, count);
-  // a tetrahedron, bent: no two particles meet
+  // a distorted tetrahedron, so that no two particles coincide
   const double corners[4][3] = {{1, 1, 1}, {1, -1, -1}, {-1, 1, -1}, {-1, -1, 1}};
   for (int i = 0; i < count; ++i) {
     s.x.col(i) = Vec3(corners[i][0], corners[i][1], corners[i][2]) + vector(random, 0.3);
     s.v.col(i) = vector(random, 2);
     s.mass.push_back(random.uniform(0.5, 2)), s.fixed.push_back(0);
     for (int j = 0; j < i; ++j) {
-      // springs shortened by at most a tenth take at most h^2 k 4 / 10 < m / 2 from the matrix, so its condition is
-      // below a hundred
+      // springs shortened by at most a tenth subtract at most h^2 k 4 / 10 < m / 2 from the matrix, so its condition
+      // number is below a hundred
       const double length = (s.x.col(i) - s.x.col(j)).norm(), k = random.uniform(0.5, 1.25) * 0.5 / (s.h * s.h);
       s.springs.push_back({i, j, k, length * random.uniform(0.6, 1.1), crosscheck::Family::single});
     }
@@ -253,12 +253,12 @@ Case network_of(Random& random, int count) {
 
 }  // namespace
 
-// another size: nothing may be kept from one call to the next
+// two sizes: a solution must not keep state between calls
 std::vector<Case> network(Random& random) { return {network_of(random, 4), network_of(random, 3)}; }
 std::vector<Case> small_network(Random& random) { return {network_of(random, 1), network_of(random, 2)}; }
 
 std::vector<Case> stiff_chain(Random& random) {
-  // stretched springs only: the condition is that of 1 + h^2 k 4 / m, below a thousand
+  // stretched springs only: the condition number is that of 1 + h^2 k 4 / m, below a thousand
   const Scene threads = chain(random, 0), springs = chain(random, random.uniform(0.8, 0.95));
   return {watched(threads, 15, random.integer(1, 4), whole_step),
           watched(springs, 15, random.integer(1, 4), linearised_step)};

@@ -1,4 +1,4 @@
-// Tests of implicit_euler.cpp: what is asked, and the right answers from mysim.
+// Tests of implicit_euler.cpp: inputs, and the expected answers from mysim.
 #pragma once
 
 #include <vector>

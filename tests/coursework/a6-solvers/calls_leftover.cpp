@@ -1,4 +1,4 @@
-// Calls of left_over, falling, step_growth and diverges_from; but for the last a row for each group of numbers.
+// Calls of left_over, falling, step_growth and diverges_from; all but the last return a row for each group of numbers.
 //   leftover.part       mu, rho, passes                             the part that is left
 //   leftover.falling    mass, stiffness, h, rho, passes, gravity    the acceleration
 //   leftover.growth     mu, inertia, rho, passes                    the growth in a step

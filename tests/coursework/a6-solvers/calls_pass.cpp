@@ -1,4 +1,4 @@
-// Calls of gradient and jacobi_pass: a net, h, ahead (3 n), x (3 n).
+// Calls of gradient and jacobi_pass. Input: a net, h, ahead (3 n), x (3 n).
 //   pass.gradient, pass.jacobi     three numbers for each particle
 #include "calls_read.h"
 

@@ -1,4 +1,4 @@
-// Reads nets, takes steps and lets a chain come to rest, for the calls of several parts.
+// Readers of nets, and functions that take steps and let a chain come to rest, for the calls of several parts.
 #pragma once
 
 #include <cmath>
@@ -30,7 +30,7 @@ inline State read_state(Reader& in, const Net& net) {
   return state;
 }
 
-/// Calls the student's function, which may read x but not change it, and which must answer for all particles.
+/// Calls the student's function, which may read x but not change it, and which must return a vector for every particle.
 template <class Function>
 std::vector<Vec3> of_all(const std::vector<Vec3>& x, const Function& function) {
   const std::vector<Vec3> given = x;
@@ -41,7 +41,7 @@ std::vector<Vec3> of_all(const std::vector<Vec3>& x, const Function& function) {
   return got;
 }
 
-/// step(state) is the student's.
+/// step(state) is the student's function.
 template <class Step>
 void advance(State& state, const char* function, const Step& step) {
   calling(function);
@@ -55,7 +55,7 @@ inline void put(Numbers& out, const State& state) {
   for (std::size_t i = 0; i < state.x.size(); ++i) put(out, state.x[i]), put(out, state.v[i]);
 }
 
-/// The stretch of a chain after so many steps, in percent of that of its springs at rest.
+/// Stretch of a chain after `steps` steps, in percent of the stretch of its springs at rest.
 template <class Step>
 double stretch_at_rest(const Net& chain, int steps, const char* function, const Step& step) {
   State state = straight_state(chain);

@@ -1,5 +1,5 @@
-// Forces and tangents are mysim's, the weights and what passes leave are Chebyshev polynomials in closed form, the
-// exact step is mysim's implicit Euler, and what averaging leaves at rest is a power of a matrix.
+// Forces and tangents are mysim's; the weights and the remaining errors after passes are Chebyshev polynomials in
+// closed form; the exact step is mysim's implicit Euler; the rest state of averaging is a power of a matrix.
 #include "tests/coursework/a6-solvers/cases.h"
 
 #include <algorithm>
@@ -16,7 +16,7 @@ using Eigen::VectorXd;
 
 namespace {
 
-/// T_n(s) over e^(n acosh s) where that is large: cos or cosh of n times an angle.
+/// T_n(s), divided by e^(n acosh s) if that is large: cos or cosh of n times an angle.
 double chebyshev(int n, double s) {
   if (std::abs(s) <= 1) return std::cos(n * std::acos(s));
   return (s < 0 && n % 2 == 1 ? -1 : 1) * std::cosh(n * std::acosh(std::abs(s)));
@@ -42,7 +42,7 @@ crosscheck::Model model_of(const Scene& s, double stiffness, bool gravity) {
   return model;
 }
 
-/// Forces for another stiffness, with or without gravity; 0 at held particles.
+/// Forces for the given stiffness, with or without gravity; 0 for held particles.
 Points forces(const Scene& s, const Points& x, double stiffness, bool gravity) {
   const crosscheck::Model model = model_of(s, stiffness, gravity);
   crosscheck::System system(model);
@@ -59,7 +59,7 @@ Points gradient(const Scene& s, const Points& ahead, const Points& x) {
 
 constexpr double velocity_kept = 0.99;
 
-/// The forces of springs of 1/2 N/m pull a particle half as far as each is stretched: the mean of what it is told.
+/// Mean of the positions that the springs propose: springs of 1/2 N/m pull a particle half as far as each is stretched.
 Points averaged(const Scene& s, const Points& x) {
   Eigen::ArrayXd count = Eigen::ArrayXd::Constant(x.cols(), 0.2);
   for (const auto& spring : s.springs) count[spring.a] += 1, count[spring.b] += 1;
@@ -74,7 +74,7 @@ void averaging_step(Scene& s, int passes) {
   s.v = (x - s.x) / s.h, s.x = x;
 }
 
-// ---- scenes and how they are told
+// ---- scenes and their numbers
 
 Vec3 vector(Random& random, double size) {
   Vec3 v;
@@ -96,13 +96,13 @@ Case about(const char* call, const Scene& s, const char* column, int columns) {
   return {.call = call, .in = numbers(s), .columns = columns, .row = "particle", .column = column};
 }
 
-/// Everything is a few dozen roundings of numbers of this size.
+/// Sets the tolerance: a few dozen roundings of numbers of the given size.
 void compared(Case& c) {
   for (const double value : c.expected) c.tolerance = std::max(c.tolerance, 1e-11 * std::abs(value));
 }
 
-/// Corners of a tetrahedron, bent, each on a spring to every other one, the first held where `held` says so. k h^2 / m
-/// is some 5, as in the net of the course.
+/// Distorted corners of a tetrahedron, with springs between all pairs, the first one held if `held` is set. k h^2 / m
+/// is about 5, as in the net of the course.
 Scene tangle(Random& random, int count, bool held) {
   Scene s;
   s.mass = random.uniform(0.5, 2), s.h = random.uniform(0.02, 0.05);
@@ -227,7 +227,7 @@ double step_growth(double mu, double inertia, double rho, int passes) {
   return growth((1 + velocity_kept) * q, velocity_kept * q);
 }
 
-// deviations grow where the part that a step leaves of a place is above 1 or below -1 / (1 + 2 c)
+// deviations grow if the fraction of a displacement that a step leaves is above 1 or below -1 / (1 + 2 c)
 bool grows(const VectorXd& mu, double inertia, double rho, int passes) {
   return std::any_of(mu.begin(), mu.end(), [&](double one) {
     const double q = left_after_step(one, inertia, rho, passes);
@@ -290,8 +290,8 @@ std::vector<Case> steps(Random& random) {
           of_steps("step.state", tangle(random, 3, false), 1, 4, rho),
           of_steps("step.state", tangle(random, 3, true), 3, 3, 0)};
 }
-/// Springs without a rest length are linear: passes multiply each error of the same kind alike, and the exact step is
-/// mysim's.
+/// Springs without a rest length are linear: passes multiply all errors of the same kind by the same factor, and the
+/// exact step is mysim's.
 std::vector<Case> falling_errors(Random& random) {
   std::vector<Case> cases;
   for (const double rho : {0., std::round(random.uniform(0.6, 0.9) * 100) / 100}) {
@@ -353,7 +353,7 @@ std::vector<Case> averaged_steps(Random& random) {
   return {of_steps("averaging.state", tangle(random, 2, true), 1, 1, 0),
           of_steps("averaging.state", tangle(random, 3, false), 3, 2, 0)};
 }
-/// On a line a pass is linear: stretches y of the depths become B y. At rest y = B^n (y + h^2 g).
+/// On a line a pass is linear: the stretches y of the depths become B y. At rest y = B^n (y + h^2 g).
 std::vector<Case> rest_by_averaging(Random& random) {
   const HangingChain chain = hanging(random);
   const int n = chain.n;
@@ -371,7 +371,7 @@ std::vector<Case> rest_by_averaging(Random& random) {
     const double depth = (MatrixXd::Identity(n, n) - power).lu().solve(pushed)[n - 1];
     c.expected.push_back(100 * depth * chain.stiffness / (chain.mass * chain.gravity * n * (n + 1) / 2));
   }
-  // depths of some metres are rounded, and the exact stretch is some millimetres of them
+  // depths of a few metres are rounded, and the exact stretch is a few millimetres of them
   c.tolerance = 1e-8 * c.expected[0];
   return {c};
 }

@@ -1,4 +1,4 @@
-// Cases of the passes: nets, and the right answers, from mysim's forces, eigenvalues and Chebyshev's closed forms.
+// Cases of the passes: nets, and the expected answers from mysim's forces, eigenvalues and Chebyshev's closed forms.
 #pragma once
 
 #include <Eigen/Dense>
@@ -14,7 +14,7 @@ namespace coursework::a6 {
 struct Scene {
   double mass = 1, stiffness = 1, h = 1;
   crosscheck::Vec3 gravity = crosscheck::Vec3::Zero();
-  std::vector<crosscheck::Spring> springs;  // their own stiffness is not read
+  std::vector<crosscheck::Spring> springs;  // their own stiffness is ignored
   std::vector<int> held;                    // 0 or 1 each
   crosscheck::Points x, v;
 
@@ -24,22 +24,22 @@ struct Scene {
   Eigen::MatrixXd iteration() const;
 };
 
-/// T_n(mu / rho) / T_n(1 / rho): the part of an error that n passes leave; mu^n where rho is 0.
+/// T_n(mu / rho) / T_n(1 / rho): the fraction of an error that n passes leave; mu^n if rho is 0.
 double left_over(double mu, double rho, int passes);
 
-/// One step by so many accelerated passes.
+/// One step by the given number of accelerated passes.
 void step(Scene& scene, int passes, double rho);
 
-/// The largest |z| with z^2 - sum z + product = 0.
+/// The largest |z| of the roots of z^2 - sum z + product = 0.
 double growth(double sum, double product);
-/// Growth of a deviation from rest in a step of so many passes, in the long run; whether any of several grows; and the
-/// first rho at which one does (1: none does).
+/// Long-run growth of a deviation from rest per step of the given number of passes; whether any of several deviations
+/// grows; and the first rho at which one does (1: none does).
 double step_growth(double mu, double inertia, double rho, int passes);
 bool grows(const Eigen::VectorXd& mu, double inertia, double rho, int passes);
 double diverges_from(const Eigen::VectorXd& mu, double inertia, int passes);
 
-/// side x side particles in a plane, a diagonal in each cell, two corners held; rest lengths are so many times the
-/// lengths in the flat net.
+/// side x side particles in a plane, with one diagonal in each cell and two held corners; rest lengths are
+/// `rest_of_length` times the lengths in the flat net.
 Scene square(int side, double width, double rest_of_length);
 
 using Cases = std::vector<Case>(Random&);

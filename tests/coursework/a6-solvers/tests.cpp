@@ -48,12 +48,12 @@ Case radius_of(Random& random, const MatrixXd& b, double radius) {
 std::vector<Case> radii(Random& random) {
   MatrixXd b;
   VectorXd sizes(6);
-  do {  // until some hundred passes tell the largest from the others
+  do {  // repeats until a hundred passes or so separate the largest eigenvalue from the others
     b = linearised(random, 2, 0.9).iteration();
     sizes = Eigen::SelfAdjointEigenSolver<MatrixXd>(b, Eigen::EigenvaluesOnly).eigenvalues().cwiseAbs();
     std::sort(sizes.begin(), sizes.end());
   } while (sizes[4] > 0.98 * sizes[5]);
-  // a reflection of a diagonal: eigenvalues are known, the largest one in size is negative
+  // a reflection of a diagonal matrix: its eigenvalues are known, and the largest in magnitude is negative
   VectorXd mu(4), n(4);
   const double r = random.uniform(0.4, 0.6);
   mu << -r, r * random.uniform(0.5, 0.8), r * random.uniform(-0.5, 0.5), r * random.uniform(0.1, 0.4);
@@ -62,7 +62,7 @@ std::vector<Case> radii(Random& random) {
   return {radius_of(random, b, sizes[5]), radius_of(random, mirror * mu.asDiagonal() * mirror, -mu[0])};
 }
 
-/// In the long run, of an accelerated pass.
+/// Long-run growth per accelerated pass.
 double growth(double mu, double rho) {
   const double w = 2 / (1 + std::sqrt(1 - rho * rho));
   return a6::growth(w * mu, w - 1);
@@ -71,7 +71,7 @@ std::vector<Case> factors(Random& random) {
   std::vector<Case> cases;
   for (const double rho : {0., random.uniform(0.5, 0.7), random.uniform(0.8, 0.98)}) {
     Case c{"rate.factor", {rho}, {}, 1, 1e-10, "error", "factor"};
-    // within rho, above it, beyond 1; no two solutions alike, which would halve the digits
+    // within rho, above it, beyond 1; no two solutions coincide, which would halve the digits
     for (const double mu : {0.5 * rho, -0.7 * rho, rho + 0.6 * (1 - rho), -rho - 0.3 * (1 - rho), 1.03}) {
       c.in.push_back(mu);
       c.expected.push_back(growth(mu, rho));
@@ -81,7 +81,7 @@ std::vector<Case> factors(Random& random) {
   return cases;
 }
 
-/// The rho at which the long-run factor of the slowest error is that of plain passes again, by halving.
+/// The rho, found by bisection, at which the long-run factor of the slowest error equals that of plain passes again.
 double break_even(double radius) {
   double low = radius, high = 1;
   for (int i = 0; i < 60; ++i) {
@@ -90,8 +90,8 @@ double break_even(double radius) {
   }
   return low;
 }
-/// Nets as they hang, stretched to many times their rest lengths (every other particle overshoots), and pressed (what
-/// buckles has no stiffness left, and less).
+/// Nets in their hanging shape, stretched to many times their rest lengths (every other particle overshoots), and
+/// compressed (a buckling mode has zero or negative stiffness).
 std::vector<Case> turning_points(Random& random) {
   Case c{"rate.slower", {}, {}, 1, 1e-7, "net", "rho"};
   for (const auto& [side, rest] : {std::pair{4, 0.95}, {3, 0.9}, {9, 0.02}, {4, 1.5}}) {
@@ -100,7 +100,7 @@ std::vector<Case> turning_points(Random& random) {
     c.in.insert(c.in.end(), {lowest, highest});
     c.expected.push_back(radius < 1 ? break_even(radius) : 0);
   }
-  // the slowest error may be the one that changes its sign
+  // the slowest error may be one that alternates in sign
   const double lowest = -random.uniform(0.7, 0.9);
   c.in.insert(c.in.end(), {lowest, random.uniform(0.3, 0.6)});
   c.expected.push_back(break_even(-lowest));
@@ -135,7 +135,7 @@ std::vector<Case> growths(Random& random) {
   Case c{"leftover.growth", {}, {}, 1, 1e-9, "error", "growth"};
   for (const int passes : {1, 2, 5, 8})
     for (const double rho : {0., random.uniform(0.6, 0.99)}) {
-      // within what a net has: from the share of inertia up, to the size that each kind of error changes its sign at
+      // within the range of a net: from the share of inertia to the size at which each kind of error alternates in sign
       const double inertia = random.uniform(0.02, 0.1),
                    mu = random.uniform(-0.7, passes == 1 ? -0.2 : 1 - 1.5 * inertia);
       const double growth = a6::step_growth(mu, inertia, rho, passes);
@@ -144,8 +144,9 @@ std::vector<Case> growths(Random& random) {
     }
   return {c};
 }
-/// At which rho deviations of a net at this state begin to grow. Drawn until they do, for a while, so that no search
-/// misses it. A single pass does not depend on rho: it always makes them grow, or never.
+/// The rho at which deviations of a net at this state begin to grow. States are redrawn (up to a limit) until
+/// deviations grow, so that no search misses the rho. A single pass does not depend on rho: deviations grow for every
+/// rho, or for none.
 std::vector<Case> divergences(Random& random) {
   std::vector<Case> cases;
   for (const int passes : {random.integer(3, 6), random.integer(7, 11), 1}) {

@@ -1,4 +1,4 @@
-// For the hand-outs of assignments whose right answers, and curves, are the numbers of their tests.
+// For hand-outs of assignments whose expected answers and curves are the numbers of their tests.
 #include "calls.h"
 
 namespace coursework {

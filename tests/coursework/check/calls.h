@@ -1,4 +1,5 @@
-// One function for all calls of the student's code; each assignment defines it. C++17, standard library only.
+// One function that dispatches all calls of the student's code; each assignment defines it. C++17, standard library
+// only.
 #pragma once
 
 #include <stdexcept>
@@ -10,8 +11,8 @@
 
 namespace coursework {
 
-/// What came from the student's code cannot be worked with: thrown by the calls around it, told with the text
-/// unusable.KEY and these numbers in it.
+/// Thrown by the calls around the student's code if its return value is unusable; reported with the text unusable.KEY,
+/// filled in with these numbers.
 class Unusable : public std::runtime_error {
  public:
   explicit Unusable(const std::string& key, const std::vector<std::size_t>& numbers = {})
@@ -22,25 +23,25 @@ class Unusable : public std::runtime_error {
   std::vector<std::size_t> numbers_;
 };
 
-/// Says that this function of the student's is called now: told where the code is too slow. Each program around the
-/// code defines it.
+/// Announces a call of this function of the student's, for the message on code that is too slow. Each program around
+/// the code defines it.
 void calling(const char* function);
 
-/// Calls the student's code. Returns false where no part knows the call. What the student's code throws passes through.
-/// Each assignment defines it in calls.cpp, which asks its parts one after the other; part P lives in calls_P.cpp and
-/// has the form `bool answer_P(const std::string& call, const Numbers& in, Numbers& out)`.
+/// Calls the student's code. Returns false if no part knows the call. Exceptions of the student's code pass through.
+/// Each assignment defines it in calls.cpp, which tries its parts in turn; part P lives in calls_P.cpp and has the form
+/// `bool answer_P(const std::string& call, const Numbers& in, Numbers& out)`.
 bool answer(const std::string& call, const Numbers& in, Numbers& out);
 
-/// Of the hand-out's `check` alone: what of an answer stands beside the case's `expected`. All of it (as_given.cpp), or
-/// what the assignment's calls.cpp finds in it, where constants are the student's choice.
+/// Only for the hand-out's `check`: the numbers of an answer to compare with the case's `expected`. All of them
+/// (as_given.cpp), or the features that the assignment's calls.cpp extracts, if constants are the student's choice.
 Found compared(const Case& what, const Numbers& answered);
 
-/// Of the hand-out's `check` alone: where an answer is no numbers that are compared as they are, what was asked and
-/// what came; else empty.
+/// Only for the hand-out's `check`: the question and the answer as text, if the compared numbers are not the answer
+/// itself; otherwise empty.
 std::string asked_and_came(const Texts& own, const Case& what, const Numbers& answered);
 
-/// Of the hand-out's `check` alone: a motion to draw beside a test that compares no curve itself, `expected` the right
-/// one and `got` the student's. False: there is none. What the student's code throws passes through.
+/// Only for the hand-out's `check`: a motion to draw for a test that compares no curve itself; `expected` is the right
+/// one and `got` the student's. Returns false if there is none. Exceptions of the student's code pass through.
 bool motion_of(const std::string& test, Case& drawn, Numbers& got);
 
 }  // namespace coursework

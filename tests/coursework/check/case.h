@@ -1,5 +1,5 @@
-// A case: a call of the student's code, and the right answer. Shared by the grader and by the hand-out's `check`:
-// C++17, standard library only.
+// A case: a call of the student's code and the expected answer. Shared by the grader and the hand-out's `check`: C++17,
+// standard library only.
 #pragma once
 
 #include <string>
@@ -22,22 +22,22 @@ struct Case {
   std::string column;    // what its numbers are, a key of the texts: "state", "force"
   int plot_x = -1;       // column drawn along x; -1: the row's number times `row_size`
   int plot_y = -1;       // column drawn along y; -1: nothing to draw
-  double row_size = 1;   // of a row along x, s where rows are steps
+  double row_size = 1;   // extent of a row along x; s if rows are steps
 };
 
-/// How a call of the student's code ended.
+/// Outcome of a call of the student's code.
 enum class How {
   answered,
   threw,
-  unusable,  // what it gave back cannot be worked with: the calls around it say so
+  unusable,  // its return value cannot be used, as the calls around it report
   crashed,
-  recursion,    // it called itself until the stack was full
-  out_of_time,  // of the processor's
-  waiting,      // it did nothing any more
+  recursion,    // infinite recursion: the stack overflowed
+  out_of_time,  // CPU time
+  waiting,      // idle: it blocked without using CPU time
   out_of_memory,
   too_much_output,
   too_much_answered,
-  undecided,  // it answers, but not the same when asked the same: what follows from its answers cannot be found
+  undecided,  // its answers to identical calls differ, so that nothing can be inferred from them
   no_token,
   not_compiled,
   missing
@@ -46,22 +46,22 @@ enum class How {
 struct Answer {
   How how = How::missing;
   Numbers got;
-  std::string detail = {};  // what was thrown, the signal's name, the compiler's first error, a key of the texts
-  /// How often functions of the student's were called: the numbers that the text of an `unusable` needs; of an
-  /// out_of_time each function so far, the one it was in last.
+  std::string detail = {};  // text of the exception, the signal's name, the compiler's first error, or a key of the texts
+  /// Names with numbers. unusable: the numbers that its text needs. out_of_time: the number of calls of each function
+  /// of the student's so far, the function called last at the end.
   std::vector<std::pair<std::string, long>> counts = {};
-  double reference = 0;  // s, out_of_time: what the official solution needs for all calls of the test
-  Numbers of = {};       // beside `got` where some are shares: how many all of them are; 0: no share
+  double reference = 0;  // s, for out_of_time: CPU time of the official solution for all calls of the test
+  Numbers of = {};       // denominators for the numbers in `got` that are shares (a count out of how many); 0: not a share
 };
 
-/// What stands beside a case's `expected`: the numbers, and of shares how many all are, as in Answer.
+/// The numbers to compare with a case's `expected`, and the denominators of shares, as in Answer.
 struct Found {
   Numbers got, of;
   Found(Numbers numbers, Numbers all = {}) : got(std::move(numbers)), of(std::move(all)) {}
 };
 
-/// Whether it is no answer of the student's, right or wrong: it ran into a limit of ours that depends on the machine,
-/// or what it answers does not let itself be measured.
+/// True if the outcome is neither right nor wrong: the code ran into a limit that depends on the machine, or its
+/// answers cannot be measured.
 inline bool ungraded(How how) {
   return how == How::out_of_time || how == How::waiting || how == How::too_much_answered || how == How::undecided;
 }

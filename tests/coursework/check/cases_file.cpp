@@ -1,4 +1,4 @@
-// A line is a word and its values:
+// Each line is a keyword and its values:
 //   assignment NAME, title TEXT, hidden COUNT     once
 //   test ID PART POINTS, read HEADING             begins a test
 //   case CALL, small CALL                         begins one of its cases; in, expected: COUNT numbers
@@ -26,7 +26,7 @@ void write_numbers(std::ostream& out, const char* word, const Numbers& numbers) 
   out << '\n';
 }
 
-/// One line, taken apart.
+/// One line, split into words and numbers.
 class Line {
  public:
   Line(const std::string& text, int number) : in_(text), number_(number) { in_ >> word_; }

@@ -10,23 +10,24 @@
 namespace coursework {
 
 struct PublicTest {
-  std::string id, part, read;  // as the grader's; `read` is a heading of the handout
+  std::string id, part, read;  // as in the grader; `read` is a heading of the hand-out
   int points = 0;
   std::vector<Case> cases;  // none: only the grader runs it
-  std::vector<Case> small;  // that are tried where it fails, and decide nothing
+  std::vector<Case> small;  // tried if the test fails; without effect on the verdict
 };
 
 struct PublicTests {
   std::string assignment, title;
-  int hidden = 0;  // tests that run later
+  int hidden = 0;  // number of tests that run later, in the grader
   std::vector<PublicTest> tests;
 };
 
-/// Lines of a word and what belongs to it; numbers with 17 digits, which read back as the same double. nan and inf are
-/// written as such.
+/// Lines of a keyword and its values; numbers have 17 digits and read back as the same double. nan and inf are written
+/// as such.
 void write_cases(std::ostream& out, const PublicTests& tests);
 
-/// Throws std::runtime_error that names the line: unreadable, an unknown word, a number that is none, too few numbers.
+/// Throws std::runtime_error with the line number if the file is unreadable, a keyword is unknown, a number is
+/// malformed, or there are too few numbers.
 PublicTests read_cases(std::istream& in);
 
 }  // namespace coursework

@@ -1,8 +1,8 @@
-// The hand-out's `check`: runs the public tests on the student's functions, says what the grader would say, and writes
+// The hand-out's `check`: runs the public tests on the student's functions, reports the grader's feedback, and writes
 // mine.html. C++17, standard library only, no POSIX.
 //   check             all tests
-//   check 2 3.1       those whose number begins so; also the name of a part
-//   check --lang zh   in another language, where the hand-out has it
+//   check 2 3.1       tests whose number begins with one of these; also the name of a part
+//   check --lang zh   in another language, if the hand-out has it
 #include <csignal>
 #include <cstdio>
 #include <cstdlib>
@@ -28,7 +28,8 @@ using namespace coursework;
 
 namespace {
 
-// A handler of signals can reach nothing else. The sentence is made beforehand: it may allocate nothing either.
+// Global, because a signal handler has access to nothing else; prepared in advance, because it must not allocate
+// either.
 const char* if_it_crashes = "";
 
 void crashed(int) {
@@ -37,7 +38,7 @@ void crashed(int) {
   std::_Exit(3);
 }
 
-/// `all`: what came, before it was compared.
+/// `all`: the raw answer, before features for the comparison are extracted.
 Answer ask(const Case& what, Numbers* all = nullptr) {
   Answer answer;
   try {
@@ -72,7 +73,7 @@ struct Words {
   }
 };
 
-/// A motion that belongs to the test and is not judged; empty where there is none, or the student's code gives none.
+/// An ungraded motion that belongs to the test; empty if there is none, or if the student's code returns none.
 std::string motion(const std::string& test, const Words& words) {
   try {
     Case drawn;
@@ -83,7 +84,7 @@ std::string motion(const std::string& test, const Words& words) {
   }
 }
 
-/// Of what stands beside a test for the case that it fails: asked up to the second of a call that fails too.
+/// Feedback on the small cases of a failed test. Stops at the second failing case of the same call.
 std::string smallest(const PublicTest& test, const Words& words) {
   std::vector<Answer> answers;
   const Case* failed = nullptr;
@@ -97,7 +98,7 @@ std::string smallest(const PublicTest& test, const Words& words) {
   return smaller_text(words.common, words.own, test.small, answers);
 }
 
-/// The numbers of a case that fails, and what is seen in them; others of its call are asked up to the next that fails.
+/// Numbers of a failing case and the observations on them. Runs later cases of its call up to the next failure.
 std::string shown_beside(const PublicTest& test, const Case& what, const Answer& answer, const Words& words) {
   Answered others;
   for (std::size_t i = static_cast<std::size_t>(&what - test.cases.data()) + 1; i < test.cases.size(); ++i)
@@ -110,8 +111,9 @@ std::string shown_beside(const PublicTest& test, const Case& what, const Answer&
   return text + (text.empty() || seen.empty() ? "" : "\n") + seen;
 }
 
-/// Runs its cases up to the first that is wrong; `failed_before` is the first test of its function that failed, if any,
-/// and `told` what small cases were told of; keeps a few plots, the wrong one among them.
+/// Runs the test's cases up to the first wrong one and keeps a few plots, among them that of the wrong case.
+/// `failed_before`: the first failed test of its function, if any; `told`: functions with feedback on small cases so
+/// far.
 ShownTest run(const PublicTest& test, const Words& words, const std::string& failed_before,
               std::set<std::string>& told) {
   ShownTest shown{words.title_of(test.part), test.id + " " + words.title_of(test.id), true, "", {}};
@@ -174,14 +176,14 @@ int check(const std::string& language, const std::vector<std::string>& which) {
 
   std::vector<ShownTest> shown;
   std::string part, total;
-  std::map<std::string, std::string> failed;  // the first test of a function that failed
+  std::map<std::string, std::string> failed;  // first failed test of each function
   std::set<std::string> told;
   int earned = 0, points = 0, passed = 0;
   for (const PublicTest& test : all.tests) {
     if (!asked_for(test, which) || test.cases.empty()) continue;
     if (test.part != part) std::cout << "\n" << words.title_of(part = test.part) << "\n";
     const std::string function = function_of(words.own, part, test.cases.front());
-    // before it runs: when it never comes back, this is the last line
+    // printed before the test runs: it is the last line if the test never returns
     std::cout << "  " << test.id << " " << words.title_of(test.id) << ": " << std::flush;
     shown.push_back(run(test, words, failed[function], told));
     if (!shown.back().passed && failed[function].empty()) failed[function] = test.id;
@@ -191,7 +193,7 @@ int check(const std::string& language, const std::vector<std::string>& which) {
               << words.common.fill("points", std::to_string(good ? test.points : 0), std::to_string(test.points))
               << "\n"
               << (good ? std::string() : indented(shown.back().said)) << std::flush;
-    // after the verdict: what moves it may be another part of the student's, and that may crash
+    // after the verdict, because the code that advances the motion may be another part of the student's, and may crash
     shown.back().plots.push_back(motion(test.id, words));
     total = words.common.fill("total", std::to_string(earned), std::to_string(points));
     std::ofstream(mine) << page(words.common.of("page.lang"), title, total, shown, words.common.of("passed"),
@@ -210,7 +212,7 @@ int check(const std::string& language, const std::vector<std::string>& which) {
 
 }  // namespace
 
-void coursework::calling(const char*) {}  // who waits for check to end has a debugger
+void coursework::calling(const char*) {}  // no time limit in `check`: a student can interrupt it or use a debugger
 
 int main(int count, char** values) {
   std::string language = "en";

@@ -1,5 +1,5 @@
-// The program around a student's code in the grader: calls come on standard input, answers go out on descriptor 3.
-// It never sees what is right. Runs on Linux only; the hand-out has a main of its own.
+// The program around a student's code in the grader: reads calls from standard input, writes answers to descriptor 3.
+// Never receives expected answers. Linux only; the hand-out has its own main.
 #include <malloc.h>
 #include <sys/resource.h>
 #include <sys/sysinfo.h>
@@ -27,19 +27,19 @@ struct Call {
   coursework::Numbers in;
 };
 
-/// A handler of signals can reach nothing else.
+/// Global, because a signal handler has access to nothing else.
 struct Watched {
   static constexpr int most = 8;
-  const char* function[most] = {};  // of the student's, in the order in which they were called first
+  const char* function[most] = {};  // names of the student's functions, in the order of their first calls
   long count[most] = {};
   int last = 0;
-  volatile std::sig_atomic_t sending = 0;  // a line is on its way: nothing may come between
-  const char* stack_end = nullptr;         // the lowest address that the stack may grow to
+  volatile std::sig_atomic_t sending = 0;  // nonzero while a line is being written: no other output may interrupt it
+  const char* stack_end = nullptr;         // the lowest address that the stack may reach
 };
 Watched watched;
 
 #ifdef TELLS_PLACES
-/// Where the program is: the addresses of its calls on standard error, for addr2line.
+/// Writes the current location to standard error: the addresses of the call stack, for addr2line.
 _Unwind_Reason_Code tell_address(_Unwind_Context* call, void*) {
   int before = 0;
   const auto at = _Unwind_GetIPInfo(call, &before);
@@ -56,7 +56,7 @@ void tell_place() {
 void tell_place() {}
 #endif
 
-/// The limit of processor time is reached: how often each was called, the one at hand last.
+/// Handles the limit of CPU time: reports the number of calls of each function, the current function last.
 void too_slow(int) {
   char text[640] = "slow";
   std::size_t used = 4;
@@ -73,9 +73,9 @@ void too_slow(int) {
   std::raise(SIGXCPU);
 }
 
-/// A full stack is told from other crashes by where the access was.
+/// Handles memory faults: distinguishes a stack overflow from other crashes by the address of the access.
 void bad_access(int number, siginfo_t* what, void*) {
-  constexpr std::ptrdiff_t near = 1 << 20;  // larger than frames that people write
+  constexpr std::ptrdiff_t near = 1 << 20;  // exceeds the frame size of realistic code
   const std::ptrdiff_t above = static_cast<const char*>(what->si_addr) - watched.stack_end;
   const bool is_full = number == SIGSEGV && above > -near && above < near;
   if (!watched.sending && is_full && write(3, "recursion\n", 10) < 0) _exit(4);
@@ -85,7 +85,7 @@ void bad_access(int number, siginfo_t* what, void*) {
 }
 
 void watch() {
-  static char own_stack[1 << 16];  // of the handlers: the other one may be full
+  static char own_stack[1 << 16];  // the handlers' stack, because the main one may be full
   stack_t stack{};
   stack.ss_sp = own_stack, stack.ss_size = sizeof own_stack;
   sigaltstack(&stack, nullptr);
@@ -102,7 +102,7 @@ void watch() {
   std::signal(SIGXCPU, too_slow);
 }
 
-/// Past any buffer of the student's code, at once: what was answered stays answered whatever happens next.
+/// Writes immediately, bypassing buffers of the student's code, so that earlier answers survive a later crash.
 void send(const std::string& line) {
   watched.sending = 1;
   for (std::size_t done = 0; done < line.size();) {
@@ -144,7 +144,7 @@ std::string answer_line(const Call& call) {
 
 }  // namespace
 
-/// The number behind std::thread::hardware_concurrency(): one thread per processor has to fit into the limits.
+/// Called by std::thread::hardware_concurrency(): one thread per processor has to fit into the limits.
 extern "C" int get_nprocs() noexcept { return 4; }
 
 void coursework::calling(const char* function) {
@@ -155,9 +155,9 @@ void coursework::calling(const char* function) {
 }
 
 int main() {
-  // each arena of a thread's own would take 64 MB of the address space that is limited
+  // each additional arena of a thread would reserve 64 MB of the limited address space
   mallopt(M_ARENA_MAX, 1);
-  // the token lives on main's stack only, and all is read before anything of the student's is called
+  // the token lives only on main's stack, and all input is read before any of the student's code is called
   const std::string all{std::istreambuf_iterator<char>(std::cin), {}};
   std::istringstream lines(all);
   std::string token, line;
@@ -174,6 +174,6 @@ int main() {
   watch();
   for (const Call& call : calls) send(answer_line(call));
   send("token " + token + "\n");
-  // no destructor of the student's may undo it
+  // skips the student's destructors, which might undo the answers
   _exit(0);
 }

@@ -1,4 +1,4 @@
-// Number by number, row after row.
+// Compares number by number, row by row.
 #include "judge.h"
 
 #include <cmath>
@@ -18,7 +18,7 @@ Judged judge(const Case& what, const Answer& answer) {
   for (std::size_t i = 0; i < what.expected.size(); ++i) {
     const double of = i < answer.of.size() ? answer.of[i] : 0;
     const double tolerance = of > 0 ? 0.5 / of : what.tolerance;
-    // written so that nan on either side is never within the tolerance
+    // this form also rejects nan on either side
     if (std::isfinite(answer.got[i]) && std::abs(answer.got[i] - what.expected[i]) <= tolerance) continue;
     const int columns = what.columns > 0 ? what.columns : 1;
     result.not_finite = !std::isfinite(answer.got[i]);

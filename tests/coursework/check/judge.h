@@ -1,4 +1,4 @@
-// Compares an answer with what is right. C++17, standard library only.
+// Compares an answer with the expected one. C++17, standard library only.
 #pragma once
 
 #include "case.h"
@@ -8,15 +8,15 @@ namespace coursework {
 struct Judged {
   bool right = false;
   How how = How::answered;
-  bool wrong_size = false;    // another count of numbers than expected
+  bool wrong_size = false;    // the count of numbers differs from the expected one
   bool not_finite = false;    // the first number that differs is nan or infinite
-  int row = -1, column = -1;  // of the first number that differs; -1: none
+  int row = -1, column = -1;  // position of the first number that differs; -1: none
   double expected = 0, got = 0;
-  double of = 0;  // where the number is a share: how many all are
+  double of = 0;  // denominator, if the number is a share
 };
 
-/// Right when every number is finite and within the tolerance, and there are as many as expected. A share is right when
-/// it is that of the same count: one less of a thousand is one less.
+/// Right if there are as many numbers as expected, each finite and within the tolerance. A share must also have the
+/// expected count as a fraction of the same total: one missing out of a thousand is an error.
 Judged judge(const Case& what, const Answer& answer);
 
 }  // namespace coursework

@@ -1,4 +1,4 @@
-// Reads layouts beside the numbers of a call.
+// Parses layouts together with the numbers of a call.
 #include "layout.h"
 
 #include <cstdlib>
@@ -27,7 +27,7 @@ class Reading {
   }
 
  private:
-  /// Up to the end, or to the bracket that closes.
+  /// Reads up to the end or the closing bracket.
   void part(std::size_t& at, int item) {
     for (; at < words_.size() && words_[at] != ")"; ++at) {
       const std::string& word = words_[at];
@@ -67,7 +67,7 @@ class Reading {
     at = end;
   }
 
-  /// How often a group of single numbers and of vectors with counts fits into what is left.
+  /// Number of times that a group of single numbers and of vectors with counts fits into the remaining numbers.
   std::size_t repeats(std::size_t begin, std::size_t end) {
     std::size_t size = 0;
     for (std::size_t i = begin; i < end; ++i) {
@@ -78,7 +78,7 @@ class Reading {
     return size > 0 && read_ < in_.size() ? (in_.size() - read_) / size : 0;
   }
 
-  /// A count, noted as used once more.
+  /// Value of a count; registers one more use of it.
   std::size_t use_of(const std::string& word) {
     const std::string name =
         word.size() > 2 && word.compare(word.size() - 2, 2, "-1") == 0 ? word.substr(0, word.size() - 2) : word;
@@ -115,8 +115,8 @@ class Reading {
 
   const Numbers& in_;
   std::vector<std::string> words_;
-  std::map<std::string, std::size_t> places_;  // of single numbers, by name
-  std::map<int, int> uses_;                    // of counts, by where they stand
+  std::map<std::string, std::size_t> places_;  // position of each single number, by name
+  std::map<int, int> uses_;                    // number of uses of each count, by its position
   int last_count_ = -1;
   CallLayout found_;
   int row_, group_ = -1;

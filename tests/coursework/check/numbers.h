@@ -1,4 +1,4 @@
-// Numbers in a row, read one after the other. C++17, standard library only.
+// Sequential access to a list of numbers. C++17, standard library only.
 #pragma once
 
 #include <stdexcept>
@@ -8,8 +8,8 @@
 
 namespace coursework {
 
-/// Reads the numbers of a call in their order; throws std::out_of_range when there are no more. Vectors are whatever
-/// type the assignment has, with members x, y, z.
+/// Reads the numbers of a call in order; throws std::out_of_range after the last. Vectors can be any type of the
+/// assignment with members x, y, z.
 class Reader {
  public:
   explicit Reader(const Numbers& in) : in_(in) {}

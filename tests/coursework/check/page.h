@@ -1,5 +1,5 @@
-// mine.html: each public test with its feedback, and the student's curve on the right one. C++17, standard
-// library only.
+// mine.html: each public test with its feedback, and the student's curve over the right one. C++17, standard library
+// only.
 #pragma once
 
 #include <string>
@@ -10,7 +10,7 @@ namespace coursework {
 struct ShownTest {
   std::string part, heading;  // the part's title; the test's number and title
   bool passed = false;
-  std::string said;                // lines; empty where it passed
+  std::string said;                // lines of feedback; empty if the test passed
   std::vector<std::string> plots;  // SVG
 };
 
@@ -18,7 +18,7 @@ struct ShownTest {
 std::string page(const std::string& language, const std::string& title, const std::string& total,
                  const std::vector<ShownTest>& tests, const std::string& passed, const std::string& failed);
 
-/// A paragraph for each line; lines of a table together as they stand.
+/// A paragraph for each line; consecutive lines of a table stay together.
 std::string paragraphs(const std::vector<std::string>& lines);
 
 }  // namespace coursework

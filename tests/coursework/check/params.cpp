@@ -1,4 +1,4 @@
-// Names for numbers.
+// Names of numbers in terms of the parameters of a call.
 #include "params.h"
 
 #include <cmath>
@@ -29,10 +29,10 @@ namespace {
 
 struct Simple {
   double value;
-  const char* above;  // in front of a name
-  const char* below;  // behind it
+  const char* above;  // prefix
+  const char* below;  // suffix
 };
-// factors that formulas of mechanics and of time steppers lack or have too often
+// factors that formulas of mechanics and of time steppers often lack, or have in excess
 constexpr Simple simple[] = {{1, "", ""},          {2, "2 ", ""},     {0.5, "", "/2"},      {3, "3 ", ""},
                              {1. / 3, "", "/3"},   {4, "4 ", ""},     {0.25, "", "/4"},     {6, "6 ", ""},
                              {1. / 6, "", "/6"},   {1.5, "3 ", "/2"}, {2. / 3, "2 ", "/3"}, {0.75, "3 ", "/4"},
@@ -43,17 +43,17 @@ std::string alone(const Simple& one) {
   return (above.empty() ? "1" : above.substr(0, above.size() - 1)) + below;
 }
 
-/// As 4/3; empty where it is no such number.
+/// Text such as 4/3; empty if the number is none of the simple ones.
 std::string simple_name(double value, double relative) {
   for (const Simple& one : simple)
     if (std::abs(std::abs(value) - one.value) <= relative * std::abs(value)) return (value < 0 ? "-" : "") + alone(one);
   return "";
 }
 
-/// As h^2/2, and whatever else fits; products of two only where one alone does not.
+/// Names such as h^2/2, all that fit; products of two parameters only if no single one fits.
 std::set<std::string> product_names(double value, double relative, const std::vector<Param>& params,
                                     const Numbers& in) {
-  if (relative > 1e-6) return {};  // too many products come near
+  if (relative > 1e-6) return {};  // too many products would match by chance
   const auto is = [&](double other) { return std::abs(std::abs(value) - other) <= relative * std::abs(value); };
   std::set<std::string> names;
   std::vector<const Param*> scalars;

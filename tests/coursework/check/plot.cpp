@@ -38,7 +38,7 @@ double at_y(const Case& what, const Numbers& numbers, std::size_t row) {
   return numbers[row * static_cast<std::size_t>(what.columns) + static_cast<std::size_t>(what.plot_y)];
 }
 
-/// Places against places: as many pixels for a metre along x as along y, so that a circle is round.
+/// Gives x and y the same scale (pixels per metre) if both are positions, so that a circle is round.
 void equalise(Range& x, Range& y) {
   const double scale_x = (x.high - x.low) / (width - left - right),
                scale_y = (y.high - y.low) / (height - top - bottom);
@@ -48,7 +48,7 @@ void equalise(Range& x, Range& y) {
   smaller.low -= margin, smaller.high += margin;
 }
 
-/// One path; it ends where a number is not finite, and far outside the window.
+/// One SVG path; ends at the first number that is not finite, and far outside the window.
 std::string curve(const Case& what, const Numbers& numbers, Range x, Range y, const std::string& style) {
   std::string path;
   for (std::size_t row = 0; row < numbers.size() / static_cast<std::size_t>(what.columns); ++row) {
@@ -97,7 +97,7 @@ std::string plot(const Case& what, const Numbers& got, const PlotTexts& texts) {
   if (what.plot_x >= 0) equalise(x, y);
   const double floor = height - bottom;
   const std::string box = "<rect x=\"52\" y=\"24\" width=\"298\" height=\"162\" fill=\"none\" stroke=\"#999\"/>\n";
-  // an svg within an svg cuts off what leaves it
+  // a nested svg clips its content
   const std::string inner = "<svg x=\"52\" y=\"24\" width=\"298\" height=\"162\">\n";
   return "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 360 220\" width=\"360\" height=\"220\" "
          "font-family=\"sans-serif\" font-size=\"11\">\n" +

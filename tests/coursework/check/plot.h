@@ -1,4 +1,4 @@
-// A small plot of the student's curve on the right one. C++17, standard library only.
+// A small plot of the student's curve over the right one. C++17, standard library only.
 #pragma once
 
 #include <string>
@@ -9,14 +9,15 @@ namespace coursework {
 
 struct PlotTexts {
   std::string right, yours;  // the legend
-  std::string x, y;          // what the axes show
+  std::string x, y;          // labels of the axes
 };
 
-/// An SVG of 360 x 220 pixels, to be put into a page; empty where the case draws nothing or there are fewer than two
-/// rows. The window is that of the right curve, a third wider: a curve that leaves it is cut, not shrunk to a line.
+/// An SVG of 360 x 220 pixels for embedding in a page; empty if the case draws nothing or has fewer than two rows. The
+/// window is that of the right curve, enlarged by a third: a curve that leaves it is clipped, so that the right curve
+/// keeps its size.
 std::string plot(const Case& what, const Numbers& got, const PlotTexts& texts);
 
-/// Text made safe between the tags of a page.
+/// Escapes a text for use in HTML.
 std::string escaped(const std::string& text);
 
 }  // namespace coursework

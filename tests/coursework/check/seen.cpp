@@ -1,4 +1,4 @@
-// Simple explanations, tried one after the other by direct arithmetic.
+// Tries simple explanations one after the other by direct arithmetic.
 #include "seen.h"
 
 #include <algorithm>
@@ -13,13 +13,13 @@ namespace {
 
 using std::size_t;
 
-/// What the wrong numbers of a vector are.
+/// An explanation of the wrong numbers of a vector.
 struct Instead {
   std::string text;
-  bool factor = false;  // it names one, which a single case may have by chance
+  bool factor = false;  // states a factor, which may fit a single case by chance
 };
 
-/// One vector of each row: the numbers of a block, the right ones and those that came.
+/// The expected and actual numbers of an answer, viewed as one vector (block) per row.
 class Seen {
  public:
   Seen(const Texts& common, const Texts& own, const Case& what, const Numbers& got)
@@ -34,7 +34,7 @@ class Seen {
     for (const double value : what.expected) largest = std::max(largest, std::abs(value));
     for (const double value : got) largest_got_ = std::max(largest_got_, std::abs(value));
     tolerance_ = std::max(what.tolerance, 1e-13 * largest);
-    // what is compared loosely is no arithmetic: an order, an angle that was measured
+    // a loose tolerance means a measured quantity (an order, an angle), to which exact arithmetic does not apply
     exact_ =
         largest > 0 ? tolerance_ <= 1e-4 * largest && largest_got_ < 1e3 * largest : tolerance_ <= 1e-4 * largest_got_;
     tolerance_ *= largest > 0 ? std::max(1.0, largest_got_ / largest) : 1;
@@ -68,7 +68,7 @@ class Seen {
     return common_.fill("seen.split", right, wrong);
   }
 
-  /// Sentences on each vector that is wrong, in the order of the vectors.
+  /// Explanations of each wrong vector, in the order of the vectors.
   std::vector<std::vector<Instead>> instead() const {
     std::vector<std::vector<Instead>> all;
     for (const Block& block : blocks_) {
@@ -80,7 +80,7 @@ class Seen {
     }
     return all;
   }
-  /// Whether something of that vector is wrong; after instead().
+  /// True if any number of this vector is wrong; call instead() first.
   bool is_wrong(size_t block) const { return all_wrong_.at(block); }
 
  private:
@@ -121,7 +121,7 @@ class Seen {
   bool part_is_wrong(const Block& block, const std::vector<size_t>& rows, size_t k) const {
     return std::any_of(rows.begin(), rows.end(), [&](size_t row) { return wrong_at(block, row, k); });
   }
-  /// The parts of the vector that are wrong, where others are right that could have been wrong.
+  /// The wrong components of the vector, if other components are right and could have been wrong.
   std::string parts_text(const Block& block, const std::vector<size_t>& rows) const {
     if (block.width < 2 || other_parts(block, rows).empty()) return "";
     return parts(block, rows, true);
@@ -143,7 +143,7 @@ class Seen {
 
   bool near(double a, double b, double size = 1) const { return std::abs(a - b) <= tolerance_ * std::max(1.0, size); }
 
-  /// Whether what came is everywhere in these rows what `other` says.
+  /// True if the actual numbers of the block equal `other` in all these rows.
   template <class Other>
   bool is(const Block& block, const std::vector<size_t>& rows, Other other, double size = 1) const {
     for (const size_t row : rows)
@@ -152,11 +152,11 @@ class Seen {
     return true;
   }
 
-  /// The one number that `value` is of `unit` in all of these rows; nan: there is none, or too little to tell.
+  /// The constant ratio of `value` to `unit` in all of these rows; nan if there is none, or too little evidence.
   template <class Value, class Unit>
   double multiple(const Block& block, const std::vector<size_t>& rows, Value value, Unit unit) const {
     double both = 0, squares = 0, largest = 0;
-    size_t counted = 0;  // numbers that say something
+    size_t counted = 0;  // significant numbers
     for (const size_t row : rows)
       for (size_t k = 0; k < block.width; ++k) {
         const double u = unit(row, k);
@@ -172,13 +172,13 @@ class Seen {
     relative_ = std::max(
         1e-11, 4 * tolerance_ * std::max(1.0, std::abs(factor)) / (largest * std::max(std::abs(factor), 1e-300)));
     relative_ = std::min(relative_, 1e-3);
-    // a factor without a name has to fit more often than by chance
+    // an unnamed factor needs more evidence than a chance match
     const bool named =
         !names_of_number(factor, relative_, counted > 1 ? params_ : std::vector<Param>(), what_.in).empty();
     return named || counted >= 6 ? factor : NAN;
   }
 
-  /// A factor of each row that a list of the call holds, as m or 1/m; empty: there is none.
+  /// A factor that varies by row as a list of the call does, such as m or 1/m; empty if there is none.
   template <class Value, class Unit>
   std::string row_multiple(const Block& block, const std::vector<size_t>& rows, Value value, Unit unit) const {
     std::string found;
@@ -207,7 +207,7 @@ class Seen {
     return found;
   }
 
-  /// `key` with each of the factor's names, and with what it is of each row.
+  /// Adds `key` with each of the factor's names, and with the row-wise factor.
   void add_factors(std::vector<Instead>& found, double factor, const std::string& of_row, const std::string& key,
                    const std::string& name, const std::string& of) const {
     std::vector<std::string> names;
@@ -231,7 +231,7 @@ class Seen {
     for (const Param& param : params_)
       if (is_of(param, block) && is(block, rows, [&](size_t row, size_t k) { return value(param, row, k); }))
         add(common_.fill("seen.given", name, param.name));
-    // of one row in place of another's
+    // a parameter's value of another row
     for (const Param& param : params_)
       for (size_t other = 0; other < param.rows && param.rows == rows_ && rows_ > 1; ++other)
         if (is_of(param, block) && block.width > 1 && (rows.size() > 1 || rows[0] != other) &&
@@ -265,11 +265,11 @@ class Seen {
     return found;
   }
 
-  /// What is too much, or missing, as a multiple of something that has a name.
+  /// Adds differences to the expected numbers that are multiples of a named quantity.
   void add_offsets(const Block& block, const std::vector<size_t>& rows, std::vector<Instead>& found) const {
     const std::string name = block_text(block);
     const auto off = [&](size_t row, size_t k) { return got(block, row, k) - expected(block, row, k); };
-    std::vector<Numbers> tried;  // one thing may have two names
+    std::vector<Numbers> tried;  // skips aliases of the same numbers
     const auto add = [&](auto unit, const std::string& of) {
       Numbers values;
       for (const size_t row : rows)
@@ -288,7 +288,7 @@ class Seen {
         add([&](size_t row, size_t k) { return expected(other, row, k); }, block_text(other));
   }
 
-  /// Whether the parameter has a vector of that width for each row, or one for all.
+  /// True if the parameter has a vector of this width for each row, or one for all rows.
   bool is_of(const Param& param, const Block& block) const {
     return !param.whole && param.columns == block.width && (param.rows == rows_ || param.rows == 1);
   }
@@ -303,7 +303,7 @@ class Seen {
   std::vector<Block> blocks_;
   std::vector<Param> params_;
   double tolerance_ = 0, largest_got_ = 0;
-  mutable double relative_ = 0;          // how well the last multiple is known
+  mutable double relative_ = 0;          // relative accuracy of the last multiple
   mutable std::vector<bool> all_wrong_;  // by vector
   bool exact_ = false;
 };
@@ -338,7 +338,7 @@ std::vector<Block> blocks_of(const Texts& own, const Case& what) {
       blocks.push_back({name, static_cast<std::size_t>(column), 1});
     last_part = part;
   }
-  // a part that stands alone keeps its name
+  // a component that forms a block alone keeps its name
   for (Block& block : blocks)
     if (block.width == 1) block.name = column_text(own, what, static_cast<int>(block.begin));
   return blocks;
@@ -353,7 +353,7 @@ Answered others_of(const Case& what, const std::vector<Case>& cases, const std::
 
 namespace {
 
-/// The sentences on one case that others bear out.
+/// Explanations of one case that the other cases confirm.
 std::string borne_out(const Texts& common, const Texts& own, const Seen& seen, const Answered& others) {
   if (!seen.exact()) return "";
   const std::vector<std::vector<Instead>> all = seen.instead();

@@ -1,4 +1,4 @@
-// What is right in a wrong answer, and what the wrong numbers are instead. C++17, standard library only.
+// Diagnosis of a wrong answer: its right parts, and explanations of the wrong numbers. C++17, standard library only.
 #pragma once
 
 #include <string>
@@ -11,29 +11,29 @@
 
 namespace coursework {
 
-/// Columns that are parts of one vector: x, y, z of a velocity.
+/// Columns that are components of one vector, such as x, y, z of a velocity.
 struct Block {
-  std::string name;  // without its parts; empty where the row has no other name
+  std::string name;  // without its components; empty if the row has no other name
   std::size_t begin = 0, width = 1;
 };
 std::vector<Block> blocks_of(const Texts& own, const Case& what);
 
-/// Other cases with the same student's answers.
+/// Other cases with the same student's answers to them.
 using Answered = std::vector<std::pair<Case, Answer>>;
 
-/// Those of the case's call, but not the case itself.
+/// The cases with the same call, except the case itself.
 Answered others_of(const Case& what, const std::vector<Case>& cases, const std::vector<Answer>& answers);
 
-/// "Right: x'. Wrong: v' of particle 1, 2. Where v' is wrong, it is 1/m times the right one." Only what holds for all
-/// wrong numbers of a vector to round-off, and only where no more than two such sentences do. One case may hold by
-/// chance: where other ones are wrong in that vector too, one of them at least has to say the same, and a factor has to
-/// have such another one. Empty where the answer is right, is no answer, has rows in any order, or is compared with a
-/// tolerance that round-off does not explain.
+/// "Right: x'. Wrong: v' of particle 1, 2. Where v' is wrong, it is 1/m times the right one." Reports only explanations
+/// that hold to round-off for all wrong numbers of a vector, and only if there are at most two of them. A single case
+/// may match by chance: if other cases are wrong in the same vector, at least one of them has to confirm the
+/// explanation, and a factor always requires such a second case. Empty if the answer is right, is missing, has rows in
+/// any order, or is compared with a tolerance that round-off does not explain.
 std::string seen_text(const Texts& common, const Texts& own, const Case& what, const Answer& answer,
                       const Answered& others = {});
 
-/// The same of numbers that are no answer by themselves, as what a term adds: what they are instead of the right ones;
-/// no word on which are right. Empty: nothing simple.
+/// As seen_text(), for numbers that are not an answer by themselves, such as the contribution of a term: explains them
+/// without listing which are right. Empty if no simple explanation fits.
 std::string instead_text(const Texts& common, const Texts& own, const Case& what, const Answer& answer,
                          const Answered& others = {});
 

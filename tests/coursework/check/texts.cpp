@@ -55,7 +55,7 @@ const std::string& Texts::of(const std::string& key) const {
 }
 
 std::string Texts::filled(std::string text, std::initializer_list<std::string> with) {
-  // one pass from left to right: what was filled in is not looked at again
+  // one pass from left to right, so that substituted text is not expanded again
   std::string result;
   for (std::size_t at = 0; at < text.size();) {
     const std::size_t end = text[at] == '{' ? text.find('}', at) : std::string::npos;

@@ -7,10 +7,11 @@
 namespace coursework {
 
 /// A file of paragraphs: a line `[key]`, then its text up to the next key; lines that begin with `#` are comments.
-/// {0}, {1}, ... in a text are filled in by fill().
+/// fill() replaces {0}, {1}, ... in a text.
 class Texts {
  public:
-  /// Throws std::runtime_error that names the file and line: unreadable, a key twice, text before the first key.
+  /// Throws std::runtime_error with the file and line if it is unreadable, repeats a key, or has text before the first
+  /// key.
   static Texts read(const std::string& file);
   static Texts parse(const std::string& content, const std::string& name);
   bool has(const std::string& key) const { return map_.count(key) > 0; }

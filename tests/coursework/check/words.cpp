@@ -1,4 +1,4 @@
-// Sentences from numbers.
+// Builds sentences from numbers.
 #include "words.h"
 
 #include <algorithm>
@@ -16,7 +16,7 @@
 namespace coursework {
 
 std::string with_digits(double value, int digits) {
-  if (std::isnan(value)) return "nan";  // its sign says nothing, nor does that of zero
+  if (std::isnan(value)) return "nan";  // the sign of nan has no meaning, nor does that of zero
   if (value == 0) return "0";
   char text[40];
   std::snprintf(text, sizeof text, "%.*g", digits, value);
@@ -27,7 +27,7 @@ namespace {
 
 std::string count_text(double value) { return std::to_string(static_cast<long>(std::round(value))); }
 
-/// The parts of "x, y, z".
+/// The items of "(x, y, z)".
 std::vector<std::string> listed(const std::string& text) {
   std::vector<std::string> names(1);
   for (std::size_t i = 0; i < text.size(); ++i) {
@@ -41,18 +41,18 @@ std::vector<std::string> listed(const std::string& text) {
   return names;
 }
 
-/// "step 3, velocity[1]"; a row alone needs no number.
+/// Position such as "step 3, velocity[1]"; a single row needs no number.
 std::string place(const Texts& common, const Texts& own, const Case& what, const Judged& judged) {
   const std::size_t columns = static_cast<std::size_t>(what.columns > 0 ? what.columns : 1);
   const std::string column = column_text(own, what, judged.column);
   if (what.expected.size() <= columns) return column;
-  // rows are counted from 0, as in code, unless the texts say otherwise: the first step is step 1
+  // rows are counted from 0, as in code, unless the texts specify otherwise: the first step is step 1
   const std::string first = "row." + what.row + ".first";
   const int row = judged.row + (own.has(first) ? std::atoi(own.of(first).c_str()) : 0);
   return common.fill("place", name_text(own, "row.", what.row), std::to_string(row), column);
 }
 
-/// In the order of How.
+/// In the order of the enumerators of How.
 constexpr const char* how_keys[] = {"answered",    "threw",    "unusable",      "crashed",         "recursion",
                                     "out_of_time", "waiting",  "out_of_memory", "too_much_output", "too_much_answered",
                                     "undecided",   "no_token", "not_compiled",  "missing"};
@@ -69,7 +69,7 @@ std::string ending(const Texts& common, const Answer& answer) {
                                                    count_text(answer, 0), count_text(answer, 1)));
   if (answer.how == How::threw) {
     if (answer.detail == "Resource temporarily unavailable") return common.of("how.threads");
-    std::size_t index = 0, size = 0;  // as libstdc++ says them
+    std::size_t index = 0, size = 0;  // as printed by libstdc++
     for (const char* form : {"vector::_M_range_check: __n (which is %zu) >= this->size() (which is %zu)",
                              "array::at: __n (which is %zu) >= _Nm (which is %zu)"})
       if (std::sscanf(answer.detail.c_str(), form, &index, &size) == 2)
@@ -94,7 +94,7 @@ std::string ending(const Texts& common, const Answer& answer) {
 std::string number_text(double value, double other) {
   int digits = 6;
   while (digits < 17 && value != other && with_digits(value, digits) == with_digits(other, digits)) ++digits;
-  // the digit that differs alone may be a rounding: one more shows how far apart they are
+  // the last digit that differs may be due to rounding: one more digit shows the size of the difference
   return with_digits(value, digits == 6 || digits == 17 ? digits : digits + 1);
 }
 
@@ -198,7 +198,7 @@ std::string rows_without(const Numbers& some, const Numbers& others, std::size_t
   return more > 3 ? text + ", ..." : text;
 }
 
-/// Where the order of rows is free, a row that is missing or one too many says more than the first number that differs.
+/// For rows in any order, a missing or surplus row says more than the first number that differs.
 std::string as_set(const Texts& common, const Texts& own, const Case& what, const Answer& answer) {
   const std::string key = "set." + what.row;
   if (!own.has(key) || what.columns < 1) return "";
@@ -240,12 +240,12 @@ std::string words(const Texts& common, const Texts& own, const Case& what, const
 
 namespace {
 
-/// How wide a text stands where all letters are of one width; Chinese ones are of two.
+/// Width of a text in a monospaced font; Chinese characters count as two.
 std::size_t columns_of(const std::string& text) {
   std::size_t columns = 0;
   for (const char c : text) {
     const auto byte = static_cast<unsigned char>(c);
-    if ((byte & 0xc0) != 0x80) columns += byte >= 0xe0 ? 2 : 1;  // the first byte of a letter
+    if ((byte & 0xc0) != 0x80) columns += byte >= 0xe0 ? 2 : 1;  // lead byte of a UTF-8 character
   }
   return columns;
 }
@@ -254,7 +254,7 @@ std::string blanks(std::size_t columns, const std::string& text) {
   return std::string(columns > columns_of(text) ? columns - columns_of(text) : 0, ' ');
 }
 
-/// Six digits; what is nothing beside the others is 0.
+/// Six digits; a number that is negligible compared with the largest becomes 0.
 std::string plain(double value, double largest) { return with_digits(std::abs(value) < 1e-9 * largest ? 0 : value, 6); }
 
 }  // namespace
