@@ -56,8 +56,8 @@ void add_row(const Scene& s, int i, Numbers& out) {
   for (const Points* p : {&s.x, &s.v}) out.insert(out.end(), p->col(i).data(), p->col(i).data() + 3);
 }
 
-/// A step is a well-conditioned solve (each case says why), so a digit or two of sixteen are lost in it, and steps that
-/// damp do not add up errors: 1e-9 of the largest number leaves room for any order of summation.
+/// A step is a well-conditioned solve (each case says why), which costs a digit or two of sixteen, and errors do not
+/// add up over damped steps: 1e-9 of the largest number leaves room for any order of summation.
 constexpr double accuracy = 1e-9;
 
 Case watched(const Scene& start, int steps, int particle, void (*step)(Scene&)) {

@@ -18,8 +18,8 @@ struct Case {
   Numbers expected;      // row after row
   int columns = 1;       // numbers in a row
   double tolerance = 0;  // absolute, for each number
-  std::string row;       // what a row is, a key of the texts: "step", "particle", "spring"
-  std::string column;    // what its numbers are, a key of the texts: "state", "force"
+  std::string row;       // kind of a row, a key of the texts: "step", "particle", "spring"
+  std::string column;    // kind of its numbers, a key of the texts: "state", "force"
   int plot_x = -1;       // column drawn along x; -1: the row's number times `row_size`
   int plot_y = -1;       // column drawn along y; -1: nothing to draw
   double row_size = 1;   // extent of a row along x; s if rows are steps
@@ -46,12 +46,12 @@ enum class How {
 struct Answer {
   How how = How::missing;
   Numbers got;
-  std::string detail = {};  // text of the exception, the signal's name, the compiler's first error, or a key of the texts
+  std::string detail = {};  // exception text, signal name, first error of the compiler, or a key of the texts
   /// Names with numbers. unusable: the numbers that its text needs. out_of_time: the number of calls of each function
   /// of the student's so far, the function called last at the end.
   std::vector<std::pair<std::string, long>> counts = {};
   double reference = 0;  // s, for out_of_time: CPU time of the official solution for all calls of the test
-  Numbers of = {};       // denominators for the numbers in `got` that are shares (a count out of how many); 0: not a share
+  Numbers of = {};       // denominators of the numbers in `got` that are shares; 0: not a share
 };
 
 /// The numbers to compare with a case's `expected`, and the denominators of shares, as in Answer.

@@ -15,8 +15,8 @@ struct Judged {
   double of = 0;  // denominator, if the number is a share
 };
 
-/// Right if there are as many numbers as expected, each finite and within the tolerance. A share must also have the
-/// expected count as a fraction of the same total: one missing out of a thousand is an error.
+/// Right if there are as many numbers as expected, each finite and within the tolerance. A share is right if its count
+/// equals the expected one: one missing out of a thousand is an error.
 Judged judge(const Case& what, const Answer& answer);
 
 }  // namespace coursework

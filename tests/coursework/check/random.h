@@ -29,7 +29,7 @@ class Random {
  private:
   /// Nearest value on a decimal scale with at least three steps between low and high.
   static double rounded(double value, double low, double high) {
-    double parts = 1;  // in one
+    double parts = 1;  // steps per unit
     while ((high - low) * parts < 3 && parts < 1e9) parts *= 10;
     double near = std::round(value * parts) / parts;
     if (near < low || near == 0) near = (std::floor(low * parts) + 1) / parts;

@@ -1,4 +1,4 @@
-// Lays a submission out in one folder, where every include of it is met, and plans the compiler's calls.
+// Lays out a submission in one folder, where all of its includes are found, and plans the compiler's calls.
 #include "tests/coursework/classic/build_plan.h"
 
 #include <algorithm>
@@ -17,7 +17,7 @@ std::string defined(const std::string& name, const fs::path& path) {
   return "-D" + name + "=\"" + path.string() + "\"";
 }
 
-/// Our headers, lower-case path -> path, both below `folder`.
+/// Our headers: lower-case path -> path, both relative to `folder`.
 std::map<std::string, std::string> headers_below(const fs::path& folder) {
   std::map<std::string, std::string> all;
   for (const auto& entry : fs::recursive_directory_iterator(folder))
@@ -36,8 +36,8 @@ BuildPlan::BuildPlan(const Files& files, const fs::path& tree, const fs::path& c
   plan_objects();
 }
 
-/// All files lie in one folder under their flat names, and includes lead there whatever folder and letters' case they
-/// name. Errors and crashes still name the student's own paths (#line).
+/// All files are in one folder under their flat names, and includes are redirected there whatever folder and case they
+/// use. Errors and crashes still report the student's own paths (#line).
 void BuildPlan::write_files() {
   const fs::path here = tree_ / "in" / "his";
   bool newer = false;
@@ -52,14 +52,14 @@ void BuildPlan::write_files() {
   std::erase_if(base, [&](const auto& one) {
     return !newer && one.first != "timestepper.hpp" && one.first != "particlesystem.h";
   });
-  std::vector<std::string> left_to_the_course;  // headers of `base` that are included
+  std::vector<std::string> left_to_the_course;  // included headers of `base`
   const auto lead = [&](const std::string& written, bool in_brackets) -> std::string {
     std::string name = written;
     std::replace(name.begin(), name.end(), '\\', '/');
     const std::string last = base_name(name), flat = lower(last);
     if (const auto known = stubs.find(lower(name)); known != stubs.end() && (!his.count(flat) || flat != lower(name)))
       return "<" + known->second + ">";
-    // <time.h> beside a file Time.h
+    // <time.h> in the presence of a file Time.h
     if (in_brackets && (fs::exists(fs::path("/usr/include") / name) || name.starts_with("sys/")))
       return "<" + name + ">";
     if (base.count(flat) && !his.count(flat)) left_to_the_course.push_back(flat);
@@ -86,7 +86,7 @@ void BuildPlan::write_files() {
     crosscheck::write_file(here / name, with_includes(content, lead));
     list(tokens_of(content), name, true);
   }
-  // a class that a macro, a typedef or an alias makes
+  // a class defined by a macro, a typedef or an alias
   for (const Role& role : roles())
     for (const std::string_view name : role.names)
       for (const auto& [path, words] : tokens_) {
@@ -103,8 +103,8 @@ void BuildPlan::write_files() {
 
 BuildStep BuildPlan::compile(const fs::path& source, const std::string& object, const std::string& standard,
                              const std::vector<std::string>& more) const {
-  // no-strict-aliasing and no-lifetime-dse: old code reads memory as it likes, and finds it zeroed; permissive: what
-  // Visual Studio accepts
+  // no-strict-aliasing and no-lifetime-dse: old code may violate aliasing rules and rely on zeroed memory; permissive:
+  // accept what Visual Studio accepts
   BuildStep step;
   step.words = {"-std=" + standard, "-O1", "-w", "-fpermissive", "-fno-strict-aliasing", "-fno-lifetime-dse"};
   for (const fs::path& forced : {ours_ / "stubs" / "prelude.h", tree_ / "in" / "names.h"})
@@ -124,7 +124,7 @@ void BuildPlan::plan_objects() {
                                  "gnu++14", {"-Dmain=main_of_the_student"}));
       objects_.back().file = path;
     }
-  // main.cpp last: nobody waits for it
+  // main.cpp last: nothing depends on it
   std::stable_partition(objects_.begin(), objects_.end(),
                         [](const BuildStep& step) { return !flat_name(step.file).starts_with("main."); });
   for (const auto& [owner, member] : {std::pair{"RK4", "takeStep"}, {"ParticleSystem", "ParticleSystem"}})
@@ -141,14 +141,14 @@ BuildStep BuildPlan::calls(const std::string& name, const ClassInfo& of, bool st
   std::vector<std::string> more = {defined("STUDENT_HEADER", file_on_disk(of)), "-DSTUDENT_CLASS=" + of.full(),
                                    "-DOWN_PROCESS", "-I" + ours_.string(), "-I" + (ours_ / ".." / "check").string()};
   if (stepper) more.push_back("-DSTEPPER");
-  if (of.name == "SimpleSystem") more.push_back("-DFIELD");  // it takes no other role, and all cost two seconds
+  if (of.name == "SimpleSystem") more.push_back("-DFIELD");  // its only role; compiling all roles costs two seconds
   if (chain)
     more.insert(more.end(),
                 {defined("STUDENT_CHAIN_HEADER", file_on_disk(*chain)), "-DSTUDENT_CHAIN=" + chain->full()});
-  // a class that stands in the file of a main of its own
+  // a class defined in a file that has a main of its own
   if (!is_header(of.file)) more.push_back("-Dmain=main_of_the_student");
   if (const ClassInfo* base = classes_.named("ParticleSystem")) {
-    // a source that holds both has no guard against being included twice
+    // a source that contains both has no include guard
     if (base->file != of.file) more.push_back(defined("PARTICLE_HEADER", file_on_disk(*base)));
     if (!base->scope.empty()) more.push_back("-DPARTICLE_SCOPE=" + base->scope);
   }
@@ -161,7 +161,7 @@ bool BuildPlan::concerns(const std::string& file, const ClassInfo& of) const {
 }
 
 std::vector<BuildStep> BuildPlan::archives() const {
-  // an object is taken out only where something needs it: one that lacks a symbol of its own costs nobody else
+  // the linker extracts an object only if something needs it, so an object with a missing symbol affects only its users
   BuildStep his{{"rcs", (tree_ / "out" / "libhis.a").string()}, tree_ / "out" / "libhis.a", "", true};
   BuildStep base{{"rcs", (tree_ / "out" / "libbase.a").string()}, tree_ / "out" / "libbase.a", "", true};
   for (const BuildStep& step : objects_)

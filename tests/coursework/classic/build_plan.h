@@ -1,5 +1,5 @@
-// Turns the files that a student handed in into programs: lays them out so that every include is met, lists the classes
-// and says which commands to run. The sandboxes run them.
+// Turns a student's files into programs: lays them out so that every include is found, lists the classes, and plans the
+// commands. The sandboxes run them.
 #pragma once
 
 #include <filesystem>
@@ -10,34 +10,34 @@
 
 namespace coursework::classic {
 
-/// A call of the compiler (or of ar, where `archive`). All paths in it are absolute.
+/// A call of the compiler (or of ar, if `archive`). All paths in it are absolute.
 struct BuildStep {
-  std::vector<std::string> words;  // what follows the program's name
+  std::vector<std::string> words;  // arguments after the program's name
   std::filesystem::path makes;
-  std::string file;  // the student's file that it is about, as the student named it; empty: ours around the headers
+  std::string file;  // the student's file that is compiled, under its original name; empty: our code around the headers
   bool archive = false;
-  std::filesystem::path source = {};  // what is compiled; empty: it archives or links
+  std::filesystem::path source = {};  // the compiled file; empty for archiving or linking
 };
 
 class BuildPlan {
  public:
-  /// Writes the student's files, no two of the same flat name, and what we add into `tree`/in; steps write into
-  /// `tree`/out. `coursework` is tests/coursework. Throws std::runtime_error where the tree cannot be written.
+  /// Writes the student's files, under distinct flat names, and our additions into `tree`/in; steps write into
+  /// `tree`/out. `coursework` is tests/coursework. Throws std::runtime_error if the tree cannot be written.
   BuildPlan(const Files& files, const std::filesystem::path& tree, const std::filesystem::path& coursework);
 
   const ClassList& classes() const { return classes_; }
-  /// The student's sources and ours that stand in for missing ones. They may run in any order and side by side. One
-  /// that fails costs only what needs it.
+  /// Steps for the student's sources and our replacements of missing ones. They may run in any order and in parallel. A
+  /// failing step affects only its dependents.
   const std::vector<BuildStep>& objects() const { return objects_; }
-  /// After those: archives of the objects that were made.
+  /// Steps to run next: archives of the objects that were made.
   std::vector<BuildStep> archives() const;
-  /// Our calls of a class, and of a second one that is the chain, compiled against the student's headers.
+  /// Our calls of a class, and of a second one for the chain, compiled against the student's headers.
   BuildStep calls(const std::string& name, const ClassInfo& of, bool stepper, const ClassInfo* chain = nullptr) const;
-  /// After those: the program. `child` is the object of tests/coursework/check/child_main.cpp.
+  /// The step to run next: links the program. `child` is the object of tests/coursework/check/child_main.cpp.
   BuildStep link(const BuildStep& calls, const std::filesystem::path& child) const;
-  /// True if the class is declared or defined in that file of the student's.
+  /// True if this file of the student's declares or defines the class.
   bool concerns(const std::string& file, const ClassInfo& of) const;
-  /// Declares the names of OpenGL that the compiler missed; false where it missed none.
+  /// Declares the OpenGL names that the compiler reported as missing; returns false if there are none.
   bool declare_drawing(const std::string& captured_output) const;
 
  private:

@@ -1,4 +1,5 @@
-// The hand-out's calls, all parts in one program. In the grader each class has one of its own (base/class_calls.cpp).
+// The hand-out's calls, all parts in one program. In the grader each class has a program of its own
+// (base/class_calls.cpp).
 #include "calls.h"
 
 #include "looks.h"

@@ -1,4 +1,5 @@
-// The hand-out's calls of the cloth: apart from the others, whose headers may use the same names for other things.
+// The hand-out's calls of the cloth, in a separate file because the other headers may use the same names for other
+// things.
 #include "ClothSystem.h"
 #include "calls.h"
 #include "probe/roles.h"

@@ -1,4 +1,4 @@
-// The roles and the names under which classes that take them have been seen.
+// The roles, and the class names that are known for them.
 #include "tests/coursework/classic/class_list.h"
 
 #include <algorithm>
@@ -35,7 +35,7 @@ namespace {
 
 bool same_name(std::string_view a, std::string_view b) { return lower(std::string(a)) == lower(std::string(b)); }
 
-/// The role whose name it is; null: none.
+/// The role with this name; null if none.
 const Role* named_role(const std::string& name) {
   for (const Role& role : roles())
     for (const std::string_view known : role.names)
@@ -71,7 +71,7 @@ std::vector<ClassList::Candidate> ClassList::candidates(const Role& role,
   for (int i = 0; i < size(); ++i) {
     const Role* bears = named_role(at(i).name);
     if (bears == &role || !at(i).usable || !is_kind(i, role.stepper) || same_name(at(i).name, "RK4")) continue;
-    // a pendulum of more particles is a chain, and a chain of two a pendulum
+    // a pendulum of more particles is a chain, and a chain of two is a pendulum
     if (bears && bears->part == role.part) partners.push_back({i, false, true});
     if (!bears) others.push_back({i, false, false});
   }

@@ -1,4 +1,4 @@
-// Which classes of a program may take which role, in the order in which they are tried.
+// The classes of a program that may take each role, in the order in which they are tried.
 #pragma once
 
 #include <map>
@@ -11,19 +11,19 @@
 
 namespace coursework::classic {
 
-/// What a part's tests ask of one class. The chain is tested with the pendulum.
+/// A role that a class can take in the tests of a part. The chain is tested with the pendulum.
 struct Role {
   std::string_view name;                // in grade.toml
-  std::string_view part;                // whose program calls it
-  bool stepper;                         // moves systems; else it is one
-  std::vector<std::string_view> names;  // under which it has been seen
+  std::string_view part;                // part whose program calls the class
+  bool stepper;                         // true: a time stepper; false: a particle system
+  std::vector<std::string_view> names;  // known class names
 };
 const std::vector<Role>& roles();
 const Role& role_of(std::string_view name);
 std::span<const std::string_view> role_names();
 
-/// All classes of a program: those of the student's headers, of the student's sources, and of ours that stand in for
-/// what was left to the course.
+/// All classes of a program: from the student's headers, from the student's sources, and from our replacements of files
+/// that the course provides.
 class ClassList {
  public:
   explicit ClassList(std::vector<ClassInfo> all) : all_(std::move(all)) {}
@@ -31,15 +31,15 @@ class ClassList {
   const ClassInfo& at(int i) const { return all_[static_cast<std::size_t>(i)]; }
   struct Candidate {
     int of;
-    bool named;  // it bears the role's name, or the student's grade.toml says so: it takes the role even if it is wrong
-    bool likely;  // it is named, or bears the name of the other role that is tested with this one
+    bool named;   // it has the role's name, or the student's grade.toml names it: it takes the role even if it is wrong
+    bool likely;  // it is named, or has the name of the other role that is tested with this one
   };
-  /// Those to be tried: where `wanted` (role -> class) names one, that one alone; else those that bear its name, and
-  /// then all others of the kind that bear the name of no other role.
+  /// Candidates in the order of trial: the class that `wanted` (role -> class) names, alone; otherwise the classes with
+  /// the role's name, and then all others of the kind that do not have the name of another role.
   std::vector<Candidate> candidates(const Role& role, const std::map<std::string, std::string>& wanted) const;
-  /// The class of that name that counts; null: there is none.
+  /// The effective class of this name; null if none.
   const ClassInfo* named(std::string_view name) const;
-  /// True if it derives from TimeStepper, or from ParticleSystem.
+  /// True if the class derives from TimeStepper (`stepper`) or from ParticleSystem.
   bool is_kind(int i, bool stepper) const;
   int size() const { return static_cast<int>(all_.size()); }
 

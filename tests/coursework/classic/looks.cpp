@@ -1,4 +1,4 @@
-// One line for each column of the texts.
+// Dispatch table: one line for each column of the texts.
 #include "tests/coursework/classic/looks.h"
 
 #include <stdexcept>
@@ -10,17 +10,17 @@
 namespace coursework::classic {
 namespace {
 
-/// `size` is the count of particles that was asked for, of a cloth those along a side.
+/// `size` is the requested number of particles; for a cloth, the number along a side.
 Features look(const std::string& column, int size, const Findings& found) {
   if (column == "purity") return purity(found);
   if (column == "motion") return motion(found, size);
   if (column == "cloth_motion") {
-    // whether and where a cloth hangs is the student's choice; only what moves is looked at
+    // the presence and the place of a cloth's pins are the student's choice; only the moving particles are checked
     Features features = motion(found, size * size);
     features.erase(features.begin() + 2, features.end());
     return features;
   }
-  // an evalF that does not repeat itself says nothing of its forces
+  // the forces of a non-deterministic evalF cannot be inferred
   if (!found.repeats) return {};
   if (column == "gravity") return gravity(found);
   if (column == "drag") return drag(found);

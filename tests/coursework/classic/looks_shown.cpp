@@ -1,4 +1,4 @@
-// What a probe asked of a system and what came, told of the first particle or spring that is not as it should be.
+// Questions of a probe and the system's answers as text, for the first wrong particle or spring.
 #include <algorithm>
 #include <cmath>
 #include <optional>
@@ -56,7 +56,7 @@ std::string motion_shown(const Texts& own, const Findings& found) {
   return "";
 }
 
-/// The free particle on which `on` finds least; entries `first` to `last` tell which are free.
+/// The free particle with the smallest value of `on`; entries `first` to `last` determine which particles are free.
 std::optional<std::size_t> least_of(const Findings& found, std::size_t first, std::size_t last,
                                     double (*on)(const Findings&, std::size_t)) {
   std::optional<std::size_t> least;
@@ -65,7 +65,7 @@ std::optional<std::size_t> least_of(const Findings& found, std::size_t first, st
   return least;
 }
 
-/// Of three draws the first: v' of each particle at x and at its mirror image.
+/// From the first of three draws: v' of each particle at x and at its mirror image.
 std::string gravity_shown(const Texts& own, const Findings& found) {
   const auto i = least_of(found, 0, 1, gravity_on);
   if (!i) return "";
@@ -74,7 +74,7 @@ std::string gravity_shown(const Texts& own, const Findings& found) {
                   vector_text(probe::plus(probe::plus({}, 0.5f, a), 0.5f, mirrored)));
 }
 
-/// The velocity w that a particle alone gets, and its v' at 0 and w: of the one that it slows least.
+/// The velocity w of a single moving particle, and its v' at 0 and w, for the particle with the least drag.
 std::string drag_shown(const Texts& own, const Findings& found) {
   const auto i = least_of(found, 1, 3, drag_on);
   if (!i || found.n >= most_in_order) return "";
@@ -89,8 +89,7 @@ std::string drag_shown(const Texts& own, const Findings& found) {
   return text;
 }
 
-/// The first spring that does not draw together, is not linear, has no rest length, or pulls otherwise at its other
-/// end.
+/// The first spring that does not contract, is not linear, has no rest length, or pulls differently at its other end.
 std::string law_shown(const Texts& own, const Springs& s) {
   const auto told = [&](const Spring& one) {
     return own.fill("shown.spring", std::to_string(one.b), std::to_string(one.a), three_text(one.as_found.at),
@@ -112,7 +111,7 @@ std::string law_shown(const Texts& own, const Springs& s) {
 
 using Pairs = std::set<std::pair<int, int>>;
 
-/// "(row, column) - (row, column)" of the first three, and how many there are.
+/// The first three pairs as "(row, column) - (row, column)", and the total number.
 std::string pairs_shown(const Texts& own, const char* key, const Grid& grid, const Pairs& pairs) {
   const auto place = [&](int i) {
     return "(" + std::to_string(grid.row(i)) + ", " + std::to_string(grid.column(i)) + ")";
@@ -123,7 +122,7 @@ std::string pairs_shown(const Texts& own, const char* key, const Grid& grid, con
   return pairs.empty() ? "" : own.fill(key, std::to_string(pairs.size()), listed(first, "; "));
 }
 
-/// Springs of these offsets that nothing shows from either end.
+/// Springs with these offsets that are missing at both ends.
 std::string missing_shown(const Texts& own, const Springs& s, const std::vector<std::pair<int, int>>& offsets) {
   const auto grid = grid_of(s);
   if (!grid) return "";
@@ -142,7 +141,7 @@ std::string missing_shown(const Texts& own, const Springs& s, const std::vector<
   return pairs_shown(own, "shown.missing", *grid, missing);
 }
 
-/// Springs that are of no family.
+/// Springs that belong to no family.
 std::string others_shown(const Texts& own, const Springs& s) {
   const auto grid = grid_of(s);
   if (!grid) return "";

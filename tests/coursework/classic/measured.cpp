@@ -1,5 +1,5 @@
-// The constants that a student's evalF shows. They are the student's choice and cost no points; told as numbers, so
-// that a forgotten or doubled mass is seen by whoever knows what was meant.
+// Constants measured from a student's evalF. They are the student's choice and cost no points; they are reported as
+// numbers so that a forgotten or doubled mass is visible to readers who know the intended values.
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
@@ -18,8 +18,7 @@ namespace {
 
 std::string three_digits(double value) { return with_digits(std::abs(value) < 1e-6 ? 0 : value, 3); }
 
-/// The values found on each particle that is free: "9.8", or where they differ "9.8 (1, 2), 4.9 (3)", six particles at
-/// most.
+/// The values of all free particles: "9.8", or, if they differ, "9.8 (1, 2), 4.9 (3)" with at most six particles.
 std::string of_each(const Findings& found, std::size_t first, std::size_t last,
                     double (*on)(const Findings&, std::size_t)) {
   std::map<std::string, std::vector<std::string>> particles;
@@ -37,7 +36,7 @@ std::string of_each(const Findings& found, std::size_t first, std::size_t last,
   return list;
 }
 
-/// "0-1: 80, 0.6" for a few springs, else a line for each kind of neighbour on the grid.
+/// "0-1: 80, 0.6" for a few springs, otherwise a line for each kind of neighbour on the grid.
 std::string springs_list(const Springs& s) {
   std::string list;
   const auto add = [&](const std::string& name, const Spring& one) {

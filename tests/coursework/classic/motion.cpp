@@ -1,5 +1,5 @@
-// Motions of the student's systems beside the exact ones. Of a pendulum masses and lengths are his choice, so the exact
-// one is computed with those that his own answers show. Of the hand-out's check.
+// Motions of the student's systems compared with the exact ones. Masses and lengths of a pendulum are the student's
+// choice, so the exact motion uses the values measured from the student's answers. For the hand-out's check.
 #include <cmath>
 #include <complex>
 
@@ -12,8 +12,8 @@ namespace coursework {
 namespace {
 
 struct Pendulum {
-  std::size_t bob = 1;           // the particle that moves
-  Numbers anchor, first;         // m: where the other one is, and where particle 1 starts
+  std::size_t bob = 1;           // the moving particle
+  Numbers anchor, first;         // m: position of the other particle, and the initial position of particle 1
   double k = 0, rest = 0;        // 1/s^2 (stiffness by mass), m
   double gravity = 0, drag = 0;  // m/s^2, 1/s (drag by mass)
 };
@@ -25,8 +25,8 @@ probe::Findings found_by(const char* call) {
   return answer(call, what.in, record) ? classic::replay(what, record) : probe::Findings();
 }
 
-/// False where no spring moves either particle. Signs are taken as they should be; where gravity or the rest length is
-/// missing, the earth's or the distance at the start stands in.
+/// Returns false if no spring moves either particle. Assumes the correct signs; missing gravity or a missing rest
+/// length is replaced by standard gravity or the initial distance.
 bool read(Pendulum& p) {
   const classic::Springs springs = classic::springs_of(found_by("pendulum.springs"));
   const probe::Findings gravity = found_by("pendulum.gravity"), drag = found_by("pendulum.drag");
@@ -44,7 +44,7 @@ bool read(Pendulum& p) {
   return p.k > 0 && p.rest > 0;
 }
 
-/// Let go straight below the anchor, lower than where it hangs at rest: up and down, a damped vibration.
+/// Released straight below the anchor, lower than the equilibrium position: a damped vertical vibration.
 bool bounce(Case& drawn, Numbers& got) {
   Pendulum p;
   if (!read(p)) return false;
@@ -64,7 +64,7 @@ bool bounce(Case& drawn, Numbers& got) {
   return answer(drawn.call, drawn.in, got);
 }
 
-/// Once around the circle on which the student's point starts.
+/// One revolution on the circle on which the student's point starts.
 bool turn(Case& drawn, Numbers& got) {
   const double h = 0.03;
   const int steps = 209;
@@ -81,7 +81,7 @@ bool turn(Case& drawn, Numbers& got) {
 }  // namespace
 
 bool motion_of(const std::string& test, Case& drawn, Numbers& got) {
-  // the pendulum's beside the last of its tests: all its forces act in it
+  // shown with the last test of the pendulum, which involves all its forces
   return test == "3.1" ? turn(drawn, got) : test == "4.5" && bounce(drawn, got);
 }
 

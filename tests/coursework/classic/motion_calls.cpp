@@ -1,5 +1,5 @@
-// The hand-out's calls of all but the cloth, under the starter's names; and of what it draws: the student's systems,
-// moved by the student's trapezoidal rule.
+// The hand-out's calls of everything but the cloth, under the starter's names; and the calls for its drawings: the
+// student's systems, advanced by the student's trapezoidal rule.
 #include "TimeStepper.hpp"
 #include "calls.h"
 #include "pendulumSystem.h"
@@ -14,7 +14,7 @@ Vector3f vector_at(const Numbers& in, std::size_t i) {
   return Vector3f(static_cast<float>(in.at(i)), static_cast<float>(in.at(i + 1)), static_cast<float>(in.at(i + 2)));
 }
 
-/// Where the entry of the state is at first and after each step of h (s).
+/// Appends an entry of the state at the start and after each step of h (s).
 template <class T>
 void follow(T& system, std::size_t entry, float h, double steps, Numbers& out) {
   Trapzoidal& rule = *probe::make<Trapzoidal>(1, false);
@@ -30,9 +30,10 @@ void follow(T& system, std::size_t entry, float h, double steps, Numbers& out) {
 
 namespace {
 
-/// Both begin with h (s) and steps; a row per step, the start among them: position (3).
+/// Both begin with h (s) and steps; a row per step, including the start: position (3).
 ///   simple.turn       nothing more
-///   pendulum.bounce   which particle is followed, where particle 1 starts (3), where the followed one is let go (3)
+///   pendulum.bounce   index of the observed particle, initial position of particle 1 (3), released position of the
+///   observed one (3)
 bool answer_motion(const std::string& call, const Numbers& in, Numbers& out) {
   const float h = static_cast<float>(in.at(0));
   if (call == "simple.turn") {
@@ -41,7 +42,7 @@ bool answer_motion(const std::string& call, const Numbers& in, Numbers& out) {
   }
   PendulumSystem& pendulum = probe::ready<PendulumSystem>(2, true);
   probe::Vec state = probe::state_of(pendulum);
-  // positions and velocities by turns, unless the second entry is a position
+  // positions and velocities alternate unless the second entry is a position
   const bool apart = state.at(1) == vector_at(in, 3) && !(state.at(2) == vector_at(in, 3));
   const auto which = static_cast<std::size_t>(in.at(2)), entry = apart ? which : 2 * which;
   state.at(entry) = vector_at(in, 6);

@@ -14,14 +14,14 @@ double dot(const Plain& a, const Plain& b) { return double(a[0]) * b[0] + double
 bool zero(const Plain& v) { return probe::same(v, {}); }
 int count(const Flags& flags) { return static_cast<int>(std::count(flags.begin(), flags.end(), true)); }
 
-/// Of single-precision numbers that went the same way.
+/// True if two single-precision results agree up to rounding.
 bool close(const Plain& a, const Plain& b) {
   for (int k = 0; k < 3; ++k)
     if (!(std::abs(a[k] - b[k]) <= 1e-5 * std::max({1.f, std::abs(a[k]), std::abs(b[k])}))) return false;
   return true;
 }
 
-/// 1 where all are positive, -1 where all are negative, 0 where all are neither; else 0.5.
+/// 1 if all are positive, -1 if all are negative, 0 if all are neither; otherwise 0.5.
 double sign(int plus, int minus, int all) {
   if (all == 0 || plus + minus == 0) return 0;
   return plus == all ? 1 : minus == all ? -1 : 0.5;
@@ -46,7 +46,7 @@ Features purity(const Findings& found) {
     kept += zero(change);
     something = something || !zero(f);
   }
-  // an evalF that is zero whatever it is given uses nothing
+  // an evalF that is always zero uses no input
   return {found.per_entry, something ? share(again, all) : 0, something ? share(kept, all) : 0,
           something ? share(given, all) : 0};
 }
@@ -69,7 +69,7 @@ Features motion(const Findings& found, int wanted) {
     driven[i] = constant;
     right += stays || rests || follows;
   }
-  // if none is held, those are anchors that hang in the world, or else those with a prescribed velocity
+  // if none is held: particles that hang on fixed points in space, otherwise those with a prescribed velocity
   const bool any_tied = count(found.tied) > 0;
   if (few(any_tied ? found.tied : driven, anchors)) {
     if (!any_tied) right += count(driven);
@@ -87,12 +87,12 @@ double gravity_on(const Findings& found, size_t i) {
     const Plain &a = found.row(i, draw)[0], &mirrored = found.row(i, draw)[1];
     double even[3];
     for (int k = 0; k < 3; ++k) even[k] = -(double(a[k]) + mirrored[k]) / 2;
-    // y is up; a few take z
+    // y is up; a few solutions use z
     const double here = std::abs(even[1]) < 1e-3 * std::abs(even[2]) ? even[2] : even[1];
     // rounding error of springs that cancel in single precision
     draws.push_back(std::abs(here) < 1e-5 * (length(a) + length(mirrored)) ? 0 : here);
   }
-  // an obstacle may be in the way of one draw
+  // an obstacle may affect one draw
   std::sort(draws.begin(), draws.end());
   return draws[1];
 }
@@ -100,7 +100,7 @@ double gravity_on(const Findings& found, size_t i) {
 double drag_on(const Findings& found, size_t i) {
   const auto& [w, at_rest, once, twice] = found.row(i);
   const double rate = (dot(at_rest, w) - dot(once, w)) / dot(w, w);
-  // weaker than any that was seen (0.03), and above what rounding leaves of stiff springs
+  // weaker than any value seen so far (0.03), and above the rounding error of stiff springs
   return std::abs(rate) > 1e-3 ? rate : 0;
 }
 
@@ -114,14 +114,14 @@ bool is_free(const Findings& found, size_t i, size_t first, size_t last) {
 Features gravity(const Findings& found) {
   std::vector<double> down;
   Flags anchors(found.n), weightless;
-  for (const bool with_tied : {false, true})  // a tie may be all that is measured
+  for (const bool with_tied : {false, true})  // a tie may be the only measurable spring
     for (size_t i = 0; i < found.n && (!with_tied || down.empty()); ++i) {
       anchors[i] = !is_free(found, i, 0, 1);
       if (anchors[i] || (found.tied[i] && !with_tied)) continue;
       down.push_back(gravity_on(found, i));
       weightless.push_back(down.back() == 0);
     }
-  // an anchor that is set free by what is added later has no weight; whether it holds is asked elsewhere
+  // an anchor that something else releases later has no weight; another test checks whether it holds
   if (few(weightless, anchors)) std::erase(down, 0.0);
   if (down.empty()) return {0, 0};
   const auto [low, high] = std::minmax_element(down.begin(), down.end());
@@ -146,7 +146,7 @@ Features drag(const Findings& found) {
     const Plain across = probe::plus(once, static_cast<float>(rate), w);
     straight += rate != 0 && length(bent) < 0.03f * length(once) && length(across) < 0.03f * length(once);
   }
-  // as of gravity
+  // as for gravity
   if (few(loose, anchors)) all -= count(loose);
   return {sign(plus, minus, all), share(straight, all)};
 }

@@ -1,5 +1,5 @@
-// Judges a probe's findings (probe/findings.h) by what holds for any constants: shares, signs, shapes.
-// Runs in the grader alone; the student's process only returns numbers.
+// Judges a probe's findings (probe/findings.h) by properties that hold for any constants: shares, signs, shapes. Runs
+// only in the grader; the student's process only returns numbers.
 #pragma once
 
 #include <vector>
@@ -11,52 +11,53 @@ namespace coursework::classic {
 
 using probe::Findings;
 
-/// A number, or a share with how many all are.
+/// A number, or a share with its total.
 struct Feature {
   double got, of = 0;
   Feature(double number, double all = 0) : got(number), of(all) {}
 };
 using Features = std::vector<Feature>;
 
-/// 0 where there is nothing to look at.
+/// The share good / all; 0 if `all` is 0.
 Feature share(int good, int all);
 
-/// entries of evalF per entry of the state | asked twice | stored state kept | the state given counts
+/// Entries of evalF per entry of the state | deterministic | stored state unchanged | depends on the argument instead
+/// of the stored state
 Features purity(const Findings& found);
-/// of `wanted` particles those that there are | x' = v, or 0 of those that are fixed | how many are fixed | those of
-/// them that are at rest when it starts, so that x' = v moves them nowhere
+/// Particles that exist of `wanted` | x' = v, or 0 for the fixed ones | number of fixed particles | fixed particles at
+/// rest at the start, for which x' = v implies no motion
 Features motion(const Findings& found, int wanted);
-/// gravity downwards on those that move (-1: upwards) | the same for all
+/// Gravity downwards on the moving particles (-1: upwards) | equal for all
 Features gravity(const Findings& found);
-/// m/s^2 downwards on particle i, the middle of the draws; 1/s, what a velocity takes of itself in row i, below 0 where
-/// it adds; whether any of these entries is not zero.
+/// gravity_on: downward acceleration of particle i (m/s^2), the median of the draws. damping: rate (1/s) at which a
+/// velocity decays in row i, negative if it grows. The last function tells whether any of these entries is nonzero.
 double gravity_on(const Findings& found, std::size_t i);
 double drag_on(const Findings& found, std::size_t i);
 bool is_free(const Findings& found, std::size_t i, std::size_t first, std::size_t last);
-/// drag against the velocity (-1: along) | in proportion to it
+/// Drag opposes the velocity (-1: along it) | proportional to it
 Features drag(const Findings& found);
 
 /// joined: each particle that moves hangs on a spring | draws together when long (-1: drives apart) | linear |
 /// has a rest length | the same from both ends
 Features spring_law(const Findings& found);
-/// neighbours joined | springs between others | fixed: 1 an end (or both), 0 none, 2 another
+/// Neighbours joined | springs between others | fixed: 1 an end (or both), 0 none, 2 another particle
 Features chain_links(const Findings& found);
 
 struct Family {
   int down, side;
 };
-/// Springs found of those that there should be, for a family along each of its two directions | where the others are
-/// that should be, along each: 0 there are none, or all are missing; else 1, and 1 more where each of them touches the
-/// last row, 2 the last column, 4 the first row, 8 the first column.
+/// Shares of the expected springs found, for a family along each of its two directions | location of the missing
+/// springs, along each: 0 if none or all are missing; otherwise 1, plus 1 if each of them touches the last row, 2 the
+/// last column, 4 the first row, 8 the first column.
 Features cloth_family(const Findings& found, Family a, Family b);
-/// Springs that are of a family | the others: 0 there are none, 1 from border to border, 2 elsewhere | rows and columns
+/// Springs that belong to a family | the others: 0 none, 1 from border to border, 2 elsewhere | rows and columns
 /// recognised
 Features cloth_others(const Findings& found);
-/// Rest lengths, relative to a structural spring's: of shear, of flexion along rows and along columns; 0: there is
-/// none.
+/// Rest lengths relative to that of a structural spring: of shear, of flexion along rows and along columns; 0 if there
+/// is none.
 Features cloth_lengths(const Findings& found);
-/// Particles that are fixed, of the two at least | they are corners, or lie evenly on one border | those that are at
-/// rest when it starts
+/// Fixed particles out of at least two | they are corners, or evenly spaced on one border | fixed particles at rest at
+/// the start
 Features cloth_pins(const Findings& found);
 
 }  // namespace coursework::classic

@@ -13,7 +13,8 @@ struct Malformed : std::runtime_error {
   Malformed() : std::runtime_error("no record of answers") {}
 };
 
-/// Answers out of the record, each taken once. Whatever stands in it, nothing larger than what is left of it is made.
+/// Replays the answers of the record, each once. Whatever the record contains, allocations are limited by its remaining
+/// size.
 class Recorded : public probe::Asker {
  public:
   explicit Recorded(const Numbers& record) : record_(record) {}
@@ -48,7 +49,7 @@ class Recorded : public probe::Asker {
   }
   std::size_t count() {
     const double value = next();
-    // the first comparison also keeps nan out
+    // the first comparison also rejects nan
     if (!(value >= 0 && value <= 1e9) || value != std::floor(value)) throw Malformed();
     return static_cast<std::size_t>(value);
   }
@@ -87,7 +88,7 @@ probe::Findings replay(const Case& what, const Numbers& answers) {
     probe::Forces forces(recorded, static_cast<std::uint64_t>(what.in.at(1)));
     if (!forces.answer(what.call.substr(what.call.find('.') + 1), found)) return {};
   } catch (const std::runtime_error&) {
-    return {};  // of Malformed, and of Forces on a state without particles
+    return {};  // Malformed record, or Forces on a state without particles
   }
   return found;
 }

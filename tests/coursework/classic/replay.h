@@ -1,5 +1,5 @@
-// Finds again what a probe found, from what the student's process says that evalF answered. States and questions are
-// drawn here once more: nothing of them is taken from that process.
+// Recomputes a probe's findings from the answers of evalF that the student's process recorded. States and questions are
+// drawn again here: none are taken from that process.
 #pragma once
 
 #include "tests/coursework/check/case.h"
@@ -7,8 +7,8 @@
 
 namespace coursework::classic {
 
-/// The findings of probe/forces.h, which oracles.h reads. `answers` is what probe/ask.h records; empty where it cannot
-/// be that, whoever wrote it.
+/// The findings of probe/forces.h for oracles.h. `answers` is a record in the format of probe/ask.h, possibly forged;
+/// empty findings if it is malformed.
 probe::Findings replay(const Case& what, const Numbers& answers);
 
 }  // namespace coursework::classic

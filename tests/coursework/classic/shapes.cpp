@@ -14,7 +14,7 @@ namespace {
 bool held(const Springs& s, int i) { return s.fixed[static_cast<std::size_t>(i)]; }
 bool was_moved(const Springs& s, int i) { return s.moved[static_cast<std::size_t>(i)]; }
 
-/// Whether a spring between the two would show at a.
+/// True if a spring between the two would be visible at a.
 bool shows(const Springs& s, int a, int b) { return was_moved(s, b) && !held(s, a); }
 
 std::set<std::pair<int, int>> pairs_of(const Springs& s) {
@@ -23,7 +23,7 @@ std::set<std::pair<int, int>> pairs_of(const Springs& s) {
   return pairs;
 }
 
-/// Middle of the rest lengths of springs with this offset on the grid; 0: none.
+/// Median rest length of the springs with this offset on the grid; 0 if there are none.
 double rest_of(const Springs& s, const Grid& grid, int down, int side) {
   std::vector<double> rests;
   for (const Spring& one : s.all)
@@ -34,7 +34,7 @@ double rest_of(const Springs& s, const Grid& grid, int down, int side) {
   return rests[rests.size() / 2];
 }
 
-/// Whether the springs make one line through all particles, in whatever order.
+/// True if the springs form one line through all particles, in any order.
 bool one_line(const Springs& s) {
   std::map<int, std::set<int>> next;
   int springs = 0;
@@ -69,7 +69,7 @@ Features spring_law(const Findings& found_here) {
     plus += one.k > 1e-6 * stiffest;
     minus += one.k < -1e-6 * stiffest;
     linear += one.linear;
-    // a spring without one pulls at any length; 1e-3 is above rounding and below any that was seen
+    // a spring without a rest length pulls at any length; 1e-3 is above rounding and below any value seen so far
     rest += one.rest > 1e-3;
     if (!shows(s, one.b, one.a)) continue;
     const auto back = by_pair.find({one.b, one.a});
@@ -77,10 +77,10 @@ Features spring_law(const Findings& found_here) {
     equal += back != by_pair.end() && std::abs(back->second->k - one.k) < 0.01 * std::abs(one.k) &&
              std::abs(back->second->rest - one.rest) < 0.01 * std::abs(one.rest) + 1e-4;
   }
-  // where all others are fixed no pair can be seen from both ends
+  // if all others are fixed, no pair can be observed from both ends
   const Feature mutual = all == 0 ? 0 : both == 0 ? 1 : share(equal, both);
   const double sign = plus + minus == 0 ? 0 : plus == all ? 1 : minus == all ? -1 : 0.5;
-  // with a few large samples of a big cloth not every particle is seen
+  // with a few large samples of a big cloth, some particles are not observed
   const bool seen = std::count(s.moved.begin(), s.moved.end(), true) == s.particles;
   return {seen ? share(joined, movable) : share(all > 0, 1), sign, share(linear, all), share(rest, all), mutual};
 }
@@ -123,7 +123,7 @@ Features cloth_family(const Findings& found_here, Family first, Family second) {
       const int row = grid->row(i) + family.down, column = grid->column(i) + family.side;
       if (row >= grid->rows || column < 0 || column >= grid->columns) continue;
       const int other = row * grid->columns + column;
-      // seen from both its ends; from one where the other is fixed
+      // observed from both ends, or from one if the other is fixed
       const bool here = shows(s, i, other), beyond = shows(s, other, i);
       if (!here && !beyond) continue;
       ++expected;
@@ -170,8 +170,8 @@ Features cloth_lengths(const Findings& found_here) {
   const auto grid = grid_of(s);
   if (!grid) return {0, 0, 0};
   const double row = rest_of(s, *grid, 0, 1), column = rest_of(s, *grid, 1, 0);
-  // rows and columns may be spaced differently: each family is set against its own
-  // one diagonal that is missing has a test of its own
+  // rows and columns may be spaced differently, so each family is compared with its own direction. A missing diagonal
+  // has a test of its own
   const auto ratio = [](double a, double b) { return b > 0 ? a / b : 0; };
   const double diagonal = std::hypot(row, column) / std::sqrt(2.0);
   const double one = ratio(rest_of(s, *grid, 1, 1), diagonal), other = ratio(rest_of(s, *grid, 1, -1), diagonal);

@@ -1,4 +1,4 @@
-// The tokeniser, what is read off its tokens, and which files of a submission count.
+// The tokeniser, the queries on its tokens, and the choice of a submission's files.
 #include "tests/coursework/classic/source_scan.h"
 
 #include <algorithm>
@@ -14,7 +14,7 @@ namespace {
 bool starts_word(char c) { return std::isalpha(static_cast<unsigned char>(c)) || c == '_'; }
 bool in_word(char c) { return std::isalnum(static_cast<unsigned char>(c)) || c == '_'; }
 
-/// Behind the comment, string or line of the preprocessor that begins at `at`; `at` itself where none does.
+/// Position after the comment, string or preprocessor line that begins at `at`; `at` itself if none does.
 std::size_t skip(const std::string& text, std::size_t at, bool first_of_line) {
   const auto past = [&](const char* end, std::size_t from) {
     const std::size_t found = text.find(end, from);
@@ -63,7 +63,7 @@ std::vector<ClassInfo> classes_in(const std::vector<std::string>& tokens, const 
   static const std::set<std::string> no_bases = {"public", "protected", "private", "virtual", "typename"};
   const auto at = [&](std::size_t i) { return i < tokens.size() ? tokens[i] : std::string(" "); };
   std::vector<ClassInfo> found;
-  std::vector<std::pair<std::string, bool>> open;  // for each open brace its name, and whether it has a scope's
+  std::vector<std::pair<std::string, bool>> open;  // name of each open brace, and whether it is a scope
   std::pair<std::string, bool> next;
   for (std::size_t i = 0; i < tokens.size(); ++i) {
     if (tokens[i] == "{") {
@@ -133,7 +133,7 @@ std::string stem(const std::string& path) {
 }
 
 bool counts(const std::string& path) {
-  // no hidden files, and nothing that a quoted name in an option or an include cannot hold
+  // rejects hidden files, and characters that a quoted name in an option or an include cannot contain
   const bool plain = std::none_of(path.begin(), path.end(), [](char c) {
     return static_cast<unsigned char>(c) < 32 || c == '"' || c == '\\' || c == '<' || c == '>';
   });
@@ -141,11 +141,11 @@ bool counts(const std::string& path) {
          !in_library(path);
 }
 
-/// The folder of the hand-out's `check`, with a slash at its end, where it was handed in along with the rest.
+/// Folder of the hand-out's `check`, with a trailing slash, if it was handed in along with the rest.
 std::string folder_of_check(const Files& files) {
   for (const auto& [path, content] : files)
     if (path.ends_with("check/check_main.cpp")) return path.substr(0, path.rfind('/') + 1);
-  return "/";  // no path begins so
+  return "/";  // no path begins like this
 }
 
 bool is_of_vecmath(const std::string& path) {
@@ -154,7 +154,7 @@ bool is_of_vecmath(const std::string& path) {
   return stems.count(stem(path)) > 0;
 }
 
-/// Classes whose evalF or takeStep is defined outside of them: "A" of "A::evalF(".
+/// Classes whose evalF or takeStep is defined out of class: "A" for "A::evalF(".
 std::set<std::string> owners_in(const std::string& text) {
   const std::vector<std::string> tokens = tokens_of(text);
   std::set<std::string> owners;
@@ -165,7 +165,7 @@ std::set<std::string> owners_in(const std::string& text) {
   return owners;
 }
 
-/// The highest folder that holds `path` and not `other`; `path` itself where they lie in the same one.
+/// The highest folder that contains `path` but not `other`; `path` itself if they are in the same folder.
 std::string apart_from(const std::string& path, const std::string& other) {
   const auto differ = std::mismatch(path.begin(), path.end(), other.begin(), other.end()).first;
   const std::size_t slash = path.find('/', static_cast<std::size_t>(differ - path.begin()));
@@ -186,7 +186,7 @@ Selection choose_files(const Files& all, const std::string& preferred) {
   for (const auto& [path, content] : all) {
     if (!counts(path) || path.starts_with(check)) continue;
     paths.push_back(path);
-    // the header alone will do where it computes lengths itself
+    // the header alone suffices if it computes lengths itself
     own_vecmath =
         own_vecmath || (stem(path) == "vector3f" && (is_source(path) || content.find("sqrt") != content.npos));
   }
@@ -217,7 +217,7 @@ Selection choose_files(const Files& all, const std::string& preferred) {
       leave_out("whole.twice", path, at->second);
   }
 
-  // sources of different names that define the same classes: the one called like its class first
+  // sources of different names that define the same classes: prefers the one named after its class
   std::map<std::string, std::set<std::string>> owners;
   std::erase_if(paths, [&](const std::string& path) { return !is_source(path) || !chosen.files.count(path); });
   for (const std::string& path : paths) owners[path] = owners_in(all.at(path));

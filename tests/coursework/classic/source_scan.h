@@ -1,5 +1,5 @@
-// Reads C++ as far as finding things takes: which classes a file declares and what it includes. A tokeniser of its own:
-// no regular expression runs on a text that anybody may have written.
+// Reads C++ just enough to find the classes that a file declares and its includes. Uses a tokeniser instead of regular
+// expressions, because the text is untrusted.
 #pragma once
 
 #include <functional>
@@ -11,44 +11,45 @@
 
 namespace coursework::classic {
 
-/// Path in the submission, with '/' -> content.
+/// Path in the submission, with '/' as separator -> content.
 using Files = std::map<std::string, std::string>;
 
-/// Identifiers and single characters, without comments, strings, numbers and lines of the preprocessor.
+/// Identifiers and single characters, without comments, strings, numbers and preprocessor lines.
 std::vector<std::string> tokens_of(const std::string& text);
 
 struct ClassInfo {
   std::string name, scope;         // scope: namespaces and classes around it, as "a::b"; empty: none
-  std::string file;                // path in the submission; of a header of ours its flat name
-  std::vector<std::string> bases;  // every name between ':' and '{', arguments of templates among them
-  bool usable = true;              // no template, and not within a function
-  bool ours = false;               // from a header that stands in for one that the course ships
+  std::string file;                // path in the submission; flat name for a header of ours
+  std::vector<std::string> bases;  // every name between ':' and '{', including template arguments
+  bool usable = true;              // neither a template nor local to a function
+  bool ours = false;               // from a header that replaces one that the course provides
 
   std::string full() const { return scope.empty() ? name : scope + "::" + name; }
 };
 std::vector<ClassInfo> classes_in(const std::vector<std::string>& tokens, const std::string& file);
 
-/// True if the tokens hold `owner::name`.
+/// True if the tokens contain `owner::name`.
 bool defines_member(const std::vector<std::string>& tokens, const std::string& owner, const std::string& name);
 
-/// The text with the name of each include, its quotes or brackets included, replaced by what `lead` returns for it;
-/// empty: it stays.
+/// The text with the name of each include, including its quotes or brackets, replaced by the result of `lead`; an empty
+/// result leaves it unchanged.
 std::string with_includes(const std::string& text,
                           const std::function<std::string(const std::string& name, bool in_brackets)>& lead);
 
 bool is_header(const std::string& path);
 bool is_source(const std::string& path);
 
-/// The one name under which a file is kept, whatever its folder, its letters' case and the marks of copies.
+/// The unique name under which a file is stored, independent of folder, case and copy marks.
 std::string flat_name(const std::string& path);
 
 struct Selection {
   Files files;                      // no two of them have the same flat name
-  std::vector<Remark> notes;        // on files left out
-  std::vector<std::string> others;  // folders and files to prefer in further tries: they hold other versions
+  std::vector<Remark> notes;        // on files that were left out
+  std::vector<std::string> others;  // folders and files with other versions, to prefer in further tries
 };
-/// The C++ files of a submission that count: none of a drawing library or of the hand-out's check, vecmath only if its
-/// sources came too. Of several versions it takes the one below `preferred`, no backup, the shallowest.
+/// The C++ files of a submission that count: no drawing library, nothing of the hand-out's check, and vecmath only if
+/// its sources were handed in. Of several versions, chooses the one below `preferred`, then non-backups, then the
+/// shallowest.
 Selection choose_files(const Files& all, const std::string& preferred = "");
 
 }  // namespace coursework::classic

@@ -28,7 +28,7 @@ Springs springs_of(const probe::Findings& found) {
       if (!std::isfinite(spring.k) || !std::isfinite(spring.rest)) continue;
       const double foreseen = spring.k * (s[2] - spring.rest);
       const double size = std::max({std::abs(p[0]), std::abs(p[1]), std::abs(p[2])});
-      // single precision beside a dozen other springs leaves 1e-5; a law of another shape is out by a tenth
+      // single precision with a dozen other springs leaves 1e-5; a law of another shape deviates by a tenth
       spring.linear =
           std::abs(p[2] - foreseen) < 0.01 * size && std::max({across[0], across[1], across[2]}) < 0.01 * size;
     }
@@ -71,7 +71,7 @@ std::optional<Grid> grid_of(const Springs& s) {
     if (s.particles % columns != 0) continue;
     const Grid grid{s.particles / columns, columns};
     int fit = 0;
-    // those of a family count for it, all others against
+    // springs of a family count in favour, all others against
     for (const Spring& one : s.all) fit += of_a_family(grid, one.a, one.b) ? 1 : -1;
     if (fit > most) most = fit, best = grid;
   }

@@ -1,4 +1,4 @@
-// The pair probe read as springs, and particles read as a grid.
+// The result of the pair probe as springs, and the particles as a grid.
 #pragma once
 
 #include <optional>
@@ -10,10 +10,10 @@
 namespace coursework::classic {
 
 struct Spring {
-  int a, b;        // moving b pulls at a
+  int a, b;        // moving b changes the pull on a
   double k, rest;  // per mass of a; from the first two distances
-  bool linear;     // the third distance fits, and nothing pulls across
-  bool measured;   // else the last three say nothing
+  bool linear;     // the third distance fits, and there is no transverse pull
+  bool measured;   // otherwise the last three members are meaningless
   probe::Pull as_found;
 };
 
@@ -22,11 +22,11 @@ struct Springs {
   bool repeats = false;
   probe::State places;                    // at the start
   std::vector<bool> fixed, still, moved;  // probe/findings.h
-  std::vector<bool> anchors;  // the fixed ones; where there are none, those that hang on something in the world
+  std::vector<bool> anchors;  // fixed particles, or, if there are none, those attached to fixed points in space
   std::vector<Spring> all;
 };
 
-/// Springs from the question "springs"; no particles if it found nothing.
+/// Springs from the question "springs"; no particles if it returned nothing.
 Springs springs_of(const probe::Findings& found);
 
 struct Grid {
@@ -36,7 +36,8 @@ struct Grid {
 };
 /// True if a spring between the two would be structural, shear or flexion.
 bool of_a_family(const Grid& grid, int a, int b);
-/// From where the particles start, row after row; where they start in another shape, from what fits the springs best.
+/// From the particles' initial positions, row by row; if they start in another shape, the grid that fits the springs
+/// best.
 std::optional<Grid> grid_of(const Springs& springs);
 
 }  // namespace coursework::classic

@@ -1,5 +1,5 @@
-// Reads a stepper of a whole program off one step of a linear system: only the state is seen there, in single
-// precision.
+// Recovers the formula of a stepper in a whole program from one step of a linear system: only the resulting state is
+// visible, in single precision.
 #include <cmath>
 
 #include "tests/coursework/check/random.h"
@@ -26,7 +26,7 @@ Numbers times(const Numbers& a, const Numbers& x, double h) {
 
 Looked step_text(const Texts& common, const std::string& part, const Ask& student) {
   Random random(31);
-  // three sizes of a step: terms differ in how they shrink, and h^2 is no sum of h and 1
+  // three step sizes: terms differ in their order, and h^2 is no linear combination of h and 1
   std::vector<Case> cases;
   Terms columns(5);
   Numbers a;
@@ -39,7 +39,7 @@ Looked step_text(const Texts& common, const std::string& part, const Ask& studen
     for (int i = 0; i < 12; ++i) x.push_back(static_cast<float>(random.uniform(-1.5, 1.5)));
     c.in.insert(c.in.end(), x.begin(), x.end());
     const Numbers once = times(a, x, h), twice = times(a, once, h);
-    const Numbers bare = times(a, x, 1), squared = times(a, x, h * h);  // of a forgotten h, and of one too many
+    const Numbers bare = times(a, x, 1), squared = times(a, x, h * h);  // a forgotten h, and a surplus one
     const Numbers* all[] = {&x, &once, &twice, &bare, &squared};
     for (std::size_t k = 0; k < 5; ++k) columns[k].insert(columns[k].end(), all[k]->begin(), all[k]->end());
     cases.push_back(c);
@@ -59,7 +59,7 @@ Looked step_text(const Texts& common, const std::string& part, const Ask& studen
   if (calls.how == How::answered && calls.got.size() == 1 && calls.got != asked)
     often = common.fill("rule.calls", with_digits(asked[0], 3), with_digits(calls.got[0], 3));
   const std::vector<NamedTerm> terms{{"x"}, {"h f(x)"}, {"h^2 f(f(x))"}, {"f(x)"}, {"h^2 f(x)"}};
-  // a step is some twenty roundings of 6e-8 of numbers below 10
+  // a step is about twenty roundings of 6e-8 of numbers below 10
   constexpr double rounding = 3e-5, known = 1e-3;
   Numbers found = coefficients(columns, result, rounding);
   if (found.empty()) return {often, !often.empty()};

@@ -1,4 +1,4 @@
-// The classic assignment: what is asked of each part, and what is right.
+// The classic assignment: the tests of each part and the expected features.
 #include <array>
 #include <cmath>
 #include <complex>
@@ -15,7 +15,7 @@ std::string measured_text(const Texts& common, const std::string& part, const As
 }  // namespace classic
 namespace {
 
-// the student's process gives answers of evalF only: what was asked, and what follows, is found here
+// the student's process returns only answers of evalF; questions and conclusions are computed here
 using classic::features;
 
 constexpr Part parts[] = {
@@ -52,7 +52,7 @@ struct Own {
 Own draw(Random& random, double q) {
   Own own{single(random.uniform(0.1, 0.3)), single(q), single(random.uniform(0.4, 1.2)), {}, {}};
   for (double& a : own.a) a = single(random.uniform(-1.5, 1.5));
-  const int vectors = random.integer(2, 5);  // so that one acts on another
+  const int vectors = random.integer(2, 5);  // at least two, so that one vector acts on another
   for (int i = 0; i < 3 * vectors; ++i) own.state.push_back(single(random.uniform(-1.5, 1.5)));
   return own;
 }
@@ -66,8 +66,8 @@ Numbers moved(const Numbers& x, double h, const Numbers& f) {
 template <bool trapezoidal>
 constexpr const char* path_of = trapezoidal ? "trapezoidal.path" : "euler.path";
 
-/// One step of a linear system is x + h A x, and for the trapezoidal rule h^2/2 A A x more; one with squares tells
-/// rules apart that have the same polynomial (the midpoint's).
+/// One step of a linear system is x + h A x, plus h^2/2 A A x for the trapezoidal rule; a system with squares
+/// distinguishes rules with the same polynomial (such as the midpoint rule).
 template <bool trapezoidal>
 std::vector<Case> step(Random& random) {
   std::vector<Case> cases;
@@ -75,7 +75,7 @@ std::vector<Case> step(Random& random) {
     const Own own = draw(random, q);
     const Numbers f0 = own.f(own.state), ahead = moved(own.state, own.h, f0);
     const Numbers half = moved(own.state, own.h / 2, f0);
-    // numbers below 10, some twenty roundings of 6e-8 each: 1e-5; the nearest wrong rule is 1e-2 away
+    // numbers below 10, about twenty roundings of 6e-8 each: 1e-5; the nearest wrong rule differs by 1e-2
     cases.push_back({path_of<trapezoidal>, own.in(1), trapezoidal ? moved(half, own.h / 2, own.f(ahead)) : ahead, 3,
                      3e-5, "vector", "vector"});
   }
@@ -101,7 +101,7 @@ std::vector<Case> circle(Random& random) {
   return {{path_of<trapezoidal>, own.in(steps), expected, 3, 2e-4, "step", "vector", 0, 1, h}};
 }
 
-/// (x, y, z) becomes (-y, x, 0) without any rounding; 1e-6 forgives a multiplication by one.
+/// (x, y, z) becomes (-y, x, 0) without any rounding; 1e-6 permits a multiplication by one.
 std::vector<Case> field(Random& random, bool same) {
   std::vector<Case> cases;
   for (int i = 0; i < 3; ++i) {
@@ -117,7 +117,7 @@ std::vector<Case> field_other(Random& random) { return field(random, false); }
 
 constexpr int pendulum = 2, chain = 4, side = 8;
 
-/// One probe, whose features are compared: shares are counted and signs are exact, 0.01 is for none but rounding.
+/// Case of one probe, whose features are compared: shares are counts and signs are exact, so 0.01 only covers rounding.
 Case probe(const std::string& call, const std::string& column, Random& random, Numbers expected,
            double tolerance = 0.01) {
   const int columns = static_cast<int>(expected.size());
@@ -155,7 +155,7 @@ std::vector<Case> cloth_flexion(Random& r) { return {probe("cloth.springs", "fle
 std::vector<Case> cloth_others(Random& r) { return {probe("cloth.springs", "others", r, {1, 0, 1})}; }
 std::vector<Case> cloth_law(Random& r) { return {probe("cloth.springs", "law", r, {1, 1, 1, 1, 1})}; }
 std::vector<Case> cloth_lengths(Random& r) {
-  // 1.41 for sqrt 2 is 0.004 away, 1 % of a shear spring 0.014; what rounding leaves of stiff springs is below 0.001
+  // 1.41 for sqrt 2 is off by 0.004, 1 % of a shear spring by 0.014; the rounding error of stiff springs is below 0.001
   return {probe("cloth.springs", "lengths", r, {std::sqrt(2.0), 2, 2}, 0.007)};
 }
 std::vector<Case> cloth_pins(Random& r) { return {probe("cloth.springs", "pins", r, {1, 1, 1})}; }

@@ -1,4 +1,4 @@
-// Runs a build plan in a sandbox, finds the parts in the whole program, and says what is wrong.
+// Runs a build plan in a sandbox, finds the parts in the whole program, and reports what is wrong.
 #include "tests/coursework/classic/whole_program.h"
 
 #include <fmt/format.h>
@@ -23,7 +23,7 @@ namespace {
 
 bool there(const fs::path& file) { return fs::symlink_status(file).type() == fs::file_type::regular; }
 
-/// What of ours is compiled around a student's classes, as a folder like tests/coursework.
+/// Copies our files that are compiled around a student's classes, in the layout of tests/coursework.
 void copy_ours(const fs::path& coursework, const fs::path& to) {
   fs::create_directories(to / "classic");
   for (const char* folder : {"base", "probe", "starter", "stubs"})
@@ -33,7 +33,7 @@ void copy_ours(const fs::path& coursework, const fs::path& to) {
     if (entry.path().extension() == ".h") fs::copy(entry.path(), to / "check");
 }
 
-/// The sandbox may run the compiler as another user, who must get to all of it.
+/// Makes the folder accessible to the sandbox, which may run the compiler as another user.
 void show(const fs::path& folder) {
   fs::permissions(folder, fs::perms(0755));
   for (const auto& entry : fs::recursive_directory_iterator(folder))
@@ -48,13 +48,13 @@ class StepRunner {
       if (is_header(path)) headers_ += path + "\n" + content;
   }
 
-  /// Lets calls run for so much longer, s, all together.
+  /// Extends the total CPU time of all calls by `seconds`.
   void allow(double seconds) { more_ += seconds; }
 
-  /// What was said; empty where the file was made.
+  /// Runs the step; returns its output, or an empty text if the file was made.
   std::string operator()(const BuildStep& step) {
     if (!tools_.cache || step.source.empty()) return run(step, step.makes);
-    // the command, the source and every header; not the tree's own name
+    // the command, the source and every header, but not the tree's own path
     std::string said, key = headers_ +
                             fmt::format("{} {}", fmt::join(tools_.compiler, " "), fmt::join(step.words, " ")) +
                             content_of_file(step.source);
@@ -75,7 +75,7 @@ class StepRunner {
   std::string run(const BuildStep& step, const fs::path& makes) {
     std::vector<std::string> command = step.archive ? std::vector{tools_.ar.string()} : tools_.compiler;
     command.insert(command.end(), step.words.begin(), step.words.end());
-    // in a folder of its own: side by side with others, and what others made stays as it is
+    // runs in a folder of its own: parallel steps do not interfere, and their output is preserved
     const fs::path work = tree_ / "work" / step.makes.filename(), made = work / step.makes.filename();
     fs::create_directories(work);
     show(work);
@@ -98,8 +98,8 @@ class StepRunner {
   const Toolchain& tools_;
   fs::path tree_;
   std::string headers_;
-  double more_ = 0;                // s of processor time, for what is built beside the parts
-  std::atomic<double> spent_ = 0;  // s of processor time, by all that ran
+  double more_ = 0;                // s of CPU time, for files built in addition to the parts
+  std::atomic<double> spent_ = 0;  // s of CPU time of all calls so far
 };
 
 }  // namespace
@@ -121,12 +121,12 @@ Files files_below(const fs::path& folder) {
 
 namespace {
 
-constexpr std::size_t most_notes = 20, most_tried = 16;  // classes for one role, a few seconds each
-constexpr int most_versions = 4;                         // copies of the whole that are tried
-/// Limits of a trial: the choice must not depend on how busy the machine is.
+constexpr std::size_t most_notes = 20, most_tried = 16;  // candidate classes for one role, a few seconds each
+constexpr int most_versions = 4;                         // complete copies that are tried
+/// Limits of a trial: the choice must not depend on the load of the machine.
 constexpr Limits trial_limits{.cpu = 10, .wall = 600};
 
-/// The first file and line of the student's that a compiler's output names beside an error.
+/// The first file and line of the student's in a compiler's error messages.
 std::string first_place(const std::string& said) {
   constexpr std::size_t most = 600;  // types of the standard library are long
   const std::string folder = std::string(student_folder) + "/";
@@ -139,7 +139,8 @@ std::string first_place(const std::string& said) {
   return from.substr(0, from.find('\n')).substr(0, most);
 }
 
-/// Why there is no program around a class; `file`: the student's that does not compile, empty: it is our calls of it.
+/// Reason why there is no program around a class. `file`: the student's file that does not compile; empty if the
+/// failure is in our calls of the class.
 Remark remark_on(const ClassInfo& of, const std::string& file, const std::string& said) {
   const std::string name = base_name(file.empty() ? of.file : file);
   if (said == too_long) return {"build.time", {name}};
@@ -153,12 +154,12 @@ Remark remark_on(const ClassInfo& of, const std::string& file, const std::string
                                     : Remark{"whole.undefined", {missing}};
 }
 
-/// Which class takes which role. A class is built when it is first asked for.
+/// Assigns classes to roles. A class is built on first use.
 class Choice {
  public:
   struct Made {
     fs::path program;
-    std::string said;  // why there is none
+    std::string said;  // reason why there is no program
   };
 
   Choice(const BuildPlan& plan, StepRunner& run, const Toolchain& tools, const fs::path& child, const Trial& trial,
@@ -175,13 +176,13 @@ class Choice {
       if (!all.empty()) first.emplace(all.front().of, role.stepper);
     }
     build(first);
-    // the only one, or one that earns all
+    // the only candidate, or the first that earns all points
     for (const Role& role : roles())
       for (const auto& all = open[role.name]; const ClassList::Candidate& one : all)
         if (!chosen.count(role.name) && !taken(one.of, role) &&
             ((all.size() == 1 && one.likely) || earned(one.of, role, true)))
           chosen[role.name] = one.of;
-    // else the first of its name that can be built, the one that earns most, or the first for its error
+    // otherwise the first of its name that can be built, the one that earns most, or the first, for its error message
     for (const int wish : {0, 1, 2})
       for (const Role& role : roles())
         if (std::pair<int, int> best{0, -1}; !chosen.count(role.name)) {
@@ -204,7 +205,7 @@ class Choice {
     return made_.at(of);
   }
 
-  /// Points; `all`: whether it is all that there are.
+  /// Points earned in a role; with `all`, whether these are all points.
   int earned(int of, const Role& role, bool all = false) {
     const auto [at, added] = earned_.try_emplace({of, role.name});
     if (added && trial_) {
@@ -222,8 +223,8 @@ class Choice {
     return one;
   }
 
-  std::map<std::string_view, int> chosen;  // role -> class; missing: no class
-  std::set<int> failed;                    // classes that were tried for a role that none takes
+  std::map<std::string_view, int> chosen;  // role -> class; no entry: no class
+  std::set<int> failed;                    // candidates that failed, for roles without a class
   bool tried = false;
 
  private:
@@ -239,7 +240,7 @@ class Choice {
     }
   }
 
-  /// True if another part has it.
+  /// True if another part uses the class.
   bool taken(int of, const Role& role) const {
     return std::any_of(chosen.begin(), chosen.end(),
                        [&](const auto& one) { return one.second == of && role_of(one.first).part != role.part; });
@@ -255,7 +256,7 @@ class Choice {
   std::map<std::pair<int, std::string_view>, Earned> earned_;
 };
 
-/// Remarks on what was graded and what was left out, if there was a choice.
+/// Remarks on the chosen and the rejected classes and files, if there was a choice.
 std::vector<Remark> choice_told(const BuildPlan& plan, const Choice& choice,
                                 const std::map<std::string, std::string>& wanted) {
   const ClassList& classes = plan.classes();
@@ -298,7 +299,7 @@ Programs build_programs(const Files& files, const fs::path& tree, const fs::path
   const std::vector<BuildStep>& objects = plan.objects();
   std::vector<std::string> said(objects.size(), "not yet");
   std::string all_said;
-  constexpr int most_rounds = 3;  // declared names may let the compiler find more that are missing
+  constexpr int most_rounds = 3;  // declared names may let the compiler report further missing ones
   for (int round = 0; round == 0 || (round < most_rounds && plan.declare_drawing(all_said)); ++round) {
     parallel_for(said.size(), tools.jobs, [&](std::size_t i) {
       if (!said[i].empty()) said[i] = run(objects[i]);
@@ -314,7 +315,7 @@ Programs build_programs(const Files& files, const fs::path& tree, const fs::path
   made.notes = choice_told(plan, choice, wanted);
   const auto why = [&](int of, const std::string& captured) {
     const ClassInfo& one = plan.classes().at(of);
-    // a file of the student's that does not compile explains more than what is missing because of it
+    // a file of the student's that does not compile explains more than errors that follow from it
     for (std::size_t k = 0; k < said.size(); ++k)
       if (const std::string& file = objects[k].file; !said[k].empty() && !file.empty() && plan.concerns(file, one))
         return remark_on(one, file, said[k]);
@@ -396,7 +397,7 @@ class WholeBuilder : public Builder {
     mend_base(submission, std::move(files), programs, folder, jobs);
     for (const auto& [part, program] : programs.of)
       all[part] = program.file.empty() ? Built{{}, program.why, program.missing} : Built{program.file};
-    // one part tells it for all; whoever reads more than a few has to tidy up first
+    // one part reports it for all; a longer list would not be read
     std::vector<Remark>& notes = all.begin()->second.notes;
     notes = programs.notes;
     if (notes.size() > most_notes) notes.resize(most_notes);
@@ -421,8 +422,8 @@ class WholeBuilder : public Builder {
     return {command_, "/usr/bin/ar", child, cache, jobs};
   }
 
-  /// Builds the whole with each version of files that were handed in twice, until one passes all public tests; `files`:
-  /// those of the best.
+  /// Builds the whole program with each version of duplicate files, until one passes all public tests; `files`: the
+  /// files of the best version.
   Programs best_version(const Submission& submission, const fs::path& folder, unsigned jobs, Files& files) const {
     int all_points = 0;
     for (const Test& test : assignment_.tests) all_points += test.points;
@@ -442,7 +443,7 @@ class WholeBuilder : public Builder {
     return best;
   }
 
-  /// The role's public tests, in the sandbox.
+  /// Runs the role's public tests in the sandbox.
   Earned tried(const fs::path& program, const Role& role) const {
     Earned earned;
     for (const Test& test : assignment_.tests) {
@@ -454,7 +455,7 @@ class WholeBuilder : public Builder {
       bool right = true;
       for (std::size_t i = 0; i < cases.size(); ++i) {
         if (answers[i].how == How::out_of_time)
-          return {earned.points, 1000};  // one that is too slow is not asked again
+          return {earned.points, 1000};  // a program that is too slow is not run again
         right = right && judge(cases[i], reduced(test, cases[i], answers[i])).right;
       }
       earned.of += test.points, earned.points += right ? test.points : 0;
@@ -462,7 +463,7 @@ class WholeBuilder : public Builder {
     return earned;
   }
 
-  /// Whether the steppers can be asked with the student's own base class: our system derives from it.
+  /// Tests whether the steppers work with the student's own base class, from which our system derives.
   bool base_holds(const Programs& programs, const std::vector<std::string>& steppers) const {
     for (const std::string& part : steppers) {
       const auto at = programs.of.find(part);
@@ -475,8 +476,8 @@ class WholeBuilder : public Builder {
     return true;
   }
 
-  /// A base class that cannot stand alone, or loses the state, is no fault of the steppers: they get the starter's in
-  /// its place, where they can be built with it.
+  /// A base class that cannot be used alone, or that loses the state, is not the steppers' fault: replaces it by the
+  /// starter's, if the steppers compile with it.
   void mend_base(const Submission& submission, Files files, Programs& programs, const fs::path& folder,
                  unsigned jobs) const {
     const std::vector<std::string> steppers = {"euler", "trapezoidal"};
@@ -504,7 +505,7 @@ class WholeBuilder : public Builder {
   Files solution_;
   fs::path coursework_;
   std::vector<std::string> parts_;
-  std::string surroundings_;  // fingerprint of all that is compiled around a solution
+  std::string surroundings_;  // fingerprint of everything that is compiled around a solution
 };
 
 }  // namespace

@@ -1,4 +1,4 @@
-// A class of the student's, asked what any role of its kind asks: the grader builds this once for each class.
+// Calls of one class of the student's for any role of its kind; the grader builds this file once for each class.
 #include STUDENT_HEADER
 #ifdef PARTICLE_HEADER
 #include PARTICLE_HEADER  // which the other may only announce

@@ -1,5 +1,6 @@
-// Parts that a course gives its students as a library. GIVEN is the header of theirs that declares it. Nobody is asked
-// for RK4, so that it need not step; the archive that holds this is linked last, so that one of the student's own wins.
+// Parts that a course gives its students as a library. GIVEN is their header that declares them. RK4 is never tested,
+// so it need not step; the archive with this file is linked last, so that a student's own implementation takes
+// precedence.
 #include GIVEN
 
 #ifdef GIVEN_RK4

@@ -1,4 +1,4 @@
-// The student's system as the one who answers, and the record of what it answered: nothing else leaves this process.
+// Asks the student's system and records its answers; nothing else leaves this process.
 #pragma once
 
 #include <cstring>
@@ -24,11 +24,11 @@ class Ask : public Asker {
     return some_of(evaluate(system_, theirs(given)), which);
   }
 
-  /// Recorded: how many entries, how many differ; of each of those which it is and what it is.
+  /// Records the number of entries and the number of differing ones, then index and value of each differing entry.
   State changed(const State& given, const State& known) override {
     const State f = ours(evaluate(system_, theirs(given)));
     Indices differ;
-    // bit by bit, so that what is read from the record is f itself
+    // compares bit by bit, so that the values read from the record are exactly f
     for (std::size_t i = 0; i < f.size(); ++i)
       if (i >= known.size() || std::memcmp(f[i].at, known[i].at, sizeof f[i].at) != 0) differ.push_back(i);
     record_.insert(record_.end(), {double(f.size()), double(differ.size())});
@@ -40,7 +40,7 @@ class Ask : public Asker {
   }
 
  private:
-  // of a Vector3f of the student's own nothing is asked but its three numbers
+  // uses only the three numbers of a Vector3f, which may be the student's own class
   static Plain plain(const Vector3f& v) { return {{float(v[0]), float(v[1]), float(v[2])}}; }
   static State ours(const Vec& vectors) {
     State state;
@@ -74,7 +74,7 @@ class Ask : public Asker {
   coursework::Numbers& record_;
 };
 
-/// Asks what the call asks for; out is what was answered. What is found in it is for the grader to say.
+/// Asks the questions of the call; `out` is the record of answers. The grader extracts the findings from it.
 template <class T>
 bool answered(T& system, std::uint64_t seed, const std::string& call, coursework::Numbers& out) {
   Ask<T> asker(system, out);

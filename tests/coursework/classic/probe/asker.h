@@ -1,5 +1,5 @@
-// Who answers the questions of forces.h: the student's system (ask.h), or in the grader what it answered (replay.cpp).
-// The questions alone come from both sides' own draws, so that an answer is all that a student's process can make up.
+// Interface that answers the questions of forces.h: the student's system (ask.h), or, in the grader, its recorded
+// answers (replay.cpp). Both sides draw the questions independently, so a student's process can forge answers only.
 #pragma once
 
 #include <cmath>
@@ -8,7 +8,7 @@
 
 namespace probe {
 
-/// Three numbers of ours: the same arithmetic on both sides, whatever the student's Vector3f does.
+/// Three numbers with our arithmetic: identical on both sides, independent of the student's Vector3f.
 struct Plain {
   float at[3] = {0, 0, 0};
   float& operator[](int k) { return at[k]; }
@@ -25,25 +25,25 @@ inline float length(const Plain& a) { return std::sqrt(a[0] * a[0] + a[1] * a[1]
 inline bool same(const Plain& a, const Plain& b) { return a[0] == b[0] && a[1] == b[1] && a[2] == b[2]; }
 inline Plain entry(const State& state, std::size_t i) { return i < state.size() ? state[i] : absent(); }
 
-/// A few entries of many.
+/// A few entries of a larger vector.
 struct Some {
-  std::size_t size = 0;  // of all
-  State entries;         // in the order in which they were asked for; absent() where there is no such
+  std::size_t size = 0;  // size of the whole vector
+  State entries;         // in the order of the request; absent() for entries that do not exist
 };
 
 class Asker {
  public:
   virtual ~Asker() = default;
-  /// The state that the system starts with.
+  /// Initial state of the system.
   virtual State start() = 0;
   virtual void store(const State& state) = 0;
-  /// Entries of the state that is stored.
+  /// Entries of the stored state.
   virtual Some stored(const Indices& which) = 0;
-  /// evalF: all of it, a few entries, or all of it where little differs from what is known.
+  /// Evaluates evalF: all entries; a few entries; or all entries, given a known result that differs in few of them.
   virtual State whole(const State& given) = 0;
   virtual Some some(const State& given, const Indices& which) = 0;
   virtual State changed(const State& given, const State& known) = 0;
-  /// Nothing is asked any more. `drawn` is one more draw: who wrote answers down on another seed does not know it.
+  /// Ends the record. `drawn` is one more draw, unknown to answers that were recorded on another seed.
   virtual void end(float drawn) = 0;
 };
 

@@ -1,5 +1,5 @@
-// What is drawn for a probe. The grader draws it again (replay.cpp): one draw after the other, in an order that no
-// compiler may change.
+// Random draws of a probe. The grader repeats them (replay.cpp): one draw after the other, in an order that no compiler
+// may change.
 #pragma once
 
 #include <cstdint>
@@ -20,14 +20,14 @@ class Draws {
     for (;;) {
       Plain d;
       for (float& part : d.at) part = number(-1, 1);
-      // no direction near an axis: a force that forgets one axis must show
+      // no direction near an axis, so that a force that ignores one axis is detected
       const float size = length(d);
       if (size <= 1 && std::fabs(d[0]) > 0.2f && std::fabs(d[1]) > 0.2f && std::fabs(d[2]) > 0.2f)
         return plus({}, 1 / size, d);
     }
   }
 
-  /// Up to `most` of 0..count-1, in order; all where there are few.
+  /// Up to `most` of 0..count-1, in ascending order; all of them if count <= most.
   Indices sample(std::size_t count, std::size_t most = 200) {
     Indices chosen;
     for (std::size_t i = 0; i < count; ++i)

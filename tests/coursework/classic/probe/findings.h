@@ -8,27 +8,27 @@
 
 namespace probe {
 
-/// Moving b changes the v' of a.
+/// Moving b changes v' of a.
 struct Pull {
   std::size_t b, a;
-  bool measured;                     // else the rest says nothing
-  float at[3], along[3], across[3];  // three distances, and at each the pull of a towards b and what of it is across
+  bool measured;                     // otherwise the other members are meaningless
+  float at[3], along[3], across[3];  // three distances, and at each the pull on a towards b, and across
 };
 
 struct Findings {
-  /// By question, of each draw a row per particle:
-  ///   purity   f with another state stored, the same again, f with the same state stored, change of the stored one
+  /// Rows of each question; each draw has a row per particle:
+  ///   purity   f with another stored state, f again, f with the same state stored, change of the stored state
   ///   motion   v, x', v', and v at the start
   ///   gravity  v' at x, v' at its mirror image, both at rest
-  ///   drag     the velocity w that it alone gets, and its v' at 0, w and 2 w
+  ///   drag     a velocity w of this particle alone, and its v' at 0, w and 2 w
   std::vector<std::array<Plain, 4>> rows;
-  std::size_t n = 0;       // rows of a draw: of purity entries, else particles
+  std::size_t n = 0;       // rows of a draw: entries for purity, otherwise particles
   double per_entry = 0;    // purity: entries that evalF returns per entry of the state
-  bool repeats = true;     // evalF does
-  std::vector<bool> tied;  // hang on something that is no particle
-  // springs alone
-  State places;                           // at the start
-  std::vector<bool> fixed, still, moved;  // cannot move; at rest when it starts, or never moves; whose pull was tried
+  bool repeats = true;     // evalF is deterministic
+  std::vector<bool> tied;  // attached to something that is not a particle
+  // only for the question "springs"
+  State places;                           // initial positions
+  std::vector<bool> fixed, still, moved;  // immobile; at rest at the start, or always; pull was tested by moving them
   std::vector<Pull> pulls;
 
   bool empty() const { return rows.empty() && places.empty(); }

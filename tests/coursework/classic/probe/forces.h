@@ -1,5 +1,5 @@
-// Questions to a system of particles with velocities, whose findings oracles.cpp judges. All on random states
-// around the one that the system starts with. Runs twice, on the student's system and on what it answered (asker.h).
+// Questions to a system of particles with velocities, on random states around its initial state; oracles.cpp judges the
+// findings. Runs twice: on the student's system, and on its recorded answers (asker.h).
 #pragma once
 
 #include <algorithm>
@@ -32,7 +32,7 @@ class Forces {
     tied_.resize(n_);
   }
 
-  /// False where the call is no question.
+  /// Returns false if the call is not a question.
   bool answer(const std::string& call, Findings& out) {
     out.tied = tied_;
     if (call == "purity" || call == "kept")
@@ -52,8 +52,8 @@ class Forces {
   }
 
  private:
-  /// `from_there`: count changes from the state as it was stored, since a base class that loses it costs its points
-  /// elsewhere.
+  /// `from_there`: count changes relative to the state as it was stored, because a base class that loses the state
+  /// costs points elsewhere.
   void purity(Findings& out, bool from_there) {
     const State stored = around(1), given = around(1);
     const Indices chosen = draws_.sample(start_.size());
@@ -81,13 +81,13 @@ class Forces {
 
   void gravity(Findings& out) {
     out.n = n_;
-    // the mirror stands in the tie's other end, so that its pull turns around like all others
+    // the mirror is the other end of the tie, so that its pull is reflected like all others
     const Plain mirror = silent_.empty() ? far_ : home_[x(silent_.front())];
     for (int draw = 0; draw < 3; ++draw) {
       const State given = around(0);
       State mirrored = given;
       for (std::size_t i = 0; i < n_; ++i) {
-        const Plain from = plus(given[x(i)], -1, mirror);  // exact for far_, and so is the next line (away())
+        const Plain from = plus(given[x(i)], -1, mirror);  // exact for far_, as is the next line (away())
         mirrored[x(i)] = plus(mirror, -1, from);
       }
       const State f = pulls(given, velocities()), g = pulls(mirrored, velocities());
@@ -103,7 +103,7 @@ class Forces {
     const State f0 = pulls(state, chosen);
     out.n = chosen.size();
     for (std::size_t i = 0; i < chosen.size(); ++i) {
-      // long, so that weak drag stands out from the rounding of stiff springs
+      // large, so that weak drag exceeds the rounding error of stiff springs
       const Plain w = plus({}, 40, draws_.direction());
       Plain& moved = state[chosen[i]];
       const Plain rest = moved;
@@ -145,8 +145,8 @@ class Forces {
     out.repeats = alike(f, again(state, f)) && pairs(state, f, chosen, out.pulls);
   }
 
-  /// False where evalF did not repeat itself. Particles are moved in no foreseeable order, and as often none is: so
-  /// that answers written down on another seed do not fit, although springs join the same particles there.
+  /// Returns false if evalF is not deterministic. Particles are moved in an unpredictable order, and as often none is
+  /// moved, so that answers recorded on another seed do not fit, although springs join the same particles there.
   bool pairs(State& state, const State& f, const Indices& chosen, std::vector<Pull>& found) {
     Indices order = chosen;
     order.resize(2 * chosen.size(), n_);
@@ -164,7 +164,7 @@ class Forces {
         if (a != b && !same(entry(f, v(a)), entry(g, v(a)))) affected.emplace_back(b, a);
       state[x(b)] = place;
     }
-    // measured are some of each kind: a pair's distance in the list says which it is
+    // measures some pairs of each kind, which the difference of the indices in the list identifies
     for (const auto& [b, a] : affected) joined.emplace_back(std::max(a, b) - std::min(a, b), std::min(a, b));
     std::sort(joined.begin(), joined.end());
     joined.erase(std::unique(joined.begin(), joined.end()), joined.end());
@@ -196,9 +196,9 @@ class Forces {
     return true;
   }
 
-  /// Leaves b anywhere; where a is tied to the place of b, all particles move instead, which changes the tie alone.
-  /// `off`: how much of a's pull does not turn around when a is on the other side, as one towards another place would
-  /// not.
+  /// Leaves b at an arbitrary position. For a tie of a to the position of b, moves all particles instead, which changes
+  /// the tie alone. `off`: the part of a's pull that is not reflected when a is on the other side, as for a tie to
+  /// another position.
   Pull pair(State& state, std::size_t b, std::size_t a, bool is_tie, float* off = nullptr) {
     float apart = length(plus(start_[x(b)], -1, start_[x(a)]));
     if (!(apart > 1e-6f)) apart = spacing_;
@@ -217,7 +217,7 @@ class Forces {
     Plain first;
     float odd = 0, most = 0;
     for (int i = 0; i < 3; ++i) {
-      // what other springs and gravity do to a is in both, and cancels
+      // the contributions of other springs and gravity cancel in the difference
       const Plain ahead = pull_at(found.at[i]), behind = pull_at(-found.at[i]), twice = plus(ahead, -1, behind);
       const float along = twice[0] * u[0] + twice[1] * u[1] + twice[2] * u[2];
       found.along[i] = along / 2, found.across[i] = length(plus(twice, -along, u)) / 2;
@@ -229,8 +229,8 @@ class Forces {
     return found;
   }
 
-  // Stored first, so that an evalF that looks at the stored state shows its forces all the same, and loses only where
-  // that is asked.
+  // Stores the state first, so that an evalF that reads the stored state still shows its forces, and loses points only
+  // in the test of this property.
   State derivative(const State& state) {
     asker_.store(state);
     return asker_.whole(state);
@@ -251,7 +251,7 @@ class Forces {
     return all;
   }
 
-  /// x' = v tells which entries are velocities; where neither way fits, the usual one holds.
+  /// Determines from x' = v which entries are velocities; assumes the usual layout if neither fits.
   void find_layout() {
     int fits[2] = {0, 0};
     for (int draw = 0; draw < 2; ++draw) {
@@ -267,10 +267,10 @@ class Forces {
     apart_ = fits[1] > fits[0];
   }
 
-  /// A sphere or a floor of the student's own is in the way of where the system starts, and forces then depend on the
-  /// place. Where they are the same at two places far away, each as far as any obstacle that was seen, and apart from
-  /// each other, all is asked at the first of them. Where they differ there too (particles drawn to a place), nothing
-  /// is moved.
+  /// Avoids a sphere or a floor of the student's own near the initial state, where forces depend on the position. If
+  /// forces are equal at two distant places, each as far away as any obstacle seen so far and far from each other, all
+  /// questions are asked at the first of them. If forces differ there too (particles attracted to a place), nothing is
+  /// moved.
   bool leave_obstacles() {
     Plain low = start_[x(0)], high = low;
     for (std::size_t i = 0; i < n_; ++i)
@@ -279,7 +279,7 @@ class Forces {
         high[k] = std::fmax(high[k], start_[x(i)][k]);
       }
     const Plain centre = plus(low, 0.5f, plus(high, -1, low));
-    // twenty times what the system spans, and twenty whatever it spans; obstacles are as large as the system
+    // twenty times the extent of the system, and at least 20; obstacles are as large as the system
     const float size = 20 * std::fmax(length(plus(high, -1, low)), 1.0f);
     if (!(size < 1e6f)) return false;
     const State given = around(1);
@@ -288,7 +288,7 @@ class Forces {
     int alike = 0;
     float largest = 0;
     for (const Plain& one : first) largest = std::fmax(largest, length(one));
-    // positions are rounded to 1e-5 of the span out there, springs are drawn by about a tenth of their length
+    // positions are rounded to 1e-5 of the extent out there, and springs are stretched by about a tenth of their length
     for (std::size_t i = 0; i < n_; ++i) alike += length(plus(first[i], -1, second[i])) <= 1e-2f * largest;
     if (!(largest > 0) || alike < static_cast<int>(n_)) return false;
     start_ = away(start_, centre, size, 0);
@@ -296,8 +296,9 @@ class Forces {
     return true;
   }
 
-  /// Particles whose forces change when all are moved alike hang on something that is no particle: a hinge in the
-  /// world, or held particles whose places evalF does not read from the state (silent_). Where most do, it is no tie.
+  /// Finds particles whose forces change when all particles are moved alike: they are attached to something that is not
+  /// a particle, such as a hinge in the world, or to held particles whose positions evalF does not read from the state
+  /// (silent_). If most particles are, it is not a tie.
   void find_ties() {
     const State given = around(0);
     State moved = given;
@@ -309,7 +310,7 @@ class Forces {
     std::vector<bool> tied;
     std::size_t count = 0;
     for (std::size_t i = 0; i < n_; ++i) {
-      // positions are rounded to 1e-6 of the distance by which they move
+      // positions are rounded to 1e-6 of the displacement
       tied.push_back(length(plus(here[i], -1, there[i])) > 1e-4f * largest);
       count += tied.back();
     }
@@ -327,7 +328,7 @@ class Forces {
     }
   }
 
-  /// 1.5 times a power of two each way: what is added to it, and taken from it, is rounded alike.
+  /// 1.5 times a power of two in each direction, so that additions and subtractions round alike.
   static Plain corner(float size, int which) {
     const float one = 1.5f * std::exp2(std::ceil(std::log2(size)));
     return which == 0 ? Plain{{one, one, one}} : Plain{{-one, one, one}};
@@ -338,7 +339,7 @@ class Forces {
     return moved;
   }
 
-  /// Where in the state a particle's position and velocity are.
+  /// Indices of a particle's position and velocity in the state.
   std::size_t x(std::size_t i) const { return apart_ ? i : 2 * i; }
   std::size_t v(std::size_t i) const { return apart_ ? n_ + i : 2 * i + 1; }
   Indices velocities() const {
@@ -359,14 +360,14 @@ class Forces {
 
   Asker& asker_;
   Draws draws_;
-  State start_;  // around which all is asked
-  State home_;   // which the system starts with
+  State start_;  // all questions are asked around this state
+  State home_;   // initial state of the system
   std::size_t n_;
-  Plain far_;               // from there to start_, where that is elsewhere
-  float spacing_ = 0;       // the least distance of two that follow each other
+  Plain far_;               // displacement from home_ to start_, if they differ
+  float spacing_ = 0;       // the least distance of two consecutive particles
   bool apart_ = false;      // all positions, then all velocities
-  std::vector<bool> tied_;  // particles that hang on something that is no particle
-  Indices silent_;          // held ones that pull at nobody, where some are tied
+  std::vector<bool> tied_;  // particles attached to something that is not a particle
+  Indices silent_;          // held particles that pull no other particle, if some particles are tied
 };
 
 }  // namespace probe

@@ -1,5 +1,5 @@
-// A system of the grader's own for steppers to move: every form of evalF and draw, so that it is complete whatever the
-// student's base class asks for.
+// A system of the grader's own for steppers to advance: it has every form of evalF and draw, so that it is complete
+// whatever the student's base class requires.
 #pragma once
 
 #include "case.h"
@@ -14,14 +14,14 @@ auto kind_of_init(int) -> decltype(std::declval<B&>().initState());
 template <class B>
 void kind_of_init(...);
 
-/// x_i' = A x_i + q (x x, y y, z z) + c x_(i+1) for each vector of the state, the first one following the last: numbers
-/// that a stepper cannot know, and vectors that act on each other.
+/// x_i' = A x_i + q (x x, y y, z z) + c x_(i+1) for each vector of the state, cyclically: coefficients that a stepper
+/// cannot know, and vectors that interact.
 class Own : public ParticleSystem {
  public:
   using ParticleSystem::ParticleSystem;
   using Init = decltype(kind_of_init<ParticleSystem>(0));
 
-  /// Nine numbers of A, row after row, q and c.
+  /// Sets the nine numbers of A, row by row, q and c.
   void become(const double* numbers, const Vec& state) {
     for (int i = 0; i < 9; ++i) a_[i] = static_cast<float>(numbers[i]);
     q_ = static_cast<float>(numbers[9]), c_ = static_cast<float>(numbers[10]);
@@ -70,7 +70,7 @@ class Own : public ParticleSystem {
   Init initState() const { return Init(); }
 
  private:
-  /// One base class writes into an array of its own, which must be long enough first.
+  /// Some base classes write into an array of their own, which must be long enough first.
   template <class O>
   static void enlarge(O& own, const Vec& state) {
     if constexpr (requires { own.m_vVecState = state; }) own.m_vVecState = state;

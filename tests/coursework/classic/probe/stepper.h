@@ -14,7 +14,7 @@ typename StepperBase<S>::type& stepper_base(S& stepper) {
   return stepper;
 }
 
-/// takeStep is often private in the class itself: it is called through the base.
+/// takeStep is often private in the class itself, so it is called through the base class.
 template <class S>
 void take_step(S& stepper, Own& own, float h) {
   ParticleSystem& system = own;
@@ -27,7 +27,7 @@ void take_step(S& stepper, Own& own, float h) {
     stepper_base(stepper).takeStep(&system, h);
 }
 
-/// "base": out 1 where the student's base class gives back the state that it was given, else 0.
+/// "base". Output: 1 if the student's base class returns the state that was stored in it, otherwise 0.
 template <class = void>
 bool base_works(coursework::Numbers& out) {
   Vec state(7, Vector3f(1.0f, 2.0f, 3.0f)), other(7, Vector3f(4.0f, 5.0f, 6.0f));
@@ -47,8 +47,8 @@ bool base_works(coursework::Numbers& out) {
   return true;
 }
 
-/// "PART.path": in h, count of steps, nine numbers of A, q, c, and the state, three numbers each; out the state after
-/// each step, row after row. "PART.calls": out how often the steps ask for a derivative.
+/// "PART.path". Input: h, number of steps, nine numbers of A, q, c, and the state, three numbers per vector. Output:
+/// the state after each step, row by row. "PART.calls". Output: the number of calls of evalF.
 template <class S>
 bool path(const std::string& call, const coursework::Numbers& in, coursework::Numbers& out) {
   const bool calls = call.find(".calls") != std::string::npos;

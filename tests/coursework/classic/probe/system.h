@@ -1,5 +1,5 @@
-// A student's system behind functions that ask for nothing: whatever constructor, whatever const, whatever reference.
-// C++20, included after the student's header.
+// Wraps a student's system of any constructor, constness and reference type. C++20, included after the student's
+// header.
 #pragma once
 
 #include <cstdio>
@@ -19,7 +19,7 @@ namespace probe {
 
 using Vec = std::vector<Vector3f>;
 
-/// Fills in an argument that we know nothing of: counts get the count, lengths and masses 1, switches are off.
+/// Value for an argument of unknown meaning: counts get the count, lengths and masses 1, switches are off.
 struct Filler {
   int count;
   template <class T>
@@ -32,15 +32,15 @@ struct Filler {
   operator Vector3f() const { return Vector3f(0.0f, 0.0f, 0.0f); }
 };
 
-/// An argument of evalF beside the state (a time, a switch): zero.
+/// Value for an argument of evalF beyond the state (a time, a switch): zero.
 struct Zero {
   template <class T>
   requires std::is_arithmetic_v<T>
   operator T() const { return T(); }
 };
 
-/// Some print in evalF, which is asked ten thousand times: nobody reads it, and the grader would stop it. The
-/// hand-out's check speaks on the same streams, and there the student does read it.
+/// Discards the output of an evalF that prints: in ten thousand calls nobody reads it, and the grader would stop the
+/// program. The hand-out's check keeps it, because it prints to the same streams and the student reads them.
 inline void quiet() {
 #ifdef OWN_PROCESS
   static bool done = false;
@@ -54,7 +54,7 @@ inline void quiet() {
 #endif
 }
 
-/// rand() and its kind begin anew, so that a random wind is the same wind whenever it is asked.
+/// Restarts rand() and similar generators, so that a random wind is the same in every evaluation.
 inline void start_random_numbers() {
   std::srand(1);
 #ifndef _WIN32  // which has no drand48
@@ -62,7 +62,7 @@ inline void start_random_numbers() {
 #endif
 }
 
-/// Zeroed memory with room behind it, so that a flag nobody initialised is off on every run.
+/// Zeroed memory with room after it, so that an uninitialised flag is off on every run.
 template <class T>
 void* zeroed() {
   void* memory = std::calloc(1, sizeof(T) + 65536);
@@ -70,7 +70,7 @@ void* zeroed() {
   return memory;
 }
 
-/// `counted`: the constructor that takes a count comes first, otherwise the one without arguments.
+/// `counted`: prefer the constructor that takes a count; otherwise the default constructor.
 template <class T>
 T* make(int count, bool counted) {
   quiet();
@@ -97,7 +97,7 @@ T* make(int count, bool counted) {
   return nullptr;
 }
 
-/// The base class, as something that depends on T: what it lacks is then a question and no error.
+/// The base class as a type that depends on T, so that missing members can be tested without a compile error.
 template <class T>
 struct BaseOf {
   using type = ParticleSystem;
@@ -137,7 +137,7 @@ Vec evaluate(T& system, Vec state) {
     return Vec(base_of(system).evalF(state));
 }
 
-/// Some fill the state in a function of its own.
+/// Some classes fill the state in a separate function.
 template <class T>
 void fill_state(T& system) {
   if constexpr (requires { Vec(system.initState()); })
@@ -150,7 +150,7 @@ void fill_state(T& system) {
     system.reset();
 }
 
-/// A system of `count` whatever its constructor counts; where its state then has fewer than `least` entries, one of
+/// A system of `count`, whatever its constructor counts; if its state then has fewer than `least` entries, a system of
 /// `other_count` if that has more.
 template <class T>
 T& ready(int count, bool counted, std::size_t least = 1, int other_count = 0) {
