@@ -29,16 +29,17 @@ Features purity(const Findings& found);
 Features motion(const Findings& found, int wanted);
 /// Gravity downwards on the moving particles (-1: upwards) | equal for all
 Features gravity(const Findings& found);
-/// gravity_on: downward acceleration of particle i (m/s^2), the median of the draws. damping: rate (1/s) at which a
-/// velocity decays in row i, negative if it grows. The last function tells whether any of these entries is nonzero.
+/// gravity_on: downward acceleration of particle i (m/s^2), the median of the draws. drag_on: rate (1/s) at which a
+/// velocity decays in row i, negative if it grows. is_free: true if any of entries `first` to `last` of particle i is
+/// nonzero.
 double gravity_on(const Findings& found, std::size_t i);
 double drag_on(const Findings& found, std::size_t i);
 bool is_free(const Findings& found, std::size_t i, std::size_t first, std::size_t last);
 /// Drag opposes the velocity (-1: along it) | proportional to it
 Features drag(const Findings& found);
 
-/// joined: each particle that moves hangs on a spring | draws together when long (-1: drives apart) | linear |
-/// has a rest length | the same from both ends
+/// Moving particles with at least one spring | contracts when long (-1: expands) | linear | has a rest length | equal
+/// at both ends
 Features spring_law(const Findings& found);
 /// Neighbours joined | springs between others | fixed: 1 an end (or both), 0 none, 2 another particle
 Features chain_links(const Findings& found);

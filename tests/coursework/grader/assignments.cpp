@@ -1,4 +1,4 @@
-// The table of assignments: a new one is a folder, the declaration of its function and a row.
+// The table of assignments: a new one needs a folder, the declaration of its function and a row.
 
 #include <cstdlib>
 #include <stdexcept>
@@ -30,11 +30,11 @@ std::span<const Assignment> assignments() {
       a1_steppers(),        // first-order systems
       a2_pendulum(),        // forces on few particles
       a3_cloth(),           // a grid of springs
-      a4_collision(),       // a sphere in the way
+      a4_collision(),       // collision with a sphere
       a5_stiff(),           // implicit Euler
-      a6_solvers(),         // its equation solved by passes
-      m1_misconceptions(),  // five beliefs, tried
-      classic_particles(),  // all of it, in the interface of old
+      a6_solvers(),         // implicit Euler solved by passes
+      m1_misconceptions(),  // five beliefs, tested
+      classic_particles(),  // all of it, in the interface of the classic course
   };
   return all;
 }

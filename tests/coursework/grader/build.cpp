@@ -1,4 +1,4 @@
-// Finds the compiler and the cache, takes its messages apart, and links one file per part with ours in the place of
+// Finds the compiler and the cache, parses compiler messages, and links one file per part with the official versions of
 // earlier parts.
 #include "tests/coursework/grader/build.h"
 
@@ -30,7 +30,7 @@ fs::path find_compiler() {
   for (std::string folder; std::getline(path, folder, ':');) folders.push_back(folder);
   for (const char* name : {"g++", "clang++", "c++"})
     for (const fs::path& folder : folders) {
-      // a wrapper of this user's is none that a sandbox can see
+      // sandboxes cannot see a wrapper in this user's folders
       if (folder.string().find("ccache") != std::string::npos || access((folder / name).c_str(), X_OK) != 0) continue;
       const fs::path real = fs::canonical(folder / name);  // sandboxes show /usr, not /etc/alternatives
       return real.filename().string().find("++") != std::string::npos ? real : folder / name;
@@ -46,7 +46,7 @@ fs::path compiled_folder() {
 }  // namespace
 
 std::string key_of(const std::string& content) {
-  // twice 64 bits: contents are ours, so nobody looks for two that collide
+  // twice 64 bits: contents are ours, so deliberate collisions are not a concern
   return fmt::format("{:016x}{:016x}", crosscheck::Fnv1a::of(content), crosscheck::Fnv1a::of(content + "/"));
 }
 
@@ -66,7 +66,7 @@ Compiler::Compiler() : cache_(compiled_folder()) {
   command_ = {program.string(), "-w", "-ffp-contract=off", "-fno-diagnostics-show-caret", "-fdiagnostics-color=never"};
   fingerprint_ = fmt::format("{} {}", fmt::join(command_, " "), fs::file_size(program));
   crosscheck::require_writable(cache_);
-  // what is in it is run: it must be nobody else's
+  // programs in this folder are executed, so it must belong to this user
   struct stat info {};
   if (stat(cache_.c_str(), &info) != 0 || info.st_uid != geteuid())
     throw InputError(
@@ -110,7 +110,7 @@ std::optional<std::string> line_of(const std::string& file, const std::string& l
   return line.substr(at, end - at);
 }
 
-/// The name that ld puts between ` and ' after these words.
+/// The name that ld prints between ` and ' after these words.
 std::optional<std::string> quoted_after(const std::string& words, const std::string& text) {
   const std::size_t at = text.find(words);
   if (at == std::string::npos) return {};
@@ -127,7 +127,7 @@ Remark too_large(const std::string& file) {
 }
 
 Remark first_error(const std::string& file, const std::string& said, const std::vector<std::string>& own) {
-  constexpr std::size_t longest = 8000;  // a line with long names of types has its point at its end
+  constexpr std::size_t longest = 8000;  // the end of a line with long type names has the relevant part
   std::istringstream lines(said);
   std::optional<std::string> number, what;
   for (std::string line; std::getline(lines, line);) {
@@ -138,7 +138,7 @@ Remark first_error(const std::string& file, const std::string& said, const std::
         if (const auto there = line_of(one, line)) return {"build.compile", {one, *there, *what}};
       if (const auto here = line_of(file, line)) number = here;
     }
-    // an error inside a header: the student's line is where the compiler says that it came from
+    // an error inside a header: reports the student's line that includes it, as named by the compiler
     if (!number) number = line_of(file, line);
     if (!what || !number) continue;
     const std::size_t lacks = what->find(": No such file or directory");
@@ -177,7 +177,8 @@ class PartBuilder : public Builder {
         check_(folder_of_coursework() / "check"),
         command_(compiler_.command()) {
     command_.insert(command_.end(), {"-std=c++17", "-O1", "-pthread"});
-    // an index outside a vector or an array ends the program; where charts time it, it costs what it costs at home
+    // an index outside a vector or an array ends the program; not in charts, which measure the cost of the unchecked
+    // code
     if (checking)
       command_.insert(command_.end(), checking_options().begin(), checking_options().end());
     else if (!fs::exists(folder_ / "calls_engine.cpp"))
@@ -229,7 +230,7 @@ class PartBuilder : public Builder {
   }
 
  private:
-  /// What an experiment links beside a part.
+  /// Replacements that an experiment links with a part.
   struct Around {
     fs::path object;
     std::vector<std::string> words;
@@ -260,7 +261,7 @@ class PartBuilder : public Builder {
   fs::path solution(const std::string& part) const { return object_of(solution_of(assignment_, *this, part)); }
   fs::path starter(const std::string& part) const { return object_of(folder_ / "starter" / file_of(part)); }
 
-  /// What stands around the parts.
+  /// Sources that are linked with every part.
   std::vector<fs::path> shared_sources() const {
     std::vector<fs::path> sources = files_in(folder_, "calls", ".cpp");
     sources.push_back(check_ / "child_main.cpp");
@@ -272,7 +273,7 @@ class PartBuilder : public Builder {
     return objects;
   }
 
-  /// Makes all of ours that a program may need, so that it is in the cache.
+  /// Compiles all of our sources that a program may need, so that they are in the cache.
   void prepare(unsigned jobs) const {
     std::vector<fs::path> sources = shared_sources();
     for (const Part& part : assignment_.parts) {
@@ -282,7 +283,7 @@ class PartBuilder : public Builder {
     parallel_for(sources.size(), jobs, [&](std::size_t i) { object_of(sources[i]); });
   }
 
-  /// The compiler in the sandbox, on what stands in `in`; `file` is what is talked about where nothing is made.
+  /// Runs the compiler in the sandbox on the files in `in`; `file` is the file to name in a failure.
   Built made_in_sandbox(const std::vector<std::string>& more, const fs::path& in, const fs::path& made,
                         const std::string& file, const std::vector<std::string>& own = {}) const {
     fs::create_directories(made.parent_path());
@@ -299,7 +300,7 @@ class PartBuilder : public Builder {
     return {made};
   }
 
-  /// The student's part as an object.
+  /// Compiles the student's part.
   Built compiled(const std::string& part, const Submission& submission, const fs::path& folder) const {
     const std::string file = file_of(part);
     if (const auto missing = submission.missing.find(file); missing != submission.missing.end())
@@ -309,7 +310,7 @@ class PartBuilder : public Builder {
     return compiled(file, place.parent_path() / file, submission, folder);
   }
 
-  /// A source of the student's at `path` as an object, with the student's own headers laid out around it.
+  /// Compiles a source of the student's at `path`, with the student's own headers laid out around it.
   Built compiled(const std::string& file, const fs::path& path, const Submission& submission,
                  const fs::path& folder) const {
     const fs::path in = folder / "in", here = (in / path).parent_path();
@@ -319,10 +320,10 @@ class PartBuilder : public Builder {
         crosscheck::write_file(in / looked_for, submission.files.at(other));
         own.push_back(base_name(looked_for));
       } catch (const std::exception&) {
-        // an archive may name a file and a folder alike: then the compiler says which file it lacks
+        // an archive may contain a file and a folder of the same name; the compiler then reports the missing file
       }
     crosscheck::write_file(in / path, submission.files.at(file));
-    // ours last: they replace the student's files of the same names
+    // ours last: they replace the student's files with the same names
     for (const fs::path& header : files_in(folder_ / "starter", "", ".h")) {
       crosscheck::write_file(here / header.filename(), content_of_file(header));
       for (const auto& entry : fs::recursive_directory_iterator(in))
@@ -333,7 +334,7 @@ class PartBuilder : public Builder {
                            folder / "object" / (path.stem().string() + ".o"), base_name(path.string()), own);
   }
 
-  /// The student's other sources, those that compile; so few that none can hold the grader up for long.
+  /// Compiles the student's other sources, up to a number that bounds the time; skips those that fail.
   std::vector<fs::path> other_objects(const Submission& submission, const fs::path& folder) const {
     constexpr int most = 8;
     std::vector<fs::path> made;
@@ -349,10 +350,10 @@ class PartBuilder : public Builder {
     return made;
   }
 
-  /// Earlier parts are ours, so that a mistake in one costs nothing here; where the part asks for functions of the
-  /// student's own that stand in earlier ones or in other sources, these stand behind ours, which are taken first.
-  /// Later ones are never ours, since a solution that is linked in can be called: the student's, which an earlier part
-  /// may build on; where that cannot be linked, those of the hand-out.
+  /// Links a part. Earlier parts are the official ones, so that a mistake in one costs nothing here; if the part needs
+  /// the student's own functions from earlier parts or other sources, these are linked after the official ones, which
+  /// take precedence. Later parts are never official, since a linked solution could be called: the student's, on which
+  /// an earlier part may depend; if that fails to link, the hand-out's.
   Built linked(std::size_t i, const std::vector<Built>& objects, const Submission& submission, const fs::path& folder,
                const Around& around) const {
     if (objects[i].program.empty()) return objects[i];
@@ -374,7 +375,7 @@ class PartBuilder : public Builder {
       for (const fs::path& object : shared()) add(object, "ours" + std::to_string(number++) + ".o");
       for (std::size_t k = 0; k < i; ++k) add(solution(part(k)), "ours-" + part(k) + ".o");
       if (their_earlier) {
-        words.push_back("-Wl,--allow-multiple-definition");  // the first counts: ours
+        words.push_back("-Wl,--allow-multiple-definition");  // the first definition wins: ours
         for (std::size_t k = 0; k <= i; ++k)
           if (!objects[k].program.empty()) add(objects[k].program, part(k) + ".o");
         for (const fs::path& object : other_objects(submission, folder / ("other" + way)))
@@ -396,7 +397,7 @@ class PartBuilder : public Builder {
   const Compiler compiler_;
   fs::path folder_, check_;
   std::vector<std::string> command_;
-  std::string surroundings_;  // fingerprint of compiler, options and all headers
+  std::string surroundings_;  // fingerprint of the compiler, its options and all headers
 };
 
 }  // namespace

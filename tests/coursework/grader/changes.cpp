@@ -1,4 +1,4 @@
-// Changes by name.
+// Changes of a call's inputs, addressed by name.
 #include "tests/coursework/grader/changes.h"
 
 #include <algorithm>
@@ -14,9 +14,9 @@ const Param* find(const std::vector<Param>& params, const std::string& name) {
   return found == params.end() ? nullptr : &*found;
 }
 
-/// Where the numbers of a list stand that has a count of its own.
+/// Position of the numbers of a list that has a count of its own.
 struct Listed {
-  std::string name;  // the count's
+  std::string name;  // the count's name
   std::size_t count, begin, end, items;
 };
 
@@ -33,7 +33,7 @@ std::vector<Listed> lists_in(const CallLayout& layout) {
   return lists;
 }
 
-/// Items that are answered row by row cannot be left out: the answer would be another.
+/// True if items are answered row by row: they cannot be left out, because the answer would have other rows.
 bool is_told_by_rows(const Listed& list, const Case& what) {
   const std::size_t rows = what.expected.size() / static_cast<std::size_t>(std::max(1, what.columns));
   if (list.name == "particles" || list.name == "count") return true;
@@ -54,7 +54,7 @@ bool changes_list(Change::Kind kind) {
   return kind == Change::without || kind == Change::only_first || kind == Change::only_last;
 }
 
-/// Number i of all those with a name, changed.
+/// Changed value of number i of all those with a name.
 double changed_number(const Change& change, const Param& p, const Param* q, const Numbers& in, std::size_t i) {
   const double value = in[p.at[i]];
   const auto of_row = [&](std::size_t row) { return in[p.at[row * p.columns + i % p.columns]]; };
@@ -152,10 +152,11 @@ std::vector<Change> removals_of(const Texts& own, const Case& what) {
   const bool meets = find(params, "radius") != nullptr;
   for (const Param& p : params) {
     if (p.name == "on") all.push_back({Change::choice, p.name, {}, 0});
-    // without a step nothing moves, without a radius or at another place nothing is met, and nothing is wrong
+    // excluded: without a step nothing moves, without a radius or at another place there is no contact, so nothing is
+    // wrong
     static const std::set<std::string> no_terms = {"h",      "frame",  "duration", "radius", "margin",
                                                    "centre", "before", "proposed", "x"};
-    // nor where what moves the particle into the obstacle is left out
+    // likewise without whatever moves the particle into the obstacle
     const bool makes_contact = meets && (p.name == "g" || p.name == "v");
     if (!p.whole && no_terms.count(p.name) == 0 && !makes_contact) all.push_back({Change::zero, p.name});
   }

@@ -1,4 +1,4 @@
-// One thing changed in the numbers of a call.
+// A single change of the numbers of a call.
 #pragma once
 
 #include <optional>
@@ -10,7 +10,7 @@
 
 namespace coursework {
 
-/// A change that is told by names of the layout, so that it can be made in every case of a call.
+/// A change addressed by names of the layout, so that it applies to every case of a call.
 struct Change {
   enum Kind {
     zero,
@@ -19,33 +19,33 @@ struct Change {
     twice,
     half,
     thrice,
-    third,  // of all numbers with the name
+    third,  // for all numbers with the name
     square,
     times,
-    over,  // by itself, by another number
+    over,  // by itself (square), or by another number
     first,
     next,
-    previous,  // of the first or of the neighbour, for all
+    previous,  // replaced by the value of the first item, or of a neighbour
     exchanged,
-    instead,  // with another name
+    instead,  // with the parameter of another name
     without,
     only_first,
     only_last,  // items of a list
-    choice      // a whole number
+    choice      // another integer
   };
   Kind kind;
   std::string name, other = {};
   double number = 0;
-  /// From 1: what explains with less comes first.
+  /// Order of preference, from 1: simpler explanations first.
   int tier() const { return kind == square || kind == times || kind == over ? 2 : 1; }
 };
 
 /// All changes that the call allows.
 std::vector<Change> changes_of(const Texts& own, const Case& what);
-/// Those that take something out of it.
+/// The changes that remove something from it.
 std::vector<Change> removals_of(const Texts& own, const Case& what);
 
-/// The numbers of the case with the change made; nothing where it cannot be made, or changes nothing.
+/// The numbers of the case after the change; empty if it does not apply, or has no effect.
 std::optional<Numbers> changed(const Texts& own, const Case& what, const Change& change);
 
 /// "drag = 0"

@@ -1,4 +1,4 @@
-// Grades side by side, goes on where it was stopped, counts.
+// Grades in parallel, resumes an interrupted run, and counts.
 #include "tests/coursework/grader/class.h"
 
 #include <fmt/format.h>
@@ -28,7 +28,7 @@ namespace coursework {
 namespace fs = std::filesystem;
 namespace {
 
-/// The fingerprint of this program and the assignment.
+/// Fingerprint of this program and the assignment.
 std::string fingerprint_of(const Assignment& assignment) {
   std::vector<fs::path> files = {fs::read_symlink("/proc/self/exe")};
   for (const fs::path& folder : {assignment.folder(), folder_of_coursework() / "check"})
@@ -41,7 +41,7 @@ std::string fingerprint_of(const Assignment& assignment) {
   return fmt::format("{:016x}", crosscheck::Fnv1a::of(all));
 }
 
-/// The fingerprint of a submission, the seed, the language and the sandbox.
+/// Fingerprint of a submission, the seed, the language and the sandbox.
 std::string fingerprint_of(const Submission& submission, const Sandbox& sandbox, const GradeOptions& options) {
   std::string all =
       fmt::format("{} {} {} {}\n", options.seed, options.secret, options.common.of("total"), sandbox.name());
@@ -54,14 +54,14 @@ std::string fingerprint_of(const Submission& submission, const Sandbox& sandbox,
   return fmt::format("{:016x}", crosscheck::Fnv1a::of(all));
 }
 
-/// The whole result of an earlier grading, whose fingerprint ends so.
+/// Complete result of an earlier grading with this end of the fingerprint.
 std::optional<Result> earlier_result(const fs::path& file, const Assignment& assignment, const std::string& ending,
                                      std::string& fingerprint) {
   if (!fs::exists(file)) return {};
   try {
     Result result = result_from_json(content_of_file(file), file.string(), &fingerprint);
     if (result.complete && result.assignment == assignment.name && fingerprint.ends_with(ending)) return result;
-  } catch (const std::exception&) {  // a file of something else: graded anew
+  } catch (const std::exception&) {  // a file of another kind: grades again
   }
   return {};
 }
@@ -72,7 +72,7 @@ std::string csv_of(const std::string& text) {
   return safe == text ? crosscheck::csv_field(text) : crosscheck::csv_quoted(safe);
 }
 
-/// Points of a test, public and hidden.
+/// Points of a test, public and hidden together.
 std::string points_at(const Result& result, const std::string& id) {
   double sum = 0;
   for (const TestResult& test : result.tests) {
@@ -82,23 +82,23 @@ std::string points_at(const Result& result, const std::string& id) {
   return points_text(sum);
 }
 
-/// The cells of a table of all: name, id, late, points in all and per part, remark.
+/// Cells of a row of the table: name, id, late, total points and points per part, remark.
 std::vector<std::string> cells_of(const Assignment& assignment, const GradedSubmission& one) {
-  // no result is no zero: the cells stay empty
+  // not graded is not zero: the cells stay empty
   std::vector<std::string> cells = {one.result.submission, one.id, one.late ? "late" : "", points_in(one)};
   for (const Part& part : assignment.parts) cells.push_back(points_in(one, part.name));
   cells.push_back(remark_of(one));
   return cells;
 }
 
-/// A cause without "Likely cause:", below a heading that says so.
+/// A cause without "Likely cause:", for use below such a heading.
 std::string bare(const std::string& cause, const Texts& common) {
   const std::string& text = common.of("cause");
   const std::string begin = text.substr(0, text.find('{'));
   return cause.starts_with(begin) ? cause.substr(begin.size()) : cause;
 }
 
-/// How all did in one test: public and hidden together, a test is passed by who passed both.
+/// Counts of one test over the class. Public and hidden count together: a test is passed if both are passed.
 struct TestCount {
   std::string id, title;
   int passed = 0, failed = 0, ungraded = 0;
@@ -123,7 +123,7 @@ std::vector<TestCount> counts_of(const std::vector<GradedSubmission>& all) {
     for (const TestResult& test : one.result.tests) by_id[test.id].push_back(&test);
     for (const TestResult& test : one.result.tests) {
       auto& same = by_id[test.id];
-      if (same.empty()) continue;  // counted with its twin
+      if (same.empty()) continue;  // counted together with its twin
       auto count = std::find_if(counts.begin(), counts.end(), [&](const TestCount& c) { return c.id == test.id; });
       if (count == counts.end()) count = counts.insert(count, {.id = test.id, .title = test.title, .causes = {}});
       const auto any = [&](auto what) { return std::any_of(same.begin(), same.end(), what); };
@@ -147,13 +147,13 @@ bool has_all_tests(const Result& result, const Assignment& assignment) {
   return result.tests.size() == tests;
 }
 
-/// The result with those of its tests that were graded again.
+/// The result with the regraded tests replaced.
 Result with_tests(Result result, const Result& again, const std::set<std::string>& only) {
   result.preflight = again.preflight;
   for (TestResult& test : result.tests)
     for (const TestResult& other : again.tests)
       if (only.contains(test.id) && other.id == test.id && other.hidden == test.hidden) test = other;
-  // the earlier remark may be about a test that was replaced
+  // the earlier remark may refer to a replaced test
   if (!again.remark.empty() || std::ranges::all_of(result.tests, passed)) result.remark = again.remark;
   return result;
 }
@@ -164,7 +164,7 @@ std::string row(const std::vector<std::string>& cells, const char* kind = "td") 
   return text + "</tr>\n";
 }
 
-/// Of words with commas between them.
+/// Header row of a table; `words` are separated by commas.
 std::string head(const std::string& words) {
   std::vector<std::string> cells;
   for (const std::string& word : crosscheck::split(words, ',')) cells.push_back(escaped(word.substr(word[0] == ' ')));
@@ -197,7 +197,7 @@ std::string points_in(const GradedSubmission& one, std::string_view part) {
 
 std::string file_name_for(const std::string& submission) {
   std::string plain = crosscheck::file_name_of(submission);
-  if (plain.starts_with('.')) plain[0] = '_';  // no hidden file
+  if (plain.starts_with('.')) plain[0] = '_';  // not a hidden file
   // class.html and crosscheck.json are the class's own, on disks that ignore case too; '/' and '?' become the same dash
   if (plain == submission && lower(plain) != "class" && lower(plain) != "crosscheck") return plain;
   return fmt::format("{}-{:08x}", plain, crosscheck::Fnv1a::of(submission) & 0xffffffffu);
@@ -277,7 +277,7 @@ std::vector<GradedSubmission> grade_class(const Assignment& assignment, const st
     const std::lock_guard<std::mutex> lock(speaking);
     ++done, graded += !known;
     const double elapsed = std::chrono::duration<double>(std::chrono::steady_clock::now() - begun).count();
-    // those that were graded before cost nothing; of the others that are to come nobody knows
+    // excludes submissions with an earlier result, which cost no time; the time of the others is unknown
     const std::size_t left = submissions.size() - done;
     fmt::print(
         stderr, "{} of {}: {}{}{}\n", done, submissions.size(), submissions[i].name, known ? " (graded before)" : "",
@@ -337,7 +337,7 @@ std::string statistics_csv(const std::vector<GradedSubmission>& all) {
 
 std::string class_page(const Assignment& assignment, const std::vector<GradedSubmission>& all, const Texts& common) {
   std::size_t graded = 0;
-  std::map<std::string, std::vector<std::string>> whose;  // by cause
+  std::map<std::string, std::vector<std::string>> whose;  // submissions by cause
   for (const GradedSubmission& one : all) {
     graded += one.failure.empty() && one.result.ungraded() == 0;
     std::set<std::string> causes;

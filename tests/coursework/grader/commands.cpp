@@ -1,4 +1,4 @@
-// grade, assignment and list.
+// The commands grade, assignment and list.
 #include "tests/coursework/grader/commands.h"
 
 #include <fmt/format.h>
@@ -40,7 +40,8 @@ std::uint64_t fresh_seed() { return std::random_device()() % 1000000000; }
 
 constexpr auto seed_file = "seed.txt";
 
-/// Seed of the hidden tests: as named, else from the lecturer's secret, else a fresh one that is printed.
+/// Sets the seed of the hidden tests: the given one, otherwise from the lecturer's secret, otherwise a fresh one, which
+/// is printed.
 void choose_seed(const GradeCommand& command, GradeOptions& options) {
   std::string secret;
   if (const char* named = std::getenv("CROSSCHECK_SECRET")) secret = named;
@@ -51,7 +52,7 @@ void choose_seed(const GradeCommand& command, GradeOptions& options) {
     options.seed = crosscheck::Fnv1a::of(secret);
     options.secret = true;
   } else if (command.all) {
-    // all of a class, and a run that goes on with it, get the same
+    // all submissions of a class, and a resumed run, use the same seed
     const fs::path kept = crosscheck::path_inside(command.out, seed_file);
     options.seed = fs::exists(kept) ? std::strtoull(content_of_file(kept).c_str(), nullptr, 10) : fresh_seed();
   } else {
@@ -65,15 +66,15 @@ Texts texts_of(const fs::path& folder, const std::string& name, const std::strin
   return Texts::read(file.string());
 }
 
-/// What must stay unseen is tried, not assumed: a sandbox that shares the file system keeps out what is private only.
+/// Verifies that the sandbox hides the secrets: a sandbox that shares the file system hides only private folders.
 void require_hidden(const Assignment& assignment, const GradeCommand& command, const Sandbox& sandbox) {
   if (sandbox.name() == "bare") return;
-  std::vector<std::pair<fs::path, fs::path>> secrets;  // what must not be read, and the folder that would hide it
+  std::vector<std::pair<fs::path, fs::path>> secrets;  // protected paths, and the folder to make private for each
   for (const char* secret : {"tests.cpp", "solution", "mistakes.txt"})
     secrets.emplace_back(assignment.folder() / secret, folder_of_coursework());
   if (!command.secret_file.empty())
     secrets.emplace_back(command.secret_file, fs::absolute(command.secret_file).parent_path());
-  // other people's work
+  // other students' work
   if (command.all) secrets.emplace_back(command.submission, command.submission);
   for (const auto& [secret, folder] : secrets)
     if (sees(sandbox, secret))
@@ -81,7 +82,7 @@ void require_hidden(const Assignment& assignment, const GradeCommand& command, c
                                    sandbox.name(), secret.string(), folder.string()));
 }
 
-/// What comes next: the compilers, the tests one by one, and the causes of what went wrong.
+/// Reports progress: the compilers, the tests one by one, and the search for causes.
 void tell(std::unique_ptr<crosscheck::Progress>& progress, const Result& result) {
   if (result.complete) return;
   const char* next = progress ? "testing the submission" : "compiling the submission";
@@ -129,7 +130,7 @@ int grade_all(const Assignment& assignment, const GradeCommand& command, const S
   return open || !unmatched.empty() ? 1 : 0;
 }
 
-/// The submissions of a class; says what else is in the folder.
+/// The submissions of a class; prints which other entries are skipped.
 std::vector<Handed> class_in(const std::string& folder) {
   std::vector<std::string> skipped;
   std::vector<Handed> submissions = submissions_in(folder, &skipped);
@@ -183,7 +184,7 @@ int grade_command(const GradeCommand& given) {
   const std::unique_ptr<Sandbox> sandbox = choose_sandbox(command.sandbox, command.no_sandbox);
   fmt::print(stderr, "lane {}: {}\n", sandbox->name(), sandbox->says());
   require_hidden(assignment, command, *sandbox);
-  umask(077);  // results are written while submissions run: nobody else reads them
+  umask(077);  // results are written while submissions run, and must not be readable by others
   if (command.all) return grade_all(assignment, command, *sandbox, options, of_class);
 
   std::unique_ptr<crosscheck::Progress> progress;

@@ -1,5 +1,5 @@
-// The commands of crosscheck-grade. Each returns the exit status; bad use throws InputError or
-// std::invalid_argument.
+// The commands of crosscheck-grade. Each returns the exit status; throws InputError or std::invalid_argument for
+// invalid usage.
 #pragma once
 
 #include <cstdint>
@@ -19,7 +19,7 @@ struct GradeCommand {
 };
 int grade_command(const GradeCommand& command);
 
-/// What --secret names: the file's first line. Throws InputError where it is empty.
+/// The secret in the file that --secret names: its first line. Throws InputError if it is empty.
 std::string secret_in(const std::string& file);
 
 struct AssignmentCommand {

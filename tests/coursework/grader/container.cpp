@@ -1,4 +1,4 @@
-// One CPU, no new namespaces, memory looked at twenty times a second; none of its processes is left.
+// One CPU, no new namespaces, memory sampled twenty times a second; kills all remaining processes at the end.
 #include "tests/coursework/grader/container.h"
 
 #include <fcntl.h>
@@ -25,7 +25,7 @@ namespace coursework {
 namespace fs = std::filesystem;
 namespace {
 
-/// Between fork and exec. False where anything fails.
+/// Runs between fork and exec. Returns false on any failure.
 bool close_namespaces() {
   const scmp_filter_ctx filter = seccomp_init(SCMP_ACT_ALLOW);
   if (!filter) return false;
@@ -60,7 +60,7 @@ std::vector<pid_t> descendants() {
     if (name.find_first_not_of("0123456789") != std::string::npos) continue;
     std::string stat;
     std::getline(std::ifstream(entry.path() / "stat"), stat);
-    // the command's name may hold anything, a parenthesis among it
+    // the command's name may contain any character, including a parenthesis
     std::istringstream rest(stat.substr(std::min(stat.size(), stat.rfind(')') + 1)));
     char state = 0;
     pid_t parent = 0;
@@ -73,7 +73,7 @@ std::vector<pid_t> descendants() {
   return found;
 }
 
-/// MB; 0 of a process that has gone.
+/// Resident memory (MB); 0 for a process that has ended.
 long resident(pid_t process) {
   std::ifstream in("/proc/" + std::to_string(process) + "/smaps_rollup");
   for (std::string word; in >> word;)
@@ -87,7 +87,7 @@ Usage run_in_container(const std::vector<std::string>& command, const std::vecto
                        const fs::path& log, const Container& container) {
   const int file = open(log.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0600);
   if (file < 0) throw std::runtime_error(log.string() + ": cannot be written");
-  // what loses its parent becomes ours: it is counted, and killed at the end
+  // adopts orphaned descendants, so that they are counted, and killed at the end
   prctl(PR_SET_CHILD_SUBREAPER, 1);
   const auto words = crosscheck::c_strings(command), named = crosscheck::c_strings(environment);
   const auto begin = std::chrono::steady_clock::now();

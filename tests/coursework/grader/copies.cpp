@@ -1,4 +1,4 @@
-// Tables of the marks that systems and people add to copies, and grade.toml.
+// Tables of the marks that systems and users add to copies, and grade.toml.
 #include "tests/coursework/grader/copies.h"
 
 #include <fmt/ranges.h>
@@ -17,14 +17,14 @@ namespace coursework {
 namespace {
 
 constexpr const char* leading[] = {"copy of ", "backup of ", "old_", "old ", "bak_"};
-/// With the separator before them, so that "threshold" stays what it is.
+/// Includes the separator, so that "threshold" stays unchanged.
 constexpr const char* trailing[] = {
     " - copy", " - kopie", " - 副本", "- copy", "-copy",     "_copy", " copy",     "_old",  "-old",   ".old",
     " old",    ".orig",    "_orig",   "-orig",  "_original", "_bak",  ".bak",      "-bak",  "~",      "_backup",
     "-backup", ".backup",  " backup", ".save",  "_prev",     "-prev", "_previous", " 副本", "的副本", "副本"};
 const std::set<std::string> backup_folders = {"old",      "backup", "backups", "bak",        "archive", "archived",
                                               "previous", "prev",   "trash",   "deprecated", "unused",  "copy"};
-/// Libraries that some bring along, by how the folder's name begins; vecmath is not among them, it is theirs to change.
+/// Libraries that some students hand in, by prefix of the folder's name; not vecmath, which students may change.
 constexpr const char* library_folders[] = {"glfw",  "glew",       "freeglut",   "eigen",  "glm",
                                            "imgui", "nanogui",    "boost",      "assimp", "sdl2",
                                            "stb",   "cmakefiles", "cmake-build"};
@@ -35,7 +35,7 @@ bool ends(const std::string& text, const std::string& with) {
   return text.size() > with.size() && text.ends_with(with);
 }
 
-/// Cuts " (2)" and "(2)" off, and a number behind " copy" and " 副本"; false where there is none.
+/// Removes " (2)" and "(2)", and a number after " copy" and " 副本"; returns false if there is none.
 bool cut_number(std::string& stem) {
   std::size_t at = stem.size();
   const bool bracket = at > 0 && stem[at - 1] == ')';
@@ -64,7 +64,7 @@ std::string unmarked(std::string stem) {
   return stem;
 }
 
-/// The names of the folders above the file.
+/// Names of the folders above the file.
 std::vector<std::string> folders_above(const std::string& path) {
   std::vector<std::string> names;
   std::size_t begin = 0;
@@ -102,7 +102,7 @@ bool in_library(const std::string& path) {
 
 namespace {
 
-/// As it is where it is UTF-8, or no GB18030 either.
+/// The text itself if it is UTF-8, or not GB18030 either.
 std::string from_gb18030(const std::string& text) {
   std::size_t at = 0, length = 0;
   while (at < text.size() && (length = crosscheck::utf8_length(text, at)) > 0) at += length;
@@ -126,7 +126,7 @@ std::string plain_utf8(std::string text) {
   std::string out;
   for (std::size_t i = 2; i + 1 < text.size(); i += 2) {
     const auto byte = [&](std::size_t k) { return static_cast<unsigned>(static_cast<unsigned char>(text[k])); };
-    // characters beyond the first plane, two units each, stand in comments only: a mark takes their place
+    // characters beyond the first plane, two units each, occur in comments only, and are replaced by a mark
     unsigned c = little ? byte(i) | byte(i + 1) << 8 : byte(i + 1) | byte(i) << 8;
     if (c >= 0xd800 && c < 0xe000) c = '?';
     if (c < 0x80) {
@@ -152,7 +152,7 @@ bool FullerCopy::operator()(const std::string& a, const std::string& b) const {
   if (a == b) return false;
   if (is_backup(a) != is_backup(b)) return is_backup(b);
   const std::vector<std::string> in_a = folders_above(a), in_b = folders_above(b);
-  std::string root_a, root_b;  // of the two copies; what they have in common, and one folder more where there is one
+  std::string root_a, root_b;  // the roots of the two copies: their common folder, and one more folder if there is one
   std::size_t i = 0;
   for (; i < in_a.size() && i < in_b.size() && in_a[i] == in_b[i]; ++i) root_a += in_a[i] + "/";
   root_b = root_a;

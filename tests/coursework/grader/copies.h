@@ -1,5 +1,4 @@
-// What of a submission was not meant to be graded: backups, older copies, libraries; and the student's own word on it,
-// the file grade.toml.
+// Recognises backups, older copies and libraries in a submission; and grade.toml, in which students state their choice.
 #pragma once
 
 #include <map>
@@ -9,25 +8,24 @@
 
 namespace coursework {
 
-/// The path without what copying adds to its last name: "src/a - Copy (2).cpp", "src/Copy of a.cpp" and "src/a_old.cpp"
-/// are all "src/a.cpp". The path itself where nothing was added.
+/// The path without copy marks in its last component: "src/a - Copy (2).cpp", "src/Copy of a.cpp" and "src/a_old.cpp"
+/// all become "src/a.cpp". The path itself if there are none.
 std::string without_copy_marks(const std::string& path);
-/// Whether the name says that it is a copy, or a folder above does ("old/", "backup/", "src (1)/").
+/// True if the name, or the name of a folder above ("old/", "backup/", "src (1)/"), marks a copy.
 bool is_backup(const std::string& path);
-/// Whether a folder above holds somebody else's library ("glfw-3.1.2/", "eigen/") or what a build left.
+/// True if a folder above contains a third-party library ("glfw-3.1.2/", "eigen/") or build output.
 bool in_library(const std::string& path);
 
-/// The text as UTF-8 without a mark at its start; UTF-16 with such a mark is converted, as some editors save it, and
-/// GB18030 (with it GBK and GB2312): in these the second byte of a letter may be the backslash that continues a
-/// comment.
+/// The text as UTF-8 without a byte-order mark. Converts UTF-16 with such a mark, which some editors write, and GB18030
+/// (which includes GBK and GB2312): there the second byte of a character may be the backslash that continues a comment.
 std::string plain_utf8(std::string text);
 
-/// Of two files that take each other's place, the one that stands in the fuller copy of the whole. `weight` is how much
-/// a path counts: a copy is all that lies in the folder where the two paths part.
+/// Order between two versions of a file: prefers the one in the fuller copy of the whole. `weight` is the weight of a
+/// path; a copy is everything in the folder at which the two paths diverge.
 class FullerCopy {
  public:
   explicit FullerCopy(std::map<std::string, double> weights) : weights_(std::move(weights)) {}
-  /// No backup before backups, then the fuller copy, the shallower file, the alphabet.
+  /// Order: non-backups before backups, then the fuller copy, the shallower file, the alphabet.
   bool operator()(const std::string& a, const std::string& b) const;
 
  private:
@@ -35,10 +33,10 @@ class FullerCopy {
   std::map<std::string, double> weights_;  // by path
 };
 
-/// grade.toml.
+/// Contents of grade.toml.
 struct StudentChoice {
-  std::string folder;                          // the one that counts, with '/' at its end; empty: all
-  std::vector<std::string> left_out;           // files, or folders
+  std::string folder;                          // the folder to grade, with a trailing slash; empty: all
+  std::vector<std::string> left_out;           // files or folders
   std::map<std::string, std::string> classes;  // role ("chain") -> class
 
   bool takes(const std::string& path) const;
@@ -46,8 +44,8 @@ struct StudentChoice {
 constexpr const char* choice_file = "grade.toml";
 constexpr std::size_t largest_choice = 1u << 14;  // byte
 
-/// Throws crosscheck::InputError that names line and key: no TOML, a key that is none, a folder or file that is not
-/// among `paths`, classes where `roles` is empty, a role that is none of them.
+/// Throws crosscheck::InputError with line and key for invalid TOML, an unknown key, a folder or file that is not among
+/// `paths`, classes if `roles` is empty, or an unknown role.
 StudentChoice read_choice(const std::string& text, const std::vector<std::string>& paths,
                           const std::vector<std::string>& roles);
 

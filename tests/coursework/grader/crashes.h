@@ -1,4 +1,4 @@
-// Why a student's code crashed, and in which line: found by running it once more with every index checked.
+// Locates a crash of a student's code by running it again with every index checked.
 #pragma once
 
 #include <filesystem>
@@ -14,22 +14,22 @@ namespace coursework {
 
 struct Crash {
   enum class Why { other, index, empty, iterator } why = Why::other;
-  long index = 0, size = 0;  // that was asked for, and how many elements there are
-  std::string file;          // the student's, where it ended
+  long index = 0, size = 0;  // requested index, and number of elements
+  std::string file;          // the student's file with the crash
   int line = 0;
-  std::size_t which = 0;  // the case, from 0
+  std::size_t which = 0;  // index of the case, from 0
 };
 
-/// What a program of Builder::checked() printed: of the checks' message what was asked for, and the addresses of the
-/// calls at hand. Students may have written anything else there: only numbers are taken.
+/// Parses the output of a program of Builder::checked(): the requested index from the check's message, and the
+/// addresses of the call stack. Students may have printed anything else, so only numbers are used.
 Crash crash_in(const std::string& captured, std::vector<std::string>& addresses);
 
-/// Asks the program of Builder::checked() and finds the line in which it crashes; nothing where it
-/// does not, or not in a line of the student's: what our calls do with an answer of another size is no index of his.
+/// Runs the program of Builder::checked() and finds the line of the crash. Empty if it does not crash, or crashes
+/// outside of the student's lines: an index error in our calls, on an answer of the wrong size, is not the student's.
 std::optional<Crash> crash_of(const Sandbox& sandbox, const std::filesystem::path& program,
                               const std::vector<Case>& cases);
 
-/// A sentence; `told` is the case, from 0, that is spoken of.
+/// The crash as a sentence; `told` is the index of the case, from 0, that the feedback describes.
 std::string crash_text(const Texts& common, const Crash& crash, std::size_t told);
 
 }  // namespace coursework

@@ -1,5 +1,5 @@
-// engine: a student's part as a program of the engine protocol (reference/protocol/PROTOCOL.md), run in the sandbox.
-// What is in scene.json becomes the numbers of one call, and the answer the trajectory.
+// engine: runs a student's part in the sandbox as a program of the engine protocol (reference/protocol/PROTOCOL.md).
+// Converts scene.json into the numbers of one call, and the answer into the trajectory.
 #include "tests/coursework/grader/engine.h"
 
 #include <fmt/format.h>
@@ -26,17 +26,16 @@ namespace {
 using crosscheck_engine::Scene;
 using crosscheck_engine::Vec;
 
-/// The charts' scenes have one particle that moves and take a second at most; there are a thousand runs of them, so
-/// that a loop without end must not wait for long.
+/// Limits per run. The charts' scenes have one moving particle and take at most a second; there are a thousand runs, so
+/// an endless loop must be stopped early.
 constexpr Limits engine_limits{
     .cpu = 10, .wall = 300, .idle = 5, .memory = 1024, .processes = 0, .answers = 1 << 18, .file = 1};
 
-/// s of processor time that all runs of a part may take together: several times what the hand-out's rules take. After
-/// that its runs fail at once.
+/// Limit on the CPU time (s) of all runs of a part: several times the time of the hand-out's rules. Later runs fail at
+/// once.
 constexpr double most_in_all = 300;
 
-/// Processor time of a part so far, in a file beside its program: its runs are processes of their own, several at a
-/// time.
+/// CPU time of a part so far, stored in a file beside its program, because runs are separate, parallel processes.
 class Spent {
  public:
   explicit Spent(const std::string& program) : file_(program + ".spent") {}
@@ -87,7 +86,7 @@ int engine_command(const EngineCommand& command) {
   const auto begin = std::chrono::steady_clock::now();
   double cpu = 0;
   const Answer answer = run_calls(*sandbox, command.program, {call_of(command.part, scene)}, engine_limits, &cpu).at(0);
-  // who waits has stalled the charts as well
+  // an idle wait has stalled the charts as well
   const double clock = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
   spent.add(answer.how == How::waiting ? clock : cpu);
   const std::size_t n = scene.x.size(), frames = static_cast<std::size_t>(scene.samples) + 1;
@@ -117,12 +116,12 @@ bool has_engine(const Assignment& assignment) { return fs::exists(assignment.fol
 
 void keep_engine(const fs::path& program, const std::string& part, const Sandbox& sandbox, const fs::path& folder) {
   fs::create_directories(folder);
-  const std::string name = "your-" + part;  // beside mysim's rule of the same name
+  const std::string name = "your-" + part;  // in addition to mysim's rule of the same name
   const fs::path kept = folder / (name + ".program"), script = folder / name;
   fs::copy_file(program, kept, fs::copy_options::overwrite_existing);
   fs::permissions(kept, fs::perms(0755));
-  // one file that changes with the program, as those expect who keep results by it; the two may move together; reports
-  // may be named after files that anybody handed in
+  // a single file that changes with the program, as caches of results expect; the two may be moved together; reports
+  // may be named after files that a student handed in
   crosscheck::write_file(
       script,
       fmt::format("#!/bin/sh\n# {:016x}\nexec {} engine \"$(dirname -- \"$0\")\"/{} {} \"$1\" \"$2\" --lane {}\n",

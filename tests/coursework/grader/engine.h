@@ -12,7 +12,7 @@ namespace coursework {
 
 bool has_engine(const Assignment& assignment);
 
-/// Leaves FOLDER/your-PART, a program of the engine protocol that runs the student's in this sandbox.
+/// Writes FOLDER/your-PART, a program of the engine protocol that runs the student's program in this sandbox.
 void keep_engine(const std::filesystem::path& program, const std::string& part, const Sandbox& sandbox,
                  const std::filesystem::path& folder);
 

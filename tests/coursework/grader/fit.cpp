@@ -1,4 +1,4 @@
-// Least squares by orthogonalising the columns one after the other.
+// Least squares by successive orthogonalisation of the columns.
 #include "tests/coursework/grader/fit.h"
 
 #include <algorithm>

@@ -1,4 +1,4 @@
-// Sums of named terms, fitted to a student's numbers.
+// Fits sums of named terms to a student's numbers.
 #pragma once
 
 #include <string>
@@ -10,14 +10,14 @@ namespace coursework {
 
 struct NamedTerm {
   std::string name;  // "h k1"
-  double right = 0;  // its coefficient in the right sum
+  double right = 0;  // its coefficient in the correct sum
 };
 
-/// The coefficients of the sum of these columns that is `sum`, by least squares; empty where no sum of them is it to
-/// within `tolerance`, or where several are.
+/// Coefficients of the linear combination of the columns that equals `sum`, by least squares; empty if none fits within
+/// `tolerance`, or if it is not unique.
 Numbers coefficients(const std::vector<Numbers>& columns, const Numbers& sum, double tolerance);
 
-/// "x + h (1/2 k1)": terms whose coefficient is 0 are left out.
+/// Text such as "x + h (1/2 k1)"; omits terms with zero coefficients.
 std::string sum_text(const std::vector<NamedTerm>& terms, const Numbers& coefficients, double tolerance);
 
 }  // namespace coursework

@@ -18,7 +18,7 @@ namespace coursework {
 std::string clean(const std::string& text) {
   std::string out;
   for (size_t i = 0; i < text.size();) {
-    // U+FFFE and U+FFFF are no characters
+    // U+FFFE and U+FFFF are not characters
     const bool never = text.compare(i, 3, "\xef\xbf\xbe") == 0 || text.compare(i, 3, "\xef\xbf\xbf") == 0;
     const size_t length = never ? 0 : crosscheck::utf8_length(text, i);
     const unsigned char c = static_cast<unsigned char>(text[i]);
@@ -32,7 +32,7 @@ std::string clean(const std::string& text) {
 }
 
 std::string defused(const std::string& text) {
-  // spreadsheets look behind blanks and quotes, and behind a separator of theirs; some read full-width signs as ASCII
+  // spreadsheets ignore leading blanks and quotes, and text up to a separator; some read full-width signs as ASCII
   static constexpr std::string_view signs[] = {"=", "+", "-", "@", "\t", "\r", "＝", "＋", "－", "＠"};
   std::string safe;
   bool begins = true;
@@ -80,7 +80,7 @@ namespace {
 
 using crosscheck::Json;
 
-/// With a plot the text is HTML; the plot is an image of its own there, which can neither run nor restyle anything.
+/// With a plot the text is HTML; the plot is an embedded image, which can neither run scripts nor restyle the page.
 void put_output(Json& to, const TestResult& test, const std::string& text) {
   to["output"] = test.plot.empty() ? text
                                    : "<pre>" + escaped(text) + "</pre><img alt=\"your numbers and the right ones\" " +
@@ -122,7 +122,7 @@ std::string gradescope(const Result& result, const Texts& common) {
       {"test_output_format", "text"},
       {"test_name_format", "text"},
       {"visibility", "visible"},
-      // the harness's own output; nothing of the student's program is in it, and it may name hidden tests
+      // the harness's own output; it contains nothing of the student's program, and may name hidden tests
       {"stdout_visibility", "hidden"},
       {"extra_data",
        {{"assignment", result.assignment},
@@ -130,7 +130,7 @@ std::string gradescope(const Result& result, const Texts& common) {
         {"lane", result.sandbox},
         {"complete", result.complete}}},
       {"tests", std::move(tests)},
-      // public points alone: a leaderboard is seen before the grades are
+      // public points only, because a leaderboard is visible before the grades
       {"leaderboard", Json::array({Json{{"name", "Public points"}, {"value", shown}, {"order", "desc"}}})},
   };
   return crosscheck::dump(out, 2) + "\n";
@@ -170,7 +170,7 @@ void add_test(Suite& suite, const Result& result, const TestResult& test, const 
     inside = fmt::format("<failure type=\"wrong\" message=\"{}\">{}</failure>", xml(first_line(test.said)),
                          xml(feedback_on(result, test, common, true)));
   }
-  // the time of a hidden test may tell how it went
+  // the time of a hidden test could reveal its verdict
   const double seconds = test.hidden ? 0 : test.seconds;
   suite.seconds += seconds;
   suite.cases += fmt::format("    <testcase classname=\"{}.{}\" name=\"{} {}{}\" time=\"{:.3f}\">{}</testcase>\n",
@@ -178,7 +178,7 @@ void add_test(Suite& suite, const Result& result, const TestResult& test, const 
                              test.hidden ? " (" + xml(common.of("hidden")) + ")" : "", seconds, inside);
 }
 
-/// Files and compiler, as a suite of one test.
+/// Files and compiler as a suite of one test.
 Suite preflight_of(const Result& result) {
   Suite suite{"preflight", ""};
   suite.tests = 1;

@@ -1,4 +1,4 @@
-// Formats of results for other programs, and the plain text that they share. The table of formats is in formats.cpp.
+// Result formats for other programs, and their common plain text. formats.cpp has the table of formats.
 #pragma once
 
 #include <span>
@@ -12,37 +12,36 @@ namespace coursework {
 
 struct Format {
   std::string_view name;
-  std::string_view file;                                     // its usual name
+  std::string_view file;                                     // default file name
   std::string (*write)(const Result&, const Texts& common);  // common: check/common.LANGUAGE.txt
 };
 
 std::span<const Format> formats();
-/// Throws std::invalid_argument that lists what there is.
+/// Throws std::invalid_argument with a list of the known formats.
 const Format& find_format(const std::string& name);
 
-/// results.json of Gradescope's harness, every documented field. Hidden tests are shown after the grades are published.
+/// Gradescope's results.json with every documented field. Hidden tests become visible when the grades are published.
 std::string gradescope(const Result& result, const Texts& common);
-/// JUnit XML, a suite per part. It is read where students read it too (GitHub Classroom, CI): hidden tests stand in it
-/// as skipped, with a message that says so, and neither their verdict nor their numbers.
+/// JUnit XML with a suite per part. Students can read it too (GitHub Classroom, CI): hidden tests appear as skipped
+/// with an explanation, without verdict or numbers.
 std::string junit(const Result& result, const Texts& common);
-/// Feedback on the public tests, then Autolab's line of scores: a problem per part with its public points, and one
-/// named "hidden" with those of all hidden tests. The scoreboard has the public points alone.
+/// Feedback on the public tests, then Autolab's line of scores: a problem per part with its public points, and a
+/// problem "hidden" with the points of all hidden tests. The scoreboard shows the public points only.
 std::string autolab(const Result& result, const Texts& common);
 
-// The plain text that all formats share.
+// Plain text shared by all formats.
 
-/// The same text as valid UTF-8 that JSON and XML can carry: bytes that are no UTF-8, and control characters other than
-/// tab and line feed, become U+FFFD. What a student's program threw or printed may hold anything.
+/// The text as valid UTF-8 for JSON and XML: invalid bytes, and control characters other than tab and line feed, become
+/// U+FFFD. Exceptions and output of a student's program may contain anything.
 std::string clean(const std::string& text);
 
-/// The text of a cell of CSV, with an apostrophe where a spreadsheet could take it for a formula.
+/// The text of a CSV cell, with an apostrophe in front if a spreadsheet could interpret it as a formula.
 std::string defused(const std::string& text);
 
-/// What was said, the likely cause, and what to read, as on the terminal; empty where it was passed. `alone` as
-/// in lines_on().
+/// Feedback, likely cause and reading, as on the terminal; empty if the test was passed. `alone` as in lines_on().
 std::string feedback_on(const Result& result, const TestResult& test, const Texts& common, bool alone = false);
 
-/// Preflight, what the public tests earned, and how many more run. Nothing in it depends on how the hidden tests went.
+/// Preflight, points of the public tests, and the number of remaining tests. Independent of the hidden verdicts.
 std::string summary_of(const Result& result, const Texts& common);
 
 }  // namespace coursework

@@ -1,4 +1,4 @@
-// Builds the parts, runs the tests one process each, judges, looks for causes.
+// Builds the parts, runs the tests in one process each, judges answers, and searches for causes.
 #include "tests/coursework/grader/grade.h"
 
 #include <fmt/format.h>
@@ -31,7 +31,7 @@ std::string text_or(const Texts& texts, const std::string& key, const std::strin
   return texts.has(key) ? texts.of(key) : otherwise;
 }
 
-/// One grading: what its steps share.
+/// State of one grading, shared by its steps.
 class Grading {
  public:
   Grading(const Assignment& assignment, const Submission& submission, const Sandbox& sandbox,
@@ -76,7 +76,7 @@ class Grading {
   }
 
  private:
-  /// Every test of the assignment, with nothing earned yet.
+  /// Lists every test of the assignment, with no points earned yet.
   void list_tests() {
     for (const bool hidden : {false, true})
       for (const Test& test : assignment_.tests) {
@@ -109,12 +109,12 @@ class Grading {
         continue;
       }
       const std::string why = said(options_.common, one.error);
-      // a file that holds several parts has one remark
+      // a file with several parts has one remark
       auto& all = result_.preflight;
       if (std::find(all.begin(), all.end(), why) == all.end()) all.push_back(why);
       unusable_[part] = {one.missing ? How::missing : How::not_compiled, {}, one.missing ? one.error.with.at(0) : why};
     }
-    // remarks that keep a part from running stand before these
+    // remarks that prevent a part from running precede these
     for (const auto& [part, one] : built)
       for (const Remark& note : one.notes) result_.preflight.push_back(said(options_.common, note));
   }
@@ -146,16 +146,16 @@ class Grading {
     one.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
   }
 
-  /// The test that was not graded because of a call that this one makes as well, with other numbers: it would take as
-  /// long again, and the next one too. Empty: there is none.
+  /// The ungraded test with a call that this one makes as well, with other numbers: it would take as long again. Empty
+  /// if there is none.
   std::string ungraded_before(const std::vector<Case>& cases) const {
     for (const Case& each : cases)
       if (const auto found = ungraded_calls_.find(each.call); found != ungraded_calls_.end()) return found->second;
     return "";
   }
 
-  /// Code may be twenty times as slow as the official solution, and as slow as the least limit allows in any case: the
-  /// official solution is asked only where that is not enough.
+  /// Code may be twenty times as slow as the official solution, and may always use the minimum limit: runs the official
+  /// solution only if that is not enough.
   std::vector<Answer> answers_to(const std::string& part, const std::vector<Case>& cases) {
     const auto too_slow = [](const Answer& answer) { return answer.how == How::out_of_time; };
     const Limits least = limits_for(0, options_.least_cpu);
@@ -170,7 +170,7 @@ class Grading {
     return answers;
   }
 
-  /// The feedback is on the first wrong call; where all are right, the plot shows the first one.
+  /// Gives feedback on the first wrong call; if all are right, the plot shows the first one.
   void judge_test(const TestRun& test_run, const std::vector<Answer>& raw, TestResult& one) {
     std::size_t shown = 0;
     one.said.clear();
@@ -184,7 +184,7 @@ class Grading {
       if (ran && test_run.cases.size() > 1)
         one.said = options_.common.fill("which", std::to_string(k + 1), std::to_string(test_run.cases.size())) + " " +
                    one.said;
-      // of hidden tests the numbers stay with the grader
+      // numbers of hidden tests are never shown
       if (const std::string given =
               one.hidden ? "" : given_text(options_.common, options_.own, test_run.cases[k], judged);
           !given.empty())
@@ -216,7 +216,7 @@ class Grading {
                      column_text(options_.own, what, what.plot_y)});
   }
 
-  /// Of the first test of a function that fails, the numbers of a case and what is seen in them.
+  /// For the first failing test of a function: the numbers of a case and the observations on them.
   std::vector<std::string> shown_beside(const TestRun& test_run, const TestResult& one, std::size_t k) const {
     if (failed_already(test_run, one)) return {};
     const Case& what = test_run.cases[k];
@@ -225,7 +225,7 @@ class Grading {
             seen_text(options_.common, options_.own, what, answer, others_of(what, test_run.cases, test_run.answers))};
   }
 
-  /// Whether a public test of the same function failed before, so that its feedback says what is seen.
+  /// True if an earlier public test of the same function failed, whose feedback then has the observations.
   bool failed_already(const TestRun& test_run, const TestResult& one) const {
     const std::string function = function_of(options_.own, one.part, test_run.cases[0]);
     for (std::size_t i = 0; &result_.tests[i] != &one; ++i)
@@ -235,7 +235,7 @@ class Grading {
     return false;
   }
 
-  /// Asks a test that failed for its small cases; in a process of their own, so that they can cost nothing.
+  /// Runs the small cases of a failed test in a separate process, so that they cannot affect the verdict.
   std::string smallest(const Test& test) const {
     if (small_told_.count({std::string(test.part), test.small})) return "";
     const std::vector<Case> small = small_cases(assignment_, test);
@@ -250,7 +250,7 @@ class Grading {
     return what.row_size == 1 ? "" : fmt::format(" x {:.3g}", what.row_size);
   }
 
-  /// Everybody has the public tests' numbers, and their answers with them: a table of those earns nothing.
+  /// Rejects memorised answers: the public tests' numbers and answers are known, so a table of them earns nothing.
   void require_unseen() {
     for (TestResult& shown : result_.tests)
       for (const TestResult& other : result_.tests)
@@ -261,14 +261,14 @@ class Grading {
         }
   }
 
-  /// The part's program that checks every index; built where it is needed first. Empty: it cannot be.
+  /// The part's program that checks every index, built on first use. Empty if it cannot be built.
   const fs::path& checked_program(const std::string& part) {
     const auto [at, added] = checked_.try_emplace(part);
     if (added) at->second = builder_->checked(submission_, part, scratch_.path / ("checked-" + part)).program;
     return at->second;
   }
 
-  /// Says of each test of the part that crashed in which line it did, and for which index.
+  /// Adds the line, and the index, to each crashed test of the part.
   void tell_crashes(const std::string& part) {
     const std::string& guess = options_.common.of("crash.guess");
     for (std::size_t i = 0; i < test_runs_.size(); ++i) {
@@ -284,7 +284,7 @@ class Grading {
     }
   }
 
-  /// An index outside of something that does not end the program as it is; "" where there is none.
+  /// An index out of range that does not end the unchecked program; "" if there is none.
   std::string index_cause(const std::string& part, const std::vector<TestRun>& runs,
                           const std::vector<TestResult*>& tests) {
     for (std::size_t i = 0; i < runs.size(); ++i) {
@@ -298,10 +298,10 @@ class Grading {
     return "";
   }
 
-  /// Fills in the causes of a part's wrong answers. A crash or a loop is no answer: its message says all.
+  /// Fills in the causes of a part's wrong answers. Skips crashes and loops, whose messages are sufficient.
   void look_for_cause(const std::string& part) {
     std::vector<TestRun> of_part;
-    std::vector<TestResult*> wrong, tests;  // `tests` beside `of_part`
+    std::vector<TestResult*> wrong, tests;  // `tests` corresponds to `of_part`
     for (std::size_t i = 0; i < test_runs_.size(); ++i) {
       if (result_.tests[i].part != part) continue;
       bool answered = !result_.tests[i].ungraded;
@@ -315,17 +315,17 @@ class Grading {
         of_part);
     const std::vector<std::string> names =
         likely_causes(assignment_, part, of_part, mistakes_of(assignment_), *builder_, *trusted_, options_.jobs);
-    // what an experiment shows is more than a likeness
+    // evidence of an experiment outranks a similarity
     std::string cause =
         suspect.key.empty() ? cause_text(options_.common, options_.own, names) : said(options_.common, suspect);
     if (cause == options_.common.of("no_cause"))
       if (const std::string index = index_cause(part, of_part, tests); !index.empty()) cause = index;
-    // a test's own hint knows nothing of the others: where a cause is known it may contradict it, and where none is
-    // the first test that fails has most to say
+    // a test's own hint is independent of the others: it could contradict a known cause, and if there is none, the
+    // first failing test has the most information
     const bool known = cause != options_.common.of("no_cause"),
                seen = suspect.key.empty() && look_closer(part, of_part, tests, wrong);
     for (TestResult* test : wrong) {
-      test->cause = known || !seen ? cause : "";  // what was seen says more than that nothing known matches
+      test->cause = known || !seen ? cause : "";  // an observation outranks the remark that nothing known matches
       const std::string before = failed_before(*test, wrong);
       if (known || (seen && before.empty())) continue;
       if (const std::string hint = hint_text(options_.common, options_.own, test->id, before); !hint.empty())
@@ -333,7 +333,7 @@ class Grading {
     }
   }
 
-  /// The first of these tests that is about the same function, "" where this is it.
+  /// The first of these tests for the same function; "" if it is this one.
   std::string failed_before(const TestResult& test, const std::vector<TestResult*>& wrong) const {
     const auto function = [&](const TestResult& one) {
       return function_of(options_.own, one.part,
@@ -344,7 +344,7 @@ class Grading {
     return "";
   }
 
-  /// Adds to public tests what is seen when their calls are asked again. False: nothing is.
+  /// Adds observations to public tests by running their calls again with changes. Returns false if there are none.
   bool look_closer(const std::string& part, const std::vector<TestRun>& runs, const std::vector<TestResult*>& tests,
                    const std::vector<TestResult*>& wrong) {
     std::vector<bool> told_at;
@@ -379,7 +379,7 @@ class Grading {
     return most;
   }
 
-  /// What no test judges.
+  /// Adds measured quantities that no test judges.
   void tell_measured() {
     if (!assignment_.measured) return;
     for (const Part& part : assignment_.parts)
@@ -389,7 +389,7 @@ class Grading {
           result_.preflight.push_back(std::move(text));
   }
 
-  /// Keeps the parts that answered every call: others would crash or hang in every run of the charts.
+  /// Keeps the programs of parts that answered every call: others would crash or hang in every run of the charts.
   void keep_engines() const {
     if (options_.engines.empty() || !has_engine(assignment_)) return;
     for (const auto& [part, program] : programs_) {
@@ -410,10 +410,10 @@ class Grading {
   crosscheck::TemporaryFolder scratch_;
   std::map<std::string, fs::path> programs_;           // by part
   std::map<std::string, fs::path> checked_;            // by part: programs that check every index
-  std::map<std::string, Answer> unusable_;             // by part: missing, or it does not compile
-  std::map<std::string, std::string> ungraded_calls_;  // the test that was not graded because of it
-  std::vector<TestRun> test_runs_;                     // beside result_.tests
-  std::set<std::pair<std::string, std::vector<Case> (*)(Random&)>> small_told_;  // with other numbers they say no more
+  std::map<std::string, Answer> unusable_;             // by part: missing, or does not compile
+  std::map<std::string, std::string> ungraded_calls_;  // by ungraded call: the test that was not graded because of it
+  std::vector<TestRun> test_runs_;                     // parallel to result_.tests
+  std::set<std::pair<std::string, std::vector<Case> (*)(Random&)>> small_told_;  // shown once per kind
   Result result_;
 };
 

@@ -19,38 +19,38 @@
 namespace coursework {
 
 struct GradeOptions {
-  std::uint64_t seed = 0;                    // of the hidden tests
-  bool secret = false;                       // it was made from the lecturer's secret
+  std::uint64_t seed = 0;                    // for the hidden tests
+  bool secret = false;                       // derived from the lecturer's secret
   Texts common, own;                         // check/common.LANGUAGE.txt; the assignment's texts
-  unsigned jobs = 1;                         // compilers at a time
-  double least_cpu = coursework::least_cpu;  // s, that the calls of a test may take in any case (run.h)
-  std::string engines;  // folder in which parts are left as engines, where the assignment has such; empty: nowhere
+  unsigned jobs = 1;                         // number of parallel compilers
+  double least_cpu = coursework::least_cpu;  // s, lower bound of the limit on the calls of a test (run.h)
+  std::string engines;  // output folder for parts as engines, if the assignment supports them; empty: none
   std::set<std::string, std::less<>> parts = {};  // parts whose tests are run; empty: all
-  /// Called with what there is so far: before the first test, after every test, and at the end.
+  /// Called with the partial result: before the first test, after every test, and at the end.
   std::function<void(const Result&)> on_progress = [](const Result&) {};
 };
 
-/// Runs all tests, public ones first; points start at 0 and are earned. What a student may have done wrong is said in
-/// the result; throws std::runtime_error only for what is wrong on our side.
+/// Runs all tests, public ones first; points start at 0. Errors of the student's are part of the result; throws
+/// std::runtime_error only for errors on our side.
 Result grade(const Assignment& assignment, const Submission& submission, const Sandbox& sandbox,
              const GradeOptions& options);
 
-/// The files that the assignment asks for: one per part; none where it takes a whole program.
+/// The files that the assignment requires: one per part; none if it takes a whole program.
 std::vector<std::string> wanted_files(const Assignment& assignment);
 
-/// read_submission() with what the assignment asks for.
+/// read_submission() with the assignment's parameters.
 Submission submission_at(const std::filesystem::path& path, const Assignment& assignment);
 Submission submission_of(const Handed& handed, const Assignment& assignment);
 
-/// The cases of a test as the hand-out has them: those of its seed, which depends on the assignment and the test alone;
-/// before them, where the texts lay out what is given, the same in round numbers, so that the first that fails can be
-/// worked out on paper.
+/// The public cases of a test, as in the hand-out, from a seed that depends only on the assignment and the test. If the
+/// texts declare the layout of inputs, they begin with cases in round numbers, so that the first failing case can be
+/// computed by hand.
 std::vector<Case> public_cases(const Assignment& assignment, const Test& test);
-/// What a test that fails is asked as well, in round numbers: see Test::small; then the same in others, for what is
-/// seen in one case alone may be chance.
+/// Small cases of a test (see Test::small), first in round numbers, then in random ones, because an observation on a
+/// single case may be chance.
 std::vector<Case> small_cases(const Assignment& assignment, const Test& test);
 std::uint64_t public_seed(const Assignment& assignment, const Test& test);
-/// The seed of a hidden test, from that of all hidden tests.
+/// The seed of a hidden test, derived from the seed of all hidden tests.
 std::uint64_t hidden_seed(std::uint64_t seed, const Test& test);
 
 /// A remark as a sentence.
