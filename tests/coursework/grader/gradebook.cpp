@@ -1,5 +1,5 @@
-// Exports of Moodle (mod/assign/gradingtable.php, grade/export/txt), of Canvas (lib/gradebook_exporter.rb), and tables
-// of other origin: their columns, and whose a row is.
+// Exports of Moodle (mod/assign/gradingtable.php, grade/export/txt), of Canvas (lib/gradebook_exporter.rb), and other
+// tables: their columns, and the student of each row.
 #include "tests/coursework/grader/gradebook.h"
 
 #include <fmt/format.h>
@@ -25,20 +25,20 @@ namespace {
 using Names = std::vector<std::string_view>;
 
 constexpr std::string_view byte_order_mark = "\xef\xbb\xbf";
-// Columns that tell whose a row is, in lower case.
+// Columns that identify a row's student, in lower case.
 const Names id_columns = {"id",          "id number",    "student id",    "student number",
                           "sis user id", "sis login id", "email address", "email",
                           "username",    "login",        "学号"};
 const Names name_columns = {"full name", "student", "name", "姓名"}, last_names = {"last name", "lastname", "surname"};
 
-/// In lower case, without blanks at its ends.
+/// Lower case, without leading and trailing blanks.
 std::string folded(const std::string& text) {
   const std::size_t begin = text.find_first_not_of(" \t"), end = text.find_last_not_of(" \t");
   return begin == std::string::npos ? "" : lower(text.substr(begin, end - begin + 1));
 }
 
-/// Letters and digits only, in lower case: "Lovelace, Ada" of an export is "lovelaceada" in names of Canvas's files,
-/// and Moodle drops apostrophes.
+/// Letters and digits only, in lower case: "Lovelace, Ada" of an export is "lovelaceada" in Canvas's file names, and
+/// Moodle drops apostrophes.
 std::string letters_of(const std::string& text) {
   std::string out;
   for (const char c : lower(text))
@@ -46,7 +46,7 @@ std::string letters_of(const std::string& text) {
   return out;
 }
 
-/// The name and what stands between separators in it: "20231234_王小明".
+/// The name and its parts between separators: "20231234_王小明".
 std::set<std::string> parts_of(const std::string& name) {
   std::set<std::string> words{folded(name)};
   std::string word;
@@ -147,7 +147,7 @@ int Gradebook::column_to_fill(const std::string& named, const Assignment& assign
 }
 
 std::vector<std::size_t> Gradebook::rows_of(const Person& person, const std::string& layout) const {
-  // numbers of Moodle's participants are no ids elsewhere, nor are Canvas's
+  // Moodle's participant numbers and Canvas's ids are meaningless in other tables
   const Names ids = layout == "Moodle" ? Names{"identifier"} : layout == "Canvas" ? Names{"id"} : id_columns;
   std::set<std::string> words = layout.empty() ? parts_of(person.name) : std::set<std::string>{folded(person.id)};
   std::set<std::string> names{letters_of(person.name)};
@@ -172,7 +172,7 @@ std::vector<std::size_t> Gradebook::rows_of(const Person& person, const std::str
         }))
       by_name.push_back(i);
   }
-  // the id decides between people of one name; where it is one person's and the name another's, neither counts
+  // the id distinguishes people of the same name; if id and name point to different people, neither counts
   if (std::ranges::find_first_of(by_id, by_name) == by_id.end())
     by_id.insert(by_id.end(), by_name.begin(), by_name.end());
   return by_id;

@@ -1,4 +1,4 @@
-// Points in the layout of a learning-management system: its own export, with a column filled in.
+// Points in the layout of a learning-management system: its own export with one column filled in.
 #pragma once
 
 #include <filesystem>
@@ -12,36 +12,36 @@ namespace coursework {
 
 class Gradebook {
  public:
-  /// Reads an export of `layout` ("moodle", "canvas", "csv"). `column`: the name of the one to fill; empty: "Grade" of
-  /// Moodle's worksheet, "points" or "grade" of a table of another origin, else the one whose name holds the
-  /// assignment's. Throws InputError that names the file if it is no CSV of commas in UTF-8, lacks the layout's
-  /// columns, has no such column or several, or states another maximum than `points`.
+  /// Reads an export of `layout` ("moodle", "canvas", "csv"). `column`: the name of the column to fill; if empty,
+  /// "Grade" of Moodle's worksheet, "points" or "grade" of a table of another origin, otherwise the column whose name
+  /// contains the assignment's. Throws InputError with the file if it is not comma-separated UTF-8, lacks the layout's
+  /// columns, has no or several such columns, or states a maximum other than `points`.
   Gradebook(const std::string& layout, const std::filesystem::path& file, const std::string& column,
             const Assignment& assignment, double points);
 
-  /// Fills the cells of those who were graded; others keep what the export has. Returns a line for each person whose
-  /// submission fits no row, several rows or another submission's row: nothing is filled in for these.
+  /// Fills the cells of graded students; other cells keep the export's content. Returns a line for each person whose
+  /// submission fits no row, several rows or another submission's row; nothing is filled in for these.
   std::vector<std::string> fill(const Assignment& assignment, const std::vector<Handed>& submissions,
                                 const std::vector<GradedSubmission>& graded, const Texts& common);
-  /// The export with what was filled in; all else as it was, byte for byte.
+  /// The export with the filled cells; all else is unchanged, byte for byte.
   std::string text() const;
 
  private:
   struct Record {
     std::vector<crosscheck::CsvField> fields;
-    std::string end;  // line feed, with a carriage return or without
+    std::string end;  // line feed, with or without carriage return
   };
   void read(const std::string& whole);
-  /// The text of a field; nothing where there is none.
+  /// The text of a field; empty if there is none.
   static std::string cell(const Record& record, int column);
-  /// The first of the named columns, whatever the case of letters; -1: none.
+  /// The first of the named columns, ignoring case; -1: none.
   int column_of(const std::vector<std::string_view>& names) const;
   int column_to_fill(const std::string& named, const Assignment& assignment) const;
   std::vector<std::size_t> rows_of(const Person& person, const std::string& layout) const;
   [[noreturn]] void fail(const std::string& why) const;
 
   std::string layout_, file_;
-  bool mark_ = false;  // the byte-order mark
+  bool mark_ = false;  // byte-order mark present
   std::vector<Record> records_;
   int points_ = -1;
 };

@@ -23,7 +23,7 @@ void write_text(const fs::path& file, const std::string& content) {
   if (!out.flush()) throw std::runtime_error(file.string() + ": cannot be written");
 }
 
-/// CMakeLists.txt, which a whole program brings in its starter, and README.md.
+/// Writes README.md, and CMakeLists.txt unless a whole program's starter has one.
 void write_instructions(const Assignment& assignment, const PublicTests& tests, const fs::path& folder) {
   const bool whole = assignment.takes_whole_program();
   std::string built, listed;
@@ -31,7 +31,7 @@ void write_instructions(const Assignment& assignment, const PublicTests& tests, 
     built += fmt::format("  {}.cpp\n", part.name);
     listed += fmt::format("- `{}.cpp`\n", part.name);
   }
-  int points = 0, here = 0;  // as `check` counts: some tests are the grader's alone
+  int points = 0, here = 0;  // as counted by `check`, since some tests exist only in the grader
   for (const PublicTest& test : tests.tests)
     if (whole || !test.cases.empty()) points += test.points, ++here;
   if (!whole)
@@ -42,7 +42,7 @@ void write_instructions(const Assignment& assignment, const PublicTests& tests, 
                      std::string(assignment.parts.front().name), std::to_string(tests.hidden)}));
 }
 
-/// The texts without what they say of the known mistakes, and without comments.
+/// The texts without descriptions of known mistakes, and without comments.
 std::string shown_texts(const fs::path& file) {
   std::string out;
   const Texts texts = Texts::read(file.string());
@@ -56,7 +56,7 @@ bool ends(const fs::path& file, std::initializer_list<std::string_view> endings)
   return std::any_of(endings.begin(), endings.end(), [&](std::string_view end) { return name.ends_with(end); });
 }
 
-/// Calls of the student's code, and for a whole program what finds features in its answers.
+/// True for calls of the student's code, and for the code that finds features in a whole program's answers.
 bool is_of_check(const std::string& name) {
   for (const char* begin : {"calls", "looks", "motion", "oracles", "replay", "shapes", "springs"})
     if (name.starts_with(begin)) return true;
@@ -69,7 +69,7 @@ bool is_of_vecmath(const std::string& name) {
   return false;
 }
 
-/// A source of the grader's as it stands in `check`, where its headers are in no folders of their own.
+/// A grader source as it appears in `check`, where headers are not in folders of their own.
 std::string source_in_check(const fs::path& file) {
   std::string text = content_of_file(file);
   for (const std::string folder : {"tests/coursework/classic/", "tests/coursework/check/", "../../check/"})
@@ -80,7 +80,8 @@ std::string source_in_check(const fs::path& file) {
 
 std::set<fs::path> sorted(const fs::path& folder) { return {fs::directory_iterator(folder), fs::directory_iterator()}; }
 
-/// What is compiled around a whole program: vectors under their usual names, drawing that does nothing, and the probes.
+/// Writes the surroundings of a whole program: vectors under their usual names, drawing functions that do nothing, and
+/// the probes.
 void write_surroundings(const fs::path& from, const fs::path& folder) {
   fs::create_directories(folder / "vecmath");
   for (const fs::path& file : sorted(from / "stubs"))
@@ -104,7 +105,8 @@ PublicTests public_tests(const Assignment& assignment) {
     all.hidden += test.hidden > 0;
     if (test.points == 0) continue;
     all.tests.push_back({std::string(test.id), std::string(test.part), std::string(test.read), test.points, {}, {}});
-    // of files per part `check` has the calls alone; of a whole program also what finds features in its answers
+    // for files per part, `check` has the calls alone; for a whole program also the code that finds features in the
+    // answers
     if (!test.reduce || assignment.takes_whole_program()) {
       all.tests.back().cases = public_cases(assignment, test);
       all.tests.back().small = small_cases(assignment, test);
@@ -125,7 +127,7 @@ void write_handout(const Assignment& assignment, const fs::path& folder) {
   for (const fs::path& file : sorted(from)) {
     const std::string name = file.filename().string();
     if (name.starts_with("handout."))
-      write_text(folder / name, content_of_file(file));  // handout.zh.md where there is one
+      write_text(folder / name, content_of_file(file));  // the translated handout.zh.md, if there is one
     if (name.starts_with("texts.") && ends(file, {".txt"})) write_text(check / name, shown_texts(file));
     if (is_of_check(name) && ends(file, {".cpp", ".h"})) write_text(check / name, source_in_check(file));
   }

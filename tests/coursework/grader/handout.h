@@ -9,12 +9,12 @@
 
 namespace coursework {
 
-/// The cases of every test under its public seed, as they go into the hand-out. A test whose raw numbers are reduced
-/// first has none: the rule that reduces them stays with the grader.
+/// The hand-out's cases: every test under its public seed. A test whose raw numbers are reduced first has none, because
+/// the reduction stays with the grader.
 PublicTests public_tests(const Assignment& assignment);
 
-/// Writes handout.md, the starter, check/, CMakeLists.txt and README.md into the folder, which is made; nothing of the
-/// solution, the styles, the mistakes and the tests' own code. Throws std::runtime_error where the folder cannot be
+/// Creates the folder and writes handout.md, the starter, check/, CMakeLists.txt and README.md into it; nothing of the
+/// solution, the styles, the mistakes and the tests' own code. Throws std::runtime_error if the folder cannot be
 /// written, or the assignment lacks a file.
 void write_handout(const Assignment& assignment, const std::filesystem::path& folder);
 

@@ -1,4 +1,4 @@
-// Names of files as Moodle, Canvas and Gradescope make them, and folders that hold several people's work.
+// File names as Moodle, Canvas and Gradescope create them, and folders with the work of several people.
 #include "tests/coursework/grader/layouts.h"
 
 #include <fmt/format.h>
@@ -18,7 +18,7 @@ namespace coursework {
 namespace fs = std::filesystem;
 namespace {
 
-/// How names of files are made where they are exported: groups of whose it is, and of the file's own name.
+/// Pattern of exported file names, with groups for the person and for the original file name.
 struct Layout {
   const char* name;
   const char* pattern;
@@ -30,7 +30,7 @@ constexpr Layout layouts[] = {
 };
 
 struct Exported {
-  std::string layout;  // empty: none of them
+  std::string layout;  // empty: none of the known layouts
   std::string person, id, file;
   bool late = false;
   std::string key() const { return id.empty() ? person : person + "_" + id; }
@@ -40,7 +40,7 @@ Exported taken_apart(const std::string& name) {
   for (const Layout& layout : layouts)
     if (const auto parts = crosscheck::Pattern(layout.pattern).match(name)) {
       const auto group = [&](int i) { return (*parts)[static_cast<std::size_t>(i)]; };
-      // Canvas numbers what is handed in again: rk4-1.cpp
+      // Canvas numbers resubmissions: rk4-1.cpp
       return {layout.name, group(layout.person), group(layout.number),
               crosscheck::Pattern("-[0-9]+(\\.[^.]+)$").replaced_in(group(layout.file), "$1"),
               layout.late > 0 && !group(layout.late).empty()};
@@ -50,7 +50,7 @@ Exported taken_apart(const std::string& name) {
 
 constexpr const char* gradescope_file = "submission_metadata.yml";
 
-/// Those who handed in, by submission: lines "submission_N:", below it "- :name: NAME" of each of them, then ids.
+/// People by submission: lines "submission_N:", with "- :name: NAME" of each person below, then ids.
 std::map<std::string, std::vector<Person>> gradescope_people(const fs::path& folder) {
   std::map<std::string, std::vector<Person>> people;
   std::ifstream in(crosscheck::path_inside(folder, gradescope_file));
@@ -68,14 +68,14 @@ std::map<std::string, std::vector<Person>> gradescope_people(const fs::path& fol
   return people;
 }
 
-/// Left in folders by macOS, Windows and Git.
+/// True for files that macOS, Windows and Git leave in folders.
 bool left_by_system(const std::string& name) {
   static constexpr const char* names[] = {".DS_Store", "__MACOSX",       ".git",       ".gitignore",
                                           "Thumbs.db", ".gitattributes", "desktop.ini"};
   return name.starts_with("._") || std::find(std::begin(names), std::end(names), name) != std::end(names);
 }
 
-/// The name on one line. A name with characters for which '?' must stand ends in a hash.
+/// The name on one line. A name with characters that are replaced by '?' ends in a hash.
 std::string shown_name(const std::string& name) {
   if (const std::string text = plain_utf8(name); crosscheck::is_printable(text)) return text;
   return fmt::format("{} ({:08x})", printable(crosscheck::printable(name)), crosscheck::Fnv1a::of(name) & 0xffffffffu);
@@ -93,7 +93,7 @@ std::vector<fs::path> entries_of(const fs::path& folder, std::vector<std::string
   return entries;
 }
 
-/// Of the C++ files in it or one folder below, in lower case.
+/// Names of the C++ files in the folder or one folder below, in lower case.
 std::set<std::string> sources_in(const fs::path& folder) {
   std::set<std::string> names;
   const auto options = fs::directory_options::skip_permission_denied;
@@ -150,7 +150,7 @@ std::string class_layout(const fs::path& folder, const std::vector<std::string>&
   if (!fs::is_directory(folder)) return "";
   if (fs::exists(folder / gradescope_file)) return "Gradescope";
   std::map<std::string, std::set<std::string>> people;  // by layout
-  std::map<std::string, int> holds;                     // how many folders hold a source of that name
+  std::map<std::string, int> holds;                     // number of folders with a source of this name
   int clones = 0, archives = 0;
   for (const fs::path& entry : entries_of(folder)) {
     const std::string name = entry.filename().string();
@@ -162,7 +162,7 @@ std::string class_layout(const fs::path& folder, const std::vector<std::string>&
       for (const std::string& source : sources_in(entry))
         if (wanted.empty() || std::find(wanted.begin(), wanted.end(), source) != wanted.end()) ++holds[source];
     } else if (is_cpp(name) && one.layout.empty()) {
-      return "";  // of one
+      return "";  // a single person
     } else {
       archives += is_archive(entry);
     }
@@ -170,7 +170,7 @@ std::string class_layout(const fs::path& folder, const std::vector<std::string>&
   for (const auto& [layout, who] : people)
     if (who.size() > 1) return layout;
   if (clones > 1) return "Git";
-  // two are somebody's program and a copy of it
+  // two folders are one program and a copy of it
   const bool alike = std::any_of(holds.begin(), holds.end(), [](const auto& each) { return each.second > 2; });
   return alike || archives > 2 ? "folders" : "";
 }

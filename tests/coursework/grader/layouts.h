@@ -1,4 +1,4 @@
-// Who handed in what in a folder that was exported from somewhere.
+// Finds the submissions, and their authors, in an exported folder.
 #pragma once
 
 #include <filesystem>
@@ -9,17 +9,17 @@
 
 namespace coursework {
 
-/// Who handed in what, in the order of names. What Moodle, Canvas and Gradescope put into names of files is taken off;
-/// several files of one person are one submission. Otherwise every entry is a submission, except what operating systems
-/// and Git leave in folders: the names of those go to `skipped`. Names are printable and differ. Throws InputError
-/// unless it is a folder.
+/// The submissions in a folder, in the order of names. Removes the additions of Moodle, Canvas and Gradescope from file
+/// names; several files of one person are one submission. Otherwise every entry is a submission, except files that
+/// operating systems and Git leave behind, whose names are appended to `skipped`. Names are printable and distinct.
+/// Throws InputError if `path` is not a folder.
 std::vector<Handed> submissions_in(const std::filesystem::path& folder, std::vector<std::string>* skipped = nullptr);
 
-/// The name of a submission's folder or archive without the archive's ending.
+/// The name of a submission's folder or archive without the archive's extension.
 std::string without_archive_ending(std::string name);
 
-/// Why a folder that should be one submission looks like a class ("Moodle", "Canvas", "Gradescope", "Git",
-/// "folders"); empty: it does not.
+/// The layout that makes a folder look like a class instead of one submission ("Moodle", "Canvas", "Gradescope", "Git",
+/// "folders"); empty if it does not.
 std::string class_layout(const std::filesystem::path& folder, const std::vector<std::string>& wanted);
 
 }  // namespace coursework

@@ -1,4 +1,4 @@
-// crosscheck-grade: the subcommands, and nothing else.
+// crosscheck-grade: dispatches the subcommands.
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>

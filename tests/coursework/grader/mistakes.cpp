@@ -18,7 +18,7 @@ namespace fs = std::filesystem;
 using crosscheck::InputError;
 namespace {
 
-/// Lines of a file, with the number of the one at hand.
+/// Lines of a file, with the current line number.
 class Lines {
  public:
   explicit Lines(const fs::path& file) : file_(file), in_(file) {
@@ -33,7 +33,7 @@ class Lines {
   InputError wrong(const std::string& what) const {
     return InputError(fmt::format("{}:{}: {}", file_.string(), number_, what));
   }
-  /// The lines up to the one that is `end`, without the last line feed.
+  /// The lines up to the line `end`, without the last line feed.
   std::string up_to(const std::string& end) {
     std::string text, line;
     const int begin = number_;
@@ -53,7 +53,7 @@ class Lines {
 bool heading(const std::string& line) { return line.size() > 2 && line.front() == '[' && line.back() == ']'; }
 std::string inside(const std::string& line) { return line.substr(1, line.size() - 2); }
 
-/// The rest of a line "key: rest"; false where it is another.
+/// Parses "key: rest" into `value`; returns false for another key.
 bool value_of(const std::string& key, const std::string& line, std::string& value) {
   if (line.rfind(key + ":", 0) != 0) return false;
   const std::size_t at = line.find_first_not_of(' ', key.size() + 1);
@@ -68,7 +68,7 @@ bool nothing(const std::string& line) { return line.find_first_not_of(" \t") == 
 std::vector<Mistake> read_mistakes(const fs::path& file) {
   Lines lines(file);
   std::vector<Mistake> mistakes;
-  bool open = false;  // whether the last one still lacks its text
+  bool open = false;  // the last mistake still lacks its text
   for (std::string line, value; lines.next(line);) {
     if (nothing(line)) continue;
     if (heading(line)) {
@@ -153,8 +153,8 @@ bool answers_alike(const TestRun& one, const std::filesystem::path& program, con
   return true;
 }
 
-/// Shares of the same count are compared by what was counted; those of other counts, as of a cloth of another size, are
-/// the same where both are neither none nor all.
+/// Compares shares of equal totals by their counts; shares of different totals, as for cloths of different sizes, are
+/// equal if both are neither none nor all.
 bool same_number(const Answer& a, const Answer& b, std::size_t i, double tolerance) {
   const double of = i < a.of.size() ? a.of[i] : 0, other = i < b.of.size() ? b.of[i] : 0;
   const double apart = std::abs(a.got[i] - b.got[i]);
@@ -191,7 +191,7 @@ bool agree(const Case& what, const Answer& student, const Answer& mistake) {
 std::vector<std::string> likely_causes(const Assignment& assignment, const std::string& part,
                                        const std::vector<TestRun>& runs, const std::vector<Mistake>& known,
                                        const Builder& builder, const Sandbox& trusted, unsigned jobs) {
-  // failed tests distinguish mistakes best: they run first
+  // failed tests distinguish mistakes best, so they run first
   std::vector<const TestRun*> order;
   for (const TestRun& one : runs) order.push_back(&one);
   std::stable_partition(order.begin(), order.end(), [](const TestRun* one) { return !all_right(*one); });

@@ -1,4 +1,4 @@
-// Files of known mistakes, and which of them a student's answers look like.
+// Files of known mistakes, and the mistakes that match a student's answers.
 #pragma once
 
 #include <filesystem>
@@ -11,42 +11,43 @@
 
 namespace coursework {
 
-// Files of mistakes: one place of a solution, replaced. mistakes.txt, novel.txt and double.txt of an assignment.
+// Files of mistakes, each a single replacement in a solution: mistakes.txt, novel.txt and double.txt of an assignment.
 
-/// Paragraphs `[name]`, `part: NAME`, `loses: IDS` (may be left out), then `<<<<`, the text, `====`, its replacement,
-/// `>>>>`. Throws InputError that names file, line and what was expected.
+/// Reads paragraphs `[name]`, `part: NAME`, `loses: IDS` (optional), then `<<<<`, the text, `====`, its replacement,
+/// `>>>>`. Throws InputError with file, line and the expected syntax.
 std::vector<Mistake> read_mistakes(const std::filesystem::path& file);
 
-/// Paragraphs `[name]`, `a: NAME`, `b: NAME`: pairs of mistakes made together. Throws InputError likewise.
+/// Reads paragraphs `[name]`, `a: NAME`, `b: NAME`: pairs of simultaneous mistakes. Throws InputError likewise.
 std::vector<std::pair<std::string, std::string>> read_pairs(const std::filesystem::path& file);
 
-/// The source with the mistake made. Throws InputError that names the mistake unless its text stands there exactly
-/// once.
+/// The source with the mistake applied. Throws InputError with the mistake's name unless its text occurs exactly once.
 std::string with_mistake(const std::string& source, const Mistake& mistake);
 
-// Which known mistake a student's answers look like.
+// Comparison of a student's answers with those of known mistakes.
 
-/// One test of a part: its calls, and the student's answers, reduced where the test reduces.
+/// One test of a part: its calls, and the student's answers after the test's reduction.
 struct TestRun {
   const Test* test = nullptr;
   std::vector<Case> cases;
   std::vector<Answer> answers;
 };
 
-/// The answer as it is compared with what is right.
+/// The answer in the form that is compared with the expected one.
 Answer reduced(const Test& test, const Case& what, Answer raw);
 
-/// Whether two wrong answers are the same one: the tolerance grows with the answers where they are larger than the
-/// right ones, so that two ways to write one mistake agree on a motion that blows up.
+/// True if two wrong answers agree. The tolerance scales with answers larger than the right ones, so that two
+/// implementations of the same mistake agree on a motion that blows up.
 bool agree(const Case& what, const Answer& student, const Answer& mistake);
 
-/// The mistakes of `known` whose programs answer all that was asked as the student's did: one is the cause, several are
-/// told as either; none where more than three do, as they say nothing then. `runs` are all the tests of one part.
+/// The mistakes of `known` whose programs give all the student's answers: a single one is the cause, several are
+/// reported as alternatives; none if more than three match, which is not informative. `runs` are all the tests of one
+/// part.
 std::vector<std::string> likely_causes(const Assignment& assignment, const std::string& part,
                                        const std::vector<TestRun>& runs, const std::vector<Mistake>& known,
                                        const Builder& builder, const Sandbox& trusted, unsigned jobs);
 
-/// Those mistakes in words, as the likely cause or as either; that none is known where there are none.
+/// Text of these mistakes as the likely cause, or as alternatives; states that no known mistake matches if `names` is
+/// empty.
 std::string cause_text(const Texts& common, const Texts& own, const std::vector<std::string>& names);
 
 }  // namespace coursework

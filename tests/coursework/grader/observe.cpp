@@ -1,4 +1,4 @@
-// Asks once more, with something changed.
+// Repeats calls with changed inputs.
 #include "tests/coursework/grader/observe.h"
 
 #include <algorithm>
@@ -16,8 +16,8 @@
 namespace coursework {
 namespace {
 
-constexpr std::size_t most_alike = 3;       // explanations that are told as either
-constexpr std::size_t most_numbers = 4000;  // of a case that is asked a hundred times
+constexpr std::size_t most_alike = 3;       // alternatives that are reported together
+constexpr std::size_t most_numbers = 4000;  // in a case, which is run a hundred times
 
 bool usable(const Case& what, const Answer& answer) {
   return answer.how == How::answered && answer.got.size() == what.expected.size() &&
@@ -34,7 +34,7 @@ Case with_numbers(const Case& what, Numbers in) {
   return other;
 }
 
-/// The case with another right answer.
+/// The case with another expected answer.
 Case expecting(const Case& what, const Answer& right) {
   Case other = what;
   other.expected = right.got;
@@ -57,7 +57,7 @@ class Observer {
 
   std::string text() const {
     if (!subject_) return "";
-    // a tolerance that is no round-off would let much fit
+    // a tolerance above round-off would accept too many explanations
     double largest = 0;
     for (const double value : subject_->expected) largest = std::max(largest, std::abs(value));
     if (subject_->tolerance > 1e-4 * largest && largest > 0) return "";
@@ -88,7 +88,8 @@ class Observer {
     return true;
   }
 
-  /// Whether a little more of a changed number would be seen: where a limit is out of reach any large number will do.
+  /// True if a small increment of the changed number would be visible: beyond the reach of a limit, any large number
+  /// fits.
   bool is_sharp(const Change& change) const {
     if (change.kind < Change::one || change.kind > Change::over) return true;
     const std::optional<Numbers> in = changed(with_.own, *subject_, change);
@@ -136,7 +137,7 @@ class Observer {
                               theirs = asked_with(with_.student, changes, again);
     std::string text;
     std::size_t count = 0;
-    std::set<Numbers> told;  // one thing may have several names
+    std::set<Numbers> told;  // one quantity may have several names
     for (std::size_t i = 0; i < made.size(); ++i) {
       if (right[i].how != How::answered || right[i].got.size() != subject_->expected.size()) continue;
       const Case less = expecting(*subject_, right[i]);
@@ -182,22 +183,22 @@ class Observer {
     return 2 * long_ones > all;
   }
 
-  /// A number of the case by its name; nothing where it has none, or several.
+  /// The number of the case with this name; empty if there is none, or several.
   std::optional<double> number_of(const Case& what, const std::string& name) const {
     for (const Param& p : params_of(CallLayout::of(with_.own, what)))
       if (p.name == name && p.scalar()) return what.in[p.at[0]];
     return {};
   }
 
-  /// By which number the cases that are right and those that are wrong are told apart: all of the ones have the same
-  /// simple one, 0 or a count of 1, and none of the others has.
+  /// The number that separates right and wrong cases: its value is the same simple one, 0 or a count of 1, in all cases
+  /// of one group, and in none of the other.
   std::string parted() const {
-    constexpr std::size_t least = 2;  // of each, so that one case is no rule
+    constexpr std::size_t least = 2;  // cases in each group: a single case is not a rule
     std::string text;
     std::size_t count = 0;
     for (const Param& p : params_of(CallLayout::of(with_.own, *subject_))) {
       if (!p.scalar()) continue;
-      std::vector<double> of[2];  // wrong, right
+      std::vector<double> of[2];  // index 0: wrong, 1: right
       for (const auto& [what, answer] : asked_)
         if (const auto value = number_of(what, p.name)) of[judge(what, answer).right].push_back(*value);
       if (of[0].size() < least || of[1].size() < least || of[0].size() + of[1].size() != asked_.size()) continue;
@@ -217,14 +218,14 @@ class Observer {
     return text;
   }
 
-  /// Whether a number that was wrong is still asked for.
+  /// True if a wrong number remains nonzero in the expected answer without the term.
   bool says_something(const Numbers& without) const {
     for (std::size_t i = 0; i < without.size(); ++i)
       if (without[i] != 0 && !(std::abs(got_->got[i] - subject_->expected[i]) <= subject_->tolerance)) return true;
     return false;
   }
 
-  /// Whether the answer is one of the call's own numbers, so that without this nothing is computed.
+  /// True if the answer is one of the call's own numbers, so that nothing is computed without this term.
   bool hands_through(const Numbers& answer) const {
     for (const Param& param : params_of(CallLayout::of(with_.own, *subject_)))
       for (std::size_t from = 0; from + answer.size() <= param.at.size(); from += answer.size()) {
@@ -235,16 +236,16 @@ class Observer {
     return false;
   }
 
-  /// The case of what something adds, from the answers with it and without it.
+  /// The contribution of a term as a case, from the answers with it and without it.
   static std::pair<Case, Answer> added(const Case& what, const Answer& answer, const Numbers& right,
                                        const Numbers& theirs) {
     std::pair<Case, Answer> of{what, answer};
     for (std::size_t i = 0; i < answer.got.size(); ++i) of.first.expected[i] -= right[i], of.second.got[i] -= theirs[i];
-    of.first.tolerance *= 3;  // differences of two numbers each
+    of.first.tolerance *= 3;  // each is a difference of two numbers
     return of;
   }
 
-  /// What the change adds to other cases that are wrong, as far as a second one is needed.
+  /// The contribution of the change to other wrong cases, until a second one confirms it.
   Answered added_to_others(const Change& change) const {
     constexpr std::size_t enough = 4;
     std::vector<std::size_t> of;
@@ -303,7 +304,7 @@ std::vector<std::string> seen_at(const Observing& with, const Assignment& assign
     if (test.reduce) continue;
     const std::vector<Case> small = small_cases(assignment, test);
     const std::vector<Answer> to_small = small.empty() ? std::vector<Answer>() : with.student(small);
-    std::set<std::string> calls;  // that this test, or its small cases, find wrong
+    std::set<std::string> calls;  // calls that this test, or its small cases, fail
     for (std::size_t k = 0; k < runs[i].cases.size(); ++k)
       if (!judge(runs[i].cases[k], runs[i].answers[k]).right) calls.insert(runs[i].cases[k].call);
     for (std::size_t k = 0; k < small.size(); ++k)
@@ -319,7 +320,7 @@ std::vector<std::string> seen_at(const Observing& with, const Assignment& assign
         if (small[k].call == call) asked.emplace_back(small[k], to_small[k]);
       const std::string text = Observer(with, asked).text();
       say(i, text);
-      if (!text.empty()) told.insert(function);  // other calls of it would say the same
+      if (!text.empty()) told.insert(function);  // other calls of the function would give the same result
     }
   }
   return seen;

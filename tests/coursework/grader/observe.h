@@ -1,5 +1,5 @@
-// What is seen when a wrong call is asked again with other numbers: for which the student's answers would be right,
-// and without which they are.
+// Observations from repeating a wrong call with other numbers: inputs for which the student's answers would be right,
+// and terms without which they are.
 #pragma once
 
 #include <filesystem>
@@ -10,7 +10,7 @@
 
 namespace coursework {
 
-/// A program, asked in a sandbox for a few seconds at most.
+/// Runs a program in a sandbox, with a limit of a few seconds.
 Ask asking(const Sandbox& sandbox, const std::filesystem::path& program);
 
 struct Observing {
@@ -18,14 +18,15 @@ struct Observing {
   const Texts &common, &own;
 };
 
-/// What is said beside each run of a part's tests, "" where nothing is; only at those that are `told_at`. The first has
-/// what the assignment's own look finds; of each call that is answered wrongly the first that makes it has this:
+/// Observations for each run of a part's tests, "" if there are none; only for runs in `told_at`. The first has the
+/// result of the assignment's formula analysis; for each call that is answered wrongly, the first run with this call
+/// has the following:
 ///
-/// First the official solution is asked with one thing changed: a number zero, one, of the other sign, twice, half,
-/// exchanged with another one, of the neighbour, of the first, a list without its items. Where it then answers all
-/// that was asked as the student did, that is told ("right with drag = 0"); no more than three that do so alike.
-/// Else both are asked for the smallest wrong case without one thing each: where the student is right then, that thing
-/// is told, and what the student has in place of what it adds.
+/// First, runs the official solution with one change: a number set to zero or one, negated, doubled, halved, exchanged
+/// with another number, replaced by a neighbour's or the first value, or a list without items. Changes that reproduce
+/// all of the student's answers are reported ("right with drag = 0"), unless more than three do.
+/// Otherwise runs both on the smallest wrong case with one term removed: if the student is right then, reports this
+/// term, and the student's contribution in its place.
 std::vector<std::string> seen_at(const Observing& with, const Assignment& assignment, const std::string& part,
                                  const std::vector<TestRun>& runs, const std::vector<bool>& told_at);
 

@@ -1,4 +1,4 @@
-// Collects sources by their include lines, headers and scripts into a zip, and rehearses it from the zip to
+// Collects sources along their include lines, headers and scripts into a zip, and rehearses the package from the zip to
 // results.json.
 #include "tests/coursework/grader/pack.h"
 
@@ -42,7 +42,7 @@ la_ssize_t append_to(archive*, void* to, const void* bytes, size_t size) {
 }  // namespace
 
 void write_zip(const fs::path& zip, const std::map<std::string, std::string>& files) {
-  // packed in memory, as the library leaks what it packs with where writing fails
+  // packed in memory, because the library leaks its buffers if writing fails
   std::string packed;
   const std::unique_ptr<archive, int (*)(archive*)> out(archive_write_new(), archive_write_free);
   check_archive(out.get(), archive_write_set_format_zip(out.get()));
@@ -59,7 +59,7 @@ void write_zip(const fs::path& zip, const std::map<std::string, std::string>& fi
     check_archive(out.get(), archive_write_data(out.get(), content.data(), content.size()));
   }
   check_archive(out.get(), archive_write_close(out.get()));
-  // it gets its name when it is whole: a full disk or a kill leaves no half zip
+  // renamed when complete: a full disk or a kill leaves no partial zip
   crosscheck::StreamingFile file(zip);
   file.append(packed);
   file.finish();
@@ -95,7 +95,7 @@ void unpack_zip(const fs::path& zip, const fs::path& folder) {
 
 namespace {
 
-/// The quoted includes of a file, relative to `root` or beside the file.
+/// The quoted includes of a file, relative to `root` or to the file's folder.
 std::vector<std::string> includes_of(const fs::path& root, const std::string& file) {
   std::vector<std::string> found;
   std::ifstream in(root / file);
@@ -115,8 +115,8 @@ bool has_main(const fs::path& file) {
   return false;
 }
 
-/// Whether a source that includes `header` belongs to it. Programs of their own only use it, and so do the calls of
-/// public tests, which are compiled beside submissions: their "calls.h" is found there only.
+/// True if a source that includes `header` belongs to it. Programs with a main only use it, and so do the calls of
+/// public tests, which are compiled with submissions, because their "calls.h" exists only there.
 bool belongs_to(const fs::path& root, const std::string& source, const std::string& header) {
   const auto its = includes_of(root, source);
   return !has_main(root / source) && std::find(its.begin(), its.end(), header) != its.end() &&
@@ -160,7 +160,7 @@ void add_folder(Files& files, const fs::path& from, const std::string& to) {
       files[to + "/" + fs::relative(entry.path(), from).generic_string()] = content_of_file(entry.path());
 }
 
-/// A library of which headers are packed: their folder, one of them, and Debian's package.
+/// A library whose headers are packed: its folder, one header, and Debian's package.
 struct HeaderLibrary {
   const char *folder, *header, *package;
 };
@@ -191,10 +191,10 @@ void add_headers(Files& files) {
 std::string identifier_of(std::string_view assignment) {
   std::string name(assignment);
   std::replace(name.begin(), name.end(), '-', '_');
-  return name;  // that of its function begins with it
+  return name;  // the name of its function begins with it
 }
 
-/// The table with one row: no source of another assignment goes with this one.
+/// The table with one row: sources of other assignments are not packed.
 std::string table_of_one(const std::string& table, const Assignment& only) {
   std::string out;
   size_t begin = 0;
@@ -208,7 +208,7 @@ std::string table_of_one(const std::string& table, const Assignment& only) {
   return out;
 }
 
-/// All of a package but its secret.
+/// All files of a package except its secret.
 Files files_of_package(const Assignment& assignment) {
   const fs::path coursework = folder_of_coursework(), root = coursework.parent_path().parent_path();
   const std::string name(assignment.name), ours = "tests/coursework/" + name,
@@ -262,7 +262,7 @@ std::string last_lines(const fs::path& log) {
   return text.size() > most ? "... " + text.substr(text.size() - most) : text;
 }
 
-/// What is wrong with the results of our own solution; empty: nothing.
+/// Reports what is wrong with the results of our own solution; empty: nothing.
 std::string wrong_with(const fs::path& results) {
   if (!fs::exists(results)) return "there is no results/results.json";
   try {
@@ -307,7 +307,7 @@ bool rehearse(const Assignment& assignment, const fs::path& zip) {
   if (built.too_late) return not_ready("build.sh takes more than half an hour");
   if (built.status != 0) return not_ready(fmt::format("build.sh ends with {}", built.status));
 
-  // Gradescope puts the script there, and makes the two folders
+  // Gradescope installs the script at this path and creates the two folders
   fs::copy_file(source / "run_autograder", root / "run_autograder");
   fs::create_directories(root / "submission");
   fs::create_directories(root / "results");

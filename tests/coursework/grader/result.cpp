@@ -1,4 +1,4 @@
-// Results as JSON, text and page; on the page all that came from the student is escaped.
+// Results as JSON, text and page; the page escapes all text from the student.
 #include "tests/coursework/grader/result.h"
 
 #include <fmt/format.h>
@@ -20,7 +20,7 @@ using crosscheck::JsonField;
 
 namespace {
 
-// in the order of the alphabet, as files of earlier gradings have it
+// in alphabetical order, as in files of earlier gradings
 Json json_of(const TestResult& t) {
   return {
       {"cause", t.cause}, {"concepts", t.concepts}, {"earned", t.earned}, {"heading", t.heading},  {"hidden", t.hidden},
@@ -85,7 +85,7 @@ std::string to_json(const Result& result, const std::string& fingerprint) {
                {"submission", result.submission},
                {"tests", Json::array()}});
   for (const TestResult& test : result.tests) json["tests"].push_back(json_of(test));
-  return crosscheck::dump(json, 1) + "\n";  // bytes of a student's text that are no UTF-8 are replaced
+  return crosscheck::dump(json, 1) + "\n";  // invalid UTF-8 in a student's text is replaced
 }
 
 Result result_from_json(const std::string& text, const std::string& file, std::string* fingerprint) {
@@ -117,7 +117,7 @@ const TestResult* public_twin(const Result& result, const TestResult& test) {
   return nullptr;
 }
 
-/// Public tests of the part that have this cause; hidden ones tell nothing before their time.
+/// Public tests of the part with this cause; hidden ones must not reveal anything yet.
 std::vector<std::string> with_cause(const Result& result, const std::string& part, const std::string& cause) {
   std::vector<std::string> ids;
   for (const TestResult& test : result.tests)
@@ -197,7 +197,7 @@ std::string text_of(const Result& result, const Texts& common) {
                      "\n";
   for (const std::string& line : result.preflight) text += "! " + printable(line) + "\n";
   for (const std::string& line : causes_of(result, common)) text += printable(line) + "\n";
-  std::string part, shown;  // what was said last on the part is not said again test by test
+  std::string part, shown;  // last text on the part, which is not repeated for every test
   bool hidden = false;
   for (const TestResult& test : result.tests) {
     if (test.part != part || test.hidden != hidden) {

@@ -1,4 +1,4 @@
-// Reads a rubric, and shares the points of a test among its public and its hidden twin.
+// Reads a rubric, and divides the points of a test among its public and its hidden twin.
 #include "tests/coursework/grader/rubric.h"
 
 #include <fmt/format.h>
@@ -18,7 +18,7 @@ namespace {
 
 using crosscheck::TomlTable;
 
-/// The submissions of a student, and in `known` what students can be called.
+/// The submissions of a student; `known` receives the names by which students can be addressed.
 std::vector<std::string> submissions_of(const std::string& student, const std::vector<Handed>& handed,
                                         std::set<std::string>& known) {
   std::vector<std::string> found;

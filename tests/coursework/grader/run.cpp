@@ -1,4 +1,4 @@
-// Asks, and reads what came back as something that anybody may have written.
+// Runs calls, and parses the output as untrusted text.
 #include "tests/coursework/grader/run.h"
 
 #include <fmt/format.h>
@@ -56,12 +56,12 @@ Answer ending(const End& end, const Limits& limits) {
   return {How::no_token, {}, {}};
 }
 
-/// As tests/coursework/check/child_main.cpp cuts it; a line that somebody else wrote is cut here.
+/// Length limit of tests/coursework/check/child_main.cpp; forged lines are cut here.
 constexpr std::size_t longest_said = 200;
 constexpr std::size_t longest_name = 40;
 
-/// "KEY n1 n2", or where `names` "NAME n1 NAME n2 ...": names of letters, digits, _ and ., small counts. Empty where it
-/// is anything else: students may have written it.
+/// Parses "KEY n1 n2", or, with `names`, "NAME n1 NAME n2 ...": names of letters, digits, _ and ., small counts. Empty
+/// for anything else, since the text is untrusted.
 std::vector<std::pair<std::string, long>> counts_in(const std::string& text, bool names) {
   std::vector<std::pair<std::string, long>> counts;
   std::istringstream words(text);
@@ -76,9 +76,9 @@ std::vector<std::pair<std::string, long>> counts_in(const std::string& text, boo
   return counts;
 }
 
-/// "answer COUNT n1 n2 ..."; false where it is anything else.
+/// Parses "answer COUNT n1 n2 ..."; returns false for anything else.
 bool parse_answer(const std::string& line, Numbers& numbers) {
-  const char* at = line.c_str() + 7;  // behind "answer "
+  const char* at = line.c_str() + 7;  // after "answer "
   char* end = nullptr;
   if (*at < '0' || *at > '9') return false;
   const unsigned long count = std::strtoul(at, &end, 10);
@@ -106,7 +106,7 @@ std::vector<Answer> answers_of(const End& end, const std::string& token, std::si
       finished = true;
       continue;
     }
-    // last words, told only beside the end that they explain
+    // messages before the end, valid only with the end that they explain
     if (line.rfind("slow", 0) == 0 && rest.how == How::out_of_time) {
       rest.counts = counts_in(line.substr(4), true);
       begin = end.answers.size();
@@ -130,7 +130,7 @@ std::vector<Answer> answers_of(const End& end, const std::string& token, std::si
     if (malformed) break;
     answers.push_back(std::move(answer));
   }
-  // a process that a limit or a signal ended may have been cut in the middle of a line
+  // a process ended by a limit or a signal may have been cut in the middle of a line
   const bool cut = rest.how != How::no_token;
   if (!cut && begin != end.answers.size()) malformed = true;
   if (malformed || answers.size() > count) return std::vector<Answer>(count, Answer{How::no_token, {}, {}});
@@ -138,14 +138,14 @@ std::vector<Answer> answers_of(const End& end, const std::string& token, std::si
     if (!finished || end.code != 0) return std::vector<Answer>(count, Answer{How::no_token, {}, {}});
     return answers;
   }
-  // ended after its last answer: the last call is to blame
+  // ended after its last answer: attributes the end to the last call
   if (answers.size() == count && count > 0) answers.pop_back();
   answers.resize(count, rest);
   return answers;
 }
 
 std::string shown_exception(const std::string& text, const std::map<std::string, std::string>& files) {
-  // what() of libstdc++, and what child_main.cpp says itself
+  // messages of libstdc++'s exceptions, and of child_main.cpp
   static constexpr const char* known[] = {"vector::_M_range_check: __n (which is ",
                                           ") >= this->size() (which is ",
                                           "vector::_M_default_append",

@@ -1,4 +1,4 @@
-// One process of a student's program: calls in, answers out.
+// One process of a student's program: reads calls, returns answers.
 #pragma once
 
 #include <filesystem>
@@ -11,30 +11,30 @@
 
 namespace coursework {
 
-/// s of processor time that any code may take for the calls of one test: hundreds of times what the slowest of the
-/// classic solution's tests takes (0.06 s), and twice what it takes with evalF at 5 ms, the slowest right one that was
-/// met.
+/// CPU time (s) that any code may use for the calls of one test: hundreds of times the time of the slowest test for the
+/// classic solution (0.06 s), and twice its time with an evalF of 5 ms, the slowest correct one seen so far.
 constexpr double least_cpu = 30;
-/// Code may take so many times what the official solution takes for the same calls on the same machine.
+/// Code may use this multiple of the official solution's CPU time for the same calls on the same machine.
 constexpr double times_reference = 20;
 
-/// The limits of a test whose calls cost the official solution `reference` s. Only processor time decides: the clock is
-/// sixty times further, for a machine with sixty busy programs on a processor, and whoever waits is found by that.
+/// Limits of a test whose calls cost the official solution `reference` s. Only CPU time decides: the wall-clock limit
+/// is sixty times larger, for a machine with sixty busy programs per processor, and the idle limit stops programs that
+/// wait.
 Limits limits_for(double reference, double least = least_cpu);
 
-/// An answer per case, whatever the program does; `captured`: the first of what it printed. `token` is what it must say
-/// at the end.
+/// One answer per case, whatever the program does; `captured`: the beginning of its output. `token` must end the
+/// answers.
 std::vector<Answer> run_calls(const Sandbox& sandbox, const std::filesystem::path& program,
                               const std::vector<Case>& cases, const Limits& limits = limits_for(0),
                               double* cpu = nullptr, std::string* captured = nullptr);
 
-/// What may be shown of the text of an exception: all of it where it stands in one of the student's files or comes from
-/// the standard library, numbers of up to six digits aside; else nothing. Whatever else a program can get hold of, our
-/// code and texts among it, does not leave this way.
+/// The part of an exception's text that may be shown: all of it, if it occurs in one of the student's files or comes
+/// from the standard library, except for numbers of up to six digits; otherwise nothing. This prevents leaks of our
+/// code and texts, and of anything else that a program can read.
 std::string shown_exception(const std::string& text, const std::map<std::string, std::string>& files);
 
-/// What the lines on descriptor 3 and the end of the process mean for each of `count` calls. Lines that are not of the
-/// form that tests/coursework/check/child_main.cpp writes make all of them How::no_token.
+/// Interprets the lines on descriptor 3 and the end of the process for each of `count` calls. Lines that differ from
+/// the format of tests/coursework/check/child_main.cpp make all answers How::no_token.
 std::vector<Answer> answers_of(const End& end, const std::string& token, std::size_t count, const Limits& limits);
 
 }  // namespace coursework
