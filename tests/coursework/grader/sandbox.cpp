@@ -39,7 +39,7 @@ class BareSandbox final : public Sandbox {
     start.environment = {"PATH=/usr/bin:/bin", "LANG=C", "HOME=" + staging.own().string(),
                          "TMPDIR=" + staging.own().string()};
     start.folder = job.writable.empty() ? staging.own() : job.writable;
-    // The filter only bounds what it starts here: a limit on processes would count all that its user, you, runs.
+    // The filter only restricts what the command may start: a limit on processes would count all processes of the user.
     start.filter = job.limits.processes > 0 ? std::string() : none_;
     start.input = job.input;
     start.limits = job.limits;
@@ -62,7 +62,7 @@ namespace {
 constexpr const char* bwrap = "/usr/bin/bwrap";
 constexpr const char* system_folders[] = {"/usr", "/bin", "/lib", "/lib64", "/etc/alternatives"};
 
-/// A file in memory, under a number above those that the program gets.
+/// A file in memory, with a descriptor above those that the program gets.
 class MemoryFile {
  public:
   explicit MemoryFile(const std::string& content) {
@@ -87,7 +87,8 @@ class MemoryFile {
   int fd_;
 };
 
-/// Since Linux 5.14 a limit on processes counts those of its namespace; before, all of the user's.
+/// True for Linux 5.14 and later, which count processes per namespace for the limit; earlier kernels count all of the
+/// user's.
 bool counts_by_namespace() {
   utsname system{};
   int major = 0, minor = 0;
@@ -95,7 +96,7 @@ bool counts_by_namespace() {
          (major > 5 || (major == 5 && minor >= 14));
 }
 
-/// The limit on tasks of the program's user, the program itself included.
+/// Limit on tasks of the program's user, including the program itself.
 long tasks(const Limits& limits) { return limits.processes > 0 ? limits.processes + 1 : limits.threads; }
 
 std::vector<std::string> arguments(const Job& job, const StagingFolder& staging) {
@@ -103,13 +104,13 @@ std::vector<std::string> arguments(const Job& job, const StagingFolder& staging)
                                "ALL", "--hostname",    "sandbox",           "--clearenv"};
   const auto add = [&all](std::initializer_list<std::string> more) { all.insert(all.end(), more); };
   for (const char* folder : system_folders) add({"--ro-bind-try", folder, folder});
-  // where Crosscheck is installed the system's folders hold its tests
+  // if Crosscheck is installed, the system's folders contain its tests
   if (const auto tests = folder_of_coursework(); tests.string().starts_with("/usr/"))
     add({"--tmpfs", tests.string(), "--remount-ro", tests.string()});
-  // bwrap's own first process runs inside under the same user and without the filter: who has /proc could write to its
-  // memory. Compilers are shown it, students' programs are not.
+  // bwrap's own first process runs inside under the same user and without the filter: with access to /proc, a program
+  // could write to its memory. Compilers see /proc, students' programs do not.
   if (job.limits.processes > 0) add({"--proc", "/proc"});
-  // Four times what one file may have: several files, and yet an end.
+  // Four times the limit on one file: room for several files, but bounded.
   add({"--dev", "/dev", "--size", std::to_string(4 * (job.limits.file << 20)), "--tmpfs", "/tmp"});
   for (const auto& folder : job.readable) add({"--ro-bind", staging.of(folder).string(), folder.string()});
   if (!job.writable.empty()) add({"--bind", staging.of(job.writable).string(), job.writable.string()});
@@ -118,7 +119,7 @@ std::vector<std::string> arguments(const Job& job, const StagingFolder& staging)
        "/tmp"});
   add({"--chdir", job.writable.empty() ? "/tmp" : job.writable.string()});
   add({"--seccomp", "4", "--json-status-fd", "5", "--"});
-  // within the namespace, where only its own count; the first of both is bash's word, the second dash's
+  // within the namespace, which counts only its own processes; the first option is bash's, the second dash's
   if (job.limits.processes == 0 && geteuid() != 0 && counts_by_namespace())
     add({"/bin/sh", "-c", R"({ ulimit -u "$0" || ulimit -p "$0"; } 2>/dev/null; exec "$@")",
          std::to_string(job.limits.threads + 1)});
@@ -135,7 +136,7 @@ class BwrapSandbox final : public Sandbox {
 
   End run(const Job& job) const override {
     if (access(bwrap, X_OK) != 0) throw std::runtime_error("bubblewrap is not installed");
-    // Root's own number would lift the limit on processes, and make of any leak a leak of everything.
+    // Under root's own uid the limit on processes would not apply, and any leak would expose everything.
     std::optional<SandboxUser> user;
     if (geteuid() == 0) user.emplace();
     StagingFolder staging(job, user ? user->id() : 0);
@@ -147,9 +148,9 @@ class BwrapSandbox final : public Sandbox {
     start.passed = {filter.get(), status.get()};
     start.input = job.input;
     start.limits = job.limits;
-    // bwrap itself, its first process inside, and the program. Without a user of its own all that its user, you, runs
-    // would count as well: then the limit on threads is set inside, and on processes the clock and the end of the
-    // namespace are the limit.
+    // bwrap itself, its first process inside, and the program. Without a separate user, all processes of the calling
+    // user would count as well: then the limit on threads is set inside, and processes are bounded only by the
+    // wall-clock limit and the end of the namespace.
     start.processes = user ? tasks(job.limits) + 2 : -1;
     ProcessResult ended = spawn(start);
     const bool stopped = ended.wall || ended.idle || ended.output || ended.full;
@@ -189,7 +190,7 @@ class UidSandbox final : public Sandbox {
                          "TMPDIR=" + staging.own().string()};
     start.folder = job.writable.empty() ? staging.own() : staging.of(job.writable);
     start.user = user.id();
-    // Nothing bounds what all its files hold together: without a folder of its own it makes none.
+    // Nothing bounds the total size of its files: without a writable folder it must not create any.
     start.filter = filter_program({job.limits.processes > 0, !job.writable.empty()});
     start.input = job.input;
     start.limits = job.limits;
@@ -219,8 +220,8 @@ constexpr std::string_view no_sandbox_means =
     "among it, and use the network; only time, memory, processes and output stay limited. Do that for code you trust, "
     "or in a virtual machine that you throw away.";
 
-/// Runs a shell in the sandbox. Empty where it runs there, sees no secret of ours and cannot start a process; else what
-/// is wrong.
+/// Runs a shell in the sandbox. Returns an empty text if it runs, sees no secret of ours and cannot start a process;
+/// otherwise the reason.
 std::string lacks(const Sandbox& sandbox) {
   const PrivateFolder secret(0700);
   try {

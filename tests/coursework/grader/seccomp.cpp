@@ -35,8 +35,8 @@ constexpr const char* refused[] = {
 constexpr const char* starting[] = {"fork", "vfork"};
 constexpr const char* creating[] = {"creat",     "mkdir", "mkdirat", "mknod",  "mknodat",  "symlink",
                                     "symlinkat", "link",  "linkat",  "rename", "renameat", "renameat2"};
-// Waiting costs no processor time, which is what a student's program has a limit of: they return at once, as if the
-// time were over.
+// Waiting uses no CPU time, on which a student's program is limited: these calls return at once, as if the time had
+// passed.
 constexpr const char* waiting[] = {"nanosleep", "clock_nanosleep", "poll", "ppoll", "select", "pselect6"};
 constexpr unsigned long spaces[] = {CLONE_NEWUSER, CLONE_NEWNS,  CLONE_NEWPID,    CLONE_NEWNET,
                                     CLONE_NEWIPC,  CLONE_NEWUTS, CLONE_NEWCGROUP, 0x80 /* CLONE_NEWTIME */};
@@ -49,7 +49,7 @@ void check(int result) {
   if (result < 0) throw std::runtime_error(fmt::format("libseccomp: {}", std::strerror(-result)));
 }
 
-/// Names that this libseccomp or machine does not know cannot be called by name either: passed over.
+/// Names unknown to this libseccomp or machine cannot be called by name either, and are skipped.
 void refuse(void* filter, const char* name, int error) {
   const int number = seccomp_syscall_resolve_name(name);
   if (number >= 0) check(seccomp_rule_add(filter, SCMP_ACT_ERRNO(error), number, 0));
@@ -80,7 +80,7 @@ std::string filter_program(Allowed allowed) {
       refuse_if(filter.get(), "openat", SCMP_A2(SCMP_CMP_MASKED_EQ, flag, flag));
     }
   }
-  refuse_if(filter.get(), "ioctl", SCMP_A1(SCMP_CMP_MASKED_EQ, 0xffffffffu, TIOCSTI));  // types into a terminal
+  refuse_if(filter.get(), "ioctl", SCMP_A1(SCMP_CMP_MASKED_EQ, 0xffffffffu, TIOCSTI));  // injects input into a terminal
   refuse_if(filter.get(), "prctl", SCMP_A0(SCMP_CMP_MASKED_EQ, 0xffffffffu, PR_SET_PDEATHSIG));  // would outlive us
 
   const int file = memfd_create("filter", MFD_CLOEXEC);

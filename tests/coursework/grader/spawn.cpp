@@ -1,4 +1,4 @@
-// The supervisor, the pipes around it, and what the end of a process means.
+// The supervisor, the pipes around it, and the interpretation of a process's end.
 #include "tests/coursework/grader/spawn.h"
 
 #include <fcntl.h>
@@ -61,7 +61,7 @@ void set_limit(int what, rlim_t soft, rlim_t hard) {
   set_limit(RLIMIT_STACK, 8 << 20, 8 << 20);
   set_limit(RLIMIT_FSIZE, setup.file, setup.file);
   set_limit(RLIMIT_NPROC, setup.processes, setup.processes);
-  set_limit(RLIMIT_CPU, setup.cpu, setup.cpu + 1);  // SIGXCPU, and a second later SIGKILL for those who swallow it
+  set_limit(RLIMIT_CPU, setup.cpu, setup.cpu + 1);  // SIGXCPU, and a second later SIGKILL for programs that ignore it
   set_limit(RLIMIT_AS, setup.memory, setup.memory);
   if (setup.user && !become(setup.user)) fail(setup, "change to another user");
   if (chdir(setup.folder) != 0) fail(setup, "enter the folder it starts in");
@@ -76,8 +76,8 @@ void set_limit(int what, rlim_t soft, rlim_t hard) {
     if (prctl(PR_SET_SECCOMP, SECCOMP_MODE_FILTER, setup.filter) != 0)
       fail(setup, "install the filter of system calls");
   }
-  // A thread of ours that forked while another wrote this program holds it open until it has closed what it inherited,
-  // and as long it cannot be started.
+  // A thread of ours that forked while another wrote this program holds it open until it has closed the inherited
+  // descriptors; the program cannot be started before.
   const timespec moment{0, 1000000};
   for (int waited = 0; waited < 2000; ++waited) {
     execve(setup.command[0], setup.command, setup.environment);
@@ -87,7 +87,7 @@ void set_limit(int what, rlim_t soft, rlim_t hard) {
   fail(setup, "start the program");
 }
 
-/// Kills the children that this process has by now: the program's orphans come to it.
+/// Kills the current children of this process, to which the program's orphans are reparented.
 void kill_children() {
   char text[4096];
   const int file = open("/proc/thread-self/children", O_RDONLY | O_CLOEXEC);
@@ -102,7 +102,7 @@ void kill_children() {
   }
 }
 
-/// The sum of all, since a program may leave its dead to us.
+/// Adds resource usage, because a program may leave its zombies to us.
 void add_usage(rusage& sum, const rusage& more) {
   timeradd(&sum.ru_utime, &more.ru_utime, &sum.ru_utime);
   timeradd(&sum.ru_stime, &more.ru_stime, &sum.ru_stime);
@@ -132,7 +132,7 @@ void kill_descendants(const ChildSetup& setup, rusage& used) {
 }  // namespace
 
 void supervise(const ChildSetup& setup) {
-  // The descriptors were made above the numbers that they get here, so that none is overwritten before its turn.
+  // The descriptors were created above their target numbers, so that none is overwritten before its turn.
   for (int i = 0; i < setup.count; ++i) dup2(setup.descriptors[i], i);
   ChildSetup own = setup;
   own.report = dup2(setup.report, setup.count);
@@ -186,7 +186,7 @@ End classify(ProcessResult ended, const Limits& limits, bool shell) {
   if (shell && code > 128 && code < 128 + NSIG) signal = code - 128;
   end.code = signal ? signal : code;
   const double cpu = crosscheck::cpu_seconds(ended.used);
-  // ru_maxrss is in kB; what is mapped of the limit is more than what is resident, hence three quarters.
+  // ru_maxrss is in kB; the limit is on mapped memory, which exceeds resident memory, hence three quarters.
   const bool full = static_cast<double>(ended.used.ru_maxrss) > 0.75 * 1024 * static_cast<double>(limits.memory);
   end.cpu = cpu;
   if (ended.wall)
@@ -209,7 +209,7 @@ End classify(ProcessResult ended, const Limits& limits, bool shell) {
 namespace {
 
 constexpr std::size_t most_captured = 64 << 10;
-constexpr int above = 32;  // ours lie above the numbers that the program's get
+constexpr int above = 32;  // our descriptors are above the numbers that the program's get
 
 class Descriptor {
  public:
@@ -243,7 +243,7 @@ struct Pipe {
   }
 };
 
-/// Signals that would disturb this thread while it feeds and waits; as before at the end.
+/// Blocks signals that would disturb this thread during communication; restores them at the end.
 class BlockedSignals {
  public:
   BlockedSignals() {
@@ -254,7 +254,7 @@ class BlockedSignals {
     sigset_t pipe{};
     sigaddset(&pipe, SIGPIPE);
     const timespec at_once{};
-    if (!sigismember(&before_, SIGPIPE)) sigtimedwait(&pipe, nullptr, &at_once);  // one of our own writes
+    if (!sigismember(&before_, SIGPIPE)) sigtimedwait(&pipe, nullptr, &at_once);  // raised by one of our own writes
     pthread_sigmask(SIG_SETMASK, &before_, nullptr);
   }
 
@@ -262,7 +262,7 @@ class BlockedSignals {
   sigset_t ours_{}, before_{};
 };
 
-/// What is there now, up to `most` in all kept. Returns false at the end of file.
+/// Reads the available data, and keeps up to `most` bytes in total. Returns false at the end of file.
 bool read_available(int fd, std::string& kept, std::size_t most, std::size_t& seen) {
   char block[65536];
   ssize_t got;
@@ -274,12 +274,13 @@ bool read_available(int fd, std::string& kept, std::size_t most, std::size_t& se
   return got != 0;
 }
 
-/// How long nothing of a program has run. Whoever waits for a processor counts as running: load makes nobody idle.
+/// Measures for how long no process of a program has run. Waiting for a processor counts as running, so load makes
+/// nothing idle.
 class IdleWatch {
  public:
   explicit IdleWatch(pid_t supervisor) : supervisor_(supervisor) {}
 
-  /// Looks once in a second.
+  /// Checks once per second.
   double seconds() {
     const auto now = Clock::now();
     if (now - looked_ >= std::chrono::seconds(1)) {
@@ -292,7 +293,7 @@ class IdleWatch {
  private:
   using Clock = std::chrono::steady_clock;
 
-  /// Any thread below this process that is in no interruptible sleep; true where it cannot be known.
+  /// True if any thread below this process is not in interruptible sleep, or if this cannot be determined.
   static bool anything_runs(pid_t parent) {
     const std::string children =
         crosscheck::try_read_file(fmt::format("/proc/{0}/task/{0}/children", parent)).value_or("");
@@ -315,7 +316,7 @@ class IdleWatch {
   Clock::time_point looked_ = Clock::now(), ran_ = looked_;
 };
 
-/// Feeds, listens and watches the clock until the supervisor reports.
+/// Feeds the input, reads the outputs and watches the clock until the supervisor reports.
 ChildStatus communicate(const SpawnOptions& start, pid_t supervisor, Pipe& in, Pipe& answers, Pipe& captured_output,
                         Pipe& reports, ProcessResult& ended) {
   for (Pipe* pipe : {&answers, &captured_output, &reports}) {
@@ -344,7 +345,7 @@ ChildStatus communicate(const SpawnOptions& start, pid_t supervisor, Pipe& in, P
       const ssize_t wrote = write(in.to.get(), start.input.data() + fed, start.input.size() - fed);
       fed = wrote > 0 ? fed + static_cast<std::size_t>(wrote) : errno == EAGAIN ? fed : start.input.size();
     }
-    // The report comes when nothing of the program runs any more: what it wrote is in the pipes by then.
+    // The report comes after all processes of the program have ended, so their output is in the pipes by then.
     const bool reported = watched[0].revents;
     if (!read_available(answers.from.get(), ended.answers, most_answers, answered)) answers.from.reset();
     if (!read_available(captured_output.from.get(), ended.captured_output, most_captured, captured))

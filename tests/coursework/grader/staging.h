@@ -1,5 +1,5 @@
-// Folders and users that a sandboxed run borrows: its private folder, copies of what it reads, what it wrote given
-// back.
+// Temporary folders and users of a sandboxed run: its private folder, copies of its inputs, and the return of its
+// outputs.
 #pragma once
 
 #include <filesystem>
@@ -13,10 +13,10 @@
 
 namespace coursework {
 
-/// A fresh folder under the system's temporary one, removed at the end with all that is in it.
+/// A fresh folder below the system's temporary one; removed with its content by the destructor.
 class PrivateFolder {
  public:
-  /// Throws std::runtime_error where none can be made.
+  /// Throws std::runtime_error if the folder cannot be created.
   explicit PrivateFolder(unsigned mode, unsigned owner = 0);
   const std::filesystem::path& path() const { return folder_.path; }
 
@@ -24,11 +24,11 @@ class PrivateFolder {
   crosscheck::TemporaryFolder folder_{"lane"};
 };
 
-/// A user id that nobody else has, held while this lives, across threads and processes. It needs no entry in the list
-/// of users. At the end the files of that user in the folders open to all are removed.
+/// An exclusive user id, reserved across threads and processes for the lifetime of this object. It needs no entry in
+/// the user database. The destructor removes the user's files in world-writable folders.
 class SandboxUser {
  public:
-  /// Throws std::runtime_error where all are taken.
+  /// Throws std::runtime_error if all ids are in use.
   SandboxUser();
   ~SandboxUser();
   SandboxUser(const SandboxUser&) = delete;
@@ -40,8 +40,8 @@ class SandboxUser {
   int held_ = -1;
 };
 
-/// Lends `folder` to a user; the end of the loan makes all in it ours again, removes what is no plain file or folder or
-/// has a second name elsewhere, and lets others read the rest. User 0: it is ours already. Empty path: nothing.
+/// Lends `folder` to a user. The destructor returns everything in it to us, removes entries that are not plain files or
+/// folders or have hard links elsewhere, and makes the rest readable for others. No effect for user 0 or an empty path.
 class ScopedOwner {
  public:
   ScopedOwner(std::filesystem::path folder, unsigned user);
@@ -54,29 +54,30 @@ class ScopedOwner {
   unsigned user_;
 };
 
-// What a job reads and writes, as copies that only its user reaches: the grader's own folders stay closed to everybody.
+// Copies of a job's inputs and outputs that only its user can access: the grader's own folders stay closed to
+// everybody.
 
 class StagingFolder {
  public:
-  /// For a job that runs under `user`; 0: under ours, and nothing is copied.
+  /// For a job under `user`; 0: under ours, without copies.
   StagingFolder(const Job& job, unsigned user);
   StagingFolder(const StagingFolder&) = delete;
   StagingFolder& operator=(const StagingFolder&) = delete;
 
-  /// An empty folder of the user's own, but for the copies.
+  /// An empty private folder of the user, except for the copies.
   const std::filesystem::path& own() const { return own_.path(); }
-  /// Where one of the job's folders stands.
+  /// Actual path of one of the job's folders.
   const std::filesystem::path& of(const std::filesystem::path& folder) const;
-  /// The job's command with these places in it.
+  /// The job's command with the actual paths.
   std::vector<std::string> command() const;
 
-  /// After the run: what is in the writable folder by now becomes ours and returns to where the job named it.
+  /// After the run: takes ownership of the writable folder's content and moves it to the path that the job names.
   void give_back();
 
  private:
   const Job& job_;
   PrivateFolder own_;
-  std::vector<std::pair<std::filesystem::path, std::filesystem::path>> places_;  // as the job names it, where it stands
+  std::vector<std::pair<std::filesystem::path, std::filesystem::path>> places_;  // path in the job -> actual path
   std::unique_ptr<ScopedOwner> owner_;
 };
 

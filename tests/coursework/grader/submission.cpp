@@ -1,4 +1,4 @@
-// Reads folders by the file system and archives by libarchive, and matches the wanted files.
+// Reads folders through the file system and archives through libarchive, and matches the wanted files.
 #include "tests/coursework/grader/submission.h"
 
 #include <archive.h>
@@ -52,7 +52,7 @@ int depth_of(const std::string& path) {
 }
 
 std::string FileMatcher::match(const std::string& path) const {
-  // what macOS puts beside each file when it packs
+  // added by macOS for each file in an archive
   if (path.rfind("__MACOSX/", 0) == 0) return "";
   const std::string base = base_name(path);
   if (depth_of(path) <= 1 && lower(base) == choice_file) return choice_file;
@@ -82,7 +82,7 @@ void FileMatcher::take(const std::string& path, std::string content) {
 
 namespace {
 
-/// The names in lines `#include "X"` and `#include <X>`.
+/// Names in lines `#include "X"` and `#include <X>`.
 std::vector<std::string> includes_of(const std::string& text) {
   std::vector<std::string> found;
   std::istringstream lines(text);
@@ -106,7 +106,7 @@ std::map<std::string, std::string> own_includes(const std::map<std::string, std:
   };
   const auto folder_of = [](const std::string& file) { return fs::path(file).parent_path().generic_string(); };
   std::map<std::string, std::string> found;
-  std::vector<std::pair<std::string, const std::string*>> open = {{path, &content}};  // places and contents
+  std::vector<std::pair<std::string, const std::string*>> open = {{path, &content}};  // paths and contents
   const auto add = [&](const std::string& place, const std::string& file) {
     if (place != path && found.emplace(place, file).second) open.emplace_back(place, &files.at(file));
   };
@@ -118,7 +118,7 @@ std::map<std::string, std::string> own_includes(const std::map<std::string, std:
         add(files.count(beside) ? beside : here, files.count(beside) ? beside : here);
         continue;
       }
-      // in another folder, or with other letters: where there is just one
+      // in another folder, or with another case: only if the match is unique
       const std::string end =
           "/" + lower(here.substr(here.rfind("../") == std::string::npos ? 0 : here.rfind("../") + 3));
       std::vector<std::string> alike;
@@ -183,7 +183,7 @@ void FileMatcher::into(Submission& submission) const {
       submission.missing[name] = {"file.missing", {name}};
       continue;
     }
-    // no backup before backups, the shallowest first, and the name as it was asked for before one that differs in case
+    // non-backups first, the shallowest first, and the exact name before one that differs in case
     auto rank = [&](const Found& f) {
       return 8 * is_backup(f.path) + 2 * depth_of(f.path) +
              (lower(base_name(f.path)) == lower(name) && base_name(f.path) != name);
@@ -201,7 +201,7 @@ void FileMatcher::into(Submission& submission) const {
         for (const auto& [place, file] : own_includes(beside, path, content)) submission.files[file] = beside.at(file);
       };
       add_included(best.path, best.content);
-      // the hand-out builds every source of its folder
+      // the hand-out builds every source in its folder
       for (const auto& [path, content] : beside)
         if (is_source(path) && !is_backup(path) && fs::path(path).parent_path() == fs::path(best.path).parent_path())
           submission.files[path] = content, add_included(path, content);
@@ -214,8 +214,8 @@ void FileMatcher::into(Submission& submission) const {
   }
 }
 
-// Folders by the file system, archives by libarchive: a parser of untrusted zip and tar files that others have
-// hardened for years.
+// Folders are read through the file system, archives through libarchive: a parser of untrusted zip and tar files that
+// has been hardened for years.
 
 namespace {
 
@@ -226,7 +226,8 @@ struct Refused {
 Remark too_many() { return {"archive.entries", {std::to_string(most_entries)}}; }
 Remark too_much() { return {"archive.size", {std::to_string(largest_total >> 20)}}; }
 
-/// Empty: no regular file any more, or larger than a graded file may be. No link is followed, no pipe waited for.
+/// Empty if it is not a regular file any more, or larger than a graded file may be. Never follows links or waits for
+/// pipes.
 std::optional<std::string> content_of(const fs::path& file) {
   const int descriptor = open(file.c_str(), O_RDONLY | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC);
   if (descriptor < 0) return {};
@@ -244,7 +245,7 @@ std::optional<std::string> content_of(const fs::path& file) {
   return content;
 }
 
-/// Archives that it met in the top folder or one below, where the files may be.
+/// Archives in the top folder or one below, which may contain the files.
 std::vector<fs::path> read_folder(const fs::path& top, FileMatcher& matcher) {
   std::size_t entries = 0;
   std::vector<fs::path> archives;
@@ -280,13 +281,12 @@ struct Free {
   void operator()(archive* a) const { archive_read_free(a); }
 };
 
-/// Entries and bytes unpacked so far, from an archive and those inside it.
+/// Number of entries and bytes unpacked so far, from an archive and the archives inside it.
 struct Unpacked {
   std::size_t entries = 0, total = 0;
 };
 
-/// Unpacks the entry to its end, so that what it claims of its size counts for nothing; keeps `most` bytes and some
-/// more.
+/// Unpacks the entry to its end, independent of the size in its header; keeps slightly more than `most` bytes.
 std::string unpack(archive* from, std::size_t& total, std::size_t most) {
   std::string content;
   std::string block(1u << 16, '\0');
@@ -299,11 +299,11 @@ std::string unpack(archive* from, std::size_t& total, std::size_t most) {
   return content;
 }
 
-/// libarchive looks at no checksum of gzip (consume_trailer() in its archive_read_support_filter_gzip.c skips it), and
-/// tar has none of what is in its files: zlib reads the file once more, to its end.
+/// Verifies a gzip file by decompressing it with zlib to its end: libarchive ignores gzip's checksum (consume_trailer()
+/// in its archive_read_support_filter_gzip.c skips it), and tar has no checksum of file contents.
 void require_whole_gzip(const fs::path& file) {
   constexpr int window_of_gzip = 15 + 16;                                  // the largest window, with gzip's header
-  constexpr std::size_t most = largest_total + most_entries * (4u << 10);  // with tar's headers and padding
+  constexpr std::size_t most = largest_total + most_entries * (4u << 10);  // including tar's headers and padding
   const Refused damaged{{"archive.unreadable", {"damaged: its checksum is wrong, or its end is missing"}}};
   std::ifstream in(file, std::ios::binary);
   std::string packed(1u << 16, '\0'), block(1u << 16, '\0');
@@ -318,7 +318,7 @@ void require_whole_gzip(const fs::path& file) {
     return stream.avail_in > 0;
   };
   std::size_t total = 0;
-  for (bool more = true; more;) {  // one member after the other
+  for (bool more = true; more;) {  // one iteration per gzip member
     for (int status = Z_OK; status != Z_STREAM_END;) {
       if (!refill()) throw damaged;
       stream.next_out = reinterpret_cast<Bytef*>(block.data());
@@ -334,12 +334,12 @@ void require_whole_gzip(const fs::path& file) {
   }
 }
 
-/// The path of an entry, with '/' and in UTF-8: packers of Chinese systems write GBK, whose bytes hold backslashes.
+/// Path of an entry, with '/' and in UTF-8. Chinese systems write GBK, whose bytes include backslashes.
 std::string path_of(archive_entry* entry) {
   const char* name = archive_entry_pathname_utf8(entry);
   if (!name) name = archive_entry_pathname(entry);
   std::string path = plain_utf8(name ? name : "?");   // a name in an unknown encoding matches no wanted file
-  std::replace(path.begin(), path.end(), '\\', '/');  // as some packers on Windows write them
+  std::replace(path.begin(), path.end(), '\\', '/');  // some packers on Windows write backslashes
   while (path.rfind("./", 0) == 0) path.erase(0, 2);
   return path;
 }
@@ -398,7 +398,7 @@ namespace {
 
 void read_one(const fs::path& path, const std::string& name, FileMatcher& matcher) {
   Unpacked sum;
-  // in a folder that students share, a link would be graded as somebody's who did not write it
+  // in a folder shared by students, a link could submit another student's work
   if (fs::is_symlink(path)) throw Refused{{"submission.link", {}}};
   if (fs::is_directory(path)) {
     const std::vector<fs::path> archives = read_folder(path, matcher);
@@ -430,7 +430,7 @@ Submission read_submission(const Handed& handed, const std::vector<std::string>&
   FileMatcher matcher(wanted, roles);
   try {
     for (const auto& [path, name] : handed.files) {
-      // beside an archive, or several files that are wanted, anybody hands in a picture or a page as well
+      // pictures and pages are ignored if they come with an archive or several wanted files
       if (handed.files.size() > 1 && !fs::is_directory(path) && !is_archive(name) && !matcher.wants(name)) continue;
       read_one(path, name, matcher);
     }

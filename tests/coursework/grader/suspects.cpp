@@ -1,4 +1,4 @@
-// Experiments on a student's code. Each costs nothing where all is right; those that compile look at the source first.
+// Experiments on a student's code. They are skipped if all tests passed; those that compile inspect the source first.
 #include "tests/coursework/grader/suspects.h"
 
 #include <fmt/format.h>
@@ -19,8 +19,8 @@ namespace {
 
 bool right_in(const TestRun& one, std::size_t i) { return judge(one.cases[i], one.answers[i]).right; }
 
-/// Off by what a number loses that is once kept in single precision, some roundings of 6e-8 of the largest; and kept
-/// in it at the end, which a constant of six digits is not.
+/// True if the errors are those of a value stored once in single precision: a few roundings of 6e-8 of the largest
+/// number. The result must itself be in single precision, which distinguishes this from a constant of six digits.
 bool single_beside(const Case& what, const Answer& answer) {
   if (answer.how != How::answered || answer.got.size() != what.expected.size()) return false;
   double size = 0;
@@ -33,8 +33,8 @@ bool single_beside(const Case& what, const Answer& answer) {
   return true;
 }
 
-/// Whether something is wrong, and all that is wrong are numbers of single precision beside the right ones. Features
-/// that are found in answers are no numbers of the student's.
+/// True if something is wrong, and all wrong numbers are single-precision versions of the right ones. Features
+/// extracted from answers do not count, because they are not the student's own numbers.
 bool all_single(const std::vector<TestRun>& of_part) {
   bool any = false;
   for (const TestRun& one : of_part)
@@ -46,7 +46,7 @@ bool all_single(const std::vector<TestRun>& of_part) {
   return any;
 }
 
-/// Whether a call that was wrong after others is right when it is the first of its program.
+/// True if a call that was wrong after others is right as the first call of its program.
 bool keeps_something(const Subject& subject, const std::vector<TestRun>& of_part) {
   for (const TestRun& one : of_part)
     for (std::size_t i = 1; i < one.cases.size(); ++i) {
@@ -57,7 +57,7 @@ bool keeps_something(const Subject& subject, const std::vector<TestRun>& of_part
   return false;
 }
 
-/// Whether all that was wrong is right in another program, or with other inputs beside the same right answers.
+/// True if everything that was wrong is right in another program, or with other inputs and the same expected answers.
 template <class Changed>
 bool mends(const Subject& subject, const fs::path& program, const std::vector<TestRun>& of_part, Changed changed) {
   for (const TestRun& one : of_part) {
@@ -80,7 +80,7 @@ bool mends(const Subject& subject, const fs::path& program, const std::vector<Te
   return mends(subject, program, of_part, [](Case&) { return true; });
 }
 
-/// Comments, strings and characters as blanks.
+/// Replaces comments, strings and character literals by blanks.
 std::string code_of(std::string text) {
   for (std::size_t i = 0; i < text.size(); ++i) {
     std::size_t end = i;
@@ -100,7 +100,7 @@ std::string code_of(std::string text) {
 
 constexpr double degree = std::numbers::pi / 180;
 
-/// Trigonometry that takes its angles times `factor`.
+/// Trigonometric functions that multiply their angles by `factor`.
 std::string trigonometry(double factor) {
   std::string source = "#define _GNU_SOURCE\nextern \"C\" {\n";
   for (const auto& [type, ending] : {std::pair{"double", ""}, std::pair{"float", "f"}}) {
@@ -137,8 +137,8 @@ bool takes_degrees(const Subject& subject, const std::vector<TestRun>& of_part, 
   return false;
 }
 
-/// The source with double in place of float, in declarations, functions and literals; empty where there is none. What
-/// stands in strings and comments stays. `line` is that of the first.
+/// The source with double in place of float, in declarations, functions and literals; empty if there is no float.
+/// Strings and comments are unchanged. `line` is the line of the first float.
 std::string in_double(const std::string& source, int& line) {
   static const std::regex single(R"(\bfloat\b|\b(sqrt|sin|cos|tan|fabs|pow|exp|hypot|fmax|fmin|floor|ceil)f\b|)"
                                  R"((\d\.\d*|\.\d+|\d[eE][+-]?\d+)[fF]\b)");
@@ -158,8 +158,8 @@ std::string in_double(const std::string& source, int& line) {
   return line == 0 ? "" : out + source.substr(done);
 }
 
-/// The line of the first float of a file in which all is right with double: what is single in the middle of a formula
-/// leaves no trace in the answers' digits.
+/// The line of the first float in a file for which all tests pass with double: an intermediate rounding to single
+/// precision is not visible in the digits of the answers.
 int line_of_single(const Subject& subject, const std::vector<TestRun>& of_part, const std::string& file) {
   const auto found = subject.submission.files.find(file);
   if (found == subject.submission.files.end()) return 0;
@@ -172,9 +172,10 @@ int line_of_single(const Subject& subject, const std::vector<TestRun>& of_part, 
   return !built.program.empty() && mends(subject, built.program, of_part) ? line : 0;
 }
 
-/// Where all is right once the fraction is kept in some divisions of whole numbers: the line of the first that matters.
+/// The line of the first integer division that matters, if keeping the fraction in some divisions makes all answers
+/// right.
 int line_of_integer_division(const Subject& subject, const std::vector<TestRun>& of_part, const std::string& file) {
-  constexpr std::size_t most = 4;  // a compiler each
+  constexpr std::size_t most = 4;  // one compilation each
   const auto found = subject.submission.files.find(file);
   if (found == subject.submission.files.end()) return 0;
   const std::string& source = found->second;
@@ -193,7 +194,7 @@ int line_of_integer_division(const Subject& subject, const std::vector<TestRun>&
   const auto line = [&](std::size_t at) {
     return 1 + static_cast<int>(std::count(source.begin(), source.begin() + static_cast<std::ptrdiff_t>(at), '\n'));
   };
-  // one alone first: where one of several is an index, all at once would not compile
+  // each alone first: if one of several is an index, changing all at once would not compile
   for (const std::size_t at : all)
     if (mended_by({at})) return line(at);
   return all.size() > 1 && mended_by(all) ? line(all.front()) : 0;
@@ -207,7 +208,7 @@ std::vector<std::size_t> whole_divisions(const std::string& source) {
   const std::string code = code_of(source);
   const auto literal = [](const std::string& word) { return std::regex_match(word, std::regex("[0-9]+[uUlL]*")); };
   const auto whole = [&](const std::string& word) {
-    if (literal(word) || word.ends_with(")")) return true;  // of names only size() has brackets
+    if (literal(word) || word.ends_with(")")) return true;  // size() is the only name followed by brackets
     if (std::isdigit(static_cast<unsigned char>(word[0]))) return false;
     return std::regex_search(code, std::regex("\\b(int|unsigned|long|short|size_t|ptrdiff_t)\\s+" + word + "\\b"));
   };
@@ -222,7 +223,8 @@ std::vector<std::size_t> whole_divisions(const std::string& source) {
 }
 
 bool can_be_searched(const std::string& source) {
-  // twenty times our solutions, so that looking for each of its words takes seconds; a fifth of what the stack bears
+  // twenty times the size of our solutions, so that a search for each word takes seconds; a fifth of the stack's
+  // capacity
   constexpr std::size_t largest = 1u << 15, longest = 4000;
   if (source.size() > largest) return false;
   std::size_t blanks = 0, word = 0;
@@ -238,7 +240,7 @@ bool can_be_searched(const std::string& source) {
 Remark suspected(const Subject& subject, const std::vector<TestRun>& of_part) {
   if (all_single(of_part)) return {"suspect.float", {}};
   if (keeps_something(subject, of_part)) return {"suspect.state", {}};
-  for (const TestRun& one : of_part)  // a crash says enough, and is nothing to be repeated
+  for (const TestRun& one : of_part)  // a crash has its own message, and must not be repeated
     for (const Answer& answer : one.answers)
       if (answer.how != How::answered) return {};
   const std::string file = subject.builder.file_of(std::string(of_part.front().test->part));

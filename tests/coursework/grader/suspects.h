@@ -1,4 +1,4 @@
-// Causes that are found by experiment: something is changed, and all that was wrong is right.
+// Causes found by experiment: after a change of the program or its inputs, everything that was wrong is right.
 #pragma once
 
 #include <filesystem>
@@ -12,26 +12,26 @@
 
 namespace coursework {
 
-/// What experiments need: the student's program of a part, and what makes others of it.
+/// Inputs of the experiments: the student's program of a part, and the means to build variants.
 struct Subject {
   const Sandbox& sandbox;
   const Builder& builder;
   const Submission& submission;
-  const Texts& own;  // the assignment's: its layouts say which numbers are angles
+  const Texts& own;  // the assignment's texts, whose layouts mark angles
   std::filesystem::path program;
-  std::filesystem::path scratch;  // for what is built; need not exist
+  std::filesystem::path scratch;  // folder for built files; need not exist
 };
 
-/// What experiments on a part's wrong answers show: single precision, something kept from call to call, an angle in
-/// degrees, a division of whole numbers. No key: nothing.
+/// Runs the experiments on a part's wrong answers: single precision, state kept between calls, an angle in degrees, an
+/// integer division. The key is empty if none applies.
 Remark suspected(const Subject& subject, const std::vector<TestRun>& of_part);
 
-/// False where std::regex could not look through a source, comments and strings left out: it takes stack for each
-/// character of a run of blanks or of a word, and the experiments look for each word in the whole.
+/// Returns false if std::regex could overflow the stack on a source without comments and strings: it uses stack for
+/// each character of a run of blanks or of a word, and the experiments search for each word in the whole source.
 bool can_be_searched(const std::string& source);
 
-/// Where whole numbers may be divided: the places of `/` in a source, comments and strings left out, between what are
-/// whole numbers by their look: literals, names declared so, size(), and brackets beside a literal.
+/// Possible integer divisions: the positions of `/` in a source without comments and strings, between operands that
+/// look like integers: literals, integer variables, size(), and brackets beside a literal.
 std::vector<std::size_t> whole_divisions(const std::string& source);
 
 }  // namespace coursework

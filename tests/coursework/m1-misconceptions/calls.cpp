@@ -1,4 +1,4 @@
-// The assignment's calls: each part is asked in turn.
+// Dispatches the assignment's calls to its parts.
 #include "calls.h"
 
 namespace coursework {

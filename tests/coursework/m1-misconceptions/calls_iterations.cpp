@@ -1,10 +1,10 @@
 // Calls of advance and choose.
 //   iterations.frame    n, steps, iterations, frame, mass, stiffness, rest, gravity, x (n), v (n)
 //                       a row per particle: x, v a frame later
-//   iterations.many     as iterations.frame, then what a belief says, which is told and not used; one step
+//   iterations.many     as iterations.frame, then the prediction of a belief, which is shown but not used; one step
 //                       the depth of the lowest particle after 1, 2, 5, 20 and all iterations
 //   iterations.choose   budget, count, then steps, iterations, error of each plan that costs the budget
-//                       steps, iterations of the plan chosen. Plans that cost anything else have the error 0
+//                       steps, iterations of the chosen plan. Plans with another cost have the error 0
 #include "beliefs.h"
 #include "calls.h"
 #include "numbers.h"
@@ -12,7 +12,7 @@
 namespace coursework {
 namespace {
 
-/// Not a real film: a table of errors.
+/// A film with prescribed errors, given as a table.
 class Table : public Film {
  public:
   std::vector<Plan> plans;

@@ -1,7 +1,7 @@
 // Calls of explicit_step, semi_implicit_step and kept.
 //   kick_drift.step     omega, h, x, v              a row for each of the two orders: x, v after one step
-//   kick_drift.energy   omega, h, x, v, then what two beliefs say, which is told and not used
-//                       a row every hundred steps, ten of them: the energy over that at the start, by each order
+//   kick_drift.energy   omega, h, x, v, then the predictions of two beliefs, which are shown but not used
+//                       a row every hundred steps, ten of them: the energy relative to the start, for each order
 //   kick_drift.kept     omega, h, then x, v of each state   a row per state
 #include "beliefs.h"
 #include "calls.h"

@@ -1,7 +1,7 @@
 // Calls of rk4_step, rk4_energy_factor and rk4_largest_step.
 //   rk4.step      omega, h, x, v      x, v after one step
-//   rk4.energy    omega, h, x, v, then what a belief says, which is told and not used
-//                 every hundred steps, ten times: the energy over that at the start
+//   rk4.energy    omega, h, x, v, then the prediction of a belief, which is shown but not used
+//                 every hundred steps, ten times: the energy relative to the start
 //   rk4.factor    h omega of each     a row for each
 //   rk4.largest   omega of each       a row for each
 #include "beliefs.h"

@@ -1,7 +1,7 @@
-// Calls of the three sags. What a belief says is told at the end, and not used.
+// Calls of the three sags. The last inputs are predictions of beliefs, which are shown but not used.
 //   sag.catenary   length, span, as a parabola, as two straight lines    the sag
 //   sag.parabola   length, span, as a catenary                           the sag
-//   sag.elastic    length, span, weight, stiffness, if it could not stretch    the sag
+//   sag.elastic    length, span, weight, stiffness, sag if inextensible        the sag
 #include "beliefs.h"
 #include "calls.h"
 

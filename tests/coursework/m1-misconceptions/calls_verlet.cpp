@@ -4,8 +4,8 @@
 //                      the motion amplitude cos(omega t + phase), computed with h, h/2 and so on: the order of the
 //                      error of a single step, and of that after the time steps h
 //   verlet.observed    count, errors                      the order that they show
-//   verlet.predicted   omega, h, steps, error, times, then what a belief says, which is told and not used
-//                      the error predicted for a step so many times smaller
+//   verlet.predicted   omega, h, steps, error, times, then the prediction of a belief, which is shown but not used
+//                      the predicted error for a step that is `times` times smaller
 #include <cmath>
 
 #include "beliefs.h"
@@ -20,7 +20,7 @@ struct Motion {
   double at(double t) const { return amplitude * std::cos(omega * t + phase); }
 };
 
-/// After so many steps from two exact positions, the first of which counts as step 0.
+/// Error after `steps` steps from two exact positions, the first of which counts as step 0.
 double error_of(const Motion& motion, double h, int steps) {
   double before = motion.at(0), now = motion.at(h);
   for (int i = 1; i < steps; ++i) {

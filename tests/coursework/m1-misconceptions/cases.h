@@ -1,4 +1,4 @@
-// Cases of sag.cpp and iterations.cpp: what is asked, and the right answers.
+// Cases of sag.cpp and iterations.cpp: inputs and expected answers.
 #pragma once
 
 #include <vector>

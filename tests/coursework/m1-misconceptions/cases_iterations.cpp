@@ -1,5 +1,5 @@
-// Right answers from matrices: an iteration over the springs is one of Gauss and Seidel's for the pulls that the
-// implicit step asks for; the true motion is a sum of normal modes.
+// Expected answers from matrices: an iteration over the springs is a Gauss-Seidel iteration for the pulls of the
+// implicit step; the true motion is a sum of normal modes.
 #include <Eigen/Dense>
 #include <cmath>
 
@@ -31,8 +31,8 @@ Hanging hanging(Random& random, int n, double softest, double stiffest) {
   return c;
 }
 
-/// One step. Pulls p (times h^2) answer A p = -stretch with A = G G^T / m + 1 / (k h^2): so many iterations, or, where
-/// they are fewer than none, the solution, which is implicit Euler's.
+/// One step. Pulls p (times h^2) satisfy A p = -stretch with A = G G^T / m + 1 / (k h^2). Performs the given number of
+/// iterations, or, if it is negative, solves the equation exactly, which gives implicit Euler.
 void step(Hanging& c, double h, int iterations) {
   const MatrixXd g = c.gradient();
   const VectorXd start = c.x, ahead = c.x + h * c.v + VectorXd::Constant(c.n, h * h * c.gravity);
@@ -53,7 +53,7 @@ Hanging advanced(Hanging c, double frame, int steps, int iterations) {
   return c;
 }
 
-/// The true depths a time later.
+/// The true depths after the given time.
 VectorXd moved(const Hanging& c, double time) {
   const MatrixXd g = c.gradient();
   const MatrixXd k = c.stiffness / c.mass * g.transpose() * g;
@@ -97,7 +97,7 @@ struct Choice {
     Case c{"iterations.choose", {double(budget), double(steps.size())}, {}, 2, 0.1, "plan", "plan"};
     for (std::size_t i = 0; i < steps.size(); ++i)
       c.in.insert(c.in.end(), {double(steps[i]), double(budget / steps[i]), errors[i]});
-    c.expected = {double(steps[best()]), double(budget / steps[best()])};  // whole numbers
+    c.expected = {double(steps[best()]), double(budget / steps[best()])};  // integers
     return c;
   }
 };
@@ -128,8 +128,8 @@ std::vector<Case> frames(Random& random) {
   return cases;
 }
 
-/// An iteration leaves less than 0.9 of what is missing (cos^2 of pi / (2 n + 1) where springs are rigid): after 400
-/// nothing is left, and the answer is implicit Euler's.
+/// An iteration leaves less than 0.9 of the error (cos^2 of pi / (2 n + 1) for rigid springs): after 400 the error is
+/// zero to round-off, and the answer is that of implicit Euler.
 std::vector<Case> many(Random& random) {
   std::vector<Case> cases;
   for (const int n : {3, 4}) {
@@ -139,13 +139,13 @@ std::vector<Case> many(Random& random) {
     Case asked{"iterations.many", numbers(c, frame, 1, 400), {}, 1, 0, "iterations", "depth"};
     for (const int iterations : {1, 2, 5, 20, -1}) asked.expected.push_back(advanced(c, frame, 1, iterations).x[n - 1]);
     asked.in.push_back(moved(c, frame)[n - 1]);
-    asked.tolerance = 1e-12;  // 400 iterations forget their roundings: a few of depths below 4 m stay
+    asked.tolerance = 1e-12;  // 400 iterations damp earlier round-off: only a few roundings of depths below 4 m remain
     cases.push_back(asked);
   }
   return cases;
 }
 
-/// Errors that no chain has made: the best plan is inside, or the first.
+/// Artificial errors: the best plan is in the interior, or the first.
 std::vector<Case> tables(Random& random) {
   std::vector<Case> cases;
   for (const int budget : {6, 12, 16}) {
@@ -158,8 +158,8 @@ std::vector<Case> tables(Random& random) {
   return cases;
 }
 
-/// Errors of real chains. Drawn until many steps win clearly: within these stiffnesses and frames they nearly always
-/// do.
+/// Errors of real chains. Redrawn until many steps win clearly, which is nearly always the case within these ranges of
+/// stiffnesses and frames.
 std::vector<Case> measured(Random& random) {
   std::vector<Case> cases;
   for (const int budget : {4, 8}) {

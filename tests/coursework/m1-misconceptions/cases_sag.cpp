@@ -1,5 +1,5 @@
-// Right answers from polygons in equilibrium: half a chain of straight links with weights at its joints, from the
-// lowest joint to an end. No formula of a curve is in here.
+// Expected answers from polygons in equilibrium: half a chain of straight links with weights at its joints, from the
+// lowest joint to an end. Contains no formula of a curve.
 #include <cmath>
 #include <functional>
 
@@ -12,7 +12,8 @@ struct HalfChain {
   double width = 0, depth = 0;
 };
 
-/// The same pull H along the span in every link; upwards a link pulls with half the weight of its own and all below.
+/// Every link has the same horizontal pull H; its vertical pull is half its own weight plus the weight of all links
+/// below.
 HalfChain own_weight(int links, double length, double weight, double stiffness, double across) {
   HalfChain half;
   const double link = length / 2 / links;
@@ -24,7 +25,7 @@ HalfChain own_weight(int links, double length, double weight, double stiffness, 
   return half;
 }
 
-/// The load of a link is as its width, which follows from its slope: a few rounds settle it.
+/// The load of a link is proportional to its width, which depends on its slope: a few iterations converge.
 HalfChain along_span(int links, double length, double across) {
   HalfChain half;
   const double link = length / 2 / links;
@@ -40,7 +41,7 @@ HalfChain along_span(int links, double length, double across) {
   return half;
 }
 
-/// The depth where the half chain is as wide as half the span: it is the wider the harder it is pulled.
+/// Depth at the pull for which the half chain is as wide as half the span: the width increases with the pull.
 double depth_at(double span, double hardest, const std::function<HalfChain(double)>& pulled) {
   double low = 0, high = hardest;
   for (int i = 0; i < 60; ++i) {  // to 1e-16 of the weight
@@ -50,8 +51,8 @@ double depth_at(double span, double hardest, const std::function<HalfChain(doubl
   return pulled(low).depth;
 }
 
-/// A polygon is off by the square of its links: two of them tell the curve, to 1e-10 of the length (beside the closed
-/// forms, 7e-11 at worst on 300 seeds).
+/// Extrapolated depth of the curve: a polygon's error decreases with the square of the number of links, so two polygons
+/// give 1e-10 of the length (compared with the closed forms, at worst 7e-11 on 300 seeds).
 double extrapolated(const std::function<double(int)>& depth) { return (4 * depth(400) - depth(200)) / 3; }
 
 double own_weight_depth(double length, double span, double weight, double stiffness) {
@@ -69,7 +70,7 @@ double bridge_depth(double length, double span) {
 
 Case sag(const char* call, double right, Numbers in) {
   Case c{call, std::move(in), {right}, 1, 0, "chain", "sag"};
-  // the handout asks for a billionth of the length; the polygons are ten times nearer
+  // the hand-out asks for a billionth of the length; the polygons are ten times more accurate
   c.tolerance = 2e-9 * c.in[0];
   return c;
 }

@@ -1,5 +1,5 @@
-// The tests of m1-misconceptions: parts, points, and the cases of kick_drift, verlet and rk4. Where there is one, the
-// number that the belief predicts stands at the end of a call, to be told beside what is right.
+// The tests of m1-misconceptions: parts, points, and the cases of kick_drift, verlet and rk4. If a belief predicts a
+// number, it is the last input of a call, to be shown beside the correct one.
 #include <cmath>
 #include <numbers>
 
@@ -23,8 +23,8 @@ Oscillator oscillator(Random& random, double low, double high) {
   return {omega, angle / omega, random.uniform(0.2, 0.9), random.uniform(1, 5) * (random.integer(0, 1) ? 1 : -1)};
 }
 
-/// x, v after so many steps of the map with the new velocity. Its matrix has determinant 1 and trace 2 - a^2, so it
-/// turns by theta with cos(theta) = 1 - a^2/2, and M^n = (sin(n theta) M - sin((n - 1) theta)) / sin(theta).
+/// x, v after `steps` steps of the map with the new velocity. Its matrix has determinant 1 and trace 2 - a^2, so it
+/// rotates by theta with cos(theta) = 1 - a^2/2, and M^n = (sin(n theta) M - sin((n - 1) theta)) / sin(theta).
 std::pair<double, double> after(const Oscillator& o, int steps) {
   const double a = o.angle(), theta = std::acos(1 - a * a / 2);
   const double of_m = std::sin(steps * theta) / std::sin(theta),
@@ -47,7 +47,7 @@ std::vector<Case> one_step(Random& random) {
   return cases;
 }
 
-/// What a belief predicts: the energy over that at the start where the drift takes the mean of both velocities.
+/// Prediction of a belief: the energy relative to the start if the drift uses the mean of both velocities.
 double with_mean_velocity(const Oscillator& o, int steps) {
   Oscillator now = o;
   for (int i = 0; i < steps; ++i) {
@@ -57,7 +57,8 @@ double with_mean_velocity(const Oscillator& o, int steps) {
   return now.energy() / o.energy();
 }
 
-/// With the old velocity a step multiplies the energy by 1 + a^2 exactly. With the new one it stays near the start's.
+/// With the old velocity a step multiplies the energy by 1 + a^2 exactly. With the new one it stays near its initial
+/// value.
 std::vector<Case> energy_of_both(Random& random) {
   std::vector<Case> cases;
   for (int i = 0; i < 2; ++i) {
@@ -79,7 +80,7 @@ std::vector<Case> energy_of_both(Random& random) {
   return cases;
 }
 
-/// The same for all states of a run, written with the next velocity: (v v' + (omega x)^2) / 2.
+/// The invariant of semi-implicit Euler for all states of a run, written with the next velocity: (v v' + (omega x)^2) / 2.
 std::vector<Case> kept_energy(Random& random) {
   std::vector<Case> cases;
   for (int i = 0; i < 2; ++i) {
@@ -98,7 +99,7 @@ std::vector<Case> kept_energy(Random& random) {
 
 // ---- verlet: parabolas, and the closed form of the rule on a spring
 
-/// On x(t) = now + u t + a t^2 / 2 the rule is exact.
+/// The rule is exact for x(t) = now + u t + a t^2 / 2.
 std::vector<Case> next_position(Random& random) {
   std::vector<Case> cases;
   for (int i = 0; i < 3; ++i) {
@@ -111,8 +112,9 @@ std::vector<Case> next_position(Random& random) {
   return cases;
 }
 
-/// After the time 4 to 5 over omega, where a cosine of a small phase is far from its zeros: with a = h omega the error
-/// is C a^2 (1 + O(a / 4)), which moves the order by less than 0.05 for a below 0.12; of one step C a^4 (1 + O(a^2)).
+/// The errors after a time of 4 to 5 over omega, where a cosine of a small phase is far from its zeros: with a = h
+/// omega the error is C a^2 (1 + O(a / 4)), which changes the order by less than 0.05 for a below 0.12; that of one
+/// step is C a^4 (1 + O(a^2)).
 std::vector<Case> both_orders(Random& random) {
   std::vector<Case> cases;
   for (const double halvings : {2, 1, 3}) {
@@ -126,7 +128,7 @@ std::vector<Case> both_orders(Random& random) {
     c.row = "run", c.column = "orders";
     cases.push_back(c);
   }
-  // errors that fall by another factor each time: all of them count
+  // errors that decrease by a different factor each time, so that all of them matter
   for (const int count : {2, 3, 5}) {
     Numbers errors = {random.uniform(1, 3)};
     while (errors.size() < static_cast<std::size_t>(count)) errors.push_back(errors.back() / random.uniform(2, 9));
@@ -138,15 +140,15 @@ std::vector<Case> both_orders(Random& random) {
   return cases;
 }
 
-/// The error of the rule after the time T from x = 1 and the exact next position: it turns by theta a step with
-/// cos(theta) = 1 - a^2/2, too.
+/// The error of the rule after the time T from x = 1 and the exact next position: this rule, too, rotates by theta per
+/// step with cos(theta) = 1 - a^2/2.
 double verlet_error(double a, double steps) {
   const double theta = std::acos(1 - a * a / 2);
   const double sine = (std::cos(a) - std::cos(theta)) / std::sin(theta);
   return std::abs(std::cos(steps * theta) + sine * std::sin(steps * theta) - std::cos(steps * a));
 }
 
-/// What really happens, by the closed form. It is the error over times^2 but for the next power of a: within 3 per cent
+/// The actual error by the closed form. It equals the error over times^2 up to the next power of a: within 3 per cent
 /// for a below 0.06.
 std::vector<Case> smaller_steps(Random& random) {
   std::vector<Case> cases;
@@ -181,7 +183,7 @@ std::vector<Case> rk4_steps(Random& random) {
   }
   return cases;
 }
-/// It loses at an ordinary step, and near 2.83 it loses on one side and gains on the other.
+/// RK4 loses energy at an ordinary step; near 2.83 it loses on one side and gains on the other.
 std::vector<Case> rk4_energies(Random& random) {
   std::vector<Case> cases;
   for (const auto& [low, high] : {std::pair{0.4, 0.7}, std::pair{2.826, 2.828}, std::pair{2.829, 2.831}}) {

@@ -1,4 +1,4 @@
-// Tokens of C++ as far as solutions have them, and the rules that change them.
+// A tokeniser for the C++ of the solutions, and the mutation rules.
 #include "tests/coursework/mutants/mutants.h"
 
 #include <fmt/format.h>
@@ -27,7 +27,7 @@ struct Token {
 
 bool in_name(char c) { return std::isalnum(static_cast<unsigned char>(c)) || c == '_'; }
 
-/// Without comments and lines of the preprocessor.
+/// Tokens without comments and preprocessor lines.
 std::vector<Token> tokens_of(const string& s) {
   static const char* signs[] = {
       "<<=", ">>=", "->", "++", "--", "+=", "-=", "*=", "/=", "==", "!=", "<=", ">=", "&&", "||", "::", "<<", ">>"};
@@ -96,7 +96,7 @@ class Mutation {
   bool is(size_t i, std::initializer_list<const char*> which) const {
     return std::any_of(which.begin(), which.end(), [&](const char* one) { return text(i) == one; });
   }
-  /// Whether a value ends with this token, so that a sign after it has two sides.
+  /// True if a value ends with this token, so that a following sign is a binary operator.
   bool value(size_t i) const {
     return (t_[i].kind == Kind::name && !is(i, {"return", "const", "case"})) || t_[i].kind == Kind::whole ||
            t_[i].kind == Kind::decimal || is(i, {")", "]"});
@@ -113,7 +113,8 @@ class Mutation {
     for (string* each : {&one.right, &one.wrong}) std::replace(each->begin(), each->end(), '\n', ' ');
     if (one.source != s_ && seen_.insert(one.source).second) made_.push_back(std::move(one));
   }
-  /// Constants beside functions, which a student chooses (those of classic), and what draws: no test is about them.
+  /// True for constants beside functions, which a student chooses (in classic), and for drawing code: neither is
+  /// tested.
   bool is_free(size_t from, size_t to) const {
     const size_t draw = s_.find("::draw()");
     return (s_.compare(from, 6, "const ") == 0 && s_.substr(from, to - from).find('(') == string::npos) || from > draw;
@@ -151,7 +152,7 @@ class Mutation {
     }
   }
 
-  /// Names that students take for each other.
+  /// Swaps names that students confuse.
   void names(size_t i) {
     static const std::vector<std::vector<string>> alike{{"row", "column"},
                                                         {"rows", "columns"},
@@ -213,7 +214,7 @@ class Mutation {
     return false;
   }
 
-  /// Behind the operand that begins here: a name, a number or a bracket, and what hangs on it.
+  /// Position after the operand that begins here: a name, a number or a bracket, with its suffixes.
   size_t behind(size_t i) const {
     if (is(i, {"-"})) ++i;
     if (is(i, {"("}))
@@ -240,7 +241,7 @@ class Mutation {
     return i;
   }
 
-  /// A term or a factor is left out, behind its sign or before it.
+  /// Removes a term or a factor with the sign before or after it.
   void terms(size_t i) {
     if (i == 0 || !is(i, {"+", "-", "*", "/", "&&", "||"}) || !value(i - 1)) return;
     if (const size_t end = behind(i + 1)) add("term left out", t_[i].begin, t_[end - 1].end, "");
@@ -249,7 +250,7 @@ class Mutation {
     add("term left out", t_[k].begin, t_[i + 1].begin, text(i) == "-" ? "-" : "");
   }
 
-  /// Whole numbers at their bounds, and what is judged by two of many.
+  /// Shifts bounds of counts, and reduces estimates from many values to two.
   void counts(size_t i) {
     const string other = text(i) == "ceil" ? "floor" : text(i) == "floor" ? "ceil" : "";
     if (!other.empty() && is(i + 1, {"("})) {
@@ -269,8 +270,8 @@ class Mutation {
       add("few", t_[i - 2].begin, t_[i + 4].end, "1");
   }
 
-  /// `const T name = f(x);` asked again where name is used: one call more, or, where a copy of x moves by then, at
-  /// that.
+  /// Replaces a name initialised by `const T name = f(x);` by a repeated call: one call more, or, if a copy of x has
+  /// moved by then, a call at that copy.
   void late(size_t i) {
     if (!is(i, {"="}) || i < 3 || t_[i - 1].kind != Kind::name || t_[i - 2].kind != Kind::name) return;
     if (t_[i + 1].kind != Kind::name || !is(i + 2, {"("}) || !is(closing(i + 2) + 1, {";"})) return;
@@ -298,7 +299,7 @@ class Mutation {
     }
   }
 
-  /// Statements on a line of their own: left out, in another order, kept from call to call, by reference.
+  /// Changes statements on their own line: omitted, reordered, static, by reference.
   void statements() {
     std::vector<Line> lines;
     for (size_t at = 0; at < s_.size();) {
@@ -323,7 +324,7 @@ class Mutation {
     size_t begin, end, indent;
   };
 
-  /// Two statements that follow each other, the second before the first, where it reads what the first one writes.
+  /// Swaps two consecutive statements if the second reads what the first one writes.
   void order(const Line& first, const Line& second) {
     const string between = s_.substr(first.end, second.begin - first.end);
     if (first.indent != second.indent || between.find_first_not_of(" \n") != string::npos) return;
@@ -360,7 +361,7 @@ class Mutation {
                           std::isupper(static_cast<unsigned char>(body[0]));
     if (declares || brackets) add("static", begin, begin, "static ");
     if (!declares) return;
-    // State next = state; becomes another name for it
+    // State next = state; becomes a reference
     const string from = body.substr(equals + 3, body.size() - equals - 4);
     const size_t name = body.rfind(' ', equals - 1);
     if (!body.starts_with("const ") && std::all_of(from.begin(), from.end(), in_name) && !std::isdigit(from[0]))
