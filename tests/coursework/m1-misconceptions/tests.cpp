@@ -80,7 +80,7 @@ std::vector<Case> energy_of_both(Random& random) {
   return cases;
 }
 
-/// The invariant of semi-implicit Euler for all states of a run, written with the next velocity: (v v' + (omega x)^2) / 2.
+/// The invariant of semi-implicit Euler along a run, written with the next velocity: (v v' + (omega x)^2) / 2.
 std::vector<Case> kept_energy(Random& random) {
   std::vector<Case> cases;
   for (int i = 0; i < 2; ++i) {

@@ -1,4 +1,4 @@
-// Submissions that are tricks as a whole: links, names that point outside, bombs, names like options.
+// Submissions that attack the unpacking: links, names that point outside, bombs, names like options.
 #include <archive.h>
 #include <archive_entry.h>
 #include <gtest/gtest.h>
@@ -18,7 +18,7 @@ namespace {
 
 const char* const parts[] = {"euler.cpp", "trapezoidal.cpp", "rk4.cpp"};
 
-/// An archive as no honest packer writes it.
+/// Writes archives that no honest program creates.
 class Packer {
  public:
   explicit Packer(const fs::path& file) : to_(archive_write_new()) {
@@ -57,12 +57,12 @@ class Packer {
   archive* to_;
 };
 
-/// The honest parts, and euler by a trick.
+/// The honest parts, with a tricky euler.
 struct Trick {
-  std::string name;  // of the submission
+  std::string name;  // name of the submission
   std::function<void(const fs::path& file, const Canaries&)> make;
-  std::string says;      // key of the texts, of a remark
-  bool all_lost = true;  // nothing of it is used; else only euler earns nothing
+  std::string says;      // key of the texts for the expected remark
+  bool all_lost = true;  // nothing is graded; otherwise only euler earns nothing
 };
 
 void honest(const fs::path& folder, const Canaries& canaries) {

@@ -1,4 +1,4 @@
-// Folders of a lecturer, and whether anything in them was touched.
+// A lecturer's folders, and a check that nothing in them was touched.
 #pragma once
 
 #include <filesystem>
@@ -9,8 +9,8 @@
 
 namespace coursework {
 
-/// A home that others may read, and as Gradescope has them folders of mode 0700 with the results and with the course
-/// (check/ and a1-steppers/), which the grader uses while this lives.
+/// A home that others may read, and, as on Gradescope, folders of mode 0700 with the results and the course (check/ and
+/// a1-steppers/), which the grader uses during the lifetime of this object.
 class Canaries {
  public:
   Canaries();
@@ -18,13 +18,13 @@ class Canaries {
   std::filesystem::path home() const { return home_.path(); }
   std::filesystem::path results() const { return results_.path(); }
   std::filesystem::path tests() const;
-  /// What was changed, added or removed there or left in the folders open to all since the beginning; empty: nothing.
+  /// Everything changed, added or removed there, or left in world-writable folders, since construction; empty: nothing.
   std::string harm() const;
 
  private:
   std::map<std::string, std::string> state() const;
   PrivateFolder home_, results_, course_;
-  std::filesystem::path open_;  // a file of ours in a folder that is open to all
+  std::filesystem::path open_;  // a file of ours in a world-writable folder
   std::map<std::string, std::string> before_;
 };
 

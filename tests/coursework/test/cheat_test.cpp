@@ -1,4 +1,5 @@
-// Each trick of cheats/ earns nothing on the part it cheats, on one assignment thoroughly and on all a few.
+// No trick of cheats/ earns anything on the part that it attacks: thoroughly on one assignment, and a few tricks on
+// all.
 
 #include <gtest/gtest.h>
 #include <sys/stat.h>
@@ -31,7 +32,7 @@ std::vector<std::string> cheats() {
   return names;
 }
 
-/// The assignment with a few of its tests: what a trick does, it does in each.
+/// The assignment with a few of its tests, which suffice because a trick acts in each of them.
 struct Few {
   Few() : assignment(find_assignment("a1-steppers")) {
     for (const Test& test : assignment.tests)
@@ -43,7 +44,7 @@ struct Few {
   Assignment assignment;
 };
 
-/// Rows {t, h, x, next} of the public tests' inputs and answers, where a call is one step of a system.
+/// Rows {t, h, x, next} of the public tests' inputs and answers, for calls that are one step of a system.
 std::string public_table(const Assignment& assignment) {
   std::ostringstream out;
   out.precision(17);
@@ -71,7 +72,7 @@ class CheatTest : public testing::TestWithParam<std::tuple<std::string, std::str
   static std::string sandbox_name() { return std::get<0>(GetParam()); }
   static fs::path cheat() { return fs::path(COURSEWORK_FOLDER) / "cheats" / (std::get<1>(GetParam()) + ".cpp"); }
 
-  /// The cheat as a student would hand it in: one file, with all that could be known about this machine.
+  /// The cheat as a student would hand it in: one file, with everything that could be known about this machine.
   std::string source() const {
     std::string text = content_of_file(cheat());
     std::string shared = content_of_file(cheat().parent_path() / "cheat.h");
@@ -86,7 +87,7 @@ class CheatTest : public testing::TestWithParam<std::tuple<std::string, std::str
   Canaries canaries_;
 };
 
-/// What its second line says: keys of the texts, any of which will do. Wrong numbers may be wrong in number as well.
+/// Keys of the texts in the second line, any of which is accepted. Wrong numbers may also be too many or too few.
 std::vector<std::string> expected(const fs::path& cheat) {
   std::istringstream lines(content_of_file(cheat));
   std::string line;
@@ -98,7 +99,7 @@ std::vector<std::string> expected(const fs::path& cheat) {
   return keys;
 }
 
-/// Whether a sentence was made from one of the texts under these keys.
+/// True if the sentence was made from one of the texts under these keys.
 bool says(const Texts& common, const std::string& said, const std::vector<std::string>& keys) {
   for (const std::string& key : keys) {
     const std::string& text = common.of(common.has("how." + key) ? "how." + key : key);
@@ -124,7 +125,7 @@ TEST_P(CheatTest, EarnsNothingAndHarmsNothing) {
     submission.files[part] = content_of_file(canaries_.tests() / "solution" / part);
   GradeOptions options;
   options.seed = 7;
-  options.least_cpu = 3;  // loops end, whenever that is
+  options.least_cpu = 3;  // loops are stopped at the limit, whatever it is
   options.common = Texts::read((fs::path(COURSEWORK_FOLDER) / "check/common.en.txt").string());
   const Result result = grade(few_.assignment, submission, *sandbox, options);
   ASSERT_TRUE(result.complete);
@@ -147,15 +148,15 @@ INSTANTIATE_TEST_SUITE_P(Each, CheatTest,
 
 }  // namespace
 
-// A few tricks on every assignment: they earn no more than the starter does and harm nothing. What each trick says, and
-// many more of them, cheat_test.cpp looks at on one assignment.
+// A few tricks on every assignment: they earn no more than the starter does, and harm nothing. cheat_test.cpp checks
+// the messages, and many more tricks, on one assignment.
 
 namespace {
 namespace fs = std::filesystem;
 
 struct Trick {
   const char* name;
-  const char* before_main;  // TESTS and RESULTS are files of the lecturer's
+  const char* before_main;  // TESTS and RESULTS are the lecturer's files
 };
 
 constexpr Trick tricks[] = {
@@ -170,8 +171,8 @@ constexpr Trick tricks[] = {
      R"(const int file = open(RESULTS, O_WRONLY | O_CREAT, 0666); if (file >= 0) write(file, "100", 3);)"},
 };
 
-/// The assignment with one test of the part that is cheated: of parts in a hand-out the first, of a whole program the
-/// last, so that what others need of it stays out.
+/// The assignment with one test of the attacked part: the first part of a hand-out with a file per part, or the last
+/// part of a whole program, so that the others' needs are excluded.
 struct OnePart {
   explicit OnePart(const Assignment& whole) : assignment(whole) {
     part = whole.takes_whole_program() ? whole.parts.back().name : whole.parts.front().name;
@@ -189,7 +190,7 @@ class EachCheat : public testing::TestWithParam<const Assignment*> {
  protected:
   static const Assignment& whole() { return *GetParam(); }
 
-  /// The starter's part, the trick at its end, and no other part.
+  /// The starter's part with the trick appended, and no other part.
   Submission submission(const std::string& at_the_end) const {
     const auto sandbox = choose_sandbox("bare", true);
     const std::string file = builder_for(whole(), *sandbox, *sandbox)->file_of(one_.part);

@@ -1,4 +1,4 @@
-// Whole classes: rubric and regrading on real programs, and what the program says and returns.
+// Whole classes: rubric and regrading on real programs, and the program's output and exit status.
 #include <gtest/gtest.h>
 
 #include <fstream>
@@ -17,7 +17,7 @@ namespace fs = std::filesystem;
 using crosscheck::TemporaryFolder;
 using crosscheck::write_file;
 
-/// The tests' results of a stored result, as earned points by number, public and hidden.
+/// Earned points by test number, public and hidden, of a stored result.
 std::vector<double> earned_in(const fs::path& json) {
   std::vector<double> earned;
   for (const TestResult& test : result_from_json(content_of_file(json), json.string()).tests)
@@ -36,7 +36,7 @@ class TinyClass : public testing::Test {
   std::vector<GradedSubmission> grade(const Rubric& rubric = {}, const std::set<std::string>& only = {}) {
     return grade_class(tiny(), submissions_in(handed), *sandbox, options, out, rubric, only);
   }
-  /// Makes another result of an earlier one: no test of it has earned anything.
+  /// Replaces an earlier result by one in which no test has earned anything.
   void forget_points(const char* who) {
     const fs::path file = out / (file_name_for(who) + ".json");
     std::string fingerprint;
@@ -60,7 +60,7 @@ TEST_F(TinyClass, RegradesTheTestsThatAreNamedAndKeepsTheRest) {
   EXPECT_EQ(earned_in(out / "ada.json"), (std::vector<double>{0, 20, 0, 0, 10, 0}));
   EXPECT_EQ(all[0].result.tests[0].said, "Wrong then.");
   EXPECT_NE(content_of_file(out / "ada.html").find("Total: 30 of 100 points"), std::string::npos);
-  // the stored result is still that of the same program and assignment: nothing is run again
+  // the stored result is of the same program and assignment, so nothing runs again
   EXPECT_EQ(grade()[0].result.earned(), 30);
 }
 
@@ -83,7 +83,7 @@ TEST_F(TinyClass, RegradesOverAChangedGraderButGradesChangedFilesWhole) {
   EXPECT_EQ(all[1].result.earned(), 100) << "class: other files than before";
   EXPECT_TRUE(all[1].moved.empty());
   EXPECT_EQ(all[2].result.earned(), 50) << "new: none before";
-  // a later run grades what is of another program or assignment
+  // a later run grades results of another program or assignment again
   EXPECT_EQ(grade()[0].result.earned(), 100);
 }
 

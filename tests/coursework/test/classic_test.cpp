@@ -1,4 +1,4 @@
-// Whole programs that fail in one class: each way has its message, and the other parts still earn.
+// Whole programs that fail in one class: each failure has its message, and the other parts still earn points.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -13,7 +13,7 @@
 namespace coursework {
 namespace {
 
-/// One test of the cloth, which fails, and of the part before it, which does not.
+/// One failing test of the cloth, and one passing test of the part before it.
 struct Short {
   explicit Short(const Assignment& whole) : assignment(whole) {
     assignment.parts = whole.parts.last(2);
@@ -31,11 +31,11 @@ struct Short {
 
 struct Failing {
   const char* what;
-  std::vector<std::array<const char*, 3>> changes;  // file, what stands there once, what in its place
+  std::vector<std::array<const char*, 3>> changes;  // file, text that occurs once, replacement
   const char* says;
 };
 
-// What the smallest assignment can fail in as well, grade_test.cpp tries there.
+// grade_test.cpp covers failures that the smallest assignment can have as well.
 TEST(Classic, EveryWayToFailHasItsMessageAndCostsItsOwnPart) {
   const Assignment& whole = find_assignment("classic");
   const Short few(whole);
@@ -86,7 +86,7 @@ TEST(Classic, OutputAndAMissingFileCostNothingElse) {
   }
 }
 
-/// Remarks on these files, and on a part that cannot be built; nothing is run.
+/// Remarks on these files, and on a part that cannot be built, without running anything.
 std::string said_of(const classic::Files& files, const std::string& part) {
   const crosscheck::TemporaryFolder scratch("test");
   const Compiler compiler;
@@ -143,7 +143,7 @@ TEST(Classic, WhatKeepsAClassFromBeingUsedIsToldWithoutDenyingIt) {
             std::string::npos);
 }
 
-// Whatever a fault is like, it is told as what it is: features of answers say nothing of precision.
+// A fault is reported as itself, whatever it resembles: features of answers are no evidence of the precision.
 TEST(Classic, AKnownMistakeIsNamedAsTheCause) {
   const Assignment& whole = find_assignment("classic");
   std::vector<coursework::Test> tests;

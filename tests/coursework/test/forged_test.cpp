@@ -1,4 +1,5 @@
-// A whole program whose file answers before main does, with the true token: what it writes down is not what was asked.
+// A whole program whose file answers before main, with the true token: prepared answers do not fit the actual
+// questions.
 #include <gtest/gtest.h>
 
 #include <limits>
@@ -13,7 +14,7 @@
 namespace coursework {
 namespace {
 
-/// Answers each call by its name with a line that is known beforehand.
+/// Answers each call by its name with a prepared line.
 constexpr const char* forger = R"(
 #include <unistd.h>
 #include <iostream>
@@ -67,7 +68,7 @@ class Forged : public testing::TestWithParam<const char*> {
       if (test.part == GetParam()) tests_.push_back(test), ids_.insert(std::string(test.id));
   }
 
-  /// What the solution answers to every call about the part's systems with this seed.
+  /// The solution's answers to every call on the part's systems with this seed.
   std::map<std::string, TestRun> recorded(int seed) const {
     std::map<std::string, TestRun> all;
     for (const coursework::Test& test : tests_) {
@@ -108,7 +109,7 @@ class Forged : public testing::TestWithParam<const char*> {
   std::unique_ptr<Builder> builder_;
   std::string solution_;
   std::filesystem::path honest_;
-  std::vector<coursework::Test> tests_;  // of the part
+  std::vector<coursework::Test> tests_;  // tests of the part
   std::set<std::string> ids_;
 };
 
@@ -141,7 +142,7 @@ TEST_P(Forged, WhatTheGraderFindsEarnsNothingWhenItIsSent) {
   EXPECT_EQ(passed(forging(lines), 2), std::set<std::string>());
 }
 
-/// Most answers are a few numbers of many: the record of a large cloth stays within what a process may write.
+/// Most answers are a few of many numbers: the record of a large cloth stays below the limit on a process's output.
 class LargeCloth : public Forged {};
 
 TEST_P(LargeCloth, LeavesARecordThatIsSmallEnough) {
@@ -153,7 +154,7 @@ TEST_P(LargeCloth, LeavesARecordThatIsSmallEnough) {
   EXPECT_EQ(passed(builder_->ours("cloth", large), 3), ids_);
 }
 
-/// Whatever comes, something is said of it within the time of a test.
+/// The grader replies to any record within the time of a test.
 TEST_P(Forged, NoRecordHarmsTheGrader) {
   const double hostile[] = {std::numeric_limits<double>::quiet_NaN(),
                             std::numeric_limits<double>::infinity(),
@@ -185,7 +186,7 @@ TEST_P(Forged, NoRecordHarmsTheGrader) {
     EXPECT_TRUE(classic::replay(what, longer).empty()) << call;
     for (const double value : hostile) {
       Numbers changed = honest;
-      changed[0] = value;  // how many entries the state has
+      changed[0] = value;  // number of entries of the state
       EXPECT_TRUE(looked_at(changed).empty()) << call << ", " << value;
       for (int i = 0; i < 3; ++i) {
         changed = honest;

@@ -1,4 +1,4 @@
-// Readers of what the formats write: JSON against a table of fields, and the little XML that is needed.
+// Readers of the formats' output: JSON against a table of fields, and a subset of XML.
 #pragma once
 
 #include <fmt/format.h>
@@ -12,13 +12,13 @@
 
 namespace coursework::testing_tools {
 
-// A small checker of JSON against a table of fields: required ones, types, allowed values, and nothing else.
+// A small checker of JSON against a table of fields: required fields, types, allowed values, and no other fields.
 
 struct Field {
   std::string name;
   enum Type { number, text, flag, object, list, any } type;
   bool required = true;
-  std::vector<std::string> allowed = {};  // values of a text; empty: every one
+  std::vector<std::string> allowed = {};  // allowed text values; empty: any
 };
 
 inline bool is(const crosscheck::JsonField& value, Field::Type type) {
@@ -39,7 +39,7 @@ inline bool is(const crosscheck::JsonField& value, Field::Type type) {
   return false;
 }
 
-/// What is wrong with it, a line each; empty: nothing.
+/// Violations of the schema, one per line; empty: none.
 inline std::string violations(const crosscheck::JsonField& value, const std::vector<Field>& fields,
                               const std::string& where) {
   if (!value.is_object()) return where + " is no object\n";
@@ -64,7 +64,7 @@ inline std::string violations(const crosscheck::JsonField& value, const std::vec
   return wrong;
 }
 
-// A reader of the little XML that the tests need: elements, attributes, text, the five named and decimal entities.
+// A reader of the subset of XML that the tests need: elements, attributes, text, the five named and decimal entities.
 
 struct Element {
   std::string name, text;
@@ -72,7 +72,7 @@ struct Element {
   std::vector<Element> children;
 };
 
-/// Throws std::runtime_error where the text is not well formed.
+/// Throws std::runtime_error if the text is not well formed.
 class XmlReader {
  public:
   explicit XmlReader(const std::string& text) : text_(text) {}

@@ -1,4 +1,4 @@
-// Each format against a schema written from its documentation, on gradings with everything awkward in them.
+// Each format against a schema written from its documentation, on gradings with awkward content.
 #include <gtest/gtest.h>
 
 #include "tests/coursework/grader/assignment.h"
@@ -121,7 +121,7 @@ TEST(Gradescope, ScoresAndHidesWhatItShould) {
   EXPECT_EQ(out["leaderboard"][0]["value"].number(), 8);
   for (size_t i = 0; i < 6; ++i)
     EXPECT_EQ(out["tests"][i]["visibility"].text(), i < 3 ? "visible" : "after_published") << i;
-  // what a student's program said can break out of neither JSON nor HTML
+  // text of a student's program cannot break out of JSON or HTML
   const std::string shown = out["tests"][1]["output"].text();
   EXPECT_EQ(out["tests"][1]["output_format"].text(), "html");
   EXPECT_NE(shown.find("1 &lt; x &amp;"), std::string::npos);
@@ -129,7 +129,7 @@ TEST(Gradescope, ScoresAndHidesWhatItShould) {
   EXPECT_EQ(JsonField::parse(gradescope(nothing_ran(), common()), "results.json")["score"].number(), 0);
 }
 
-/// The schema of the Jenkins plug-in: who may hold whom, and which attributes must be there.
+/// The schema of the Jenkins plug-in: allowed children and required attributes.
 struct Rule {
   std::vector<std::string> required, optional, children;
 };
@@ -180,7 +180,7 @@ TEST(Junit, FollowsTheSchemaAndCountsRight) {
   }
   const std::string text = junit(awkward(), common());
   const Element root = XmlReader(text).document();
-  ASSERT_EQ(root.children.size(), 3u);  // preflight and two parts, hidden tests with their part
+  ASSERT_EQ(root.children.size(), 3u);  // preflight and two parts, with the hidden tests in their part
   const Element& wrong = root.children[1].children[1].children.at(0);
   EXPECT_EQ(wrong.name, "failure");
   EXPECT_EQ(wrong.attributes.at("message"), "row 2: expected 1 < x & \"y\", got");
@@ -207,7 +207,7 @@ TEST(Formats, HiddenNumbersStayOutOfWhatStudentsReadAtOnce) {
   Result all_right = awkward();
   for (TestResult& t : all_right.tests)
     if (t.hidden) t.earned = t.points, t.said.clear(), t.seconds = 7;
-  // how the hidden tests went changes nothing there
+  // the verdicts of hidden tests have no influence
   EXPECT_EQ(junit(awkward(), common()), junit(all_right, common()));
   EXPECT_EQ(summary_of(awkward(), common()), summary_of(all_right, common()));
   EXPECT_EQ(junit(awkward(), common()).find("SECRET"), std::string::npos);

@@ -1,4 +1,4 @@
-// From a submission to a result, and a class of them: every way to fail has its message and costs its own part.
+// From a submission to a result, and whole classes: every failure has its message and costs only its own part.
 
 #include <gtest/gtest.h>
 
@@ -22,7 +22,7 @@ namespace {
 
 Result graded(const std::map<std::string, std::string>& changed = {}, std::uint64_t seed = 7,
               double least_cpu = GradeOptions().least_cpu) {
-  // bare: what is tried here is the grader, not the walls
+  // bare, because these tests are about the grader, not about isolation
   const auto sandbox = choose_sandbox("bare", true);
   GradeOptions options = options_for(tiny(), seed);
   options.least_cpu = least_cpu;
@@ -48,11 +48,11 @@ TEST(Grade, SolutionEarnsAllOnAnySeed) {
 
 struct Failing {
   const char* what;
-  const char* source;  // of twice.cpp
+  const char* source;  // content of twice.cpp
   const char* says;
 };
 
-// A loop without an end has a test of its own, below.
+// Endless loops have a separate test below.
 TEST(Grade, EveryWayToFailHasItsMessageAndCostsItsOwnPart) {
   const std::string head = "#include \"tiny.h\"\n#include <cstdlib>\n#include <cstdio>\n#include <stdexcept>\n";
   const Failing table[] = {
@@ -93,7 +93,7 @@ TEST(Grade, EveryWayToFailHasItsMessageAndCostsItsOwnPart) {
   }
 }
 
-// As in the hand-out: headers beside the parts, names of ours among them, functions that stand in an earlier part.
+// As in the hand-out: headers beside the parts, including names of ours, and functions defined in an earlier part.
 TEST(Grade, OwnHeadersAreTakenAndOursAreNotReplaced) {
   Submission submission =
       submission_of(tiny(), {{"twice.cpp",
@@ -110,7 +110,7 @@ TEST(Grade, OwnHeadersAreTakenAndOursAreNotReplaced) {
   const auto sandbox = choose_sandbox("bare", true);
   const Result result = grade(tiny(), submission, *sandbox, options_for(tiny(), 7));
   EXPECT_EQ(result.earned(), 100) << text_of(result, common_texts());
-  // in a source of its own
+  // in a separate source
   submission.files["twice.cpp"] = "double twice(double x) { return 2 * x; }";
   submission.files["half.cpp"] =
       "#include \"calls.h\"\ndouble half(double x) { return x / 2; }\nint main() {}\n"
@@ -157,7 +157,7 @@ TEST(Grade, ThreadsAreAllowedUpToALimitThatIsNamed) {
   }
 }
 
-/// Slow enough to be near no limit and far from the official solution: eight hundred times as slow.
+/// Eight hundred times as slow as the official solution, but far below every limit.
 const char* const slow_sums =
     "#include \"tiny.h\"\n"
     "std::vector<double> sums(const std::vector<double>& n) {\n"
@@ -182,7 +182,7 @@ TEST(Grade, SlowCodeHasTheSamePointsIdleAndUnderALoadOfEight) {
 }
 
 TEST(Grade, ALoopWithoutEndIsNotGradedAndNotRunAgain) {
-  EXPECT_EQ(GradeOptions().least_cpu, 30);  // s: what the READMEs promise, and too long to be waited for here
+  EXPECT_EQ(GradeOptions().least_cpu, 30);  // s: promised in the READMEs, and too long for a test
   const Result result =
       graded({{"twice.cpp", "double twice(double x) { for (volatile int i = 0;;) i = 1; return x; }"}}, 7, 2);
   EXPECT_EQ(earned_by(result, "twice"), 0);
@@ -235,7 +235,7 @@ TEST(Grade, OtherMistakesAndTwoAtOnceAreGivenNoName) {
   }
 }
 
-// A cause is told where an experiment shows it, and not where something is only like it.
+// A cause is reported if an experiment proves it, and not if something merely resembles it.
 TEST(Grade, CausesAreFoundByExperiment) {
   const std::pair<const char*, Remark> table[] = {
       {"const float single = static_cast<float>(x); return 2 * single;", {"suspect.float", {}}},
@@ -262,7 +262,7 @@ TEST(Grade, CausesAreFoundByExperiment) {
   }
 }
 
-// An angle is given in radians: with 180 / pi times as much, code that turns degrees into radians is right.
+// Angles are in radians: code that converts them from degrees is right for inputs multiplied by 180 / pi.
 TEST(Grade, AnAngleTakenInDegreesIsFoundByGivingItOtherwise) {
   const Assignment& cloth = find_assignment("a3-cloth");
   const auto sandbox = choose_sandbox("bare", true);
@@ -282,7 +282,7 @@ TEST(Grade, AnAngleTakenInDegreesIsFoundByGivingItOtherwise) {
   }
 }
 
-// One cause is told once, and hints that know nothing of each other are not left to contradict it.
+// A common cause is reported once, and independent hints do not contradict it.
 TEST(Grade, TestsOfOnePartAgree) {
   const Texts common = common_texts();
   const std::string solution = content_of_file(tiny().folder() / "solution/sums.cpp");
@@ -332,7 +332,7 @@ TEST(Grade, HiddenTestsAskOtherNumbersOnEachSeedAndPublicOnesTheSame) {
   EXPECT_NE(first(hidden_seed(1, test)), first(hidden_seed(2, test)));
   EXPECT_NE(first(hidden_seed(1, test)), first(public_seed(tiny(), test)));
   EXPECT_NE(hidden_seed(1, test), hidden_seed(1, tiny().tests[1]));
-  // code that knows the public numbers by heart earns nothing
+  // code that has memorised the public numbers earns nothing
   std::string source = "#include \"tiny.h\"\ndouble twice(double x) {\n";
   Random random(public_seed(tiny(), test));
   for (const Case& c : test.cases(random)) {
@@ -396,7 +396,7 @@ TEST(Class, IsGradedResumedAndPutIntoATable) {
     EXPECT_TRUE(result_from_json(content_of_file(base + ".json"), base).complete);
     EXPECT_NE(content_of_file(base + ".html").find("</html>"), std::string::npos);
   }
-  // again: what is unchanged is read, what changed is graded anew
+  // a second run reads unchanged results and grades changed ones again
   const auto written = [&](const char* name) { return fs::last_write_time(out / (file_name_for(name) + ".json")); };
   const auto right = written("all right"), other = written("-o");
   write_file(handed / "-o/sums.cpp", content_of_file(tiny().folder() / "solution/sums.cpp"));
@@ -405,7 +405,7 @@ TEST(Class, IsGradedResumedAndPutIntoATable) {
   EXPECT_EQ(again[1].result.earned(), 100);
   EXPECT_EQ(written("all right"), right);
   EXPECT_NE(written("-o"), other);
-  // another seed is another grading; half a result counts for none
+  // another seed requires a new grading; an incomplete result does not count
   write_file(out / (file_name_for("-o") + ".json"),
              content_of_file(out / (file_name_for("-o") + ".json")).substr(0, 100));
   options.seed = 8;
@@ -418,7 +418,7 @@ TEST(Class, FilesOfTwoSubmissionsNeverMeet) {
   EXPECT_NE(file_name_for("a b"), file_name_for("a-b"));
   EXPECT_NE(file_name_for("王"), file_name_for("李"));
   EXPECT_EQ(file_name_for("../x").find('/'), std::string::npos);
-  // the class's own page, and the manifest
+  // the class's page and the manifest have reserved names
   EXPECT_NE(file_name_for("class"), "class");
   EXPECT_NE(file_name_for("crosscheck"), "crosscheck");
 }
@@ -431,7 +431,7 @@ TEST(Page, CarriesWordsAndPlotsAndNothingOfTheStudentsUnescaped) {
   GradeOptions options = options_for(tiny(), 7);
   options.secret = true;
   Result result = grade(tiny(), submission_of(tiny(), {{"twice.cpp", throws}}), *sandbox, options);
-  result.tests[0].said += "\x1b[2J";  // a forged answer may bring it
+  result.tests[0].said += "\x1b[2J";  // a forged answer may contain it
   const std::string page = page_of(result, options.common, options.own), text = text_of(result, options.common);
   EXPECT_EQ(page.find("<script>"), std::string::npos);
   EXPECT_NE(page.find("<html lang=\"en\">"), std::string::npos);

@@ -75,7 +75,7 @@ TEST(Gradebook, MoodlesWorksheetIsFilledByParticipantNumber) {
                  "\"old, kept\"\r\n" + "\"Participant 18\",=Bo,b@x.uk,,50" + rest,
              {moodle("Bo", "18"), moodle("王小明", "7")}, {graded("Bo_18"), graded("王小明_7", false)});
   EXPECT_EQ(out.unmatched, std::vector<std::string>());
-  // no blank, quote, line end or cell of others has changed
+  // blanks, quotes, line ends and other cells are unchanged
   EXPECT_EQ(out.text, head + "\"Participant 7\",\"王小明\",w@x.cn,\"Submitted for grading - \",50" + rest +
                           "Total: 50 of 100 points; twice: 50; sums: 0\r\n" +
                           "\"Participant 17\",\"Ada \"\"A\"\" Lovelace\",a@x.uk,\"No submission\",-" + rest +
@@ -87,7 +87,7 @@ TEST(Gradebook, MoodlesCourseExportIsFilledByName) {
   const std::string head =
       "\"First name\",\"Last name\",\"ID number\",\"Email address\",\"Assignment: Test/Tiny (Real)\","
       "\"Assignment: Test/Tiny (Feedback)\",\"Last downloaded from this course\"\n";
-  // 18 is a participant, not the ID number of another person
+  // 18 is a participant number, not another person's ID number
   const Filled out =
       filled("moodle", head + "Séan,O'Brien,2,s@x.ie,-,,1\nAda,Lovelace,18,a@x.uk,-,,1\n",
              {moodle("Séan OBrien", "18"), moodle("Lovelace Ada", "19")}, {graded("Séan"), graded("Ada", false)});
@@ -266,7 +266,7 @@ TEST(Rubric, EachErrorNamesLineAndKey) {
     } catch (const crosscheck::InputError& error) {
       EXPECT_NE(std::string(error.what()).find(says), std::string::npos) << error.what();
     }
-  // overrides of others are skipped
+  // overrides of other students are skipped
   EXPECT_TRUE(rubric_of(one + "student = \"adda\"\ntest = \"2.1\"\n", false).overrides.empty());
 }
 

@@ -1,4 +1,4 @@
-// Hand-outs are built as students build them: their `check` says what the grader says.
+// Hand-outs built as students build them: their `check` reports what the grader reports.
 
 #include <gtest/gtest.h>
 #include <sys/wait.h>
@@ -49,11 +49,11 @@ class Given {
   explicit Given(const Assignment& assignment) { write_handout(assignment, folder); }
 
   void put(const classic::Files& files) const {
-    for (const auto& [file, content] : files)  // what stays is not built again
+    for (const auto& [file, content] : files)  // unchanged files are not built again
       if (!fs::exists(folder / file) || content_of_file(folder / file) != content)
         crosscheck::write_file(folder / file, content);
   }
-  /// Builds what has changed, and runs it. Without optimisation: that is compiled soonest.
+  /// Builds what has changed, and runs it. Without optimisation, which is fastest to compile.
   Ran check(const std::string& which = "") const {
     const std::string here = folder.string();
     const Ran built =
@@ -67,7 +67,7 @@ class Given {
   fs::path folder = scratch.path / "given";
 };
 
-/// "63" of "..., 63 points in all".
+/// "63" from "..., 63 points in all".
 std::string promised(const fs::path& folder) {
   const std::string text = content_of_file(folder / "README.md");
   const size_t end = text.find(" points in all"), begin = text.rfind(' ', end - 1) + 1;
@@ -87,7 +87,7 @@ TEST(HandoutCheck, CountsThePointsThatTheReadmePromises) {
   EXPECT_NE(starter.said.find("Total: 0 of " + promised(given.folder) + " points"), std::string::npos) << starter.said;
 }
 
-/// Of each plot of the page: whether the student's curve leaves the right one by more than a pixel somewhere.
+/// For each plot of the page: true if the student's curve deviates from the right one by more than a pixel somewhere.
 std::vector<bool> curves_apart(const fs::path& page) {
   const std::string text = content_of_file(page);
   std::vector<bool> apart;
@@ -110,7 +110,7 @@ std::vector<bool> curves_apart(const fs::path& page) {
   return apart;
 }
 
-/// What the grader says first of a test's public cases; empty where they are right.
+/// The grader's first feedback on a test's public cases; empty if they are right.
 std::string said_by_grader(const Assignment& assignment, const coursework::Test& test, const fs::path& program,
                            const Sandbox& sandbox) {
   const GradeOptions options = options_for(assignment, 1);
@@ -182,7 +182,7 @@ TEST(HandoutCheck, SaysOfAWholeProgramWhatTheGraderSays) {
         << failing.said;
   }
   EXPECT_NE(failing.said.find(total(earned)), std::string::npos) << failing.said;
-  // Euler's rule is right, in round numbers and in others; the trapezoidal is not, and with it whatever it moves
+  // Euler's rule is right, in round and in other numbers; the trapezoidal rule is wrong, as is everything that it moves
   EXPECT_EQ(curves_apart(given.folder / "mine.html"), (std::vector<bool>{false, false, true, true, true}));
 
   given.put(solution);
@@ -191,7 +191,7 @@ TEST(HandoutCheck, SaysOfAWholeProgramWhatTheGraderSays) {
   EXPECT_NE(right.said.find(total(points)), std::string::npos) << right.said;
   EXPECT_EQ(curves_apart(given.folder / "mine.html"), std::vector<bool>(6, false));
 
-  // whoever hands in the whole folder hands in no file of ours
+  // a student who hands in the whole folder hands in no file of ours
   const classic::Selection chosen = classic::choose_files(classic::files_below(given.folder));
   for (const auto& [path, content] : chosen.files)
     EXPECT_TRUE(solution.count(path) || path.starts_with("vecmath/")) << path;

@@ -1,4 +1,4 @@
-// Hand-outs: what students need and nothing that they must not see.
+// Hand-outs contain what students need, and nothing secret.
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
@@ -28,13 +28,13 @@ std::vector<fs::path> files_below(const fs::path& folder) {
   return files;
 }
 
-/// Heads of loops, includes and announced names, which code about the same things shares.
+/// Heads of loops, includes and declared names, which code on the same subject shares.
 bool says_little(const std::string& line) {
   return (line.starts_with("for (") && line.ends_with("{")) || line.starts_with("#include ") ||
          (line.starts_with("struct ") && line.ends_with(";"));
 }
 
-/// Lines without the blanks around them, all that are long enough to be told from chance.
+/// Stripped lines that are too long to coincide by chance.
 std::set<std::string> telling_lines(const fs::path& file) {
   std::set<std::string> lines;
   std::istringstream in(content_of_file(file));
@@ -78,11 +78,11 @@ TEST(Handout, HoldsWhatTheStudentNeeds) {
   }
 }
 
-/// The lines of what is secret, but for those that the starter, the calls and the lecture show anyway: declarations.
+/// Lines of secret files, except declarations that the starter, the calls and the lecture show anyway.
 TEST(Handout, HasNoLineOfSolutionStylesMistakesAndTests) {
   for (const Assignment& assignment : assignments()) {
     std::set<std::string> secret;
-    std::string shown, judging;  // all of it: a line may be the head of a longer one
+    std::string shown, judging;  // the whole text, because a line may be the beginning of a longer one
     const fs::path from = assignment.folder();
     std::vector<fs::path> secrets;
     for (const fs::path& file : files_below(from)) {
@@ -90,7 +90,7 @@ TEST(Handout, HasNoLineOfSolutionStylesMistakesAndTests) {
       bool given = false;
       for (const char* begin : {"handout.", "starter/", "calls", "texts.", "stubs/"})
         given = given || inside.starts_with(begin);
-      // handed out as well: what finds features in a whole program's answers
+      // also handed out: the code that finds features in a whole program's answers
       bool judges = false;
       if (assignment.takes_whole_program())
         for (const char* begin : {"probe/", "looks", "motion", "oracles", "replay", "shapes", "springs"})
@@ -102,7 +102,7 @@ TEST(Handout, HasNoLineOfSolutionStylesMistakesAndTests) {
     }
     for (const fs::path& file : files_below(from.parent_path() / "check")) shown += content_of_file(file) + "\n";
     for (const fs::path& file : secrets) {
-      // the grader's sources begin and end alike; nothing that judges may hold a line of an answer
+      // sources of the grader begin and end alike; files that judge must not contain any line of an answer
       const std::string inside = fs::relative(file, from).generic_string();
       const bool ours =
           (inside.starts_with("base/") || inside.find('/') == std::string::npos) && file.extension() != ".txt";
@@ -110,7 +110,7 @@ TEST(Handout, HasNoLineOfSolutionStylesMistakesAndTests) {
       for (const std::string& line : telling_lines(file))
         if (known.find(line) == std::string::npos) secret.insert(line);
     }
-    // texts are given without what they say of mistakes
+    // the hand-out's texts omit descriptions of mistakes
     const Texts texts = Texts::read((from / "texts.en.txt").string());
     int mistakes = 0;
     for (const auto& [key, text] : texts.all())
@@ -122,17 +122,17 @@ TEST(Handout, HasNoLineOfSolutionStylesMistakesAndTests) {
     std::set<std::string> lines;
     for (const fs::path& file : files_below(handout.folder)) lines.merge(telling_lines(file));
     for (const std::string& line : secret) {
-      // the head of a plain loop may be part of another line by chance; a longer text may not
+      // the head of a plain loop may be part of another line by chance, but not a longer text
       const bool found = line.size() < 32 ? lines.count(line) > 0 : all.find(line) != std::string::npos;
       EXPECT_FALSE(found) << assignment.name << ": " << line;
     }
   }
 }
 
-/// Whether it is a short number but for rounding: a zero, 0.2, 1.5.
+/// True for a short decimal number up to rounding: zero, 0.2, 1.5.
 bool is_plain(double value) { return std::abs(value) < 1e-12 || fmt::format("{:.12g}", value).size() <= 6; }
 
-/// Numbers of the file as written, those with many digits.
+/// Numbers with many digits, as written in the file.
 std::set<std::string> long_numbers(const PublicTests& tests) {
   std::ostringstream out;
   write_cases(out, tests);
@@ -154,7 +154,7 @@ TEST(Handout, HasNoHiddenNumber) {
       }
       return long_numbers(tests);
     };
-    // probes draw their states from a number of their own: the last that they are given
+    // probes draw their states from their last input
     for (const coursework::Test& test : assignment.tests) {
       if (!test.reduce || !assignment.takes_whole_program()) continue;
       Random shown(public_seed(assignment, test)), later(hidden_seed(1, test));
@@ -165,7 +165,7 @@ TEST(Handout, HasNoHiddenNumber) {
     const std::string all = Handout(assignment).all();
     EXPECT_GT(one.size(), 50u) << assignment.name;
     for (const std::string& number : one) {
-      // the same with every seed: a constant of the test, no secret
+      // identical for every seed: a constant of the test, not a secret
       if (other.count(number)) continue;
       EXPECT_EQ(given.count(number), 0u) << assignment.name << ": " << number;
       EXPECT_EQ(all.find(number), std::string::npos) << assignment.name << ": " << number;

@@ -1,6 +1,6 @@
-// Mutants of every official solution must lose points, at a test of the part that is wrong; those that cannot are
-// argued in mutants/equivalent.txt. MUTANTS says how many, spread by MUTANTS_SEED (default 40 and 1; 0: all);
-// MUTANTS_SURVIVORS names a file for the survivors of all.
+// Mutants of every official solution must lose points at a test of the wrong part; mutants/equivalent.txt justifies
+// those that cannot. MUTANTS sets their number, spread by MUTANTS_SEED (default 40 and 1; 0: all); MUTANTS_SURVIVORS
+// names a file for all survivors.
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
@@ -22,18 +22,18 @@ namespace coursework {
 namespace {
 namespace fs = std::filesystem;
 
-/// Of each rule and file; all would be four thousand, and hours.
+/// Limit per rule and file; all would be four thousand, and take hours.
 constexpr std::size_t most_of_a_rule = 2;
 
-/// A mutant in its place, and what became of it.
+/// A mutant in its place, and its outcome.
 struct Tried {
   const Assignment* assignment = nullptr;
   const Builder* builder = nullptr;
-  std::string file, part;           // the part that the change is in
-  std::vector<std::string> beside;  // all parts that have this file
+  std::string file, part;           // the part with the change
+  std::vector<std::string> beside;  // all parts that share this file
   Mutant mutant;
   enum class Became { not_compiled, lost, lost_elsewhere, survived } became = Became::survived;
-  std::string at;  // the first test that it lost
+  std::string at;  // the first lost test
 
   std::string name() const {
     return fmt::format("{} {}:{} ({}): {} => {}", assignment->name, file, mutant.line, mutant.rule, mutant.right,
@@ -41,7 +41,8 @@ struct Tried {
   }
 };
 
-/// Where a file holds several parts, in their order, each is a function that begins in the first column.
+/// Part that contains the line. In a file with several parts, each part in turn is a function that begins in column
+/// one.
 std::string part_at(const std::string& source, int line, const std::vector<std::string>& parts) {
   std::size_t functions = 0, at = 0;
   for (int i = 1; i <= line && at < source.size(); ++i) {
@@ -52,7 +53,7 @@ std::string part_at(const std::string& source, int line, const std::vector<std::
   return parts[std::min(parts.size(), std::max<std::size_t>(1, functions)) - 1];
 }
 
-/// The first test that loses points, public or hidden; empty: none does.
+/// The first test that loses points, public or hidden; empty: none.
 std::string first_loss(const Tried& one, const std::string& part, const fs::path& program, const Sandbox& sandbox) {
   for (const coursework::Test& test : one.assignment->tests) {
     if (test.part != part) continue;
@@ -132,7 +133,7 @@ TEST_F(Mutants, ThereAreEnoughOfEveryRule) {
     EXPECT_GE(of_rule[rule], 3) << rule;
 }
 
-// A line that no change makes any more argues nothing.
+// An entry whose line no mutation produces any more is obsolete.
 TEST_F(Mutants, EveryArgumentIsOnAMutant) {
   for (const Equivalent& e : equivalent_)
     EXPECT_TRUE(std::any_of(all_.begin(), all_.end(),
@@ -152,7 +153,7 @@ TEST_F(Mutants, LosePointsAtTheirPart) {
     Random random(number_from("MUTANTS_SEED", 1));
     for (std::size_t i = chosen.size(); i > 1; --i)
       std::swap(chosen[i - 1], chosen[static_cast<std::size_t>(random.integer(0, static_cast<int>(i) - 1))]);
-    // some of them do not compile: a few more stand ready
+    // some do not compile, so a few more are prepared
     chosen.resize(std::min<std::size_t>(chosen.size(), 2 * count));
   }
   std::ofstream survivors;

@@ -1,4 +1,4 @@
-// What is seen in wrong answers by arithmetic, and by asking again with other numbers.
+// Observations on wrong answers, by arithmetic and by repeated calls with other numbers.
 
 #include <gtest/gtest.h>
 
@@ -26,7 +26,7 @@ const Texts& layouts() {
   return texts;
 }
 
-/// Two particles that fall in drag; `force` turns mass, g, drag and v, and 0 to 2, into a force.
+/// Two particles that fall with drag; `force` maps m, g, drag and v, for components 0 to 2, to a force.
 template <class Force>
 Numbers rates(const Numbers& in, Force force) {
   Numbers out;
@@ -47,7 +47,7 @@ Case falling(double drag = 0.2) {
   return c;
 }
 
-/// What is seen in one case, which a second one with another drag bears out.
+/// Observations on one case, confirmed by a second one with another drag.
 template <class Force>
 std::string seen(Force force) {
   const Case what = falling(), other = falling(0.3);
@@ -70,12 +70,12 @@ TEST(Seen, SaysWhichVectorsAreRightAndWhatTheOthersAre) {
             "be.");
   EXPECT_EQ(seen([](double m, double g, double drag, double v) { return m * g - drag * v + m * drag * v; }),
             "Right: x'. Wrong: v'. Where v' is wrong, it is the right one plus (drag) times v.");
-  // two things at once: nothing simple
+  // two errors at once: no simple explanation
   EXPECT_EQ(seen([](double m, double g, double drag, double v) { return 1.3 * m * g - 1.7 * drag * v + 0.1; }),
             "Right: x'. Wrong: v'.");
 }
 
-// In one case a factor fits by chance, and may have several names.
+// In a single case a factor may fit by chance, and may have several names.
 TEST(Seen, AFactorNeedsASecondCase) {
   const Case what = falling(), other = falling(0.3);
   const auto answer = [](const Case& c, double factor) {
@@ -103,7 +103,7 @@ TEST(Table, HasExpectedBesideGot) {
             "  particle 0, pair[1]     -9.81      9.81  <- differs\n"
             "  particle 1, pair[0]         0         0\n"
             "  particle 1, pair[1]  0.333333  0.333333");
-  // of many only those that differ, where these are few
+  // only the numbers that differ, if they are few of many
   what.expected = Numbers(8, 1.0);
   EXPECT_EQ(table({1, 1, 1, 2, 1, 1, 1, 1}),
             "                       expected  got\n"
@@ -123,7 +123,7 @@ TEST(Seen, TellsParticlesAndPartsApart) {
   EXPECT_EQ(seen_text(common_texts(), layouts(), what, {How::answered, got}), "Right: x'; v'.y; v'.z. Wrong: v'.x.");
 }
 
-// An order of accuracy is no number that arithmetic explains.
+// Arithmetic does not explain measured quantities such as an order of accuracy.
 TEST(Seen, NothingOfWhatIsComparedLoosely) {
   const Case order{"order", {1}, {4}, 1, 0.1, "order", "order"};
   EXPECT_EQ(seen_text(common_texts(), layouts(), order, {How::answered, {2}}), "");
@@ -149,7 +149,7 @@ TEST(Seen, SumsAreFittedOrRefused) {
   EXPECT_TRUE(coefficients({a, a}, a, 1e-12).empty());
 }
 
-/// Numbers that are nothing in particular.
+/// Generic numbers without any relation.
 Case in_general(Case c) {
   for (std::size_t i = 1; i < c.in.size(); ++i) c.in[i] *= 1 + 0.0123456789 * static_cast<double>(i);
   c.expected = right_rates(c.in);
@@ -195,7 +195,7 @@ TEST(Observe, TellsWithoutWhichTermTheAnswerIsRight) {
             "in. Tried with other numbers: with v = 0 your answers are right: they go wrong only where that comes in.");
   EXPECT_EQ(observed([](const Numbers& in) { return rates(in, [](double, double, double, double) { return 7.; }); }),
             "");
-  // right without drag where the first mass is 1 and the second moves along no axis: by accident
+  // right by accident without drag, because the first mass is 1 and the second particle moves along no axis
   EXPECT_EQ(observed(
                 [](const Numbers& in) {
                   return rates(in, [](double m, double g, double drag, double v) {
@@ -206,7 +206,7 @@ TEST(Observe, TellsWithoutWhichTermTheAnswerIsRight) {
             "");
 }
 
-// A step of a frame: right where there is one in it.
+// A step of a frame, which is right only if the frame has a single step.
 TEST(Observe, TellsByWhichNumberRightAndWrongAreToldApart) {
   const Texts own = Texts::parse("[given.frame]\n| steps# frame x v\n", "texts");
   const auto x = [](const Numbers& in, double h) { return in[2] + in[0] * h * in[3] + h * h * std::sin(in[1]); };
@@ -232,7 +232,7 @@ TEST(Observe, TellsByWhichNumberRightAndWrongAreToldApart) {
       "Of all cases asked, those with steps = 1 are right (2 of them), and all others wrong (2).");
 }
 
-/// An assignment's look at a stepper of this kind: f is linear, and where it is called is written down.
+/// Formula analysis for a stepper of this kind: f is linear, and the positions of its calls are recorded.
 template <class Step>
 std::string looked(Step step) {
   const auto ask = [&](const std::vector<Case>& cases) {

@@ -1,5 +1,5 @@
-// Programs that are odd and right: made of the classic solution and its styles by what real submissions were seen to
-// do. Each earns all, or is told without blame what cannot be decided. A few here, all with ODD_PROGRAMS=1000.
+// Unusual but right programs: variants of the classic solution and its styles, modelled on real submissions. Each earns
+// all points, or is told, without loss of points, what cannot be decided. A few here, all with ODD_PROGRAMS=1000.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -16,7 +16,7 @@ namespace {
 
 using classic::Files;
 
-/// Replaces the word wherever it stands alone; names of headers stay.
+/// Replaces whole words; names of headers stay.
 std::string with_word(std::string text, const std::string& from, const std::string& to) {
   const auto in_word = [](char c) { return std::isalnum(static_cast<unsigned char>(c)) || c == '_'; };
   for (std::size_t at = 0; (at = text.find(from, at)) != std::string::npos;) {
@@ -33,7 +33,7 @@ void rename_class(Files& files, const std::string& from, const std::string& to) 
   for (auto& [path, content] : files) content = with_word(content, from, to);
 }
 
-/// Replaces a text that stands there.
+/// Replaces an existing text.
 void put(Files& files, const std::string& path, const std::string& from, const std::string& to) {
   std::string& text = files.at(path);
   const std::size_t at = text.find(from);
@@ -53,7 +53,7 @@ std::string before_ending(const std::string& path, const std::string& mark) {
   return path.substr(0, path.rfind('.')) + mark + path.substr(path.rfind('.'));
 }
 
-/// The same without any spring, whatever it is.
+/// Disables all springs.
 std::string broken(const std::string& text) { return with_word(with_word(text, "stiffness", "0.0f"), "k", "0.0f * k"); }
 
 constexpr const char* begin_evalF = "evalF(vector<Vector3f> state) {";
@@ -69,7 +69,7 @@ const std::string eval_zero =
     "  vector<Vector3f> evalF(vector<Vector3f> state) { return vector<Vector3f>(state.size()); }\n";
 const std::string draw_none = "  void draw() {}\n";
 
-/// Ends of evalF, where the student's obstacle stops what touches it.
+/// Variants of evalF's end in which the student's obstacle stops particles that touch it.
 void stop_in(Files& files, const std::string& path, const std::string& where) {
   put(files, path, "  return f;\n}\n\nvoid",
       "  for (size_t i = 0; i + 1 < state.size(); i += 2) {\n    const Vector3f at = state[i];\n    if (" + where +
@@ -80,7 +80,7 @@ struct Odd {
   const char* name;
   const char* style;  // folder of the assignment
   std::function<void(Files&)> change;
-  bool undecided = false;  // some of it cannot be decided, and that is said
+  bool undecided = false;  // some features cannot be decided, and the feedback says so
 };
 
 const Odd programs[] = {
@@ -240,7 +240,7 @@ const Odd programs[] = {
      }},
     {"all in one source", "solution",
      [](Files& f) {
-       // what two sources call alike, each for itself
+       // names that two sources define independently
        for (const char* word : {"mass", "gravity", "drag", "stiffness", "length", "Spring"})
          for (const char* one : {"ClothSystem.h", clothcpp})
            f[one] = with_word(f[one], word, "own_" + std::string(word));
@@ -458,7 +458,7 @@ class OddPrograms : public testing::TestWithParam<const Odd*> {};
 TEST_P(OddPrograms, EarnAllOrAreToldWithoutBlameWhatCannotBeDecided) {
   const Odd& odd = *GetParam();
   const Assignment& whole = find_assignment("classic");
-  // the public tests alone: hidden ones ask the same at other states
+  // public tests only: hidden ones ask the same questions at other states
   std::vector<coursework::Test> tests(whole.tests.begin(), whole.tests.end());
   for (coursework::Test& test : tests) test.points += test.hidden, test.hidden = 0;
   Assignment shown = whole;
@@ -481,7 +481,7 @@ TEST_P(OddPrograms, EarnAllOrAreToldWithoutBlameWhatCannotBeDecided) {
   std::printf("%-55s %3g of 100%s\n", odd.name, result.earned(), undecided.empty() ? "" : ", rest undecided");
   if (odd.undecided) {
     EXPECT_FALSE(undecided.empty()) << remarks;
-    // that it does not repeat itself is said where that is asked, and nothing else is wrong
+    // non-determinism is reported at its own test, and nothing else is wrong
     EXPECT_EQ(lost.rfind("5.1 ", 0), 0u) << lost;
     EXPECT_EQ(lost.find("\n5."), std::string::npos) << lost;
   } else {

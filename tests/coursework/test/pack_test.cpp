@@ -1,5 +1,5 @@
-// The package: what is in it, and the container in which it is rehearsed. The rehearsal itself takes minutes and has no
-// test here.
+// The package: its content, and the container of its rehearsal. The rehearsal itself takes minutes and is not tested
+// here.
 #include "tests/coursework/grader/pack.h"
 
 #include <gtest/gtest.h>
@@ -31,10 +31,10 @@ TEST(SourcesNeeded, FollowsIncludesAndWhatBelongsToHeaders) {
       {"a/x.h", "#include \"b/y.h\"\n"},
       {"a/x.cpp", "#include \"a/x.h\"\n"},
       {"a/part.cpp", "#include \"a/x.h\"\n"},                         // no header of its own: belongs to x.h
-      {"a/other.h", ""},                                              // nobody includes it
+      {"a/other.h", ""},                                              // not included by any file
       {"a/other.cpp", "#include \"a/x.h\"\n"},                        // uses x.h, belongs to other.h
       {"a/second.cpp", "#include \"a/x.h\"\nint main() {}\n"},        // another program
-      {"a/calls.cpp", "#include \"a/x.h\"\n#include \"calls.h\"\n"},  // compiled elsewhere, where calls.h is
+      {"a/calls.cpp", "#include \"a/x.h\"\n#include \"calls.h\"\n"},  // compiled elsewhere, with another calls.h
       {"b/y.h", ""},
       {"b/z.cpp", "#include \"b/y.h\"\n#include \"b/w.h\"\n"},
       {"b/w.h", ""},
@@ -46,7 +46,7 @@ TEST(SourcesNeeded, FollowsIncludesAndWhatBelongsToHeaders) {
   EXPECT_EQ(sources_needed(tree.path, {"a/main.cpp"}), expected);
 }
 
-/// The names between `open` and `close` in the include lines of a text.
+/// Names between `open` and `close` in the include lines of a text.
 std::vector<std::string> included(const std::string& text, char open, char close) {
   std::vector<std::string> names;
   std::istringstream lines(text);
@@ -56,7 +56,7 @@ std::vector<std::string> included(const std::string& text, char open, char close
   return names;
 }
 
-/// What the sources of a package include is in the package, on through all headers of ours.
+/// Expects that all includes of a package's sources, direct and indirect, are in the package.
 void expect_includes_inside(const fs::path& in) {
   std::vector<std::string> todo;
   std::istringstream sources(content_of_file(in / "sources.txt"));
@@ -73,7 +73,7 @@ void expect_includes_inside(const fs::path& in) {
       EXPECT_TRUE(fs::exists(in / found)) << name;
       if (fs::exists(in / found) && seen.insert(found).second) todo.push_back(found);
     }
-    // headers of these libraries are not in the package, nor are they on the machine that builds it
+    // headers of these libraries are neither in the package nor on the machine that builds it
     for (const std::string& name : included(text, '<', '>'))
       EXPECT_FALSE(name.starts_with("boost/") || name.starts_with("Spectra/")) << name;
   }
@@ -127,7 +127,7 @@ TEST(Zip, StaysInsideItsFolder) {
 
 TEST(Zip, ThatUnpacksToTooMuchIsRefused) {
   const TemporaryFolder scratch("zip");
-  const std::string part((16u << 20) + 1, '\0');  // packs to a thousandth
+  const std::string part((16u << 20) + 1, '\0');  // compresses to a thousandth
   write_zip(scratch.path / "bomb.zip", {{"1", part}, {"2", part}, {"3", part}, {"4", part}});
   EXPECT_THROW(unpack_zip(scratch.path / "bomb.zip", scratch.path / "in"), std::runtime_error);
 }
@@ -159,7 +159,7 @@ TEST(Package, OfAnotherIsKnownBeforeAnyOfItRuns) {
   EXPECT_FALSE(fs::exists(scratch.path / "PWNED"));
 }
 
-/// The size of files that this process may write, for a while; a write beyond it fails, as on a full disk.
+/// Temporarily limits the size of files that this process may write; a write beyond it fails, as on a full disk.
 class SmallFiles {
  public:
   explicit SmallFiles(rlim_t bytes) {
@@ -181,7 +181,7 @@ class SmallFiles {
 TEST(Zip, IsWholeOrNotThere) {
   const TemporaryFolder scratch("zip");
   const fs::path zip = scratch.path / "p.zip";
-  std::string noise;  // that cannot be packed
+  std::string noise;  // incompressible data
   for (unsigned i = 1; noise.size() < 100000; i = i * 1664525 + 1013904223) noise += static_cast<char>(i >> 24);
   for (const bool earlier : {false, true}) {
     if (earlier) write_file(zip, "an earlier one");
@@ -224,17 +224,17 @@ TEST(RunInContainer, ReportsStatusAndOutput) {
 
 TEST(RunInContainer, StopsWhatTakesTooLongOrTooMuch) {
   EXPECT_TRUE(shell("sleep 60 & sleep 60", {.time = 0.3}).used.too_late);
-  // a pipe whose last command keeps 200 MB
+  // a pipe whose last command holds 200 MB
   EXPECT_TRUE(
       shell("head -c 200000000 /dev/zero | tail -c 200000000 > /dev/null; sleep 60", {.memory = 100, .time = 30})
           .used.too_large);
 }
 
 TEST(RunInContainer, CountsTheWorkOfAllProcessesAtSoManyCpus) {
-  // two shells that count, side by side, take as long as their work at a tenth of a CPU
+  // two shells that count in parallel take as long as their work at a tenth of a CPU
   const std::string work = "i=0; while [ $i -lt 100000 ]; do i=$((i+1)); done";
   const auto time_of = [](const std::string& script) { return shell(script, {.cpus = 1e-3}).used.time; };
-  // what else runs on the machine makes a run take longer, never shorter: the shortest of three, in turns
+  // other load on the machine only makes a run longer: takes the shortest of three, alternately
   double both = INFINITY, one = INFINITY;
   for (int round = 0; round < 3; ++round) {
     both = std::min(both, time_of("(" + work + ") & (" + work + "); wait"));

@@ -1,4 +1,4 @@
-// Calls of the grader as a program.
+// Runs the grader as a program.
 #pragma once
 
 #include <sys/wait.h>
@@ -12,7 +12,7 @@ namespace coursework {
 
 struct Called {
   int status;
-  std::string said;  // on both streams
+  std::string said;  // output on both streams
 };
 
 inline Called call(const std::string& words) {

@@ -1,4 +1,4 @@
-// A sandbox that runs nothing twice: the corpus asks the same programs the same questions thousands of times.
+// A caching sandbox, because the corpus asks the same programs the same questions thousands of times.
 #pragma once
 
 #include <fmt/ranges.h>
@@ -10,8 +10,8 @@
 
 namespace coursework {
 
-/// Answers as `inner` does, from memory where a program was asked the same before; the token, the first line of the
-/// input, is another one each time. Jobs that write are never recalled.
+/// Returns the answers of `inner`, cached by program and input except for the token, the first line of the input, which
+/// differs every time. Jobs that write are never cached.
 class RecallingSandbox : public Sandbox {
  public:
   explicit RecallingSandbox(std::unique_ptr<Sandbox> inner) : inner_(std::move(inner)) {}

@@ -1,4 +1,4 @@
-// Says which sandbox would be chosen here, or why there is none.
+// Prints which sandbox would be chosen here, or why there is none.
 
 #include <cstdio>
 #include <stdexcept>

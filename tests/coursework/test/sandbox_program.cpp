@@ -1,5 +1,5 @@
-// A program that does one thing up to a limit or beyond it, for sandbox_test: lane_program WHAT AMOUNT. It writes
-// `done` on descriptor 3 where it came to its end.
+// A program that uses one resource up to a limit or beyond it, for sandbox_test: lane_program WHAT AMOUNT. It writes
+// `done` on descriptor 3 if it reaches its end.
 
 #include <arpa/inet.h>
 #include <fcntl.h>
@@ -48,7 +48,7 @@ void burn(double seconds) {
   }
 }
 
-/// As many sleepers as can be had, at most `count`.
+/// Starts as many sleeping processes as possible, at most `count`.
 long sleepers(long count) {
   for (long i = 0; i < count; ++i) {
     const pid_t child = fork();
@@ -135,7 +135,7 @@ const std::map<std::string, std::function<int(const char*)>> things = {
      }},
     {"files",
      [](const char* amount) {
-       long full = 0;  // of 1000 kB each
+       long full = 0;  // in units of 1000 kB
        for (long i = 0; i < std::atol(amount); ++i) {
          const std::string name = std::string(std::getenv("TMPDIR")) + "/" + std::to_string(i);
          const int file = open(name.c_str(), O_CREAT | O_WRONLY, 0600);

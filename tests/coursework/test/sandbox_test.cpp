@@ -1,4 +1,4 @@
-// Each sandbox: limits on both sides, nothing left behind, nothing seen or reached.
+// Each sandbox: limits from both sides, no remains, no access to secrets or the network.
 
 #include <gtest/gtest.h>
 #include <signal.h>
@@ -29,7 +29,7 @@ std::string show(const End& end) {
 
 bool done(const End& end) { return end.how == How::exited && end.code == 0 && end.answers.ends_with("done\n"); }
 
-/// Each limit from both sides: the amount below it comes to its end, the one above is stopped, and named.
+/// Each limit from both sides: the amount below it finishes, the one above is stopped and reported.
 struct Sides {
   std::string what, below, above;
   How how;
@@ -67,7 +67,7 @@ TEST_P(SandboxTest, SleepingIsOverAtOnceAndWhoNeedsAProcessorIsNotIdle) {
   Job napping = job("nap", "50");
   napping.limits.wall = 40;
   EXPECT_TRUE(done(sandbox().run(napping)));
-  // four that burn on each processor: the one that is watched waits three quarters of its time
+  // four busy threads per processor: the observed one waits three quarters of its time
   std::vector<std::thread> busy;
   std::atomic<bool> stop = false;
   for (unsigned i = 0; i < 4 * std::thread::hardware_concurrency(); ++i)
@@ -87,7 +87,7 @@ TEST_P(SandboxTest, SleepingIsOverAtOnceAndWhoNeedsAProcessorIsNotIdle) {
 TEST_P(SandboxTest, ItStartsNoMoreProcessesThanItMay) {
   for (const long may : {0, 5}) {
     if (may > 0 && (GetParam() == "bare" || geteuid() != 0))
-      continue;  // says so: only the filter and the clock bound it
+      continue;  // it declares that only the filter and the clock bound it
     for (const long tries : {may, may + 1}) {
       Job starting = job("processes", std::to_string(tries));
       starting.limits.processes = may;
@@ -99,10 +99,10 @@ TEST_P(SandboxTest, ItStartsNoMoreProcessesThanItMay) {
 
 TEST_P(SandboxTest, ThreadsRunWhereNoProcessMayUpToTheirLimit) {
   EXPECT_TRUE(done(sandbox().run(job("threads", "40"))));
-  Job waiting = job("worker", "4");  // the first thread waits for another, which is not idle
+  Job waiting = job("worker", "4");  // the first thread waits for another, which does not count as idle
   waiting.limits = {.cpu = 9, .wall = 60, .idle = 2};
   EXPECT_TRUE(done(sandbox().run(waiting)));
-  if (GetParam() == "bare") return;  // only the clock bounds it
+  if (GetParam() == "bare") return;  // bounded only by the clock
   for (const long limit : {8, 9}) {
     Job counting = job("threads", "8");
     counting.limits.threads = limit;
@@ -126,7 +126,7 @@ TEST_P(SandboxTest, NothingItStartedIsLeftRunning) {
     Job leaving = job(what, "9");
     leaving.limits.processes = 4;
     leaving.limits.wall = 1;
-    if (GetParam() == "bare" && std::string(what) == "killall") continue;  // it would kill us
+    if (GetParam() == "bare" && std::string(what) == "killall") continue;  // it would kill the test
     sandbox().run(leaving);
     EXPECT_EQ(leftover_processes(), std::set<std::string>{}) << what;
   }
@@ -141,7 +141,7 @@ TEST(LeftRunning, WhatOutlivesItsParentIsSeen) {
 
 TEST_P(SandboxTest, NothingItWroteIsLeft) {
   if (GetParam() == "bare") return;
-  // of this sandbox and this process alone: another sandbox's test may be writing beside it
+  // unique to this sandbox and process: another sandbox's test may be writing at the same time
   const std::string name = "litter-of-sandbox-test-" + std::string(GetParam()) + "-" + std::to_string(getpid());
   const auto own = open_folder("own");
   Job littering = job("litter", name);
@@ -207,7 +207,7 @@ TEST_P(SandboxTest, EnvironmentInputAndDescriptorsAreItsOwn) {
   EXPECT_TRUE(answers.starts_with("hello\n")) << answers;
   EXPECT_NE(answers.find("PATH=/usr/bin:/bin\n"), std::string::npos) << answers;
   EXPECT_EQ(answers.find("SECRET"), std::string::npos) << answers;
-  // 0 to 3 are its own; the shell opens one to list them
+  // 0 to 3 are inherited; the shell opens one to list them
   Job listing = shell("cd /proc/self/fd; for n in *; do [ -e $n ] && echo $n >&3; done");
   listing.limits.processes = 1;
   EXPECT_EQ(sandbox().run(listing).answers, "0\n1\n2\n3\n");
@@ -266,7 +266,7 @@ TEST(ChooseSandbox, UnsafeMustBeSaidTwiceAndNamesAreListed) {
   EXPECT_EQ(message("nosuch", false), "--lane nosuch: there is no such lane; expected one of: bwrap, uid, bare");
 }
 
-/// What choose_sandbox says in a process that is started in another way.
+/// Output of choose_sandbox in a process that is started in another way.
 std::string elsewhere(const std::string& before) {
   const std::string command = before + " " SANDBOX_CHOICE;
   FILE* out = popen(command.c_str(), "r");

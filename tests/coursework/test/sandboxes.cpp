@@ -1,4 +1,4 @@
-// Processes that a sandboxed program left running.
+// Finds processes that a sandboxed program left running.
 #include "tests/coursework/test/sandboxes.h"
 
 #include <signal.h>

@@ -1,4 +1,4 @@
-// The sandboxes that can be had here, for tests that hold in each.
+// The sandboxes available here, for tests that hold in each.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -14,12 +14,12 @@
 
 namespace coursework {
 
-/// From now on what outlives a run becomes this process's child.
+/// From now on, processes that outlive a run are reparented to this process.
 void adopt_orphans();
-/// Names of what has outlived the runs since then; it is ended.
+/// Names of the processes that have outlived the runs since then; kills them.
 std::set<std::string> leftover_processes();
 
-/// A test of each sandbox; skipped, with the sandbox's reason, where there is none.
+/// A test of each sandbox; skipped with the sandbox's reason if it is unavailable.
 class SandboxTest : public testing::TestWithParam<std::string> {
  protected:
   SandboxTest() : open_(0711) {
@@ -34,7 +34,8 @@ class SandboxTest : public testing::TestWithParam<std::string> {
     if (!sandbox_) GTEST_SKIP() << why_;
   }
 
-  /// A folder that programs in all sandboxes can be shown; the programs of this build may lie where only we reach them.
+  /// A folder that programs in all sandboxes can access; this build's programs may be in a folder that only we can
+  /// access.
   std::filesystem::path open_folder(const std::string& name) const {
     const auto folder = open_.path() / name;
     std::filesystem::create_directory(folder);

@@ -1,4 +1,4 @@
-// Too much acceleration in a6-solvers: the hand-out's formulas beside steps that are run.
+// Too much acceleration in a6-solvers: the hand-out's formulas compared with simulated steps.
 #include <gtest/gtest.h>
 
 #include "tests/coursework/a6-solvers/cases.h"
@@ -6,14 +6,14 @@
 namespace coursework::a6 {
 namespace {
 
-/// The net of the course, smaller, flat and at rest, without gravity.
+/// A smaller version of the course's net, flat and at rest, without gravity.
 Scene flat() {
   Scene s = square(5, 2, 1);
   s.stiffness = 8000, s.h = 0.0333;
   return s;
 }
 
-/// Its particles moved a little within its plane.
+/// The net with its particles displaced a little within its plane.
 Scene disturbed() {
   Scene s = flat();
   Random random(3);
@@ -22,8 +22,8 @@ Scene disturbed() {
   return s;
 }
 
-/// True where speeds are higher after twice as many steps. A deviation that grows changes its sign in each step, so
-/// that it is fast.
+/// True if speeds are higher after twice as many steps. A growing deviation alternates in sign in each step, so it has
+/// a high speed.
 bool explodes(int passes, double rho) {
   Scene s = disturbed();
   double before = 0;
@@ -41,7 +41,7 @@ double theory(int passes) {
                        passes);
 }
 
-// To one per cent of 1 - rho, which is what counts near 1; passes alone converge for every rho below 1.
+// Measured in 1 - rho, the relevant quantity near 1; passes alone converge for every rho below 1.
 TEST(Solvers, ExplodeFromTheRhoThatEigenvaluesSay) {
   for (const int passes : {4, 8}) {
     const double expected = theory(passes);

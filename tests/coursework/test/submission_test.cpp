@@ -1,4 +1,4 @@
-// Folders, archives and whole programs: the files asked for are found, and nothing that they may hold does harm.
+// Folders, archives and whole programs: finds the requested files, and is safe for any content.
 
 #include <archive.h>
 #include <archive_entry.h>
@@ -30,7 +30,7 @@ struct Entry {
   std::string link = {};
 };
 
-/// By the ending of its name, else zip or tar.gz.
+/// Format by the extension of the name, otherwise zip or tar.gz.
 void pack(const fs::path& file, const std::vector<Entry>& entries, bool zip) {
   archive* to = archive_write_new();
   const std::string ending = file.extension().string();
@@ -91,7 +91,7 @@ TEST(Layouts, EveryPersonIsOneSubmissionWhateverWasExported) {
     fs::create_directories((here.path / name).parent_path());
     fs::copy_file(archive, here.path / name);
   };
-  // a folder each, with the archive in it; and without folders
+  // a folder per student with the archive in it, and archives without folders
   put("moodle/Ada Lovelace_123_assignsubmission_file_/a1.zip");
   write_file(here.path / "moodle/Ada Lovelace_123_assignsubmission_onlinetext_/onlinetext.html", "see file");
   put("moodle/Bo_124_assignsubmission_file_a1.zip");
@@ -229,7 +229,7 @@ TEST(Submission, TextsOfOtherEncodingsBecomePlain) {
   EXPECT_EQ(plain_utf8("\xff\xfe" + utf16), "int\xc3\xa9");
   EXPECT_EQ(plain_utf8("\xfe\xff" + std::string("\0i\0n\x20\xac", 6)), "in\xe2\x82\xac");
   EXPECT_EQ(plain_utf8("int\xe9"), "int\xe9");
-  // GBK, where the second byte of a letter is a backslash at the end of a comment
+  // GBK, in which the second byte of a character is a backslash at the end of a comment
   EXPECT_EQ(plain_utf8("// \xd6\xd0\x81\x5c\nint x;"), "// \xe4\xb8\xad\xe4\xb9\x97\nint x;");
   EXPECT_EQ(plain_utf8("// \xe4\xb8\xad"), "// \xe4\xb8\xad");
 }
@@ -283,14 +283,14 @@ TEST(Submission, ArchivesOfManyKindsAndInsideEachOtherAreRead) {
   }
 }
 
-// Packed on a Chinese system: the name of the folder is GBK, and its last byte a backslash.
+// Packed on a Chinese system: the folder's name is GBK, and its last byte is a backslash.
 TEST(Submission, FoldersWithNamesInGBKAreRead) {
   const TemporaryFolder here("test");
   pack(here.path / "a.tar.gz", {{"\xd7\xf7\x81\x5c/rk4.cpp", "rk4"}}, false);
   const Submission one = read_submission(here.path / "a.tar.gz", wanted);
   EXPECT_EQ(one.files.count("rk4.cpp"), 1u);
   EXPECT_EQ(one.places.at("rk4.cpp"), "\xe4\xbd\x9c\xe4\xb9\x97/rk4.cpp");
-  // a place that cannot be laid out is left where it is
+  // a path too long to lay out is ignored
   const std::string far = std::string(300, 'x') + "/rk4.cpp";
   pack(here.path / "b.zip", {{far, "rk4"}}, true);
   EXPECT_EQ(read_submission(here.path / "b.zip", wanted).places.count("rk4.cpp"), 0u);
@@ -408,7 +408,7 @@ TEST(Submission, LinksPipesAndLargeFilesOfAFolderAreRefused) {
       EXPECT_EQ(one.missing.at("rk4.cpp").key, "file.large");
     }
   }
-  // a folder of links leads nowhere else
+  // a folder of links is not followed
   write_file(here.path / "elsewhere/rk4.cpp", "rk4");
   fs::create_directories(here.path / "linked");
   fs::create_directory_symlink(here.path / "elsewhere", here.path / "linked/src");
@@ -478,7 +478,7 @@ TEST(Submission, BombsAreRefusedOnBothSidesOfTheLimit) {
 
 TEST(Submission, DamagedGzipIsUnreadableWhereverTheDamageIs) {
   const TemporaryFolder here("test");
-  std::string noise;  // that cannot be packed: a changed byte changes the text, and nothing else
+  std::string noise;  // incompressible: a changed byte changes only the text
   for (unsigned i = 1; noise.size() < 3000; i = i * 1664525 + 1013904223) noise += static_cast<char>(i >> 24);
   pack(here.path / "whole", {{"rk4.cpp", noise}, {"euler.cpp", "euler"}}, false);
   const std::string whole = content_of_file(here.path / "whole");
@@ -502,7 +502,7 @@ TEST(Submission, DamagedGzipIsUnreadableWhereverTheDamageIs) {
     ASSERT_EQ(one.remarks.size(), 1u) << what;
     EXPECT_EQ(one.remarks[0].key, "archive.unreadable") << what;
   }
-  // what is whole stays so: padded with zeros, as some transfers do
+  // intact archives stay valid with zero padding, which some transfers add
   for (const std::string& bytes : {whole, whole + std::string(512, '\0')}) {
     write_file(here.path / "archive", bytes);
     const Submission one = read_submission(here.path / "archive", wanted);
@@ -556,11 +556,11 @@ TEST(Whole, ALargerOneThanAProgramIsIsRefused) {
   EXPECT_TRUE(refused.files.empty());
   ASSERT_EQ(refused.remarks.size(), 1u);
   EXPECT_EQ(refused.remarks.front().key, "program.size");
-  // where files are wanted by name the others count for nothing
+  // other files are ignored if files are wanted by name
   EXPECT_EQ(read_submission(here.path, {"more.h"}).files.size(), 1u);
 }
 
-/// Keys of what is said of the files, in order.
+/// Keys of the remarks on the files, in order.
 std::vector<std::string> notes_on(const classic::Files& files) {
   std::vector<std::string> keys;
   for (const Remark& note : classic::choose_files(files).notes) keys.push_back(note.key);
@@ -624,7 +624,7 @@ TEST(Whole, ClassesAreTriedByNameAndThenAllOthersOfTheKind) {
   EXPECT_EQ(tried("simple"), "Rope Boids ");
 }
 
-/// Includes are led to the one folder in which all files lie; the paths of errors are the student's own.
+/// Includes resolve to the one folder that holds all files; error messages keep the student's own paths.
 TEST(Whole, IncludesAreMetWhateverTheyAreCalled) {
   const TemporaryFolder here("test");
   const std::string long_name(4000, 'x');

@@ -1,4 +1,4 @@
-// Two parts, a test each with all that a test can have.
+// Two parts with one test each, which use all features of a test.
 #include "tests/coursework/test/tiny/tiny_assignment.h"
 
 namespace coursework {
@@ -27,7 +27,7 @@ Found differences(const Case&, const Numbers& raw) {
   return steps;
 }
 
-/// Judged by what it adds, whatever it starts from.
+/// Judged by its increments, whatever its initial value.
 std::vector<Case> steps_cases(Random& random) {
   Case one{"sums", {}, {}, 1, 1e-12, "number", "step", -1, 0};
   for (int i = 0; i < 10; ++i) one.in.push_back(random.uniform(1, 2));

@@ -1,4 +1,4 @@
-// An assignment for the grader's own tests; it is in no table.
+// An assignment for the grader's own tests; it is not in the table of assignments.
 #pragma once
 
 #include "tests/coursework/grader/assignment.h"

@@ -1,4 +1,4 @@
-// The same as GLUT here.
+// Alias of GLUT (glut.h).
 #pragma once
 
 #include "glut.h"
