@@ -148,7 +148,7 @@ INSTANTIATE_TEST_SUITE_P(Each, CheatTest,
 
 }  // namespace
 
-// A few tricks on every assignment: they earn no more than the starter does, and harm nothing. cheat_test.cpp checks
+// A few tricks on every assignment: they earn no more than the starter does, and harm nothing. The tests above check
 // the messages, and many more tricks, on one assignment.
 
 namespace {

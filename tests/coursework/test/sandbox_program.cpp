@@ -1,4 +1,4 @@
-// A program that uses one resource up to a limit or beyond it, for sandbox_test: lane_program WHAT AMOUNT. It writes
+// A program that uses one resource up to a limit or beyond it, for sandbox_test: sandbox_program WHAT AMOUNT. It writes
 // `done` on descriptor 3 if it reaches its end.
 
 #include <arpa/inet.h>
