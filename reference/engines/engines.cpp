@@ -53,6 +53,7 @@ fs::path kept_program(const std::string& engine) {
 }
 
 std::optional<OutsideEngine> kept_engine_of(const std::string& method) {
+  if (!method.starts_with("exec:")) return std::nullopt;
   for (OutsideEngine& engine : outside_engines()) {
     const std::string kept = "exec:" + kept_program(engine.name).string();
     if (method == kept || method.starts_with(kept + "+")) return std::move(engine);

@@ -2,11 +2,11 @@
 // MuJoCo 3 (the official WebAssembly build) as an engine of crosscheck (PROTOCOL.md), in double precision. A particle
 // is a body on three slide joints, whose damping is the drag.
 //
-// Options: integrator=euler|rk4|implicit|implicitfast, springs=tendon|flex (spatial tendons; or edges of
-// one-dimensional flexes, one flex per stiffness), eulerdamp=enable|disable, timeconst=S (of contacts and constraints,
-// default 0.02 as in MuJoCo; at least two steps). MuJoCo's Euler is symplectic Euler with implicit drag, v = (v + h f /
-// m) / (1 + h c / m); with eulerdamp=disable, drag is explicit and the rule equals mysim's. The implicit integrators
-// treat springs explicitly. MuJoCo assumes zero velocity for moved bodies (mocap).
+// Options: integrator=euler|rk4|implicit|implicitfast, springs=tendon|flex (spatial tendons, or edges of one-
+// dimensional flexes, one per stiffness), eulerdamp=enable|disable, timeconst=S (of contacts and constraints, default
+// 0.02 as in MuJoCo; at least two steps). MuJoCo's Euler is symplectic Euler with implicit drag, v = (v + h f / m) /
+// (1 + h c / m); with eulerdamp=disable, drag is explicit, as in mysim. The implicit integrators treat springs
+// explicitly. MuJoCo assumes zero velocity for moved bodies.
 import load from '@mujoco/mujoco';
 import wasmBinary from '@mujoco/mujoco/mujoco.wasm';
 import { serve, unsupported } from '../protocol/crosscheck_engine.mjs';
