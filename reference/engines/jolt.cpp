@@ -126,8 +126,7 @@ double supported_damping(const Scene& scene, int iterations) {
     if (scene.term(term)) unsupported(std::string("not in Jolt: ") + term + ": " + why);
   scene.require_only({"springs", "constraints", "gravity", "drag", "wind", "sphere"});
   if (scene.spring_law != "hooke") unsupported("springs of the law " + scene.spring_law + ": Jolt has Hooke's");
-  for (const Sphere& s : scene.spheres)
-    if (s.motion) unsupported("moving spheres: in contact Jolt takes the velocity of a sphere that is led for zero");
+  scene.require_resting_surfaces("in contact Jolt takes the velocity of a kinematic sphere for zero");
   std::optional<double> rate;
   for (size_t i = 0; i < scene.x.size(); ++i) {
     if (scene.pinned[i]) continue;

@@ -1,4 +1,4 @@
-// From the files of a task to the files of its answer.
+// Reads the files of a task and writes the files of its answer.
 #include "reference/protocol/adapter.h"
 
 #include <cstdio>

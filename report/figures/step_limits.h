@@ -35,7 +35,7 @@ struct StepLimits : FigureInfo {
   std::string columns_of;  // scene of the columns
 };
 
-/// From the rows of table `stability` about states of rest. Methods that hold at every step come first, then from long
+/// Reads the rows of table `stability` about states of rest. Methods that hold at every step come first, then from long
 /// to short limits. Methods, scenes and columns are empty if no limit is known as h omega. The columns are for `scene`,
 /// if it was searched.
 StepLimits step_limits_of(const std::vector<LimitRow>& table, const std::string& scene);

@@ -65,7 +65,7 @@ std::optional<std::size_t> least_of(const Findings& found, std::size_t first, st
   return least;
 }
 
-/// From the first of three draws: v' of each particle at x and at its mirror image.
+/// v' of each particle at x and at its mirror image, in the first of three draws.
 std::string gravity_shown(const Texts& own, const Findings& found) {
   const auto i = least_of(found, 0, 1, gravity_on);
   if (!i) return "";

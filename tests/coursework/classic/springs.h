@@ -36,8 +36,8 @@ struct Grid {
 };
 /// True if a spring between the two would be structural, shear or flexion.
 bool of_a_family(const Grid& grid, int a, int b);
-/// From the particles' initial positions, row by row; if they start in another shape, the grid that fits the springs
-/// best.
+/// Grid of the particles by their initial positions, row by row; if they start in another shape, the grid that fits the
+/// springs best.
 std::optional<Grid> grid_of(const Springs& springs);
 
 }  // namespace coursework::classic

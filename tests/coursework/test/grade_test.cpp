@@ -1,4 +1,4 @@
-// From a submission to a result, and whole classes: every failure has its message and costs only its own part.
+// Grading of submissions and whole classes: every failure has its message and costs only its own part.
 
 #include <gtest/gtest.h>
 

@@ -14,7 +14,7 @@
 
 namespace coursework {
 
-/// From now on, processes that outlive a run are reparented to this process.
+/// Makes this process the new parent of processes that outlive a run.
 void adopt_orphans();
 /// Names of the processes that have outlived the runs since then; kills them.
 std::set<std::string> leftover_processes();

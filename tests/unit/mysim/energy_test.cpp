@@ -184,7 +184,7 @@ TEST(Ledger, FrictionlessContactTakesNothing) {
   const Scene scene = on_a_ball(1, {0, 1, 0}, {1, 0, 0}, 0);
   for (const Stepper& s : steppers()) {
     SCOPED_TRACE(s.name);
-    // From the top until it leaves: rounding of impulses along the normal, times its path of a metre.
+    // Bound from the top until separation: rounding of impulses along the normal, times the path of a metre.
     EXPECT_NEAR(ledger_of(s, scene, {1e-3, 1, 10}).back().contact, 0, 1000 * 8 * eps * 9.81);
   }
 }

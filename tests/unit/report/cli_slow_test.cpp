@@ -205,7 +205,7 @@ TEST_F(Cli, ReportOfOwnSceneIsWholeAndTheSameTwice) {
   EXPECT_NE(read(folder_ / "one/data/dictionary.csv").find("certificates,"), std::string::npos);
   EXPECT_EQ(call({"report", "--verify", "one"}).status, 0);
 
-  // From its data: the identical page without running anything, next to the original and in its place.
+  // `--from` rebuilds the identical page without running anything, next to the original and in its place.
   const std::string json = read(folder_ / "one/report.json");
   for (const char* out : {"from", "one"}) {
     const auto begin = std::chrono::steady_clock::now();
