@@ -4,8 +4,8 @@
 #
 #   experiments/ci/release.sh [OUT]      OUT is out/release by default
 #
-# Runs on Debian 12 as root (.ci/bare-root makes the Debian 13) and takes about 40 minutes on 2 cores. Packages the
-# commit that is checked out; refuses uncommitted changes, and versions that differ between the files that state them.
+# Runs on Debian 12 as root (.ci/bare-root makes the Debian 13). Packages the commit that is checked out; refuses
+# uncommitted changes, and versions that differ between the files that state them.
 set -euo pipefail
 cd "$(dirname "$0")/../.."
 out=$(realpath -m "${1:-out/release}")
