@@ -78,14 +78,17 @@ std::vector<Chart> matrix_charts(const ChartInput& input) {
   std::map<std::pair<std::string, EngineQuestion>, std::string> cells;
   for (const auto& row : rows) cells[{row.method, row.question}] = cell_of(row);
   for (const auto& row : rows_of<MatrixRow<true>>(input.result)) cells[{row.method, row.question}] = cell_of(row);
-  for (int q = static_cast<int>(first); q <= static_cast<int>(last); ++q)
-    table.header.emplace_back(name_of(static_cast<EngineQuestion>(q)));
+  // the first column contains the build of an engine, too
+  const int begin = static_cast<int>(first) + 1, end = static_cast<int>(last) + 1;
+  static_assert(range_of<EngineQuestion>.first == EngineQuestion::build);
+  for (int q = begin; q < end; ++q) table.header.emplace_back(name_of(static_cast<EngineQuestion>(q)));
   const std::vector<std::string> methods = distinct(rows, &MatrixRow<false>::method);
   for (const std::string& method : methods) {
     std::vector<std::string>& cells_of_row = table.rows.emplace_back(
-        std::vector{family_of(method).role == Role::outside ? program_title(method, methods) : method});
-    for (int q = static_cast<int>(first); q <= static_cast<int>(last); ++q)
-      cells_of_row.push_back(cells[{method, static_cast<EngineQuestion>(q)}]);
+        std::vector{family_of(method).role == Role::outside
+                        ? fmt::format("{} ({})", program_title(method, methods), cells[{method, EngineQuestion::build}])
+                        : method});
+    for (int q = begin; q < end; ++q) cells_of_row.push_back(cells[{method, static_cast<EngineQuestion>(q)}]);
   }
   return {{.figure = std::monostate(),
            .chapter = "same-answer",
