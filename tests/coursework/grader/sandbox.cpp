@@ -28,8 +28,7 @@ class BareSandbox final : public Sandbox {
  public:
   std::string_view name() const override { return "bare"; }
   std::string_view says() const override {
-    return "time, memory, processes and output are limited; nothing else is kept out: it can read and change what you "
-           "can.";
+    return "limits time, memory, processes and output only; the submission can read and change whatever you can.";
   }
 
   End run(const Job& job) const override {
