@@ -6,7 +6,9 @@
 
 #include <algorithm>
 #include <cctype>
+#include <optional>
 #include <set>
+#include <string_view>
 
 #include "mysim/base/errors.h"
 #include "mysim/base/text.h"
@@ -102,19 +104,24 @@ bool in_library(const std::string& path) {
 
 namespace {
 
-/// The text itself if it is UTF-8, or not GB18030 either.
-std::string from_gb18030(const std::string& text) {
+bool is_utf8(std::string_view text) {
   std::size_t at = 0, length = 0;
   while (at < text.size() && (length = crosscheck::utf8_length(text, at)) > 0) at += length;
-  if (at == text.size()) return text;
-  const iconv_t converter = iconv_open("UTF-8", "GB18030");
-  if (converter == iconv_t(-1)) return text;
+  return at == text.size();
+}
+
+/// The text converted to UTF-8; nothing if it is not in this encoding.
+std::optional<std::string> converted(std::string_view text, const char* encoding) {
+  const iconv_t converter = iconv_open("UTF-8", encoding);
+  if (converter == iconv_t(-1)) return {};
   std::string out(2 * text.size(), '\0');  // two bytes become three at most
   char *from = const_cast<char*>(text.data()), *to = out.data();
   std::size_t left = text.size(), room = out.size();
   const bool whole = iconv(converter, &from, &left, &to, &room) != std::size_t(-1) && left == 0;
   iconv_close(converter);
-  return whole ? out.substr(0, out.size() - room) : text;
+  if (!whole) return {};
+  out.resize(out.size() - room);
+  return out;
 }
 
 }  // namespace
@@ -122,23 +129,10 @@ std::string from_gb18030(const std::string& text) {
 std::string plain_utf8(std::string text) {
   if (text.starts_with("\xef\xbb\xbf")) return text.substr(3);
   const bool little = text.starts_with("\xff\xfe");
-  if (!little && !text.starts_with("\xfe\xff")) return from_gb18030(text);
-  std::string out;
-  for (std::size_t i = 2; i + 1 < text.size(); i += 2) {
-    const auto byte = [&](std::size_t k) { return static_cast<unsigned>(static_cast<unsigned char>(text[k])); };
-    // characters beyond the first plane, two units each, occur in comments only, and are replaced by a mark
-    unsigned c = little ? byte(i) | byte(i + 1) << 8 : byte(i + 1) | byte(i) << 8;
-    if (c >= 0xd800 && c < 0xe000) c = '?';
-    if (c < 0x80) {
-      out += static_cast<char>(c);
-    } else if (c < 0x800) {
-      out += {static_cast<char>(0xc0 | c >> 6), static_cast<char>(0x80 | (c & 0x3f))};
-    } else {
-      out += {static_cast<char>(0xe0 | c >> 12), static_cast<char>(0x80 | (c >> 6 & 0x3f)),
-              static_cast<char>(0x80 | (c & 0x3f))};
-    }
-  }
-  return out;
+  if (little || text.starts_with("\xfe\xff"))
+    return converted(std::string_view(text).substr(2, text.size() / 2 * 2 - 2), little ? "UTF-16LE" : "UTF-16BE")
+        .value_or(text);
+  return is_utf8(text) ? text : converted(text, "GB18030").value_or(text);
 }
 
 double FullerCopy::weight_of(const std::string& folder, const std::string& apart_from) const {

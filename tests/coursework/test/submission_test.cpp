@@ -228,6 +228,7 @@ TEST(Submission, TextsOfOtherEncodingsBecomePlain) {
   EXPECT_EQ(plain_utf8("\xef\xbb\xbfint"), "int");
   EXPECT_EQ(plain_utf8("\xff\xfe" + utf16), "int\xc3\xa9");
   EXPECT_EQ(plain_utf8("\xfe\xff" + std::string("\0i\0n\x20\xac", 6)), "in\xe2\x82\xac");
+  EXPECT_EQ(plain_utf8("\xff\xfe" + std::string("=\xd8\0\xde", 4)), "\xf0\x9f\x98\x80") << "two units";
   EXPECT_EQ(plain_utf8("int\xe9"), "int\xe9");
   // GBK, in which the second byte of a character is a backslash at the end of a comment
   EXPECT_EQ(plain_utf8("// \xd6\xd0\x81\x5c\nint x;"), "// \xe4\xb8\xad\xe4\xb9\x97\nint x;");
