@@ -8,7 +8,6 @@
 #include <cctype>
 #include <optional>
 #include <set>
-#include <string_view>
 
 #include "mysim/base/errors.h"
 #include "mysim/base/text.h"
@@ -102,13 +101,13 @@ bool in_library(const std::string& path) {
   });
 }
 
-namespace {
-
 bool is_utf8(std::string_view text) {
   std::size_t at = 0, length = 0;
   while (at < text.size() && (length = crosscheck::utf8_length(text, at)) > 0) at += length;
   return at == text.size();
 }
+
+namespace {
 
 /// The text converted to UTF-8; nothing if it is not in this encoding.
 std::optional<std::string> converted(std::string_view text, const char* encoding) {

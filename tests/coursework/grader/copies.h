@@ -4,6 +4,7 @@
 #include <map>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace coursework {
@@ -16,6 +17,7 @@ bool is_backup(const std::string& path);
 /// True if a folder above contains a third-party library ("glfw-3.1.2/", "eigen/") or build output.
 bool in_library(const std::string& path);
 
+bool is_utf8(std::string_view text);
 /// The text as UTF-8 without a byte-order mark. Converts UTF-16 with such a mark, which some editors write, and GB18030
 /// (which includes GBK and GB2312): there the second byte of a character may be the backslash that continues a comment.
 std::string plain_utf8(std::string text);

@@ -99,8 +99,7 @@ Gradebook::Gradebook(const std::string& layout, const std::filesystem::path& fil
 
 void Gradebook::read(const std::string& whole) {
   if (whole.empty()) fail("it is empty");
-  for (std::size_t at = 0, length; at < whole.size(); at += length)
-    if ((length = crosscheck::utf8_length(whole, at)) == 0) fail("expected UTF-8; save it as \"CSV UTF-8\"");
+  if (!is_utf8(whole)) fail("expected UTF-8; save it as \"CSV UTF-8\"");
   mark_ = whole.starts_with(byte_order_mark);
   for (std::size_t at = mark_ ? byte_order_mark.size() : 0; at < whole.size();) {
     auto fields = crosscheck::csv_record(whole, at);
