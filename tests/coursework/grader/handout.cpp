@@ -4,10 +4,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <fstream>
 #include <set>
-#include <stdexcept>
+#include <sstream>
 
+#include "mysim/base/files.h"
 #include "tests/coursework/check/texts.h"
 #include "tests/coursework/grader/build.h"
 #include "tests/coursework/grader/grade.h"
@@ -15,13 +15,8 @@
 namespace coursework {
 
 namespace fs = std::filesystem;
+using crosscheck::write_file;
 namespace {
-
-void write_text(const fs::path& file, const std::string& content) {
-  std::ofstream out(file, std::ios::binary);
-  out << content;
-  if (!out.flush()) throw std::runtime_error(file.string() + ": cannot be written");
-}
 
 /// Writes README.md, and CMakeLists.txt unless a whole program's starter has one.
 void write_instructions(const Assignment& assignment, const PublicTests& tests, const fs::path& folder) {
@@ -35,8 +30,8 @@ void write_instructions(const Assignment& assignment, const PublicTests& tests, 
   for (const PublicTest& test : tests.tests)
     if (whole || !test.cases.empty()) points += test.points, ++here;
   if (!whole)
-    write_text(folder / "CMakeLists.txt", filled("handout/CMakeLists.txt", {std::string(assignment.name), built}));
-  write_text(folder / "README.md",
+    write_file(folder / "CMakeLists.txt", filled("handout/CMakeLists.txt", {std::string(assignment.name), built}));
+  write_file(folder / "README.md",
              filled(whole ? "handout/README-whole.md" : "handout/README.md",
                     {std::string(assignment.title), listed, std::to_string(here), std::to_string(points),
                      std::string(assignment.parts.front().name), std::to_string(tests.hidden)}));
@@ -83,18 +78,14 @@ std::set<fs::path> sorted(const fs::path& folder) { return {fs::directory_iterat
 /// Writes the surroundings of a whole program: vectors under their usual names, drawing functions that do nothing, and
 /// the probes.
 void write_surroundings(const fs::path& from, const fs::path& folder) {
-  fs::create_directories(folder / "vecmath");
   for (const fs::path& file : sorted(from / "stubs"))
     if (is_of_vecmath(file.filename().string()))
-      write_text(folder / "vecmath" / file.filename(), content_of_file(file));
-  for (const char* drawing : {"GL", "GLUT", "OpenGL"}) {
-    fs::create_directories(folder / "check/stubs" / drawing);
+      write_file(folder / "vecmath" / file.filename(), content_of_file(file));
+  for (const char* drawing : {"GL", "GLUT", "OpenGL"})
     for (const fs::path& file : sorted(from / "stubs" / drawing))
-      write_text(folder / "check/stubs" / drawing / file.filename(), content_of_file(file));
-  }
-  fs::create_directories(folder / "check/probe");
+      write_file(folder / "check/stubs" / drawing / file.filename(), content_of_file(file));
   for (const fs::path& file : sorted(from / "probe"))
-    write_text(folder / "check/probe" / file.filename(), source_in_check(file));
+    write_file(folder / "check/probe" / file.filename(), source_in_check(file));
 }
 
 }  // namespace
@@ -119,22 +110,21 @@ void write_handout(const Assignment& assignment, const fs::path& folder) {
   const fs::path from = assignment.folder(), shared = from.parent_path() / "check", check = folder / "check";
   const bool whole = assignment.takes_whole_program();
   const PublicTests tests = public_tests(assignment);
-  fs::create_directories(check);
-  for (const fs::path& file : sorted(from / "starter")) write_text(folder / file.filename(), content_of_file(file));
+  for (const fs::path& file : sorted(from / "starter")) write_file(folder / file.filename(), content_of_file(file));
   for (const fs::path& file : sorted(shared))
     if (file.filename() != "child_main.cpp" && !(whole && file.filename() == "as_given.cpp"))
-      write_text(check / file.filename(), content_of_file(file));
+      write_file(check / file.filename(), content_of_file(file));
   for (const fs::path& file : sorted(from)) {
     const std::string name = file.filename().string();
     if (name.starts_with("handout."))
-      write_text(folder / name, content_of_file(file));  // the translated handout.zh.md, if there is one
-    if (name.starts_with("texts.") && ends(file, {".txt"})) write_text(check / name, shown_texts(file));
-    if (is_of_check(name) && ends(file, {".cpp", ".h"})) write_text(check / name, source_in_check(file));
+      write_file(folder / name, content_of_file(file));  // the translated handout.zh.md, if there is one
+    if (name.starts_with("texts.") && ends(file, {".txt"})) write_file(check / name, shown_texts(file));
+    if (is_of_check(name) && ends(file, {".cpp", ".h"})) write_file(check / name, source_in_check(file));
   }
   if (whole) write_surroundings(from, folder);
-  std::ofstream cases(check / "public_cases.txt", std::ios::binary);
+  std::ostringstream cases;
   write_cases(cases, tests);
-  if (!cases.flush()) throw std::runtime_error((check / "public_cases.txt").string() + ": cannot be written");
+  write_file(check / "public_cases.txt", cases.str());
   write_instructions(assignment, tests, folder);
 }
 

@@ -14,8 +14,8 @@ namespace coursework {
 PublicTests public_tests(const Assignment& assignment);
 
 /// Creates the folder and writes handout.md, the starter, check/, CMakeLists.txt and README.md into it; nothing of the
-/// solution, the styles, the mistakes and the tests' own code. Throws std::runtime_error if the folder cannot be
-/// written, or the assignment lacks a file.
+/// solution, the styles, the mistakes and the tests' own code. Throws InputError if a file cannot be written, and
+/// std::runtime_error if the assignment lacks one.
 void write_handout(const Assignment& assignment, const std::filesystem::path& folder);
 
 }  // namespace coursework
