@@ -91,9 +91,8 @@ void tell(std::unique_ptr<crosscheck::Progress>& progress, const Result& result)
 }
 
 int grade_all(const Assignment& assignment, const GradeCommand& command, const Sandbox& sandbox,
-              const GradeOptions& options, const std::vector<Handed>& submissions) {
+              const GradeOptions& options, const std::vector<Handed>& submissions, const Rubric& rubric) {
   const std::set<std::string> only = tests_named(assignment, command.only);
-  const Rubric rubric = command.rubric.empty() ? Rubric() : read_rubric(command.rubric, assignment, submissions, true);
   std::optional<Gradebook> gradebook;
   if (!command.gradebook.empty())
     gradebook.emplace(command.gradebook, command.roster, command.column, assignment, points_of(assignment, rubric));
@@ -174,18 +173,18 @@ int grade_command(const GradeCommand& given) {
                     "folder of one",
                     command.submission, submissions_in(command.submission).size(), layout));
   const Submission submission = command.all ? Submission() : submission_at(command.submission, assignment);
-  const std::vector<Handed> of_class = command.all ? class_in(command.submission) : std::vector<Handed>();
-  if (command.all && of_class.empty()) return 1;
-  Rubric rubric;
-  if (!command.all && !command.rubric.empty())
-    rubric = read_rubric(command.rubric, assignment,
-                         {{submission.name, {}, "", {{without_archive_ending(submission.name)}}}}, false);
+  const std::vector<Handed> handed =
+      command.all ? class_in(command.submission)
+                  : std::vector<Handed>{{submission.name, {}, "", {{without_archive_ending(submission.name)}}}};
+  if (handed.empty()) return 1;
+  const Rubric rubric =
+      command.rubric.empty() ? Rubric() : read_rubric(command.rubric, assignment, handed, command.all);
   choose_seed(command, options);
   const std::unique_ptr<Sandbox> sandbox = choose_sandbox(command.sandbox, command.no_sandbox);
   fmt::print(stderr, "lane {}: {}\n", sandbox->name(), sandbox->says());
   require_hidden(assignment, command, *sandbox);
   umask(077);  // results are written while submissions run, and must not be readable by others
-  if (command.all) return grade_all(assignment, command, *sandbox, options, of_class);
+  if (command.all) return grade_all(assignment, command, *sandbox, options, handed, rubric);
 
   std::unique_ptr<crosscheck::Progress> progress;
   options.on_progress = [&](Result result) {
