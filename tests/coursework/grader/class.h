@@ -33,12 +33,11 @@ std::vector<GradedSubmission> grade_class(const Assignment& assignment, const st
 /// The tests whose number or part matches one of the shell patterns. Throws InputError "--only PATTERN: ...".
 std::set<std::string> tests_named(const Assignment& assignment, const std::vector<std::string>& patterns);
 
-/// One row per submission: name, lateness, total points and points per part (public and hidden together), and the first
-/// remark.
+/// One row per submission: name, id, lateness, total points and points per part (public and hidden together), remark.
 std::string class_csv(const Assignment& assignment, const std::vector<GradedSubmission>& all);
 /// Points of the tests of a part, or of all parts if `part` is empty; empty if any of them could not be graded.
 std::string points_in(const GradedSubmission& one, std::string_view part = "");
-/// The reason why the submission or one of its tests was not graded, or the first remark on its files.
+/// The reason why the submission or one of its tests was not graded; otherwise Result::remark.
 std::string remark_of(const GradedSubmission& one);
 
 /// The table for the terminal, followed by the statistics.
@@ -46,7 +45,7 @@ std::string class_text(const Assignment& assignment, const std::vector<GradedSub
 
 /// One row per test: number of passed, failed and ungraded submissions, and the most frequent cause.
 std::string statistics_csv(const std::vector<GradedSubmission>& all);
-/// The statistics as a page: tests, causes with the submissions that show them, ungraded tests, and all submissions.
+/// The statistics as a page: tests, causes with the submissions that show them, and all submissions.
 std::string class_page(const Assignment& assignment, const std::vector<GradedSubmission>& all, const Texts& common);
 
 /// A unique base name for the submission's files.

@@ -121,7 +121,7 @@ int grade_all(const Assignment& assignment, const GradeCommand& command, const S
   for (const GradedSubmission& one : all)
     for (const std::string& test : one.moved) fmt::print("{}: {}\n", one.result.submission, test);
   if (!only.empty())
-    fmt::print("points moved in {} of {} submissions\n",
+    fmt::print("points changed in {} of {} submissions\n",
                std::ranges::count_if(all, [](const auto& one) { return !one.moved.empty(); }), all.size());
   for (const std::string& line : unmatched) fmt::print(stderr, "crosscheck: gradebook: {}\n", line);
   const bool open = std::ranges::any_of(

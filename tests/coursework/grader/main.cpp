@@ -20,12 +20,14 @@ int run(int argc, char** argv) {
 
   GradeCommand command;
   std::uint64_t seed = 0;
-  auto* grade = app.add_subcommand("grade", "grades a submission (a folder, zip or tar), or with --all a class");
+  auto* grade = app.add_subcommand("grade", "grades a submission (a folder or an archive), or with --all a class");
   grade
       ->add_option("ASSIGNMENT", command.assignment,
                    "name of the assignment (`crosscheck list assignments` shows them)")
       ->required();
-  grade->add_option("SUBMISSION", command.submission, "a folder, a zip or a tar.gz; with --all a folder of these")
+  grade
+      ->add_option("SUBMISSION", command.submission,
+                   "a folder, or an archive (zip, 7z, rar, tar); with --all a folder of these")
       ->required();
   auto* all = grade->add_flag("--all", command.all,
                               "grades every entry of the folder; continues where an earlier run was stopped");
@@ -45,7 +47,7 @@ int run(int argc, char** argv) {
   grade->add_option("--rubric", command.rubric, "FILE.toml: points of tests, and of single students with a reason");
   grade
       ->add_option("--only", command.only,
-                   "GLOB: grades only tests of this number or part again, and lists moved points (repeatable)")
+                   "GLOB: grades only tests of this number or part again, and lists changed points (repeatable)")
       ->allow_extra_args(false)
       ->needs(all);
   grade->add_option("--report", command.report, "FILE.html: writes a page with plots for the student");

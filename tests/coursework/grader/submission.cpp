@@ -448,7 +448,7 @@ Submission read_submission(const Handed& handed, const std::vector<std::string>&
 Submission read_submission(const fs::path& path, const std::vector<std::string>& wanted,
                            const std::vector<std::string>& roles) {
   if (!fs::is_directory(path) && !fs::is_regular_file(path))
-    throw crosscheck::InputError(fmt::format("{}: expected a folder, a zip or a tar archive", path.string()));
+    throw crosscheck::InputError(fmt::format("{}: expected a folder or an archive (zip, 7z, rar, tar)", path.string()));
   const std::string name = (path.filename().empty() ? path.parent_path() : path).filename().string();
   return read_submission({name, {{fs::canonical(path), name}}}, wanted, roles);
 }

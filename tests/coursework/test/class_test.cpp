@@ -155,7 +155,7 @@ TEST(Program, FillsAGradebookAndReportsWhoHasNoRow) {
   EXPECT_EQ(called.said.find("ada_901: fits"), std::string::npos) << called.said;
   EXPECT_EQ(content_of_file(out / "gradebook.csv"), content_of_file(here.path / "roster.csv")) << "nothing was graded";
   EXPECT_NE(content_of_file(out / "table.csv").find("\nada_901,901,late,,"), std::string::npos);
-  EXPECT_NE(call(words + " --only rk4").said.find("points moved in 0 of 2 submissions"), std::string::npos);
+  EXPECT_NE(call(words + " --only rk4").said.find("points changed in 0 of 2 submissions"), std::string::npos);
 }
 
 TEST(Program, BadUseOfOptionsForClassesIsToldInOneLine) {

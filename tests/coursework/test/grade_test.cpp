@@ -123,7 +123,7 @@ TEST(Grade, OwnHeadersAreTakenAndOursAreNotReplaced) {
   EXPECT_NE(wrong.remark.find("calls.h, line 1: 'y' was not declared"), std::string::npos) << wrong.remark;
   submission.files.erase("calls.h");
   const Result without = grade(tiny(), submission, *sandbox, options_for(tiny(), 7));
-  EXPECT_NE(without.remark.find("sums.cpp, line 1: calls.h is not there."), std::string::npos) << without.remark;
+  EXPECT_NE(without.remark.find("sums.cpp, line 1: calls.h was not found."), std::string::npos) << without.remark;
 }
 
 TEST(Grade, ThreadsAreAllowedUpToALimitThatIsNamed) {
@@ -453,7 +453,7 @@ TEST(Program, BadUseIsToldInOneLine) {
   for (const char* who : {"ada", "bo", "chen"}) write_file(here.path / "class" / who / "rk4.cpp", "");
   const std::pair<std::string, const char*> table[] = {
       {"grade a9 " + there, "unknown assignment 'a9'; `crosscheck list assignments` shows all"},
-      {"grade a1-steppers " + there + "/nothing", "/nothing: expected a folder, a zip or a tar archive"},
+      {"grade a1-steppers " + there + "/nothing", "/nothing: expected a folder or an archive (zip, 7z, rar, tar)"},
       {"grade a1-steppers " + there + "/class",
        "/class: this looks like a class of 3 submissions (folders); add --all to grade each of them"},
       {"grade a1-steppers " + there + " --format pdf", "format 'pdf'"},

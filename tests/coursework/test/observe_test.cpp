@@ -182,8 +182,8 @@ TEST(Observe, TellsWithWhichNumbersTheAnswersWouldBeRight) {
   EXPECT_EQ(observed([](const Numbers& in) {
               return rates(in, [&](double, double g, double drag, double v) { return in[1] * g - drag * v; });
             }),
-            "Tried with other numbers: with g = 0 your answers are right: they go wrong only where that comes "
-            "in. Of what it adds: Where v' is wrong, it is the right one times m[0]/m.");
+            "Tried with other numbers: with g = 0 your answers are right. They are wrong only where that comes in. "
+            "Of what it adds: Where v' is wrong, it is the right one times m[0]/m.");
 }
 
 TEST(Observe, TellsWithoutWhichTermTheAnswerIsRight) {
@@ -191,8 +191,8 @@ TEST(Observe, TellsWithoutWhichTermTheAnswerIsRight) {
               return rates(in,
                            [](double m, double g, double drag, double v) { return m * g - drag * v * std::abs(v); });
             }),
-            "Tried with other numbers: with drag = 0 your answers are right: they go wrong only where that comes "
-            "in. Tried with other numbers: with v = 0 your answers are right: they go wrong only where that comes in.");
+            "Tried with other numbers: with drag = 0 your answers are right. They are wrong only where that comes in. "
+            "Tried with other numbers: with v = 0 your answers are right. They are wrong only where that comes in.");
   EXPECT_EQ(observed([](const Numbers& in) { return rates(in, [](double, double, double, double) { return 7.; }); }),
             "");
   // right by accident without drag, because the first mass is 1 and the second particle moves along no axis

@@ -325,7 +325,7 @@ TEST(Submission, LimitsHoldForArchivesInsideOthers) {
     fs::rename(outer, inner);
   }
   const Remark nested = read_submission(inner, wanted).remarks.at(0);
-  EXPECT_NE(said(common_texts(), nested).find("Archives stand in archives more than 3 deep"), std::string::npos);
+  EXPECT_NE(said(common_texts(), nested).find("Archives are nested more than 3 deep"), std::string::npos);
 }
 
 TEST(Submission, GradeTomlChoosesFoldersFilesAndClasses) {
