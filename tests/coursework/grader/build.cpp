@@ -357,10 +357,14 @@ class PartBuilder : public Builder {
   Built linked(std::size_t i, const std::vector<Built>& objects, const Submission& submission, const fs::path& folder,
                const Around& around) const {
     if (objects[i].program.empty()) return objects[i];
+    const bool has_later = std::any_of(objects.begin() + static_cast<std::ptrdiff_t>(i) + 1, objects.end(),
+                                       [](const Built& one) { return !one.program.empty(); });
     Built built;
+    std::optional<std::vector<fs::path>> others;  // compiled on first use
     for (const auto& [their_later, their_earlier] :
          {std::pair{true, false}, {true, true}, {false, false}, {false, true}}) {
       if (their_earlier && built.error.key != "build.undefined") continue;
+      if (!their_later && !has_later) break;
       const std::string way = fmt::format("{:d}{:d}", their_later, their_earlier);
       const fs::path in = folder / ("in" + way);
       fs::create_directories(in);
@@ -378,8 +382,8 @@ class PartBuilder : public Builder {
         words.push_back("-Wl,--allow-multiple-definition");  // the first definition wins: ours
         for (std::size_t k = 0; k <= i; ++k)
           if (!objects[k].program.empty()) add(objects[k].program, part(k) + ".o");
-        for (const fs::path& object : other_objects(submission, folder / ("other" + way)))
-          add(object, "other" + std::to_string(number++) + ".o");
+        if (!others) others = other_objects(submission, folder / "other");
+        for (const fs::path& object : *others) add(object, "other" + std::to_string(number++) + ".o");
       }
       for (std::size_t k = i + 1; k < objects.size(); ++k) {
         const bool theirs = their_later && !objects[k].program.empty();
