@@ -298,7 +298,7 @@ TEST(Grade, TestsOfOnePartAgree) {
     const std::size_t first = all.find("tests 2.1, 2.2: Likely cause");
     EXPECT_NE(first, std::string::npos) << all;
     EXPECT_EQ(all.find("Likely cause", first + 30), std::string::npos) << all;
-    EXPECT_NE(all.find("The cause is told at the top."), std::string::npos) << all;
+    EXPECT_NE(all.find("The cause is given at the top."), std::string::npos) << all;
   }
   const Result other =
       graded({{"sums.cpp", with_mistake(solution, {"other", "sums", "double sum = 0;", "double sum = 3;", {}})},
