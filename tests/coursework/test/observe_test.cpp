@@ -183,7 +183,7 @@ TEST(Observe, TellsWithWhichNumbersTheAnswersWouldBeRight) {
               return rates(in, [&](double, double g, double drag, double v) { return in[1] * g - drag * v; });
             }),
             "Tried with other numbers: with g = 0 your answers are right. They are wrong only where that comes in. "
-            "Of what it adds: Where v' is wrong, it is the right one times m[0]/m.");
+            "Its contribution: Where v' is wrong, it is the right one times m[0]/m.");
 }
 
 TEST(Observe, TellsWithoutWhichTermTheAnswerIsRight) {
@@ -229,7 +229,7 @@ TEST(Observe, TellsByWhichNumberRightAndWrongAreToldApart) {
   const Texts common = common_texts();
   EXPECT_EQ(
       seen_at({answers(false), answers(true), common, own}, {"test/tiny", "", {}, {}}, "part", {one}, {true}).at(0),
-      "Of all cases asked, those with steps = 1 are right (2 of them), and all others wrong (2).");
+      "Of all cases tested, those with steps = 1 are right (2 of them), and all others wrong (2).");
 }
 
 /// Formula analysis for a stepper of this kind: f is linear, and the positions of its calls are recorded.
