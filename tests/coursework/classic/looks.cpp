@@ -26,9 +26,7 @@ Features look(const std::string& column, int size, const Findings& found) {
   if (column == "drag") return drag(found);
   if (column == "law") return spring_law(found);
   if (column == "links") return chain_links(found);
-  if (column == "structural") return cloth_family(found, {0, 1}, {1, 0});
-  if (column == "shear") return cloth_family(found, {1, 1}, {1, -1});
-  if (column == "flexion") return cloth_family(found, {0, 2}, {2, 0});
+  if (const auto family = family_of(column); !family.empty()) return cloth_family(found, family);
   if (column == "others") return cloth_others(found);
   if (column == "lengths") return cloth_lengths(found);
   if (column == "pins") return cloth_pins(found);

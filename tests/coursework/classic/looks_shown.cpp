@@ -29,10 +29,6 @@ std::string three_text(const float* v) {
   return four_digits(v[0]) + ", " + four_digits(v[1]) + ", " + four_digits(v[2]);
 }
 
-bool near(float a, float b) { return std::abs(a - b) <= 1e-5f * std::max({1.f, std::abs(a), std::abs(b)}); }
-bool near(const Plain& a, const Plain& b) { return near(a[0], b[0]) && near(a[1], b[1]) && near(a[2], b[2]); }
-bool none(const Plain& v) { return probe::same(v, {}); }
-
 constexpr std::size_t most_in_order = 200;  // more entries or particles are sampled (probe/draws.h)
 
 std::string purity_shown(const Texts& own, const Findings& found) {
@@ -40,18 +36,18 @@ std::string purity_shown(const Texts& own, const Findings& found) {
   for (std::size_t i = 0; i < found.n; ++i) {
     const auto& [f, again, stored_too, change] = found.row(i);
     const std::string entry = std::to_string(i);
-    if (!none(change)) return own.fill("shown.kept", entry, vector_text(change));
+    if (!zero(change)) return own.fill("shown.kept", entry, vector_text(change));
     if (!probe::same(f, again)) return own.fill("shown.again", entry, vector_text(f), vector_text(again));
-    if (!near(f, stored_too)) return own.fill("shown.purity", entry, vector_text(f), vector_text(stored_too));
+    if (!close(f, stored_too)) return own.fill("shown.purity", entry, vector_text(f), vector_text(stored_too));
   }
-  return std::all_of(found.rows.begin(), found.rows.end(), [](const auto& row) { return none(row[0]); })
+  return std::all_of(found.rows.begin(), found.rows.end(), [](const auto& row) { return zero(row[0]); })
              ? own.of("shown.zero")
              : "";
 }
 
 std::string motion_shown(const Texts& own, const Findings& found) {
   for (std::size_t i = 0; i < found.n; ++i)
-    if (const auto& [v, slope, pull, start] = found.row(i); !near(v, slope) && !none(slope))
+    if (const auto& [v, slope, pull, start] = found.row(i); !close(v, slope) && !zero(slope))
       return own.fill("shown.motion", std::to_string(i), vector_text(v), vector_text(slope), vector_text(pull));
   return "";
 }
@@ -122,8 +118,8 @@ std::string pairs_shown(const Texts& own, const char* key, const Grid& grid, con
   return pairs.empty() ? "" : own.fill(key, std::to_string(pairs.size()), listed(first, "; "));
 }
 
-/// Springs with these offsets that are missing at both ends.
-std::string missing_shown(const Texts& own, const Springs& s, const std::vector<std::pair<int, int>>& offsets) {
+/// Springs of the family that are missing at both ends.
+std::string missing_shown(const Texts& own, const Springs& s, const std::vector<Offset>& family) {
   const auto grid = grid_of(s);
   if (!grid) return "";
   Pairs pairs, missing;
@@ -131,7 +127,7 @@ std::string missing_shown(const Texts& own, const Springs& s, const std::vector<
   const auto seen = [&](int a, int b) {
     return s.moved[static_cast<std::size_t>(b)] && !s.fixed[static_cast<std::size_t>(a)];
   };
-  for (const auto& [down, side] : offsets)
+  for (const auto& [down, side] : family)
     for (int i = 0; i < s.particles; ++i) {
       const int row = grid->row(i) + down, column = grid->column(i) + side;
       if (row >= grid->rows || column < 0 || column >= grid->columns) continue;
@@ -187,9 +183,7 @@ std::string shown(const Texts& own, const Case& what, const Numbers& answers) {
   if (!s.repeats) return "";
   if (column == "law") return law_shown(own, s);
   if (column == "links") return links_shown(own, s);
-  if (column == "structural") return missing_shown(own, s, {{0, 1}, {1, 0}});
-  if (column == "shear") return missing_shown(own, s, {{1, 1}, {1, -1}});
-  if (column == "flexion") return missing_shown(own, s, {{0, 2}, {2, 0}});
+  if (const auto family = family_of(column); !family.empty()) return missing_shown(own, s, family);
   if (column == "others") return others_shown(own, s);
   return column == "pins" ? pins_shown(own, s) : "";
 }

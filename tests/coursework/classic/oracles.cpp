@@ -11,21 +11,7 @@ using probe::Plain, std::size_t;
 using Flags = std::vector<bool>;
 
 double dot(const Plain& a, const Plain& b) { return double(a[0]) * b[0] + double(a[1]) * b[1] + double(a[2]) * b[2]; }
-bool zero(const Plain& v) { return probe::same(v, {}); }
 int count(const Flags& flags) { return static_cast<int>(std::count(flags.begin(), flags.end(), true)); }
-
-/// True if two single-precision results agree up to rounding.
-bool close(const Plain& a, const Plain& b) {
-  for (int k = 0; k < 3; ++k)
-    if (!(std::abs(a[k] - b[k]) <= 1e-5 * std::max({1.f, std::abs(a[k]), std::abs(b[k])}))) return false;
-  return true;
-}
-
-/// 1 if all are positive, -1 if all are negative, 0 if all are neither; otherwise 0.5.
-double sign(int plus, int minus, int all) {
-  if (all == 0 || plus + minus == 0) return 0;
-  return plus == all ? 1 : minus == all ? -1 : 0.5;
-}
 
 /// True if the particles in `odd` are anchors of an unusual kind: most particles are not, and none is held or tied.
 bool few(const Flags& odd, const Flags& anchors) {
@@ -35,6 +21,19 @@ bool few(const Flags& odd, const Flags& anchors) {
 }  // namespace
 
 Feature share(int good, int all) { return all == 0 ? Feature(0) : Feature(double(good) / all, all); }
+
+double sign(int plus, int minus, int all) {
+  if (all == 0 || plus + minus == 0) return 0;
+  return plus == all ? 1 : minus == all ? -1 : 0.5;
+}
+
+bool zero(const Plain& v) { return probe::same(v, {}); }
+
+bool close(const Plain& a, const Plain& b) {
+  for (int k = 0; k < 3; ++k)
+    if (!(std::abs(a[k] - b[k]) <= 1e-5 * std::max({1.f, std::abs(a[k]), std::abs(b[k])}))) return false;
+  return true;
+}
 
 Features purity(const Findings& found) {
   const int all = static_cast<int>(found.n);

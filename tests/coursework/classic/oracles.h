@@ -2,6 +2,7 @@
 // only in the grader; the student's process only returns numbers.
 #pragma once
 
+#include <string>
 #include <vector>
 
 #include "tests/coursework/check/case.h"
@@ -20,6 +21,11 @@ using Features = std::vector<Feature>;
 
 /// The share good / all; 0 if `all` is 0.
 Feature share(int good, int all);
+/// 1 if all are positive, -1 if all are negative, 0 if all are neither; otherwise 0.5.
+double sign(int plus, int minus, int all);
+bool zero(const probe::Plain& v);
+/// True if two single-precision results agree up to rounding.
+bool close(const probe::Plain& a, const probe::Plain& b);
 
 /// Entries of evalF per entry of the state | deterministic | stored state unchanged | depends on the argument instead
 /// of the stored state
@@ -44,13 +50,16 @@ Features spring_law(const Findings& found);
 /// Neighbours joined | springs between others | fixed: 1 an end (or both), 0 none, 2 another particle
 Features chain_links(const Findings& found);
 
-struct Family {
+/// Offset on the grid from one end of a spring to the other.
+struct Offset {
   int down, side;
 };
+/// The two directions of the family of springs that this column tests; empty for another column.
+std::vector<Offset> family_of(const std::string& column);
 /// Shares of the expected springs found, for a family along each of its two directions | location of the missing
 /// springs, along each: 0 if none or all are missing; otherwise 1, plus 1 if each of them touches the last row, 2 the
 /// last column, 4 the first row, 8 the first column.
-Features cloth_family(const Findings& found, Family a, Family b);
+Features cloth_family(const Findings& found, const std::vector<Offset>& family);
 /// Springs that belong to a family | the others: 0 none, 1 from border to border, 2 elsewhere | rows and columns
 /// recognised
 Features cloth_others(const Findings& found);

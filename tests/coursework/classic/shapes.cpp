@@ -79,10 +79,10 @@ Features spring_law(const Findings& found_here) {
   }
   // if all others are fixed, no pair can be observed from both ends
   const Feature mutual = all == 0 ? 0 : both == 0 ? 1 : share(equal, both);
-  const double sign = plus + minus == 0 ? 0 : plus == all ? 1 : minus == all ? -1 : 0.5;
   // with a few large samples of a big cloth, some particles are not observed
   const bool seen = std::count(s.moved.begin(), s.moved.end(), true) == s.particles;
-  return {seen ? share(joined, movable) : share(all > 0, 1), sign, share(linear, all), share(rest, all), mutual};
+  return {seen ? share(joined, movable) : share(all > 0, 1), sign(plus, minus, all), share(linear, all),
+          share(rest, all), mutual};
 }
 
 Features chain_links(const Findings& found_here) {
@@ -110,17 +110,24 @@ Features chain_links(const Findings& found_here) {
   return {share(there, expected), others, fixed};
 }
 
-Features cloth_family(const Findings& found_here, Family first, Family second) {
+std::vector<Offset> family_of(const std::string& column) {
+  if (column == "structural") return {{0, 1}, {1, 0}};
+  if (column == "shear") return {{1, 1}, {1, -1}};
+  if (column == "flexion") return {{0, 2}, {2, 0}};
+  return {};
+}
+
+Features cloth_family(const Findings& found_here, const std::vector<Offset>& family) {
   const Springs s = springs_of(found_here);
   const auto grid = grid_of(s);
   if (!grid) return {0, 0, 0, 0};
   const auto pairs = pairs_of(s);
   Features found, where;
-  for (const Family family : {first, second}) {
+  for (const auto& [down, side] : family) {
     int there = 0, expected = 0;
     bool all_touch[4] = {true, true, true, true};
     for (int i = 0; i < s.particles; ++i) {
-      const int row = grid->row(i) + family.down, column = grid->column(i) + family.side;
+      const int row = grid->row(i) + down, column = grid->column(i) + side;
       if (row >= grid->rows || column < 0 || column >= grid->columns) continue;
       const int other = row * grid->columns + column;
       // observed from both ends, or from one if the other is fixed
