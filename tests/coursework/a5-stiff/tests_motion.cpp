@@ -148,8 +148,8 @@ void linearised_step(Scene& s) {
   }
 }
 
-/// Along the line through both ends the spring is linear: with e = L - r, v' = (v - h w^2 e) / (1 + (h w)^2), e' = e +
-/// h v'.
+/// Along the line through both ends the spring is linear: with e = L - r,
+///   v' = (v - h w^2 e) / (1 + (h w)^2),   e' = e + h v'.
 void oscillator_step(Scene& s) {
   const crosscheck::Spring& spring = s.springs[0];
   const int free = s.fixed[0] ? 1 : 0;

@@ -59,6 +59,11 @@ Points gradient(const Scene& s, const Points& ahead, const Points& x) {
 
 constexpr double velocity_kept = 0.99;
 
+/// Fraction of a deviation from rest that a step leaves of the place to which the velocity alone leads.
+double left_after_step(double mu, double inertia, double rho, int passes) {
+  return 1 - (1 - inertia / (1 - mu)) * (1 - left_over(mu, rho, passes));
+}
+
 /// Mean of the positions that the springs propose: springs of 1/2 N/m pull a particle half as far as each is stretched.
 Points averaged(const Scene& s, const Points& x) {
   Eigen::ArrayXd count = Eigen::ArrayXd::Constant(x.cols(), 0.2);
@@ -134,6 +139,8 @@ Case of_pass(const char* call, Random& random, const Scene& s) {
   compared(c);
   return c;
 }
+
+/// The scene with two particles in the same place.
 Scene met(Scene s) {
   s.x.col(1) = s.x.col(2);
   return s;
@@ -197,14 +204,6 @@ MatrixXd Scene::iteration() const {
 double left_over(double mu, double rho, int passes) {
   return rho == 0 ? std::pow(mu, passes) : chebyshev(passes, mu / rho) / chebyshev(passes, 1 / rho);
 }
-
-namespace {
-
-double left_after_step(double mu, double inertia, double rho, int passes) {
-  return 1 - (1 - inertia / (1 - mu)) * (1 - left_over(mu, rho, passes));
-}
-
-}  // namespace
 
 void step(Scene& s, int passes, double rho) {
   const Points ahead = s.x + s.h * velocity_kept * s.v;
@@ -281,6 +280,7 @@ std::vector<Case> passes(Random& random) {
   return {of_pass("pass.jacobi", random, tangle(random, 2, true)),
           of_pass("pass.jacobi", random, tangle(random, 4, false))};
 }
+
 // ---- step
 
 std::vector<Case> steps(Random& random) {

@@ -1,4 +1,4 @@
-// a6-solvers: tests, points, and the cases of rate.cpp and softness.cpp, from eigenvalues by Eigen.
+// a6-solvers: tests, points, and the cases of rate.cpp and leftover.cpp, from eigenvalues by Eigen.
 #include <algorithm>
 #include <cmath>
 

@@ -26,14 +26,10 @@ void follow(T& system, std::size_t entry, float h, double steps, Numbers& out) {
   }
 }
 
-}  // namespace
-
-namespace {
-
 /// Both begin with h (s) and steps; a row per step, including the start: position (3).
 ///   simple.turn       nothing more
-///   pendulum.bounce   index of the observed particle, initial position of particle 1 (3), released position of the
-///   observed one (3)
+///   pendulum.bounce   index of the observed particle, initial position of particle 1 (3), and the position (3) at
+///                     which the observed particle is released
 bool answer_motion(const std::string& call, const Numbers& in, Numbers& out) {
   const float h = static_cast<float>(in.at(0));
   if (call == "simple.turn") {

@@ -1,9 +1,10 @@
-// Turns a whole submission into one program per part, for the grader.
+// Turns a whole submission into one program per part, for the grader: runs a plan (build_plan.h) in a sandbox.
 #pragma once
 
 #include <filesystem>
 #include <functional>
 #include <map>
+#include <memory>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -13,8 +14,6 @@
 #include "tests/coursework/grader/sandbox.h"
 
 namespace coursework::classic {
-
-// Runs a plan (build_plan.h) in a sandbox: from a whole submission to one program per part.
 
 struct Program {
   std::filesystem::path file;  // empty: not built
@@ -66,8 +65,7 @@ Programs build_programs(const Files& files, const std::filesystem::path& tree, c
                         const Trial& trial = nullptr, const std::map<std::string, std::string>& wanted = {},
                         bool rate = false);
 
-// The classic assignment's programs, in the form that the grader requires.
-
+/// The classic assignment's programs, in the form that the grader requires.
 std::unique_ptr<Builder> whole_builder(const Assignment& assignment, const Sandbox& trusted, const Sandbox& sandbox);
 
 }  // namespace coursework::classic

@@ -1,7 +1,7 @@
-// Calls of one class of the student's for any role of its kind; the grader builds this file once for each class.
+// Calls of one class of the student's in every role of its kind; the grader builds this file once for each class.
 #include STUDENT_HEADER
 #ifdef PARTICLE_HEADER
-#include PARTICLE_HEADER  // which the other may only announce
+#include PARTICLE_HEADER  // the class's header may only declare ParticleSystem
 #endif
 #ifdef STUDENT_CHAIN_HEADER
 #include STUDENT_CHAIN_HEADER
