@@ -1,7 +1,7 @@
 // Calls of part 5. A cloth is count, masses, number of pins, pins, springs, triangles, gravity, drag, wind; a state is
 // its positions, then its velocities.
-#include "calls.h"
 #include "calls_read.h"
+#include "states.h"
 
 namespace coursework {
 namespace {
@@ -16,14 +16,6 @@ Cloth read_cloth(Reader& in) {
   cloth.drag = in.number();
   cloth.wind = read_wind(in);
   return cloth;
-}
-
-State read_state(Reader& in, const Cloth& cloth) {
-  const int count = static_cast<int>(cloth.mass.size());
-  State state;
-  state.x = in.vectors<Vec3>(count);
-  state.v = in.vectors<Vec3>(count);
-  return state;
 }
 
 void need(const State& rate, const State& state) {
@@ -66,7 +58,7 @@ bool answer_derivative(const std::string& call, const Numbers& in, Numbers& out)
   if (call != "derivative" && call != "derivative_again" && call != "cloth_path" && call != "cloth_end") return false;
   Reader reader(in);
   const Cloth cloth = read_cloth(reader);
-  State state = read_state(reader, cloth);
+  State state = read_state<State>(reader, cloth.mass.size());
   if (call == "derivative") {
     const State rate = derivative(cloth, state, reader.number());
     need(rate, state);
@@ -74,7 +66,7 @@ bool answer_derivative(const std::string& call, const Numbers& in, Numbers& out)
     return true;
   }
   if (call == "derivative_again") {
-    const State other = read_state(reader, cloth);
+    const State other = read_state<State>(reader, cloth.mass.size());
     const double t = reader.number();
     const State before = derivative(cloth, state, t);
     const State between = derivative(cloth, other, t);

@@ -32,7 +32,7 @@ bool answer_cloth(const std::string& call, const Numbers& in, Numbers& out) {
   Reader reader(in);
   const Cloth cloth = read_cloth(reader);
   const std::size_t count = cloth.mass.size();
-  State state = read_state(reader, static_cast<int>(count));
+  State state = read_state<State>(reader, count);
   if (call == "accelerations") {
     put(out, accelerations(cloth, state));
     return true;
@@ -46,7 +46,7 @@ bool answer_cloth(const std::string& call, const Numbers& in, Numbers& out) {
     advance(state, "cloth_step", [&](const State& now) { return cloth_step(cloth, spheres, now, h); });
     if (watched >= 0) put(out, state.x.at(watched));
   }
-  if (watched < 0) put(out, state);
+  if (watched < 0) put_state(out, state);
   return true;
 }
 

@@ -30,7 +30,7 @@ Run read_run(Reader& in) {
   run.g = in.vector<Vec3>();
   run.h = in.number();
   run.steps = in.integer();
-  run.state = read_state(in, in.integer());
+  run.state = read_state<State>(in, in.count());
   return run;
 }
 
@@ -84,7 +84,7 @@ bool answer_step(const std::string& call, const Numbers& in, Numbers& out) {
       run.step();
       if (call == "contact_path") put(out, run.state.x.at(0));
     }
-    if (call == "contact_step") put(out, run.state);
+    if (call == "contact_step") put_state(out, run.state);
   }
   return true;
 }

@@ -19,11 +19,11 @@ bool answer_averaging(const std::string& call, const Numbers& in, Numbers& out) 
     put(out, of_all(x, [&] { return averaging_pass(net, x); }));
   } else if (call == "averaging.state") {
     const Net net = read_net(reader);
-    State state = read_state(reader, net);
+    State state = read_state<State>(reader, net.held.size());
     const double h = reader.number();
     const int passes = reader.integer();
     for (int left = reader.integer(); left > 0; --left) advance(state, "averaging_step", step(net, h, passes));
-    put(out, state);
+    put_state(out, state);
   } else if (call == "averaging.stiffness") {
     for (std::size_t rows = in.size() / 3; rows > 0; --rows) {
       const double mass = reader.number(), h = reader.number();

@@ -1,12 +1,8 @@
 // Readers of nets, and functions that take steps and let a chain come to rest, for the calls of several parts.
 #pragma once
 
-#include <cmath>
-#include <utility>
-
-#include "calls.h"
-#include "numbers.h"
 #include "solvers.h"
+#include "states.h"
 
 namespace coursework {
 
@@ -23,13 +19,6 @@ inline Net read_net(Reader& in) {
   return net;
 }
 
-inline State read_state(Reader& in, const Net& net) {
-  State state;
-  state.x = in.vectors<Vec3>(net.held.size());
-  state.v = in.vectors<Vec3>(net.held.size());
-  return state;
-}
-
 /// Calls the student's function, which may read x but not change it, and which must return a vector for every particle.
 template <class Function>
 std::vector<Vec3> of_all(const std::vector<Vec3>& x, const Function& function) {
@@ -39,20 +28,6 @@ std::vector<Vec3> of_all(const std::vector<Vec3>& x, const Function& function) {
     if (length(x[i] - given[i]) > 0) throw Unusable("state_kept");
   if (got.size() != x.size()) throw Unusable("particles", {got.size(), x.size()});
   return got;
-}
-
-/// step(state) is the student's function.
-template <class Step>
-void advance(State& state, const char* function, const Step& step) {
-  calling(function);
-  State next;
-  next.x = of_all(state.x, [&] { return (next = step(std::as_const(state))).x; });
-  next.v = of_all(state.x, [&] { return next.v; });
-  state = std::move(next);
-}
-
-inline void put(Numbers& out, const State& state) {
-  for (std::size_t i = 0; i < state.x.size(); ++i) put(out, state.x[i]), put(out, state.v[i]);
 }
 
 /// Stretch of a chain after `steps` steps, in percent of the stretch of its springs at rest.

@@ -32,12 +32,12 @@ bool answer_step(const std::string& call, const Numbers& in, Numbers& out) {
     out = weights(reader.integer(), rho);
   } else if (call == "step.state" || call == "step.errors") {
     const Net net = read_net(reader);
-    State state = read_state(reader, net);
+    State state = read_state<State>(reader, net.held.size());
     const double h = reader.number(), rho = reader.number();
     if (call == "step.state") {
       const int passes = reader.integer();
       for (int left = reader.integer(); left > 0; --left) advance(state, "implicit_step", step(net, h, rho, passes));
-      put(out, state);
+      put_state(out, state);
       return true;
     }
     const std::vector<Vec3> exact = reader.vectors<Vec3>(net.held.size());
