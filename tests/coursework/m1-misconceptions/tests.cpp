@@ -1,5 +1,5 @@
 // The tests of m1-misconceptions: parts, points, and the cases of kick_drift, verlet and rk4. If a belief predicts a
-// number, it is the last input of a call, to be shown beside the correct one.
+// number, it is the last input of a call, to be shown next to the correct one.
 #include <cmath>
 #include <numbers>
 

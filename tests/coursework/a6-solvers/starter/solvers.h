@@ -8,7 +8,7 @@
 #include "vec3.h"
 
 /// Between particles a and b. With d = x_a - x_b and L = |d| the force on a is -k (L - rest) d / L, and the force on b
-/// is the opposite. Where L is 0 it has no direction: no force.
+/// is the opposite. If L is 0 there is no direction and no force.
 struct Spring {
   int a, b;
   double rest;  // m
@@ -76,7 +76,7 @@ inline State straight_state(const Net& chain) {
 
 // ---- pass.cpp
 
-/// g = m/h^2 (x - ahead) - F(x) of each particle, N; 0 for held ones. It is 0 everywhere where x is the implicit step.
+/// g = m/h^2 (x - ahead) - F(x) of each particle, N; 0 for held ones. All are 0 if x is the implicit step.
 std::vector<Vec3> gradient(const Net& net, const std::vector<Vec3>& ahead, const std::vector<Vec3>& x, double h);
 
 /// Each particle moved by -g / (m/h^2 + 4 k), all at once.
@@ -87,7 +87,7 @@ std::vector<Vec3> jacobi_pass(const Net& net, const std::vector<Vec3>& ahead, co
 /// Chebyshev's weights of the passes 1, 2, ... `passes`.
 std::vector<double> weights(int passes, double rho);
 
-/// One step of implicit Euler by so many accelerated passes.
+/// One step of implicit Euler by the given number of accelerated passes.
 State implicit_step(const Net& net, const State& state, double h, int passes, double rho);
 
 // ---- rate.cpp
@@ -95,31 +95,31 @@ State implicit_step(const Net& net, const State& state, double h, int passes, do
 /// A plain pass as a function of the errors: pass(e) = B e, with B symmetric.
 using Pass = std::function<std::vector<double>(const std::vector<double>&)>;
 
-/// The largest |mu| of the eigenvalues mu of B, to eight digits; `error` is something to start from.
+/// The largest |mu| of the eigenvalues mu of B, to eight digits; `error` is any error to start from.
 double spectral_radius(const Pass& pass, std::vector<double> error);
 
-/// By how much one accelerated pass multiplies, in the long run, the size of an error with the eigenvalue mu. rho is
-/// 0 or more and below 1.
+/// Factor by which one accelerated pass, in the long run, multiplies the size of an error with the eigenvalue mu;
+/// 0 <= rho < 1.
 double factor(double mu, double rho);
 
-/// The eigenvalues of B lie between these two, both included. The rho above which accelerated passes are slower, in the
-/// long run, than plain ones; 0 where plain ones diverge.
+/// The rho above which accelerated passes are, in the long run, slower than plain ones; 0 if plain ones diverge. The
+/// arguments are the lowest and the highest eigenvalue of B.
 double slower_from(double lowest, double highest);
 
 // ---- leftover.cpp
 
-/// The part of an error with the eigenvalue mu that so many accelerated passes leave.
+/// The part of an error with the eigenvalue mu that the given number of accelerated passes leaves.
 double left_over(double mu, double rho, int passes);
 
-/// The acceleration, m/s^2, with which a net begins to fall that nothing holds and no spring pulls.
+/// The acceleration, m/s^2, with which a free net with unstretched springs begins to fall.
 double falling(double mass, double stiffness, double h, double rho, int passes, double gravity);
 
-/// By how much one step of so many passes multiplies, in the long run, the size of a deviation from rest with the
-/// eigenvalue mu. `inertia` is the share of m/h^2 in m/h^2 + 4 k.
+/// Factor by which one step of the given number of passes, in the long run, multiplies the size of a deviation from
+/// rest with the eigenvalue mu. `inertia` is m/h^2 divided by m/h^2 + 4 k.
 double step_growth(double mu, double inertia, double rho, int passes);
 
-/// The smallest rho, to six digits, at which step_growth is above 1 + 1e-9 for one of the eigenvalues at least; 1 where
-/// no rho below 1 does that.
+/// The smallest rho, to six digits, at which step_growth is above 1 + 1e-9 for at least one of the eigenvalues; 1 if
+/// there is none below 1.
 double diverges_from(const std::vector<double>& eigenvalues, double inertia, int passes);
 
 // ---- averaging.cpp
@@ -127,8 +127,8 @@ double diverges_from(const std::vector<double>& eigenvalues, double inertia, int
 /// One pass of position-based averaging.
 std::vector<Vec3> averaging_pass(const Net& net, const std::vector<Vec3>& x);
 
-/// One step by so many passes of averaging.
+/// One step by the given number of averaging passes.
 State averaging_step(const Net& net, const State& state, double h, int passes);
 
-/// The stiffness (N/m) that so many passes give to a spring by which one particle hangs on a held one.
+/// The stiffness (N/m) that the given number of passes gives to a spring by which one particle hangs on a held one.
 double stiffness_of(double mass, double h, int passes);
