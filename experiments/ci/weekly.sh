@@ -5,6 +5,7 @@
 #   experiments/ci/weekly.sh [PART]...     builds, then runs these parts; without arguments, all of them
 #   experiments/ci/weekly.sh --tests       prints the regular expression of the tests that other runs leave out
 #
+#   regress     regress --full: the cases that take more than half a second, too
 #   mutants     defects in mysim, each of which regress must detect
 #   builds      regress on builds with other compilers and options
 #   corpus      coursework: all solutions, styles, mistakes, mutants, cheats and odd programs
@@ -22,7 +23,7 @@
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/../.."
 
-parts=(mutants builds corpus kill rehearsals node engines latex sanitizers arm64 debian-13 testing)
+parts=(regress mutants builds corpus kill rehearsals node engines latex sanitizers arm64 debian-13 testing)
 declare -A tests=( # names as ctest knows them; a part without tests runs something else
   [corpus]='All/(EachCheat|OddPrograms|UnusualPrograms)\.|All/Corpus\..*/classic|Mutants\.LosePointsAtTheirPart'
   [kill]='OutputOfReport\.(KilledAtTenMoments|AFullDisk)'
@@ -47,8 +48,8 @@ fi
 [ $# -gt 0 ] && parts=("$@")
 for part in "${parts[@]}"; do
   case $part in
-    mutants | builds | corpus | kill | rehearsals | node | engines | latex | sanitizers | arm64 | debian-13 | testing) ;;
-    *) sed -n '2,21s/^# \{0,1\}//p' "$0" >&2; exit 2 ;;
+    regress | mutants | builds | corpus | kill | rehearsals | node | engines | latex | sanitizers | arm64 | debian-13 | testing) ;;
+    *) sed -n '2,22s/^# \{0,1\}//p' "$0" >&2; exit 2 ;;
   esac
 done
 
@@ -65,6 +66,7 @@ for part in "${parts[@]}"; do
     rm -f "$build/build.ninja" # the earlier configuration did not find these packages
   fi
   case $part in
+    regress) ./crosscheck regress --full --out out/regress || status=$? ;;
     mutants) tests/mutants/prove.sh || status=$? ;;
     builds) tests/mutants/builds.sh || status=$? ;;
     sanitizers) CROSSCHECK_PRESET=asan ./crosscheck test --fast || status=$? ;;
