@@ -11,7 +11,7 @@
 #   corpus      coursework: all solutions, styles, mistakes, mutants, cheats and odd programs
 #   kill        reports under kill -9 at ten moments, and on a full disk
 #   rehearsals  a new stepper, term, scene, engine and experiment, added as CONTRIBUTING.md describes
-#   node        external engines and the lab's module in Node.js; Jolt from npm, if npm is installed
+#   node        external engines and the lab's module in Node.js, Jolt from npm, the lab's longest tests in a browser
 #   engines     adapters of other engines from Debian and npm, and a report of all of them
 #   latex       a paper with a set of figures
 #   sanitizers  the fast tests under address and undefined-behaviour sanitizers
@@ -28,7 +28,7 @@ declare -A tests=( # names as ctest knows them; a part without tests runs someth
   [corpus]='All/(EachCheat|OddPrograms|UnusualPrograms)\.|All/Corpus\..*/classic|Mutants\.LosePointsAtTheirPart'
   [kill]='OutputOfReport\.(KilledAtTenMoments|AFullDisk)'
   [rehearsals]='NewTerm\.|Adding\.'
-  [node]='LabModule\.(AFinger|CellsOfMaps|GivesTheNativeBitsInNode)|ProtocolKit\.TheExampleInJavaScript|Both/Jolt\..*/npm'
+  [node]='LabModule\.(AFinger|CellsOfMaps|GivesTheNativeBits|GuidedExperimentsGoToTheirEndInEnglish|ScenesChangedByHand|SlidersChangeTheir)|ProtocolKit\.TheExampleInJavaScript|Both/Jolt\..*/npm'
   [latex]='FigureSet\.APaperWithTheSetCompiles'
 )
 declare -A packages=(
