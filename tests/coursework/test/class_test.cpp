@@ -150,7 +150,7 @@ TEST(Program, FillsAGradebookAndReportsWhoHasNoRow) {
   const std::string words = "grade a1-steppers " + (here.path / "class").string() + " --all --no-sandbox --out " +
                             out.string() + " --gradebook canvas --roster " + (here.path / "roster.csv").string();
   const Called called = call(words);
-  EXPECT_EQ(called.status, 1) << called.said;
+  EXPECT_EQ(called.status, 0) << called.said;
   EXPECT_NE(called.said.find("gradebook: bo_902: fits no row of "), std::string::npos) << called.said;
   EXPECT_EQ(called.said.find("ada_901: fits"), std::string::npos) << called.said;
   EXPECT_EQ(content_of_file(out / "gradebook.csv"), content_of_file(here.path / "roster.csv")) << "nothing was graded";
