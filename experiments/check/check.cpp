@@ -33,10 +33,10 @@ const KnownBreak* known_break(const Answer& answer, const std::vector<KnownBreak
 /// A program none of whose runs ended (it is missing, or cannot start) has shown nothing about its mechanics.
 void withdraw_where_nothing_ran(std::vector<Answer>& answers) {
   const auto says_nothing = [](const Answer& a) {
-    return a.mark == RelationMark::not_asked || a.failure == Verdict::crash;
+    return a.mark == RelationMark::not_applicable || a.failure == Verdict::crash;
   };
   if (!std::ranges::all_of(answers, says_nothing)) return;
-  for (Answer& a : answers) a.mark = RelationMark::not_asked;
+  for (Answer& a : answers) a.mark = RelationMark::not_applicable;
 }
 
 }  // namespace
@@ -64,7 +64,7 @@ std::vector<KnownBreak> read_known_breaks(const std::filesystem::path& file) {
 }
 
 std::string Answer::sentence() const {
-  if (mark == RelationMark::not_asked || finding.what.empty()) return reason;
+  if (mark == RelationMark::not_applicable || finding.what.empty()) return reason;
   const std::string unit = finding.unit == "1" ? "" : " " + finding.unit;
   const std::string allowed = fmt::format("the tolerance of {:.2g}{}", finding.tolerance, unit);
   std::string text = finding.tolerance <= 0 ? fmt::format("{:.2g}{}, where none is allowed", finding.measured, unit)
@@ -90,7 +90,7 @@ Answer ask(const Relation& relation, Subject& subject, const Scene& scene, unsig
     answer.finding = relation.ask(subject, scene, seed);
     if (!answer.finding.holds()) answer.mark = RelationMark::broken;
   } catch (const CannotBeAsked& why) {
-    answer.mark = RelationMark::not_asked, answer.reason = why.what();
+    answer.mark = RelationMark::not_applicable, answer.reason = why.what();
   } catch (const RunFailed& how) {
     answer.mark = RelationMark::broken, answer.reason = how.what();
     answer.finding.since = how.end, answer.failure = how.verdict;

@@ -200,7 +200,7 @@ std::vector<Answer> cells_from(const TableSet& tables, const std::string& method
   long asked = 0, held = 0;
   std::string broken;
   for (const RelationRow& row : rows_of<RelationRow>(tables)) {
-    if (row.method != method || row.mark == RelationMark::not_asked) continue;
+    if (row.method != method || row.mark == RelationMark::not_applicable) continue;
     ++asked, held += row.mark == RelationMark::holds;
     if (row.mark != RelationMark::holds)
       broken += fmt::format("{}{} {}", broken.empty() ? "" : ", ", name_of(row.mark), row.relation);

@@ -5,13 +5,13 @@
 
 namespace crosscheck {
 
-enum class RelationMark { holds, broken, known, not_asked };
+enum class RelationMark { holds, broken, known, not_applicable };
 inline std::string_view name_of(RelationMark mark) {
-  constexpr std::string_view names[] = {"holds", "broken", "known", "cannot be asked"};
+  constexpr std::string_view names[] = {"holds", "broken", "known", "not applicable"};
   return names[static_cast<int>(mark)];
 }
 template <>
-inline constexpr std::pair range_of<RelationMark>{RelationMark::holds, RelationMark::not_asked};
+inline constexpr std::pair range_of<RelationMark>{RelationMark::holds, RelationMark::not_applicable};
 
 /// A relation that was checked for a method.
 struct RelationRow {

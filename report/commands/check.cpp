@@ -172,7 +172,7 @@ int check_relations(const CheckOptions& options) {
   }
   if (!options.junit.empty()) write_file(options.junit, junit_of(answers));
   std::vector<std::string> counts;
-  for (const auto mark : {RelationMark::holds, RelationMark::broken, RelationMark::known, RelationMark::not_asked})
+  for (const auto mark : {RelationMark::holds, RelationMark::broken, RelationMark::known, RelationMark::not_applicable})
     counts.push_back(fmt::format("{} {}", std::ranges::count(answers, mark, &Answer::mark), name_of(mark)));
   if (options.json)
     fmt::print("{}\n", dump(json_of(answers), 1));

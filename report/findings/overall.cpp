@@ -63,7 +63,7 @@ Findings relation_findings(const Facts& facts) {
   };
   std::vector<std::pair<std::string, Counts>> engines;
   for (const RelationRow& row : rows_of<RelationRow>(facts.rows)) {
-    if (row.mark == RelationMark::not_asked) continue;
+    if (row.mark == RelationMark::not_applicable) continue;
     const std::string name = engine_of(row.method);
     auto at = std::ranges::find(engines, name, &std::pair<std::string, Counts>::first);
     if (at == engines.end()) at = engines.insert(at, {name, {}});

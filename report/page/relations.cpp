@@ -18,7 +18,7 @@ namespace {
 RelationMark worse_mark(RelationMark a, RelationMark b) {
   for (const RelationMark mark : {RelationMark::broken, RelationMark::known, RelationMark::holds})
     if (a == mark || b == mark) return mark;
-  return RelationMark::not_asked;
+  return RelationMark::not_applicable;
 }
 
 /// The dots of the parity certificates: full, a ring, a red square.
@@ -80,8 +80,8 @@ Json relations_data(const std::vector<RelationRow>& rows) {
     Json cells = Json::array();
     for (const std::string& name : names) {
       const auto at = marks.find({method, name});
-      const RelationMark mark = at == marks.end() ? RelationMark::not_asked : at->second;
-      cells.push_back({{"class", mark == RelationMark::not_asked ? "" : css_class(mark)},
+      const RelationMark mark = at == marks.end() ? RelationMark::not_applicable : at->second;
+      cells.push_back({{"class", mark == RelationMark::not_applicable ? "" : css_class(mark)},
                        {"says", fmt::format("{}: {}", sentence_of_relation(name), name_of(mark))}});
     }
     engines.push_back({{"method", method}, {"name", name_in_sentence(method)}, {"cells", std::move(cells)}});

@@ -101,9 +101,9 @@ Answer ask_agreement(Subject& a, Subject& b, const Scene& scene, const std::vect
                               lengths_in(scene, one.path));
     if (!answer.finding.holds()) answer.mark = RelationMark::broken;
   } catch (const CannotBeAsked& why) {
-    answer.mark = RelationMark::not_asked, answer.reason = why.what();
+    answer.mark = RelationMark::not_applicable, answer.reason = why.what();
   } catch (const RunFailed& how) {
-    answer.mark = RelationMark::not_asked, answer.reason = how.what();
+    answer.mark = RelationMark::not_applicable, answer.reason = how.what();
   }
   mark_known(answer, known);
   return answer;

@@ -20,7 +20,7 @@ std::vector<Break> breaks_of(const Hunt& hunt, long index, int& answers) {
   const Scene scene = drawn.scene();
   std::vector<Break> breaks;
   const auto settle = [&](const Answer& first, const std::function<Answer(const Scene&)>& ask_again) {
-    answers += first.mark != RelationMark::not_asked;
+    answers += first.mark != RelationMark::not_applicable;
     if (first.mark != RelationMark::broken) return;
     Answer last = first;
     Shrunk smallest = shrink(
@@ -41,7 +41,7 @@ std::vector<Break> breaks_of(const Hunt& hunt, long index, int& answers) {
       settle(ask(relation, subject, scene, hunt.seed_of(index), hunt.known), [&](const Scene& smaller) {
         Subject again(subject.method());
         if (!relation.excluded(smaller).empty())
-          return Answer{subject.method().name, smaller.name, &relation, RelationMark::not_asked, {}, "", ""};
+          return Answer{subject.method().name, smaller.name, &relation, RelationMark::not_applicable, {}, "", ""};
         return ask(relation, again, smaller, hunt.seed_of(index), hunt.known);
       });
     }

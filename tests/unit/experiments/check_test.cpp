@@ -41,7 +41,7 @@ TEST(Relations, EachFindsItsDefect) {
 TEST(Relations, SayWhySomethingCannotBeAsked) {
   Subject adaptive(find_method("dopri5"));
   const Answer answer = ask(find_relation("half-step"), adaptive, small_nets()[0], 1, {});
-  EXPECT_EQ(answer.mark, RelationMark::not_asked);
+  EXPECT_EQ(answer.mark, RelationMark::not_applicable);
   EXPECT_EQ(answer.sentence(), "it chooses its own steps");
 
   Method silent = with_defect("leapfrog", nullptr, [](const Scene&, State& s) { s.v.resize(3, 0); });
@@ -49,7 +49,7 @@ TEST(Relations, SayWhySomethingCannotBeAsked) {
   for (const char* name : {"energy", "angular-momentum", "resume"}) {
     const Relation& relation = find_relation(name);
     const Answer said = ask(relation, without, relation.smallest()[0], 1, {});
-    EXPECT_EQ(said.mark, RelationMark::not_asked) << name;
+    EXPECT_EQ(said.mark, RelationMark::not_applicable) << name;
     EXPECT_TRUE(contains(said.sentence(), "no velocities")) << name;
   }
 }
@@ -107,7 +107,7 @@ TEST(Relations, CannotBeAskedOfAMethodThatEndsNoRun) {
     return out;
   };
   const std::vector<Answer> answers = answers_of(dead, {}, 1, {});
-  for (const Answer& a : answers) EXPECT_EQ(a.mark, RelationMark::not_asked) << a.relation->name;
+  for (const Answer& a : answers) EXPECT_EQ(a.mark, RelationMark::not_applicable) << a.relation->name;
   EXPECT_TRUE(contains(answers.front().sentence(), "it did not start"));
   EXPECT_EQ(status_of(answers), 1);
   // An engine that completes some scenes breaks the relations of the scenes on which it fails.
@@ -153,10 +153,10 @@ TEST(Relations, PassWhereNothingButKnownBreaksWasFound) {
     return status_of(answers);
   };
   using enum RelationMark;
-  EXPECT_EQ(status({holds, known, not_asked}), 0);
+  EXPECT_EQ(status({holds, known, not_applicable}), 0);
   EXPECT_EQ(status({known}), 0);
   EXPECT_EQ(status({holds, broken}), 1);
-  EXPECT_EQ(status({not_asked}), 1);
+  EXPECT_EQ(status({not_applicable}), 1);
   EXPECT_EQ(status({}), 1);
 }
 
