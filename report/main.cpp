@@ -1,5 +1,3 @@
-// crosscheck: the table of its commands. A new command is a file in commands/ and a row here.
-
 #include <algorithm>
 
 #include "mysim/base/errors.h"
@@ -13,25 +11,9 @@ namespace {
 
 // in the order of --help
 constexpr AddCommand commands[] = {
-    add_doctor,      // programs and libraries
-    add_list,        // scenes, methods, experiments
-    add_validate,    // checks scene files
-    add_run,         // one method on one scene
-    add_compare,     // compares methods on one scene
-    add_experiment,  // tables of measurements
-    add_merge,       // joins the shards of an experiment
-    add_report,      // the page
-    add_figures,     // charts and pictures for print
-    add_render,      // a picture
-    add_advise,      // the cheapest method for a tolerance
-    add_regress,     // compares results with baselines
-    add_bench,       // speed compared with the peers
-    add_check,       // relations that need no truth; protocol conformance of an adapter
-    add_translate,   // parameters of a scene in another engine's units
-    add_engine,      // builds another version of Bullet
-    add_lab,         // a page with the live lab alone
-    add_grader,      // grade and assignment
-    add_manual,      // the manual page and the shell's completions; hidden
+    add_doctor, add_list,   add_validate, add_run,   add_compare, add_experiment, add_merge,  add_report, add_figures,
+    add_render, add_advise, add_regress,  add_bench, add_check,   add_translate,  add_engine, add_lab,    add_grader,
+    add_manual,  // hidden
 };
 
 int run(int argc, char** argv) {
@@ -40,7 +22,7 @@ int run(int argc, char** argv) {
   return run_command_line(commands, argc, argv);
 }
 
-/// Command that resumes an interrupted command; empty for commands that start over.
+/// Command line that resumes an interrupted command; empty if the command starts over.
 std::string resumption(std::vector<std::string> words) {
   const auto given = [&](const char* word) { return std::find(words.begin(), words.end(), word) != words.end(); };
   const std::string command = words.size() > 1 ? words[1] : "";

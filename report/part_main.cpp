@@ -1,5 +1,5 @@
-// Some of the commands, with the same options as in crosscheck, in a program that builds faster.
-// CMakeLists.txt lists them: those around `report` for crosscheck_report, `run` and `validate` for crosscheck_run.
+// A program with only some of crosscheck's commands, which builds faster. CMakeLists.txt lists them: `report` and
+// related commands for crosscheck_report, `run` and `validate` for crosscheck_run.
 
 #include "mysim/base/errors.h"
 #include "mysim/base/this_process.h"

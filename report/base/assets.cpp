@@ -1,4 +1,3 @@
-// Asset names are paths relative to report/.
 #include "report/base/assets.h"
 
 #include <stdexcept>

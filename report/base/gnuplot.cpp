@@ -19,7 +19,7 @@ namespace crosscheck {
 
 namespace {
 
-/// Sets the date to 1970, keeping its length. Returns false if there is no date.
+/// Sets the date to 1970. Returns false if there is no date.
 bool set_date(std::string& text) {
   const std::string key = "/CreationDate (D:", date = "19700101000000";
   const size_t at = text.find(key);
@@ -28,7 +28,7 @@ bool set_date(std::string& text) {
   return true;
 }
 
-/// Unpacks a stream of a PDF; empty if it is not a zlib stream, or longer than 1 MB.
+/// Unpacks a stream of a PDF; empty if it is not zlib, or if the text is longer than 1 MB.
 std::string unpacked(const std::string& packed) {
   std::string text(1 << 20, ' ');
   uLongf size = text.size();
@@ -43,8 +43,8 @@ std::string packed(const std::string& text) {
   return bytes.substr(0, size);
 }
 
-/// Sets the date in the last object stream (PDF 1.7, sections 7.5.7 and 7.5.8). The stream's length, a separate object,
-/// and the table of offsets follow it. Leaves other files unchanged.
+/// Sets the date in the last object stream (PDF 1.7, sections 7.5.7 and 7.5.8), and updates the objects after it: the
+/// stream's length and the table of offsets. Leaves other files unchanged.
 void set_packed_date(std::string& pdf) {
   static const std::regex tail(
       R"(\nendstream\nendobj\n(\d+) 0 obj\n +\d+\nendobj\n(\d+) 0 obj\n(<< /Type /XRef\n +/Length )\d+([^>]*)"
@@ -84,8 +84,8 @@ void erase_pdf_date(const std::filesystem::path& pdf) {
 
 namespace {
 
-/// Describes the fault of a file that gnuplot wrote, or returns nothing. A file of a known format must end with that
-/// format's last bytes.
+/// Describes the fault of a file that gnuplot wrote, or returns nothing. Files must end with the last bytes of their
+/// format.
 std::string wrong_with_drawn_file(const std::filesystem::path& file) {
   static constexpr std::array<std::pair<std::string_view, std::string_view>, 3> formats{
       {{"\x89PNG", "IEND\xAE\x42\x60\x82"}, {"%PDF-", "%%EOF"}, {"<?xml", "</svg>"}}};

@@ -1,4 +1,4 @@
-// States as mesh files for modellers and renderers: one Wavefront OBJ or Stanford PLY per sample of a run.
+// States as mesh files: one Wavefront OBJ or Stanford PLY per sample of a run.
 #pragma once
 
 #include <array>
@@ -11,26 +11,26 @@
 
 namespace crosscheck {
 
-/// Drawable parts of a scene: the triangles of its cloths, and lines for springs and distance constraints with an end
-/// outside all triangles. Indices are particle numbers.
+/// Drawable elements of a scene: the triangles of its cloths, and those springs and distance constraints that have an
+/// end outside all triangles. Indices are particle numbers.
 struct Shape {
   std::vector<std::array<int, 3>> triangles;
   std::vector<std::pair<int, int>> lines;
 };
 Shape shape_of(const Scene& scene);
 
-/// Coordinates in metres, with enough digits to restore the exact number. Indices count from 1, as the format requires.
+/// Coordinates in metres, exact to the last bit. Indices count from 1, as the format requires.
 std::string obj_bytes(const Points& x, const Shape& shape);
 /// Binary, little endian, double precision; lines are the element `edge`.
 std::string ply_bytes(const Points& x, const Shape& shape);
 
-/// Vertices of a ball around the origin and its triangles, counter-clockwise as seen from outside: a pole, 31 rings of
-/// 64 vertices, the other pole. The chords dip below the ball by 0.12 % of its radius.
+/// Ball around the origin: a pole, 31 rings of 64 vertices, the other pole. Triangles are counter-clockwise as seen
+/// from outside. The chords dip below the ball by 0.12 % of its radius.
 std::pair<Points, Shape> ball_mesh(double radius);
 
-/// Writes FOLDER/frame-0001.obj (or .ply) and so on, beginning with the initial state; each particle is one vertex in
-/// every frame. Writes sphere-1.obj and so on for spheres at rest, and sphere-1-0001.obj and so on, one per frame, for
-/// moving spheres. Throws InputError if `form` is neither obj nor ply, or if a file cannot be written.
+/// Writes FOLDER/frame-0001.obj (or .ply) and so on, beginning with the initial state; vertices are particles. Writes
+/// sphere-1.obj and so on for spheres at rest, and sphere-1-0001.obj and so on, one per frame, for moving spheres.
+/// Throws InputError if `form` is neither obj nor ply, or if a file cannot be written.
 class MeshWriter : public Observer {
  public:
   MeshWriter(std::filesystem::path folder, const Scene& scene, const std::string& form);

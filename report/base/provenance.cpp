@@ -1,4 +1,3 @@
-// Provenance from git, the compiler's macros and /proc/cpuinfo.
 #include "report/base/provenance.h"
 
 #include <fmt/chrono.h>
@@ -23,7 +22,6 @@ std::string commit() {
                     data_folder());
     if (git.status == 0 && !git.out.empty()) return git.out.substr(0, git.out.find('\n'));
   } catch (const std::exception&) {
-    // git is not installed
   }
   return "unknown (no git)";
 }
