@@ -1,5 +1,4 @@
-// advise: fits parameters marked "fit" to the scene's [wish], then finds the cheapest model, method and step for a
-// tolerance.
+// Fits parameters marked "fit" to the scene's [wish], then finds the cheapest model, method and step for a tolerance.
 
 #include "experiments/advise/advice.h"
 #include "experiments/advise/fit.h"
@@ -19,8 +18,8 @@ struct AdviseOptions {
   std::string command_line;
 };
 
-/// The motion of a scene as in a report, m: that of its truth, otherwise that of its own method at its own step, up to
-/// the window. Throws InputError if neither is known.
+/// Size (m) of a scene's motion up to its window: that of its truth, otherwise that of its own method at its own step.
+/// Throws InputError if both are unknown.
 double motion_of_scene(const Scene& scene) {
   if (const auto truth = truth_of(scene, default_run(scene))) return motion_of(truth->trajectory);
   Recorder recorder;
@@ -34,7 +33,7 @@ double motion_of_scene(const Scene& scene) {
   return motion_of(path);
 }
 
-/// Parses a length: metres, or per cent of the motion. Throws InputError.
+/// Parses a length, in metres or as a percentage of the motion. Throws InputError.
 double tolerance_of(const std::string& text, const Scene& scene) {
   constexpr std::pair<std::string_view, double> lengths[] = {
       {"", 1}, {"m", 1}, {"cm", 1e-2}, {"mm", 1e-3}, {"um", 1e-6}};
@@ -57,8 +56,7 @@ std::string how_of(const Trial& t) {
                         : fmt::format("{} at a step of {:.6g} s", t.method, t.step);
 }
 
-/// A work-precision diagram of all trials, with the requested tolerance as a line and the recommended run marked.
-/// Failed runs are crosses at the cost they had reached.
+/// Work-precision diagram of all trials. Failed runs are crosses at the cost they had reached.
 Figure advice_figure(const Advice& a, const std::string& commit) {
   Figure f;
   f.name = a.scene.name + "-advice";
@@ -89,7 +87,7 @@ Figure advice_figure(const Advice& a, const std::string& commit) {
     std::ranges::sort(c.points);
     for (const auto& [x, y] : c.points) lowest = std::min(lowest, y);
   }
-  // a line from the advised run down to the axis is easier to find than a marker
+  // a line from the advised run down to the axis, because a marker is easily overlooked
   const double error = std::max(*chosen.error, a.error_bar);
   f.curves.push_back({"advised", {"#000000", "1", 3}, {{chosen.cost(), error}, {chosen.cost(), lowest / 2}}, true});
   f.floor = {fmt::format("tolerance: {}", nice_length(a.tolerance)), a.tolerance};
@@ -237,7 +235,7 @@ int advised(const AdviseOptions& options, OutputFolder& folder) {
   if (!options.tolerance.empty()) {
     const double tolerance = tolerance_of(options.tolerance, *scene);
     std::vector<Method> methods = options.methods.empty() ? candidates(*scene) : find_methods(options.methods);
-    // one run for the truth and one per method; each method is tried at several steps
+    // memory for two runs: the truth, and the trial that is compared with it
     require_resources_to_keep({find_method(scene->method), find_method(scene->method)}, *scene, default_run(*scene));
     Progress progress(0);
     progress.begin(fmt::format("truth of {}", scene->name));
@@ -264,8 +262,7 @@ int advise_command(const AdviseOptions& options) {
   try {
     return advised(options, folder);
   } catch (const CannotGuarantee& why) {
-    // remove earlier advice, which could be mistaken for this one if there is none now, unless it is the scene of this
-    // command
+    // finish() removes earlier advice, which could be mistaken for this one; keep it if it is the scene of this command
     const fs::path old = options.out / "advice.toml", now = folder.path() / "advice.toml";
     if (!fs::exists(now) && fs::exists(old) && fs::exists(options.scene) && fs::equivalent(old, options.scene))
       fs::copy_file(old, now);

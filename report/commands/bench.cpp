@@ -1,4 +1,3 @@
-// bench: speed relative to other implementations, measured in one session.
 #include "report/commands/bench.h"
 
 #include "experiments/bench/bench.h"
@@ -43,7 +42,8 @@ BenchLine line_of(const BenchRow& row) {
   return line;
 }
 
-/// Keeps only the scene with the smallest gain of the engine's own kernel (the last one of each scene).
+/// For the shipped scenes, keeps only the line with the smallest gain of the engine's own kernel. Each scene counts
+/// by its last line.
 void keep_least_scene(std::vector<BenchLine>& lines) {
   std::map<std::string, BenchLine> scenes;
   for (const BenchLine& line : lines)
@@ -59,7 +59,7 @@ void keep_least_scene(std::vector<BenchLine>& lines) {
 }
 
 void choose_representatives(std::vector<BenchLine>& lines) {
-  std::vector<std::string> cloths;  // cloths on which kernels ran
+  std::vector<std::string> cloths;
   for (const BenchLine& line : lines)
     if (line.work == bench_work::springs && std::ranges::count(cloths, line.scene) == 0) cloths.push_back(line.scene);
   for (BenchLine& line : lines) {
@@ -134,7 +134,6 @@ DotPlot bench_figure(const std::vector<BenchLine>& lines, const std::string& com
 
 namespace {
 
-/// The builds of all timed programs.
 Provenance build_lines() {
   Provenance lines{
       {"build of mysim", CROSSCHECK_COMPILER "; the fused step once for each of x86-64, x86-64-v3 and x86-64-v4, -O3"},

@@ -1,5 +1,3 @@
-// check: tests of an engine that need no truth; with --protocol, tests of an adapter's conformance.
-
 #include "experiments/check/check.h"
 #include "experiments/check/protocol_kit.h"
 #include "reference/which_rule.h"
@@ -11,7 +9,7 @@
 namespace crosscheck {
 namespace {
 
-/// Returns 0 if nothing required is missing.
+/// Returns 0 if all required parts of the protocol are present.
 int check_protocol(const std::string& program, bool as_json) {
   const ConformanceReport report = try_adapter(program);
   Json json{{"format", 1}, {"program", report.program}, {"complete", report.complete()}, {"lines", Json::array()}};
@@ -40,15 +38,15 @@ int check_protocol(const std::string& program, bool as_json) {
 }
 
 struct CheckOptions {
-  std::vector<std::string> words;  // methods and scenes
+  std::vector<std::string> words;
   std::string known, junit, out, relation;
   unsigned seed = 1;
-  std::string program;  // program for --protocol; empty: relations are tested
+  std::string program;  // program for --protocol; empty: test relations
   bool json = false;
   std::string command_line;
 };
 
-/// Sorts words: names of shipped scenes and files ending in .toml are scenes, all others methods.
+/// Names of shipped scenes and files ending in .toml are scenes; other words are methods.
 void sort_words(const std::vector<std::string>& words, std::vector<Method>& methods, std::vector<Scene>& scenes) {
   std::vector<std::string> names;
   const auto shipped = shipped_scenes();
@@ -87,7 +85,7 @@ Json json_of(const std::vector<Answer>& answers) {
   return all;
 }
 
-/// One case per answer: failed if broken, skipped if a known break or not applicable.
+/// One case per answer: failed if broken; skipped if the break is known, or the relation not applicable.
 std::string junit_of(const std::vector<Answer>& answers) {
   std::vector<TestCase> cases;
   for (const Answer& a : answers)
@@ -99,8 +97,8 @@ std::string junit_of(const std::vector<Answer>& answers) {
   return junit_xml("check", cases);
 }
 
-/// A picture of each unknown break: the method's run of the scene that shows it, at the time of the break or at the
-/// end. Breaks that cannot be drawn are omitted.
+/// Pictures of the unknown breaks: the method's run on that scene, at the time of the break or at the end. Breaks that
+/// cannot be drawn are omitted.
 std::vector<PageImage> draw_breaks(const std::vector<Answer>& answers, const std::vector<Method>& methods,
                                    const std::vector<Scene>& scenes, const std::filesystem::path& folder,
                                    ResumableOutput& output) {
@@ -141,7 +139,7 @@ int check_relations(const CheckOptions& options) {
   std::vector<Answer> answers;
   const Provenance lines = provenance(options.command_line);
   Table so_far = table_of(std::vector<Answer>());
-  // rows are printed and written one by one: a check that is stopped keeps its results
+  // print and write each row at once: a check that is stopped keeps its results
   const OnAnswer on_answer = [&](const Answer& answer) {
     if (!options.json)
       fmt::print("{:<16} {:<17} {:<20} {:<20} {}\n", name_of(answer.mark), answer.relation->name, answer.method,

@@ -1,4 +1,3 @@
-// Shared parts of all programs' command lines.
 #include "report/commands/command_line.h"
 
 #include <cstdlib>
@@ -11,7 +10,7 @@
 namespace crosscheck {
 namespace {
 
-/// Accepts a number or a fraction, with or without a unit of time if `times`, and passes it on as a plain number.
+/// Accepts a number or a fraction, with a unit of time if `times`, and passes it on as a plain number.
 CLI::Validator number(bool zero_allowed, bool times) {
   const auto read = [times](const std::string& text) -> std::optional<double> {
     static const std::map<std::string, double> seconds = {{"s", 1},     {"ms", 1e-3}, {"us", 1e-6},
@@ -38,7 +37,7 @@ CLI::Validator number(bool zero_allowed, bool times) {
       "");
 }
 
-/// Throws InputError if a blank follows a comma of --methods or --method: the rest would be read as a scene.
+/// Throws InputError if a blank follows a comma of --methods: the remaining methods would be taken for scenes.
 void require_lists_in_one_word(std::span<const std::string> words) {
   for (size_t i = 1; i + 1 < words.size(); ++i)
     if ((words[i - 1] == "--methods" || words[i - 1] == "--method") && words[i].ends_with(",")) {
@@ -58,8 +57,8 @@ bool is_method(const std::string& word) {
   }
 }
 
-/// Throws InputError with the probable command line if a word without an option is not a scene but a method or a
-/// number, for which the command has an option.
+/// Throws InputError with the probable command line if a method or number is given where a scene is expected, and the
+/// command has an option for it.
 void require_words_in_place(const CLI::App& command, std::span<const std::string> words) {
   const auto named = [&](std::initializer_list<const char*> names) -> std::string {
     for (const char* name : names)

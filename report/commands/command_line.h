@@ -1,4 +1,4 @@
-// Shared parts of all commands: registration in the command line, and the headers that nearly all of them include.
+// Registers commands in the command line, and includes the headers that nearly all of them need.
 #pragma once
 
 #include <fmt/format.h>
@@ -27,11 +27,9 @@
 
 namespace crosscheck {
 
-/// Name and version of the program.
 std::string program_and_version();
 
-/// Adds a command that `run` executes; returns it with its options. Options with a member `command_line` receive the
-/// whole line.
+/// Adds a command that `run` executes. A member `command_line` of the options receives the whole line.
 template <class Options>
 std::pair<CLI::App&, Options&> add_command(CLI::App& app, Invocation& call, const std::string& name,
                                            const std::string& what, int (*run)(const Options&)) {
@@ -44,8 +42,8 @@ std::pair<CLI::App&, Options&> add_command(CLI::App& app, Invocation& call, cons
   return {*command, *options};
 }
 
-/// The number at the start of a text, which may be a fraction such as 1/1000, and the rest of the text without blanks.
-/// Nothing if the text does not start with a number.
+/// Splits a text into the number at its start, which may be a fraction such as 1/1000, and the rest without blanks.
+/// Nothing if it does not start with a number.
 std::optional<std::pair<double, std::string>> number_and_rest(const std::string& text);
 
 /// Throws InputError if the -o argument is a folder or cannot be written.
@@ -57,7 +55,6 @@ CLI::Validator above_zero();
 CLI::Validator time_above_zero();
 CLI::Validator time_not_below_zero();
 
-/// Adds --quick and --full, which exclude each other.
 void add_quick_and_full(CLI::App& command, bool& full);
 
 }  // namespace crosscheck

@@ -1,4 +1,4 @@
-// The subcommands: each registers itself with its options, and is one row of the table in main.cpp.
+// Subcommands of crosscheck. Each registers itself with its options.
 #pragma once
 
 #include <filesystem>
@@ -14,16 +14,14 @@ namespace crosscheck {
 
 class OutputFolder;
 
-/// A call of the program.
 struct Invocation {
-  std::string line;  // the command line as a person would type it
-  int status = 0;    // exit status: 0 done, 1 a negative result; bad input throws InputError (exit 2)
+  std::string line;
+  int status = 0;  // exit status: 0 done, 1 a negative result; bad input throws InputError (exit 2)
 };
 
 using AddCommand = void (*)(CLI::App&, Invocation&);
 
-/// Reads the command line, runs its command, and returns the exit status. Throws InputError that suggests the nearest
-/// word.
+/// Runs the command of a command line and returns its exit status. Throws InputError that suggests the nearest word.
 int run_command_line(std::span<const AddCommand> commands, int argc, char** argv);
 
 void add_doctor(CLI::App& app, Invocation& call);
@@ -44,16 +42,16 @@ void add_translate(CLI::App& app, Invocation& call);
 void add_engine(CLI::App& app, Invocation& call);
 void add_lab(CLI::App& app, Invocation& call);
 
-/// Registers only the names `grade` and `assignment`: the grader defines their options.
+/// Registers only the names `grade` and `assignment`; their options are defined in the grader.
 void add_grader(CLI::App& app, Invocation& call);
-/// Replaces this process by the grader, found next to this program, with these arguments. If a page of one submission
-/// is requested, runs the grader as a child, then compares the student's steppers with other engines in a report next
-/// to the page. Throws std::runtime_error if the grader is not built.
+/// Replaces this process by the grader, found next to this program. For a page of one submission, runs the grader as a
+/// child instead, then compares the student's steppers with other engines in a report next to the page. Throws
+/// std::runtime_error if the grader is not built.
 int grader_command(const std::vector<std::string>& words);
-/// The grader's commands in the format of command_table() (mysim/base/command_line.h).
+/// Describes the grader's commands in the format of command_table() (mysim/base/command_line.h).
 std::string grader_table();
 
-/// `manual`, hidden from --help: the build uses it to write the manual page and the shell completions.
+/// Hidden from --help: the build writes the manual page and the shell completions with it.
 void add_manual(CLI::App& app, Invocation& call);
 
 struct ReportOptions {
@@ -62,7 +60,7 @@ struct ReportOptions {
   std::string engines = {};  // "all": every engine that `engine NAME` has built
   bool full = false;
   std::vector<std::string> experiments = {};  // experiments with chapters; empty: all
-  std::filesystem::path against = {};         // an earlier report, or empty
+  std::filesystem::path against = {};
   std::filesystem::path out = "out/report";
   std::string command_line;
 };

@@ -1,5 +1,5 @@
-// compare: parity certificates, then a comparison of the methods; exit 1 on a mismatch, if equal rules differ, or if
-// every method failed.
+// Prints parity certificates and a comparison of methods. Exit 1 on a mismatch, if methods of the same rule differ, or
+// if all methods failed.
 
 #include "experiments/experiment.h"
 #include "experiments/metrics.h"
@@ -18,12 +18,12 @@ namespace {
 struct CompareOptions {
   std::string scene, methods, reference;
   double step = 0;
-  std::filesystem::path trajectory;  // may be empty
+  std::filesystem::path trajectory;
   std::filesystem::path out = "out/compare";
   std::string command_line;
 };
 
-/// `brief`: matching rows are only counted.
+/// With `brief`, only counts matching rows.
 void print(const Certificate& certificate, bool brief) {
   fmt::print("\nparity of {} with the scene {}\n", without_folders(certificate.method), certificate.scene);
   for (const CertificateRow& r : certificate.rows)
@@ -35,12 +35,12 @@ void print(const Certificate& certificate, bool brief) {
 
 std::string shown(std::optional<double> value) { return value ? fmt::format("{:.3g}", *value) : "-"; }
 
-/// Prints the differences between methods of the same rule; returns true if one is larger than allowed.
+/// Prints the differences between methods of the same rule. Returns true if one exceeds the allowed difference.
 bool equal_rules_differ(const Request& request, const Scene& scene, MethodResults& answers) {
   const std::vector<Method> methods = methods_of(request, scene);
   const Run run = run_of(request, scene);
   const TimeGrid grid = time_grid(run);
-  const auto judged = [](const MethodResult& r) {  // excludes methods with another law for contact
+  const auto judged = [](const MethodResult& r) {  // excludes methods with a different contact law
     return r.outcome.verdict == Verdict::ok && r.outcome.different_law.empty();
   };
   bool differ = false;
@@ -103,7 +103,7 @@ int compare_command(const CompareOptions& options) {
     Request shown = request;
     shown.methods = {with_progress(method, progress)};
     const Outcome& out = result_of(shown, scene, shown.methods[0], answers).outcome;
-    // differences between methods come at the end; a comparison that is stopped keeps its runs
+    // differences need all runs; a comparison that is stopped keeps the runs so far
     add(so_far, EngineRow{scene.name, method.name, out.verdict, out.reason, out.end, out.step, out.steps,
                           out.evaluations, out.degenerate_springs});
     write_file(folder.growing(so_far.name + ".csv"), csv(so_far, lines));
@@ -116,7 +116,7 @@ int compare_command(const CompareOptions& options) {
     write_csv(table, lines, options.out);
   }
 
-  bool mismatch = false;  // only that engine's numbers are withheld
+  bool mismatch = false;  // a mismatch withholds the numbers of that engine only
   for (const Certificate& certificate : result.certificates) {
     print(certificate, result.certificates.size() > 3);
     const std::string file = file_name_of("certificate-" + certificate.method) + ".json";
@@ -137,7 +137,7 @@ int compare_command(const CompareOptions& options) {
           ? fmt::format(", error bar {} m{} ({})", shown(runs[0].truth_bar),
                         runs[0].truth_until ? fmt::format(" until {:.3g} s", *runs[0].truth_until) : "", *runs[0].truth)
           : "");
-  // with contact there is no truth: a difference from the converged in-house rule is not an error
+  // scenes with contact have no truth: a distance from the converged in-house rule is not an error
   const bool of_rule = tier && tier->of_contact_rule;
   fmt::print("{:<28} {:<12} {:>10} {:>10} {:>12} {:>10} {:>10}\n", "method", "verdict", of_rule ? "rule/m" : "error/m",
              "diff./m", "centres/m", "step/s", "until/s");

@@ -1,4 +1,4 @@
-// engine: builds the adapters of reference/engines/engines.json; each is a program for exec:.
+// Builds the adapters of reference/engines/engines.json, which run as exec:PROGRAM.
 
 #include <unistd.h>
 
@@ -21,10 +21,10 @@ struct EngineOptions {
   fs::path prefix, program;
 };
 
-/// Build folder of an adapter, kept so that unchanged parts are not compiled again.
+/// Build folder of an adapter, kept to avoid recompilation.
 fs::path build_folder(const std::string& name) { return kept_program(name).parent_path().parent_path() / name; }
 
-/// Returns false if a tool is not on the path, after printing how to install what is missing.
+/// Returns false if a tool is not on the path, and prints how to install what is missing.
 bool have_tools(const EngineOptions& options, std::initializer_list<std::pair<const char*, const char*>> tools,
                 const std::string& packages) {
   for (const auto& [tool, package] : tools)
@@ -38,7 +38,7 @@ bool have_tools(const EngineOptions& options, std::initializer_list<std::pair<co
   return true;
 }
 
-/// Runs a program in the folder; returns true on success. On failure prints the end of its output.
+/// Returns true on success; on failure prints the end of the program's output.
 bool run_tool(const std::vector<std::string>& argv, const fs::path& folder, const EngineOptions& options,
               const std::string& what) {
   const ProgramResult result = run_program(argv, folder);
@@ -48,14 +48,14 @@ bool run_tool(const std::vector<std::string>& argv, const fs::path& folder, cons
   return false;
 }
 
-/// Writes the program under a temporary name and renames it, so that a partial program is never started.
+/// Writes to a temporary name and renames, so that a partial program is never started.
 void install(const std::string& program, const fs::path& as) {
   write_file(as, program);
   fs::permissions(as, fs::perms::owner_all | fs::perms::group_read | fs::perms::group_exec | fs::perms::others_read |
                           fs::perms::others_exec);
 }
 
-/// Builds the adapter against the installation in --prefix, with the engine's CMakeLists.txt.
+/// Builds the adapter against the installation in --prefix.
 int build_adapter(const EngineOptions& options, const OutsideEngine& engine, const fs::path& program) {
   const fs::path prefix = fs::canonical(options.prefix);
   if (!have_tools(options, {{"cmake", "cmake"}, {"ninja", "ninja-build"}, {"g++", "g++"}},
@@ -63,7 +63,7 @@ int build_adapter(const EngineOptions& options, const OutsideEngine& engine, con
     return 1;
   const fs::path build = build_folder(fmt::format("{}-{:016x}", options.what, Fnv1a::of(prefix.string())));
   fmt::print(stderr, "crosscheck: building the adapter against {} in {}\n", prefix.string(), build.string());
-  // drop the cache: after a rebuild of the engine its precision or libraries may have changed
+  // drop the cache: the engine may have been rebuilt with another precision or other libraries
   std::error_code none;
   fs::remove(build / "CMakeCache.txt", none);
   Progress progress(2);
@@ -85,7 +85,7 @@ int build_adapter(const EngineOptions& options, const OutsideEngine& engine, con
   return 0;
 }
 
-/// Compiles the adapter's single source file against Debian's package of its engine.
+/// Compiles an adapter that is a single source file, against Debian's package of its engine.
 int compile_source(const EngineOptions& options, const OutsideEngine& engine, const fs::path& program) {
   if (!have_tools(options, {{"g++", "g++"}}, fmt::format("g++ {}", engine.package))) return 1;
   std::vector<std::string> look{"g++", "-x", "c++", "-E", "-include", engine.header, "/dev/null"};
@@ -100,7 +100,7 @@ int compile_source(const EngineOptions& options, const OutsideEngine& engine, co
   Progress progress(1);
   progress.begin("compiling the adapter", 20);  // s
   const fs::path folder = data_folder() / "reference";
-  // no fused multiply-add, as in mysim's build: it would change the numbers
+  // no fused multiply-add, as in mysim's build, because it changes results
   std::vector<std::string> call{"g++",
                                 "-std=c++17",
                                 "-O2",
@@ -116,12 +116,11 @@ int compile_source(const EngineOptions& options, const OutsideEngine& engine, co
   return 0;
 }
 
-/// Bundles npm's build of the engine with its adapter.
+/// Bundles npm's build of an engine with its adapter.
 int bundle_module(const EngineOptions& options, const OutsideEngine& engine, const fs::path& program) {
   if (!have_tools(options, {{"node", "nodejs"}, {"npm", "npm"}, {"esbuild", "esbuild"}}, "nodejs npm esbuild"))
     return 1;
-  // npm verifies the checksum in package-lock.json and has its own cache; the process id in the folder's name separates
-  // concurrent builds
+  // npm has its own cache and verifies checksums; the process id separates concurrent builds
   const fs::path folder = build_folder(fmt::format("{}-{}", engine.name, getpid())),
                  sources = data_folder() / "reference";
   for (const char* file : {"package.json", "package-lock.json"})
@@ -140,7 +139,7 @@ int bundle_module(const EngineOptions& options, const OutsideEngine& engine, con
       for (const char* name : {"LICENSE", "LICENSE.md"})
         if (fs::exists(from / name)) licence = read_file(from / name, "the licence");
     for (size_t at = 0; (at = licence.find("*/", at)) != std::string::npos;) licence.insert(at + 1, " ");
-    // one script for Node, where a module has no address of its own and WebAssembly is embedded
+    // a single script for Node: import.meta.url does not exist there, and WebAssembly must be embedded
     done = run_tool(
         {"esbuild", "engines/" + engine.module, "--bundle", "--platform=node", "--target=node18", "--format=cjs",
          "--loader:.wasm=binary", "--define:import.meta.url=\"file:///engine.js\"", "--log-level=error",
@@ -165,7 +164,6 @@ void require_prefix(const EngineOptions& options, const OutsideEngine& engine) {
                                  fmt::join(files, " or ")));
 }
 
-/// Builds the program, keeps it for reports and copies it to the requested place.
 int engine_command(const EngineOptions& options) {
   const std::vector<OutsideEngine> all = outside_engines();
   std::vector<std::string> names;

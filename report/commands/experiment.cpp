@@ -1,5 +1,3 @@
-// experiment: runs experiments over scenes and writes their tables; merge: joins the shards of a sweep.
-
 #include "experiments/experiment.h"
 #include "experiments/disagreements/upstream.h"
 #include "experiments/sweep/sweep.h"
@@ -10,11 +8,11 @@ namespace crosscheck {
 namespace {
 
 struct ExperimentOptions {
-  std::vector<std::string> names;  // experiments, then scenes
+  std::vector<std::string> names;
   std::string methods;
   bool full = false, resume = false;
   std::string shard;  // I/N; empty: all
-  int jobs = 0;       // number of concurrent processes; 0: one per core
+  int jobs = 0;       // 0: one per core
   std::filesystem::path out = "out/experiment";
   std::string command_line;
 };
@@ -25,7 +23,7 @@ struct MergeOptions {
   std::string command_line;
 };
 
-/// File names of the tables; for experiment `disagreements`, also the texts for upstream.
+/// Names of the tables' files, and of the texts for upstream (experiment `disagreements`).
 std::vector<std::string> files_of(const TableSet& rows, const std::vector<UpstreamText>& texts) {
   std::vector<std::string> files{"dictionary.csv"};
   for (const Table& table : rows.tables) files.push_back(table.name + ".csv");
@@ -34,7 +32,7 @@ std::vector<std::string> files_of(const TableSet& rows, const std::vector<Upstre
   return files;
 }
 
-/// Writes the files into `folder`, which becomes `out`, and prints their names.
+/// Writes files into `folder`, and prints their names in `out`, the final place of the folder.
 void write_and_print(const TableSet& rows, const std::vector<UpstreamText>& texts, const Provenance& lines,
                      const std::filesystem::path& folder, const std::filesystem::path& out) {
   write_tables(rows, lines, folder);
@@ -47,7 +45,7 @@ void write_and_print(const TableSet& rows, const std::vector<UpstreamText>& text
   for (const std::string& note : rows.notes) fmt::print("note: {}\n", note);
 }
 
-/// Announces the list of points and the files of their results; a resumed sweep keeps its earlier results.
+/// Announces the files of the points and of their results. A resumed sweep keeps its earlier results.
 void announce(ResumableOutput& folder, const PointList& plan, const Store& store, const ExperimentOptions& options) {
   const std::string points = store.folder().filename().string();
   std::vector<std::string> files{"plan.json"};

@@ -1,5 +1,3 @@
-// figures: a set of print-ready figures, made from the experiments that they need.
-
 #include "experiments/sweep/sweep.h"
 #include "report/commands/command_line.h"
 #include "report/figures/figure_set.h"
@@ -11,11 +9,11 @@ namespace crosscheck {
 namespace {
 
 struct FiguresOptions {
-  std::vector<std::string> names;   // experiments; empty: all
+  std::vector<std::string> names;
   std::vector<std::string> scenes;  // empty: the representative scenes
   std::string set = "paper", width, methods;
   bool full = false;
-  std::filesystem::path from = {};  // a report whose data are drawn; empty: run experiments
+  std::filesystem::path from = {};  // a report to draw instead of running experiments
   std::filesystem::path out = "out/figures";
   std::string command_line;
 };
@@ -38,15 +36,14 @@ Scene pictured_scene(const std::string& name, const FiguresOptions& options) {
                                did_you_mean(name, names)));
 }
 
-/// Names are experiments, or SCENE-picture for a scene that --scene gives or that is shipped. Without names: all
-/// experiments, and pictures of the given scenes or of the representative cloths. Throws InputError that lists the
-/// valid names.
+/// Names are experiments, or SCENE-picture. Without names, selects all experiments, and pictures of the given scenes or
+/// of the representative cloths. Throws InputError that lists the valid names.
 FigureSelection select_figures(const FiguresOptions& options) {
   FigureSelection selection;
   if (options.names.empty()) {
     for (const Experiment& e : experiments()) selection.experiments.push_back(&e);
     selection.pictures = scenes_for({}, options.scenes, options.full, options.methods);
-    // a picture of a bead on a spring says little on paper: it is drawn on request only
+    // without a cloth, a picture says little on paper, and is drawn on request only
     if (options.scenes.empty() && !options.full)
       std::erase_if(selection.pictures, [](const Scene& scene) { return scene.triangles.empty(); });
   }
@@ -65,14 +62,12 @@ FigureSelection select_figures(const FiguresOptions& options) {
   return selection;
 }
 
-/// Points of all requested experiments.
 struct Work {
   std::vector<std::string> experiments;
-  std::vector<Scene> scenes;  // scenes of the experiments
-  std::vector<Point> points;  // points of the experiments
+  std::vector<Scene> scenes;
+  std::vector<Point> points;
 };
 
-/// `on_engines` receives the runs of `engines`.
 Work work_of(const FigureSelection& selection, const FiguresOptions& options, const RunCallback& on_engines) {
   Work work;
   Request request;
@@ -86,7 +81,7 @@ Work work_of(const FigureSelection& selection, const FiguresOptions& options, co
     for (const Scene& scene : request.scenes)
       require_resources_to_keep(methods_of(request, scene), scene, run_of(request, scene));
     add_missing(work.scenes, request.scenes);
-    // an experiment may add small systems of its own, which are unrelated to the given scenes
+    // omit small systems that an experiment adds to the given scenes
     for (Point& point : experiment->points(request))
       if (options.scenes.empty() || std::ranges::any_of(request.scenes, [&](const Scene& scene) {
             return point.name.find(scene.name) != std::string::npos;
@@ -96,15 +91,14 @@ Work work_of(const FigureSelection& selection, const FiguresOptions& options, co
   return work;
 }
 
-/// Pictures of scenes, drawn into the folder. A scene of experiment `engines` is drawn in the same process from the
-/// same runs, which saves a third of a picture's work.
+/// Draws pictures of scenes. A scene of experiment `engines` is drawn in the same process from the same runs, which
+/// saves a third of a picture's work.
 class Pictures {
  public:
   Pictures(const std::vector<Scene>& scenes, const FiguresOptions& options, const FigureSize& size,
            const Provenance& lines)
       : scenes_(scenes), options_(options), size_(size), lines_(lines), runs_(std::make_shared<MethodResults>()) {}
 
-  /// A callback that keeps the runs that a picture shows.
   RunCallback keeping() const {
     return [this, runs = runs_](const RecordedRuns& recorded) {
       const bool pictured = std::ranges::any_of(
@@ -114,7 +108,7 @@ class Pictures {
     };
   }
 
-  /// The pictures as separate points; their rows are their entries of the catalogue.
+  /// The rows of a picture's point are its entry of the catalogue.
   std::vector<Point> points() const {
     std::vector<Point> points;
     for (const Scene& scene : scenes_)
@@ -123,8 +117,8 @@ class Pictures {
     return points;
   }
 
-  /// Lets each point of `engines` draw its scene when it is done. A picture that fails there adds no row: it is drawn
-  /// again with the figures, and its failure is reported then.
+  /// Draws each scene of `engines` when its point is done. A picture that fails there adds no row: it is drawn again,
+  /// and its failure reported, with the other figures.
   void draw_with_engines(std::vector<Point>& points, const Store& store) const {
     const std::vector<Point> own = this->points();
     for (Point& point : points)
@@ -161,7 +155,7 @@ class Pictures {
   const FiguresOptions& options_;
   const FigureSize& size_;
   const Provenance& lines_;
-  std::shared_ptr<MethodResults> runs_;  // kept by this process for its next picture
+  std::shared_ptr<MethodResults> runs_;  // kept for the next picture of this process
 };
 
 class Problems {
@@ -182,7 +176,7 @@ class Problems {
   bool any_ = false;
 };
 
-/// The charts that have a figure.
+/// Charts that have a figure.
 std::vector<Chart> charts_of(const std::vector<Scene>& scenes, const TableSet& rows, const Provenance& lines,
                              bool of_each) {
   const AllFindings findings = all_findings(scenes, rows);
@@ -191,7 +185,7 @@ std::vector<Chart> charts_of(const std::vector<Scene>& scenes, const TableSet& r
   return charts;
 }
 
-/// Keeps the charts with these names, or all if there are no names. Throws InputError that lists the valid names.
+/// Keeps the charts with these names (all if empty). Throws InputError that lists the valid names.
 void keep_named(std::vector<Chart>& charts, const std::vector<std::string>& names) {
   if (names.empty()) return;
   std::vector<std::string> known;
@@ -203,7 +197,7 @@ void keep_named(std::vector<Chart>& charts, const std::vector<std::string>& name
   std::erase_if(charts, [&](const Chart& chart) { return std::ranges::count(names, figure_info(chart)->name) == 0; });
 }
 
-/// Draws charts in parallel, after `drawings`, and returns their entries of the catalogue.
+/// Draws charts in parallel, after `drawings`. Returns their entries of the catalogue.
 std::vector<FigureInSet> draw_charts(std::vector<Chart>& charts, const FigureSize& size, const Provenance& lines,
                                      const std::filesystem::path& folder, const Store& store, Problems& problems,
                                      std::vector<Point> drawings = {}) {
@@ -221,7 +215,6 @@ std::vector<FigureInSet> draw_charts(std::vector<Chart>& charts, const FigureSiz
   return drawn;
 }
 
-/// Writes captions and the catalogue, and prints a summary.
 int finish(std::vector<FigureInSet>& drawn, const FigureSize& size, const Provenance& lines,
            const FiguresOptions& given, OutputFolder& folder, const std::vector<std::string>& notes,
            Problems& problems) {
@@ -267,7 +260,7 @@ int figures_command(const FiguresOptions& given) {
   pictures.draw_with_engines(work.points, store);
   Problems problems;
   problems.compute(work.points, store);
-  std::vector<std::string> missing;  // already reported
+  std::vector<std::string> missing;
   const TableSet rows = joined(point_list_of(work.experiments, work.points, lines), {&store, 1}, missing);
 
   std::vector<Chart> charts;

@@ -1,5 +1,5 @@
-// grade, assignment and list assignments start the grader, a separate program. Charts of a student's code are made
-// here, because the grader links no other engine.
+// Starts the grader, a separate program. Charts of a student's code are made here, because the grader links no other
+// engine.
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -29,7 +29,7 @@ fs::path grader() {
   return program;
 }
 
-/// The value of an option, given as the next word or after =; empty if it is not given.
+/// Value of an option, given as the next word or after =; empty if missing.
 std::string option_value(const std::vector<std::string>& words, const std::string& option) {
   for (std::size_t i = 0; i < words.size(); ++i) {
     if (words[i] == option && i + 1 < words.size()) return words[i + 1];
@@ -38,7 +38,7 @@ std::string option_value(const std::vector<std::string>& words, const std::strin
   return "";
 }
 
-/// Grades, then compares the parts that are steppers with other engines; the page links to these charts.
+/// Grades, then compares the submitted steppers with other engines in charts that the page links to.
 int grade_with_charts(std::vector<std::string> words, const fs::path& page) {
   const fs::path charts = page.parent_path() / (page.stem().string() + "-charts");
   OutputFolder folder(charts, "report");
@@ -61,7 +61,7 @@ int grade_with_charts(std::vector<std::string> words, const fs::path& page) {
   for (const std::string& part : yours) options.methods += ",exec:steppers/" + part;
   options.command_line = "crosscheck " + shell_join({words.data(), words.size() - more.size()});
   options.out = fs::absolute(charts);
-  fs::current_path(folder.path());  // so that names of methods are short
+  fs::current_path(folder.path());  // for short names of methods
   fmt::print("charts of {}, compared with mysim and Bullet\n", fmt::join(yours, ", "));
   return report_command(options, folder);
 }

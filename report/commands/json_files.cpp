@@ -1,4 +1,3 @@
-// Certificates have one entry per quantity; tables are lists of objects.
 #include "report/commands/json_files.h"
 
 #include <fmt/format.h>
@@ -57,7 +56,7 @@ Json rows_json(const Table& table) {
   for (const auto& row : table.rows) {
     Json& object = rows.emplace_back(Json::object());
     for (size_t i = 0; i < row.size(); ++i) {
-      Json& member = object[table.columns[i].name];  // null for an empty cell
+      Json& member = object[table.columns[i].name];  // stays null for an empty cell
       std::visit(
           [&](const auto& value) {
             if constexpr (requires { member = value; }) member = value;

@@ -1,5 +1,3 @@
-// lab: a page with the live lab alone.
-
 #include "report/commands/command_line.h"
 #include "report/page/lab_html.h"
 

@@ -1,4 +1,4 @@
-// list: scenes, methods and so on; doctor: what is installed, and what is missing.
+// list: names of scenes, methods and so on; doctor: what is installed and what is missing.
 
 #include <cstdlib>
 
@@ -54,7 +54,7 @@ int list_command(const ListOptions& options) {
 
 struct Tool {
   const char* name;
-  std::string_view package;  // Debian's package
+  std::string_view package;
   const char* purpose;
   bool required;
 };

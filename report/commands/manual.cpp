@@ -1,5 +1,4 @@
-// manual: the manual page and bash's completions, from report/install/crosscheck.1 and .bash, filled with the commands'
-// own descriptions.
+// Fills report/install/crosscheck.1 (manual page) and .bash (completions) with the commands' own descriptions.
 
 #include "mysim/base/command_line.h"
 #include "report/base/assets.h"
@@ -9,7 +8,7 @@
 namespace crosscheck {
 namespace {
 
-/// The kinds of names, as in `list KIND`, that a word of a command may be; empty if it is none of them.
+/// The kinds of names that complete a word, as in `list KIND`; empty if there are none.
 std::string kinds_of(const std::string& command, const std::string& word) {
   if (word == "SCENE" || word == "scenes") return "scenes";
   if (word == "METHOD") return "methods scenes";
@@ -19,8 +18,8 @@ std::string kinds_of(const std::string& command, const std::string& word) {
   return "";
 }
 
-/// All commands in the format of command_table(), with the grader's commands in place of their bare names, and the
-/// kinds of their words.
+/// All commands in the format of command_table(), with the kinds of their words. The grader's commands replace their
+/// bare names.
 Json all_commands(const CLI::App& app) {
   Json commands = Json::parse(command_table(app));
   const Json graders = Json::parse(grader_table());

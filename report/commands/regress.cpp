@@ -1,4 +1,4 @@
-// regress: compares results with baselines or with another method's; --bless writes baselines.
+// Compares results with baselines or with another method; --bless writes baselines.
 
 #include <cstdlib>
 #include <set>
@@ -16,7 +16,7 @@ struct RegressOptions {
   std::filesystem::path baselines;  // empty: the shipped ones
   bool full = false, bless = false, bisect = false;
   std::vector<std::string> scenes;  // names or files; empty: all shipped scenes
-  int figures = 6;                  // number of failed cases to draw
+  int figures = 6;
   std::filesystem::path out = "out/regress";
   std::string command_line;
 };
@@ -44,10 +44,9 @@ int print_result(const RegressionResult& result, const std::filesystem::path& ou
   return result.passed() ? 0 : 1;
 }
 
-using Figures = std::vector<std::pair<std::filesystem::path, std::filesystem::path>>;  // (file of the drawing, file to
-                                                                                       // keep)
+using Figures = std::vector<std::pair<std::filesystem::path, std::filesystem::path>>;  // (drawing, file to keep)
 
-/// Writes a page of the changes; returns, for each scene with a change, the figure that is stored next to its baseline.
+/// Writes a page of the changes. Returns, for each changed scene, the figure to store next to its baseline.
 Figures before_and_after(const Regression& regression, const RegressOptions& options, const BlessResult& result,
                          const Provenance& lines) {
   RegressionResult changes;
@@ -126,13 +125,12 @@ int regressed(const RegressOptions& options) {
   return print_result(result, options.out);
 }
 
-/// Returns 0 if every case passes, 1 if one fails; with `bisect`, 125 if the build cannot be judged.
+/// Returns 0 if every case passes, otherwise 1; with `bisect`, 125 if the build cannot be judged.
 int regress_command(const RegressOptions& options) {
   try {
     return regressed(options);
   } catch (const std::exception& error) {
     if (!options.bisect) throw;
-    // `git bisect run` takes 125 for "this commit cannot be tested"
     fmt::print(stderr, "crosscheck: cannot be tested: {}\n", error.what());
     return 125;
   }
@@ -156,7 +154,7 @@ void add_regress(CLI::App& app, Invocation& call) {
       ->check(CLI::Range(0, 100));
   regress.add_flag("--bisect", options.bisect,
                    "exits with 125 if a build cannot be judged, as `git bisect run` expects");
-  regress.add_flag("--no-speed")->group("");  // accepted for scripts of earlier versions; bench measures speed
+  regress.add_flag("--no-speed")->group("");  // accepted for scripts of earlier versions
   regress.add_option("--out", options.out, "folder (out/regress)");
   add_quick_and_full(regress, options.full);
 }

@@ -1,4 +1,3 @@
-// Repeats the runs of a failed case and draws them.
 #include "report/commands/regress_failure.h"
 
 #include <fmt/format.h>
@@ -25,14 +24,13 @@ using Series = std::vector<std::pair<double, double>>;  // over time, s
 
 struct FailureDetails {
   Case test_case;
-  std::vector<Comparison> rows;            // all rows of the case
-  Series was, is;                          // RMS displacement of the particles, m
-  bool was_sampled = false;                // true: the whole old curve is known; false: only a few points of it
+  std::vector<Comparison> rows;
+  Series was, is;                          // RMS displacement, m
+  bool was_sampled = false;                // false: only a few points of the old curve are known
   Series difference, tolerance;            // positions, m
-  std::optional<double> first_divergence;  // s: the first time at which they differ by more than the tolerance
-  std::optional<MethodResult> old_result, new_result;  // for pictures; from a baseline: for the scene's own method only
+  std::optional<double> first_divergence;  // s: the first time at which the difference exceeds the tolerance
+  std::optional<MethodResult> old_result, new_result;  // for pictures; a baseline stores only the scene's own method
 
-  /// The row of a quantity, or null.
   const Comparison* find(const std::string& quantity) const {
     const auto at = std::ranges::find(rows, quantity, &Comparison::quantity);
     return at == rows.end() ? nullptr : &*at;
@@ -56,7 +54,7 @@ Series offsets_of(const Trajectory& path) {
   return series;
 }
 
-/// The run as a result for pictures; nothing for a refused run.
+/// For pictures; nothing for a refused run.
 std::optional<MethodResult> pictured(const Case& test_case, const CaseRun& case_run, const std::string& was_or_is) {
   if (case_run.trajectory.x.empty()) return std::nullopt;
   return MethodResult{test_case.scene.name, was_or_is + test_case.method.name, case_run.outcome, case_run.trajectory};
@@ -64,12 +62,12 @@ std::optional<MethodResult> pictured(const Case& test_case, const CaseRun& case_
 
 bool owns(const Case& q) { return q.without.empty() && q.method.name == find_method(q.scene.method).name; }
 
-/// Reads the old run from a baseline, which has at most eight times.
+/// Reads the old run from a baseline, at no more than eight times.
 void beside_baseline(FailureDetails& e, const Regression& regression) {
   for (const double t : times_of(e.test_case)) {
     const Comparison *offset = e.find(offset_at(t)), *places = e.find(places_at(t));
     if (offset && offset->was) e.was.emplace_back(t, *offset->was);
-    // positions may differ although means over the particles agree
+    // positions may differ although their means over the particles agree
     if (!places || !places->was || !places->is || !std::isfinite(*places->is)) continue;
     e.difference.emplace_back(t, std::abs(*places->is - *places->was));
     e.tolerance.emplace_back(t, places->tolerance);
@@ -82,7 +80,7 @@ void beside_baseline(FailureDetails& e, const Regression& regression) {
   e.old_result->trajectory.t = {shape->t}, e.old_result->trajectory.x = {shape->x};
 }
 
-/// Compares both runs at every sample, with the tolerances at the times of the quantities.
+/// Compares both runs at every sample. A sample has the tolerance of the next time that a baseline would store.
 void beside_other(FailureDetails& e, const Method& against) {
   Case old = e.test_case;
   old.method = against;
@@ -96,7 +94,6 @@ void beside_other(FailureDetails& e, const Method& against) {
   const Trajectory &now = e.new_result->trajectory, &before = case_run.trajectory;
   for (int i = 1; i < std::min(now.frames(), before.frames()); ++i) {
     const double distance = rms_distance(now.x[i], before.x[i]);
-    // the tolerance at the next time that has one
     const auto known = std::find_if(e.tolerance.begin(), e.tolerance.end(),
                                     [&](const auto& at) { return at.first >= now.t[i] * (1 - 1e-9); });
     if (!std::isfinite(distance) || known == e.tolerance.end()) break;
@@ -105,7 +102,7 @@ void beside_other(FailureDetails& e, const Method& against) {
   }
 }
 
-/// All fields may be empty: a refused run has no curve.
+/// Without curves if the run was refused.
 FailureDetails failure_details(const Case& test_case, const std::vector<Comparison>& rows,
                                const Regression& regression) {
   FailureDetails e{test_case};
@@ -120,7 +117,7 @@ FailureDetails failure_details(const Case& test_case, const std::vector<Comparis
   return e;
 }
 
-/// Time and kind of the divergence, as a sentence.
+/// Sentence with the time and kind of the divergence.
 std::string describe_divergence(const FailureDetails& e) {
   if (e.first_divergence) {
     const auto before = std::find_if(e.difference.rbegin(), e.difference.rend(),
@@ -180,7 +177,7 @@ std::optional<Figure> difference(const FailureDetails& e, const Provenance& line
   return f;
 }
 
-/// Both shapes in one view, coloured by their distance if it is large enough to see.
+/// Draws both shapes in one view, coloured by their distance if it is large enough to see.
 std::optional<PageImage> shapes(const FailureDetails& e, const fs::path& folder) {
   if (!e.new_result || e.new_result->trajectory.x.empty() || e.test_case.scene.model.first_order()) return std::nullopt;
   Shot shot;
@@ -206,13 +203,13 @@ std::optional<PageImage> shapes(const FailureDetails& e, const fs::path& folder)
 }  // namespace
 
 std::vector<Case> failures_to_draw(const std::vector<Case>& all, const std::vector<Comparison>& rows, int most) {
-  using Rank = std::tuple<bool, bool, double>;  // the smallest comes first
+  using Rank = std::tuple<bool, bool, double>;  // smallest first; own methods are preferred because only they have an
+                                                // old shape
   std::vector<std::pair<Rank, const Case*>> ranked;
   for (const Comparison& row : worst_comparisons(rows))
     for (const Case& q : all)
       if (is_of(row, q) && std::ranges::find(ranked, &q, &std::pair<Rank, const Case*>::second) == ranked.end())
-        ranked.push_back({{!q.without.empty(), !owns(q), -row.rank()}, &q});  // the old shape is kept for the scene's
-                                                                              // own method
+        ranked.push_back({{!q.without.empty(), !owns(q), -row.rank()}, &q});
   std::ranges::stable_sort(ranked, {}, &std::pair<Rank, const Case*>::first);
   std::set<std::string> scenes;
   std::vector<Case> first, others;

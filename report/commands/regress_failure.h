@@ -1,4 +1,4 @@
-// Failed cases of a regression run: the time at which both runs diverge, and figures.
+// Draws failed cases of a regression run.
 #pragma once
 
 #include <string>
@@ -10,21 +10,20 @@
 
 namespace crosscheck {
 
-/// A failed case with its figures.
 struct FailurePart {
   std::string scene, heading;
   std::string text;  // when and how the two runs diverge
   std::vector<PageImage> images;
 };
 
-/// Repeats the runs of the case (with --against, under both methods), and draws into OUT/figures both curves, their
+/// Repeats the runs of the case (with --against, under both methods). Draws into OUT/figures both curves, their
 /// difference over time with its tolerance, and both shapes side by side. Appends figures that cannot be drawn to
 /// `problems`.
 FailurePart drawn_failure(const Case& test_case, const std::vector<Comparison>& rows, const Regression& regression,
                           const Provenance& lines, std::vector<std::string>& problems);
 
-/// At most `most` failed cases to draw. The order is: first one case per scene, preferring its own method and the whole
-/// scene over a scene without an ingredient; then the largest deviations.
+/// Selects at most `most` failed cases: first one per scene, preferably with its own method and all ingredients; then
+/// those with the largest deviations.
 std::vector<Case> failures_to_draw(const std::vector<Case>& all, const std::vector<Comparison>& rows, int most);
 
 }  // namespace crosscheck

@@ -1,4 +1,3 @@
-// Writes the verdict of a regression run.
 #include "report/commands/regress_verdict.h"
 
 #include <fmt/format.h>
@@ -45,7 +44,7 @@ Table table_of(const std::vector<Comparison>& comparisons) {
 }
 
 std::string junit(const RegressionResult& result) {
-  // failed quantities, by scene and method
+  // by scene and method
   std::map<std::pair<std::string, std::string>, std::vector<std::string>> wrong;
   for (const Comparison& row : result.rows) {
     std::string method = row.method.empty() ? "baseline" : row.method;
@@ -111,7 +110,7 @@ void write_verdict(const RegressionResult& result, const Provenance& lines, cons
 
 namespace {
 
-/// A table for the page; null if it has no rows.
+/// Null if the table has no rows.
 Json page_table(const Table& table, const std::string& caption) {
   PageTable page{caption, {}, {}};
   for (const Column& column : table.columns) page.header.push_back(column.name);

@@ -1,4 +1,3 @@
-// Writes the verdict of a regression run as CSV, JSON, JUnit and a page.
 #pragma once
 
 #include "experiments/regress/regress.h"
@@ -6,19 +5,18 @@
 
 namespace crosscheck {
 
-/// Writes regress.csv (every quantity), regress.json (failures, counts) and junit.xml (one case per scene and method)
-/// into the folder.
+/// Writes regress.csv (all quantities), regress.json (failures, counts) and junit.xml (one case per scene and method).
 void write_verdict(const RegressionResult& result, const Provenance& lines, const std::filesystem::path& folder);
 
 struct VerdictPage {
   const RegressionResult& result;
   std::string beside;   // "the baselines in ..." or the other method
-  std::string blessed;  // reason, if these changes are blessed; otherwise empty
+  std::string blessed;  // reason to bless these changes; otherwise empty
   Provenance lines;
 };
 
-/// Writes OUT/index.html with each change and its size, and the figures of at most `figures` failed cases, which it
-/// returns. Figures that cannot be drawn are reported on the page and on stderr.
+/// Writes OUT/index.html with each change, and returns the figures of at most `figures` failed cases. Reports figures
+/// that cannot be drawn on the page and on stderr.
 std::vector<FailurePart> write_verdict_page(const VerdictPage& page, const Regression& regression, int figures);
 
 /// "chain, mysim/rk4 without gravity"

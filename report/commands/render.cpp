@@ -1,5 +1,3 @@
-// render: a picture of a scene, methods side by side.
-
 #include <cstdio>
 
 #include "report/commands/command_line.h"
@@ -16,14 +14,13 @@ struct RenderOptions {
 
 void read_size(const std::string& text, Shot& shot) {
   int end = 0;
-  // the renderer's largest image is 16384 pixels wide
+  // the renderer's images are at most 16384 pixels wide
   if (std::sscanf(text.c_str(), "%dx%d%n", &shot.width, &shot.height, &end) != 2 ||
       end != static_cast<int>(text.size()) || shot.width < 64 || shot.height < 64 || shot.width > 8192 ||
       shot.height > 8192)
     throw InputError(fmt::format("--size {}: expected WIDTHxHEIGHT in pixels, each from 64 to 8192", text));
 }
 
-/// Checks the options before any computation.
 Shot shot_of(const RenderOptions& options, const Scene& scene) {
   Shot shot;
   shot.mode = mode_named(options.mode);
@@ -38,7 +35,7 @@ Shot shot_of(const RenderOptions& options, const Scene& scene) {
   return shot;
 }
 
-/// The methods' results; prints methods without one.
+/// Prints methods without a result.
 std::vector<MethodResult> answers_of(const Scene& scene, const std::vector<Method>& methods, const Run& run,
                                      Progress& progress) {
   std::vector<MethodResult> answers;

@@ -1,4 +1,4 @@
-// report: the main command. Runs the experiments, draws figures and pictures, writes data, report.json and the page.
+// Runs experiments, draws figures and pictures, and writes data, report.json and the page.
 
 #include <deque>
 
@@ -17,7 +17,7 @@ namespace crosscheck {
 namespace fs = std::filesystem;
 namespace {
 
-/// The requested methods, in the order in which they are tried for the picture of a scene.
+/// Requested methods, in the order in which the picture of a scene tries them.
 std::vector<std::string> methods_pictured(const Request& request, const Scene& scene) {
   std::vector<std::string> names, requested;
   for (const Method& m : methods_of(request, scene)) requested.push_back(m.name);
@@ -27,7 +27,6 @@ std::vector<std::string> methods_pictured(const Request& request, const Scene& s
   return names;
 }
 
-/// Pictures are points like any other: drawn by the same processes, kept as files.
 std::vector<Point> picture_points(const Request& request, const fs::path& folder) {
   std::vector<Point> points;
   for (const Scene& scene : request.scenes)
@@ -59,8 +58,8 @@ std::string left_out(const Request& request) {
       fmt::join(names, ", "));
 }
 
-/// For --engines all: adds the engines that are built to the methods, and prints the others with the command that
-/// builds them. The default methods are then those whose rules other engines follow; the default scenes are small.
+/// For --engines all: adds the engines that are built, and prints how to build the others. The default methods are then
+/// rules that other engines implement; the default scenes are small.
 ReportOptions with_all_engines(ReportOptions options) {
   if (options.engines != "all") throw InputError(fmt::format("--engines {}: expected all", options.engines));
   if (options.methods.empty()) {
@@ -77,7 +76,7 @@ ReportOptions with_all_engines(ReportOptions options) {
   return options;
 }
 
-/// Computes points, one process each, and returns the failures.
+/// Computes each point in a process; returns failures.
 Workers workers_of(const Store& store) {
   return [&store, patience = LockPatience()](const std::vector<Point>& points) {
     std::vector<std::string> problems;
@@ -89,7 +88,6 @@ Workers workers_of(const Store& store) {
   };
 }
 
-/// Runs the experiments, draws pictures of the scenes, and writes the folder's data.
 ReportData data_of_runs(const ReportOptions& options, Request& request, const fs::path& folder, const Store& store,
                         const Workers& workers) {
   ReportData data;
@@ -99,7 +97,7 @@ ReportData data_of_runs(const ReportOptions& options, Request& request, const fs
   RunsWriter runs(folder);
   request.on_runs = [&](const RecordedRuns& recorded) { runs.keep(recorded, run_of(request, recorded.scene)); };
   std::vector<const Experiment*> chosen;
-  std::deque<Request> requests;  // one per experiment, with its scenes
+  std::deque<Request> requests;
   for (const Experiment& e : experiments()) {
     const auto& named = options.experiments;
     if (!named.empty() && std::find(named.begin(), named.end(), e.name) == named.end()) continue;
@@ -139,7 +137,6 @@ ReportData data_of_runs(const ReportOptions& options, Request& request, const fs
   return data;
 }
 
-/// One line with the size of the page, by part.
 std::string weight_of_page(const WrittenReport& report) {
   std::vector<std::string> parts;
   double sum = 0;
@@ -163,7 +160,7 @@ int finish(ReportData& data, const ReportOptions& options, OutputFolder& folder,
   return report.page.problems.empty() && report.agree ? 0 : 1;
 }
 
-/// Rebuilds the page of an existing report without running anything, in place or into another folder.
+/// Rebuilds the page of an existing report, in place or into another folder, without running anything.
 int remake_command(const fs::path& from, const ReportOptions& options) {
   ReportData data = read_report(from);
   const fs::path kept = fs::weakly_canonical(from);
@@ -180,7 +177,6 @@ int remake_command(const fs::path& from, const ReportOptions& options) {
   return finish(data, options, folder, store, workers_of(store));
 }
 
-/// Verifies that all findings of a report follow from its data.
 int verify_command(const fs::path& folder) {
   const Verification found = verify_report(folder);
   for (const std::string& mismatch : found.mismatches) fmt::print("{}\n", mismatch);
@@ -202,7 +198,7 @@ int report_command(const ReportOptions& options, OutputFolder& folder) {
     require_resources_to_keep(methods_of(request, scene), scene, run_of(request, scene));
   request.scenes_only = !options.scenes.empty() && !options.full;
   if (!options.against.empty()) {
-    changes_since(options.against, {});  // throws, before the work, if it is not a report
+    changes_since(options.against, {});  // throws if `against` is no report, before the work begins
     if (fs::weakly_canonical(options.against) == fs::weakly_canonical(options.out))
       throw InputError("--against: expected a folder other than that of --out, which is overwritten");
   }

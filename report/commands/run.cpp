@@ -1,5 +1,3 @@
-// run: one method on one scene; writes trajectory.npy, velocities.npy, energy.csv, run.json and, on request, meshes.
-
 #include "experiments/stability/margin.h"
 #include "experiments/tables/energy.h"
 #include "mysim/run/crossings.h"
@@ -11,8 +9,8 @@ namespace crosscheck {
 namespace {
 
 struct RunOptions {
-  std::string scene, method, meshes;             // empty `meshes`: none are written
-  double step = 0, tolerance = 0, duration = 0;  // 0: the scene's own
+  std::string scene, method, meshes;             // empty `meshes`: none
+  double step = 0, tolerance = 0, duration = 0;  // 0: as in the scene
   std::filesystem::path out = "out/run";
   std::string command_line;
 };
@@ -80,7 +78,7 @@ int run_command(const RunOptions& options) {
   if (out.verdict == Verdict::ok)
     if (const std::string outlook = stability_warning(method, scene, out.step); !outlook.empty())
       out.remark += (out.remark.empty() ? "" : "; ") + outlook;
-  if (!ledger.rows().empty()) {  // empty without velocities
+  if (!ledger.rows().empty()) {  // empty if velocities are missing
     Table energy = table_of<SceneEnergyRow>("energy");
     add_ledger(energy, method.name, ledger.rows(), ledger.contact_inferred());
     write_csv(energy, with_scene(provenance(options.command_line), scene), folder.path());
@@ -89,7 +87,7 @@ int run_command(const RunOptions& options) {
   folder.finish();
   fmt::print("{} by {}: {}{}\n", scene.name, method.name, in_words(out.verdict),
              out.reason.empty() ? "" : ", " + out.reason);
-  // an external program need not count: 0 then means unknown
+  // external programs may report no count: then it is 0
   const bool outside = out.process_seconds > 0;
   const auto counted = [&](long count, const char* what) {
     return count > 0 || !outside ? fmt::format("{} {}", count, what) : fmt::format("{} (number not reported)", what);

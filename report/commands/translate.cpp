@@ -1,5 +1,5 @@
-// translate: converts a scene's parameters to another engine, or an engine's parameters to a scene; exit 1 if the
-// engine has no such parameters, or refuses to run the scene.
+// Converts a scene's parameters to another engine's, or back. Exit 1 if the engine has no such parameters or refuses to
+// run the scene.
 
 #include "experiments/translate/translated_run.h"
 #include "report/commands/command_line.h"
@@ -10,7 +10,7 @@ namespace {
 
 struct TranslateOptions {
   std::string scene, to, run;
-  std::vector<std::string> from;  // method and file, or empty
+  std::vector<std::string> from;  // method and file
   double step = 0;                // s
   int iterations = 0;
   std::filesystem::path out;

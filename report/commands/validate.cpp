@@ -1,5 +1,3 @@
-// validate: describes a scene's particles, springs, frequencies, critical steps and resource demand.
-
 #include <map>
 #include <numbers>
 #include <set>
@@ -15,22 +13,23 @@ namespace {
 
 struct SceneSummary {
   Scene scene;
-  std::string given;  // as typed
+  std::string given;
   std::map<Family, long> springs;
   double omega = 0;                                      // rad/s
   std::optional<double> gamma;                           // 1/s, if all particles have the same
-  std::vector<std::pair<std::string, double>> critical;  // critical step of each explicit rule, s; 0: stable at no step
+  std::vector<std::pair<std::string, double>> critical;  // critical step (s) of each explicit rule; 0: unstable at all
+                                                         // steps
   ResourceEstimate demand{};
   NetModuli net;
   std::optional<BendingLength> bending;
   std::vector<std::string> warnings;
-  int pieces = 0, free_pieces = 0;              // number of connected pieces: all, and without a pin
-  std::vector<std::pair<int, int>> coincident;  // pairs of particles that start at the same position
-  std::optional<double> mass_per_area;          // kg/m^2, for the triangles of a sheet
+  int pieces = 0, free_pieces = 0;  // connected pieces: all, and those without a pin
+  std::vector<std::pair<int, int>> coincident;
+  std::optional<double> mass_per_area;  // kg/m^2, if the scene is a sheet
 };
 
-/// Mass / area of the particles of a sheet; nothing for the closed surface of a block, which has 2 V - 4 triangles on V
-/// particles, more than any sheet.
+/// Mass / area of a sheet. Nothing for the closed surface of a block: its V particles have 2 V - 4 triangles, more than
+/// any sheet.
 std::optional<double> mass_per_area_of(const Scene& scene) {
   std::set<int> particles;
   double area = 0, mass = 0;
@@ -51,7 +50,7 @@ void add_pieces(SceneSummary& summary) {
   std::vector<char> held(summary.pieces, 0);
   for (const int pin : model.particles.pins) held[piece[pin]] = 1;
   summary.free_pieces = static_cast<int>(std::ranges::count(held, 0));
-  // 1e-9: the same position except for the rounding of decimal numbers
+  // tolerance for the rounding of decimal numbers
   summary.coincident = coincident_pairs(summary.scene.start.x, 1e-9 * summary.scene.size());
   for (const auto& [a, b] : summary.coincident)
     if (piece[a] != piece[b]) {
@@ -77,7 +76,7 @@ SceneSummary summary_of(const std::string& given) {
     if (!text.empty()) summary.warnings.push_back(std::move(text));
   };
   for (const Stepper& rule : steppers()) {
-    // rules that solve equations are stable at every step; adaptive rules choose their own
+    // omit implicit rules (stable at every step) and adaptive ones (they choose their own step)
     if (rule.evaluations == 0 || rule.adaptive || !summary.gamma || (summary.omega == 0 && *summary.gamma == 0))
       continue;
     const double limit = rule.limit(summary.omega, *summary.gamma);
@@ -223,7 +222,7 @@ Json json_of(const SceneSummary& s) {
           {"warning", s.warnings.empty() ? Json() : Json(fmt::format("{}", fmt::join(s.warnings, "; ")))}};
 }
 
-/// Makes one step with the scene's own method, unless that is an external program. Throws InputError if the method
+/// Tries one step with the scene's own method, unless that is an external program. Throws InputError if the method
 /// refuses the scene.
 void require_accepted(const Scene& scene, const std::string& given) {
   const Method method = find_method(scene.method);
@@ -239,7 +238,7 @@ struct ValidateOptions {
   bool json = false;
 };
 
-/// Describes every scene. Prints each fault as a line on standard error; returns 2 if there was one, otherwise 0.
+/// Prints each fault as a line on standard error. Returns 2 if there was one, otherwise 0.
 int validate_command(const ValidateOptions& options) {
   int status = 0;
   Json entries = Json::array();
