@@ -48,14 +48,14 @@ std::vector<Chart> scoreboard_charts(const ChartInput& input) {
 
 namespace {
 
-/// "nearest: Heun", "symplectic Euler, implicit drag": with the rule's usual name.
+/// Uses the rule's usual name: "nearest: Heun", "symplectic Euler, implicit drag".
 std::string words_of_rule(const std::string& words) {
   const size_t begin = words.starts_with("nearest: ") ? 9 : 0, end = std::min(words.find(','), words.size());
   const std::string rule = words.substr(begin, end - begin), method = fmt::format("{}/{}", subject().name, rule);
   return words.substr(0, begin) + (builtin_method(method) ? rule_name(method) : rule) + words.substr(end);
 }
 
-/// "-2.0e-4 ± 1e-6", "0 ± 1e-6", or the words if there is no number.
+/// "-2.0e-4 ± 1e-6", "0 ± 1e-6", or the row's words.
 template <class Row>
 std::string cell_of(const Row& row) {
   const auto with_unit = [&](double value) { return row.unit == "s" ? step_text(value) : nice(value); };
@@ -78,7 +78,7 @@ std::vector<Chart> matrix_charts(const ChartInput& input) {
   std::map<std::pair<std::string, EngineQuestion>, std::string> cells;
   for (const auto& row : rows) cells[{row.method, row.question}] = cell_of(row);
   for (const auto& row : rows_of<MatrixRow<true>>(input.result)) cells[{row.method, row.question}] = cell_of(row);
-  // the first column contains the build of an engine, too
+  // no column for the build: the first column contains it
   const int begin = static_cast<int>(first) + 1, end = static_cast<int>(last) + 1;
   static_assert(range_of<EngineQuestion>.first == EngineQuestion::build);
   for (int q = begin; q < end; ++q) table.header.emplace_back(name_of(static_cast<EngineQuestion>(q)));
@@ -121,7 +121,7 @@ std::vector<Chart> same_rule_charts(const ChartInput& input) {
     if (!difference.dots.empty()) f.series.push_back(std::move(difference));
     if (method == methods.front()) f.series.push_back(std::move(bound));
   }
-  if (f.names.size() < 2) return {};  // for a single scene the answer states it
+  if (f.names.size() < 2) return {};  // a single scene needs no figure
   for (DotPlot::Series& series : f.series) series.dots.resize(f.names.size());
   const auto agreeing = std::ranges::count_if(
       shown, [](const MethodData* m) { return m->round_off_bound && *m->difference <= *m->round_off_bound; });
@@ -131,11 +131,10 @@ std::vector<Chart> same_rule_charts(const ChartInput& input) {
   return {std::move(chart)};
 }
 
-// Cost at an accuracy: on every scene the cheapest run of each engine within 1 % of the motion, relative to mysim's.
+// Cost at an accuracy: each engine's cheapest run within 1 % of the motion, relative to mysim's.
 
 namespace {
 
-/// An engine's name and style.
 std::pair<std::string, MethodStyle> style_of_engine(const std::string& engine) {
   const MethodFamily& family = family_of(engine);
   if (family.role == Role::outside) {
@@ -147,7 +146,7 @@ std::pair<std::string, MethodStyle> style_of_engine(const std::string& engine) {
   return {std::string(family.title), style_of(std::string(family.representative))};
 }
 
-/// Number of ratios with a time that is scaled from a part of its run; empty if there are none.
+/// Number of ratios with a time scaled from a part of its run; empty if there are none.
 std::string scaled_text(const std::vector<EngineSpeedRow>& rows) {
   int all = 0, scaled = 0;
   for (const EngineSpeedRow& row : rows)
@@ -158,7 +157,7 @@ std::string scaled_text(const std::vector<EngineSpeedRow>& rows) {
 }
 
 /// "For an error of 1 % mysim is the fastest on 10 of 11 scenes; Bullet takes 6.5 (rod) to 78 (spring) times its CPU
-/// time, Boost odeint 0.78 (rod) to 20 (cloth-hang)."
+/// time."
 std::string summary_of(const DotPlot& f) {
   size_t first = 0;
   for (size_t i = 0; i < f.names.size(); ++i)

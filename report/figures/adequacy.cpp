@@ -21,7 +21,7 @@ const MethodStyle scene_styles[] = {{"#0072B2", "1", 7},      {"#D55E00", "(6,3)
                                     {"#009E73", "(2,2)", 9},  {"#CC79A7", "(10,3,2,3)", 13},
                                     {"#E69F00", "(4,2)", 11}, {"#332288", "(12,3,3,3)", 12}};
 
-/// Values over one column of a scene's rows; omits values that are not above zero.
+/// Values over one column of a scene's rows, without those that are not above zero.
 Curve curve_over(const std::vector<GridRow>& rows, const std::string& scene, double cells_less,
                  OptionalNumber GridRow::*value, const MethodStyle& style) {
   Curve curve{scene, style, {}, true, true};
@@ -31,21 +31,20 @@ Curve curve_over(const std::vector<GridRow>& rows, const std::string& scene, dou
   return curve;
 }
 
-/// Adds a tick at each of these numbers, in ascending order.
 template <class Range>
 void add_categories(Figure& f, const Range& numbers) {
   for (const double n : std::set<double>(numbers.begin(), numbers.end()))
     f.categories.emplace_back(n, fmt::format("{:g}", n));
 }
 
-/// True if the last refinement, too, reduced the curve by at least a tenth.
+/// True if the last refinement reduced the curve by more than a tenth.
 bool still_falls(const Curve& c) {
   return c.points.size() > 1 && c.points.back().second < 0.9 * c.points[c.points.size() - 2].second;
 }
 
-/// True if the sag at rest grows with the logarithm of the number of cells without slowing down. If its error were
-/// proportional to 1/cells, its growth would halve from the first two of four grids from 8 to 24 particles to the last
-/// two.
+/// True if the sag at rest keeps growing with the logarithm of the number of cells. For an error proportional to
+/// 1/cells, the growth per log(cells) on four grids of 8 to 24 particles would halve between the first pair and the
+/// last.
 bool sag_runs_on(const std::vector<GridRow>& rows, const std::string& scene) {
   std::vector<double> growth;
   const GridRow* before = nullptr;
@@ -57,7 +56,7 @@ bool sag_runs_on(const std::vector<GridRow>& rows, const std::string& scene) {
   return growth.size() > 1 && growth.front() > 1e-4 && growth.back() > 0.7 * growth.front();
 }
 
-/// Convergence of the motion to that of the finest grid, scene by scene.
+/// Describes for each scene how the motion converges to that of the finest grid.
 std::string motion_sentence(const std::vector<GridRow>& grids, const TableSet& rows, const std::vector<Curve>& curves) {
   std::vector<std::string> falls, others, unbounded;
   size_t fewest = 4;  // fewer points only hint at a power
@@ -112,7 +111,7 @@ Chart grids(const std::vector<GridRow>& rows, const TableSet& tables, const std:
     style[scene] = own;
     Curve c = curve_over(rows, scene, 0, &GridRow::error, own);
     for (const auto& [n, error] : c.points) furthest = std::max(furthest, error);
-    // without the finest run there is no reference
+    // no points if the reference, the finest run, is missing
     if (!c.points.empty()) f.curves.push_back(std::move(c));
   }
   f.finding = motion_sentence(rows, tables, f.curves);
@@ -132,7 +131,7 @@ Chart grids(const std::vector<GridRow>& rows, const TableSet& tables, const std:
   return chart;
 }
 
-/// The stiffness that keeps sag and deflection constant on other grids; empty if neither was found.
+/// Stiffness that keeps sag and deflection constant on other grids; empty if neither was found.
 std::optional<Chart> scaling(const std::vector<GridRow>& rows, const TableSet& tables, const std::string& commit) {
   Figure f;
   f.y.low = 0.5;
@@ -164,7 +163,6 @@ std::optional<Chart> scaling(const std::vector<GridRow>& rows, const TableSet& t
   return described("adequacy-scaling", std::move(f), "commit"_a = commit);
 }
 
-/// The last item of "a, b, c".
 std::string last_of(const std::string& list) {
   const size_t comma = list.rfind(", ");
   return comma == std::string::npos ? list : list.substr(comma + 2);
@@ -172,7 +170,6 @@ std::string last_of(const std::string& list) {
 
 std::string error_text(const std::optional<double>& error) { return error ? nice_length(*error) : "fails"; }
 
-/// The least models of `scenes`.
 PageTable least_of(const std::vector<LeastModelRow>& least, const std::set<std::string>& scenes) {
   PageTable page{
       "The least model compared with the full one, also from three initial states that were not used to find it.",
@@ -239,7 +236,7 @@ Chart removal_chart(const std::vector<AdequacyRow>& rows, const std::string& sce
                   ? fmt::format("Nothing can be left out within {}: any removal costs at least {} ({}).", tolerance,
                                 nice_length(of_smallest), smallest)
                   : fmt::format("Nothing can be left out within {}: no smaller model gives an answer.", tolerance);
-  // in a scene at rest no removal causes an error
+  // at rest, no removal causes an error
   const bool any = !f.curves.empty();
   if (!any) f.failures.clear();
   Chart chart = described("{scene}-adequacy", std::move(f), "scene"_a = scene, "commit"_a = commit,
@@ -251,7 +248,7 @@ Chart removal_chart(const std::vector<AdequacyRow>& rows, const std::string& sce
   return chart;
 }
 
-/// Adds the question of a scene that has no card in the report.
+/// Adds the question of a scene without a card in the report.
 void add_question(Chart& chart, const std::vector<Scene>& shown, const std::string& scene) {
   const auto shipped = shipped_scenes();
   if (std::ranges::none_of(shown, [&](const Scene& s) { return s.name == scene; }) &&
@@ -259,7 +256,7 @@ void add_question(Chart& chart, const std::vector<Scene>& shown, const std::stri
     chart.text = load_scene(scene).question + (chart.text.empty() ? "" : " ") + chart.text;
 }
 
-/// The removal with the smallest error on each scene that has no chart of its own.
+/// For scenes without a chart of their own, the removal with the smallest error.
 PageTable least_removals_of(const std::vector<AdequacyRow>& rows, const std::vector<std::string>& scenes) {
   PageTable page{"The removal with the smallest error", {"scene", "removed", "error", "error / motion"}, {}};
   for (const std::string& scene : scenes) {

@@ -1,5 +1,3 @@
-// Stacked bars, and dots with intervals: figures with one line per name.
-
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -60,7 +58,7 @@ Drawing drawing_of(const StackedBars& bars) {
 
 namespace {
 
-/// The position of a line; headings and the text next to the line at 1 take lines of their own.
+/// Position of a line, counting the lines of headings and of the text next to 1.
 double place_of(const DotPlot& dots, size_t line) {
   const auto above = std::count_if(dots.headings.begin(), dots.headings.end(),
                                    [&](const auto& heading) { return heading.first <= line; });
@@ -81,7 +79,7 @@ Table data_of(const DotPlot& dots) {
   return checked(std::move(table));
 }
 
-/// The series are slightly above and below the middle of their line, so that they do not hide each other.
+/// Moves series off the middle of their line, so that they do not hide each other.
 double offset_of(size_t series, size_t count) {
   return count < 2 ? 0 : 0.3 * (static_cast<double>(series) / static_cast<double>(count - 1) - 0.5);
 }

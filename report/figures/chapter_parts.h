@@ -1,4 +1,4 @@
-// Parts of the chapters on contact and stability that have files of their own.
+// Parts of the chapters on contact and stability that are implemented in other files.
 #pragma once
 
 #include <vector>
@@ -9,10 +9,10 @@
 
 namespace crosscheck {
 
-/// A particle on balls and planes: slopes, rebound, separation, order (contact_particle.cpp).
+/// A particle on balls and planes (contact_particle.cpp).
 std::vector<Chart> particle_charts(const TableSet& tables, const std::string& commit);
 
-/// Maps over step and stiffness, or step and drag: one per scene and kind (stability_maps.cpp).
+/// Over step and stiffness, or step and drag: one map per scene and kind (stability_maps.cpp).
 std::vector<Chart> map_charts(const std::vector<MapRow>& cells, const std::vector<MapLimitRow>& limits,
                               const std::string& commit);
 

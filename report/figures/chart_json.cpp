@@ -16,7 +16,7 @@
 namespace crosscheck {
 namespace {
 
-/// Six digits exceed the resolution of a screen.
+/// Six digits: more than a screen resolves.
 Json short_number(double value) { return std::strtod(fmt::format("{:.6g}", value).c_str(), nullptr); }
 
 Json pairs_json(const std::vector<std::pair<double, double>>& pairs) {
@@ -25,8 +25,7 @@ Json pairs_json(const std::vector<std::pair<double, double>>& pairs) {
   return list;
 }
 
-/// Resolution of curves along an axis: a ten-thousandth of its range, or of each value if it is logarithmic. The csv
-/// file has all digits.
+/// Resolution of curves along an axis: a ten-thousandth of its range, or of each value if it is logarithmic.
 class Fineness {
  public:
   Fineness(const Axis& axis, const std::vector<Curve>& curves, double std::pair<double, double>::*coordinate) {
@@ -47,10 +46,10 @@ class Fineness {
   }
 
  private:
-  double unit_ = 0;  // step of a linear axis
+  double unit_ = 0;  // linear axes only
 };
 
-/// Distinguishes a unit after a slash from the denominator of a ratio.
+/// Distinguishes "quantity / unit" from a ratio.
 bool is_unit(std::string_view text) {
   constexpr std::string_view units[] = {"s", "ms", "ns",  "m",    "cm", "mm",      "µm",   "J",    "N",    "kg",
                                         "°", "%",  "rad", "mrad", "1",  "degrees", "flop", "byte", "Gflop"};
@@ -78,7 +77,7 @@ Json axis_json(const Axis& axis) {
   return json;
 }
 
-/// The page's name of a colour that style.css defines for both modes, or the colour itself.
+/// Name of a colour that style.css defines for light and dark mode, or the colour itself.
 std::string colour_name(const std::string& colour) {
   constexpr std::pair<std::string_view, const char*> named[] = {{"#1D6FB5", "mysim2"},
                                                                 {"#0B4F94", "mysim"},
@@ -89,7 +88,7 @@ std::string colour_name(const std::string& colour) {
   return found == std::end(named) ? colour : found->second;
 }
 
-/// Adds the name of gnuplot's point type, if there is one.
+/// Adds gnuplot's point type by name.
 void add_mark(Json& json, int marker) {
   constexpr const char* names[] = {"plus",     "cross", "star",    "square",  "circle",
                                    "triangle", "down",  "diamond", "pentagon"};
@@ -98,7 +97,7 @@ void add_mark(Json& json, int marker) {
   if (marker > 3 && marker % 2 == 0) json["open"] = true;
 }
 
-/// Adds the lengths of dashes and gaps, in line widths, unless the line is solid.
+/// Adds the lengths of dashes and gaps, in line widths.
 void add_dash(Json& json, const std::string& dash) {
   if (!dash.starts_with('(')) return;
   std::string lengths = dash.substr(1, dash.size() - 2);
@@ -106,7 +105,6 @@ void add_dash(Json& json, const std::string& dash) {
   json["dash"] = lengths;
 }
 
-/// A name for readers, and its method.
 Json name_json(const std::string& title, const std::vector<std::string>& beside) {
   Json json{{"name", reader_name(title, beside)}};
   if (const std::string method = method_named(title); !method.empty()) json["method"] = method;
@@ -119,7 +117,6 @@ Json names_json(const std::vector<std::string>& titles) {
   return list;
 }
 
-/// Indices of the points of a curve that are kept.
 std::vector<size_t> thinned(const std::vector<std::pair<double, double>>& points) {
   constexpr size_t most = 600, of_each = 4;
   std::vector<size_t> kept(points.size());
@@ -151,7 +148,7 @@ Json series_json(const Curve& curve, const std::set<std::pair<double, double>>& 
   if (curve.line) json["line"] = true;
   add_dash(json, curve.style.dash);
   add_mark(json, curve.style.marker);
-  // marks that distinguish lines, not runs
+  // few marks: they distinguish lines, and are no runs
   if (curve.line && !curve.markers) json["few"] = true;
   const std::vector<size_t> kept = thinned(curve.points);
   Json points = Json::array(), open = Json::array(), tips = Json::array();
@@ -167,7 +164,7 @@ Json series_json(const Curve& curve, const std::set<std::pair<double, double>>& 
   return json;
 }
 
-/// Parts of a figure, each with the look shared by its curves and crosses, and their data.
+/// The looks and data of the curves and crosses that share a name.
 Json parts_json(const Figure& f, const std::vector<NamedCurves>& named,
                 const std::set<std::pair<double, double>>& scaled) {
   const Fineness x(f.x, f.curves, &std::pair<double, double>::first),
@@ -204,7 +201,7 @@ Json numbers_of(const Figure& f) {
   std::set<std::pair<double, double>> scaled;
   for (const Curve& curve : f.curves)
     if (curve.title == scaled_times) scaled.insert(curve.points.begin(), curve.points.end());
-  // ringed marks on paper are open marks here
+  // on paper ringed, here open
   if (!scaled.empty()) json["x"]["label"] = f.x.label.substr(0, f.x.label.find(", ringed"));
   json["parts"] = parts_json(f, named, scaled);
   json["key"] = Json::array();
@@ -330,14 +327,14 @@ Json chart_json(const Chart& chart) {
 
 namespace {
 
-/// The usual explicit rule of order two: the cheapest.
+/// The cheapest explicit rule of order two.
 const Stepper* usual_rule() {
   for (const Stepper& rule : steppers())
     if (rule.order == 2 && rule.evaluations == 1 && rule.symplectic) return &rule;
   return nullptr;
 }
 
-/// Two shades per engine: one for its representative, one for its other main methods.
+/// Two shades per engine: for its representative, and for its other main methods.
 const char* colour_of(const MethodFamily& family, bool representative) {
   switch (family.role) {
     case Role::subject:
@@ -356,12 +353,12 @@ const char* colour_of(const MethodFamily& family, bool representative) {
 }  // namespace
 
 Json method_looks_json(std::span<const std::string> methods) {
-  // one colour per program (style.css); its options cycle through the marks
+  // one colour per program (style.css); the program's options differ in their marks
   constexpr std::string_view colours[] = {"outside2", "outside3", "outside4", "outside5",
                                           "outside6", "outside7", "outside8"},
                              marks[] = {"triangle", "diamond", "square", "circle"};
   Json json = Json::object();
-  std::vector<std::pair<std::string, size_t>> programs;  // without options, and their next marks
+  std::vector<std::pair<std::string, size_t>> programs;  // without options; index of the next mark
   for (const std::string& name : methods) {
     const MethodFamily& family = family_of(name);
     const bool program = family.role == Role::outside;

@@ -1,4 +1,4 @@
-// Charts for the page (page/chart/): the numbers of a figure, with six digits, and its texts.
+// Charts for the page (page/chart/): texts, and numbers with six digits.
 #pragma once
 
 #include <span>
@@ -8,12 +8,12 @@
 
 namespace crosscheck {
 
-/// A figure of any kind. Curves of more than 600 points are thinned: each stretch keeps its first, lowest, highest and
-/// last point. Null if the chart has no figure.
+/// Curves of more than 600 points are thinned: each stretch keeps its first, lowest, highest and last point. Null if
+/// the chart has no figure.
 Json chart_json(const Chart& chart);
 
-/// Appearance of methods on the page. For each: short title, name of its colour (style.css), marker, and whether it is
-/// one of the main methods, which are coloured in every chart.
+/// Appearance of each method on the page: short title, colour name (style.css), marker, and whether it is a main
+/// method, which is coloured in every chart.
 Json method_looks_json(std::span<const std::string> methods);
 
 }  // namespace crosscheck

@@ -1,4 +1,3 @@
-// The table of charts, and shared parts of their captions.
 #include "report/figures/charts.h"
 
 #include <fmt/format.h>
@@ -32,7 +31,7 @@ std::string builds_text(const std::vector<std::string>& methods) {
 
 namespace {
 
-/// Appends the tier to the figure's caption. Throws std::logic_error if it has none.
+/// Throws std::logic_error if the figure has no tier.
 void append_tier(Chart& chart) {
   std::visit(
       []<class F>(F& figure) {

@@ -16,15 +16,15 @@
 namespace crosscheck {
 namespace {
 
-/// A depth in %; round-off on the surface counts as zero.
+/// In %; round-off on the surface counts as zero.
 std::string depth_text(double percent) { return percent < 1e-9 ? "0" : nice(percent); }
 
-/// Penetration depth of particles and triangles by method and time step; empty if nothing penetrates.
+/// Penetration by method and time step; empty if nothing penetrates.
 std::optional<Chart> depth_chart(const std::vector<PenetrationRow>& rows, const std::string& scene,
                                  const std::string& commit) {
   Figure f;
   f.y.low = 1e-3, f.y.high = 10;
-  std::vector<std::string> failed;                                   // runs without a mark
+  std::vector<std::string> failed;
   std::map<const MethodFamily*, std::pair<double, double>> deepest;  // particles and triangles, %
   std::map<double, std::pair<Curve, Curve>> by_step;
   // colour of each time step, and its marks for particles and triangles
@@ -50,8 +50,7 @@ std::optional<Chart> depth_chart(const std::vector<PenetrationRow>& rows, const 
       auto& [deep, flat] = deepest[&family_of(method)];
       deep = std::max(deep, particles), flat = std::max(flat, triangles);
     }
-    if (const Method* m = builtin_without_options(method); m && m->adaptive)
-      continue;  // an adaptive method has no fixed step
+    if (const Method* m = builtin_without_options(method); m && m->adaptive) continue;
     if (!by_step.contains(row.step)) {
       const auto& [colour, deep, flat] = looks[by_step.size() % std::size(looks)];
       const std::string step = step_text(row.step);
@@ -83,8 +82,8 @@ std::optional<Chart> depth_chart(const std::vector<PenetrationRow>& rows, const 
 
 bool is_step(double h, double step) { return std::abs(h / step - 1) < 1e-6; }
 
-/// The final state of a scene with a draped body, by method, at the step that all methods share; adaptive methods use
-/// their own steps.
+/// Final state of a scene with a draped body, by method, at the step that all methods share; adaptive methods choose
+/// their steps.
 Chart ends_chart(const std::vector<DrapeRow>& rows, const std::string& scene) {
   const double step = usual_step(rows);
   PageTable page{fmt::format("{}: final state, at time steps of {}", scene, step_text(step)),
@@ -113,7 +112,6 @@ Chart ends_chart(const std::vector<DrapeRow>& rows, const std::string& scene) {
   return chart;
 }
 
-/// The cloth that slides off, by four methods with different results.
 Chart drape_snapshot(const std::vector<DrapeRow>& rows) {
   Snapshot s;
   s.name = "sphere-drop-aside";
@@ -131,7 +129,7 @@ Chart drape_snapshot(const std::vector<DrapeRow>& rows) {
   return chart;
 }
 
-/// Runs of a scene over time at the usual step, by method.
+/// By method, at the usual step.
 using RunsOverTime = std::vector<std::pair<std::string, std::vector<DrapeTimeRow>>>;
 
 RunsOverTime runs_over_time(const std::vector<DrapeTimeRow>& rows, double step) {
@@ -145,7 +143,7 @@ RunsOverTime runs_over_time(const std::vector<DrapeTimeRow>& rows, double step) 
   return runs;
 }
 
-/// The curves of a quantity, where it is above zero.
+/// The curves of a quantity, where it is positive.
 Figure curves_over_time(const RunsOverTime& runs, OptionalNumber DrapeTimeRow::*value, double factor) {
   Figure f;
   f.x.low = 0;
@@ -158,7 +156,6 @@ Figure curves_over_time(const RunsOverTime& runs, OptionalNumber DrapeTimeRow::*
   return f;
 }
 
-/// Names the methods that still slide at the end.
 std::string still_sliding(const RunsOverTime& runs, double end) {
   std::vector<std::string> sliding;
   for (const auto& [method, rows] : runs)
@@ -168,7 +165,7 @@ std::string still_sliding(const RunsOverTime& runs, double end) {
                          : fmt::format("Still above 1 mm/s at the end: {}.", joined(sliding));
 }
 
-/// Methods that deviate from their mirror image by a micrometre or more, and since when.
+/// Methods that deviate from mirror symmetry by a micrometre or more, and since when.
 std::string broken_symmetry(const RunsOverTime& runs) {
   std::vector<std::string> broken;
   double others = 0;
@@ -197,7 +194,7 @@ std::vector<Chart> probe_charts(const ChartInput& input) {
     const auto has = [&](OptionalNumber DrapeTimeRow::*value) {
       return std::ranges::any_of(rows, [&](const DrapeTimeRow& row) { return (row.*value).has_value(); });
     };
-    if (!has(&DrapeTimeRow::triangles_inside)) continue;  // scenes with single particles have their own cards
+    if (!has(&DrapeTimeRow::triangles_inside)) continue;  // single particles have cards of their own
     const double step = usual_step(rows);
     const RunsOverTime runs = runs_over_time(rows, step);
     if (Figure f = curves_over_time(runs, &DrapeTimeRow::creep, 1e3); !f.curves.empty())

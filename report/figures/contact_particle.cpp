@@ -16,7 +16,7 @@
 namespace crosscheck {
 namespace {
 
-/// A method's results on the slopes of one surface, at one step.
+/// Results on the slopes of one surface, at one step.
 struct ConeAnswers {
   std::vector<std::pair<double, double>> points;  // friction / tan(slope), distance slid / frictionless distance
   int right = 0, all = 0, creeping = 0, stuck = 0;
@@ -41,7 +41,7 @@ struct ConeAnswers {
 };
 
 /// Coulomb's law on slopes: distance slid over friction coefficient / tan(slope), and a table of results. For planes,
-/// only the curves of engines with wrong results.
+/// draws only methods with wrong results.
 Chart cone_law(const std::vector<ConeRow>& rows, const std::vector<ConeRow>& planes, const std::string& commit) {
   Figure f;
   f.x.low = 0, f.x.high = 2.5, f.y.low = -0.05, f.y.high = 1.05;
@@ -93,7 +93,7 @@ Chart rebound_chart(const std::vector<ReboundRow>& rows, const std::string& comm
     Curve curve{method, style_of(method), {}, true, true};
     std::vector<std::string>& texts = page.rows.emplace_back(page.header.size());
     texts[0] = method;
-    // for a method that refuses restitution, its rebound in a scene without restitution is drawn
+    // draw the run without restitution if the method refuses restitution
     const bool refused = std::ranges::any_of(
         rows, [&](const ReboundRow& row) { return row.method == method && row.verdict == Verdict::unsupported; });
     for (const ReboundRow& row : rows | with(&ReboundRow::method, method)) {
@@ -113,7 +113,6 @@ Chart rebound_chart(const std::vector<ReboundRow>& rows, const std::string& comm
   return chart;
 }
 
-/// Empty if no particle leaves.
 std::optional<Chart> leaving_chart(const std::vector<LeavingRow>& rows, const std::string& commit) {
   Figure f;
   for (const LeavingRow& row : rows)
@@ -125,21 +124,21 @@ std::optional<Chart> leaving_chart(const std::vector<LeavingRow>& rows, const st
                    "speed"_a = rows.back().speed_by_theory, "commit"_a = commit);
 }
 
-/// Error against step of a slide with friction that leaves the ball, with and without +events; empty unless a method
-/// was run in both ways.
+/// Error against step of a slide with friction that leaves the ball, with and without +events. Empty unless a method
+/// ran both ways.
 std::optional<Chart> contact_order_chart(const std::vector<ContactOrderRow>& all, const std::string& commit) {
   constexpr std::string_view events = "+events";
   Figure f;
-  std::map<bool, std::pair<double, double>> slopes;  // smallest and largest, for runs with events
+  std::map<bool, std::pair<double, double>> slopes;  // smallest and largest, with events
   std::vector<ContactOrderRow> rows;
   std::ranges::copy(all | with(&ContactOrderRow::probe, "leaves with friction"), std::back_inserter(rows));
   for (const std::string& method : distinct(rows, &ContactOrderRow::method)) {
     const bool located = method.ends_with(events);
     const std::string other = located ? method.substr(0, method.size() - events.size()) : method + std::string(events);
-    // a rule of order 1 has no +events option to compare with
+    // first-order rules have no +events option
     if (std::ranges::find(rows, other, &ContactOrderRow::method) == rows.end()) continue;
     Curve curve{method, style_of(method), {}, true, true};
-    std::optional<double> slope;  // at the two shortest steps with a known error
+    std::optional<double> slope;  // from the two shortest steps with a known error
     for (const ContactOrderRow& row : rows | with(&ContactOrderRow::method, method))
       if (row.error && *row.error > 30 * row.truth_bar) {
         curve.points.emplace_back(row.step, *row.error);

@@ -1,4 +1,4 @@
-// Cost of a step: against size, by phase, and relative to the machine's peaks.
+// Cost of a step: by size, by phase, and relative to the machine's peak rates.
 
 #include <fmt/format.h>
 
@@ -35,7 +35,7 @@ Chart size_chart(const std::vector<SizeCostRow>& rows, const std::string& commit
   return chart;
 }
 
-/// Shows the largest cloth; the table's file has the other sizes.
+/// Shows only the largest cloth.
 Chart phases_chart(const std::vector<PhaseCostRow>& rows) {
   const long largest = std::ranges::max(rows, {}, &PhaseCostRow::side).side;
   PageTable page{fmt::format("CPU time of the phases of a time step, {0} x {0} particles", largest),

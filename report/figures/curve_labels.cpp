@@ -1,4 +1,4 @@
-// Labels at the ends of curves, along curves, or in a column next to the plot, where they cover nothing.
+// Places labels at the ends of curves, along curves, or in a column next to the plot, where they cover nothing.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -88,13 +88,13 @@ void CurvePlot::fill_board() {
       board_->add_line(place(g.at, y_low_), {place(g.at, y_low_).x, box_.top});
 }
 
-/// Places a label at the end of its curve, along it, or next to one of its crosses, where it covers nothing and is
-/// nearer to its own curve than to another.
+/// Places a label at or along its curve, or next to one of its crosses, where it covers nothing and is nearer to its
+/// own curve than to others.
 bool CurvePlot::place_beside(const std::string& words, const std::string& colour,
                              const std::vector<std::vector<Place>>& paths, const std::vector<Place>& marks,
                              const std::vector<std::vector<Place>>& others) {
   const double width = width_of(words), half = 6.2;
-  double best = 60;  // above this cost, a key is easier to read
+  double best = 60;  // cost above which a key is easier to read
   std::optional<Rect> found;
   const auto attempt = [&](double left, double middle, double penalty) {
     const Rect r{left, left + width, middle - half, middle + half};
@@ -130,8 +130,8 @@ bool CurvePlot::place_beside(const std::string& words, const std::string& colour
   return true;
 }
 
-/// Places the remaining labels. Returns false if a curve that ends at the right found no room for its label, and there
-/// is no column of names yet.
+/// Places the remaining labels. Returns false if many curves end at the right, one of them found no room for its label,
+/// and there is no column of names yet.
 bool CurvePlot::place_names() {
   const bool column = column_ > 0;
   std::vector<size_t> missing, order;
@@ -190,7 +190,7 @@ bool CurvePlot::place_names() {
   return true;
 }
 
-/// Names to the right of the plot, at the height where their curves end, pushed apart if they are too close.
+/// Names to the right of the plot, at the heights where their curves end, or pushed apart.
 void CurvePlot::column_of_names() {
   struct Entry {
     size_t part;
@@ -228,7 +228,7 @@ void CurvePlot::column_of_names() {
   }
 }
 
-/// Labels of lines that are not curves, where they cover nothing.
+/// Labels of straight lines and guides, where they cover nothing.
 void CurvePlot::place_lines() {
   const auto beside = [&](double y, const std::string& words, const MethodStyle& style, bool in_key) {
     if (y < box_.bottom || y > box_.top) return;
@@ -287,13 +287,13 @@ void CurvePlot::place_lines() {
   }
 }
 
-/// Explains the marks above the frame; crosses of a single kind are explained next to the last cross of the first row,
-/// if there is room.
+/// Explains the marks above the frame. A single kind of crosses is explained next to the last one of the top row, if
+/// there is room.
 void CurvePlot::place_kinds() {
   for (const auto& [words, marker] : mark_meanings(f_, y_floor_))
     remarks_.push_back({words, KeyEntry::Kind::mark, {"#444444", "1", marker}});
   std::set<std::string> kinds;
-  Place last{0, -INFINITY};  // the rightmost in the highest row
+  Place last{0, -INFINITY};  // the rightmost cross of the top row
   for (const auto& [mark, row] : rows_) {
     const Place at{place(mark->x, y_low_).x, y_of_row(row)};
     kinds.insert(kind_of(*mark));

@@ -1,4 +1,4 @@
-// Layout of a figure of curves: curves that share a name, positions of the plot's parts, and labels next to curves.
+// Layout of a figure of curves.
 #pragma once
 
 #include <cmath>
@@ -15,7 +15,7 @@ namespace crosscheck {
 
 constexpr auto pareto_title = "Pareto front", grey = "#9AA3AC", grey_ink = "#66707A";
 
-/// Curves that share a name and a colour: a method's curve and its failures, or a theory and its measurement.
+/// Curves that share a name and a colour, such as a method's curve and its failures, or a theory and its measurement.
 struct NamedCurves {
   std::string title, name;
   MethodStyle style;
@@ -30,21 +30,21 @@ struct NamedCurves {
 
 std::vector<NamedCurves> named_parts(const Figure& f);
 
-/// Ranges of both axes. `y_high` is below the strip of failures; values below `y_floor` are drawn on the axis.
+/// Ranges of both axes. `y_high` is below the strip of failures. Values below `y_floor` are drawn on the axis.
 struct PlotRange {
   double x_low, x_high, y_low, y_high, y_floor = -INFINITY;
 };
 PlotRange plot_range(const Figure& f, const std::vector<NamedCurves>& parts);
 
-/// True if the key names the part, because scattered marks have no end for a label.
+/// True if the name is in the key, because scattered marks have no end for a label.
 bool named_in_key(const Figure& f, const std::vector<NamedCurves>& parts, const NamedCurves& part);
 
-/// The kind of a failure as a word.
 std::string kind_of(const FailureMark& mark);
-/// Meanings of the marks that belong to no part (failures, scaled times, low values), and their gnuplot point types.
+/// Meanings of the marks that no named curve explains (failures, scaled times, low values), and their gnuplot point
+/// types.
 std::vector<std::pair<std::string, int>> mark_meanings(const Figure& f, double y_floor);
 
-/// A figure of curves laid out on paper; its script draws it with gnuplot. Keeps a reference to the figure.
+/// Lays out a figure for paper and writes its script. Keeps a reference to the figure.
 class CurvePlot {
  public:
   explicit CurvePlot(const Figure& f) : f_(f), parts_(named_parts(f)), wide_(f.size.units()) {
@@ -54,7 +54,7 @@ class CurvePlot {
     frame(0);
     fill_board();
     if (!place_names()) {
-      // labels without room next to their curves are in a column to the right of the plot
+      // put labels that found no room next to their curves into a column at the right
       double widest = 0;
       for (const size_t i : ending_right_) widest = std::max(widest, width_of(parts_[i].name));
       frame(widest + 24);
@@ -81,18 +81,17 @@ class CurvePlot {
     return {box_.left + (scaled(f_.x, x) - left) / (right - left) * (box_.right - box_.left),
             box_.bottom + (scaled(f_.y, std::max(y, y_floor_)) - bottom) / (top - bottom) * (box_.top - box_.bottom)};
   }
-  /// y of a row in the strip of failures.
   double y_of_row(size_t row) const { return box_.top - 8 - 11 * static_cast<double>(row); }
   double value_at(double place_y) const {
     const double part = (place_y - box_.bottom) / (box_.top - box_.bottom),
                  at = scaled(f_.y, y_low_) + part * (scaled(f_.y, y_high_) - scaled(f_.y, y_low_));
     return f_.y.logarithmic ? std::pow(10, at) : at;
   }
-  /// True if the name is short enough for a label; longer names are in the key.
+  /// Longer names are in the key.
   bool is_short(const NamedCurves& part) const { return width_of(part.name) < 0.45 * wide_; }
 
-  /// Position of the part's mark next to its crosses, so that they are not identified by colour alone: to the left, or
-  /// to the right if the frame is near. Nothing if only one part has failures, or if the part has no mark.
+  /// Position of the marker that tells whose crosses these are without relying on colour: to their left, or to their
+  /// right if the frame is near. Nothing if only one entry has failures, or if it has no marker.
   std::optional<Place> sign_of(const NamedCurves& part, size_t row) const;
   void assign_rows();
   void frame(double right_column);
@@ -112,27 +111,27 @@ class CurvePlot {
   const Figure& f_;
   std::vector<NamedCurves> parts_;
   double wide_, x_low_ = 0, x_high_ = 1, y_low_ = 0, y_high_ = 1;
-  double y_floor_ = -INFINITY;  // lower values are drawn on the axis
-  double y_data_ = 1;           // the highest value below the strip of failures
+  double y_floor_ = -INFINITY;
+  double y_data_ = 1;  // below the strip of failures
   std::map<const FailureMark*, size_t> rows_;
-  size_t strip_ = 0;  // rows in the strip of failures
+  size_t strip_ = 0;
   std::vector<Tick> x_ticks_, y_ticks_;
   int turned_ = 0;
-  double room_below_ = 0;  // height of the tick labels
-  double column_ = 0;      // width of the column of names, or 0
+  double room_below_ = 0;  // for the tick labels
+  double column_ = 0;      // 0: no column
   bool y_title_on_top_ = false;
-  Rect box_{};  // the plot's box, before a key is added below it
+  Rect box_{};  // without the key below
   std::optional<Board> board_;
   std::vector<Label> labels_;
   std::vector<KeyEntry> key_;
-  std::vector<KeyEntry> remarks_;  // on a line above the frame
-  std::set<size_t> done_;          // parts that have their label
+  std::vector<KeyEntry> remarks_;  // above the frame
+  std::set<size_t> done_;          // with a label
   std::vector<size_t> ending_right_;
   struct Leader {
     Place from, to;
     MethodStyle style;
   };
-  std::vector<Leader> leaders_;  // from ends of curves to the column of names
+  std::vector<Leader> leaders_;  // to the column of names
 };
 
 }  // namespace crosscheck

@@ -1,5 +1,5 @@
-// Curves over two axes in the style of journals: names next to the curves, at most six curves in colour, the others
-// grey, and failures in a strip along the top.
+// Curves in the style of journals: names next to the curves, at most six in colour, the others grey, and failures in a
+// strip along the top.
 
 #include <fmt/format.h>
 
@@ -19,14 +19,13 @@ namespace {
 
 constexpr size_t most_in_colour = 6;
 
-/// The name of a curve in the data file: gnuplot splits even quoted fields at commas.
+/// Name of a curve in the data file, where gnuplot splits even quoted fields at commas.
 std::string id_of(std::string title) {
   for (char& c : title)
     if (c == ',' || c == '"') c = ';';
   return title;
 }
 
-/// Every point as a row: curve, x, y.
 Table data_of(const Figure& f) {
   Table table{f.name, {{"curve", "1"}, {f.x.label, "see name"}, {f.y.label, "see name"}}, {}};
   const auto add = [&](const std::string& curve, double x, double y) { table.add({id_of(curve), x, y}); };
@@ -48,8 +47,8 @@ std::string common_words(const std::string& a, const std::string& b) {
   return a.substr(0, last);
 }
 
-/// Priority for colours: first curves that are not methods, then representative and position-based methods, other
-/// methods of these engines, integrators, and all others.
+/// Priority for colours: curves that are not methods, representative and position-based methods, other methods of these
+/// engines, integrators, all others.
 int place_in_line(const NamedCurves& named) {
   const std::string method = method_named(named.title);
   if (method.empty()) return 0;
@@ -123,7 +122,7 @@ PlotRange plot_range(const Figure& f, const std::vector<NamedCurves>& parts) {
       for (const auto& [x, y] : curve->points)
         left = std::min(left, x), right = std::max(right, x), low = std::min(low, y), high = std::max(high, y);
   const bool any = low <= high;
-  // if curves rise from rounding at the start, the axis begins at the level where they settle
+  // skip initial rises from round-off: begin the axis where curves settle
   if (f.y.logarithmic && any) {
     double stay = 1e300;
     for (const NamedCurves& part : parts)
@@ -164,7 +163,7 @@ PlotRange plot_range(const Figure& f, const std::vector<NamedCurves>& parts) {
   if (f.x.high) range.x_high = *f.x.high;
   range.y_low = low, range.y_high = high;
   padded(range.y_low, range.y_high, f.y.logarithmic, 0.04);
-  // the axis ends at the last data, and not beyond the limits of the figure
+  // limit the axis to the data and to the figure's limits
   if (f.y.low && (!f.y.logarithmic || range.y_low < *f.y.low)) range.y_low = *f.y.low;
   if (f.y.high && (!f.y.logarithmic || range.y_high > *f.y.high)) range.y_high = *f.y.high;
   if (std::isfinite(range.y_floor)) range.y_low = range.y_floor;
@@ -189,7 +188,7 @@ std::optional<Place> CurvePlot::sign_of(const NamedCurves& part, size_t row) con
   return Place{left - 11 > box_.left + 5 ? left - 11 : right + 11, y_of_row(row)};
 }
 
-/// Assigns the crosses to rows from the top, each with as many as fit.
+/// Fills rows of crosses from the top, with as many as fit.
 void CurvePlot::assign_rows() {
   rows_.clear();
   strip_ = 0;
@@ -213,7 +212,7 @@ void CurvePlot::assign_rows() {
   strip_ = taken.size();
 }
 
-/// The box of the plot: its height follows from the figure's width, its margins from ticks and titles.
+/// Box of the plot. Its height follows from the figure's width, its margins from ticks and titles.
 void CurvePlot::frame(double right_column) {
   const double plot_height = (wide_ > 600 ? 0.55 : 0.58) * wide_;
   column_ = right_column;
@@ -240,7 +239,6 @@ void CurvePlot::frame(double right_column) {
 void CurvePlot::frame_numbers() {
   x_ticks_ = ticks_of(x_low_, x_high_, f_.x.logarithmic, box_.right - box_.left, false);
   room_below_ = 18;
-  // keeps all numbers on the sheet
   for (const Tick& t : x_ticks_)
     if (!t.text.empty() && column_ == 0)
       box_.right -= std::max(0., place(t.at, y_low_).x + width_of(t.text) / 2 + 2 - wide_);
@@ -253,7 +251,7 @@ void CurvePlot::frame_categories() {
   for (const auto& [at, text] : f_.categories) texts.push_back(text);
   for (const auto& [at, text] : f_.categories) {
     std::string name = reader_name(text, texts);
-    if (width_of(name) > wide_ / 2) {  // a longer one leaves no room for the plot
+    if (width_of(name) > wide_ / 2) {  // leave room for the plot
       do name.pop_back();
       while (!is_printable(name) || width_of(name + "…") > wide_ / 2);
       name += "…";
@@ -267,12 +265,12 @@ void CurvePlot::frame_categories() {
   turned_ = longest + 6 < apart ? 0 : apart > 26 ? 35 : apart > 17 ? 60 : 90;
   const double angle = turned_ * std::numbers::pi / 180;
   room_below_ = 6 + std::sin(angle) * longest + std::cos(angle) * letter_height;
-  // a rotated label extends to the left of its tick
+  // a rotated label extends to the left
   if (turned_ > 0)
     for (const Tick& t : x_ticks_)
       box_.left += std::max(0., 4 + std::cos(angle) * width_of(t.text) - place(t.at, y_low_).x);
 }
-/// The plot command: the rows of each curve from the file.
+/// The plot command; selects each curve's rows by name.
 std::string CurvePlot::elements() const {
   std::vector<std::string> parts;
   const auto rows = [&](const std::string& curve, const std::string& y) {
@@ -304,7 +302,7 @@ std::string CurvePlot::elements() const {
     for (auto part = parts_.rbegin(); part != parts_.rend(); ++part)
       if (part->coloured == coloured)
         for (const Curve* c : part->curves) draw(*part, *c);
-  for (const Curve& c : f_.curves)  // open marks
+  for (const Curve& c : f_.curves)  // white centres
     if (c.title == scaled_times && !c.points.empty())
       parts.push_back(rows(c.title, y) + "points pt 7 ps 0.4 lc rgb \"#FFFFFF\"");
   std::set<std::string> marked;
@@ -344,7 +342,7 @@ std::string CurvePlot::script() const {
                       f_.y.label, "center rotate by 90", black);
   out += title_command(sheet, f_, {wide_ / 2, above + 10});
   if (!f_.x.label.empty()) {
-    // scaled times have open marks
+    // times scaled from a part of the run have open marks
     const std::string label =
         f_.x.label.find(", ringed") == std::string::npos
             ? f_.x.label

@@ -1,4 +1,4 @@
-// Known disagreements: one figure each, with the scene's curve and Bullet's.
+// Known disagreements: one figure each, the scene's curve and Bullet's.
 
 #include <fmt/format.h>
 
@@ -12,7 +12,7 @@
 namespace crosscheck {
 namespace {
 
-/// The method's own style; for a method that occurred before with other options, a spare colour.
+/// The method's own style, or a spare colour if it occurred before with other options.
 MethodStyle style_after(int before, const std::string& method) {
   static constexpr std::pair<const char*, const char*> spare[] = {
       {"#E69F00", "(6,3)"}, {"#CC79A7", "(2,2)"}, {"#332288", "(10,3,2,3)"}, {"#999933", "(16,3,2,3)"}};
@@ -36,7 +36,7 @@ std::vector<Chart> disagreement_charts(const ChartInput& input) {
     f.y.label = fmt::format("{} / {}", quantity.name, ratio ? "(" + quantity.unit + ")" : quantity.unit);
     const auto found = std::ranges::find(known, row.name, &Disagreement::name);
     f.y.logarithmic = found != known.end() && !found->value;
-    std::map<std::string, int> seen;  // number of curves so far, by method
+    std::map<std::string, int> seen;
     for (size_t i = 0; i < table.rows.size(); ++i) {
       const std::string& curve = text_at(table, i, "curve");
       if (f.curves.empty() || f.curves.back().title != curve) {
@@ -53,7 +53,7 @@ std::vector<Chart> disagreement_charts(const ChartInput& input) {
         f.failures.push_back({fmt::format("{}: {}", curve, failure_class(verdict)), own.style, own.points.back().first,
                               own.points.back().second});
     }
-    // removes the reference curve, and runs without a result, which are crosses
+    // removes runs without a result, which are crosses, and the reference
     std::erase_if(f.curves, [](const Curve& c) { return c.points.size() < 2; });
     charts.push_back(
         described("{name}-disagreement", std::move(f), "name"_a = row.name, "what"_a = row.what,

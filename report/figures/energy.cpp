@@ -1,5 +1,3 @@
-// Experiment `energy`: energy budget of each run, drift of the energy residual, numerical damping.
-
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -15,7 +13,7 @@
 namespace crosscheck {
 namespace {
 
-/// Colours that differ pairwise by at least 8 in lightness (CIE L*), so that a grey print distinguishes them.
+/// Colours differ pairwise by at least 8 in lightness (CIE L*), so that a grey print distinguishes them.
 std::vector<StackedBars::Part> parts_for(size_t bars) {
   std::vector<StackedBars::Part> parts = {{"drag", "#005F95", false, {}},
                                           {"dashpots", "#71BBEB", false, {}},
@@ -31,7 +29,7 @@ std::vector<StackedBars::Part> parts_for(size_t bars) {
   return parts;
 }
 
-/// The longest run and its steps: "100 s, up to 100000 steps of 0.001 s".
+/// "100 s, up to 100000 steps of 0.001 s", for the longest run.
 std::string length_text(const std::vector<EnergyRow>& runs) {
   const EnergyRow* longest = nullptr;
   for (const EnergyRow& run : runs)
@@ -39,11 +37,11 @@ std::string length_text(const std::vector<EnergyRow>& runs) {
   return fmt::format("{:.4g} s, up to {} steps of {}", longest->end, longest->steps, step_text(longest->step));
 }
 
-/// The energy budget of a scene with dissipation or supplied energy; empty for other scenes.
+/// Empty without dissipation and supplied energy.
 std::optional<Chart> budget_chart(const std::vector<EnergyRow>& runs, const std::string& commit) {
   const std::string& scene = runs[0].scene;
   StackedBars bars;
-  std::vector<std::array<double, 10>> heights;  // one row per run, in the order of parts_for()
+  std::vector<std::array<double, 10>> heights;  // one row per run, ordered like parts_for()
   std::string failed;
   bars.finding = "Energy supplied to each run, left of zero, and its distribution, right of zero.";
   bool inferred = false;
@@ -80,13 +78,13 @@ std::string capital(std::string text) {
   return text;
 }
 
-/// The residual over time on an undamped scene.
+/// Energy residual over time on an undamped scene.
 Chart drift_chart(const std::vector<EnergyRow>& runs, const Table& ledger, const std::string& commit) {
   Figure f;
   f.y.high = 3;
   double lowest = 1;
-  std::vector<std::string> absent;                                        // runs without a curve, and the reason
-  std::vector<std::pair<std::string, std::vector<std::string>>> classes;  // class of the residual, its methods
+  std::vector<std::string> absent;                                        // runs without a curve, with the reason
+  std::vector<std::pair<std::string, std::vector<std::string>>> classes;  // kind of residual; its methods
   for (const EnergyRow& run : runs) {
     const std::string name = name_in_sentence(run.method);
     const double turned = run.turned_over.value_or(0);
@@ -114,21 +112,20 @@ Chart drift_chart(const std::vector<EnergyRow>& runs, const Table& ledger, const
   f.y.low = std::pow(10, std::floor(std::log10(lowest)));
   for (const auto& [what, methods] : classes)
     f.finding += fmt::format("{}{}: {}.", f.finding.empty() ? "" : " ", capital(what), joined(methods));
-  // nothing can be drawn for a scene at rest, or for engines without closure
+  // at rest, and for engines without closure of the budget
   if (f.curves.empty()) f.failures.clear();
   return described("{scene}-energy-drift", std::move(f), "scene"_a = runs[0].scene, "length"_a = length_text(runs),
                    "absent"_a = absent.empty() ? "" : fmt::format(" Not drawn: {}.", joined(absent)),
                    "commit"_a = commit);
 }
 
-/// The numerical damping of steppers.
 Chart damping_chart(const std::vector<DampingRow>& rows, const std::string& commit) {
   Figure f;
   f.y.low = 1e-9, f.y.high = 3;
-  constexpr double omega = 10;  // rad/s, of the table's oscillator
+  constexpr double omega = 10;  // rad/s, the table's oscillator
   double worst = 0;
   size_t checked = 0;
-  std::vector<std::string> damped;  // methods that damp: in theory, and as measured
+  std::vector<std::string> damped;  // with damping in theory, and as measured
   std::vector<std::pair<double, double>> implicit_euler, rk4;
   for (int i = 0; i <= 240; ++i) {
     const double y = 0.01 * std::pow(500, i / 240.);
@@ -148,7 +145,7 @@ Chart damping_chart(const std::vector<DampingRow>& rows, const std::string& comm
         worst = std::max(worst, std::abs(rate / theory - 1)), ++checked;
         if (damped.empty() || damped.back() != method) damped.push_back(method);
       }
-      // if theory gives zero, the measured slope is noise
+      // without damping in theory, the measured slope is noise
       if (row.by_theory ? theory > 0 && rate > 0 : rate > 1e-3) curve.points.emplace_back(row.h_omega, rate / omega);
     }
     if (!curve.points.empty()) f.curves.push_back(std::move(curve));

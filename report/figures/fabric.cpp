@@ -23,14 +23,15 @@ MethodStyle style_at(size_t place) {
 
 Curve& curve_of(Figure& f, const std::string& title) { return curve_of(f, title, style_at(f.curves.size())); }
 
-/// Order of convergence from the last two points: log2 of the factor by which halving the cells divides the deviation.
+/// Order of convergence between the last two points, as the exponent of the deviation over the number of cells.
 double order_at_end(const Curve& curve) {
   const auto& [coarse, before] = curve.points[curve.points.size() - 2];
   const auto& [fine, after] = curve.points.back();
   return std::log(before / after) / std::log(fine / coarse);
 }
 
-/// Selects loads, because their curves coincide: the lightest, a middle one, the heaviest, and the largest at the tip.
+/// Curves of other loads would coincide: draws the lightest, a middle and the heaviest, and the largest load at the
+/// tip.
 bool is_drawn(const CantileverRow& row) {
   return row.tip_load > 0 ? row.tip_load == 5 : row.gamma == 0.1 || row.gamma == 5 || row.gamma == 50;
 }
@@ -97,13 +98,13 @@ Chart hanging(const std::vector<HangingStripRow>& rows, const std::vector<Hangin
                    "commit"_a = commit);
 }
 
-/// The drape itself, from above and from the side: a scene that rests in that state.
+/// The drape from above and from the side, as a scene in that state.
 Snapshot draped(const std::vector<DrapedParticleRow>& rows, const std::string& name, const Vec3& eye,
                 const std::string& caption) {
   const DrapedDisc disc{static_cast<int>(rows.back().ring) - 1, 1};
   Scene scene = disc_scene(disc);
   for (size_t i = 0; i < rows.size(); ++i) scene.start.x.col(static_cast<int>(i)) << rows[i].x, rows[i].y, rows[i].z;
-  // particles on the disc are drawn as a part of the cloth, not as pins
+  // draw particles on the disc as cloth, not as pins
   const int n = static_cast<int>(scene.start.x.cols()), centre = n;
   for (Points* each : {&scene.start.x, &scene.start.v}) {
     each->conservativeResize(3, n + 1);
@@ -130,7 +131,7 @@ Chart drape(const std::vector<DrapedDiscRow>& rows, const std::vector<DrapedPart
   for (int nodes = 4; nodes < 10; ++nodes) f.categories.emplace_back(nodes, std::to_string(nodes));
   f.y.low = 64, f.y.high = 80;
   f.floor = {"cotton, measured", 68.4};
-  // on the finest grid, for the same cloth as the first
+  // on the finest grid, with the first row's shear stiffness
   const DrapedDiscRow& lowest = *std::find_if(
       rows.rbegin(), rows.rend(), [&](const DrapedDiscRow& row) { return row.shear == rows.front().shear; });
   double least = INFINITY, most = 0, before = 0, sheared = 0;

@@ -1,4 +1,3 @@
-// Common parts of all figures: the styles of methods, terminals, and gnuplot.
 #include "report/figures/figure.h"
 
 #include <fmt/format.h>
@@ -27,13 +26,13 @@ struct Terminal {
 
 std::vector<Terminal> terminals_of(const FigureInfo& figure, double height) {
   const double wide = figure.size.units(), dots = pixels_per_inch(figure.size) * figure.size.width / 2.54 / wide;
-  std::string svg_name = figure.name;  // gnuplot accepts letters, digits and _ only
+  std::string svg_name = figure.name;  // gnuplot accepts only letters, digits and _
   for (char& c : svg_name)
     if (!std::isalnum(static_cast<unsigned char>(c))) c = '_';
   return {{fmt::format("svg size {:.0f},{:.0f} dynamic font \"DejaVu Sans,12\" background \"#FFFFFF\" name {}", wide,
                        height, single_quoted(svg_name)),
            ".svg"},
-          // a font of 12 has the figure's font size; 0.75 makes gnuplot's points those of the page
+          // 12 is scaled to the figure's font size, and 0.75 makes gnuplot's points those of the page
           {fmt::format("pdfcairo size {:.4g}cm,{:.4g}cm font \"DejaVu Sans,12\" fontscale {:.4g} linewidth {:.3g} "
                        "pointscale {:.3g}",
                        figure.size.width, figure.size.width * height / wide, 0.75 * figure.size.font / 12,
@@ -67,7 +66,7 @@ std::string terminals_of_block(const FigureInfo& figure, double height, const st
 
 namespace {
 
-/// Colour "#RRGGBB", gnuplot's dash type and point type.
+/// gnuplot's dash and point types.
 struct CurveStyle {
   std::string_view colour, dash;
   int marker;
@@ -78,7 +77,7 @@ struct StyleOfMethod {
   CurveStyle style;
 };
 
-// Built-in methods without a row have one of the spare styles.
+// Other built-in methods have spare styles.
 constexpr StyleOfMethod styles[] = {
     {"mysim/explicit-euler", {"#C0609A", "(10,3,2,3)", 15}},
     {"mysim/trapezoidal", {"#B87A00", "(2,2)", 11}},
@@ -102,7 +101,7 @@ constexpr StyleOfMethod styles[] = {
     {"sundials/cvode", {"#7A6A4A", "(4,2,2,2)", 13}},
 };
 
-// shared by external programs and methods without a row
+// for external programs and methods without a row
 constexpr CurveStyle spare_styles[] = {{"#3F5F78", "(8,2,2,2,2,2)", 3},
                                        {"#AA3377", "(6,2,2,2)", 10},
                                        {"#117733", "(10,2,4,2)", 8},
@@ -137,7 +136,7 @@ MethodStyle style_of(const std::string& method) {
   }
   unsigned sum = 0;
   for (char c : method) sum = 31 * sum + static_cast<unsigned char>(c);
-  // programs with the same colour differ in dash or marker
+  // programs of equal colour differ in dash or marker
   constexpr size_t n = std::size(spare_styles);
   return styled({spare_styles[sum % n].colour, spare_styles[sum / n % n].dash, spare_styles[sum / n / n % n].marker});
 }
@@ -146,7 +145,7 @@ void draw(const Drawing& figure, const Provenance& provenance, const std::filesy
   // gnuplot interprets files called "<NAME" and "|NAME" as commands
   if (!is_name(figure.name, longest_derived_name) || file_name_of(figure.name) != figure.name)
     throw InputError(fmt::format("figure {}: expected a name that can be a file's", shell_quote(figure.name)));
-  // gnuplot writes its files gradually: in a separate folder, so that partial figures are never visible
+  // gnuplot writes gradually: a separate folder hides partial figures
   const std::filesystem::path work = folder / fmt::format(".{}.{}.part", figure.name, getpid());
   struct Remove {
     std::filesystem::path path;

@@ -1,4 +1,3 @@
-// Sizes, LaTeX, the catalogue, and a picture in two formats with its positions as a table.
 #include "report/figures/figure_set.h"
 
 #include <fmt/format.h>

@@ -12,17 +12,17 @@
 
 namespace crosscheck {
 
-/// Size for "paper" (8.5 cm, 7.5 pt, no titles) or "lecture" (24 cm, 20 pt). `width` is like "8.5cm", "85mm" or
-/// "3.3in"; empty: the set's own. Throws InputError that lists the valid values.
+/// Size for "paper" (8.5 cm, 7.5 pt, no titles) or "lecture" (24 cm, 20 pt). `width`, such as "8.5cm", "85mm" or
+/// "3.3in", overrides the set's own. Throws InputError that lists the valid values.
 FigureSize figure_size(const std::string& set, const std::string& width);
 
-/// Text for LaTeX: escapes special characters; Greek letters and symbols become mathematics.
+/// Escapes special characters for LaTeX. Greek letters and symbols become mathematics.
 std::string latex(const std::string& text);
 
-/// Sets the size of the chart's figure; returns false if it has none.
+/// Sets the size of the chart's figure. Returns false if it has none.
 bool resize(Chart& chart, const FigureSize& size);
 
-/// Writes NAME.txt and NAME.tex next to the files of a figure: the caption as text, and a figure environment.
+/// Writes the caption as text (NAME.txt) and as a LaTeX figure environment (NAME.tex).
 void write_captions(const FigureInfo& figure, const std::filesystem::path& folder);
 
 inline constexpr std::array chart_endings = {"pdf", "svg", "png", "csv", "gp", "txt", "tex"};
@@ -30,11 +30,11 @@ inline constexpr std::array picture_endings = {"pdf", "png", "csv", "txt", "tex"
 
 struct FigureInSet {
   FigureInfo words;
-  std::string scene;                   // its scene, or empty
-  std::span<const char* const> files;  // endings of its files
+  std::string scene;
+  std::span<const char* const> files;
 };
 
-/// Writes figures.json (content, provenance and size of each figure) and CITATION.cff (how to cite the program).
+/// Writes figures.json (content, provenance and size of each figure) and CITATION.cff.
 void write_catalogue(const std::vector<FigureInSet>& figures, const Provenance& provenance,
                      const std::filesystem::path& folder);
 
@@ -42,15 +42,14 @@ void write_catalogue(const std::vector<FigureInSet>& figures, const Provenance& 
 
 std::string picture_name(const Scene& scene);
 
-/// A shot of the scene for this width, at 300 pixels per inch (less above 30 cm), with letters of this size on paper.
+/// A shot for this width at 300 pixels per inch (less above 30 cm), with the figure's font size on paper.
 Shot shot_for_print(const Scene& scene, const FigureSize& size, bool full);
 
-/// Title, finding and caption of the picture.
 FigureInfo picture_info(const Scene& scene, const std::vector<const MethodResult*>& answers, const FigureSize& size,
                         const std::string& commit);
 
-/// Writes NAME.png, NAME.pdf (a page of the picture's size, with text as text) and NAME.csv with the positions shown.
-/// Throws as write_png() does.
+/// Writes NAME.png, NAME.pdf (a page of the picture's size, with selectable text) and NAME.csv with the positions
+/// shown. Throws as write_png() does.
 void write_printed(const Scene& scene, const std::vector<const MethodResult*>& answers, const Shot& shot,
                    const FigureInfo& words, const Provenance& provenance, const std::filesystem::path& folder);
 

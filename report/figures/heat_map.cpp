@@ -1,4 +1,4 @@
-// Panels of boxes drawn by gnuplot: boxes stay sharp at every size, whereas browsers would smooth an image.
+// Panels are drawn as boxes, which stay sharp at every size; browsers would smooth an image.
 
 #include <fmt/format.h>
 
@@ -14,10 +14,9 @@
 namespace crosscheck {
 namespace {
 
-/// Number of panels side by side.
 int columns_of(const HeatMap& map) { return map.size.units() < 600 ? 2 : 3; }
 
-/// Half the distance between two neighbouring values, as a factor.
+/// Half the smallest distance between neighbours, as a factor.
 double half_spacing(const std::set<double>& values) {
   double least = 1e300;
   for (auto it = values.begin(); it != values.end() && std::next(it) != values.end(); ++it)
@@ -30,13 +29,13 @@ struct MapGrid {
   double left, right, bottom, top;  // edges of the cells
 };
 
-/// The grid of one panel; other panels may have more cells over the same axes.
+/// Panels may have different cells over the same axes.
 MapGrid grid_of(const HeatMap& map, const HeatMap::Panel& panel) {
   std::set<double> xs, ys;
   for (const HeatMap::HeatCell& c : panel.cells) {
     if (!(c.x > 0 && c.y > 0 && std::isfinite(c.x) && std::isfinite(c.y)))
       throw std::runtime_error(fmt::format("figure {}: a value is not above zero", map.name));
-    // values that differ only by rounding are the same
+    // ignore rounding differences
     xs.insert(std::exp(std::round(std::log(c.x) * 1e6) / 1e6));
     ys.insert(std::exp(std::round(std::log(c.y) * 1e6) / 1e6));
   }
@@ -45,7 +44,6 @@ MapGrid grid_of(const HeatMap& map, const HeatMap::Panel& panel) {
   return {x_half, y_half, *xs.begin() / x_half, *xs.rbegin() * x_half, *ys.begin() / y_half, *ys.rbegin() * y_half};
 }
 
-/// The axes of all panels.
 MapGrid axes_of(const HeatMap& map) {
   if (map.panels.empty()) throw std::runtime_error(fmt::format("figure {}: nothing to draw", map.name));
   MapGrid all = grid_of(map, map.panels[0]);
@@ -79,7 +77,7 @@ Table data_of(const HeatMap& map) {
   return table;
 }
 
-/// The rows of one panel and one kind.
+/// Selects the rows of one panel and one kind.
 std::string rows_of(const HeatMap& map, const std::string& panel, const std::string& what) {
   return fmt::format("{} using (strcol(1) eq {} && strcol(2) eq {} ? $3 : NaN):4", single_quoted(map.name + ".csv"),
                      single_quoted(panel), single_quoted(what));
@@ -101,7 +99,7 @@ std::string panel_plot(const HeatMap& map, const HeatMap::Panel& p) {
   return joined_plot(parts);
 }
 
-/// The classes that occur, and the limits.
+/// The kinds of cells that occur, and the limits.
 std::vector<KeyEntry> key_of(const HeatMap& map) {
   std::vector<KeyEntry> key;
   const auto any = [&](auto has) { return std::ranges::any_of(map.panels, has); };
@@ -125,7 +123,7 @@ Drawing drawing_of(const HeatMap& map) {
             down = (panels + across - 1) / across;
   const std::vector<KeyEntry> key = key_of(map);
   const double wide = map.size.units(), heading = map.size.titled ? 22 : 4, gap = 12;
-  // the panels' height follows from their width, which depends on the widest tick label
+  // the height follows from the width, which depends on the widest tick label
   const std::vector<Tick> y_ticks = ticks_of(grid.bottom, grid.top, true, 0.72 * wide / (across + 0.4), true);
   double widest = 0;
   for (const Tick& t : y_ticks) widest = std::max(widest, width_of(t.text));

@@ -1,5 +1,5 @@
-// Error against step, with the method's order as its slope, and the difference from the method's own finest run. If the
-// two differ, the method converges to another solution.
+// Error against step, with the method's order as its slope. If the difference from the method's own finest run falls
+// faster than the error, the method converges to another solution.
 
 #include <fmt/format.h>
 
@@ -14,7 +14,7 @@
 namespace crosscheck {
 namespace {
 
-/// "rk4: order 4, measured 3.99", or "my-engine: order measured 1.02" if the rule is unknown.
+/// "rk4: order 4, measured 3.99"; for an unknown rule "my-engine: order measured 1.02".
 std::string title_of(const std::vector<OrderSlopeRow>& slopes, const std::string& method) {
   const std::string shown = short_name(method);
   const auto slope = std::ranges::find(slopes, method, &OrderSlopeRow::method);
@@ -25,7 +25,7 @@ std::string title_of(const std::vector<OrderSlopeRow>& slopes, const std::string
 
 using Points2 = std::vector<std::pair<double, double>>;
 
-/// Step and value of one method's rows, in the order of the table: from long steps to short ones.
+/// (step, value) of one method's rows, from long steps to short ones.
 Points2 column_of(const std::vector<OrderRow>& rows, const std::string& method, OptionalNumber OrderRow::*value) {
   Points2 out;
   for (const OrderRow& row : rows | with(&OrderRow::method, method))
@@ -33,15 +33,14 @@ Points2 column_of(const std::vector<OrderRow>& rows, const std::string& method, 
   return out;
 }
 
-/// Error at the smallest step / difference of the last two steps: about 1 for a method that converges to the truth with
-/// order 1, less for higher orders, and large if the method converges to another solution.
+/// Error at the smallest step / difference of the last two steps: about 1 for a first-order method, less for higher
+/// orders, and large if the method converges to another solution than the truth.
 double error_over_difference(const Points2& errors, const Points2& own) {
   return errors.empty() || own.empty() ? 0 : errors.back().second / own.back().second;
 }
 
-/// Compares the measured orders on a scene with the declared ones.
 std::string slopes_sentence(const std::vector<OrderSlopeRow>& slopes) {
-  constexpr double close = 0.1;  // contribution of the next order in the finest three steps of a smooth scene
+  constexpr double close = 0.1;  // allows for the next order's contribution to the finest three steps on a smooth scene
   std::vector<std::string> other;
   size_t seen = 0;
   double off = 0;
@@ -84,18 +83,18 @@ std::vector<Chart> order_charts(const ChartInput& input) {
       Curve curve{title_of(slopes, method), style_of(method), {}, true, true};
       Points2 errors = column_of(rows, method, &OrderRow::error),
               own = column_of(rows, method, &OrderRow::distance_to_finest);
-      // 4: a first-order rule with last two errors e and 2 e is at 1; a slower start may make it 2
+      // 4: the ratio is 1 for a first-order rule with last errors 2 e and e, and up to 2 if convergence starts slowly
       const bool converges_elsewhere = error_over_difference(errors, own) > 4 && errors.back().second > 10 * error_bar;
       // errors below the truth's error bar are unknown
       std::erase_if(errors, [&](const auto& p) { return p.second <= error_bar; });
       curve.points = std::move(errors);
-      // a mark is named after its curve, if there is one
+      // name marks after their curve, if there is one
       const std::string& marked = curve.points.empty() ? method : curve.title;
       for (const OrderRow& row : rows | with(&OrderRow::method, method))
         if (const std::string word = failure_class(row.verdict); row.verdict != Verdict::ok)
           f.failures.push_back({marked + ": " + word, style_of(method), row.step, 10 * scene.size(), word});
       if (!curve.points.empty()) f.curves.push_back(std::move(curve));
-      // for a method that converges to the truth the two curves nearly coincide: drawn for other methods only
+      // otherwise the two curves nearly coincide
       if (converges_elsewhere) {
         elsewhere.push_back(method);
         const MethodStyle open{style_of(method).colour, "(1,3)", 6};
@@ -105,7 +104,7 @@ std::vector<Chart> order_charts(const ChartInput& input) {
     if (f.curves.empty() && f.failures.empty()) continue;
     f.floor = {"error bar of the truth", error_bar};
     f.caption = caption_of(scene, input.commit);
-    SceneData truth;  // from this table only: other experiments may not have run
+    SceneData truth;  // from this table, because other experiments may not have run
     truth.tier = name_of(rows[0].truth_tier), truth.truth = rows[0].truth, truth.error_bar = error_bar;
     f.tier = tier_of(truth);
     f.finding = slopes_sentence(slopes);

@@ -1,5 +1,3 @@
-// Charts of one scene over time: error, differences between engines, contact quantities, energy balance.
-
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -13,11 +11,11 @@
 namespace crosscheck {
 namespace {
 
-/// Makes the charts of one scene from its table of samples.
+/// Charts of one scene from its table of samples.
 using Make = std::vector<Chart> (*)(const ChartInput& input, const Scene& scene, const SceneData& facts,
                                     const Table& table);
 
-/// The charts of all scenes that have a table with this ending.
+/// For all scenes that have a table with this ending.
 std::vector<Chart> of_all_scenes(const ChartInput& input, const char* ending, Make make) {
   std::vector<Chart> charts;
   for (size_t i = 0; i < input.scenes.size(); ++i) {
@@ -74,7 +72,7 @@ std::vector<Chart> agreement_charts_of(const ChartInput& input, const Scene& sce
   f.caption = caption_of(scene, input.commit);
   f.tier = another_engine(facts);
   f.x.low = 0, f.x.high = scene.duration;
-  f.y.low = 1e-17;  // the smallest difference above round-off
+  f.y.low = 1e-17;  // values below are round-off
   for (const MethodData& m : facts.methods) {
     if (!m.ok() || family_of(m.method).is_subject()) continue;
     Curve curve{m.method, style_of(m.method), points_of(table, m.method, "difference", true)};
@@ -93,11 +91,10 @@ std::vector<Chart> agreement_charts_of(const ChartInput& input, const Scene& sce
   return {described("{scene}-agreement", std::move(f), "scene"_a = scene.name)};
 }
 
-/// A quantity of table SCENE-engines on scenes with contact.
 struct Quantity {
   const char *column, *name;
   double factor;  // from SI to the label's unit
-  bool positive;  // on a logarithmic axis
+  bool positive;
 };
 constexpr Quantity quantities[] = {{"difference from converged contact", "{scene}-converged", 1e3, true},
                                    {"difference of centres", "{scene}-centres", 1e3, true},
@@ -116,7 +113,7 @@ std::vector<Chart> contact_charts_of(const ChartInput& input, const Scene& scene
       if (!m.ok()) continue;
       Curve curve{m.method, style_of(m.method), points_of(table, m.method, q.column, q.positive)};
       for (auto& point : curve.points) point.second *= q.factor;
-      // omits a cloth that still falls
+      // omit cloths that still fall
       if (&q == &quantities[2]) std::erase_if(curve.points, [](const auto& p) { return p.second > 1; });
       if (!curve.points.empty()) f.curves.push_back(std::move(curve));
     }
@@ -124,7 +121,7 @@ std::vector<Chart> contact_charts_of(const ChartInput& input, const Scene& scene
       f.x.high = *facts.contact_until;
       f.floor = {"error bar of the converged contact rule", facts.error_bar * q.factor};
     }
-    // curves that are zero throughout are described in the text
+    // if all curves are zero, the text says so
     const bool flat = std::ranges::all_of(f.curves, [](const Curve& c) {
       return std::ranges::all_of(c.points, [](const auto& p) { return std::abs(p.second) < 1e-9; });
     });
@@ -137,7 +134,7 @@ std::vector<Chart> contact_charts_of(const ChartInput& input, const Scene& scene
   return charts;
 }
 
-/// Largest energy exchanged by any completed method, J: the scale of the balance error.
+/// Largest energy (J) exchanged by any completed method: the scale of the balance error.
 double turned_over(const std::vector<EngineEnergyRow>& rows, const std::string& scene) {
   double most = 0;
   for (const EngineEnergyRow& row : rows)
@@ -169,7 +166,6 @@ Figure balance_figure(const SceneData& facts, const Table& table, double scale) 
   return f;
 }
 
-/// The largest fall of a curve below its earlier maximum.
 double largest_fall(const std::vector<std::pair<double, double>>& points) {
   double top = -INFINITY, fall = 0;
   for (const auto& [t, y] : points) top = std::max(top, y), fall = std::max(fall, top - y);
@@ -188,7 +184,7 @@ Figure contact_figure(const Scene& scene, const SceneData& facts, const Table& t
   std::vector<std::string> guessed, left_out, gave;
   for (const MethodData& m : facts.methods) {
     if (!m.supported()) continue;
-    // the sticky sphere stops all particles in contact, which would dwarf the losses of other methods
+    // omit the sticky sphere: it stops all particles in contact, which would dwarf other losses
     if (!m.ok() || m.method.ends_with("+sticky")) {
       left_out.push_back(m.ok() ? m.method + " (it stops all that touches)"
                                 : fmt::format("{} ({} at {:.3g} s)", without_folders(m.method), m.failure(), m.end));
@@ -224,7 +220,6 @@ std::vector<Chart> balance_charts_of(const ChartInput& input, const Scene& scene
   Figure f = touched ? contact_figure(scene, facts, table, energies) : balance_figure(facts, table, scale);
   if (f.curves.empty() && f.failures.empty()) return {};
   f.x.low = 0, f.x.high = scene.duration;
-  // the caption ends with the list of curves not drawn
   f.caption = caption_of(scene, input.commit) + f.caption;
   f.name = scene.name + "-energy";
   return {described(touched ? "contact {scene}-energy" : "{scene}-energy", std::move(f), "scene"_a = scene.name)};

@@ -19,7 +19,7 @@ double width_of(const std::string& text) { return letter_height * render::text_w
 
 namespace {
 
-/// "10⁻³", with letters that the font has at full height.
+/// "10⁻³", with full-height digits of the font.
 std::string power_of_ten(int exponent) {
   static constexpr std::array digits = {"⁰", "¹", "²", "³", "⁴", "⁵", "⁶", "⁷", "⁸", "⁹"};
   std::string out = exponent < 0 ? "10⁻" : "10";
@@ -46,7 +46,7 @@ bool is_far(double value) { return value != 0 && (std::abs(value) < 0.9e-4 || st
 std::string tick_text(double value) { return number_text(value, is_far(value)); }
 
 std::vector<Tick> ticks_of(double low, double high, bool logarithmic, double length, bool upright) {
-  // received tables may hold any numbers; below 1e-12 of its value the range of an axis has no distinct numbers
+  // received tables may hold any numbers; a range below 1e-12 of its values has no distinct numbers
   if (logarithmic ? !std::isfinite(std::log10(low)) || !std::isfinite(std::log10(high))
                   : !std::isfinite(high - low) || !(high - low > 1e-12 * std::max(std::abs(low), std::abs(high))))
     throw std::runtime_error(fmt::format("no axis reaches from {:g} to {:g}", low, high));
@@ -94,7 +94,7 @@ std::vector<Tick> ticks_of(double low, double high, bool logarithmic, double len
   if (!all_fit(ticks) || decades > 2.5) ticks = at({1, 3}, 1);
   if (decades > 4) ticks = at({1}, 1);
   for (int stride = 1; !all_fit(ticks); ++stride) ticks = at({1}, stride);
-  if (ticks.size() < 2)  // an axis with a single number shows no scale
+  if (ticks.size() < 2)  // a single number shows no scale
     for (const Tick& more : at({1, 2, 3, 5}, 1))
       if (std::ranges::all_of(ticks, [&](const Tick& other) { return fits(other, more); })) ticks.push_back(more);
   if (last - first < 9)
@@ -122,7 +122,7 @@ std::string ink_of(const std::string& colour) {
       sum += weight[i] * (rgb[i] <= 0.04045 ? rgb[i] / 12.92 : std::pow((rgb[i] + 0.055) / 1.055, 2.4));
     return sum;
   };
-  while (1.05 / (luminance() + 0.05) < 4.5)  // the minimum contrast for small letters, by WCAG
+  while (1.05 / (luminance() + 0.05) < 4.5)  // WCAG's minimum contrast for small letters
     for (double& part : rgb) part *= 0.96;
   return fmt::format("#{:02X}{:02X}{:02X}", std::lround(255 * rgb[0]), std::lround(255 * rgb[1]),
                      std::lround(255 * rgb[2]));
@@ -186,7 +186,7 @@ constexpr double sample_width = 26, gap = 14;
 
 double sample_of(const KeyEntry& entry) { return entry.kind == KeyEntry::Kind::line ? sample_width : 12; }
 
-/// Number of columns of entries: as many as fit side by side.
+/// As many as fit side by side.
 size_t columns_of(const std::vector<KeyEntry>& entries, double wide) {
   double widest = 1;
   for (const KeyEntry& e : entries) widest = std::max(widest, sample_of(e) + 5 + width_of(e.text) + gap);
@@ -247,7 +247,7 @@ std::string method_named(const std::string& title) {
 std::string rule_name(const std::string& method) {
   const size_t plus = method.find('+');
   std::string rule = method.substr(0, plus).substr(method.find('/') + 1);
-  // an engine's worlds are distinguished by their rule; "deformable" is implied
+  // Bullet's worlds are distinguished by their rule; "deformable" is implied
   if (constexpr std::string_view known = "deformable-"; rule.starts_with(known)) rule.erase(0, known.size());
   std::ranges::replace(rule, '-', ' ');
   if (const size_t at = rule.find("euler"); at != std::string::npos) rule[at] = 'E';
@@ -258,12 +258,12 @@ std::string rule_name(const std::string& method) {
 std::string reader_name(const std::string& title, std::span<const std::string> beside) {
   const std::string method = method_named(title);
   if (method.empty()) return title;
-  // on paper there is no room for text after a colon, such as an order
+  // omit text after a colon, such as an order, for lack of room on paper
   const std::string words = title.substr(0, title.find(": "));
-  // a program's name has a colon of its own
+  // programs' names contain a colon
   const size_t end = words.find_first_of(":, ", words.starts_with(method) ? method.size() : 0);
   std::string rest = end == std::string::npos ? "" : words.substr(end);
-  // after a method's name, keep only parentheses and text after a comma
+  // after a method, keep only parentheses and text after a comma
   if (rest.starts_with(' ') && !rest.starts_with(" (")) rest.clear();
   const MethodFamily& family = family_of(method);
   if (family.role == Role::outside) {
@@ -280,7 +280,7 @@ namespace {
 constexpr double cell_size = 2.5;
 constexpr int taken = 1 << 16;
 
-/// Returns the box if it fits on a sheet; the widest figure, one metre, has 4000 units. Throws std::runtime_error.
+/// Throws std::runtime_error unless the box fits on a sheet; the widest figure, 1 m, has 4000 units.
 const Rect& on_a_sheet(const Rect& box) {
   constexpr double largest = 1e5;
   if (!(box.right >= box.left && box.top >= box.bottom && box.right - box.left + box.top - box.bottom < largest))

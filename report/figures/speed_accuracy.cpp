@@ -1,5 +1,5 @@
-// Error against cost, once in evaluations and once in CPU time: curves of all methods, the Pareto front, the error bar
-// of the truth, crosses for failed runs; with each figure, the cheapest methods.
+// Error against cost, in evaluations and in CPU time: all methods, the Pareto front, the truth's error bar and failed
+// runs; with each figure, the cheapest methods.
 
 #include <fmt/ranges.h>
 
@@ -20,7 +20,6 @@ namespace {
 
 using Row = SpeedAccuracyRow;
 
-/// The runs of one scene with their CPU times, and its truth.
 struct SceneRuns {
   std::vector<Row> runs;
   std::vector<SpeedAccuracyCostRow> costs;
@@ -29,9 +28,8 @@ struct SceneRuns {
   std::optional<double> error_bar;
 
   bool difference() const { return truth.find("contact rule") != std::string::npos; }
-  /// Length that counts as one on the axis, m: one per cent of the motion if a truth is known.
+  /// Unit of the axis, m: a hundredth of the motion if a truth is known.
   double unit() const { return error_bar && motion > 0 ? motion / 100 : 1; }
-  /// The quantity on the vertical axis.
   OptionalNumber drawn(const Row& run) const {
     return !error_bar ? run.to_own_finest : difference() ? run.difference : run.error;
   }
@@ -46,13 +44,12 @@ struct SceneRuns {
     });
     return found == costs.end() ? nullptr : &*found;
   }
-  /// CPU time or force evaluations.
   std::optional<double> cost(const Row& run, bool time) const {
     if (!time) return static_cast<double>(run.evaluations);
     const SpeedAccuracyCostRow* timed = timing(run);
     return timed ? std::optional(timed->cpu) : std::nullopt;
   }
-  /// True if only a part of the run was timed, and scaled by its evaluations (for Bullet's worlds: steps).
+  /// True if only a part of the run was timed; its time is scaled by evaluations (for Bullet's worlds: by steps).
   bool is_scaled(const Row& run) const {
     const SpeedAccuracyCostRow* timed = timing(run);
     return timed && timed->part < 1;
@@ -73,13 +70,12 @@ SceneRuns runs_of(const ChartInput& input, const std::string& scene) {
   return s;
 }
 
-/// "mysim/rk4 3": the fourth row of its method in this scene.
+/// "mysim/rk4 3" is the method's fourth row in this scene.
 std::string name_of_run(const SceneRuns& s, const Row& run) {
   const auto place = std::count_if(s.runs.data(), &run, [&](const Row& other) { return other.method == run.method; });
   return fmt::format("{} {}", run.method, place);
 }
 
-/// The tooltip of a run, in three lines.
 Tooltip tooltip(const SceneRuns& s, const Row& run, const std::string& outcome) {
   std::string costs;
   for (const bool time : {false, true})
@@ -93,16 +89,16 @@ Tooltip tooltip(const SceneRuns& s, const Row& run, const std::string& outcome) 
           name_of_run(s, run)};
 }
 
-constexpr int scaled_ring = 6;  // gnuplot's open circle
+constexpr int scaled_ring = 6;  // open circle
 
 int cross_of(const std::string& word) { return word == "blew up" ? 2 : word == "solver gave up" ? 1 : 3; }
 
-/// "2/ω": a limit given as h omega, divided by the frequency.
+/// "2/ω" for h omega = 2
 std::string over_omega(double h_omega) {
   return (std::abs(h_omega - 2) < 0.005 ? std::string("2") : nice(h_omega)) + "/ω";
 }
 
-/// Marks the recommended run, the cost at the critical step of its rule, and real time.
+/// Marks the recommended run, the cost at its rule's critical step, and real time.
 void add_recommendation(Figure& f, const SceneRuns& s, bool time, const ChartInput& input) {
   const auto scene = std::ranges::find(input.scenes, s.scene, &Scene::name);
   if (time && scene != input.scenes.end()) f.guides.push_back({true, scene->duration, "real time"});
@@ -125,7 +121,7 @@ void add_recommendation(Figure& f, const SceneRuns& s, bool time, const ChartInp
   }
 }
 
-/// Draws the Pareto front; returns its methods, from the cheapest run to the most accurate.
+/// Returns the methods on the front, from the cheapest run to the most accurate.
 template <Cost kind>
 std::vector<std::string> add_front(Figure& f, const SceneRuns& s, const ChartInput& input) {
   std::vector<std::string> methods;
@@ -146,7 +142,7 @@ std::optional<Chart> chart_of(const SceneRuns& s, bool time, const ChartInput& i
   double lowest = s.error_bar ? std::max(*s.error_bar, 1e-16) / unit : 1, furthest = 0;
   size_t good = 0;
   int beyond = 0, uncounted = 0;
-  // in a separate style beneath all methods, so that a pointer finds the run
+  // drawn separately, beneath all methods, so that a pointer finds the run
   Curve scaled{scaled_times, {"#777777", "1", scaled_ring}, {}, false, true};
   std::set<std::string> methods;
   for (const Row& run : s.runs) {

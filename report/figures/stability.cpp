@@ -18,7 +18,7 @@
 namespace crosscheck {
 namespace {
 
-/// Joins methods with equal rows into one row.
+/// Joins methods whose rows are equal.
 void join_equal_rows(PageTable& page) {
   std::vector<std::vector<std::string>> joined_rows;
   for (std::vector<std::string>& row : page.rows) {
@@ -33,7 +33,6 @@ void join_equal_rows(PageTable& page) {
   page.rows = std::move(joined_rows);
 }
 
-/// The critical time steps on one scene as a table for readers.
 PageTable limits_table(const std::vector<LimitRow>& rows, const std::string& scene) {
   PageTable page{fmt::format("Critical time step on {}.", scene),
                  {"method", "predicted / ms", "measured / ms", "reason of the difference"},
@@ -44,7 +43,6 @@ PageTable limits_table(const std::vector<LimitRow>& rows, const std::string& sce
   return page;
 }
 
-/// Length of the runs, and resolution of the search.
 std::string effort_text(const std::vector<LimitRow>& rows) {
   double shortest = INFINITY, longest = 0, finest = INFINITY, coarsest = 0;
   for (const LimitRow& row : rows) {
@@ -64,7 +62,7 @@ std::string effort_text(const std::vector<LimitRow>& rows) {
   return text;
 }
 
-/// The limits of all scenes as a figure, or as one table per scene if theory gives none as h omega.
+/// A figure of all scenes, or one table per scene if theory gives no limits as h omega.
 Chart limits_chart(const std::vector<LimitRow>& rows, const std::string& scene, const TableSet& tables,
                    const std::string& commit) {
   StepLimits f = step_limits_of(rows, scene);
@@ -73,19 +71,19 @@ Chart limits_chart(const std::vector<LimitRow>& rows, const std::string& scene, 
   const std::string columns_of = f.columns_of;
   Chart chart = described("stability-limits", any ? AnyFigure(std::move(f)) : std::monostate{},
                           "effort"_a = effort_text(rows), "scene"_a = columns_of, "commit"_a = commit);
-  if (!any)  // a method without theory still has a limit
+  if (!any)  // limits without a theory are in tables
     for (const std::string& each : distinct(rows, &LimitRow::scene)) chart.tables.push_back(limits_table(rows, each));
   return chart;
 }
 
-/// "+1.25e-5": four digits, so that values that agree to five read the same.
+/// "+1.25e-5": four digits, so that values that agree to five look equal.
 std::string signed_text(double value) {
   std::string text = fmt::format("{:+.4g}", value);
   if (const size_t e = text.find("e-0"); e != std::string::npos) text.erase(e + 2, 1);
   return text;
 }
 
-/// Growth of the two rules that are unstable at every step; it is too slow to be visible in runs.
+/// Growth of the two rules that are unstable at every step, which is too slow to see in runs.
 std::optional<Chart> growth_chart(const std::vector<GrowthRow>& rows) {
   PageTable page{"Growth of the fastest vibration per time step, where no time step is stable.",
                  {"scene", "method", "h ω", "predicted", "measured"},
@@ -119,16 +117,17 @@ std::string energy_text(double energy) {
   const auto [factor, unit] = energy < 0.1    ? std::pair{1e3, "mJ"}
                               : energy < 1000 ? std::pair{1., "J"}
                                               : std::pair{1e-3, "kJ"};
-  // two digits, without an exponent
+  // two digits without an exponent
   const double value = factor * energy;
   return value < 100 ? fmt::format("{:.2g} {}", value, unit)
                      : fmt::format("{:.0f} {}", 10 * std::round(value / 10), unit);
 }
 
-/// A run above its limit on the scene, or on the first scene that has one: its last steps as a curve and in pictures.
+/// The last steps of a run above its limit, as a curve and in pictures, on the preferred or the first scene that has
+/// one.
 std::optional<Chart> failure_chart(const ChartInput& input, const std::string& preferred) {
   std::vector<FailureRow> rows = rows_of<FailureRow>(input.result);
-  // scenes that fail slowly enough to be seen
+  // scenes that fail slowly enough to be visible
   std::set<std::string> seen;
   for (const FailureRow& row : rows)
     if (row.still) seen.insert(row.scene);

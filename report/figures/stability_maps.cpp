@@ -1,5 +1,3 @@
-// Stability maps: the outcome of runs over time step and stiffness, and over time step and drag.
-
 #include <fmt/ranges.h>
 
 #include <algorithm>
@@ -14,7 +12,7 @@
 namespace crosscheck {
 namespace {
 
-/// A verdict with its colour and its text in the key. Colours differ pairwise by at least 8 in lightness (CIE L*).
+/// Colours differ pairwise by at least 8 in lightness (CIE L*).
 struct CellClass {
   Verdict verdict;
   const char *title, *colour;
@@ -35,7 +33,6 @@ int kind_of(Verdict verdict) {
   return found == std::end(cell_classes) ? 1 : static_cast<int>(found - cell_classes);
 }
 
-/// Compares the predicted limit of each row of a map with the steps at which runs begin to fail.
 class RowsAgainstTheory {
  public:
   void add(const MapLimitRow& row) {
@@ -46,10 +43,10 @@ class RowsAgainstTheory {
       if (held > longest_) longest_ = held, by_ = row.method;
       return;
     }
-    // both limits are to the left of the map, or to the right of it
+    // both limits are beyond the same end of the map
     if ((held == 0 && failed >= predicted) || (std::isinf(failed) && held <= predicted)) return;
     ++compared_;
-    // a row that is stable, or fails, at every step has no measured limit
+    // rows that are stable, or fail, at every step have no measured limit
     const double off =
         held > 0 && std::isfinite(failed) ? std::abs(std::sqrt(held * failed) / predicted - 1) : INFINITY;
     if (off > near)
@@ -83,14 +80,14 @@ class RowsAgainstTheory {
   }
 
  private:
-  // 2 %: bracket left by the search; in addition, growth must be visible within a short run
+  // relative; the search leaves a bracket of 2 %, and slow growth is invisible in a short run
   static constexpr double near = 0.05;
   std::string which_, by_;
   int compared_ = 0, apart_ = 0, none_hold_ = 0, some_hold_ = 0;
   double worst_ = -1, worst_near_ = 0, longest_ = 0;
 };
 
-/// Steps of the completed runs: "1000", "300 to 1000".
+/// "1000", or "300 to 1000"
 std::string steps_of(const std::set<long>& steps) {
   if (steps.empty()) return "";
   return range(std::to_string(*steps.begin()), std::to_string(*steps.rbegin())) + " steps ";

@@ -14,7 +14,7 @@
 namespace crosscheck {
 namespace {
 
-/// The fastest vibration that limits the step on each scene, rad/s.
+/// rad/s, fastest vibration that limits the step, by scene.
 std::map<std::string, double> fastest_of(const std::vector<LimitRow>& table) {
   std::map<std::string, double> fastest;
   for (const LimitRow& row : table)
@@ -23,7 +23,7 @@ std::map<std::string, double> fastest_of(const std::vector<LimitRow>& table) {
   return fastest;
 }
 
-/// The scene of the columns, and up to three others with the most different frequencies.
+/// The scene of the columns, and up to three others whose frequencies differ most.
 std::vector<StepLimits::SceneMark> marked_scenes(const std::map<std::string, double>& fastest,
                                                  const std::string& always) {
   std::vector<StepLimits::SceneMark> all;
@@ -75,12 +75,13 @@ std::string predicted_text(const LimitRow& row) {
 
 namespace {
 
-/// The results of one method over all scenes.
+/// Results of one method over all scenes.
 struct Gathered {
   StepLimits::Row row;
-  std::string without;                   // a scene without a stable step
-  std::string bound;                     // a scene with a limit
-  std::optional<double> every, refused;  // h omega up to which every step was tried, or accepted
+  std::string without;                   // scene without a stable step
+  std::string bound;                     // scene with a limit
+  std::optional<double> every, refused;  // smallest over scenes: largest h omega tried, if no step failed; h omega
+                                         // above which steps are refused
   bool any() const { return !bound.empty() || !without.empty() || every || refused; }
 
   void add(const LimitRow& limit, double omega, const std::vector<StepLimits::SceneMark>& scenes) {
@@ -167,7 +168,6 @@ Table data_of(const StepLimits& f) {
   return checked(std::move(table));
 }
 
-/// The end of the axis.
 double top_of(const StepLimits& f) {
   double top = 0;
   for (const StepLimits::Row& row : f.rows)
@@ -183,7 +183,7 @@ Drawing drawing_of(const StepLimits& f) {
   Drawing drawing{f.name, data_of(f), ""};
   const double top = top_of(f);
   const bool columns = f.size.units() > 560;
-  const double shift = columns ? 1 : 0;  // a line for the heads of the columns
+  const double shift = columns ? 1 : 0;  // for the heads of the columns
   const auto lines = static_cast<double>(f.rows.size()) + shift;
   constexpr int points[] = {7, 5, 13, 9};
   std::vector<KeyEntry> key{{"theory", KeyEntry::Kind::line, {"#111111", "1", -1}}};

@@ -1,4 +1,4 @@
-// Largest stable steps in units of the fastest vibration: one row per method, in which all scenes coincide.
+// Largest stable steps in units of the fastest vibration: one row per method, where the limits of all scenes coincide.
 #pragma once
 
 #include <optional>
@@ -11,7 +11,7 @@
 namespace crosscheck {
 
 struct StepLimits : FigureInfo {
-  /// The limit on one scene, as h omega.
+  /// As h omega.
   struct Mark {
     size_t scene;  // index in `scenes`
     double measured;
@@ -19,28 +19,28 @@ struct StepLimits : FigureInfo {
     std::string words;
   };
   struct Row {
-    double held = 0;    // h omega up to which runs hold
+    double held = 0;    // h omega of the longest stable step
     bool open = false;  // no step failed
-    std::string words;  // text next to the bar
+    std::string words;  // next to the bar
     std::vector<Mark> marks;
-    std::string measured, predicted;  // ms, on the scene of the columns
+    std::string measured, predicted;  // ms, on the scene `columns_of`
   };
   struct SceneMark {
     std::string name;
     double omega;  // rad/s
   };
-  std::vector<std::string> names;  // methods, from the top
-  std::vector<Row> rows;           // one per name
+  std::vector<std::string> names;  // from the top
+  std::vector<Row> rows;
   std::vector<SceneMark> scenes;
-  std::string columns_of;  // scene of the columns
+  std::string columns_of;
 };
 
-/// Reads the rows of table `stability` about states of rest. Methods that hold at every step come first, then from long
-/// to short limits. Methods, scenes and columns are empty if no limit is known as h omega. The columns are for `scene`,
-/// if it was searched.
+/// Reads the rows of table `stability` about states of rest. Methods that are stable at every step come first, then
+/// long limits before short ones. Empty if no limit is known as h omega. The columns are for `scene`, if it was
+/// searched.
 StepLimits step_limits_of(const std::vector<LimitRow>& table, const std::string& scene);
 
-/// Measured and predicted limits in ms, or a word.
+/// In ms, or a word.
 std::string measured_text(const LimitRow& row);
 std::string predicted_text(const LimitRow& row);
 

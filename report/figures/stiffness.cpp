@@ -1,5 +1,5 @@
-// Stiffness of position-based links: formula and measurement, for one link and for a chain; and the effective stiffness
-// of hanging nets over step and iterations.
+// Stiffness of position-based links, by formula and as measured, for one link and for a chain; effective stiffness of
+// hanging nets by step and iterations.
 
 #include <fmt/format.h>
 
@@ -21,7 +21,6 @@ const MethodStyle by_iterations[] = {
 
 std::string iterations_text(long n) { return counted(static_cast<size_t>(n), "iteration"); }
 
-/// The values of a column, ascending.
 template <class Row, class T>
 std::set<T> values_of(const std::vector<Row>& rows, T Row::*member) {
   const std::vector<T> all = distinct(rows, member);
@@ -34,7 +33,7 @@ Chart single_links(const std::vector<LinkStiffnessRow>& rows, const std::string&
   double worst = 0;
   for (const long n : values_of(rows, &LinkStiffnessRow::iterations)) {
     MethodStyle plain = by_iterations[style];
-    plain.marker = -1;  // markers are measurements
+    plain.marker = -1;  // markers are for measurements
     Curve formula{iterations_text(n) + ", formula", plain, {}},
         measured{iterations_text(n) + ", measured", by_iterations[style], {}, false, true};
     double low = 1, high = 0;
@@ -83,30 +82,29 @@ Chart networks(const std::vector<NetworkStiffnessRow>& rows, const std::string& 
   return described("stiffness-network", std::move(f), "commit"_a = commit);
 }
 
-/// A measure of the effective stiffness: its figure, and the net that shows it.
 struct EffectiveMeasure {
   const char *name, *net;
   OptionalNumber EffectiveStiffnessRow::*value;
 };
-// the period is measured on a chain only: a cloth this small oscillates so fast that implicit rules stop it before its
+// the period is measured on a chain only: cloths this small oscillate so fast that implicit rules damp them before the
 // second turning point
 constexpr EffectiveMeasure effective_measures[] = {
     {"stiffness-effective", "cloth", &EffectiveStiffnessRow::by_sag},
     {"stiffness-effective-period", "chain", &EffectiveStiffnessRow::by_period}};
 
-/// "4 iterations of pbd": a title that begins with a method's name would be shortened to it at a curve's end.
+/// "4 iterations of pbd": a title that begins with a method would be shortened to its name.
 std::string curve_title(const EffectiveStiffnessRow& row) {
   return fmt::format("{} of {}", passes_text(row.method, row.iterations), row.method.substr(row.method.find('/') + 1));
 }
 
-/// Methods without a choice of iterations are in the table only. Empty if the net was not measured.
+/// Methods without iterations are only in the table. Empty if the net was not measured.
 std::optional<Chart> effective_stiffness(const std::vector<EffectiveStiffnessRow>& rows,
                                          const EffectiveMeasure& measure, const std::string& commit) {
   Figure f;
   static constexpr const char *dashes[] = {"1", "(8,4)", "(2,2)", "(10,3,2,3)"},
                               *greys[] = {"#111111", "#555555", "#8A8A8A", "#333333"},
                               *browns[] = {"#7A3B00", "#D66A08", "#E8A33D", "#9A4200"};
-  std::map<std::string, size_t> by_method;  // number of curves so far
+  std::map<std::string, size_t> by_method;
   const EffectiveStiffnessRow* softest = nullptr;
   for (const EffectiveStiffnessRow& row : rows) {
     const Method* method = builtin_method(row.method);
@@ -114,7 +112,7 @@ std::optional<Chart> effective_stiffness(const std::vector<EffectiveStiffnessRow
     const std::string title = curve_title(row);
     auto curve = std::ranges::find(f.curves, title, &Curve::title);
     if (curve == f.curves.end()) {
-      // shades of the engine's colour: curves of one colour would share one name
+      // in shades of the engine's colour, because curves of one colour share a name
       const bool ours = method->family().is_subject();
       const size_t place = std::min<size_t>(by_method[row.method]++, 3);
       const MethodStyle style{(ours ? greys : browns)[place], dashes[place],
@@ -131,7 +129,7 @@ std::optional<Chart> effective_stiffness(const std::vector<EffectiveStiffnessRow
                    "stiffness"_a = softest->stiffness, "commit"_a = commit);
 }
 
-/// Young's modulus over the angle of the pull: lines from the formula, marks from energies of strained nets.
+/// Young's modulus over the angle of the pull: by formula (lines), and from energies of strained nets (marks).
 Chart pulled_sheets(const std::vector<PulledSheetRow>& rows, const std::string& commit) {
   Figure f;
   f.y.low = 0;
@@ -140,7 +138,7 @@ Chart pulled_sheets(const std::vector<PulledSheetRow>& rows, const std::string& 
   for (const PulledSheetRow& row : rows) {
     if (f.curves.empty() || f.curves.back().title != row.net + ", measured") {
       MethodStyle plain = by_iterations[style];
-      plain.marker = -1;  // marks are measurements
+      plain.marker = -1;  // markers are for measurements
       f.curves.push_back({row.net, plain, {}});
       f.curves.push_back({row.net + ", measured", by_iterations[style], {}, false, true});
       style = std::min(style + 1, std::size(by_iterations) - 1);
