@@ -1,5 +1,3 @@
-// Findings on the smallest adequate models.
-
 #include <algorithm>
 #include <cmath>
 
@@ -11,7 +9,7 @@
 namespace crosscheck {
 namespace {
 
-/// A scene's least model at one tolerance; nothing if other initial states may need less.
+/// A scene's smallest adequate model at one tolerance; nothing if other initial states might do with a smaller one.
 std::optional<Finding> finding_of(const LeastModelRow& least, const std::string& until) {
   if (least.left_out.empty() && !least.holds) return std::nullopt;
   const auto unseen = {least.unseen_error_1, least.unseen_error_2, least.unseen_error_3};
@@ -34,7 +32,7 @@ std::string text_of(ToleranceKind tolerance) {
 
 }  // namespace
 
-/// One finding for each distinct set of least models of a scene, with the tolerances at which it holds.
+/// One finding for each distinct set of smallest models of a scene, with the tolerances that yield it.
 Findings adequacy_findings(const Facts& facts) {
   Findings out;
   std::vector<std::string> scenes, whole;
@@ -67,14 +65,13 @@ Findings adequacy_findings(const Facts& facts) {
   return out;
 }
 
-/// The power by which bend springs must stiffen; theory gives 4 for many cells. It is fitted as if there were as many
-/// bend springs as cells. A line has half a spring fewer, because none crosses the free end; fitted against the number
-/// of springs, the power is closer to 4.
+/// Power of the number of cells by which bend springs must stiffen; theory gives 4 for many cells. The fit uses cells,
+/// although a line has half a bend spring fewer (none crosses the free end); a fit of the number of springs is closer
+/// to 4.
 Findings bend_findings(const Facts& facts) {
   const auto of_cells = power_of(facts.rows, "", ScalingQuantity::bend_stiffness_for_droop);
   if (!of_cells) return {};
-  std::vector<std::pair<double, double>> points;  // against the number of bend springs along a line instead of its
-                                                  // cells
+  std::vector<std::pair<double, double>> points;  // against the bend springs along a line
   for (const BendingRow& row : rows_of<BendingRow>(facts.rows))
     points.emplace_back(double(row.particles) - 2, row.stiffness);
   const auto of_springs = power_law(points);

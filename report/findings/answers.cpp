@@ -44,7 +44,7 @@ std::string answers_of_chapter(std::string_view chapter, const Findings& finding
 
 namespace {
 
-/// The largest difference so far, and its scene.
+/// Largest value so far, and its scene.
 struct Largest {
   double value = -1;
   std::string where;
@@ -54,7 +54,7 @@ struct Largest {
   bool any() const { return value >= 0; }
 };
 
-/// The method of another engine that differs least from mysim's representative, or null.
+/// The method of another engine with the smallest difference from mysim's representative, or null.
 const MethodData* nearest_other(const SceneData& scene) {
   const MethodData* best = nullptr;
   for (const MethodData& m : scene.methods)
@@ -63,11 +63,11 @@ const MethodData* nearest_other(const SceneData& scene) {
   return best;
 }
 
-/// If no other engine has mysim's rule: the difference of the nearest method.
+/// Difference of the nearest method; used if no other engine has mysim's rule.
 Findings difference_answer(std::span<const SceneData> data) {
   Largest apart, growth;
   std::string method;
-  bool round_off = true;  // no difference exceeds it anywhere
+  bool round_off = true;  // no difference exceeds round-off
   for (const SceneData& scene : data) {
     const MethodData* other = nearest_other(scene);
     if (!other) continue;
@@ -88,12 +88,12 @@ Findings difference_answer(std::span<const SceneData> data) {
   return {};
 }
 
-/// Another engine's method compared with mysim's representative at the same step, over the scenes without contact and
-/// without other laws.
+/// Compares another engine's method with mysim's representative at the same step, on scenes without contact and without
+/// other laws.
 struct EngineApart {
   std::string method;
   Largest apart = {};
-  bool same = true, another = false;  // rule: the same on all of them; different on one
+  bool same = true, another = false;  // same: the same rule on all scenes; another: a different rule on a scene
 };
 
 std::vector<EngineApart> engines_apart(std::span<const SceneData> data) {
@@ -111,7 +111,7 @@ std::vector<EngineApart> engines_apart(std::span<const SceneData> data) {
   return engines;
 }
 
-/// The user's programs that crashed or timed out on all their scenes.
+/// Programs that crashed or timed out on all their scenes.
 std::vector<std::string> silent_programs(std::span<const SceneData> data) {
   std::set<std::string> silent, heard;
   for (const SceneData& scene : data)
@@ -160,7 +160,7 @@ Findings agreement_answer(const Facts& facts) {
              .value = in_contact.value,
              .words = {{"where", in_contact.where}}}};
   if (same == 0) return difference_answer(facts.data);
-  // peers last; the list of user programs that do not agree, or may not, leaves no room for contact
+  // peers last
   std::ranges::stable_partition(agreeing,
                                 [](const std::string& name) { return family_of(name).role == Role::outside; });
   std::vector<std::string> names{std::string(subject().name)}, others;
@@ -186,7 +186,7 @@ Findings method_answer(const Facts& facts) {
   const auto run = scene ? recommended_run(scene->name, recommended_part, facts.rows) : std::nullopt;
   if (!run) return {};
   const double to_percent = 100 / run->motion;
-  // the ratio is relative to mysim's run; those of the other engines are in the chapter
+  // compare only with mysim's run; the chapter compares other engines
   const bool compared = family_of(run->method).is_subject() && !run->beside.empty();
   const auto next = std::ranges::min_element(run->beside, {}, &EngineBeside::times);
   return {{.rule = "answer-method",
@@ -205,7 +205,7 @@ Findings method_answer(const Facts& facts) {
 
 namespace {
 
-/// Without an experiment on stability: counts of the runs at the scenes' own steps.
+/// Counts failures at the scenes' own steps; used if experiment `stability` did not run.
 Findings failed_runs_answer(std::span<const SceneData> data) {
   size_t failed = 0, all = 0;
   std::vector<std::string> names;
@@ -222,8 +222,8 @@ Findings failed_runs_answer(std::span<const SceneData> data) {
            .words = {{"runs", std::to_string(all)}, {"which", listed(names)}}}};
 }
 
-/// The limit of the main scene in a state, and the agreement of all limits in that state with theory. Theory sees only
-/// the initial state of a scene without rest, so there the truth must have confirmed the limit.
+/// The limit of the main scene in a state, and how all limits in that state agree with theory. Without a state of rest,
+/// theory sees only the initial state, so the truth must have confirmed the limit.
 Findings limit_answer(const Scene& scene, const TableSet& rows, LimitState state) {
   const auto run = recommended_run(scene.name, recommended_part, rows);
   std::optional<LimitRow> shown;
@@ -256,7 +256,7 @@ Findings failure_answer(const Facts& facts) {
   return failed_runs_answer(facts.data);
 }
 
-/// Particles on slopes and the last scene with contact; nothing if no scene has a ball or a plane.
+/// Results on slopes and on the last scene with contact; nothing without balls and planes.
 Findings ball_answer(const Facts& facts) {
   std::vector<ConeCount> counts = cone_counts(rows_of<ConeRow>(facts.rows));
   const std::vector<ConeCount> planes = cone_counts(plane_cones(facts.rows));
@@ -285,7 +285,7 @@ Findings ball_answer(const Facts& facts) {
              .value = *other->difference,
              .words = {{"where", scene->scene}, {"until", step_text(scene->window)}, {"final", final}}}};
   }
-  // at most two others, those with the most errors
+  // two others, those with the most errors
   const ConeCount first = counts[0];
   counts.erase(counts.begin());
   if (counts.size() > 2) std::ranges::stable_sort(counts, {}, &ConeCount::right);
@@ -312,7 +312,7 @@ Findings ball_answer(const Facts& facts) {
                      {"final", same_rule ? final : ""}}}};
 }
 
-/// The symplectic rule of mysim that keeps the balance best, compared with implicit Euler on the same scene.
+/// Compares mysim's symplectic rule that keeps the balance best with implicit Euler on the same scene.
 Findings energy_answer(const Facts& facts) {
   std::optional<Finding> best;
   const std::vector<EnergyRow> table = rows_of<EnergyRow>(facts.rows);

@@ -8,18 +8,18 @@
 
 namespace crosscheck {
 
-/// A question of the first screen and the chapter that shows its answer; a new question is a row in answers.cpp.
+/// To add a question to the first screen, add a row in answers.cpp.
 struct Question {
-  std::string_view text;                // as displayed
-  std::string_view chapter;             // id of the chapter, which shows the answer, too
-  std::string_view link;                // text of the link to that chapter
-  std::vector<std::string_view> rules;  // keys of its possible answers
+  std::string_view text;
+  std::string_view chapter;             // id of the chapter that shows the answer, too
+  std::string_view link;                // text of the link to the chapter
+  std::vector<std::string_view> rules;  // keys of the possible answers
 };
 const std::vector<Question>& questions();
 
-/// The finding that answers the question, or null if the tables do not answer it.
+/// Null if the tables do not answer the question.
 const Finding* answer_to(const Question& question, const Findings& findings);
-/// The answers to the questions of a chapter, joined.
+/// Joined answers to the questions of a chapter.
 std::string answers_of_chapter(std::string_view chapter, const Findings& findings);
 
 }  // namespace crosscheck

@@ -1,4 +1,4 @@
-// Findings of experiment `contact`, and on the motion after contact.
+// Findings of experiment `contact`, and on positions after contact.
 
 #include <algorithm>
 #include <cmath>
@@ -28,7 +28,7 @@ Findings cone_findings(const Facts& facts) {
   return out;
 }
 
-/// Errors of mysim's representative on planes at the usual step, and the resting behaviour of a particle.
+/// Errors of mysim's representative on planes at the usual step, and how well a particle rests.
 Findings plane_findings(const Facts& facts) {
   const auto rows = rows_of<PlaneProbeRow>(facts.rows);
   if (rows.empty()) return {};
@@ -44,7 +44,7 @@ Findings plane_findings(const Facts& facts) {
     const double off = std::abs(*row.measured - row.by_theory);
     if (row.probe == PlaneProbe::apex && row.method == ours) errs.value = 100 * off / row.by_theory;
     if (row.probe == PlaneProbe::period && row.method == ours) period = percent(off, row.by_theory);
-    // J: round-off of a run
+    // J: omit round-off
     if (row.probe == PlaneProbe::loss && off > 1e-12) rests.value = std::max(rests.value, 100 * off);
     if (row.probe == PlaneProbe::held && *row.measured < least) least = *row.measured, moving = row.method;
   }
@@ -56,9 +56,9 @@ Findings plane_findings(const Facts& facts) {
   return out;
 }
 
-/// Positions after the window. Each other engine's final difference is compared with those of mysim's own rules, which
-/// share its contact rule and show how far positions are predictable. These rules have an order above one and are
-/// stable without damping (Heun is excluded because it adds energy).
+/// Positions after the window. Compares each other engine's final difference with those between mysim's own rules,
+/// which share a contact rule and show how far positions are predictable. These rules have an order above one and are
+/// stable without damping (Heun adds energy).
 Findings contact_findings(const Facts& facts) {
   std::vector<std::string> scenes;
   for (const EngineRow& run : rows_of<EngineRow>(facts.rows)) add_once(scenes, run.scene);
@@ -70,7 +70,7 @@ Findings contact_findings(const Facts& facts) {
     for (const MethodData& run : data.methods) duration = std::max(duration, run.end);
     const Table* over_time = facts.rows.table(scene + "-engines");
     if (!over_time || !data.touched() || !(data.window < duration * (1 - 1e-9))) continue;
-    std::map<std::string, double> apart;  // m, at the end, by method
+    std::map<std::string, double> apart;  // m, at the end
     for (const EngineTimeRow& row : rows_of<EngineTimeRow>(*over_time))
       if (row.difference) apart[row.method] = *row.difference;
     double least = INFINITY, most = 0;
@@ -97,7 +97,7 @@ Findings contact_findings(const Facts& facts) {
 }
 
 Findings leaving_findings(const Facts& facts) {
-  std::map<std::string, std::map<double, double>> offs;  // by method and step: degrees
+  std::map<std::string, std::map<double, double>> offs;  // degrees, by method and step
   std::vector<std::string> methods;
   double finest = INFINITY;
   for (const LeavingRow& row : rows_of<LeavingRow>(facts.rows)) {
@@ -114,7 +114,7 @@ Findings leaving_findings(const Facts& facts) {
     f.words = {{"step", step_text(step)},
                {"longest", step_text(offs[method].rbegin()->first)},
                {"off", fmt::format("{:.2g} degrees", offs[method].rbegin()->second)}};
-    // keep mysim's worst only
+    // for mysim, keep the worst method
     const auto same = std::ranges::find_if(
         out, [&](const Finding& g) { return family_of(method).is_subject() && family_of(g.method).is_subject(); });
     if (same == out.end())

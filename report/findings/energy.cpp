@@ -1,5 +1,3 @@
-// Findings of experiment `energy`.
-
 #include <fmt/ranges.h>
 
 #include <algorithm>
@@ -15,13 +13,12 @@
 namespace crosscheck {
 namespace {
 
-/// The largest residual as a fraction of the energy exchanged; nothing at rest, or if it was not measured.
+/// Largest residual / energy exchanged; nothing at rest, or if not measured.
 std::optional<double> share_of(const EnergyRow& row) {
   if (!(row.turned_over.value_or(0) > 0)) return std::nullopt;
   return row.largest_residual.value_or(0) / *row.turned_over;
 }
 
-/// Symplectic rules on the undamped scenes.
 void symplectic(const std::vector<EnergyRow>& table, Findings& out) {
   double worst = -1;
   long fewest = 0, most = 0;
@@ -53,8 +50,8 @@ void symplectic(const std::vector<EnergyRow>& table, Findings& out) {
   out.insert(out.end(), exceptions.begin(), exceptions.end());
 }
 
-/// Rules that are not symplectic, on the first undamped scene: position-based rules, rules without a stable step,
-/// implicit rules, and user programs.
+/// Drift on the first undamped scene for rules that are not symplectic: position-based, never stable and implicit ones,
+/// and user programs.
 void drift(const std::vector<EnergyRow>& table, Findings& out) {
   std::vector<std::string> shown{subject_method(never_stable_undamped), subject_method(is_implicit)};
   for (const MethodFamily* peer : default_peers()) shown.push_back(position_based(*peer));
@@ -73,15 +70,15 @@ void drift(const std::vector<EnergyRow>& table, Findings& out) {
   }
 }
 
-/// "+1.8 %", or "0 ± 0.45 %" if the difference is within the error bar.
+/// "+1.8 %", or "0 ± 0.45 %" within the error bar.
 std::string off_text(double taken, double in_truth, double bar) {
   const double off = std::abs(taken) - std::abs(in_truth);
   if (std::abs(off) <= bar) return "0 ± " + percent(bar, std::abs(in_truth));
   return (off > 0 ? "+" : "−") + percent(std::abs(off), std::abs(in_truth));
 }
 
-/// Energy taken by contact on scenes whose truth has it, for the representative methods of the engines and the method
-/// of mysim with the largest deviation.
+/// Energy taken by contact, compared with the truth's: representative methods of the engines, and mysim's method with
+/// the largest deviation.
 void taken_by_contact(const TableSet& rows, Findings& out) {
   const std::vector<EngineEnergyRow> table = rows_of<EngineEnergyRow>(rows);
   std::vector<std::string> scenes;
@@ -94,14 +91,13 @@ void taken_by_contact(const TableSet& rows, Findings& out) {
       if (row.scene != scene || !row.contact || row.verdict != Verdict::ok || row.method == sticky_sphere) continue;
       const auto off = [](const EngineEnergyRow* of) { return std::abs(*of->contact - *of->contact_in_truth); };
       if (row.method == ours) first = &row;
-      // unreported contact energy is inferred from the balance; for rules with numerical damping that is more than
-      // contact
+      // contact energy inferred from the balance includes numerical damping
       if (may_move_alike(row.method)) others.push_back(&row);
       if (!row.contact_inferred && row.method != ours && family_of(row.method).is_subject() &&
           (!furthest || off(&row) > off(furthest)))
         furthest = &row;
     }
-    // above a tenth, the truth does not resolve shares of it
+    // the truth must resolve a tenth of its contact energy
     if (!first || *first->contact_bar > 0.1 * std::abs(*first->contact_in_truth)) continue;
     if (furthest) others.insert(others.begin(), furthest);
     const double in_truth = *first->contact_in_truth, bar = *first->contact_bar;
@@ -110,7 +106,7 @@ void taken_by_contact(const TableSet& rows, Findings& out) {
       words.push_back(fmt::format("{} {}", name_in_sentence(row->method), off_text(*row->contact, in_truth, bar)));
     const auto share = [&](double off) { return 100 * off / std::abs(in_truth); };
     const double off = *first->contact - in_truth;
-    // as many digits as the bar allows
+    // as many digits as the error bar allows
     const int digits = std::clamp(static_cast<int>(std::ceil(-std::log10(bar))), 0, 9);
     out.push_back({.rule = "contact-energy",
                    .scene = scene,
@@ -126,7 +122,7 @@ void taken_by_contact(const TableSet& rows, Findings& out) {
   }
 }
 
-/// Numerical damping compared with the closed form.
+/// Compares numerical damping with its closed form.
 void damping(const std::vector<DampingRow>& table, Findings& out) {
   Findings all;
   for (const DampingRow& row : table) {
@@ -144,7 +140,7 @@ void damping(const std::vector<DampingRow>& table, Findings& out) {
   out.insert(out.end(), all.begin(), all.end());
 }
 
-/// Damping that other engines add to an undamped spring, and energy gained where springs are applied as forces.
+/// Damping that other engines add to an undamped spring, and energy gained where springs are forces.
 void damping_of_engines(std::vector<MatrixRow<false>> table, Findings& out) {
   std::erase_if(
       table, [](const MatrixRow<false>& row) { return family_of(row.method).is_subject() || !row.value || !row.bar; });

@@ -1,4 +1,3 @@
-// Determines the rows that each finding rests on.
 #include "report/findings/evidence.h"
 
 #include <fmt/format.h>

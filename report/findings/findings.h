@@ -1,4 +1,4 @@
-// Findings: numbers from the tables, each with the rule that it follows from and a sentence for the reader.
+// Findings: numbers from the tables, each with its rule and a sentence.
 #pragma once
 
 #include <map>
@@ -13,8 +13,7 @@
 
 namespace crosscheck {
 
-/// Input of findings: all tables and, for a report, its scenes. `scene` and `of` are set for findings about a single
-/// scene.
+/// All tables and, in a report, its scenes. `scene` and `of` are set for findings about a single scene.
 struct Facts {
   const TableSet& rows;
   std::span<const Scene> scenes = {};
@@ -26,60 +25,59 @@ struct Facts {
 };
 
 struct Finding {
-  std::string rule;                // key of its text: a rule's key, or "rule.variant"
+  std::string rule;                // a rule's key, or "rule.variant"
   std::string scene = {};          // empty: the whole report
-  std::string method = {};         // or engine that the finding is about
-  std::string other = {};          // the method or engine compared with it
+  std::string method = {};         // method or engine that the finding is about
+  std::string other = {};          // method or engine compared with `method`
   double value = 0;                // in the unit of the rule
   std::optional<double> low = {};  // interval: an error bar, the resolution of a search, or the range over scenes
   std::optional<double> high = {};
-  std::string tier = {};                          // if the rule has none
-  std::map<std::string, std::string> words = {};  // further names, numbers and lists in its text
+  std::string tier = {};
+  std::map<std::string, std::string> words = {};  // further words of its text
 };
 
 using Findings = std::vector<Finding>;
 
-/// A kind of finding. The table is in rules.cpp; a new kind is a row there and a text in texts/.
+/// To add a kind of finding, add a row in rules.cpp and a text in texts/.
 struct FindingRule {
   std::string_view key;
-  Findings (*find)(const Facts&);  // several rows may share a function, which is called once
+  Findings (*find)(const Facts&);  // called once, even if several rows share it
   std::string_view topic;     // answer, agreement, accuracy, failure, cost, contact, order, energy, adequacy, choice
-  std::string_view chapter;   // id of the chapter that shows it; empty: the part of its scene
-  std::string_view quantity;  // name of the value
+  std::string_view chapter;   // id; empty: the part of its scene
+  std::string_view quantity;  // name of `value`
   std::string_view unit;      // of value, low and high: "m", "s", "%", "1", "m/s", "1/s" or "degrees"
   std::string_view tier;      // tier of its truth; empty: each finding has its own
-  std::string_view words;     // names that its findings may define, separated by blanks
-  std::vector<std::string_view> tables;  // tables that it rests on
-  std::string_view figure = {};          // figure that shows it: "{}" its scene, "*" any; empty: a table
+  std::string_view words;     // words that its findings may define, separated by blanks
+  std::vector<std::string_view> tables;
+  std::string_view figure = {};  // figure that shows it: "{}" stands for its scene, "*" for any; empty: a table
 };
 
 const std::vector<FindingRule>& finding_rules();
-/// The rule of a key, with or without a variant. Throws std::logic_error with the key if there is no such rule.
+/// Accepts a key with or without a variant. Throws std::logic_error with the key if it is unknown.
 const FindingRule& finding_rule(std::string_view key);
 
-/// Findings of the rules with a chapter (`of_scene`: without one), in the order of the table.
+/// Findings of the rules with a chapter (`of_scene`: without one), in the rules' order.
 Findings found_by_rules(const Facts& facts, bool of_scene);
 
 // Texts, from texts/*.md: "## KEY", a sentence, and "Formula: " with the formula of the value in terms of table
-// columns. In a sentence, {value}, {low} and {high} are written in the rule's unit, {range} is low to high, and
-// {value±} is an exponent with its standard error. {scene}, {method} and {other} are names; all others are words of the
-// finding. A part in square brackets is omitted if one of its words is empty.
+// columns. {value}, {low} and {high} are written in the rule's unit, {range} is low to high, and {value±} an exponent
+// with its standard error. {scene}, {method} and {other} are names; others are words of the finding. Square brackets
+// enclose text that is omitted if one of its words is empty.
 
 struct FindingText {
   std::string sentence, formula;
 };
-/// All texts by key. Throws std::runtime_error with file and line if a text is malformed.
+/// By key. Throws std::runtime_error with file and line if a text is malformed.
 const std::map<std::string, FindingText>& finding_texts();
 
-/// Fills in the text. Throws std::logic_error if the text uses a word that the finding does not have.
+/// Throws std::logic_error if the text uses a word that the finding does not have.
 std::string sentence_of(const Finding& finding);
-/// The sentences of all findings, joined.
 std::string sentences_of(const Findings& findings);
 std::string tier_of(const Finding& finding);
-/// All fields except the rows, as in report.json.
+/// As in report.json, except the rows.
 Json json_of(const Finding& finding);
 
-// Functions of the rules, grouped by file.
+// Functions of the rules.
 
 // answers.cpp: at most one finding each
 Findings agreement_answer(const Facts&);

@@ -1,4 +1,3 @@
-// Formats names, numbers and lists for findings.
 #pragma once
 
 #include <fmt/format.h>
@@ -11,32 +10,31 @@
 
 namespace crosscheck {
 
-// the representative methods of the subject and of its first peer
+// representatives of the subject and of its first peer
 inline const std::string ours(subject().representative), sticky_sphere = sticky_method(),
                                                          theirs(default_peers().front()->representative);
 
-/// The name of a peer's position-based method, or an empty string.
+/// The peer's position-based method, or "".
 std::string position_based(const MethodFamily& peer = *default_peers().front());
 
-/// The representative methods of all engines, and the peers' position-based ones, which are different.
+/// Representative methods of all engines, and position-based methods of the peers.
 std::vector<std::string> representatives();
-/// `representatives()` and the sticky sphere, for scenes with contact.
+/// Adds the sticky sphere, for scenes with contact.
 std::vector<std::string> representatives_in_contact();
 
-/// True if findings that list a few methods may name this one: it represents its engine, or is a user's program.
+/// True if findings that name only a few methods may name this one: it represents its engine, or is a user's program.
 bool stands_for_its_engine(const std::string& method);
-/// True if the method belongs to an engine other than mysim, and is not a truth.
+/// False for truths.
 bool is_another_engine(const std::string& method);
-/// `is_another_engine` without external integrators that use our right-hand side.
+/// Excludes external integrators of our right-hand side.
 bool is_rival(const std::string& method);
-/// True if the method represents another engine and is not position-based, so that its motion may be the same.
+/// True for another engine's representative that is not position-based, so that it may move like mysim.
 bool may_move_alike(const std::string& method);
 inline bool is_implicit(const Stepper& s) { return s.evaluations == 0; }
 inline bool never_stable_undamped(const Stepper& s) { return s.order == 1 && s.limit(1, 0) == 0; }
 inline bool is_symplectic_of_second_order(const Stepper& s) { return s.symplectic && s.order == 2 && !is_implicit(s); }
 
-/// A method or an engine in a sentence: "leapfrog", "Bullet's pbd", "Bullet", "odeint/dopri5"; for programs the base
-/// name.
+/// "leapfrog", "Bullet's pbd", "Bullet", "odeint/dopri5"; for programs the base name.
 std::string name_in_sentence(const std::string& name);
 std::vector<std::string> names_in_sentence(const std::vector<std::string>& names);
 
@@ -51,22 +49,21 @@ inline std::string counted(size_t count, const std::string& noun) {
 inline std::string passes_text(const std::string& method, long n) {
   return counted(static_cast<size_t>(n), family_of(method).is_subject() ? "sub-step" : "iteration");
 }
-/// A factor with two digits, written plainly ("160", "2.4").
+/// Two digits without an exponent: "160", "2.4".
 std::string times_text(double factor);
 /// "a, b and c"
 std::string joined(const std::vector<std::string>& words);
-/// Like `joined`, but after the first `most` words: "2 more".
+/// Replaces words after the first `most` by "2 more".
 std::string listed(std::vector<std::string> words, size_t most = 3);
-/// "0.12 % to 66 %", or just one of them if both read the same.
+/// "0.12 % to 66 %", or one of the two if they are equal.
 inline std::string range(const std::string& low, const std::string& high) {
   return low == high ? low : low + " to " + high;
 }
 
-/// Appends the word if it is not there yet.
 void add_once(std::vector<std::string>& words, const std::string& word);
 
-/// True for a method of the same rule whose difference exceeds round-off although there is no contact, other law or
-/// chaos.
+/// True for a method of the same rule whose difference exceeds round-off without contact, another law or chaos as a
+/// reason.
 bool same_rule_differs(const SceneData& data, const MethodData& method);
 
 }  // namespace crosscheck

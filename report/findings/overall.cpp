@@ -1,4 +1,4 @@
-// Findings about all scenes that have no file of their own: failures, orders, invariants.
+// Findings across all scenes on failures, orders and invariants.
 
 #include <algorithm>
 #include <cmath>
@@ -12,7 +12,7 @@
 
 namespace crosscheck {
 
-/// Methods that failed where others held, programs that gave no answer, and scenes on which all methods failed.
+/// Methods that failed where others did not, programs without a result, and scenes on which all methods failed.
 Findings failure_findings(const Facts& facts) {
   std::map<std::string, std::vector<std::string>> failed, crashed;
   std::vector<std::string> all;
@@ -43,7 +43,7 @@ Findings order_findings(const Facts& facts) {
   for (const OrderSlopeRow& row : slopes) {
     add_once(methods, row.method), add_once(scenes, row.scene);
   }
-  // 0.1: contribution of the next order that remains in the finest three steps of a smooth scene
+  // allows for the next order's contribution to the finest three steps on a smooth scene
   const bool differs = off(worst) > 0.1;
   return {{.rule = differs ? "orders.differ" : "orders.agree",
            .method = differs ? worst.method : "",
@@ -55,7 +55,7 @@ Findings order_findings(const Facts& facts) {
                      {"declared", std::to_string(*worst.declared_order)}}}};
 }
 
-/// Invariants that hold in an engine, over all its methods; a break without a known cause is a finding.
+/// Invariants that hold in all methods of an engine. A violation without a known cause is a finding.
 Findings relation_findings(const Facts& facts) {
   struct Counts {
     size_t asked = 0, held = 0, known = 0;

@@ -24,7 +24,7 @@ const Scene* main_scene(std::span<const Scene> scenes, const TableSet& rows) {
 
 namespace {
 
-/// The cheapest run of each other engine, compared with a run that takes `cpu` seconds of CPU time.
+/// Compares the cheapest run of each other engine with a run that takes `cpu` seconds of CPU time.
 std::vector<EngineBeside> engines_beside(const std::string& scene, double part_of_motion, double cpu,
                                          const TableSet& rows) {
   std::vector<EngineBeside> all;
@@ -42,7 +42,7 @@ std::optional<RecommendedRun> recommended_run(const std::string& scene, double p
   const auto any = std::ranges::find(table, scene, &SpeedAccuracyRow::scene);
   if (any == table.end() || !any->truth_bar) return std::nullopt;
   std::vector<TriedRun> runs = tried_runs(table, scene);
-  // evaluations of external programs have another cost: they are compared by CPU time, next to the recommendation
+  // an evaluation of an external program costs something else: such programs are compared by CPU time
   const auto is_outside = [](const TriedRun& run) { return family_of(run.method).role == Role::outside; };
   if (!std::ranges::all_of(runs, is_outside)) std::erase_if(runs, is_outside);
   const auto chosen = recommend(runs, part_of_motion * any->motion - *any->truth_bar);

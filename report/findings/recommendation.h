@@ -1,4 +1,3 @@
-// The recommended run of a scene.
 #pragma once
 
 #include <optional>
@@ -12,34 +11,33 @@
 
 namespace crosscheck {
 
-/// The representative scene: the last timed cloth without contact, else the last timed scene; null if none was timed.
+/// The representative scene: the last timed cloth without contact, otherwise the last timed scene, or null.
 const Scene* main_scene(std::span<const Scene> scenes, const TableSet& rows);
 
-/// The cheapest run of another engine within the same accuracy.
+/// Cheapest run of another engine within the same accuracy.
 struct EngineBeside {
   std::string engine, method;
-  double times = 0;         // its CPU time / that of mysim's run
-  bool timed_whole = true;  // false: its time is scaled from a part of the run
+  double times = 0;         // CPU time / that of mysim's run
+  bool timed_whole = true;  // false: scaled from a part of the run
 };
 
-/// The recommended run of a scene.
 struct RecommendedRun {
   std::string method;
   SettingKind setting = SettingKind::step;
-  double requested = 0;              // s, or a tolerance
+  double requested = 0;              // step (s) or tolerance
   double error = 0, motion = 0;      // m
-  double error_bar = 0;              // m, error bar of the truth
+  double error_bar = 0;              // m
   std::string tier;                  // tier of the truth
-  long evaluations = 0;              // force evaluations, the cost that is minimised
-  double cost = 0;                   // s of CPU time
+  long evaluations = 0;              // force evaluations: the cost that is minimised
+  double cost = 0;                   // CPU time, s
   bool timed_whole = true;           // false: scaled from a part of the run
-  std::vector<std::string> tied;     // other methods of the same cost, each with a larger error
-  std::vector<EngineBeside> beside;  // if mysim has a run within the accuracy, too
-  std::string_view bound;            // why the step cannot be longer: stability, accuracy, failure or sampling
+  std::vector<std::string> tied;     // methods of the same cost with larger errors
+  std::vector<EngineBeside> beside;  // if mysim has a run within the accuracy
+  std::string_view bound;            // the reason for the limit: stability, accuracy, failure or sampling
 };
 
-/// The run that recommend() chooses within a fraction of the motion (0.01; other fractions use the steps of the ladder
-/// only). Empty if there is no such run, no truth, or no timing of it.
+/// The run that recommend() chooses within a fraction of the motion (usually 0.01; other fractions use only the
+/// ladder's steps). Empty if there is no such run, truth, or timing.
 std::optional<RecommendedRun> recommended_run(const std::string& scene, double part_of_motion, const TableSet& rows);
 
 /// "step 2 ms", or "tolerance 1.0e-6".

@@ -1,4 +1,3 @@
-// Reads the data of a scene from tables.
 #include "report/findings/report_data.h"
 
 #include <fmt/format.h>
@@ -43,7 +42,7 @@ bool is_useless(const MethodData& run, const SceneData& scene) {
 SceneData scene_data(const std::string& scene, const TableSet& result) {
   SceneData facts;
   facts.scene = scene;
-  // if no run of any scene has a row, the page gives the reason in its list of problems
+  // without any row, the page's list of problems gives the reason
   for (EngineRow& run : rows_of<EngineRow>(result)) {
     if (run.scene != scene) continue;
     facts.motion = run.motion, facts.window = run.window;
@@ -75,7 +74,6 @@ std::string nice(double value) {
   if (size >= 999.5 && size < 1e4) return fmt::format("{:.0f}", value);  // 3518, not 3.52e+03
   if (size >= 1e-3 && size < 1e4) return fmt::format("{:.3g}", value);
   std::string text = fmt::format("{:.1e}", value);
-  // 1.2e-05 -> 1.2e-5
   const size_t e = text.find('e');
   std::string exponent = text.substr(e + 2);
   exponent.erase(0, std::min(exponent.find_first_not_of('0'), exponent.size() - 1));
@@ -85,7 +83,7 @@ std::string nice(double value) {
 std::string nice_length(double metres) {
   const double size = std::abs(metres);
   if (size == 0) return "0 m";
-  // two digits, written plainly: 810, not 8.1e+02
+  // without an exponent: 810, not 8.1e+02
   auto two_digits = [](double value) {
     const double unit = std::pow(10, std::floor(std::log10(std::abs(value))) - 1);
     return fmt::format("{:g}", std::round(value / unit) * unit);

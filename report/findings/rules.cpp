@@ -1,5 +1,3 @@
-// The table of rules.
-
 #include <algorithm>
 #include <stdexcept>
 

@@ -1,4 +1,3 @@
-// Findings of one scene.
 #include "report/findings/findings.h"
 
 #include <algorithm>
@@ -9,7 +8,7 @@
 namespace crosscheck {
 namespace {
 
-/// Another engine's method compared with mysim's representative.
+/// Compares another engine's method with mysim's representative.
 Finding agreement_with(const MethodData& b, const Scene& scene, const SceneData& data) {
   Finding f{.rule = "same-rule",
             .method = ours,
@@ -37,8 +36,7 @@ void agreement(const Scene& scene, const SceneData& data, Findings& out) {
     if (b.ok() && b.difference && may_move_alike(b.method)) out.push_back(agreement_with(b, scene, data));
 }
 
-/// The cheapest of the methods that are as accurate as the best: error at most 5 % larger, or below the truth's error
-/// bar.
+/// The cheapest method whose error is below the truth's error bar or at most 5 % above the best.
 void nearest(const Scene& scene, const SceneData& data, Findings& out) {
   std::vector<MethodData> tied = data.methods;
   std::erase_if(tied, [](const MethodData& m) { return !m.judged(); });
@@ -49,7 +47,7 @@ void nearest(const Scene& scene, const SceneData& data, Findings& out) {
   const MethodData& chosen = tied[0];
   std::vector<std::string> others;
   for (size_t i = 1; i < tied.size(); ++i) others.push_back(name_in_sentence(tied[i].method));
-  // no error is stated below the error bar of the truth
+  // errors below the truth's error bar are unknown
   const double error = std::max(*chosen.error, data.error_bar);
   out.push_back({.rule = "nearest",
                  .method = chosen.method,
@@ -83,7 +81,8 @@ void failures(const SceneData& data, Findings& out) {
            {"limit", first->step_limit && *first->step_limit < first->step ? step_text(*first->step_limit) : ""}}});
 }
 
-/// Differences from the converged in-house contact rule; they are not errors, because other rules have other limits.
+/// Differences from the converged in-house contact rule. They are not errors, because other contact rules have other
+/// limits.
 void converged_contact(const SceneData& data, Findings& out) {
   if (!data.contact_until) return;
   const std::string of_second_order = subject_method(is_symplectic_of_second_order);

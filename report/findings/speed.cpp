@@ -1,5 +1,3 @@
-// Findings on speed against accuracy and on the cost of a step.
-
 #include <algorithm>
 #include <map>
 
@@ -17,7 +15,7 @@ bool is_asked(const Row& row) {
   return std::abs(row.part_of_motion / 0.01 - 1) < 1e-9 && row.measure == Measure::error;
 }
 
-/// Minimum and maximum of a ratio, and the location of the maximum.
+/// Range of a ratio, and where it is largest.
 struct Span {
   double low = 0, high = 0;
   std::string where;
@@ -35,7 +33,7 @@ Finding finding_of(const std::string& rule, const Span& span) {
 
 }  // namespace
 
-/// CPU time of the other engines for the same accuracy, and engines without a run within that accuracy.
+/// CPU time of other engines for the same accuracy, and engines that do not reach it.
 Findings speed_findings(const Facts& facts) {
   const TableSet& rows = facts.rows;
   std::map<std::string, Span> times;
@@ -45,11 +43,11 @@ Findings speed_findings(const Facts& facts) {
     within[row.engine].push_back(row.scene);
     if (row.times_mysim) times[row.engine].take(*row.times_mysim, row.scene);
   }
-  // a program that does not report its time may still be within the accuracy
+  // programs may reach the accuracy without reporting times
   for (const SpeedAccuracyRow& run : rows_of<SpeedAccuracyRow>(rows))
     if (run.verdict == Verdict::ok && run.error && *run.error <= 0.01 * run.motion)
       within[engine_of(run.method)].push_back(run.scene);
-  std::vector<std::string> asked;  // scenes on which some method is compared
+  std::vector<std::string> asked;  // scenes with a comparison
   for (const auto& row : rows_of<CheapestRow<Cost::cpu>>(rows))
     if (is_asked(row) && !row.method.value_or("").empty()) asked.push_back(row.scene);
   for (const SpeedAccuracyRow& run : rows_of<SpeedAccuracyRow>(rows)) {
@@ -76,8 +74,8 @@ Findings speed_findings(const Facts& facts) {
   return out;
 }
 
-/// One rule in both engines, over the sizes: by kernels for any spring graph in both, and by mysim's fused step on
-/// regular cloths.
+/// Times of the same rule in both engines by size: kernels for any spring graph, and mysim's fused step for regular
+/// cloths.
 Findings cost_findings(const Facts& facts) {
   std::map<long, std::map<std::string, double>> per_side;  // s per step
   for (const SizeCostRow& row : rows_of<SizeCostRow>(facts.rows)) per_side[row.side][row.method] = row.cpu;

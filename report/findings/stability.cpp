@@ -1,5 +1,3 @@
-// Findings of the search for the largest stable steps.
-
 #include <algorithm>
 #include <cmath>
 #include <map>
@@ -36,8 +34,8 @@ Findings limit_findings(const Facts& facts) {
 
 namespace {
 
-/// Limits of scenes without rest, compared with the truth on both sides. If the truth does not confirm all, names an
-/// exception: the worst run that was called stable, or the best run that was called failed.
+/// Compares limits of scenes without rest with the truth on both sides. If the truth does not confirm all, names the
+/// worst run that was called stable, or the best run that was called failed.
 void limits_by_truth(const TableSet& rows, Findings& out) {
   std::map<std::string, std::vector<LimitRow>> by_scene;
   for (LimitRow& row : rows_of<LimitRow>(rows))
@@ -63,7 +61,7 @@ void limits_by_truth(const TableSet& rows, Findings& out) {
   }
 }
 
-/// Methods that fail at every step, as predicted.
+/// Methods that fail at every step, as predicted by theory.
 void without_stable_step(const TableSet& rows, Findings& out) {
   std::map<std::string, std::vector<std::string>> scenes_of;  // by method
   for (const LimitRow& row : rows_of<LimitRow>(rows))
@@ -77,11 +75,10 @@ void without_stable_step(const TableSet& rows, Findings& out) {
                    .words = {{"where", listed(scenes)}}});
 }
 
-/// Growth rates of vibrations.
 void growth(const TableSet& rows, Findings& out) {
   Finding f{.rule = "growth", .value = -1};
   for (const GrowthRow& row : rows_of<GrowthRow>(rows))
-    // growth near a limit is reported elsewhere
+    // omit growth near a limit
     if (const double off = 100 * std::abs(row.deviation); !row.share_of_limit && off > f.value)
       f.value = off, f.method = row.method, f.words = {{"where", row.scene}};
   if (f.value >= 0) out.push_back(f);

@@ -15,10 +15,10 @@ std::string residual_class(const EnergyRow& run) {
   const double worst = run.largest_residual.value_or(0), turned = run.turned_over.value_or(0);
   const bool lost = run.residual.value_or(0) < 0;
   if (run.verdict != Verdict::ok) return failure_class(run.verdict);
-  // 1e5 roundings of the accumulated energies
+  // 1e5 times the rounding of accumulated energies
   if (worst < 1e-11 * turned) return residual_none;
   if (worst > 0.3 * turned) return lost ? "loses much of the energy" : "gains much energy";
-  // half a decade more than in the first tenth of the run; growth proportional to time gives a whole decade
+  // 0.5: decades relative to the first tenth of the run; growth proportional to time gives 1
   if (run.growth.value_or(0) > 0.5) return lost ? "drifts down" : "drifts up";
   return residual_bounded;
 }
@@ -38,7 +38,7 @@ std::string ingredients_text(const std::string& left_out, size_t most) {
   std::vector<std::string> all;
   for (std::string& each : split(left_out, ',')) all.push_back(each.substr(each.find_first_not_of(' ')));
   if (all.size() > most) return counted(all.size(), "ingredient");
-  // write the common noun only once
+  // name the common noun only once
   constexpr std::string_view noun = " springs";
   for (size_t i = 0; i + 1 < all.size(); ++i)
     if (all[i].ends_with(noun) && all[i + 1].ends_with(noun)) all[i].resize(all[i].size() - noun.size());
@@ -63,7 +63,6 @@ std::vector<ConeCount> cone_counts(const std::vector<ConeRow>& rows) {
     if (at == counts.end()) at = counts.insert(counts.end(), {row.method});
     ++at->all, at->right += row.state == row.state_by_theory;
   }
-  // mysim's representative first
   std::ranges::stable_partition(counts, [](const ConeCount& c) { return c.method == ours; });
   return counts;
 }
@@ -75,16 +74,16 @@ std::string deviation_text(double off, double finest) {
 
 namespace {
 
-/// Largest deviation from theory that counts as agreement.
+/// Deviation from theory up to which limits agree.
 constexpr double agrees_within = 0.01;
 
 struct StepLimitComparison {
   enum Kind { agrees, coarse, apart } kind = agrees;
-  std::optional<double> off;  // measured / predicted - 1, if both are steps
+  std::optional<double> off;  // measured / predicted - 1, if both are finite steps
   std::string how;            // for `apart`
 };
 
-/// Nothing if there is no theory, the method does not support the scene, or theory's limit is outside the range tried.
+/// Nothing if there is no theory, the method does not support the scene, or theory's limit was not tried.
 std::optional<StepLimitComparison> compare_step_limit(const LimitRow& row) {
   using enum StepLimitComparison::Kind;
   const PredictionKind theory = row.prediction;
@@ -102,7 +101,7 @@ std::optional<StepLimitComparison> compare_step_limit(const LimitRow& row) {
                                         : fmt::format("{:+.2g} % off", 100 * off)};
   }
   const bool refused = run == MeasuredLimit::refused_above, never = run == MeasuredLimit::no_step;
-  // a limit beyond the steps tried, or beyond a refused step, cannot be compared
+  // the limit is beyond the steps tried, or beyond a refused step
   if (theory == PredictionKind::limit && (never ? failed >= predicted : held <= predicted)) return std::nullopt;
   if (theory == PredictionKind::every_step && refused) return std::nullopt;
   if (theory != PredictionKind::limit && run != MeasuredLimit::found && (theory == PredictionKind::every_step) != never)
@@ -125,7 +124,7 @@ StepLimitCounts step_limit_counts(const std::vector<LimitRow>& rows, LimitState 
   for (const LimitRow& row : rows) {
     const auto found = row.state == state ? compare_step_limit(row) : std::nullopt;
     if (!found) continue;
-    // the limit is between the last stable step and the first that failed
+    // between the last stable and the first failed step
     const double bracket = row.held && row.failed ? *row.failed / *row.held - 1 : 0;
     if (found->kind == StepLimitComparison::apart) {
       ++counts.apart;

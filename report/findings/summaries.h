@@ -1,4 +1,3 @@
-// Summaries of single tables, shared by findings and figures.
 #pragma once
 
 #include <algorithm>
@@ -21,61 +20,60 @@ namespace crosscheck {
 
 inline constexpr auto residual_bounded = "bounded", residual_none = "zero to round-off";
 
-/// The class of the residual of a run whose balance closes; for a failed run, the word for its failure.
+/// Class of the residual of a run whose balance closes. For a failed run, how it failed.
 std::string residual_class(const EnergyRow& run);
 inline bool is_bounded(const std::string& word) { return word == residual_bounded || word == residual_none; }
 
-// Grid refinement, from experiment `adequacy`: powers of the number of cells.
+// Powers of the number of cells, from experiment `adequacy`.
 
-/// The fitted exponent of a quantity from table `adequacy-scaling`; `scene` is empty for bend springs.
+/// Fitted exponent from table `adequacy-scaling`; `scene` is empty for bend springs.
 std::optional<PowerLaw> power_of(const TableSet& rows, const std::string& scene, ScalingQuantity quantity);
 /// "4.24 ± 0.03"
 std::string power_text(const PowerLaw& power);
 
-/// "bend and shear springs" for "bend springs, shear springs"; "nothing"; "4 ingredients" for more than `most`.
+/// "bend and shear springs" for "bend springs, shear springs"; "nothing"; "4 ingredients" if more than `most`.
 std::string ingredients_text(const std::string& left_out, size_t most = 3);
 
-/// The step (s) in the rows that is nearest to a millisecond.
+/// The step (s) nearest to a millisecond.
 template <class Row>
 double usual_step(const std::vector<Row>& rows) {
   return std::ranges::min(rows, {}, [](const Row& row) { return std::abs(row.step - 1e-3); }).step;
 }
 
-// Particles on slopes, from tables `sphere-cone` and `plane-cone`.
+// From tables `sphere-cone` and `plane-cone`.
 
-/// Number of a method's cases that agree with Coulomb's law; failed runs are not counted.
+/// Number of completed cases that agree with Coulomb's law.
 struct ConeCount {
   std::string method;
   long right = 0, all = 0;
 };
 std::vector<ConeCount> cone_counts(const std::vector<ConeRow>& rows);
 std::vector<ConeRow> plane_cones(const TableSet& rows);
-/// The count of one method, or null.
+/// Null if there is none.
 const ConeCount* count_of(const std::vector<ConeCount>& counts, const std::string& method);
 
-// Measured stability limits compared with theory, from table `stability`.
+// Measured stability limits and theory, from table `stability`.
 
-/// Counts of the rows of one state that have a theoretical limit within the range of steps tried.
+/// Counts rows of one state whose theoretical limit is within the range of steps tried.
 struct StepLimitCounts {
-  size_t agreeing = 0;              // deviation of at most 1 %
-  double deviation = 0;             // their largest deviation, relative to the predicted step
+  size_t agreeing = 0;              // deviation of 1 % or less
+  double deviation = 0;             // largest deviation of these, relative to the predicted step
   std::vector<std::string> scenes;  // their scenes
-  size_t coarse = 0;                // larger deviation, but theory's limit is between the last step that held and the
-                                    // first that failed
-  double widest = 0;                // largest bracket of both kinds, relative to the step that held
-  size_t apart = 0;                 // all others
-  std::string method, where;        // the one of these with the largest deviation
+  size_t coarse = 0;  // larger deviation, but theory's limit is between the last stable and the first failed step
+  double widest = 0;  // largest bracket of both kinds, relative to the stable step
+  size_t apart = 0;
+  std::string method, where;  // the largest deviation of these
   size_t all() const { return agreeing + coarse + apart; }
   std::string how;  // "stable at 47 times the step", "holds at every step tried, by theory up to 1.2 ms"
 };
 StepLimitCounts step_limit_counts(const std::vector<LimitRow>& rows, LimitState state);
 
-/// True if the truth of a scene without a state of rest confirms a limit: a run just below it is useful, a run just
-/// above it is not. False if there is no such comparison.
+/// True if the truth of a scene without a state of rest confirms a limit: runs just below it are useful, runs just
+/// above it are not. False if nothing was compared.
 bool confirmed_by_truth(const LimitRow& row);
 
-/// "-0.12 %" or "47 times as long" for `off` = measured / predicted - 1; "within ±0.07 %" if it is less than the
-/// resolution of the search, `finest`.
+/// "-0.12 %" or "47 times as long" for `off` = measured / predicted - 1; "within ±0.07 %" if below `finest`, the
+/// resolution of the search.
 std::string deviation_text(double off, double finest = 0);
 
 }  // namespace crosscheck

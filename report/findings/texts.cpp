@@ -1,5 +1,3 @@
-// Reads the texts of findings from texts/*.md and fills them in.
-
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
@@ -15,7 +13,7 @@
 namespace crosscheck {
 namespace {
 
-/// Reads the texts of one file; lines before the first key are for editors.
+/// Lines before the first key are for editors.
 void read_texts(const std::string& file, std::map<std::string, FindingText>& texts) {
   FindingText* text = nullptr;
   int number = 0;
@@ -57,7 +55,6 @@ std::string in_unit(double value, std::string_view unit) {
   throw std::logic_error("no form for the unit " + std::string(unit));
 }
 
-/// Text for a name in braces.
 std::string filled_word(const Finding& f, const std::string& name) {
   const std::string_view unit = finding_rule(f.rule).unit;
   if (name == "scene") return f.scene;
@@ -72,7 +69,7 @@ std::string filled_word(const Finding& f, const std::string& name) {
   throw std::logic_error(fmt::format("a finding of {} lacks {}", f.rule, name));
 }
 
-/// Fills in a text without brackets; sets `complete` to false if a word is empty.
+/// Fills in a text without brackets. Sets `complete` to false if a word is empty.
 std::string filled_part(const Finding& f, const std::string& text, bool& complete) {
   std::string out;
   for (size_t at = 0; at < text.size();) {
