@@ -33,7 +33,7 @@ struct RecommendedRun {
   bool timed_whole = true;           // false: scaled from a part of the run
   std::vector<std::string> tied;     // methods of the same cost with larger errors
   std::vector<EngineBeside> beside;  // if mysim has a run within the accuracy
-  std::string_view bound;            // the reason for the limit: stability, accuracy, failure or sampling
+  std::string_view bound;            // why the step cannot be longer: stability, accuracy, failure or sampling
 };
 
 /// The run that recommend() chooses within a fraction of the motion (usually 0.01; other fractions use only the

@@ -1,4 +1,4 @@
-// Entry point of the report's page: players, lab, charts and folds.
+// Entry point of the report's page.
 import {startGuide} from './lab/guide';
 import {startLab} from './lab/lab';
 import {startPage} from './page';

@@ -57,7 +57,7 @@ std::vector<Certificate> certificates_of(const TableSet& rows) {
 
 ReportData read_report(const fs::path& folder) {
   const Verification found = verify_report(folder);
-  // compares data only: another version may phrase sentences differently
+  // only the data must agree: another version may phrase sentences differently
   if (found.of_data > 0)
     throw InputError(fmt::format("{}: its data differ from the report: {}", folder.string(), found.mismatches[0]));
   const JsonField report = JsonField::parse_file((folder / "report.json").string());
@@ -91,7 +91,7 @@ fs::path picture_file(const fs::path& folder, const Scene& scene, const char* wh
 
 namespace {
 
-/// Removes titles and subtitles: the page has its own text.
+/// Removes titles and subtitles, which the page writes itself.
 render::Picture without_letters(render::Picture picture) {
   for (auto& row : picture.rows)
     for (render::Panel& panel : row) panel.title.clear(), panel.subtitle.clear();
@@ -113,14 +113,13 @@ void draw_scene(const Scene& scene, const MethodResult& shown, bool full, const 
 
 namespace {
 
-/// Removes the commit from a caption: captions are self-contained, but the page names the commit once.
+/// Removes the commit from a caption, because the page names it once.
 std::string without_commit(std::string caption) {
   static const Pattern commit(
       "; commit [^ ;]*(, with uncommitted changes)?\\.| Commit [^ ;]*(, with uncommitted changes)?\\.");
   return commit.replaced_in(caption, caption.find("; commit") == std::string::npos ? "" : ".");
 }
 
-/// Collects the content of the page.
 class Assembly {
  public:
   Assembly(ReportData& data, const fs::path& folder, const fs::path& against)
@@ -147,7 +146,7 @@ class Assembly {
   WrittenReport write(const Workers& workers) {
     fs::create_directories(figures_);
     write_file(figures_ / "style.gp", asset("figures/style.gp"));
-    // the first screen's runs first: the page may not have room for all
+    // runs of the first screen first, because the page may not have room for all
     for (const ScenePart* part : first_scenes(page_)) add_own_runs(*part);
     for (const ScenePart& part : page_.scenes) add_own_runs(part);
     for (const Chart& chart : charts_) add(chart);
@@ -158,7 +157,7 @@ class Assembly {
                report_json(page_, findings_, charts_, data_.rows, name_of(data_.extent), data_.runs));
     std::vector<std::pair<std::string, size_t>> blocks;
     write_file(folder_ / "index.html", page_html(page_, &blocks));
-    bool agree = true;  // engines with the same rule agree wherever they must
+    bool agree = true;  // engines with the same rule agree
     for (const SceneData& facts : findings_.facts)
       for (const MethodData& method : facts.methods) agree &= !same_rule_differs(facts, method);
     return {std::move(page_), std::move(blocks), agree};
@@ -181,7 +180,6 @@ class Assembly {
     part.motions = stage_of(scene, *part.facts, runs_);
   }
 
-  /// Its pictures, each with its caption.
   std::vector<PageImage> images_of(const Snapshot& s) const {
     const auto file = [&](const std::string& name) { return figures_ / (file_name_of(name) + ".png"); };
     if (s.moments.empty()) return {{file(s.name), s.caption, s.caption}};
@@ -225,7 +223,7 @@ class Assembly {
 
   bool may_run(const std::string& method) const { return !data_.received || !method.starts_with(program_prefix); }
 
-  /// The still picture of the first screen: the runs that move there, and the truth as a separate result.
+  /// Draws the still picture of the first screen: the runs that move there, and the truth as a separate result.
   void draw_first(const ScenePart& part) const {
     const Scene& scene = *part.scene;
     std::deque<MethodResult> results;
@@ -260,7 +258,7 @@ class Assembly {
       render::write_png(without_letters(picture_of(s.scene, shown, shots[i], common)), images[i].file);
   }
 
-  /// Adds the runs of a set, once for all figures that play them; returns false if there are none.
+  /// Adds a set of runs, unless the page already has it. Returns false if it is empty.
   bool add_runs(const std::string& key, const std::string& only = "") {
     if (std::ranges::find(page_.runs, key, &PlayableRuns::key) != page_.runs.end()) return true;
     auto runs = key.empty() ? std::nullopt : runs_.take(key, only, page_.notes);
@@ -302,11 +300,10 @@ class Assembly {
     for (const char* set : {"-truth", "-engines"})
       if (!part.motions.empty()) add_runs(part.scene->name + set);
   }
-  /// Adds the initial runs of a scene's player.
   void add_shown_runs(ScenePart& part) {
     if (part.motions.empty()) return;
     const std::string marks = part.scene->name + "-speed-accuracy";
-    if (part.take) add_runs(marks, part.take->method);  // all of them if a chart plays them
+    if (part.take) add_runs(marks, part.take->method);  // a chart adds all runs
     part.runs = shown_runs(part, data_.rows, [&](const std::string& method) {
       const auto set = std::ranges::find(page_.runs, marks, &PlayableRuns::key);
       return set != page_.runs.end() && std::ranges::find(set->files, method, &RunFile::method) != set->files.end();

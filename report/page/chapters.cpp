@@ -1,4 +1,4 @@
-// Chapters as data: the answer, the opening figures, the explanation, and all else in folds.
+// Chapters as data: the answer, the opening figures, the explanation, and folds with all else.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -30,7 +30,7 @@ namespace {
 
 constexpr size_t most_folds = 6;  // per chapter
 
-/// The part of a name that the pattern's star matches, empty without a star; nothing if the name does not match.
+/// The part of a name that matches the pattern's star; empty without a star. Nothing if the name does not match.
 std::optional<std::string> starred_part(const std::string& name, const std::string& pattern) {
   const size_t star = pattern.find('*');
   if (star == std::string::npos) return name == pattern ? std::optional("") : std::nullopt;
@@ -39,15 +39,14 @@ std::optional<std::string> starred_part(const std::string& name, const std::stri
   return name.substr(star, name.size() - before.size() - after.size());
 }
 
-/// A figure that opens a chapter.
 struct Lead {
   const Chapter::Entry* entry;
-  size_t figure;       // its index in the entry
-  std::string choice;  // the part of its name that the pattern's star matches
+  size_t figure;       // index in the entry
+  std::string choice;  // part of the figure's name that matches the pattern's star
   const PageFigure& of() const { return entry->figures[figure]; }
 };
 
-/// The figures of the first pattern that matches any; the main scene's figure comes first.
+/// Figures of the first pattern that matches any. The main scene's figure comes first.
 std::vector<Lead> leads_of(const Chapter& chapter, const PageContent& c) {
   for (const std::string& pattern : chapter.leads) {
     std::vector<Lead> leads;
@@ -60,12 +59,11 @@ std::vector<Lead> leads_of(const Chapter& chapter, const PageContent& c) {
   return {};
 }
 
-/// Data of choices.html: buttons that choose which of several elements is visible, initially the first.
+/// Data of choices.html: buttons that choose the visible element.
 void add_choice(Json& choices, const std::string& id, const std::string& label) {
   choices.push_back({{"id", id}, {"label", label}, {"pressed", choices.empty() ? "true" : "false"}});
 }
 
-/// Data of entry.html.
 Json entry_data(const Chapter::Entry& entry, const PageContent& c) {
   Json figures = Json::array(), images = Json::array(), tables = Json::array();
   for (const PageFigure& figure : entry.figures) figures.push_back(figure_data(figure, c));
@@ -79,14 +77,14 @@ Json entry_data(const Chapter::Entry& entry, const PageContent& c) {
           {"tables", std::move(tables)}};
 }
 
-/// A folded entry. Entries of the same fold have buttons; one at a time is visible.
+/// A folded entry. Entries of the same fold are visible one at a time.
 struct Folded {
-  std::string fold, label;  // the fold's heading, and the text of the entry's button
-  size_t worth;             // its index among the chapter's patterns
+  std::string fold, label;  // heading of the fold, text of the entry's button
+  size_t worth;             // index among the chapter's patterns
   Chapter::Entry entry;
 };
 
-/// Folded entries by importance.
+/// By importance.
 std::vector<Folded> folded(const Chapter& chapter, const std::vector<Lead>& leads) {
   std::vector<Folded> all;
   for (const Chapter::Entry& given : chapter.entries) {
@@ -112,7 +110,6 @@ std::string kind_of(const Chapter::Entry& entry) {
   return !entry.figures.empty() ? "chart" : !entry.images.empty() ? "picture" : "table";
 }
 
-/// Data of fold.html.
 Json fold_data(const std::string& heading, const std::vector<Folded>& all, const PageContent& c, Folds& folds) {
   Json entries = Json::array(), choices = Json::array();
   for (const Folded& one : all) {
@@ -129,7 +126,7 @@ Json fold_data(const std::string& heading, const std::vector<Folded>& all, const
   return folds.fold(heading, many, "group", {{"entries", std::move(entries)}, {"choices", std::move(choices)}});
 }
 
-/// The folds of a chapter: the findings, the relations, then its entries; the least important share the last fold.
+/// Data of the findings, the relations and the entries. The least important ones share the last fold.
 Json folds_data(const Chapter& chapter, const std::vector<Lead>& leads, const PageContent& c, Folds& folds) {
   Json all = Json::array();
   Findings said;
@@ -160,8 +157,8 @@ Json folds_data(const Chapter& chapter, const std::vector<Lead>& leads, const Pa
   return all;
 }
 
-/// The numbers of the main scene in formulas: data of critical.html. Null if its limit is unknown. Leapfrog's limit is
-/// 2 / omega, whatever the drag.
+/// Data of critical.html: the main scene's numbers in formulas. Null if its limit is unknown. Leapfrog's limit is 2 /
+/// omega with any drag.
 Json critical_data(const PageContent& c) {
   for (const ScenePart& part : c.scenes) {
     const MethodData* m = part.facts->find(subject_method(is_symplectic_of_second_order));
@@ -187,7 +184,7 @@ Json chapter_data(const Chapter& chapter, size_t number, const PageContent& c, F
             {"step_lab", chapter.id == "stability" && !c.lab.empty() ? c.main_scene : ""},
             {"label", text(chapter.label)},
             {"answer", answers_of_chapter(chapter.id, c.findings)},
-            // a certificate of few scenes has few lines: the text is below it
+            // certificates of few scenes leave room for text below
             {"short", certificates && leads.empty() && c.scenes.size() <= 4},
             {"parity", certificates ? parity_data(c.scenes) : Json()},
             {"choices", Json::array()},
@@ -203,7 +200,6 @@ Json chapter_data(const Chapter& chapter, size_t number, const PageContent& c, F
     figure["hidden"] = &lead != &leads.front();
     data["leads"].push_back(std::move(figure));
   }
-  // for readers without JavaScript
   if (const auto svg = leads.empty() ? "" : c.figures / (leads[0].of().name + ".svg"); std::filesystem::exists(svg))
     data["drawing"] = image_data({svg, leads[0].of().title, ""});
   for (const Chapter::Experiment& experiment : chapter.experiments)

@@ -1,4 +1,4 @@
-// The parts of d3 that the page uses.
+// The functions of d3 that the page uses.
 
 declare module 'd3-array' {
   export function extent(values: Iterable<number>): [number, number]|[undefined, undefined];

@@ -1,4 +1,3 @@
-// The first screen as data: moving scenes, and an answer to each question.
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
@@ -27,7 +26,7 @@ std::vector<const ScenePart*> first_scenes(const PageContent& c) {
 
 namespace {
 
-/// The method of each view and its error: the largest, which the player replaces by the current one.
+/// Each view's method and its largest error, which the player replaces by the current one.
 Json readouts_data(const ScenePart& part) {
   const SceneData& facts = *part.facts;
   Json all = Json::array();

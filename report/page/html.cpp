@@ -1,4 +1,4 @@
-// Text as HTML in which a number and its unit stay on one line, and embedded images.
+// Text as HTML that keeps a number and its unit on one line; embedded images.
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -11,7 +11,7 @@
 
 namespace crosscheck {
 std::string prose(const std::string& text) {
-  // "8 x 8", "0.32 ± 0.01", "< 3"; then units and thousands; then "1.0e-12"
+  // "8 x 8", "0.32 ± 0.01", "< 3"; units and thousands; "1.0e-12"
   static const Pattern following("( x|\\(of|±|<) (?=\\d)"),
       unit(
           "(\\d) (?=(?:%|mm/s|m/s|mm|µm|ms|µs|m|s|J|Hz|kg|N/m|N|MB|ω|±|x|times|degrees)(?![A-Za-z])|\\d{3}(?![\\d.]))"),
@@ -30,7 +30,7 @@ std::string escaped(const std::string& text) {
 }
 
 std::string prose_with_bold_numbers(const std::string& text) {
-  // a separate number, with its unit
+  // a number that stands alone, with its unit
   static const Pattern number(
       "(^|[ (±])(\\d+(?:\\.\\d+)?(?:<span "
       "class=\"n\">[^/]*</sup></span>)?(?:\u00a0(?:%|mm|µm|nm|ms|µs|m|s|times))?)(?![\\w</])");
@@ -62,7 +62,7 @@ Json image_data(const PageImage& image) {
   const render::Image pixels = vectors ? render::Image() : render::read_png(image.file);
   const std::string bytes = vectors ? content_of_file(image.file) : render::webp_bytes(pixels);
   return {{"src", fmt::format("data:image/{};base64,{}", vectors ? "svg+xml" : "webp", base64(bytes))},
-          {"width", pixels.width},  // so that the page does not move while it loads
+          {"width", pixels.width},  // reserves space while the page loads
           {"height", pixels.height},
           {"alt", image.alt},
           {"caption", image.caption}};

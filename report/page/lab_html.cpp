@@ -21,7 +21,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Scenes of the guided experiments.
 constexpr std::string_view guided_scenes[] = {"circle", "pendulum", "cloth-hang", "slide", "cloth-sphere"};
 
 }  // namespace

@@ -1,4 +1,4 @@
-// The lab's part of the page: the engine's module, the scenes as text, and the scripts that run them (report/lab/).
+// The lab in the page: the engine's module, the scenes as text, and scripts (report/lab/).
 #pragma once
 
 #include <filesystem>
@@ -12,18 +12,16 @@
 
 namespace crosscheck {
 
-/// Debian's packages for building the module; they include the C library.
+/// Debian's packages for building the module, including the C library.
 inline constexpr std::string_view lab_packages = "clang lld libc++-dev-wasm32 libclang-rt-dev-wasm32 binaryen";
 
-/// True if the engine was compiled for the page; and its file.
 bool has_lab_module();
 std::filesystem::path lab_module_file();
 
-/// The module and the scenes for the end of a page: the given scenes, and those of the guided experiments. Empty if
-/// there is no module.
+/// The module, the given scenes, and those of the guided experiments, for the end of a page. Empty without a module.
 Json lab_data(const std::vector<Scene>& scenes);
 
-/// A page with the lab alone. Throws InputError with the packages to install if there is no module.
+/// Throws InputError with the packages to install if there is no module.
 std::string lab_page_html(const std::vector<Scene>& scenes);
 
 }  // namespace crosscheck

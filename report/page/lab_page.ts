@@ -1,4 +1,4 @@
-// Entry point of the page with the lab alone.
+// Entry point of the page with only the lab.
 import {startGuide} from './lab/guide';
 import {startLab} from './lab/lab';
 import {startPlayers} from './player/player';

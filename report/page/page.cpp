@@ -1,4 +1,3 @@
-// The page as data, from top to bottom, and report.json.
 #include <fmt/ranges.h>
 
 #include <algorithm>
@@ -56,7 +55,7 @@ std::vector<std::string> figures_of(const PageContent& c) {
 
 namespace {
 
-/// The changes since an earlier report; null without one.
+/// Null without an earlier report.
 Json changes_data(const PageContent& c) {
   if (c.against.empty()) return nullptr;
   int timed = 0;
@@ -71,12 +70,11 @@ Json changes_data(const PageContent& c) {
   return {{"against", c.against}, {"rows", std::move(rows)}, {"timed", timed}};
 }
 
-/// Data of scene.html.
 Json scene_data(const ScenePart& part, const PageContent& c) {
   const Scene& scene = *part.scene;
   const SceneData& facts = *part.facts;
   Findings shown = part.findings;
-  std::erase_if(shown, [](const Finding& f) { return f.rule == "take"; });  // shown as a row of a table instead
+  std::erase_if(shown, [](const Finding& f) { return f.rule == "take"; });  // in a table instead
   Json data = findings_data(shown);
   data.update({{"name", scene.name},
                {"question", scene.question},
@@ -96,7 +94,7 @@ Json scene_data(const ScenePart& part, const PageContent& c) {
                {"certificates", Json::array()},
                {"continuum", Json::array()}});
   if (!part.motions.empty() && !part.runs.empty()) {
-    // the recommended run, compared with the first run of another engine
+    // recommended run and first run of another engine
     const auto other = std::ranges::find_if(part.runs, [&](const ShownRun& run) {
       return run.beside && family_of(run.method).name != family_of(part.runs[0].method).name;
     });
@@ -130,7 +128,7 @@ Json card_data(const ScenePart& part, const PageContent& c, Folds& folds) {
 
 Json words_data(const PageContent& c, Folds& folds) {
   Provenance lines = c.provenance;
-  std::erase_if(lines, [](const auto& line) { return line.first == "scene"; });  // each scene's card has its hash
+  std::erase_if(lines, [](const auto& line) { return line.first == "scene"; });  // each scene's card shows its hash
   Json made = provenance_data(lines);
   made["notes"] = c.notes;
   return Json::array({folds.fold("Glossary", "explained", "glossary", {{"words", glossary_data()}}),
@@ -140,8 +138,7 @@ Json words_data(const PageContent& c, Folds& folds) {
 
 std::string packed(const Json& json) { return base64(gzipped(dump(json))); }
 
-/// Data for scripts, at the page's end. Charts that are visible when the page opens, or in print, are stored plainly;
-/// the others are packed.
+/// Data for scripts. Charts that are visible when the page opens, or in print, are plain; the others are packed.
 Json scripts_data(const PageContent& c, const Folds& folds) {
   Json open = Json::object(), folded = c.charts;
   for (const std::string& figure : figures_in_sight(c)) open[figure] = folded[figure], folded.erase(figure);
@@ -154,7 +151,7 @@ Json scripts_data(const PageContent& c, const Folds& folds) {
   return all;
 }
 
-/// Size in bytes of the page's blocks.
+/// In bytes.
 std::vector<std::pair<std::string, size_t>> blocks_of(const Json& page, const std::string& html) {
   std::vector<std::pair<std::string, size_t>> blocks{{"text and pictures", html.size()}};
   const auto count = [&](const std::string& block, size_t bytes) {
@@ -241,7 +238,7 @@ std::string report_json(const PageContent& page, const AllFindings& findings, co
           {{"name", f->name}, {"scene", c.scene}, {"caption", f->caption}, {"tier", f->tier}, {"finding", f->finding}});
   json["notes"] = page.notes;
   json["problems"] = page.problems;
-  // each entry on one line: one number per line would make up most of the file
+  // one line per entry: one per number would make up most of the file
   std::vector<std::string> chart_lines, run_lines;
   for (const auto& [name, chart] : page.charts.items())
     chart_lines.push_back(fmt::format("  {}: {}", dump(Json(name)), dump(chart)));

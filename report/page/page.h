@@ -1,5 +1,5 @@
-// The page: one self-contained HTML file. First the answers, next to a moving scene; then one chapter per question;
-// then the recommended method for each scene, and the scenes as cards, which open in place.
+// The page: one self-contained HTML file with the answers next to a moving scene, a chapter per question, the
+// recommended methods, and the scenes as cards.
 #pragma once
 
 #include <nlohmann/json.hpp>
@@ -20,32 +20,30 @@
 
 namespace crosscheck {
 
-/// A picture on disk.
 struct PageImage {
   std::filesystem::path file;  // .png or .svg
   std::string alt, caption;
 };
 
-/// A chart that the page draws (page/chart/), or gnuplot on paper (files with its name in figures/).
+/// A chart, drawn by the page (page/chart/), and on paper by gnuplot (files with its name in figures/).
 struct PageFigure {
   std::string name, title, caption;
   std::string runs = {};  // key of the PlayableRuns that its markers or cells play; empty: none
 };
 
-/// The runs of one set, in the player's format.
+/// A set of runs in the player's format.
 struct PlayableRuns {
-  std::string key;    // the set: "SCENE-engines", "SCENE-speed-accuracy", "SCENE-stiffness-map"
-  std::string scene;  // the scene of the player's data that they are added to
-  std::string stage;  // or JSON of a separate stage (report/player/stage.h)
+  std::string key;    // "SCENE-engines", "SCENE-speed-accuracy", "SCENE-stiffness-map"
+  std::string scene;  // scene of the player's data to which the runs belong
+  std::string stage;  // otherwise JSON of a separate stage (report/player/stage.h)
   std::vector<RunFile> files;
 };
 
-/// A run that the page shows individually.
 struct ShownRun {
-  std::string key;  // its method and its index among the method's runs of the chart; or "own": at the scene's own step
+  std::string key;  // method and index among the method's runs in the chart; or "own", at the scene's step
   std::string method, setting;
   std::optional<double> error, cpu;  // m, s
-  bool beside = false;               // shown with others on the first screen
+  bool beside = false;               // on the first screen, next to others
   Run run = {};
   std::string difference = {};  // text: difference from the subject's run, if another engine ran its rule
 };
@@ -54,16 +52,16 @@ struct ScenePart {
   const Scene* scene;
   const SceneData* facts;
   Findings findings;
-  std::string motions;                    // its stage as JSON (report/player/stage.h); empty: only pictures
+  std::string motions;                    // stage as JSON (report/player/stage.h); empty: only pictures
   std::filesystem::path thumbnail, hero;  // .png, or empty
   std::vector<PageFigure> figures;
   std::vector<const Certificate*> certificates;
   const Table* statistics = nullptr;   // statistics of perturbed runs, for scenes with contact
-  std::optional<RecommendedRun> take;  // recommended run within 1 %
+  std::optional<RecommendedRun> take;  // within 1 %
   std::vector<ShownRun> runs = {};     // in the small table of its card
 };
 
-/// A chapter of the page: it answers a question.
+/// A chapter answers a question.
 struct Chapter {
   struct Entry {
     std::string part;  // id of the chart's own chapter, if this chapter joins several
@@ -73,22 +71,22 @@ struct Chapter {
     std::vector<PageTable> tables;
     bool shown = false;  // not folded
   };
-  /// Figures of one kind that share a fold; one at a time is visible.
+  /// Figures of one kind in a common fold; one is visible at a time.
   struct Group {
     std::string figures;  // pattern; "*" matches anything
     std::string heading;
-    bool titled = false;  // chosen by their titles, otherwise by the part that the star matches
+    bool titled = false;  // chosen by their titles instead of the star's match
   };
-  /// A guided experiment of the lab: its name (report/page/lab/experiments.ts), and the text of the link to it.
+  /// A guided experiment (report/page/lab/experiments.ts) and the text of its link.
   struct Experiment {
     std::string name, title;
-    bool contact = false;  // only if a scene has a ball
+    bool contact = false;  // requires a scene with a ball
   };
   std::string id, title = {}, label = {};  // label: in the table of contents
-  std::vector<std::string> joins = {};     // chapter ids of its charts
-  std::vector<std::string> leads = {};     // patterns of figures that open it: the first that exists
-  std::vector<std::string> folds = {};     // patterns of its other figures, the most important first
-  std::string formula = {};                // HTML; the Markdown below is the teaching text; both are templates
+  std::vector<std::string> joins = {};     // ids of other chapters whose charts it shows
+  std::vector<std::string> leads = {};     // patterns of opening figures: the first that exists
+  std::vector<std::string> folds = {};     // patterns of other figures, the most important first
+  std::string formula = {};                // HTML template; `teaching` is a template in Markdown
   std::string teaching = {};
   std::vector<Experiment> experiments = {};
   std::vector<Group> groups = {};
@@ -96,67 +94,63 @@ struct Chapter {
 };
 
 struct PageContent {
-  Findings findings;  // about all scenes
+  Findings findings;  // across scenes
   std::vector<ScenePart> scenes;
   std::vector<Chapter> chapters;
-  Json charts = Json::object();        // by figure name: content of the charts (report/figures/chart_json.h)
-  std::vector<std::string> methods;    // all methods shown
-  std::vector<RelationRow> relations;  // all relations tested
-  std::vector<PlayableRuns> runs;      // runs that figures play
-  Json lab = Json::array();            // its module and its scenes, for the page's end (data.html)
-  std::string main_scene;              // representative scene; empty: none
-  std::filesystem::path figures;       // folder of the figures for paper
-  std::vector<std::string> notes;      // omissions, with their reasons
-  std::vector<std::string> problems;   // failures
-  std::string against;                 // an earlier report, or empty
-  std::vector<Change> changes;         // since the earlier report
+  Json charts = Json::object();  // by figure name (report/figures/chart_json.h)
+  std::vector<std::string> methods;
+  std::vector<RelationRow> relations;
+  std::vector<PlayableRuns> runs;  // played by figures
+  Json lab = Json::array();        // the module and its scenes, for the page's end (data.html)
+  std::string main_scene;
+  std::filesystem::path figures;      // for paper
+  std::vector<std::string> notes;     // omissions, with reasons
+  std::vector<std::string> problems;  // failures
+  std::string against;
+  std::vector<Change> changes;  // since the report `against`
   Provenance provenance;
 };
 
-/// Names of its figures, in order; each figure has the anchor #figure-NAME.
+/// In order; each figure has the anchor #figure-NAME.
 std::vector<std::string> figures_of(const PageContent& content);
-/// The scenes that move on the first screen: the main scene, and the last cloth with contact.
+/// Scenes that move on the first screen: the main scene, and the last cloth with contact.
 std::vector<const ScenePart*> first_scenes(const PageContent& content);
-/// True if the figure with this name opens a chapter, so that it is drawn for paper and for readers without scripts.
+/// Figures that open a chapter are also drawn for paper and for readers without scripts.
 bool opens_a_chapter(const PageContent& content, const std::string& figure);
 
-/// The whole page; `blocks` receives the size in bytes of its parts. Throws std::runtime_error if an image or motions
-/// cannot be read.
+/// `blocks` receives the sizes of the page's blocks in bytes. Throws std::runtime_error if an image or motion cannot be
+/// read.
 std::string page_html(const PageContent& content, std::vector<std::pair<std::string, size_t>>* blocks = nullptr);
 
-/// The style sheets of a page, and its script: "app", or "lab_page" for a page with the lab alone. Throws
-/// std::runtime_error if the script was not built.
+/// `bundle` is "app", or "lab_page" for a page with only the lab. Throws std::runtime_error if the script was not
+/// built.
 std::string page_styles();
 std::string page_script(const std::string& bundle);
 
-/// Escapes text for HTML.
 std::string escaped(const std::string& text);
-/// Escapes text for HTML, and keeps numbers and their units on one line.
+/// Escapes text for HTML, and keeps each number and its unit on one line.
 std::string prose(const std::string& text);
-/// prose() with each number and its unit in bold.
 std::string prose_with_bold_numbers(const std::string& text);
-/// prose() for narrow columns: names of methods may break after a slash.
+/// prose() for narrow columns, where names of methods may break after a slash.
 std::string narrow_prose(const std::string& text);
-/// Paragraphs of Markdown with **bold**, *emphasis* and `code`; HTML in it stays as it is.
+/// Paragraphs of Markdown with **bold**, *emphasis* and `code`; keeps HTML.
 std::string markdown_html(const std::string& text);
-/// JSON for a <script> element: escapes the only character that could end it.
+/// Escapes JSON for a <script> element.
 std::string json_for_script(const std::string& json);
-/// A message of the program as the page writes it, without references to command-line options.
+/// Removes references to command-line options from a message.
 std::string readable(std::string text);
 
-/// The chapters of the report, in order, without entries: report/page/texts/ID.md.
+/// All chapters in order, without entries (report/page/texts/ID.md).
 std::vector<Chapter> chapters();
-/// True if the chapter shows anything; the first one has the certificates.
+/// The first chapter has the certificates.
 bool has_contents(const Chapter& chapter);
 
-/// A page with only the relations that need no reference solution, and pictures of breaks.
+/// A page of relations only, with pictures of violations.
 std::string relations_page_html(const std::vector<RelationRow>& rows, const std::vector<PageImage>& pictures,
                                 const Provenance& lines);
 
-// report.json: the content of a report as data, with the evidence of each sentence.
-
-/// The format number; findings with formula, rows and fingerprints; scenes; tables with their fingerprints; figures,
-/// notes and problems; the index of runs.
+/// Data of a report: format number; findings with formula, rows and fingerprints; scenes; tables with fingerprints;
+/// figures, notes and problems; index of runs.
 std::string report_json(const PageContent& page, const AllFindings& findings, const std::vector<Chart>& charts,
                         const TableSet& result, std::string_view extent, const Json& runs = Json::array());
 

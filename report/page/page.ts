@@ -1,17 +1,17 @@
-// Behaviour of the page: charts, folds, scene cards, sortable tables, highlighted methods.
+// Charts, folds, scene cards, sortable tables, highlighted methods.
 
 import {drawChart, isDrawn} from './chart/chart';
 import {listRuns} from './player/runs';
 import {inflated} from './player/unpack';
 
-/** Starts everything on the page except the players and the lab. */
+/** Starts everything but the players and the lab. */
 export function startPage() {
-  /** Unpacks text that was packed as gzip in base64. */
+  /** Unpacks gzip in base64. */
   const unpacked = (element: HTMLElement) => inflated(element.textContent ?? '').text();
   const methods = JSON.parse(document.getElementById('methods-data')?.textContent ?? '{}');
-  // the visible charts at once; the others are unpacked when the first of them is needed
+  // other charts are unpacked when the first of them is needed
   const openCharts = JSON.parse(document.getElementById('open-charts')?.textContent ?? '{}');
-  // Contents of folds and cards may be packed: unpack them into their templates before searching there.
+  // Contents of folds and cards may be packed: unpack before searching there.
   const held = document.getElementById('held');
   const putBack = held ? unpacked(held).then(text => {
     const all = JSON.parse(text);
@@ -25,11 +25,11 @@ export function startPage() {
   let unpacking: Promise<Record<string, Parameters<typeof drawChart>[1]>>|null = null;
   const others = () => unpacking ??= packed ? unpacked(packed).then(JSON.parse) : Promise.resolve({});
 
-  // Charts: drawn when they come near the viewport, and again when its width changes.
+  // Charts are drawn when they come near the viewport, and again when its width changes.
 
   const draw = async (box: HTMLElement) => {
     if (!box.clientWidth) return;
-    // without a delay: a page that is printed as it opens does not wait
+    // no delay: a page that is printed while it opens would not wait for its charts
     const chart = openCharts[box.dataset.chart!] ?? (await others())[box.dataset.chart!];
     if (chart) drawChart(box, chart, methods);
   };
@@ -45,7 +45,7 @@ export function startPage() {
       root.querySelectorAll<HTMLElement>('.drawn').forEach(box => (seen.observe(box), resized.observe(box)));
   addEventListener('beforeprint', () => document.querySelectorAll<HTMLElement>('.drawn').forEach(draw));
 
-  // The tooltip of the run under the pointer; its method is highlighted everywhere.
+  // Tooltip of the run under the pointer; its method is highlighted everywhere.
 
   const tip = document.createElement('div');
   tip.className = 'tip';
@@ -96,14 +96,14 @@ export function startPage() {
     if (event.key === 'Enter' && at?.dataset?.run) at.dispatchEvent(new MouseEvent('click', {bubbles: true}));
   });
 
-  // Tables: sorted by a click on a head, filtered to rows with a word, saved with numbers and units in the head.
+  // Tables can be sorted by a click on a head, filtered by a word, and saved with units in the head.
 
   const units:
       Record<string, number> = {m: 1, mm: 1e-3, 'µm': 1e-6, nm: 1e-9, s: 1, ms: 1e-3, 'µs': 1e-6, 'mm/s': 1e-3, '%': 1};
   const base: Record<string, string> =
       {m: 'm', mm: 'm', 'µm': 'm', nm: 'm', s: 's', ms: 's', 'µs': 's', 'mm/s': 'm/s', '%': '%'};
 
-  /** A cell as a number in its base unit; null for text. */
+  /** In the base unit; null for text. */
   const number = (text: string) => {
     const plain = text.replace(/\s×\s10([−-]?\d+)/, (_, power: string) => `e${power.replace('−', '-')}`);
     const found = /^[<±]?\s*(-?[\d.]+(?:e[+-]?\d+)?)\s*(%|[a-zµ/]*)$/.exec(plain);
@@ -112,7 +112,7 @@ export function startPage() {
         null;
   };
 
-  /** The text of an element; browsers know the text of folded content, but not its layout. */
+  /** Browsers know the text of folded content, but not its layout. */
   const wordsIn = (element: HTMLElement) =>
       (element.innerText || element.textContent || '').trim().replace(/\s+/g, ' ');
   const textOf = (row: HTMLTableRowElement, column: number) => (row.cells[column] ? wordsIn(row.cells[column]) : '');
@@ -127,7 +127,7 @@ export function startPage() {
     });
     const order = (a: typeof rows[0], b: typeof rows[0]) => {
       if (a.value !== null && b.value !== null) return a.value - b.value;
-      if (a.value !== null || b.value !== null) return a.value !== null ? -1 : 1;  // words below numbers in both orders
+      if (a.value !== null || b.value !== null) return a.value !== null ? -1 : 1;  // words below numbers
       return a.text.localeCompare(b.text);
     };
     rows.sort((a, b) => {
@@ -137,7 +137,7 @@ export function startPage() {
     table.tBodies[0].append(...rows.map(entry => entry.row));
   };
 
-  /** Columns whose cells have the same unit become numbers, with the unit in the head. */
+  /** Columns with a common unit become numbers, with the unit in the head. */
   const csvOf = (table: HTMLTableElement) => {
     const rows = [...table.rows].filter(row => !row.hidden), head = table.tHead!.rows[0],
           body = rows.filter(row => row !== head);
@@ -209,7 +209,7 @@ export function startPage() {
     root.querySelectorAll<HTMLElement>('figure[data-runs]').forEach(figure => listRuns(figure));
   };
 
-  // Folds: their content is inserted when they are opened for the first time.
+  // Folds get their content when they are first opened.
 
   const unfold = async (fold: HTMLElement) => {
     await putBack;
@@ -223,7 +223,7 @@ export function startPage() {
       ({target}) => target instanceof HTMLDetailsElement && target.matches('.fold') && target.open && unfold(target),
       true);
 
-  // Scenes: a card opens its scene in place of the open one; the address names it, for links and the back button.
+  // A card opens its scene in place of the open one; the address names it for links and the back button.
 
   const open = document.createElement('article');
   open.className = 'open-scene';
@@ -246,7 +246,6 @@ export function startPage() {
     return true;
   };
 
-  // Buttons above a chapter's figure choose its scene.
 
   const choose = (button: HTMLElement) => {
     for (const each of button.parentElement!.children as HTMLCollectionOf<HTMLElement>) {
@@ -257,7 +256,7 @@ export function startPage() {
   document.addEventListener(
       'click', ({target}) => target instanceof HTMLElement && target.dataset.figure && choose(target));
 
-  /** Goes to the target of the address: a scene, a fold, or a figure inside one. */
+  /** Goes to the address: a scene, a fold, or a figure inside one. */
   const goTo = async () => {
     await putBack;
     const id = decodeURIComponent(location.hash.slice(1));
@@ -283,7 +282,6 @@ export function startPage() {
   };
   addEventListener('hashchange', goTo);
 
-  // The table of contents marks the current section.
 
   const ways = [...document.querySelectorAll<HTMLAnchorElement>('nav a[href^="#"]:not(.name)')];
   const sections = ways.map(way => document.getElementById(way.hash.slice(1)));

@@ -1,4 +1,3 @@
-// Puts the player's files and the selected runs into the page.
 #include "report/page/player_html.h"
 
 #include <fmt/format.h>
@@ -21,12 +20,11 @@
 namespace crosscheck {
 namespace {
 
-/// The number of bytes that a file's runs need in the page.
+/// Bytes in the page.
 size_t weight_of(const RunFile& file) {
   return (std::filesystem::file_size(file.file) + 2) / 3 * 4 + dump(file.entry).size();
 }
 
-/// An element of the page with the runs of a set, for these methods.
 Json runs_data(const PlayableRuns& runs, const std::vector<RunFile>& files, const char* block) {
   std::vector<std::string> methods;
   for (const RunFile& file : files) {
@@ -74,7 +72,7 @@ std::optional<PlayableRuns> PageRuns::take(const std::string& key, const std::st
   PlayableRuns runs{key, "", "", {}};
   for (const RunFile& file : files_)
     if (file.set == key && (only.empty() || file.method == only)) runs.files.push_back(file);
-  // representatives of the engines come first
+  // representatives of engines first
   std::ranges::stable_partition(runs.files, [](const RunFile& file) {
     return file.method == "truth" || file.method == family_of(file.method).representative;
   });
@@ -85,7 +83,7 @@ std::optional<PlayableRuns> PageRuns::take(const std::string& key, const std::st
     room_ -= weight;
     return false;
   });
-  if (runs.files.size() < count)  // once, because a report that is read again already has the note
+  if (runs.files.size() < count)  // once: a report that is read again already has the note
     add_once(notes, fmt::format("{}: the runs of {} methods are too large for the page to play", key,
                                 count - runs.files.size()));
   if (runs.files.empty()) return std::nullopt;
@@ -94,7 +92,7 @@ std::optional<PlayableRuns> PageRuns::take(const std::string& key, const std::st
 
 std::vector<Points> PageRuns::seen_in(const Scene& scene) const {
   std::vector<Points> seen;
-  const RunFile* whole = nullptr;  // that of a representative, otherwise the first
+  const RunFile* whole = nullptr;  // a representative, otherwise the first
   for (const RunFile& file : files_) {
     if (file.scene != scene.name || file.particles != scene.model.particles.size()) continue;
     if (file.set == scene.name + "-truth") seen = positions_of(file, 0);

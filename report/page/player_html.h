@@ -1,4 +1,3 @@
-// The player's part of the page: stages, and the runs that the page contains.
 #pragma once
 
 #include <map>
@@ -11,27 +10,25 @@
 
 namespace crosscheck {
 
-/// The scenes and runs of the page's player, for its end: data of data.html. Throws InputError if a file cannot be
-/// read.
+/// Data of data.html for the player: scenes and runs. Throws InputError if a file cannot be read.
 Json motions_data(const PageContent& content);
 
-/// Chooses the runs that fit into the page.
 class PageRuns {
  public:
   explicit PageRuns(std::vector<RunFile> files) : files_(std::move(files)) {}
 
-  /// The set with this key, for one method or for all, without scene and stage; nothing if it has no runs. Omits
-  /// methods for which the page has no room left, and adds a note.
+  /// The set with this key, for one method or all, without scene and stage; nothing if it has no runs. Methods for
+  /// which the page has no room are omitted, with a note.
   std::optional<PlayableRuns> take(const std::string& key, const std::string& only, std::vector<std::string>& notes);
-  /// The positions that a scene's camera must show: those of the truth and of a completed run.
+  /// Positions that a scene's camera must show: those of the truth and of a completed run.
   std::vector<Points> seen_in(const Scene& scene) const;
 
  private:
   std::vector<RunFile> files_;
-  size_t room_ = 5'500'000;  // bytes of the page
+  size_t room_ = 5'500'000;  // bytes
 };
 
-/// The stage of a scene's own runs, and of the small scene of a map with this key; empty if nothing can be played.
+/// The stage of a scene, or of the small scene of a map with this key; empty if nothing can be played.
 std::string stage_of(const Scene& scene, const SceneData& facts, const PageRuns& runs);
 std::string stage_of_map(const std::string& key, const std::vector<Scene>& scenes, bool full);
 

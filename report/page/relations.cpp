@@ -1,4 +1,4 @@
-// Marks of the relations that need no truth, one row per engine; and the breaks with their size and cause.
+// Relations as marks, one row per engine; violations with size and cause.
 
 #include <fmt/format.h>
 
@@ -14,14 +14,14 @@
 namespace crosscheck {
 namespace {
 
-/// The mark of a relation that was tested on several scenes: the worst one, or "not applicable" if there is no other.
+/// The mark of a relation over several scenes: the worst one, or "not applicable" if there is no other.
 RelationMark worse_mark(RelationMark a, RelationMark b) {
   for (const RelationMark mark : {RelationMark::broken, RelationMark::known, RelationMark::holds})
     if (a == mark || b == mark) return mark;
   return RelationMark::not_applicable;
 }
 
-/// The dots of the parity certificates: full, a ring, a red square.
+/// As in the parity certificates: a full dot, a ring, a red square.
 std::string_view css_class(RelationMark mark) {
   constexpr std::string_view names[] = {"match", "mismatch", "law", "unattested"};
   return names[static_cast<int>(mark)];
@@ -29,10 +29,10 @@ std::string_view css_class(RelationMark mark) {
 
 std::string sentence_of_relation(const std::string& name) {
   const Relation* relation = relation_named(name);
-  return relation ? std::string(relation->sentence) : name;  // unknown in a report by another version
+  return relation ? std::string(relation->sentence) : name;  // from another version's report
 }
 
-/// "3e-3 J, 140 times the tolerance, since 0.4 s"; for a failed run, its time.
+/// "3e-3 J, 140 times the tolerance, since 0.4 s"; for a failed run, the time of failure.
 std::string size_of_break(const RelationRow& row) {
   std::string text;
   if (row.measured)
@@ -42,7 +42,7 @@ std::string size_of_break(const RelationRow& row) {
   return readable(text);
 }
 
-/// The largest break of each method and cause.
+/// The largest violation of each method and cause.
 PageTable table_of_breaks(const std::vector<RelationRow>& rows) {
   std::vector<const RelationRow*> largest;
   for (const RelationRow& row : rows) {
@@ -68,7 +68,7 @@ PageTable table_of_breaks(const std::vector<RelationRow>& rows) {
 Json relations_data(const std::vector<RelationRow>& rows) {
   if (rows.empty()) return nullptr;
   std::vector<std::string> methods, names;
-  std::map<std::pair<std::string, std::string>, RelationMark> marks;  // by method and relation
+  std::map<std::pair<std::string, std::string>, RelationMark> marks;
   for (const RelationRow& row : rows) {
     add_once(methods, row.method), add_once(names, row.relation);
     const auto [at, is_new] = marks.emplace(std::pair{row.method, row.relation}, row.mark);

@@ -39,7 +39,7 @@ class Chooser {
     for (const MethodFamily* peer : default_peers()) add_own(std::string(peer->representative), true);
     for (const MethodData& m : part_.facts->methods)
       if (family_of(m.method).role == Role::outside) add_own(m.method, true);
-    // the subject's method, or another, for engines whose representative did not run
+    // for engines whose representative did not run, the subject's method, or another
     for (const bool of_subject : {true, false})
       for (const MethodData& m : part_.facts->methods)
         if (family_of(m.method).is_subject() == of_subject && std::ranges::none_of(chosen_, [&](const ShownRun& run) {
@@ -51,7 +51,7 @@ class Chooser {
       for (const ShownRun& each : charted_)
         if (each.method == take->method && each.run.step == run.step && each.run.tolerance == run.tolerance) add(each);
     }
-    std::vector<ShownRun> best = charted_;  // one per other method, by cost
+    std::vector<ShownRun> best = charted_;  // by cost, one per other method
     std::ranges::stable_sort(best, [this](const ShownRun& a, const ShownRun& b) { return better(a, b); });
     std::set<std::string> methods;
     for (const ShownRun& run : chosen_) methods.insert(run.method);
@@ -87,7 +87,7 @@ class Chooser {
         if (row.method == m.method && row.difference) last = row.difference;
     return last ? fmt::format("{}, {} at the end", text, nice_length(*last)) : text;
   }
-  /// The cost of a run of the chart with the same step, if there is one.
+  /// Cost of the method's charted run with the same step.
   std::optional<double> cost_at(const MethodData& m) const {
     for (const ShownRun& run : charted_)
       if (run.method == m.method && !is_adaptive(m.method) && std::abs(run.run.step / m.step - 1) < 1e-9)
@@ -115,7 +115,7 @@ class Chooser {
   std::vector<ShownRun> charted_, chosen_;
 };
 
-/// True if the lab runs the method: a rule of mysim without options that a browser does not support.
+/// True for mysim's rules without options that a browser does not support.
 bool is_of_lab(const std::string& method) {
   const std::vector<std::string> words = split(method, '+');
   return family_of(method).is_subject() && std::all_of(words.begin() + 1, words.end(), [](const std::string& word) {

@@ -1,4 +1,3 @@
-// Selects the runs of a scene that the page shows first: side by side, and in the small table of its card.
 #pragma once
 
 #include "experiments/tables/table.h"
@@ -6,13 +5,13 @@
 
 namespace crosscheck {
 
-/// First the representatives of all engines at the scene's own step, which follow the same rule and are shown side by
-/// side; then the recommended run, then the cheapest run within 1 % of each other method: at most nine. `holds`: true
-/// if the page has a method's runs of the chart.
+/// The runs of a scene that the page shows, at most nine: the engines' representatives, which follow the same rule at
+/// the scene's own step and are shown side by side; the recommended run; each other method's cheapest run within 1 %.
+/// `holds`: true if the page has a method's runs of the chart.
 std::vector<ShownRun> shown_runs(const ScenePart& part, const TableSet& rows,
                                  const std::function<bool(const std::string& method)>& holds);
 
-/// Rows of their table in scene.html; `lab`: mysim's runs have a button that opens them in the lab.
+/// Rows of a table in scene.html; `lab`: buttons open mysim's runs in the lab.
 Json shown_runs_data(const ScenePart& part, bool lab);
 
 }  // namespace crosscheck

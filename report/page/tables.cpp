@@ -1,5 +1,3 @@
-// Tables of the page as data: recommendations, chapters, runs of a scene, certificates, methods.
-
 #include <fmt/ranges.h>
 
 #include <algorithm>
@@ -13,12 +11,12 @@
 namespace crosscheck {
 namespace {
 
-/// A cell; an empty text becomes a dash.
+/// An empty text becomes a dash.
 Json cell(const std::string& text, const std::string& css_class = "") {
   return {{"text", text.empty() ? "–" : text},
           {"class", text.empty() ? "none" : css_class},
           {"link", ""},
-          {"note", ""},  // after the text, in grey
+          {"note", ""},  // follows in grey
           {"law", ""}};  // the method's different law
 }
 Json cell(const std::string& text, const std::string& css_class, const char* key, const std::string& value) {
@@ -43,7 +41,7 @@ std::string length_text(const std::optional<double>& value, double floor = 0) {
   return !value ? "" : *value < floor ? "< " + nice_length(floor) : nice_length(*value);
 }
 
-/// A clearance, negative inside; round-off counts as zero.
+/// Negative inside; round-off counts as zero.
 std::string signed_length(double metres) { return std::abs(metres) < 1e-12 ? "0 m" : nice_length(metres); }
 
 Json verdict_cell(const MethodData& m, const SceneData& facts) {
@@ -54,7 +52,7 @@ Json verdict_cell(const MethodData& m, const SceneData& facts) {
   return cell(fmt::format("{} at {:.3g} s", m.failure(), m.end), "failed");
 }
 
-/// The mean with as many digits as its deviation justifies.
+/// The mean, with as many digits as the deviation justifies.
 std::string with_digits_of(double mean, double spread) {
   if (std::abs(mean) < 1e-12) return "0";
   if (!(spread > 0) || std::abs(mean) < 1e-3) return nice(mean);
@@ -62,7 +60,7 @@ std::string with_digits_of(double mean, double spread) {
   return fmt::format("{:.{}f}", mean, decimals);
 }
 
-/// The text, with the title of a program instead of its path.
+/// Replaces a program's path by its title.
 std::string shown_method(const std::string& text) {
   return text.starts_with(program_prefix) ? program_title(text) : text;
 }
@@ -113,7 +111,7 @@ Json run_table_data(const ScenePart& part) {
 
 Json statistics_data(const Table& given) {
   std::vector<std::string> quantities, methods;
-  std::map<std::pair<std::string, std::string>, std::string> texts;  // by quantity and method
+  std::map<std::pair<std::string, std::string>, std::string> texts;
   for (size_t i = 0; i < given.rows.size(); ++i) {
     const auto spread = number_at(given, i, "deviation");
     if (!spread) continue;  // a single run
@@ -182,7 +180,7 @@ Json parity_data(const std::vector<ScenePart>& scenes) {
 }
 
 Json recommendations_data(const std::vector<ScenePart>& scenes) {
-  std::vector<std::string> engines;  // other than mysim; a single one gives the column its name
+  std::vector<std::string> engines;  // without mysim; names the column if it is the only one
   for (const ScenePart& part : scenes)
     if (part.take)
       for (const EngineBeside& other : part.take->beside) add_once(engines, other.engine);

@@ -14,7 +14,7 @@
 namespace crosscheck {
 namespace {
 
-/// Converters from a value to a part of the page, by the first word of the tag.
+/// By the first word of the tag.
 const std::map<std::string, std::string (*)(const std::string&)>& writers() {
   static const std::map<std::string, std::string (*)(const std::string&)> table{
       {"", escaped},
@@ -34,7 +34,6 @@ bool is_true(const Json& value) {
 
 }  // namespace
 
-/// Splits a text into parts.
 class Template::Reader {
  public:
   Reader(const Template& of, std::string_view text) : template_(of) {
@@ -43,7 +42,7 @@ class Template::Reader {
     text_.pop_back();
   }
 
-  /// Reads to the end of the text, or of the block that begins on line `begun`; `closed_by`: the tag that ended it.
+  /// Reads to the end of the text, or of the block that begins on line `begun`. `closed_by` receives the closing tag.
   std::vector<Part> parts(const std::string& block, int begun, std::string& closed_by) {
     for (std::vector<Part> parts;;) {
       const size_t begin = std::min(text_.find("{{", at_), text_.size());
@@ -77,7 +76,7 @@ class Template::Reader {
   }
 
  private:
-  /// The text between the braces; removes the line end of a line that contains only a block's tag.
+  /// Text between braces. If a line contains only a block's tag, removes the line end.
   std::string next_tag(int line) {
     const size_t end = text_.find("}}", at_);
     if (end == std::string::npos || end == at_ + 2) template_.fail(line, "a tag without its end or its name");

@@ -8,8 +8,8 @@
 //   {{#if key}} … {{else}} … {{/if}} unless the value is null, false, 0 or empty
 //   {{> name}}  {{> name key}}       another template, with the same data or with that value
 //
-// A key (`scene.name`) is looked up in the innermost item first, then in the enclosing data. Indentation is removed,
-// and so are lines that contain only a block's tag.
+// A key (`scene.name`) is looked up in the innermost item first, then in the enclosing data. Indentation and lines that
+// contain only a block's tag are removed.
 #pragma once
 
 #include <string>
@@ -22,19 +22,18 @@ namespace crosscheck {
 
 class Template {
  public:
-  /// Throws std::runtime_error ("NAME, line 3: …") if a block is not closed or a tag is unknown.
+  /// Throws std::runtime_error ("NAME, line 3: …") for an unclosed block or an unknown tag.
   Template(std::string name, std::string_view text);
 
-  /// Throws std::runtime_error, with template, line and key, for a key that is missing from the data or a value of the
-  /// wrong type.
+  /// Throws std::runtime_error with template, line and key if a value is missing or of the wrong type.
   std::string filled(const Json& data) const;
 
  private:
   struct Part {
     std::string kind;  // "text", "{" for {{{key}}}, or the tag's first word: "", "prose", "#each", ">"
-    std::string key;   // or the text, or the name of the other template
+    std::string key;   // or text, or another template's name
     int line;
-    std::string item = {};  // key of the other template's data
+    std::string item = {};  // selects the other template's data
     std::vector<Part> inside = {}, otherwise = {};
   };
   class Reader;
@@ -48,7 +47,6 @@ class Template {
   std::vector<Part> parts_;
 };
 
-/// report/page/templates/NAME.html, filled.
 std::string filled(const std::string& name, const Json& data);
 
 }  // namespace crosscheck

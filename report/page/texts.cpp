@@ -1,5 +1,3 @@
-// Reads the texts of the page, chapters and glossary, from report/page/texts/.
-
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
@@ -64,7 +62,7 @@ std::vector<Chapter> chapters() {
 Json glossary_data() {
   Json words = Json::array();
   const std::string text = asset("page/texts/glossary.md");
-  for (size_t at = text.find("## "); at != std::string::npos;) {  // "## TERM {#ID}", then its meaning
+  for (size_t at = text.find("## "); at != std::string::npos;) {  // "## TERM {#ID}", then the meaning
     const size_t brace = text.find(" {#", at), line = text.find('\n', at), next = text.find("\n## ", line);
     if (brace > line) throw std::runtime_error("glossary.md: a term without {#id}: " + text.substr(at, line - at));
     words.push_back(

@@ -1,4 +1,4 @@
-// Axes of all charts: each with one unit and one number format, ticks, grid lines, and titles that are never cut off.
+// Axes of all charts: one unit and number format each, and titles that are never cut off.
 
 import {format} from 'd3-format';
 import {scaleLinear, scaleLog} from 'd3-scale';
@@ -24,7 +24,7 @@ function inPowers(value: number): string {
 const prefixes: [string, number][] = [['', 1], ['m', 1e-3], ['µ', 1e-6], ['n', 1e-9], ['p', 1e-12]];
 const scalable = ['s', 'm', 'J', 'N'];  // units with smaller prefixes
 
-/** A value with its unit, at most three digits: "1.5 ms", "30 %", "10⁻⁷". */
+/** At most three digits: "1.5 ms", "30 %", "10⁻⁷". */
 export function nice(value: number, unit = ''): string {
   const size = Math.abs(value), small = size > 0 && scalable.includes(unit);
   const [prefix, factor] = (small && prefixes.find(([, f]) => size >= 0.9995 * f)) || ['', 1];
@@ -43,16 +43,16 @@ export interface Axis {
   at: (value: number) => number;  // px
   value: (place: number) => number;
   ticks: Tick[];
-  title: string;  // quantity and unit
+  title: string;
   unit: string;
-  size: number;  // size of the axis' unit in the spec's unit
+  size: number;  // in the spec's unit
   low: number;
   high: number;
 }
 
 const capital = (text: string) => text.charAt(0).toUpperCase() + text.slice(1);
 
-/** A unit in which all numbers of an axis are readable: its name and its size. */
+/** Name and size of a unit in which an axis is readable. */
 function unitOf({unit = '', log}: AxisSpec, low: number, high: number): [string, number] {
   if (!scalable.includes(unit)) return [unit, 1];
   const most = Math.max(Math.abs(low), Math.abs(high));
@@ -60,7 +60,7 @@ function unitOf({unit = '', log}: AxisSpec, low: number, high: number): [string,
   return found ? [found[0] + unit, found[1]] : [unit, 1];
 }
 
-/** True if the values are readable without powers of ten. */
+/** True if no powers of ten are needed. */
 const isPlain = (values: number[]) => values.every(v => v === 0 || (Math.abs(v) >= 0.9e-3 && Math.abs(v) < 1e6));
 
 /** Round values from low to high, about one per `apart` px. */
@@ -76,7 +76,7 @@ function valuesOf(log: boolean, low: number, high: number, length: number, apart
   return kept.length > 1 ? kept : scaleLinear().domain([low, high]).ticks(Math.min(count, 4)).filter(tick => tick > 0);
 }
 
-/** An axis between two positions (px), with a tick about every `apart` px. */
+/** Ends are in px; ticks are about `apart` px from each other. */
 export function axisOf(spec: AxisSpec, from: number, to: number, apart: number): Axis {
   let low = spec.low ?? 0, high = spec.high ?? 1;
   if (!(high > low)) low = spec.log ? low / 2 : low - 1, high = spec.log ? 2 * high : high + 1;
@@ -101,10 +101,9 @@ export function axisOf(spec: AxisSpec, from: number, to: number, apart: number):
   };
 }
 
-/** The width of the tick labels of a vertical axis, px. */
+/** Width of the tick labels of a vertical axis, px. */
 export const widthOfTicks = (axis: Axis) => Math.max(0, ...axis.ticks.map(tick => widthOf(tick.text)));
 
-// Elements.
 
 export interface Frame {
   left: number;
@@ -113,13 +112,13 @@ export interface Frame {
   bottom: number;
 }
 
-/** A title wrapped to a width, with its first baseline at y; the quantity is bold. */
+/** A wrapped title in bold, with its first baseline at y. */
 export function titleOf(text: string, x: number, y: number, width: number, anchor: Anchor = 'start'): Element[] {
   return wrapped(text, width, true).map((line, k) => label(line, x, y + lineHeight * k, anchor, {class: 'quantity'}));
 }
 export const linesOfTitle = (text: string, width: number) => wrapped(text, width, true).length;
 
-/** The title of a horizontal axis below a plot, centred if there is room; returns the y below it. */
+/** Title of a horizontal axis, centred if there is room. Returns the y below it. */
 export function titleBelow(elements: Element[], text: string, {left, right}: Frame, y: number, width: number): number {
   const half = Math.min(width, widthOf(text, true)) / 2,
         middle = Math.max(half, Math.min((left + right) / 2, width - half));
@@ -127,7 +126,6 @@ export function titleBelow(elements: Element[], text: string, {left, right}: Fra
   return y + 6 + lineHeight * (text ? linesOfTitle(text, width) - 1 : -1);
 }
 
-/** Grid lines and labels of a vertical axis. */
 export const uprightTicks = (axis: Axis, {left, right}: Frame, grid = true): Element[] => axis.ticks.flatMap(
     tick =>
         [...(grid ?
@@ -136,7 +134,7 @@ export const uprightTicks = (axis: Axis, {left, right}: Frame, grid = true): Ele
                  []),
          label(tick.text, left - 6, tick.place + 4, 'end')]);
 
-/** Labels of a horizontal axis within a width, without overlaps; on request with grid lines upwards. */
+/** Labels of a horizontal axis, without overlaps; on request with grid lines. */
 export function levelTicks(axis: Axis, {top, bottom}: Frame, width: number, grid = false): Element[] {
   let end = -Infinity;
   const elements: Element[] = [];
@@ -156,7 +154,7 @@ export function levelTicks(axis: Axis, {top, bottom}: Frame, width: number, grid
   return elements;
 }
 
-/** Names of categories below an axis: horizontal if there is room, otherwise slanted. `high`: their height. */
+/** Names of categories below an axis, slanted if there is no room. `high`: their height. */
 export function categoryTicks(
     categories: readonly[number, string][], axis: Axis, {left, right, bottom}: Frame,
     width: number): {elements: Element[], high: number} {

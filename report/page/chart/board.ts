@@ -1,4 +1,4 @@
-// Positions of labels: next to the curve, joined to its end by a leader line, or in a column to the right of the plot.
+// Positions of labels: next to the curve, joined to its end by a leader line, or in a column at the right.
 
 import {Frame} from './axes';
 import {Box, letters, lineHeight, widthOf} from './sheet';
@@ -14,7 +14,7 @@ export function dense(path: readonly Pair[], apart = 6): Pair[] {
   return points;
 }
 
-/** The distance of a box from the nearest of the points, px. */
+/** In px, to the nearest of the points. */
 export function distance(box: Box, points: readonly Pair[]): number {
   let least = Infinity;
   for (const [x, y] of points)
@@ -25,14 +25,14 @@ export function distance(box: Box, points: readonly Pair[]): number {
 
 const cell = 3;  // px
 
-/** A box for a text, with a penalty; `more` is only computed if the rest of the cost is low. */
+/** `more` is only computed if the rest of the cost is low. */
 export interface Candidate {
   box: Box;
   penalty: number;
   more?: () => number;
 }
 
-/** The occupied areas of a plot. */
+/** Occupied areas of a plot. */
 export class Board {
   private readonly across: number;
   private readonly cells: Uint8Array;
@@ -53,13 +53,13 @@ export class Board {
 
   add(box: Box) { this.mark(box, 2); }
   addMark([x, y]: Pair) { this.add({left: x - 5, right: x + 5, top: y - 5, bottom: y + 5}); }
-  /** Adds a line; labels may cross it if it yields. */
+  /** Labels may cross a line that yields. */
   addLine(path: readonly Pair[], yields: boolean) {
     for (const [x, y] of dense(path, cell))
       this.mark({left: x - 1, right: x + 1, top: y - 1, bottom: y + 1}, yields ? 1 : 2);
   }
 
-  /** Number of cells of yielding lines that a box covers; infinite if it covers anything else or leaves the frame. */
+  /** Number of cells of yielding lines that a box covers; infinite if it covers other content or leaves the frame. */
   cost(box: Box): number {
     const {left, right, top, bottom} = this.frame;
     if (box.left < left || box.right > right || box.top < top || box.bottom > bottom) return Infinity;
@@ -73,7 +73,7 @@ export class Board {
     return sum;
   }
 
-  /** Occupies the cheapest of the boxes and returns it; null if none is free. */
+  /** Occupies the cheapest box and returns it; null if none is free. */
   take(boxes: Iterable<Candidate>): Box|null {
     let best = 60, found: Box|null = null;
     for (const {box, penalty, more} of boxes) {
@@ -97,7 +97,7 @@ export const boxOfLines = (lines: readonly string[], left: number, baseline: num
   bottom: baseline + 0.24 * letters + lineHeight * (lines.length - 1)
 });
 
-/** Boxes for a label around the ends and along the paths of its curve, where it is nearest to its own curve. */
+/** Boxes for a label at the ends and along its curve, where it is nearer to its own curve than to others. */
 export function* boxesBeside(name: string, paths: readonly Pair[][], others: readonly Pair[]) {
   const width = widthOf(name, true), own = paths.flat();
   const at = (left: number, middle: number, penalty: number) => {
@@ -123,7 +123,7 @@ export function* boxesBeside(name: string, paths: readonly Pair[][], others: rea
   }
 }
 
-/** Boxes for lines of text around a point, at growing distances; each has a leader line from its nearer end. */
+/** Boxes for lines of text around a point, at growing distances, each with a leader line from its nearer end. */
 export function* boxesAround(lines: readonly string[], [x, y]: Pair, bold = false) {
   const high = lineHeight * (lines.length - 1);
   for (let away = 18; away < 110; away += 8)
@@ -135,11 +135,11 @@ export function* boxesAround(lines: readonly string[], [x, y]: Pair, bold = fals
     }
 }
 
-/** The point of a box that is nearest to a given point: the end of its leader line. */
+/** Point of a box that is nearest to a given point: the end of its leader line. */
 export const nearestOf = (box: Box, [x, y]: Pair):
     Pair => [Math.max(box.left - 2, Math.min(x, box.right + 2)), Math.max(box.top, Math.min(y, box.bottom))];
 
-/** Heights between two limits that are at least `apart` from each other and as close as possible to the wanted ones. */
+/** Moves heights within the limits until they are at least `apart` from each other, as little as possible. */
 export function pushedApart(wanted: readonly number[], low: number, high: number, apart: number): number[] {
   const order = wanted.map((_, i) => i).sort((a, b) => wanted[a] - wanted[b]), places = order.map(i => wanted[i]);
   for (let pass = 0; pass < 200; ++pass)
@@ -156,7 +156,7 @@ export function pushedApart(wanted: readonly number[], low: number, high: number
 export const isInside = ([x, y]: Pair, {left, right, top, bottom}: Frame) =>
     x >= left - 1 && x <= right + 1 && y >= top - 1 && y <= bottom + 1;
 
-/** The parts of a path inside a frame. */
+/** Sections of a path inside a frame. */
 export function clipped(path: readonly Pair[], {left, right, top, bottom}: Frame): Pair[][] {
   const runs: Pair[][] = path.length === 1 && isInside(path[0], {left, right, top, bottom}) ? [[path[0]]] : [];
   let open = false;

@@ -1,15 +1,14 @@
-// Charts of the page: laid out to the width of their figure, written as SVG, and navigable by keyboard.
+// Draws charts as SVG at the width of their figure, and makes them navigable by keyboard.
 
 import {layout} from './layout';
 import {css, Element, font, letters, widthOf} from './sheet';
 import {ChartSpec} from './spec';
 
-/** Appearance of the page's methods (methods-data). */
+/** From methods-data. */
 export type Looks = Record<string, {colour: string}>;
 
 const svgNames = 'http://www.w3.org/2000/svg';
 
-/** The elements of a layout as SVG. */
 export function svgOf({tag, attributes, children}: Element): SVGElement {
   const made = document.createElementNS(svgNames, tag);
   for (const [name, value] of Object.entries(attributes)) made.setAttribute(name, String(value));
@@ -18,8 +17,8 @@ export function svgOf({tag, attributes, children}: Element): SVGElement {
 }
 
 /**
- * Left and right arrows move from mark to mark, up and down to the next curve. The tooltip describes the mark, and
- * Enter plays its run.
+ * Left and right arrows move between marks, up and down between curves. The tooltip describes the mark; Enter plays its
+ * run.
  */
 function walk(event: KeyboardEvent) {
   const step = ({ArrowRight: 1, ArrowDown: 1, ArrowLeft: -1, ArrowUp: -1} as Record<string, number>)[event.key];
@@ -39,7 +38,7 @@ function walk(event: KeyboardEvent) {
   chosen.focus({preventScroll: true});
 }
 
-/** Compares the browser's font with the font widths that layouts assume. */
+/** Layouts assume Helvetica's widths. */
 function measureFont() {
   const ruler = document.createElement('canvas').getContext('2d'), text = 'Bullet explicit, 0.125 ms';
   if (!ruler) return;
@@ -51,14 +50,14 @@ function measureFont() {
 
 const drawnWidths = new WeakMap<HTMLElement, number>();
 
-/** Draws a chart into its box, at the box's width. */
+/** Draws a chart at the width of its box. */
 export function drawChart(box: HTMLElement, chart: ChartSpec, looks: Looks) {
   const width = Math.max(300, Math.round(box.clientWidth || 600)), before = drawnWidths.get(box);
   if (before === width) return;
   if (before === undefined) box.addEventListener('keydown', walk);
   drawnWidths.set(box, width);
   measureFont();
-  // user programs have the colours that the page chose for them
+  // the page chose the colours of user programs
   const sheet = layout(chart, width, part => {
     const look = looks[part.method ?? '']?.colour ?? '';
     return css(/^outside\d/.test(look) ? look : part.colour);
@@ -85,5 +84,4 @@ export function drawChart(box: HTMLElement, chart: ChartSpec, looks: Looks) {
   }));
 }
 
-/** True if a chart was drawn into the box. */
 export const isDrawn = (box: HTMLElement) => drawnWidths.has(box);

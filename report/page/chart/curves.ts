@@ -1,23 +1,22 @@
-// Curves, points and failures over two axes: labels at the ends of curves, at most six curves in colour, the others
-// grey until the reader points at them.
+// Curves, points and failures over two axes, with labels at the ends of curves. At most six curves are coloured; others
+// are grey until the reader points at them.
 
 import {Axis, axisOf, categoryTicks, Frame, levelTicks, linesOfTitle, nice, titleBelow, titleOf, uprightTicks, widthOfTicks} from './axes';
 import {Board, boxesAround, boxesBeside, boxOfLines, Candidate, clipped, dense, isInside, nearestOf, pushedApart} from './board';
 import {Box, Element, element, group, key, KeyEntry, label, lineHeight, mark, pathOf, PlacedName, rectangle, rounded, saying, segment, Sheet, widthOf, wrapped} from './sheet';
 import {CurvesSpec, GuideSpec, Pair, PartSpec, SeriesSpec} from './spec';
 
-/** A part with its positions. */
 interface Placed {
   part: PartSpec;
   index: number;
   colour: string;
-  series: {spec: SeriesSpec, points: Pair[], runs: Pair[][]}[];  // runs: the parts of its line within the axes
+  series: {spec: SeriesSpec, points: Pair[], runs: Pair[][]}[];  // runs: sections of its line within the axes
   crosses: Pair[];
 }
 
-const strip = 11;  // px, height of a row of failures
+const strip = 11;  // px, height
 
-/** Rows for crosses: those of a part share a row if there is room. */
+/** A part's crosses share a row if there is room. */
 function rowsOf(places: readonly number[][]): {rows: number[][], count: number} {
   const taken: number[][] = [];
   const free = (row: number, all: readonly number[]) =>
@@ -40,9 +39,9 @@ class CurvesLayout {
   private readonly y: Axis;
   private readonly parts: Placed[];
   private readonly board: Board;
-  private readonly column = new Set<PartSpec>();  // parts with labels to the right of the plot
+  private readonly column = new Set<PartSpec>();  // with labels to the right of the plot
   private readonly height: number;
-  private readonly marksLower: boolean;  // marks below the axis are drawn on it as triangles
+  private readonly marksLower: boolean;  // marks below the axis are drawn on it, as triangles
 
   constructor(private readonly chart: CurvesSpec, private readonly width: number, private readonly colours: Colours) {
     this.marksLower = chart.key.some(entry => entry.mark === 'down');
@@ -51,7 +50,7 @@ class CurvesLayout {
     const above: Element[] = [], keyHigh = key(above, this.keyEntries(), 0, lineHeight * titles + 4, width);
     const upright = axisOf(chart.y, high, 0, 38), left = Math.ceil(12 + widthOfTicks(upright));
     const right = this.chooseColumn();
-    // crosses along the top, in rows
+    // crosses are along the top
     const level = axisOf(chart.x, left, right, 70);
     const {rows, count} = rowsOf(chart.parts.map(part => part.failures.map(f => level.at(f.x))));
     const head = lineHeight * titles + keyHigh + 8, top = head + (count ? strip * count + 8 : 4), bottom = top + high;
@@ -111,7 +110,7 @@ class CurvesLayout {
     };
   }
 
-  /** Chooses the labels to the right of the plot: those of curves that end there. Returns the plot's right edge. */
+  /** Labels of curves that end at the right form a column. Returns the plot's right edge. */
   private chooseColumn(): number {
     const {chart, width} = this, bare = axisOf(chart.x, 0, 1, 70);
     const edge =
@@ -146,7 +145,7 @@ class CurvesLayout {
     };
   }
 
-  /** Draws the axes; returns the y below the axis and its title. */
+  /** Returns the y below the axis and its title. */
   private drawAxes(): number {
     const {chart, frame, elements, width} = this, {left, right, top, bottom} = frame;
     if (chart.window !== undefined) {
@@ -173,7 +172,7 @@ class CurvesLayout {
         const place: Pair = [this.x.at(px), Math.min(this.frame.bottom, y.at(py))];
         if (stairs.length) stairs.push([place[0], stairs[stairs.length - 1][1]]);
         stairs.push(place);
-        if (isBelow(py, y.low)) break;  // down to the axis, but not along it
+        if (isBelow(py, y.low)) break;  // down to the axis, not along it
       }
       elements.push(element('path', {class: 'pareto', d: pathOf(stairs)}));
       board.addLine(stairs, true);
@@ -245,7 +244,7 @@ class CurvesLayout {
       this.unplaced.push({text, sample});
   }
 
-  /** A ring around the recommended run, with its label. */
+  /** Rings and labels the recommended run. */
   private drawTake() {
     const {take, parts} = this.chart;
     if (!take) return;
@@ -303,7 +302,7 @@ class CurvesLayout {
   }
 }
 
-/** A leader line that starts at a distance `gap` from its first point. */
+/** Starts at a distance `gap` from its first point. */
 function leader(way: readonly Pair[], gap: number): Element {
   const [[x, y], [toX, toY]] = way, length = Math.hypot(toX - x, toY - y) || 1, part = Math.min(1, gap / length);
   return element('path', {class: 'leader', d: pathOf([[x + part * (toX - x), y + part * (toY - y)], ...way.slice(1)])});
@@ -314,7 +313,6 @@ const dashes = (dash: string|undefined): Record<string, string> =>
 
 const isBelow = (y: number, low: number) => y < low - 1e-9 * Math.abs(low);
 
-/** The CSS colour of a part. */
 export type Colours = (part: {colour: string, method?: string}) => string;
 
 export const curves = (chart: CurvesSpec, width: number, colours: Colours): Sheet =>

@@ -1,4 +1,4 @@
-// Lays out a chart of any kind, without a browser.
+// Lays out any chart, without a browser.
 
 import {Colours, curves} from './curves';
 import {map} from './map';

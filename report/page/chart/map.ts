@@ -1,12 +1,12 @@
-// Maps: one cell per run over two logarithmic axes, in panels that share the axes, with the predicted limit as a line
-// and the measured limit as dots.
+// Maps: a cell per run over two logarithmic axes, in panels with common axes. The predicted limit is a line, the
+// measured one is dots.
 
 import {axisOf, Frame, levelTicks, linesOfTitle, titleOf, uprightTicks, widthOfTicks} from './axes';
 import {clipped} from './board';
 import {Element, element, group, key, KeyEntry, label, lineHeight, pathOf, rectangle, rounded, saying, Sheet} from './sheet';
 import {AxisSpec, MapSpec, Pair} from './spec';
 
-/** Minimum and maximum of the values, and half the distance of neighbours, as a factor. */
+/** Minimum, maximum, and as a factor half the distance of neighbours. */
 function spanOf(values: readonly number[]): [number, number, number] {
   const sorted = [...new Set(values.map(v => Math.round(1e6 * Math.log(v)) / 1e6))].sort((a, b) => a - b);
   let least = Infinity;
@@ -15,7 +15,7 @@ function spanOf(values: readonly number[]): [number, number, number] {
 }
 
 export function map(chart: MapSpec, width: number): Sheet {
-  // panels of a single colour are described in a sentence
+  // a sentence describes panels of a single colour
   const plain = chart.panels.filter(panel => new Set(panel.cells.map(c => c[2])).size === 1), {kinds} = chart;
   const panels =
       plain.length < chart.panels.length ? chart.panels.filter(panel => !plain.includes(panel)) : chart.panels;
@@ -25,7 +25,7 @@ export function map(chart: MapSpec, width: number): Sheet {
   });
   const columns = Math.max(1, Math.min(3, Math.floor(width / 280), panels.length)),
         rows = Math.ceil(panels.length / columns);
-  // the axes are shared; each panel has its own cell size
+  // common axes, but cells of different sizes
   const spans = panels.map(panel => [spanOf(panel.cells.map(c => c[0])), spanOf(panel.cells.map(c => c[1]))]);
   const whole = (spec: AxisSpec, i: number): AxisSpec => ({
     ...spec,

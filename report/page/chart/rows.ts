@@ -1,4 +1,4 @@
-// Charts with one line per name: stacked bars, dots with intervals, largest stable steps.
+// Charts with a line per name: stacked bars, dots with intervals, largest stable steps.
 
 import {Axis, axisOf, Frame, levelTicks, nice, titleBelow} from './axes';
 import {Colours} from './curves';
@@ -12,10 +12,10 @@ interface Rows {
   elements: Element[];
   axis: Axis;
   frame: Frame;
-  below: number;  // y below the axis title
+  below: number;  // y below the axis' title
 }
 
-/** Names to the left of lines of this height, and an axis below. */
+/** Names to the left of lines of height `high`, and an axis below. */
 function rowsOf(
     names: readonly Named[], lines: number, high: number, spec: AxisSpec, above: number, width: number): Rows {
   const widest = Math.max(...names.map(({name}) => widthOf(name)));
@@ -25,7 +25,7 @@ function rowsOf(
   return {elements, axis, frame, below: titleBelow(elements, axis.title, frame, frame.bottom + 37, width)};
 }
 
-/** A name to the left of its line, wrapped into two lines if it is long. */
+/** Long names take two lines. */
 function nameOf({name}: Named, left: number, y: number): Element[] {
   const lines = wrapped(name, left - 10);
   return lines.map((line, k) => label(line, left - 8, y + 4 + lineHeight * (k - (lines.length - 1) / 2), 'end'));
@@ -73,7 +73,7 @@ export function bars(chart: BarsSpec, width: number): Sheet {
   return sheetOf(width, below, [...above, ...elements]);
 }
 
-/** A mark with an interval per name and series, over a logarithmic axis. */
+/** A mark with an interval per name and series. */
 export function dots(chart: DotsSpec, width: number, colours: Colours): Sheet {
   const ends = chart.series.flatMap(s => s.dots.flatMap(dot => (dot ? [dot[1], dot[2]] : [])));
   const all = [...ends, ...(chart.guides ?? []).map(guide => guide.at)];
@@ -119,7 +119,7 @@ export function dots(chart: DotsSpec, width: number, colours: Colours): Sheet {
 
 const sceneMarks: MarkName[] = ['circle', 'square', 'diamond', 'triangle'];
 
-/** A bar per method up to the h ω at which it is stable, a mark per scene, and a line for theory. */
+/** A bar per method up to its largest stable h ω, with a mark per scene and a line for theory. */
 export function limits(chart: LimitsSpec, width: number, colours: Colours): Sheet {
   const narrow = width < 620, high = narrow ? 46 : 32, tall = narrow ? 11 : 14,
         columns = [width - (narrow ? 62 : 84), width - 2];
@@ -163,7 +163,7 @@ export function limits(chart: LimitsSpec, width: number, colours: Colours): Shee
       const shift = row.marks.length < 2 ? 0 : (tall + 4) * (i / (row.marks.length - 1) - 0.5);
       add(mark(sceneMarks[scene % 4], [axis.at(measured), y + shift], 3.4, false, {words}));
     });
-    // next to the bar, inside it or, on narrow screens, after the name
+    // next to the bar, inside it, or on narrow screens after the name
     const far = axis.at(Math.max(row.held, ...row.marks.map(m => Math.max(m[1], m[2] ?? 0)))),
           first = left + widthOf(row.name, true) + 12;
     const words = narrow && first + widthOf(row.words) > width ? row.words.split(';')[0] : row.words;

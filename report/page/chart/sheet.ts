@@ -1,5 +1,4 @@
-// A laid-out chart: elements with their positions, before they become SVG. Text is measured without a browser, so that
-// a test can lay out every chart.
+// A laid-out chart, before it becomes SVG. Texts are measured without a browser, so that tests can lay out charts.
 
 import {line, symbol, symbolCircle, symbolDiamond, symbolSquare, symbolTriangle, SymbolType} from 'd3-shape';
 
@@ -23,7 +22,7 @@ export interface Box {
   bottom: number;
 }
 
-/** The label of a curve: next to it, or joined to its end by a leader line. */
+/** A curve's label, next to it or joined to its end by a leader line. */
 export interface PlacedName {
   text: string;
   box: Box;
@@ -31,23 +30,21 @@ export interface PlacedName {
   leader: boolean;
 }
 
-/** A chart at a given width: its elements and, for tests, the positions of curves and labels. */
+/** `names` and `paths` are for tests. */
 export interface Sheet {
   width: number;
   height: number;
   elements: Element[];
   names: PlacedName[];
   paths: Pair[][][];  // by part
-  notes: string[];    // sentences below the chart
+  notes: string[];    // sentences below
 }
 
-// Texts.
 
 export const letters = 12.5, lineHeight = 15;  // px
 
 /**
- * Widths of characters from blank to tilde, in thousandths of the font size: Helvetica, with the same widths as Arial
- * and Liberation Sans.
+ * Widths of characters from blank to tilde in Helvetica, Arial and Liberation Sans, in thousandths of the font size.
  */
 const advances =
     ('278 278 355 556 556 889 667 191 333 333 389 584 278 333 278 278 556 556 556 556 556 556 556 556 556 ' +
@@ -58,13 +55,13 @@ const advances =
         .map(Number);
 const narrowSigns = '⁻⁰¹²³⁴⁵⁶⁷⁸⁹°·\u202f';
 
-/** Ratio of the browser's font widths to those of regular Helvetica. */
+/** Ratio of the browser's font widths to Helvetica's. */
 export const font: Record<'regular'|'bold', number> = {
   regular: 1,
   bold: 1.07
 };
 
-/** Width of a text in px. */
+/** In px. */
 export function widthOf(text: string, bold = false, size = letters): number {
   let sum = 0;
   for (const sign of text) {
@@ -74,7 +71,6 @@ export function widthOf(text: string, bold = false, size = letters): number {
   return sum * size / 1000 * (bold ? font.bold : font.regular);
 }
 
-/** Wraps a text into lines of at most this width. */
 export function wrapped(text: string, width: number, bold = false): string[] {
   const lines: string[] = [];
   for (const word of text.split(' ')) {
@@ -92,18 +88,17 @@ export type Anchor = 'start'|'middle'|'end';
 export const label = (text: string, x: number, y: number, anchor: Anchor = 'start', attributes: Attributes = {}) =>
     element('text', {x: rounded(x), y: rounded(y), 'text-anchor': anchor, ...attributes}, text);
 
-/** The box of a text whose baseline starts at (x, y). */
+/** The baseline starts at (x, y). */
 export function boxOf(text: string, x: number, y: number, anchor: Anchor = 'start', bold = false): Box {
   const width = widthOf(text, bold), left = anchor === 'end' ? x - width : anchor === 'middle' ? x - width / 2 : x;
   return {left, right: left + width, top: y - 0.76 * letters, bottom: y + 0.24 * letters};
 }
 
-/** A group that is highlighted together with its method. */
+/** Highlighted together with its method. */
 export const group = (colour: string, method: string|undefined, ...children: Element[]) => element(
     'g', {class: 'series hero', style: `--own: ${colour}; --lit: ${colour}`, ...(method && {'data-method': method})},
     ...children);
 
-/** A line between two points. */
 export const segment = (kind: string, x1: number, y1: number, x2: number, y2: number) =>
     element('line', {class: kind, x1: rounded(x1), y1: rounded(y1), x2: rounded(x2), y2: rounded(y2)});
 
@@ -111,17 +106,16 @@ export const rectangle = (kind: string, x: number, y: number, width: number, hei
     element(
         'rect', {class: kind, x: rounded(x), y: rounded(y), width: rounded(width), height: rounded(height), ...more});
 
-/** The attributes of an element with a tooltip. */
+/** Attributes of an element with a tooltip. */
 export const saying = (words: string|undefined): Attributes =>
     words ? {'data-words': words, 'aria-label': words, role: 'img'} : {};
 
 export const rounded = (value: number) => Math.round(10 * value) / 10;
 
-// Lines and marks.
 
 const drawLine = line();
 
-/** A path through points, without points closer than a third of a px. */
+/** Omits points closer than a third of a px. */
 export function pathOf(points: readonly Pair[]): string {
   const kept: Pair[] = [];
   for (const [x, y] of points) {
@@ -148,7 +142,7 @@ function shapeOf(name: MarkName, r: number): string {
   return name === 'cross' ? x : name === 'plus' ? plus : x + plus;
 }
 
-/** A mark with a tooltip, which plays its run if it has one. */
+/** Has a tooltip, and plays its run if it has one. */
 export function mark(name: MarkName, [x, y]: Pair, r: number, open: boolean, tip: Tip = {}, colour = ''): Element {
   const kind = ['plus', 'cross', 'star'].includes(name) ? ' cross' : open ? ' open' : '';
   return element('path', {
@@ -161,19 +155,18 @@ export function mark(name: MarkName, [x, y]: Pair, r: number, open: boolean, tip
   });
 }
 
-/** A colour of style.css, or one that is lightened on a dark page. */
+/** A colour of style.css, or one that becomes lighter in dark mode. */
 export const css = (colour: string) =>
     colour.startsWith('#') ? `color-mix(in srgb, ${colour}, white var(--lift))` : `var(--${colour})`;
 
-// Keys.
 
 export interface KeyEntry {
   text: string;
-  sample: (x: number, y: number) => Element;  // its centre; x starts 9 px from the left
+  sample: (x: number, y: number) => Element;  // (x, y): centre; x starts 9 px from the left
   method?: string;
 }
 
-/** A key wrapped to a width, with the centre of its first line at `top` + 8; returns its height. */
+/** A wrapped key; the centre of its first line is at `top` + 8. Returns the height. */
 export function key(
     elements: Element[], entries: readonly KeyEntry[], left: number, top: number, width: number): number {
   if (!entries.length) return 0;

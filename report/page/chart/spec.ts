@@ -1,4 +1,4 @@
-// Chart specs as C++ writes them (report/figures/chart_json.h): the full content of a figure, in numbers and words.
+// Chart specs from C++ (report/figures/chart_json.h).
 
 export type Pair = [number, number];
 
@@ -12,13 +12,13 @@ export type AxisSpec = {
 
 export type MarkName = 'circle'|'square'|'diamond'|'triangle'|'down'|'pentagon'|'plus'|'cross'|'star';
 
-/** A mark with gnuplot's shapes; open marks are hollow. */
+/** gnuplot's shapes; open marks are hollow. */
 export type MarkSpec = {
   mark?: MarkName,
   open?: boolean
 };
 
-/** The tooltip of a mark, and the run that it plays. */
+/** Tooltip of a mark, and the run that it plays. */
 export type Tip = {
   words?: string,
   run?: string
@@ -39,20 +39,19 @@ type Info = {
 export interface SeriesSpec extends MarkSpec {
   title: string;
   line?: boolean;
-  dash?: string;  // lengths of dashes and gaps, in line widths
-  few?: boolean;  // marks on a few points only, to distinguish lines
+  dash?: string;  // dashes and gaps, in line widths
+  few?: boolean;  // few marks, to distinguish lines
   points: Pair[];
-  scaled?: number[];  // 1: open mark
+  scaled?: number[];  // 1: time scaled, open mark
   tips?: Tip[];
 }
 
 export type FailureSpec = MarkSpec&Tip&{x: number, kind: string};
 
-/** Curves and failures that share a name and a colour. */
 export interface PartSpec extends Named {
-  colour: string;   // name in style.css, or #RRGGBB
-  hero?: boolean;   // has its colour and its label; the others are grey until the reader points at them
-  keyed?: boolean;  // its name is in the key
+  colour: string;   // in style.css, or #RRGGBB
+  hero?: boolean;   // coloured and labelled; others are grey until the reader points at them
+  keyed?: boolean;  // named in the key
   series: SeriesSpec[];
   failures: FailureSpec[];
 }
@@ -61,7 +60,7 @@ export interface GuideSpec {
   axis: 'x'|'y';
   at: number;
   text: string;
-  kind?: 'guide'|'floor';  // floor: the error bar of the truth
+  kind?: 'guide'|'floor';  // floor: error bar of the truth
 }
 
 export interface CurvesSpec extends Info {
@@ -71,7 +70,7 @@ export interface CurvesSpec extends Info {
   parts: PartSpec[];
   key: (MarkSpec&{text: string, line?: boolean})[];
   pareto?: Pair[];
-  window?: number;  // shaded beyond this x
+  window?: number;  // shaded beyond x
   categories?: [number, string][];
   guides?: GuideSpec[];
   flat?: boolean;

@@ -1,4 +1,4 @@
-// Links from a run of a chart, or a cell of a map, to the lab.
+// Links to the lab from charts.
 
 import {parts, runOf, runsOf} from '../player/motion';
 
@@ -8,11 +8,11 @@ import {numberAt, numbersOf, tomlNumber, withNumbers, withoutSection} from './sc
 
 type LabState = Parameters<typeof openLab>[0];
 
-/** True if the lab can run a method, including its options. */
+/** True if the lab can run a method with its options. */
 const isOfLab = (method: string) =>
     Boolean(document.getElementById('lab-module')) && /^mysim\/[a-z0-9-]+(\+(events|sticky|linear))*$/.test(method);
 
-/** The small scene of a map with a row's stiffness (relative to its own) or drag rate, and a cell's step. */
+/** Scene of a map's cell: `value` is the stiffness, relative to the scene's own, or the drag rate. */
 function textOfCell(toml: string, kind: string, value: number, step: number) {
   let text = `${withoutSection(toml, 'drag').trimEnd()}\n\n[drag]\ngamma = ${tomlNumber(value)}  # 1/s\n`;
   if (kind === 'stiffness') {
@@ -23,13 +23,13 @@ function textOfCell(toml: string, kind: string, value: number, step: number) {
             lines[line].slice(end);
     text = lines.join('\n');
   }
-  // an integer number of steps per sampling interval, so that the step is not shortened
+  // an integer number of steps per sampling interval: otherwise the step would be shortened
   const samples = numberAt(text, 'time.samples'), interval = numberAt(text, 'time.duration') / samples;
   const duration = samples * Math.max(1, Math.ceil(interval / step)) * step;
   return withNumbers(text, {'time.duration': duration, 'time.step': step});
 }
 
-/** The lab's state for a mark of a figure: {scene, method, step or tolerance, toml}; null if there is none. */
+/** State for a mark of a figure; null if the lab cannot run it. */
 export function labStateOf(key: string, marker: HTMLElement): LabState|null {
   const {run: chosen = '', step, value} = marker.dataset, {method} = parts(chosen), set = runsOf(key);
   if (!set || !isOfLab(method)) return null;
@@ -42,7 +42,7 @@ export function labStateOf(key: string, marker: HTMLElement): LabState|null {
   return sceneText(set.scene) ? labStateOfRun(set.scene, chosen) : null;
 }
 
-/** The lab's state for a run of a scene; null if the page does not contain the run. */
+/** Null if the page does not contain the run. */
 export function labStateOfRun(scene: string, key: string): LabState|null {
   const found = runOf({scene}, key);
   if (!found) return null;

@@ -1,4 +1,4 @@
-// mysim in the page: the WebAssembly module, with one instance per scene and run (module.cpp is its counterpart).
+// mysim in the page: the WebAssembly module (module.cpp), with an instance per scene and run.
 
 import {inflated} from '../player/unpack';
 import {Vec3} from '../player/vectors';
@@ -7,12 +7,11 @@ import {Start, withMethod, withStart} from './scene_text';
 
 type FaultKind = 'input'|'unsupported'|'solver'|'fault';
 
-/** An error of the engine, with its message. */
 export class LabError extends Error {
   constructor(readonly kind: FaultKind, message: string) { super(message); }
 }
 
-/** A row of the engine's table of steppers. */
+/** Row of the engine's table of steppers. */
 export interface Stepper {
   name: string;
   evaluations: number;  // force evaluations per step
@@ -28,7 +27,6 @@ interface Outcome {
   steps: number;
 }
 
-/** Scalar properties of a scene. */
 interface SceneHead {
   duration: number;  // s
   samples: number;
@@ -46,7 +44,7 @@ interface SceneHead {
 }
 export interface EngineScene extends SceneHead {
   pins: Int32Array;
-  springs: Int32Array;  // both ends of each
+  springs: Int32Array;  // ends
   constraints: Int32Array;
   constraintLengths: Float64Array;  // m
   families: Int32Array;
@@ -54,10 +52,9 @@ export interface EngineScene extends SceneHead {
   triangles: Int32Array;
 }
 
-/** Number of spheres and planes. */
 export const solidsOf = ({spheres, planes}: EngineScene) => spheres.length + planes.length;
 
-/** Current energies, and losses and work since the start, J. */
+/** Current energies; losses and work since the start, J. */
 export interface Energies {
   kinetic: number;
   elastic: number;
@@ -78,7 +75,7 @@ export interface RunSettings {
 type Call = (...values: number[]) => number;
 type Calls = Record<string, Call>&{memory: WebAssembly.Memory, _initialize: () => void};
 
-/** The page's module, compiled at the first call; null if there is none, or if the browser does not support it. */
+/** Compiled at the first call; null if the page has no module or the browser does not support it. */
 export const labModule = (() => {
   let compiled: Promise<Lab|null>|undefined;
   const compile = async () => {
@@ -87,18 +84,17 @@ export const labModule = (() => {
     try {
       return new Lab(await WebAssembly.compile(await inflated(JSON.parse(packed.textContent)).arrayBuffer()));
     } catch {
-      return null;  // no SIMD, or WebAssembly is disabled
+      return null;  // SIMD is missing, or WebAssembly disabled
     }
   };
   return () => (compiled ??= compile());
 })();
 
-/** An instance of the module: its calls, its memory, and its texts. */
 class Instance {
   readonly calls: Calls;
 
   constructor(module: WebAssembly.Module) {
-    // the runtime's file functions are dummies: nothing is ever read or written
+    // dummies for the runtime's file functions: the module uses no files
     const none = () => 0, files = new Proxy({}, {get: () => none});
     const page = {
       fail: (kind: number, message: number) => {
@@ -111,19 +107,19 @@ class Instance {
     this.calls._initialize();
   }
 
-  /** The zero-terminated text at a position in memory. */
+  /** Reads a zero-terminated text. */
   text(at: number) {
     const bytes = new Uint8Array(this.calls.memory.buffer, at);
     return new TextDecoder().decode(bytes.subarray(0, bytes.indexOf(0)));
   }
 
-  /** Writes a text into the buffer, for the next call. */
+  /** Writes a text for the next call. */
   give(text: string) {
     const bytes = new TextEncoder().encode(text), at = this.calls.text_buffer(bytes.length);  // may grow the memory
     new Uint8Array(this.calls.memory.buffer, at, bytes.length).set(bytes);
   }
 
-  // Get the pointer before the buffer: a call may grow the memory, which detaches the old buffer.
+  // `at` is evaluated before the buffer: a call may grow the memory, which detaches the old buffer.
   doubles(at: number, count: number) { return new Float64Array(this.calls.memory.buffer, at, count); }
   integers(at: number, count: number) { return new Int32Array(this.calls.memory.buffer, at, count); }
 }
@@ -136,30 +132,30 @@ export class Lab {
     this.steppers = JSON.parse(instance.text(instance.calls.steppers()));
   }
 
-  /** The stepper of a method such as "implicit-euler+linear". */
+  /** Accepts options, as in "implicit-euler+linear". */
   stepperOf(method: string) {
     const [name] = method.split('+');
     return this.steppers.find(stepper => stepper.name === name);
   }
 
-  /** Opens the scene in a TOML text. Throws LabError if it cannot be read. */
+  /** Throws LabError if the text (TOML) is not a valid scene. */
   open(toml: string) { return new Simulation(this, toml); }
 }
 
 const growthBudget = 50;  // ms
 
-/** Arrows scaled so that the longest is 1; null if all are zero. */
+/** Scales arrows so that the longest is 1; null if all are zero. */
 function longestOne(arrows: Float64Array) {
   let most = 0;
   for (let i = 0; i < arrows.length; i += 3) most = Math.max(most, Math.hypot(arrows[i], arrows[i + 1], arrows[i + 2]));
   return most > 0 && Number.isFinite(most) ? arrows.map(part => part / most) : null;
 }
 
-/** A scene and one run of it. After an error that is not caused by the scene or a setting, the simulation is broken. */
+/** A scene and a run. Errors with other causes than the scene or a setting break it. */
 export class Simulation {
   readonly scene: EngineScene;
   byHand = false;
-  begun: Start|null = null;  // start of the run since the last change by hand
+  begun: Start|null = null;  // since the last change by hand
   private readonly instance: Instance;
   private broken = false;
   private failure: (Outcome&{t: number})|null = null;
@@ -191,7 +187,7 @@ export class Simulation {
     };
   }
 
-  /** Calls the engine. An exception ends the instance. */
+  /** An exception ends the instance. */
   call(name: string, ...values: number[]): number {
     if (this.broken) throw new LabError('fault', 'the run has ended');
     try {
@@ -203,10 +199,10 @@ export class Simulation {
     }
   }
 
-  /** The fastest vibration in the initial state, rad/s; 0 if nothing vibrates. Computed at the first access. */
+  /** Fastest vibration in the initial state, rad/s; 0 if nothing vibrates. */
   get omega() { return (this.fastest ??= this.call('omega')); }
 
-  /** The predicted critical step of a stepper, s: 0 if no step is stable, Infinity if all are, null if unknown. */
+  /** Predicted critical step, s: 0 if no step is stable, Infinity if all are, null if unknown. */
   limit(rule: string) {
     const row = this.lab.steppers.indexOf(this.lab.stepperOf(rule)!);
     if (row < 0) return null;
@@ -216,8 +212,8 @@ export class Simulation {
   }
 
   /**
-   * Starts a run in the scene's initial state. Without `observe`, losses and work are not accumulated, which is faster
-   * for large scenes. Throws LabError if the rule does not support the scene.
+   * Starts at the initial state. Without `observe`, losses and work are not accumulated, which is faster for large
+   * scenes. Throws LabError if the rule does not support the scene.
    */
   start(
       {stepper, options = '', step = this.scene.step, tolerance = 1e-6, duration = this.scene.duration, observe = true}:
@@ -230,10 +226,10 @@ export class Simulation {
     this.remember();
   }
 
-  /** Steps until the time t (s), or for at most `budget` ms of computing. Returns true while the run goes on. */
+  /** Steps until t (s), or for at most `budget` ms of computing. Returns true while the run goes on. */
   advance(t: number, budget = Infinity) {
     const until = performance.now() + budget;
-    let most = 1;  // steps between two readings of the clock
+    let most = 1;  // steps until the clock is read again
     try {
       while (this.going && this.t < t - 1e-9 * this.run.step) {
         const begin = performance.now();
@@ -252,13 +248,12 @@ export class Simulation {
     return this.going;
   }
 
-  /** Saves the state, in case the next one is not finite. */
+  /** In case the next state is not finite. */
   private remember() {
     this.outcome = null;
     this.last = {positions: this.positions.slice(), velocities: this.velocities.slice(), t: this.t};
   }
 
-  /** The outcome of the run so far. */
   private get result(): Outcome {
     return this.failure ?? (this.outcome ??= JSON.parse(this.instance.text(this.call('outcome'))) as Outcome);
   }
@@ -278,13 +273,13 @@ export class Simulation {
                          this.instance.doubles(this.call('velocities'), 3 * this.scene.particles);
   }
 
-  /** Centres of the spheres at a time (s), m. */
+  /** Centres of the spheres (m) at a time (s). */
   centres(t: number) {
     const count = 3 * this.scene.spheres.length;
     return this.broken ? new Float64Array(count) : this.instance.doubles(this.call('centres', t), count).slice();
   }
 
-  /** Energies and their balance (accumulated losses and work); null for first-order scenes. */
+  /** Null for first-order scenes. */
   get energy(): Energies|null {
     const at = this.broken ? 0 : this.call('energies');
     if (!at) return null;
@@ -293,8 +288,8 @@ export class Simulation {
   }
 
   /**
-   * The growing mode of a failed run, with its longest arrow 1. A run that failed late is not repeated, because that
-   * would delay a frame for too long: its last finite velocities replace the mode.
+   * Growing mode of a failed run, with a longest arrow of 1. If the run failed late, its last finite velocities replace
+   * the mode, because a repetition would delay a frame.
    */
   get growth() {
     if (this.going || this.verdict === 'ok' || this.scene.firstOrder) return null;
@@ -304,9 +299,9 @@ export class Simulation {
   }
 
   /**
-   * Growing mode of a copy of this run: the change of velocities in one step, and the positions at that time. It is
-   * taken before any particle moves by more than a tenth of the shortest spring per step; later the growth is no longer
-   * linear. The mode is null if the search exceeds the budget (ms).
+   * Repeats the run on a copy and returns the change of velocities in one step, with the positions at that time: before
+   * any particle moves by more than a tenth of the shortest spring per step, because later growth is not linear. `mode`
+   * is null if the search exceeds the budget (ms).
    */
   growingMode(budget = Infinity) {
     const until = performance.now() + budget;
@@ -329,10 +324,10 @@ export class Simulation {
     return {mode: mode && longestOne(mode), places};
   }
 
-  /** 16 hexadecimal digits, a hash of the bits of positions and velocities. */
+  /** 16 hexadecimal digits: a hash of the bits of positions and velocities. */
   fingerprint() { return this.instance.text(this.call('fingerprint')); }
 
-  // Changes by hand: the present state becomes the initial state of another scene, and the run continues from there.
+  // Changes by hand: the run continues in a new scene that begins in the present state.
 
   hold(particle: number, [x, y, z]: Vec3) { this.change('hold', particle, x, y, z); }
   release() { this.change('release'); }
@@ -351,8 +346,8 @@ export class Simulation {
   }
 
   /**
-   * The scene as it is now, with this run's method and step as its own; changes by hand are in [start]. Running it on
-   * the command line gives the same bits.
+   * The present scene, with the run's method and step; changes by hand are in [start]. The command line computes the
+   * same bits from it.
    */
   sceneText() {
     const {rule, step, tolerance} = this.run, adaptive = this.lab.stepperOf(rule)?.adaptive;

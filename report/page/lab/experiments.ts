@@ -1,5 +1,5 @@
-// The guided experiments: the lab's state in each step, the condition that completes the step, and the numbers of its
-// explanation. Texts are in words/ under EXPERIMENT.STEP.*; all numbers of results are read from the lab.
+// Guided experiments: for each step the lab's states, the condition of completion, and the numbers of its explanation,
+// which are read from the lab. Texts are in words/ under EXPERIMENT.STEP.*.
 
 import {Places} from '../player/vectors';
 
@@ -7,38 +7,37 @@ import {Energies, Simulation} from './engine';
 import {msText} from './knobs';
 import {Changes, MethodSpec} from './scene_text';
 
-/** The current state of a run of the lab. */
+/** Current state of a run. */
 interface RunReading {
   method: string;
   step: number;   // s
-  limit: number;  // predicted critical step, s; 0 if unknown
+  limit: number;  // predicted critical step, s; 0: unknown
   t: number;      // s
   steps: number;
   ended: boolean;
   failed: boolean;
   energy: Energies|null;
-  gain: number;     // energy since the start without a source, J; NaN if unknown
-  x: Float64Array;  // positions, m
+  gain: number;     // energy gained without a source, J; NaN: unknown
+  x: Float64Array;  // m
   sim: Simulation;
 }
 
-/** The current state of the lab. */
 export interface Reading {
   scene: string;
   toml: string;
-  run: RunReading;  // the first run
+  run: RunReading;
   runs: RunReading[];
   t: number;         // s
   duration: number;  // s
   omega: number;     // rad/s
   particles: number;
-  columns: number;  // particles along a cloth; 0 for other scenes
+  columns: number;  // along a cloth; 0 for other scenes
   rows: number;
   at(path: string): number;
   vector(path: string): number[];
 }
 
-/** The state of the lab next to the question. */
+/** State of the lab next to the question. */
 export interface Before {
   limit: number;
   omega: number;
@@ -52,14 +51,14 @@ export interface Before {
 }
 
 type Memory = Record<string, number>;
-/** Observations in a step: before the guess, in all runs, and in the present run. */
+/** Observations: before the guess, in all runs of a step, in its present run. */
 export interface Seen {
   before: Before;
   all: Memory;
   run: Memory;
 }
 
-/** A state of the lab: changed numbers in the scene's own text, a further edit of it, the camera. */
+/** Changed numbers of a scene's own text, a further edit of it, the camera. */
 export interface GuideState {
   scene: string;
   numbers: Changes;
@@ -75,17 +74,17 @@ export interface GuideStep {
   name: string;
   choices?: string[];
   right?: string;
-  guess?: {unit: string, within: number, read: (r: Reading) => number};  // a number instead of choices
+  guess?: {unit: string, within: number, read: (r: Reading) => number};  // instead of choices
   start: GuideState;                                                     // next to the question
   then?: Wanted;                                                         // after the guess; default: start
-  acts?: Wanted[];  // states that do the task for the reader; each runs until it ends or is `enough`
+  acts?: Wanted[];  // states that do the task for the reader, until each ends or is `enough`
   enough?: (r: Reading) => boolean;
-  watch?: (r: Reading, seen: Seen) => void;  // records the relevant parts of each reading
+  watch?: (r: Reading, seen: Seen) => void;  // records observations
   done: (r: Reading, seen: Seen) => boolean;
-  // numbers in its texts, in addition to those available to all texts
-  shown?: (before: Before) => Values;           // in question and task
-  values?: (r: Reading, seen: Seen) => Values;  // in the explanation
-  arrows?: (r: Reading) => Mode;                // a motion that the lab shows at the end
+  // further numbers for its texts
+  shown?: (before: Before) => Values;           // for question and task
+  values?: (r: Reading, seen: Seen) => Values;  // for the explanation
+  arrows?: (r: Reading) => Mode;                // motion to show at the end
 }
 
 export interface GuideExperiment {
@@ -94,16 +93,15 @@ export interface GuideExperiment {
   steps: GuideStep[];
 }
 
-/** A growing motion, the positions at which it is drawn, and the length of its longest arrow, m. */
+/** A growing motion, the positions at which to draw it, and the length of its longest arrow, m. */
 export interface Mode {
   mode: Float64Array;
   places: Float64Array;
   by: number;
 }
 
-// Geometry
 
-/** Distance of the first particle from the origin, m. */
+/** In m, for the first particle. */
 const radiusOf = (x: ArrayLike<number>) => Math.hypot(x[0], x[1], x[2]);
 
 export const centreOf = (x: Places) => [0, 1, 2].map(k => {
@@ -112,7 +110,7 @@ export const centreOf = (x: Places) => [0, 1, 2].map(k => {
   return 3 * sum / x.length;
 });
 
-/** The sharpest fold along the rows and columns of a cloth, degrees: 0 if it is flat. */
+/** Sharpest fold along rows and columns, degrees: 0 if the cloth is flat. */
 function sharpestFold(x: Places, columns: number, rows: number) {
   let least = 1;
   const fold = (p: number, q: number, r: number) => {
@@ -132,7 +130,7 @@ function sharpestFold(x: Places, columns: number, rows: number) {
   return Math.acos(Math.max(-1, least)) * 180 / Math.PI;
 }
 
-/** Share of the pairs of particles two cells apart that move against each other, weighted by their motion. */
+/** Share of the pairs two cells apart that move against each other, weighted by their motion. */
 function opposedPart(mode: Float64Array, columns: number, rows: number) {
   let against = 0, all = 0;
   const pair = (p: number, q: number) => {
@@ -148,19 +146,17 @@ function opposedPart(mode: Float64Array, columns: number, rows: number) {
   return against / all;
 }
 
-/** Factor by which leapfrog multiplies a vibration in a step with h omega = a; 1 for a up to 2. */
+/** Amplification of a vibration per leapfrog step with h omega = a; 1 for a <= 2. */
 const leapfrogFactor = (a: number) => (a <= 2 ? 1 : (a / 2 + Math.sqrt(a * a / 4 - 1)) ** 2);
-/** Factor by which RK4 multiplies a radius. */
+/** Amplification of a radius per RK4 step. */
 const rk4Factor = (a: number) => Math.sqrt(1 - a ** 6 / 72 + a ** 8 / 576);
 
-// Numbers as text
 
 const digits = (value: number, count = 3) => (value < 0 ? '−' : '') + Number(Math.abs(value).toPrecision(count));
 const degrees = (value: number) => String(Math.round(value));
 
-// Readings
 
-/** True if a run of this method, or of any method, reached its end. */
+/** True if a run of this method (default: any) reached its end. */
 const finished = (run: RunReading|undefined, method = run?.method) =>
     Boolean(run?.ended && !run.failed && run.method === method);
 const holds = (run: RunReading, time: number) => !run.failed && run.t >= time;
@@ -170,10 +166,10 @@ const farthest = (seen: Memory, name: string, value: number) => {
 const nearest = (seen: Memory, name: string, value: number) => {
   if (Number.isFinite(value)) seen[name] = Math.min(seen[name] ?? Infinity, value);
 };
-/** Distance of the first particle from its initial position, m. */
+/** In m, for the first particle. */
 const movedBy = (r: Reading, {x}: RunReading) => Math.hypot(...r.vector('particle.position').map((c, k) => x[k] - c));
 
-// States: a scene with other numbers, and the methods in it. With a single sample, any step is possible.
+// States: changed numbers of a scene, and methods. `time.samples = 1` allows any step.
 
 type Row = [method: string, step: number];
 const state = (scene: string, numbers: Changes, ...methods: Row[]): GuideState =>
@@ -182,9 +178,9 @@ const circle = (numbers: Changes, ...methods: Row[]) => ({...state('circle', num
 const pendulum = (...method: Row) => state('pendulum', {'time.samples': 200}, method);
 const hangingCloth = (step: number, numbers: Changes = {}) => state('cloth-hang', numbers, ['leapfrog', step]);
 const heavyCloth = (step: number, {mass}: Before) => hangingCloth(step, {'grid.mass': 4 * mass});
-/** The state in slow motion: a burst takes less than a tenth of a second. */
+/** A burst takes less than a tenth of a second. */
 const slowly = (speed: number, what: GuideState) => ({...what, speed});
-/** The state seen from above, where motions within the cloth are visible. */
+/** Shows motions within the cloth. */
 const fromAbove = (what: GuideState) => ({...what, from: {yaw: 0, pitch: 1.3, zoom: 0.75}});
 const allSprings = (k: number) =>
     ({'grid.stiffness.structural': k, 'grid.stiffness.shear': k, 'grid.stiffness.bend': k});
@@ -193,7 +189,7 @@ const fastCircle = {
   'time.duration': Math.PI,
   'time.window': Math.PI
 };
-// the scene's own step determines the range of the step's slider
+// the scene's step determines the slider's range
 const longCircle = {
   'rotation.rate': 4,
   'time.duration': 8,
@@ -207,7 +203,7 @@ const watchFold = ({run, columns, rows}: Reading, seen: Seen) => {
 const foldValues = ({run}: Reading, seen: Seen) =>
     ({fold: degrees(seen.run.fold), centre: digits(-centreOf(run.x)[1])});
 
-/** Angle from the top at which a particle starts on a ball, rad. */
+/** Angle from the top of a ball at which a particle starts, rad. */
 export const startAngle = (r: Reading) => {
   const [x, y] = r.vector('particle.position');
   return Math.atan2(x, y);
@@ -224,7 +220,7 @@ const slidingCloth = (friction: number) =>
     state('cloth-sphere', {'time.samples': 150, 'sphere.friction': friction}, ['leapfrog', 1e-3]);
 
 /**
- * Angle, speed and distance from the centre at the last contact in `slide`: repeats the run and observes every step.
+ * Angle, speed and distance from the centre at the last contact in `slide`; repeats the run and observes every step.
  */
 function lastContact({run, at, toml, duration}: Reading) {
   const sim = run.sim.lab.open(toml), reach = at('sphere.radius') + at('sphere.margin');
@@ -239,14 +235,14 @@ function lastContact({run, at, toml, duration}: Reading) {
   return last;
 }
 
-/** The hanging cloth with twice as many particles along each side; its pins stay at the corners. */
+/** Twice as many particles along each side; pins stay at the corners. */
 function finerCloth(toml: string) {
   const [, columns, rows] = (/^size = \[(\d+), (\d+)\]/m.exec(toml) ?? []).map(Number);
   return toml.replace(/^size = .*$/m, `size = [${2 * columns}, ${2 * rows}]`)
       .replace(/^particles = .*$/m, `particles = [0, ${2 * columns - 1}]`);
 }
 
-/** The growing mode of the lab's run A. */
+/** In run A. */
 function growingMode({run: {sim}}: Reading): Mode {
   const {mode, places} = sim.growingMode();
   return {mode: mode ?? new Float64Array(places.length), places, by: 0.7 * Math.min(...sim.scene.rests)};
@@ -560,7 +556,7 @@ export const labExperiments: GuideExperiment[] = [
   }
 ];
 
-/** Numbers available to every question and task. */
+/** For every question and task. */
 export const shownNumbers = (step: GuideStep, before: Before): Values => ({
   particles: before.particles,
   omegaBefore: digits(before.omega, 4),
@@ -572,7 +568,7 @@ export const shownNumbers = (step: GuideStep, before: Before): Values => ({
   ...step.shown?.(before)
 });
 
-/** Numbers available to every explanation. */
+/** For every explanation. */
 export const foundNumbers = (step: GuideStep, r: Reading, seen: Seen): Values => ({
   h: msText(r.run.step),
   n: r.run.steps,

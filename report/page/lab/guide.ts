@@ -1,6 +1,5 @@
-// <lab-guide>: guided experiments in a <live-lab>, next to its picture. Each step asks for a guess, lets the reader
-// perform the task in the lab, detects its completion, and then explains the result. Every step can be skipped,
-// repeated or left.
+// <lab-guide>: guided experiments in a <live-lab>. Each step asks for a guess, lets the reader perform the task in the
+// lab, notices its completion, and explains the result. Steps can be skipped, repeated or left.
 
 import {make} from '../player/controls';
 import {stillWanted} from '../player/player';
@@ -11,7 +10,7 @@ import {labScenes, sceneText} from './lab_runs';
 import {numberAt, valueAt, withNumbers} from './scene_text';
 import {labLanguage, say} from './words';
 
-/** Numbers of the lab for the experiments; null before its first run. */
+/** Null before the lab's first run. */
 export function readingOf(lab: LiveLab): Reading|null {
   const {reading} = lab;
   if (!reading) return null;
@@ -50,7 +49,6 @@ export function readingOf(lab: LiveLab): Reading|null {
   };
 }
 
-/** The state of the lab that a step remembers from its question. */
 const beforeOf = (r: Reading): Before => ({
   limit: r.runs[0].limit,
   omega: r.omega,
@@ -63,15 +61,14 @@ const beforeOf = (r: Reading): Before => ({
   centre: centreOf(r.runs[0].x)
 });
 
-/** The result of a step. */
 interface Result {
   guess: string|number|null;
-  read?: number;  // the actual value of the guessed number
+  read?: number;  // the actual value
   values: Record<string, string|number>;
   before: Before;
 }
 
-/** Completed steps, kept for the lifetime of the page's tab if the browser allows it. */
+/** Completed steps, kept while the tab is open, if the browser allows it. */
 export const guideProgress = (() => {
   const key = 'lab-guide', nameOf = (experiment: GuideExperiment, step: GuideStep) => `${experiment.name}.${step.name}`;
   let done: Record<string, Result> = {};
@@ -94,7 +91,7 @@ export const guideProgress = (() => {
 
 const experimentOfAddress = () => /^#experiment=([\w-]+)/.exec(location.hash)?.[1];
 
-/** Writes the current experiment into the address, or removes it, so that a link opens it again. */
+/** Writes the experiment's address for links, or removes it. */
 function writeExperiment(name: string|null) {
   if (!name && !experimentOfAddress()) return;
   try {
@@ -103,7 +100,7 @@ function writeExperiment(name: string|null) {
   }
 }
 
-/** The experiments whose scenes are in this page. */
+/** Experiments whose scenes are in this page. */
 const experimentsHere = () => labExperiments.filter(({scenes}) => scenes.every(name => name in labScenes()));
 
 const guideButton = (key: string, words: string, act: () => void, attributes: Record<string, string> = {}) => {
@@ -112,14 +109,14 @@ const guideButton = (key: string, words: string, act: () => void, attributes: Re
   return button;
 };
 
-/** Phase of a step: question, task or explanation. */
+/** Question, task or explanation. */
 type Phase = 'ask'|'try'|'why';
 
 class LabGuide extends HTMLElement {
   lab!: LiveLab;
   phase: Phase = 'ask';
-  acting: number|null = null;  // index of the act that is performed for the reader
-  setting = false;             // the lab is being set to a state
+  acting: number|null = null;  // index of the act performed for the reader
+  setting = false;             // true while the lab is being set to a state
   seen: Omit<Seen, 'before'>&{before: Before | null} = {before: null, all: {}, run: {}};
   private experiment: GuideExperiment|null = null;
   private step: GuideStep|null = null;
@@ -151,7 +148,7 @@ class LabGuide extends HTMLElement {
     writeExperiment(null);
     this.experiment = this.step = null;
     this.sandbox = true;
-    this.lab.setSpeed(1);  // an experiment may have changed the speed
+    this.lab.setSpeed(1);  // the experiment may have changed it
     this.render();
     this.focusFirst();
   }
@@ -162,7 +159,7 @@ class LabGuide extends HTMLElement {
     this.lab.classList.remove('guided');
   }
 
-  /** Opens an experiment at its first unfinished step; shows the list if there is no experiment with this name. */
+  /** Opens an experiment at its first unfinished step, or the list if the name is unknown. */
   show(name: string) {
     const experiment = experimentsHere().find(each => each.name === name);
     if (!experiment) return this.showList();
@@ -170,7 +167,7 @@ class LabGuide extends HTMLElement {
     return this.begin(experiment, Math.max(0, open));
   }
 
-  /** Sets the lab to the state next to a step's question. */
+  /** Sets the lab to a step's first state. */
   private async begin(experiment: GuideExperiment, number: number, again = false) {
     const step = experiment.steps[number], known = again ? undefined : guideProgress.of(experiment, step);
     Object.assign(this, {experiment, number, step, sandbox: false, acting: null, phase: known ? 'why' : 'ask'});
@@ -182,7 +179,6 @@ class LabGuide extends HTMLElement {
     await this.setLab(step.start);
   }
 
-  /** Sets the lab to a state of an experiment. */
   private async setLab(wanted: Wanted, running = false) {
     const r = readingOf(this.lab), state = typeof wanted === 'function' ? r && wanted(r, this.seen as Seen) : wanted;
     if (!state) return;
@@ -197,7 +193,7 @@ class LabGuide extends HTMLElement {
     this.look();
   }
 
-  /** Accepts the reader's guess, or null for none. */
+  /** Null: no guess. */
   private async take(guess: string|number|null) {
     if (!this.step || !this.seen.before) return;
     Object.assign(this, {guess, phase: 'try'});
@@ -206,7 +202,6 @@ class LabGuide extends HTMLElement {
     if (this.step.then) await this.setLab(this.step.then);
   }
 
-  /** Performs the task for the reader. */
   private async act(index = 0) {
     const {step} = this, acts = step?.acts ?? (step ? [step.then ?? step.start] : []);
     if (index >= acts.length) return;
@@ -216,7 +211,7 @@ class LabGuide extends HTMLElement {
     if (this.step === step && this.phase === 'try') this.acting = index;
   }
 
-  /** On a narrow page the lab is below the guide: scrolls to its picture, and to the explanation when it appears. */
+  /** Scrolls to the lab on narrow pages, where it is below the guide. */
   private showLab(parent: HTMLElement = this.lab, selector = '.stage') {
     const {root} = this.lab.view ?? {};
     if (!root || this.getBoundingClientRect().bottom > root.getBoundingClientRect().top + 1) return;
@@ -224,7 +219,7 @@ class LabGuide extends HTMLElement {
         {block: 'nearest', behavior: stillWanted.matches ? 'auto' : 'smooth'});
   }
 
-  /** Processes a new reading of the lab: are the question's numbers known, and is the task done? */
+  /** Processes a reading: the question's numbers may be known, or the task done. */
   private look() {
     const {step, seen} = this, r = step && !this.setting && this.isConnected ? readingOf(this.lab) : null;
     if (!r || !step) return;
@@ -257,9 +252,7 @@ class LabGuide extends HTMLElement {
         new CustomEvent('step-done', {bubbles: true, detail: {experiment: experiment?.name, step: step.name}}));
   }
 
-  /**
-   * Shows the motion that grew in a failed run: the cloth deformed by it, by up to `by` m, and arrows of that length.
-   */
+  /** Shows the motion that grew in a failed run: deforms the cloth by up to `by` m, with arrows of that length. */
   private showMode({mode, places, by}: Mode, r: Reading) {
     const {lab} = this, [run] = lab.runs, most = mode.reduce((top, part) => Math.max(top, Math.abs(part)), 0);
     if (!lab.growth || !lab.stage || r.runs[0].sim !== run.sim) return;
@@ -275,7 +268,7 @@ class LabGuide extends HTMLElement {
     return next ? this.begin(next, 0) : this.showSandbox();
   }
 
-  /** The experiment after this one; undefined after the last. */
+  /** Undefined after the last. */
   private get following(): GuideExperiment|undefined {
     const all = experimentsHere();
     return all[all.findIndex(each => each === this.experiment) + 1];
@@ -399,7 +392,7 @@ class LabGuide extends HTMLElement {
     return form;
   }
 
-  /** The result of the guess as a sentence. */
+  /** A sentence on the guess. */
   private outcome(step: GuideStep, {guess, read = 0}: Result) {
     if (!step.guess) {
       const answer = this.words(step.right);
@@ -413,7 +406,7 @@ class LabGuide extends HTMLElement {
     return say(near ? 'guide.near' : 'guide.far', {guess: text(Number(guess)), answer: text(read)});
   }
 
-  /** The result of the guess, the explanation, and the numbers of this run. */
+  /** The result of the guess, the explanation, and this run's numbers. */
   private reason(experiment: GuideExperiment, step: GuideStep, result: Result): HTMLElement {
     const {values} = result, last = this.number + 1 === experiment.steps.length;
     return make(
@@ -426,7 +419,7 @@ class LabGuide extends HTMLElement {
   }
 }
 
-/** The guide next to an open lab; creates it if necessary. */
+/** Creates the guide of an open lab if necessary. */
 export function openGuide(lab: LiveLab) {
   const there = lab.querySelector<LabGuide>('lab-guide');
   if (there) return there;
@@ -437,8 +430,8 @@ export function openGuide(lab: LiveLab) {
 }
 
 /**
- * Opens an experiment in a lab, or the list of experiments if there is none with this name. Without a lab: on the lab's
- * own page in the existing lab, otherwise in a lab with the experiment's scene.
+ * Opens an experiment, or the list if the name is unknown. Default lab: the page's only one, or a lab with the
+ * experiment's scene.
  */
 export async function openExperiment(name: string, given?: LiveLab) {
   const scene = labExperiments.find(each => each.name === name)?.scenes[0] ?? 'cloth-hang';
@@ -451,7 +444,6 @@ const followExperiment = () => {
   if (name) openExperiment(name);
 };
 
-/** Defines <lab-guide> and opens the experiment in the address. */
 export function startGuide() {
   customElements.define('lab-guide', LabGuide);
   addEventListener('hashchange', followExperiment);

@@ -1,4 +1,4 @@
-// The hand in the picture: turns and zooms the view, and holds, moves and pins particles, by pointer, finger or key.
+// Turns and zooms the view, and holds, moves and pins particles, by pointer, finger or key.
 
 import {Orbit, tangent} from '../player/orbit';
 import {attachWheel, orbitKeys} from '../player/pointer_input';
@@ -7,25 +7,23 @@ import {minus, norm, placeOf, plus, Vec3} from '../player/vectors';
 import {LiveRun} from './live_run';
 import {LiveStage} from './live_stage';
 
-/** Distance in pixels within which a pointer, or a finger, meets a particle. */
+/** Pixels within which a pointer or finger meets a particle. */
 const reachOf = (type: string) => type === 'touch' ? 30 : 16;
 
 interface At {
   clientX: number;
   clientY: number;
 }
-/** A particle under a pointer. */
 interface Hit {
   particle: number;
   run: LiveRun;
   panel: {left: number, top: number, wide: number, high: number};
 }
 
-/** The lab's functions for the hand. */
 export interface HandActs {
   stage(): LiveStage|null;
   orbit(): Orbit;
-  runs(): (LiveRun|null)[];  // the drawn runs, in the order of the panels
+  runs(): (LiveRun|null)[];  // drawn runs, by panel
   draw(): void;
   hover(on: boolean): void;
   /** Returns false if there is nothing to hold. */
@@ -53,7 +51,7 @@ export class Hand {
       const hit = this.hit(event);
       if (hit) act.pin(hit.particle);
     });
-    // a finger on a particle does not scroll the page, and neither do two fingers
+    // touches of a particle, or by two fingers, do not scroll the page
     layer.addEventListener('touchstart', event => {
       if (event.touches.length > 1 || this.hit(event.touches[0], 'touch')) event.preventDefault();
     }, {passive: false});
@@ -62,7 +60,6 @@ export class Hand {
     layer.addEventListener('blur', () => this.held?.key && this.release());
   }
 
-  /** The particle under a pointer; null if there is none. */
   private hit({clientX, clientY}: At, type = 'mouse'): Hit|null {
     const stage = this.act.stage();
     if (!stage) return null;
@@ -78,12 +75,12 @@ export class Hand {
         if (away < reachOf(type)) near.push({particle, panel, run, away, depth: at[2]});
       }
     });
-    // the nearest of several particles in line
+    // the nearest of particles in line
     const least = Math.min(...near.map(n => n.away)), front = near.filter(n => n.away < least + 3);
     return front.sort((a, b) => a.depth - b.depth)[0] ?? null;
   }
 
-  /** The point under a pointer in the plane through a particle, parallel to the picture. */
+  /** The point under a pointer in the plane of a particle parallel to the picture. */
   private under({clientX, clientY}: At, {panel}: Hit, from: Vec3): Vec3 {
     const stage = this.act.stage(), box = this.layer.getBoundingClientRect(), at = stage?.project(from, panel);
     if (!stage || !at) return from;
@@ -129,7 +126,7 @@ export class Hand {
     this.lead(event);
   }
 
-  /** Puts the grabbed particle under a pointer after the pointer, the camera or the picture has moved. */
+  /** After the pointer, the camera or the picture has moved. */
   lead({clientX, clientY}: At) {
     const {grabbed} = this, stage = this.act.stage();
     if (!grabbed?.run.places || !stage) return;
@@ -175,7 +172,7 @@ export class Hand {
     this.act.choose(particle);
   }
 
-  /** Resets the hand, because the scene has changed. */
+  /** For a new scene. */
   forget() { this.chosen = this.held = this.grabbed = null; }
 
   private key(event: KeyboardEvent) {
@@ -197,20 +194,19 @@ export class Hand {
       r: () => this.act.restart(),
     };
     const act = turned ? () => (turned(), this.act.draw()) : keys[event.key];
-    // without a chosen particle, Escape belongs to the page, which closes windows
+    // without a chosen particle, Escape closes windows
     if (!act || (event.key === 'Escape' && this.chosen === null)) return;
     event.preventDefault();
     event.stopPropagation();
     act();
   }
 
-  /** Chooses the next or previous particle. */
   private next(by: number) {
     const count = (this.act.runs()[0]?.places?.length ?? 0) / 3;
     if (count) this.choose(this.chosen === null ? (by > 0 ? 0 : count - 1) : (this.chosen + by + count) % count);
   }
 
-  /** Moves the chosen particle a little to the right, upwards and towards the eye. */
+  /** Moves the chosen particle a little. */
   private nudge(across: number, upward: number, nearer: number) {
     const [run] = this.act.runs(), stage = this.act.stage();
     if (this.chosen === null || !run?.places || !stage) return;

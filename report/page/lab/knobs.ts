@@ -1,4 +1,4 @@
-// Sliders of the lab, with units: the scene's numbers, and each method's step with its predicted critical step.
+// Sliders for the scene's numbers, and for each method's step with its predicted critical step.
 
 import {check, make} from '../player/controls';
 
@@ -7,22 +7,22 @@ import {LiveRun} from './live_run';
 import {Changes, MethodSpec, numberAt, numbersOf, stepOf, tomlNumber, Value, valueAt} from './scene_text';
 import {labLanguage, labWords, say} from './words';
 
-/** A number with a slider; its range is relative to the scene's own value. */
+/** Ranges are relative to the scene's own value. */
 interface KnobRow {
   path: string;
-  scales?: string[];  // paths below that are scaled along
+  scales?: string[];  // subpaths, scaled together
   word: string;
   unit: string;
   from?: number;
   to?: number;
-  most?: number;  // in the number's own unit
+  most?: number;  // in the number's unit
   zero?: boolean;
-  even?: boolean;  // linear, from 0 if there is no `from`
+  even?: boolean;  // linear; default start: 0
 }
 
-const shownKnobs = 4;  // next to the step; the others are folded
+const shownKnobs = 4;  // others are folded
 
-/** The most instructive come first. */
+/** The most instructive are first. */
 const knobTable: KnobRow[] = [
   {
     path: 'grid.stiffness',
@@ -55,13 +55,13 @@ const knobTable: KnobRow[] = [
   {path: 'pins.motion.frequency', word: 'frequency', unit: 'Hz', from: 1 / 10, to: 10},
 ];
 
-const knobSteps = 1000;  // positions of a slider
+const knobSteps = 1000;
 const rounded = (value: number, digits = 3) => Number(value.toPrecision(digits));
 let knobCount = 0;
 
 type Changed = (value: number, done: boolean) => void;
 
-/** Range of a slider; `snap` maps a value to a possible one. */
+/** `snap` maps a value to a possible one. */
 interface Reach {
   low: number;
   high: number;
@@ -70,7 +70,7 @@ interface Reach {
   snap?: (value: number) => number;
 }
 
-/** A slider and a field for one number; calls `changed(value, done)` while it moves and when it stops. */
+/** A slider and a field. Calls `changed(value, done)` while it moves and when it stops. */
 class Slider {
   readonly box: HTMLElement;
   readonly rail: HTMLElement;
@@ -107,7 +107,7 @@ class Slider {
     return snap(even ? low + part * (high - low) : low * (high / low) ** part);
   }
 
-  /** Position of a value along the slider, 0 to 1. */
+  /** Position along the slider, 0 to 1. */
   partOf(value: number) {
     const {low, high, even} = this.reached;
     const part = even ? (value - low) / (high - low) : value > 0 ? Math.log(value / low) / Math.log(high / low) : 0;
@@ -129,7 +129,7 @@ class Slider {
   }
 }
 
-/** The sliders of a scene's own numbers: the first few visible, the others folded. */
+/** Sliders for a scene's own numbers; the first few are visible, others folded. */
 export class SceneKnobs {
   readonly box: HTMLElement = make('div', {class: 'knobs'});
   private knobs: {row: KnobRow, slider: Slider}[] = [];
@@ -138,7 +138,7 @@ export class SceneKnobs {
 
   constructor(private readonly changed: (changes: Changes, done: boolean) => void) {}
 
-  /** Makes the sliders for the numbers in the text; `original` determines their ranges. */
+  /** `original` determines the ranges. */
   build(toml: string, original: string) {
     const unfolded = this.box.querySelector('details')?.open;
     this.original = original;
@@ -163,14 +163,13 @@ export class SceneKnobs {
 
   private pathOf({path, scales}: KnobRow) { return scales ? `${path}.${scales[0]}` : path; }
 
-  /** True if the text has the number, once or with the same value everywhere, and not zero. */
+  /** True if the text has the number, not zero, and equal wherever it occurs. */
   private has(row: KnobRow, toml: string) {
     if (row.scales && row.scales.filter(k => numberAt(toml, `${row.path}.${k}`)).length < 2) return false;
     const path = this.pathOf(row), all = numbersOf(toml).filter(e => e.path === path).map(e => tomlNumber(e.value));
     return numberAt(toml, path) > 0 && all.every(value => value === all[0]);
   }
 
-  /** Changes of the text for a value of a slider. */
   private changesOf(row: KnobRow, value: number): Changes {
     const {path, scales} = row;
     if (scales) {
@@ -188,10 +187,9 @@ export class SceneKnobs {
   }
 }
 
-/** A time (s) in ms, the unit of the step's slider. */
+/** The step's slider uses ms. */
 export const msText = (s: number) => `${Number((1000 * s).toPrecision(3))} ms`;
 
-/** One method: its stepper, its step or tolerance, the predicted critical step. */
 export class MethodKnobs {
   readonly box: HTMLElement;
   private readonly select: HTMLSelectElement;
@@ -204,7 +202,7 @@ export class MethodKnobs {
   private readonly note: HTMLElement = make('p', {class: 'note', role: 'status'});
   private steppers: Stepper[] = [];
   private spec: MethodSpec = {method: ''};
-  private own = 0;  // the scene's own step, s
+  private own = 0;  // s
   private solids = 0;
 
   constructor(
@@ -229,11 +227,11 @@ export class MethodKnobs {
     remove.addEventListener('click', removed);
   }
 
-  /** Reads the method from the controls, with a step or tolerance that was moved. */
+  /** Reads the controls; `moved` is a new step or tolerance. */
   private take(moved: Partial<MethodSpec>, done: boolean) {
     const stepper = this.steppers.find(s => s.name === this.select.value);
     if (!stepper) return;
-    // other options of the state, +events or +linear, are kept with their stepper
+    // keep other options, +events or +linear, with their stepper
     const [name, ...options] = this.spec.method.split('+');
     const kept = this.sticky.checked && this.solids ? ['sticky'] :
         name === stepper.name                       ? options.filter(option => option !== 'sticky') :
@@ -242,13 +240,13 @@ export class MethodKnobs {
     this.changed(stepper.adaptive ? {method, tolerance: tolerance || 1e-6} : {method, step: step || this.own}, done);
   }
 
-  /** Shows a method with its run; `scale`: critical step, s, that determines the slider's range. */
+  /** `scale`: critical step (s), which determines the slider's range. */
   show(spec: MethodSpec, run: LiveRun, steppers: Stepper[], scale: number|null) {
     const {scene} = run.sim, [name, ...options] = spec.method.split('+'), {limit} = run;
     const h = run.refusal ? 0 : run.sim.h;
     const stepper = steppers.find(s => s.name === name), interval = scene.duration / scene.samples;
     const known = limit !== null && Number.isFinite(limit) && limit > 0;
-    const bound = known && limit <= interval;  // no step is longer than the sampling interval
+    const bound = known && limit <= interval;  // steps do not exceed the sampling interval
     Object.assign(this, {spec, steppers, own: scene.step, solids: solidsOf(scene)});
     const usable = steppers.filter(s => !scene.firstOrder || s.firstOrder);
     if (this.select.childElementCount !== usable.length)
@@ -285,7 +283,7 @@ export class MethodKnobs {
   }
 }
 
-/** A method's name in words: "symplectic Euler, sticky". A stepper without a translation keeps its name. */
+/** "symplectic Euler, sticky"; untranslated steppers keep their name. */
 export function nameOfMethod(method: string) {
   const [name, ...options] = method.split('+');
   const known = (key: string, otherwise: string) => (key in labWords.en ? say(key) : otherwise);
@@ -295,7 +293,7 @@ export function nameOfMethod(method: string) {
   ].join(say('comma'));
 }
 
-/** A stepper in the selection: in words, followed by its command-line name if the language is not English. */
+/** In languages other than English, the command-line name follows. */
 const chosenAs = (name: string) => {
   const words = nameOfMethod(name);
   return labLanguage === 'en' || words === name ? words : [words, name].join(say('comma'));

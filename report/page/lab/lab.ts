@@ -1,7 +1,7 @@
-// <live-lab>: mysim itself in the page, next to the truth. Nothing is laid out, compiled or computed before the lab is
-// opened, by its button, an address, or openLab(). With data-part="step", it shows only the picture with the step's
-// slider, and opens when it becomes visible. Its state is a scene's text (TOML), one or two methods with a step or
-// tolerance each, and a look. Sliders change numbers in the text; then the scene is reopened and the runs restart.
+// <live-lab>: mysim in the page, next to the truth. Nothing is laid out, compiled or computed before the lab is opened
+// by its button, an address, or openLab(). With data-part="step", it shows only the picture and the step's slider, and
+// opens when it becomes visible. Its state is a scene's text (TOML), one or two methods with a step or tolerance each,
+// and a look. Sliders change numbers in the text; then the runs restart.
 
 import {make, short} from '../player/controls';
 import {dark, startsWebGl, stillWanted} from '../player/player';
@@ -19,15 +19,15 @@ import {LiveRun, messageOf} from './live_run';
 import {Changes, changesBetween, MethodSpec, textAt, withMethod, withNumbers} from './scene_text';
 import {labLanguage, questionInLanguage, say} from './words';
 
-const longestFrame = 120;  // ms, upper bound for budgets if drawing is slow
+const longestFrame = 120;  // ms; limits budgets if drawing is slow
 const pauseAtEnd = 1200;   // ms, before a looping run restarts
 
 export class LiveLab extends LabPicture {
-  link = '';                                             // the last link that was copied
-  waiting: {particle: number, place: Vec3}|null = null;  // a move for the next frame
+  link = '';                                             // last copied
+  waiting: {particle: number, place: Vec3}|null = null;  // for the next frame
   private opening: Promise<boolean>|null = null;
-  private source: LiveRun|null = null;  // the run that the hand holds
-  private loops = false;                // the run restarts at its end, until the reader does something
+  private source: LiveRun|null = null;  // run that the hand holds
+  private loops = false;                // restart at the end, until the reader acts
   private again = 0;                    // timers
   private later = 0;
   private asked = false;
@@ -60,13 +60,12 @@ export class LiveLab extends LabPicture {
     if (this.view) this.shut();
   }
 
-  /** The button that opens the lab. */
   private showDoor() {
     const button = labButton('open', `▶ ${say('open')}`, () => this.open(), `▶ ${say('open')}`);
     this.replaceChildren(make('div', {class: 'lab-door'}, button, make('span', {}, say('openHint'))));
   }
 
-  /** Opens the lab in the given state, or otherwise with its own scene running; resolves when it is visible. */
+  /** Default: the lab's own scene, running. Resolves when the lab is visible. */
   async open(state?: LabState) {
     if (this.view) return this.setState(state ?? {});
     this.opening ??= this.begin();
@@ -80,7 +79,7 @@ export class LiveLab extends LabPicture {
   private async begin() {
     this.dataset.state = 'opening';
     if (!this.isPart) this.replaceChildren(make('p', {class: 'lab-plain', role: 'status'}, say('waiting')));
-    await new Promise(done => setTimeout(done));  // the message is visible before the compiler blocks the thread
+    await new Promise(done => setTimeout(done));  // shows the message before the compiler blocks the thread
     const lab = await labModule(), missing = !lab ? 'noWasm' : !startsWebGl() ? 'noWebgl' : null;
     if (!lab || missing) {
       this.dataset.state = 'unavailable';
@@ -114,10 +113,9 @@ export class LiveLab extends LabPicture {
     return true;
   }
 
-  // State.
 
   /**
-   * Sets the given parts: a scene with its shipped text and method, a text or changed numbers, methods, a look.
+   * Sets the given fields: a scene with its shipped text and method, a text or changed numbers, methods, a look.
    * Resolves when the state is displayed.
    */
   async setState(state: LabState): Promise<void> {
@@ -149,7 +147,6 @@ export class LiveLab extends LabPicture {
     this.tell();
   }
 
-  /** The content of a link. */
   get state(): LabState {
     const {sceneName: scene, original, toml, methods, look} = this, state: LabState = {scene, methods};
     if (this.byHand)
@@ -163,7 +160,7 @@ export class LiveLab extends LabPicture {
     return state;
   }
 
-  /** Current numbers, for the guide and for tests. */
+  /** For the guide and for tests. */
   get reading() {
     const {runs} = this, [a] = runs;
     if (!a) return null;
@@ -198,7 +195,7 @@ export class LiveLab extends LabPicture {
     this.showState();
   }
 
-  /** Reports failed runs, and shows the growing mode of the first of them. */
+  /** Reports failed runs, and shows the growing mode of the first. */
   judge() {
     const failed = this.runs.filter(run => run.failed), {stage} = this;
     for (const run of failed)
@@ -220,7 +217,6 @@ export class LiveLab extends LabPicture {
     return `${words} ${say(x > 1 ? 'verdictPast' : 'verdictBelow', {x})}`;
   }
 
-  // The loop.
 
   play() {
     clearTimeout(this.again);
@@ -242,7 +238,6 @@ export class LiveLab extends LabPicture {
     this.wake();
   }
 
-  /** Requests the next frame, once. */
   wake() {
     if (this.asked || !this.seen || !this.isConnected) return;
     this.asked = true;
@@ -253,7 +248,7 @@ export class LiveLab extends LabPicture {
     this.asked = false;
     if (!this.isConnected || !this.view || !this.runs.length) return;
     const begin = performance.now(), apart = this.lastFrame ? now - this.lastFrame : 0;  // ms
-    const passed = Math.min(0.1, apart / 1000);  // after an absence the page continues where it stopped
+    const passed = Math.min(0.1, apart / 1000);  // pauses while the page is hidden
     this.lastFrame = now;
     this.frameTime = Math.max(shortestFrame, Math.min(longestFrame, 0.8 * this.frameTime + 200 * passed));
     this.frames = this.playing ? [...this.frames.filter(time => time >= now - 1000), now] : [];
@@ -280,14 +275,13 @@ export class LiveLab extends LabPicture {
     return count > 1 ? Math.round(1000 * count / (frames[count] - frames[0])) : null;
   }
 
-  // Controls.
 
   setSpeed(speed: number) {
     this.speed = speed;
     if (this.view) this.view.speed.value = String(speed);
   }
 
-  /** Runs after a change by the reader, if the lab was running or a run had ended by itself. */
+  /** Changes something, and runs if the lab was running or a run had ended by itself. */
   private goOn(change: () => void) {
     const over = this.runs.some(run => run.ended && !run.refusal) && !stillWanted.matches;
     const runs = this.playing || over;
@@ -296,7 +290,6 @@ export class LiveLab extends LabPicture {
     if (runs) this.play();
   }
 
-  /** Reloads, and keeps running. */
   private reload() {
     let well = false;
     this.goOn(() => (well = this.load()));
@@ -314,7 +307,7 @@ export class LiveLab extends LabPicture {
           this.restart();
           if (runs) this.play();
         },
-    /** One step of the first method that still runs. */
+    /** A step of the first method that still runs. */
     step:
         () => {
           this.loops = false;
@@ -330,7 +323,7 @@ export class LiveLab extends LabPicture {
           this.wake();
         },
     speed: (speed: number) => this.setSpeed(speed),
-    /** A method was changed: its run restarts at once, and in the same scene if the rule is the same. */
+    /** A changed method restarts its run, in the same scene if the rule is the same. */
     method:
         (i: number, spec: MethodSpec, done: boolean) => {
           if (!this.methods) return;
@@ -354,7 +347,7 @@ export class LiveLab extends LabPicture {
           this.methods = this.methods?.slice(0, 1) ?? null;
           this.reload();
         },
-    /** Numbers of the scene were changed. Large scenes are opened when the slider stops. */
+    /** Changes numbers of the scene. Large scenes are opened when the slider stops. */
     numbers:
         (changes: Changes, done: boolean) => {
           this.toml = withNumbers(this.toml, changes);
@@ -383,7 +376,6 @@ export class LiveLab extends LabPicture {
           this.draw();
         },
     guide: () => openGuide(this),
-    /** Replaces the part by the whole lab. */
     more:
         () => {
           delete this.dataset.part;
@@ -425,7 +417,6 @@ export class LiveLab extends LabPicture {
         }
   };
 
-  /** Releases all resources. */
   private shut() {
     this.loops = this.playing = false;
     delete this.dataset.running;
@@ -437,12 +428,11 @@ export class LiveLab extends LabPicture {
     this.dataset.state = 'closed';
   }
 
-  /** The scene's text with the method of A. */
   get tomlNow() {
     return this.byHand ? this.runs[0].sim.sceneText() : withMethod(this.toml, this.methods?.[0] ?? {method: ''});
   }
 
-  /** True if the scene is the page's own, unchanged. */
+  /** True if the scene is unchanged. */
   private get isShipped() { return !this.byHand && this.toml === sceneText(this.sceneName); }
 
   private dragged(event: DragEvent) {
@@ -455,7 +445,6 @@ export class LiveLab extends LabPicture {
     if (event.type === 'drop' && file) this.acts.file(file);
   }
 
-  // The hand.
 
   private hold(particle: number, place: Vec3, run: LiveRun) {
     if (run.ended && (run.failed || run.refusal)) return false;
@@ -470,7 +459,7 @@ export class LiveLab extends LabPicture {
     return true;
   }
 
-  /** Moves the held particle; once per frame, because the engine continues from there as another scene. */
+  /** Once per frame, because each move begins another scene. */
   private moveHeld() {
     if (!this.waiting) return;
     const {particle, place} = this.waiting;
@@ -479,7 +468,7 @@ export class LiveLab extends LabPicture {
     this.draw();
   }
 
-  /** Applies a change by hand to the present state of every run. */
+  /** Applies a change by hand to every run. */
   private changeRuns(act: (sim: Simulation) => void) {
     for (const run of this.runs) {
       if (run.refusal || run.failed) continue;
@@ -500,7 +489,7 @@ export class LiveLab extends LabPicture {
     this.together();
   }
 
-  /** After a change by hand, all runs and the truth continue from the state of one of them. */
+  /** After a change by hand, runs and truth continue from the state of one run. */
   private together() {
     const {source} = this, well = source && this.runs.includes(source) && !source.failed;
     const from = well ? source : this.runs.find(run => !run.failed && !run.refusal);
@@ -541,7 +530,6 @@ export class LiveLab extends LabPicture {
     this.tell();
   }
 
-  // Words.
 
   /** Updates all texts to the chosen language. */
   private relabel() {
@@ -551,7 +539,7 @@ export class LiveLab extends LabPicture {
       document.documentElement.lang = labLanguage;
       document.querySelector('nav .made')?.replaceChildren(say('madeOf'));
     }
-    if (this.isPart && !view) return;  // the still picture, if any, is there
+    if (this.isPart && !view) return;  // keep the still picture
     if (state === 'closed') return this.showDoor();
     if (state === 'unavailable') return this.replaceChildren(make('p', {class: 'lab-plain'}, say(missing ?? '')));
     if (!view) return;
@@ -563,7 +551,7 @@ export class LiveLab extends LabPicture {
     this.showState();
   }
 
-  /** Shows everything that depends on scene and methods. */
+  /** Shows what depends on scene and methods. */
   private showState() {
     const {view, hand: {chosen}, runs: [a]} = this;
     if (!view || !this.methods) return;
@@ -577,14 +565,14 @@ export class LiveLab extends LabPicture {
     this.showNow(true);
   }
 
-  /** Shows the current numbers: the clock in each frame, curves and readings about ten times per second. */
+  /** Updates the clock, and about ten times per second curves and readings. */
   showNow(all: boolean, now = performance.now()) {
     const {view, runs} = this;
     if (!view) return;
     view.setTime(this.clock, this.end, this.byHand);
     if (!all && now - this.told < 110) return;
     this.told = now;
-    // curves end where the last run failed
+    // curves end at the last failure
     const over = runs.every(run => run.failed) ? 1.1 * Math.max(...runs.map(run => run.time)) : 0;
     view.plots.show(runs, over || Math.max(this.clock, this.end), this.clock, this.withoutCurves());
     if (this.look.colour === 'error') this.showLook();
@@ -592,7 +580,6 @@ export class LiveLab extends LabPicture {
     this.tell();
   }
 
-  /** Texts shown instead of curves. */
   private withoutCurves() {
     const soon = say('beforeRun'), begins = this.clock === 0 || this.runs.every(run => run.ended);
     return {
@@ -625,7 +612,7 @@ export class LiveLab extends LabPicture {
     view.truthWords.textContent = this.truthWords();
   }
 
-  /** Describes the truth, or the reason why there is none. */
+  /** Describes the truth, or why there is none. */
   private truthWords() {
     const {truth, truthGone} = this;
     if (truthGone === 'slow') return say('truthSlow', {ms: Number(this.truthCost.toPrecision(2))});
@@ -638,12 +625,10 @@ export class LiveLab extends LabPicture {
   }
 }
 
-/** A state with one method in short form, and an experiment to open. */
+/** A single method in short form, and an experiment to open. */
 type LabWish = LabState&{method?: string, step?: number, tolerance?: number, experiment?: string};
 
-/**
- * Opens the lab in a state: the scene's own lab on the page, another existing lab, or one in a window over the page.
- */
+/** Opens the scene's own lab on the page, another one, or a lab in a window over the page. */
 export async function openLab({method, step, tolerance, experiment, ...state}: LabWish) {
   if (!document.getElementById('lab-module')) return null;
   if (method) state.methods = [{method: method.replace(/^mysim\//, ''), step, tolerance}];
@@ -665,7 +650,6 @@ export async function openLab({method, step, tolerance, experiment, ...state}: L
   return lab;
 }
 
-/** Opens the lab in the state of the address, if it has one. */
 async function followLabAddress() {
   const state = await stateOf(location.hash);
   if (state)
@@ -674,7 +658,6 @@ async function followLabAddress() {
     document.querySelector<LiveLab>('live-lab[data-alone]')?.open();
 }
 
-/** Defines <live-lab> and opens the lab in the state of the address. */
 export function startLab() {
   customElements.define('live-lab', LiveLab);
   addEventListener('hashchange', followLabAddress);

@@ -5,14 +5,14 @@ import {bytesOf} from '../player/unpack';
 
 import {Changes, MethodSpec} from './scene_text';
 
-// not yet in TypeScript's library
+// missing from TypeScript's library
 declare const CompressionStream: new (format: 'gzip') => GenericTransformStream;
 declare const DecompressionStream: typeof CompressionStream;
 
-/** A state of the lab, as in links and for setState(); all fields are optional. */
+/** As in links and for setState(). */
 export interface LabState {
   scene?: string;
-  toml?: string;      // default: the shipped text
+  toml?: string;      // default: as shipped
   changes?: Changes;  // numbers to change in the text
   methods?: MethodSpec[]|null;
   view?: 'over'|'side';
@@ -32,13 +32,13 @@ const fromBase64 = (text: string): Uint8Array => bytesOf(text.replace(/-/g, '+')
 const through = async (bytes: Uint8Array, stream: GenericTransformStream) =>
     new Uint8Array(await new Response(new Blob([bytes]).stream().pipeThrough(stream)).arrayBuffer());
 
-/** A state as the part of an address after "#lab=": JSON in base64, gzipped if it is long. */
+/** The part of an address after "#lab=": JSON in base64, gzipped if it is long. */
 export async function addressOf(state: LabState) {
   const bytes = new TextEncoder().encode(JSON.stringify(state));
   return inBase64(bytes.length > 900 ? await through(bytes, new CompressionStream('gzip')) : bytes);
 }
 
-/** The state in an address; null if there is none, or if it cannot be read. */
+/** Null if the address contains no readable state. */
 export async function stateOf(hash: string): Promise<LabState|null> {
   const packed = /^#lab=([\w-]+)/.exec(hash)?.[1];
   if (!packed) return null;
@@ -51,20 +51,19 @@ export async function stateOf(hash: string): Promise<LabState|null> {
   }
 }
 
-/** Offers a text to the reader as a file. */
 export function saveText(name: string, text: string) {
   const link = make('a', {download: name, href: URL.createObjectURL(new Blob([text], {type: 'application/toml'}))});
   link.click();
   setTimeout(() => URL.revokeObjectURL(link.href), 1000);
 }
 
-/** Copies a text; returns false if the browser does not allow it. */
+/** Returns false if the browser does not allow it. */
 export async function copyText(text: string) {
   try {
     await navigator.clipboard.writeText(text);
     return true;
   } catch {
-    // without access to the clipboard (pages opened from a folder), copies a selection
+    // pages opened from a folder have no access to the clipboard: copy a selection
     const box = make('textarea', {class: 'copied', 'aria-hidden': 'true'});
     box.value = text;
     document.body.append(box);
@@ -75,6 +74,6 @@ export async function copyText(text: string) {
   }
 }
 
-/** The native program's command line for a method in a scene. */
+/** Runs a method with the native program. */
 export const commandOf = (scene: string, {method, step, tolerance}: MethodSpec) =>
     `crosscheck run ${scene} --method ${method} ${tolerance ? `--tol ${tolerance}` : `--step ${step}`}`;

@@ -1,4 +1,4 @@
-// The picture of a lab's runs: its stage and camera. The second part of <live-lab> (lab.ts).
+// The stage and camera of <live-lab> (lab.ts).
 
 import {length, make, roundUp} from '../player/controls';
 import {Orbit} from '../player/orbit';
@@ -14,11 +14,11 @@ import {LiveStage, LiveView, stageScene, trailPoints} from './live_stage';
 import {MethodSpec} from './scene_text';
 import {say} from './words';
 
-const previewBudget = 150;  // ms for estimating how far a scene moves
-const slowDrawing = 40;     // ms between frames beyond the time of scripts; above this, drawing is slow
-const coarseRatio = 0.7;    // fraction of the pixels per side while moving, if drawing is slow
+const previewBudget = 150;  // ms, to estimate how far a scene moves
+const slowDrawing = 40;     // ms between frames, without scripts; above this, drawing is slow
+const coarseRatio = 0.7;    // fraction of the pixels per side for slow drawing
 
-/** An element with a stage that can release its context. */
+/** Can release its stage's context. */
 interface Sleeper {
   seen: boolean;
   sleep(): void;
@@ -37,7 +37,7 @@ export abstract class LabPicture extends LabRuns {
   private drawing = 0;   // ms between frames, without scripts
   private scripted = 0;  // ms of scripts in the last frame
 
-  /** A stage for the scene; a new one if the particles or springs differ. */
+  /** Makes a new stage if the numbers of particles or springs differ. */
   setStage(fresh: boolean) {
     const [{sim}] = this.runs, {scene} = sim;
     const made = [scene.particles, scene.springs.length, scene.triangles.length].join();
@@ -68,8 +68,8 @@ export abstract class LabPicture extends LabRuns {
   }
 
   /**
-   * The true path of the last particle of a first-order scene, which has no energy as a criterion: points, m. Empty
-   * after a change by hand. The error of RK4 with this number of steps is less than a thousandth of a pixel.
+   * The true path (m) of the last particle of a first-order scene, which has no energy to judge by; empty after a
+   * change by hand. With this number of steps, RK4 errs by less than a thousandth of a pixel.
    */
   private course() {
     const [{sim: {scene}}] = this.runs, points: Vec3[] = [], last = trailPoints - 1;
@@ -84,7 +84,7 @@ export abstract class LabPicture extends LabRuns {
     return points;
   }
 
-  /** Releases the stage's context. */
+  /** Releases the context. */
   sleep() {
     if (!this.stage) return;
     const others: Sleeper[] = alive, at = others.indexOf(this);
@@ -94,7 +94,7 @@ export abstract class LabPicture extends LabRuns {
     this.stage = null;
   }
 
-  /** Positions at some times of the scene, as far as they are computed quickly: the camera must show them. */
+  /** Positions that the camera must show, as far as they are computed quickly. */
   private preview() {
     const [a] = this.runs, {scene} = a.sim, pictures: Places[] = a.refusal ? [] : [a.sim.positions.slice()];
     const begin = performance.now(), limit = a.sim.limit('leapfrog'), {step} = scene;
@@ -122,7 +122,7 @@ export abstract class LabPicture extends LabRuns {
     return pictures.length ? pictures : [new Float64Array(3 * scene.particles)];
   }
 
-  /** Sets the drawn runs, and the truth if it is selected and known. */
+  /** Chooses the runs to draw, and the truth if it is selected and known. */
   showViews() {
     if (!this.stage) this.setStage(false);
     this.drawn = [];
@@ -155,7 +155,7 @@ export abstract class LabPicture extends LabRuns {
       if (change[name] !== undefined) Object.assign(this.look, {[name]: change[name]});
   }
 
-  /** Draws the present state; returns true while the camera still moves. */
+  /** Returns true while the camera moves. */
   draw(): boolean {
     const {stage, view, orbit, look} = this;
     if (!stage || !view || !orbit || !this.drawn.length) return false;
@@ -166,7 +166,7 @@ export abstract class LabPicture extends LabRuns {
     if (canvas.width !== width || canvas.height !== height) Object.assign(canvas, {width, height});
     const over = look.view === 'over' || this.drawn.length < 2;
     if (look.truth && Boolean(truth) !== this.drawn.some(d => d.letter === 'T')) return this.showViews(), false;
-    // runs keep their positions in the same array; a replaced run has another
+    // a run keeps its array of positions, but may have been replaced
     this.drawn.forEach(({run}, i) => {
       const panel = stage.panels[i], places = run ? run.places : truth;
       if (places) panel.places = places;
@@ -191,7 +191,7 @@ export abstract class LabPicture extends LabRuns {
     return stage.moving;
   }
 
-  /** Moves the camera back if a run that has not failed leaves the view, except while a pointer moves a particle. */
+  /** Moves the camera back if a run that has not failed leaves the view, unless a pointer moves a particle. */
   private keepInView() {
     const {stage} = this;
     if (this.hand.grabbed || !stage) return;
@@ -217,8 +217,8 @@ export abstract class LabPicture extends LabRuns {
   }
 
   /**
-   * Without a graphics processor, drawing may take many times longer than computing: then the stage is replaced by a
-   * coarse one. `apart`: ms from frame to frame; `script`: ms of this frame's script.
+   * Uses a coarse stage if drawing takes much longer than computing, as without a graphics processor. `apart`: ms
+   * between frames; `script`: ms of this frame's script.
    */
   watchDrawing(apart: number, script: number) {
     if (!this.playing || !this.stage || this.stage.coarse) return void (this.drawing = 0);

@@ -1,4 +1,4 @@
-// The runs of a lab share one clock, and the truth follows them. The first part of <live-lab> (lab.ts).
+// Runs with a common clock, followed by the truth, for <live-lab> (lab.ts).
 
 import {EngineScene, Lab, LabError, solidsOf} from './engine';
 import {Hand} from './hand';
@@ -7,22 +7,21 @@ import {Growth} from './live_stage';
 import {MethodSpec, numberAt, textAt} from './scene_text';
 import {say} from './words';
 
-const computingBudget = 0.5;      // fraction of a frame's time, for all methods together
+const computingBudget = 0.5;      // fraction of a frame's time, for all methods
 const truthBudget = 0.45;         // fraction of a frame's time
 export const shortestFrame = 17;  // ms
-const slowestPace = 0.1;          // minimum clock rate while waiting for the reference solution
+const slowestPace = 0.1;          // minimum clock rate while waiting for the truth
 const longestWait = 2500;         // ms of waiting for the truth
-export const smallScene = 1500;   // particles; larger scenes have neither truth nor energy balance
-const beginsRuns = 200;           // ms after a slider moved, before a truth is started
+export const smallScene = 1500;   // particles; larger scenes have no truth and no energy balance
+const beginsRuns = 200;           // ms after a slider moved until a truth is started
 
-/** The scenes of the page by name: the shipped texts. */
+/** Shipped texts of the page's scenes, by name. */
 export const labScenes = (() => {
   let scenes: Record<string, string>|undefined;
   return () =>
              (scenes ??=
                   JSON.parse(document.getElementById('lab-scenes')?.textContent || '{}') as Record<string, string>);
 })();
-/** The shipped text of a scene of the page. */
 export const sceneText = (name: string): string|undefined => labScenes()[name];
 
 export abstract class LabRuns extends HTMLElement {
@@ -31,8 +30,8 @@ export abstract class LabRuns extends HTMLElement {
   runs: LiveRun[] = [];
   sceneName = '';
   toml = '';
-  original = '';  // the text with which changes are compared
-  good = '';      // the last valid text
+  original = '';  // for comparison with changes
+  good = '';      // last valid text
   methods: MethodSpec[]|null = null;
   clock = 0;  // s
   end = 0;    // s
@@ -40,31 +39,30 @@ export abstract class LabRuns extends HTMLElement {
   playing = false;
   byHand = false;
   truth: Truth|null = null;
-  truthGone: 'large'|'none'|'slow'|null = null;  // reason for a missing truth
+  truthGone: 'large'|'none'|'slow'|null = null;  // why there is no truth
   truthCost = 0;                                 // ms per frame
-  growth: Growth|null = null;                    // the growing mode of a failed run
-  pending = false;                               // the clock waits for the truth
+  growth: Growth|null = null;                    // growing mode of a failed run
+  pending = false;                               // true while the clock waits for the truth
   pace = 1;
-  late = 0;               // ms spent waiting for the truth
-  passed: number[] = [];  // actual / requested rates of the clock
+  late = 0;               // ms of waiting for the truth
+  passed: number[] = [];  // actual / requested clock rates
   frameTime = shortestFrame;
   scale: number|null = null;  // critical step of the scene as opened, s
   private slow = 0;           // ms at the slowest pace
-  private settled = 0;        // time at which sliders count as at rest
+  private settled = 0;        // when sliders count as at rest
 
-  /** Called after runs were opened, for another scene (`fresh`) or the same one. */
+  /** `fresh`: for another scene. */
   protected abstract opened(fresh: boolean): void;
   protected abstract refused(words: string): void;
   protected abstract judge(): void;
   abstract pause(): void;
 
-  /** Called when a slider moves, or stops: while it moves, no truth is started. */
+  /** No truth is started while a slider moves. */
   protected settle(done: boolean) { this.settled = done ? 0 : performance.now() + beginsRuns; }
 
-  /** True if the energy balance of a scene is computed. */
   protected observes(scene: EngineScene) { return scene.particles <= smallScene; }
 
-  /** Opens the scene for every method and restarts; returns false, with the reason displayed, if it is invalid. */
+  /** Opens the scene for every method and restarts. If it is invalid, displays the reason and returns false. */
   load(fresh = false) {
     const opened: LiveRun[] = [];
     try {
@@ -91,13 +89,12 @@ export abstract class LabRuns extends HTMLElement {
     return true;
   }
 
-  /** The method in the scene's text, if it is one of mysim's. */
+  /** The method in the scene's text, if it belongs to mysim. */
   private ownMethod(): MethodSpec {
     const name = textAt(this.toml, 'method').replace(/^mysim\//, '');
     return {method: this.lab.stepperOf(name) ? name : 'leapfrog', step: numberAt(this.toml, 'time.step')};
   }
 
-  /** Resets clock and truth after runs were opened. */
   private start(fresh: boolean) {
     const [a] = this.runs;
     this.clock = 0, this.end = a.sim.scene.duration, this.byHand = false, this.growth = null, this.passed = [];
@@ -112,7 +109,7 @@ export abstract class LabRuns extends HTMLElement {
     this.start(false);
   }
 
-  /** Opens the truth when it is needed for the first time. */
+  /** Opens the truth when it is needed first. */
   private findTruth() {
     if (this.truth || this.truthGone) return;
     const run = this.runs.find(r => !r.refusal && !r.failed);
@@ -123,7 +120,7 @@ export abstract class LabRuns extends HTMLElement {
       const truth = new Truth(this.lab, toml, run, solidsOf(run.sim.scene) > 0);
       if (truth.known) this.truth = truth;
     } catch {
-      // a state that cannot be read again has no truth
+      // no truth for a state that cannot be read again
     }
     if (!this.truth) this.truthGone = 'none';
     this.late = 0;
@@ -135,10 +132,7 @@ export abstract class LabRuns extends HTMLElement {
     this.late = this.slow = 0, this.pace = 1, this.pending = false;
   }
 
-  /**
-   * Advances time: runs proceed up to the clock, as far as the frame's computing budget allows. `wanted`: at full
-   * speed.
-   */
+  /** Runs proceed up to the clock, as far as the frame's computing budget allows. `wanted`: time at full speed. */
   advance(passed: number, wanted = passed) {
     const before = this.clock;
     let aim = Math.min(this.end, before + passed), left = computingBudget * this.frameTime;
@@ -157,11 +151,11 @@ export abstract class LabRuns extends HTMLElement {
   }
 
   /**
-   * Compares advanced runs with the truth, and records samples. If the truth is not ready within the frame's budget,
-   * `pending` makes the clock wait for it, and the clock slows down from then on, but only for a limited time.
+   * Compares runs with the truth, and records samples. If the truth exceeds the frame's budget, `pending` makes the
+   * clock wait for it, and from then on, for a limited time, slows the clock down.
    */
   sample() {
-    // at the start there is no error yet, and while a slider moves no truth is started
+    // no truth is needed at the start, and none is started while a slider moves
     const free = !this.hand.held && this.clock > 0 && performance.now() > this.settled;
     if (free) this.findTruth();
     const begin = performance.now(), truth = free ? this.truth : null;

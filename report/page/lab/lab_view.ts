@@ -1,4 +1,4 @@
-// View of the lab: picture, controls and texts; lab.ts has their behaviour.
+// Picture, controls and texts of the lab; lab.ts has their behaviour.
 
 import {Look, rampOf, rgb} from '../player/colours';
 import {check, dropdown, make} from '../player/controls';
@@ -14,10 +14,10 @@ import {labLanguage, labWords, say, setLabLanguage} from './words';
 
 export const titleHeight = 26;  // CSS pixels, for overlaid methods
 
-/** Colours of a run, with the dash of its curves. */
+/** Colours of a run, and the dash of its curves. */
 export type RunLook = Look&{dash: string};
 
-/** The colours of a run: A and B differ in light and dark mode, B is dashed; the truth is grey. */
+/** Colours of A and B suit light and dark mode; B is dashed, the truth grey. */
 export function lookOfRun(letter: string): RunLook {
   const name = letter === 'A' ? 'mysim2' : letter === 'B' ? 'second' : 'truth';
   const style = getComputedStyle(document.querySelector('live-lab') ?? document.documentElement);
@@ -30,7 +30,6 @@ export function lookOfRun(letter: string): RunLook {
   };
 }
 
-/** Settings of the picture. */
 export interface LabLook {
   view: 'over'|'side';
   colour: 'plain'|'stretch'|'error';
@@ -38,7 +37,7 @@ export interface LabLook {
   truth: boolean;
 }
 
-/** The functions that the controls call. */
+/** Called by the controls. */
 export interface LabActs {
   toggle(): void;
   step(): void;
@@ -62,7 +61,7 @@ export interface LabActs {
   file(file: File): Promise<void>;
 }
 
-/** Title of a panel: the method in words, and its error or failure. */
+/** The method in words, and its error or failure. */
 export interface PanelTitle {
   name: string;
   words: string;
@@ -131,7 +130,7 @@ export class LabView {
     this.build();
   }
 
-  /** Builds everything that contains text; called again after a change of language. */
+  /** Builds everything that contains text. */
   build() {
     const {act} = this, button = (name: string, run: () => void) => labButton(name, say(name), run);
     this.sceneChoice = make('select', {'data-act': 'scene', 'aria-label': say('scene')});
@@ -215,7 +214,7 @@ export class LabView {
     this.plots.name();
   }
 
-  /** The scenes to choose from; a scene that the page does not have is marked as the reader's own. */
+  /** Marks a scene that the page does not have as the reader's own. */
   setScene(names: string[], name: string, question: string, changed: boolean, alone: boolean) {
     const own = names.includes(name) ? [] : [name];
     this.sceneChoice.replaceChildren(...[...names, ...own].map(
@@ -227,7 +226,6 @@ export class LabView {
     this.layer.setAttribute('aria-label', say('pictureLabel', {scene: name}));
   }
 
-  /** The boxes of the methods. */
   setMethods(specs: MethodSpec[], runs: LiveRun[], steppers: Stepper[], scale: number|null) {
     while (this.methods.length > specs.length) this.methods.pop()?.box.remove();
     while (this.methods.length < specs.length) {
@@ -246,7 +244,7 @@ export class LabView {
     this.springs[1].checked = springs, this.truth.checked = truth;
     this.viewChoice[0].hidden = count < 2;
     this.springs[0].hidden = !cloth;
-    if (firstOrder) this.otherPlots.open = true;  // only errors are known there
+    if (firstOrder) this.otherPlots.open = true;  // first-order scenes have only the error plot
     this.scale.replaceChildren(...(scale ? ['0', make('i', {class: 'scale'}), scale] : []));
   }
 
@@ -262,7 +260,7 @@ export class LabView {
     this.progress.hidden = byHand;
   }
 
-  /** Names of the panels, with the current state of each run. */
+  /** Names the panels, with the state of each run. */
   setTitles(titles: PanelTitle[], places: PanelPlace[], over: boolean) {
     while (this.titles.childElementCount > titles.length) this.titles.lastChild?.remove();
     titles.forEach((title, i) => {

@@ -1,4 +1,4 @@
-// Plots over time: error, energy, residual of the energy balance.
+// Error, energy and residual of the energy balance over time.
 
 import {make} from '../player/controls';
 import {Plot, Point, Series} from '../player/plot';
@@ -13,7 +13,6 @@ const energyKinds = {
 };
 type Quantity = 'error'|'residual'|keyof typeof energyKinds;
 
-/** The plotted parts of a run of the lab. */
 interface PlottedRun {
   letter: string;
   look: {css: string, dash?: string};
@@ -25,7 +24,6 @@ interface PlottedRun {
 
 type Absent = Record<'error'|'energy'|'residual', string>;
 
-/** The plots of a lab, below the picture. */
 export class LivePlots {
   readonly box = make('div', {class: 'plots'});
   private readonly choice = document.createElement('select');
@@ -41,7 +39,7 @@ export class LivePlots {
     this.choice.addEventListener('change', () => this.shown && this.show(...this.shown));
   }
 
-  /** The names of energies, in the reader's language. */
+  /** Names the energies in the reader's language. */
   name() {
     const kind = this.choice.value || 'total';
     this.choice.setAttribute('aria-label', say('quantity'));
@@ -51,7 +49,7 @@ export class LivePlots {
     if (this.shown) this.show(...this.shown);
   }
 
-  /** Shows `runs` with samples, up to `end` (s); `none`: texts instead of curves. */
+  /** Shows samples of `runs` up to `end` (s); `none`: texts instead of curves. */
   show(runs: PlottedRun[], end: number, time: number, none: Absent) {
     this.shown = [runs, end, time, none];
     const kind = (this.choice.value || 'total') as keyof typeof energyKinds, [error, energy, residual] = this.plots;

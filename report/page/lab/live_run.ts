@@ -1,4 +1,4 @@
-// Runs of the engine in this page: one per method, and the truth.
+// Runs of the engine in the page, and the truth.
 
 import {placeOf, Places, Vec3} from '../player/vectors';
 
@@ -9,7 +9,7 @@ import {MethodSpec} from './scene_text';
 
 export const messageOf = (problem: unknown) => problem instanceof Error ? problem.message : String(problem);
 
-/** A method as settings for the engine's start(). */
+/** Settings of a method for the engine's start(). */
 export function startOf({method, step, tolerance}: MethodSpec, duration: number, observe: boolean): RunSettings {
   const [stepper, ...options] = method.split('+');
   return {
@@ -22,16 +22,14 @@ export function startOf({method, step, tolerance}: MethodSpec, duration: number,
   };
 }
 
-/** State of a run: time (s), positions, velocities. */
+/** t in s. */
 interface State {
   t: number;
   x: Float64Array;
   v: Float64Array;
 }
 
-/**
- * Positions at a time between two states: the cubic through both with their velocities, or a line without velocities.
- */
+/** Positions between two states: a cubic through both with their velocities, or a line without velocities. */
 function between(from: State, to: State, t: number, into: Float64Array) {
   const h = to.t - from.t, u = h > 0 ? Math.min(1, Math.max(0, (t - from.t) / h)) : 1, a = from.x, b = to.x;
   if (u === 1)
@@ -45,7 +43,7 @@ function between(from: State, to: State, t: number, into: Float64Array) {
   return into;
 }
 
-/** RMS distance of the particles of two sets of positions, m. */
+/** In m. */
 export function rmsDistance(a: Places, b: Places) {
   let sum = 0;
   for (let i = 0; i < a.length; ++i) sum += (a[i] - b[i]) ** 2;
@@ -58,7 +56,7 @@ export const isFinite3 = (places: Places) => {
   return Number.isFinite(sum);
 };
 
-/** A run at a time (s): error and its bar (m), energies (J), relative residual. */
+/** Error and its bar (m), energies (J), relative residual. */
 export interface Sample {
   t: number;
   error: number|null;
@@ -70,23 +68,22 @@ export interface Sample {
   residual: number|null;
 }
 
-/** One method's run. */
 export class LiveRun {
   readonly stepper: Stepper|undefined;
   sim: Simulation;
   look: RunLook;
-  places: Float64Array|null = null;  // the last finite ones
+  places: Float64Array|null = null;  // last finite positions
   samples: Sample[] = [];
   trail: Vec3[] = [];  // path of the last particle
   bursting = false;
   shown = false;                 // the failure was shown
-  offset = 0;                    // s, time at which the engine's clock was 0
-  since = 0;                     // s, of the last change by hand
+  offset = 0;                    // s, when the engine's clock was 0
+  since = 0;                     // s, last change by hand
   last = 0;                      // ms of computing in the last frame
-  handWork: number|null = null;  // J, work done by the hand
+  handWork: number|null = null;  // J
   refusal: string|null = null;
   fault: string|null = null;
-  first: Energies|null = null;  // start of the balance
+  first: Energies|null = null;  // for the energy balance
   private readonly observe: boolean;
   private recent: Float64Array[] = [];
   private lost = 0;
@@ -97,8 +94,8 @@ export class LiveRun {
   private past = false;  // beyond the critical step
 
   /**
-   * Throws the engine's LabError if the scene cannot be read; a refused method sets `refusal` instead. `observe`
-   * decides for a scene whether its energy balance is computed.
+   * Throws LabError if the scene cannot be read. If the engine refuses the method, sets `refusal` instead. `observe`
+   * decides whether the scene's energy balance is computed.
    */
   constructor(
       lab: Lab, toml: string, readonly letter: string, public spec: MethodSpec,
@@ -121,7 +118,8 @@ export class LiveRun {
       this.first = this.sim.energy;
     } catch (problem) {
       this.refusal = messageOf(problem);
-      this.sim = this.sim.lab.open(this.sim.toml);  // an exception ends the instance, whose scene and limits are needed
+      this.sim = this.sim.lab.open(this.sim.toml);  // an exception ends the instance, but its scene and limits are
+                                                    // needed
     }
     const {limit} = this;
     this.trails = !this.sim.scene.triangles.length;
@@ -135,16 +133,16 @@ export class LiveRun {
   get reason() { return this.refusal ?? this.fault ?? this.sim.reason; }
   get limit() { return this.sim.limit(this.spec.method); }
   get lastSample(): Sample|undefined { return this.samples[this.samples.length - 1]; }
-  /** The step of the run, s; before its start, the requested step. */
+  /** In s; before the start, the requested step. */
   get step() { return (this.refusal ? 0 : this.sim.h) || this.spec.step || this.sim.scene.step; }
-  /** Time at which the run ends, s. */
+  /** In s. */
   get end() { return this.offset + this.sim.scene.duration; }
-  /** Simulated time / computing time, of the whole run so far. */
+  /** Simulated time / computing time so far. */
   get factor() { return this.spent > 0 ? 1000 * this.stepped / this.spent : null; }
-  /** Name of the distance from the truth: with balls or planes, the truth has the same contact rule. */
+  /** With balls or planes, the distance from the truth is no error: the truth has the same contact rule. */
   get errorWord() { return solidsOf(this.sim.scene) ? 'difference' : 'error'; }
 
-  /** Takes the steps up to a time (s), with at most `budget` ms of computing; returns false if that is not enough. */
+  /** Steps up to a time (s), with at most `budget` ms of computing. Returns false if that is not enough. */
   advance(time: number, budget: number) {
     this.last = 0;
     if (this.ended) return true;
@@ -153,7 +151,7 @@ export class LiveRun {
     const goes = () => !sim.ended && sim.t < aim && performance.now() - begin < budget;
     if (sim.t >= aim) return true;
     try {
-      // beyond the critical step, observe each step: if the balance is lost quickly, a frame shows a single step
+      // beyond the critical step, observe each step: a quick failure shows a single step per frame
       if (this.past) {
         while (goes()) {
           sim.advance(sim.t + 0.5 * h, budget);
@@ -164,7 +162,7 @@ export class LiveRun {
           if (this.bursting) break;
         }
       } else if (this.trails) {
-        // small scenes leave a trail, which has its own times
+        // small scenes leave a trail with times of its own
         const piece = sim.scene.duration / (trailPoints - 1);
         for (let to = sim.t + piece; goes(); to = Math.max(to, sim.t) + piece) {
           sim.advance(Math.min(aim, to), budget);
@@ -181,7 +179,6 @@ export class LiveRun {
     return this.ended || (!this.bursting && sim.t >= aim - 1e-9 * (h || 1));
   }
 
-  /** Saves the last finite positions. */
   keepPlaces() {
     if (this.fault) return;
     const {positions} = this.sim;
@@ -190,18 +187,18 @@ export class LiveRun {
     this.places.set(positions);
     this.recent.push(positions.slice());
     if (this.recent.length > 24) this.recent.shift();
-    // the path of the last particle, at equal time intervals
+    // at equal time intervals
     if (this.trail.length <= (this.time - this.since) / this.sim.scene.duration * (trailPoints - 1))
       this.trail.push(placeOf(positions, positions.length / 3 - 1));
   }
 
-  /** After a failure: returns to the last positions that `good` accepts. */
+  /** Returns to the last positions that `good` accepts, for failed runs. */
   stepBack(good: (places: Float64Array) => boolean) {
     const found = [...this.recent].reverse().find(good);
     if (found) this.places?.set(found);
   }
 
-  /** The current relative energy residual; 0 if unknown. */
+  /** 0 if unknown. */
   private residual(energy = this.sim.energy) {
     const {first} = this;
     if (!energy || !first || !Number.isFinite(energy.balance)) return 0;
@@ -211,7 +208,6 @@ export class LiveRun {
     return this.scale > 0 ? Math.abs(balance - first.balance) / this.scale : 0;
   }
 
-  /** Adds a sample of the present state. */
   sample(error: number|null, bar: number|null) {
     if (this.fault || this.refusal) return;
     const {first, sim: {energy}} = this, none = null;
@@ -226,7 +222,7 @@ export class LiveRun {
     this.samples.push(row);
   }
 
-  /** A change by hand: the engine continues as a new scene whose clock starts at 0. */
+  /** Applies a change by hand. The engine continues as a new scene whose clock starts at 0. */
   change(act: (sim: Simulation) => void) {
     const {time, sim} = this, before = sim.energy?.total;
     act(sim);
@@ -241,7 +237,7 @@ export class LiveRun {
   close() { this.sim.close(); }
 }
 
-/** A run that is queried for its positions at increasing times. */
+/** A run whose positions are read at increasing times. */
 class Follower {
   readonly sim: Simulation;
   readonly out: Float64Array;
@@ -264,7 +260,7 @@ class Follower {
     return {t: this.offset + sim.t, x: sim.positions.slice(), v: sim.velocities.slice()};
   }
 
-  /** Positions at a time; null if they are not available within `budget` ms. */
+  /** Null if the positions are not available within `budget` ms. */
   placesAt(time: number, budget: number) {
     const {sim} = this, h = this.step, begin = performance.now(), from = this.now.t;
     const tiny = 1e-6 * h, left = () => budget - (performance.now() - begin);
@@ -276,7 +272,7 @@ class Follower {
       this.now = this.before.t < time - tiny ? this.state() : this.before;
     }
     this.spent += performance.now() - begin, this.stepped += this.now.t - from;
-    // states before the last step are not kept
+    // earlier states are not kept
     if (this.now.t < time - tiny || (this.before && time < this.before.t - tiny)) return null;
     return between(this.before ?? this.now, this.now, time, this.out);
   }
@@ -285,15 +281,15 @@ class Follower {
 }
 
 /**
- * The truth: a rule of order four at no more than a quarter of its critical step (without a critical step: a quarter of
- * the run's step, a twentieth for first-order scenes), and again with twice that step. If neither rule supports the
- * scene, the run's own stepper at a hundredth of its step. The error bar is 3 / (2^4 - 1) of the difference of both;
- * with contact, or with the run's own stepper, it is the whole difference. The steps divide those of the first method,
- * so that their times coincide.
+ * The truth: a fourth-order rule at no more than a quarter of its critical step (without a critical step: a quarter of
+ * the run's step, or a twentieth for first-order scenes), and again with twice that step. If no fourth-order rule
+ * supports the scene: the run's own stepper at a hundredth of its step. The error bar is 3 / (2^4 - 1) of the
+ * difference of both; with contact, or with the run's own stepper, it is the whole difference. The steps divide those
+ * of the first method, so that their times coincide.
  */
 export class Truth {
   spec: MethodSpec = {method: ''};
-  same = false;  // the run's own stepper with a finer step
+  same = false;  // the run's own stepper with a shorter step
   readonly followers: Follower[] = [];
   private readonly whole: boolean;  // the whole difference is the error bar
 
@@ -321,10 +317,10 @@ export class Truth {
 
   get known() { return this.followers.length > 0; }
   get places() { return this.followers[0].out; }
-  /** True if the truth has any positions yet. */
+  /** True if the truth has any positions. */
   get begun() { return this.followers[0].spent > 0; }
 
-  /** Error and error bar of positions at a time, m; null if the truth is not available within `budget` ms. */
+  /** Error and error bar (m) of positions; null if the truth is not available within `budget` ms. */
   compare(places: Places, time: number, budget: number) {
     const begin = performance.now(), [fine, coarse] = this.followers, truth = fine.placesAt(time, budget);
     if (!truth || !isFinite3(truth)) return null;
@@ -333,16 +329,15 @@ export class Truth {
     return {error: rmsDistance(places, truth), bar};
   }
 
-  /** True if the truth has not reached this time. */
   isBefore(time: number) {
     const {now, sim} = this.followers[0];
     return !sim.ended && now.t < time - 1e-6 * (sim.h || 1);
   }
 
-  /** Computing time per second of the scene, ms. */
+  /** ms of computing per second of the scene. */
   get cost() { return this.followers.reduce((sum, {spent, stepped}) => sum + (stepped > 0 ? spent / stepped : 0), 0); }
 
-  /** Gives up the error bar, then the truth; returns false when nothing is left. */
+  /** Gives up the error bar, then the truth. Returns false when nothing is left. */
   shed() {
     this.followers.pop()?.close();
     return this.known;

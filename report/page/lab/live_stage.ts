@@ -1,5 +1,5 @@
-// The stage of a running engine: draws the current positions of the runs, overlaid or side by side, with the held
-// particle, its path, and the growing mode.
+// Draws the current positions of runs, overlaid or side by side, with the held particle, its path, and the growing
+// mode.
 
 import {boundsOf} from '../player/bounds';
 import {rgb} from '../player/colours';
@@ -17,11 +17,11 @@ import {LiveRun} from './live_run';
 
 export const trailPoints = 600;
 
-/** The engine's scene in the stage's format. */
+/** Converts the engine's scene for the stage. */
 export function stageScene(name: string, {scene}: Simulation, floor: number|null, from: Numbers): StageScene&
     {shared: SharedGeometry} {
   const names = ['single', 'structural', 'shear', 'bend'], ranks = [1, 0, 2, 3];
-  // distance constraints, then springs in the order of their families, with the threads first
+  // distance constraints, then springs by family, with the threads first
   const order = [...scene.families.keys()];
   order.sort((a, b) => ranks[scene.families[a]] - ranks[scene.families[b]] || a - b);
   const hard = scene.constraintLengths.length, families = hard ? [{name: 'hard distance', count: hard}] : [];
@@ -54,7 +54,7 @@ export function stageScene(name: string, {scene}: Simulation, floor: number|null
   };
 }
 
-/** Drawing of a run, or of the truth (no run), which is faint. */
+/** A drawn run; without `run` the truth, which is faint. */
 export interface LiveView {
   run: LiveRun|null;
   letter: string;
@@ -74,13 +74,13 @@ export interface Growth {
 export interface LiveShown extends Omit<Shown, 'colour'> {
   over: boolean;
   colour: Omit<Colouring, 'from'>&{from: Places | null};
-  centres: Numbers;  // spheres, m
+  centres: Numbers;  // m, spheres
   growth: Growth|null;
   marked: {particle: number, held: boolean}|null;
 }
 
 export class LiveStage extends BaseStage<LivePanel> {
-  made = '';  // counts for which the stage was made
+  made = '';  // element counts for which the stage was made
   aspect = 1;
   boxes: PanelPlace[] = [];  // pictures without titles, CSS pixels
   moving = false;
@@ -102,7 +102,7 @@ export class LiveStage extends BaseStage<LivePanel> {
     this.arrows = this.tools.table(2 * scene.particles);
   }
 
-  /** The true path, drawn from the start, independent of the runs; empty: none. */
+  /** The true path, drawn from the start; empty: none. */
   setCourse(points: Vec3[]) {
     const {course} = this;
     course.count = Math.max(0, points.length - 1);
@@ -112,7 +112,7 @@ export class LiveStage extends BaseStage<LivePanel> {
     this.tools.fill(table);
   }
 
-  /** Updates the pins after a change by hand. */
+  /** After a change by hand. */
   setPins(pins: number[]) {
     if (pins.join() === this.scene.pins.join()) return;
     this.scene.pins = pins;
@@ -138,7 +138,7 @@ export class LiveStage extends BaseStage<LivePanel> {
       }
   }
 
-  /** True if the positions are in view, except for a small fraction. */
+  /** True if the positions are in view, up to a fraction of the scene's size. */
   sees(places: Places, part = 0.03) {
     const {low, high, size} = this;
     for (let i = 0; i < places.length; ++i)
@@ -146,7 +146,7 @@ export class LiveStage extends BaseStage<LivePanel> {
     return true;
   }
 
-  /** Sets the drawn views, each in a panel. */
+  /** One panel per view. */
   show(views: LiveView[]) {
     const {tools, scene: {particles}} = this, cloth = this.triangles.length > 0;
     for (const {points, normals, way} of this.panels) this.dropTables(points, normals, way);
@@ -160,7 +160,7 @@ export class LiveStage extends BaseStage<LivePanel> {
                             }));
   }
 
-  /** The path of the last particle: its points so far, from the run's trail. */
+  /** Draws the last particle's path, from the run's trail. */
   private extend(panel: LivePanel, way: Table) {
     const {trail, places} = panel;
     if (panel.gone > trail.length) panel.gone = 0;
@@ -171,7 +171,7 @@ export class LiveStage extends BaseStage<LivePanel> {
     this.tools.fill(way);
   }
 
-  /** Draws the panels, and keeps the data that pointers need; returns the panels' places. */
+  /** Keeps the data that pointers need. Returns the panels' positions. */
   draw(shown: LiveShown) {
     const {colour, over, centres} = shown;
     this.shown = shown;
@@ -190,10 +190,10 @@ export class LiveStage extends BaseStage<LivePanel> {
     return places;
   }
 
-  /** The camera moves smoothly to its new target; at once if there is no previous one. */
+  /** Moves the camera smoothly to a new target, or at once if there was none. */
   private eased(fit: Fit) {
     const was = this.fit, part = 0.12;
-    // a picture of another shape is another view
+    // another shape of the picture is another view
     const {clientWidth, clientHeight} = this.canvas, shape = `${clientWidth} ${clientHeight} ${this.panels.length}`;
     const other = !was || stillWanted.matches || this.shape !== shape;
     this.shape = shape;
@@ -207,7 +207,6 @@ export class LiveStage extends BaseStage<LivePanel> {
     };
   }
 
-  /** A ghost is transparent. */
   protected drawBodies(programs: BodyPrograms, view: PanelView<LivePanel>, light: Uniforms) {
     if (programs === this.programs && view.ghost && view.surface)
       this.drawGhost(view, light);
@@ -232,7 +231,7 @@ export class LiveStage extends BaseStage<LivePanel> {
     this.drawPath(view, {...all, nearer: 0, by_family: 0});
   }
 
-  /** The true path, the path of a particle, the held particle, and the growing mode. */
+  /** Draws the true path, a particle's path, the held particle, and the growing mode. */
   protected drawPath({panel, pixel, ghost}: PanelView<LivePanel>, all: Uniforms) {
     const {tools, shapes, course} = this, {gl} = tools, {places, way} = panel, {marked, growth} = this.shown!;
     const rod = (table: Table, shape: Shape, radius: number, plain: number[], count?: number) => {
@@ -261,7 +260,7 @@ export class LiveStage extends BaseStage<LivePanel> {
     return this.scene.spheres.map(({radius, centres: [centre]}) => [radius, placeOf(centre, 0)]);
   }
 
-  /** A position (m) in pixels of the canvas, within a panel: [x, y, distance]; null behind the eye. */
+  /** Position (m) in pixels within a panel: [x, y, distance]; null behind the eye. */
   project(place: Numbers, {left, top, wide, high}: PanelPlace): Vec3|null {
     const m = this.toClip, [x, y, z] = placeOf(place, 0);
     const w = m[3] * x + m[7] * y + m[11] * z + m[15];
@@ -271,6 +270,6 @@ export class LiveStage extends BaseStage<LivePanel> {
   }
 }
 
-/** Distance of each particle from its position in `from`, m. */
+/** Of each particle from `from`, m. */
 const apart = (places: Places, from: Places) =>
     Float32Array.from({length: places.length / 3}, (_, i) => norm(minus(placeOf(places, i), placeOf(from, i))));

@@ -1,12 +1,12 @@
-// A scene's text, TOML: reads and changes numbers; comments and order are preserved.
+// Reads and changes numbers in a scene's text (TOML), preserving comments and order.
 
 import {norm, Places} from '../player/vectors';
 
-/** A number in a text, or a list of three. */
+/** A number, or a list of three. */
 export type Value = number|number[];
-/** Numbers to change: {path: value}. */
+/** {path: value} */
 export type Changes = Record<string, Value>;
-/** A method with its step (s) or, for adaptive steppers, its tolerance. */
+/** With a step (s) or, for adaptive steppers, a tolerance. */
 export interface MethodSpec {
   method: string;
   step?: number;
@@ -18,15 +18,15 @@ interface NumberEntry {
   section: string;
   value: Value;
   line: number;
-  begin: number;  // extent of the value in its line
+  begin: number;  // columns of the value
   end: number;
   out: boolean;  // the line is commented out
 }
 
-/** Marks the line of a number that must be positive and was set to zero: it is commented out, and can be restored. */
+/** Marks a number that must be positive but was set to zero: its line is commented out, and can be restored. */
 const leftOutMark = '# left out: ';
 
-/** The numbers in a text. Skips strings, inline tables and multi-line lists. */
+/** Skips strings, inline tables and multi-line lists. */
 export function numbersOf(toml: string) {
   const found: NumberEntry[] = [];
   let section = '';
@@ -47,30 +47,30 @@ export function numbersOf(toml: string) {
   return found;
 }
 
-/** A number in TOML: the shortest text that restores the same double. */
+/** The shortest text that restores the same double. */
 export const tomlNumber = (value: Value): string => Array.isArray(value) ? `[${value.map(tomlNumber).join(', ')}]` :
     Object.is(value, -0) ? '-0.0' :
                            String(value);
 
-/** The first value at a path; 0 if it is commented out, undefined if there is none. */
+/** First value at a path; 0 if it is commented out, undefined if there is none. */
 export function valueAt(toml: string, path: string): Value|undefined {
   const entry = numbersOf(toml).find(e => e.path === path);
   return entry && (entry.out ? (Array.isArray(entry.value) ? entry.value.map(() => 0) : 0) : entry.value);
 }
 
-/** The first value at a path as a number: the norm of a list, 0 if there is none. */
+/** First value at a path: the norm of a list, 0 if there is none. */
 export function numberAt(toml: string, path: string) {
   const value = valueAt(toml, path) ?? 0;
   return Array.isArray(value) ? norm(value) : value;
 }
 
-/** The effect of zero at a path: comment out the line, or the whole section, or write the number. */
+/** Zero comments out the line or the whole section, or is written. */
 const zeroOf = (path: string) =>
     (/^(grid\.(stiffness\.(shear|bend)|bending|dashpot)|spring\.dashpot)$/.test(path) ? 'line' :
          /^drag\./.test(path)                                                         ? 'section' :
                                                                                         'number');
 
-/** The text with another number at a path, in all tables with that name ([[sphere]], [[spring]]). */
+/** Changes a number in all tables with that name ([[sphere]], [[spring]]). */
 function withNumber(toml: string, path: string, value: Value) {
   const lines = toml.split('\n'), zero = zeroOf(path), gone = value === 0 && zero !== 'number';
   const leave = (line: string) => (line.startsWith(leftOutMark) ? line : leftOutMark + line);
@@ -82,7 +82,7 @@ function withNumber(toml: string, path: string, value: Value) {
     else if (zero === 'line')
       lines[line] = leave(lines[line]);
     if (zero !== 'section') continue;
-    // the head of the section and its lines, up to the next head
+    // a section extends to the next head
     let first = line, last = line;
     const isHead = (text: string) => /^\s*\[/.test(bring(text));
     while (first > 0 && !isHead(lines[first])) --first;
@@ -93,11 +93,10 @@ function withNumber(toml: string, path: string, value: Value) {
   return lines.join('\n');
 }
 
-/** The text with several changes: {path: value}. */
 export const withNumbers = (toml: string, changes: Changes) =>
     Object.entries(changes).reduce((text, [path, value]) => withNumber(text, path, value), toml);
 
-/** The changes from one text to another: {path: value}; null if more than numbers differ. */
+/** Null if more than numbers differ. */
 export function changesBetween(from: string, to: string) {
   const changes: Changes = {};
   for (const path of new Set(numbersOf(from).map(e => e.path))) {
@@ -107,17 +106,17 @@ export function changesBetween(from: string, to: string) {
   return withNumbers(from, changes) === to ? changes : null;
 }
 
-/** The text with a method and its step or tolerance as the scene's own. */
+/** Sets the scene's own method, and its step or tolerance. */
 export function withMethod(toml: string, {method, step = 0, tolerance}: MethodSpec) {
   const text = toml.replace(/^(\s*method\s*=\s*)"[^"]*"/m, (_, before) => `${before}"${method}"`);
   return tolerance ? text : withNumber(text, 'time.step', step);
 }
 
-/** A string of the scene, such as "question"; empty if there is none. */
+/** A string such as "question"; empty if there is none. */
 export const textAt = (toml: string, key: string) =>
     new RegExp(`^\\s*${key}\\s*=\\s*"((?:[^"\\\\]|\\\\.)*)"`, 'm').exec(toml)?.[1] ?? '';
 
-/** The shortest step, s, with three or more digits, for which a run takes `count` steps between two samples. */
+/** Shortest step (s), of three or more digits, with `count` steps between two samples. */
 export function stepOf(interval: number, count: number) {
   const exact = interval / count;
   for (let digits = 3; digits < 16; ++digits) {
@@ -128,7 +127,6 @@ export function stepOf(interval: number, count: number) {
   return exact;
 }
 
-/** The section [start] with positions and velocities. */
 function startSection(x: Places, v: Places) {
   const list = (values: Places) => {
     const lines: string[] = [];
@@ -139,14 +137,14 @@ function startSection(x: Places, v: Places) {
   return `[start]\npositions = ${list(x)}\n${v.length ? `velocities = ${list(v)}\n` : ''}`;
 }
 
-/** The initial state of a scene: positions and velocities of particles, centres of spheres. */
+/** Positions and velocities of particles, centres of spheres. */
 export interface Start {
   positions: Places;
   velocities: Places;
   centres: Places;
 }
 
-/** The text with the initial state of a run, its pins, and its spheres at their initial positions. */
+/** Replaces the initial state, the pins, and the spheres' initial positions. */
 export function withStart(toml: string, pins: Int32Array, {positions: x, velocities: v, centres}: Start) {
   const pinned = `particles = [${[...pins].join(', ')}]`;
   let text = /^\[pins\]/m.test(toml) ?
@@ -162,7 +160,7 @@ export function withStart(toml: string, pins: Int32Array, {positions: x, velocit
   return `${text.trimEnd()}\n\n${startSection(x, v)}`;
 }
 
-/** The text without a section, from its head to the next. */
+/** Removes a section up to the next head. */
 export function withoutSection(toml: string, name: string) {
   let inside = false;
   return toml.split('\n')

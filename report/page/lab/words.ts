@@ -1,4 +1,4 @@
-// Texts of the lab and of its guided experiments in the reader's language, from words/.
+// Texts of the lab and its experiments in the reader's language (words/).
 
 import english from './words/en.json';
 import chinese from './words/zh.json';
@@ -12,19 +12,19 @@ export const labWords: Record<Language, Record<string, string>> = {
 export let labLanguage: Language =
     [document.documentElement.lang, navigator.language].some(name => /^zh/i.test(name)) ? 'zh' : 'en';
 
-/** The text of a key, with `{name}` replaced by values. A key without a text is shown itself. */
+/** Replaces `{name}` in a text by values. A missing text is shown as its key. */
 export function say(key: string, values: Record<string, unknown> = {}) {
   const words = labWords[labLanguage][key] ?? key;
   return words.replace(/\{(\w+)\}/g, (place, name) => (name in values ? String(values[name]) : place));
 }
 
-/** A scene's question in the reader's language if it is that of a shipped scene; otherwise unchanged. */
+/** Translates the question of a shipped scene. */
 export function questionInLanguage(question: string) {
   const key = Object.keys(english).find(each => each.startsWith('question.') && labWords.en[each] === question);
   return key ? say(key) : question;
 }
 
-/** Chooses a language; elements with text listen for 'lab-language' on the document. */
+/** Elements with text listen for 'lab-language' on the document. */
 export function setLabLanguage(language: Language) {
   if (language === labLanguage) return;
   labLanguage = language;

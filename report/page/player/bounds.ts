@@ -1,10 +1,10 @@
-// The bounds of a scene: the bodies that the camera must show, and the ball around them for light and shadow.
+// Bounds of a scene: what the camera must show, and the ball that light and shadow must cover.
 
 import {HeldBall} from './orbit';
 import {StageScene} from './stage';
 import {minus, norm, Numbers, placeOf, plus, unit, Vec3} from './vectors';
 
-/** Positions of a run over time, from `begin` to `end` (s); `well`: it did not fail. */
+/** Positions over time, in s; `well`: the run did not fail. */
 export interface MovingPlaces {
   well: boolean;
   begin: number;
@@ -13,24 +13,24 @@ export interface MovingPlaces {
 }
 
 export interface Bounds {
-  held: HeldBall[];  // bodies and their shadows
+  held: HeldBall[];  // bodies and shadows
   key: Vec3;         // towards the light
-  size: number;      // diagonal of the box around the bodies, m
+  size: number;      // m, diagonal of the box around the bodies
   middle: Vec3;
-  reach: number;  // radius of the ball around them, m
+  reach: number;  // m, radius of the ball around them
 }
 
-/** Direction to the key light, from the left behind the viewer, for a viewer in this direction. */
+/** Towards the key light, which is to the left behind the viewer. */
 function keyDirection(from: Numbers) {
   const back: Vec3 = Math.hypot(from[0], from[2]) > 1e-9 ? unit([from[0], 0, from[2]]) : [0, 0, 1];
   const right = [back[2], 0, -back[0]];
   return unit(plus(plus([0, 1, 0], -0.3, right), 0.44, back));
 }
 
-/** The point where the light's ray through a position meets the ground. */
+/** Where the light's ray through a position meets the ground. */
 export const footOf = (at: Numbers, floor: number, key: Vec3) => plus(at, -(at[1] - floor) / key[1], key);
 
-/** Bounds of some particles in some frames of the completed runs, of obstacles, and of shadows. */
+/** Contains obstacles, shadows, and some particles in some frames of the completed runs. */
 export function boundsOf(scene: StageScene, motions: MovingPlaces[]): Bounds {
   const held: HeldBall[] = [], well = motions.filter(motion => motion.well);
   const stride = Math.max(1, Math.floor(scene.particles / 300)), places = new Float32Array(3 * scene.particles);
@@ -45,7 +45,7 @@ export function boundsOf(scene: StageScene, motions: MovingPlaces[]): Bounds {
   const low = [0, 1, 2].map(k => -most(h => h.radius - h.at[k])) as Vec3;
   const high = [0, 1, 2].map(k => most(h => h.at[k] + h.radius));
   const size = norm(minus(high, low)) || 1, key = keyDirection(scene.from);
-  // a single particle at rest gets a view one metre wide
+  // one metre for a single particle at rest
   if (norm(minus(high, low)) === 0) held.push({at: low, radius: 0.5, margin: 0});
   const middle = low.map((a, k) => (a + high[k]) / 2) as Vec3;
   const reach = most(h => norm(minus(h.at, middle)) + h.radius), {floor} = scene;

@@ -1,19 +1,17 @@
-// Colours of scales, families and methods.
+export type Colour = [number, number, number];  // 0 to 1
 
-export type Colour = [number, number, number];  // 0 to 1 each
-
-export const heat = ['F3F0E8', 'F6D9A6', 'F3B466', 'E8853B', 'CF5246', 'A02C5D', '5F1A5C'];  // as colour.cpp
+export const heat = ['F3F0E8', 'F6D9A6', 'F3B466', 'E8853B', 'CF5246', 'A02C5D', '5F1A5C'];  // as in colour.cpp
 export const purple = ['F4F2F7', 'D9CBE6', 'B28FCF', '8A55B0', '5E2A86', '3B1260'];          // differences
 export const palette = ['0072B2', 'D55E00', '009E73', 'CC79A7', 'E69F00', '56B4E9', '333333'];
 export const rgb =
     (hex: string) => [0, 2, 4].map(i => parseInt(hex.replace('#', '').slice(i, i + 2), 16) / 255) as Colour;
 export const mixed = (a: Colour, b: Colour, part: number) => a.map((v, k) => v + part * (b[k] - v)) as Colour;
 
-/** Dark, medium and light tones of cloth in a tint. */
+/** Dark, medium and light tones of cloth. */
 export const rampOf = (tint: Colour):
     Colour[] => [mixed(tint, [0, 0, 0], 0.15), mixed(tint, [1, 1, 1], 0.4), mixed(tint, [1, 1, 1], 0.84)];
 
-/** A method's name and colour on this page (chart_json.h). */
+/** A method's title and colour (chart_json.h). */
 interface MethodLook {
   title?: string;
   colour?: string;
@@ -23,7 +21,7 @@ interface MethodLook {
 export const looksOfPage: Record<string, MethodLook> =
     JSON.parse(document.getElementById('methods-data')?.textContent ?? '{}');
 
-/** Colours of a drawn run: plain; and dark, medium and light for cloth. */
+/** Colours of a run: plain; and dark, medium and light for cloth. */
 export interface Look {
   title?: string;
   css: string;
@@ -31,7 +29,7 @@ export interface Look {
   ramp: Colour[];
 }
 
-/** A method's title and its current colours; each engine has one cloth tint. */
+/** Each engine has one cloth tint. */
 export function lookOf(method: string): Look {
   const known = looksOfPage[method], name = method === 'truth' ? 'truth' : known?.colour ?? 'grey';
   const style = getComputedStyle(document.documentElement);
@@ -45,7 +43,7 @@ export function lookOf(method: string): Look {
   };
 }
 
-/** 256 colours between the stops, four bytes each. */
+/** 256 colours of four bytes, between stops. */
 export function scaleBytes(stops: string[]) {
   const bytes = new Uint8Array(4 * 256), colours = stops.map(rgb);
   for (let i = 0; i < 256; ++i) {

@@ -1,4 +1,4 @@
-// The controls below the pictures: play, slider, choices, the list of methods and the plot.
+// Controls below the pictures: play, slider, choices, methods and plot.
 
 import {lookOf, looksOfPage} from './colours';
 import {failureOf, keysOf, parts, Run, runOf, SceneStage} from './motion';
@@ -25,10 +25,10 @@ export const check = (label: string, on: boolean) => {
   return [make('label', {}, box, ` ${label}`), box] as const;
 };
 
-/** Seconds, with the digits needed to distinguish frames. */
+/** With the digits that distinguish frames. */
 const seconds = (time: number, end: number) => time.toFixed(end < 3 ? 3 : 2);
 
-/** A value with three digits. */
+/** Three digits. */
 export const short = (value: number): string => {
   if (value === 0) return '0';
   const size = Math.abs(value);
@@ -38,24 +38,24 @@ export const short = (value: number): string => {
   return (value < 0 ? '−' : '') + text;
 };
 
-/** A suitable unit for a length: its name and its size, m. */
+/** Name and size (m) of a suitable unit. */
 export const unitOf = (metres: number): [string, number] => {
   const units: [string, number][] = [['m', 1], ['mm', 1e-3], ['µm', 1e-6], ['nm', 1e-9]];
   return units.find(([, size]) => metres >= size) ?? units[0];
 };
-/** A length in a suitable unit. */
+/** In a suitable unit. */
 export const length = (metres: number) => {
   const [name, size] = metres > 0 ? unitOf(metres) : ['mm', 1e-3] as const, value = metres / size;
   return `${value === 0 ? 0 : value < 1e-3 ? short(value) : Number(value.toPrecision(2))} ${name}`;
 };
 
-/** Smallest 1, 2 or 5 times a power of ten that is not below a value. */
+/** Smallest 1, 2 or 5 times a power of ten that is not below the value. */
 export function roundUp(value: number) {
   const power = 10 ** Math.floor(Math.log10(value));
   return Number(([1, 2, 5, 10].find(s => s * power >= value * (1 - 1e-9))! * power).toPrecision(1));
 }
 
-/** A method as engine and rule; a program has its own name. */
+/** Engine and rule; a program has its own name. */
 export const inTwo = (method: string) => {
   const known = looksOfPage[method];
   if (known?.engine) return [known.engine, known.rule ?? ''];
@@ -63,7 +63,7 @@ export const inTwo = (method: string) => {
   return [first, second.replace(/-/g, ' ')];
 };
 
-/** The setting of a run: "980 µs", "tolerance 1e-6". */
+/** "980 µs", "tolerance 1e-6" */
 export const settingOf = ({step, tolerance}: Run) => {
   if (tolerance) return `tolerance ${short(tolerance)}`;
   if (!step) return '';
@@ -75,7 +75,7 @@ const pointerHelp =
     'Drag to turn. With the picture in focus (click it, or Tab) the wheel zooms, arrow keys turn, + and − ' +
     'zoom, 0 resets.';
 
-/** Two selects, method and step, among the runs of a scene; calls `chosen` with the key of a run. */
+/** Chooses a run of a scene by method and step. Calls `chosen` with its key. */
 class Picker {
   readonly box: HTMLElement;
   private readonly method: HTMLSelectElement;
@@ -120,7 +120,7 @@ export interface Look {
   colour: string;
   springs: boolean;
 }
-/** The functions that the controls call. */
+/** Called by the controls. */
 export interface Acts {
   toggle: () => void;
   seek: (time: number) => void;  // s
@@ -130,7 +130,6 @@ export interface Acts {
   pick?: (letter: 'a'|'b', key: string) => void;
 }
 
-/** The controls of a player. */
 export class Controls {
   private readonly play = make('button', {type: 'button', class: 'play'});
   private readonly clock = make('span', {class: 'clock'});
@@ -171,7 +170,7 @@ export class Controls {
     this.slider.addEventListener(
         'input', () => act.seek(this.begin + Number(this.slider.value) / 300 * (this.end - this.begin)));
     this.colour = colour, this.springs = springs;
-    this.addPlots(act.pick ? 3 : 0);  // reserve their room before they are drawn
+    this.addPlots(act.pick ? 3 : 0);  // reserves space until they are drawn
     speed.addEventListener('change', () => act.speed(Number(speed.value)));
     colour.addEventListener('change', () => act.look({colour: colour.value}));
     springs.addEventListener('change', () => act.look({springs: springs.checked}));
@@ -183,7 +182,7 @@ export class Controls {
     this.play.setAttribute('aria-label', `${playing ? 'Pause' : 'Play'} ${this.scene.scene}`);
   }
 
-  /** `top`: the largest difference, m; 0 below the resolution `least` (m); null if unknown. */
+  /** `top`: largest difference, m; 0 below the resolution `least` (m); null if unknown. */
   setPicks(picks: string[], top: number|null, least = 0) {
     this.pickers.forEach((picker, i) => picker.show(picks[i]));
     this.scale.replaceChildren(
@@ -193,7 +192,7 @@ export class Controls {
                             []));
   }
 
-  /** `scale`: the value of the last colour, or null. */
+  /** `scale`: value of the last colour, or null. */
   setLook(look: Look, scale: string|null) {
     this.colour.value = look.colour, this.springs.checked = look.springs;
     this.bar.replaceChildren(...(scale ? ['0', make('i', {class: 'scale'}), scale] : []));
@@ -207,7 +206,6 @@ export class Controls {
     }
   }
 
-  /** Sets the curves over time, in the format of Plot. */
   setPlots(list: Omit<Shown, 'begin'|'end'>[], begin: number, end: number) {
     this.begin = begin, this.end = end;
     list.forEach((each, i) => this.curves[i].show({...each, begin, end}));

@@ -1,5 +1,3 @@
-// Programs, buffers and textures of one WebGL2 context.
-
 import {header, vertexCommon} from './shaders';
 
 export const noContext = new Error('no WebGL2 context');
@@ -10,12 +8,12 @@ export interface Program {
 }
 export type Uniforms = Record<string, number|number[]|WebGLTexture|undefined|null>;
 
-/** Corners shared by all instances, one row of `ints` integers per instance, and an index. */
+/** Corners for all instances, one row of `ints` integers per instance, and an index. */
 export interface Mesh {
   corners?: Float32Array;
   size?: number;  // numbers per corner
   instances?: Int32Array;
-  slot?: number;  // attribute location of the instances
+  slot?: number;  // attribute location of `instances`
   ints?: number;
   index: Uint16Array;
 }
@@ -24,7 +22,7 @@ export interface Shape {
   indexed: number;
   instances: number;
 }
-/** A texture with four floats per entry, and the numbers to fill it. */
+/** A texture with four floats per entry. */
 export interface Table {
   texture: WebGLTexture;
   wide: number;
@@ -35,14 +33,14 @@ export interface Table {
 export class Gl {
   readonly gl: WebGL2RenderingContext;
 
-  /** Throws `noContext` if there is no context. */
+  /** Throws `noContext`. */
   constructor(canvas: HTMLCanvasElement, antialias: boolean) {
     const gl = canvas.getContext('webgl2', {antialias, alpha: false, powerPreference: 'low-power'});
     if (!gl) throw noContext;
     this.gl = gl;
   }
 
-  // A lost context creates nothing and draws nothing: its nulls are passed on.
+  // A lost context creates nulls, which are passed on, and draws nothing.
 
   program(vertex: string, fragment: string, define = ''): Program {
     const gl = this.gl, program = gl.createProgram()!;
@@ -55,7 +53,7 @@ export class Gl {
     }
     ['corner', 'which', 'ends'].forEach((name, i) => gl.bindAttribLocation(program, i, name));
     gl.linkProgram(program);
-    // without this check, an error results in a blank canvas without a message
+    // without this check, an error leaves a blank canvas and no message
     if (!gl.getProgramParameter(program, gl.LINK_STATUS) && !gl.isContextLost())
       throw new Error([
         gl.getProgramInfoLog(program), ...(gl.getAttachedShaders(program) ?? []).map(s => gl.getShaderInfoLog(s))
@@ -68,7 +66,7 @@ export class Gl {
     return {program, places};
   }
 
-  /** Makes the program current and sets those of the uniforms that it has; binds textures to units in order. */
+  /** Sets the uniforms that the program has, and binds textures to units in order. */
   use({program, places}: Program, uniforms: Uniforms) {
     const gl = this.gl;
     gl.useProgram(program);
@@ -123,7 +121,7 @@ export class Gl {
     if (count > 0) this.gl.drawElementsInstanced(mode, indexed, this.gl.UNSIGNED_SHORT, 0, count);
   }
 
-  /** A texture that is read texel by texel: four floats for each of `count` entries. */
+  /** Read texel by texel: four floats for each of `count` entries. */
   table(count: number): Table {
     const gl = this.gl, wide = Math.min(count, 1024), high = Math.ceil(count / wide);
     const texture = gl.createTexture()!;
@@ -139,7 +137,7 @@ export class Gl {
     gl.texSubImage2D(gl.TEXTURE_2D, 0, 0, 0, wide, high, gl.RGBA, gl.FLOAT, data);
   }
 
-  /** A row of colours (four bytes each), read with interpolation. */
+  /** A row of colours (four bytes each) for interpolation. */
   colours(bytes: Uint8Array) {
     const gl = this.gl, texture = gl.createTexture()!;
     gl.bindTexture(gl.TEXTURE_2D, texture);
@@ -151,7 +149,7 @@ export class Gl {
     return texture;
   }
 
-  /** A depth texture with comparison, and the framebuffer that draws into it. */
+  /** A depth texture with comparison, and its framebuffer. */
   shadowMap(size: number) {
     const gl = this.gl, texture = gl.createTexture()!, frame = gl.createFramebuffer();
     gl.bindTexture(gl.TEXTURE_2D, texture);

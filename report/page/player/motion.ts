@@ -1,10 +1,10 @@
-// Runs of the page (report/CONTRACT.md), and a run's motion between its frames.
+// Runs of the page (report/CONTRACT.md), and motion between their frames.
 
 import {SharedGeometry, StageScene} from './stage';
 import {bytesOf, Packed, unpackedBytes} from './unpack';
 import {Places} from './vectors';
 
-/** A run as in report.json. */
+/** As in report.json. */
 export interface Run {
   step?: number;
   tolerance?: number;
@@ -12,7 +12,7 @@ export interface Run {
   failed?: number;  // s
   reason?: string;
   frames: number;
-  times: (number|null)[];  // s, of all frames, or of the first and the last
+  times: (number|null)[];  // s, of all frames, or the first and the last
   last_pictures?: boolean;
   low: number[];  // m
   unit: number;   // m
@@ -22,7 +22,7 @@ export interface Run {
   energy?: (number|null)[];  // J
 }
 
-/** The runs of one method; `data`: their bytes in base64, decoded once. */
+/** `data`: base64, decoded once. */
 export interface RunFile {
   method: string;
   note?: string;
@@ -31,7 +31,7 @@ export interface RunFile {
   content?: Uint8Array;
 }
 
-/** A scene, or a map's small scene, as written by stage.cpp. */
+/** A scene, or the small scene of a map (from stage.cpp). */
 export interface SceneStage {
   scene: string;
   particles: number;
@@ -48,12 +48,12 @@ export interface SceneStage {
   };
   pins: number[];
   spheres: {radius: number, centres: number[][]}[];
-  at?: number;  // s, time of the poster
+  at?: number;  // s, of the poster
   truth?: {name: string, rule: boolean, bar: number, motion: number};
   toml?: string;
 }
 
-/** The data of a scene that are unpacked once. */
+/** Unpacked once. */
 export interface Shared {
   triangles: Uint16Array;
   springs: Uint16Array;
@@ -66,9 +66,7 @@ interface RunSet {
   methods: Map<string, RunFile>;
 }
 
-/**
- * The runs of a set of the page: "SCENE-engines", "SCENE-speed-accuracy", "SCENE-truth", or a map's; null without runs.
- */
+/** Runs of "SCENE-engines", "SCENE-speed-accuracy", "SCENE-truth", or a map; null without runs. */
 export const runsOf = (() => {
   const known = new Map<string, RunSet|null>();
   return (key: string) => {
@@ -82,16 +80,13 @@ export const runsOf = (() => {
   };
 })();
 
-/**
- * A key as method and index: "mysim/leapfrog 5" is the method's sixth run of the chart, "own" the run at the scene's
- * own step.
- */
+/** Splits a key: "mysim/leapfrog 5" is the method's sixth run in the chart, "own" the run at the scene's own step. */
 export const parts = (key: string) => {
   const at = key.lastIndexOf(' ');
   return {method: key.slice(0, at < 0 ? undefined : at), place: at < 0 ? '' : key.slice(at + 1)};
 };
 
-/** The file and the entry of a run; null if the page does not contain it. */
+/** Null if the page does not contain the run. */
 export function runOf(scene: {scene: string}, key: string) {
   const {method, place} = parts(key), chosen = key === 'truth' || place === 'own' ? 0 : Number(place);
   const set = key === 'truth' ? 'truth' : place === 'own' ? 'engines' : 'speed-accuracy';
@@ -99,7 +94,7 @@ export function runOf(scene: {scene: string}, key: string) {
   return file && run ? {file, run} : null;
 }
 
-/** The keys of all runs of a scene in the page, by method, in the order of the steps. */
+/** Keys of all runs of a scene, by method, in the order of steps. */
 export function keysOf(scene: {scene: string}) {
   const all = new Map<string, string[]>();
   for (const [set, own] of [['engines', true], ['speed-accuracy', false]])
@@ -111,7 +106,7 @@ export function keysOf(scene: {scene: string}) {
   return all;
 }
 
-/** "blew up at 0.31 s" for a failed run. */
+/** "blew up at 0.31 s" */
 export function failureOf({verdict, failed}: Run, short: (value: number) => string) {
   if (verdict === 'ok' || failed === undefined) return '';
   const words: Record<string, string> = {
@@ -127,7 +122,7 @@ export function failureOf({verdict, failed}: Run, short: (value: number) => stri
 const numbersOf = ({particles}: SceneStage, file: RunFile, {offset, bytes}: Run) =>
     unpackedBytes((file.content ??= bytesOf(file.data)).subarray(offset, offset + bytes), 3 * particles);
 
-/** The motion of a run of a scene; null if the page does not contain it. */
+/** Null if the page does not contain the run. */
 export async function motionOf(scene: SceneStage, key: string) {
   const found = runOf(scene, key);
   if (!found) return null;
@@ -135,7 +130,7 @@ export async function motionOf(scene: SceneStage, key: string) {
   return new Motion(run, key, file.method, scene.particles, await numbersOf(scene, file, run));
 }
 
-/** The last picture of a map's cell, as a motion of one frame; null if there is none. */
+/** The last picture of a map's cell, as one frame; null if there is none. */
 export async function cellOf(stage: SceneStage, file: RunFile, place: number) {
   const [run] = file.runs, time = run?.times[place] ?? null, wide = 3 * stage.particles;
   if (!run || time === null) return null;
@@ -144,11 +139,11 @@ export async function cellOf(stage: SceneStage, file: RunFile, place: number) {
 }
 
 export class Motion {
-  readonly times: number[];  // s, of the frames
+  readonly times: number[];  // s, of frames
   readonly begin: number;
   readonly end: number;
-  readonly error: (number|null)[];   // m, of the frames
-  readonly energy: (number|null)[];  // J
+  readonly error: (number|null)[];   // m, of frames
+  readonly energy: (number|null)[];  // J, of frames
 
   /** `numbers`: frames x 3 x particles. */
   constructor(
@@ -164,17 +159,17 @@ export class Motion {
 
   get well() { return this.run.verdict === 'ok' || this.run.verdict === undefined; }
 
-  /** The largest error of a particle's position, m: half a unit in each direction. */
+  /** Largest error of a position, m: half a unit in each direction. */
   get bound() { return Math.sqrt(3) / 2 * this.run.unit; }
 
-  /** The frame at a time, as a fraction. */
+  /** As a fraction. */
   private frameAt(time: number) {
     const {times} = this, t = Math.max(times[0], Math.min(this.end, time));
     const next = Math.max(1, times.findIndex(other => other >= t - 1e-12));
     return times.length < 2 ? 0 : next - 1 + (t - times[next - 1]) / (times[next] - times[next - 1]);
   }
 
-  /** Positions at a time, linear between frames; a run that ended earlier stays at its end. Coordinates, m. */
+  /** Coordinates (m), linear between frames; a run stays at its end. */
   placesAt(time: number, into = new Float32Array(3 * this.particles)) {
     const {particles, numbers, run} = this, frame = this.frameAt(time), first = Math.floor(frame), part = frame - first;
     const a = 3 * particles * first, b = part > 0 ? a + 3 * particles : a;
@@ -186,9 +181,8 @@ export class Motion {
   }
 
   /**
-   * Differences of positions from those of another motion: coordinates, m. They are evaluated at the frames of the run
-   * with fewer frames, which the other run has, too: between frames, the error of linear interpolation exceeds the
-   * difference of two accurate runs.
+   * Coordinate differences (m) between two motions, at the frames of the run with fewer frames, which the other run
+   * has, too. Between frames, linear interpolation errs by more than the difference of two accurate runs.
    */
   apartAt(time: number, other: Motion, into = new Float32Array(3 * this.particles)) {
     const {times} = this.times.length < other.times.length ? this : other;
@@ -204,14 +198,14 @@ export class Motion {
     return into;
   }
 
-  /** A value of a per-frame list at a time, interpolated between two known values. */
+  /** Interpolates per-frame values. */
   valueAt(list: (number|null)[], time: number) {
     const frame = this.frameAt(time), first = Math.floor(frame), a = list[first] ?? null, b = list[first + 1] ?? null;
     return time > this.end + 1e-9 || a === null ? null : b === null ? a : a + (frame - first) * (b - a);
   }
 }
 
-/** Distances of particles, m, from differences of coordinates. */
+/** In m, from differences of coordinates. */
 export const distances = (apart: Float32Array) => {
   const out = new Float32Array(apart.length / 3);
   for (let i = 0; i < out.length; ++i) out[i] = Math.hypot(apart[3 * i], apart[3 * i + 1], apart[3 * i + 2]);
@@ -219,7 +213,7 @@ export const distances = (apart: Float32Array) => {
 };
 export const rms = (values: Float32Array) => Math.sqrt(values.reduce((sum, v) => sum + v * v, 0) / values.length);
 
-/** Mean extension of the springs at each particle, %, without shear and bend springs. */
+/** Mean extension at each particle, %, of springs that are not shear or bend springs. */
 export function stretchOf(scene: StageScene, {springs, rests}: SharedGeometry, places: Places) {
   const sum = new Float32Array(scene.particles), count = new Float32Array(scene.particles);
   let s = 0;

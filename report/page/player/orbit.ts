@@ -1,11 +1,11 @@
-// The camera of all panels: it turns about a point, at a distance from which everything is visible.
+// The camera of all panels turns about a point, at a distance from which everything is visible.
 
 import {cross, dot, minus, norm, Numbers, perspective, plus, times, toEye, Vec3} from './vectors';
 
-const fieldOfView = 25 * Math.PI / 180;  // vertical
+const fieldOfView = 25 * Math.PI / 180;
 export const tangent = Math.tan(fieldOfView / 2);
 
-/** A ball that must be visible; `margin`: part of the view that stays free around it. */
+/** A ball to keep in view; `margin`: part of the view that stays free around it. */
 export interface HeldBall {
   at: Numbers;
   radius: number;
@@ -37,7 +37,7 @@ export class Orbit {
 
   magnify(factor: number) { this.zoom = Math.max(0.15, Math.min(4, this.zoom / factor)); }
 
-  /** The directions right, up and backwards. */
+  /** Right, up and backwards. */
   axes({yaw, pitch}: {yaw: number, pitch: number} = this): Vec3[] {
     const back: Vec3 = [Math.sin(yaw) * Math.cos(pitch), Math.sin(pitch), Math.cos(yaw) * Math.cos(pitch)];
     const right: Vec3 = [Math.cos(yaw), 0, -Math.sin(yaw)];
@@ -45,8 +45,8 @@ export class Orbit {
   }
 
   /**
-   * Target and smallest distance at which the balls are inside a panel of this shape, seen from the home direction; the
-   * target is near their `middle`.
+   * Smallest distance at which the balls are inside a panel of this shape, seen from the home direction. The target is
+   * near `middle`.
    */
   fit(balls: HeldBall[], middle: Vec3, aspect: number): Fit {
     const [right, up, back] = this.axes(this.home);
@@ -55,7 +55,7 @@ export class Orbit {
       for (const {at, radius, margin} of balls) {
         const from = minus(at, middle);
         const s = slope * (1 - 2 * margin);
-        // the edge of the view is a plane with slope s
+        // the edge of the view is a plane of slope s
         const reach = radius * Math.sqrt(1 + s * s), deep = s * dot(back, from);
         most[0] = Math.max(most[0], (dot(axis, from) + deep + reach) / s);
         most[1] = Math.max(most[1], (-dot(axis, from) + deep + reach) / s);
@@ -69,7 +69,6 @@ export class Orbit {
     };
   }
 
-  /** Eye position and clip matrix for a fit. */
   view({target, distance}: Fit, aspect: number) {
     const axes = this.axes(), far = distance * this.zoom;
     const eye = plus(target, far, axes[2]);

@@ -1,5 +1,4 @@
-// <motion-player>: the motions of a scene's methods in lock-step. It follows the figure with the poster and the scene's
-// data, and puts its canvas over the poster while it is visible. Without WebGL2 only the poster is shown.
+// <motion-player>: runs of a scene in lock-step, in a canvas over the poster. Without WebGL2, the poster stays.
 
 import {Acts, Controls, inTwo, length, Look, make, roundUp, settingOf, short} from './controls';
 import {Orbit} from './orbit';
@@ -11,31 +10,29 @@ import {lookOf} from './colours';
 import {noContext} from './gl';
 import {unpack} from './unpack';
 
-export const mostStages = 3;  // scenes drawn at the same time: browsers allow few contexts
+export const mostStages = 3;  // scenes drawn at a time, because browsers allow few contexts
 export const alive: MotionPlayer[] = [];
 
 export const stillWanted = matchMedia('(prefers-reduced-motion: reduce)');
 export const dark = matchMedia('(prefers-color-scheme: dark)');
 
-/** True if this browser may be able to play, by its features (starting WebGL takes long if it draws in software). */
+/** By features only, because starting WebGL takes long without a graphics processor. */
 export let plays = 'DecompressionStream' in window && 'WebGL2RenderingContext' in window;
 document.documentElement.classList.toggle('plays', plays);
 
-/** True if WebGL starts; for elements with several parts that need it. */
 export function startsWebGl() {
   const gl = document.createElement('canvas').getContext('webgl2');
   gl?.getExtension('WEBGL_lose_context')?.loseContext();
   return Boolean(gl);
 }
 
-/** Called if WebGL does not start at its first use: the posters remain, without controls. */
+/** WebGL did not start: posters stay, without controls. */
 function playNothing() {
   plays = false;
   document.documentElement.classList.remove('plays');
   document.querySelector<HTMLDialogElement>('dialog.run')?.close();
 }
 
-/** A scene's stage, from the end of the page. */
 const sceneData = (() => {
   const known = new Map<string, SceneStage>();
   return (name: string) => {
@@ -45,7 +42,7 @@ const sceneData = (() => {
   };
 })();
 
-/** Dummy controls for the players of the first screen, where one clock drives several. */
+/** Dummies for the first screen, where one clock drives several players. */
 const noControls: Pick<Controls, 'setLook'|'setPlaying'|'setTime'|'setPlots'|'setPicks'|'setHint'> = {
   setLook() {},
   setPlaying() {},
@@ -57,7 +54,6 @@ const noControls: Pick<Controls, 'setLook'|'setPlaying'|'setTime'|'setPlots'|'se
 
 const rmsOf = (metres: Float32Array|null) => metres && rms(metres);
 
-/** A motion with its look and its names. */
 interface PlayerView extends View {
   letter: string;
   method: string;
@@ -67,7 +63,6 @@ interface PlayerView extends View {
 const viewOf = (motion: Motion, letter: string): PlayerView =>
     ({motion, letter, method: motion.method, look: lookOf(motion.method)});
 
-/** The series of a plot for a motion. */
 const seriesOf = ({motion, letter, look}: PlayerView, list: (number|null)[], dash = ''): Series => ({
   name: letter,
   css: look.css,
@@ -77,10 +72,10 @@ const seriesOf = ({motion, letter, look}: PlayerView, list: (number|null)[], das
 });
 
 export class MotionPlayer extends HTMLElement {
-  given?: {scene: SceneStage, motion: Motion, caption: string};  // the picture of a map's cell
+  given?: {scene: SceneStage, motion: Motion, caption: string};  // last picture of a map's cell
   scene!: SceneStage;
-  picks: {a: string, b: string}|null = null;  // keys of the runs that are compared
-  hero: string[]|null = null;                 // those of the first screen
+  picks: {a: string, b: string}|null = null;  // keys of the compared runs
+  hero: string[]|null = null;                 // keys on the first screen
   stage: Stage|null = null;
   motions: Motion[] = [];
   views: PlayerView[] = [];
@@ -89,8 +84,8 @@ export class MotionPlayer extends HTMLElement {
   time = 0;  // s
   begin = 0;
   end = 0;
-  settled = Infinity;  // s: all motions stay below 2 % of their largest kinetic energy from then on
-  top = 0;             // m, of the scale of differences; 0: no difference exceeds the resolution
+  settled = Infinity;  // s; from then on all kinetic energies are below 2 % of their maximum
+  top = 0;             // m, top of the difference scale; 0: below the resolution
   seen = false;
   private controls: typeof noControls = noControls;
   private orbit!: Orbit;
@@ -102,8 +97,8 @@ export class MotionPlayer extends HTMLElement {
   private loaded?: Promise<void>;
   private shared?: Promise<Shared>;
   private turn = {};
-  private least = 0;  // m: the resolution of differences
-  private bound = 0;  // m: error bound of positions
+  private least = 0;  // m, resolution of differences
+  private bound = 0;  // m, error bound of positions
   private untouched = true;
   private speed = 1;
   private pace = 1;
@@ -141,7 +136,7 @@ export class MotionPlayer extends HTMLElement {
     dark.addEventListener('change', () => this.views.length && this.arrange());
   }
 
-  /** Handles visibility: plays once when visible, unless reduced motion is preferred, and pauses when invisible. */
+  /** Plays when visible (once, and not if reduced motion is preferred); pauses when invisible. */
   private async setSeen(seen: boolean) {
     this.seen = seen;
     if (!seen) {
@@ -149,13 +144,13 @@ export class MotionPlayer extends HTMLElement {
       this.pause();
       return;
     }
-    // with reduced motion the poster remains until a control is used
+    // with reduced motion, the poster stays until a control is used
     if (stillWanted.matches && !this.dataset.state) return;
     await this.wake();
     if (this.seen && !stillWanted.matches && !this.dataset.shown && (this.resume ?? true)) this.play();
   }
 
-  /** Unpacks the data (once) and opens a stage; an invisible player may have to release its own. */
+  /** Unpacks the data once and opens a stage. An invisible player may have to release its own. */
   async wake() {
     const shared = this.shared ??=
         Promise.all([this.scene.triangles, this.scene.springs.ends, this.scene.springs.rests].map(unpack))
@@ -193,7 +188,6 @@ export class MotionPlayer extends HTMLElement {
     if (!performance.getEntriesByName('first-motion').length) performance.mark('first-motion');
   }
 
-  /** Loads the motions that are shown. */
   private async load() {
     const keys = this.hero ?? (this.picks ? [this.picks.a, this.picks.b] : []), letters = this.picks ? ['A', 'B'] : [];
     const turn = this.turn = {};
@@ -211,7 +205,6 @@ export class MotionPlayer extends HTMLElement {
     this.arrange();
   }
 
-  /** Chooses other runs. */
   async pick(change: {a?: string, b?: string}) {
     Object.assign(this.picks!, change);
     this.loaded = this.load();
@@ -220,20 +213,19 @@ export class MotionPlayer extends HTMLElement {
     this.dispatchEvent(new Event('picked'));
   }
 
-  /** Sets up views, difference and plots of the motions. */
   private arrange() {
     const {scene, letters} = this;
     this.views = this.motions.map((motion, i) => viewOf(motion, letters[i] ?? ''));
     const pictures = this.given?.motion ?? this.motions.find(motion => motion.run.last_pictures);
     [this.begin, this.end] = pictures ? [pictures.begin, pictures.end] : [0, scene.times[scene.times.length - 1]];
-    this.pace = pictures ? (this.end - this.begin) / 6 : 1;  // pictures of a moment take six seconds
+    this.pace = pictures ? (this.end - this.begin) / 6 : 1;  // last pictures take six seconds
     const plots: Omit<Shown, 'begin'|'end'>[] = [], [a, b] = this.views, purple = 'var(--difference)';
     if (this.picks && b) {
       const times = Array.from({length: 101}, (_, i) => this.begin + i / 100 * (this.end - this.begin));
       const apart = times.map(
           t => (t <= Math.min(a.motion.end, b.motion.end) + 1e-9 ? distances(a.motion.apartAt(t, b.motion)) : null));
       const largest = apart.reduce((top, metres) => metres?.reduce((x, y) => Math.max(x, y), top) ?? top, 0);
-      // below the resolution of both runs, their difference is not one of the motions
+      // smaller differences are not resolved
       this.least = a.motion.bound + b.motion.bound, this.bound = Math.max(a.motion.bound, b.motion.bound);
       this.top = largest > this.least ? roundUp(largest) : 0;
       this.views.push(
@@ -278,7 +270,6 @@ export class MotionPlayer extends HTMLElement {
     if (this.stage) this.showViews();
   }
 
-  /** Remarks about the two runs. */
   private words() {
     const said: string[] = [];
     for (const letter of ['a', 'b'] as const) {
@@ -295,7 +286,7 @@ export class MotionPlayer extends HTMLElement {
     return said.join(' ');
   }
 
-  /** The end of a truth that ends before its scene. */
+  /** For a truth that ends before the scene. */
   private endOf(method: string, {times}: Run) {
     const end = times[times.length - 1] ?? 0;
     return method === 'truth' && end < this.scene.times[this.scene.times.length - 1] - 1e-9 ?
@@ -303,7 +294,6 @@ export class MotionPlayer extends HTMLElement {
         '';
   }
 
-  /** Puts the views on the stage, with their titles above. */
   private showViews() {
     this.stage!.show(this.views);
     this.titles.replaceChildren(...this.views.map(view => {
@@ -326,7 +316,7 @@ export class MotionPlayer extends HTMLElement {
     this.setLook({});
   }
 
-  /** Releases the context; the poster reappears. */
+  /** Releases the context and shows the poster. */
   sleep() {
     this.pause();
     alive.splice(alive.indexOf(this), 1);
@@ -341,13 +331,13 @@ export class MotionPlayer extends HTMLElement {
     this.wanted = true;
     await this.wake();
     if (this.playing || !this.wanted) return;
-    if (this.untouched || this.time >= this.end) this.seek(this.begin);  // initially the player shows the poster's time
+    if (this.untouched || this.time >= this.end) this.seek(this.begin);  // initially shows the poster's time
     this.playing = true;
     this.controls.setPlaying(true);
     let last: number|null = null;
     const tick = (now: number) => {
       if (!this.playing) return;
-      // after a pause of the whole page, the motion continues where it stopped
+      // pauses while the page is hidden
       const passed = Math.min(0.1, last === null ? 0 : (now - last) / 1000);
       last = now;
       this.seek(this.time + this.speed * this.pace * passed);
@@ -364,7 +354,6 @@ export class MotionPlayer extends HTMLElement {
     this.controls.setPlaying(false);
   }
 
-  /** Shows a time, s. */
   seek(time: number) {
     this.untouched = false;
     this.time = Math.max(this.begin, Math.min(this.end, time));
@@ -407,9 +396,7 @@ export class MotionPlayer extends HTMLElement {
     if (canvas.width !== wide || canvas.height !== high) Object.assign(canvas, {width: wide, height: high});
     const background =
         getComputedStyle(this.box).backgroundColor.match(/[\d.]+/g)!.slice(0, 3).map(v => Number(v) / 255);
-    const title = this.hero ? (this.box.clientWidth < 420 ? 58 : 46) :
-        this.given          ? 0 :
-                              24;  // pixels above each picture
+    const title = this.hero ? (this.box.clientWidth < 420 ? 58 : 46) : this.given ? 0 : 24;  // px above each picture
     const panels = this.stage.draw(
         {colour: this.colouring, springs: this.look.springs, time: this.time, orbit: this.orbit, background, title});
     panels.forEach((panel, i) => {
@@ -425,14 +412,14 @@ export class MotionPlayer extends HTMLElement {
   }
 }
 
-/** The first screen: its players on one clock, in a loop; a still picture if motion is unwanted. */
+/** Runs the players of the first screen on one clock, in a loop; a still picture if motion is unwanted. */
 function runHero(hero: HTMLElement) {
   const players = [...hero.querySelectorAll<MotionPlayer>('motion-player')].filter(player => player.scene);
   const button = hero.querySelector('button')!, slider = hero.querySelector('input')!;
   const clock = hero.querySelector('.clock')!;
   const ends = players.map(player => player.end), end = Math.max(...ends);
   let time = 0, last: number|null = null, playing = false, seen = false;
-  // below each view its current error, instead of the largest
+  // current errors replace the largest ones
   const readouts = players.map(player => {
     const spans = [...player.closest('.views')!.nextElementSibling?.querySelectorAll<HTMLElement>('[data-key]') ?? []];
     return spans.map(span => ({span, still: [...span.childNodes]}));
@@ -460,13 +447,12 @@ function runHero(hero: HTMLElement) {
     slider.value = String(1000 * time / end);
     clock.textContent = `${time.toFixed(2)} s, ${pace() < 1 ? '½' : '2'}× speed`;
   };
-  // half speed while anything moves, then twice real time
   const pace = () => (players.some((player, i) => time < Math.min(ends[i], player.settled)) ? 0.5 : 2);
   const tick = (now: number) => {
     if (!playing || !seen) return void (last = null);
     time += last === null ? 0 : pace() * Math.min(0.1, (now - last) / 1000);
     last = now;
-    if (time > end + 0.6) time = 0;  // it rests a moment at its end
+    if (time > end + 0.6) time = 0;  // pauses at the end
     show();
     requestAnimationFrame(tick);
   };
@@ -494,7 +480,6 @@ function runHero(hero: HTMLElement) {
   Promise.all(players.map(player => player.wake())).then(() => plays && set(true));
 }
 
-/** Defines <motion-player>, and plays the scenes of the first screen when the page is loaded. */
 export function startPlayers() {
   customElements.define('motion-player', MotionPlayer);
   document.addEventListener('DOMContentLoaded', () => {

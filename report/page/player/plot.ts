@@ -1,4 +1,4 @@
-// A quantity of several runs over time, with a play head; a click or a drag moves the head.
+// A quantity of several runs over time. A click or drag moves the cursor.
 
 import {bisector, extent} from 'd3-array';
 import {line} from 'd3-shape';
@@ -26,13 +26,13 @@ export interface Shown {
   series: Series[];
   begin: number;  // s
   end: number;
-  none?: string;  // shown if nothing is known
+  none?: string;  // text if nothing is known
 }
 
 const high = 140, top = 6, foot = high - 22;
 const at = bisector<Point>(([time]) => time);
 
-/** The value at a time, linear between two points; null outside their range. */
+/** Linear between points; null outside their range. */
 function valueAt(points: Point[], time: number): number|null {
   const next = at.left(points, time - 1e-9);
   if (next >= points.length) return null;
@@ -49,16 +49,16 @@ export class Plot {
   private x: Axis|null = null;
   private y: Axis|null = null;
   private cursor: SVGElement|null = null;
-  private words = '';  // shown instead of curves
+  private words = '';  // instead of curves
 
-  /** A box for one quantity; `seek` is called with a time in s. */
+  /** `seek` receives a time in s. */
   constructor(readonly box: HTMLElement, seek: (time: number) => void = () => {}) {
     box.append(this.head, this.area);
     const go = (event: PointerEvent) =>
         this.x && seek(this.x.value(event.clientX - this.area.getBoundingClientRect().left));
     this.area.addEventListener('pointerdown', event => (this.area.setPointerCapture(event.pointerId), go(event)));
     this.area.addEventListener('pointermove', event => event.buttons && go(event));
-    // cached, because querying it after another plot has changed forces the browser to lay out the page at once
+    // cached: a query after a change of another plot would force a layout
     new ResizeObserver(() => (this.width = this.area.clientWidth, this.draw())).observe(this.area);
   }
 
@@ -67,7 +67,7 @@ export class Plot {
     this.draw();
   }
 
-  /** The axis of values: linear, or logarithmic over at most 8 decades if a failed run grows a hundredfold. */
+  /** Linear, or logarithmic over at most 8 decades if a failed run grows a hundredfold. */
   private axisOfValues({title, unit, series}: Shown): Axis|null {
     const valuesOf = (list: Series[]) => list.flatMap(s => s.points.flatMap(([, v]) => (v === null ? [] : [v])));
     const well = series.filter(s => s.well), values = valuesOf(well.length ? well : series);
@@ -126,7 +126,6 @@ export class Plot {
     ];
   }
 
-  /** Moves the cursor and shows the values at its time. */
   moveHead(time: number) {
     this.time = time;
     const {shown, cursor, x, y} = this;

@@ -1,8 +1,7 @@
-// Pointer, wheel and keys that turn and zoom a view.
+// Turns and zooms a view by pointer, wheel and keys.
 
 import {Orbit} from './orbit';
 
-/** Keys that turn and zoom. */
 export const orbitKeys = (orbit: Orbit): Record<string, () => void> => ({
   ArrowLeft: () => orbit.turn(-0.12, 0),
   ArrowRight: () => orbit.turn(0.12, 0),
@@ -14,7 +13,7 @@ export const orbitKeys = (orbit: Orbit): Record<string, () => void> => ({
   0: () => orbit.reset()
 });
 
-/** Lets the wheel zoom if the view has the focus, or with Control: otherwise the page scrolls over it. */
+/** Without Control or focus, the wheel scrolls the page. */
 export function attachWheel(layer: HTMLElement, orbit: () => Orbit, changed: () => void) {
   layer.addEventListener('wheel', event => {
     if (!event.ctrlKey && document.activeElement !== layer) return;
@@ -24,10 +23,7 @@ export function attachWheel(layer: HTMLElement, orbit: () => Orbit, changed: () 
   }, {passive: false});
 }
 
-/**
- * Calls `changed` after each change of the orbit. A finger that moves up or down scrolls the page; a sideways movement
- * turns the view.
- */
+/** A finger that moves sideways turns the view; up or down, it scrolls the page. */
 export function attachPointerInput(layer: HTMLElement, orbit: Orbit, changed: () => void) {
   layer.addEventListener('pointerdown', event => layer.setPointerCapture(event.pointerId));
   layer.addEventListener('pointermove', event => {

@@ -1,5 +1,5 @@
-// A click on a marker of a chart, or on a cell of a map, plays that run in a window over the page. A list below the
-// figure offers the same runs to readers without a pointer.
+// Plays the run of a chart's marker or a map's cell in a window over the page. A list below the figure offers the same
+// runs to readers without a pointer.
 
 import {labStateOf, labStateOfRun} from '../lab/doors';
 import {openLab} from '../lab/lab';
@@ -9,13 +9,13 @@ import {dropdown, make, short} from './controls';
 import {cellOf, parts, runsOf} from './motion';
 import {MotionPlayer, plays} from './player';
 
-/** The tooltip of a marker, beginning with its method. */
+/** Tooltip of a marker, beginning with the method. */
 const tipOf = ({dataset: {run = '', words = ''}}: HTMLElement) => {
   const {method} = parts(run);
   return words.startsWith(method) ? words : `${method}, ${words}`;
 };
 
-/** Opens the window with the run of a marker, next to the truth; for a map's cell, only its last picture. */
+/** Plays a marker's run next to the truth; for a map's cell, only its last picture. */
 async function playRun(key: string, marker: HTMLElement) {
   const set = runsOf(key), [head, ...lines] = tipOf(marker).split('\n'), chosen = marker.dataset.run ?? '';
   if (!set) return;
@@ -64,19 +64,16 @@ async function playRun(key: string, marker: HTMLElement) {
   dialog.addEventListener('click', event => event.target === dialog && shut());
   dialog.addEventListener('close', shut);  // by Escape
   dialog.showModal();
-  if (shown) await player.wake();  // even with reduced motion, because the reader clicked to see it
+  if (shown) await player.wake();  // even with reduced motion, because of the click
 }
 
-/**
- * The list of runs below a figure: by method, by row on a map, and by setting. It is built when it is opened for the
- * first time.
- */
+/** Lists a figure's runs by method, by a map's row, and by setting, when first opened. */
 export function listRuns(figure: HTMLElement) {
   if (!plays) return;
   const list = make('details', {class: 'run-list'}, make('summary', {}, 'Play a run'));
   list.addEventListener('toggle', () => {
     const markers = [...figure.querySelectorAll<HTMLElement>('[data-run]')];
-    if (list.querySelector('select') || markers.length === 0) return;  // a figure is drawn when it becomes visible
+    if (list.querySelector('select') || markers.length === 0) return;  // the figure is not drawn yet
     const ways = markers.map(marker => {
       const {method} = parts(marker.dataset.run!), [head, outcome = ''] = tipOf(marker).split('\n');
       const [asked, ...row] = head.replace(`${method}, `, '').split(', ');
@@ -102,7 +99,7 @@ export function listRuns(figure: HTMLElement) {
   figure.append(list);
 }
 
-/** A button of the table of runs: puts its run into A or B, plays it, or opens it in the lab. */
+/** Puts a run of the table into A or B, plays it, or opens it in the lab. */
 async function choose(button: HTMLElement) {
   const {key = ''} = button.parentElement!.dataset;
   if (button.dataset.as === 'lab') {
@@ -118,7 +115,6 @@ async function choose(button: HTMLElement) {
   player.play();
 }
 
-/** Lets a click on a marker, a cell or a button of the table of runs play its run. */
 export function startRuns() {
   if (!plays) return;
   document.addEventListener('click', event => {

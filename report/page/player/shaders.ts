@@ -1,4 +1,4 @@
-// GLSL: positions of bodies, and their lighting. Light is linear; one key light with a shadow map, and a sky.
+// GLSL: positions and lighting of bodies. Light is linear: a key light with a shadow map, and a sky.
 
 export const header = `#version 300 es
 precision highp float;
@@ -44,7 +44,7 @@ void main() {
 }
 `;
 
-// a flat strip that faces the eye and is shaded as a rod
+// a flat strip that faces the eye, shaded as a rod
 export const rodVertex = `
 uniform float radius;  // m
 uniform vec3 families[7];
@@ -121,7 +121,7 @@ vec3 colour_of(vec3 own) {
 }
 `;
 
-// a method's own tint goes from dark to light with the incident light
+// the method's tint, from dark to light with the incident light
 export const clothFragment = coloured + `
 uniform vec3 ramp[3];
 void main() {
@@ -165,7 +165,7 @@ void main() {
 }
 `;
 
-// the ground is the background, darkened where it loses light: without shadow it is invisible; a slope is tinted
+// the ground has the colour of the background, darkened in shadow (invisible elsewhere); slopes are tinted
 export const floorFragment = `
 uniform vec3 background, floor_at;
 uniform vec4 panel;         // lower left corner and size, pixels

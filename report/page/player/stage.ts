@@ -1,4 +1,4 @@
-// Draws the methods of one scene side by side, with one camera, into one canvas.
+// Draws the runs of a scene side by side in one canvas, with a common camera.
 
 import {Bounds, boundsOf, footOf} from './bounds';
 import {heat, Look, palette, purple, rgb, scaleBytes} from './colours';
@@ -9,42 +9,40 @@ import {ballVertex, clothFragment, clothVertex, floorFragment, floorVertex, frag
 import {ShapeName, shapesOf} from './shapes';
 import {cross, dot, lightMatrix, minus, Numbers, placeOf, Places, plus, sumNormals, unit, Vec3} from './vectors';
 
-/** A scene as the stage draws it. */
 export interface StageScene {
   scene: string;
   particles: number;
-  times: number[];  // s, of its frames
-  from: Numbers;    // direction of the viewer
+  times: number[];  // s, of frames
+  from: Numbers;    // towards the viewer
   floor: number|null;
-  triangles: unknown;  // null or false without a cloth
+  triangles: unknown;  // null or false: no cloth
   pins: number[];
-  /** Families in the order of the springs; `threads`: number of springs drawn on a cloth, which come first. */
+  /** Families are in the order of the springs; the first `threads` springs are drawn on a cloth. */
   springs: {families: {name: string, count: number}[], threads: number, rest_unit: number};
   spheres: {radius: number, centres: Numbers[]}[];  // centres at even times
   planes?: PlaneFace[];
 }
-/** A plane: a point of it (m) and its outward normal. */
+/** A point (m) and the outward normal. */
 export interface PlaneFace {
   point: Numbers;
   normal: Numbers;
 }
-/** Floors are the ground; walls and ceilings would hide their interior and are omitted. */
+/** Walls and ceilings are omitted, because they would hide their interior. */
 export const isFloor = ({normal}: PlaneFace) => normal[1] > 1 - 1e-9;
 const isSlope = (plane: PlaneFace) => plane.normal[1] > 0.1 && !isFloor(plane);
 export interface SharedGeometry {
   triangles: Uint16Array;
-  springs: Uint16Array;  // both ends of each
-  rests: Numbers;        // rest lengths, in `rest_unit`
+  springs: Uint16Array;  // ends
+  rests: Numbers;        // in `rest_unit`
 }
 
-/** Contents of one panel. */
 export interface Panel {
   look: Pick<Look, 'plain'|'ramp'>;
-  points: Table;        // position and value of each particle
+  points: Table;        // position and value
   normals: Table|null;  // cloth only
   scale: 'heat'|'apart';
 }
-/** Colouring: by method, or by a value up to `top`; `from`: the motion from which distances are measured. */
+/** By method, or by a value up to `top`; `from`: reference motion for distances. */
 export interface Colouring {
   name: string;
   top: number;
@@ -56,16 +54,16 @@ export interface Shown {
   springs: boolean;
   orbit: Orbit;
   background: number[];
-  title: number;  // CSS pixels that stay free above each panel
+  title: number;  // CSS pixels above each panel
 }
-/** The part of the canvas that a panel occupies, including its title. */
+/** Includes the title. */
 export interface PanelPlace {
   left: number;
   top: number;
   wide: number;
   high: number;
 }
-/** A panel at the moment of drawing. */
+/** A panel while it is drawn. */
 export interface PanelView<P> {
   panel: P;
   time: number;
@@ -73,14 +71,14 @@ export interface PanelView<P> {
   background: number[];
   eye: Vec3;
   toClip: number[];
-  toKey: number[]|null;  // clip space of the light
+  toKey: number[]|null;  // to the light's clip space
   pixel: number;         // m
   valued: boolean;
   surface: boolean;
-  ghost: boolean;  // drawn over the previous panel
+  ghost: boolean;  // over the previous panel
 }
 
-/** Rows and columns of panels that maximise the smaller side of each picture; `title` is above each. */
+/** Rows and columns that maximise the smaller side of each picture; `title`: height above it. */
 export function gridOf(count: number, wide: number, high: number, title: number) {
   let best = {columns: 1, least: 0};
   for (let columns = 1; columns <= count; ++columns) {
@@ -92,7 +90,7 @@ export function gridOf(count: number, wide: number, high: number, title: number)
 
 export type BodyPrograms = Record<'cloth'|'ball'|'rod', Program>;
 
-/** Programs, shapes and light of a scene; derived classes know the positions of its particles. */
+/** Programs, shapes and light of a scene. Derived classes know the positions of particles. */
 export class BaseStage<P extends Panel> {
   panels: P[] = [];
   protected readonly tools: Gl;
@@ -104,7 +102,7 @@ export class BaseStage<P extends Panel> {
   protected readonly triangles: Uint16Array;
   protected bounds: Bounds;
 
-  /** `coarse`: drawn for speed, with less smooth edges and shadows. */
+  /** `coarse`: faster, with less smooth edges and shadows. */
   constructor(
       readonly canvas: HTMLCanvasElement, readonly scene: StageScene, readonly shared: SharedGeometry,
       readonly coarse = false) {
@@ -129,7 +127,7 @@ export class BaseStage<P extends Panel> {
     gl.blendFunc(gl.SRC_ALPHA, gl.ONE_MINUS_SRC_ALPHA);
   }
 
-  /** Length of the diagonal of the visible bounds, m. */
+  /** Diagonal of the visible bounds, m. */
   get size() { return this.bounds.size; }
 
   /** Releases the context. */
@@ -154,9 +152,9 @@ export class BaseStage<P extends Panel> {
   }
 
   /**
-   * Draws the panels in a grid, or over one another; `fitted` may limit the camera, `prepare` writes a panel's
-   * positions and returns whether they have values. Returns the panels' places (pictures without titles, CSS pixels)
-   * and the camera.
+   * Draws panels in a grid, or over one another. `fitted` may limit the camera; `prepare` writes a panel's positions
+   * and returns true if they have values. Returns the camera and the panels' places (pictures without titles, CSS
+   * pixels).
    */
   protected drawPanels(
       {time, springs, orbit, background, title}: Omit<Shown, 'colour'>, over: boolean, fitted: (fit: Fit) => Fit,
@@ -240,7 +238,6 @@ export class BaseStage<P extends Panel> {
     gl.depthMask(true);
   }
 
-  /** Uniforms of a panel's bodies. */
   protected uniformsOf({panel}: PanelView<P>, light: Uniforms): Uniforms {
     return {
       ...light,
@@ -252,7 +249,7 @@ export class BaseStage<P extends Panel> {
     };
   }
 
-  /** Cloth or springs, beads, pins, path and obstacles, with these programs. */
+  /** Draws cloth or springs, beads, pins, path and obstacles. */
   protected drawBodies(programs: BodyPrograms, view: PanelView<P>, light: Uniforms) {
     const {gl} = this.tools, {tools, scene, shapes} = this, {pixel} = view, lit = programs === this.programs;
     const all = this.uniformsOf(view, light), many = scene.particles > 60;
@@ -289,16 +286,15 @@ export class BaseStage<P extends Panel> {
     }
   }
 
-  /** Draws the path of a particle. */
   protected drawPath(_view: PanelView<P>, _all: Uniforms) {}
 
-  /** Frame of the scene at a time, as a fraction. */
+  /** As a fraction. */
   protected frame(time: number) {
     const {times} = this.scene, last = times.length - 1;
     return last > 0 ? last * Math.min(1, time / times[last]) : 0;
   }
 
-  /** Radius and centre of each sphere at a time. */
+  /** Radius and centre of each sphere. */
   protected obstaclesAt(time: number): [number, Vec3][] {
     const {scene} = this, last = scene.times.length - 1;
     const at = this.frame(time), first = Math.floor(at), next = Math.min(first + 1, last);
@@ -309,7 +305,7 @@ export class BaseStage<P extends Panel> {
   }
 }
 
-/** A stored run to be shown; with `other`, its difference from that run in colours up to `top` (m). */
+/** A stored run, or with `other`, its difference from that run in colours up to `top` (m). */
 export interface View {
   motion: Motion;
   look: Pick<Look, 'plain'|'ramp'>;
@@ -318,9 +314,8 @@ export interface View {
 }
 type MotionPanel = Panel&View&{path: Table | null};
 
-/** The stage of stored runs. */
 export class Stage extends BaseStage<MotionPanel> {
-  /** Sets the runs that are shown side by side. */
+  /** Shows runs side by side. */
   show(views: View[]) {
     const {tools, scene} = this, cloth = this.triangles.length > 0, n = scene.particles, {times} = scene;
     for (const {points, normals, path} of this.panels) this.dropTables(points, normals, path);
@@ -340,7 +335,7 @@ export class Stage extends BaseStage<MotionPanel> {
     this.bounds = boundsOf(scene, this.panels.map(p => p.motion));
   }
 
-  /** Draws the panels; returns their places. */
+  /** Returns the panels' places. */
   draw(shown: Shown): PanelPlace[] {
     const {time, colour} = shown;
     const prepare = (panel: MotionPanel) => {

@@ -1,16 +1,15 @@
 // Unpacks numbers (report/CONTRACT.md): gzip, separate low and high bytes, zigzag, differences of rows.
 
-// missing in the types of older compilers
+// missing from older compilers' types
 declare const DecompressionStream: new (format: string) => ReadableWritablePair<Uint8Array, Uint8Array>;
 
-/** Rows of integers; `data`: base64. */
+/** `data`: base64. */
 export interface Packed {
   count: number;
   columns: number;
   data: string;
 }
 
-/** Bytes of a base64 text. */
 export function bytesOf(base64: string) {
   const text = atob(base64);
   const bytes = new Uint8Array(text.length);
@@ -22,7 +21,7 @@ const inflatedBytes = (bytes: Uint8Array) =>
     new Response(new Blob([bytes]).stream().pipeThrough(new DecompressionStream('gzip')));
 export const inflated = (base64: string) => inflatedBytes(bytesOf(base64));
 
-/** Unpacks numbers from bytes of gzip; sums wrap as the differences did. */
+/** Sums wrap, as the differences did. */
 export async function unpackedBytes(bytes: Uint8Array, columns: number) {
   const planes = new Uint8Array(await inflatedBytes(bytes).arrayBuffer()), count = planes.length / 2;
   const values = new Uint16Array(count);

@@ -1,24 +1,22 @@
 // Vectors as arrays of three numbers, matrices as arrays of sixteen, column by column.
 
 export type Vec3 = [number, number, number];
-/** A vector, or a row of coordinates of a larger array. */
+/** May be a row of a larger array. */
 export type Numbers = ArrayLike<number>;
-/** Coordinates of particles, three each, m. */
+/** Three per particle, m. */
 export type Places = Float32Array|Float64Array;
 
 export const minus = (a: Numbers, b: Numbers): Vec3 => [a[0] - b[0], a[1] - b[1], a[2] - b[2]];
-/** a + s b */
 export const plus = (a: Numbers, s: number, b: Numbers): Vec3 => [a[0] + s * b[0], a[1] + s * b[1], a[2] + s * b[2]];
 export const dot = (a: Numbers, b: Numbers) => a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
 export const cross =
     (a: Numbers, b: Numbers): Vec3 => [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]];
 export const norm = (a: Numbers) => Math.sqrt(dot(a, a));
 export const unit = (a: Numbers) => plus([0, 0, 0], 1 / (norm(a) || 1), a);
-/** Coordinates of one particle. */
 export const placeOf = (places: Numbers, particle: number):
     Vec3 => [places[3 * particle], places[3 * particle + 1], places[3 * particle + 2]];
 
-/** Rigid motion that puts the eye at the origin, with the axes along x, y and z. */
+/** Rigid motion of the eye to the origin, and of its axes to x, y and z. */
 export function toEye([right, up, back]: Numbers[], eye: Numbers) {
   return [
     right[0], up[0], back[0], 0, right[1], up[1], back[1], 0, right[2], up[2], back[2], 0, -dot(right, eye),
@@ -34,7 +32,7 @@ export function times(a: Numbers, b: Numbers) {
   return m;
 }
 
-/** Clip space of an eye at the origin that looks along -z; `tangent` of half the vertical field of view. */
+/** Clip space for an eye at the origin that looks along -z; `tangent` of half the vertical field of view. */
 export function perspective(tangent: number, aspect: number, near: number, far: number) {
   const depth = near - far;
   return [
@@ -43,7 +41,7 @@ export function perspective(tangent: number, aspect: number, near: number, far: 
   ];
 }
 
-/** Sums of the triangles' normals at each corner, with length twice their areas; `stride` numbers per point. */
+/** Sums of triangle normals at each corner, twice as long as the areas; `stride`: numbers per point. */
 export function sumNormals(places: Numbers, triangles: Numbers, sums: Float32Array|Float64Array, stride: number) {
   sums.fill(0);
   for (let t = 0; t < triangles.length; t += 3) {
@@ -58,7 +56,7 @@ export function sumNormals(places: Numbers, triangles: Numbers, sums: Float32Arr
   }
 }
 
-/** Clip space of a distant light: a box that contains the ball around `centre`. */
+/** Clip space of a distant light: a box around the ball. */
 export function lightMatrix(direction: Numbers, centre: Numbers, radius: number) {
   const right = unit(cross(Math.abs(direction[1]) > 0.99 ? [1, 0, 0] : [0, 1, 0], direction));
   const up = cross(direction, right);
