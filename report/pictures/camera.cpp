@@ -1,4 +1,3 @@
-// Camera and light matrices, light samples, and the nearest view that contains everything.
 #include "report/pictures/camera.h"
 
 #include <Eigen/Geometry>
@@ -12,10 +11,10 @@
 namespace crosscheck::render {
 namespace {
 
-/// Rigid motion that puts `eye` at the origin, looking along -z at the frame's origin.
+/// Rigid motion of `eye` to the origin, looking along -z at the frame's origin.
 Eigen::Matrix4f look_at_origin(const Eigen::Vector3f& eye) {
   const Eigen::Vector3f back = eye.normalized();
-  // in a view from straight above, the viewer's side is the lower edge of the picture
+  // seen from straight above, the viewer's side is at the bottom of the picture
   const Eigen::Vector3f up = std::abs(back.y()) > 0.9999f ? Eigen::Vector3f(0, 0, -1) : Eigen::Vector3f(0, 1, 0);
   const Eigen::Vector3f right = up.cross(back).normalized();
   Eigen::Matrix4f m = Eigen::Matrix4f::Identity();
@@ -79,7 +78,7 @@ Eigen::Matrix4f light_matrix(const Eigen::Vector3f& direction, const Eigen::Vect
 
 namespace {
 
-constexpr float key_light_radius = 0.13f;  // fraction of its distance: the width of the penumbra
+constexpr float key_light_radius = 0.13f;  // fraction of its distance; determines the penumbra
 constexpr float pixel_width = 1.3f;        // width of the box filter, pixels
 
 float radical_inverse(int base, int i) {
@@ -100,13 +99,13 @@ std::vector<Sample> light_samples(int passes) {
     Sample sample;
     sample.pixel = pixel_width * Eigen::Vector2f(radical_inverse(2, i + 1) - 0.5f, radical_inverse(3, i + 1) - 0.5f);
 
-    // uniform over a hemisphere: the height is uniform
+    // on a hemisphere, a uniform height gives a uniform density
     const float height = (float(i) + 0.5f) / float(passes);
     const float angle = 2 * std::numbers::pi_v<float> * radical_inverse(2, i);
     const float flat = std::sqrt(1 - height * height);
     sample.sky = {flat * std::cos(angle), height, flat * std::sin(angle)};
 
-    // uniform over a disc, shifted to avoid correlation with the pixel
+    // uniform on a disc, shifted to avoid correlation with the pixel
     const float radius = key_light_radius * std::sqrt(fraction(radical_inverse(3, i + 1) + 0.37f));
     const float turn = 2 * std::numbers::pi_v<float> * radical_inverse(5, i + 1);
     sample.key = (key + radius * (std::cos(turn) * across + std::sin(turn) * along)).normalized();
@@ -115,25 +114,23 @@ std::vector<Sample> light_samples(int passes) {
   return samples;
 }
 
-// Finds the nearest camera in a given direction with a view that contains everything.
-//
-// In camera axes (a to the right, b up, c towards the eye) a point is inside the left and right edges if |a - A| <= s
-// (C - c), with the eye at (A, B, C) and s the tangent of half the horizontal field of view. All these conditions are
-// linear in A and C, so the smallest C follows from the extremes of a + s c and -a + s c; likewise for b.
+// The nearest camera in a given direction that sees everything. In camera axes (a to the right, b up, c towards the
+// eye), a point is between the left and right edges if |a - A| <= s (C - c), with the eye at (A, B, C) and s the
+// tangent of half the horizontal field of view. These conditions are linear in A and C, so the smallest C follows from
+// the extremes of a + s c and -a + s c; likewise for b.
 
 namespace {
 
-constexpr double body_part = 1 - 2 * 0.06;  // part of the view that bodies and balls may fill: a margin of 6 % on each
-                                            // side
-constexpr double least_part = 0.7;          // part that they fill at least, even if shadows are cut off
-constexpr double shadow_part = 1 - 2 * 0.015;  // part of the view that shadows may fill
-constexpr double clearance = 0.08;             // fraction of the size: height of the lowest point above the ground
+constexpr double body_part = 1 - 2 * 0.06;     // part of the view for bodies and balls: a margin of 6 % on each side
+constexpr double least_part = 0.7;             // minimum of that part, even if shadows are cut off
+constexpr double shadow_part = 1 - 2 * 0.015;  // part of the view for shadows
+constexpr double clearance = 0.08;             // height of the lowest point above the ground / size
 
-/// Conditions from both sides along one axis of the picture, for one slope.
+/// Conditions from both sides along an axis of the picture.
 struct Wedge {
   double slope;
-  double upper = -std::numeric_limits<double>::infinity();  // greatest of  a + slope c
-  double lower = -std::numeric_limits<double>::infinity();  // greatest of -a + slope c
+  double upper = -std::numeric_limits<double>::infinity();  // maximum of  a + slope c
+  double lower = -std::numeric_limits<double>::infinity();  // maximum of -a + slope c
 
   void hold(double a, double c, double radius) {
     const double reach = radius * std::sqrt(1 + slope * slope);  // a sphere touches the slanted plane
@@ -143,20 +140,20 @@ struct Wedge {
   double least_distance() const { return (upper + lower) / (2 * slope); }
 };
 
-/// Bodies and shadows along one axis of the picture. `body` is for the largest part of the view that bodies may fill,
+/// Bodies and shadows along an axis of the picture. `body` holds for the largest part of the view that bodies may fill,
 /// `least` for the smallest.
 struct Axis {
   Wedge body, least, shadow;
-  /// Half the width of the view at distance 1 along this axis, and the extent of beads beyond their centre.
+  /// `tangent`: half the width of the view at distance 1; `bead`: extent of beads beyond their centre.
   Axis(double tangent, double bead)
       : body{tangent * body_part - bead}, least{tangent * least_part - bead}, shadow{tangent * shadow_part} {}
 
   void hold(double a, double c, double radius) { body.hold(a, c, radius), least.hold(a, c, radius); }
-  /// Coordinate of the eye with the bodies in the centre.
+  /// Coordinate of the eye that centres the bodies.
   double middle() const { return (body.upper - body.lower) / 2; }
   double nearest() const { return body.least_distance(); }
   double farthest() const { return least.least_distance(); }
-  /// Distance at which the shadows are completely visible while the bodies are in the centre.
+  /// Distance at which all shadows are visible while the bodies are centred.
   double shadows_seen() const { return std::max(shadow.upper - middle(), shadow.lower + middle()) / shadow.slope; }
 };
 
@@ -178,7 +175,7 @@ View fit_view(const std::vector<Points>& points, const std::vector<Ball>& balls,
     lowest = std::min(lowest, b.centre.y() - b.radius);
   }
   double size = box.diagonal().norm();
-  if (!(size > 0)) {  // a single point: show it in a view of 1 m
+  if (!(size > 0)) {  // a single point in a view of 1 m
     size = 1;
     all.push_back({box.center(), 0.5});
   }
@@ -199,7 +196,7 @@ View fit_view(const std::vector<Points>& points, const std::vector<Ball>& balls,
     horizontal.hold(right.dot(x), back.dot(x), b.radius);
     vertical.hold(top.dot(x), back.dot(x), b.radius);
 
-    // its shadow on the ground: a point, or a circle of a few points
+    // shadow on the ground: a point, or some points of a circle
     const Vec3 foot = x - key * ((b.centre.y() - floor) / key.y());
     for (int i = 0; ground && i < (b.radius > 0 ? 8 : 1); ++i) {
       const double angle = i * std::numbers::pi / 4;

@@ -28,7 +28,7 @@ float scale_position(const Scale& scale, double value) {
 }
 
 Colour scale_colour(float position) {
-  // lightness decreases monotonically, so that the map is readable in grey, too
+  // decreasing lightness, so that the scale is readable in grey
   constexpr std::array<unsigned, 7> stops = {0xF3F0E8, 0xF6D9A6, 0xF3B466, 0xE8853B, 0xCF5246, 0xA02C5D, 0x5F1A5C};
   const float place = std::clamp(position, 0.f, 1.f) * float(stops.size() - 1);
   const std::size_t i = std::min(static_cast<std::size_t>(place), stops.size() - 2);

@@ -1,5 +1,5 @@
-// The only file that knows the off-screen context: OSMesa if the build found it, otherwise EGL's surfaceless platform
-// (Mesa removed OSMesa in version 25.1).
+// The off-screen context: OSMesa if the build found it, otherwise EGL's surfaceless platform (Mesa removed OSMesa in
+// version 25.1).
 #include "report/pictures/gl.h"
 
 #ifdef CROSSCHECK_WITH_OSMesa
@@ -20,7 +20,8 @@ namespace crosscheck::render {
 
 struct Context::Handle {
   OSMesaContext context = nullptr;
-  std::array<unsigned char, 16 * 16 * 4> pixels{};  // OSMesa requires a buffer; all drawing uses separate framebuffers
+  std::array<unsigned char, 16 * 16 * 4> pixels{};  // OSMesa requires a buffer, although drawing uses other
+                                                    // framebuffers
   Handle() {
     const int attributes[] = {
         OSMESA_PROFILE, OSMESA_CORE_PROFILE, OSMESA_CONTEXT_MAJOR_VERSION, 3, OSMESA_CONTEXT_MINOR_VERSION, 3, 0};
@@ -49,7 +50,7 @@ struct Context::Handle {
     context = eglCreateContext(display, EGL_NO_CONFIG_KHR, EGL_NO_CONTEXT, attributes);
   }
   ~Handle() {
-    // the display belongs to the process: other contexts may use it
+    // other contexts of the process may use the display
     if (context == EGL_NO_CONTEXT) return;
     if (eglGetCurrentContext() == context) eglMakeCurrent(display, EGL_NO_SURFACE, EGL_NO_SURFACE, EGL_NO_CONTEXT);
     eglDestroyContext(display, context);

@@ -1,4 +1,3 @@
-// Converts the bodies of a panel into the renderer's triangles and rods.
 #include "report/pictures/draw_list.h"
 
 #include <Eigen/Geometry>
@@ -14,10 +13,9 @@ namespace {
 
 using Edge = std::array<int, 2>;
 
-/// A body's particles in the frame.
 struct PlacedBody {
   const Body& body;
-  const Scale* scale;              // null: nothing is coloured by value
+  const Scale* scale;              // null: no colours by value
   std::vector<Eigen::Vector3f> x;  // in the frame
 
   PlacedBody(const Body& body_, const Frame& frame, const Scale* scale_) : body(body_), scale(scale_) {
@@ -26,10 +24,10 @@ struct PlacedBody {
   const Eigen::Vector3f& at(int i) const { return x[std::size_t(i)]; }
   bool coloured() const { return scale && !body.value.empty(); }
 
-  /// Position of a particle's value on the scale; 0 if the body has no values.
+  /// 0 if the body has no values.
   float position(int i) const { return coloured() ? scale_position(*scale, body.value[std::size_t(i)]) : 0; }
 
-  /// Median length of the edges; 0 if there are none.
+  /// 0 if there are none.
   float median_length(const std::vector<Edge>& edges) const {
     std::vector<float> lengths;
     for (const auto& [i, j] : edges) lengths.push_back((at(i) - at(j)).norm());
@@ -38,20 +36,20 @@ struct PlacedBody {
     std::nth_element(lengths.begin(), middle, lengths.end());
     return *middle;
   }
-  /// Twice the area of the triangle, along its normal.
+  /// Normal of the triangle, twice as long as its area.
   Eigen::Vector3f area_vector(const std::array<int, 3>& t) const {
     return (at(t[1]) - at(t[0])).cross(at(t[2]) - at(t[0]));
   }
 };
 
-constexpr float absurd = 200;           // heights of the view: bodies that reach beyond this are omitted
-constexpr float near_view = 2.5f;       // limit in the same unit beyond which nothing casts a shadow
-constexpr float no_thread = 1e6f;       // distance to an edge that is not a thread
-constexpr float thread_width = 0.075f;  // in spacings of the threads
+constexpr float absurd = 200;           // heights of the view; bodies that extend farther are omitted
+constexpr float near_view = 2.5f;       // heights of the view; nothing farther casts a shadow
+constexpr float no_thread = 1e6f;       // distance to an edge without a thread
+constexpr float thread_width = 0.075f;  // spacings of the threads
 
 Edge sorted(int i, int j) { return {std::min(i, j), std::max(i, j)}; }
 
-/// Area-weighted mean normal of the triangles around each particle.
+/// Area-weighted means.
 std::vector<Eigen::Vector3f> smooth_normals(const PlacedBody& placed) {
   std::vector<Eigen::Vector3f> normal(placed.x.size(), Eigen::Vector3f::Zero());
   for (const auto& triangle : placed.body.triangles)
@@ -60,8 +58,8 @@ std::vector<Eigen::Vector3f> smooth_normals(const PlacedBody& placed) {
   return normal;
 }
 
-/// A point of the curved surface through the three corners (Phong tessellation, Boubekeur and Alexa 2008): half way
-/// from the flat triangle to the corners' tangent planes, which follows a ball to second order.
+/// A point of the curved surface through the corners (Phong tessellation, Boubekeur and Alexa 2008): half way from the
+/// flat triangle to the corners' tangent planes, which follows a ball to second order.
 ClothVertex curved(const std::array<ClothVertex, 3>& corner, const Eigen::Vector3f& part) {
   ClothVertex c{Eigen::Vector3f::Zero(), Eigen::Vector3f::Zero(), Eigen::Vector3f::Zero(), 0};
   for (std::size_t k = 0; k < 3; ++k) {
@@ -77,10 +75,9 @@ ClothVertex curved(const std::array<ClothVertex, 3>& corner, const Eigen::Vector
   return c;
 }
 
-/// Adds the triangle as pieces * pieces smaller triangles of its curved surface.
+/// Adds the triangle's curved surface as pieces * pieces triangles.
 void add_curved(const std::array<ClothVertex, 3>& corner, int pieces, DrawList& list) {
   const unsigned first = unsigned(list.cloth.size());
-  // rows of pieces + 1, pieces, ..., 1 corners
   for (int i = 0; i <= pieces; ++i)
     for (int j = 0; i + j <= pieces; ++j)
       list.cloth.push_back(curved(corner, Eigen::Vector3f(float(pieces - i - j), float(i), float(j)) / float(pieces)));
@@ -93,7 +90,7 @@ void add_curved(const std::array<ClothVertex, 3>& corner, int pieces, DrawList& 
     }
 }
 
-/// Adds the body's triangles to the list; returns the threads that are not an edge of any triangle.
+/// Returns the threads that are not an edge of a triangle.
 std::vector<Edge> add_cloth(const PlacedBody& placed, DrawList& list) {
   std::set<Edge> threads;
   for (const auto& [i, j] : placed.body.threads) threads.insert(sorted(i, j));
@@ -108,7 +105,7 @@ std::vector<Edge> add_cloth(const PlacedBody& placed, DrawList& list) {
       const int i = triangle[k];
       corner[k] = {placed.at(i), normal[std::size_t(i)], Eigen::Vector3f::Constant(no_thread), placed.position(i)};
     }
-    // the distance to the edge opposite to corner k is linear: the height at corner k, 0 at the other two
+    // the distance to the edge opposite to corner k is linear: its height at k, and 0 at the other corners
     for (std::size_t k = 0; k < 3; ++k) {
       const int i = triangle[(k + 1) % 3], j = triangle[(k + 2) % 3];
       loose.erase(sorted(i, j));
@@ -124,11 +121,11 @@ std::vector<Edge> add_cloth(const PlacedBody& placed, DrawList& list) {
 
 // A cloth triangle is flat, a ball is not. If all three corners are exactly on a ball of radius R, the middle of an
 // edge of length l dips into the ball by l^2 / (8 R), and the middle of the triangle by l^2 / (6 R): the ball would
-// poke through although no particle is inside. Therefore the cloth is drawn as a curved surface through the particles.
-// `lift` is the depth that its smaller flat pieces may still dip. The renderer moves the cloth towards the eye by this
-// amount, in depth only, and computes its shadows from there. Cloth deeper inside than `lift` is visibly inside.
+// show although no particle is inside. Therefore the cloth is drawn as a curved surface through the particles. `lift`
+// is the depth to which its smaller flat pieces may still dip. The renderer moves the cloth towards the eye by `lift`,
+// in depth only, and computes its shadows from there. Deeper penetration is visible.
 
-// sizes chosen by the view, in heights of the view
+// in heights of the view
 constexpr float few_tubes_radius = 0.0075f, view_bead_radius = 0.027f, pin_radius = 0.0085f, trail_radius = 0.0032f;
 
 constexpr unsigned plain_tube = 0x8E9196, plain_bead = 0xDDA15E, pin_hex = 0x34363B, ball_hex = 0xB6BBC3;
@@ -159,7 +156,7 @@ void add_rods(const PlacedBody& placed, const std::vector<Edge>& loose, const Fr
 void add_beads(const PlacedBody& placed, const Frame& frame, DrawList& list) {
   const Body& body = placed.body;
   const float radius = body.beads ? view_bead_radius : 0;
-  // a pin must be visible whatever is drawn around it
+  // pins must be visible next to thick beads and tubes
   const float least = std::max(0.8f * radius, body.tubes.empty() ? 0 : 1.7f * tube_radius(placed, frame));
   for (int i = 0; i < int(placed.x.size()); ++i) {
     const Eigen::Vector3f& x = placed.at(i);
@@ -171,9 +168,9 @@ void add_beads(const PlacedBody& placed, const Frame& frame, DrawList& list) {
   }
 }
 
-/// The path as rods that grow and darken towards the present, the oldest first.
+/// As rods that grow and darken towards the present, the oldest first.
 void add_trail(const Body& body, const Frame& frame, DrawList& list) {
-  constexpr float least_step = 0.004f;  // heights of the view: shorter steps of the path are merged
+  constexpr float least_step = 0.004f;  // heights of the view; shorter steps are merged
   std::vector<Eigen::Vector3f> path;
   for (const Vec3& point : body.trail) {
     const Eigen::Vector3f x = frame.place(point);
@@ -188,7 +185,7 @@ void add_trail(const Body& body, const Frame& frame, DrawList& list) {
   }
 }
 
-/// Longest edge of a triangle with a corner close to the ball.
+/// Longest edge of a triangle with a corner near the ball.
 float longest_edge_near(const DrawList& list, const Rod& ball) {
   float longest = 0;
   for (std::size_t i = 0; i + 2 < list.cloth_index.size(); i += 3) {
@@ -201,7 +198,7 @@ float longest_edge_near(const DrawList& list, const Rod& ball) {
   return longest;
 }
 
-/// A sphere around everything that is not absurdly far outside the view; the shadow maps cover it.
+/// A sphere around everything that is not absurdly far away, for the shadow maps.
 void enclose(DrawList& list) {
   std::vector<std::pair<Eigen::Vector3f, float>> all;
   for (const ClothVertex& c : list.cloth) all.emplace_back(c.x, 0);
@@ -215,7 +212,7 @@ void enclose(DrawList& list) {
   list.centre = box.center();
   list.radius = 0.01f;
   for (const auto& [x, radius] : all) list.radius = std::max(list.radius, (x - list.centre).norm() + radius);
-  list.radius *= 1.03f;  // the outermost texels of a shadow map stay empty
+  list.radius *= 1.03f;  // keeps the outermost texels of shadow maps empty
 }
 
 }  // namespace
@@ -237,7 +234,7 @@ DrawList draw_list_of(const Panel& panel, const Frame& frame, const std::optiona
   }
   for (const Rod& ball : list.balls) {
     const float edge = longest_edge_near(list, ball);
-    // the factor allows for normals that only approximate the ball's
+    // 2: normals only approximate the ball's
     list.lift = std::max(list.lift, std::min(2 * edge * edge / (6 * ball.radius), 0.006f));
   }
   enclose(list);

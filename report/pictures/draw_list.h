@@ -1,4 +1,4 @@
-// One panel ready to draw: bodies and balls as triangles and rods in the frame, in single precision.
+// A panel as triangles and rods in the frame, in single precision.
 #pragma once
 
 #include <Eigen/Core>
@@ -10,14 +10,14 @@
 
 namespace crosscheck::render {
 
-/// Corner of a cloth triangle. `rim` has the distances to the three edges in half widths of a thread; large if an edge
-/// is not a thread.
+/// Corner of a cloth triangle. `rim`: distances to the three edges in half widths of a thread; large for edges without
+/// a thread.
 struct ClothVertex {
   Eigen::Vector3f x, normal, rim;
-  float value;  // position on the scale, 0..1
+  float value;  // on the scale, 0..1
 };
 
-/// A solid rod with round ends; a ball if both ends are the same point.
+/// With round ends; a ball if both ends coincide.
 struct Rod {
   Eigen::Vector3f a;
   float radius;
@@ -26,13 +26,12 @@ struct Rod {
 };
 
 struct DrawList {
-  std::vector<ClothVertex> cloth;     // corners of the triangles of all surfaces
+  std::vector<ClothVertex> cloth;     // corners in all surfaces
   std::vector<unsigned> cloth_index;  // three per triangle
   bool coloured = false;              // the cloth has values
-  float lift = 0;                     // depth to which a flat triangle may dip into a ball that it follows; see
-                                      // draw_list.cpp
+  float lift = 0;                     // depth to which flat triangles may dip into a ball (draw_list.cpp)
   std::vector<Rod> balls, beads, rods, trail;
-  Eigen::Vector3f centre = Eigen::Vector3f::Zero();  // centre of a sphere around everything that casts a shadow
+  Eigen::Vector3f centre = Eigen::Vector3f::Zero();  // centre of a sphere around all that casts a shadow
   float radius = 0.5f;
 };
 
@@ -40,11 +39,11 @@ struct DrawList {
 DrawList draw_list_of(const Panel& panel, const Frame& frame, const std::optional<Scale>& scale);
 
 struct RodMesh {
-  std::vector<Eigen::Vector4f> corner;  // unit normal in the rod's axes, end (0 or 1)
+  std::vector<Eigen::Vector4f> corner;  // unit normal in the rod's axes; end (0 or 1)
   std::vector<unsigned> index;          // three per triangle, counter-clockwise from outside
 };
 
-/// A rod along its third axis with `around` sides and round ends of `rings` rings each. With around / 4 rings, the
+/// A rod along its third axis with `around` sides, and `rings` rings on each round end. With around / 4 rings, the
 /// chords of a ball dip below its surface by 1 - cos(pi / around) of its radius.
 RodMesh rod_mesh(int around, int rings);
 

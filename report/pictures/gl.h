@@ -1,4 +1,4 @@
-// The parts of OpenGL 3.3 that the renderer uses: off-screen context, shaders, framebuffers, triangles.
+// The renderer's part of OpenGL 3.3: off-screen context, shaders, framebuffers, triangles.
 #pragma once
 
 #include <GL/glcorearb.h>
@@ -11,10 +11,8 @@
 
 namespace crosscheck::render {
 
-// in context.cpp
-
-/// Makes an OpenGL 3.3 core context of Mesa's software renderer current in this thread. All OpenGL objects made during
-/// its lifetime are deleted with it. Throws std::runtime_error if there is no such context.
+/// Makes an OpenGL 3.3 core context of Mesa's software renderer current in this thread, and deletes all OpenGL objects
+/// made in its lifetime. Throws std::runtime_error if there is no such context.
 class Context {
  public:
   Context();
@@ -27,16 +25,16 @@ class Context {
   std::unique_ptr<Handle> handle_;
 };
 
-// All objects below live as long as the context that is current when they are made.
+// The objects below live as long as the context in which they are made.
 
 class Program {
  public:
-  /// Compiles shaders.glsl with these names (separated by spaces) as #define; they select material and path. Throws
+  /// Compiles shaders.glsl with these #defines (separated by spaces), which select material and stage. Throws
   /// std::runtime_error with the compiler's messages.
   explicit Program(const std::string& defines);
   void use() const { glUseProgram(id_); }
 
-  // uniforms of the program in use; a name that the compiler has optimised away is ignored
+  // uniforms of the program in use; names that the compiler optimised away are ignored
   void set(const char* name, int value) const { glUniform1i(at(name), value); }
   void set(const char* name, float value) const { glUniform1f(at(name), value); }
   void set(const char* name, const Eigen::Vector3f& v) const { glUniform3f(at(name), v.x(), v.y(), v.z()); }
@@ -48,7 +46,7 @@ class Program {
   GLuint id_;
 };
 
-/// A framebuffer with one texture: colours as RGBA floats, optionally with a depth buffer.
+/// With one texture of RGBA floats, and optionally a depth buffer.
 struct Target {
   GLuint framebuffer = 0, texture = 0;
 };
@@ -57,7 +55,7 @@ Target colour_target(int width, int height, GLint format, bool with_depth);
 /// A square depth texture that compares when sampled; everything outside it is lit.
 Target shadow_map(int texels);
 
-/// Corners or instances: rows of `stride` bytes, in which each column is a vertex attribute.
+/// Corners or instances: rows of `stride` bytes whose columns are vertex attributes.
 struct VertexRows {
   struct Column {
     GLuint location;
@@ -69,8 +67,7 @@ struct VertexRows {
   std::vector<Column> columns;
 };
 
-/// Triangles ready for one draw call, once or once per instance. Frees its buffers; must be destroyed before the
-/// context.
+/// Triangles for a draw call, once or per instance. Must be destroyed before the context.
 class Batch {
  public:
   Batch(const std::vector<unsigned>& index, const VertexRows& corners, const std::optional<VertexRows>& instances = {});

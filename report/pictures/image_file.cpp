@@ -1,4 +1,3 @@
-// Image files: libpng, WebP, and pictures with their text.
 #include "report/pictures/picture.h"
 
 #include <fmt/format.h>
@@ -19,7 +18,7 @@ Image read_png(const std::filesystem::path& file) {
   png.version = PNG_IMAGE_VERSION;
   Image image;
   if (png_image_begin_read_from_file(&png, file.c_str())) {
-    if (constexpr png_uint_32 largest = 8192; png.width > largest || png.height > largest) {  // as --size allows
+    if (constexpr png_uint_32 largest = 8192; png.width > largest || png.height > largest) {  // the limit of --size
       png_image_free(&png);
       throw std::runtime_error(fmt::format("cannot read {}: larger than {} pixels", file.string(), largest));
     }
@@ -36,7 +35,7 @@ std::string png_bytes(const Image& image, double pixels_per_inch) {
   const auto append = [](png_structp png, png_bytep data, std::size_t size) {
     static_cast<std::string*>(png_get_io_ptr(png))->append(reinterpret_cast<const char*>(data), size);
   };
-  // libpng's simple interface does not write the resolution; here the only possible error is lack of memory
+  // the simple interface of libpng does not write the resolution; errors other than lack of memory are impossible here
   png_structp png = png_create_write_struct(PNG_LIBPNG_VER_STRING, nullptr, nullptr, nullptr);
   png_infop info = png_create_info_struct(png);
   png_set_write_fn(png, &bytes, append, nullptr);
@@ -53,7 +52,7 @@ std::string png_bytes(const Image& image, double pixels_per_inch) {
 }
 
 std::string webp_bytes(const Image& image) {
-  constexpr float quality = 85;  // %: letters and threads stay sharp
+  constexpr float quality = 85;  // %; keeps letters and threads sharp
   std::uint8_t* bytes = nullptr;
   const std::size_t size = WebPEncodeRGB(image.rgb.data(), image.width, image.height, 3 * image.width, quality, &bytes);
   if (size == 0) throw std::runtime_error("WebP cannot encode a picture");
@@ -64,12 +63,11 @@ std::string webp_bytes(const Image& image) {
 
 namespace {
 
-/// The image without text. Throws std::runtime_error if there is nothing in front of the ground: the picture is then
-/// nowhere darker by a visible amount.
+/// The image without text. Throws std::runtime_error if nothing is visibly darker than the brightest pixel: then only
+/// the ground is drawn.
 Image drawn(const Picture& picture, const std::filesystem::path& file) {
   Image image = draw(picture);
-  constexpr int visible = 24;  // smallest visible difference, full scale 255; the ground of an empty picture has a
-                               // single colour
+  constexpr int visible = 24;  // out of 255; the ground of an empty picture has a single colour
   const auto [darkest, brightest] = std::minmax_element(image.rgb.begin(), image.rgb.end());
   if (darkest == image.rgb.end() || *brightest - *darkest <= visible)
     throw std::runtime_error(file.stem().string() + ": the picture is empty");

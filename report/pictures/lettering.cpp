@@ -32,7 +32,7 @@ void check(cairo_status_t status) {
     throw std::runtime_error(fmt::format("Cairo: {}", cairo_status_to_string(status)));
 }
 
-/// The pixels in Cairo's format.
+/// In Cairo's format.
 Owned<cairo_surface_t> surface_of(const Image& image) {
   Owned<cairo_surface_t> surface(cairo_image_surface_create(CAIRO_FORMAT_RGB24, image.width, image.height));
   check(cairo_surface_status(surface.get()));
@@ -43,7 +43,7 @@ Owned<cairo_surface_t> surface_of(const Image& image) {
   return surface;
 }
 
-/// Draws text, boxes and lines at positions in pixels from the top left.
+/// Positions are in pixels from the top left.
 class Page {
  public:
   explicit Page(cairo_surface_t* surface)
@@ -55,15 +55,15 @@ class Page {
     cairo_set_font_options(cairo_.get(), options.get());
   }
 
-  /// Width of the text in units of its size.
+  /// In units of the font size.
   double width(const std::string& text, bool bold) {
     cairo_text_extents_t extents;
     set_font(bold, 100);
     cairo_text_extents(cairo_.get(), printable(text).c_str(), &extents);
     return extents.x_advance / 100;
   }
-  /// Draws text with the centre of its first line at height y, and further lines below. The text begins at x (`before`
-  /// 0) or is centred there (0.5). Size in pixels.
+  /// The centre of the first line is at height y, further lines are below. The text begins at x (`before` 0) or is
+  /// centred there (0.5). `size` in pixels.
   void label(double x, double y, double before, const std::string& text, double size, bool bold, unsigned colour) {
     for (const std::string& line : split(text, '\n')) {
       const double start = x - before * size * width(line, bold);
@@ -71,7 +71,7 @@ class Page {
       cairo_move_to(cairo_.get(), start, y + 0.35 * size);
       if (letters_stay_)
         cairo_show_text(cairo_.get(), printable(line).c_str());
-      else  // as outlines, whose positions are not rounded to pixels
+      else  // outlines, because glyph positions would be rounded to pixels
         cairo_text_path(cairo_.get(), printable(line).c_str()), cairo_fill(cairo_.get());
       y += line_height * size;
     }
@@ -87,10 +87,10 @@ class Page {
     cairo_move_to(cairo_.get(), x0, y0), cairo_line_to(cairo_.get(), x1, y1);
     cairo_stroke(cairo_.get());
   }
-  /// A box with the colours of a scale from left to right.
+  /// A scale's colours from left to right.
   void gradient(double left, double top, double width, double height) {
     const Owned<cairo_pattern_t> colours(cairo_pattern_create_linear(left, 0, left + width, 0));
-    for (int i = 0; i <= 24; ++i) {  // four pieces between two stops of the map
+    for (int i = 0; i <= 24; ++i) {  // four pieces per interval of the map
       const Colour c = scale_colour(float(i) / 24);
       cairo_pattern_add_color_stop_rgb(colours.get(), i / 24.0, c.x(), c.y(), c.z());
     }
@@ -141,7 +141,7 @@ void add_legend(Page& page, const Picture& picture, const Layout& layout) {
   }
 }
 
-/// A step of 1, 2 or 5 times a power of ten that gives about five intervals.
+/// A step of 1, 2 or 5 times a power of ten for about five intervals.
 double tick_step(double span) {
   const double rough = span / 5, power = std::pow(10, std::floor(std::log10(rough)));
   const double ratio = rough / power;
@@ -198,10 +198,10 @@ std::string pdf_page(const Picture& picture, const Layout& layout, const Image& 
     static_cast<std::string*>(to)->append(reinterpret_cast<const char*>(data), size);
     return CAIRO_STATUS_SUCCESS;
   };
-  const double points = 72 / pixels_per_inch;  // size of a pixel
+  const double points = 72 / pixels_per_inch;  // per pixel
   const Owned<cairo_surface_t> surface(
       cairo_pdf_surface_create_for_stream(append, &bytes, points * image.width, points * image.height));
-  // a fixed date, so that two runs write the same bytes
+  // two runs must write the same bytes
   cairo_pdf_surface_set_metadata(surface.get(), CAIRO_PDF_METADATA_CREATE_DATE, "1970-01-01T00:00:00Z");
   {
     Page page(surface.get());

@@ -1,4 +1,4 @@
-// Titles, legend and colour bar of a drawn image, and its PDF page, with Cairo.
+// Titles, legend, colour bar and PDF pages, with Cairo.
 #pragma once
 
 #include <string>
@@ -7,10 +7,10 @@
 
 namespace crosscheck::render {
 
-/// The image with the picture's text drawn on it.
+/// Draws the picture's text on the image.
 Image lettered(const Picture& picture, const Layout& layout, const Image& image);
 
-/// The bytes of a PDF page with this resolution: the image, with text as text.
+/// A PDF page with the image and selectable text.
 std::string pdf_page(const Picture& picture, const Layout& layout, const Image& image, double pixels_per_inch);
 
 }  // namespace crosscheck::render

@@ -1,9 +1,6 @@
-// The renderer of panels, without text. For every light sample it draws two shadow maps and the panel, and divides the
-// sum at the end.
-//
-// Accumulation (Haeberli and Akeley 1990): each pass shifts the camera within the pixel, and takes one point of the key
-// light and one of the sky, each with its own shadow map. The mean of the passes has smooth edges, soft shadows and
-// ambient occlusion. All pixels use the same samples, so there is no grain.
+// Renders panels without text. Accumulates passes (Haeberli and Akeley 1990): each shifts the camera within the pixel,
+// and draws two shadow maps, for a point of the key light and one of the sky. The mean of the passes has smooth edges,
+// soft shadows and ambient occlusion. All pixels use the same samples, so there is no grain.
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
@@ -31,7 +28,7 @@ Batch batch_of(const RodMesh& mesh, const std::vector<Rod>& rods) {
           rows_of(rods, {{1, 4, offsetof(Rod, a)}, {2, 3, offsetof(Rod, b)}, {3, 3, offsetof(Rod, colour)}})};
 }
 
-/// All of a panel's shapes: full detail for the eye, less for the shadows, and less for many shapes.
+/// A panel's shapes: in detail for the eye; coarser for shadows and for many shapes.
 struct Uploaded {
   Batch cloth, balls, beads, rods, trail, beads_shadow, rods_shadow;
   Uploaded(const DrawList& s, bool many)
@@ -47,14 +44,14 @@ struct Uploaded {
         rods_shadow(batch_of(many ? rod_mesh(5, 1) : rod_mesh(12, 2), s.rods)) {}
 };
 
-/// Maps clip space to the 0..1 of a texture and its depth.
+/// Maps clip space to 0..1 in a texture and its depth.
 Eigen::Matrix4f to_texture(const Eigen::Matrix4f& to_clip) {
   Eigen::Matrix4f half = Eigen::Matrix4f::Identity() * 0.5f;
   half.col(3) << 0.5f, 0.5f, 0.5f, 1;
   return half * to_clip;
 }
 
-/// Draws panels of one size and kind, one after another, while the context exists.
+/// Draws panels of one size and quality while the context exists.
 struct Painter {
   const int width, height;
   const std::vector<Sample> samples;
@@ -64,7 +61,7 @@ struct Painter {
   const Target key_map = shadow_map(key_texels), sky_map = shadow_map(sky_texels);
   const Target pass, total;
   GLuint scale_map = 0, nothing = 0;
-  float open_ground = 0;  // mean light where nothing casts a shadow
+  float open_ground = 0;  // mean light without shadows
 
   Painter(int width_, int height_, Quality quality)
       : width(width_),
@@ -147,7 +144,7 @@ struct Painter {
       glBindVertexArray(nothing);
       glDrawArrays(GL_TRIANGLE_STRIP, 0, 4);
     }
-    // last, and without its own depth: where the trail crosses itself, the newer part covers the older
+    // last, and without writing depth: where the trail crosses itself, the newer part is on top
     glDepthMask(GL_FALSE);
     begin(trail), shapes.trail.draw();
     glDepthMask(GL_TRUE);
@@ -184,7 +181,7 @@ struct Painter {
   }
 };
 
-/// Copies a panel's linear floats (rows from the bottom) into the image (rows from the top).
+/// Copies linear pixels (rows from the bottom) into the image (rows from the top).
 void put(const std::vector<float>& pixels, const std::vector<unsigned char>& srgb, const Layout& layout, int left,
          int top, Image& image) {
   for (int y = 0; y < layout.panel_height; ++y) {
@@ -197,7 +194,6 @@ void put(const std::vector<float>& pixels, const std::vector<unsigned char>& srg
   }
 }
 
-/// An image with the background only.
 Image blank(int width, int height) {
   Image image{width, height, std::vector<unsigned char>(3 * std::size_t(width) * std::size_t(height))};
   for (std::size_t i = 0; i < image.rgb.size(); ++i) image.rgb[i] = (background_hex >> (16 - 8 * (i % 3))) & 255;
@@ -210,7 +206,7 @@ Image draw(const Picture& picture) {
   const Layout layout = layout_of(picture);
   const Frame frame = frame_of(picture.view, double(layout.panel_width) / layout.panel_height);
   Image image = blank(picture.width, picture.height);
-  const Context context;  // all textures and programs are deleted with it
+  const Context context;  // deletes all textures and programs
   const Painter painter(layout.panel_width, layout.panel_height, picture.quality);
   for (std::size_t row = 0; row < picture.rows.size(); ++row)
     for (std::size_t column = 0; column < picture.rows[row].size(); ++column) {

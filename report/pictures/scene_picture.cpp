@@ -1,4 +1,3 @@
-// Strain of springs, and the bodies, views and scales of pictures.
 #include "report/pictures/scene_picture.h"
 
 #include <fmt/format.h>
@@ -16,12 +15,12 @@
 namespace crosscheck {
 namespace {
 
-/// Extension of the line between two particles, % of its rest length; compression counts as zero.
+/// In % of the rest length; compression counts as zero.
 double extension(const Points& x, int a, int b, double rest) {
   return rest > 0 ? std::max(0.0, (x.col(a) - x.col(b)).norm() / rest - 1) * 100 : 0;
 }
 
-/// Springs, then distance constraints, which count as structural.
+/// Springs, then distance constraints as structural springs.
 std::vector<Spring> links_of(const Scene& scene) {
   std::vector<Spring> links;
   if (const auto* springs = scene.model.find<Springs>()) links = springs->list;
@@ -30,7 +29,7 @@ std::vector<Spring> links_of(const Scene& scene) {
   return links;
 }
 
-/// Mean of the links' strains at each particle, ignoring shear and bend springs.
+/// Mean strain at each particle, without shear and bend springs.
 std::vector<double> mean_at_particles(const std::vector<Spring>& links, const std::vector<double>& strain, size_t n) {
   std::vector<double> sum(n, 0), count(n, 0);
   for (size_t i = 0; i < links.size(); ++i)
@@ -40,7 +39,7 @@ std::vector<double> mean_at_particles(const std::vector<Spring>& links, const st
   return sum;
 }
 
-/// A round number not below the value: 1, 2 or 5 times a power of ten.
+/// 1, 2 or 5 times a power of ten.
 double round_up(double value) {
   if (!(value > 0)) return 1;
   const double power = std::pow(10, std::floor(std::log10(value)));
@@ -49,7 +48,7 @@ double round_up(double value) {
   return value;
 }
 
-/// The body at one of the result's frames; in mode difference coloured by the distance from `base`.
+/// In mode difference, coloured by the distance from `base`.
 render::Body body_of(const Scene& scene, const MethodResult& answer, int frame, Mode mode, const Points* base) {
   render::Body body;
   body.x = answer.trajectory.x[frame];
@@ -72,13 +71,13 @@ render::Body body_of(const Scene& scene, const MethodResult& answer, int frame, 
     body.value.resize(body.x.cols());
     for (int i = 0; i < body.x.cols(); ++i) body.value[i] = 1000 * (body.x.col(i) - base->col(i)).norm();
   }
-  // in a scene without cloth, the last particle draws its path
+  // without a cloth, the last particle draws its path
   if (scene.triangles.empty())
     for (int i = 0; i <= frame; ++i) body.trail.push_back(answer.trajectory.x[i].col(body.x.cols() - 1));
   return body;
 }
 
-/// The families of the scene's springs, in the order of the legend.
+/// In the order of the legend.
 std::vector<Family> families_of(const Scene& scene) {
   std::vector<Family> present;
   if (!scene.model.find<Springs>()) return present;
@@ -87,8 +86,8 @@ std::vector<Family> families_of(const Scene& scene) {
   return present;
 }
 
-/// The springs of a cloth as tubes, one body per family: structural springs thick, shear and bend springs thin. Bend
-/// springs coincide with structural ones; they are shifted towards the eye so that both are visible.
+/// One body per family: thick structural springs, thin shear and bend springs. Bend springs coincide with structural
+/// ones, and are shifted towards the eye to be visible.
 std::vector<render::Body> tubes_of(const Scene& scene, const Points& x, const Vec3& towards_eye) {
   const auto& springs = scene.model.find<Springs>()->list;
   double spacing = 1e300;
@@ -109,7 +108,7 @@ std::vector<render::Body> tubes_of(const Scene& scene, const Points& x, const Ve
   return bodies;
 }
 
-/// The obstacles at time t, s.
+/// Obstacles at time t (s).
 std::vector<render::Ball> balls_of(const Scene& scene, double t) {
   std::vector<render::Ball> balls;
   if (const auto* spheres = scene.model.find<Spheres>())
@@ -117,11 +116,11 @@ std::vector<render::Ball> balls_of(const Scene& scene, double t) {
   return balls;
 }
 
-/// A plane is drawn as a floor, as a slope that is visible from above, or not at all.
+/// Other planes are not drawn.
 bool is_floor(const Plane& plane) { return plane.normal.y() > 1 - 1e-9; }
 bool is_slope(const Plane& plane) { return plane.normal.y() > 0.1 && !is_floor(plane); }
 
-/// The bounding box of the completed runs; empty if the scene has no planes, because only planes need it.
+/// Bounding box of the completed runs; empty without planes, because only planes need it.
 Eigen::AlignedBox3d box_over_planes(const Scene& scene, const std::vector<const MethodResult*>& answers) {
   Eigen::AlignedBox3d box;
   if (!scene.model.find<Planes>()) return box;
@@ -132,7 +131,7 @@ Eigen::AlignedBox3d box_over_planes(const Scene& scene, const std::vector<const 
   return box;
 }
 
-/// Square patches of the scene's slopes at time t (s) under a box.
+/// Square patches of slopes under a box at time t (s).
 std::vector<render::Body> slopes_of(const Scene& scene, double t, const Eigen::AlignedBox3d& box) {
   std::vector<render::Body> patches;
   if (box.isEmpty()) return patches;
@@ -152,7 +151,7 @@ std::vector<render::Body> slopes_of(const Scene& scene, double t, const Eigen::A
 constexpr int strip_columns = 5;
 constexpr double panel_in_print = 1.2;  // width / height
 
-/// Index of the sample nearest to t, or the last one for negative t.
+/// Nearest to t; the last one if t is negative.
 int frame_at(const Trajectory& path, double t) {
   if (t < 0) return path.frames() - 1;
   const auto nearest = std::min_element(path.t.begin(), path.t.end(),
@@ -160,27 +159,27 @@ int frame_at(const Trajectory& path, double t) {
   return static_cast<int>(nearest - path.t.begin());
 }
 
-/// The last frame up to `frame` that can be drawn: finite, and within a hundred scene sizes.
+/// The last frame up to `frame` that is finite and within a hundred scene sizes.
 int drawable(const Scene& scene, const Trajectory& path, int frame) {
   const double far = 100 * scene.size();
   while (frame > 0 && !(path.x[frame].allFinite() && (path.x[frame] - path.x[0]).cwiseAbs().maxCoeff() < far)) --frame;
   return frame;
 }
 
-/// True if everything shown lies in one plane that faces the viewer, so that it has no ground.
+/// True if everything lies in a plane that faces the viewer; then there is no ground.
 bool is_flat(const Scene& scene, const std::vector<Points>& shown) {
   double depth = 0;
   for (const Points& x : shown) depth = std::max(depth, x.row(2).maxCoeff() - x.row(2).minCoeff());
   return scene.triangles.empty() && depth < 1e-9;
 }
 
-/// The scene's camera gives the direction; the distance is chosen so that panels of every shape contain everything.
+/// The scene's camera gives only the direction: the distance must suit panels of every shape.
 Vec3 towards_eye(const Scene& scene, bool flat) {
   if (scene.camera) return scene.camera->eye - scene.camera->target;
   return flat ? Vec3(0, 0, 1) : Vec3(0.55, 0.35, 1);
 }
 
-/// The scene's camera, or one that contains everything that the panels show.
+/// A camera that sees everything in the panels.
 render::View view_of(const Scene& scene, const std::vector<Points>& shown, const std::vector<render::Ball>& balls,
                      double aspect) {
   const bool flat = is_flat(scene, shown);
@@ -191,13 +190,13 @@ render::View view_of(const Scene& scene, const std::vector<Points>& shown, const
   return view;
 }
 
-/// The method, with its step if another picture shows the same method.
+/// Includes the step if another picture shows the same method.
 std::string title_of(const MethodResult& answer, const std::vector<const MethodResult*>& all) {
   const auto same = std::ranges::count(all, answer.method, &MethodResult::method);
   return same > 1 ? fmt::format("{}, step {}", answer.method, step_text(answer.outcome.step)) : answer.method;
 }
 
-/// The time; for a failed run also how and when it failed.
+/// For a failed run, includes how and when it failed.
 std::string time_text(const MethodResult& answer, int frame) {
   const std::string t = fmt::format("t = {:.3g} s", answer.trajectory.t[frame]);
   const Outcome& outcome = answer.outcome;
@@ -227,8 +226,8 @@ std::vector<int> frames_of(const Scene& scene, const Trajectory& path, const Sho
   return frames;
 }
 
-/// The motions that view and scale must accommodate. A run that blew up is excluded: it would leave neither room nor
-/// colours for the others.
+/// The motions in view and scale. Runs that blew up are excluded, because they would leave neither room nor colours for
+/// others.
 struct Seen {
   std::vector<Points> healthy, all, trails;
   std::vector<render::Ball> balls;
@@ -254,7 +253,7 @@ struct Seen {
   }
 };
 
-/// The picture, except its view and the top of its scale.
+/// Lacks the view, and the top of the scale.
 render::Picture panels_of(const Scene& scene, const std::vector<const MethodResult*>& answers, const Shot& shot,
                           Seen& seen) {
   const std::vector<const MethodResult*> usable = usable_of(scene, answers, shot);
@@ -264,12 +263,12 @@ render::Picture panels_of(const Scene& scene, const std::vector<const MethodResu
   picture.quality = shot.quality;
   picture.text = shot.text;
   const bool strip = shot.mode == Mode::strip;
-  // without springs there is no stretch to colour by
+  // without springs there is no stretch
   const bool no_stretch = shot.mode == Mode::stretch && links_of(scene).empty();
   const Mode mode = strip || no_stretch ? Mode::shaded : shot.mode;
   const auto base_frames = frames_of(scene, usable[0]->trajectory, shot);
   if (!strip) picture.rows.emplace_back();
-  const Eigen::AlignedBox3d box = box_over_planes(scene, usable);  // one box, so that all panels have the same slopes
+  const Eigen::AlignedBox3d box = box_over_planes(scene, usable);  // for the same slopes in all panels
   for (const MethodResult* a : usable) {
     if (strip) picture.rows.emplace_back();
     const std::vector<int> frames = frames_of(scene, a->trajectory, shot);
@@ -327,7 +326,7 @@ std::vector<std::string> pictured_methods(const Scene& scene) {
     if (shown && m.family().by_default()) names.push_back(m.name);
   }
   if (first_order || hard) return names;
-  // first the methods meant for long steps, with a method that fails there for comparison
+  // methods for long steps, and one that fails there for comparison
   if (find_method(scene.method).implicit)
     names = {find_method(scene.method).name,
              subject_method([](const Stepper& s) { return s.evaluations == 0 && s.symplectic; }),
@@ -339,7 +338,7 @@ std::vector<std::string> pictured_methods(const Scene& scene) {
 Shot usual_shot(const Scene& scene, bool full) {
   Shot shot;
   shot.at = scene.camera && scene.camera->at ? *scene.camera->at : -1;
-  // soft light is worth its seconds on cloth; a few beads look the same without it
+  // soft light is worth its seconds on cloth, but beads look the same without it
   shot.quality = full || !scene.triangles.empty() ? render::Quality::still : render::Quality::fast;
   shot.mode = scene.triangles.empty() ? Mode::shaded : Mode::stretch;
   shot.width = 1440;

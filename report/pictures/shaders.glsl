@@ -1,11 +1,11 @@
-// All materials of the pictures. #define chooses between them, because software GL pays for every branch:
-// one of CLOTH, ROD, TRAIL (a rod without light), GROUND, SUM (adds one pass to the sum);
-// VALUES: cloth coloured by value; SHADOW: depth only; VERTEX or FRAGMENT: the stage.
+// All materials. #define chooses between them, because software GL pays for every branch: one of CLOTH, ROD, TRAIL (a
+// rod without light), GROUND, SUM (adds a pass to the sum); VALUES: cloth coloured by value; SHADOW: depth only; VERTEX
+// or FRAGMENT.
 
 #ifdef VERTEX
 uniform mat4 to_clip;
 uniform vec3 eye;
-uniform float lift;    // depth that flat cloth may dip into a ball
+uniform float lift;  // depth to which flat cloth may dip into a ball
 uniform vec4 ground;   // centre x, height, centre z, half width
 
 #if defined(CLOTH)
@@ -48,7 +48,7 @@ void main() {
 
   vec3 shown = place;
 #if defined(CLOTH) && !defined(SHADOW)
-  // towards the eye: the place on the screen stays, only the depth changes
+  // towards the eye, so that only the depth changes
   vec3 to_eye = normalize(eye - place);
   shown += to_eye * lift / max(abs(dot(to_eye, normal)), 0.25);
 #endif
@@ -64,11 +64,11 @@ out vec4 result;
 void main() { result = texelFetch(pass, ivec2(gl_FragCoord.xy), 0); }
 
 #else
-// key light and sky: one sample each per pass
-uniform vec3 eye, key, sky;          // directions are towards the light
-uniform mat4 to_key, to_sky;         // frame to the shadow maps, 0..1
+// a sample each of key light and sky
+uniform vec3 eye, key, sky;  // directions towards the light
+uniform mat4 to_key, to_sky;  // from the frame to the shadow maps, 0..1
 uniform sampler2DShadow key_map, sky_map;
-uniform float key_texel, sky_texel;  // size of a texel in the frame
+uniform float key_texel, sky_texel;  // size in the frame
 uniform float lift;
 in vec3 place, normal, colour;
 out vec4 result;
@@ -82,7 +82,7 @@ float lit(sampler2DShadow map, mat4 to_map, vec3 p) {
   return textureLod(map, vec3(q.xy, min(q.z, 1)), 0);
 }
 
-// light falling on a surface; `through` is the part of the key light that passes from the other side
+// `through`: fraction of the key light that passes from the other side
 vec3 light_on(vec3 n, float through) {
   float facing = dot(n, key);
   float side = facing < 0 && through > 0 ? -1 : 1;
@@ -109,7 +109,7 @@ void main() {
 #endif
   if (!gl_FrontFacing) base *= 0.86;
 
-  // threads: a line of one half width, at least a pixel wide, fading where they would crowd
+  // threads: at least a pixel wide, and fading where they would crowd
   vec3 pixel = max(fwidth(rim), vec3(1e-6));
   vec3 line = clamp((max(vec3(1), 0.5 * pixel) - rim) / pixel + 0.5, 0, 1) * smoothstep(vec3(16), vec3(6), pixel);
   base *= mix(vec3(1), vec3(0.40, 0.385, 0.385), max(line.x, max(line.y, line.z)));
@@ -117,14 +117,14 @@ void main() {
 }
 
 #elif defined(GROUND)
-// the ground is the background, darkened where it loses light: without shadow it is invisible
+// the ground has the background's colour, darkened in shadow; elsewhere it is invisible
 uniform vec3 background;
 uniform float unoccluded;  // mean light on the open ground
 uniform vec4 ground;
 uniform vec3 panel;        // width, height, pixels
-uniform float blur;        // 1 for the mean of many passes, more where there are few
+uniform float blur;  // 1 for the mean of many passes, larger for few
 
-// the ground is flat, so that a filter of this radius (part of the map) need not follow its slope
+// `radius`: fraction of the map; on flat ground the filter need not follow a slope
 float soft(sampler2DShadow map, mat4 to_map, float radius) {
   const vec2 disc[4] = vec2[](vec2(0.25, 0.75), vec2(-0.75, 0.25), vec2(-0.25, -0.75), vec2(0.75, -0.25));
   vec3 q = (to_map * vec4(place, 1)).xyz;
@@ -136,7 +136,8 @@ float soft(sampler2DShadow map, mat4 to_map, float radius) {
 void main() {
   float key_lost = KEY_LIGHT * key.y * (1 - soft(key_map, to_key, 0.007 * blur));
   float sky_lost = SKY_LIGHT * 2 * sky.y * (1 - soft(sky_map, to_sky, 0.012 * blur));
-  // both fade far away and before the panel ends: the faint wide shadow of the sky early, the clear one late
+  // shadows fade far away and before the panel ends: early for the faint wide shadow of the sky, late for the key
+  // light's
   float away = length(place.xz - ground.xz) / ground.w;
   vec2 border = (min(gl_FragCoord.xy, panel.xy - gl_FragCoord.xy) - 0.5) / panel.xy;  // 0 in the outermost pixels
   vec2 sky_fade = smoothstep(vec2(0), vec2(0.25), border), key_fade = smoothstep(vec2(0), vec2(0.06), border);
