@@ -1,4 +1,3 @@
-// Differences, zigzag, byte planes, gzip.
 #include "report/player/packed_numbers.h"
 
 #include <zlib.h>
@@ -8,11 +7,11 @@
 namespace crosscheck {
 namespace {
 
-constexpr int gzip_format = 15 + 16;  // zlib's flag for a window of 32 kB and gzip's header
+constexpr int gzip_format = 15 + 16;  // zlib's code for a window of 32 kB and gzip's header
 
 Bytef* bytes_of(std::string_view bytes) { return reinterpret_cast<Bytef*>(const_cast<char*>(bytes.data())); }
 
-/// Unpacks a text of exactly `size` bytes.
+/// Exactly `size` bytes.
 std::string gunzipped(std::string_view bytes, size_t size) {
   constexpr size_t densest = 1032;  // deflate's largest ratio: a received file may claim any size
   if (size / densest > bytes.size()) throw std::runtime_error("packed numbers end too early");

@@ -1,4 +1,3 @@
-// Positions on lattices, entries of the index, and reading them back.
 #include "report/player/runs.h"
 
 #include <fmt/ranges.h>
@@ -22,7 +21,7 @@ constexpr int most_frames = 150, most_frames_of_mark = 30, fewest_frames = 25;
 constexpr int most_places = most_frames * 64 * 64;  // frames x particles
 constexpr double largest_number = 65535;
 
-/// The resolution of positions as a fraction of the scene's size; infinite: as fine as 16 bits allow.
+/// Resolution of positions / size of the scene; infinite: as fine as 16 bits allow.
 constexpr double of_shown = INFINITY, of_own_run = 8192, of_mark = 4096, of_cell = 1024;
 
 double rounded(double value) { return std::strtod(fmt::format("{:.4g}", value).c_str(), nullptr); }
@@ -32,7 +31,7 @@ struct Frames {
   std::vector<Points> x, v;
 };
 
-/// The frames of a run, up to the first that is not finite.
+/// Up to the first frame that is not finite.
 Frames every(const Trajectory& path, int stride) {
   Frames out;
   for (size_t i = 0; i < path.x.size() && path.x[i].allFinite(); i += static_cast<size_t>(stride))
@@ -43,7 +42,7 @@ Frames every(const Trajectory& path, int stride) {
 double distance_from(const Points& x, const Points& start) { return (x - start).cwiseAbs().maxCoeff(); }
 
 /// Truncates a failed run where a coordinate has moved by three times the larger of the scene's size and the true
-/// motion's largest displacement: no camera shows more.
+/// motion's largest displacement, because no camera shows more.
 void cut(Frames& run, const Scene& scene, const std::optional<Truth>& truth) {
   double reach = scene.size();
   if (truth)
@@ -53,13 +52,13 @@ void cut(Frames& run, const Scene& scene, const std::optional<Truth>& truth) {
   run.t.resize(keep), run.x.resize(keep), run.v.resize(keep);
 }
 
-/// {"frames", "low", "unit", "bound", "offset", "bytes"} of positions; appends their bytes. Runs of similar size share
-/// a lattice, because its unit is a power of two: equal motions have equal numbers.
+/// {"frames", "low", "unit", "bound", "offset", "bytes"}; appends the bytes of the positions. The unit is a power of
+/// two, so that runs of similar size share a lattice, and equal motions have equal numbers.
 Json packed_run(const std::vector<Points>& x, double unit, std::string& bytes) {
   Vec3 low = x[0].rowwise().minCoeff(), high = low;
   for (const Points& frame : x)
     low = low.cwiseMin(frame.rowwise().minCoeff()), high = high.cwiseMax(frame.rowwise().maxCoeff());
-  // one number is reserved for the rounding of the lower corner
+  // -1: rounding of the lower corner
   unit = std::max({unit, (high - low).maxCoeff() / (largest_number - 1), 1e-300});
   unit = std::exp2(std::ceil(std::log2(unit)));
   low = (low / unit).array().floor() * unit;
@@ -75,7 +74,7 @@ Json packed_run(const std::vector<Points>& x, double unit, std::string& bytes) {
   return json;
 }
 
-/// Times (s): the first and the last if the frames are equally spaced, otherwise all.
+/// In s: the first and the last if they are equidistant, otherwise all.
 Json times_json(const std::vector<double>& t) {
   const double apart = (t.back() - t.front()) / double(std::max<size_t>(1, t.size() - 1));
   for (size_t i = 0; i < t.size(); ++i)
@@ -83,7 +82,7 @@ Json times_json(const std::vector<double>& t) {
   return {t.front(), t.back()};
 }
 
-/// Adds the values of all frames, with four digits; nothing if no value is known.
+/// Four digits; nothing if all values are unknown.
 void add_series(Json& json, const char* name, const std::vector<std::optional<double>>& values) {
   if (std::ranges::none_of(values, [](const auto& v) { return v && std::isfinite(*v); })) return;
   for (const auto& v : values) json[name].push_back(v && std::isfinite(*v) ? Json(rounded(*v)) : Json());
@@ -101,7 +100,7 @@ void add_values(Json& json, const Frames& run, const Scene& scene, const std::op
   add_series(json, "error", error), add_series(json, "energy", energy);
 }
 
-/// The reason and kind of a failure, without its time.
+/// Without the time.
 std::string why_failed(const Outcome& out) {
   const std::string words(in_words(out.verdict));
   const size_t open = words.find('(');
@@ -119,8 +118,8 @@ void add_outcome(Json& json, const Outcome& out) {
   if (out.verdict != Verdict::ok) json["failed"] = out.end, json["reason"] = why_failed(out);
 }
 
-/// The smallest multiple of the stride that leaves at most `most` frames after the first. Prefers a divisor of the
-/// samples, unless that is twice as large.
+/// Smallest multiple of the stride with at most `most` frames after the first; preferably a divisor of the samples, if
+/// that is less than twice as large.
 int thinned(const Scene& scene, int stride, int most) {
   const int least = std::max(1, (scene.samples + stride * most - 1) / (stride * most));
   for (int times = least; times < 2 * least; ++times)
@@ -128,7 +127,7 @@ int thinned(const Scene& scene, int stride, int most) {
   return stride * least;
 }
 
-/// A run of a scene from its beginning; for a failed run of a mark, its last pictures. Null without a second frame.
+/// From the beginning; for a failed run of a mark, the last pictures. Null without a second frame.
 Json scene_run(const Scene& scene, const std::optional<Truth>& truth, const RecordedRun& run, bool own, double unit,
                std::string& bytes) {
   const bool failed = run.outcome.verdict != Verdict::ok, last = failed && !own;
@@ -145,8 +144,8 @@ Json scene_run(const Scene& scene, const std::optional<Truth>& truth, const Reco
   return json;
 }
 
-/// The cells of a map as one run. For each cell: the last picture in which no particle is further from rest than twice
-/// the scene's size, with its time; if there is none, the state of rest, without a time.
+/// The cells of a map as a run: each cell's last picture in which no particle is farther from rest than twice the
+/// scene's size, with its time; otherwise the state of rest without a time.
 Json cells_of_map(const RecordedRuns& recorded, std::string& bytes) {
   std::vector<Points> pictures;
   Json times = Json::array();
@@ -236,7 +235,7 @@ Json take_index(const fs::path& report) {
 
 namespace {
 
-/// Numbers; null if not available.
+/// Requires `count` values, if the field exists; null stands for an unknown value.
 void require_values(const JsonField& run, const char* name, size_t count) {
   const auto values = run.find(name);
   if (!values) return;
@@ -245,7 +244,7 @@ void require_values(const JsonField& run, const char* name, size_t count) {
     if (!value.is_null()) value.number();
 }
 
-/// Throws InputError unless an entry's run lies within a file of this size.
+/// Throws InputError unless the run lies within a file of this size.
 void require_run(const JsonField& run, std::uintmax_t size) {
   const size_t frames = static_cast<size_t>(run["frames"].whole_number(1, 1'000'000));
   if (run["low"].numbers().size() != 3) run["low"].fail("three numbers");

@@ -1,5 +1,5 @@
-// Recorded runs as files of a report: runs/SET/METHOD.u16.gz, and their index, the list "runs" of report.json.
-// report/CONTRACT.md describes both.
+// Recorded runs of a report: files runs/SET/METHOD.u16.gz and their index, the list "runs" of report.json
+// (report/CONTRACT.md).
 #pragma once
 
 #include <filesystem>
@@ -14,43 +14,41 @@
 
 namespace crosscheck {
 
-/// Number of samples from one frame to the next. There are at most 150 frames after the first, and the last sample is a
-/// frame if the samples allow it. 0 if the scene is too large for the player.
+/// Number of samples between frames, for at most 150 frames after the first; if possible, the last sample is a frame. 0
+/// if the scene is too large for the player.
 int frame_stride(const Scene& scene);
 
-/// The runs of one method in one set: an entry of the index.
+/// The runs of a method in a set: an entry of the index.
 struct RunFile {
   std::string set, scene, method;
   std::filesystem::path file;  // relative to the report's folder
   int particles;
-  Json entry;  // format of report.json
+  Json entry;  // as in report.json
 };
 
-/// Writes runs while experiments compute them, from several processes in parallel.
+/// Several processes may write at the same time.
 class RunsWriter {
  public:
-  /// The folder of the report.
   explicit RunsWriter(std::filesystem::path report) : report_(std::move(report)) {}
-  /// Writes the set SCENE-OF; for a map, the last picture of each cell. `run`: the scene's run at the request's step.
+  /// Writes the set SCENE-OF; for a map, the cells' last pictures. `run`: the scene's run at the requested step.
   void keep(const RecordedRuns& recorded, const Run& run);
-  /// Writes the set SCENE-truth, as long as the truth is known.
+  /// Writes the set SCENE-truth, up to the end of the truth.
   void keep_truth(const Scene& scene, const Run& run);
 
  private:
   const std::optional<Truth>& truth_on(const Scene& scene, const Run& run);
   std::filesystem::path report_;
-  std::map<std::string, std::optional<Truth>> truths_;  // by scene name
+  std::map<std::string, std::optional<Truth>> truths_;  // by scene
 };
 
-/// The index of all runs written so far, ordered by set and method. Removes the files in which the writers left the
-/// entries.
+/// The index of all runs so far, ordered by set and method. Removes the files with the writers' entries.
 Json take_index(const std::filesystem::path& report);
 
-/// The entries of an index. Throws InputError with the file's name if an entry is malformed; with `unpacked`, also if
-/// the bytes of a run differ from the description in its entry.
+/// Reads an index. Throws InputError with the file's name if an entry is malformed, or with `unpacked`, if a run's
+/// bytes differ from its entry.
 std::vector<RunFile> run_files(const JsonField& index, const std::filesystem::path& report, bool unpacked);
 
-/// The positions of a run in the file (m), by frame; empty if there is no such run.
+/// In m, by frame; empty if there is no such run.
 std::vector<Points> positions_of(const RunFile& file, size_t place);
 
 }  // namespace crosscheck

@@ -1,4 +1,3 @@
-// Triangles, springs, pins, obstacles and the camera.
 #include "report/player/stage.h"
 
 #include <nlohmann/json.hpp>
@@ -16,21 +15,21 @@ namespace {
 
 Json vector_json(const Vec3& v) { return std::span(v.data(), 3); }
 
-/// {"count", "columns", "data"}: rows as unpack.ts reads them.
+/// {"count", "columns", "data"} for unpack.ts.
 Json packed_json(const std::vector<std::uint16_t>& numbers, size_t columns) {
   return {{"count", numbers.size()}, {"columns", columns}, {"data", base64(pack(numbers, columns))}};
 }
 
-/// Corners of the surface's triangles; null without a surface.
+/// Null without a surface.
 Json triangles_json(const Scene& scene) {
   if (scene.triangles.empty()) return nullptr;
   std::vector<std::uint16_t> corners;
   for (const auto& triangle : scene.triangles)
     for (const int corner : triangle) corners.push_back(static_cast<std::uint16_t>(corner));
-  return packed_json(corners, 6);  // two triangles fill a cell of a grid
+  return packed_json(corners, 6);  // two triangles per cell of a grid
 }
 
-/// Ends and rest lengths of distance constraints and springs, by family; those of the surface's threads come first.
+/// Ends and rest lengths by family: distance constraints, then springs. The first `threads` are drawn on the surface.
 Json springs_json(const Scene& scene) {
   std::vector<std::uint16_t> ends;
   Json families = Json::array();
@@ -66,7 +65,7 @@ Json springs_json(const Scene& scene) {
           {"families", families}};
 }
 
-/// Obstacles; for a moving one, its centre at each of the times (s).
+/// With a moving obstacle's centre at each time (s).
 Json spheres_json(const Scene& scene, const std::vector<double>& times) {
   Json list = Json::array();
   if (const auto* spheres = scene.model.find<Spheres>())
@@ -79,7 +78,7 @@ Json spheres_json(const Scene& scene, const std::vector<double>& times) {
   return list;
 }
 
-/// Planes at their initial positions.
+/// At their initial positions.
 Json planes_json(const Scene& scene) {
   Json list = Json::array();
   if (const auto* planes = scene.model.find<Planes>())
