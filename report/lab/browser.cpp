@@ -1,5 +1,5 @@
-// Replacements for the system in a browser: one thread, one instruction set, no clock, the page's regular expressions,
-// and exceptions that end the instance.
+// Replacements for the system in a browser: one thread, one instruction set, no clock, the page's regular expressions.
+// Exceptions end the instance.
 #include <cstdlib>
 #include <cstring>
 #include <exception>
@@ -14,13 +14,12 @@
 
 #define IMPORT(name) extern "C" __attribute__((import_module("page"), import_name(#name)))
 
-/// Throws a JavaScript error of this kind with this message; does not return.
+/// Throws a JavaScript error; does not return.
 IMPORT(fail) __attribute__((noreturn)) void page_fail(const char* kind, const char* message);
 /// Returns 1 if a part of the text matches the expression (ECMAScript grammar).
 IMPORT(matches) int page_matches(const char* expression, const char* text, int whole);
 
-// The runtime's implementation of `throw`: everything that mysim and its libraries throw has std::exception as its
-// first base.
+// The runtime's `throw`. The first base of every exception of mysim and its libraries is std::exception.
 extern "C" {
 void* __cxa_allocate_exception(std::size_t size) { return std::malloc(size); }
 [[noreturn]] void __cxa_throw(void* thrown, std::type_info* type, void (*)(void*)) {
@@ -36,7 +35,7 @@ namespace crosscheck {
 
 void CpuClock::start() {}
 void CpuClock::stop() {}
-double free_memory() { return 2e9; }  // half of what 32 bits address
+double free_memory() { return 2e9; }  // half of the 32-bit address space
 
 struct Pattern::Compiled {
   std::string expression;

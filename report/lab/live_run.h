@@ -1,4 +1,4 @@
-// A run of mysim that can be inspected and changed while it goes on: the page's lab steps it.
+// A run of mysim that can be inspected and changed while it goes on, as in the page's lab.
 #pragma once
 
 #include <memory>
@@ -10,43 +10,39 @@
 
 namespace crosscheck {
 
-/// A scene, and one run of it. A change by hand replaces the scene by one that starts from the present state of the
-/// run, with its clock at 0.
+/// A scene and a run. A change by hand replaces the scene by one that starts from the run's present state at time 0.
 class LiveRun {
  public:
   struct Settings {
-    std::string rule;  // a stepper and its options: "leapfrog", "implicit-euler+linear", "rk4+sticky"
+    std::string rule;  // a stepper with options: "leapfrog", "implicit-euler+linear", "rk4+sticky"
     double step;       // s, upper bound
     double tolerance;  // for adaptive rules
-    double duration;   // s; the sampling interval stays the scene's, and the run ends at the last sample
+    double duration;   // s; the sampling interval is the scene's, and the run ends at the last sample
     bool keep_ledger;  // accumulates losses and work, which requires observing every step
   };
 
   explicit LiveRun(Scene scene) : scene_(std::move(scene)) {}
 
   const Scene& scene() const { return scene_; }
-  /// The fastest vibration in the scene's initial state, rad/s; 0 if nothing vibrates.
+  /// Fastest vibration in the scene's initial state, rad/s; 0 if nothing vibrates.
   double omega() const;
-  /// The largest stable step of a stepper for that vibration, s. It is 0 if no step is stable and infinite if all are.
-  /// Empty if unknown (first-order scenes, different drag rates, adaptive rules).
+  /// Largest stable step (s) of a stepper for that vibration: 0 if no step is stable, infinity if all are. Empty if
+  /// unknown (first-order scenes, different drag rates, adaptive rules).
   std::optional<double> critical_step(const Stepper& stepper) const;
 
-  /// Restarts the run from the scene's initial state. Throws InputError for an unknown rule, Unsupported with the
-  /// reason if the rule does not support the scene.
+  /// Restarts from the scene's initial state. Throws InputError for an unknown rule, and Unsupported with the reason if
+  /// the rule does not support the scene.
   void start(const Settings& settings);
-  /// Steps until the run's time is t (s) or later, the run has ended, or `most` steps were taken. Returns false if the
-  /// run has ended.
+  /// Steps until t (s), the end of the run, or `most` steps. Returns false if the run has ended.
   bool advance(double t, int most);
   double time() const { return loop_->time(); }  // s
-  /// The outcome of the run so far.
   Outcome outcome() const { return loop_->outcome(); }
   const State& state() const { return world_->state(time()); }
-  /// Energies, losses and work, J; empty for first-order scenes. Without a ledger, losses and work are nan.
+  /// In J; empty for first-order scenes. Without a ledger, losses and work are nan.
   std::optional<LedgerRow> energies() const;
 
-  /// Holds a free particle at a position (m) from now on, as if by hand: pins it there, and the run goes on.
+  /// Pins a free particle at a position (m), as if held by hand.
   void hold(int particle, const Vec3& place);
-  /// Releases the particle that hold() holds.
   void release();
   /// Pins a particle at its present position, or releases it.
   void set_pinned(int particle, bool pinned);
@@ -54,20 +50,20 @@ class LiveRun {
   std::string fingerprint() const { return crosscheck::fingerprint(state()); }
 
  private:
-  /// Makes the present state the scene's initial state, applies `change`, and starts a run from there.
+  /// Makes the present state the initial one, applies `change`, and starts a run.
   template <class Change>
   void go_on(const Change& change);
   void begin();
 
   Scene scene_;
-  mutable std::optional<double> omega_;  // cached, like the bounds
+  mutable std::optional<double> omega_;  // cached
   MotionBoundsCache bounds_;
-  int held_ = -1;  // the particle held by hand
+  int held_ = -1;  // particle held by hand
   Stepper rule_{};
   ContactRule contact_ = ContactRule::coulomb;
   Run run_{};
   bool keep_ledger_ = false;
-  // declared in the order of their dependencies
+  // in the order of dependencies
   std::unique_ptr<DivergenceMonitor> monitor_;
   std::unique_ptr<Ledger> ledger_;
   std::unique_ptr<MonitoredObservers> observers_;

@@ -1,6 +1,5 @@
-// The engine as a WebAssembly module: one instance is one scene and one run of it (page/lab/engine.ts is its
-// counterpart). Texts are UTF-8 in the module's buffer; arrays of numbers are valid until the next call. An exception
-// ends the instance (browser.cpp).
+// The engine as a WebAssembly module for page/lab/engine.ts. An instance is one scene and one run. Texts are UTF-8 in
+// the module's buffer; returned arrays are valid until the next call. An exception ends the instance (browser.cpp).
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
@@ -18,9 +17,8 @@
 namespace crosscheck {
 namespace {
 
-/// State of the instance.
 struct Instance {
-  std::string text;  // last text received, or returned
+  std::string text;  // last text received or returned
   std::optional<LiveRun> run;
   std::vector<int> integers;
   std::vector<double> numbers;
@@ -66,7 +64,7 @@ std::string quoted(std::string_view text) {
 
 std::string list_of(const Vec3& v) { return fmt::format("[{},{},{}]", v[0], v[1], v[2]); }
 
-/// The list of a term if the model has it, otherwise an empty list.
+/// Empty if the model lacks the term.
 template <class T>
 auto list_in_term() -> const decltype(T::list)& {
   static const decltype(T::list) none;
@@ -83,7 +81,6 @@ std::vector<int> ends_of(const std::vector<Pair>& pairs) {
   return ends;
 }
 
-/// One number per item of a list.
 template <class Number, class List, class Member>
 std::vector<Number> of_each(const List& list, const Member& member) {
   std::vector<Number> numbers;
@@ -93,13 +90,13 @@ std::vector<Number> of_each(const List& list, const Member& member) {
 
 }  // namespace
 
-/// A buffer of this size (bytes) for the text that the next call reads.
+/// A buffer of this size (bytes) for the text of the next call.
 EXPORT(text_buffer) char* text_buffer(int bytes) {
   instance().text.assign(static_cast<size_t>(bytes), ' ');
   return instance().text.data();
 }
 
-/// The table of steppers as JSON.
+/// JSON.
 EXPORT(steppers) const char* steppers_json() {
   std::string out;
   for (const Stepper& s : steppers())
@@ -109,10 +106,9 @@ EXPORT(steppers) const char* steppers_json() {
   return hand_out("[" + out + "]");
 }
 
-/// Reads the scene in the text buffer.
 EXPORT(open) void open() { instance().run.emplace(parse_scene(std::string(instance().text), "lab.toml", "lab")); }
 
-/// The scene's scalar properties as JSON.
+/// Scalar properties as JSON.
 EXPORT(scene) const char* scene_json() {
   const Scene& s = run().scene();
   std::string spheres, planes, camera = "null";
@@ -130,15 +126,15 @@ EXPORT(scene) const char* scene_json() {
 
 EXPORT(pins) const int* pins() { return hand_out(run().scene().model.particles.pins); }
 
-/// Both ends of every spring, and of every distance constraint.
+/// Both ends of each spring or constraint.
 EXPORT(spring_ends) const int* spring_ends() { return hand_out(ends_of(springs())); }
 EXPORT(constraint_ends) const int* constraint_ends() { return hand_out(ends_of(constraints())); }
 
 EXPORT(spring_families) const int* spring_families() { return hand_out(of_each<int>(springs(), &Spring::family)); }
 
-/// Rest lengths, m.
+/// In m.
 EXPORT(spring_rests) const double* spring_rests() { return hand_out(of_each<double>(springs(), &Spring::rest)); }
-/// Lengths of distance constraints, m.
+/// In m.
 EXPORT(constraint_lengths) const double* constraint_lengths() {
   return hand_out(of_each<double>(constraints(), [](const auto& c) { return c.length; }));
 }
@@ -149,15 +145,15 @@ EXPORT(triangles) const int* triangles() {
   return hand_out(std::move(corners));
 }
 
-/// Fastest vibration, rad/s.
+/// In rad/s.
 EXPORT(omega) double omega() { return run().omega(); }
 
-/// Critical step of the stepper in this row of the table, s; nan if unknown.
+/// In s, for the stepper in this row; nan if unknown.
 EXPORT(critical_step) double critical_step(int row) {
   return run().critical_step(steppers()[static_cast<size_t>(row)]).value_or(std::numeric_limits<double>::quiet_NaN());
 }
 
-/// Starts a run; the rule is in the text buffer.
+/// The rule is in the text buffer.
 EXPORT(start) void start(double step, double tolerance, double duration, int keep_ledger) {
   run().start({std::string(instance().text), step, tolerance, duration, keep_ledger != 0});
 }
@@ -165,19 +161,19 @@ EXPORT(start) void start(double step, double tolerance, double duration, int kee
 EXPORT(advance) int advance(double t, int most) { return run().advance(t, most); }
 EXPORT(time) double time() { return run().time(); }
 
-/// The outcome of the run so far, as JSON.
+/// JSON.
 EXPORT(outcome) const char* outcome_json() {
   const Outcome out = run().outcome();
   return hand_out(fmt::format(R"({{"verdict":{},"reason":{},"step":{},"steps":{}}})", quoted(name_of(out.verdict)),
                               quoted(out.reason), std::isfinite(out.step) ? out.step : 0, out.steps));
 }
 
-/// Positions, m.
+/// In m.
 EXPORT(positions) const double* positions() { return run().state().x.data(); }
-/// Velocities, m/s.
+/// In m/s.
 EXPORT(velocities) const double* velocities() { return run().state().v.data(); }
 
-/// Centres of the spheres at a time (s), m.
+/// In m, at a time in s.
 EXPORT(centres) const double* centres(double t) {
   std::vector<double> places;
   for (const Sphere& sphere : list_in_term<Spheres>())
@@ -185,8 +181,8 @@ EXPORT(centres) const double* centres(double t) {
   return hand_out(std::move(places));
 }
 
-/// Kinetic, elastic and gravitational energy; losses to drag, dashpots and contact; work of wind and pins; balance: J.
-/// Null for first-order scenes.
+/// Kinetic, elastic and gravitational energy; losses to drag, dashpots and contact; work of wind and pins; balance; all
+/// in J. Null for first-order scenes.
 EXPORT(energies) const double* energies() {
   const auto row = run().energies();
   if (!row) return nullptr;

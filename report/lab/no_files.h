@@ -1,5 +1,5 @@
-// Replaces std::ifstream for a libc++ without files (WebAssembly, version 19 and later): toml++ mentions it, but
-// nothing in the module opens a file.
+// Replaces std::ifstream for a libc++ without files (WebAssembly, version 19 and later): toml++ mentions it, but the
+// module opens no file.
 #pragma once
 
 #include <fstream>
