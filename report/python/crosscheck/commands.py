@@ -31,7 +31,7 @@ class Answer:
 
 
 def method_word(method):
-    """The name of a method: a text, an engine of this process, or the path of a program."""
+    """Accepts a name, an Engine, or the path of a program."""
     if isinstance(method, Engine):
         return method.method
     return f"exec:{method}" if isinstance(method, os.PathLike) else str(method)
@@ -130,8 +130,8 @@ class Comparison(Answer):
     cost          Table: CPU times (s)
     over_time     Table: error and difference (m) at the sampling times
     certificates  dict: method -> "match", "mismatch" or "not attested" (was it given the same scene?)
-    agreed        False on a mismatch, if equal rules differ by more than round-off, or if every method failed
-    text          output of the command
+    agreed        False on a mismatch, if methods of the same rule differ by more than round-off, or if all failed
+    text          printed output
     """
 
     def __init__(self, scene, words, out):
@@ -169,13 +169,13 @@ def compare(scene, methods=None, step=None, out=None):
 
 
 class Advice(Answer):
-    """The cheapest method that stays within a tolerance.
+    """The cheapest method within a tolerance.
 
     method, step     recommended method and step (s); for an adaptive method step is None and `tol` its tolerance
     error            m, measured;  force_evaluations: cost of that run
     scene            file of the scene with the recommended settings: run(a.scene) runs it
-    tried            Table: every run that was tried
-    found            False if no method meets the tolerance; then `reason` says why and all else is None
+    tried            Table: all runs
+    found            False if no method meets the tolerance; then `reason` says why, and all others are None
     info             dict: content of advice.json
     """
 
@@ -216,7 +216,7 @@ def advise(scene, tolerance, methods=None, out=None):
 class Check:
     """Relations tested on methods.
 
-    passed     False if a relation is broken that is not a known break, or if no relation applies
+    passed     False if a method violates a relation without a known reason, or if no relation applies
     relations  list of dicts: method, relation, says, scene, mark ("holds", "broken", ...), measured, tolerance, unit
     """
 
@@ -239,9 +239,9 @@ class Check:
 
 
 def check(methods, scenes=()):
-    """Tests relations of methods that need no truth (symmetries, conservation, order); returns a Check.
+    """Tests relations between runs of a method (symmetries, conservation, order), which need no truth. Returns a Check.
 
-    scenes: scenes to test; none: the smallest scene of each relation.
+    scenes: by default the smallest scene of each relation.
 
     >>> check("leapfrog", "spring").passed
     True
@@ -274,8 +274,8 @@ class Page(type(Path())):
 
 
 def report(scenes=(), methods=None, out="out/report", full=False):
-    """Makes the report of these scenes (none: a representative set), which takes minutes; returns the path of its
-    page, which a notebook shows. Its tables: table(page.parent / "data" / "engines.csv")."""
+    """Makes the report of these scenes (default: a representative set), which takes minutes. Returns the path of
+    its page, which a notebook shows. Its tables: table(page.parent / "data" / "engines.csv")."""
     scenes = [scenes] if isinstance(scenes, (str, dict, os.PathLike)) else scenes
     place = Answer(out)
     place.call(["report", *map(place.scene_word, scenes), "--full" if full else "--quick",
@@ -323,7 +323,6 @@ def expanded(scene):
         to, copier = Path(folder) / "scene.json", Path(folder) / "copier"
         copier.write_text(copy_program.format(to=to), encoding="utf-8")
         copier.chmod(0o700)
-        # the copier copies the scene and then refuses it
         try:
             call(["run", scene_word(scene, folder), "--method", f"exec:{copier}", "--out", Path(folder) / "out"])
         except Error:

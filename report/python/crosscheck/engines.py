@@ -42,7 +42,7 @@ class EngineScene:
     mass     (n,) kg                        pinned   (n,) bool
     springs  a Springs                      gravity  (3,) m/s^2, zero where the scene has none
     drag     (n,) N s/m: force -drag v      t        s, at the start of the step
-    options  the texts after each plus in the method's name
+    options  list of the options in the method's name, without "+"
     json     the whole scene as crosscheck passes it (reference/protocol/PROTOCOL.md)
     """
 
@@ -104,8 +104,8 @@ class Engine:
 
     x, v: (n, 3) arrays, m and m/s; scene: an EngineScene; h: the time step, s. After each step, pinned particles are
     reset to the positions that the scene prescribes. `terms`: the terms of the protocol that the function models, by
-    default those of `scene.force`; "springs" are Hooke's, "bullet-link" is their other law. The engine refuses scenes
-    with other terms.
+    default those of `scene.force`; "springs" are Hooke's, "bullet-link" is their other law. Scenes with
+    other terms are refused.
 
     >>> @engine(terms=["gravity"])
     ... def fall(x, v, scene, h):
@@ -147,7 +147,7 @@ class Engine:
 
     @property
     def method(self):
-        """The method's name: exec:PATH."""
+        """exec:PATH"""
         return f"exec:{self.path}"
 
 
@@ -168,7 +168,7 @@ main({task!r})
 
 
 def encoded(value, seen):
-    """The value in a form that pickle can transfer: functions by code, modules by name, other values unchanged."""
+    """Prepares a value for pickle: functions by code, modules by name, other values unchanged."""
     if isinstance(value, Engine):
         value = value.step
     if isinstance(value, types.ModuleType):
@@ -233,7 +233,7 @@ class Refused(Exception):
 
 
 def main(dump):
-    """Entry point of the program: runs the scene in its arguments or, with --serve, one scene per line of stdin."""
+    """Runs the scene in the arguments or, with --serve, a scene per line of stdin."""
     if sys.argv[1:] == ["--serve"]:
         answers, sys.stdout = sys.stdout, sys.stderr  # the step function may print
         for line in sys.stdin:
@@ -292,7 +292,7 @@ def run(name, step, scene):
     shape, held = x.shape, np.array(task.get("pins", {}).get("particles", []), dtype=int)
     frames, speeds = [x.copy()], [v.copy()]
     start = time.process_time()
-    with np.errstate(all="ignore"):  # a run that blows up has it in its frames
+    with np.errstate(all="ignore"):  # overflows show in the frames
         for i in range(samples * per_sample):
             scene.t = i * h
             answer = step(x, v, scene, h)

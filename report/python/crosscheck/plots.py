@@ -3,7 +3,7 @@ import numpy as np
 
 from .program import Error
 
-# each reuse of a colour has another dash, so that no meaning depends on colour alone
+# curves of the same colour differ in dash
 colours = ("#111111", "#2A6FB0", "#D66A08", "#3A9A6A", "#A05AA8", "#8A8A8A")
 dashes = ("-", "--", "-.", ":", (0, (8, 2, 2, 2)), (0, (3, 1, 1, 1, 1, 1)))
 
@@ -17,7 +17,7 @@ def pyplot():
 
 
 def look(i):
-    """The look of curve i, counted from 0."""
+    """Look of curve i, from 0."""
     return {"color": colours[i % 6], "linestyle": dashes[(i + i // 6) % 6]}
 
 
@@ -35,7 +35,7 @@ def axes_or_new(axes, **size):
 
 
 def short(method):
-    """A method's name in legends: for a user's program, its file name."""
+    """Shortens a program to its file name, for legends."""
     return method.rsplit("/", 1)[-1] if method.startswith("exec:") else str(method)
 
 
@@ -44,7 +44,7 @@ def is_plane(x):
 
 
 def projected(x, plane):
-    """Two coordinates of each point, m: front view of a planar scene, otherwise a view from the right and above."""
+    """Coordinates in the picture, m: front view of a planar scene, otherwise from the right and above."""
     if plane:
         return x[..., :2]
     azimuth, height = np.radians(30), np.radians(20)
@@ -59,7 +59,7 @@ def shapes(result, scene, axes, times):
     from matplotlib.collections import LineCollection
 
     x = np.asarray(result.positions)
-    x = x[np.isfinite(x).all(axis=(1, 2))]  # draws a run that blew up as far as it went
+    x = x[np.isfinite(x).all(axis=(1, 2))]  # up to the failure
     plane = is_plane(x)
     if times is None:
         frames = np.unique(np.linspace(0, len(x) - 1, 5).round().astype(int))
@@ -85,7 +85,7 @@ def shapes(result, scene, axes, times):
 
 
 def energies(result, axes):
-    """Energies of a run over time, without those that are zero throughout."""
+    """Omits energies that are always zero."""
     table = result.energies
     if table is None:
         raise Error(f"plot: {result.scene} has no energies")
@@ -97,7 +97,7 @@ def energies(result, axes):
 
 
 def over_time(comparison, axes):
-    """Distance of each method over time: from the truth if there is one, otherwise from one of the methods."""
+    """Distances from the truth if there is one, otherwise from one of the methods."""
     table = comparison.over_time
     if table is None:
         raise Error("plot: no method has a result")

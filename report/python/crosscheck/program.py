@@ -48,7 +48,7 @@ def call(words, answers=(0,)):
                           stderr=subprocess.PIPE, text=True, encoding="utf-8", errors="replace") as process:
         try:
             out, err = process.communicate()
-        except BaseException:  # an interrupt of a notebook: files written so far stay valid
+        except BaseException:  # such as an interrupt in a notebook; files written so far stay valid
             process.terminate()
             raise
     lines = [line for line in (err.strip() or out.strip()).splitlines() if line.strip()]
@@ -63,7 +63,7 @@ def call(words, answers=(0,)):
 
 
 def answer(words, answers=(0,)):
-    """Result of a command with --json: (exit status, the object)."""
+    """Calls with --json; returns (exit status, object)."""
     status, out, _ = call([*words, "--json"], answers)
     try:
         return status, json.loads(out)

@@ -40,7 +40,7 @@ class Scene(dict):
 
     @classmethod
     def read(cls, scene):
-        """Reads this file, or a shipped scene by its name, for modification.
+        """Reads a file, or a shipped scene by name.
 
         Needs Python 3.11 or later, whose library reads TOML."""
         import tomllib
@@ -71,7 +71,7 @@ class Scene(dict):
         self.setdefault("pins", {}).setdefault("particles", []).extend(particles)
 
     def toml(self):
-        """The text of the scene's file."""
+        """Text of the scene file."""
         return toml(self)
 
     def write(self, path):
@@ -81,7 +81,7 @@ class Scene(dict):
 
 
 def shipped(name):
-    """The file of a shipped scene, in the source tree or in the data installed with the program."""
+    """File of a shipped scene, in the source tree or the installation."""
     roots = [Path(program.find_program()).resolve().parent]
     roots += roots[0].parents
     for root in roots:
@@ -144,7 +144,7 @@ def toml(scene, prefix=""):
 
 
 def scene_word(scene, folder):
-    """The word that names a scene to the program: a name, a path, or the path of a scene written into the folder."""
+    """Name or path of a scene for the command line; a Scene is written into the folder."""
     if isinstance(scene, dict):
         name = getattr(scene, "name", "scene")
         if not re.fullmatch(r"[A-Za-z0-9._=-]+", name):

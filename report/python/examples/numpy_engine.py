@@ -19,6 +19,6 @@ def my_euler(x, v, scene, h):
     return x + h * v, v
 
 
-result = crosscheck.check(my_euler, sys.argv[1:])  # scenes; with none, the smallest scene of each relation
+result = crosscheck.check(my_euler, sys.argv[1:])  # default: the smallest scene of each relation
 print(result)
 sys.exit(not result)
