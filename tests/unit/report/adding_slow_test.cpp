@@ -1,5 +1,5 @@
-// Documented steps for additions: a new stepper, term, scene, engine, experiment, chart or assignment takes one new
-// file and rows of one table. Then the whole program knows it without further changes.
+// A new stepper, term, scene, engine, experiment, chart or assignment needs one new file and rows of one table. Then
+// the whole program knows it.
 
 #include <gtest/gtest.h>
 
@@ -28,7 +28,7 @@ std::vector<std::string> paths_of(const auto& files) {
 struct Place {
   const char* what;
   std::vector<std::string> tables;
-  const char* list;  // source list; null if the file is a header or no source
+  const char* list;  // null for headers and files that are no source
 };
 const std::vector<Place> places = {
     {"stepper", {"mysim/steppers/steppers.cpp"}, "mysim/CMakeLists.txt"},
@@ -37,11 +37,11 @@ const std::vector<Place> places = {
     {"experiment", {"experiments/experiment.cpp"}, "experiments/CMakeLists.txt"},
     {"chart", {"report/figures/charts.cpp"}, "report/CMakeLists.txt"},
     {"assignment", {"tests/coursework/grader/assignments.cpp"}, "tests/coursework/CMakeLists.txt"},
-    // the list of terms, and the table of their readers
+    // list of terms, and the table of their readers
     {"term", {"mysim/model/model.h", "mysim/scene/scene.cpp"}, nullptr},
 };
 
-/// Checks that all changes apply to the current files, and that no file gets more than `most` changes or lines.
+/// All changes apply to the current files, and no file gets more than `most` changes or lines.
 void expect_changes(const std::map<std::string, std::vector<Addition::Change>>& files, long most) {
   for (const auto& [path, changes] : files) {
     const std::string before = read_file(source / path, "a source"), after = with_changes(before, changes);
@@ -60,7 +60,7 @@ TEST(Adding, TakesOneFileAndRowsOfTheTable) {
     for (const auto& [path, text] : a.created) EXPECT_FALSE(fs::exists(source / path)) << path;
     EXPECT_EQ(paths_of(a.edited), place.tables);
     EXPECT_EQ(paths_of(a.listed), place.list ? std::vector<std::string>{place.list} : std::vector<std::string>{});
-    // a row, and for sources the declaration of what it names
+    // a row, and for sources a declaration
     expect_changes(a.edited, a.created.begin()->first.ends_with(".toml") ? 1 : 2);
     expect_changes(a.listed, 1);
   }
@@ -73,7 +73,7 @@ TEST(Adding, ALineThatDoesNotStandThereOnceIsRefused) {
   EXPECT_THROW(with_changes("a\nb\nb \nb\n", change), std::invalid_argument);
 }
 
-/// Checks the syntax of an original file or of an added one, with the addition's files first in the include path.
+/// Checks the syntax of an original or added file. The addition's files come first in the include path.
 ProgramResult compiled(const Addition& a, const std::string& file) {
   const TemporaryFolder folder("adding");
   write_addition(a, source, folder.path);
@@ -91,7 +91,7 @@ TEST(Adding, WhatIsNotLinkedHereCompilesAsItIsDescribed) {
   }
 }
 
-/// Code that must handle every term does not compile until it does (listed in new_term_slow_test). The engine itself
+/// Code that must handle every term (listed in new_term_slow_test) does not compile without the new one. The engine
 /// does.
 TEST(Adding, ATermIsTakenByTheEngineAndAskedAboutElsewhere) {
   const Addition term = addition("term");
@@ -140,7 +140,7 @@ TEST(Adding, AThirdEngineIsInTablesChartsFindingsAndMaps) {
   int figures = 0;
   EXPECT_EQ(looking_alike_in(out / "figures", figures), "");
   EXPECT_GE(figures, 13);
-  // second of the built-in methods without its own style, after the new stepper
+  // the second built-in method with a spare style, after the new stepper
   const std::string chart = read_file(out / "figures/two-masses-error.gp", "a chart");
   EXPECT_TRUE(contains(chart, "toy/step"));
   EXPECT_TRUE(contains(chart, "(7,3,1,3,1,3)"));

@@ -1,4 +1,4 @@
-// bench on the command line, with a plan that takes little time.
+// bench on the command line, with a short plan.
 
 #include <fmt/format.h>
 
@@ -58,7 +58,7 @@ TEST_F(CliBench, WritesTablesJsonAndFigureAndSaysEveryLine) {
   const JsonField json = JsonField::parse_file(folder_ / "bench.json");
   std::vector<std::string> words{"odeint/rk4", "other model",      "two stiffnesses",        "Bullet's force",
                                  "baseline",   "springs, 40 × 40", "sweep, fastest, double", "60 steps a second"};
-  // not every machine has a second core
+  // some machines have a single core
   if (json["notes"].dump().find("may use one core") == std::string::npos)
     words.insert(words.end(), {"two threads, 64 × 64", "too small for a second", "% of two cores"});
   const JsonField table = json["tables"]["bench-cost"];
@@ -103,7 +103,7 @@ TEST(BenchPlans, QuickAndFullAskWhatTheTablesPromise) {
       sides.insert(cloth.side);
       for (const Peer& peer : cloth.peers) {
         EXPECT_NO_THROW(find_method(peer.method));
-        // Position-based links are compared under their own law, or marked as a different model.
+        // position-based links are compared under their own law, or marked as a different model
         EXPECT_EQ(peer.other_model, peer.method.starts_with("bullet/pbd") && cloth.of != hanging_cloth_of_links);
       }
     }

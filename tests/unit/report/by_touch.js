@@ -1,5 +1,6 @@
-// Touches a page as a finger does, through the browser's own protocol over a pipe. Events that a page creates itself do
-// not show whether the browser interprets a touch as a scroll. Prints the result as JSON. Arguments: the page and a
+// Touches a page through the browser's own protocol over a pipe, because events that a page creates itself do not show
+// whether the browser would scroll. Prints the result as JSON. Arguments: the page, and a folder for the browser's
+// profile.
 // folder for the browser's profile.
 const {spawn} = require('node:child_process');
 const [page, profile] = process.argv.slice(2);
@@ -75,7 +76,7 @@ const pause = ms => new Promise(done => setTimeout(done, ms));
     return {left: box.left, width: box.width, y: box.top + box.height / 2, part: (range.value - range.min) / (range.max - range.min)};
   })()`);
   const was = await read(step), at = await scrolled();
-  // the centre of a thumb of 20 pixels stays 10 pixels away from the ends
+  // the centre of the 20 px thumb stays 10 px away from the ends
   const thumb = left + 10 + (width - 20) * part;
   await stroke([thumb, y], [thumb - 60, y]);
   seen.slider = {was, is: await read(step), scrolled: [at, await scrolled()]};

@@ -1,5 +1,5 @@
-// Findings and charts of the chapters on stability, energy and the least model, from hand-made tables. They must follow
-// the rows, even if these contradict theory, contain failures or are missing.
+// Findings and charts on stability, energy and the smallest model, from hand-made tables. They must follow the rows,
+// even if rows are missing, contain failures, or contradict theory.
 
 #include <algorithm>
 #include <set>
@@ -68,7 +68,7 @@ LimitRow words_row(const std::string& method, PredictionKind theory, std::option
           .reason = ""};
 }
 
-/// Effective stiffnesses from the sag of a cloth, and from the period of a chain.
+/// From the sag of a cloth, and from the period of a chain.
 TableSet effective_stiffnesses() {
   Table table = crosscheck::table_of<EffectiveStiffnessRow>();
   for (const std::string net : {"chain of 8", "cloth of 6 x 6"})
@@ -124,7 +124,7 @@ TEST(StabilityFindings, LimitsThatTheoryConfirmsAreCountedWithDeviationAndBracke
 TEST(StabilityFindings, ContradictionsAreCountedAndTheFurthestIsNamed) {
   std::vector<LimitRow> limits{
       limit_row("mysim/rk4", 1e-3, 0.999e-3, 1.001e-3), limit_row("mysim/explicit-euler", 1e-6, 4.99e-5, 5.01e-5),
-      words_row("bullet/x", PredictionKind::limit, 1., MeasuredLimit::refused_above, 0.5, {})};  // not reported
+      words_row("bullet/x", PredictionKind::limit, 1., MeasuredLimit::refused_above, 0.5, {})};  // not counted
   const auto apart = [&] { return the(limit_findings(rows_of({stability(limits)})), "step-limits-apart"); };
   EXPECT_EQ(apart().value, 1);
   EXPECT_TRUE(says(sentence_of(apart()), {"1 of 2", "explicit-euler", "50 times"}));
@@ -154,7 +154,7 @@ TEST(StabilityFindings, TheTruthConfirmsLimitsOfScenesWithoutRest) {
   expect_short({both});
   EXPECT_EQ(both.value, 2);
   EXPECT_TRUE(says(sentence_of(both), {"2 of 2", "at most 2 %", "at least 20 %"}));
-  // a run marked as blown up that agrees with the truth, and a stable run that differs much from it
+  // a run counted as blown up that agrees with the truth, and a stable run that differs much from it
   const Finding failed = said({row("mysim/leapfrog", 3e-3, 0.02), row("mysim/rk4", 3e-3, 0.09)}),
                 held = said({row("mysim/leapfrog", 3e-3, 0.02), row("mysim/rk4", 0.042, 0.09)});
   expect_short({failed, held});
@@ -221,7 +221,7 @@ TEST(ChapterWords, ARunAboveItsLimitIsShownAtItsMoments) {
   ASSERT_EQ(chart->snapshots[0].moments.size(), 4u);
   EXPECT_DOUBLE_EQ(chart->snapshots[0].moments[0].first, 0.35 * 6);
   EXPECT_TRUE(contains(chart->snapshots[0].moments[0].second, "step 6\n2.5 J"));
-  // failures that are too fast to be visible are not shown
+  // failures too fast to be visible are not shown
   failure.rows.resize(2);
   const TableSet fast = rows_of({stability({limit_row("mysim/rk4", 1e-3, 0.999e-3, 1.001e-3)}), failure});
   for (const Chart& each : stability_charts({scenes, facts, fast, "commit"})) EXPECT_FALSE(each.shown);
@@ -232,7 +232,7 @@ Table energy(const std::vector<EnergyRow>& rows) {
   for (const EnergyRow& row : rows) add(t, row);
   return t;
 }
-/// A long run on a spring that converts 4 J of energy.
+/// A long run on a spring, with 4 J of exchanged energy.
 EnergyRow long_run(const std::string& method, double largest, double growth, Verdict verdict = Verdict::ok) {
   return {.scene = "spring",
           .method = method,
@@ -382,7 +382,7 @@ TEST(SpeedFindings, TellWhatOtherEnginesTake) {
   std::vector<SpeedAccuracyRow> runs(4);
   runs[0].scene = "rod", runs[0].method = "bullet/pbd";
   runs[1].scene = "circle", runs[1].method = "bullet/pbd", runs[1].verdict = Verdict::unsupported;
-  // reports no time, and crashed
+  // one run without a time, and one crash
   runs[2].scene = "rod", runs[2].method = "exec:./mine", runs[2].error = 9e-3, runs[2].motion = 1;
   runs[3].scene = "circle", runs[3].method = "exec:./mine", runs[3].verdict = Verdict::crash;
   const auto all = speed_findings(rows_of({table_with(cheapest), table_with(engines), table_with(runs)}));
@@ -427,7 +427,7 @@ TEST(SpeedFindings, AStepOfBothIsComparedLikeForLikeFirst) {
   EXPECT_TRUE(said({{plain, 8, 1e-6}, {kernel, 8, 1e-6}}).empty());
 }
 
-/// A cloth in contact with a ball until 1 s, with positions compared until 0.5 s.
+/// A cloth in contact with a ball until 1 s; its window ends at 0.5 s.
 std::vector<Table> touched(double of_rules, double of_bullet) {
   std::vector<EngineRow> runs;
   Table rows = crosscheck::table_of<EngineTimeRow>("drape-engines");
@@ -438,7 +438,7 @@ std::vector<Table> touched(double of_rules, double of_bullet) {
     run.clearance = 1e-4;
     runs.push_back(run);
     const double apart = name.starts_with("bullet") ? of_bullet
-                         : name.ends_with("xpbd")   ? 1.  // not comparable to the other rules
+                         : name.ends_with("xpbd")   ? 1.  // not comparable with the other rules
                          : name.ends_with("euler")  ? 0.
                                                     : of_rules;
     for (const double t : {0.5, 1.0})
@@ -455,7 +455,7 @@ TEST(SphereFindings, AfterContactEnginesAreStatedWithTheDifferencesOfOwnRules) {
   EXPECT_EQ(f.other, "bullet/deformable-explicit");
   EXPECT_EQ(f.value, 2.97e-3) << "the value at the end, not the maximum";
   EXPECT_TRUE(says(sentence_of(f), {"drape", "500 ms", "3 mm", "0.2 mm", "compared: 2"}));
-  // an unpredictable motion shows in the same numbers
+  // unpredictable motion makes these numbers large
   EXPECT_TRUE(
       says(sentence_of(the(contact_findings(rows_of(touched(0.2, 0.3))), "after-contact")), {"300 mm", "200 mm"}));
 }
@@ -507,7 +507,7 @@ TEST(ChapterWords, GridsWhoseFinestRunFailsKeepTheirTable) {
 }
 
 TEST(ChapterWords, BendSpringsStiffenByTheirNumber) {
-  const auto bending = [](double shift) {  // k is proportional to the fourth power of particles - shift
+  const auto bending = [](double shift) {  // k is proportional to (particles - shift)^4
     Table t = crosscheck::table_of<BendingRow>();
     for (const long n : {8l, 10l, 12l, 16l})
       add(t, BendingRow{n, static_cast<double>(n) - 1.5, std::pow(static_cast<double>(n) - shift, 4), 0.1});

@@ -1,4 +1,4 @@
-// Lays out stored chart specs at several widths and prints layout errors, for chart_layout_test.cpp.
+// Lays out stored chart specs at several widths and prints layout errors.
 
 import {axisOf} from '../../../report/page/chart/axes';
 import {dense, distance} from '../../../report/page/chart/board';

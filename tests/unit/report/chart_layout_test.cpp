@@ -1,5 +1,4 @@
-// Charts of a stored quick report, laid out by the page's renderer as in a browser, and type checks of the page's
-// scripts.
+// Charts of a stored quick report, laid out by the page's code; type checks of the page's scripts.
 
 #include "mysim/base/files.h"
 #include "mysim/base/installation.h"

@@ -1,5 +1,5 @@
-// Charts: stacked bars, fastest methods at a given accuracy, distance to a method's own finest run, and their numbers
-// as drawn on the page.
+// Charts: stacked bars, fastest methods at an accuracy, distances to a method's own finest run; and their numbers on
+// the page.
 
 #include <algorithm>
 #include <cmath>
@@ -38,7 +38,7 @@ StackedBars two_bars() {
 
 TEST(StackedBars, StackEachSignFromZero) {
   const Table data = drawing_of(two_bars()).data;
-  // part, bar, place, from, to; zero heights have no row
+  // zero heights have no row
   const std::vector<std::vector<Cell>> expected = {{"drag", "mysim/a", 1., 0., 2.},
                                                    {"drag", "bullet/b", 2., 0., 1.},
                                                    {"contact (inferred)", "bullet/b", 2., 1., 4.},
@@ -59,7 +59,7 @@ TEST(StackedBars, InferredPartsAreHatchedAndOthersAreNot) {
     EXPECT_EQ(contains(element, "pattern"), inferred) << element;
     (inferred ? hatched : solid) += 1;
   }
-  EXPECT_EQ(hatched, 1u);  // plotted once, and drawn again for the other file formats
+  EXPECT_EQ(hatched, 1u);  // plotted once; the other file formats repeat the plot
   EXPECT_EQ(solid, 3u);
 }
 
@@ -108,7 +108,7 @@ TEST(ByEngine, TheCheapestRunOfEachWithinTheBoundBesideMysims) {
   EXPECT_EQ(number(t, 1, "times mysim"), 2);
   EXPECT_EQ(word(t, 2, "engine"), "bullet");
   EXPECT_EQ(number(t, 2, "times mysim"), 30);
-  // widest interval that both allow: (0.9 60) / (1.2 2) and (1.2 60) / (0.9 2)
+  // quotient of both intervals: (0.9 60) / (1.2 2) to (1.2 60) / (0.9 2)
   EXPECT_DOUBLE_EQ(number(t, 2, "times mysim low"), 22.5);
   EXPECT_DOUBLE_EQ(number(t, 2, "times mysim high"), 40);
 }
@@ -167,7 +167,7 @@ TEST(Styles, StandInTheMethodsRows) {
   std::vector<MethodStyle> all;
   for (const Method& m : builtin_methods())
     if (m.family().role != Role::truth) all.push_back(style_of(m.name));
-  for (size_t place = 0; place < 20; ++place) all.push_back(spare_style(place));  // for engines without a style
+  for (size_t place = 0; place < 20; ++place) all.push_back(spare_style(place));  // for engines without styles
   for (size_t i = 0; i < all.size(); ++i)
     for (size_t j = 0; j < i; ++j) EXPECT_FALSE(same(all[i], all[j])) << i << " " << j;
 }
@@ -175,9 +175,9 @@ TEST(Styles, StandInTheMethodsRows) {
 TEST(CheapestChart, SaysWhoIsFastestWhereTheClockCanTell) {
   Table t = table_of<EngineSpeedRow>();
   for (const double part : {0.1, 0.01, 0.001}) add_by_engine("cloth", part, Measure::error, part, runs, t);
-  // odeint is no slower than mysim here, within the intervals
+  // odeint is as fast as mysim here, within the intervals
   add_by_engine("rod", 0.01, Measure::error, 0.01, {point("mysim/xpbd", 1e-3, 2), point("odeint/rk4", 1e-6, 2.1)}, t);
-  // compared with a rule of mysim, which gives no error, so it is not in the figure
+  // a comparison with a rule of mysim gives no error, and is not in the figure
   add_by_engine("drape", 0.01, Measure::difference, 0.01, runs, t);
   const auto charts = charts_of(t);
   ASSERT_EQ(charts.size(), 1u);
@@ -277,7 +277,7 @@ using namespace testing_tools;
 
 JsonField json_of(const Chart& chart) { return JsonField::parse(dump(chart_json(chart)), "chart"); }
 
-/// A chart of one oscillating curve with `count` points.
+/// One oscillating curve.
 Chart swinging(int count) {
   Figure f;
   f.name = "swing", f.title = "a swing", f.caption = "c", f.finding = "It swings.";
@@ -386,7 +386,7 @@ TEST(ChartJson, OfCurvesSaysWhatIsDrawnBesideThem) {
   EXPECT_FALSE(json.find("flat"));
 }
 
-/// Mark of each series, with "open " in front if it is not filled.
+/// With "open " in front of marks that are not filled.
 std::vector<std::string> marks_of(const JsonField& chart) {
   std::vector<std::string> marks;
   for (const JsonField& part : chart["parts"].elements())
@@ -510,7 +510,7 @@ TEST(ChartJson, OfAMapHasEveryCellWithItsRun) {
   EXPECT_EQ(json["panels"][0]["measured"].size(), 1u);
 }
 
-/// A rule with a limit on two scenes, one that needs drag, one that is stable at every step, and one without theory.
+/// Limits of a rule on two scenes, and of rules that need drag, are stable at every step, or have no theory.
 std::vector<LimitRow> limit_rows() {
   const auto row = [](const char* scene, const char* method, PredictionKind theory, double predicted, double omega,
                       MeasuredLimit::Kind found, double measured, double held) {
@@ -598,7 +598,7 @@ TEST(StepLimits, AreTheSameOnPaperAndOnThePage) {
   EXPECT_EQ(methods_in({"", f, "stability"}), f.names);
 }
 
-/// Relative luminance by WCAG 2.
+/// WCAG 2.
 double luminance(const std::string& colour) {
   double sum = 0;
   constexpr double weights[] = {0.2126, 0.7152, 0.0722};
@@ -651,7 +651,7 @@ TEST(MethodLooks, FamiliesHaveTheirColours) {
       "truth/converged",        "exec:./my/engine"};
   const JsonField looks = JsonField::parse(dump(method_looks_json(names)), "looks");
   ASSERT_EQ(looks.size(), names.size());
-  std::map<std::string, std::string> families;  // by colour
+  std::map<std::string, std::string> families;
   for (const std::string& name : names) {
     const JsonField look = looks[name];
     EXPECT_FALSE(look["title"].text().empty()) << name;
@@ -705,7 +705,7 @@ struct Row {
   std::optional<double> own;
 };
 
-/// Rows of one method in the table of experiment `order`, from long steps to short ones.
+/// Rows of experiment `order`, from long steps to short ones.
 std::vector<Row> rows_of(const Scene& scene, const std::string& method, TableSet& result) {
   Request request;
   request.scenes = {scene};
@@ -730,10 +730,10 @@ TEST(OwnFinest, TellsWhoConvergesToAnotherLaw) {
     TableSet result;
     const std::vector<Row> rows = rows_of(*scene, "bullet/pbd", result);
     ASSERT_EQ(rows.size(), 5u);
-    EXPECT_FALSE(rows.back().own);  // no distance to itself
+    EXPECT_FALSE(rows.back().own);
     const Row& last = rows[3];
     EXPECT_DOUBLE_EQ(last.step, scene->step / 2);
-    // Order 1: the errors e and e/2 have distance e/2. With another law the error remains while the distance falls.
+    // order 1: errors e and e/2 have distance e/2; under another law, the error stays while the distance falls
     if (same_law) {
       EXPECT_NEAR(last.error / *last.own, 2, 0.1);
       EXPECT_NEAR(slope(rows[3].error, rows[4].error), 1, 0.05);
@@ -741,9 +741,9 @@ TEST(OwnFinest, TellsWhoConvergesToAnotherLaw) {
       EXPECT_GT(last.error / *last.own, 8);
       EXPECT_NEAR(rows[3].error / rows[4].error, 1, 0.1);
     }
-    // the remaining errors are 3 and 1 times that of the finest step, hence a factor of 3 at order 1
+    // order 1: the remaining errors are 3 and 1 times that of the finest step
     EXPECT_NEAR(*rows[2].own / *rows[3].own, 3, 0.1);
-    // the error due to another law has no order
+    // errors due to another law have no order
     EXPECT_EQ(result.table("order-slopes")->rows.size(), same_law ? 1u : 0u);
   }
 }
@@ -774,7 +774,7 @@ TEST(OwnFinest, OfAStepperFallsWithItsErrorAndRulesOfToleranceAreNamed) {
   TableSet result;
   const std::vector<Row> rows = rows_of(load_scene("pendulum"), "leapfrog,dopri5,odeint/dopri5", result);
   ASSERT_EQ(rows.size(), 7u);
-  // order 2: the distance is the error minus that of the finest step
+  // order 2: the distance is the difference of the errors
   for (int i = 2; i + 1 < 7; ++i) EXPECT_NEAR((rows[i].error - rows.back().error) / *rows[i].own, 1, 0.02);
   ASSERT_EQ(result.notes.size(), 1u);
   EXPECT_TRUE(contains(result.notes[0], "mysim/dopri5, odeint/dopri5: steps that follow a tolerance"));

@@ -1,5 +1,3 @@
-// check on the command line: exit statuses, files, and messages.
-
 #include "mysim/base/json.h"
 #include "tests/unit/helpers.h"
 #include "tests/unit/report/cli.h"

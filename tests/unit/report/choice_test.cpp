@@ -1,4 +1,4 @@
-// Findings on scenes and on balls, the choice of a method, and the answers at the top of the page, from hand-made rows.
+// Findings on scenes and balls, the choice of a method, and the page's first answers, from hand-made rows.
 
 #include "experiments/scenes/scenes.h"
 #include "experiments/speed_accuracy/speed_accuracy.h"
@@ -49,7 +49,6 @@ SceneData facts(std::vector<MethodData> methods) {
   return f;
 }
 
-/// Findings on a scene from hand-made data.
 class OfAScene : public testing::Test {
  protected:
   std::vector<Finding> said(const SceneData& data) const {
@@ -198,10 +197,10 @@ TEST(LeastModels, WhatHoldsAtSeveralTolerancesIsSaidOnce) {
   EXPECT_EQ(ingredients_text(""), "nothing");
 }
 
-/// Runs of methods with their costs on a scene whose motion is 1 m, and the row of the cheapest one within 1 %.
+/// Runs of methods with costs on a scene whose motion is 1 m, and a row of the cheapest run within 1 %.
 class Take : public testing::Test {
  protected:
-  /// Also adds a run with half the step, if the run succeeds.
+  /// A successful run is accompanied by one with half the step.
   void add_run(const std::string& method, double step, double error, double cpu, Verdict verdict = Verdict::ok) {
     SpeedAccuracyRow run;
     run.scene = scene, run.method = method, run.requested = run.step = step, run.verdict = verdict, run.motion = 1;
@@ -248,7 +247,7 @@ TEST_F(Take, OfRunsOfTheSameCostTheNearestIsTakenWhateverTheClockSays) {
   add_run("mysim/symplectic-euler", 2e-3, 8e-3, 0.10);
   add_run("mysim/leapfrog", 2e-3, 7e-4, 0.101);
   add_run("mysim/rk4", 4e-3, 5e-3, 0.102);
-  add_run("bullet/deformable-explicit", 4e-3, 5e-3, 0.05);  // not a candidate
+  add_run("bullet/deformable-explicit", 4e-3, 5e-3, 0.05);
   add_cheapest("mysim/symplectic-euler", 2e-3, 8e-3, 0.10);
   const auto run = recommended_run(scene, 0.01, rows());
   ASSERT_TRUE(run);
@@ -282,10 +281,10 @@ TEST_F(Take, OfRunsOfTheSameCostTheNearestIsTakenWhateverTheClockSays) {
 TEST_F(Take, WhatBindsTheStepIsWhatTheNextLongerOneDid) {
   add_run("mysim/leapfrog", 1e-3, 1e-3, 0.2);
   add_run("mysim/leapfrog", 4e-3, 0, 0, Verdict::energy);
-  add_run("mysim/rk4", 2e-3, 0, 0, Verdict::energy);  // another method
+  add_run("mysim/rk4", 2e-3, 0, 0, Verdict::energy);
   add_cheapest("mysim/leapfrog", 1e-3, 1e-3, 0.2);
   EXPECT_EQ(recommended_run(scene, 0.01, rows())->bound, "stability");
-  add_run("mysim/leapfrog", 2e-3, 0.02, 0.1);  // stable, but too inaccurate
+  add_run("mysim/leapfrog", 2e-3, 0.02, 0.1);  // stable but inaccurate
   EXPECT_EQ(recommended_run(scene, 0.01, rows())->bound, "accuracy");
 }
 
@@ -331,7 +330,7 @@ TEST_F(Take, IsRingedInItsChartBesideTheCriticalStepOfItsRule) {
   EXPECT_TRUE(contains(bound.guides[1].text, "2/ω = 2 ms")) << bound.guides[1].text;
 }
 
-/// Answers of a report on several scenes, with tables of every kind or with the engines' runs only.
+/// Answers of a report on several scenes, with all tables or only the engines' runs.
 class Answers : public Take {
  protected:
   void SetUp() override {

@@ -1,4 +1,4 @@
-// The program as users and scripts call it, in its own folder.
+// Calls the program in its own folder.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -40,7 +40,7 @@ class Cli : public testing::Test {
     text << in.rdbuf();
     return text.str();
   }
-  /// Rows of a table without the provenance lines, which contain the date.
+  /// Without provenance lines, which contain the date.
   static std::string rows(const fs::path& file) {
     std::istringstream in(read(file));
     std::string out;

@@ -1,5 +1,3 @@
-// regress on the command line: blessed results remain valid, and changes are detected.
-
 #include <algorithm>
 
 #include "tests/unit/report/cli.h"
@@ -12,7 +10,7 @@ namespace {
 
 class CliRegress : public Cli {
  protected:
-  /// Runs regress in a shell without CI, or with the variable CI set to `ci`.
+  /// `ci`: value of the variable CI.
   ProgramResult regress(std::vector<std::string> words, const std::string& ci = "") const {
     words.insert(words.begin(), {CROSSCHECK_PROGRAM, "regress", "--baselines", "mine"});
     return run_program(words, folder_, {"ASAN_OPTIONS=detect_leaks=0", "CI=" + ci});
@@ -43,7 +41,7 @@ TEST_F(CliRegress, AChangedValueIsCaughtNamedAndBlessedByItself) {
   std::string bad = good;
   const size_t row = bad.find("mysim/rk4,,always,peak stretch");
   ASSERT_NE(row, std::string::npos);
-  bad.replace(bad.find(",1,", row) + 3, 1, "7");  // the first digit of the value
+  bad.replace(bad.find(",1,", row) + 3, 1, "7");  // first digit of the value
   write("mine/spring.csv", bad);
   const ProgramResult caught = regress({"--filter", "spring"});
   EXPECT_EQ(caught.status, 1);
@@ -119,14 +117,14 @@ TEST_F(CliRegress, BadUseIsNamed) {
 TEST_F(CliRegress, OneMethodBesideAnother) {
   const ProgramResult same = regress({"--filter", "chain", "--method", "leapfrog", "--against", "leapfrog"});
   EXPECT_EQ(same.status, 0) << same.out;
-  // Bullet implements the same rule with other summation orders: differences within rounding.
+  // Bullet sums in another order, so that results differ by round-off
   const ProgramResult twins =
       regress({"--filter", "spring", "--method", "bullet/deformable-explicit", "--against", "symplectic-euler"});
   EXPECT_EQ(twins.status, 0) << twins.out;
   const ProgramResult other = regress({"--filter", "spring", "--method", "symplectic-euler", "--against", "leapfrog"});
   EXPECT_EQ(other.status, 1) << other.out;
   EXPECT_NE(other.out.find("moved      spring, mysim/symplectic-euler"), std::string::npos) << other.out;
-  // An external engine that implements the same rule: without contact or springs the fall agrees exactly.
+  // without contact or springs, an external engine with the same rule agrees exactly
   const ProgramResult outside =
       regress({"--filter", "projectile", "--method", "exec:" CROSSCHECK_EXAMPLE, "--against", "symplectic-euler"});
   EXPECT_EQ(outside.status, 0) << outside.out;
@@ -198,7 +196,7 @@ TEST_F(CliRegress, AUsersOwnSceneHasBaselinesToo) {
   EXPECT_NE(stale.out.find("stale      my-swing: baseline"), std::string::npos) << stale.out;
 }
 
-/// Removing a method from the suite also removes its quantities, which must not look like success.
+/// The quantities of a removed method must not look like success.
 TEST_F(CliRegress, WhatNobodyAsksAnyMoreIsSaid) {
   ASSERT_EQ(regress({"projectile", "--bless", "--full", "--reason", "all of it"}).status, 0);
   EXPECT_EQ(regress({"projectile"}).status, 0);
@@ -217,7 +215,7 @@ TEST_F(CliRegress, WhatNobodyAsksAnyMoreIsSaid) {
   EXPECT_EQ(regress({"projectile"}).status, 0);
 }
 
-/// Five of the mutants, each on one scene that reveals it. tests/mutants/prove.sh runs all of them.
+/// Five of the mutants, each on a scene that reveals it; tests/mutants/prove.sh runs all.
 TEST_F(CliRegress, MutantsAreCaughtAndTheOriginalIsNot) {
   const struct {
     const char *mutant, *scene;
@@ -240,7 +238,7 @@ TEST_F(CliRegress, MutantsAreCaughtAndTheOriginalIsNot) {
   }
 }
 
-/// Variants of the C library's sin, exp and pow that round twice instead of fusing must not raise false alarms.
+/// Variants of sin, exp and pow that round twice instead of fusing must not raise false alarms.
 TEST_F(CliRegress, OtherVariantsOfTheLibraryPass) {
   const ProgramResult same =
       run_program({CROSSCHECK_PROGRAM, "regress", "--filter", "spring/mysim/*"}, folder_,

@@ -1,4 +1,4 @@
-// The program as users and scripts call it: exit statuses, one-line messages, run, engines, shards of sweeps, advise.
+// The program on the command line: exit statuses, messages, run, engines, shards of sweeps, advise.
 
 #include <fmt/format.h>
 #include <sys/resource.h>
@@ -22,7 +22,7 @@ using namespace testing_tools;
 
 TEST_F(Cli, BadInputExitsWith2AndOneHelpfulLine) {
   const std::string good = own_scene;
-  // writes a faulty copy of the scene and returns the position of its fault as in a message: "FILE:LINE:"
+  // writes a faulty copy of the scene, and returns where a message must locate the fault: "FILE:LINE:"
   auto with = [&](const std::string& name, const std::string& from, const std::string& to, const std::string& fault) {
     std::string text = good;
     text.replace(text.find(from), from.size(), to);
@@ -159,7 +159,7 @@ TEST_F(Cli, ReportOfOwnSceneIsWholeAndTheSameTwice) {
   const std::string page = with_folds_put_back(read(folder_ / "one/index.html"));
   EXPECT_NE(page.find("Does a scene that nobody shipped work everywhere?"), std::string::npos);
   std::string addresses = page;
-  const std::string svg = "http://www.w3.org/2000/svg";  // a namespace, which is never loaded
+  const std::string svg = "http://www.w3.org/2000/svg";  // a namespace is never loaded
   for (size_t at; (at = addresses.find(svg)) != std::string::npos;) addresses.erase(at, svg.size());
   EXPECT_EQ(addresses.find("http://"), std::string::npos) << "the page must not need a network";
   EXPECT_EQ(page.find("https://"), std::string::npos);
@@ -168,7 +168,7 @@ TEST_F(Cli, ReportOfOwnSceneIsWholeAndTheSameTwice) {
       EXPECT_TRUE(fs::exists(folder_ / "one/figures" / (std::string(figure) + ending))) << figure << ending;
     EXPECT_NE(page.find(fmt::format("data-chart=\"{}\"", figure)), std::string::npos) << figure;
   }
-  // figures that open a chapter are drawn for paper, each in every format; others are not
+  // figures that open a chapter are drawn for paper, in every format
   int drawn = 0;
   for (const auto& entry : fs::directory_iterator(folder_ / "one/figures")) {
     if (entry.path().extension() != ".svg") continue;
@@ -190,7 +190,6 @@ TEST_F(Cli, ReportOfOwnSceneIsWholeAndTheSameTwice) {
       << "its data are in report.json";
   EXPECT_NE(page.find("<motion-player data-scene=\"mine\""), std::string::npos);
   EXPECT_NE(page.find("class=\"motion\" data-scene=\"mine\""), std::string::npos);
-  // answers at the top of the page
   const JsonField report = JsonField::parse_file(folder_ / "one/report.json");
   EXPECT_EQ(report["extent"].text(), "named");
   int answers = 0;
@@ -200,12 +199,12 @@ TEST_F(Cli, ReportOfOwnSceneIsWholeAndTheSameTwice) {
     answers += finding["topic"].text() == "answer";
   }
   EXPECT_GE(answers, 3);
-  // values read back from the engines' memory
+  // read back from the engines' memory
   EXPECT_NE(read(folder_ / "one/data/certificates.csv").find("mine,bullet/deformable-explicit,"), std::string::npos);
   EXPECT_NE(read(folder_ / "one/data/dictionary.csv").find("certificates,"), std::string::npos);
   EXPECT_EQ(call({"report", "--verify", "one"}).status, 0);
 
-  // `--from` rebuilds the identical page without running anything, next to the original and in its place.
+  // `--from` rebuilds the identical page without running anything, next to the original or in its place
   const std::string json = read(folder_ / "one/report.json");
   for (const char* out : {"from", "one"}) {
     const auto begin = std::chrono::steady_clock::now();
@@ -226,7 +225,7 @@ TEST_F(Cli, ReportOfOwnSceneIsWholeAndTheSameTwice) {
     EXPECT_FALSE(fs::exists(folder_ / "never"));
   }
 
-  // Two runs give identical data rows, SVG, PNG and PDF, except for costs and drawings of costs.
+  // two runs write the same data, SVG, PNG and PDF, except for costs
   int compared = 0;
   for (const auto& entry : fs::recursive_directory_iterator(folder_ / "one")) {
     const fs::path file = entry.path(), other = folder_ / "two" / fs::relative(file, folder_ / "one");
@@ -245,7 +244,7 @@ TEST_F(Cli, ReportOfOwnSceneIsWholeAndTheSameTwice) {
 }
 
 TEST_F(Cli, ReportClaimsNoAgreementWhereTheMotionIsChaotic) {
-  // Four masses thrown about without drag for 20 s: any two engines diverge, and the page must not call that round-off.
+  // four masses without drag for 20 s: any two engines diverge, which is not round-off
   std::string text = own_scene;
   const auto replace = [&](const std::string& from, const std::string& to) {
     text.replace(text.find(from), from.size(), to);
@@ -277,7 +276,7 @@ TEST_F(Cli, ReportOfBodiesAtRestAndFreeFlightIsWhole) {
   int figures = 0;
   EXPECT_EQ(looking_alike_in(folder_ / "out/figures", figures), "");
   const std::string page = read(folder_ / "out/index.html");
-  for (const char* number : {"nan ", "-nan", ">nan", "inf "})  // none of these can occur in base64
+  for (const char* number : {"nan ", "-nan", ">nan", "inf "})  // impossible in base64
     EXPECT_EQ(page.find(number), std::string::npos) << number;
 }
 
@@ -301,7 +300,7 @@ namespace {
 class CliRun : public Cli {};
 
 TEST_F(CliRun, KilledLeavesNoHalfFile) {
-  // Two thousand million steps of a chain take minutes, and frames are written all the time.
+  // two thousand million steps take minutes, and write frames all the time
   const ProgramResult result = run_program({"timeout", "-s", "KILL", "1", CROSSCHECK_PROGRAM, "run", "chain",
                                             "--duration", "19000", "--step", "1e-5", "--out", "out"},
                                            folder_);
@@ -327,11 +326,11 @@ TEST_F(CliRun, MoreFramesTakeNoMoreMemory) {
               std::string::npos);
     rusage used{};
     getrusage(RUSAGE_CHILDREN, &used);
-    return used.ru_maxrss / 1024.;  // MiB; maximum over all child processes so far
+    return used.ru_maxrss / 1024.;  // MiB, maximum over all child processes so far
   };
-  constexpr double frame = 2. * 3 * side * side * sizeof(double) / (1 << 20);  // MiB, positions and velocities
+  constexpr double frame = 2. * 3 * side * side * sizeof(double) / (1 << 20);  // MiB
   const double few = with_samples(2);
-  // allow a tenth of the size of the frames for variations of the allocator
+  // a tenth of the frames' size for variations of the allocator
   EXPECT_LT(with_samples(many) - few, 0.1 * many * frame);
 }
 
@@ -351,7 +350,7 @@ TEST_F(Cli, CompareStopsAtAMismatch) {
   EXPECT_NE(result.out.find("MISMATCH: bullet/deformable-explicit+default-rest was given another scene"),
             std::string::npos)
       << result.out;
-  // conversely, without the mismatch
+  // without the mismatch
   EXPECT_EQ(call({"compare", "spring", "--methods", "leapfrog,bullet/deformable-explicit", "--out", "out"}).status, 0);
 }
 
@@ -401,7 +400,7 @@ namespace {
 
 class CliSweep : public Cli {
  protected:
-  /// Tables of a folder by name, without the provenance lines and except for costs.
+  /// Tables by name, without provenance lines and costs.
   std::map<std::string, std::string> tables(const std::string& out) const {
     std::map<std::string, std::string> all;
     for (const auto& entry : fs::directory_iterator(folder_ / out))
@@ -453,7 +452,7 @@ TEST_F(CliSweep, ResumeKeepsWhatIsFinishedAndOthersAreNotJoined) {
       << mixed.err;
 }
 
-/// Runs array.sbatch as Slurm does, with a program that prints its arguments.
+/// Runs array.sbatch like Slurm, with a program that prints its arguments.
 class CliArray : public Cli {
  protected:
   void SetUp() override {
@@ -541,7 +540,7 @@ TEST_F(Cli, AdviseTakesAPartOfTheMotion) {
     EXPECT_EQ(refused.status, 2);
     EXPECT_TRUE(contains(refused.err, fmt::format("such as 1%, got '{}'", wrong))) << refused.err;
   }
-  // a scene without a reference solution, because its step is too long
+  // a scene without a truth, because its step is too long
   std::string fails = load_scene("jelly").source;
   fails.replace(fails.find("step = 1e-3"), 11, "step = 2e-2");
   write("fails.toml", fails);

@@ -1,4 +1,4 @@
-// The contract of a report's folder (report/CONTRACT.md): its example code reads a run and matches the run itself.
+// The example code of report/CONTRACT.md reads a run correctly.
 
 #include "tests/unit/helpers.h"
 #include "tests/unit/report/cli.h"

@@ -1,4 +1,4 @@
-// Adapters of engines packaged by Debian: built by `engine`, they follow mysim's rule.
+// Adapters for Debian's engines are built by `engine`, and follow mysim's rule.
 
 #include "tests/unit/helpers.h"
 #include "tests/unit/report/cli.h"
@@ -7,12 +7,12 @@ namespace crosscheck::testing_tools {
 namespace {
 
 struct Packaged {
-  std::string name, options;  // options that make it symplectic Euler, including drag
+  std::string name, options;  // that make it symplectic Euler with drag
 };
 
 class PackagedEngine : public Cli, public ::testing::WithParamInterface<Packaged> {
  protected:
-  /// Builds the adapter. Skips the test with the package's name if a package is missing.
+  /// Builds the adapter, or skips the test if a package is missing.
   void SetUp() override {
     Cli::SetUp();
     const ProgramResult made = call({"engine", GetParam().name, "-o", GetParam().name});

@@ -1,4 +1,4 @@
-// Runs the animation at the top of the page of a cloth and writes the observations into the page. Load it after
+// Runs the animation at the top of a cloth's page and writes its observations into the page. Requires
 // stage_selftest.js.
 addEventListener('load', async () => {
   const seen = {};

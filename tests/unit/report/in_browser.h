@@ -1,4 +1,4 @@
-// Opens a page from a file in a headless browser and reads the results of a script in it. Chromium is optional.
+// Opens pages in a headless browser (Chromium, optional) and reads the results of scripts.
 #pragma once
 
 #include "mysim/base/json.h"
@@ -10,11 +10,11 @@ namespace crosscheck::testing_tools {
 
 class InBrowser : public InFolder {
  protected:
-  /// Runs Chromium on the page with the given flags in addition to the usual ones.
+  /// `flags` are added to the usual ones.
   ProgramResult browse(const std::filesystem::path& page, const std::vector<std::string>& flags) const {
     std::vector<std::string> call{"chromium",
                                   "--headless=new",
-                                  "--no-sandbox",  // there is none as root in a container
+                                  "--no-sandbox",  // a container's root has none
                                   "--use-angle=swiftshader",
                                   "--enable-unsafe-swiftshader",
                                   "--disable-background-networking",
@@ -27,7 +27,7 @@ class InBrowser : public InFolder {
                                   "--window-size=900,800"};
     if (!real_time_) {
       call.emplace_back("--virtual-time-budget=60000");
-      // Render a quarter of the pixels without changing the layout, because drawing dominates the cost.
+      // a quarter of the pixels, with the same layout: drawing takes most of the time
       call.emplace_back("--force-device-scale-factor=0.5");
     }
     call.insert(call.end(), flags.begin(), flags.end());
@@ -35,10 +35,10 @@ class InBrowser : public InFolder {
     return run_program(call, folder_);
   }
 
-  /// Uses real time. The page reports its end by its load event (real_time.js).
+  /// The page reports its end by its load event (real_time.js).
   bool real_time_ = false;
 
-  /// These files of tests/unit as script elements for the head of a page.
+  /// Script elements with these files of tests/unit/report.
   static std::string scripts(const std::vector<std::string>& names) {
     std::string all;
     for (const std::string& name : names)
@@ -46,7 +46,7 @@ class InBrowser : public InFolder {
     return all;
   }
 
-  /// Results of the page's self-test, from <script id="seen">.
+  /// Results of a self-test, from <script id="seen">.
   JsonField seen(const std::filesystem::path& page, std::vector<std::string> flags) const {
     flags.emplace_back("--dump-dom");
     const ProgramResult result = browse(page, flags);

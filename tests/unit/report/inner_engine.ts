@@ -1,4 +1,4 @@
-// The lab's engine only, for Node.
+// Only the lab's engine, for Node.
 import {labModule} from '../../../report/page/lab/engine';
 
 Object.assign(globalThis, {labModule});

@@ -1,5 +1,4 @@
-// The installation written by `cmake --install` works without the build: in its own folder, with the source tree
-// hidden.
+// The result of `cmake --install` works without build and source tree.
 
 #include <gtest/gtest.h>
 
@@ -13,7 +12,6 @@
 namespace crosscheck::testing_tools {
 namespace {
 
-/// The installation, and an empty working folder.
 class Installed : public testing::Test {
  protected:
   static void SetUpTestSuite() {
@@ -29,7 +27,7 @@ class Installed : public testing::Test {
   static fs::path work() { return all_->path / "work"; }
   static fs::path program() { return prefix() / "bin/crosscheck"; }
 
-  /// Runs a shell command with an empty mount over the source tree.
+  /// Hides the source tree under an empty mount.
   static ProgramResult unseen(const std::string& command) {
     std::vector<std::string> words{"unshare", "--mount"};
     if (geteuid() != 0) words.insert(words.end(), {"--user", "--map-root-user"});
@@ -74,7 +72,7 @@ TEST_F(Installed, WorksWithoutTheSourceTree) {
     EXPECT_EQ(end.status, 0) << words << "\n" << end.out << end.err;
   }
   EXPECT_TRUE(fs::exists(work() / "handout"));
-  // the program writes nothing into the installation
+  // the installation is not writable
   const ProgramResult run = unseen(program().string() + " run chain --meshes obj");
   EXPECT_EQ(run.status, 0) << run.err;
   EXPECT_TRUE(fs::exists(work() / "out/run/meshes/frame-0001.obj"));
@@ -114,9 +112,9 @@ TEST_F(Installed, TheLibraryIsFoundAndRuns) {
   const ProgramResult rope = run_program({"rope/build/rope"}, work());
   EXPECT_EQ(rope.status, 0) << rope.err;
   EXPECT_TRUE(rope.out.starts_with("ok after ")) << rope.out;
-  // A shallow rope under the weight W = 0.883 N of nine particles is a parabola of depth d with tension W L / (8 d),
-  // and longer than L = 1 m by 8 d^2 / (3 L). With springs of E A = k l = 10 N this gives d^3 = 3 W L^3 / (64 E A). The
-  // parabola neglects slopes and the ten straight pieces, of size (4 d / L)^2 / 6, or 7 % of the change of length.
+  // A shallow rope under the weight W = 0.883 N of nine particles is a parabola of depth d. Its tension is W L / (8 d),
+  // and it is longer than L = 1 m by 8 d^2 / (3 L). Springs of E A = k l = 10 N give d^3 = 3 W L^3 / (64 E A).
+  // Neglected slopes and the ten straight pieces change the length by (4 d / L)^2 / 6, or 7 %.
   double depth = 0, lost = 0;
   ASSERT_EQ(std::sscanf(rope.out.c_str(), "ok after %*d steps of %*g s: it hangs %lf m deep and has lost %lf J", &depth,
                         &lost),
@@ -146,7 +144,7 @@ TEST_F(Installed, ManualAndCompletionsKnowAllOfHelp) {
   for (const std::string& command : commands) {
     if (command.empty() || command.starts_with("-")) continue;
     EXPECT_TRUE(contains(page, "\n.SS " + command + "\n")) << command;
-    // every line of --help that starts with an option
+    // lines of --help that start with an option
     const ProgramResult help = run_program({program().string(), command, "--help"}, work());
     EXPECT_EQ(help.status, 0) << command;
     const std::set<std::string> known = completed(command + " --");

@@ -1,5 +1,4 @@
-// Jolt as an engine: the programs that `engine jolt` writes, npm's build if npm is available, and a native one if
-// CROSSCHECK_JOLT names a source tree of Jolt.
+// Jolt as an engine: npm's build if npm is available, and a native one if CROSSCHECK_JOLT names a source tree of Jolt.
 
 #include <fmt/format.h>
 
@@ -15,7 +14,7 @@ namespace {
 
 class Jolt : public Cli, public ::testing::WithParamInterface<std::string> {
  protected:
-  /// Skips the npm variant without access to a registry, and the native one without a source tree.
+  /// Skips npm's build without a registry, and the native one without a source tree.
   void SetUp() override {
     Cli::SetUp();
     const char* tree = std::getenv("CROSSCHECK_JOLT");
@@ -26,7 +25,7 @@ class Jolt : public Cli, public ::testing::WithParamInterface<std::string> {
       GTEST_SKIP() << "this machine has no npm with access to a registry: Jolt is not tested";
   }
   static bool is_native() { return GetParam() == "native"; }
-  /// Builds the program and moves it, because it must not need files next to it. Returns "" if the build failed.
+  /// Moves the program, which must not need files next to it. Returns "" if the build failed.
   std::string built() const {
     std::vector<std::string> words{"engine", "jolt", "-o", "made"};
     words.insert(words.end(), from_.begin(), from_.end());
@@ -85,12 +84,11 @@ TEST_P(Jolt, AChainHangsWhereOnePassInSinglePrecisionLeavesIt) {
         call({"run", "chain.toml", "--method", fmt::format("{}+n={}", jolt, n), "--out", "chain"});
     ASSERT_EQ(run.status, 0) << run.err;
     const Points end = read_npy(folder_ / "chain/trajectory.npy", 7, 7, 4).back();
-    // In a sub-step d all particles fall by s = g d^2 (1 - gamma d), and a pass from the pin downwards corrects this.
-    // Edges that are longer by e_i give m e_i / (k d^2) = j s with j particles below, and a pass leaves (j - 1) s.
+    // In a sub-step d all particles fall by s = g d^2 (1 - gamma d), which a pass from the pin downwards corrects.
+    // Edges with excess lengths e_i satisfy m e_i / (k d^2) = j s with j particles below; a pass leaves (j - 1) s.
     const double d = h / n, s = g * d * d * (1 - gamma * d), soft = m / (k * d * d);
     const double sag = (3 * soft + 2) * s + (2 * soft + 1) * s + soft * s;
-    // Three roundings of a coordinate below 1 m per sub-step, of 3e-8 m each, also act as forces on 1 + 2 + 3
-    // particles.
+    // per sub-step three roundings of 3e-8 m in coordinates below 1 m, which also act as forces on 1 + 2 + 3 particles
     const double rounding = 6 * 3 * 3e-8 * soft;
     EXPECT_NEAR(-1.5 - end(1, 3), sag, rounding) << n;
     EXPECT_LT(rounding, 0.5 * std::abs(sag - 6 * m * g / k))
@@ -106,7 +104,7 @@ TEST_P(Jolt, FreezesWhereAStepOfTheFallIsLessThanHalfAUnitInTheLastPlace) {
     int power;      // the step is 2^power s
     bool frozen;
   };
-  // Units in the last place are 2^-24 m at 0.9 m and 2^-17 m at 100 m. g h^2 is 0.61, 0.15, 1.2 and 0.31 of them.
+  // units in the last place: 2^-24 m at 0.9 m, 2^-17 m at 100 m; g h^2 is 0.61, 0.15, 1.2 and 0.31 of them
   for (const Row& row : {Row{0.9, -14, false}, {0.9, -15, true}, {100, -10, false}, {100, -11, true}}) {
     write("fall.toml", scene_text(0.125, 1, std::ldexp(1, row.power),
                                   fmt::format("[[particle]]\nposition = [0, {}, 0]\nmass = 1\n", row.height)));

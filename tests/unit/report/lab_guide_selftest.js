@@ -1,5 +1,5 @@
-// The guided experiments from end to end: answers and completes every step, and checks all texts shown on the way.
-// Calls produce the frames, each a tenth of a second after the previous one, and nothing is drawn.
+// Completes every step of the guided experiments, and checks all texts on the way. Frames are calls, a tenth of a
+// second apart, without drawing.
 
 const labGuideTest = (() => {
   const guide = () => document.querySelector('lab-guide');
@@ -54,7 +54,7 @@ const labGuideTest = (() => {
         const text = part.textContent.trim();
         check(text.length > 0, where, selector, 'is empty');
         check(!raw.test(text), where, selector, 'says', text);
-        // Chinese text contains Chinese characters unless it consists of numbers and formulas.
+        // Chinese text has Chinese characters, unless it consists of numbers and formulas
         check(language === 'zh' ? /[\u4e00-\u9fff]/.test(text) : !/[\u3000-\u9fff\uff00-\uffef]/.test(text), where, selector, 'is in another language:', text);
         if (language !== 'en') continue;
         for (const sentence of text.split(/[.?!;](?:\s|$)/)) {
@@ -99,7 +99,7 @@ const labGuideTest = (() => {
         check(tick.classList.contains('done') && tick.textContent === '✓' && guideProgress.of(experiment, step), where, 'is not ticked');
         const right = step.guess ? 'guide.near' : 'guide.right', wrong = step.guess ? 'guide.far' : 'guide.wrong';
         const begins = say(guessRight ? right : wrong, {guess: '|', answer: '|'}).split('|')[0];
-        // a number read before the task may change after it
+        // a number that was read before the task may have changed
         check(outcome.startsWith(begins) || (step.guess && guessRight), where, 'says of the guess:', outcome);
         if (!step.guess) check(outcome.includes(say(`${where}.${step.right}`)), where, 'gives the answer', outcome);
         check(guide().querySelectorAll('.guess.right').length === (step.guess ? 0 : 1), where, 'marks no answer as right');
@@ -112,7 +112,7 @@ const labGuideTest = (() => {
     check(location.hash === '', 'in the sandbox the address keeps', location.hash);
     byKey('all').click();
     check(guide().querySelectorAll('.entry.done').length === labExperiments.length, 'done are', guide().querySelectorAll('.entry.done').length);
-    // a completed step shows its result again and can be repeated; each step has an address
+    // a completed step shows its result and can be repeated; each step has an address
     location.hash = '#experiment=cloth-bursts';
     await until(() => guide().dataset.experiment === 'cloth-bursts' && !guide().setting, 'the experiment of the address');
     await until(() => guide().dataset.phase === 'why', 'what was done');

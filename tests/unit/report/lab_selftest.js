@@ -1,6 +1,5 @@
-// Runs every scene of a page with every stepper of the lab's engine, in Node and in a browser. `runs` contains {scene,
-// stepper, steps, exact, duration}. Returns the fingerprint and time of each run, and the final positions of those that
-// are not exact.
+// Runs scenes with steppers of the lab's engine, in Node or a browser. `runs` contains {scene, stepper, steps, exact,
+// duration}. Returns each run's fingerprint and time, and final positions of runs that are not exact.
 async function runAll(runs) {
   const lab = await labModule(), scenes = labScenes(), seen = [];
   for (const {scene, stepper, steps, exact, duration} of runs) {

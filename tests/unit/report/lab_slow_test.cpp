@@ -1,5 +1,5 @@
-// mysim as WebAssembly reproduces native results in Node and in a browser, for every shipped scene and stepper. Also
-// tests the lab as users use it, in a browser.
+// mysim as WebAssembly reproduces native results in Node and in a browser, for every shipped scene and stepper. Tests
+// the lab in use.
 
 #include <fmt/ranges.h>
 #include <nlohmann/json.hpp>
@@ -35,12 +35,12 @@ namespace {
 using namespace testing_tools;
 namespace fs = std::filesystem;
 
-/// A run of `steps` steps with the native build.
+/// `steps` steps with the native build.
 struct NativeRun {
   std::string scene, stepper;
   double duration = 0;
   int steps = 0;
-  bool exact = false;  // requires identical bits
+  bool exact = false;  // identical bits are required
   std::string fingerprint;
   double t = 0;
   Points x;
@@ -63,8 +63,8 @@ class LabModule : public InBrowser {
     return scenes;
   }
 
-  /// Runs of every stepper that supports the scene, with `steps` steps. Implicit and adaptive ones stop where a
-  /// perturbation has grown a thousandfold.
+  /// For every stepper that supports the scene. Implicit and adaptive ones stop where a perturbation has grown a
+  /// thousandfold.
   static std::vector<NativeRun> native_runs(const std::vector<Scene>& scenes, int steps) {
     std::vector<NativeRun> runs;
     for (const Scene& scene : scenes)
@@ -115,8 +115,8 @@ class LabModule : public InBrowser {
         ++exact;
         continue;
       }
-      // Solvers stop at 1e-12 of their residual, and different summation orders matter less: 1e-10 m over a run of some
-      // metres, which grows at most a thousandfold within a window.
+      // solvers stop at a residual of 1e-12: 1e-10 m over a run of some metres, growing at most a thousandfold within a
+      // window
       EXPECT_NEAR(entry["t"].number(), run.t, 1e-9);
       const std::vector<double> places = entry["places"].numbers();
       ASSERT_EQ(places.size(), static_cast<size_t>(run.x.size()));
@@ -124,10 +124,10 @@ class LabModule : public InBrowser {
       EXPECT_LT(largest_column(x - run.x), 1e-7);
     }
     EXPECT_EQ(i, native.size());
-    EXPECT_GT(exact, 60u);  // 20 scenes, most of which support seven such rules
+    EXPECT_GT(exact, 60u);  // 20 scenes, most with seven such rules
   }
 
-  /// A page that contains only the lab, with a self-test in the scope of its scripts. `call` evaluates to its result.
+  /// The lab alone, with a self-test in the scope of its scripts. `call` evaluates to the result.
   fs::path page_with(const std::vector<Scene>& scenes, const std::string& script, const std::string& call) const {
     std::string page = lab_page_html(scenes);
     const std::string own = page_script("lab_page");
@@ -153,8 +153,8 @@ class LabModule : public InBrowser {
     return scenes;
   }
 
-  /// Result of a self-test of the lab's use in real time. Reports its complaints as failures. `edit` changes the page
-  /// before, and `place` is appended to its address.
+  /// Uses the lab in real time, and turns complaints into failures. `edit` changes the page before; `place` is appended
+  /// to its address.
   JsonField use(const std::vector<Scene>& scenes, const std::string& call, void (*edit)(std::string& page) = nullptr,
                 const std::string& place = "") {
     real_time_ = true;
@@ -173,7 +173,7 @@ class LabModule : public InBrowser {
     return all;
   }
 
-  /// Expects scenes saved by the lab to run natively with identical bits.
+  /// Expects scenes saved by the lab to give identical bits natively.
   static void run_natively(const JsonField& all, size_t count) {
     const auto saves = all.find("saves");
     ASSERT_TRUE(saves);
@@ -195,8 +195,7 @@ TEST_F(LabModule, GivesTheNativeBitsInNode) {
   NEEDS_PROGRAM("node", "nodejs", "mysim is not tested as WebAssembly outside a browser");
   NEEDS_LAB;
   const std::vector<Scene> scenes = shipped();
-  // Node and Chromium share their WebAssembly engine. If Chromium is available, the browser's test covers the long
-  // runs.
+  // Node and Chromium share their WebAssembly engine. If Chromium is available, its test covers the long runs.
   const std::vector<NativeRun> native = native_runs(scenes, on_path("chromium") ? 100 : 1000);
   Json texts = Json::object();
   for (const Scene& scene : scenes) texts[scene.name] = scene.source;
@@ -225,7 +224,7 @@ TEST_F(LabModule, SlidersChangeTheirNumberAlone) {
   NEEDS_LAB;
   NEEDS_CHROMIUM;
   const JsonField all = use(shipped(), "labUse.sliders(Object.keys(labScenes()))");
-  EXPECT_GT(all["moved"].number(), 250);  // three positions of each
+  EXPECT_GT(all["moved"].number(), 250);  // three positions per slider
 }
 
 TEST_F(LabModule, MarksAreTheNativeCriticalSteps) {
@@ -264,7 +263,7 @@ TEST_F(LabModule, MarksAreTheNativeCriticalSteps) {
   EXPECT_GT(marked, 60);
 }
 
-/// Every stepper blows up above its critical step and is stable below it.
+/// Every stepper blows up above its critical step, and not below.
 TEST_F(LabModule, BurstsAboveTheMarkAlone) {
   NEEDS_LAB;
   NEEDS_CHROMIUM;
@@ -282,7 +281,7 @@ TEST_F(LabModule, NoFrameComputesLongWhileItBursts) {
   NEEDS_CHROMIUM;
   const JsonField all = use(scenes_of({"cloth-hang"}), "labUse.burstsInFrames('cloth-hang')");
   EXPECT_GT(all["frames"].number(), 20);
-  // ms; ignores the two longest frames, in which the machine may have been busy
+  // ms; ignores two frames, because the machine may have been busy
   EXPECT_LT(all["longest"].numbers().at(2), 100);
 }
 
@@ -370,7 +369,7 @@ TEST_F(LabModule, TabReachesEveryControl) {
   const auto found = all.find("stops");
   ASSERT_TRUE(found);
   const std::vector<std::string> stops = found->texts();
-  // from the head to the picture, then its controls, the methods, the scene's numbers and the export buttons
+  // from the head to the picture, its controls, the methods, the scene's numbers and the export buttons
   auto from = stops.begin();
   for (const char* next :
        {"scene", "language", "picture", "run", "step", "restart", "resetView", "A", "step-A range", "B", "step-B range",
@@ -431,12 +430,12 @@ TEST_F(LabModule, AFingerDragsAParticleAndMovesASlider) {
   ASSERT_EQ(result.status, 0) << last_lines(result.err, 20);
   const JsonField saw = JsonField::parse(result.out, "what was touched");
   const JsonField drag = saw["drag"], slider = saw["slider"];
-  // The finger moves 60 pixels to the left and 40 down; the camera follows part of that.
+  // the finger moves 60 px to the left and 40 down; the camera follows in part
   EXPECT_LT(drag["to"][0].number(), drag["from"][0].number() - 30);
   EXPECT_GT(drag["to"][1].number(), drag["from"][1].number() + 15);
   EXPECT_TRUE(drag["byHand"].boolean());
   EXPECT_LT(slider["is"].number(), 0.8 * slider["was"].number());
-  // Text above may need another pixel. A finger that scrolls moves the page by 40.
+  // text above may change by a pixel; a scroll would move the page by 40
   for (const JsonField& each : {drag, slider})
     EXPECT_NEAR(each["scrolled"][0][1].number(), each["scrolled"][1][1].number(), 3) << "the page must not scroll";
 }

@@ -1,5 +1,5 @@
-// A run that is watched and changed by hand while it proceeds equals the engine's run bit for bit, and a scene starts
-// in the state given by [start].
+// A run that is watched and changed by hand equals the engine's run bit for bit. A scene starts in the state of
+// [start].
 
 #include <gtest/gtest.h>
 
@@ -52,11 +52,11 @@ TEST(LiveRun, PredictsTheCriticalStepAndFailsAboveItAlone) {
   for (const Stepper& stepper : steppers()) {
     const std::optional<double> limit = LiveRun(spring).critical_step(stepper);
     if (!limit || !(*limit > 0) || !std::isfinite(*limit)) continue;
-    // Above its limit rk4 throws the mass over its pin, where the spring's force reverses, and stays bounded.
+    // above its limit rk4 stays bounded: it throws the mass over its pin, where the spring's force reverses
     if (!stepper.symplectic) continue;
     ++tried;
     for (const double part : {0.98, 1.02}) {
-      // ten steps between two samples, so that no step is shortened
+      // ten steps between samples, so that no step is shortened
       Scene scene = spring;
       scene.samples = 400, scene.duration = 10 * 400 * part * *limit;
       LiveRun live(scene);
@@ -84,7 +84,7 @@ TEST(LiveRun, AHandHoldsAParticleWhereItIsPut) {
   live.release();
   live.advance(0.1, 1000000);
   EXPECT_NE(live.state().x.col(last), place);
-  // a pin does not move; it moves again once it is released
+  // a pin stays until it is released
   live.set_pinned(last, true);
   const Vec3 pinned = live.state().x.col(last);
   live.advance(0.1, 1000000);
@@ -92,7 +92,7 @@ TEST(LiveRun, AHandHoldsAParticleWhereItIsPut) {
   live.set_pinned(last, false);
   live.advance(0.1, 1000000);
   EXPECT_NE(live.state().x.col(last), pinned);
-  // a particle that was pinned before the hand took it remains pinned
+  // a particle that was already pinned stays pinned
   const int pin = scene.model.particles.pins.front();
   live.hold(pin, Vec3(0.05, 0, 0));
   live.release();

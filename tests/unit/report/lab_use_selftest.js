@@ -1,5 +1,5 @@
-// The lab as users use it: sliders, blow-ups, dragging, export and keys. Each function returns its observations. Frames
-// are drawn only if a test requires it. Otherwise calls advance the runs, so that nothing depends on the frame rate.
+// The lab in use: sliders, blow-ups, dragging, export and keys. Each function returns its observations. Calls advance
+// the runs, and frames are drawn only where required, so that nothing depends on the frame rate.
 
 const labUse = (() => {
   const theLab = () => document.querySelector('live-lab');
@@ -70,9 +70,8 @@ const labUse = (() => {
     return value === undefined ? NaN : Number(value) * {µs: 1e-6, ms: 1e-3, s: 1}[unit];
   }
 
-  // Sliders.
 
-  /** Keys at which two scene texts differ, as "section.key", or "section" for a header. Independent of the lab's parser. */
+  /** Keys at which two scene texts differ, as "section.key" or "section". Independent of the lab's parser. */
   function differences(from, to) {
     const a = from.split('\n'), b = to.split('\n'), places = new Set();
     if (a.length !== b.length) return ['the number of lines'];
@@ -106,7 +105,7 @@ const labUse = (() => {
           const {reading} = lab, [run] = lab.runs, places = differences(shipped, lab.toml);
           well(lab.good === lab.toml && !run.refusal && !run.fault, 'is not taken:', run.refusal, run.fault, lab.view.said.textContent);
           if (lab.view.said.classList.contains('failed')) {
-            // a ball must not reach the initial position of a particle
+            // a ball must not reach a particle's initial position
             well(name === 'sphere.radius' && part === 1 && lab.toml === before && /sphere/.test(lab.view.said.textContent), 'is refused:', lab.view.said.textContent);
             well(Number(knobOf(name).querySelector('input[type=number]').value) === numberAt(before, name), 'shows a number that was refused');
             lab.view.say('');
@@ -127,7 +126,6 @@ const labUse = (() => {
         await until(() => lab.toml === shipped, `${scene} as it is shipped`);
       }
     }
-    // the tolerance of an adaptive stepper
     const lab = await opened({scene: scenes[0], methods: [{method: 'dopri5'}]}, false), tolerances = [];
     for (const part of [0, 1]) {
       slide(knobOf('tolerance-A'), part);
@@ -136,7 +134,7 @@ const labUse = (() => {
       all.check(!lab.runs[0].refusal && lab.runs[0].sim.steps > 0 && lab.toml === sceneText(scenes[0]), 'dopri5 does not run:', lab.runs[0].refusal);
     }
     all.check(tolerances[0] === 1e-10 && tolerances[1] === 1e-2, 'the tolerances are', tolerances);
-    // a slider that is still moving takes effect soon
+    // a moving slider takes effect soon
     const knob = lab.querySelector('.knobs .knob'), range = knob.querySelector('input[type=range]');
     const before = lab.good;
     range.value = Number(range.value) + 50;
@@ -166,12 +164,13 @@ const labUse = (() => {
         if (lab.lab.steppers.find(s => s.name === value).adaptive) continue;
         words[scene][value] = lab.querySelector('.mark-words').textContent;
       }
-      if (![...select().options].some(option => option.value === 'leapfrog')) continue;  // a first-order scene
+      if (![...select().options].some(option => option.value === 'leapfrog')) continue;  // first order
       choose(select(), 'leapfrog');
       const said = () => timeIn(lab.querySelector('.mark-words').textContent);
       const knob = ['grid.stiffness', 'spring.stiffness'].map(knobOf).find(Boolean), limit = lab.reading?.limitA;
       if (!knob || !Number.isFinite(limit)) continue;
-      if (/^bending/m.test(lab.toml)) continue;  // the rigidity, which this slider does not change, also limits the step
+      if (/^bending/m.test(lab.toml)) continue;  // the rigidity, which this slider does not change, also limits the
+                                                 // step
       const name = knob.dataset.knob, own = Number(knob.querySelector('input[type=number]').value), before = said();
       const at = () => Number(lab.querySelector('.method').style.getPropertyValue('--at'));
       const bound = () => lab.querySelector('.method').classList.contains('bound'), place = bound() && at();
@@ -180,7 +179,7 @@ const labUse = (() => {
       all.check(Math.abs(lab.reading.limitA / limit - 2) < 0.02, scene, 'the limit goes from', limit, 'to', lab.reading.limitA);
       if (bound() && place !== false) all.check(at() !== place, scene, 'the mark stays at', place);
     }
-    // the address may name a method that does not support the scene
+    // an address may name a method that does not support the scene
     for (const [scene, method] of refused.slice(-1).map(words => words.split(' '))) {
       const lab = await opened({scene, methods: [{method}]}, false), [run] = lab.runs;
       all.check(run.refusal && lab.querySelector('.method .note').textContent.includes(run.refusal), scene, method, 'is not refused when it is opened');
@@ -191,7 +190,6 @@ const labUse = (() => {
     return {...all, words, refused};
   }
 
-  // Blow-ups.
 
   /**
    * A scene for each rule. `above` and `below` are fractions of its critical step. Explicit Euler's critical step is
@@ -230,7 +228,7 @@ const labUse = (() => {
       const step = limit > 0 ? above * limit : 100 * lab.runs[0].sim.scene.step, run = await runAt(step), row = {method, above: run.sim.h / limit, at: run.time};
       well(run.failed && run.time < duration, 'holds at', step, 's,', above, 'of its critical step', limit);
       well(lab.dataset.verdict === run.verdict && run.verdict !== 'ok', 'is judged', lab.dataset.verdict);
-      // if a single spring swings by more than a tenth of its length, there is no small mode to grow
+      // a single spring that swings by more than a tenth of its length has no small mode
       const {growth} = run.sim, most = growth && Math.max(...growth.map(Math.abs)), shown = growth || scene !== 'spring';
       if (shown) well(growth && growth.length === run.places.length && most > 0.5 && most <= 1 + 1e-12 && lab.growth?.letter === 'A', 'has no mode that grows');
       well(isFinite3(run.places), 'leaves no picture');
@@ -240,7 +238,7 @@ const labUse = (() => {
       verdict.querySelector('[data-act=restart]').click();
       const [again] = lab.runs;
       well(lab.reading.t === 0 && !again.ended && lab.dataset.verdict === 'ok' && !lab.growth && verdict.hidden, 'does not start again');
-      for (let i = 0; i < 3; ++i) again.advance(again.time + 1.5 * again.sim.h, Infinity);  // one call shows one step of a burst
+      for (let i = 0; i < 3; ++i) again.advance(again.time + 1.5 * again.sim.h, Infinity);  // one step per call
       well(again.sim.steps >= 3 && !again.fault, 'does not run again');
       if (limit > 0) {
         const held = await runAt(below * limit);
@@ -280,9 +278,8 @@ const labUse = (() => {
     return {...all, frames: spent.length, longest: spent.slice(0, 5)};
   }
 
-  // Dragging by hand.
 
-  /** Screen position of a particle of the first run. */
+  /** On the screen, for the first run. */
   function placeOf(particle) {
     const lab = theLab(), [x, y] = lab.stage.project(lab.runs[0].places.subarray(3 * particle, 3 * particle + 3), lab.stage.boxes[0]);
     const box = lab.view.layer.getBoundingClientRect();
@@ -325,7 +322,7 @@ const labUse = (() => {
     const pins = () => [...lab.runs[0].sim.scene.pins], words = () => lab.view.particle.textContent, {layer} = lab.view;
     const runOn = time => {
       const end = lab.clock + time;
-      lab.frameTime = 4000;  // ms; enough time for the truth and its error bar
+      lab.frameTime = 4000;  // ms; enough for the truth and its error bar
       for (let i = 0; i < 200 && lab.clock < end - 1e-9; ++i) lab.advance(end - lab.clock);
     };
     runOn(0.2);
@@ -354,7 +351,7 @@ const labUse = (() => {
       await until(() => (lab.sample(), lab.reading.error > 0), 'the error after the hand');
       lab.showNow(true);
       check(lab.truth?.known && lab.view.truthWords.textContent.startsWith(say('truthByHand', {stepper: nameOfMethod(lab.truth.spec.method), h: '…'}).split('…')[0]), type, 'says', lab.view.truthWords.textContent);
-      // an independent run at an eighth of the step, from the state in which the hand released the particle
+      // an independent run with an eighth of the step, from the state at the release
       const last = free.samples[free.samples.length - 1], own = lab.lab.open(free.sim.sceneText());
       own.start({stepper: 'suzuki4', step: free.sim.h / 8, observe: false});
       own.advance(free.sim.t);
@@ -364,7 +361,7 @@ const labUse = (() => {
       own.close();
       errors.push(error);
     }
-    // a click selects, a double click pins the particle at its position and releases it again
+    // a click selects a particle, a double click pins or releases it
     await frame();
     const other = particle - 1, place = placeOf(other);
     pointer('pointerdown', place);
@@ -379,7 +376,7 @@ const labUse = (() => {
     check(!pins().includes(other) && button('pin').textContent === say('pin'), 'a button lets go', pins());
     runOn(0.05);
     check(at.some((v, k) => v !== lab.runs[0].places[3 * other + k]), 'a pin stays though it was let go');
-    // dragging the background rotates the view, and restart resets everything
+    // dragging the background rotates the view; restart resets everything
     await frame();
     const {yaw} = lab.orbit, box = layer.getBoundingClientRect(), corner = {clientX: box.left + 4, clientY: box.bottom - 4};
     pointer('pointerdown', corner);
@@ -445,7 +442,6 @@ const labUse = (() => {
     return all;
   }
 
-  // Export and import.
 
   /** Text and name of the file that a button saves. */
   async function saved(act) {
@@ -473,7 +469,7 @@ const labUse = (() => {
     const {method, step, scene} = {...lab.methods[0], scene: lab.reading.scene};
     check(sim.steps < countedSteps, 'is', sim.steps, 'steps on');
     const fingerprint = steps(sim, countedSteps - sim.steps);
-    // change the state, and restore it from the address
+    // restore the state from the address
     await lab.setState({scene: 'pendulum', methods: [{method: 'rk4', step: 0.01}]});
     check(lab.reading.scene === 'pendulum', 'does not go elsewhere');
     location.hash = link.split('#')[1];
@@ -484,7 +480,7 @@ const labUse = (() => {
     check(!restored.refusal && lab.reading.t === 0, 'comes back refused:', restored.refusal);
     const again = restored.refusal ? '' : steps(restored.sim, countedSteps);
     check(again === fingerprint, 'comes back to', again, 'for', fingerprint);
-    // restore it from the file, as opened here
+    // restore it from the file
     await lab.acts.file(new File([file.text], 'saved.toml'));
     check(lab.reading.scene === 'saved' && lab.methods[0].method === method, 'is opened as', lab.reading.scene, JSON.stringify(lab.methods), lab.view.said.textContent);
     const opened = lab.runs[0].refusal ? lab.runs[0].refusal : steps(lab.runs[0].sim, countedSteps);
@@ -510,7 +506,6 @@ const labUse = (() => {
   async function changedByHand() {
     const all = new Complaints(), saves = [], keep = async name => saves.push(await roundTrip(all, name));
     const runOn = count => steps(theLab().runs[0].sim, count);
-    // a pinned particle and a drag
     const lab = await opened({scene: 'cloth-hang', methods: [{method: 'leapfrog', step: 7e-4}]});
     runOn(90);
     lab.clock = lab.runs[0].time, lab.runs[0].keepPlaces();
@@ -521,28 +516,25 @@ const labUse = (() => {
     runOn(13);
     all.check(lab.byHand && [...lab.runs[0].sim.scene.pins].join() === '0,19,210', 'the pins are', lab.runs[0].sim.scene.pins.join());
     await keep('drag and pin');
-    // while the hand holds the particle
+    // while held
     await opened({scene: 'cloth-hang'});
     runOn(30);
     lab.runs[0].keepPlaces();
     await drag(390, 30, -20, false);
     runOn(5);
     await keep('held');
-    // a moving ball, some time after its start
     await opened({scene: 'cloth-carried'});
     runOn(700);
     lab.runs[0].keepPlaces();
     await drag(255, 25, -35);
     runOn(9);
     await keep('moving ball');
-    // no pins at all
     await opened({scene: 'cloth-hang', methods: [{method: 'suzuki4', step: 9e-4}]});
     runOn(40);
     for (const corner of [0, 19]) lab.hand.choose(corner), button('pin').click();
     all.check(lab.runs[0].sim.scene.pins.length === 0, 'pins are left:', lab.runs[0].sim.scene.pins);
     runOn(17);
     await keep('no pins');
-    // moving pins, one of which is released
     await opened({scene: 'cloth-swing'});
     runOn(300);
     lab.hand.choose(19), button('pin').click();
@@ -603,9 +595,8 @@ const labUse = (() => {
     return {...all, said};
   }
 
-  // Missing features, animations, keyboard focus.
 
-  /** Checks the page's message if it cannot open the lab. */
+  /** The message of a page that cannot open the lab. */
   async function unavailable() {
     const lab = theLab();
     await until(() => lab.dataset.state === 'unavailable', 'the lab to give up');
@@ -677,7 +668,7 @@ const labUse = (() => {
     const all = new Complaints(), lab = await opened({scene: 'circle'}), {stage} = lab, course = () => lab.stage.course;
     const points = () => Array.from({length: course().count + 1}, (_, i) => [...course().table.data.subarray(4 * i, 4 * i + 3)]);
     all.check(lab.reading.t === 0 && course().count > 500, 'has a course of', course().count);
-    // single precision
+    // in single precision
     all.check(points().every(point => Math.abs(Math.hypot(...point) - 1) < 1e-6), 'leaves the circle');
     all.check(points()[0].every((v, k) => v === Math.fround(lab.runs[0].places[k])), 'does not begin at the particle');
     lab.draw();
@@ -703,7 +694,7 @@ const labUse = (() => {
   /** Drags while the lab runs and draws coarsely, as it does if drawing is slow. */
   async function dragsCoarsely(scene, particle) {
     const all = new Complaints(), check = all.check.bind(all), lab = await opened({scene}), fine = lab.stage;
-    // pretend slow frames without computing time
+    // pretends slow frames
     lab.play();
     await until(() => lab.playing && lab.reading.t > 0, 'the run');
     for (let i = 0; i < 40 && lab.stage === fine; ++i) lab.watchDrawing(100, 1);
@@ -713,7 +704,7 @@ const labUse = (() => {
     for (const type of ['mouse', 'touch']) {
       const to = await drag(particle, type === 'mouse' ? 40 : -40, -30, false, type), [run] = lab.runs;
       check(lab.hand.held?.particle === particle && lab.reading.byHand, type, 'does not hold the particle');
-      // a moving camera moves the particle a frame later
+      // the particle follows a moving camera a frame later
       await until(() => apart(placeOf(particle), to) < 3, `${type}: the particle under the pointer`);
       const {t} = lab.reading;
       await until(() => lab.reading.t > t + 0.02, `${type}: time passes while the hand holds`);
@@ -759,10 +750,9 @@ const labUse = (() => {
       each.focus({preventScroll: true});
       return document.activeElement === each;
     });
-    // the focusable elements must include everything that can be clicked or edited
+    // all controls are focusable
     for (const each of lab.querySelectorAll('button, input, select, a[href], textarea, [onclick], [role=button]'))
       if (shown(each) && !each.disabled) all.check(stops.includes(each), each.outerHTML.slice(0, 120), 'is not reached');
-    // each has a name
     for (const each of stops) {
       const name = each.getAttribute('aria-label') ?? (each.labels?.[0]?.textContent || each.textContent);
       all.check(name.trim().length > 0, each.outerHTML.slice(0, 120), 'has no name');

@@ -1,4 +1,3 @@
-// Artificial findings for tests, lookup by rule, and counts of words and substrings.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -15,14 +14,13 @@ inline size_t words_in(const std::string& sentence) {
   return static_cast<size_t>(std::distance(std::istream_iterator<std::string>(in), {}));
 }
 
-/// Number of occurrences of a substring.
 inline int count(const std::string& text, const std::string& part) {
   int n = 0;
   for (size_t at = text.find(part); at != std::string::npos; at = text.find(part, at + 1)) ++n;
   return n;
 }
 
-/// An artificial finding of a rule, with its first text, and `word` for every placeholder.
+/// With the rule's first text, and `word` for every placeholder.
 inline Finding made_up(const FindingRule& rule, const std::string& word) {
   Finding f{.rule = std::string(rule.key),
             .scene = word,
@@ -38,21 +36,19 @@ inline Finding made_up(const FindingRule& rule, const std::string& word) {
   return f;
 }
 
-/// First rule of a chapter that is an answer, or that is not one.
 inline const FindingRule& rule_of_chapter(std::string_view chapter, bool is_answer) {
   for (const FindingRule& rule : finding_rules())
     if (rule.chapter == chapter && (rule.topic == "answer") == is_answer) return rule;
   throw std::out_of_range("no rule of that chapter");
 }
 
-/// All findings of a rule.
 inline std::vector<Finding> of_rule(const std::vector<Finding>& findings, std::string_view rule) {
   std::vector<Finding> found;
   for (const Finding& f : findings)
     if (f.rule == rule) found.push_back(f);
   return found;
 }
-/// The only finding of a rule. Fails and returns an empty one if there is not exactly one.
+/// Fails and returns an empty finding if there is not exactly one.
 inline Finding the(const std::vector<Finding>& findings, std::string_view rule) {
   const std::vector<Finding> found = of_rule(findings, rule);
   EXPECT_EQ(found.size(), 1u) << rule;
@@ -64,7 +60,7 @@ inline std::vector<std::string> rules_of(const std::vector<Finding>& findings) {
   return rules;
 }
 
-/// Expects every sentence to have at most 30 words, a full stop and a truth tier, and its placeholders to be filled.
+/// Every sentence has at most 30 words, a full stop, a tier, and no placeholder left.
 inline void expect_short(const std::vector<Finding>& findings) {
   for (const Finding& f : findings) {
     const std::string sentence = sentence_of(f);

@@ -1,5 +1,5 @@
-// Reports that are killed, on a full disk, two at once, and under other locales: earlier results remain, and the bytes
-// are identical.
+// Reports that are killed, on a full disk, two at once, or under other locales: earlier results remain, and bytes are
+// identical.
 
 #include <fmt/format.h>
 
@@ -17,7 +17,7 @@ namespace {
 
 class OutputOfReport : public Cli {
  protected:
-  /// Command line of the smallest possible report.
+  /// The smallest possible report.
   std::vector<std::string> report(const std::string& out) const {
     return {CROSSCHECK_PROGRAM, "report", "circle", "--quick", "--methods", "rk4,leapfrog", "--out", out};
   }
@@ -25,7 +25,7 @@ class OutputOfReport : public Cli {
     before.insert(before.end(), words.begin(), words.end());
     return run_program(before, folder_, {"CROSSCHECK_LOCK=" + (folder_ / "lock").string()});
   }
-  /// Succeeds if all files of one report are intact, and the user's file is next to them.
+  /// All files of one report are intact, and the user's file is still there.
   testing::AssertionResult whole(const fs::path& out) const {
     const auto manifest = read_manifest(out);
     if (!manifest || !manifest->finished) return testing::AssertionFailure() << "no finished result";
@@ -48,8 +48,7 @@ TEST_F(OutputOfReport, KilledAtTenMomentsTheFirstIsWholeOrTheSecond) {
   ASSERT_TRUE(whole(folder_ / "out"));
   std::mt19937 random(22);
   int killed = 0;
-  // One kill in each tenth of the run: the largest gap between them is at most a fifth, as expected for twenty random
-  // moments.
+  // One kill in each tenth of the run, so that gaps are at most a fifth, as expected for twenty random moments.
   for (int trial = 0; trial < 10; ++trial) {
     const double moment = std::uniform_real_distribution<>(trial, trial + 1)(random) / 10 * 1.05 * seconds;
     killed += start({"timeout", "-s", "KILL", fmt::format("{:.3f}", moment)}, report("out")).status == 128 + 9;
@@ -109,7 +108,6 @@ TEST_F(OutputOfReport, FoldersOfOthersAndTwoWritersAreRefused) {
     EXPECT_EQ(files(), before);
     EXPECT_EQ(read(folder_ / "foreign/data/report.json"), "mine");
   }
-  // start the second one while the first one is running
   const ProgramResult two = start({"sh", "-c",
                                    "\"$@\" & first=$!; until test -s .out.crosscheck/lock; do sleep 0.01; done; "
                                    "\"$@\"; echo status $?; wait $first",
@@ -131,7 +129,6 @@ TEST_F(OutputOfReport, ASignalLeavesNothingBehind) {
   }
 }
 
-/// Replaces dates and times.
 std::string without_clock(const std::string& text) {
   static const std::regex clock("[0-9]{4}-[0-9]{2}-[0-9]{2}( [0-9]{2}:[0-9]{2}:[0-9]{2} UTC)?");
   return std::regex_replace(text, clock, "TIME");
@@ -139,7 +136,7 @@ std::string without_clock(const std::string& text) {
 
 class LocaleCli : public Cli {
  protected:
-  /// Runs the program with only these entries in its environment, besides PATH, HOME and the folder of cached truths.
+  /// The environment has only `entries`, PATH, HOME and the cache of truths.
   ProgramResult bare(const std::vector<std::string>& entries, const std::vector<std::string>& words) const {
     std::vector<std::string> call{"env", "-i", "HOME=" + folder_.string(), "ASAN_OPTIONS=detect_leaks=0"};
     for (const char* kept : {"PATH", "CROSSCHECK_CACHE"})
@@ -150,7 +147,7 @@ class LocaleCli : public Cli {
     return run_program(call, folder_);
   }
 
-  /// All files of a small set of figures and tables by name. Dates and times in text files are replaced.
+  /// Figures and tables by name, with dates and times replaced in text files.
   std::map<std::string, std::string> made_in(const std::vector<std::string>& entries) const {
     fs::remove_all(folder_ / "out");
     write("mine.toml", own_scene);
@@ -164,7 +161,7 @@ class LocaleCli : public Cli {
     }
     std::map<std::string, std::string> files;
     for (const auto& entry : fs::recursive_directory_iterator(folder_ / "out"))
-      // the manifest contains the time of writing, and hashes of files with dates
+      // contains the time of writing, and hashes of files with dates
       if (entry.is_regular_file() && entry.path().filename() != "crosscheck.json") {
         const std::string ending = entry.path().extension();
         const bool text = ending == ".csv" || ending == ".json" || ending == ".cff";
@@ -194,7 +191,7 @@ TEST_F(LocaleCli, ChangesNoByte) {
   for (const char* file : {"mine-order.svg", "mine-order.pdf", "mine-order.png", "mine-order.csv", "mine-picture.pdf",
                            "mine-picture.png", "figures.json", "run/energy.csv", "still.png"})
     EXPECT_TRUE(plain.contains(file)) << file;
-  // POSIX time zones, which need no database; offsets include half an hour (St. John's) and three quarters (Kathmandu)
+  // POSIX time zones need no database; offsets include half an hour (St. John's) and three quarters (Kathmandu)
   for (const std::vector<std::string>& entries :
        {std::vector<std::string>{"LC_ALL=C", "TZ=NPT-5:45"},
         {"LC_ALL=POSIX", "TZ=NST3:30NDT"},
@@ -213,7 +210,7 @@ TEST_F(LocaleCli, WithDecimalCommasChangesNoByte) {
       run_program({"localedef", "-i", "de_DE", "-f", "UTF-8", (folder_ / "locales/de_DE.UTF-8").string()}, folder_);
   ASSERT_TRUE(fs::exists(folder_ / "locales/de_DE.UTF-8")) << compiled.err;
   const std::vector<std::string> german{"LOCPATH=" + (folder_ / "locales").string(), "LC_ALL=de_DE.UTF-8"};
-  // check that the locale takes effect: bash formats numbers according to it
+  // bash formats numbers by the locale
   std::vector<std::string> comma{"env"};
   comma.insert(comma.end(), german.begin(), german.end());
   comma.insert(comma.end(), {"bash", "-c", "printf %.1f 0,5"});

@@ -1,4 +1,4 @@
-// External engines on the command line: the conformance kit, reasons of failures, and interrupts.
+// External engines on the command line: conformance, reasons of failures, interrupts.
 
 #include <fmt/format.h>
 
@@ -72,8 +72,8 @@ TEST_F(OutsideEngines, AnInterruptLeavesNoFolderAndNoProcess) {
     fs::create_directories(temporary);
     const std::string engine = script(std::string("beating-") + signal, "trap '' INT TERM\nwhile :; do echo >> '" +
                                                                             beats.string() + "'; sleep 0.02; done\n");
-    // Sends the signal to the program only, as a person's kill would. Shells, and possibly this test's parent, ignore
-    // INT in background processes, so the default handler is restored.
+    // Signals only the program, as kill would. Restores the default handler, because shells, and possibly this test's
+    // parent, ignore INT in background processes.
     const std::string shell = "set -m\nenv --default-signal=INT,TERM \"$0\" \"$@\" &\nuntil [ -s '" + beats.string() +
                               "' ]; do sleep 0.01; done\nkill -" + signal + " $!\nwait $!\n";
     const ProgramResult ended =
@@ -81,7 +81,7 @@ TEST_F(OutsideEngines, AnInterruptLeavesNoFolderAndNoProcess) {
                     folder_, {"TMPDIR=" + temporary.string(), "ASAN_OPTIONS=detect_leaks=0"});
     EXPECT_NE(ended.status, 0);
     ASSERT_TRUE(fs::exists(beats)) << "the engine must have started: " << ended.err;
-    // clean-up may finish slightly after the killed processes
+    // clean-up may finish after the killed processes
     const auto left = [&] { return std::distance(fs::directory_iterator(temporary), fs::directory_iterator()); };
     for (int tries = 0; tries < 100 && left() > 0; ++tries) usleep(50000);
     EXPECT_EQ(left(), 0);
@@ -93,7 +93,7 @@ TEST_F(OutsideEngines, AnInterruptLeavesNoFolderAndNoProcess) {
 
 TEST_F(OutsideEngines, JoltNamesThePackageThatItsToolsAreMissingFrom) {
   struct Row {
-    std::vector<std::string> tools;  // all programs in PATH; each fails
+    std::vector<std::string> tools;  // the only programs in PATH; each fails
     std::string said;
   };
   for (const Row& row :

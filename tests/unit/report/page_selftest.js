@@ -1,5 +1,4 @@
-// Uses the page as a reader would and writes the observations into it, for the test that reads them. Load it after
-// stage_selftest.js.
+// Uses the page as a reader would, and writes observations into it. Requires stage_selftest.js.
 (() => {
   const column = (table, i) => [...table.tBodies[0].rows].filter(row => !row.hidden).map(row => row.cells[i].innerText.trim().replace(/\s+/g, ' '));
   const press = (element, key) => element.dispatchEvent(new KeyboardEvent('keydown', {key, bubbles: true}));
@@ -20,7 +19,7 @@
     seen.kept = column(table, 0);
     const made = [], create = URL.createObjectURL, click = HTMLAnchorElement.prototype.click;
     URL.createObjectURL = blob => (made.push(blob), create.call(URL, blob));
-    HTMLAnchorElement.prototype.click = () => {};  // do not save files during tests
+    HTMLAnchorElement.prototype.click = () => {};  // saves no files
     tools.querySelector('button').click();
     HTMLAnchorElement.prototype.click = click;
     seen.csv = made.length ? await made[0].text() : '';
@@ -62,7 +61,7 @@
     seen.lit = document.querySelectorAll('.lit').length;
     pointAt(document.body);
     seen.gone = tip.hidden;
-    // arrow keys move between marks, and Enter plays a mark's run as a click does
+    // arrow keys move between marks; Enter plays a run like a click
     const chart = marker.closest('svg'), said = () => (tip.hidden ? '' : tip.innerText.replace(/^.*, /, ''));
     chart.focus();
     seen.walked = [];
@@ -76,7 +75,6 @@
     press(document.activeElement, 'Enter');
     seen.played = played;
     document.activeElement.blur();
-    // buttons choose the scene of the chart
     const [first, second] = document.querySelectorAll('#speed-accuracy .choices button'), figure = button => document.getElementById(button.dataset.figure);
     second.click();
     await drawn(figure(second).querySelector('.drawn'));

@@ -1,4 +1,4 @@
-// The page and its player in a browser: charts, folds, sorted tables, opening scenes, dark mode, paper, motions.
+// The page and its player in a browser: charts, folds, sorted tables, scenes, dark mode, paper, motions.
 
 #include <algorithm>
 #include <cmath>
@@ -27,10 +27,9 @@ namespace {
 
 using namespace testing_tools;
 
-/// An external program, as the page sees it.
 const std::string outside = "exec:/tools/my engine";
 
-/// Data of a scene and its runs for the page. The external program gets the runs of the first method.
+/// A scene and its runs for the page. The external program gets the first method's runs.
 struct Played {
   Scene scene;
   std::string motions;
@@ -62,7 +61,6 @@ struct Played {
         truth ? std::optional(StageTruth{"truth, converged", false, truth->error_bar, motion_of(truth->trajectory)})
               : std::nullopt);
   }
-  /// Runs in the form that the page expects.
   std::vector<PlayableRuns> runs() const {
     std::vector<PlayableRuns> all;
     for (const RunFile& file : files) {
@@ -71,7 +69,6 @@ struct Played {
     }
     return all;
   }
-  /// HTML of the scene and the runs.
   std::string html() const {
     const SceneData facts{};
     ScenePart part{&scene, &facts, {}};
@@ -99,7 +96,7 @@ class Page : public InBrowser {
     content_.provenance = {{"commit", "abc"}};
     for (const Question& question : questions())
       content_.findings.push_back(made_up(finding_rule(question.rules[0]), "5 mm on 3 scenes"));
-    // A chart of each kind. Curves open the chapter; the others are folded.
+    // a chart of each kind; curves open the chapter, others are folded
     Figure curves;
     curves.name = "chain-speed-accuracy-cost", curves.x = {"CPU time / s", true}, curves.y = {"error / m", true};
     curves.curves = {{"mysim/leapfrog", style_of("mysim/leapfrog"), {{1e-3, 3}, {1e-2, 2}, {1e-1, 1}}, true, true},
@@ -161,7 +158,6 @@ class Page : public InBrowser {
       if (std::ranges::find(content_.methods, method) == content_.methods.end()) content_.methods.push_back(method);
     content_.scenes = {part};
   }
-  /// The page with a self-test that uses it as a reader would.
   std::filesystem::path page() {
     std::string html = page_html(content_);
     html.insert(html.find("</head>"), scripts({"stage_selftest.js", "page_selftest.js"}));
@@ -205,7 +201,7 @@ void expect_folds_open_and_their_tables_sort(const JsonField& saw) {
   SCOPED_TRACE("FoldsOpenAndTheirTablesSort");
   EXPECT_EQ(saw["tablesBefore"].number(), 0) << "folded contents must not be in the document";
   EXPECT_EQ(saw["templates"].number(), 0) << "after the fold is opened";
-  // sorted by size in metres whatever the unit; in ascending order words follow numbers
+  // sorted by size in metres; words follow numbers in ascending order
   const std::vector<std::string> up{"< 3.0 × 10−13 m", "0.5 µm", "900 µm", "1.2 mm",
                                     "20 mm",           "2 m",    "–",      "blew up at 2 s"};
   for (size_t i = 0; i < 16; ++i) EXPECT_EQ(saw["up"][i].text(), up[i / 2]) << i;
@@ -251,7 +247,7 @@ void expect_the_first_screen_moves(const JsonField& saw) {
   EXPECT_TRUE(saw["litTitle"].boolean()) << "a method highlighted in a chart is highlighted in the player";
 }
 
-// One test for all of these, with the page opened twice, because starting a browser and using the page takes seconds.
+// one test, because starting a browser takes seconds
 TEST_F(Page, IsUsedAsAReaderWouldInLightAndInTheDark) {
   NEEDS_CHROMIUM;
   const auto file = page();
@@ -283,7 +279,7 @@ TEST_F(Page, GoesOnPaper) {
 
 class PlayerPage : public testing_tools::InBrowser {
  protected:
-  /// A page that plays a scene, with a poster as in a report, and the self-test.
+  /// A scene with a poster, as in a report.
   std::filesystem::path page(const Scene& scene, const std::vector<std::string>& methods) {
     const Played played(scene, methods);
     played.draw(720, 280, folder_ / "poster.png");
@@ -301,7 +297,7 @@ class PlayerPage : public testing_tools::InBrowser {
 
 TEST_F(PlayerPage, PlaysFromAFileAndObeysItsControls) {
   NEEDS_CHROMIUM;
-  // a run that blows up is shown until its end, and is labelled
+  // a run that blows up is shown until its end
   const auto file = page(load_scene("chain"), {"mysim/symplectic-euler", "bullet/pbd", "mysim/explicit-euler"});
   const JsonField saw = seen(file, {});
   ASSERT_TRUE(saw["able"].boolean()) << saw.dump();
@@ -326,7 +322,7 @@ TEST_F(PlayerPage, AClothIsDrawnWithItsSphere) {
     EXPECT_TRUE(saw[what].boolean()) << what;
 }
 
-/// A page with a chart whose first marker is a complete run and whose second one blew up, and a map.
+/// A chart with a complete run and one that blew up, and a map.
 class RunsPage : public PlayerPage {
  protected:
   std::filesystem::path charts(bool lab = false) {

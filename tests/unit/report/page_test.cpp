@@ -1,5 +1,5 @@
-// The page: units stay with their numbers, linked words are explained, every part is listed. An assembled report
-// contains the numbers of its charts, its scenes and its certificates, and its data reproduce the same page.
+// The page keeps units with numbers, explains linked words, and lists every part. An assembled report has the numbers
+// of its charts, scenes and certificates, and its data reproduce the page.
 
 #include <nlohmann/json.hpp>
 
@@ -95,7 +95,6 @@ TEST(ChapterTexts, HaveAHeadOfKnownKeysAndABody) {
   EXPECT_TRUE(contains(failure("- title: T\n- label: L\n"), "expected title, label"));
 }
 
-/// Substring from one word up to another.
 std::string between(const std::string& text, const std::string& from, const std::string& to) {
   const size_t begin = text.find(from);
   if (begin == std::string::npos) return "";
@@ -105,7 +104,7 @@ std::string between(const std::string& text, const std::string& from, const std:
 std::string section(const std::string& html, const std::string& id) {
   return between(html, fmt::format("<section class=\"chapter\" id=\"{}\"", id), "</section>");
 }
-/// The visible part of the page after loading.
+/// The visible part after loading.
 std::string at_load(std::string html) {
   for (const char* tag : {"template", "script", "style"}) {
     const std::string open = fmt::format("<{}", tag), close = fmt::format("</{}>", tag);
@@ -114,10 +113,10 @@ std::string at_load(std::string html) {
   }
   return html;
 }
-/// The complete page, with folded contents inserted.
+/// With folded contents.
 std::string whole(const PageContent& content) { return with_folds_put_back(page_html(content)); }
 
-/// Expects every link inside the page to lead to an element or to a scene that it opens.
+/// Links inside the page lead to an element, or to a scene that they open.
 void expect_links_lead_somewhere(const std::string& html) {
   std::set<std::string> targets;
   for (size_t at = html.find("href=\"#"); at != std::string::npos; at = html.find("href=\"#", at + 1))
@@ -169,7 +168,7 @@ TEST(Chapters, AreFiveAndEachAnswersAQuestion) {
   EXPECT_EQ(asked, ids) << "questions must lead to the chapters in order";
 }
 
-/// A page with two charts and a table in each chapter, and with every answer.
+/// Two charts and a table in each chapter, and every answer.
 class WholePage : public InFolder {
  protected:
   void SetUp() override {
@@ -228,7 +227,7 @@ TEST_F(WholePage, AChapterHasItsAnswerItsLeadAndItsFolds) {
     }
     EXPECT_TRUE(contains(seen, "<div class=\"teach\">"));
     EXPECT_GT(words_in(between(seen, "<div class=\"teach\">", "</section>")), 40u);
-    // the findings, the other chart, the table
+    // findings, the other chart, the table
     EXPECT_EQ(count(part, "<details class=\"fold\""), 3);
     EXPECT_EQ(count(part, "<template"), 3);
     EXPECT_EQ(count(part, fmt::format("data-chart=\"more-{}\"", i)), 1);
@@ -309,7 +308,6 @@ TEST_F(WholePage, AChapterHasSixFoldsAtMostAndTheLastOneHoldsTheRest) {
   EXPECT_EQ(count(last, "\" hidden>\n"), 3);
 }
 
-/// Start tags of an element in a page.
 std::vector<std::string> tags(const std::string& html, const std::string& name) {
   std::vector<std::string> all;
   for (size_t at = html.find("<" + name); at != std::string::npos; at = html.find("<" + name, at + 1))
@@ -335,7 +333,7 @@ TEST_F(WholePage, IsNamedForScreenReaders) {
   EXPECT_GT(level, 0);
 }
 
-/// Luminance of "#rrggbb" by WCAG 2.
+/// "#rrggbb", by WCAG 2.
 double luminance(const std::string& colour) {
   double sum = 0;
   for (int i = 0; i < 3; ++i) {
@@ -406,7 +404,7 @@ TEST_F(WholePage, TextsOfScenesCannotBecomeMarkup) {
   EXPECT_EQ(count(html, "<script"), count(html, "</script>"));
 }
 
-/// Runs shown in a scene's part, given the runs of its chart: method, step (s), error (m), CPU time (s).
+/// Shown runs, given a chart's runs: method, step (s), error (m), CPU time (s).
 class ShownRuns : public ::testing::Test {
  protected:
   void chart(const std::string& method, double step, double error, double cpu) {
@@ -481,7 +479,7 @@ TEST_F(PageRoom, IsGivenToTheEnginesRepresentativesFirst) {
   EXPECT_FALSE(runs.take("b-engines", "", notes));
 }
 
-/// A small report, assembled as the program does it: two scenes with a few methods, and their data in the folder.
+/// A small report: two scenes with a few methods, and their data in the folder.
 class Assembled : public InFolder {
  protected:
   void SetUp() override {
@@ -497,7 +495,7 @@ class Assembled : public InFolder {
     data_.provenance = with_scenes(
         {{"command", "crosscheck report"}, {"commit", "abc"}, {"date", "2026-11-22 10:00:00 UTC"}}, request.scenes);
   }
-  /// Writes the tables and the report without drawing figures or rendering pictures, and records their names.
+  /// Draws no figures and pictures, but records their names.
   WrittenReport written(ReportData& data, const std::filesystem::path& folder) {
     drawn_.clear();
     return write_report(data, folder, "", [this](const std::vector<Point>& points) {
@@ -511,20 +509,20 @@ class Assembled : public InFolder {
     for (const Scene& scene : data_.scenes) write_file(folder_ / "data/scenes" / (scene.name + ".toml"), scene.source);
   }
   std::string page() const { return read(folder_ / "index.html"); }
-  /// The complete page, with folded contents inserted.
+  /// With folded contents.
   std::string whole_page() const { return with_folds_put_back(page()); }
 
   ReportData data_;
   std::vector<std::string> drawn_;
 };
 
-/// Data of the charts that are visible when the page opens.
+/// Charts that are visible when the page opens.
 JsonField open_charts_in(const std::string& html) {
   const std::string begin = "<script type=\"application/json\" id=\"open-charts\">";
   return JsonField::parse(between(html, begin, "</script>").substr(begin.size()), "charts in sight");
 }
 
-/// Data of the other charts, as the page's script unpacks them.
+/// The other charts, unpacked.
 JsonField packed_charts_in(const std::string& html) {
   const std::string begin = "<script type=\"text/plain\" id=\"charts\">";
   return JsonField::parse(unpacked_text(between(html, begin, "</script>").substr(begin.size())), "charts");
@@ -572,7 +570,7 @@ TEST_F(Assembled, EveryFigureHasAsManyPointsAsItsTable) {
     EXPECT_EQ(failed, failures);
   }
   EXPECT_GT(compared, 10);
-  // only figures that open a chapter are drawn; others have numbers and script only
+  // other figures have only numbers and a script
   for (const std::string& name : drawn_) EXPECT_TRUE(opens_a_chapter(report.page, name)) << name;
 }
 
@@ -592,7 +590,7 @@ TEST_F(Assembled, EverySceneHasACardAndWhatItOpens) {
     EXPECT_EQ(count(inside, "<tr data-method=\"mysim/explicit-euler\">"), 1) << "all runs, including failed ones";
     EXPECT_FALSE(contains(at_load(html), fmt::format("data-chart=\"{}-energy\"", scene.name)));
   }
-  // a dot for each quantity read back
+  // a dot per quantity
   size_t quantities = 0;
   for (const Certificate& c : data_.rows.certificates) quantities += c.rows.size();
   EXPECT_GT(quantities, 0u);
@@ -651,7 +649,7 @@ TEST_F(WholePage, CountsEachByteInOneBlock) {
 
 TEST_F(Assembled, CertificatesSurviveTheirTable) {
   ASSERT_FALSE(data_.rows.certificates.empty());
-  // texts that look like numbers, and characters that CSV must quote
+  // texts that look like numbers, and characters that CSV quotes
   data_.rows.certificates[0].rows = {{"mass", "4", "4", "4", Parity::match},
                                      {"pins", "1, 2", "say \"so\"", "two\nlines", Parity::mismatch},
                                      {"law", "", "1e-3", "–", Parity::different_law},

@@ -1,4 +1,4 @@
-// Uses the player as a reader would and writes the observations into the page, for the test that reads them.
+// Uses the player as a reader would, and writes observations into the page.
 async function use(player, seen) {
   const {scene} = player, end = scene.times[scene.times.length - 1], height = document.body.scrollHeight;
   await player.wake();
@@ -55,7 +55,7 @@ addEventListener('load', async () => {
   } catch (problem) {
     complaints.push(String(problem.stack));
   }
-  if (!seen.able) lookAtPoster();  // after its first use, which reveals the missing WebGL
+  if (!seen.able) lookAtPoster();  // its first use reveals the missing WebGL
   seen.canvases = document.querySelectorAll('.stage canvas').length;
   tell(seen);
 });

@@ -1,5 +1,5 @@
-// Data of the page's player: packed numbers survive a round trip, positions are within the stated bound, recorded runs
-// are those of the experiment, and inconsistent entries are refused.
+// Packed numbers survive a round trip, positions are within the stated bound, recorded runs equal those of the
+// experiment, and inconsistent entries are refused.
 
 #include <gtest/gtest.h>
 
@@ -56,7 +56,7 @@ std::string all_rows(const TableSet& rows) {
   return all;
 }
 
-/// Copies of recorded runs, which outlive the driver that made them.
+/// Copies that outlive the driver.
 struct Kept {
   std::string of, method;
   Scene scene;
@@ -67,10 +67,9 @@ RunCallback keeping(std::vector<Kept>& kept) {
   return [&kept](const RecordedRuns& w) { kept.push_back({w.of, w.method, w.scene, w.runs}); };
 }
 
-/// A report's folder with runs.
 class Runs : public InFolder {
  protected:
-  /// Stores the scene's runs by these methods at its own step.
+  /// At the scene's own step.
   void keep(const Scene& scene, const std::vector<std::string>& methods) {
     RunsWriter writer(folder_);
     Request request;
@@ -91,7 +90,7 @@ class Runs : public InFolder {
       if (each.set == set && each.method == method) return each;
     throw std::out_of_range(set + " by " + method);
   }
-  /// Coordinates of a run, frames x 3 x particles, by an independent reader.
+  /// Frames x 3 x particles, by an independent reader.
   static std::vector<double> coordinates(const RunFile& file, const Json& run) {
     const std::string bytes = InFolder::read(file.file).substr(run["offset"].get<size_t>(), run["bytes"].get<size_t>());
     const size_t columns = 3 * static_cast<size_t>(file.particles);
@@ -102,7 +101,7 @@ class Runs : public InFolder {
     }
     return all;
   }
-  /// Largest difference (m) of a coordinate from the run's, with frames `stride` samples apart.
+  /// Largest difference (m) of a coordinate, with frames `stride` samples apart.
   static double largest_off(const RunFile& file, size_t place, const Trajectory& path, int stride) {
     const Json& run = file.entry["runs"][place];
     const std::vector<double> all = coordinates(file, run);
@@ -193,7 +192,7 @@ TEST_F(Runs, OfAnOutsideProgramAreKeptAsAnyOthers) {
 }
 
 TEST(LastFrames, AreAtLeastEightToAPeriodOrEveryStep) {
-  const double omega = 2 * M_PI;  // a period of 1 s
+  const double omega = 2 * M_PI;
   for (const double h : {1e-3, 0.03, 0.2, 0.9}) {
     LastFrames last(omega, h);
     for (int i = 0; i <= 10000; ++i) last.observe({h * i, Points::Constant(3, 1, i), Points::Zero(3, 1)}, false);
@@ -211,7 +210,7 @@ TEST(LastFrames, OfAShortRunAreAllOfItAsFarAsItIsFinite) {
   EXPECT_EQ(last.path().frames(), 5);
 }
 
-/// Expects every method to deliver its runs, and identical rows with and without recording. Counts failed runs.
+/// Every method delivers its runs, and rows are identical with and without recording. Counts failed runs.
 void expect_watching_changes_no_row(const std::string& methods, int& failed) {
   Request request;
   request.methods = find_methods(methods);
@@ -308,7 +307,7 @@ TEST_F(Runs, OfAMapAreTheLastPicturesOfItsCells) {
       EXPECT_LT((pictures[c] - *cell.rest).cwiseAbs().maxCoeff(), 2.01 * scene.size());
       if (run["times"][c].is_null()) continue;
       ++shown;
-      size_t at = 0;  // frame of this picture
+      size_t at = 0;
       while (at + 1 < cell.path.t.size() && cell.path.t[at] < run["times"][c].get<double>() * (1 - 1e-3)) ++at;
       EXPECT_LT((pictures[c] - cell.path.x[at]).cwiseAbs().maxCoeff(), run["bound"].get<double>() * (1 + 1e-9)) << c;
       cut += at + 1 < cell.path.t.size();

@@ -1,4 +1,4 @@
-// The Python package crosscheck: its own tests with Debian's python3, and the result of `pip install` from the tree.
+// The Python package: its own tests with Debian's python3, and `pip install` from the tree.
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -12,10 +12,9 @@ namespace {
 
 using namespace testing_tools;
 
-constexpr auto python = "/usr/bin/python3";  // Debian's; another python3 may come first in PATH
+constexpr auto python = "/usr/bin/python3";  // another python3 may come first in PATH
 constexpr auto package_folder = CROSSCHECK_SOURCE "/report/python";
 
-/// True if Debian's python3 has this module.
 bool imports(const std::string& module) {
   return fs::exists(python) && run_program({python, "-c", "import " + module}, "/").status == 0;
 }
@@ -35,7 +34,7 @@ class PythonPackage : public Cli {
             "HOME=" + folder_.string(),
             "TMPDIR=" + folder_.string()};
   }
-  /// Runs these test classes of python/test_package.py.
+  /// Test classes of python/test_package.py.
   void expect_good(std::vector<std::string> classes) const {
     for (std::string& name : classes) name = "test_package." + name;
     classes.insert(classes.begin(), {python, "-m", "unittest"});
@@ -83,7 +82,7 @@ TEST_F(PythonPackage, IsInstalledFromTheTreeWithoutANetwork) {
   if (!missing.empty())
     GTEST_SKIP() << fmt::format("package {} is not installed: its installation into an environment is not tested",
                                 fmt::join(missing, ","));
-  // setuptools builds next to its sources, so a copy keeps the tree clean
+  // a copy, because setuptools builds next to its sources
   fs::copy(package_folder, folder_ / "python", fs::copy_options::recursive);
   const std::string own = (folder_ / "venv/bin/python").string();
   const ProgramResult made =
@@ -96,7 +95,6 @@ TEST_F(PythonPackage, IsInstalledFromTheTreeWithoutANetwork) {
   const std::string found = run_program({own, "-c", "import crosscheck; print(crosscheck.__file__)"}, folder_).out;
   EXPECT_TRUE(begins(found, (folder_ / "venv/lib").string()));
   if (!imports("matplotlib")) return;
-  // the first plot in the package's README
   const std::string readme = read(fs::path(package_folder) / "README.md");
   const size_t start = readme.find("```python\n") + 10;
   std::string first = readme.substr(start, readme.find("```", start) - start);

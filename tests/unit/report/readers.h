@@ -1,4 +1,4 @@
-// Readers of cairo's PDFs and of the page's packed numbers, written independently of the writers.
+// Independent readers of cairo's PDFs and the page's packed numbers.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -15,9 +15,7 @@
 
 namespace crosscheck::testing_tools {
 
-// Page size and letter sizes of a PDF written by cairo.
-
-/// Streams of a PDF, decompressed by zlib.
+/// Decompressed by zlib.
 inline std::vector<std::string> streams_of(const std::string& pdf) {
   std::vector<std::string> streams;
   const std::string begin = "stream\n";
@@ -33,7 +31,7 @@ inline std::vector<std::string> streams_of(const std::string& pdf) {
   return streams;
 }
 
-/// Size (points) of a PDF's first page. Since version 1.18 cairo compresses the page's description into a stream.
+/// In points, for the first page. Since version 1.18 cairo compresses the page's description.
 inline std::pair<double, double> page_of(const std::string& pdf) {
   std::vector<std::string> texts = streams_of(pdf);
   texts.insert(texts.begin(), pdf);
@@ -45,7 +43,7 @@ inline std::pair<double, double> page_of(const std::string& pdf) {
   return {};
 }
 
-/// Heights (points) of all letters on the pages.
+/// In points.
 inline std::set<double> letters_of(const std::string& pdf) {
   std::set<double> sizes;
   for (const std::string& text : streams_of(pdf)) {
@@ -56,8 +54,6 @@ inline std::set<double> letters_of(const std::string& pdf) {
   }
   return sizes;
 }
-
-// Independent decoder of packed numbers.
 
 inline std::string bytes_of_base64(const std::string& text) {
   static const std::string alphabet = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
@@ -84,7 +80,7 @@ inline std::string gunzipped(std::string bytes, size_t length) {
   return out;
 }
 
-/// Decodes text packed as gzip in base64.
+/// gzip in base64.
 inline std::string unpacked_text(const std::string& base64) {
   const std::string bytes = bytes_of_base64(base64);
   size_t length = 0;  // gzip's last four bytes
@@ -92,7 +88,7 @@ inline std::string unpacked_text(const std::string& base64) {
   return gunzipped(bytes, length);
 }
 
-/// The page with folded contents inserted.
+/// With folded contents.
 inline std::string with_folds_put_back(std::string page) {
   const std::string begin = "<script type=\"text/plain\" id=\"held\">";
   const size_t from = page.find(begin);
@@ -111,7 +107,7 @@ inline std::string with_folds_put_back(std::string page) {
   return page;
 }
 
-/// Rows of numbers from gzip data, in the format of report/CONTRACT.md.
+/// Rows of numbers, as in report/CONTRACT.md.
 inline std::vector<std::uint16_t> unpacked(const std::string& gzip, size_t count, size_t columns) {
   const std::string planes = gunzipped(gzip, 2 * count);
   std::vector<std::uint16_t> numbers(count);

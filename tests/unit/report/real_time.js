@@ -1,7 +1,6 @@
-// A self-test in real time with frames. The page's load event, after which the browser writes the page, waits for the
-// end of the self-test.
+// A self-test in real time with frames. The page's load event, after which the browser writes the page, waits for it.
 
-/** Result of `act`, with errors of the page added to its complaints. An open iframe delays the page's load event. */
+/** Adds the page's errors to the complaints. An open iframe delays the load event. */
 async function inRealTime(act) {
   const errors = [];
   addEventListener('error', ({message, error}) => errors.push(`an error in the page: ${message} ${error?.stack ?? ''}`));

@@ -1,4 +1,4 @@
-// A report from an untrusted source: processing it runs no script and starts no program.
+// A report from an untrusted source runs no script and starts no program.
 
 #include <nlohmann/json.hpp>
 
@@ -37,8 +37,8 @@ class ReceivedReport : public InBrowser {
     return contains(browse(page, {"--dump-dom"}).out, "data-pwned=\"1\"");
   }
 
-  /// A report on a small cloth whose scene, rows and notes contain the payload, and in which a program that touches
-  /// PWNED replaces rk4. Its fingerprints are correct.
+  /// A report on a small cloth whose scene, rows and notes contain the payload. A program that touches PWNED replaces
+  /// rk4. Fingerprints are correct.
   void make_report() const {
     const std::string program = script(std::string("evil") + std::string(payload).substr(9) + ".sh",
                                        "touch '" + (folder_ / "PWNED").string() + "'\n"),
@@ -63,7 +63,7 @@ class ReceivedReport : public InBrowser {
       change(file, fmt::format("\"{}\": [", list),
              fmt::format("\"{}\": [{}{}", list, quoted(payload), json[list].size() > 0 ? "," : ""));
     for (const auto& entry : fs::directory_iterator(folder_ / "rep/figures"))
-      if (entry.path().extension() == ".png") fs::remove(entry.path());  // so that they are drawn again
+      if (entry.path().extension() == ".png") fs::remove(entry.path());  // to be drawn again
   }
 };
 
@@ -78,7 +78,7 @@ TEST_F(ReceivedReport, RunsNoScriptInThePageAndNoProgram) {
   const std::string page = read(folder_ / "again/index.html");
   EXPECT_TRUE(contains(page, "onerror")) << "the payload must be in the page";
   NEEDS_CHROMIUM;
-  // folds insert their contents into the page when they are opened
+  // folds insert their contents when opened
   write("opened.html", page +
                            "<script>for (const fold of document.querySelectorAll('details')) fold.open = true;"
                            "</script>");

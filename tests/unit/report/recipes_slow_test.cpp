@@ -1,5 +1,5 @@
-// Documentation for users is correct: the commands of each page, run one after the other in an empty folder, print the
-// output shown. With CROSSCHECK_INSTALLED=/usr, tests the pages, the program and the Python package installed there.
+// Commands in the documentation print the output shown, one after the other in an empty folder. With
+// CROSSCHECK_INSTALLED=/usr, tests the installed pages, program and Python package.
 
 #include <fmt/format.h>
 
@@ -21,7 +21,7 @@ std::vector<std::string> lines_of(const std::string& text) {
 
 constexpr auto dots = "…";
 
-/// True if the line matches the shown one, in which dots stand for any text.
+/// Dots in `shown` stand for any text.
 bool is_shown(const std::string& line, const std::string& shown) {
   std::string pattern;
   for (size_t i = 0; i < shown.size(); ++i) {
@@ -34,8 +34,7 @@ bool is_shown(const std::string& line, const std::string& shown) {
   return std::regex_match(line, std::regex(pattern));
 }
 
-/// First mismatch between output and shown lines, or "" if they agree. A line of dots stands for any number of lines;
-/// otherwise lines must follow each other.
+/// First mismatch, or "". A line of dots stands for any number of lines; otherwise lines must follow each other.
 std::string lacking(const std::vector<std::string>& output, const std::vector<std::string>& shown) {
   size_t at = 0;
   bool any = false;
@@ -62,15 +61,14 @@ TEST(Recipes, DotsStandForAnything) {
   EXPECT_EQ(lacking({"a", "b", "c"}, {"a", "b"}), "more: c");
 }
 
-/// A command of a page, and its output as shown.
 struct TypedCommand {
   std::string command;
   std::vector<std::string> shown;
 };
 
-/// Commands that a page tells a reader to type: lines after "$ " in ```console blocks, and whole ```sh blocks with the
-/// following ```text block. A block that starts with "# takes" states its duration and is not run. If the page has a
-/// section "Ten minutes", everything after it is ignored.
+/// Commands for readers to type: lines after "$ " in ```console blocks, and whole ```sh blocks with the following
+/// ```text block. A block that starts with "# takes" states its duration and is not run. Text after a section "Ten
+/// minutes" is ignored.
 std::vector<TypedCommand> steps_of(const std::string& page) {
   const size_t path = page.find("\n## Ten minutes");
   const size_t end = path == std::string::npos ? path : page.find("\n## ", path + 1);
@@ -115,7 +113,7 @@ struct Document {
   size_t least;  ///< minimum number of commands
 };
 
-/// Name of the test in ctest.
+/// For the name in ctest.
 void PrintTo(const Document& document, std::ostream* out) { *out << document.name; }
 
 class Documents : public Cli, public testing::WithParamInterface<Document> {
@@ -126,7 +124,7 @@ class Documents : public Cli, public testing::WithParamInterface<Document> {
     fs::create_directories(folder_);
     fs::create_directories(programs_);
     fs::create_symlink(program_, programs_ / "crosscheck");
-    // python3 in PATH may differ from Debian's, which has Debian's NumPy
+    // Debian's, which has NumPy; python3 in PATH may be another
     fs::create_symlink("/usr/bin/python3", programs_ / "python3");
   }
   void TearDown() override {
@@ -142,8 +140,7 @@ class Documents : public Cli, public testing::WithParamInterface<Document> {
   const fs::path program_ = installation().empty() ? CROSSCHECK_PROGRAM : installation() / "bin/crosscheck";
 };
 
-// Runs a page's commands one after the other in an empty folder, with the program and the package found as in an
-// installation.
+// Finds the program and the package as in an installation.
 TEST_P(Documents, CommandsPrintWhatIsShown) {
   if (run_program({"/usr/bin/python3", "-c", "import numpy"}, "/").status != 0)
     GTEST_SKIP() << "package python3-numpy is not installed: the commands of " << GetParam().file << " are not tested";
@@ -157,7 +154,7 @@ TEST_P(Documents, CommandsPrintWhatIsShown) {
   const std::vector<TypedCommand> steps = steps_of(page);
   for (const TypedCommand& step : steps) {
     SCOPED_TRACE(step.command);
-    // Users bless baselines, which is refused if CI is set. Pages show a nonzero status by `echo $?`.
+    // blessing is refused under CI; pages show a nonzero status by `echo $?`
     const ProgramResult end = run_program({"bash", "-c", "unset CI; " + step.command}, folder_, environment);
     if (end.err.find("Nothing here keeps a submission away") != std::string::npos) GTEST_SKIP() << end.err;
     EXPECT_EQ(end.status, 0) << end.err;

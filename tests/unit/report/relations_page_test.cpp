@@ -1,4 +1,4 @@
-// Relations on the page: a row of marks for each engine, the causes of violations, and the findings on them.
+// Relations on the page: marks per engine, causes of violations, and findings.
 
 #include "experiments/check/relations.h"
 #include "report/page/page_parts.h"
@@ -32,11 +32,11 @@ std::string relations_html(const std::vector<RelationRow>& rows) { return filled
 TEST(RelationsOnThePage, HaveARowOfMarksForEachEngineAndTheWorstMarkOfSeveralScenes) {
   const std::string html = relations_html(rows_of_two_engines());
   const std::string marks = html.substr(0, html.find("</table>"));
-  EXPECT_EQ(count(marks, "<tr>"), 3);                      // header and two engines
+  EXPECT_EQ(count(marks, "<tr>"), 3);                      // a header and two engines
   EXPECT_EQ(count(marks, "class=\"match\""), 2) << marks;  // free fall of xpbd, symmetry of mine
   EXPECT_EQ(count(marks, "class=\"law\""), 1);             // spring order of xpbd
-  EXPECT_EQ(count(marks, "class=\"mismatch\""), 1);        // free fall of mine fails in one scene of two
-  EXPECT_EQ(count(marks, "class=\"none\""), 2);            // one not applicable to any scene, one not checked
+  EXPECT_EQ(count(marks, "class=\"mismatch\""), 1);        // free fall of mine fails in one of two scenes
+  EXPECT_EQ(count(marks, "class=\"none\""), 2);            // one not applicable, one not checked
   EXPECT_TRUE(contains(marks, std::string(find_relation("mirror").sentence))) << "the header must contain the sentence";
   EXPECT_TRUE(relations_data({}).is_null());
 }
@@ -62,7 +62,7 @@ TEST(RelationsOnThePage, AreToldEngineByEngine) {
   const std::vector<Finding> held = of_rule(all, "relations"), broken = of_rule(all, "relations-broken");
   ASSERT_EQ(held.size(), 2u);
   EXPECT_EQ(held[0].method, "mysim");
-  EXPECT_EQ(held[0].value, 1);  // two relations are applicable
+  EXPECT_EQ(held[0].value, 1);  // two are applicable
   EXPECT_TRUE(contains(sentence_of(held[0]), "known causes")) << sentence_of(held[0]);
   EXPECT_EQ(held[1].value, 2);
   EXPECT_FALSE(contains(sentence_of(held[1]), "known causes"));

@@ -1,4 +1,3 @@
-// Small pictures shared by the rendering tests.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -11,7 +10,7 @@
 
 namespace crosscheck::render {
 
-/// A square cloth of n x n particles and side 1 m at the given height, sagging slightly in the middle.
+/// n x n particles, side 1 m, sagging slightly in the middle.
 inline Body cloth(int n, double height) {
   Body body;
   body.x.resize(3, n * n);
@@ -43,7 +42,7 @@ inline Picture small_picture(Quality quality = Quality::fast) {
 
 inline Body& body_of(Picture& picture) { return picture.rows[0][0].bodies[0]; }
 
-/// Fraction of pixels with a channel that differs by more than 8.
+/// Fraction of pixels that differ by more than 8 in a channel.
 inline double changed(const Image& a, const Image& b) {
   EXPECT_EQ(a.rgb.size(), b.rgb.size());
   int count = 0;

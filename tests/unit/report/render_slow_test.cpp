@@ -1,4 +1,4 @@
-// Pictures: determinism, required visibility, robustness, the view, and comparison with golden pictures.
+// Pictures: determinism, visibility, robustness, the view, and golden pictures.
 
 #include <gtest/gtest.h>
 #include <unistd.h>
@@ -48,7 +48,7 @@ TEST(Render, IsNotBlankAndEndsInBackground) {
   const Image image = draw(small_picture());
   const auto [least, most] = std::minmax_element(image.rgb.begin(), image.rgb.end());
   EXPECT_GT(*most - *least, 80);
-  // no seam: the rim of the picture equals the background bit for bit
+  // no seam: the rim equals the background bit for bit
   for (int x = 0; x < image.width; ++x) {
     for (const int y : {0, image.height - 1}) {
       const unsigned char* pixel = &image.rgb[3 * std::size_t(y * image.width + x)];
@@ -58,7 +58,7 @@ TEST(Render, IsNotBlankAndEndsInBackground) {
 }
 
 TEST(Render, BothQualitiesShowTheSameScene) {
-  // Light and shadow differ but positions do not: the difference is far below that to an empty picture.
+  // positions are the same; light and shadow change much less than the bodies do
   Picture empty = small_picture();
   empty.rows[0][0].bodies.clear(), empty.rows[0][0].balls.clear();
   const Image fast = draw(small_picture(Quality::fast)), still = draw(small_picture(Quality::still));
@@ -90,7 +90,7 @@ TEST(Render, APictureOfNothingIsAnError) {
 }
 
 TEST(Render, PenetrationIsSeen) {
-  // A cloth lying on the ball hides its top. The same cloth 2 cm inside the ball must not.
+  // a cloth on the ball hides its top; the same cloth 2 cm inside must not
   Picture on_top = small_picture();
   Body& body = body_of(on_top);
   for (int i = 0; i < body.x.cols(); ++i)
@@ -99,7 +99,7 @@ TEST(Render, PenetrationIsSeen) {
   body_of(inside).x *= 0.33 / 0.352;
   Picture bare = on_top;
   bare.rows[0][0].bodies.clear();
-  // visible: ten times the change that a hidden cloth may cause by the light it lets through
+  // ten times the change that light through a hidden cloth may cause
   EXPECT_GT(changed(draw(on_top), draw(bare)), 0.02);
   EXPECT_LT(changed(draw(inside), draw(bare)), 0.002);
 }
@@ -115,7 +115,7 @@ TEST(Render, ShiftOfTwoPercentIsSeen) {
 }
 
 TEST(Render, SceneOfAnyUnitLooksTheSame) {
-  // The scene in millimetres: the frame removes the unit, up to round-off.
+  // in millimetres; the frame removes the unit, up to round-off
   Picture scaled = small_picture();
   body_of(scaled).x *= 1000, scaled.rows[0][0].balls[0].radius *= 1000;
   scaled.view = fit_view({body_of(scaled).x}, scaled.rows[0][0].balls, {0.3, 0.4, 1}, panel_aspect(scaled));
@@ -179,7 +179,7 @@ TEST(Render, PngHasLettersAndTheSameBytes) {
   ASSERT_EQ(lettered.height, 270);
   EXPECT_GT(changed(lettered, draw(picture)), 0.01);
 
-  // A long title shrinks all titles and stays in its panel: the column between the panels and the rims remain clear.
+  // long titles shrink: the column between the panels and the rims stay clear
   for (int y = 0; y < 28; ++y) {
     for (const int x : {0, 1, 239, 240, 478, 479}) EXPECT_GT(lettered.rgb[3 * std::size_t(y * 480 + x)], 0xE0) << x;
   }
@@ -212,7 +212,7 @@ TEST(Render, ProgramsAreRunWithoutAShell) {
 }
 
 TEST(Render, RodWithoutLengthIsARoundBall) {
-  // the picture's balls: no facet may lie more than 0.1 % of the radius below the surface
+  // no facet of a ball may be more than 0.1 % of the radius below the surface
   const RodMesh mesh = rod_mesh(112, 28);
   ASSERT_EQ(mesh.index.size() % 3, 0u);
   for (std::size_t i = 0; i < mesh.index.size(); i += 3) {
@@ -247,7 +247,7 @@ TEST(Render, ViewHoldsEverythingTightly) {
 }
 
 TEST(Render, ViewHasEverythingInItsMiddle) {
-  // A cloth whose shadow falls far to the side: the cloth stays centred and large, and the shadow may be cut off.
+  // the shadow falls far to the side, and may be cut off; the cloth stays centred and large
   Points hanging(3, 4);
   hanging << -1, 1, -1, 1, 0, 0, 3, 3, 0, 0, 0, 0;
   for (const double aspect : {0.5, 1.0, 2.0}) {
@@ -277,8 +277,7 @@ TEST(Render, ViewOfHardCasesIsUsable) {
 //
 // Mesa's output is identical on the same kind of processor. On others, single channels differ by up to 4 (measured: 292
 // of 691200 with the oldest instructions). Pictures count as equal if no channel differs by more than 8, and at most
-// one in 200 by more than 2. Intended changes to a picture must update these files. The test reports the path of the
-// new picture.
+// one in 200 by more than 2. The test reports the path of the new picture, for updates of the golden ones.
 
 namespace {
 
@@ -286,8 +285,8 @@ namespace fs = std::filesystem;
 
 const fs::path golden = fs::path(CROSSCHECK_SOURCE) / "tests/unit/report/golden";
 
-/// `letters`: compares letters as well. Another version of Cairo may shift them by a fraction of a pixel, which affects
-/// a tenth of the channels in the rows with letters.
+/// `letters`: compares letters, too. Other versions of Cairo may shift them by a fraction of a pixel, which affects a
+/// tenth of the channels in their rows.
 bool look_the_same(const Image& a, const Image& b, bool letters = true) {
   if (a.width != b.width || a.height != b.height || a.rgb.empty()) return false;
   std::size_t far = 0, in_letters = 0;
@@ -304,7 +303,7 @@ bool look_the_same(const Image& a, const Image& b, bool letters = true) {
   return far <= a.rgb.size() / 200 && in_letters <= 50 * row / 10;
 }
 
-/// A cloth above its ball, coloured by a value, next to the same cloth drawn as springs.
+/// A cloth above its ball, coloured by a value, next to the same cloth as springs.
 Picture drape(Quality quality) {
   Picture picture = small_picture(quality);
   picture.width = 480, picture.height = 270;
@@ -323,7 +322,7 @@ Picture drape(Quality quality) {
   return picture;
 }
 
-/// True if Cairo is version 1.16, which drew the golden pictures. Letters of other versions may differ.
+/// Cairo 1.16 drew the golden pictures.
 bool has_golden_letters() {
   return run_program({"pkg-config", "--modversion", "cairo"}, fs::temp_directory_path()).out.starts_with("1.16");
 }

@@ -1,7 +1,7 @@
-// Clicks on runs as a reader would and writes the observations into the page, for the test that reads them.
+// Clicks on runs as a reader would, and writes observations into the page.
 const hints = [];  // below the players
 
-/** Records the contents of the open window and whether it closes. */
+/** Contents of the open window, and whether it closes. */
 async function look() {
   await until(() => document.querySelector('dialog.run :is(motion-player, .player > .none)'));
   const dialog = document.querySelector('dialog.run'), player = dialog.querySelector('motion-player');
@@ -32,7 +32,7 @@ async function look() {
 
 addEventListener('load', async () => {
   for (const fold of document.querySelectorAll('.fold')) fold.open = true;
-  await until(() => document.querySelectorAll('figure[data-runs]').length === 2);  // the map is in a fold
+  await until(() => document.querySelectorAll('figure[data-runs]').length === 2);  // the map is folded
   for (const box of document.querySelectorAll('figure[data-runs] .drawn')) await drawn(box);
   const [chart, map] = document.querySelectorAll('figure[data-runs]');
   const seen = {windows: []}, able = Boolean(document.createElement('canvas').getContext('webgl2'));

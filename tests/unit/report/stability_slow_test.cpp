@@ -1,4 +1,4 @@
-// Limits of a hanging cloth, rows of limits, maps of outcomes, and the figure that shows them.
+// Limits of a hanging cloth, rows of limits, stability maps and their figure.
 
 #include <algorithm>
 #include <filesystem>
@@ -27,7 +27,7 @@ TEST(ClothHang, HoldsSixPerCentBelowThePredictedLimitAndFailsSixPerCentAbove) {
     const Method method = find_method(name);
     const PredictedLimit p = predicted_limit(*stepper_of(method), base.spectrum);
     for (const double part : {0.94, 1.06}) {
-      // five seconds
+      // 5 s
       const long steps = std::lround(5 / (part * p.limit));
       const PerturbedRun trial = run_perturbed(method, base, part * p.limit, steps, {p.mode});
       EXPECT_EQ(trial.held(), part < 1) << part << ": " << name_of(trial.verdict) << ", growth " << trial.growth;
@@ -71,7 +71,8 @@ TEST(Map, FailsWhereTheoryDrawsTheLineAndHardlyChangesInRunsTenTimesLonger) {
       for (size_t i = 0; i < map.rows.size(); ++i) {
         const double h = std::get<double>(map.at(i, "step")),
                      limit = std::get<double>(limits.at(i / 9, "predicted limit"));
-        // Without drag the trapezoidal rule grows by (h omega)^4 / 8 per step, which is not measurable at short steps.
+        // without drag the trapezoidal rule grows by (h omega)^4 / 8 per step, which is too little to measure at short
+        // steps
         const bool slow = limit == 0 && std::string(name) == "mysim/trapezoidal";
         if (!slow && std::abs(h / limit - 1) > 0.02) {
           EXPECT_EQ(std::get<std::string>(map.at(i, "verdict")) == "ok", h < limit) << h << " against " << limit;
@@ -103,9 +104,9 @@ TEST(Map, SaysWhichCellsWereRefusedAndIsNoneWhereAllWere) {
     EXPECT_EQ(std::holds_alternative<std::monostate>(cells.at(i, "end")), longer);
     refused += longer;
   }
-  EXPECT_EQ(refused, 3 * 4);  // step times omega = 20, 8.4, 3.6 and 1.5 in each row
+  EXPECT_EQ(refused, 3 * 4);  // h omega = 20, 8.4, 3.6 and 1.5 in each row
   EXPECT_EQ(std::get<long>(rows.table("stability-map-check")->at(0, "cells")), 27 - refused);
-  // At a hundred times the stiffness leapfrog fails before it refuses. At a hundredth of it nothing fails.
+  // leapfrog at a hundred times the stiffness fails before it refuses; at a hundredth nothing fails
   EXPECT_TRUE(std::holds_alternative<double>(limits.at(2, "failed")));
   EXPECT_TRUE(std::holds_alternative<std::monostate>(limits.at(0, "failed")));
 
@@ -127,7 +128,7 @@ TEST(Map, KnowsWhatItIsMadeOf) {
   EXPECT_FALSE(map_scene(load_scene("jelly"), false));
   EXPECT_EQ(map_scene(load_scene("jelly"), true)->name, "jelly");
   EXPECT_FALSE(map_scene(load_scene("projectile"), true));
-  // a user's scene with the name of a shipped one is mapped as it is
+  // a user's scene with a shipped name
   const Scene own =
       parse_scene(std::regex_replace(text_of("cloth-hang"), std::regex("mass = 0.25"), "mass = 0.5"), "cloth-hang");
   EXPECT_NEAR(map_scene(own, false)->model.particles.mass.sum(), 0.5, 1e-12);
@@ -172,7 +173,6 @@ TEST(Limits, AreSearchedAsFarAsTheirCostAllows) {
     }
 }
 
-/// The row of a limit, and the growth table.
 TableSet limit_of(const char* method, const char* scene, const Effort& effort) {
   TableSet rows;
   add_limit(load_scene(scene), find_method(method), effort, rows);
@@ -188,12 +188,12 @@ TEST(Limits, AreRowsWithTheWidthOfTheirBracket) {
   for (const auto& [rows, widest] : {std::pair{&fine, 0.005}, std::pair{&coarse, 0.5}}) {
     const Table& t = *rows->table("stability");
     const double precision = std::get<double>(t.at(0, "precision"));
-    // bisection in the logarithm stops as soon as it is below; the search goes up in steps of a tenth
+    // bisection in the logarithm stops below `widest`; the search climbs in steps of a tenth
     EXPECT_GT(precision, std::min(widest / 2.1, 0.09));
     EXPECT_LE(precision, widest);
     EXPECT_DOUBLE_EQ(precision, std::get<double>(t.at(0, "failed")) / std::get<double>(t.at(0, "held")) - 1);
     EXPECT_LE(std::abs(std::get<double>(t.at(0, "deviation"))), precision);
-    EXPECT_EQ(reason_of(*rows), "");  // a deviation within the bracket needs no reason
+    EXPECT_EQ(reason_of(*rows), "");  // within the bracket, a deviation needs no reason
   }
   EXPECT_GT(std::abs(std::get<double>(coarse.table("stability")->at(0, "deviation"))), 0.01);
   EXPECT_EQ(reason_of(limit_of("bullet/pbd", "spring", {300, 0.1})), "no linear theory: a rule of its own");
@@ -207,14 +207,14 @@ TEST(Failures, OfAClothGrowAsTheoryAndAreSeenInFourMoments) {
   ASSERT_GE(steps.size(), 4u);
   EXPECT_EQ(std::ranges::count(steps, true, &FailureRow::still), 4);
   EXPECT_NEAR(steps[0].h, 1.75 * steps[0].limit, 1e-12);
-  // h omega = 3.5: per step, the amplitude grows by a factor of 10.1 and the energy by a hundred
+  // h omega = 3.5: amplitudes grow by a factor of 10.1 per step, and energies by a hundred
   EXPECT_NEAR(*steps[0].growth, 103, 3);
   for (size_t i = 0; i < steps.size(); ++i) {
     EXPECT_NEAR(steps[i].t, static_cast<double>(steps[i].step) * steps[i].h, 1e-9);
     EXPECT_EQ(steps[i].step, steps[0].step + static_cast<long>(i));
   }
   EXPECT_GT(steps.back().kinetic, 100 * *steps.back().holding);
-  // Identical numbers from the same rule, and none from a rule that is not shown.
+  // identical numbers from the same rule; none from a rule that is not shown
   TableSet again;
   add_failure(cloth, find_method("leapfrog"), steps[0].limit, steps[0].growth, again);
   EXPECT_EQ(rows.table("stability-failure")->rows, again.table("stability-failure")->rows);
@@ -224,7 +224,7 @@ TEST(Failures, OfAClothGrowAsTheoryAndAreSeenInFourMoments) {
 }
 
 TEST(Failures, AreNoneWhereNothingGrows) {
-  // at rest from the start, so that nothing can grow
+  // nothing moves, so nothing can grow
   const Scene still = small_scene(
       "[[particle]]\nposition = [0, 0, 0]\nmass = 1\n[[particle]]\nposition = [1, 0, 0]\nmass = 1\n[[spring]]\nends "
       "= [0, 1]\nstiffness = 100\nrest = 1\n[pins]\nparticles = [0]\n");

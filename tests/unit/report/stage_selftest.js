@@ -1,16 +1,16 @@
-// Shared by tests of the player in a browser: complaints, waiting, inspection of the stage, and output for the test
-// that reads the page. Load it before the file that uses it.
+// For tests of the player in a browser: complaints, waiting, inspection of the stage, and output. Load it before its
+// users.
 const complaints = [];
 addEventListener('error', event => complaints.push(event.message));
 addEventListener('unhandledrejection', event => complaints.push(String(event.reason)));
 const consoleError = console.error;
 console.error = (...words) => (complaints.push(words.join(' ')), consoleError(...words));
 
-// with a virtual clock, a headless browser produces no frames
+// with a virtual clock, a headless browser draws no frames
 window.requestAnimationFrame = callback => setTimeout(() => callback(performance.now()), 16);
 
-// A virtual clock jumps to its end as soon as only other threads have work, such as unpacking or drawing. Therefore a
-// timer runs every 4 virtual ms and takes about 1 ms of real time until the page has reported.
+// A virtual clock jumps to its end when only other threads have work, such as unpacking or drawing. Therefore a timer
+// runs every 4 virtual ms, and takes about 1 ms of real time, until the page has reported.
 let spun = 0;
 const metronome = setInterval(() => {
   for (let i = 0; i < 1e6; ++i) spun = (spun + i) | 0;

@@ -1,4 +1,4 @@
-// Environment and output of child processes: a fixed locale and time zone, and complete files.
+// Child processes have a fixed locale and time zone, and complete files.
 
 #include <sys/wait.h>
 

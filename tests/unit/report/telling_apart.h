@@ -1,4 +1,4 @@
-// Checks from its gnuplot script that the elements of a figure are distinguishable in grey and with colour blindness.
+// Checks in gnuplot scripts that elements of a figure are distinguishable in grey and with colour blindness.
 #pragma once
 
 #include <fmt/format.h>
@@ -19,7 +19,7 @@ namespace crosscheck::testing_tools {
 
 using Rgb = Eigen::Vector3d;  // linear light, 0..1
 
-/// "#RRGGBB" in linear light (IEC 61966-2-1).
+/// IEC 61966-2-1.
 inline Rgb linear_light(const std::string& hex) {
   Rgb out;
   for (int i = 0; i < 3; ++i) {
@@ -29,7 +29,7 @@ inline Rgb linear_light(const std::string& hex) {
   return out;
 }
 
-/// CIE L*, a*, b* under D65.
+/// Under D65.
 inline Eigen::Vector3d lab(const Rgb& rgb) {
   Eigen::Matrix3d to_xyz;
   to_xyz << 0.4124564, 0.3575761, 0.1804375, 0.2126729, 0.7151522, 0.0721750, 0.0193339, 0.1191920, 0.9503041;
@@ -38,8 +38,7 @@ inline Eigen::Vector3d lab(const Rgb& rgb) {
   return {116 * f(xyz[1]) - 16, 500 * (f(xyz[0]) - f(xyz[1])), 200 * (f(xyz[1]) - f(xyz[2]))};
 }
 
-/// Full protanopia, deuteranopia and tritanopia: Machado, Oliveira, Fernandes (2009), table 1, severity 1, in linear
-/// light.
+/// Protanopia, deuteranopia and tritanopia in linear light (Machado, Oliveira, Fernandes 2009, table 1, severity 1).
 inline std::vector<Eigen::Matrix3d> colour_blindness() {
   std::vector<Eigen::Matrix3d> all(3);
   all[0] << 0.152286, 1.052583, -0.204868, 0.114503, 0.786281, 0.099216, -0.003882, -0.048116, 1.051998;
@@ -48,11 +47,11 @@ inline std::vector<Eigen::Matrix3d> colour_blindness() {
   return all;
 }
 
-/// Difference in lightness, CIE L*, 0 to 100.
+/// CIE L*, 0 to 100.
 inline double lightness_apart(const std::string& a, const std::string& b) {
   return std::abs(lab(linear_light(a))[0] - lab(linear_light(b))[0]);
 }
-/// Smallest CIE 1976 colour difference under the three kinds of colour blindness.
+/// Smallest difference (CIE 1976) under the three kinds of colour blindness.
 inline double colour_apart(const std::string& a, const std::string& b) {
   double least = 1e300;
   for (const Eigen::Matrix3d& m : colour_blindness())
@@ -60,17 +59,17 @@ inline double colour_apart(const std::string& a, const std::string& b) {
   return least;
 }
 
-// A difference of 2.3 is just noticeable for adjacent patches (Mahy et al. 1994). Separate patches and marks need three
-// to four times as much.
+// 2.3 is just noticeable for adjacent patches (Mahy et al. 1994); separate patches and marks need three to four times
+// as much.
 inline constexpr double least_lightness = 8, least_colour = 10;
 
-/// Appearance of everything drawn under one name, i.e. the data rows that a plot element selects.
+/// Appearance of all data rows with the same name.
 struct Look {
   std::set<std::string> colours, dashes, marks, fills;
-  std::string key;  // mark that identifies the method of these crosses
+  std::string key;  // mark that names the method of these crosses
 };
 
-/// True if dashes look alike: the same number of strokes per period, with the longest within a factor of 1.5.
+/// True if both have the same number of strokes per period, with the longest ones within a factor of 1.5.
 inline bool alike_dashes(const std::string& a, const std::string& b) {
   const auto parts = [](std::string text) {
     std::vector<double> strokes;
@@ -86,10 +85,10 @@ inline bool alike_dashes(const std::string& a, const std::string& b) {
   return std::max(longest, other) < 1.5 * std::min(longest, other);
 }
 
-/// Appearances in a script by name. Leaves out elements of a row or panel with its own name.
+/// By name. Omits elements that stand in a row or panel with its own name.
 inline std::map<std::string, Look> looks_of(const std::string& script) {
   std::map<std::string, Look> looks;
-  std::map<std::string, std::string> signs;  // colour -> mark of labels without text
+  std::map<std::string, std::string> signs;  // mark of labels without text, by colour
   const auto first = [](const std::string& text, const std::string& pattern) {
     std::smatch found;
     return std::regex_search(text, found, std::regex(pattern)) ? found[1].str() : std::string();
@@ -101,7 +100,7 @@ inline std::map<std::string, Look> looks_of(const std::string& script) {
       signs[first(line, "lc rgb \"(#[0-9A-F]{6})\"")] = first(line, "point pt (\\d+)");
     if (line.starts_with("plot ")) plotting = true;
     if (!plotting || line.find(" with ") == std::string::npos) continue;
-    if (line.find("&& $3 == ") != std::string::npos) continue;  // row of a named line
+    if (line.find("&& $3 == ") != std::string::npos) continue;  // the row has a name
     std::string name;
     const std::regex text("eq '([^']*)'");
     for (std::sregex_iterator i(line.begin(), line.end(), text), end; i != end; ++i) name = (*i)[1];
@@ -124,7 +123,7 @@ inline std::map<std::string, Look> looks_of(const std::string& script) {
   return looks;
 }
 
-/// True if the forms differ: lines against marks or boxes, dashes, marks, fillings.
+/// Lines differ from marks or boxes; also compares dashes, marks and fillings.
 inline bool differ_in_form(const Look& a, const Look& b) {
   if (a.dashes.empty() != b.dashes.empty() || a.fills != b.fills || a.marks != b.marks || a.key != b.key) return true;
   return std::ranges::any_of(a.dashes, [&](const std::string& d) {
@@ -132,14 +131,13 @@ inline bool differ_in_form(const Look& a, const Look& b) {
   });
 }
 
-/// One line for each pair of elements in a script that look alike in grey or with colour blindness. Empty if there are
-/// none.
+/// A line per pair of elements that look alike in grey or with colour blindness.
 inline std::string looking_alike(const std::string& script) {
   std::string out;
   const std::map<std::string, Look> looks = looks_of(script);
   for (auto a = looks.begin(); a != looks.end(); ++a)
     for (auto b = looks.begin(); b != a; ++b) {
-      // curves of the same colour share a name: a method's error and its crosses, or the others in grey
+      // curves of the same colour share a name, such as a method's error and its crosses
       if (a->second.colours == b->second.colours || differ_in_form(a->second, b->second)) continue;
       for (const std::string& p : a->second.colours)
         for (const std::string& q : b->second.colours) {
@@ -152,7 +150,7 @@ inline std::string looking_alike(const std::string& script) {
   return out;
 }
 
-/// As looking_alike, for all figures in a folder. Counts the figures.
+/// For all figures in a folder; counts them.
 inline std::string looking_alike_in(const std::filesystem::path& folder, int& figures) {
   std::string out;
   figures = 0;

@@ -1,5 +1,5 @@
-// Curves, marks and fillings are distinguishable in grey and with colour blindness. Figures of reports are checked by
-// the tests that create reports (cli_slow_test, adding_slow_test).
+// Curves, marks and fillings are distinguishable in grey and with colour blindness. Tests that create reports
+// (cli_slow_test, adding_slow_test) check the figures in them.
 
 #include <fmt/format.h>
 
@@ -19,13 +19,13 @@ TEST(TellingApart, SimulatesWhatIsKnownOfColourBlindness) {
   EXPECT_NEAR(lab(linear_light("#FFFFFF"))[0], 100, 1e-3);
   EXPECT_NEAR(lab(linear_light("#777777"))[0], 50.03, 0.01);
   for (const Eigen::Matrix3d& m : colour_blindness())
-    // the rows of each matrix sum to one, so greys do not change, to the six digits of the table
+    // rows of each matrix sum to one (to the six digits of the table), so that greys do not change
     EXPECT_LT((m * Rgb::Ones() - Rgb::Ones()).cwiseAbs().maxCoeff(), 2e-6);
   EXPECT_LT(colour_apart("#CC6677", "#009E73"), least_colour) << "red and green of the same lightness";
   EXPECT_GT(colour_apart("#0072B2", "#D55E00"), 60) << "blue and orange, with any colour blindness";
 }
 
-/// A script of two curves.
+/// Two curves.
 std::string script(const std::string& one, const std::string& other) {
   return "plot 'a.csv' using (strcol(1) eq 'one' ? $2 : NaN):3 with " + one +
          " notitle, \\\n     'a.csv' using (strcol(1) eq 'other' ? $2 : NaN):3 with " + other + " notitle\n";

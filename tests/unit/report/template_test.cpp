@@ -1,5 +1,3 @@
-// Templates: values are escaped, blocks nest, and errors name the line of missing keys and unclosed blocks.
-
 #include "report/page/template.h"
 
 #include <filesystem>

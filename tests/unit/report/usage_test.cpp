@@ -1,4 +1,4 @@
-// Mistakes on the command line and in the environment: a one-line message with a suggestion, and the exit status.
+// Mistakes on the command line and in the environment: messages, suggestions, and exit status.
 
 #include <fmt/format.h>
 

@@ -1,4 +1,4 @@
-// validate, refusals of excessive sizes, and messages for unknown names, as printed by the program.
+// validate, refusals of excessive sizes, and messages for unknown names.
 
 #include <fmt/format.h>
 
@@ -24,7 +24,7 @@ class CliValidate : public Cli {
 };
 
 TEST_F(CliValidate, SaysWhatASceneIs) {
-  // one mass m on a spring k: omega = sqrt(k / m) = 20 rad/s; leapfrog is stable up to 2 / omega
+  // a mass m on a spring k: omega = sqrt(k / m) = 20 rad/s
   write("one.toml",
         "question = \"q\"\nparameters = \"p\"\n[time]\nduration = 1\nsamples = 10\nstep = 1e-2\nwindow = 1\ntolerance "
         "= 1e-3\n"
@@ -40,7 +40,7 @@ TEST_F(CliValidate, SaysWhatASceneIs) {
   const JsonField scene = told["scenes"][0];
   EXPECT_EQ(scene["springs"]["single"].whole(), 1);
   EXPECT_NEAR(scene["largest_omega"].number(), 20, 20 * 1e-3);  // power iteration, to 1e-4
-  // explicit Euler is never stable, leapfrog up to 2 / omega, RK4 up to 2 sqrt(2) / omega
+  // leapfrog is stable up to 2 / omega, RK4 up to 2 sqrt(2) / omega
   EXPECT_NEAR(scene["critical_steps"]["rk4"].number(), 2 * std::sqrt(2.) / 20, 1e-3);
   EXPECT_NEAR(scene["critical_steps"]["leapfrog"].number(), 0.1, 1e-4);
   EXPECT_EQ(scene["critical_steps"]["explicit-euler"].number(), 0);
@@ -48,8 +48,8 @@ TEST_F(CliValidate, SaysWhatASceneIs) {
 }
 
 TEST_F(CliValidate, SaysHowAClothBends) {
-  // A sheet of 0.2 kg/m^2 and B = 5e-5 N m: (5e-5 / (0.2 x 9.81))^(1/3) = 0.0294 m. Springs would allow longer steps
-  // than bending, whose omega is 8 / d^2 sqrt(B / rho) = 1265 rad/s on 1 cm.
+  // A sheet of 0.2 kg/m^2 and B = 5e-5 N m: (5e-5 / (0.2 x 9.81))^(1/3) = 0.0294 m. Bending limits the step more than
+  // springs: its omega is 8 / d^2 sqrt(B / rho) = 1265 rad/s on 1 cm.
   const std::string text =
       "question = \"q\"\nparameters = \"p\"\n[time]\nduration = 1\nsamples = 10\nstep = 2e-3\nwindow = 1\n"
       "tolerance = 1e-3\nmethod = \"leapfrog\"\n[grid]\nsize = [21, 21]\norigin = [0, 0, 0]\nu = [0.2, 0, 0]\n"
@@ -67,7 +67,7 @@ TEST_F(CliValidate, SaysHowAClothBends) {
 }
 
 TEST_F(CliValidate, TellsPiecesParticlesAtOnePlaceAndMasses) {
-  // two bars that coincide in a point without a connection; the second one has no pins
+  // two bars that coincide in a point but are not connected; the second has no pins
   const std::string head =
       "question = \"q\"\nparameters = \"p\"\n[time]\nduration = 1\nsamples = 10\nstep = 1e-3\nwindow = 1\ntolerance = "
       "1e-3\n"
@@ -84,7 +84,7 @@ TEST_F(CliValidate, TellsPiecesParticlesAtOnePlaceAndMasses) {
   for (const char* part : {"2, 1 of them held by no pin", "the first 1 and 2", "0.1 to 0.5 kg each, 1.1 kg in total",
                            "particles 1 and 2 start at the same place, but no spring joins their pieces"})
     EXPECT_NE(text.out.find(part), std::string::npos) << part << " in " << text.out;
-  // 0.06 kg on 0.2 m^2, and a block, whose surface is unrelated to its mass
+  // 0.06 kg on 0.2 m^2; the surface of a block is unrelated to its mass
   write("sheet.toml", head +
                           "[grid]\nsize = [3, 3]\norigin = [0, 0, 0]\nu = [0.5, 0, 0]\nv = [0, 0, 0.4]\nmass = 0.06\n"
                           "stiffness = { structural = 10 }\n");
@@ -102,7 +102,7 @@ TEST_F(CliValidate, TellsPiecesParticlesAtOnePlaceAndMasses) {
   EXPECT_EQ(one["masses"]["largest"].number(), 0.5);
   EXPECT_NEAR(one["masses"]["total"].number(), 1.1, 1e-15);
   EXPECT_FALSE(one["masses"]["per_area"].is_number());
-  EXPECT_NEAR(sheet["masses"]["per_area"].number(), 0.3, 1e-15);  // a few roundings
+  EXPECT_NEAR(sheet["masses"]["per_area"].number(), 0.3, 1e-15);  // rounding
   EXPECT_EQ(sheet["pieces"].whole(), 1);
   EXPECT_FALSE(block["masses"]["per_area"].is_number());
 }
@@ -128,7 +128,7 @@ TEST_F(CliValidate, WhatIsTooLargeIsRefusedBeforeItStarts) {
   expect_refusal({"run", "chain", "--duration", "1e10"},
                  {"--duration", "5e+11 samples", "steps", "days", "B of frames", "a million samples", "20000 s"});
   expect_refusal({"run", "chain", "--step", "1e-13"}, {"a step of 1e-13 s makes", "steps, about", "1e+12", "--step"});
-  // 216000 particles and a million frames of 48 bytes per particle: 10 TB; more than 1.2 million springs
+  // 216000 particles and a million frames of 48 bytes per particle: 10 TB
   expect_refusal({"run", "block.toml"}, {"out/run: 1000001 frames", "10.4 TB", "1e+06 steps", "free on the disk"});
   expect_refusal({"compare", "block.toml", "--methods", "rk4,leapfrog"}, {"block", "TB of memory", "216000 particles"});
   EXPECT_EQ(files(), 1);

@@ -1,5 +1,5 @@
-// Findings follow from the data: tables survive a round trip, every finding names its rule and its rows, and a report
-// with changed data does not pass.
+// Findings follow from the data: tables survive a round trip, findings name their rules and rows, and a report with
+// changed data does not pass.
 
 #include <fstream>
 
@@ -67,7 +67,6 @@ TEST_F(ReadCsv, SaysWhatIsWrongAndWhere) {
   }
 }
 
-/// Names in braces in a sentence.
 std::vector<std::string> placeholders_of(const std::string& sentence) {
   std::vector<std::string> names;
   for (size_t at = sentence.find('{'); at != std::string::npos; at = sentence.find('{', at + 1))
@@ -153,7 +152,7 @@ TEST(FindingRules, NamesOfMethodsAndEnginesAreThoseThatPeopleUse) {
   EXPECT_EQ(listed({"a", "b", "c", "d", "e"}), "a, b, c and 2 more");
 }
 
-/// A small report: two scenes with a few methods, reduced to their data and report.json.
+/// Two scenes with a few methods, reduced to their data and report.json.
 class Verify : public InFolder {
  protected:
   void SetUp() override {
@@ -173,7 +172,7 @@ class Verify : public InFolder {
     write_file(folder_ / "report.json", report_json(page, all, {}, rows_, "named"));
     findings_ = all.overall.size() + all.of_scenes[0].size() + all.of_scenes[1].size();
   }
-  /// Replaces the first occurrence of a text in a file.
+  /// Replaces the first occurrence.
   void replace(const std::string& file, const std::string& from, const std::string& to) {
     std::string text = read(folder_ / file);
     const size_t at = text.find(from);
@@ -200,7 +199,7 @@ TEST_F(Verify, AReportFollowsFromItsData) {
 }
 
 TEST_F(Verify, EveryChangedRowIsNoticed) {
-  // change each cell of the table on which findings rest, one at a time
+  // changes each cell of a table that findings depend on, one at a time
   const Table& engines = *rows_.table("engines");
   const std::string whole = read(folder_ / "data/engines.csv");
   for (size_t row = 0; row < engines.rows.size(); ++row)
@@ -239,7 +238,9 @@ TEST_F(Verify, EveryPartOfAFindingIsComparedWithTheData) {
   const std::vector<JsonField> findings = report["findings"].elements();
   ASSERT_FALSE(findings.empty());
   for (const auto& [key, value] : findings.back().items()) {
-    if (key == "figure" || key == "evidence") continue;  // figure: presentation only; evidence: another test
+    if (key == "figure" || key == "evidence")
+      continue;  // `figure` is presentation only; another test covers
+                 // `evidence`
     const std::string line = fmt::format("\"{}\": {}", key, value.dump());
     std::string text = whole;
     const size_t at = text.rfind(line);

@@ -35,7 +35,7 @@ class Wrapper : public Cli {
     for (size_t at = 0; (at = text.find("\n  \"", at)) != std::string::npos; ++at)
       packages += text.substr(at + 4, text.find(':', at) - at - 4) + "\n";
     write("packages", packages);
-    if (geteuid() == 0) {  // give other users access to the folder
+    if (geteuid() == 0) {  // lets other users in
       fs::permissions(folder_, fs::perms::owner_all | fs::perms::group_all | fs::perms::others_all);
       for (const auto& entry : fs::recursive_directory_iterator(folder_ / "tree"))
         fs::permissions(entry, fs::perms::others_read | fs::perms::others_exec, fs::perm_options::add);
@@ -44,7 +44,6 @@ class Wrapper : public Cli {
   void script(const std::string& name, const std::string& text) const {
     fs::permissions(write(name, "#!/bin/sh\n" + text + "\n"), fs::perms(0755));
   }
-  /// Creates a complete build.
   void build() const {
     fs::create_directories(folder_ / "tree/build/release");
     write("tree/build/release/build.ninja", "");
@@ -56,7 +55,7 @@ class Wrapper : public Cli {
         {"CI=" + ci, "HOME=" + (folder_ / "home").string(), "XDG_CACHE_HOME=", "STUBS=" + folder_.string(),
          "PATH=" + (folder_ / "bin").string() + ":/usr/bin:/bin:/usr/sbin"});
   }
-  /// Runs as a user without write permission for the tree.
+  /// As a user without write permission for the tree.
   ProgramResult start_as_other(std::vector<std::string> words) const {
     const std::vector<std::string> as{"setpriv", "--reuid=65534", "--regid=65534", "--clear-groups"};
     words.insert(words.begin(), as.begin(), as.end());

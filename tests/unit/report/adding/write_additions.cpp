@@ -1,4 +1,4 @@
-// write_additions SOURCE OUT FILE...: writes the new and the changed files of additions below OUT.
+// write_additions SOURCE OUT FILE...: writes the files of additions below OUT.
 #include <fmt/core.h>
 
 #include "tests/unit/report/adding/additions.h"
