@@ -42,8 +42,8 @@ BenchLine line_of(const BenchRow& row) {
   return line;
 }
 
-/// For the shipped scenes, keeps only the line with the smallest gain of the engine's own kernel. Each scene counts
-/// by its last line.
+/// For the shipped scenes, keeps only the line with the smallest gain of the engine's own kernel. Uses the last line of
+/// each scene.
 void keep_least_scene(std::vector<BenchLine>& lines) {
   std::map<std::string, BenchLine> scenes;
   for (const BenchLine& line : lines)

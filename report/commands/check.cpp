@@ -97,8 +97,7 @@ std::string junit_of(const std::vector<Answer>& answers) {
   return junit_xml("check", cases);
 }
 
-/// Pictures of the unknown breaks: the method's run on that scene, at the time of the break or at the end. Breaks that
-/// cannot be drawn are omitted.
+/// Draws the run of each unknown break, at the time of the break or at the end. Omits breaks that cannot be drawn.
 std::vector<PageImage> draw_breaks(const std::vector<Answer>& answers, const std::vector<Method>& methods,
                                    const std::vector<Scene>& scenes, const std::filesystem::path& folder,
                                    ResumableOutput& output) {

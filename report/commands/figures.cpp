@@ -108,7 +108,7 @@ class Pictures {
     };
   }
 
-  /// The rows of a picture's point are its entry of the catalogue.
+  /// The rows of each point are its picture's entry in the catalogue.
   std::vector<Point> points() const {
     std::vector<Point> points;
     for (const Scene& scene : scenes_)
@@ -176,7 +176,7 @@ class Problems {
   bool any_ = false;
 };
 
-/// Charts that have a figure.
+/// Omits charts without a figure.
 std::vector<Chart> charts_of(const std::vector<Scene>& scenes, const TableSet& rows, const Provenance& lines,
                              bool of_each) {
   const AllFindings findings = all_findings(scenes, rows);

@@ -8,7 +8,7 @@
 namespace crosscheck {
 namespace {
 
-/// The kinds of names that complete a word, as in `list KIND`; empty if there are none.
+/// Kinds of names (as in `list KIND`) that complete a word; empty if there are none.
 std::string kinds_of(const std::string& command, const std::string& word) {
   if (word == "SCENE" || word == "scenes") return "scenes";
   if (word == "METHOD") return "methods scenes";

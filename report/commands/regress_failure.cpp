@@ -54,7 +54,7 @@ Series offsets_of(const Trajectory& path) {
   return series;
 }
 
-/// For pictures; nothing for a refused run.
+/// The run as a result, for pictures; nothing if it was refused.
 std::optional<MethodResult> pictured(const Case& test_case, const CaseRun& case_run, const std::string& was_or_is) {
   if (case_run.trajectory.x.empty()) return std::nullopt;
   return MethodResult{test_case.scene.name, was_or_is + test_case.method.name, case_run.outcome, case_run.trajectory};
@@ -102,7 +102,7 @@ void beside_other(FailureDetails& e, const Method& against) {
   }
 }
 
-/// Without curves if the run was refused.
+/// The curves are empty if the run was refused.
 FailureDetails failure_details(const Case& test_case, const std::vector<Comparison>& rows,
                                const Regression& regression) {
   FailureDetails e{test_case};

@@ -44,7 +44,7 @@ Table table_of(const std::vector<Comparison>& comparisons) {
 }
 
 std::string junit(const RegressionResult& result) {
-  // by scene and method
+  // failed quantities by scene and method
   std::map<std::pair<std::string, std::string>, std::vector<std::string>> wrong;
   for (const Comparison& row : result.rows) {
     std::string method = row.method.empty() ? "baseline" : row.method;

@@ -48,7 +48,7 @@ std::vector<Chart> scoreboard_charts(const ChartInput& input) {
 
 namespace {
 
-/// Uses the rule's usual name: "nearest: Heun", "symplectic Euler, implicit drag".
+/// Replaces the rule by its usual name: "nearest: Heun", "symplectic Euler, implicit drag".
 std::string words_of_rule(const std::string& words) {
   const size_t begin = words.starts_with("nearest: ") ? 9 : 0, end = std::min(words.find(','), words.size());
   const std::string rule = words.substr(begin, end - begin), method = fmt::format("{}/{}", subject().name, rule);
@@ -146,7 +146,7 @@ std::pair<std::string, MethodStyle> style_of_engine(const std::string& engine) {
   return {std::string(family.title), style_of(std::string(family.representative))};
 }
 
-/// Number of ratios with a time scaled from a part of its run; empty if there are none.
+/// Number of ratios whose time is scaled from a part of a run; empty if there are none.
 std::string scaled_text(const std::vector<EngineSpeedRow>& rows) {
   int all = 0, scaled = 0;
   for (const EngineSpeedRow& row : rows)

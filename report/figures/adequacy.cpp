@@ -21,7 +21,7 @@ const MethodStyle scene_styles[] = {{"#0072B2", "1", 7},      {"#D55E00", "(6,3)
                                     {"#009E73", "(2,2)", 9},  {"#CC79A7", "(10,3,2,3)", 13},
                                     {"#E69F00", "(4,2)", 11}, {"#332288", "(12,3,3,3)", 12}};
 
-/// Values over one column of a scene's rows, without those that are not above zero.
+/// Curve of a column's positive values on a scene.
 Curve curve_over(const std::vector<GridRow>& rows, const std::string& scene, double cells_less,
                  OptionalNumber GridRow::*value, const MethodStyle& style) {
   Curve curve{scene, style, {}, true, true};

@@ -58,7 +58,7 @@ Drawing drawing_of(const StackedBars& bars) {
 
 namespace {
 
-/// Position of a line, counting the lines of headings and of the text next to 1.
+/// Position of a line. Headings, and the text next to 1, take lines of their own.
 double place_of(const DotPlot& dots, size_t line) {
   const auto above = std::count_if(dots.headings.begin(), dots.headings.end(),
                                    [&](const auto& heading) { return heading.first <= line; });

@@ -148,7 +148,7 @@ Json series_json(const Curve& curve, const std::set<std::pair<double, double>>& 
   if (curve.line) json["line"] = true;
   add_dash(json, curve.style.dash);
   add_mark(json, curve.style.marker);
-  // few marks: they distinguish lines, and are no runs
+  // a few marks that distinguish lines and do not stand for runs
   if (curve.line && !curve.markers) json["few"] = true;
   const std::vector<size_t> kept = thinned(curve.points);
   Json points = Json::array(), open = Json::array(), tips = Json::array();
@@ -201,7 +201,7 @@ Json numbers_of(const Figure& f) {
   std::set<std::pair<double, double>> scaled;
   for (const Curve& curve : f.curves)
     if (curve.title == scaled_times) scaled.insert(curve.points.begin(), curve.points.end());
-  // on paper ringed, here open
+  // markers that are ringed on paper are open here
   if (!scaled.empty()) json["x"]["label"] = f.x.label.substr(0, f.x.label.find(", ringed"));
   json["parts"] = parts_json(f, named, scaled);
   json["key"] = Json::array();
@@ -358,7 +358,7 @@ Json method_looks_json(std::span<const std::string> methods) {
                                           "outside6", "outside7", "outside8"},
                              marks[] = {"triangle", "diamond", "square", "circle"};
   Json json = Json::object();
-  std::vector<std::pair<std::string, size_t>> programs;  // without options; index of the next mark
+  std::vector<std::pair<std::string, size_t>> programs;  // name without options, index of its next mark
   for (const std::string& name : methods) {
     const MethodFamily& family = family_of(name);
     const bool program = family.role == Role::outside;

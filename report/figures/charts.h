@@ -60,7 +60,7 @@ using AnyFigure = std::variant<Figure, StackedBars, DotPlot, HeatMap, StepLimits
 struct Chart {
   std::string scene;  // scene with this card; empty: in a chapter, or on the first screen
   AnyFigure figure;
-  std::string chapter = {};  // id (report/page/texts/)
+  std::string chapter = {};  // id of the chapter (report/page/texts/)
   std::string text = {};     // above the figure
   std::string heading = {};  // empty: the figure's title
   std::vector<PageTable> tables = {};
@@ -112,8 +112,7 @@ std::vector<std::string> methods_in(const Chart& chart);
 
 std::vector<Chart> scoreboard_charts(const ChartInput& input);  // error of every method on every scene
 std::vector<Chart> matrix_charts(const ChartInput& input);      // engines by questions
-std::vector<Chart> same_rule_charts(const ChartInput& input);   // difference between engines with the same rule, by
-                                                                // scene
+std::vector<Chart> same_rule_charts(const ChartInput& input);   // differences between engines with the same rule
 std::vector<Chart> error_charts(const ChartInput& input);       // over time, per scene with a truth
 std::vector<Chart> agreement_charts(const ChartInput& input);   // Bullet and the same rule of mysim, over time
 std::vector<Chart> contact_charts(const ChartInput& input);     // centres of mass, clearance, creep on a sphere
@@ -139,7 +138,7 @@ std::vector<std::pair<double, double>> points_of(const Table& table, const std::
 
 /// "Scene cloth-hang; step 500 µs; commit abc."
 std::string caption_of(const Scene& scene, const std::string& commit);
-/// The scene's truth with its error bar, and another engine with the round-off bound.
+/// Tiers of figures: the scene's truth with its error bar; another engine with the round-off bound.
 std::string tier_of(const SceneData& facts);
 std::string another_engine(const SceneData& facts);
 

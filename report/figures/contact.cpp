@@ -129,7 +129,7 @@ Chart drape_snapshot(const std::vector<DrapeRow>& rows) {
   return chart;
 }
 
-/// By method, at the usual step.
+/// Rows of each method's run at the usual step.
 using RunsOverTime = std::vector<std::pair<std::string, std::vector<DrapeTimeRow>>>;
 
 RunsOverTime runs_over_time(const std::vector<DrapeTimeRow>& rows, double step) {

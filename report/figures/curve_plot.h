@@ -112,20 +112,20 @@ class CurvePlot {
   std::vector<NamedCurves> parts_;
   double wide_, x_low_ = 0, x_high_ = 1, y_low_ = 0, y_high_ = 1;
   double y_floor_ = -INFINITY;
-  double y_data_ = 1;  // below the strip of failures
+  double y_data_ = 1;  // upper end of the data, below the strip of failures
   std::map<const FailureMark*, size_t> rows_;
   size_t strip_ = 0;
   std::vector<Tick> x_ticks_, y_ticks_;
   int turned_ = 0;
   double room_below_ = 0;  // for the tick labels
-  double column_ = 0;      // 0: no column
+  double column_ = 0;      // width of the column of names; 0: none
   bool y_title_on_top_ = false;
   Rect box_{};  // without the key below
   std::optional<Board> board_;
   std::vector<Label> labels_;
   std::vector<KeyEntry> key_;
   std::vector<KeyEntry> remarks_;  // above the frame
-  std::set<size_t> done_;          // with a label
+  std::set<size_t> done_;          // entries with a label
   std::vector<size_t> ending_right_;
   struct Leader {
     Place from, to;

@@ -188,7 +188,7 @@ std::optional<Place> CurvePlot::sign_of(const NamedCurves& part, size_t row) con
   return Place{left - 11 > box_.left + 5 ? left - 11 : right + 11, y_of_row(row)};
 }
 
-/// Fills rows of crosses from the top, with as many as fit.
+/// Assigns the crosses to rows from the top; each row takes as many as fit.
 void CurvePlot::assign_rows() {
   rows_.clear();
   strip_ = 0;
@@ -302,7 +302,7 @@ std::string CurvePlot::elements() const {
     for (auto part = parts_.rbegin(); part != parts_.rend(); ++part)
       if (part->coloured == coloured)
         for (const Curve* c : part->curves) draw(*part, *c);
-  for (const Curve& c : f_.curves)  // white centres
+  for (const Curve& c : f_.curves)  // white centres of open marks
     if (c.title == scaled_times && !c.points.empty())
       parts.push_back(rows(c.title, y) + "points pt 7 ps 0.4 lc rgb \"#FFFFFF\"");
   std::set<std::string> marked;

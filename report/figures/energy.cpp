@@ -125,7 +125,7 @@ Chart damping_chart(const std::vector<DampingRow>& rows, const std::string& comm
   constexpr double omega = 10;  // rad/s, the table's oscillator
   double worst = 0;
   size_t checked = 0;
-  std::vector<std::string> damped;  // with damping in theory, and as measured
+  std::vector<std::string> damped;  // methods that damp: in theory, and as measured
   std::vector<std::pair<double, double>> implicit_euler, rk4;
   for (int i = 0; i <= 240; ++i) {
     const double y = 0.01 * std::pow(500, i / 240.);

@@ -23,7 +23,7 @@ MethodStyle style_at(size_t place) {
 
 Curve& curve_of(Figure& f, const std::string& title) { return curve_of(f, title, style_at(f.curves.size())); }
 
-/// Order of convergence between the last two points, as the exponent of the deviation over the number of cells.
+/// Order of convergence from the deviations and cell numbers of the last two points.
 double order_at_end(const Curve& curve) {
   const auto& [coarse, before] = curve.points[curve.points.size() - 2];
   const auto& [fine, after] = curve.points.back();

@@ -72,7 +72,7 @@ struct FigureInfo {
   std::string caption;      // scene, step, commit; all_charts() adds the tier
   std::string tier;         // reference and its accuracy: "exact (Coulomb's law)"
   std::string finding;      // a sentence, also the alternative text
-  bool from_costs = false;  // timings differ in every run
+  bool from_costs = false;  // drawn from timings, which differ in every run
   FigureSize size = {};
   std::string runs = {};  // set of runs that its markers or cells play
 };
@@ -90,7 +90,7 @@ struct OnPage {
     std::string name, more;
   };
   std::optional<Take> take;  // recommended run, drawn with a ring
-  bool flat = false;         // lower, to be shown next to pictures
+  bool flat = false;         // less high, for charts next to pictures
 };
 
 struct Figure : FigureInfo {
@@ -149,7 +149,7 @@ struct DotPlot : FigureInfo {
   };
   struct Series {
     std::string title;
-    MethodStyle style;                     // without dash
+    MethodStyle style;                     // the dash is not used
     std::vector<std::optional<Dot>> dots;  // one per line
   };
   std::string label;

@@ -15,7 +15,7 @@ namespace {
 using Make = std::vector<Chart> (*)(const ChartInput& input, const Scene& scene, const SceneData& facts,
                                     const Table& table);
 
-/// For all scenes that have a table with this ending.
+/// Makes the charts of all scenes that have a table with this ending.
 std::vector<Chart> of_all_scenes(const ChartInput& input, const char* ending, Make make) {
   std::vector<Chart> charts;
   for (size_t i = 0; i < input.scenes.size(); ++i) {

@@ -13,7 +13,7 @@ namespace crosscheck {
 
 inline constexpr double letter_height = 12, line_of_text = 15;
 
-/// In units.
+/// In layout units.
 double width_of(const std::string& text);
 
 /// "0.001", "2·10⁻⁷"
@@ -53,7 +53,7 @@ class Sheet {
   std::string mark(Place p, const std::string& colour, int marker, double size = 0.8) const;
   std::string line(Place from, Place to, const std::string& colour, double thick, const std::string& dash) const;
   std::string box(Rect r, const std::string& colour, const std::string& fill = "solid") const;
-  /// Makes this box the plot's.
+  /// Sets the margins so that this is the plot's box.
   std::string margins(const Rect& box) const;
 
  private:

@@ -14,7 +14,7 @@
 namespace crosscheck {
 namespace {
 
-/// rad/s, fastest vibration that limits the step, by scene.
+/// Fastest vibration that limits the step of each scene, rad/s.
 std::map<std::string, double> fastest_of(const std::vector<LimitRow>& table) {
   std::map<std::string, double> fastest;
   for (const LimitRow& row : table)
@@ -80,8 +80,8 @@ struct Gathered {
   StepLimits::Row row;
   std::string without;                   // scene without a stable step
   std::string bound;                     // scene with a limit
-  std::optional<double> every, refused;  // smallest over scenes: largest h omega tried, if no step failed; h omega
-                                         // above which steps are refused
+  std::optional<double> every, refused;  // h omega, minimum over scenes. every: largest tried, if no step failed;
+                                         // refused: largest that the method accepts
   bool any() const { return !bound.empty() || !without.empty() || every || refused; }
 
   void add(const LimitRow& limit, double omega, const std::vector<StepLimits::SceneMark>& scenes) {

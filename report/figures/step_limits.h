@@ -11,7 +11,7 @@
 namespace crosscheck {
 
 struct StepLimits : FigureInfo {
-  /// As h omega.
+  /// Limits on one scene, as h omega.
   struct Mark {
     size_t scene;  // index in `scenes`
     double measured;
@@ -40,7 +40,7 @@ struct StepLimits : FigureInfo {
 /// searched.
 StepLimits step_limits_of(const std::vector<LimitRow>& table, const std::string& scene);
 
-/// In ms, or a word.
+/// Limits in ms, or a word.
 std::string measured_text(const LimitRow& row);
 std::string predicted_text(const LimitRow& row);
 

@@ -129,7 +129,7 @@ std::optional<Chart> effective_stiffness(const std::vector<EffectiveStiffnessRow
                    "stiffness"_a = softest->stiffness, "commit"_a = commit);
 }
 
-/// Young's modulus over the angle of the pull: by formula (lines), and from energies of strained nets (marks).
+/// Young's modulus against the angle of the pull: by formula (lines), and from energies of strained nets (marks).
 Chart pulled_sheets(const std::vector<PulledSheetRow>& rows, const std::string& commit) {
   Figure f;
   f.y.low = 0;

@@ -93,7 +93,7 @@ Findings difference_answer(std::span<const SceneData> data) {
 struct EngineApart {
   std::string method;
   Largest apart = {};
-  bool same = true, another = false;  // same: the same rule on all scenes; another: a different rule on a scene
+  bool same = true, another = false;  // same: same rule on every scene; another: different rule on some scene
 };
 
 std::vector<EngineApart> engines_apart(std::span<const SceneData> data) {
@@ -285,7 +285,7 @@ Findings ball_answer(const Facts& facts) {
              .value = *other->difference,
              .words = {{"where", scene->scene}, {"until", step_text(scene->window)}, {"final", final}}}};
   }
-  // two others, those with the most errors
+  // at most two others: those with the most errors
   const ConeCount first = counts[0];
   counts.erase(counts.begin());
   if (counts.size() > 2) std::ranges::stable_sort(counts, {}, &ConeCount::right);

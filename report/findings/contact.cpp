@@ -44,7 +44,7 @@ Findings plane_findings(const Facts& facts) {
     const double off = std::abs(*row.measured - row.by_theory);
     if (row.probe == PlaneProbe::apex && row.method == ours) errs.value = 100 * off / row.by_theory;
     if (row.probe == PlaneProbe::period && row.method == ours) period = percent(off, row.by_theory);
-    // J: omit round-off
+    // J; smaller values are round-off
     if (row.probe == PlaneProbe::loss && off > 1e-12) rests.value = std::max(rests.value, 100 * off);
     if (row.probe == PlaneProbe::held && *row.measured < least) least = *row.measured, moving = row.method;
   }

@@ -97,7 +97,7 @@ void taken_by_contact(const TableSet& rows, Findings& out) {
           (!furthest || off(&row) > off(furthest)))
         furthest = &row;
     }
-    // the truth must resolve a tenth of its contact energy
+    // skip scenes whose truth is too inaccurate to resolve deviations
     if (!first || *first->contact_bar > 0.1 * std::abs(*first->contact_in_truth)) continue;
     if (furthest) others.insert(others.begin(), furthest);
     const double in_truth = *first->contact_in_truth, bar = *first->contact_bar;

@@ -18,7 +18,7 @@ struct Evidence {
   std::string fingerprint;  // 16 hexadecimal digits (FNV-1a) over these rows as in the CSV file
 };
 
-/// As in report.json.
+/// In the format of report.json.
 Json json_of(const Evidence& evidence);
 
 /// Rows of the tables of the finding's rule; only those of its scene, if it has one.

@@ -43,7 +43,7 @@ struct FindingRule {
   std::string_view key;
   Findings (*find)(const Facts&);  // called once, even if several rows share it
   std::string_view topic;     // answer, agreement, accuracy, failure, cost, contact, order, energy, adequacy, choice
-  std::string_view chapter;   // id; empty: the part of its scene
+  std::string_view chapter;   // id of its chapter; empty: the part of its scene
   std::string_view quantity;  // name of `value`
   std::string_view unit;      // of value, low and high: "m", "s", "%", "1", "m/s", "1/s" or "degrees"
   std::string_view tier;      // tier of its truth; empty: each finding has its own
@@ -74,7 +74,7 @@ const std::map<std::string, FindingText>& finding_texts();
 std::string sentence_of(const Finding& finding);
 std::string sentences_of(const Findings& findings);
 std::string tier_of(const Finding& finding);
-/// As in report.json, except the rows.
+/// In the format of report.json, without the rows.
 Json json_of(const Finding& finding);
 
 // Functions of the rules.

@@ -19,14 +19,14 @@ std::string position_based(const MethodFamily& peer = *default_peers().front());
 
 /// Representative methods of all engines, and position-based methods of the peers.
 std::vector<std::string> representatives();
-/// Adds the sticky sphere, for scenes with contact.
+/// representatives() and the sticky sphere, for scenes with contact.
 std::vector<std::string> representatives_in_contact();
 
-/// True if findings that name only a few methods may name this one: it represents its engine, or is a user's program.
+/// True for representatives of engines and for users' programs: findings that name only a few methods may name them.
 bool stands_for_its_engine(const std::string& method);
-/// False for truths.
+/// True for engines other than mysim, but not for truths.
 bool is_another_engine(const std::string& method);
-/// Excludes external integrators of our right-hand side.
+/// is_another_engine() without external integrators of our right-hand side.
 bool is_rival(const std::string& method);
 /// True for another engine's representative that is not position-based, so that it may move like mysim.
 bool may_move_alike(const std::string& method);

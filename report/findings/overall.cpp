@@ -43,7 +43,7 @@ Findings order_findings(const Facts& facts) {
   for (const OrderSlopeRow& row : slopes) {
     add_once(methods, row.method), add_once(scenes, row.scene);
   }
-  // allows for the next order's contribution to the finest three steps on a smooth scene
+  // 0.1 allows for the next order's contribution to the finest three steps on a smooth scene
   const bool differs = off(worst) > 0.1;
   return {{.rule = differs ? "orders.differ" : "orders.agree",
            .method = differs ? worst.method : "",

@@ -32,7 +32,7 @@ struct RecommendedRun {
   double cost = 0;                   // CPU time, s
   bool timed_whole = true;           // false: scaled from a part of the run
   std::vector<std::string> tied;     // methods of the same cost with larger errors
-  std::vector<EngineBeside> beside;  // if mysim has a run within the accuracy
+  std::vector<EngineBeside> beside;  // empty if mysim has no run within the accuracy
   std::string_view bound;            // why the step cannot be longer: stability, accuracy, failure or sampling
 };
 

@@ -27,7 +27,7 @@ struct MethodData : EngineRow {
   bool gave_no_answer() const { return verdict == Verdict::crash || verdict == Verdict::timeout; }
   /// True if the run completed, is not a truth, and has a known error.
   bool judged() const { return ok() && error && family_of(method).role != Role::truth; }
-  /// For a failed run.
+  /// In words, for a failed run.
   std::string failure() const { return failure_class(verdict); }
 };
 

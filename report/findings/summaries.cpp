@@ -15,10 +15,10 @@ std::string residual_class(const EnergyRow& run) {
   const double worst = run.largest_residual.value_or(0), turned = run.turned_over.value_or(0);
   const bool lost = run.residual.value_or(0) < 0;
   if (run.verdict != Verdict::ok) return failure_class(run.verdict);
-  // 1e5 times the rounding of accumulated energies
+  // round-off: 1e5 times the rounding of accumulated energies
   if (worst < 1e-11 * turned) return residual_none;
   if (worst > 0.3 * turned) return lost ? "loses much of the energy" : "gains much energy";
-  // 0.5: decades relative to the first tenth of the run; growth proportional to time gives 1
+  // growth in decades, relative to the first tenth of the run; growth proportional to time gives 1
   if (run.growth.value_or(0) > 0.5) return lost ? "drifts down" : "drifts up";
   return residual_bounded;
 }

@@ -101,7 +101,7 @@ Verification verify_report(const fs::path& folder) {
 
 namespace {
 
-/// By scene, rule, method and other method.
+/// Scene, rule, method and other method of a sentence.
 using Key = std::array<std::string, 4>;
 using SentencesByKey = std::map<Key, std::vector<std::string>>;
 

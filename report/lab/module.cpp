@@ -96,7 +96,7 @@ EXPORT(text_buffer) char* text_buffer(int bytes) {
   return instance().text.data();
 }
 
-/// JSON.
+/// Table of steppers as JSON.
 EXPORT(steppers) const char* steppers_json() {
   std::string out;
   for (const Stepper& s : steppers())
@@ -132,9 +132,9 @@ EXPORT(constraint_ends) const int* constraint_ends() { return hand_out(ends_of(c
 
 EXPORT(spring_families) const int* spring_families() { return hand_out(of_each<int>(springs(), &Spring::family)); }
 
-/// In m.
+/// Rest lengths, m.
 EXPORT(spring_rests) const double* spring_rests() { return hand_out(of_each<double>(springs(), &Spring::rest)); }
-/// In m.
+/// Lengths of distance constraints, m.
 EXPORT(constraint_lengths) const double* constraint_lengths() {
   return hand_out(of_each<double>(constraints(), [](const auto& c) { return c.length; }));
 }
@@ -145,10 +145,10 @@ EXPORT(triangles) const int* triangles() {
   return hand_out(std::move(corners));
 }
 
-/// In rad/s.
+/// Fastest vibration, rad/s.
 EXPORT(omega) double omega() { return run().omega(); }
 
-/// In s, for the stepper in this row; nan if unknown.
+/// Critical step of the stepper in this row, s; nan if unknown.
 EXPORT(critical_step) double critical_step(int row) {
   return run().critical_step(steppers()[static_cast<size_t>(row)]).value_or(std::numeric_limits<double>::quiet_NaN());
 }
@@ -161,19 +161,19 @@ EXPORT(start) void start(double step, double tolerance, double duration, int kee
 EXPORT(advance) int advance(double t, int most) { return run().advance(t, most); }
 EXPORT(time) double time() { return run().time(); }
 
-/// JSON.
+/// Outcome so far as JSON.
 EXPORT(outcome) const char* outcome_json() {
   const Outcome out = run().outcome();
   return hand_out(fmt::format(R"({{"verdict":{},"reason":{},"step":{},"steps":{}}})", quoted(name_of(out.verdict)),
                               quoted(out.reason), std::isfinite(out.step) ? out.step : 0, out.steps));
 }
 
-/// In m.
+/// Positions, m.
 EXPORT(positions) const double* positions() { return run().state().x.data(); }
-/// In m/s.
+/// Velocities, m/s.
 EXPORT(velocities) const double* velocities() { return run().state().v.data(); }
 
-/// In m, at a time in s.
+/// Centres of the spheres at a time (s), m.
 EXPORT(centres) const double* centres(double t) {
   std::vector<double> places;
   for (const Sphere& sphere : list_in_term<Spheres>())

@@ -84,7 +84,7 @@ struct Folded {
   Chapter::Entry entry;
 };
 
-/// By importance.
+/// Folded entries, the most important first.
 std::vector<Folded> folded(const Chapter& chapter, const std::vector<Lead>& leads) {
   std::vector<Folded> all;
   for (const Chapter::Entry& given : chapter.entries) {
@@ -126,7 +126,7 @@ Json fold_data(const std::string& heading, const std::vector<Folded>& all, const
   return folds.fold(heading, many, "group", {{"entries", std::move(entries)}, {"choices", std::move(choices)}});
 }
 
-/// Data of the findings, the relations and the entries. The least important ones share the last fold.
+/// Data of all folds: findings, relations, entries. The least important entries share the last fold.
 Json folds_data(const Chapter& chapter, const std::vector<Lead>& leads, const PageContent& c, Folds& folds) {
   Json all = Json::array();
   Findings said;

@@ -21,7 +21,7 @@ std::filesystem::path lab_module_file();
 /// The module, the given scenes, and those of the guided experiments, for the end of a page. Empty without a module.
 Json lab_data(const std::vector<Scene>& scenes);
 
-/// Throws InputError with the packages to install if there is no module.
+/// A page with only the lab. Throws InputError with the packages to install if there is no module.
 std::string lab_page_html(const std::vector<Scene>& scenes);
 
 }  // namespace crosscheck

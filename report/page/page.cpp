@@ -55,7 +55,7 @@ std::vector<std::string> figures_of(const PageContent& c) {
 
 namespace {
 
-/// Null without an earlier report.
+/// The changes since an earlier report; null without one.
 Json changes_data(const PageContent& c) {
   if (c.against.empty()) return nullptr;
   int timed = 0;
@@ -74,7 +74,7 @@ Json scene_data(const ScenePart& part, const PageContent& c) {
   const Scene& scene = *part.scene;
   const SceneData& facts = *part.facts;
   Findings shown = part.findings;
-  std::erase_if(shown, [](const Finding& f) { return f.rule == "take"; });  // in a table instead
+  std::erase_if(shown, [](const Finding& f) { return f.rule == "take"; });  // shown in a table instead
   Json data = findings_data(shown);
   data.update({{"name", scene.name},
                {"question", scene.question},
@@ -94,7 +94,7 @@ Json scene_data(const ScenePart& part, const PageContent& c) {
                {"certificates", Json::array()},
                {"continuum", Json::array()}});
   if (!part.motions.empty() && !part.runs.empty()) {
-    // recommended run and first run of another engine
+    // compares the recommended run with the first run of another engine
     const auto other = std::ranges::find_if(part.runs, [&](const ShownRun& run) {
       return run.beside && family_of(run.method).name != family_of(part.runs[0].method).name;
     });
@@ -151,7 +151,7 @@ Json scripts_data(const PageContent& c, const Folds& folds) {
   return all;
 }
 
-/// In bytes.
+/// Sizes of the page's blocks in bytes.
 std::vector<std::pair<std::string, size_t>> blocks_of(const Json& page, const std::string& html) {
   std::vector<std::pair<std::string, size_t>> blocks{{"text and pictures", html.size()}};
   const auto count = [&](const std::string& block, size_t bytes) {

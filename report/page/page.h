@@ -57,7 +57,7 @@ struct ScenePart {
   std::vector<PageFigure> figures;
   std::vector<const Certificate*> certificates;
   const Table* statistics = nullptr;   // statistics of perturbed runs, for scenes with contact
-  std::optional<RecommendedRun> take;  // within 1 %
+  std::optional<RecommendedRun> take;  // recommended run within 1 %
   std::vector<ShownRun> runs = {};     // in the small table of its card
 };
 
@@ -97,13 +97,13 @@ struct PageContent {
   Findings findings;  // across scenes
   std::vector<ScenePart> scenes;
   std::vector<Chapter> chapters;
-  Json charts = Json::object();  // by figure name (report/figures/chart_json.h)
+  Json charts = Json::object();  // contents of the charts by figure name (report/figures/chart_json.h)
   std::vector<std::string> methods;
   std::vector<RelationRow> relations;
-  std::vector<PlayableRuns> runs;  // played by figures
+  std::vector<PlayableRuns> runs;  // runs that figures play
   Json lab = Json::array();        // the module and its scenes, for the page's end (data.html)
   std::string main_scene;
-  std::filesystem::path figures;      // for paper
+  std::filesystem::path figures;      // folder of the figures for paper
   std::vector<std::string> notes;     // omissions, with reasons
   std::vector<std::string> problems;  // failures
   std::string against;
@@ -111,15 +111,15 @@ struct PageContent {
   Provenance provenance;
 };
 
-/// In order; each figure has the anchor #figure-NAME.
+/// Names of all figures in order; each has the anchor #figure-NAME.
 std::vector<std::string> figures_of(const PageContent& content);
 /// Scenes that move on the first screen: the main scene, and the last cloth with contact.
 std::vector<const ScenePart*> first_scenes(const PageContent& content);
-/// Figures that open a chapter are also drawn for paper and for readers without scripts.
+/// True if a figure opens a chapter: it is then also drawn for paper and for readers without scripts.
 bool opens_a_chapter(const PageContent& content, const std::string& figure);
 
-/// `blocks` receives the sizes of the page's blocks in bytes. Throws std::runtime_error if an image or motion cannot be
-/// read.
+/// The whole page; `blocks` receives the sizes of its blocks in bytes. Throws std::runtime_error if an image or motion
+/// cannot be read.
 std::string page_html(const PageContent& content, std::vector<std::pair<std::string, size_t>>* blocks = nullptr);
 
 /// `bundle` is "app", or "lab_page" for a page with only the lab. Throws std::runtime_error if the script was not
@@ -142,7 +142,7 @@ std::string readable(std::string text);
 
 /// All chapters in order, without entries (report/page/texts/ID.md).
 std::vector<Chapter> chapters();
-/// The first chapter has the certificates.
+/// True if the chapter shows anything; the first one has the certificates.
 bool has_contents(const Chapter& chapter);
 
 /// A page of relations only, with pictures of violations.

@@ -103,7 +103,7 @@ export function startPage() {
   const base: Record<string, string> =
       {m: 'm', mm: 'm', 'µm': 'm', nm: 'm', s: 's', ms: 's', 'µs': 's', 'mm/s': 'm/s', '%': '%'};
 
-  /** In the base unit; null for text. */
+  /** A cell as a number in the base unit; null for text. */
   const number = (text: string) => {
     const plain = text.replace(/\s×\s10([−-]?\d+)/, (_, power: string) => `e${power.replace('−', '-')}`);
     const found = /^[<±]?\s*(-?[\d.]+(?:e[+-]?\d+)?)\s*(%|[a-zµ/]*)$/.exec(plain);
@@ -112,7 +112,7 @@ export function startPage() {
         null;
   };
 
-  /** Browsers know the text of folded content, but not its layout. */
+  /** Text of an element; browsers know that of folded content, but not its layout. */
   const wordsIn = (element: HTMLElement) =>
       (element.innerText || element.textContent || '').trim().replace(/\s+/g, ' ');
   const textOf = (row: HTMLTableRowElement, column: number) => (row.cells[column] ? wordsIn(row.cells[column]) : '');

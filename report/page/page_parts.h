@@ -45,7 +45,7 @@ Json first_screen_data(const PageContent& content);
 /// " next to Bullet and mine": engines that ran the scenes.
 std::string beside_mysim(const PageContent& content);
 
-/// Data of chapter.html for the chapters with contents.
+/// Data of chapter.html for each chapter with contents.
 Json chapters_data(const PageContent& content, Folds& folds);
 /// Figures that are visible without opening a fold.
 std::vector<std::string> figures_in_sight(const PageContent& content);
@@ -54,17 +54,17 @@ std::vector<std::string> figures_in_sight(const PageContent& content);
 Json run_table_data(const ScenePart& part);
 Json statistics_data(const Table& statistics);
 Json recommendations_data(const std::vector<ScenePart>& scenes);
-/// One row per built-in method.
+/// Data of table.html: one row per built-in method.
 Json methods_data(const std::vector<std::string>& shown);
 /// Data of certificate.html.
 Json certificate_data(const Certificate& certificate);
 /// Data of parity.html: all certificates, with a dot per quantity and scene. Null without certificates.
 Json parity_data(const std::vector<ScenePart>& scenes);
-/// Data of relations.html. Null without rows.
+/// Data of relations.html; null without rows.
 Json relations_data(const std::vector<RelationRow>& rows);
 
 Json glossary_data();
-/// A head of "- key: value" lines, then Markdown. Throws std::runtime_error ("ID.md: …").
+/// Reads a head of "- key: value" lines, then Markdown. Throws std::runtime_error ("ID.md: …").
 Chapter chapter_of_text(const std::string& id, const std::string& text);
 
 }  // namespace crosscheck

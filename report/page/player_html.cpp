@@ -20,7 +20,7 @@
 namespace crosscheck {
 namespace {
 
-/// Bytes in the page.
+/// Size in the page, bytes.
 size_t weight_of(const RunFile& file) {
   return (std::filesystem::file_size(file.file) + 2) / 3 * 4 + dump(file.entry).size();
 }
@@ -72,7 +72,7 @@ std::optional<PlayableRuns> PageRuns::take(const std::string& key, const std::st
   PlayableRuns runs{key, "", "", {}};
   for (const RunFile& file : files_)
     if (file.set == key && (only.empty() || file.method == only)) runs.files.push_back(file);
-  // representatives of engines first
+  // representatives of engines come first
   std::ranges::stable_partition(runs.files, [](const RunFile& file) {
     return file.method == "truth" || file.method == family_of(file.method).representative;
   });

@@ -21,7 +21,7 @@ RelationMark worse_mark(RelationMark a, RelationMark b) {
   return RelationMark::not_applicable;
 }
 
-/// As in the parity certificates: a full dot, a ring, a red square.
+/// Dots as in parity certificates: full, a ring, a red square.
 std::string_view css_class(RelationMark mark) {
   constexpr std::string_view names[] = {"match", "mismatch", "law", "unattested"};
   return names[static_cast<int>(mark)];

@@ -115,7 +115,7 @@ class Chooser {
   std::vector<ShownRun> charted_, chosen_;
 };
 
-/// True for mysim's rules without options that a browser does not support.
+/// True for mysim's rules whose options a browser supports.
 bool is_of_lab(const std::string& method) {
   const std::vector<std::string> words = split(method, '+');
   return family_of(method).is_subject() && std::all_of(words.begin() + 1, words.end(), [](const std::string& word) {

@@ -16,7 +16,7 @@ Json cell(const std::string& text, const std::string& css_class = "") {
   return {{"text", text.empty() ? "–" : text},
           {"class", text.empty() ? "none" : css_class},
           {"link", ""},
-          {"note", ""},  // follows in grey
+          {"note", ""},  // follows the text in grey
           {"law", ""}};  // the method's different law
 }
 Json cell(const std::string& text, const std::string& css_class, const char* key, const std::string& value) {
@@ -41,7 +41,7 @@ std::string length_text(const std::optional<double>& value, double floor = 0) {
   return !value ? "" : *value < floor ? "< " + nice_length(floor) : nice_length(*value);
 }
 
-/// Negative inside; round-off counts as zero.
+/// A clearance, negative inside; round-off counts as zero.
 std::string signed_length(double metres) { return std::abs(metres) < 1e-12 ? "0 m" : nice_length(metres); }
 
 Json verdict_cell(const MethodData& m, const SceneData& facts) {

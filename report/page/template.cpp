@@ -14,7 +14,7 @@
 namespace crosscheck {
 namespace {
 
-/// By the first word of the tag.
+/// Converters of values, by the first word of the tag.
 const std::map<std::string, std::string (*)(const std::string&)>& writers() {
   static const std::map<std::string, std::string (*)(const std::string&)> table{
       {"", escaped},

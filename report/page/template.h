@@ -31,9 +31,9 @@ class Template {
  private:
   struct Part {
     std::string kind;  // "text", "{" for {{{key}}}, or the tag's first word: "", "prose", "#each", ">"
-    std::string key;   // or text, or another template's name
+    std::string key;   // key, text, or name of another template
     int line;
-    std::string item = {};  // selects the other template's data
+    std::string item = {};  // key of the other template's data
     std::vector<Part> inside = {}, otherwise = {};
   };
   class Reader;

@@ -121,12 +121,12 @@ std::vector<Sample> light_samples(int passes) {
 
 namespace {
 
-constexpr double body_part = 1 - 2 * 0.06;     // part of the view for bodies and balls: a margin of 6 % on each side
-constexpr double least_part = 0.7;             // minimum of that part, even if shadows are cut off
-constexpr double shadow_part = 1 - 2 * 0.015;  // part of the view for shadows
+constexpr double body_part = 1 - 2 * 0.06;  // fraction of the view for bodies and balls: a margin of 6 % on each side
+constexpr double least_part = 0.7;          // smallest such fraction, even if shadows are cut off
+constexpr double shadow_part = 1 - 2 * 0.015;  // fraction of the view for shadows
 constexpr double clearance = 0.08;             // height of the lowest point above the ground / size
 
-/// Conditions from both sides along an axis of the picture.
+/// Conditions from both sides along an axis of the picture, for one slope.
 struct Wedge {
   double slope;
   double upper = -std::numeric_limits<double>::infinity();  // maximum of  a + slope c
@@ -175,7 +175,7 @@ View fit_view(const std::vector<Points>& points, const std::vector<Ball>& balls,
     lowest = std::min(lowest, b.centre.y() - b.radius);
   }
   double size = box.diagonal().norm();
-  if (!(size > 0)) {  // a single point in a view of 1 m
+  if (!(size > 0)) {  // a single point gets a view of 1 m
     size = 1;
     all.push_back({box.center(), 0.5});
   }
@@ -196,7 +196,7 @@ View fit_view(const std::vector<Points>& points, const std::vector<Ball>& balls,
     horizontal.hold(right.dot(x), back.dot(x), b.radius);
     vertical.hold(top.dot(x), back.dot(x), b.radius);
 
-    // shadow on the ground: a point, or some points of a circle
+    // the shadow on the ground is a point, or some points of a circle
     const Vec3 foot = x - key * ((b.centre.y() - floor) / key.y());
     for (int i = 0; ground && i < (b.radius > 0 ? 8 : 1); ++i) {
       const double angle = i * std::numbers::pi / 4;

@@ -27,22 +27,22 @@ struct Frame {
 /// Throws std::runtime_error if the view is not finite or the eye is at the target.
 Frame frame_of(const View& view, double aspect);
 
-/// Rows: horizontally to the right, up, horizontally towards the eye.
+/// Axes in rows: horizontally to the right, up, horizontally towards the eye.
 Eigen::Matrix3d upright_axes(const Vec3& towards_eye);
 
-/// Towards the centre of the key light: steep, from the left behind the viewer.
+/// Direction towards the centre of the key light: steep, from the left behind the viewer.
 Eigen::Vector3f key_direction();
 
 /// Clip matrix of a distant light that covers the sphere, with depth 0..1 from its near to its far side.
 Eigen::Matrix4f light_matrix(const Eigen::Vector3f& direction, const Eigen::Vector3f& centre, float radius);
 
-// on a surface that faces the key light, and on one that faces up under an open sky
+// light on a surface that faces the key light, and on one that faces up under an open sky
 constexpr float key_light = 0.66f, sky_light = 0.47f;
 
 struct Sample {
   Eigen::Vector2f pixel;  // offset within the pixel, pixels
-  Eigen::Vector3f key;    // towards a point on the key light
-  Eigen::Vector3f sky;    // towards a point of the sky, uniform over the upper hemisphere
+  Eigen::Vector3f key;    // direction towards a point on the key light
+  Eigen::Vector3f sky;    // direction towards a point of the sky, uniform over the upper hemisphere
 };
 
 /// Deterministic low-discrepancy points, in a different order for each member of Sample.

@@ -8,7 +8,7 @@
 
 namespace crosscheck::render {
 
-using Colour = Eigen::Vector3f;  // 0..1
+using Colour = Eigen::Vector3f;  // channels 0..1
 
 constexpr unsigned background_hex = 0xF7F7F5;
 
@@ -19,13 +19,13 @@ inline Colour linear(unsigned rrggbb) { return to_linear(from_hex(rrggbb)); }
 /// sRGB bytes of the linear intensities i / 16384: a fast look-up with the same result on every machine.
 std::vector<unsigned char> srgb_table();
 
-/// Clamped to 0..1.
+/// Position of a value on the scale, clamped to 0..1.
 float scale_position(const Scale& scale, double value);
 
-/// In sRGB; positions 0..1 are light to dark.
+/// sRGB colour at a position 0..1, from light to dark.
 Colour scale_colour(float position);
 
-/// In sRGB: Okabe-Ito's 7 colours; grey for other indices.
+/// sRGB of Okabe-Ito's 7 colours; grey for other indices.
 unsigned palette_hex(int index);
 
 }  // namespace crosscheck::render

@@ -24,10 +24,10 @@ struct PlacedBody {
   const Eigen::Vector3f& at(int i) const { return x[std::size_t(i)]; }
   bool coloured() const { return scale && !body.value.empty(); }
 
-  /// 0 if the body has no values.
+  /// Position of a particle's value on the scale; 0 if the body has no values.
   float position(int i) const { return coloured() ? scale_position(*scale, body.value[std::size_t(i)]) : 0; }
 
-  /// 0 if there are none.
+  /// Median length of the edges; 0 if there are none.
   float median_length(const std::vector<Edge>& edges) const {
     std::vector<float> lengths;
     for (const auto& [i, j] : edges) lengths.push_back((at(i) - at(j)).norm());
@@ -49,7 +49,7 @@ constexpr float thread_width = 0.075f;  // spacings of the threads
 
 Edge sorted(int i, int j) { return {std::min(i, j), std::max(i, j)}; }
 
-/// Area-weighted means.
+/// Area-weighted mean of the triangles' normals around each particle.
 std::vector<Eigen::Vector3f> smooth_normals(const PlacedBody& placed) {
   std::vector<Eigen::Vector3f> normal(placed.x.size(), Eigen::Vector3f::Zero());
   for (const auto& triangle : placed.body.triangles)
@@ -125,7 +125,7 @@ std::vector<Edge> add_cloth(const PlacedBody& placed, DrawList& list) {
 // is the depth to which its smaller flat pieces may still dip. The renderer moves the cloth towards the eye by `lift`,
 // in depth only, and computes its shadows from there. Deeper penetration is visible.
 
-// in heights of the view
+// sizes in heights of the view
 constexpr float few_tubes_radius = 0.0075f, view_bead_radius = 0.027f, pin_radius = 0.0085f, trail_radius = 0.0032f;
 
 constexpr unsigned plain_tube = 0x8E9196, plain_bead = 0xDDA15E, pin_hex = 0x34363B, ball_hex = 0xB6BBC3;
@@ -168,7 +168,7 @@ void add_beads(const PlacedBody& placed, const Frame& frame, DrawList& list) {
   }
 }
 
-/// As rods that grow and darken towards the present, the oldest first.
+/// Adds the path as rods that grow and darken towards the present, the oldest first.
 void add_trail(const Body& body, const Frame& frame, DrawList& list) {
   constexpr float least_step = 0.004f;  // heights of the view; shorter steps are merged
   std::vector<Eigen::Vector3f> path;

@@ -14,10 +14,10 @@ namespace crosscheck::render {
 /// a thread.
 struct ClothVertex {
   Eigen::Vector3f x, normal, rim;
-  float value;  // on the scale, 0..1
+  float value;  // position on the scale, 0..1
 };
 
-/// With round ends; a ball if both ends coincide.
+/// A rod with round ends; a ball if both ends coincide.
 struct Rod {
   Eigen::Vector3f a;
   float radius;

@@ -46,7 +46,7 @@ class Program {
   GLuint id_;
 };
 
-/// With one texture of RGBA floats, and optionally a depth buffer.
+/// A framebuffer with one texture of RGBA floats, and optionally a depth buffer.
 struct Target {
   GLuint framebuffer = 0, texture = 0;
 };

@@ -87,7 +87,7 @@ std::vector<double> bands_of(const Picture& picture, const Layout& layout) {
   return bands;
 }
 
-/// Independent of the picture's height if the size of letters is given.
+/// Fonts, columns and legend. They do not depend on the picture's height if the size of letters is given.
 Layout columns_and_fonts(const Picture& picture) {
   const std::size_t columns = columns_of(picture);
   if (columns == 0) throw std::runtime_error("render: the picture has no panels");
@@ -110,7 +110,7 @@ bool titles_fit(const std::vector<Panel>& panels, double room) {
   });
 }
 
-/// In pixels, for panels of this aspect.
+/// Height (pixels) at which panels have this aspect.
 int height_for(const Picture& picture, double aspect) {
   const Layout layout = columns_and_fonts(picture);
   double height = footer_of(picture, layout) + double(picture.rows.size()) * layout.panel_width / aspect;
@@ -170,7 +170,7 @@ void arrange(Picture& picture, double aspect) {
   const double width = fill * picture.width / picture.text;
   std::size_t columns = panels.size();
   while (columns > 1 && !titles_fit(panels, width / double(columns))) --columns;
-  // as few empty places as possible
+  // as many panels per row as possible, so that few places stay empty
   const std::size_t rows = (panels.size() + columns - 1) / columns;
   columns = (panels.size() + rows - 1) / rows;
   picture.rows.clear();

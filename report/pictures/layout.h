@@ -8,7 +8,7 @@
 
 namespace crosscheck::render {
 
-/// In units of the font size, for DejaVu Sans; defined in lettering.cpp.
+/// Width in DejaVu Sans, in units of the font size; defined in lettering.cpp.
 double text_width(const std::string& text, bool bold);
 
 inline constexpr double line_height = 1.25;  // in units of the font size
@@ -19,22 +19,22 @@ std::string wrapped(const std::string& text, bool bold, double room);
 
 struct Layout {
   double title = 0, text = 0;  // font sizes, pixels
-  double subtitle = 0;         // font size, pixels
+  double subtitle = 0;         // font size of subtitles, pixels
   int panel_width = 0, panel_height = 0;
-  int left = 0;                    // first column
+  int left = 0;                    // edge of the first column
   std::vector<int> panel_top;      // one per row
   std::vector<double> title_y;     // centre of the title's last line, per row
   std::vector<double> subtitle_y;  // centre of the subtitle's first line, per row
-  double legend = 0;               // font size, pixels
+  double legend = 0;               // font size of the legend, pixels
   double legend_width = 0;         // in units of `legend`
   double legend_y = 0;             // centre of its line
   double bar_top = 0, bar_height = 0, bar_left = 0, bar_width = 0;
 };
 
-/// True for a row with a single title, in its first column, which is for the whole row.
+/// True for a row with a single title, in its first column: a strip, which this title heads.
 bool is_strip(const std::vector<Panel>& row);
 
-/// With swatch and gap, in units of the font size.
+/// Width with swatch and gap, in units of the font size.
 double legend_entry_width(const std::string& name);
 
 /// Throws std::runtime_error if the picture has no panels, and InputError if it has no room for them.

@@ -32,7 +32,7 @@ void check(cairo_status_t status) {
     throw std::runtime_error(fmt::format("Cairo: {}", cairo_status_to_string(status)));
 }
 
-/// In Cairo's format.
+/// Converts pixels to Cairo's format.
 Owned<cairo_surface_t> surface_of(const Image& image) {
   Owned<cairo_surface_t> surface(cairo_image_surface_create(CAIRO_FORMAT_RGB24, image.width, image.height));
   check(cairo_surface_status(surface.get()));
@@ -43,7 +43,7 @@ Owned<cairo_surface_t> surface_of(const Image& image) {
   return surface;
 }
 
-/// Positions are in pixels from the top left.
+/// Draws text, boxes and lines at positions in pixels from the top left.
 class Page {
  public:
   explicit Page(cairo_surface_t* surface)
@@ -55,7 +55,7 @@ class Page {
     cairo_set_font_options(cairo_.get(), options.get());
   }
 
-  /// In units of the font size.
+  /// Width in units of the font size.
   double width(const std::string& text, bool bold) {
     cairo_text_extents_t extents;
     set_font(bold, 100);
@@ -87,7 +87,7 @@ class Page {
     cairo_move_to(cairo_.get(), x0, y0), cairo_line_to(cairo_.get(), x1, y1);
     cairo_stroke(cairo_.get());
   }
-  /// A scale's colours from left to right.
+  /// A box with the colours of a scale from left to right.
   void gradient(double left, double top, double width, double height) {
     const Owned<cairo_pattern_t> colours(cairo_pattern_create_linear(left, 0, left + width, 0));
     for (int i = 0; i <= 24; ++i) {  // four pieces per interval of the map
@@ -198,10 +198,10 @@ std::string pdf_page(const Picture& picture, const Layout& layout, const Image& 
     static_cast<std::string*>(to)->append(reinterpret_cast<const char*>(data), size);
     return CAIRO_STATUS_SUCCESS;
   };
-  const double points = 72 / pixels_per_inch;  // per pixel
+  const double points = 72 / pixels_per_inch;  // size of a pixel
   const Owned<cairo_surface_t> surface(
       cairo_pdf_surface_create_for_stream(append, &bytes, points * image.width, points * image.height));
-  // two runs must write the same bytes
+  // fixed, because two runs must write the same bytes
   cairo_pdf_surface_set_metadata(surface.get(), CAIRO_PDF_METADATA_CREATE_DATE, "1970-01-01T00:00:00Z");
   {
     Page page(surface.get());

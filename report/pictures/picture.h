@@ -23,11 +23,11 @@ struct Body {
   std::vector<std::array<int, 3>> triangles;  // surface; may be empty
   std::vector<std::array<int, 2>> threads;    // springs on the surface's grid, drawn as fine lines
   std::vector<std::array<int, 2>> tubes;      // springs drawn as tubes
-  std::vector<double> tube_value;             // by tube, for the scale; empty: plain
-  std::vector<int> tube_colour;               // by tube, in the palette; empty: plain
-  std::vector<double> value;                  // by particle, for the scale; empty: plain cloth
+  std::vector<double> tube_value;             // one per tube, for the scale; empty: plain
+  std::vector<int> tube_colour;               // one per tube, index in the palette; empty: plain
+  std::vector<double> value;                  // one per particle, for the scale; empty: plain cloth
   std::vector<int> pinned;                    // particles drawn as pins
-  double tube_radius = 0;                     // m; 0: from the size of the view
+  double tube_radius = 0;                     // m; 0: derived from the size of the view
   bool beads = false;                         // draws particles as balls, sized by the view
   std::vector<Vec3> trail;                    // path of one particle, a fading line
 };
@@ -39,7 +39,7 @@ struct Panel {
   std::vector<Ball> balls;
 };
 
-/// Common to all panels, so that they are comparable. Up is +y.
+/// One camera for all panels, so that they are comparable. Up is +y.
 struct View {
   Vec3 eye, target;             // m
   std::optional<double> floor;  // height of the ground, m; empty: no ground
@@ -52,18 +52,18 @@ struct Scale {
   double high;        // in the label's unit; the low end is 0
 };
 
-/// Palette entries of tube_colour, shown below the panels.
+/// Names of the palette entries in tube_colour, shown below the panels.
 using Legend = std::vector<std::string>;  // at most 7
 
 enum class Quality { fast, still };
 
 struct Picture {
-  std::vector<std::vector<Panel>> rows;  // all of the same size
+  std::vector<std::vector<Panel>> rows;  // all panels have the same size
   View view;
   std::optional<Scale> scale;
   Legend legend;
   int width = 1280, height = 720;  // pixels
-  double text = 0;                 // height of letters, pixels; 0: from the size, with larger titles
+  double text = 0;                 // height of letters, pixels; 0: derived from the size, with larger titles
   Quality quality = Quality::still;
 };
 
@@ -76,16 +76,17 @@ struct Image {
 /// Reads a PNG. Throws std::runtime_error with the file's name if that fails.
 Image read_png(const std::filesystem::path& file);
 
-/// 0: without a resolution.
+/// Bytes of a PNG; without a resolution if that is 0.
 std::string png_bytes(const Image& image, double pixels_per_inch = 0);
 
-/// Lossy, half the size of a PNG with 128 colours; for small pictures on a page.
+/// Bytes of a lossy WebP, half the size of a PNG with 128 colours; for small pictures on a page.
 std::string webp_bytes(const Image& image);
 
 /// Draws the panels off screen, without text. Deterministic. Throws std::runtime_error with the cause.
 Image draw(const Picture& picture);
 
-/// With titles, colour bar and legend. Throws std::runtime_error with the cause (empty picture, file not writable).
+/// Writes a PNG with titles, colour bar and legend. Throws std::runtime_error with the cause (empty picture, file not
+/// writable).
 void write_png(const Picture& picture, const std::filesystem::path& file);
 
 /// Writes a PNG, and a PDF page of this resolution with selectable text.

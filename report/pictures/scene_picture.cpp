@@ -15,7 +15,7 @@
 namespace crosscheck {
 namespace {
 
-/// In % of the rest length; compression counts as zero.
+/// Extension in % of the rest length; compression counts as zero.
 double extension(const Points& x, int a, int b, double rest) {
   return rest > 0 ? std::max(0.0, (x.col(a) - x.col(b)).norm() / rest - 1) * 100 : 0;
 }
@@ -39,7 +39,7 @@ std::vector<double> mean_at_particles(const std::vector<Spring>& links, const st
   return sum;
 }
 
-/// 1, 2 or 5 times a power of ten.
+/// Smallest 1, 2 or 5 times a power of ten that is not below the value.
 double round_up(double value) {
   if (!(value > 0)) return 1;
   const double power = std::pow(10, std::floor(std::log10(value)));
@@ -48,7 +48,7 @@ double round_up(double value) {
   return value;
 }
 
-/// In mode difference, coloured by the distance from `base`.
+/// The body at a frame; in mode difference coloured by the distance from `base`.
 render::Body body_of(const Scene& scene, const MethodResult& answer, int frame, Mode mode, const Points* base) {
   render::Body body;
   body.x = answer.trajectory.x[frame];
@@ -77,7 +77,7 @@ render::Body body_of(const Scene& scene, const MethodResult& answer, int frame, 
   return body;
 }
 
-/// In the order of the legend.
+/// Families of the scene's springs, in the order of the legend.
 std::vector<Family> families_of(const Scene& scene) {
   std::vector<Family> present;
   if (!scene.model.find<Springs>()) return present;
@@ -116,7 +116,7 @@ std::vector<render::Ball> balls_of(const Scene& scene, double t) {
   return balls;
 }
 
-/// Other planes are not drawn.
+/// Planes are drawn as floors or slopes, or not at all.
 bool is_floor(const Plane& plane) { return plane.normal.y() > 1 - 1e-9; }
 bool is_slope(const Plane& plane) { return plane.normal.y() > 0.1 && !is_floor(plane); }
 
@@ -151,7 +151,7 @@ std::vector<render::Body> slopes_of(const Scene& scene, double t, const Eigen::A
 constexpr int strip_columns = 5;
 constexpr double panel_in_print = 1.2;  // width / height
 
-/// Nearest to t; the last one if t is negative.
+/// Frame nearest to t; the last one if t is negative.
 int frame_at(const Trajectory& path, double t) {
   if (t < 0) return path.frames() - 1;
   const auto nearest = std::min_element(path.t.begin(), path.t.end(),
@@ -190,13 +190,13 @@ render::View view_of(const Scene& scene, const std::vector<Points>& shown, const
   return view;
 }
 
-/// Includes the step if another picture shows the same method.
+/// The method, with its step if another picture shows the same method.
 std::string title_of(const MethodResult& answer, const std::vector<const MethodResult*>& all) {
   const auto same = std::ranges::count(all, answer.method, &MethodResult::method);
   return same > 1 ? fmt::format("{}, step {}", answer.method, step_text(answer.outcome.step)) : answer.method;
 }
 
-/// For a failed run, includes how and when it failed.
+/// The time; for a failed run, also how and when it failed.
 std::string time_text(const MethodResult& answer, int frame) {
   const std::string t = fmt::format("t = {:.3g} s", answer.trajectory.t[frame]);
   const Outcome& outcome = answer.outcome;
@@ -226,8 +226,8 @@ std::vector<int> frames_of(const Scene& scene, const Trajectory& path, const Sho
   return frames;
 }
 
-/// The motions in view and scale. Runs that blew up are excluded, because they would leave neither room nor colours for
-/// others.
+/// The motions that view and scale must accommodate. Runs that blew up are excluded, because they would leave neither
+/// room nor colours for others.
 struct Seen {
   std::vector<Points> healthy, all, trails;
   std::vector<render::Ball> balls;
@@ -253,7 +253,7 @@ struct Seen {
   }
 };
 
-/// Lacks the view, and the top of the scale.
+/// The picture without its view and the top of its scale.
 render::Picture panels_of(const Scene& scene, const std::vector<const MethodResult*>& answers, const Shot& shot,
                           Seen& seen) {
   const std::vector<const MethodResult*> usable = usable_of(scene, answers, shot);
@@ -263,7 +263,7 @@ render::Picture panels_of(const Scene& scene, const std::vector<const MethodResu
   picture.quality = shot.quality;
   picture.text = shot.text;
   const bool strip = shot.mode == Mode::strip;
-  // without springs there is no stretch
+  // without springs, stretch cannot be shown
   const bool no_stretch = shot.mode == Mode::stretch && links_of(scene).empty();
   const Mode mode = strip || no_stretch ? Mode::shaded : shot.mode;
   const auto base_frames = frames_of(scene, usable[0]->trajectory, shot);

@@ -19,17 +19,18 @@ struct Shot {
   double at = -1;  // s; negative: the end
   render::Quality quality = render::Quality::still;
   int width = 1280, height = 720;
-  double text = 0;  // height of letters, pixels; 0: from the size. If given, rows and height are chosen for the panels
+  double text = 0;  // height of letters, pixels; 0: derived from the size. Otherwise rows and height follow from the
+                    // panels
 };
 
-/// The default for a scene's card in the report.
+/// Default shot for a scene's card in the report.
 Shot usual_shot(const Scene& scene, bool full);
 
 /// Results side by side in one view. Omits results without frames; shows a failed run at its last finite frame, with a
 /// note. In mode difference, compares methods with the first. Throws InputError if nothing can be shown.
 render::Picture picture_of(const Scene& scene, const std::vector<const MethodResult*>& answers, const Shot& shot);
 
-/// Makes pictures comparable.
+/// View and scale that make pictures comparable.
 struct CommonView {
   render::View view;
   double top;  // upper end of the scale, in its unit
@@ -43,7 +44,7 @@ struct CameraPlacement {
   Vec3 from;                    // towards the eye, of any length
   std::optional<double> floor;  // height, m; empty if everything lies in a plane that faces the viewer
 };
-/// For these positions, and the obstacles at these times (s).
+/// Camera for these positions, and for the obstacles at these times (s).
 CameraPlacement camera_placement(const Scene& scene, const std::vector<Points>& shown,
                                  const std::vector<double>& times);
 

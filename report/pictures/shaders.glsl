@@ -64,11 +64,11 @@ out vec4 result;
 void main() { result = texelFetch(pass, ivec2(gl_FragCoord.xy), 0); }
 
 #else
-// a sample each of key light and sky
+// one sample each of the key light and of the sky
 uniform vec3 eye, key, sky;  // directions towards the light
 uniform mat4 to_key, to_sky;  // from the frame to the shadow maps, 0..1
 uniform sampler2DShadow key_map, sky_map;
-uniform float key_texel, sky_texel;  // size in the frame
+uniform float key_texel, sky_texel;  // size of a texel in the frame
 uniform float lift;
 in vec3 place, normal, colour;
 out vec4 result;
@@ -136,8 +136,7 @@ float soft(sampler2DShadow map, mat4 to_map, float radius) {
 void main() {
   float key_lost = KEY_LIGHT * key.y * (1 - soft(key_map, to_key, 0.007 * blur));
   float sky_lost = SKY_LIGHT * 2 * sky.y * (1 - soft(sky_map, to_sky, 0.012 * blur));
-  // shadows fade far away and before the panel ends: early for the faint wide shadow of the sky, late for the key
-  // light's
+  // shadows fade far away and before the panel ends: the faint wide shadow of the sky early, the key light's late
   float away = length(place.xz - ground.xz) / ground.w;
   vec2 border = (min(gl_FragCoord.xy, panel.xy - gl_FragCoord.xy) - 0.5) / panel.xy;  // 0 in the outermost pixels
   vec2 sky_fade = smoothstep(vec2(0), vec2(0.25), border), key_fade = smoothstep(vec2(0), vec2(0.06), border);

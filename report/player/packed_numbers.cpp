@@ -11,7 +11,7 @@ constexpr int gzip_format = 15 + 16;  // zlib's code for a window of 32 kB and g
 
 Bytef* bytes_of(std::string_view bytes) { return reinterpret_cast<Bytef*>(const_cast<char*>(bytes.data())); }
 
-/// Exactly `size` bytes.
+/// Unpacks exactly `size` bytes.
 std::string gunzipped(std::string_view bytes, size_t size) {
   constexpr size_t densest = 1032;  // deflate's largest ratio: a received file may claim any size
   if (size / densest > bytes.size()) throw std::runtime_error("packed numbers end too early");

@@ -16,7 +16,7 @@ std::string pack(std::vector<std::uint16_t> numbers, size_t columns);
 /// Reverses pack(). Throws std::runtime_error unless the bytes are one gzip member of exactly `count` numbers.
 std::vector<std::uint16_t> unpack(std::string_view bytes, size_t count, size_t columns);
 
-/// Throws std::runtime_error if zlib fails.
+/// Compresses to gzip. Throws std::runtime_error if zlib fails.
 std::string gzipped(std::string_view bytes);
 
 }  // namespace crosscheck

@@ -21,7 +21,7 @@ constexpr int most_frames = 150, most_frames_of_mark = 30, fewest_frames = 25;
 constexpr int most_places = most_frames * 64 * 64;  // frames x particles
 constexpr double largest_number = 65535;
 
-/// Resolution of positions / size of the scene; infinite: as fine as 16 bits allow.
+/// Lattice points per size of the scene; infinite: as fine as 16 bits allow.
 constexpr double of_shown = INFINITY, of_own_run = 8192, of_mark = 4096, of_cell = 1024;
 
 double rounded(double value) { return std::strtod(fmt::format("{:.4g}", value).c_str(), nullptr); }
@@ -31,7 +31,7 @@ struct Frames {
   std::vector<Points> x, v;
 };
 
-/// Up to the first frame that is not finite.
+/// Frames up to the first that is not finite.
 Frames every(const Trajectory& path, int stride) {
   Frames out;
   for (size_t i = 0; i < path.x.size() && path.x[i].allFinite(); i += static_cast<size_t>(stride))
@@ -58,7 +58,7 @@ Json packed_run(const std::vector<Points>& x, double unit, std::string& bytes) {
   Vec3 low = x[0].rowwise().minCoeff(), high = low;
   for (const Points& frame : x)
     low = low.cwiseMin(frame.rowwise().minCoeff()), high = high.cwiseMax(frame.rowwise().maxCoeff());
-  // -1: rounding of the lower corner
+  // one number is reserved for the rounding of the lower corner
   unit = std::max({unit, (high - low).maxCoeff() / (largest_number - 1), 1e-300});
   unit = std::exp2(std::ceil(std::log2(unit)));
   low = (low / unit).array().floor() * unit;
@@ -74,7 +74,7 @@ Json packed_run(const std::vector<Points>& x, double unit, std::string& bytes) {
   return json;
 }
 
-/// In s: the first and the last if they are equidistant, otherwise all.
+/// Times in s: the first and the last if they are equidistant, otherwise all.
 Json times_json(const std::vector<double>& t) {
   const double apart = (t.back() - t.front()) / double(std::max<size_t>(1, t.size() - 1));
   for (size_t i = 0; i < t.size(); ++i)
@@ -82,7 +82,7 @@ Json times_json(const std::vector<double>& t) {
   return {t.front(), t.back()};
 }
 
-/// Four digits; nothing if all values are unknown.
+/// Adds values with four digits, unless all are unknown.
 void add_series(Json& json, const char* name, const std::vector<std::optional<double>>& values) {
   if (std::ranges::none_of(values, [](const auto& v) { return v && std::isfinite(*v); })) return;
   for (const auto& v : values) json[name].push_back(v && std::isfinite(*v) ? Json(rounded(*v)) : Json());
@@ -100,7 +100,7 @@ void add_values(Json& json, const Frames& run, const Scene& scene, const std::op
   add_series(json, "error", error), add_series(json, "energy", energy);
 }
 
-/// Without the time.
+/// Why a run failed, without the time.
 std::string why_failed(const Outcome& out) {
   const std::string words(in_words(out.verdict));
   const size_t open = words.find('(');
@@ -127,7 +127,7 @@ int thinned(const Scene& scene, int stride, int most) {
   return stride * least;
 }
 
-/// From the beginning; for a failed run of a mark, the last pictures. Null without a second frame.
+/// A run from its beginning; for a failed run of a mark, its last pictures. Null without a second frame.
 Json scene_run(const Scene& scene, const std::optional<Truth>& truth, const RecordedRun& run, bool own, double unit,
                std::string& bytes) {
   const bool failed = run.outcome.verdict != Verdict::ok, last = failed && !own;

@@ -23,10 +23,10 @@ struct RunFile {
   std::string set, scene, method;
   std::filesystem::path file;  // relative to the report's folder
   int particles;
-  Json entry;  // as in report.json
+  Json entry;  // in the format of report.json
 };
 
-/// Several processes may write at the same time.
+/// Writes runs. Several processes may do so at the same time.
 class RunsWriter {
  public:
   explicit RunsWriter(std::filesystem::path report) : report_(std::move(report)) {}
@@ -48,7 +48,7 @@ Json take_index(const std::filesystem::path& report);
 /// bytes differ from its entry.
 std::vector<RunFile> run_files(const JsonField& index, const std::filesystem::path& report, bool unpacked);
 
-/// In m, by frame; empty if there is no such run.
+/// Positions in m, by frame; empty if there is no such run.
 std::vector<Points> positions_of(const RunFile& file, size_t place);
 
 }  // namespace crosscheck

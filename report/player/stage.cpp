@@ -15,7 +15,7 @@ namespace {
 
 Json vector_json(const Vec3& v) { return std::span(v.data(), 3); }
 
-/// {"count", "columns", "data"} for unpack.ts.
+/// Rows as {"count", "columns", "data"} for unpack.ts.
 Json packed_json(const std::vector<std::uint16_t>& numbers, size_t columns) {
   return {{"count", numbers.size()}, {"columns", columns}, {"data", base64(pack(numbers, columns))}};
 }
@@ -65,7 +65,7 @@ Json springs_json(const Scene& scene) {
           {"families", families}};
 }
 
-/// With a moving obstacle's centre at each time (s).
+/// Obstacles, with the centre of a moving one at each time (s).
 Json spheres_json(const Scene& scene, const std::vector<double>& times) {
   Json list = Json::array();
   if (const auto* spheres = scene.model.find<Spheres>())
@@ -78,7 +78,7 @@ Json spheres_json(const Scene& scene, const std::vector<double>& times) {
   return list;
 }
 
-/// At their initial positions.
+/// Planes at their initial positions.
 Json planes_json(const Scene& scene) {
   Json list = Json::array();
   if (const auto* planes = scene.model.find<Planes>())

@@ -15,9 +15,9 @@ struct StageTruth {
   double bar = 0, motion = 0;  // m: error bar of the truth; size of the motion, which scales errors
 };
 
-/// The camera must show these positions. Empty if the scene is too large for the player.
+/// JSON of a scene whose camera must show these positions. Empty if the scene is too large for the player.
 std::string stage_json(const Scene& scene, const std::vector<Points>& shown, const std::optional<StageTruth>& truth);
-/// For a map's scene, which does not move; `with_text` adds the text with which the lab opens cells.
+/// JSON of a map's scene, which does not move; `with_text` adds the text with which the lab opens cells.
 std::string stage_json(const Scene& scene, bool with_text);
 
 }  // namespace crosscheck

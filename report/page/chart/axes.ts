@@ -24,7 +24,7 @@ function inPowers(value: number): string {
 const prefixes: [string, number][] = [['', 1], ['m', 1e-3], ['µ', 1e-6], ['n', 1e-9], ['p', 1e-12]];
 const scalable = ['s', 'm', 'J', 'N'];  // units with smaller prefixes
 
-/** At most three digits: "1.5 ms", "30 %", "10⁻⁷". */
+/** Value with its unit, at most three digits: "1.5 ms", "30 %", "10⁻⁷". */
 export function nice(value: number, unit = ''): string {
   const size = Math.abs(value), small = size > 0 && scalable.includes(unit);
   const [prefix, factor] = (small && prefixes.find(([, f]) => size >= 0.9995 * f)) || ['', 1];
@@ -76,7 +76,7 @@ function valuesOf(log: boolean, low: number, high: number, length: number, apart
   return kept.length > 1 ? kept : scaleLinear().domain([low, high]).ticks(Math.min(count, 4)).filter(tick => tick > 0);
 }
 
-/** Ends are in px; ticks are about `apart` px from each other. */
+/** An axis between two positions (px), with ticks about `apart` px from each other. */
 export function axisOf(spec: AxisSpec, from: number, to: number, apart: number): Axis {
   let low = spec.low ?? 0, high = spec.high ?? 1;
   if (!(high > low)) low = spec.log ? low / 2 : low - 1, high = spec.log ? 2 * high : high + 1;

@@ -14,7 +14,7 @@ export function dense(path: readonly Pair[], apart = 6): Pair[] {
   return points;
 }
 
-/** In px, to the nearest of the points. */
+/** Distance of a box from the nearest of the points, px. */
 export function distance(box: Box, points: readonly Pair[]): number {
   let least = Infinity;
   for (const [x, y] of points)
@@ -25,7 +25,7 @@ export function distance(box: Box, points: readonly Pair[]): number {
 
 const cell = 3;  // px
 
-/** `more` is only computed if the rest of the cost is low. */
+/** A box for a text; `more` is only computed if the rest of the cost is low. */
 export interface Candidate {
   box: Box;
   penalty: number;

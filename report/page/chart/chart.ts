@@ -4,7 +4,7 @@ import {layout} from './layout';
 import {css, Element, font, letters, widthOf} from './sheet';
 import {ChartSpec} from './spec';
 
-/** From methods-data. */
+/** Colours of methods, from methods-data. */
 export type Looks = Record<string, {colour: string}>;
 
 const svgNames = 'http://www.w3.org/2000/svg';
@@ -38,7 +38,7 @@ function walk(event: KeyboardEvent) {
   chosen.focus({preventScroll: true});
 }
 
-/** Layouts assume Helvetica's widths. */
+/** Compares the browser's font with Helvetica, which layouts assume. */
 function measureFont() {
   const ruler = document.createElement('canvas').getContext('2d'), text = 'Bullet explicit, 0.125 ms';
   if (!ruler) return;

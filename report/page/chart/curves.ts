@@ -14,7 +14,7 @@ interface Placed {
   crosses: Pair[];
 }
 
-const strip = 11;  // px, height
+const strip = 11;  // px, height of a row of failures
 
 /** A part's crosses share a row if there is room. */
 function rowsOf(places: readonly number[][]): {rows: number[][], count: number} {
@@ -39,7 +39,7 @@ class CurvesLayout {
   private readonly y: Axis;
   private readonly parts: Placed[];
   private readonly board: Board;
-  private readonly column = new Set<PartSpec>();  // with labels to the right of the plot
+  private readonly column = new Set<PartSpec>();  // parts with labels to the right of the plot
   private readonly height: number;
   private readonly marksLower: boolean;  // marks below the axis are drawn on it, as triangles
 
@@ -50,7 +50,7 @@ class CurvesLayout {
     const above: Element[] = [], keyHigh = key(above, this.keyEntries(), 0, lineHeight * titles + 4, width);
     const upright = axisOf(chart.y, high, 0, 38), left = Math.ceil(12 + widthOfTicks(upright));
     const right = this.chooseColumn();
-    // crosses are along the top
+    // rows of crosses are along the top
     const level = axisOf(chart.x, left, right, 70);
     const {rows, count} = rowsOf(chart.parts.map(part => part.failures.map(f => level.at(f.x))));
     const head = lineHeight * titles + keyHigh + 8, top = head + (count ? strip * count + 8 : 4), bottom = top + high;
@@ -110,7 +110,7 @@ class CurvesLayout {
     };
   }
 
-  /** Labels of curves that end at the right form a column. Returns the plot's right edge. */
+  /** Puts labels of curves that end at the right into a column. Returns the plot's right edge. */
   private chooseColumn(): number {
     const {chart, width} = this, bare = axisOf(chart.x, 0, 1, 70);
     const edge =
@@ -145,7 +145,7 @@ class CurvesLayout {
     };
   }
 
-  /** Returns the y below the axis and its title. */
+  /** Draws the axes. Returns the y below the horizontal axis and its title. */
   private drawAxes(): number {
     const {chart, frame, elements, width} = this, {left, right, top, bottom} = frame;
     if (chart.window !== undefined) {
@@ -302,7 +302,7 @@ class CurvesLayout {
   }
 }
 
-/** Starts at a distance `gap` from its first point. */
+/** A leader line that starts at a distance `gap` from its first point. */
 function leader(way: readonly Pair[], gap: number): Element {
   const [[x, y], [toX, toY]] = way, length = Math.hypot(toX - x, toY - y) || 1, part = Math.min(1, gap / length);
   return element('path', {class: 'leader', d: pathOf([[x + part * (toX - x), y + part * (toY - y)], ...way.slice(1)])});

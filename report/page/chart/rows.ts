@@ -25,7 +25,7 @@ function rowsOf(
   return {elements, axis, frame, below: titleBelow(elements, axis.title, frame, frame.bottom + 37, width)};
 }
 
-/** Long names take two lines. */
+/** A name to the left of its line; long names take two lines. */
 function nameOf({name}: Named, left: number, y: number): Element[] {
   const lines = wrapped(name, left - 10);
   return lines.map((line, k) => label(line, left - 8, y + 4 + lineHeight * (k - (lines.length - 1) / 2), 'end'));

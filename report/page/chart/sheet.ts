@@ -37,7 +37,7 @@ export interface Sheet {
   elements: Element[];
   names: PlacedName[];
   paths: Pair[][][];  // by part
-  notes: string[];    // sentences below
+  notes: string[];    // sentences below the chart
 }
 
 
@@ -61,7 +61,7 @@ export const font: Record<'regular'|'bold', number> = {
   bold: 1.07
 };
 
-/** In px. */
+/** Width of a text in px. */
 export function widthOf(text: string, bold = false, size = letters): number {
   let sum = 0;
   for (const sign of text) {
@@ -88,13 +88,13 @@ export type Anchor = 'start'|'middle'|'end';
 export const label = (text: string, x: number, y: number, anchor: Anchor = 'start', attributes: Attributes = {}) =>
     element('text', {x: rounded(x), y: rounded(y), 'text-anchor': anchor, ...attributes}, text);
 
-/** The baseline starts at (x, y). */
+/** Box of a text whose baseline starts at (x, y). */
 export function boxOf(text: string, x: number, y: number, anchor: Anchor = 'start', bold = false): Box {
   const width = widthOf(text, bold), left = anchor === 'end' ? x - width : anchor === 'middle' ? x - width / 2 : x;
   return {left, right: left + width, top: y - 0.76 * letters, bottom: y + 0.24 * letters};
 }
 
-/** Highlighted together with its method. */
+/** A group that is highlighted together with its method. */
 export const group = (colour: string, method: string|undefined, ...children: Element[]) => element(
     'g', {class: 'series hero', style: `--own: ${colour}; --lit: ${colour}`, ...(method && {'data-method': method})},
     ...children);
@@ -115,7 +115,7 @@ export const rounded = (value: number) => Math.round(10 * value) / 10;
 
 const drawLine = line();
 
-/** Omits points closer than a third of a px. */
+/** A path without points closer than a third of a px. */
 export function pathOf(points: readonly Pair[]): string {
   const kept: Pair[] = [];
   for (const [x, y] of points) {
@@ -142,7 +142,7 @@ function shapeOf(name: MarkName, r: number): string {
   return name === 'cross' ? x : name === 'plus' ? plus : x + plus;
 }
 
-/** Has a tooltip, and plays its run if it has one. */
+/** A mark with a tooltip, which plays its run if it has one. */
 export function mark(name: MarkName, [x, y]: Pair, r: number, open: boolean, tip: Tip = {}, colour = ''): Element {
   const kind = ['plus', 'cross', 'star'].includes(name) ? ' cross' : open ? ' open' : '';
   return element('path', {

@@ -49,7 +49,7 @@ export interface SeriesSpec extends MarkSpec {
 export type FailureSpec = MarkSpec&Tip&{x: number, kind: string};
 
 export interface PartSpec extends Named {
-  colour: string;   // in style.css, or #RRGGBB
+  colour: string;   // name in style.css, or #RRGGBB
   hero?: boolean;   // coloured and labelled; others are grey until the reader points at them
   keyed?: boolean;  // named in the key
   series: SeriesSpec[];

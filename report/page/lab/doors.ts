@@ -42,7 +42,7 @@ export function labStateOf(key: string, marker: HTMLElement): LabState|null {
   return sceneText(set.scene) ? labStateOfRun(set.scene, chosen) : null;
 }
 
-/** Null if the page does not contain the run. */
+/** The lab's state for a run; null if the page does not contain the run. */
 export function labStateOfRun(scene: string, key: string): LabState|null {
   const found = runOf({scene}, key);
   if (!found) return null;

@@ -44,7 +44,7 @@ interface SceneHead {
 }
 export interface EngineScene extends SceneHead {
   pins: Int32Array;
-  springs: Int32Array;  // ends
+  springs: Int32Array;  // both ends of each
   constraints: Int32Array;
   constraintLengths: Float64Array;  // m
   families: Int32Array;
@@ -155,7 +155,7 @@ function longestOne(arrows: Float64Array) {
 export class Simulation {
   readonly scene: EngineScene;
   byHand = false;
-  begun: Start|null = null;  // since the last change by hand
+  begun: Start|null = null;  // start of the run since the last change by hand
   private readonly instance: Instance;
   private broken = false;
   private failure: (Outcome&{t: number})|null = null;
@@ -248,7 +248,7 @@ export class Simulation {
     return this.going;
   }
 
-  /** In case the next state is not finite. */
+  /** Saves the state, in case the next one is not finite. */
   private remember() {
     this.outcome = null;
     this.last = {positions: this.positions.slice(), velocities: this.velocities.slice(), t: this.t};
@@ -279,7 +279,7 @@ export class Simulation {
     return this.broken ? new Float64Array(count) : this.instance.doubles(this.call('centres', t), count).slice();
   }
 
-  /** Null for first-order scenes. */
+  /** Present energies and their balance; null for first-order scenes. */
   get energy(): Energies|null {
     const at = this.broken ? 0 : this.call('energies');
     if (!at) return null;

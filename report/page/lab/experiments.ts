@@ -18,7 +18,7 @@ interface RunReading {
   failed: boolean;
   energy: Energies|null;
   gain: number;     // energy gained without a source, J; NaN: unknown
-  x: Float64Array;  // m
+  x: Float64Array;  // positions, m
   sim: Simulation;
 }
 
@@ -31,7 +31,7 @@ export interface Reading {
   duration: number;  // s
   omega: number;     // rad/s
   particles: number;
-  columns: number;  // along a cloth; 0 for other scenes
+  columns: number;  // particles along a cloth; 0 for other scenes
   rows: number;
   at(path: string): number;
   vector(path: string): number[];
@@ -58,7 +58,7 @@ export interface Seen {
   run: Memory;
 }
 
-/** Changed numbers of a scene's own text, a further edit of it, the camera. */
+/** A state of the lab: changed numbers of a scene's own text, a further edit of it, the camera. */
 export interface GuideState {
   scene: string;
   numbers: Changes;
@@ -74,7 +74,7 @@ export interface GuideStep {
   name: string;
   choices?: string[];
   right?: string;
-  guess?: {unit: string, within: number, read: (r: Reading) => number};  // instead of choices
+  guess?: {unit: string, within: number, read: (r: Reading) => number};  // a number instead of choices
   start: GuideState;                                                     // next to the question
   then?: Wanted;                                                         // after the guess; default: start
   acts?: Wanted[];  // states that do the task for the reader, until each ends or is `enough`
@@ -101,7 +101,7 @@ export interface Mode {
 }
 
 
-/** In m, for the first particle. */
+/** Distance of the first particle from the origin, m. */
 const radiusOf = (x: ArrayLike<number>) => Math.hypot(x[0], x[1], x[2]);
 
 export const centreOf = (x: Places) => [0, 1, 2].map(k => {
@@ -166,7 +166,7 @@ const farthest = (seen: Memory, name: string, value: number) => {
 const nearest = (seen: Memory, name: string, value: number) => {
   if (Number.isFinite(value)) seen[name] = Math.min(seen[name] ?? Infinity, value);
 };
-/** In m, for the first particle. */
+/** Distance of the first particle from its initial position, m. */
 const movedBy = (r: Reading, {x}: RunReading) => Math.hypot(...r.vector('particle.position').map((c, k) => x[k] - c));
 
 // States: changed numbers of a scene, and methods. `time.samples = 1` allows any step.
@@ -178,9 +178,9 @@ const circle = (numbers: Changes, ...methods: Row[]) => ({...state('circle', num
 const pendulum = (...method: Row) => state('pendulum', {'time.samples': 200}, method);
 const hangingCloth = (step: number, numbers: Changes = {}) => state('cloth-hang', numbers, ['leapfrog', step]);
 const heavyCloth = (step: number, {mass}: Before) => hangingCloth(step, {'grid.mass': 4 * mass});
-/** A burst takes less than a tenth of a second. */
+/** Slow motion, because a burst takes less than a tenth of a second. */
 const slowly = (speed: number, what: GuideState) => ({...what, speed});
-/** Shows motions within the cloth. */
+/** A view from above, which shows motions within the cloth. */
 const fromAbove = (what: GuideState) => ({...what, from: {yaw: 0, pitch: 1.3, zoom: 0.75}});
 const allSprings = (k: number) =>
     ({'grid.stiffness.structural': k, 'grid.stiffness.shear': k, 'grid.stiffness.bend': k});
@@ -235,14 +235,14 @@ function lastContact({run, at, toml, duration}: Reading) {
   return last;
 }
 
-/** Twice as many particles along each side; pins stay at the corners. */
+/** The hanging cloth with twice as many particles along each side; pins stay at the corners. */
 function finerCloth(toml: string) {
   const [, columns, rows] = (/^size = \[(\d+), (\d+)\]/m.exec(toml) ?? []).map(Number);
   return toml.replace(/^size = .*$/m, `size = [${2 * columns}, ${2 * rows}]`)
       .replace(/^particles = .*$/m, `particles = [0, ${2 * columns - 1}]`);
 }
 
-/** In run A. */
+/** The growing mode of run A. */
 function growingMode({run: {sim}}: Reading): Mode {
   const {mode, places} = sim.growingMode();
   return {mode: mode ?? new Float64Array(places.length), places, by: 0.7 * Math.min(...sim.scene.rests)};
@@ -556,7 +556,7 @@ export const labExperiments: GuideExperiment[] = [
   }
 ];
 
-/** For every question and task. */
+/** Numbers for every question and task. */
 export const shownNumbers = (step: GuideStep, before: Before): Values => ({
   particles: before.particles,
   omegaBefore: digits(before.omega, 4),
@@ -568,7 +568,7 @@ export const shownNumbers = (step: GuideStep, before: Before): Values => ({
   ...step.shown?.(before)
 });
 
-/** For every explanation. */
+/** Numbers for every explanation. */
 export const foundNumbers = (step: GuideStep, r: Reading, seen: Seen): Values => ({
   h: msText(r.run.step),
   n: r.run.steps,

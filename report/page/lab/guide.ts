@@ -10,7 +10,7 @@ import {labScenes, sceneText} from './lab_runs';
 import {numberAt, valueAt, withNumbers} from './scene_text';
 import {labLanguage, say} from './words';
 
-/** Null before the lab's first run. */
+/** Numbers of the lab for the experiments; null before its first run. */
 export function readingOf(lab: LiveLab): Reading|null {
   const {reading} = lab;
   if (!reading) return null;
@@ -91,7 +91,7 @@ export const guideProgress = (() => {
 
 const experimentOfAddress = () => /^#experiment=([\w-]+)/.exec(location.hash)?.[1];
 
-/** Writes the experiment's address for links, or removes it. */
+/** Writes the experiment's address, so that links can open it, or removes it. */
 function writeExperiment(name: string|null) {
   if (!name && !experimentOfAddress()) return;
   try {
@@ -148,7 +148,7 @@ class LabGuide extends HTMLElement {
     writeExperiment(null);
     this.experiment = this.step = null;
     this.sandbox = true;
-    this.lab.setSpeed(1);  // the experiment may have changed it
+    this.lab.setSpeed(1);  // an experiment may have changed the speed
     this.render();
     this.focusFirst();
   }
@@ -193,7 +193,7 @@ class LabGuide extends HTMLElement {
     this.look();
   }
 
-  /** Null: no guess. */
+  /** Accepts the reader's guess, or null for none. */
   private async take(guess: string|number|null) {
     if (!this.step || !this.seen.before) return;
     Object.assign(this, {guess, phase: 'try'});
@@ -268,7 +268,7 @@ class LabGuide extends HTMLElement {
     return next ? this.begin(next, 0) : this.showSandbox();
   }
 
-  /** Undefined after the last. */
+  /** The next experiment; undefined after the last. */
   private get following(): GuideExperiment|undefined {
     const all = experimentsHere();
     return all[all.findIndex(each => each === this.experiment) + 1];
@@ -392,7 +392,7 @@ class LabGuide extends HTMLElement {
     return form;
   }
 
-  /** A sentence on the guess. */
+  /** A sentence that judges the guess. */
   private outcome(step: GuideStep, {guess, read = 0}: Result) {
     if (!step.guess) {
       const answer = this.words(step.right);
@@ -406,7 +406,7 @@ class LabGuide extends HTMLElement {
     return say(near ? 'guide.near' : 'guide.far', {guess: text(Number(guess)), answer: text(read)});
   }
 
-  /** The result of the guess, the explanation, and this run's numbers. */
+  /** The judged guess, the explanation, and this run's numbers. */
   private reason(experiment: GuideExperiment, step: GuideStep, result: Result): HTMLElement {
     const {values} = result, last = this.number + 1 === experiment.steps.length;
     return make(
@@ -419,7 +419,7 @@ class LabGuide extends HTMLElement {
   }
 }
 
-/** Creates the guide of an open lab if necessary. */
+/** The guide of an open lab, created if necessary. */
 export function openGuide(lab: LiveLab) {
   const there = lab.querySelector<LabGuide>('lab-guide');
   if (there) return there;

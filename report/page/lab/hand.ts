@@ -75,12 +75,12 @@ export class Hand {
         if (away < reachOf(type)) near.push({particle, panel, run, away, depth: at[2]});
       }
     });
-    // the nearest of particles in line
+    // the frontmost of the particles that are about equally near
     const least = Math.min(...near.map(n => n.away)), front = near.filter(n => n.away < least + 3);
     return front.sort((a, b) => a.depth - b.depth)[0] ?? null;
   }
 
-  /** The point under a pointer in the plane of a particle parallel to the picture. */
+  /** The point under a pointer, in the plane through a particle that is parallel to the picture. */
   private under({clientX, clientY}: At, {panel}: Hit, from: Vec3): Vec3 {
     const stage = this.act.stage(), box = this.layer.getBoundingClientRect(), at = stage?.project(from, panel);
     if (!stage || !at) return from;
@@ -126,7 +126,7 @@ export class Hand {
     this.lead(event);
   }
 
-  /** After the pointer, the camera or the picture has moved. */
+  /** Puts the grabbed particle under the pointer after the pointer, the camera or the picture has moved. */
   lead({clientX, clientY}: At) {
     const {grabbed} = this, stage = this.act.stage();
     if (!grabbed?.run.places || !stage) return;
@@ -172,7 +172,7 @@ export class Hand {
     this.act.choose(particle);
   }
 
-  /** For a new scene. */
+  /** Resets the hand for a new scene. */
   forget() { this.chosen = this.held = this.grabbed = null; }
 
   private key(event: KeyboardEvent) {
@@ -194,7 +194,7 @@ export class Hand {
       r: () => this.act.restart(),
     };
     const act = turned ? () => (turned(), this.act.draw()) : keys[event.key];
-    // without a chosen particle, Escape closes windows
+    // without a chosen particle, Escape is left to the page, which closes windows
     if (!act || (event.key === 'Escape' && this.chosen === null)) return;
     event.preventDefault();
     event.stopPropagation();

@@ -10,7 +10,7 @@ import {labLanguage, labWords, say} from './words';
 /** Ranges are relative to the scene's own value. */
 interface KnobRow {
   path: string;
-  scales?: string[];  // subpaths, scaled together
+  scales?: string[];  // subpaths that are scaled together
   word: string;
   unit: string;
   from?: number;
@@ -22,7 +22,7 @@ interface KnobRow {
 
 const shownKnobs = 4;  // others are folded
 
-/** The most instructive are first. */
+/** The most instructive sliders are first. */
 const knobTable: KnobRow[] = [
   {
     path: 'grid.stiffness',
@@ -61,7 +61,7 @@ let knobCount = 0;
 
 type Changed = (value: number, done: boolean) => void;
 
-/** `snap` maps a value to a possible one. */
+/** Range of a slider; `snap` maps a value to a possible one. */
 interface Reach {
   low: number;
   high: number;
@@ -138,7 +138,7 @@ export class SceneKnobs {
 
   constructor(private readonly changed: (changes: Changes, done: boolean) => void) {}
 
-  /** `original` determines the ranges. */
+  /** Makes the sliders; `original` determines their ranges. */
   build(toml: string, original: string) {
     const unfolded = this.box.querySelector('details')?.open;
     this.original = original;
@@ -187,7 +187,7 @@ export class SceneKnobs {
   }
 }
 
-/** The step's slider uses ms. */
+/** A time in ms, the unit of the step's slider. */
 export const msText = (s: number) => `${Number((1000 * s).toPrecision(3))} ms`;
 
 export class MethodKnobs {
@@ -202,7 +202,7 @@ export class MethodKnobs {
   private readonly note: HTMLElement = make('p', {class: 'note', role: 'status'});
   private steppers: Stepper[] = [];
   private spec: MethodSpec = {method: ''};
-  private own = 0;  // s
+  private own = 0;  // step of the scene, s
   private solids = 0;
 
   constructor(
@@ -240,7 +240,7 @@ export class MethodKnobs {
     this.changed(stepper.adaptive ? {method, tolerance: tolerance || 1e-6} : {method, step: step || this.own}, done);
   }
 
-  /** `scale`: critical step (s), which determines the slider's range. */
+  /** Shows a method and its run; `scale`: critical step (s), which determines the slider's range. */
   show(spec: MethodSpec, run: LiveRun, steppers: Stepper[], scale: number|null) {
     const {scene} = run.sim, [name, ...options] = spec.method.split('+'), {limit} = run;
     const h = run.refusal ? 0 : run.sim.h;
@@ -293,7 +293,7 @@ export function nameOfMethod(method: string) {
   ].join(say('comma'));
 }
 
-/** In languages other than English, the command-line name follows. */
+/** A stepper in the selection: in words, and in languages other than English also by its command-line name. */
 const chosenAs = (name: string) => {
   const words = nameOfMethod(name);
   return labLanguage === 'en' || words === name ? words : [words, name].join(say('comma'));

@@ -19,12 +19,12 @@ import {LiveRun, messageOf} from './live_run';
 import {Changes, changesBetween, MethodSpec, textAt, withMethod, withNumbers} from './scene_text';
 import {labLanguage, questionInLanguage, say} from './words';
 
-const longestFrame = 120;  // ms; limits budgets if drawing is slow
+const longestFrame = 120;  // ms; upper bound for budgets if drawing is slow
 const pauseAtEnd = 1200;   // ms, before a looping run restarts
 
 export class LiveLab extends LabPicture {
-  link = '';                                             // last copied
-  waiting: {particle: number, place: Vec3}|null = null;  // for the next frame
+  link = '';                                             // last copied link
+  waiting: {particle: number, place: Vec3}|null = null;  // move for the next frame
   private opening: Promise<boolean>|null = null;
   private source: LiveRun|null = null;  // run that the hand holds
   private loops = false;                // restart at the end, until the reader acts
@@ -65,7 +65,7 @@ export class LiveLab extends LabPicture {
     this.replaceChildren(make('div', {class: 'lab-door'}, button, make('span', {}, say('openHint'))));
   }
 
-  /** Default: the lab's own scene, running. Resolves when the lab is visible. */
+  /** Opens the lab, by default with its own scene running. Resolves when the lab is visible. */
   async open(state?: LabState) {
     if (this.view) return this.setState(state ?? {});
     this.opening ??= this.begin();
@@ -160,7 +160,7 @@ export class LiveLab extends LabPicture {
     return state;
   }
 
-  /** For the guide and for tests. */
+  /** Current numbers, for the guide and for tests. */
   get reading() {
     const {runs} = this, [a] = runs;
     if (!a) return null;
@@ -281,7 +281,7 @@ export class LiveLab extends LabPicture {
     if (this.view) this.view.speed.value = String(speed);
   }
 
-  /** Changes something, and runs if the lab was running or a run had ended by itself. */
+  /** Makes a change, then runs if the lab was running or a run had ended by itself. */
   private goOn(change: () => void) {
     const over = this.runs.some(run => run.ended && !run.refusal) && !stillWanted.matches;
     const runs = this.playing || over;
@@ -307,7 +307,7 @@ export class LiveLab extends LabPicture {
           this.restart();
           if (runs) this.play();
         },
-    /** A step of the first method that still runs. */
+    /** Takes a step of the first method that still runs. */
     step:
         () => {
           this.loops = false;
@@ -323,7 +323,7 @@ export class LiveLab extends LabPicture {
           this.wake();
         },
     speed: (speed: number) => this.setSpeed(speed),
-    /** A changed method restarts its run, in the same scene if the rule is the same. */
+    /** Changes a method and restarts its run, in the same scene if the rule is the same. */
     method:
         (i: number, spec: MethodSpec, done: boolean) => {
           if (!this.methods) return;
@@ -459,7 +459,7 @@ export class LiveLab extends LabPicture {
     return true;
   }
 
-  /** Once per frame, because each move begins another scene. */
+  /** Moves the held particle once per frame, because each move begins another scene. */
   private moveHeld() {
     if (!this.waiting) return;
     const {particle, place} = this.waiting;
@@ -539,7 +539,7 @@ export class LiveLab extends LabPicture {
       document.documentElement.lang = labLanguage;
       document.querySelector('nav .made')?.replaceChildren(say('madeOf'));
     }
-    if (this.isPart && !view) return;  // keep the still picture
+    if (this.isPart && !view) return;  // keeps the still picture
     if (state === 'closed') return this.showDoor();
     if (state === 'unavailable') return this.replaceChildren(make('p', {class: 'lab-plain'}, say(missing ?? '')));
     if (!view) return;
@@ -625,7 +625,7 @@ export class LiveLab extends LabPicture {
   }
 }
 
-/** A single method in short form, and an experiment to open. */
+/** A lab state with a single method in short form, and an experiment to open. */
 type LabWish = LabState&{method?: string, step?: number, tolerance?: number, experiment?: string};
 
 /** Opens the scene's own lab on the page, another one, or a lab in a window over the page. */

@@ -9,10 +9,10 @@ import {Changes, MethodSpec} from './scene_text';
 declare const CompressionStream: new (format: 'gzip') => GenericTransformStream;
 declare const DecompressionStream: typeof CompressionStream;
 
-/** As in links and for setState(). */
+/** A state of the lab, as in links and for setState(). */
 export interface LabState {
   scene?: string;
-  toml?: string;      // default: as shipped
+  toml?: string;      // default: the shipped text
   changes?: Changes;  // numbers to change in the text
   methods?: MethodSpec[]|null;
   view?: 'over'|'side';
@@ -38,7 +38,7 @@ export async function addressOf(state: LabState) {
   return inBase64(bytes.length > 900 ? await through(bytes, new CompressionStream('gzip')) : bytes);
 }
 
-/** Null if the address contains no readable state. */
+/** The state in an address; null if it contains no readable state. */
 export async function stateOf(hash: string): Promise<LabState|null> {
   const packed = /^#lab=([\w-]+)/.exec(hash)?.[1];
   if (!packed) return null;
@@ -57,7 +57,7 @@ export function saveText(name: string, text: string) {
   setTimeout(() => URL.revokeObjectURL(link.href), 1000);
 }
 
-/** Returns false if the browser does not allow it. */
+/** Copies a text. Returns false if the browser does not allow it. */
 export async function copyText(text: string) {
   try {
     await navigator.clipboard.writeText(text);
@@ -74,6 +74,6 @@ export async function copyText(text: string) {
   }
 }
 
-/** Runs a method with the native program. */
+/** Command that runs a method with the native program. */
 export const commandOf = (scene: string, {method, step, tolerance}: MethodSpec) =>
     `crosscheck run ${scene} --method ${method} ${tolerance ? `--tol ${tolerance}` : `--step ${step}`}`;

@@ -30,7 +30,7 @@ export abstract class LabRuns extends HTMLElement {
   runs: LiveRun[] = [];
   sceneName = '';
   toml = '';
-  original = '';  // for comparison with changes
+  original = '';  // text with which changes are compared
   good = '';      // last valid text
   methods: MethodSpec[]|null = null;
   clock = 0;  // s
@@ -51,13 +51,13 @@ export abstract class LabRuns extends HTMLElement {
   private slow = 0;           // ms at the slowest pace
   private settled = 0;        // when sliders count as at rest
 
-  /** `fresh`: for another scene. */
+  /** Called after runs were opened; `fresh`: for another scene. */
   protected abstract opened(fresh: boolean): void;
   protected abstract refused(words: string): void;
   protected abstract judge(): void;
   abstract pause(): void;
 
-  /** No truth is started while a slider moves. */
+  /** Called when a slider moves or stops: no truth is started while it moves. */
   protected settle(done: boolean) { this.settled = done ? 0 : performance.now() + beginsRuns; }
 
   protected observes(scene: EngineScene) { return scene.particles <= smallScene; }
@@ -109,7 +109,7 @@ export abstract class LabRuns extends HTMLElement {
     this.start(false);
   }
 
-  /** Opens the truth when it is needed first. */
+  /** Opens the truth when it is first needed. */
   private findTruth() {
     if (this.truth || this.truthGone) return;
     const run = this.runs.find(r => !r.refusal && !r.failed);
@@ -132,7 +132,10 @@ export abstract class LabRuns extends HTMLElement {
     this.late = this.slow = 0, this.pace = 1, this.pending = false;
   }
 
-  /** Runs proceed up to the clock, as far as the frame's computing budget allows. `wanted`: time at full speed. */
+  /**
+   * Advances time. Runs proceed up to the clock, as far as the frame's computing budget allows. `wanted`: time at full
+   * speed.
+   */
   advance(passed: number, wanted = passed) {
     const before = this.clock;
     let aim = Math.min(this.end, before + passed), left = computingBudget * this.frameTime;

@@ -37,7 +37,7 @@ export interface LabLook {
   truth: boolean;
 }
 
-/** Called by the controls. */
+/** Functions that the controls call. */
 export interface LabActs {
   toggle(): void;
   step(): void;
@@ -130,7 +130,7 @@ export class LabView {
     this.build();
   }
 
-  /** Builds everything that contains text. */
+  /** Builds everything that contains text, also after a change of language. */
   build() {
     const {act} = this, button = (name: string, run: () => void) => labButton(name, say(name), run);
     this.sceneChoice = make('select', {'data-act': 'scene', 'aria-label': say('scene')});
@@ -214,7 +214,7 @@ export class LabView {
     this.plots.name();
   }
 
-  /** Marks a scene that the page does not have as the reader's own. */
+  /** Lists the scenes; a scene that the page does not have is marked as the reader's own. */
   setScene(names: string[], name: string, question: string, changed: boolean, alone: boolean) {
     const own = names.includes(name) ? [] : [name];
     this.sceneChoice.replaceChildren(...[...names, ...own].map(

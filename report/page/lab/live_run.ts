@@ -43,7 +43,7 @@ function between(from: State, to: State, t: number, into: Float64Array) {
   return into;
 }
 
-/** In m. */
+/** RMS distance of the particles, m. */
 export function rmsDistance(a: Places, b: Places) {
   let sum = 0;
   for (let i = 0; i < a.length; ++i) sum += (a[i] - b[i]) ** 2;
@@ -56,7 +56,7 @@ export const isFinite3 = (places: Places) => {
   return Number.isFinite(sum);
 };
 
-/** Error and its bar (m), energies (J), relative residual. */
+/** Values of a run at a time (s): error and its bar (m), energies (J), relative residual. */
 export interface Sample {
   t: number;
   error: number|null;
@@ -77,13 +77,13 @@ export class LiveRun {
   trail: Vec3[] = [];  // path of the last particle
   bursting = false;
   shown = false;                 // the failure was shown
-  offset = 0;                    // s, when the engine's clock was 0
-  since = 0;                     // s, last change by hand
+  offset = 0;                    // s, time at which the engine's clock was 0
+  since = 0;                     // s, time of the last change by hand
   last = 0;                      // ms of computing in the last frame
-  handWork: number|null = null;  // J
+  handWork: number|null = null;  // J, work done by the hand
   refusal: string|null = null;
   fault: string|null = null;
-  first: Energies|null = null;  // for the energy balance
+  first: Energies|null = null;  // start of the energy balance
   private readonly observe: boolean;
   private recent: Float64Array[] = [];
   private lost = 0;
@@ -133,9 +133,9 @@ export class LiveRun {
   get reason() { return this.refusal ?? this.fault ?? this.sim.reason; }
   get limit() { return this.sim.limit(this.spec.method); }
   get lastSample(): Sample|undefined { return this.samples[this.samples.length - 1]; }
-  /** In s; before the start, the requested step. */
+  /** Step of the run, s; before the start, the requested step. */
   get step() { return (this.refusal ? 0 : this.sim.h) || this.spec.step || this.sim.scene.step; }
-  /** In s. */
+  /** Time at which the run ends, s. */
   get end() { return this.offset + this.sim.scene.duration; }
   /** Simulated time / computing time so far. */
   get factor() { return this.spent > 0 ? 1000 * this.stepped / this.spent : null; }
@@ -187,18 +187,18 @@ export class LiveRun {
     this.places.set(positions);
     this.recent.push(positions.slice());
     if (this.recent.length > 24) this.recent.shift();
-    // at equal time intervals
+    // points are at equal time intervals
     if (this.trail.length <= (this.time - this.since) / this.sim.scene.duration * (trailPoints - 1))
       this.trail.push(placeOf(positions, positions.length / 3 - 1));
   }
 
-  /** Returns to the last positions that `good` accepts, for failed runs. */
+  /** For failed runs: returns to the last positions that `good` accepts. */
   stepBack(good: (places: Float64Array) => boolean) {
     const found = [...this.recent].reverse().find(good);
     if (found) this.places?.set(found);
   }
 
-  /** 0 if unknown. */
+  /** Present relative residual of the energy balance; 0 if unknown. */
   private residual(energy = this.sim.energy) {
     const {first} = this;
     if (!energy || !first || !Number.isFinite(energy.balance)) return 0;
@@ -260,7 +260,7 @@ class Follower {
     return {t: this.offset + sim.t, x: sim.positions.slice(), v: sim.velocities.slice()};
   }
 
-  /** Null if the positions are not available within `budget` ms. */
+  /** Positions at a time; null if they are not available within `budget` ms. */
   placesAt(time: number, budget: number) {
     const {sim} = this, h = this.step, begin = performance.now(), from = this.now.t;
     const tiny = 1e-6 * h, left = () => budget - (performance.now() - begin);
@@ -334,7 +334,7 @@ export class Truth {
     return !sim.ended && now.t < time - 1e-6 * (sim.h || 1);
   }
 
-  /** ms of computing per second of the scene. */
+  /** Computing time (ms) per second of the scene. */
   get cost() { return this.followers.reduce((sum, {spent, stepped}) => sum + (stepped > 0 ? spent / stepped : 0), 0); }
 
   /** Gives up the error bar, then the truth. Returns false when nothing is left. */

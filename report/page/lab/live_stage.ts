@@ -74,7 +74,7 @@ export interface Growth {
 export interface LiveShown extends Omit<Shown, 'colour'> {
   over: boolean;
   colour: Omit<Colouring, 'from'>&{from: Places | null};
-  centres: Numbers;  // m, spheres
+  centres: Numbers;  // centres of the spheres, m
   growth: Growth|null;
   marked: {particle: number, held: boolean}|null;
 }
@@ -102,7 +102,7 @@ export class LiveStage extends BaseStage<LivePanel> {
     this.arrows = this.tools.table(2 * scene.particles);
   }
 
-  /** The true path, drawn from the start; empty: none. */
+  /** Sets the true path, drawn from the start; empty: none. */
   setCourse(points: Vec3[]) {
     const {course} = this;
     course.count = Math.max(0, points.length - 1);
@@ -112,7 +112,7 @@ export class LiveStage extends BaseStage<LivePanel> {
     this.tools.fill(table);
   }
 
-  /** After a change by hand. */
+  /** Updates the pins after a change by hand. */
   setPins(pins: number[]) {
     if (pins.join() === this.scene.pins.join()) return;
     this.scene.pins = pins;
@@ -146,7 +146,7 @@ export class LiveStage extends BaseStage<LivePanel> {
     return true;
   }
 
-  /** One panel per view. */
+  /** Sets the drawn views, one per panel. */
   show(views: LiveView[]) {
     const {tools, scene: {particles}} = this, cloth = this.triangles.length > 0;
     for (const {points, normals, way} of this.panels) this.dropTables(points, normals, way);
@@ -171,7 +171,7 @@ export class LiveStage extends BaseStage<LivePanel> {
     this.tools.fill(way);
   }
 
-  /** Keeps the data that pointers need. Returns the panels' positions. */
+  /** Draws the panels, and keeps the data that pointers need. Returns the panels' positions. */
   draw(shown: LiveShown) {
     const {colour, over, centres} = shown;
     this.shown = shown;
@@ -193,7 +193,7 @@ export class LiveStage extends BaseStage<LivePanel> {
   /** Moves the camera smoothly to a new target, or at once if there was none. */
   private eased(fit: Fit) {
     const was = this.fit, part = 0.12;
-    // another shape of the picture is another view
+    // a picture of another shape is a new view
     const {clientWidth, clientHeight} = this.canvas, shape = `${clientWidth} ${clientHeight} ${this.panels.length}`;
     const other = !was || stillWanted.matches || this.shape !== shape;
     this.shape = shape;
@@ -270,6 +270,6 @@ export class LiveStage extends BaseStage<LivePanel> {
   }
 }
 
-/** Of each particle from `from`, m. */
+/** Distance of each particle from its position in `from`, m. */
 const apart = (places: Places, from: Places) =>
     Float32Array.from({length: places.length / 3}, (_, i) => norm(minus(placeOf(places, i), placeOf(from, i))));

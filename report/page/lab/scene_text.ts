@@ -4,9 +4,9 @@ import {norm, Places} from '../player/vectors';
 
 /** A number, or a list of three. */
 export type Value = number|number[];
-/** {path: value} */
+/** Numbers to change: {path: value}. */
 export type Changes = Record<string, Value>;
-/** With a step (s) or, for adaptive steppers, a tolerance. */
+/** A method with a step (s) or, for adaptive steppers, a tolerance. */
 export interface MethodSpec {
   method: string;
   step?: number;
@@ -26,7 +26,7 @@ interface NumberEntry {
 /** Marks a number that must be positive but was set to zero: its line is commented out, and can be restored. */
 const leftOutMark = '# left out: ';
 
-/** Skips strings, inline tables and multi-line lists. */
+/** All numbers in a text. Skips strings, inline tables and multi-line lists. */
 export function numbersOf(toml: string) {
   const found: NumberEntry[] = [];
   let section = '';
@@ -64,7 +64,7 @@ export function numberAt(toml: string, path: string) {
   return Array.isArray(value) ? norm(value) : value;
 }
 
-/** Zero comments out the line or the whole section, or is written. */
+/** What zero does at a path: it comments out the line or the whole section, or is written. */
 const zeroOf = (path: string) =>
     (/^(grid\.(stiffness\.(shear|bend)|bending|dashpot)|spring\.dashpot)$/.test(path) ? 'line' :
          /^drag\./.test(path)                                                         ? 'section' :
@@ -96,7 +96,7 @@ function withNumber(toml: string, path: string, value: Value) {
 export const withNumbers = (toml: string, changes: Changes) =>
     Object.entries(changes).reduce((text, [path, value]) => withNumber(text, path, value), toml);
 
-/** Null if more than numbers differ. */
+/** Changes between two texts; null if they differ in more than numbers. */
 export function changesBetween(from: string, to: string) {
   const changes: Changes = {};
   for (const path of new Set(numbersOf(from).map(e => e.path))) {
@@ -112,7 +112,7 @@ export function withMethod(toml: string, {method, step = 0, tolerance}: MethodSp
   return tolerance ? text : withNumber(text, 'time.step', step);
 }
 
-/** A string such as "question"; empty if there is none. */
+/** A string of the scene, such as "question"; empty if there is none. */
 export const textAt = (toml: string, key: string) =>
     new RegExp(`^\\s*${key}\\s*=\\s*"((?:[^"\\\\]|\\\\.)*)"`, 'm').exec(toml)?.[1] ?? '';
 
@@ -137,7 +137,7 @@ function startSection(x: Places, v: Places) {
   return `[start]\npositions = ${list(x)}\n${v.length ? `velocities = ${list(v)}\n` : ''}`;
 }
 
-/** Positions and velocities of particles, centres of spheres. */
+/** Initial state: positions and velocities of particles, centres of spheres. */
 export interface Start {
   positions: Places;
   velocities: Places;

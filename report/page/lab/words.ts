@@ -12,7 +12,7 @@ export const labWords: Record<Language, Record<string, string>> = {
 export let labLanguage: Language =
     [document.documentElement.lang, navigator.language].some(name => /^zh/i.test(name)) ? 'zh' : 'en';
 
-/** Replaces `{name}` in a text by values. A missing text is shown as its key. */
+/** Text of a key, with values for each `{name}`. A missing text is shown as its key. */
 export function say(key: string, values: Record<string, unknown> = {}) {
   const words = labWords[labLanguage][key] ?? key;
   return words.replace(/\{(\w+)\}/g, (place, name) => (name in values ? String(values[name]) : place));
@@ -24,7 +24,7 @@ export function questionInLanguage(question: string) {
   return key ? say(key) : question;
 }
 
-/** Elements with text listen for 'lab-language' on the document. */
+/** Sets the language. Elements with text listen for 'lab-language' on the document. */
 export function setLabLanguage(language: Language) {
   if (language === labLanguage) return;
   labLanguage = language;

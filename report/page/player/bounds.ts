@@ -20,7 +20,7 @@ export interface Bounds {
   reach: number;  // m, radius of the ball around them
 }
 
-/** Towards the key light, which is to the left behind the viewer. */
+/** Direction towards the key light, which is to the left behind the viewer. */
 function keyDirection(from: Numbers) {
   const back: Vec3 = Math.hypot(from[0], from[2]) > 1e-9 ? unit([from[0], 0, from[2]]) : [0, 0, 1];
   const right = [back[2], 0, -back[0]];
@@ -30,7 +30,7 @@ function keyDirection(from: Numbers) {
 /** Where the light's ray through a position meets the ground. */
 export const footOf = (at: Numbers, floor: number, key: Vec3) => plus(at, -(at[1] - floor) / key[1], key);
 
-/** Contains obstacles, shadows, and some particles in some frames of the completed runs. */
+/** Bounds of obstacles, shadows, and some particles in some frames of the completed runs. */
 export function boundsOf(scene: StageScene, motions: MovingPlaces[]): Bounds {
   const held: HeldBall[] = [], well = motions.filter(motion => motion.well);
   const stride = Math.max(1, Math.floor(scene.particles / 300)), places = new Float32Array(3 * scene.particles);
@@ -45,7 +45,7 @@ export function boundsOf(scene: StageScene, motions: MovingPlaces[]): Bounds {
   const low = [0, 1, 2].map(k => -most(h => h.radius - h.at[k])) as Vec3;
   const high = [0, 1, 2].map(k => most(h => h.at[k] + h.radius));
   const size = norm(minus(high, low)) || 1, key = keyDirection(scene.from);
-  // one metre for a single particle at rest
+  // a single particle at rest gets a view of one metre
   if (norm(minus(high, low)) === 0) held.push({at: low, radius: 0.5, margin: 0});
   const middle = low.map((a, k) => (a + high[k]) / 2) as Vec3;
   const reach = most(h => norm(minus(h.at, middle)) + h.radius), {floor} = scene;

@@ -29,7 +29,7 @@ export interface Look {
   ramp: Colour[];
 }
 
-/** Each engine has one cloth tint. */
+/** A method's title and colours; each engine has one tint for cloth. */
 export function lookOf(method: string): Look {
   const known = looksOfPage[method], name = method === 'truth' ? 'truth' : known?.colour ?? 'grey';
   const style = getComputedStyle(document.documentElement);
@@ -43,7 +43,7 @@ export function lookOf(method: string): Look {
   };
 }
 
-/** 256 colours of four bytes, between stops. */
+/** 256 colours of four bytes, interpolated between stops. */
 export function scaleBytes(stops: string[]) {
   const bytes = new Uint8Array(4 * 256), colours = stops.map(rgb);
   for (let i = 0; i < 256; ++i) {

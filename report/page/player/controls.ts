@@ -25,10 +25,10 @@ export const check = (label: string, on: boolean) => {
   return [make('label', {}, box, ` ${label}`), box] as const;
 };
 
-/** With the digits that distinguish frames. */
+/** Seconds, with the digits that distinguish frames. */
 const seconds = (time: number, end: number) => time.toFixed(end < 3 ? 3 : 2);
 
-/** Three digits. */
+/** A number with three digits. */
 export const short = (value: number): string => {
   if (value === 0) return '0';
   const size = Math.abs(value);
@@ -38,12 +38,12 @@ export const short = (value: number): string => {
   return (value < 0 ? '−' : '') + text;
 };
 
-/** Name and size (m) of a suitable unit. */
+/** Name and size (m) of a suitable unit for a length. */
 export const unitOf = (metres: number): [string, number] => {
   const units: [string, number][] = [['m', 1], ['mm', 1e-3], ['µm', 1e-6], ['nm', 1e-9]];
   return units.find(([, size]) => metres >= size) ?? units[0];
 };
-/** In a suitable unit. */
+/** A length in a suitable unit. */
 export const length = (metres: number) => {
   const [name, size] = metres > 0 ? unitOf(metres) : ['mm', 1e-3] as const, value = metres / size;
   return `${value === 0 ? 0 : value < 1e-3 ? short(value) : Number(value.toPrecision(2))} ${name}`;
@@ -55,7 +55,7 @@ export function roundUp(value: number) {
   return Number(([1, 2, 5, 10].find(s => s * power >= value * (1 - 1e-9))! * power).toPrecision(1));
 }
 
-/** Engine and rule; a program has its own name. */
+/** A method as engine and rule; a program has its own name. */
 export const inTwo = (method: string) => {
   const known = looksOfPage[method];
   if (known?.engine) return [known.engine, known.rule ?? ''];
@@ -120,7 +120,7 @@ export interface Look {
   colour: string;
   springs: boolean;
 }
-/** Called by the controls. */
+/** Functions that the controls call. */
 export interface Acts {
   toggle: () => void;
   seek: (time: number) => void;  // s
@@ -182,7 +182,7 @@ export class Controls {
     this.play.setAttribute('aria-label', `${playing ? 'Pause' : 'Play'} ${this.scene.scene}`);
   }
 
-  /** `top`: largest difference, m; 0 below the resolution `least` (m); null if unknown. */
+  /** Shows the compared runs. `top`: largest difference, m; 0 below the resolution `least` (m); null if unknown. */
   setPicks(picks: string[], top: number|null, least = 0) {
     this.pickers.forEach((picker, i) => picker.show(picks[i]));
     this.scale.replaceChildren(
@@ -192,7 +192,7 @@ export class Controls {
                             []));
   }
 
-  /** `scale`: value of the last colour, or null. */
+  /** Shows the look; `scale`: value of the last colour, or null. */
   setLook(look: Look, scale: string|null) {
     this.colour.value = look.colour, this.springs.checked = look.springs;
     this.bar.replaceChildren(...(scale ? ['0', make('i', {class: 'scale'}), scale] : []));

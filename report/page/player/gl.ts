@@ -8,12 +8,12 @@ export interface Program {
 }
 export type Uniforms = Record<string, number|number[]|WebGLTexture|undefined|null>;
 
-/** Corners for all instances, one row of `ints` integers per instance, and an index. */
+/** Corners for all instances, one row of `ints` integers per instance, and indices of corners. */
 export interface Mesh {
   corners?: Float32Array;
   size?: number;  // numbers per corner
   instances?: Int32Array;
-  slot?: number;  // attribute location of `instances`
+  slot?: number;  // attribute location of the instances
   ints?: number;
   index: Uint16Array;
 }
@@ -33,7 +33,7 @@ export interface Table {
 export class Gl {
   readonly gl: WebGL2RenderingContext;
 
-  /** Throws `noContext`. */
+  /** Throws `noContext` if there is no context. */
   constructor(canvas: HTMLCanvasElement, antialias: boolean) {
     const gl = canvas.getContext('webgl2', {antialias, alpha: false, powerPreference: 'low-power'});
     if (!gl) throw noContext;
@@ -66,7 +66,7 @@ export class Gl {
     return {program, places};
   }
 
-  /** Sets the uniforms that the program has, and binds textures to units in order. */
+  /** Makes a program current, sets the uniforms that it has, and binds textures to units in order. */
   use({program, places}: Program, uniforms: Uniforms) {
     const gl = this.gl;
     gl.useProgram(program);
@@ -121,7 +121,7 @@ export class Gl {
     if (count > 0) this.gl.drawElementsInstanced(mode, indexed, this.gl.UNSIGNED_SHORT, 0, count);
   }
 
-  /** Read texel by texel: four floats for each of `count` entries. */
+  /** A texture to be read texel by texel: four floats for each of `count` entries. */
   table(count: number): Table {
     const gl = this.gl, wide = Math.min(count, 1024), high = Math.ceil(count / wide);
     const texture = gl.createTexture()!;
@@ -137,7 +137,7 @@ export class Gl {
     gl.texSubImage2D(gl.TEXTURE_2D, 0, 0, 0, wide, high, gl.RGBA, gl.FLOAT, data);
   }
 
-  /** A row of colours (four bytes each) for interpolation. */
+  /** A row of colours (four bytes each), which is read with interpolation. */
   colours(bytes: Uint8Array) {
     const gl = this.gl, texture = gl.createTexture()!;
     gl.bindTexture(gl.TEXTURE_2D, texture);

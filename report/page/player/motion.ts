@@ -4,7 +4,7 @@ import {SharedGeometry, StageScene} from './stage';
 import {bytesOf, Packed, unpackedBytes} from './unpack';
 import {Places} from './vectors';
 
-/** As in report.json. */
+/** A run in the format of report.json. */
 export interface Run {
   step?: number;
   tolerance?: number;
@@ -22,7 +22,7 @@ export interface Run {
   energy?: (number|null)[];  // J
 }
 
-/** `data`: base64, decoded once. */
+/** Runs of a method; `data`: base64, decoded once. */
 export interface RunFile {
   method: string;
   note?: string;
@@ -48,12 +48,12 @@ export interface SceneStage {
   };
   pins: number[];
   spheres: {radius: number, centres: number[][]}[];
-  at?: number;  // s, of the poster
+  at?: number;  // s, time of the poster
   truth?: {name: string, rule: boolean, bar: number, motion: number};
   toml?: string;
 }
 
-/** Unpacked once. */
+/** Data of a scene that are unpacked once. */
 export interface Shared {
   triangles: Uint16Array;
   springs: Uint16Array;
@@ -86,7 +86,7 @@ export const parts = (key: string) => {
   return {method: key.slice(0, at < 0 ? undefined : at), place: at < 0 ? '' : key.slice(at + 1)};
 };
 
-/** Null if the page does not contain the run. */
+/** File and entry of a run; null if the page does not contain it. */
 export function runOf(scene: {scene: string}, key: string) {
   const {method, place} = parts(key), chosen = key === 'truth' || place === 'own' ? 0 : Number(place);
   const set = key === 'truth' ? 'truth' : place === 'own' ? 'engines' : 'speed-accuracy';
@@ -122,7 +122,7 @@ export function failureOf({verdict, failed}: Run, short: (value: number) => stri
 const numbersOf = ({particles}: SceneStage, file: RunFile, {offset, bytes}: Run) =>
     unpackedBytes((file.content ??= bytesOf(file.data)).subarray(offset, offset + bytes), 3 * particles);
 
-/** Null if the page does not contain the run. */
+/** Motion of a run; null if the page does not contain it. */
 export async function motionOf(scene: SceneStage, key: string) {
   const found = runOf(scene, key);
   if (!found) return null;
@@ -139,7 +139,7 @@ export async function cellOf(stage: SceneStage, file: RunFile, place: number) {
 }
 
 export class Motion {
-  readonly times: number[];  // s, of frames
+  readonly times: number[];  // s, times of the frames
   readonly begin: number;
   readonly end: number;
   readonly error: (number|null)[];   // m, of frames
@@ -162,14 +162,14 @@ export class Motion {
   /** Largest error of a position, m: half a unit in each direction. */
   get bound() { return Math.sqrt(3) / 2 * this.run.unit; }
 
-  /** As a fraction. */
+  /** Frame at a time, as a fraction. */
   private frameAt(time: number) {
     const {times} = this, t = Math.max(times[0], Math.min(this.end, time));
     const next = Math.max(1, times.findIndex(other => other >= t - 1e-12));
     return times.length < 2 ? 0 : next - 1 + (t - times[next - 1]) / (times[next] - times[next - 1]);
   }
 
-  /** Coordinates (m), linear between frames; a run stays at its end. */
+  /** Positions at a time (m), linear between frames; a run stays at its end. */
   placesAt(time: number, into = new Float32Array(3 * this.particles)) {
     const {particles, numbers, run} = this, frame = this.frameAt(time), first = Math.floor(frame), part = frame - first;
     const a = 3 * particles * first, b = part > 0 ? a + 3 * particles : a;
@@ -198,14 +198,14 @@ export class Motion {
     return into;
   }
 
-  /** Interpolates per-frame values. */
+  /** Interpolates a list with one value per frame. */
   valueAt(list: (number|null)[], time: number) {
     const frame = this.frameAt(time), first = Math.floor(frame), a = list[first] ?? null, b = list[first + 1] ?? null;
     return time > this.end + 1e-9 || a === null ? null : b === null ? a : a + (frame - first) * (b - a);
   }
 }
 
-/** In m, from differences of coordinates. */
+/** Distances of particles (m) from differences of coordinates. */
 export const distances = (apart: Float32Array) => {
   const out = new Float32Array(apart.length / 3);
   for (let i = 0; i < out.length; ++i) out[i] = Math.hypot(apart[3 * i], apart[3 * i + 1], apart[3 * i + 2]);

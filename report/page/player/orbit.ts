@@ -37,7 +37,7 @@ export class Orbit {
 
   magnify(factor: number) { this.zoom = Math.max(0.15, Math.min(4, this.zoom / factor)); }
 
-  /** Right, up and backwards. */
+  /** Directions to the right, up and backwards. */
   axes({yaw, pitch}: {yaw: number, pitch: number} = this): Vec3[] {
     const back: Vec3 = [Math.sin(yaw) * Math.cos(pitch), Math.sin(pitch), Math.cos(yaw) * Math.cos(pitch)];
     const right: Vec3 = [Math.cos(yaw), 0, -Math.sin(yaw)];

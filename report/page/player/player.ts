@@ -16,7 +16,10 @@ export const alive: MotionPlayer[] = [];
 export const stillWanted = matchMedia('(prefers-reduced-motion: reduce)');
 export const dark = matchMedia('(prefers-color-scheme: dark)');
 
-/** By features only, because starting WebGL takes long without a graphics processor. */
+/**
+ * True if this browser may be able to play. Checks features only, because starting WebGL takes long without a graphics
+ * processor.
+ */
 export let plays = 'DecompressionStream' in window && 'WebGL2RenderingContext' in window;
 document.documentElement.classList.toggle('plays', plays);
 
@@ -26,7 +29,7 @@ export function startsWebGl() {
   return Boolean(gl);
 }
 
-/** WebGL did not start: posters stay, without controls. */
+/** Called if WebGL does not start: the posters stay, without controls. */
 function playNothing() {
   plays = false;
   document.documentElement.classList.remove('plays');
@@ -42,7 +45,7 @@ const sceneData = (() => {
   };
 })();
 
-/** Dummies for the first screen, where one clock drives several players. */
+/** Dummy controls for the first screen, where one clock drives several players. */
 const noControls: Pick<Controls, 'setLook'|'setPlaying'|'setTime'|'setPlots'|'setPicks'|'setHint'> = {
   setLook() {},
   setPlaying() {},
@@ -75,7 +78,7 @@ export class MotionPlayer extends HTMLElement {
   given?: {scene: SceneStage, motion: Motion, caption: string};  // last picture of a map's cell
   scene!: SceneStage;
   picks: {a: string, b: string}|null = null;  // keys of the compared runs
-  hero: string[]|null = null;                 // keys on the first screen
+  hero: string[]|null = null;                 // keys of the runs on the first screen
   stage: Stage|null = null;
   motions: Motion[] = [];
   views: PlayerView[] = [];
@@ -225,7 +228,7 @@ export class MotionPlayer extends HTMLElement {
       const apart = times.map(
           t => (t <= Math.min(a.motion.end, b.motion.end) + 1e-9 ? distances(a.motion.apartAt(t, b.motion)) : null));
       const largest = apart.reduce((top, metres) => metres?.reduce((x, y) => Math.max(x, y), top) ?? top, 0);
-      // smaller differences are not resolved
+      // smaller differences than these are not resolved
       this.least = a.motion.bound + b.motion.bound, this.bound = Math.max(a.motion.bound, b.motion.bound);
       this.top = largest > this.least ? roundUp(largest) : 0;
       this.views.push(
@@ -286,7 +289,7 @@ export class MotionPlayer extends HTMLElement {
     return said.join(' ');
   }
 
-  /** For a truth that ends before the scene. */
+  /** Says where a truth ends, if it ends before the scene. */
   private endOf(method: string, {times}: Run) {
     const end = times[times.length - 1] ?? 0;
     return method === 'truth' && end < this.scene.times[this.scene.times.length - 1] - 1e-9 ?
@@ -331,7 +334,7 @@ export class MotionPlayer extends HTMLElement {
     this.wanted = true;
     await this.wake();
     if (this.playing || !this.wanted) return;
-    if (this.untouched || this.time >= this.end) this.seek(this.begin);  // initially shows the poster's time
+    if (this.untouched || this.time >= this.end) this.seek(this.begin);  // the player initially shows the poster's time
     this.playing = true;
     this.controls.setPlaying(true);
     let last: number|null = null;
@@ -396,7 +399,7 @@ export class MotionPlayer extends HTMLElement {
     if (canvas.width !== wide || canvas.height !== high) Object.assign(canvas, {width: wide, height: high});
     const background =
         getComputedStyle(this.box).backgroundColor.match(/[\d.]+/g)!.slice(0, 3).map(v => Number(v) / 255);
-    const title = this.hero ? (this.box.clientWidth < 420 ? 58 : 46) : this.given ? 0 : 24;  // px above each picture
+    const title = this.hero ? (this.box.clientWidth < 420 ? 58 : 46) : this.given ? 0 : 24;  // px free above pictures
     const panels = this.stage.draw(
         {colour: this.colouring, springs: this.look.springs, time: this.time, orbit: this.orbit, background, title});
     panels.forEach((panel, i) => {

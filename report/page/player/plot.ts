@@ -32,7 +32,7 @@ export interface Shown {
 const high = 140, top = 6, foot = high - 22;
 const at = bisector<Point>(([time]) => time);
 
-/** Linear between points; null outside their range. */
+/** Value at a time, linear between points; null outside their range. */
 function valueAt(points: Point[], time: number): number|null {
   const next = at.left(points, time - 1e-9);
   if (next >= points.length) return null;
@@ -49,16 +49,16 @@ export class Plot {
   private x: Axis|null = null;
   private y: Axis|null = null;
   private cursor: SVGElement|null = null;
-  private words = '';  // instead of curves
+  private words = '';  // shown instead of curves
 
-  /** `seek` receives a time in s. */
+  /** A box for one quantity; `seek` receives a time in s. */
   constructor(readonly box: HTMLElement, seek: (time: number) => void = () => {}) {
     box.append(this.head, this.area);
     const go = (event: PointerEvent) =>
         this.x && seek(this.x.value(event.clientX - this.area.getBoundingClientRect().left));
     this.area.addEventListener('pointerdown', event => (this.area.setPointerCapture(event.pointerId), go(event)));
     this.area.addEventListener('pointermove', event => event.buttons && go(event));
-    // cached: a query after a change of another plot would force a layout
+    // width is cached, because a query after a change of another plot would force a layout
     new ResizeObserver(() => (this.width = this.area.clientWidth, this.draw())).observe(this.area);
   }
 
@@ -67,7 +67,7 @@ export class Plot {
     this.draw();
   }
 
-  /** Linear, or logarithmic over at most 8 decades if a failed run grows a hundredfold. */
+  /** Axis of values: linear, or logarithmic over at most 8 decades if a failed run grows a hundredfold. */
   private axisOfValues({title, unit, series}: Shown): Axis|null {
     const valuesOf = (list: Series[]) => list.flatMap(s => s.points.flatMap(([, v]) => (v === null ? [] : [v])));
     const well = series.filter(s => s.well), values = valuesOf(well.length ? well : series);

@@ -3,7 +3,7 @@
 import {Gl, Mesh, Shape} from './gl';
 import {SharedGeometry, StageScene} from './stage';
 
-/** Radius 1. */
+/** Mesh of a ball of radius 1. */
 export function ballMesh(around: number, along: number) {
   const corners: number[] = [], index: number[] = [];
   for (let j = 0; j <= along; ++j)
@@ -18,17 +18,17 @@ export function ballMesh(around: number, along: number) {
 
 const square = new Uint16Array([0, 1, 2, 2, 1, 3]);
 
-/** A strip, shaded as a rod, per row of two particles and a family. */
+/** Strips that are shaded as rods, one per row of two particles and a family. */
 export const rods = (tools: Gl, rows: Int32Array) => tools.shape(
     {corners: new Float32Array([0, -1, 1, -1, 0, 1, 1, 1]), size: 2, slot: 2, ints: 3, index: square, instances: rows});
 
-/** Coarse if there are many. */
+/** Balls at particles, coarse if there are many. */
 export const balls = (tools: Gl, particles: number, list: number[]) =>
     ballsOf(tools, particles > 60 ? ballMesh(10, 6) : ballMesh(24, 16), list);
 const ballsOf = (tools: Gl, mesh: Mesh, list: number[]) =>
     tools.shape({...mesh, instances: Int32Array.from(list), slot: 1, ints: 1});
 
-/** Rows (a, b, family); `counts`: springs per family. */
+/** Rows (a, b, family) of the springs; `counts`: springs per family. */
 function springRows(ends: Uint16Array, counts: number[]) {
   const rows = new Int32Array(ends.length / 2 * 3);
   let row = 0;

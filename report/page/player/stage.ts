@@ -12,8 +12,8 @@ import {cross, dot, lightMatrix, minus, Numbers, placeOf, Places, plus, sumNorma
 export interface StageScene {
   scene: string;
   particles: number;
-  times: number[];  // s, of frames
-  from: Numbers;    // towards the viewer
+  times: number[];  // s, times of the frames
+  from: Numbers;    // direction towards the viewer
   floor: number|null;
   triangles: unknown;  // null or false: no cloth
   pins: number[];
@@ -22,7 +22,7 @@ export interface StageScene {
   spheres: {radius: number, centres: Numbers[]}[];  // centres at even times
   planes?: PlaneFace[];
 }
-/** A point (m) and the outward normal. */
+/** A plane: a point (m) and the outward normal. */
 export interface PlaneFace {
   point: Numbers;
   normal: Numbers;
@@ -32,17 +32,17 @@ export const isFloor = ({normal}: PlaneFace) => normal[1] > 1 - 1e-9;
 const isSlope = (plane: PlaneFace) => plane.normal[1] > 0.1 && !isFloor(plane);
 export interface SharedGeometry {
   triangles: Uint16Array;
-  springs: Uint16Array;  // ends
-  rests: Numbers;        // in `rest_unit`
+  springs: Uint16Array;  // both ends of each
+  rests: Numbers;        // rest lengths in `rest_unit`
 }
 
 export interface Panel {
   look: Pick<Look, 'plain'|'ramp'>;
-  points: Table;        // position and value
+  points: Table;        // position and value of each particle
   normals: Table|null;  // cloth only
   scale: 'heat'|'apart';
 }
-/** By method, or by a value up to `top`; `from`: reference motion for distances. */
+/** Colouring by method, or by a value up to `top`; `from`: reference motion for distances. */
 export interface Colouring {
   name: string;
   top: number;
@@ -54,9 +54,9 @@ export interface Shown {
   springs: boolean;
   orbit: Orbit;
   background: number[];
-  title: number;  // CSS pixels above each panel
+  title: number;  // CSS pixels that stay free above each panel
 }
-/** Includes the title. */
+/** Position of a panel, including its title. */
 export interface PanelPlace {
   left: number;
   top: number;
@@ -71,11 +71,11 @@ export interface PanelView<P> {
   background: number[];
   eye: Vec3;
   toClip: number[];
-  toKey: number[]|null;  // to the light's clip space
+  toKey: number[]|null;  // clip space of the light
   pixel: number;         // m
   valued: boolean;
   surface: boolean;
-  ghost: boolean;  // over the previous panel
+  ghost: boolean;  // drawn over the previous panel
 }
 
 /** Rows and columns that maximise the smaller side of each picture; `title`: height above it. */
@@ -288,13 +288,13 @@ export class BaseStage<P extends Panel> {
 
   protected drawPath(_view: PanelView<P>, _all: Uniforms) {}
 
-  /** As a fraction. */
+  /** Frame at a time, as a fraction. */
   protected frame(time: number) {
     const {times} = this.scene, last = times.length - 1;
     return last > 0 ? last * Math.min(1, time / times[last]) : 0;
   }
 
-  /** Radius and centre of each sphere. */
+  /** Radius and centre of each sphere at a time. */
   protected obstaclesAt(time: number): [number, Vec3][] {
     const {scene} = this, last = scene.times.length - 1;
     const at = this.frame(time), first = Math.floor(at), next = Math.min(first + 1, last);
@@ -335,7 +335,7 @@ export class Stage extends BaseStage<MotionPanel> {
     this.bounds = boundsOf(scene, this.panels.map(p => p.motion));
   }
 
-  /** Returns the panels' places. */
+  /** Draws the panels, and returns their positions. */
   draw(shown: Shown): PanelPlace[] {
     const {time, colour} = shown;
     const prepare = (panel: MotionPanel) => {

@@ -3,7 +3,7 @@
 // missing from older compilers' types
 declare const DecompressionStream: new (format: string) => ReadableWritablePair<Uint8Array, Uint8Array>;
 
-/** `data`: base64. */
+/** Rows of integers; `data`: base64. */
 export interface Packed {
   count: number;
   columns: number;
@@ -21,7 +21,7 @@ const inflatedBytes = (bytes: Uint8Array) =>
     new Response(new Blob([bytes]).stream().pipeThrough(new DecompressionStream('gzip')));
 export const inflated = (base64: string) => inflatedBytes(bytesOf(base64));
 
-/** Sums wrap, as the differences did. */
+/** Unpacks rows of 16-bit integers. Sums wrap, as the differences did. */
 export async function unpackedBytes(bytes: Uint8Array, columns: number) {
   const planes = new Uint8Array(await inflatedBytes(bytes).arrayBuffer()), count = planes.length / 2;
   const values = new Uint16Array(count);

@@ -1,9 +1,9 @@
 // Vectors as arrays of three numbers, matrices as arrays of sixteen, column by column.
 
 export type Vec3 = [number, number, number];
-/** May be a row of a larger array. */
+/** A vector, or a row of a larger array. */
 export type Numbers = ArrayLike<number>;
-/** Three per particle, m. */
+/** Coordinates of particles, three each, m. */
 export type Places = Float32Array|Float64Array;
 
 export const minus = (a: Numbers, b: Numbers): Vec3 => [a[0] - b[0], a[1] - b[1], a[2] - b[2]];
