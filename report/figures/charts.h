@@ -90,7 +90,7 @@ template <class Row, class T>
 auto with(T Row::*member, const std::type_identity_t<T>& value) {
   return std::views::filter([=](const Row& row) { return row.*member == value; });
 }
-/// In order of first occurrence.
+/// Distinct values in order of first occurrence.
 template <class Row, class T>
 std::vector<T> distinct(const std::vector<Row>& rows, T Row::*member) {
   std::vector<T> all;

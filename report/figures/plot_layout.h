@@ -98,7 +98,7 @@ struct NamedLines {
   double y_of(double place) const { return box.top - 2 - line_of_names * (place - 0.5); }
   std::string commands(const FigureInfo& figure, const std::vector<Tick>& ticks) const;
   std::string name(double place, size_t index) const;
-  /// At the sheet's left edge.
+  /// Text at the sheet's left edge.
   std::string heading(double place, const std::string& text) const;
   std::string ending_at(double x, double place, const std::string& text) const {
     return Sheet(wide, tall, below).text({x, y_of(place)}, text, "right", "#222222");

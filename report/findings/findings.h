@@ -67,7 +67,7 @@ Findings found_by_rules(const Facts& facts, bool of_scene);
 struct FindingText {
   std::string sentence, formula;
 };
-/// By key. Throws std::runtime_error with file and line if a text is malformed.
+/// Texts by key. Throws std::runtime_error with file and line if a text is malformed.
 const std::map<std::string, FindingText>& finding_texts();
 
 /// Throws std::logic_error if the text uses a word that the finding does not have.

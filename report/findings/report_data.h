@@ -27,7 +27,7 @@ struct MethodData : EngineRow {
   bool gave_no_answer() const { return verdict == Verdict::crash || verdict == Verdict::timeout; }
   /// True if the run completed, is not a truth, and has a known error.
   bool judged() const { return ok() && error && family_of(method).role != Role::truth; }
-  /// In words, for a failed run.
+  /// The kind of failure in words.
   std::string failure() const { return failure_class(verdict); }
 };
 
@@ -59,7 +59,7 @@ SceneData scene_data(const std::string& scene, const TableSet& result);
 /// True if the method chooses its own steps.
 bool is_adaptive(const std::string& method);
 
-/// For sentences: "3.2e-5" instead of "3.2e-05"; without an exponent where that is short.
+/// Number for sentences: "3.2e-5" instead of "3.2e-05"; without an exponent where that is short.
 std::string nice(double value);
 /// "1.2 mm", "3.4e-14 m"
 std::string nice_length(double metres);

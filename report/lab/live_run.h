@@ -38,7 +38,7 @@ class LiveRun {
   double time() const { return loop_->time(); }  // s
   Outcome outcome() const { return loop_->outcome(); }
   const State& state() const { return world_->state(time()); }
-  /// In J; empty for first-order scenes. Without a ledger, losses and work are nan.
+  /// Energies, losses and work, J; empty for first-order scenes. Without a ledger, losses and work are nan.
   std::optional<LedgerRow> energies() const;
 
   /// Pins a free particle at a position (m), as if held by hand.

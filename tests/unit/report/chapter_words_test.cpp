@@ -68,7 +68,7 @@ LimitRow words_row(const std::string& method, PredictionKind theory, std::option
           .reason = ""};
 }
 
-/// From the sag of a cloth, and from the period of a chain.
+/// Effective stiffnesses from the sag of a cloth, and from the period of a chain.
 TableSet effective_stiffnesses() {
   Table table = crosscheck::table_of<EffectiveStiffnessRow>();
   for (const std::string net : {"chain of 8", "cloth of 6 x 6"})

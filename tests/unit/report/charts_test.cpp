@@ -386,7 +386,7 @@ TEST(ChartJson, OfCurvesSaysWhatIsDrawnBesideThem) {
   EXPECT_FALSE(json.find("flat"));
 }
 
-/// With "open " in front of marks that are not filled.
+/// Marks by name, with "open " in front if they are not filled.
 std::vector<std::string> marks_of(const JsonField& chart) {
   std::vector<std::string> marks;
   for (const JsonField& part : chart["parts"].elements())

@@ -40,7 +40,7 @@ class Cli : public testing::Test {
     text << in.rdbuf();
     return text.str();
   }
-  /// Without provenance lines, which contain the date.
+  /// Rows without provenance lines, which contain the date.
   static std::string rows(const fs::path& file) {
     std::istringstream in(read(file));
     std::string out;

@@ -104,7 +104,7 @@ class FigureSet : public InFolder {
           chart.figure);
     }
   }
-  /// In points.
+  /// Width of the page in points.
   double width_of(const std::string& name) const { return page_of(read(folder_ / (name + ".pdf"))).first; }
   std::vector<Chart> all;
 };

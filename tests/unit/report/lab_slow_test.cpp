@@ -63,7 +63,7 @@ class LabModule : public InBrowser {
     return scenes;
   }
 
-  /// For every stepper that supports the scene. Implicit and adaptive ones stop where a perturbation has grown a
+  /// Runs of all steppers that support the scene. Implicit and adaptive ones stop where a perturbation has grown a
   /// thousandfold.
   static std::vector<NativeRun> native_runs(const std::vector<Scene>& scenes, int steps) {
     std::vector<NativeRun> runs;

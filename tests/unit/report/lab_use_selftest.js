@@ -279,7 +279,7 @@ const labUse = (() => {
   }
 
 
-  /** On the screen, for the first run. */
+  /** Position of a particle of the first run on the screen. */
   function placeOf(particle) {
     const lab = theLab(), [x, y] = lab.stage.project(lab.runs[0].places.subarray(3 * particle, 3 * particle + 3), lab.stage.boxes[0]);
     const box = lab.view.layer.getBoundingClientRect();

@@ -20,7 +20,7 @@ inline int count(const std::string& text, const std::string& part) {
   return n;
 }
 
-/// With the rule's first text, and `word` for every placeholder.
+/// An artificial finding with the rule's first text, and `word` for every placeholder.
 inline Finding made_up(const FindingRule& rule, const std::string& word) {
   Finding f{.rule = std::string(rule.key),
             .scene = word,

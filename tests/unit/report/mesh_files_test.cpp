@@ -104,7 +104,7 @@ TEST(MeshFiles, TrianglesAreClothLinesAreSprings) {
   EXPECT_EQ(chain.lines, (std::vector<std::pair<int, int>>{{0, 1}, {1, 2}, {2, 3}}));
 }
 
-/// By the divergence theorem, for triangles that are counter-clockwise as seen from outside.
+/// Volume by the divergence theorem; triangles must be counter-clockwise as seen from outside.
 double volume_inside(const Points& x, const std::vector<std::array<int, 3>>& triangles) {
   double six_volumes = 0;
   for (const auto& [a, b, c] : triangles) six_volumes += x.col(a).dot(Vec3(x.col(b)).cross(Vec3(x.col(c))));

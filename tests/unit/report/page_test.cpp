@@ -113,7 +113,7 @@ std::string at_load(std::string html) {
   }
   return html;
 }
-/// With folded contents.
+/// The complete page, with folded contents.
 std::string whole(const PageContent& content) { return with_folds_put_back(page_html(content)); }
 
 /// Links inside the page lead to an element, or to a scene that they open.
@@ -509,7 +509,7 @@ class Assembled : public InFolder {
     for (const Scene& scene : data_.scenes) write_file(folder_ / "data/scenes" / (scene.name + ".toml"), scene.source);
   }
   std::string page() const { return read(folder_ / "index.html"); }
-  /// With folded contents.
+  /// The complete page, with folded contents.
   std::string whole_page() const { return with_folds_put_back(page()); }
 
   ReportData data_;

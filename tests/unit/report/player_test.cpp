@@ -69,7 +69,7 @@ RunCallback keeping(std::vector<Kept>& kept) {
 
 class Runs : public InFolder {
  protected:
-  /// At the scene's own step.
+  /// Stores runs at the scene's own step.
   void keep(const Scene& scene, const std::vector<std::string>& methods) {
     RunsWriter writer(folder_);
     Request request;

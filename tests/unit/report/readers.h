@@ -31,7 +31,7 @@ inline std::vector<std::string> streams_of(const std::string& pdf) {
   return streams;
 }
 
-/// In points, for the first page. Since version 1.18 cairo compresses the page's description.
+/// Size of the first page in points. Since version 1.18 cairo compresses the page's description.
 inline std::pair<double, double> page_of(const std::string& pdf) {
   std::vector<std::string> texts = streams_of(pdf);
   texts.insert(texts.begin(), pdf);
@@ -43,7 +43,7 @@ inline std::pair<double, double> page_of(const std::string& pdf) {
   return {};
 }
 
-/// In points.
+/// Sizes of letters in points.
 inline std::set<double> letters_of(const std::string& pdf) {
   std::set<double> sizes;
   for (const std::string& text : streams_of(pdf)) {
@@ -88,7 +88,7 @@ inline std::string unpacked_text(const std::string& base64) {
   return gunzipped(bytes, length);
 }
 
-/// With folded contents.
+/// The page with folded contents inserted.
 inline std::string with_folds_put_back(std::string page) {
   const std::string begin = "<script type=\"text/plain\" id=\"held\">";
   const size_t from = page.find(begin);

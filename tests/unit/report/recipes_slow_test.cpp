@@ -113,7 +113,7 @@ struct Document {
   size_t least;  ///< minimum number of commands
 };
 
-/// For the name in ctest.
+/// Gives tests their names in ctest.
 void PrintTo(const Document& document, std::ostream* out) { *out << document.name; }
 
 class Documents : public Cli, public testing::WithParamInterface<Document> {

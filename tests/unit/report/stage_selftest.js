@@ -1,5 +1,5 @@
-// For tests of the player in a browser: complaints, waiting, inspection of the stage, and output. Load it before its
-// users.
+// Shared by tests of the player in a browser: complaints, waiting, inspection of the stage, and output. Load it before
+// the script that uses it.
 const complaints = [];
 addEventListener('error', event => complaints.push(event.message));
 addEventListener('unhandledrejection', event => complaints.push(String(event.reason)));

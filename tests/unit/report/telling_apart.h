@@ -29,7 +29,7 @@ inline Rgb linear_light(const std::string& hex) {
   return out;
 }
 
-/// Under D65.
+/// CIE L*, a*, b* under D65.
 inline Eigen::Vector3d lab(const Rgb& rgb) {
   Eigen::Matrix3d to_xyz;
   to_xyz << 0.4124564, 0.3575761, 0.1804375, 0.2126729, 0.7151522, 0.0721750, 0.0193339, 0.1191920, 0.9503041;
@@ -85,7 +85,7 @@ inline bool alike_dashes(const std::string& a, const std::string& b) {
   return std::max(longest, other) < 1.5 * std::min(longest, other);
 }
 
-/// By name. Omits elements that stand in a row or panel with its own name.
+/// Looks by name. Omits elements that stand in a row or panel with its own name.
 inline std::map<std::string, Look> looks_of(const std::string& script) {
   std::map<std::string, Look> looks;
   std::map<std::string, std::string> signs;  // mark of labels without text, by colour
@@ -150,7 +150,7 @@ inline std::string looking_alike(const std::string& script) {
   return out;
 }
 
-/// For all figures in a folder; counts them.
+/// looking_alike() for all figures in a folder; counts them.
 inline std::string looking_alike_in(const std::filesystem::path& folder, int& figures) {
   std::string out;
   figures = 0;

@@ -55,7 +55,7 @@ class Wrapper : public Cli {
         {"CI=" + ci, "HOME=" + (folder_ / "home").string(), "XDG_CACHE_HOME=", "STUBS=" + folder_.string(),
          "PATH=" + (folder_ / "bin").string() + ":/usr/bin:/bin:/usr/sbin"});
   }
-  /// As a user without write permission for the tree.
+  /// Runs as a user without write permission for the tree.
   ProgramResult start_as_other(std::vector<std::string> words) const {
     const std::vector<std::string> as{"setpriv", "--reuid=65534", "--regid=65534", "--clear-groups"};
     words.insert(words.begin(), as.begin(), as.end());
