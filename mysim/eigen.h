@@ -5,8 +5,7 @@
 
 namespace Eigen::internal {
 
-/// Sums three numbers as (x + y) + z, with the same bits as Eigen's SIMD code; without SIMD, Eigen sums in another
-/// order.
+/// Sums three numbers as (x + y) + z, with the same bits as Eigen's SIMD code. Without SIMD, Eigen uses another order.
 template <class Function, class Evaluator>
 struct redux_novec_unroller<Function, Evaluator, 0, 3> {
   using Scalar = typename Evaluator::Scalar;

@@ -1,4 +1,3 @@
-// Eigenvalues of dense matrices, computed by Eigen.
 #include "mysim/eigenvalues.h"
 
 #include <Eigen/Eigenvalues>

@@ -1,19 +1,19 @@
-// Eigenvalues of dense matrices. Wraps Eigen's solvers, whose templates take half a minute to compile. All values are
-// nan if the iteration fails.
+// Eigenvalues of dense matrices by Eigen, whose templates take half a minute to compile. All values are nan if the
+// iteration fails.
 #pragma once
 
 #include <Eigen/Core>
 
 namespace crosscheck {
 
-/// Eigensystem of a symmetric n x n matrix: eigenvalues in ascending order, eigenvectors (columns) of unit length.
+/// Eigensystem of a symmetric n x n matrix: eigenvalues ascending, eigenvectors (columns) of unit length.
 struct Eigensystem {
   Eigen::VectorXd values;
   Eigen::MatrixXd vectors;
 };
 Eigensystem symmetric_eigensystem(const Eigen::MatrixXd& symmetric);
 
-/// Eigenvalues of a symmetric matrix, in ascending order.
+/// Eigenvalues of a symmetric matrix, ascending.
 Eigen::VectorXd symmetric_eigenvalues(const Eigen::MatrixXd& symmetric);
 
 /// Eigenvalues of a general square matrix, unordered.

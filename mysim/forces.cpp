@@ -1,4 +1,3 @@
-// Matrix-vector products of the pair list, and the blocks on its diagonal.
 #include "mysim/forces.h"
 
 namespace crosscheck {

@@ -9,7 +9,7 @@ namespace crosscheck {
 
 struct Forces {
   Points f;                     // N (3 x n)
-  long degenerate_springs = 0;  // springs at zero length: their direction is undefined, so they exert no force
+  long degenerate_springs = 0;  // springs at zero length, which exert no force
 
   void clear() {
     f.setZero();
@@ -17,16 +17,13 @@ struct Forces {
   }
 };
 
-// Stiffness and damping of a model at a state, as a matrix that is never assembled: a list of pairs.
-
 enum class Curvature {
   exact,    // exact -dF/dx; indefinite where springs are compressed
   clamped,  // negative parts omitted: positive semidefinite
 };
 
-/// K = -dF/dx (N/m) and C = -dF/dv (N s/m), both symmetric, as sums over pairs of particles a, b. Each pair applies the
-/// 3 x 3 block across (I - n n^T) + along n n^T to the difference of the two displacements. Pins are left to the
-/// caller.
+/// K = -dF/dx (N/m) and C = -dF/dv (N s/m), both symmetric and never assembled. Each pair of particles a, b applies the
+/// 3 x 3 block across (I - n n^T) + along n n^T to the difference of their displacements. Pins are left to the caller.
 class Tangent {
  public:
   struct Pair {
@@ -38,7 +35,7 @@ class Tangent {
   void add_stiffness(const Pair& pair) { stiffness_.push_back(pair); }
   void add_damping(const Pair& pair) { damping_.push_back(pair); }
 
-  /// out += (stiffness K + damping C) d, for N (3 x n) columns d.
+  /// out += (stiffness K + damping C) d, with d of 3 x n.
   void add_product(double stiffness, double damping, const Points& d, Points& out) const;
   /// Adds the 3 x 3 blocks on the diagonal of (stiffness K + damping C) to blocks (3 x 3n).
   void add_diagonal(double stiffness, double damping, Eigen::Matrix3Xd& blocks) const;

@@ -1,4 +1,3 @@
-// The library interface: wrappers around mysim's internal types.
 #include "mysim/mysim.h"
 
 #include <fmt/format.h>
@@ -16,7 +15,7 @@
 namespace mysim {
 namespace {
 
-/// Runs the work and rethrows mysim's refusals as the library's Error.
+/// Rethrows mysim's refusals as the library's Error.
 template <class Work>
 auto refusing(const Work& work) {
   try {
@@ -32,7 +31,7 @@ std::string toml(const std::array<double, 3>& v) {
   return fmt::format("[{:.17g}, {:.17g}, {:.17g}]", v[0], v[1], v[2]);
 }
 
-/// The network as the text of a scene file, so that a single reader validates it and reports errors.
+/// The network as a scene file, so that a single reader validates it and reports errors.
 std::string toml(const Network& network, double duration, double step) {
   std::string text = fmt::format(
       "question = \"none\"\nparameters = \"a program gave them\"\n[time]\nduration = {0:.17g}\nwindow = "
@@ -57,8 +56,8 @@ std::string toml(const Network& network, double duration, double step) {
   return text;
 }
 
-/// A twentieth of the shortest vibration period. omega^2 is at most twice the largest sum of a particle's stiffnesses
-/// over its mass (Gershgorin's bound, for springs in one direction). Without springs, a hundredth of the run.
+/// A twentieth of the shortest vibration period, by Gershgorin's bound for springs in one direction: omega^2 is at most
+/// twice the largest sum of a particle's stiffnesses over its mass. Without springs, a hundredth of the run.
 double step_of(const Network& network, double duration) {
   std::vector<double> stiffness(network.particles.size());
   for (const Network::Spring& s : network.springs)
@@ -85,7 +84,7 @@ const crosscheck::Stepper& stepper_named(const std::string& name) {
 
 std::span<const double> numbers(const crosscheck::Points& p) { return {p.data(), static_cast<std::size_t>(p.size())}; }
 
-/// Passes states to the user's observer, and ends the run when the observer returns false.
+/// Passes states to the user's observer; its return value false ends the run.
 class Watching final : public crosscheck::Observer {
  public:
   Watching(const mysim::Observer& observer, bool every_step) : observer_(observer), every_step_(every_step) {}
@@ -93,7 +92,7 @@ class Watching final : public crosscheck::Observer {
   crosscheck::Verdict observe(const crosscheck::State& state, bool sample) override {
     if (!observer_ || observer_({state.t, numbers(state.x), numbers(state.v), sample})) return crosscheck::Verdict::ok;
     stopped_ = true;
-    return crosscheck::Verdict::timeout;  // any verdict that ends the run; it is never reported
+    return crosscheck::Verdict::timeout;  // any verdict that ends the run; never reported
   }
   bool stopped() const { return stopped_; }
 

@@ -1,6 +1,5 @@
 // mysim as a library: create or read a scene, run it with a stepper, observe its states. This header is the complete
-// public interface; example.cpp, installed with the documentation, builds and runs a rope. SI units throughout: m, kg,
-// s, N.
+// public interface; example.cpp simulates a rope. SI units throughout: m, kg, s, N.
 //
 //   mysim::Scene scene = mysim::Scene::read("cloth-hang.toml");
 //   mysim::Result result = mysim::run(scene, {.stepper = "leapfrog", .step = 5e-4}, [](const mysim::Frame& frame) {
@@ -24,12 +23,12 @@ struct Scene;
 
 namespace mysim {
 
-/// Invalid input, or a stepper that cannot run the scene. what() is one line that states what was expected.
+/// Invalid input, or a stepper that cannot run the scene. what() states in one line what was expected.
 struct Error : std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-/// A network of particles and springs, from which Scene::of() makes a scene without a file.
+/// Particles and springs from which Scene::of() makes a scene without a file.
 struct Network {
   struct Particle {
     std::array<double, 3> position;              // m, initial
@@ -38,7 +37,7 @@ struct Network {
     bool pinned = false;                         // fixed at its initial position
   };
   struct Spring {
-    int a, b;            // end points, as particle indices
+    int a, b;            // particle indices
     double stiffness;    // N/m, Hooke's law
     double rest;         // m
     double dashpot = 0;  // N s/m, along the spring
@@ -50,24 +49,24 @@ struct Network {
 };
 
 /// The problem to simulate: particles, springs, pins, forces, initial state, and the default times of a run. Copies
-/// share the underlying data.
+/// share their data.
 class Scene {
  public:
   /// Reads a scene file (TOML, keys in experiments/scenes/README.md). Throws Error: "FILE:LINE: KEY: expected ...".
   static Scene read(const std::string& file);
-  /// Parses the text of a scene file; all ingredients are available: cloth grids, wind, spheres with friction.
+  /// Parses the text of a scene file. All ingredients are available: cloth grids, wind, spheres with friction.
   static Scene parse(std::string_view toml, const std::string& name);
-  /// Makes a scene of particles and springs. `duration` (s) is the default duration of its runs.
+  /// `duration` (s): default duration of runs.
   static Scene of(const Network& network, double duration);
 
   int particles() const;
   double step() const;      // s, the scene's default; for networks, 1/20 of the shortest vibration period
   double duration() const;  // s
-  /// Springs as pairs of ends, and triangles of cloth, for drawing.
+  /// End points of springs, and triangles of cloth, for drawing.
   std::vector<std::pair<int, int>> springs() const;
   const std::vector<std::array<int, 3>>& triangles() const;
 
-  /// The internal type, for code compiled within mysim's source tree (mysim/scene/scene.h).
+  /// The internal type, for code in mysim's source tree (mysim/scene/scene.h).
   const crosscheck::Scene& inner() const { return *scene_; }
 
  private:
@@ -75,12 +74,12 @@ class Scene {
   std::shared_ptr<const crosscheck::Scene> scene_;
 };
 
-/// A state of a run, valid only during the observer call.
+/// A state of a run, valid only in the observer call.
 struct Frame {
   double t;                   // s
   std::span<const double> x;  // m: components x[3 i], x[3 i + 1], x[3 i + 2] of particle i
-  std::span<const double> v;  // m/s, same layout as x; empty for first-order scenes
-  bool sample;  // true for the equally spaced samples, false for steps between them (Settings::every_step)
+  std::span<const double> v;  // m/s, as x; empty for first-order scenes
+  bool sample;                // one of the equally spaced samples, not a step between them (Settings::every_step)
 };
 
 struct Settings {
@@ -88,36 +87,35 @@ struct Settings {
   double step = 0;          // s, upper bound: reduced to divide the time between samples; 0: the scene's default
   double tolerance = 1e-6;  // relative, for adaptive steppers (dopri5)
   double duration = 0;      // s; 0: the scene's default
-  int samples = 0;          // number of frames after the first, at i duration / samples; 0: the scene's default
+  int samples = 0;          // frames after the first, at i duration / samples; 0: the scene's default
   bool every_step = false;  // call the observer after every step
 };
 
 struct Result {
   std::string verdict;      // "ok", "stopped", or the kind of failure: "energy", "nan", "stretch", "solver", "frozen"
   std::string reason;       // one sentence if the run failed
-  double end;               // s, last time reached
-  double step;              // s, as actually used
-  long steps, evaluations;  // steps taken; evaluations of the right-hand side
+  double end;               // s, last time
+  double step;              // s, as used
+  long steps, evaluations;  // evaluations: of the right-hand side
   double cpu_seconds;       // s, stepping only, without observers
   bool ok() const { return verdict == "ok"; }
 };
 
-/// Receives the initial state and then the samples, or every step. Returning false ends the run with verdict "stopped".
+/// Receives the initial state, then the samples or every step; returning false ends the run with verdict "stopped".
 using Observer = std::function<bool(const Frame&)>;
 
-/// Runs the scene. A diverging run does not throw: it ends early, and the result states how. Throws Error for unknown
-/// steppers, impossible settings, and scenes that the stepper cannot run.
+/// Runs the scene. A run that diverges ends early, and the result states how. Throws Error for unknown steppers,
+/// impossible settings, and scenes that the stepper cannot run.
 Result run(const Scene& scene, const Settings& settings = {}, const Observer& observer = {});
 
-/// Energy of a state by the scene's formulas (J); gravitational energy is zero at the origin. Undefined for first-order
-/// scenes.
+/// Energy of a state by the scene's formulas (J), gravitational energy relative to the origin. Undefined for
+/// first-order scenes.
 struct Energy {
   double kinetic, elastic, gravitational;
   double total() const { return kinetic + elastic + gravitational; }
 };
 Energy energy(const Scene& scene, const Frame& frame);
 
-/// Names of all steppers.
 std::vector<std::string> steppers();
 
 }  // namespace mysim

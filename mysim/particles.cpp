@@ -1,4 +1,3 @@
-// Positions and velocities of the pins at a given time, from the prescribed motion and its derivative.
 #include "mysim/particles.h"
 
 #include <cassert>

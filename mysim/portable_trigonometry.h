@@ -8,13 +8,13 @@ namespace crosscheck {
 
 /// An angle minus the nearest multiple of pi/2.
 struct ReducedAngle {
-  double rest, tail;  // rad: at most pi/4 in magnitude; its rounding error
+  double rest, tail;  // rad: at most pi/4 in magnitude, and its rounding error
   unsigned quarter;   // the multiple, modulo 4
 };
 
-/// Cody and Waite's reduction: pi/2 is split into three parts, the first two with 33 bits, so that their products with
-/// the multiple are exact as long as it has at most 20 bits, up to 1.6e6 rad (W. J. Cody and W. Waite, Software Manual
-/// for the Elementary Functions, chapter 8).
+/// Cody and Waite's reduction: the first two of the three parts of pi/2 have 33 bits, so that their products with the
+/// multiple are exact if it has at most 20 bits, up to 1.6e6 rad (W. J. Cody and W. Waite, Software Manual for the
+/// Elementary Functions, chapter 8).
 inline ReducedAngle reduced(double x) {
   constexpr double first = 0x1.921fb544p+0, second = 0x1.0b4611a6p-34, third = 0x1.3198a2e037073p-69;
   constexpr double per_quarter = 0x1.45f306dc9c883p-1;  // 2 / pi
@@ -24,7 +24,7 @@ inline ReducedAngle reduced(double x) {
   return {rest, left - (rest - rough), static_cast<unsigned>(static_cast<long long>(multiple)) & 3u};
 }
 
-/// Taylor series of sine up to r^17 and cosine up to r^16: at pi/4 the next terms are 1e-19 and 2e-18 of the value.
+/// Taylor series of sine up to r^17 and of cosine up to r^16: at pi/4 the next terms are 1e-19 and 2e-18 of the value.
 inline double sine_near_zero(const ReducedAngle& angle) {
   const double r = angle.rest, z = r * r;
   double sum = 1 / 355687428096000.0;

@@ -6,18 +6,18 @@
 namespace crosscheck {
 
 using Vec3 = Eigen::Vector3d;
-using Points = Eigen::Matrix3Xd;  // N (3 x n): one column per particle
+using Points = Eigen::Matrix3Xd;  // 3 x n: one column per particle
 
 /// Length of the longest column; 0 without columns.
 inline double largest_column(const Points& p) { return p.cols() > 0 ? p.colwise().norm().maxCoeff() : 0; }
-/// Sum of the products of all corresponding entries.
+/// Sum of the products of corresponding entries.
 inline double dot(const Points& a, const Points& b) { return a.cwiseProduct(b).sum(); }
 
-/// The time-dependent state. A first-order scene (x' = f(x, t)) has no velocities: v is then 3 x 0.
+/// A first-order scene (x' = f(x, t)) has no velocities.
 struct State {
   double t = 0;  // s
-  Points x;      // N (3 x n), m
-  Points v;      // N (3 x n), m/s; or 3 x 0
+  Points x;      // 3 x n, m
+  Points v;      // 3 x n, m/s; or 3 x 0
 };
 
 }  // namespace crosscheck

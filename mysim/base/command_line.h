@@ -14,7 +14,7 @@
 
 namespace crosscheck {
 
-/// CLI11's errors in readable form. Unknown options are reported first, because they often cause the other errors.
+/// Readable form of CLI11's errors. Unknown options are reported first, because they often cause the other errors.
 inline std::string usage_error(const std::string& program, const CLI::App& app, const CLI::ParseError& error) {
   const CLI::App* command = &app;
   while (!command->get_subcommands().empty()) command = command->get_subcommands().front();
@@ -48,9 +48,9 @@ inline std::string usage_error(const std::string& program, const CLI::App& app, 
   return fmt::format("{}{} ({} {}--help shows what is expected)", place, error.what(), program, help);
 }
 
-/// The content of --help as JSON: a list of commands with `name`, `what`, `words` (positional arguments: `name`,
-/// `what`) and `options` (`names`, their joined form `title`, `value`, empty for flags, and `what`). Hidden entries and
-/// --help itself are omitted. The manual and the shell completions are generated from this table.
+/// The content of --help as JSON, from which the manual and the shell completions are generated: a list of commands
+/// with `name`, `what`, `words` (positional arguments: `name`, `what`) and `options` (`names`, their joined form
+/// `title`, `value`, empty for flags, and `what`). Without hidden entries and --help itself.
 inline std::string command_table(const CLI::App& app) {
   Json table = Json::array();
   for (const CLI::App* command : app.get_subcommands([](const CLI::App* one) { return !one->get_group().empty(); })) {

@@ -1,4 +1,3 @@
-// Fields that contain a comma, a quote or a line break are quoted; a quote within quotes is doubled.
 #include "mysim/base/csv.h"
 
 namespace crosscheck {
@@ -18,7 +17,7 @@ std::string csv_field(const std::string& text) {
 
 std::optional<std::vector<CsvField>> csv_record(std::string_view text, std::size_t& at) {
   std::vector<CsvField> fields(1);
-  bool within = false;  // inside quotes
+  bool within = false;
   for (; at < text.size() && (within || text[at] != '\n'); ++at) {
     CsvField& field = fields.back();
     if (text[at] == '"' && within && text.substr(at + 1).starts_with('"'))

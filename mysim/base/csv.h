@@ -8,10 +8,9 @@
 
 namespace crosscheck {
 
-/// The text in quotes, with inner quotes doubled.
 std::string csv_quoted(const std::string& text);
 
-/// The text as a field, quoted if necessary.
+/// The text as a CSV field, quoted if it contains a comma, a quote or a line break; inner quotes are doubled.
 std::string csv_field(const std::string& text);
 
 struct CsvField {
@@ -19,8 +18,8 @@ struct CsvField {
   bool quoted = false;
 };
 
-/// Reads the record that begins at `at`, and advances `at` to the line feed or to the end of the text. Returns nothing
-/// if a quote is not closed.
+/// Reads the record at `at`, and advances `at` to the line feed or the end of the text. Returns nothing if a quote is
+/// not closed.
 std::optional<std::vector<CsvField>> csv_record(std::string_view text, std::size_t& at);
 
 }  // namespace crosscheck

@@ -1,4 +1,3 @@
-// Messages of exceptions.
 #include "mysim/base/errors.h"
 
 #include <fmt/format.h>
@@ -31,7 +30,7 @@ std::string path_message(const fs::filesystem_error& error) {
                        reason);
   if (!error.path2().empty()) path += " -> " + error.path2().string();
   const std::errc code = static_cast<std::errc>(error.code().value());
-  // unfinished results are in hidden folders: report the visible folder above, which tells the user which disk is full
+  // unfinished results are in hidden folders: report the visible folder above, which shows which disk is full
   if (code == std::errc::no_space_on_device) path = path.substr(0, path.find("/."));
   const char* expected = code == std::errc::no_space_on_device          ? "; expected more room on the disk"
                          : code == std::errc::permission_denied         ? "; expected one that you may read and write"
@@ -63,7 +62,7 @@ std::string in_words(const std::exception_ptr& thrown) {
   } catch (const std::system_error& error) {
     return error.code().message();
   } catch (const std::exception& error) {
-    // strips the library's prefix "[json.exception.type_error.302] "
+    // without the library's prefix "[json.exception.type_error.302] "
     std::string what = error.what();
     if (what.starts_with("[json.exception."))
       what = "a JSON file does not hold what was expected:" + what.substr(std::min(what.find(']') + 1, what.size()));
@@ -77,7 +76,7 @@ int run_reporting_errors(std::string_view program, const std::function<int()>& w
   try {
     const int status = work();
     errno = 0;
-    std::cout.flush();  // CLI11 prints --help and --version there
+    std::cout.flush();  // CLI11 writes --help and --version there
     if (!std::cout || std::fflush(stdout) != 0 || std::ferror(stdout) != 0)
       throw std::system_error(errno != 0 ? errno : EIO, std::generic_category());
     return status;

@@ -27,8 +27,8 @@ struct SolverFailure : std::runtime_error {
 /// The message of an exception: one line that names the file or folder concerned, without library-specific wording.
 std::string in_words(const std::exception_ptr& thrown);
 
-/// Runs a program's work and returns its exit status. An exception is reported on standard error in one line that
-/// begins with the program's name, and the status is 2; negative results (status 1) are returned, never thrown.
+/// Runs a program's work and returns its exit status. Reports an exception on standard error, in one line that begins
+/// with the program's name, and returns 2. Negative results (status 1) are returned, never thrown.
 int run_reporting_errors(std::string_view program, const std::function<int()>& work);
 
 }  // namespace crosscheck

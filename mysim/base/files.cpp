@@ -1,5 +1,3 @@
-// Unnamed files that receive their name when complete, reading of whole files, and temporary folders locked by their
-// owner.
 #include "mysim/base/files.h"
 
 #include <fcntl.h>
@@ -56,7 +54,7 @@ StreamingFile::~StreamingFile() {
 }
 
 void StreamingFile::append(std::string_view bytes) {
-  assert(out_);  // not finished yet
+  assert(out_);
   if (std::fwrite(bytes.data(), 1, bytes.size(), out_.get()) != bytes.size()) fail(no_room);
 }
 
@@ -94,7 +92,7 @@ void write_file(const fs::path& file, std::string_view content) {
 std::optional<std::string> try_read_file(const fs::path& file) {
   std::ifstream in(file, std::ios::binary);
   std::string text, block(1 << 16, '\0');
-  // Documents and tables made from the text need more memory than the text itself. Free memory is queried only for
+  // Documents and tables made from the text need more memory than the text itself. The free memory is read only for
   // large files.
   double most = 1 << 26;
   for (bool asked = false; in.read(block.data(), std::ssize(block)) || in.gcount() > 0;) {
@@ -151,8 +149,7 @@ std::string file_name_of(std::string_view text) {
   return fmt::format("{}-{:016x}", name.substr(0, kept), Fnv1a::of(text));
 }
 
-// The owner of a temporary folder holds an exclusive lock on it. The lock ends with the process, in every pid
-// namespace.
+// The owner of a temporary folder holds an exclusive lock on it, which ends with the process in every pid namespace.
 
 TemporaryFolder::TemporaryFolder(std::string_view purpose, const fs::path& place) {
   // a name pattern that no user folder has; remove_stale_temporary_folders() relies on it

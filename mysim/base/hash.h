@@ -1,4 +1,4 @@
-// FNV-1a (64 bit; G. Fowler, L. C. Noll, K.-P. Vo): a fingerprint of bytes, not cryptographically secure.
+// FNV-1a (64 bit; G. Fowler, L. C. Noll, K.-P. Vo), not cryptographically secure.
 #pragma once
 
 #include <cstdint>

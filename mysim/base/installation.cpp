@@ -1,4 +1,3 @@
-// Reads crosscheck.folders.
 #include "mysim/base/installation.h"
 
 #include <fmt/format.h>
@@ -13,7 +12,7 @@ namespace crosscheck {
 namespace fs = std::filesystem;
 namespace {
 
-/// Folders listed in crosscheck.folders; each line holds a key and a folder.
+/// Folders in crosscheck.folders by key; each line holds both.
 const std::map<std::string, fs::path>& folders() {
   static const auto found = [] {
     const fs::path program = fs::read_symlink("/proc/self/exe");

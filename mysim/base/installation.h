@@ -6,15 +6,14 @@
 
 namespace crosscheck {
 
-// The file crosscheck.folders, next to the program or in the nearest folder above it, names two folders relative to its
-// own location. CMake writes one into the build folder and another into the installation, so that either tree may be
-// moved.
+// The file crosscheck.folders, next to the program or in the nearest folder above it, names two folders relative to
+// itself. CMake writes one into the build folder and one into the installation, so that both can be moved.
 
 /// Folder of files read at run time (scenes, baselines, the page's scripts, assignments), laid out as in the source
 /// tree; in a build it is the source tree. Throws std::runtime_error if there is no crosscheck.folders.
 std::filesystem::path data_folder();
 
-/// Folder of built files: programs, mysim's library, the lab's module.
+/// Folder of built files: programs, mysim's library, the lab's Python module.
 std::filesystem::path programs_folder();
 
 /// $CROSSCHECK_CACHE, else $XDG_CACHE_HOME/crosscheck, else ~/.cache/crosscheck; nothing if HOME is not set either.

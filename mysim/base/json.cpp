@@ -1,4 +1,3 @@
-// JSON through nlohmann's library, with path, line and column added to its errors.
 #include "mysim/base/json.h"
 
 #include <fmt/format.h>
@@ -41,8 +40,8 @@ bool find_path(const Json& from, const Json& to, std::string& path) {
   return false;
 }
 
-/// Callbacks for the library's parser. The library's own tree builder has no depth limit and compares every key of an
-/// object with all keys before it.
+/// Callbacks for the library's parser. The library's own tree builder has no depth limit, and compares each key with
+/// all keys before it.
 class Reader {
  public:
   bool null() { return add(nullptr), true; }
@@ -68,8 +67,8 @@ class Reader {
     return open_.pop_back(), true;
   }
   bool parse_error(size_t at, const std::string& token, const nlohmann::json::exception& error) {
-    // keep only the words after the dash: "[json.exception.parse_error.101] parse error at line 1, column 3: syntax
-    // error while parsing value - invalid literal; last read: 'N'"
+    // keeps "invalid literal" of "[json.exception.parse_error.101] parse error at line 1, column 3: syntax error while
+    // parsing value - invalid literal; last read: 'N'"
     wrong = error.what();
     for (const std::string_view before : {"] ", ": ", " - "})
       if (const size_t found = wrong.find(before); found != std::string::npos) wrong.erase(0, found + before.size());
@@ -85,7 +84,7 @@ class Reader {
     return false;
   }
 
-  /// Path of the value that was being read when parsing ended: "readback.links[3].stiffness".
+  /// Path of the value at which parsing ended: "readback.links[3].stiffness".
   std::string path() const {
     std::string path;
     if (open_.empty()) return path;
@@ -95,7 +94,7 @@ class Reader {
   }
 
   Json root;
-  std::string wrong;        // reason of the failure
+  std::string wrong;
   size_t read = 0;          // bytes read, including the first wrong one
   bool not_finite = false;  // the wrong value is a non-finite number
 
@@ -113,7 +112,7 @@ class Reader {
     return wrong.empty();
   }
 
-  std::vector<Json*> open_;  // lists and objects being read, innermost last
+  std::vector<Json*> open_;  // open lists and objects, innermost last
 };
 
 /// "line 2, column 7: invalid literal; steps: expected a finite number: ..."
@@ -227,7 +226,7 @@ double JsonField::number_from(double lowest) const {
 
 namespace {
 
-/// The integer value, if it is an integer within the range of int64.
+/// The integer, if it is within the range of int64.
 std::optional<std::int64_t> whole_of(const Json& value) {
   if (!value.is_number_integer() || (value.is_number_unsigned() && value.get<std::uint64_t>() > INT64_MAX))
     return std::nullopt;

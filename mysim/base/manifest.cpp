@@ -1,4 +1,3 @@
-// Reading and writing the manifest of a result folder as JSON.
 #include "mysim/base/manifest.h"
 
 #include <fmt/format.h>

@@ -1,4 +1,4 @@
-// crosscheck.json lists the files that Crosscheck owns in a folder. No other file there is ever removed or replaced.
+// crosscheck.json lists Crosscheck's files in a folder. No other file there is ever removed or replaced.
 #pragma once
 
 #include <cstdint>
@@ -18,31 +18,29 @@ struct Manifest {
   };
   std::string command;                // command that owns the folder: "report", "run", ...
   bool finished = false;              // state: "finished" or "being written"
-  long process = 0;                   // process id of the writer
+  long process = 0;                   // the writer's process id
   std::string since;                  // start of writing, UTC
   std::map<std::string, File> files;  // by relative path, without the manifest itself
 
-  /// Manifest of a result that this process starts to write now.
+  /// A result that this process begins to write now.
   static Manifest begun(std::string command);
-  /// True for a listed file, and for the unfinished copy of a listed file that a killed run left.
+  /// True for a listed file, and for its unfinished copy left by a killed run.
   bool names(const std::string& path) const;
-  /// True if the file is listed and unchanged.
   bool ours(const std::filesystem::path& folder, const std::string& path) const;
 };
 
-/// Returns nothing if there is no manifest. Throws InputError with the file's name if the manifest cannot be read or
-/// lists a path outside the folder.
+/// Returns nothing if there is no manifest. Throws InputError with the file's name if it cannot be read or lists a path
+/// outside the folder.
 std::optional<Manifest> read_manifest(const std::filesystem::path& folder);
 void write_manifest(const Manifest& manifest, const std::filesystem::path& folder);
 /// Throws InputError with the file's name if it cannot be read.
 Manifest::File file_entry(const std::filesystem::path& file);
 
-/// "x.csv" for "x.csv.123.part" and ".x.csv.123.part", the names of unfinished files and figures; nothing for other
-/// names.
+/// "x.csv" for "x.csv.123.part" and ".x.csv.123.part" (unfinished files and figures); nothing for other names.
 std::optional<std::string> whole_name(const std::string& path);
 
 /// Sorted relative paths of all files below a folder, except the manifest, and of empty folders (with a trailing
-/// slash). Symbolic links are listed, not followed.
+/// slash). Does not follow symbolic links.
 std::vector<std::string> paths_in(const std::filesystem::path& folder);
 
 /// Current time, as "2026-11-23 03:10:00 UTC".

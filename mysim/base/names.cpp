@@ -1,4 +1,3 @@
-// Unicode classes, names and paths.
 #include "mysim/base/names.h"
 
 #include <fmt/format.h>
@@ -24,7 +23,7 @@ char32_t code_point(std::string_view bytes) {
 }
 
 /// Control characters (Cc), line and paragraph separators, and invisible format characters (Cf): soft hyphen, Arabic
-/// letter mark, zero-width and bidirectional characters, variation of language tags.
+/// letter mark, zero-width and bidirectional characters, language tags.
 bool is_hidden(char32_t c) {
   constexpr std::pair<char32_t, char32_t> ranges[] = {
       {0x00, 0x1f},     {0x7f, 0x9f},     {0xad, 0xad},     {0x61c, 0x61c},   {0x115f, 0x1160},
@@ -59,7 +58,7 @@ std::string printable(std::string_view text) {
 
 namespace {
 
-/// A standard stream, with the first bytes of a UTF-8 character that the next write completes.
+/// A standard stream, and the first bytes of a UTF-8 character that the next write completes.
 struct TextStream {
   int file;
   std::string begun;
@@ -130,7 +129,6 @@ bool is_path_inside(std::string_view path) {
 
 namespace {
 
-/// Throws InputError if the path exists and is neither a file nor a folder.
 void require_plain(const fs::path& path) {
   const fs::file_status status = fs::symlink_status(path);
   if (fs::exists(status) && !fs::is_regular_file(status) && !fs::is_directory(status))

@@ -30,7 +30,6 @@ constexpr auto new_result = "new", old_result = "old";
 bool is_there(const fs::path& path) { return fs::exists(fs::symlink_status(path)); }
 bool is_folder(const fs::path& path) { return fs::is_directory(fs::symlink_status(path)); }
 
-/// Device and inode.
 std::pair<dev_t, ino_t> identity(const fs::path& file) {
   struct stat about {};
   if (lstat(file.c_str(), &about) != 0) return {};
@@ -89,7 +88,7 @@ OutputLock::OutputLock(const fs::path& given, const std::string& command) : requ
   fs::create_directories(target.parent_path(), error);
   require_replaceable();
   const fs::path file = work / "lock";
-  // the lock of a killed writer is held until its child processes have ended as well
+  // child processes of a killed writer hold its lock until they end
   const auto deadline = std::chrono::steady_clock::now() + std::chrono::seconds(3);
   for (;; std::this_thread::sleep_for(std::chrono::milliseconds(10))) {
     struct stat about {};
@@ -98,7 +97,7 @@ OutputLock::OutputLock(const fs::path& given, const std::string& command) : requ
       refuse(work.string() + " is not a folder of yours; remove it, or give another folder");
     handle_ = open(file.c_str(), O_CREAT | O_RDWR | O_CLOEXEC | O_NOFOLLOW, 0666);
     const bool in_time = std::chrono::steady_clock::now() < deadline;
-    if (handle_ < 0 && errno == ENOENT && in_time) continue;  // another process has just removed the folder
+    if (handle_ < 0 && errno == ENOENT && in_time) continue;  // another process has just removed it
     if (handle_ < 0) refuse();
     if (flock(handle_, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK) {
       close(handle_);
@@ -114,7 +113,7 @@ OutputLock::OutputLock(const fs::path& given, const std::string& command) : requ
                         : "another process is writing into it; wait for it, or give another folder");
     }
     if (fstat(handle_, &about) == 0 && identity(file) == std::pair(about.st_dev, about.st_ino)) break;
-    close(handle_);  // the lock file belonged to a process that ended in the meantime
+    close(handle_);  // the lock file of a process that has ended in the meantime
   }
   const std::string text = fmt::format("{}\n{}\n{}\n", getpid(), utc_now(), command);
   if (ftruncate(handle_, 0) != 0 || pwrite(handle_, text.data(), text.size(), 0) != static_cast<ssize_t>(text.size())) {
@@ -127,7 +126,7 @@ OutputLock::OutputLock(const fs::path& given, const std::string& command) : requ
 void OutputLock::release() {
   std::error_code ignored;
   fs::remove(work / "lock", ignored);
-  fs::remove(work, ignored);  // fails, as intended, if the folder is not empty
+  fs::remove(work, ignored);  // fails, as intended, if not empty
   for (const fs::path& above : made_) fs::remove(above, ignored);
   close(handle_);
 }
@@ -143,8 +142,7 @@ bool OutputLock::own() const { return process_ == getpid(); }
 
 namespace {
 
-/// A free path under a folder for one of the user's files: its own path, or NAME.yours if that is taken or if `other`
-/// requires another one.
+/// A free path for a user's file: its own path, or NAME.yours if that is taken or `other` is set.
 fs::path free_path(const fs::path& root, const fs::path& path, bool other) {
   fs::path at = root;
   for (const fs::path& part : path.parent_path()) {
@@ -181,17 +179,16 @@ bool same_bytes(const fs::path& a, const fs::path& b) {
   return std::equal(std::istreambuf_iterator<char>(one), {}, std::istreambuf_iterator<char>(other), {});
 }
 
-/// Removes empty folders above a file, up to the root.
 void remove_empty_above(const fs::path& root, const fs::path& path) {
   std::error_code error;
   for (fs::path at = path.parent_path(); !at.empty() && fs::remove(root / at, error); at = at.parent_path()) {
   }
 }
 
-/// Links the user's files in `target` into `stage`, which holds a new result.
+/// Links the user's files in `target` into the new result `stage`.
 void link_users_files(const fs::path& target, const std::optional<Manifest>& old, const fs::path& stage) {
   const std::vector<std::string> paths = paths_in(target);
-  // changed files of the earlier result come last, because they get new names, which must not collide with other files
+  // changed files of the earlier result last: their new names must not collide with other files
   for (const bool changed : {false, true})
     for (const std::string& path : paths) {
       if (changed != (old && old->names(path)) || (changed && old->ours(target, path))) continue;
@@ -211,8 +208,7 @@ void link_users_files(const fs::path& target, const std::optional<Manifest>& old
     }
 }
 
-/// Empties a replaced folder: removes Crosscheck's files and those that `target` has as well, and moves other files
-/// there.
+/// Empties a replaced folder: removes Crosscheck's files and those that `target` also has, and moves the others there.
 void absorb(const fs::path& from, const fs::path& target) {
   const std::optional<Manifest> old = read_manifest(from);
   std::set<std::pair<dev_t, ino_t>> there;
@@ -229,7 +225,7 @@ void absorb(const fs::path& from, const fs::path& target) {
   fs::remove_all(from);
 }
 
-/// Puts the new result in the place of the earlier one; returns the new location of the earlier one.
+/// Replaces the earlier result by the new one; returns the new location of the earlier one.
 fs::path replaced(const OutputLock& place, const fs::path& stage) {
   std::error_code gone;
   const fs::path here = fs::current_path(gone), inside = here.lexically_relative(place.target);
@@ -265,14 +261,14 @@ void recover(const OutputLock& place) {
     if (is_there(leftover)) absorb(leftover, place.target);
 }
 
-/// True if the path lies inside another result's folder nested in this one, as the shards of a sweep do.
+/// True if the path lies in a nested folder that holds another result, such as a shard of a sweep.
 bool is_of_another_result(const fs::path& target, const std::string& path) {
   for (fs::path above = fs::path(path).parent_path(); !above.empty(); above = above.parent_path())
     if (is_there(target / above / Manifest::file_name)) return true;
   return false;
 }
 
-/// Returns the manifest of a folder that may be written into, or nothing if the folder is empty or does not exist.
+/// Manifest of a folder that may be written into; nothing if it is empty or does not exist.
 std::optional<Manifest> require_ours(const OutputLock& place, const std::string& command) {
   std::optional<Manifest> manifest = read_manifest(place.target);
   if (manifest && manifest->command != command)
@@ -291,7 +287,6 @@ std::optional<Manifest> require_ours(const OutputLock& place, const std::string&
   return manifest;
 }
 
-/// Reports file-system errors as errors of --out.
 template <class F>
 auto with_output_errors(const OutputLock& place, F work) {
   try {
@@ -302,7 +297,7 @@ auto with_output_errors(const OutputLock& place, F work) {
   }
 }
 
-/// Cleans up after killed writers, and returns the manifest of the folder if it may be written into.
+/// Cleans up after killed writers; returns the folder's manifest if it may be written into.
 std::optional<Manifest> entered(const OutputLock& place, const std::string& command) {
   return with_output_errors(place, [&] {
     recover(place);

@@ -10,20 +10,19 @@
 
 namespace crosscheck {
 
-/// The lock on a result folder, which ends with the process that holds it, and the working folder in which the next
-/// result is prepared.
+/// The lock on a result folder, held until the process ends, and the working folder for the next result.
 class OutputLock {
  public:
   /// Throws InputError "--out FOLDER: ..." if the folder cannot be created, written to or replaced (a file of that
-  /// name, a dangling link, a mount point, a folder of another user), or if another process holds the lock. In the
-  /// latter case the message names that process.
+  /// name, a dangling link, a mount point, a folder of another user), or if another process, which the message names,
+  /// holds the lock.
   OutputLock(const std::filesystem::path& given, const std::string& command);
   ~OutputLock();
   OutputLock(const OutputLock&) = delete;
   OutputLock& operator=(const OutputLock&) = delete;
   /// False in forked children.
   bool own() const;
-  /// Throws InputError "--out FOLDER: WHY"; by default WHY says that the folder cannot be created or written to.
+  /// Throws InputError "--out FOLDER: WHY"; default: the folder cannot be created or written to.
   [[noreturn]] void refuse(const std::string& why = "") const;
 
   std::filesystem::path requested;  // as given
@@ -40,16 +39,15 @@ class OutputLock {
   int process_;
 };
 
-/// A result that is prepared in the working folder. finish() links the user's files into it and exchanges the two
-/// folders (renameat2, RENAME_EXCHANGE). On file systems that cannot exchange names (NFS, 9p, sshfs), the earlier
-/// result is renamed to WORK/old and the new one is renamed to its place. If the process is killed in between, the next
-/// writer moves the earlier one back. Listed files that the user has changed, and user files under names of the new
-/// result, are kept as NAME.yours.
+/// A result in preparation, in the working folder. finish() links the user's files into it and exchanges the two
+/// folders (renameat2, RENAME_EXCHANGE). On file systems that cannot exchange names (NFS, 9p, sshfs), it renames the
+/// earlier result to WORK/old, and then the new one to its place; if the process is killed in between, the next writer
+/// moves the earlier one back. Listed files that the user has changed, and user files under names of the new result,
+/// are kept as NAME.yours.
 class OutputFolder {
  public:
-  /// Acquires the lock, cleans up after a killed writer, and begins. Throws InputError "--out FOLDER: ..." like
-  /// OutputLock, and if the folder belongs to another command or holds files but no manifest; in that case nothing is
-  /// changed.
+  /// Acquires the lock, cleans up after a killed writer, and begins. Throws InputError like OutputLock, and if the
+  /// folder belongs to another command or holds files but no manifest; then nothing is changed.
   OutputFolder(const std::filesystem::path& folder, const std::string& command);
   /// Removes an unfinished result.
   ~OutputFolder();
@@ -71,15 +69,14 @@ class OutputFolder {
 /// A result that grows in place, so that an interrupted command can continue it.
 class ResumableOutput {
  public:
-  /// Same conditions as OutputFolder's constructor; creates the folder if it is missing.
+  /// Throws like OutputFolder's constructor. Creates a missing folder.
   ResumableOutput(const std::filesystem::path& folder, const std::string& command);
   ResumableOutput(const ResumableOutput&) = delete;
   ResumableOutput& operator=(const ResumableOutput&) = delete;
 
-  /// Lists files that will be written next. The user's files under these names are kept as NAME.yours.
+  /// Lists the files that will be written next. User files under these names are kept as NAME.yours.
   void announce(const std::vector<std::string>& files);
-  /// Path of a file that holds part of the result until finish(): "unfinished-NAME" if a finished result has a file of
-  /// that name, otherwise NAME.
+  /// Path of an incomplete file until finish(): "unfinished-NAME" if a finished result has a file NAME, otherwise NAME.
   std::filesystem::path growing(const std::string& file);
   /// Includes the listed files of an inner folder in this result.
   void keep(const std::string& inner);

@@ -4,7 +4,7 @@
 
 namespace crosscheck {
 
-// std::regex uses stack space for each character: 8 MB suffice for three times this length, even with sanitizers
+// std::regex needs stack for each character: 8 MB suffice for three times this length, even with sanitizers
 constexpr size_t longest = 4000;
 
 struct Pattern::Compiled {

@@ -17,11 +17,11 @@ class Pattern {
   Pattern(const Pattern&) = delete;
   Pattern& operator=(const Pattern&) = delete;
 
-  /// If the whole text matches: the match and its groups ("" for a group that did not participate). Otherwise nothing.
+  /// The match of the whole text and its groups ("" for a group that did not participate), or nothing.
   std::optional<std::vector<std::string>> match(const std::string& text) const;
-  /// True if a part of the text matches.
+  /// True if any part of the text matches.
   bool is_in(const std::string& text) const;
-  /// The text with each match replaced; $1 refers to the first group.
+  /// Replaces all matches; $1 refers to the first group.
   std::string replaced_in(const std::string& text, const std::string& by) const;
 
  private:

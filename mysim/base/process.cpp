@@ -72,10 +72,9 @@ constexpr size_t kept_bytes = 65536;  // per output stream of an untrusted progr
 
 namespace process_detail {
 
-/// The two ends of a pipe; closed at the end of the scope and not inherited by other programs.
+/// A pipe, closed at the end of the scope and not inherited by other programs.
 struct Pipe {
   int read_end = -1, write_end = -1;  // -1: closed
-  /// Throws std::runtime_error with the system's reason.
   Pipe() {
     int ends[2];
     if (pipe2(ends, O_CLOEXEC) != 0) throw std::runtime_error(std::string("pipe: ") + std::strerror(errno));
@@ -96,7 +95,7 @@ namespace {
 
 using process_detail::Pipe;
 
-/// The files that become stdin, stdout and stderr of a program; -1: /dev/null.
+/// Files for stdin, stdout and stderr of a program; -1: /dev/null.
 using StandardFiles = std::array<int, 3>;
 
 bool set_standard_files(const StandardFiles& files) {
@@ -107,13 +106,13 @@ bool set_standard_files(const StandardFiles& files) {
   return true;
 }
 
-/// Ends this process after the failure of a system call; the parent reads the reason.
+/// Ends this process after a failed system call; the parent reads `error`.
 [[noreturn]] void fail_start(int error_file, int error) {
   [[maybe_unused]] const ssize_t written = write(error_file, &error, sizeof error);
   _exit(127);
 }
 
-/// Arguments for exec*(), built before the fork because the child must not allocate.
+/// Arguments of exec*(), built before the fork because the child must not allocate.
 struct Call {
   std::vector<std::string> entries;
   std::vector<char*> words, environment;
@@ -142,7 +141,7 @@ struct Call {
   }
 };
 
-/// fork() without the handlers of the C library, whose locks other threads may hold: the child may call only what is
+/// fork() without the C library's handlers, whose locks other threads may hold. The child may call only what is
 /// permitted between fork and exec.
 pid_t clone_process(unsigned long flags) {
   return static_cast<pid_t>(syscall(SYS_clone, flags | SIGCHLD, nullptr, nullptr, nullptr, nullptr));
@@ -153,7 +152,7 @@ struct Started {
   int error;  // 0: it is running
 };
 
-/// Starts a process; `work` executes a program, or writes an error number to the given file and ends.
+/// Starts a process in which `work` executes a program, or writes an error number to the given file and ends.
 template <class Work>
 Started start_process(unsigned long flags, const Work& work) {
   Pipe exec_error;
@@ -176,12 +175,11 @@ pid_t start(const Call& call) {
 }
 
 // An untrusted program may detach itself (setsid, a double fork), leave children behind and kill its parent. It is
-// started by a watcher, a process that only waits for it and ends all its descendants. If the kernel permits, the
-// watcher is the first process of a pid namespace: nothing inside can kill it or escape, and the kernel ends all
-// processes inside with it. Otherwise it is a subreaper, which receives orphans, and kills its children until it has
-// none; a program that kills such a watcher is not contained, which is reported.
+// therefore started by a watcher, a process that only waits for it and ends all its descendants. If the kernel permits,
+// the watcher is the first process of a pid namespace: nothing inside can kill it or escape, and the kernel ends all
+// processes inside with it. Otherwise it is a subreaper, which adopts orphans, and kills its children until it has
+// none. A program that kills a subreaper escapes, which is reported.
 
-/// The watcher's report about the program.
 struct WatcherReport {
   int status;  // as of wait()
   rusage usage;
@@ -196,7 +194,7 @@ bool write_small_file(const char* path, const char* text) {
   return written == size;
 }
 
-/// User and group maps that keep a process's ids inside a new user namespace.
+/// User and group maps that keep the process's ids in a new user namespace.
 struct UserMaps {
   std::string user, group;
   static std::string same(unsigned long number) { return std::to_string(number) + " " + std::to_string(number) + " 1"; }
@@ -207,20 +205,20 @@ struct UserMaps {
   }
 };
 
-/// Moves a file to descriptor 3 and closes all other descriptors except the standard ones.
+/// Moves a file to descriptor 3 and closes all others except the standard ones.
 void keep_as_number_3(int file) {
   dup2(file, 3);
   if (syscall(SYS_close_range, 4, ~0U, 0) == 0) return;
   for (int number = 4; number < std::min(sysconf(_SC_OPEN_MAX), 65536L); ++number) close(number);
 }
 
-constexpr milliseconds grace(200);     // time for the children of a terminated program to end as well
+constexpr milliseconds grace(200);     // for the children of a terminated program to end as well
 constexpr int try_without_users = -1;  // not an errno value: the user maps could not be written
 
-/// The watcher's main loop. It reports once all processes have ended, at most ten seconds after the limit or SIGTERM.
+/// The watcher's main loop. Reports once all processes have ended, at most ten seconds after the limit or SIGTERM.
 [[noreturn]] void watch(const Call& call, unsigned long flags, const UserMaps& users, milliseconds limit,
                         int error_file, int report) {
-  setpgid(0, 0);  // terminal signals to the parent's process group must not reach it
+  setpgid(0, 0);  // out of reach of terminal signals to the parent's process group
   prctl(PR_SET_PDEATHSIG, SIGKILL);
   pollfd parent{error_file, 0, 0};
   if (poll(&parent, 1, 0) > 0) _exit(127);  // the parent has already ended
@@ -230,7 +228,7 @@ constexpr int try_without_users = -1;  // not an errno value: the user maps coul
   sigset_t child_ended, before;
   sigemptyset(&child_ended);
   sigaddset(&child_ended, SIGCHLD);
-  sigaddset(&child_ended, SIGTERM);  // stays pending, even though the first process of a namespace would ignore it
+  sigaddset(&child_ended, SIGTERM);  // stays pending, although the first process of a namespace would ignore it
   sigprocmask(SIG_BLOCK, &child_ended, &before);
   const pid_t program = clone_process(0);
   if (program == 0) {
@@ -270,7 +268,7 @@ constexpr int try_without_users = -1;  // not an errno value: the user maps coul
   _exit(0);
 }
 
-/// Starts a watcher and the program; returns the watcher.
+/// Starts a watcher, which starts the program; returns the watcher.
 pid_t start_watched(const Call& call, milliseconds limit, int report) {
   const UserMaps users;
   int last_error = 0;
@@ -297,7 +295,7 @@ void wait_for(pid_t child, ProgramResult& result) {
   set_end(status, usage, result);
 }
 
-/// Appends the available pipe content without waiting, and closes the pipe at end of stream. Keeps only the last bytes.
+/// Appends what is available without waiting, and closes the pipe at end of stream. Keeps only the last `most` bytes.
 void drain(Pipe& pipe, std::string& text, size_t most) {
   std::array<char, 4096> chunk;
   while (pipe.read_end >= 0) {
@@ -326,7 +324,7 @@ void end_children(milliseconds grace_period) {
     const ssize_t size = file < 0 ? 0 : read(file, text, sizeof text);
     if (file >= 0) close(file);
     pid_t child = 0;
-    for (ssize_t i = 0; i < size; ++i) {  // a truncated number has no blank after it
+    for (ssize_t i = 0; i < size; ++i) {  // a number without a blank after it is truncated
       if (text[i] >= '0' && text[i] <= '9') {
         child = 10 * child + (text[i] - '0');
       } else {
@@ -350,7 +348,7 @@ ProgramResult run_program(const std::vector<std::string>& argv, const std::files
     fcntl(pipe->read_end, F_SETFL, O_NONBLOCK);
   }
   const size_t most = timeout ? kept_bytes : std::string::npos;
-  const auto give_up = Clock::now() + limit + std::chrono::seconds(12);  // a stopped watcher never reports
+  const auto give_up = Clock::now() + limit + std::chrono::seconds(12);  // a watcher that was stopped never reports
   ProgramResult result;
   for (;;) {
     drain(out, result.out, most), drain(err, result.err, most);
@@ -423,7 +421,7 @@ LineServer::Answer LineServer::ask(const std::string& line, double seconds) {
   const double begin = p.cpu_time();
   const auto until = Clock::now() + milliseconds(static_cast<long>(1000 * std::min(seconds, 1e9)));
   std::string unsent = line + '\n';
-  const auto send = [&] {  // writing to a program that has ended must not kill this process by SIGPIPE
+  const auto send = [&] {  // writing to a program that has ended must not end this process by SIGPIPE
     sigset_t pipe_signal, before;
     sigemptyset(&pipe_signal), sigaddset(&pipe_signal, SIGPIPE);
     pthread_sigmask(SIG_BLOCK, &pipe_signal, &before);

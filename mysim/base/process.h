@@ -13,11 +13,11 @@
 
 namespace crosscheck {
 
-/// Environment ("NAME=value") of all programs that Crosscheck starts: the environment of this program, but with the
-/// locale C.UTF-8 and the time zone UTC, so that output does not depend on the terminal or job. `extra` overrides both.
+/// Environment ("NAME=value") of all programs that Crosscheck starts: that of this program, with locale C.UTF-8 and
+/// time zone UTC, so that output does not depend on the terminal or job. `extra` overrides both.
 std::vector<std::string> program_environment(const std::vector<std::string>& extra = {});
 
-/// The texts in the form that exec*() requires, null-terminated; valid as long as the texts are.
+/// Null-terminated pointers to the texts, as exec*() requires.
 std::vector<char*> c_strings(const std::vector<std::string>& texts);
 
 /// Sum of user and system time (s).
@@ -26,49 +26,49 @@ double cpu_seconds(const rusage& usage);
 /// A program that cannot be started. what() names it.
 struct CannotStart : std::runtime_error {
   CannotStart(const std::string& program, const std::string& why);
-  std::string reason;  // the system's error message
+  std::string reason;  // the system's message
 };
 
 struct ProgramResult {
   int status = 0;               // exit code, or 128 + signal number
   int signal = 0;               // signal that ended the program; 0 if it exited
-  bool timed_out = false;       // set only with a time limit, like the next two members
-  bool left_children = false;   // its children were still running when it ended; they were killed
-  bool killed_watcher = false;  // it killed its watcher process: its children may still be running
+  bool timed_out = false;       // only with a time limit, as the next two members
+  bool left_children = false;   // it ended before its children, which were killed
+  bool killed_watcher = false;  // it killed its watcher: its children may still be running
   double cpu_seconds = 0;       // user and system time of the program and of the children it waited for
   std::string out, err;         // stdout and stderr
 };
 
 /// Runs argv[0] (a path, or a name in PATH) in the folder cwd, with empty stdin and program_environment(extra_env),
 /// until it has ended and its output is closed. Throws CannotStart.
-/// With a timeout (s) the program is not trusted: it may hang, crash, write without end, detach itself or leave
-/// children. All its descendants are killed when it ends, at the time limit, and when the calling thread ends: it runs
-/// in its own pid namespace if the kernel permits, otherwise under a subreaper. Only the last 64 KiB of stdout and of
-/// stderr are kept.
+/// A program with a timeout (s) is not trusted: it may hang, crash, write without end, detach itself or leave children.
+/// It runs in its own pid namespace if the kernel permits, otherwise under a subreaper. All its descendants are killed
+/// when it ends, at the time limit, and when the calling thread ends. Only the last 64 KiB of stdout and of stderr are
+/// kept.
 ProgramResult run_program(const std::vector<std::string>& argv, const std::filesystem::path& cwd,
                           const std::vector<std::string>& extra_env = {}, std::optional<double> timeout = {});
 
-/// An untrusted program that answers requests line by line, stdin to stdout. It ends with this object: its stdin is
-/// closed, and after 0.2 s all its descendants are killed.
+/// An untrusted program that answers requests line by line, from stdin to stdout. The destructor closes its stdin and
+/// kills all its descendants after 0.2 s.
 class LineServer {
  public:
-  /// Starts argv[0] in the folder cwd. Throws CannotStart.
   LineServer(const std::vector<std::string>& argv, const std::filesystem::path& cwd);
   ~LineServer();
   LineServer(const LineServer&) = delete;
   LineServer& operator=(const LineServer&) = delete;
 
   struct Answer {
-    std::string line;  // begins with '{'; empty: it ended, did not answer in time, or wrote 64 KiB without such a line
+    std::string
+        line;  // begins with '{'; empty if it ended, did not answer in time, or wrote 64 KiB without such a line
     bool timed_out = false;
     double cpu_seconds = 0;  // user and system time of the program between request and answer
     std::string err;         // stderr in the meantime
   };
-  /// Sends the line and waits at most `seconds` for a line that begins with '{', skipping other lines. After an answer
-  /// without a line the server is unusable.
+  /// Sends the line and waits at most `seconds` for a line that begins with '{', skipping others. The server is
+  /// unusable after an answer without a line.
   Answer ask(const std::string& line, double seconds);
 
-  /// False in a process forked from the one that started the server: two processes must not share one pipe.
+  /// False in a forked process: two processes must not share a pipe.
   bool is_mine() const;
 
  private:
@@ -76,18 +76,17 @@ class LineServer {
   std::unique_ptr<Process> process_;
 };
 
-/// Runs a program on this program's stdin, stdout and stderr; returns its exit status as in ProgramResult. Throws
+/// Runs a program on this program's stdin, stdout and stderr; returns its status as in ProgramResult. Throws
 /// CannotStart.
 int run_in_terminal(const std::vector<std::string>& argv);
 
 /// True if PATH contains a program of this name.
 bool on_path(const std::string& program);
 
-/// The last `count` lines of a text.
 std::string last_lines(const std::string& text, int count);
 
-/// Ends all children of this process, and the orphans that it receives as a subreaper: SIGTERM, then SIGKILL after the
-/// grace period. Gives up ten seconds later. Allocates nothing.
+/// Ends all children of this process, and the orphans it adopts as a subreaper: SIGTERM, after the grace period
+/// SIGKILL. Gives up ten seconds later. Allocates nothing.
 void end_children(std::chrono::milliseconds grace);
 
 }  // namespace crosscheck

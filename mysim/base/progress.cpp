@@ -1,4 +1,3 @@
-// Progress on standard error.
 #include "mysim/base/progress.h"
 
 #include <fmt/format.h>
@@ -34,7 +33,7 @@ std::string format_duration(double seconds) {
 }
 
 std::string progress_line(const ProgressSnapshot& seen) {
-  // assumes steps of equal length; an estimate requires 1 % of the work to be done
+  // assumes steps of equal length; estimates only after 1 % of the work
   const bool known = seen.total >= seen.begun;
   const double done = known ? (std::max(seen.begun - 1, 0) + seen.part) / seen.total : 0;
   std::string left;
@@ -59,7 +58,7 @@ struct Progress::Display {
   std::mutex mutex;  // guards all members except `part`
   std::condition_variable_any stopped;
   std::latch ready{1};
-  bool shown = false;  // the terminal currently shows a line
+  bool shown = false;  // a line is on the terminal
   int total, begun = 0;
   std::string what;  // empty: nothing to show
   double expected = 0;
@@ -72,7 +71,7 @@ struct Progress::Display {
   std::jthread thread;  // last member, therefore destroyed first
 
   explicit Display(int steps) : total(steps) {
-    // signals are handled by the working thread
+    // the working thread handles signals
     sigset_t all, before;
     sigfillset(&all);
     pthread_sigmask(SIG_SETMASK, &all, &before);

@@ -1,5 +1,5 @@
-// Progress of long work on standard error: one line, rewritten in place, on a terminal, plain lines elsewhere; nothing
-// during the first two seconds.
+// Progress of long work on standard error, after two seconds: a line rewritten in place on a terminal, plain lines
+// elsewhere.
 #pragma once
 
 #include <sys/types.h>
@@ -10,23 +10,22 @@
 namespace crosscheck {
 
 struct ProgressSnapshot {
-  int begun = 0, total = 0;  // steps of work, including the current one; a single step is not numbered
+  int begun = 0, total = 0;  // steps, including the current one; a single step is not numbered
   double part = 0;           // finished fraction of the current step, 0 to 1
   double elapsed = 0;        // s, since the start
   double expected = 0;       // s, estimated duration of the current step; 0: unknown
   double in_step = 0;        // s, since the start of the step
   std::string what;
 };
-/// "[3/12] what (34 s, about 2 min left)". The remaining time is derived from the finished fraction, or from the
-/// estimate.
+/// "[3/12] what (34 s, about 2 min left)". The remaining time follows from the finished fraction, or from the estimate.
 std::string progress_line(const ProgressSnapshot& seen);
 /// "34 s", "12 min", "3.4 h", "5 days", "1e+05 years".
 std::string format_duration(double seconds);
 
-/// Displays progress from a separate thread; the working thread only stores a number.
+/// Displays progress from its own thread; the working thread only stores a number.
 class Progress {
  public:
-  /// `total`: number of steps of work, for the estimate.
+  /// `total`: number of steps.
   explicit Progress(int total);
   ~Progress();
   /// Begins the next step; `seconds` is its expected duration, if known.
@@ -37,8 +36,8 @@ class Progress {
   void expect(int more);
   /// Erases the line from the terminal until the next step begins.
   void done();
-  /// Calls fork() while the display thread sleeps. Otherwise the thread could hold a lock, e.g. of the allocator, that
-  /// would never be released in the child.
+  /// fork() while the display thread sleeps, because a lock that it holds (e.g. of the allocator) would never be
+  /// released in the child.
   pid_t fork();
 
  private:

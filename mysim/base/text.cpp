@@ -1,4 +1,3 @@
-// Edit distances, quoting, and Base64.
 #include "mysim/base/text.h"
 
 #include <fmt/format.h>
@@ -77,7 +76,7 @@ std::string did_you_mean(std::string_view word, const std::vector<std::string>& 
 
 std::string unknown_name(std::string_view kind, std::string_view word, const std::vector<std::string>& names,
                          std::string_view list) {
-  constexpr std::size_t longest = 60;  // bytes of the word that are repeated; the rest of the message has 140
+  constexpr std::size_t longest = 60;  // bytes of the word that are repeated, of the message's 200
   std::string shown(word);
   if (shown.size() > longest) {
     std::size_t end = longest - 3;
@@ -117,7 +116,7 @@ size_t utf8_length(std::string_view text, size_t at) {
                                                         : 0;
   for (size_t i = 1; i < length; ++i)
     if ((byte(i) & 0xc0) != 0x80) return 0;
-  // rejects overlong forms, surrogates, and code points above U+10FFFF
+  // overlong forms, surrogates, code points above U+10FFFF
   if ((first == 0xe0 && byte(1) < 0xa0) || (first == 0xed && byte(1) >= 0xa0) || (first == 0xf0 && byte(1) < 0x90) ||
       (first == 0xf4 && byte(1) >= 0x90))
     return 0;
@@ -132,7 +131,7 @@ std::string shell_quote(const std::string& word) {
     const auto c = static_cast<unsigned char>(word[i]);
     const bool shown = length > 0 && c >= 32 && c != 127;
     if (!shown)
-      escaped += fmt::format("\\{:03o}", c);  // three digits, so that a following digit is not included
+      escaped += fmt::format("\\{:03o}", c);  // three digits, whatever digit follows
     else
       escaped += (c == '\'' || c == '\\' ? "\\" : "") + word.substr(i, length);
     plain &= shown &&

@@ -8,14 +8,14 @@
 
 namespace crosscheck {
 
-/// The name closest to a misspelt word, or nothing. Minimises the Damerau-Levenshtein distance (letters inserted,
-/// deleted, substituted or swapped with a neighbour), up to a third of the longer word; case, '_' and '-' are ignored.
-/// Failing that, the shortest name that begins with the word or contains it after a hyphen or slash. Next, the
-/// longest name that the word contains in the same way ("rest" for "rest_length"), and finally the name with the
-/// longest common prefix of at least five letters.
+/// The name closest to a misspelt word, or nothing: the smallest Damerau-Levenshtein distance (letters inserted,
+/// deleted, substituted or swapped with a neighbour), up to a third of the longer word, ignoring case, '_' and '-'.
+/// Otherwise the shortest name that begins with the word or contains it after a hyphen or slash. Otherwise the longest
+/// name that the word contains in the same way ("rest" for "rest_length"), and finally the name with the longest common
+/// prefix of at least five letters.
 std::string closest_match(std::string_view word, const std::vector<std::string>& names);
 
-/// The closest match as the end of a message: "; did you mean 'NAME'?", or nothing.
+/// "; did you mean 'NAME'?" for the closest match, or nothing.
 std::string did_you_mean(std::string_view word, const std::vector<std::string>& names);
 
 /// The message for an unknown name, at most 200 bytes: "unknown KIND 'WORD'; did you mean 'NAME'? (`LIST` shows all)".
@@ -23,23 +23,21 @@ std::string did_you_mean(std::string_view word, const std::vector<std::string>& 
 std::string unknown_name(std::string_view kind, std::string_view word, const std::vector<std::string>& names,
                          std::string_view list);
 
-/// Throws InputError: "method NAME: unknown option '+OPTION'; expected KNOWN", with the closest match among the options
-/// in KNOWN (the words after a plus).
+/// Throws InputError: "method NAME: unknown option '+OPTION'; expected KNOWN", with the closest match in KNOWN (words
+/// after a plus).
 [[noreturn]] void refuse_option(const std::string& method, const std::string& option, const std::string& known);
 
-/// The parts of the text between separators.
 std::vector<std::string> split(std::string_view text, char separator);
 
 /// Length (bytes) of the UTF-8 character that begins at `at`; 0 if it is invalid.
 std::size_t utf8_length(std::string_view text, std::size_t at);
 
-/// The word quoted for bash, on one line: bare if possible, otherwise in quotes, with unprintable bytes as $'\012'.
+/// The word quoted for bash, on one line: bare if possible, unprintable bytes as $'\012'.
 std::string shell_quote(const std::string& word);
 
 /// The word in single quotes, for any shell.
 std::string shell_single_quote(const std::string& word);
 
-/// The quoted words, separated by blanks.
 std::string shell_join(std::span<const std::string> words);
 
 /// "3.2 GB"; units are powers of 1000.

@@ -1,4 +1,3 @@
-// Thread CPU clock, available memory, and supervision by a parent process.
 #include "mysim/base/this_process.h"
 
 #include <fmt/format.h>
@@ -34,7 +33,7 @@ double now() {
   return static_cast<double>(t.tv_sec) + 1e-9 * static_cast<double>(t.tv_nsec);
 }
 
-/// Time between two successive clock readings (s): the median of 101 pairs, measured once.
+/// Duration of a clock reading (s): median of 101, measured once.
 double time_of_reading() {
   static const double median = [] {
     std::array<double, 101> pairs;
@@ -66,7 +65,7 @@ namespace fs = std::filesystem;
 
 constexpr double unlimited = std::numeric_limits<double>::infinity();
 
-/// The number in a file, or the number after a given word; nothing if there is none ("max").
+/// The number in a file, or after a given word; nothing if there is none ("max").
 std::optional<double> number_of_file(const fs::path& file, std::string_view word = "") {
   std::ifstream in(file);
   for (std::string key; !word.empty() && in >> key && key != word;) in.ignore(100, '\n');
@@ -74,8 +73,8 @@ std::optional<double> number_of_file(const fs::path& file, std::string_view word
   return in >> value ? std::optional(value) : std::nullopt;
 }
 
-/// Memory left by the control groups of this process (version 1 or 2), checked at every level up to the root. File
-/// caches count as used there, but are released on demand.
+/// Memory left by this process's control groups (version 1 or 2) on all levels up to the root. They count file caches
+/// as used, although these are released on demand.
 double left_by_groups() {
   double least = unlimited;
   std::ifstream in("/proc/self/cgroup");
@@ -116,8 +115,8 @@ double free_memory() {
 
 namespace {
 
-/// Result folders that workers write, as null-terminated texts. The supervisor shares this memory with its workers;
-/// programs started by the workers do not see it.
+/// Result folders that workers write, as null-terminated texts. Shared by the supervisor and its workers, but not by
+/// programs that they start.
 struct Notes {
   std::atomic<size_t> used;
   char text[1 << 16];
@@ -150,14 +149,14 @@ void tidy_results() {
   for (size_t at = 0; at < used; at += std::strlen(notes->text + at) + 1) try {
       if (notes->text[at]) recover_output(notes->text + at);
     } catch (const std::exception&) {
-      // another process is already doing this, or the next start with this folder reports the problem
+      // another process is doing this, or the next start with this folder reports the problem
     }
 }
 
 [[noreturn]] void end_as(int status) {
   if (WIFEXITED(status)) _exit(WEXITSTATUS(status));
   const rlimit none{0, 0};
-  setrlimit(RLIMIT_CORE, &none);  // the child has written its own core dump
+  setrlimit(RLIMIT_CORE, &none);  // the child has dumped core itself
   const int number = WTERMSIG(status);
   signal(number, SIG_DFL);
   sigset_t only;

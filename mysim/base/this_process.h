@@ -6,8 +6,8 @@
 
 namespace crosscheck {
 
-/// Accumulates the calling thread's CPU time between start() and stop(), or stays at 0 if constructed with false. The
-/// cost of the readings (about 0.4 us, more than many steps take) is subtracted; the result is at least 1 ns.
+/// Accumulates the calling thread's CPU time between start() and stop(), or stays at 0 if constructed with false.
+/// Subtracts the cost of the readings (about 0.4 us, more than many steps); at least 1 ns.
 class CpuClock {
  public:
   explicit CpuClock(bool runs = true) : runs_(runs) {}
@@ -35,14 +35,13 @@ double cpu_time_of(const Work& work) {
 double free_memory();
 
 /// Runs the work in a child process, forwards SIGINT, SIGTERM and SIGHUP to it, and returns its exit status, or ends
-/// the way the child ended. First it ends all descendants of the child, removes temporary folders of dead processes,
-/// and cleans up unfinished results (see register_output()), none of it in a signal handler. If this supervisor is
-/// killed, the child is killed too, and the next start cleans up. Call it first in main(). If no child process can be
-/// created, the work runs in this process. If a signal ends the work, `when_interrupted` is printed on standard error
-/// unless it is empty.
+/// the way the child ended. Before that, and outside of signal handlers, it ends all descendants of the child, removes
+/// temporary folders of dead processes, and cleans up unfinished results (see register_output()). If this supervisor is
+/// killed, the child is killed too, and the next start cleans up. Call it first in main(). Runs the work in this
+/// process if it cannot fork. Prints `when_interrupted` on standard error if a signal ends the work.
 int run_supervised(const std::function<int()>& work, const std::string& when_interrupted = "");
 
-/// Registers a result folder for clean-up in case this process is killed. Does nothing without a supervisor.
+/// Registers a result folder for clean-up if this process is killed. No effect without a supervisor.
 void register_output(const std::string& folder);
 
 }  // namespace crosscheck

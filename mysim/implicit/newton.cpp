@@ -1,4 +1,3 @@
-// The incremental potential with its derivatives, and Newton's method applied to it.
 #include "mysim/implicit/newton.h"
 
 #include <fmt/format.h>
@@ -87,7 +86,7 @@ double IncrementalPotential::value(const Points& u) {
     inertia += particles.mass[i] / (2 * h_ * h_) * u.col(i).squaredNorm();
     drag += drag_[i] / (2 * h_) * moved_.col(i).squaredNorm();
   }
-  // given_size: sum of magnitudes, since the parts of `given` cancel where heights have both signs
+  // sum of magnitudes, because the parts of `given` cancel where heights have both signs
   double springs = 0, given = 0, given_size = 0;
   for (const Term& term : model_.terms)
     std::visit(
@@ -117,9 +116,9 @@ double IncrementalPotential::value(const Points& u) {
   a_.setZero();
   frozen_damping_.add_product(0, 1, moved_, a_);
   const double dashpots = dot(moved_, a_) / (2 * h_);
-  // A sum of n parts is rounded by at most n eps of their magnitudes, and each part, made of products of three
-  // coordinates, by at most 8. A spring's energy is rounded by k |e| eps |x|, because its end points are, and sum k |e|
-  // <= sqrt(sum k e^2) sqrt(sum k).
+  // A sum of n parts is rounded by at most n eps of their magnitudes, and each part, a product of three coordinates, by
+  // at most 8 eps. A spring's energy is rounded by k |e| eps |x|, because its end points are, and sum k |e| <= sqrt(sum
+  // k e^2) sqrt(sum k).
   rounding_ = (particles.size() + 8) * eps * (inertia + drag + dashpots + springs + given_size) +
               8 * eps * std::sqrt(2 * springs * stiffness_) * at.x.cwiseAbs().maxCoeff();
   return inertia + drag + dashpots + springs + given;
@@ -143,7 +142,7 @@ void IncrementalPotential::gradient(const Points& u, Points& g) {
   }
   force_scale_ = std::sqrt(scale);
   clear_pins(g);
-  // spring forces depend on positions, each rounded by eps |x|
+  // spring forces depend on positions, which are rounded by eps |x|
   force_rounding_ = 8 * eps * (stiffest_ * at.x.cwiseAbs().maxCoeff() + largest_column(a_) * particles.mass.maxCoeff());
 }
 
@@ -172,7 +171,7 @@ void IncrementalPotential::apply(const Points& p, Points& out) {
 }
 
 void IncrementalPotential::precondition(const Points& r, Points& out) const {
-  assert(blocks_.cols() == 3 * r.cols());  // requires linearise() first
+  assert(blocks_.cols() == 3 * r.cols());  // linearise() came before
   out.resize(3, r.cols());
   for (int i = 0; i < r.cols(); ++i) out.col(i) = blocks_.middleCols<3>(3 * i) * r.col(i);
   clear_pins(out);
@@ -181,10 +180,10 @@ void IncrementalPotential::precondition(const Points& r, Points& out) const {
 namespace {
 
 constexpr int most_repetitions = 100;
-/// 200, and more for few particles: a strut of stiff springs buckles in many short steps, because each step that turns
-/// its springs stretches them to second order. These steps are cheap, and all of them descend.
+/// 200, and more for few particles: a strut of stiff springs buckles in many short descending steps, because each step
+/// that turns its springs stretches them to second order. With few particles these steps are cheap.
 int most_newton_steps(long particles) { return static_cast<int>(std::max(200L, 100'000 / particles)); }
-/// Most cloths need ten steps. Far from a minimum, following negative curvature may be a detour; it is reserved for
+/// Most cloths need ten steps. Following negative curvature far from a minimum may be a detour, and is reserved for
 /// solves that exceed this number.
 constexpr int few_newton_steps = 20;
 
@@ -194,7 +193,6 @@ ImplicitStep::ImplicitStep(System& f, bool plain) : potential_(f) {
   if (!plain) multigrid_ = multigrid::make_multigrid_solver(f.model());
 }
 
-/// Computes p_ = -matrix^-1 g at u_.
 CgResult ImplicitStep::newton_direction(Curvature curvature, double tolerance) {
   minus_g_ = -g_;
   CgResult result;
@@ -202,7 +200,7 @@ CgResult ImplicitStep::newton_direction(Curvature curvature, double tolerance) {
     result = multigrid_->solve(potential_.inertia(), potential_.end(u_).x, curvature, minus_g_, tolerance, p_);
     potential_.count(result.iterations * multigrid_->products());
   }
-  // other spring graphs, and cloths on which the V-cycle fails (none are known)
+  // other spring graphs, and cloths on which the V-cycle fails (none is known)
   if (!result.converged && !result.negative_curvature) result = by_pairs(curvature, tolerance);
   iterations_ = result.iterations;
   return result;
@@ -210,15 +208,15 @@ CgResult ImplicitStep::newton_direction(Curvature curvature, double tolerance) {
 
 CgResult ImplicitStep::by_pairs(Curvature curvature, double tolerance) {
   potential_.linearise(u_, curvature);
-  // in exact arithmetic the number of unknowns suffices
+  // in exact arithmetic, as many iterations as unknowns suffice
   return conjugate_gradients([&](const Points& p, Points& q) { potential_.apply(p, q); },
                              [&](const Points& r, Points& z) { potential_.precondition(r, z); }, minus_g_, tolerance,
                              3 * static_cast<int>(u_.cols()) + 20, p_, cg_);
 }
 
-/// Moves from u_ along the direction of negative curvature to the lowest potential found, with lengths that start at
-/// the last step's and double. Near a saddle the gradient is small and so is Newton's step, and the initial decrease of
-/// the potential is below its rounding error. Returns the potential there.
+/// Moves from u_ along the direction of negative curvature to the lowest potential found; lengths start with the last
+/// step's and double. Near a saddle the gradient and Newton's step are small, and the potential decreases at first by
+/// less than its rounding error. Returns the potential there.
 double ImplicitStep::leave_saddle(double value, double step) {
   const double size = largest_column(downhill_);
   potential_.gradient(u_, g_);
@@ -234,7 +232,7 @@ double ImplicitStep::leave_saddle(double value, double step) {
   return lowest;
 }
 
-/// Descends from u_, where the potential is the last entry of descent_, to the minimum.
+/// Descends from u_, where the potential is the last of descent_, to the minimum.
 void ImplicitStep::minimise() {
   assert(!descent_.empty());
   double value = descent_.back();
@@ -245,7 +243,7 @@ void ImplicitStep::minimise() {
                  goal = std::max(force_tolerance * potential_.force_scale(), potential_.force_rounding());
     if (left <= goal) return;
 
-    // far from the minimum a rough direction suffices; near it convergence should be quadratic
+    // a rough direction suffices far from the minimum; near it convergence should be quadratic
     const double accuracy = std::min(0.1, std::sqrt(left / potential_.force_scale()));
     const bool saddle = newton_direction(Curvature::exact, accuracy).negative_curvature;
     if (saddle) {
@@ -273,12 +271,12 @@ void ImplicitStep::minimise() {
 
 const State& ImplicitStep::solve(const State& s, double h) {
   potential_.begin(s, h);
-  // Start from the current positions, whose potential the step must not exceed; pins have already moved.
+  // The initial guess is the current position, whose potential the step must not exceed. Pins have already moved.
   u_ = s.x - potential_.inertial();
   for (int pin : potential_.pins()) u_.col(pin).setZero();
   const bool repeat = potential_.freeze(u_);
   descent_.assign(1, potential_.value(u_));
-  // free flight is the better initial guess unless stiff springs oppose it
+  // free flight is the better guess unless stiff springs oppose it
   trial_.setZero(3, u_.cols());
   if (const double flown = potential_.value(trial_); flown < descent_.back()) {
     u_ = trial_;
@@ -292,7 +290,7 @@ const State& ImplicitStep::solve(const State& s, double h) {
     potential_.freeze(u_);
     descent_.assign(1, potential_.value(u_));
     minimise();
-    // nothing is gained below the accuracy of the solves themselves
+    // changes below the accuracy of the solves gain nothing
     change = descent_.size() == 1 ? 0 : largest_column(u_ - before);
   }
   return potential_.end(u_);

@@ -11,22 +11,21 @@
 
 namespace crosscheck {
 
-// The function whose minimum is the implicit Euler step.
-
-/// With y = x_n + h v_n and the unknown u = x - y (0 at pins, which stand where they are at the end of the step),
+/// With y = x_n + h v_n and the unknown u = x - y (0 at pins, which are already at their positions at the end of the
+/// step),
 ///   P(u) = sum_i m_i |u_i|^2 / (2 h^2) + c_i |h v_n + u|_i^2 / (2 h)        inertia and drag
 ///        + V(x) - sum_i m_i w . x_i - f_i . x_i                             springs, bending, gravity, wind, air
 ///        + sum_d c_d (n_d . (moved_a - moved_b))^2 / (2 h)                  dashpots, moved = h v (x - x_n when free)
 /// has the gradient of the implicit Euler equations (J. Martin et al., ACM Trans. Graph. 30 (4), 2011). Air and the
 /// dashpots' directions n_d have no energy: they are frozen at a given position, and the caller repeats the solve with
-/// updated values until the result no longer changes.
+/// updated ones until the result no longer changes.
 class IncrementalPotential {
  public:
   explicit IncrementalPotential(System& f);
 
-  /// Starts a step of length h (s) from the given state.
+  /// Starts a step of h (s).
   void begin(const State& start, double h);
-  /// Freezes air and dashpot directions at x = y + u. Returns true if the scene has any of them.
+  /// Freezes air and dashpot directions at x = y + u. Returns true if there are any.
   bool freeze(const Points& u);
 
   double value(const Points& u);                             // J, up to a constant
@@ -35,13 +34,13 @@ class IncrementalPotential {
   double force_rounding() const { return force_rounding_; }  // N, of the last gradient
   double force_scale() const { return force_scale_; }        // N, of the last gradient: its largest contribution
 
-  /// Assembles the matrix M/h^2 + C/h + K of the second derivatives at u.
+  /// Assembles the matrix M/h^2 + C/h + K of second derivatives at u.
   void linearise(const Points& u, Curvature curvature);
   void apply(const Points& p, Points& out);               // out = matrix p. One evaluation
   void precondition(const Points& r, Points& out) const;  // by the inverse 3 x 3 diagonal blocks
 
   const Eigen::ArrayXd& inertia() const { return inertia_; }  // per particle, in the matrix, N/m
-  /// Counts products with the matrix that were computed elsewhere.
+  /// Counts matrix products computed elsewhere.
   void count(double products) { f_.count(std::lround(products)); }
 
   const Points& inertial() const { return y_; }  // y, m
@@ -67,28 +66,26 @@ class IncrementalPotential {
   double rounding_ = 0, force_rounding_ = 0, force_scale_ = 0;
 };
 
-// Newton's method with line search, and its first step alone.
-
 /// Relative residual tolerance of the implicit solve, scaled by the largest force (inertia m v / h included). Often
 /// limited by round-off.
 inline constexpr double force_tolerance = 1e-12;
 
 class ImplicitStep {
  public:
-  /// Systems of large regular cloths are solved with a V-cycle as preconditioner. With `plain`, they too are solved by
-  /// the list of pairs, which is the definition of the system.
+  /// Systems of large regular cloths are solved with the V-cycle as preconditioner or, with `plain`, by the list of
+  /// pairs, which defines the system.
   explicit ImplicitStep(System& f, bool plain = false);
 
-  /// Solves the implicit Euler equations for a step of h (s) from s, to round-off or force_tolerance, whichever is
-  /// larger; returns the end state. Throws SolverFailure if Newton's method does not converge.
+  /// Solves the implicit Euler equations for a step of h (s) from s, to the larger of round-off and force_tolerance;
+  /// returns the end state. Throws SolverFailure if Newton's method does not converge.
   const State& solve(const State& s, double h);
-  /// One Newton step from y = x_n + h v_n with the clamped matrix; the linear system is solved to force_tolerance.
+  /// One Newton step from y = x_n + h v_n with the clamped matrix, to force_tolerance.
   const State& solve_linear(const State& s, double h);
 
-  /// Values of the incremental potential (J) in the last solve(): at the start position, then after each Newton step
-  /// (of the last repetition, if air or dashpots require several).
+  /// Incremental potential (J) in the last solve(): at the start position, then after each Newton step (of the last
+  /// repetition, if air or dashpots require several).
   const std::vector<double>& descent() const { return descent_; }
-  /// Conjugate gradient iterations in the last linear system.
+  /// Iterations in the last linear system.
   int iterations() const { return iterations_; }
   IncrementalPotential& potential() { return potential_; }
 

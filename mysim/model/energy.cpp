@@ -1,4 +1,3 @@
-// Energies and powers of a state.
 #include "mysim/model/energy.h"
 
 namespace crosscheck {
@@ -30,7 +29,6 @@ Energy energy_of(const Model& model, const State& state) {
   return e;
 }
 
-/// The springs attached to pins, in their original order.
 static Springs springs_at_pins(const Springs& springs, const Particles& particles) {
   Springs held{.law = springs.law};
   for (const Spring& s : springs.list)
@@ -66,7 +64,7 @@ Power power_of(const Model& model, const State& state, Forces& scratch) {
       [&](const Dashpots& t) {
         const Points& f = force_of(t);
         const double given = particles.move ? -on_pins(f) : 0;
-        // pairs dissipate what free ends lose plus what moved pins supply
+        // pairs dissipate what free ends lose and what moved pins supply
         p.dashpots += given - free_power(particles, f, state.v);
         p.pins += given;
       },

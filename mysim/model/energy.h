@@ -1,4 +1,4 @@
-// Energies and powers of a state by mysim's formulas, applied to every engine.
+// Energies and powers of a state by mysim's formulas, for every engine.
 #pragma once
 
 #include "mysim/model/model.h"
@@ -12,18 +12,16 @@ struct Energy {
   double total() const { return kinetic + elastic + gravitational; }
 };
 
-/// Powers (W) by which a state gains or loses energy.
 struct Power {
   double drag = 0;      // W, dissipated by drag (not negative)
   double dashpots = 0;  // W, dissipated by dashpots (not negative)
   double wind = 0;      // W, supplied by the wind, uniform or on triangles
-  double pins =
-      0;  // W, given by moved pins: minus the force of springs, bending and dashpots on each pin times its velocity
+  double pins = 0;  // W, by moved pins: minus the force of springs, bending and dashpots on each pin times its velocity
   double dissipated() const { return drag + dashpots; }
 };
 
 Energy energy_of(const Model& model, const State& state);
-/// `scratch` is working memory of the size of the state; it avoids an allocation per step.
+/// `scratch`: working memory of the size of the state, saves an allocation per step.
 Power power_of(const Model& model, const State& state, Forces& scratch);
 
 }  // namespace crosscheck

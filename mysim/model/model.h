@@ -36,14 +36,13 @@ namespace crosscheck {
 using Term =
     std::variant<Rotation, Gravity, Springs, Bending, Dashpots, Constraints, Drag, Wind, Aerodynamics, Spheres, Planes>;
 
-/// Combines several functions into one visitor for a term; each alternative of Term must have its own.
 template <class... Functions>
 struct Overloaded : Functions... {
   using Functions::operator()...;
 };
 template <class... Functions>
 Overloaded(Functions...) -> Overloaded<Functions...>;  // clang deduces this itself from version 17 on
-/// For terms that a visitor skips, by name: [](const OneOf<Drag, Wind> auto&) {}.
+/// For terms that a visitor ignores: [](const OneOf<Drag, Wind> auto&) {}.
 template <class T, class... Terms>
 concept OneOf = (std::same_as<T, Terms> || ...);
 
@@ -70,9 +69,9 @@ concept HasVelocityField = requires(const T& term, const State& s, Points& rate)
 
 struct Model {
   Particles particles;
-  std::vector<Term> terms;  // the scene's ingredients; nothing else is evaluated
+  std::vector<Term> terms;
 
-  /// The term of type T, or null.
+  /// Returns null if there is none.
   template <class T>
   const T* find() const {
     for (const Term& term : terms)
@@ -88,7 +87,7 @@ struct Model {
 };
 
 bool has_contact(const Model& model);
-/// The contact surfaces in the order in which they act: spheres, then planes.
+/// Surfaces in the order in which they act: spheres, then planes.
 std::vector<Surface> surfaces_of(const Model& model);
 bool has_moving_surface(const Model& model);
 

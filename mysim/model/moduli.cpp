@@ -13,12 +13,12 @@
 namespace crosscheck {
 namespace {
 
-constexpr double round_off = 1e-9;  // relative: positions of a scene file are rounded to 1e-16 of its size
+constexpr double round_off = 1e-9;  // relative; positions in a scene file are rounded to 1e-16 of its size
 
 struct Arm {
-  Vec3 to;        // m, to the other end
-  double k;       // N/m, tangent stiffness at its length
-  Family family;  // the spring's family
+  Vec3 to;   // m, from the particle to the spring's other end
+  double k;  // N/m, tangent stiffness at the spring's length
+  Family family;
 };
 using Star = std::vector<Arm>;
 
@@ -30,15 +30,16 @@ bool holds(const Star& star, const Arm& arm, double sign) {
   return std::any_of(star.begin(), star.end(), [&](const Arm& own) { return are_equal(own, arm, sign); });
 }
 
-/// The shortest linearly independent displacements from a particle to others: as many as the particles span dimensions.
+/// The shortest linearly independent displacements from a particle to others, one per dimension spanned.
 std::vector<Vec3> lattice_vectors(const Points& x, int from) {
   std::vector<Vec3> all, basis;
   for (int i = 0; i < x.cols(); ++i)
-    if (const Vec3 d = x.col(i) - x.col(from); d.norm() > 0) all.push_back(d);  // coincident: no information
+    if (const Vec3 d = x.col(i) - x.col(from); d.norm() > 0)
+      all.push_back(d);  // coincident particles carry no information
   if (all.empty()) return basis;
   double shortest = INFINITY;
   for (const Vec3& d : all) shortest = std::min(shortest, d.norm());
-  // equal lengths keep the order of the particles
+  // equal lengths stay in the order of the particles
   const auto length = [&](const Vec3& d) { return std::round(d.norm() / (round_off * shortest)); };
   std::stable_sort(all.begin(), all.end(), [&](const Vec3& a, const Vec3& b) { return length(a) < length(b); });
   for (const Vec3& d : all) {
@@ -65,7 +66,7 @@ double measure_of_cell(const std::vector<Vec3>& basis) {
 
 namespace {
 
-/// Strain (e11, e22, 2 e12) of a sheet under a unit pull at an angle from axis 1; nothing if the network does not
+/// Strain (e11, e22, 2 e12) of a sheet under a unit pull at an angle (rad) from axis 1; nothing if the network does not
 /// resist it.
 std::optional<Eigen::Vector3d> strain_under_pull(const Moduli& m, double angle) {
   const Eigen::Matrix3d c{{m.c11, m.c12, m.c16}, {m.c12, m.c22, m.c26}, {m.c16, m.c26, m.c66}};
@@ -170,7 +171,7 @@ NetModuli moduli_of(const Model& model, const State& start) {
     stars[static_cast<size_t>(s.b)].push_back({-d, k, s.family});
   }
 
-  // The particle nearest to the middle among those with the most springs, all of which have an opposite spring.
+  // The particle nearest to the middle, among those with the most springs, each with an opposite one.
   const Vec3 middle = x.rowwise().mean();
   int inside = -1;
   for (int i = 0; i < x.cols(); ++i) {
@@ -199,7 +200,7 @@ NetModuli moduli_of(const Model& model, const State& start) {
   Moduli m;
   m.dimension = static_cast<int>(basis.size());
   const double cell = measure_of_cell(basis);
-  Eigen::Matrix<double, 6, 6> whole = Eigen::Matrix<double, 6, 6>::Zero();  // the tensor in Voigt notation
+  Eigen::Matrix<double, 6, 6> whole = Eigen::Matrix<double, 6, 6>::Zero();  // tensor in Voigt notation
   for (const Arm& arm : star) {
     const double n1 = arm.to.normalized().dot(e1), n2 = arm.to.normalized().dot(e2),
                  weight = arm.k * arm.to.squaredNorm() / (2 * cell);
@@ -252,7 +253,7 @@ std::string sentence_of(const BendingLength& bending) {
 }
 
 std::string coarse_grid_warning(const BendingLength& bending) {
-  // a fold needs one particle on its descending and one on its ascending side
+  // a fold has at least one particle on each side
   if (!(bending.spacings() < 2)) return "";
   return fmt::format(
       "folds of {:.3g} m, as bending and weight produce them, are finer than two grid spacings of {:.3g} m",

@@ -11,39 +11,39 @@
 
 namespace crosscheck {
 
-/// Moduli of a line (dimension 1, unit N), a sheet (2, N/m) or a block (3, Pa). Axis 1 points along the network's
-/// shortest spacing, axis 2 is perpendicular to it within the network. For a block, c66 is the shear modulus in the
-/// plane of both axes.
+/// Moduli of a line (dimension 1, in N), a sheet (2, N/m) or a block (3, Pa). Axis 1 points along the network's
+/// shortest spacing, axis 2 is perpendicular to it within the network. c66 of a block is the shear modulus in the plane
+/// of both axes.
 struct Moduli {
   int dimension = 0;
   double c11 = 0, c22 = 0, c12 = 0, c66 = 0;
-  double c16 = 0, c26 = 0;  // sheets only: coupling of stretch and shear, as in cells with one diagonal
+  double c16 = 0, c26 = 0;  // sheets only: coupling of stretch and shear, e.g. if cells have one diagonal
   bool cubic = true;        // the axes are equivalent, and stretch and shear are not coupled
-  double c11_of_bend = 0;   // contribution of skip-one springs to c11
+  double c11_of_bend = 0;   // part of c11 due to skip-one springs
 
-  /// 1 for an isotropic network: Zener's ratio 2 c66 / (c11 - c12) of a cubic network; for any other sheet, the
-  /// smallest Young's modulus divided by the largest; 0 for a line, and for a block that is not cubic.
+  /// 1 if isotropic. Cubic networks: Zener's ratio 2 c66 / (c11 - c12); other sheets: smallest over largest Young's
+  /// modulus; lines and other blocks: 0.
   double anisotropy() const;
-  /// Transverse contraction over extension when pulled along axis 1; 0 for a line.
+  /// Transverse contraction over extension under a pull along axis 1; 0 for a line.
   double poisson() const;
-  /// Young's modulus along axis 1.
+  /// Along axis 1.
   double young() const;
-  /// Young's modulus of a sheet pulled at an angle (rad) from axis 1.
+  /// Young's modulus of a sheet at an angle (rad) from axis 1.
   double young_at(double angle) const;
-  /// Smallest and largest Young's modulus of a sheet over all angles.
+  /// Smallest and largest of a sheet, over all angles.
   std::pair<double, double> young_range() const;
 };
 
 struct NetModuli {
   std::optional<Moduli> moduli;
-  std::string why_not;  // reason if there are no moduli
+  std::string why_not;  // if there are none
 };
 
-/// Moduli of a network whose springs are at rest and the same everywhere, each with an opposite one. A uniform strain
-/// then moves every particle affinely, and the energy per area or volume V of a particle gives
+/// Moduli of a network whose springs are at rest and the same at every particle, each with an opposite one. A uniform
+/// strain then moves every particle affinely, and the energy of a particle per area or volume V gives
 ///   C_ijkl = sum over the springs of one particle of k L^2 n_i n_j n_k n_l / (2 V)
-/// (M. Born and K. Huang, Dynamical Theory of Crystal Lattices, chapter 5, for central forces). Springs along the edge
-/// of the network keep their full stiffness, so a network of n particles per side differs by O(1/n).
+/// (M. Born and K. Huang, Dynamical Theory of Crystal Lattices, chapter 5, for central forces). Springs along the
+/// network's edge keep their full stiffness, so a network of n particles per side differs by O(1/n).
 NetModuli moduli_of(const Model& model, const State& start);
 
 /// "N", "N/m" or "Pa".
@@ -51,7 +51,7 @@ std::string_view unit_of_moduli(int dimension);
 /// "C11 = 1200 N/m, C12 = C66 = 200 N/m", and "Young's modulus 1167 N/m along an axis, ..."; one sentence for a line.
 /// Only cubic networks with anisotropy 1 are called isotropic.
 std::vector<std::string> sentences_of(const Moduli& moduli);
-/// Warning if skip-one springs contribute more than half of c11; otherwise empty.
+/// Warns if skip-one springs contribute more than half of c11; otherwise empty.
 std::string skip_one_warning(const Moduli& moduli);
 
 /// Length scale of the folds of a sheet with bending rigidity: (B / w)^(1/3), where w is its weight per area.
@@ -63,11 +63,10 @@ struct BendingLength {
   double spacings() const { return length / spacing; }
 };
 
-/// Nothing without bending. Weight and spacing are those of the initial state; w is the weight of all particles over
-/// the area of all cells.
+/// Nothing without bending. w is the weight of all particles over the area of all cells, in the initial state.
 std::optional<BendingLength> bending_length_of(const Model& model, const State& start);
 std::string sentence_of(const BendingLength& bending);
-/// Warning if the grid is coarser than half a fold; otherwise empty.
+/// Warns if the grid is coarser than half a fold; otherwise empty.
 std::string coarse_grid_warning(const BendingLength& bending);
 
 }  // namespace crosscheck

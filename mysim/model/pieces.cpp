@@ -31,7 +31,7 @@ std::vector<int> pieces_of(const Model& model) {
 }
 
 std::vector<std::pair<int, int>> coincident_pairs(const Points& x, double distance) {
-  // a direction along which grid particles have distinct coordinates
+  // grid particles have distinct coordinates along this direction
   const Eigen::VectorXd along = x.transpose() * Vec3(0.48, 0.55, 0.68).normalized();
   std::vector<int> order(along.size());
   std::iota(order.begin(), order.end(), 0);

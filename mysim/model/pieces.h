@@ -1,4 +1,4 @@
-// Connected components of a network, and particles that start at the same place.
+// Connected components of a network, and coincident particles.
 #pragma once
 
 #include <utility>
@@ -8,11 +8,11 @@
 
 namespace crosscheck {
 
-/// The component of each particle, as connected by springs, bending and hard distances. Components are numbered from 0
-/// in the order of their first particles.
+/// The component of each particle, by springs, bending and hard distances. Components are numbered from 0 in the order
+/// of their first particles.
 std::vector<int> pieces_of(const Model& model);
 
-/// Pairs of particles that are at most `distance` (m) apart, lower index first, in ascending order.
+/// Pairs of particles at most `distance` (m) apart, lower index first, in ascending order.
 std::vector<std::pair<int, int>> coincident_pairs(const Points& x, double distance);
 
 }  // namespace crosscheck

@@ -1,4 +1,3 @@
-// Sum of a model's terms as accelerations, and power iteration for its highest natural frequency.
 #include "mysim/model/system.h"
 
 #include <cassert>
@@ -21,7 +20,6 @@ void add_stiffness(const Model& model, const State& state, Curvature curvature, 
 
 namespace {
 
-/// True for forces that depend only on position and time.
 template <class T>
 constexpr bool by_position = HasForce<T> && !std::is_same_v<T, Drag> && !UsesVelocity<T>;
 
@@ -37,7 +35,7 @@ System::System(const Model& model) : model_(model) {
     has_velocity_forces_ |= std::visit([]<class T>(const T&) { return UsesVelocity<T>; }, term);
 }
 
-/// Computes forces_, the sum of the forces of all terms for which wanted(term) is true.
+/// Sums the forces of all terms for which wanted(term) is true in forces_.
 template <class Wanted>
 void System::sum_forces(const State& stage, Wanted wanted) {
   assert(stage.x.cols() == model_.particles.size());
@@ -147,7 +145,7 @@ std::optional<double> uniform_drag_rate(const Model& model) {
   for (int i = 0; i < model.particles.size(); ++i) {
     if (model.particles.pinned[i]) continue;
     const double gamma = drag->c[i] / model.particles.mass[i];
-    // gamma is recovered from c = m gamma, hence equal up to a few roundings
+    // gammas recovered from c = m gamma agree up to a few roundings
     if (rate && std::abs(gamma - *rate) > 4 * std::numeric_limits<double>::epsilon() * *rate) return std::nullopt;
     if (!rate) rate = gamma;
   }

@@ -1,5 +1,4 @@
-// The right-hand side f(X, t), a stepper's only access to the physics of a scene, and the scene's highest natural
-// frequency.
+// The right-hand side f(X, t), through which steppers see the physics of a scene, and the highest natural frequency.
 #pragma once
 
 #include <optional>
@@ -9,40 +8,35 @@
 
 namespace crosscheck {
 
-// The right-hand side f(X, t). It counts its evaluations.
-
-/// Adds -dF/dx of every term that depends only on position, at the state's positions.
+/// Adds -dF/dx of every term that depends only on position.
 void add_stiffness(const Model& model, const State& state, Curvature curvature, Tangent& tangent);
 
 class System {
  public:
   explicit System(const Model& model);
 
-  /// Computes rate = dX/dt at the stage: x' = v and v' = F / m, or x' = f(x, t) in a first-order scene. The pins are
-  /// first moved to their positions at stage.t (therefore the stage is not const); their v' is zero.
+  /// Computes rate = dX/dt at the stage: x' = v and v' = F / m, or x' = f(x, t) in a first-order scene. Moves the pins
+  /// to their positions at stage.t first; their v' is zero.
   void derivative(State& stage, State& rate);
-  /// Computes a = F / m with all forces, including the drag at stage.v (3 x n, m/s^2; zero at pins). Moves pins like
+  /// Computes a = F / m (3 x n, m/s^2; zero at pins) of all forces, including the drag at stage.v. Moves pins like
   /// derivative().
   void acceleration(State& stage, Points& a);
 
   /// Computes a = F / m of the forces that depend only on position and time: springs, bending, gravity, uniform wind.
   void position_acceleration(State& stage, Points& a);
-  /// Adds F / m of the forces that also depend on velocity, except drag: dashpots, air on triangles.
+  /// Adds F / m of the forces that depend on velocity, except drag: dashpots, air on triangles.
   void add_velocity_acceleration(const State& stage, Points& a);
   bool has_velocity_forces() const { return has_velocity_forces_; }
-  /// Computes a = F / m of the forces that position-based methods do not treat as constraints: gravity, wind, air on
-  /// triangles.
+  /// Computes a = F / m of the forces that position-based methods do not treat as constraints: gravity, wind, air.
   void external_acceleration(const State& stage, Points& a);
-  /// Drag rate c_i / m_i of each particle (n, 1/s); zero without drag.
+  /// c_i / m_i of each particle (n, 1/s); zero without drag.
   const Eigen::ArrayXd& drag_rate() const { return drag_rate_; }
 
   const Model& model() const { return model_; }
   long evaluations() const { return evaluations_; }
-  /// Counts work that costs about as much as an evaluation: products with the tangent, passes over the constraints.
+  /// Counts work equivalent to evaluations: products with the tangent, passes over the constraints.
   void count(long evaluations) { evaluations_ += evaluations; }
-  long degenerate_springs() const {
-    return degenerate_springs_;
-  }  // springs met at zero length, summed over all evaluations
+  long degenerate_springs() const { return degenerate_springs_; }  // springs at zero length, summed over evaluations
   void count_degenerate_springs(long springs) { degenerate_springs_ += springs; }
 
  private:
@@ -58,17 +52,14 @@ class System {
   long evaluations_ = 0, degenerate_springs_ = 0;
 };
 
-// Rates of a model: its highest vibration frequency, which limits the step of explicit rules, and its drag.
-
-/// Largest omega (rad/s) of M v'' = -K v with the stiffness K at the state, pins held; 0 without springs and bending.
-/// Computed by power iteration from a seeded start, to 1e-4 or for 500 products; approximates from below.
+/// Largest omega (rad/s) of M v'' = -K v with the stiffness K at the state and fixed pins; 0 without springs and
+/// bending. By power iteration from a seeded start, to 1e-4 or for 500 products, which approaches it from below.
 double highest_frequency(const Model& model, const State& state);
 
-/// Upper bound of highest_frequency() over all states: with every spring stretched far, its stiffness across equals its
-/// stiffness along.
+/// Upper bound of highest_frequency() over all states: a spring that is stretched far is as stiff across as along.
 double highest_frequency_bound(const Model& model, const State& state);
 
-/// The common drag rate gamma = c / m of all free particles (1/s), 0 without drag, or nothing if the rates differ.
+/// The common drag rate gamma = c / m of all free particles (1/s), 0 without drag; nothing if the rates differ.
 std::optional<double> uniform_drag_rate(const Model& model);
 
 }  // namespace crosscheck

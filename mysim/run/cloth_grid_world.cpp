@@ -1,4 +1,4 @@
-// A cloth stepped by the fused step: the kicks of a rule, pins, contacts, and the state in scene order.
+// A cloth stepped by the fused step, with pins and contacts, and its state in scene order.
 #include "mysim/run/cloth_grid_world.h"
 
 #include <algorithm>
@@ -12,13 +12,12 @@
 namespace crosscheck::simd {
 namespace {
 
-/// One kick: the time at which forces are evaluated (s, from the beginning of the step), and the drift of positions
-/// that follows it, before and after contacts (s).
+/// Times in s: at which forces are evaluated, from the beginning of the step, and by which positions then drift, before
+/// and after contacts.
 struct Kick {
   double at, drift_before, drift_after;
 };
 
-/// True if the model contains only terms that the fused step supports; other models use the general engine.
 bool has_only_supported_terms(const Model& model) {
   for (const Term& term : model.terms)
     if (!std::holds_alternative<Springs>(term) && !std::holds_alternative<Gravity>(term) &&
@@ -51,7 +50,7 @@ class ClothGridWorld : public World {
       begin += part;
     }
     set_factors(composition, h);
-    // fixed surfaces without pins, and no per-particle losses: all other contacts are resolved in the callback
+    // fixed surfaces, no pins, no losses per particle; otherwise the callback resolves contacts
     in_lanes_ = std::is_same_v<T, double> && !has_moving_surface(scene.model) && !locates_events_ &&
                 !record_contact_loss_ && scene.model.particles.pins.empty();
     for (const Surface& s : surfaces_) {
@@ -64,10 +63,10 @@ class ClothGridWorld : public World {
 
   void step(double t, double t_next) override {
     begin_contacts(t, t_next);
-    for (const Kick& kick : kicks_) {  // one kick for leapfrog and symplectic Euler, five for suzuki4
+    for (const Kick& kick : kicks_) {  // one for leapfrog and symplectic Euler, five for suzuki4
       const KickDrift<T> kick_drift = kick_drift_at(t + kick.at, kick);
       const Vec3 shift = pin_displacement_at(t + kick.at);
-      slabs_.for_each([&](Slab& slab) {  // on the slab's own thread, between the exchanges of halo rows
+      slabs_.for_each([&](Slab& slab) {  // on the slab's thread, between exchanges of halo rows
         place_pins(slab, shift);
         fused_step(slab, kick, kick_drift);
       });
@@ -103,19 +102,17 @@ class ClothGridWorld : public World {
 
  private:
   using Slab = typename Slabs<T>::Slab;
-  /// Results of one slab's thread.
   struct SlabResult {
     long degenerate_springs = 0;
-    std::vector<double> lost;  // J, lost in contact, per own particle that touched during the step
+    std::vector<double> lost;  // J, energy lost in contact by each of the slab's particles that touched during the step
   };
-  /// User data of contact_tile().
   struct ContactContext {
     ClothGridWorld* world;
     Slab* slab;
     SlabResult* result;
   };
 
-  /// Drag, mass and length of each kick as factors of velocity, force and uniform acceleration, laid out per slab.
+  /// Factors of each kick for velocity (drag), force and uniform acceleration, laid out per slab.
   void set_factors(const KickDriftComposition& composition, double h) {
     const Particles& particles = scene_.model.particles;
     const Eigen::ArrayXd mass = particles.mass.array();
@@ -180,7 +177,7 @@ class ClothGridWorld : public World {
     return move ? displacement_at(*move, t) : Vec3::Zero();
   }
 
-  /// Clears the contacts of the last step, and moves the bounding surfaces to their positions at the end of the step.
+  /// Forgets the contacts of the last step, and moves the bounding surfaces to the end of this one.
   void begin_contacts(double t, double t_next) {
     t_ = t, t_next_ = t_next;
     for (SlabResult& result : slab_results_) result.lost.clear();
@@ -189,7 +186,7 @@ class ClothGridWorld : public World {
     if (locates_events_) tracks_ = surface_tracks(surfaces_, t_, t_next_);
     for (const Surface& s : surfaces_) {
       const Vec3 o = s.origin_at(t_next_), n = s.normal(Vec3::Zero());
-      // slightly larger than the solid; contact_particle() decides which particles touch
+      // slightly larger than the solid: contact_particle() decides which particles touch
       if (s.flat())
         bounding_planes_.push_back({{o[0], o[1], o[2]}, {n[0], n[1], n[2]}, 1e-6 * size_, s.friction, s.restitution});
       else
@@ -204,15 +201,15 @@ class ClothGridWorld : public World {
         context.world->contact_particle(*context.slab, *context.result, here, x + lane, v + lane);
   }
 
-  /// Applies the contact rule to one particle, whose coordinates are one cache line apart.
+  /// Resolves the contacts of one particle, whose coordinates are one cache line apart.
   void contact_particle(const Slab& slab, SlabResult& result, int here, T* x, T* v) {
     const int i = slab.first + here;
     if (scene_.model.particles.pinned[i]) return;
     const auto at = [](const T* p) { return Vec3(p[0], p[lanes<T>], p[2 * lanes<T>]); };
     Vec3 place = at(x), speed = at(v);
-    // position and velocity at the beginning of the step
+    // state at the beginning of the step
     const Vec3 v_n = slab.body.velocity(here), x_n = slab.body.position(here) - kicks_.back().drift_after * v_n;
-    // a particle that ends its step outside was pressed on by at most O(h) in total, and counts as free
+    // a particle that ends its step outside felt at most O(h) in total, and counts as free
     const auto lost = locates_events_ ? resolve_events(tracks_, t_next_ - t_, drag_rate_[i], x_n, v_n, place, speed)
                                       : resolve_surfaces(surfaces_, resolve_contact, t_, t_next_, x_n, v_n, place,
                                                          speed, record_contact_loss_);
@@ -228,20 +225,20 @@ class ClothGridWorld : public World {
   std::vector<Surface> surfaces_;
   bool locates_events_, record_contact_loss_;
   double size_;                       // m, scene size plus largest initial coordinate
-  std::vector<SurfaceTrack> tracks_;  // in the current step, if events are located
+  std::vector<SurfaceTrack> tracks_;  // for the current step, if events are located
   Eigen::ArrayXd drag_rate_;          // n, 1/s
   std::vector<Kick> kicks_;
   std::vector<BoundingSphere> bounding_spheres_;
   std::vector<BoundingPlane> bounding_planes_;
   std::vector<RestingSphere> resting_spheres_;
-  bool in_lanes_;  // contacts are resolved in the fused step
+  bool in_lanes_;  // the fused step resolves contacts
   int stride_ = 0;
   State s_;
   double t_ = 0, t_next_ = 0;  // s, of the current step
   long evaluations_ = 0;
 };
 
-/// Smallest number of particles that justifies a thread.
+/// A thread needs at least this number of particles.
 constexpr int particles_per_thread = 4096;
 
 template <class T>

@@ -1,4 +1,4 @@
-// One particle through one step: flight, impact, sliding, sticking, and wedging between surfaces.
+// One particle through one step: flight, impact, sliding, sticking, wedging between surfaces.
 #include "mysim/run/contact_events.h"
 
 #include <algorithm>
@@ -10,10 +10,11 @@ namespace crosscheck {
 namespace {
 
 constexpr double eps = std::numeric_limits<double>::epsilon();
-constexpr int most_events = 16;   // per step; the remainder then follows the rule for whole steps (terms/surface.h)
-constexpr int most_contacts = 4;  // simultaneously, per particle
+constexpr int most_events = 16;   // per step; then the rule for whole steps (terms/surface.h) applies
+constexpr int most_contacts = 4;  // simultaneous, of a particle
 
-/// The smallest argument at which a condition holds that is false at `low` and true at `high`, up to the last few bits.
+/// The smallest argument, up to the last few bits, at which a condition holds that is false at `low` and true at
+/// `high`.
 template <class Condition>
 double first_time(Condition holds, double low, double high) {
   for (int i = 0; i < 60; ++i) {
@@ -57,7 +58,7 @@ class ParticleStep {
     }
     if (!touched_ && !ends_inside_) return false;
     if (done_ < h_) finish_by_whole_step();
-    // Leaving one surface may lead into another: repeat, which converges to where overlapping surfaces meet.
+    // Leaving one surface may lead into another. Repetition converges to where overlapping surfaces meet.
     for (int round = 0; round < 100; ++round) {
       bool inside = false;
       for (const SurfaceTrack& track : surfaces_) inside |= put_outside(track);
@@ -80,23 +81,22 @@ class ParticleStep {
   /// The end of a slide, relative to the surface.
   struct Slid {
     Vec3 r, w;
-    double pressure;  // m/s^2, N at the end
+    double pressure;  // m/s^2, normal force N at the end
     Vec3 force;       // m/s^2, mean contact force
-    double friction;  // m/s^2, magnitude of its tangential part
-    Vec3 along;       // unit vector of the motion that friction opposes
+    double friction;  // m/s^2, tangential part of the force
+    Vec3 along;       // direction of the motion that friction opposes
   };
 
   static double gap(const SurfaceTrack& track, const Vec3& x, double s) {
     return track.surface().gap(x - track.origin(s));
   }
-  /// True if inside by more than the rounding of a position on the surface, so that a particle taking off is not
-  /// inside.
+  /// Ignores the rounding of a position on the surface, so that a particle taking off is not inside.
   bool inside(const SurfaceTrack& track, const Vec3& x, double s) const {
     return gap(track, x, s) < -16 * eps * track.surface().rounding_scale(track.origin(s), reach_);
   }
   Vec3 normal_at(const SurfaceTrack& track) const { return track.surface().normal(x_ - track.origin(done_)); }
   void put_on(const SurfaceTrack& track) { x_ = track.surface().put_on(track.origin(done_), x_, normal_at(track)); }
-  /// Returns false if the particle is outside already.
+  /// Returns false if the particle is already outside.
   bool put_outside(const SurfaceTrack& track) {
     if (!(gap(track, x_, done_) < 0)) return false;
     put_on(track);
@@ -113,12 +113,12 @@ class ParticleStep {
     return -(b_ - gamma_ * v_ - track.acceleration()).dot(n) - w.squaredNorm() / track.surface().radius();
   }
 
-  /// Applies impulses of the surfaces that the particle runs into, and lists the surfaces that it stays on.
+  /// Applies the impulses of surfaces that the particle runs into, and lists the surfaces that it stays on.
   void find_contacts() {
     std::array<Contact, most_contacts> near;
     int touching = 0;
     for (const SurfaceTrack& track : surfaces_) {
-      // rounding of a position on the surface: of the centre, the radius, and a step away and back
+      // rounding of a position on the surface: by its centre, its radius, and a step away and back
       const double rounding = 1e-12 * track.surface().rounding_scale(track.origin(done_), reach_);
       if (touching == most_contacts || !(gap(track, x_, done_) <= rounding)) continue;
       put_outside(track);
@@ -135,7 +135,8 @@ class ParticleStep {
     for (int i = 0; i < touching; ++i) {
       const auto& [track, n] = near[i];
       const double away = (v_ - track->velocity(done_)).dot(n), press = pressure(*track, n);
-      // after an impact, a particle that would return within a step stays; otherwise any speed above rounding separates
+      // after an impact, a particle that would return within a step stays; otherwise it separates at any speed above
+      // rounding
       const double slow = (hit ? 1 : 1e-6) * h_ * press / 2 + 8 * eps * v_.norm();
       if (press > 0 && away <= slow) contacts_[count_++] = near[i];
     }
@@ -164,8 +165,7 @@ class ParticleStep {
     return true;
   }
 
-  /// Deviation of the Hermite cubic through the stepper's states from the parabola; applies if the path starts with the
-  /// step.
+  /// Deviation of the Hermite cubic through the stepper's states from the parabola, for paths that start with the step.
   Vec3 bent(double s) const {
     const double part = s / h_;
     return done_ == 0 ? Vec3(part * part * (3 - 2 * part) * bend_) : Vec3::Zero();
@@ -178,7 +178,7 @@ class ParticleStep {
     return {x, v};
   }
 
-  /// Free flight until the first surface, or to the end of the step.
+  /// Free flight until a surface is reached or the step ends.
   void fly() {
     double until = h_ - done_;
     for (const SurfaceTrack& track : surfaces_) {
@@ -200,7 +200,7 @@ class ParticleStep {
   }
 
   void advance(double s) {
-    // a remainder due to rounding counts as the end of the step
+    // a rounding error before the end counts as the end
     done_ = done_ + s >= h_ * (1 - 4 * eps) ? h_ : done_ + s;
   }
 
@@ -211,9 +211,9 @@ class ParticleStep {
     const auto press = [&](const Vec3& n, const Vec3& speed) { return -b.dot(n) - speed.squaredNorm() / radius; };
     const Vec3 n0 = surface.normal_on(r);
     const double press0 = std::max(0.0, press(n0, w));
-    // Half of the slide. Friction opposes the mean velocity of the slide, whose direction is that of the frictionless
-    // one. If friction used the initial velocity, and that were small compared with s mu N, a transverse motion would
-    // grow without bound.
+    // Half of the slide. Friction opposes the mean velocity of the slide, which points along that of the frictionless
+    // one. If friction opposed an initial velocity much smaller than s mu N, transverse motion would grow without
+    // bound.
     const Vec3 n = surface.normal(r + s / 2 * w);
     const Vec3 unheld = without_normal_part(w + s / 2 * (b - gamma_ * w + press0 * n0), n);
     Slid end;
@@ -236,11 +236,11 @@ class ParticleStep {
     const Vec3 n = normal_at(track), r = surface.nearest(x_ - track.origin(done_), n);
     Vec3 w = without_normal_part(v_ - track.velocity(done_), n);
     const Vec3 surface_velocity = (track.velocity(done_) + track.velocity(h_)) / 2;
-    const Vec3 b = b_ - track.acceleration() - gamma_ * surface_velocity;  // in the surface's frame
+    const Vec3 b = b_ - track.acceleration() - gamma_ * surface_velocity;  // in the frame of the surface
     const Vec3 b_along = without_normal_part(b, n);
     const double press = -b.dot(n) - w.squaredNorm() / surface.radius();
     const bool holds = b_along.norm() <= mu * press;
-    // a speed that friction removes within a billionth of the step counts as zero
+    // a speed that friction removes within a billionth of the step is zero
     if (w.norm() <= 1e-9 * h_ * b.norm() && (holds || mu > 0)) {
       w.setZero();
       if (holds) {
@@ -270,7 +270,7 @@ class ParticleStep {
     x_ = track.origin(done_) + end.r, v_ = track.velocity(done_) + end.w;
   }
 
-  /// Velocity after time s between several surfaces, and the impulse of each.
+  /// Velocity after sliding between several surfaces, and the impulse of each.
   struct Wedged {
     Vec3 v;
     std::array<double, most_contacts> pushed;  // m/s
@@ -286,7 +286,7 @@ class ParticleStep {
       normal[i] = track.surface().normal(x_ + s / 2 * v_ - track.origin(done_ + s / 2));
       along[i].setZero();
     }
-    // each sweep reduces the remainder at least by the squared cosine of the angle between normals
+    // each sweep multiplies the remainder by at most the squared cosine of the angle between normals
     for (int sweep = 0; sweep < 500; ++sweep) {
       double change = 0;
       for (int i = 0; i < count_; ++i) {
@@ -308,7 +308,7 @@ class ParticleStep {
     return to;
   }
 
-  /// Motion between several surfaces, until the first other surface, or to the end of the step.
+  /// Moves in contact with several surfaces, until another surface is reached or the step ends.
   void wedge() {
     const double rest = h_ - done_;
     const auto is_in_another = [&](double s) {
@@ -354,15 +354,15 @@ class ParticleStep {
   const std::span<const SurfaceTrack> surfaces_;
   const double h_, gamma_, reach_;
   Vec3 b_, bend_;    // m/s^2; m
-  Vec3 x_, v_;       // m, m/s: at time done_ of the step
+  Vec3 x_, v_;       // m, m/s, at time done_ of the step
   double done_ = 0;  // s
   double lost_ = 0;  // m^2/s^2
   bool touched_ = false, ends_inside_;
-  std::array<Contact, most_contacts> contacts_;  // persisting contacts
+  std::array<Contact, most_contacts> contacts_;  // persistent
   int count_ = 0;
 };
 
-/// True if a particle may come near the surface during the step: a path of constant acceleration deviates from its
+/// True if the particle may come near the surface during the step: a path of constant acceleration deviates from its
 /// chord by at most h |v - v_n| / 8.
 bool comes_near(const SurfaceTrack& track, double h, const Vec3& x_n, const Vec3& v_n, const Vec3& x, const Vec3& v) {
   const Vec3 from = x_n - track.origin(0), to = x - track.origin(h);

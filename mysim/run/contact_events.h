@@ -1,9 +1,9 @@
-// Second-order contact with spheres and planes: touching, leaving and stopping are located within the step.
+// Second-order contact with spheres and planes: locates touching, leaving and stopping within the step.
 //
-// A stepper takes a particle from x_n, v_n to x*, v* as if there were no surface. Let b be the mean acceleration of
+// A stepper moves a particle from x_n, v_n to x*, v* as if there were no surface. Let b be the mean acceleration of
 // that step without drag,
 //   b = (v* - v_n) / h + gamma (v_n + v*) / 2,
-// held constant. The particle repeats the step as seen from the surface, whose own acceleration is subtracted:
+// held constant. The particle repeats the step in the frame of the surface, whose acceleration is subtracted:
 //   free     dw/ds = b - gamma w, until the first root of the gap. On impact, the inward speed w_n is reversed,
 //            times e, and the tangential speed is reduced by at most mu (1 + e) |w_n|. A rebound that would return
 //            within a step is suppressed (e = 0): an endless sequence of bounces ends in contact.
@@ -11,16 +11,16 @@
 //            midpoint rule, projected back onto the surface, until the root of N, where it leaves, or of its speed,
 //            where it stops.
 //   sticks   as long as |b_t| <= mu N.
-// If a particle touches several surfaces, their impulses are computed together for the rest of the step, by projected
+// The impulses of several surfaces that touch a particle are computed together for the rest of the step, by projected
 // Gauss-Seidel iteration (J. J. Moreau, Unilateral contact and dry friction in finite freedom dynamics, 1988; M. Jean,
 // Comput. Methods Appl. Mech. Engrg. 177, 1999).
 //
-// Why order 2: a lasting contact displaces by h^2 N / 2 within a step, so b is wrong by O(h^2) there; an impact changes
-// b by O(h), but only in one step. No additional acceleration is evaluated. Dashpots and air depend on speeds that
-// contact changes by h N after the evaluation, so with these terms the order is 1. On a moving sphere with friction a
-// particle sticks and slips, and a slow slide turns towards the force within |w| / (mu N), which is less than a step.
-// There the observed order between two step sizes is anything from -0.8 to 5.7; order 2 appears only in the trend over
-// many: 1.7 to 2.3 over 21 steps of 13 to 0.4 ms (mu 0.03 to 0.28 on a ball of 1 m, three motions).
+// Order 2, because a lasting contact displaces by h^2 N / 2 within a step, so that b is wrong by O(h^2), and an impact
+// changes b by O(h), but in only one step. No additional acceleration is evaluated. Dashpots and air depend on speeds,
+// which contact changes by h N after the evaluation, so with these terms the order is 1. On a moving sphere with
+// friction a particle sticks and slips, and a slow slide turns towards the force within |w| / (mu N), which is less
+// than a step. Then two step sizes show any order from -0.8 to 5.7, and only the trend over many shows order 2: 1.7 to
+// 2.3 over 21 steps of 13 to 0.4 ms (mu 0.03 to 0.28 on a ball of 1 m, three motions).
 #pragma once
 
 #include <optional>
@@ -31,8 +31,7 @@
 
 namespace crosscheck {
 
-/// Motion of a surface during one step: a cubic through its positions at both ends; its velocity is interpolated
-/// linearly.
+/// Motion of a surface during one step: a cubic through both positions, with linear interpolation of the velocity.
 class SurfaceTrack {
  public:
   SurfaceTrack(const Surface& surface, double t_n, double t);
@@ -48,12 +47,12 @@ class SurfaceTrack {
   Vec3 origin_, velocity_, end_origin_, end_velocity_, acceleration_, rest_;
 };
 
-/// Tracks of the surfaces for the step from t_n to t; the surfaces must outlive the tracks.
+/// Tracks for the step from t_n to t; the surfaces must outlive the tracks.
 std::vector<SurfaceTrack> surface_tracks(std::span<const Surface> surfaces, double t_n, double t);
 
-/// Advances a particle with drag rate gamma (1/s) through a step h (s) as described above. On entry x and v are x* and
-/// v*, on return the end of the step. Returns the energy lost in contacts (J/kg, contacts.h), or nothing, with x and v
-/// unchanged, if no surface was touched.
+/// Advances a particle with drag rate gamma (1/s) through a step h (s) as described above. x and v are x* and v* on
+/// entry, and the end of the step on return. Returns the energy lost in contacts (J/kg, contacts.h), or nothing, with x
+/// and v unchanged, if no surface was touched.
 std::optional<double> resolve_events(std::span<const SurfaceTrack> surfaces, double h, double gamma, const Vec3& x_n,
                                      const Vec3& v_n, Eigen::Ref<Vec3> x, Eigen::Ref<Vec3> v);
 

@@ -1,4 +1,4 @@
-// Contact on whole steps: surfaces act one after another on each particle.
+// Contact on whole steps: surfaces act one after another.
 #include "mysim/run/contacts.h"
 
 #include <cassert>
@@ -22,7 +22,7 @@ std::optional<double> resolve_surfaces(std::span<const Surface> surfaces, Contac
   assert(t > t_n);
   bool touched = false;
   const Vec3 change = v - v_n;    // m/s, by all other forces
-  Vec3 friction = Vec3::Zero();   // m/s, of persisting contacts
+  Vec3 friction = Vec3::Zero();   // m/s, of lasting contacts
   double impacts = 0, given = 0;  // m^2/s^2; given: by moving surfaces, times the step
   for (const Surface& surface : surfaces) {
     const Vec3 origin = surface.origin_at(t), displacement = origin - surface.origin_at(t_n);
@@ -63,7 +63,7 @@ void Contacts::begin(const State& s) {
 bool Contacts::resolve(State& s) {
   lost_.reset();
   if (!any()) return false;
-  assert(before_.x.cols() == s.x.cols());  // requires begin() first
+  assert(before_.x.cols() == s.x.cols());  // begin() came before
   const ContactFunction act = rule_ == ContactRule::sticky ? resolve_contact_sticky : resolve_contact;
   std::vector<SurfaceTrack> tracks;
   if (rule_ == ContactRule::events) tracks = surface_tracks(surfaces_, before_.t, s.t);

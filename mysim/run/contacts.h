@@ -1,17 +1,15 @@
 // Contact of all particles with the scene's surfaces (spheres and planes) after a step, and the energy lost in it.
 //
 // Definitions, per kilogram of a particle: J is the velocity change by a surface, a = (v* - v_n) / h the acceleration
-// by all other forces; x_n, v_n are the state at the start of the step, x*, v* the stepper's proposal, x', v' the state
+// by all other forces. x_n, v_n are the state at the start of the step, x*, v* the stepper's proposal, x', v' the state
 // after contact.
-//   Impact: |J| > 3 (1 + e) |a| h, i.e. the approach is faster than those forces explain. It is instantaneous and
-//   takes -J . (v* + v') / 2 + a . (x' - x*), the kinetic energy with which the particle met the surface, which lies
-//   x' - x* before the end of its displacement.
-//   Any other contact lasted throughout the step. Its normal part does no work except through the displacement s of a
-//   moving surface; friction acts over the particle's displacement: -(J_t . (x' - x_n) + J_n . s) / h.
-// Hence the loss is 0 for a particle at rest on a fixed surface, whatever the stepper proposes in each step. The energy
-// change of a touching particle by the free step and the push out of the surface is an error of the method, not a loss,
-// and remains in the balance. The factor 3: explicit Euler holds a resting particle in every other step, by |J| = 2 |a|
-// h.
+//   Impact: |J| > 3 (1 + e) |a| h, i.e. the approach is faster than those forces explain. It is instantaneous, at x' -
+//   x* before the end of the displacement, and loses the kinetic energy -J . (v* + v') / 2 + a . (x' - x*).
+//   Any other contact lasts throughout the step. Its normal part works only through the displacement s of a moving
+//   surface; friction acts over the particle's displacement: -(J_t . (x' - x_n) + J_n . s) / h.
+// Hence a particle at rest on a fixed surface loses nothing, whatever the stepper proposes. The energy change of a
+// touching particle by the free step and the push out of the surface is an error of the method, not a loss, and remains
+// in the balance. The factor 3: explicit Euler holds a resting particle in every other step, by |J| = 2 |a| h.
 #pragma once
 
 #include <optional>
@@ -24,15 +22,15 @@ namespace crosscheck {
 struct Stepper;
 
 enum class ContactRule {
-  coulomb,  // acts on whole steps (terms/surface.h): of order 1
-  events,   // locates touching, leaving and stopping within the step (contact_events.h); see locates_events
+  coulomb,  // acts on whole steps (terms/surface.h): order 1
+  events,   // locates touching, leaving and stopping within the step (contact_events.h); requires locates_events()
   sticky,   // the assignment's sphere, kept to demonstrate its failure
 };
-/// The rule selected by a method option ("events", "sticky"), or nothing.
+/// The rule of a method option ("events", "sticky"), or nothing.
 std::optional<ContactRule> contact_rule_of_option(std::string_view option);
 
-/// True for rules that reach order 2 under ContactRule::events. A first-order rule moves particles along another path
-/// than their velocities indicate, by h^2 a / 2, as much as contact displaces them. A multi-stage rule evaluates forces
+/// True for rules of order 2 under ContactRule::events. A first-order rule moves particles along another path than
+/// their velocities indicate, by h^2 a / 2, as much as contact displaces them. A multi-stage rule evaluates forces
 /// inside the solids, where rounding of the speed at first touch decides between two paths.
 bool locates_events(const Stepper& stepper);
 
@@ -41,8 +39,8 @@ using ContactFunction = double (*)(const Surface&, const Vec3& origin, const Vec
                                    Eigen::Ref<Vec3> v);
 
 /// Applies every surface, each in its own frame, to a particle that was at x_n with v_n at time t_n and would be at x
-/// with v at t. Returns the energy lost in the contacts (J per kilogram; 0 without `with_loss`, since it costs as much
-/// as the contact itself), or nothing if no surface was touched.
+/// with v at t. Returns the energy lost in the contacts (J/kg; 0 without `with_loss`, because it costs as much as the
+/// contact itself), or nothing if no surface was touched.
 std::optional<double> resolve_surfaces(std::span<const Surface> surfaces, ContactFunction act, double t_n, double t,
                                        const Vec3& x_n, const Vec3& v_n, Eigen::Ref<Vec3> x, Eigen::Ref<Vec3> v,
                                        bool with_loss = true);
@@ -51,9 +49,8 @@ class Contacts {
  public:
   Contacts(const Model& model, ContactRule rule);
   bool any() const { return !surfaces_.empty(); }
-  /// Stores the state at the beginning of the step.
   void begin(const State& s);
-  /// Applies every surface to the whole step of every free particle; returns true if one touched.
+  /// Resolves contacts with all surfaces over the whole step; returns true if any particle touched a surface.
   bool resolve(State& s);
   /// Energy lost in the last resolve() (J); nothing if no particle touched.
   const std::optional<double>& lost() const { return lost_; }

@@ -16,8 +16,7 @@ namespace {
 double volume(const Vec3& a, const Vec3& b, const Vec3& c) { return a.cross(b).dot(c); }
 
 /// True if the edge from p to q passes through the triangle by more than a millionth of the lengths involved on both
-/// sides; less counts as touching. The limit, 1e-6, is far above the rounding of the volumes, about 1e-15, and far
-/// below any visible depth.
+/// sides. The limit is far above the rounding of the volumes, about 1e-15, and far below any visible depth.
 bool pierces(const Vec3& p, const Vec3& q, const Vec3& a, const Vec3& b, const Vec3& c) {
   const Vec3 ab = b - a, ac = c - a, normal = ab.cross(ac), d = q - p;
   const double above = normal.dot(p - a), below = normal.dot(q - a);
@@ -65,7 +64,7 @@ int CrossingDetector::piercing_edges(const Points& x) {
     const double length = (x.col(a) - x.col(b)).norm();
     mean += length / static_cast<double>(edges_.size()), longest = std::max(longest, length);
   }
-  // a triangle then covers at most 5 cells along an axis; cell indices fit into 31 bits
+  // a triangle then covers at most 5 cells along an axis, and cell indices fit into 31 bits
   cell_ = std::max({mean, longest / 4, x.cwiseAbs().maxCoeff() * 0x1p-30});
   if (!(cell_ > 0)) return 0;
   std::fill(begin_.begin(), begin_.end(), 0);

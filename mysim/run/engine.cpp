@@ -1,4 +1,3 @@
-// The run loop (samples, steps, observers, clock), one fixed step (stepper, pins, contacts), and step-size control.
 #include "mysim/run/engine.h"
 
 #include <fmt/format.h>
@@ -64,7 +63,7 @@ bool RunLoop::step() {
   const bool first = out_.steps++ == 0, sampled = step_ == grid_.steps_per_sample, seen = step_ % stride_ == 0;
   if (!seen && !first) return true;
 
-  // a world with adaptive steps interpolates most states: only intervals in which it stepped are timed
+  // a world with adaptive steps interpolates most states: only intervals with steps are timed
   const long evaluations = chooses_steps_ ? world_.work().evaluations : 0;
   if (!chooses_steps_ || evaluations > evaluations_) clock_.stop();
   evaluations_ = evaluations;
@@ -102,7 +101,7 @@ Outcome run_loop(World& world, const Run& run, Observer& observer) {
 
 namespace {
 
-/// Any rule on any scene: the definition of the results that every faster world must reproduce.
+/// Any rule on any scene: defines the results that every faster world must reproduce.
 class SteppedWorld : public World {
  public:
   SteppedWorld(const Stepper& stepper, ContactRule rule, const Scene& scene, double h)
@@ -116,9 +115,9 @@ class SteppedWorld : public World {
 
   void step(double, double t_next) override {
     if (contacts_.any()) contacts_.begin(s_);
-    stepper_.step(f_, s_, h_, workspace_);  // steppers/leapfrog.cpp and the files next to it
+    stepper_.step(f_, s_, h_, workspace_);  // see steppers/leapfrog.cpp and its neighbours
     s_.t = t_next;
-    // no rule moves fixed pins, which have neither velocity nor acceleration
+    // no rule moves fixed pins, whose velocity and acceleration are zero
     if (particles_.move) particles_.place_pins(s_);
     if (contacts_.any()) contacts_.resolve(s_);
   }
@@ -142,14 +141,14 @@ class SteppedWorld : public World {
 /// A scene stepped by the Dormand-Prince pair under error control.
 ///
 /// Steps are chosen so that the root mean square of (estimated error of a step) / (R (scene size + |x|)) stays at or
-/// below 1, with R = run.tolerance. The same applies to velocities, with the largest speed so far in place of the
+/// below 1, with R = run.tolerance. The same applies to velocities, with the largest speed so far instead of the
 /// scene's size. Requested states are interpolated. With contact surfaces, no step passes the next requested state,
-/// because contact acts on whole steps; several steps may be needed to get there, each with contact.
+/// because contact acts on whole steps.
 class AdaptiveWorld : public World {
  public:
   AdaptiveWorld(const Scene& scene, const Run& run, ContactRule contact);
   void step(double t, double t_next) override;
-  /// Interpolated state; evaluated outside the clock, so that only steps are timed.
+  /// Interpolates outside the clock, so that only steps are timed.
   const State& state(double t) override;
   void report_contact(Observer& observer) override {
     if (lost_) observer.contact(*lost_);
@@ -166,16 +165,16 @@ class AdaptiveWorld : public World {
   Contacts contacts_;
   DormandPrince pair_;
   double tolerance_, h_, last_h_ = 0;
-  double shortest_;           // s; a shorter step is lost in the rounding of time
-  double fastest_;            // m/s, largest speed of an accepted state
-  double last_ratio_ = 1e-4;  // previous step's ratio, for the controller
+  double shortest_;           // s; shorter steps are lost in the rounding of time
+  double fastest_;            // m/s, largest of an accepted state
+  double last_ratio_ = 1e-4;  // the previous step's, for the controller
   State before_, s_, seen_;   // start and end of the last accepted step; requested state
   long accepted_ = 0;
   std::optional<double> lost_;  // J, in contacts since the previous requested state
 };
 
 // Step-size control (E. Hairer, S. P. Norsett and G. Wanner, Solving Ordinary Differential Equations I, II.4; PI
-// control as in volume II, IV.2).
+// control: volume II, IV.2).
 
 AdaptiveWorld::AdaptiveWorld(const Scene& scene, const Run& run, ContactRule contact)
     : scene_(scene),
@@ -183,7 +182,7 @@ AdaptiveWorld::AdaptiveWorld(const Scene& scene, const Run& run, ContactRule con
       contacts_(scene.model, contact),
       pair_(scene.start),
       tolerance_(run.tolerance),
-      // a run with adaptive steps begins with the scene's step, whether observed or not
+      // adaptive runs begin with the scene's step, whether observed or not
       h_(std::min(contacts_.any() ? run.step : scene.step, run.duration)),
       shortest_(1e-14 * run.duration),
       fastest_(largest_column(scene.start.v)),
@@ -191,7 +190,7 @@ AdaptiveWorld::AdaptiveWorld(const Scene& scene, const Run& run, ContactRule con
       s_(scene.start),
       seen_(scene.start) {}
 
-/// Root mean square over the particles of estimated error / allowed error.
+/// Root mean square of estimated over allowed error.
 double AdaptiveWorld::error_ratio() {
   const State &error = pair_.error(), &next = pair_.next();
   const auto part = [&](const Points& e, const Points& from, const Points& to, double scale) {
@@ -202,7 +201,7 @@ double AdaptiveWorld::error_ratio() {
     }
     return e.cols() > 0 ? sum / static_cast<double>(e.cols()) : 0;
   };
-  // from rest: the speed that the initial forces produce in one step
+  // from rest: the speed after one step of the initial forces
   const double speed = std::max({fastest_, pair_.first_step_speed(), 1e-300});
   return std::sqrt(std::max(part(error.x, s_.x, next.x, scene_.size()), part(error.v, s_.v, next.v, speed)));
 }
@@ -226,7 +225,7 @@ void AdaptiveWorld::advance(double limit) {
       last_h_ = h;
       const double kept = std::max(ratio, 1e-10);
       const double factor = safety * std::pow(kept, -proportional) * std::pow(last_ratio_, integral);
-      // a step shortened to end at the limit does not argue against the proposed step
+      // a step cut at the limit is no reason to shorten the next one
       h_ = std::max(h == h_ ? 0.0 : h_, h * std::clamp(factor, least, room));
       last_ratio_ = std::max(ratio, 1e-4);
       ++accepted_;
@@ -269,9 +268,9 @@ void require_supported(const Stepper& stepper, const Model& model) {
 }
 
 /// Remark about particles that lie on a surface with restitution at the end of a run with steps of h (s); otherwise
-/// empty. Contact on whole steps returns part of each step's speed: a particle at rest under an acceleration a (m/s^2)
-/// keeps hopping by about a h^2. With explicit Euler the height is 9 a h^2 or more, because the rule adds energy in
-/// each flight.
+/// empty. Contact on whole steps returns part of each step's speed, so a particle at rest under an acceleration a
+/// (m/s^2) keeps hopping by about a h^2. With explicit Euler, which adds energy in each flight, the height is at least
+/// 9 a h^2.
 std::string hops_at_rest(const Scene& scene, State s, double h) {
   std::vector<Surface> surfaces = surfaces_of(scene.model);
   std::erase_if(surfaces, [](const Surface& surface) { return !(surface.restitution > 0 && surface.restitution < 1); });

@@ -10,45 +10,44 @@
 
 namespace crosscheck {
 
-/// A scene inside an engine, stepped from outside.
+/// A scene in an engine, stepped from outside.
 class World {
  public:
-  /// The work done by the steps so far.
   struct Work {
-    long evaluations = 0;            // evaluations of the right-hand side
+    long evaluations = 0;            // right-hand side evaluations
     long degenerate_springs = 0;     // springs at zero length, summed over the evaluations
-    std::optional<long> steps = {};  // accepted steps, if the world chooses them; otherwise the run loop counts
-    double worker_seconds = 0;       // s, CPU time of threads other than the stepping thread
+    std::optional<long> steps = {};  // accepted, if the world chooses its steps; otherwise the run loop counts
+    double worker_seconds = 0;       // s, CPU time of all threads but the stepping one
     bool single_precision = false;
   };
 
   virtual ~World() = default;
   /// Advances from t to t_next (s), including pins and contacts.
   virtual void step(double t, double t_next) = 0;
-  /// Current positions and velocities, in the scene's numbering; t (s) is the caller's current time.
+  /// Positions and velocities in the scene's numbering; t (s): the caller's current time.
   virtual const State& state(double t) = 0;
-  /// Reports the energy lost in the contacts of the last step to the observer, if the engine knows it.
+  /// Reports the energy lost in the contacts of the last step, if the engine knows it.
   virtual void report_contact(Observer& /*observer*/) {}
-  /// The scene as the engine built it, read once after the first step.
+  /// The scene as the engine built it, read after the first step.
   virtual std::optional<Readback> read_back() { return std::nullopt; }
   virtual Work work() const { return {}; }
-  /// True if the world covers any interval with steps of its own; the run's step then only defines the states that
-  /// observers of every step receive.
+  /// True if the world covers any interval with steps of its own. The run's step then only defines the states for
+  /// observers of every step.
   virtual bool chooses_steps() const { return false; }
 };
 
-/// A run that is advanced step by step, with the same times, observers and clock for every engine. CPU time is that of
-/// World::step only.
+/// A run that advances step by step, with the same times, observers and clock for every engine. Measures the CPU time
+/// of World::step only.
 class RunLoop {
  public:
-  /// Passes the initial state to the observer. All three arguments must outlive the loop.
+  /// Passes the initial state to the observer. The arguments must outlive the loop.
   RunLoop(World& world, const Run& run, Observer& observer);
-  /// Takes a step and passes it to the observer if due. Returns false, without stepping, if the run has ended.
+  /// Takes a step and passes it to the observer if due. Returns false, without a step, if the run has ended.
   bool step();
   bool ended() const { return sample_ >= grid_.samples || out_.verdict != Verdict::ok; }
   /// Time of the last state (s).
   double time() const { return out_.end; }
-  /// The outcome of the run, once it has ended.
+  /// Call it once the run has ended.
   Outcome outcome();
 
  private:
@@ -62,40 +61,39 @@ class RunLoop {
   const int stride_;  // steps between two observed states
   const bool chooses_steps_;
   CpuClock clock_;
-  long evaluations_ = 0;       // at the last observed state, for a world that chooses its steps
-  int sample_ = 0, step_ = 0;  // number of samples so far, and of steps since the last
+  long evaluations_ = 0;       // count at the last observed state, if the world chooses its steps
+  int sample_ = 0, step_ = 0;  // samples so far, and steps since the last
   Outcome out_;
 };
 
-/// Performs the whole run.
 Outcome run_loop(World& world, const Run& run, Observer& observer);
 
-/// Code path for regular cloths: the fused step, either reproducible (the same bits on every machine), as fast as the
-/// machine allows, or in single precision. `general` is the engine for any scene.
+/// Ways to step regular cloths: by the fused step, reproducible (the same bits on every machine), as fast as possible,
+/// or in single precision; or by the general engine for any scene.
+/// or in single precision; or by the general engine for any scene.
 enum class ExecutionPath { reproducible, fastest, single_precision, general };
 
 struct Execution {
   ExecutionPath path = ExecutionPath::reproducible;
-  int threads = 1;  // at most: small cloths are stepped by fewer; the same bits, however many
+  int threads = 1;  // upper bound; small cloths use fewer. The number does not change the bits
 };
 
-/// Creates the world that steps the scene; regular cloths use the fused step, with the same rule. Throws Unsupported
+/// Creates the world that steps the scene: regular cloths by the fused step, with the same rule. Throws Unsupported
 /// with the reason if the stepper cannot run the scene. Stepper and scene must outlive the world.
 std::unique_ptr<World> make_world(const Stepper& stepper, ContactRule contact, const Scene& scene, const Run& run,
                                   const Observer& observer, const Execution& execution = {});
 
-/// Runs the scene at run.step, or, with an adaptive stepper, to run.tolerance. Throws Unsupported with the reason if
-/// the stepper cannot run the scene.
+/// Runs the scene at run.step or, with an adaptive stepper, to run.tolerance. Throws like make_world().
 Outcome simulate(const Stepper& stepper, ContactRule contact, const Scene& scene, const Run& run, Observer& observer,
                  const Execution& execution = {});
 
-/// True if a rule gives the same bits on every machine. Rules with a fixed order of summation do; solving equations and
-/// choosing steps need not.
+/// True for rules with a fixed order of summation; solving equations and choosing steps may give other bits on other
+/// machines.
 inline bool has_same_bits_everywhere(const Stepper& rule) {
   return !rule.adaptive && (rule.evaluations > 0 || rule.hard_constraints);
 }
 
-/// FNV-1a hash over the bits of positions and velocities, 16 hexadecimal digits: equal for equal states.
+/// FNV-1a over the bits of positions and velocities, 16 hexadecimal digits.
 std::string fingerprint(const State& state);
 
 }  // namespace crosscheck

@@ -1,4 +1,3 @@
-// The energy ledger, the divergence verdict derived from positions, and the true motion that it compares with.
 #include "mysim/run/observers.h"
 
 #include <algorithm>
@@ -111,7 +110,7 @@ double fastest_decay(const Model& model) {
 
 double largest_length_ratio(const Model& model, const State& start, const Points& x) {
   const auto* springs = model.find<Springs>();
-  double most = 0;  // squared ratio: needs no root, and no division unless a spring is the longest so far
+  double most = 0;  // squared ratio: needs no root, and no division except for the longest spring so far
   if (springs)
     for (const Spring& s : springs->list) {
       const double rest = s.rest > 0 ? s.rest * s.rest : (start.x.col(s.a) - start.x.col(s.b)).squaredNorm(),
@@ -123,7 +122,7 @@ double largest_length_ratio(const Model& model, const State& start, const Points
 
 namespace {
 
-/// The bounds up to each of the run's samples, by time; empty if there are none.
+/// Bounds up to each sample, by time; empty if there are none.
 std::map<double, MotionBounds> motion_bounds_over_time(const Scene& scene, const Run& run) {
   const auto rules = steppers();
   const Stepper& rule =
@@ -176,7 +175,7 @@ DivergenceMonitor::DivergenceMonitor(const Model& model, const State* start) : m
   if (start) start_ = *start;
   for (const Surface& s : surfaces_of(model))
     if (s.moving()) {
-      // a particle leaves with at most (1 + e) times the surface's speed; as much energy again may go into springs
+      // a particle leaves with at most (1 + e) times the surface's speed; springs may receive as much energy again
       const double speed = (1 + s.restitution) * s.max_speed();
       moving_surface_energy_ += model.particles.mass.sum() * speed * speed;
     }
@@ -190,8 +189,8 @@ void DivergenceMonitor::begin(const State& state) {
   if (start_->v.cols() != start_->x.cols()) start_->v = Points::Zero(3, start_->x.cols());
   State& start = *start_;
   const Particles& particles = model_.particles;
-  // An engine that pushes a resting particle out of a contact gives it a small speed: that of a fall through 1/256 of
-  // the smaller of sphere and scene. A plane has no length of its own.
+  // An engine that pushes a resting particle out of a contact gives it a small speed, at most that of a fall through
+  // 1/256 of the smaller of sphere and scene. A plane has no length of its own.
   if (const auto* gravity = model_.find<Gravity>(); gravity && has_contact(model_)) {
     const double extent = (start.x.rowwise().maxCoeff() - start.x.rowwise().minCoeff()).norm();
     double length = extent > 0 ? extent : std::numeric_limits<double>::infinity();
@@ -206,8 +205,7 @@ void DivergenceMonitor::begin(const State& state) {
   System system(model_);
   Points a(3, start.x.cols());
   system.acceleration(start, a);
-  // engines in single precision represent a position to 6e-8 of its coordinates; five such rounding errors in two steps
-  // do not count as motion
+  // single precision stores a position to 6e-8 of its coordinates; five such errors in two steps are no motion
   const double known = position_rounding_ = 5 * 6e-8 * start.x.cwiseAbs().maxCoeff();
   for (int i = 0; i < particles.size(); ++i)
     if (!particles.pinned[i]) {
@@ -241,9 +239,8 @@ bool DivergenceMonitor::frozen(const State& state) {
       return s.gap(x - origin) < 1e-6 * (s.rounding_scale(origin, x.norm()) + way);
     });
   };
-  // A displacement must exceed the rounding of the coordinates (in single precision if there are no velocities to show
-  // smaller motion) and, where forces balance, the rounding of spring forces: some roundings of omega^2 times a
-  // coordinate.
+  // A displacement must exceed the rounding of coordinates (in single precision if there are no velocities to show
+  // smaller motion) and, where forces balance, of spring forces: some roundings of omega^2 times a coordinate.
   const double t = state.t - start.t, omega = highest_frequency_bound(model_, start),
                seen = start.x.cwiseAbs().maxCoeff() * ((velocities ? 1e-12 : 1e-6) + 1e-15 * omega * omega * t * t);
   for (int i = 0; i < start.x.cols(); ++i)
@@ -295,15 +292,15 @@ Verdict DivergenceMonitor::goes_too_far() {
   }
   if (bounds_) return beyond_bounds();
   if (true_motion_bounds_) return Verdict::ok;
-  // no true motion is available
+  // no true motion is known
   if (largest_ratio_ > ratio_suspect) return Verdict::energy;
   return largest_length_ratio_ > allowed * length_bound * initial_length_ratio_ ? Verdict::stretch : Verdict::ok;
 }
 
 Verdict DivergenceMonitor::observe(const State& state, bool sample) {
-  // a number whose square is infinite fails too, because every error and energy is made of squares
+  // numbers with an infinite square fail too, because errors and energies are sums of squares
   if (!std::isfinite(state.x.squaredNorm()) || !std::isfinite(state.v.squaredNorm())) return Verdict::nan;
-  if (model_.first_order()) return Verdict::ok;  // no energy to judge by
+  if (model_.first_order()) return Verdict::ok;  // no energy
   if (!begun_) begin(state);
   const Verdict moves = seen_ >= 2 ? moves_too_fast(state) : Verdict::ok;
   std::swap(before_, last_);

@@ -1,4 +1,3 @@
-// Step counts of a run, and observers combined into one.
 #include "mysim/run/run.h"
 
 #include <fmt/format.h>
@@ -64,7 +63,7 @@ Run default_run(const Scene& scene) {
 
 TimeGrid time_grid(const Run& run) {
   const double interval = run.duration / run.samples;
-  // a step that divides the interval up to round-off is kept: 1e-9 is far above round-off and far below one step
+  // keeps a step that divides the interval up to round-off: 1e-9 is far above round-off and far below one step
   const double wanted = std::ceil(interval / run.step * (1 - 1e-9));
   if (!(wanted <= 1e9))
     throw InputError(fmt::format("step {:g} s: expected at most 1e9 steps between two samples", run.step));

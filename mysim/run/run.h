@@ -1,4 +1,4 @@
-// The common interface of all engines: settings of a run (Run), its observers (Observer) and its results (Outcome).
+// The interface of all engines: a run's settings (Run), its observers (Observer) and its results (Outcome).
 #pragma once
 
 #include <functional>
@@ -18,60 +18,57 @@ enum class Verdict {
   nan,          // a non-finite position or velocity
   stretch,      // a spring more than ten times as long as in the true motion
   solver,       // an equation inside a step could not be solved
-  frozen,       // forces act, but nothing moves
+  frozen,       // nothing moves, although forces act
   timeout,      // an external program did not end in time
-  crash,        // an external program died, or did not deliver what the protocol requires
+  crash,        // an external program died, or violated the protocol
   unsupported,  // the method lacks an ingredient of the scene
 };
 std::string_view name_of(Verdict verdict);   // identifier in tables and files
 std::string_view in_words(Verdict verdict);  // readable text
 
 struct Run {
-  double step;              // s, upper bound; reduced so that it divides the sampling interval
+  double step;              // s, upper bound; reduced to divide the sampling interval
   double duration;          // s
   int samples;              // frames after the first, at i duration / samples
   double tolerance = 1e-6;  // adaptive methods: relative; the absolute tolerance is this times the scene's size
-  bool timed = true;        // measure CPU time; reading the clock costs as much as a step of a few particles
+  bool timed = true;        // measure CPU time, which costs as much as a step of a few particles
 };
-/// The scene's own step, duration and samples; the tolerance of adaptive methods is a hundredth of the scene's.
+/// The scene's step, duration and samples; the tolerance of adaptive methods is a hundredth of the scene's.
 Run default_run(const Scene& scene);
 
-/// The steps of a run: `steps_per_sample` steps of length h between two samples.
 struct TimeGrid {
   double h;  // s
   int steps_per_sample;
   int samples;
   double time(int sample, int step) const { return (static_cast<double>(sample) * steps_per_sample + step) * h; }
 };
-/// Throws InputError if the step is so small that a sampling interval would contain more than 1e9 steps.
+/// Throws InputError if a sampling interval would contain more than 1e9 steps.
 TimeGrid time_grid(const Run& run);
 /// Steps between two states on which a verdict is based: the smallest divisor of a sampling interval for which a run
-/// has at most 8192 such states, and at most 2^20 particle positions in them. External programs are requested to return
-/// the same states, so that every engine is judged on the same evidence.
+/// has at most 8192 such states, and at most 2^20 particle positions in them. External programs must return the same
+/// states, so that every engine is judged on the same evidence.
 int verdict_stride(const TimeGrid& grid, int particles);
 
-/// Receives the states of a run.
 class Observer {
  public:
   virtual ~Observer() = default;
-  /// True: receives every step. False: receives only the initial state and the samples.
+  /// True: receives every step. False: only the initial state and the samples.
   virtual bool every_step() const { return false; }
-  /// True: also receives every verdict_stride-th step between two samples.
+  /// True: also receives every verdict_stride-th step.
   virtual bool between_samples() const { return false; }
   /// Any verdict except Verdict::ok ends the run.
   virtual Verdict observe(const State& state, bool sample) = 0;
-  /// Reports a contact in the last step and the energy lost in it (J, accounting rules in contacts.h). Called before
-  /// the state after the step is observed, by engines that know their contacts.
+  /// Reports a contact in the last step and its energy loss (J, accounting rules in contacts.h). Called before the
+  /// state after the step is observed, by engines that know their contacts.
   virtual void contact(double /*lost*/) {}
 };
 
-/// Ignores all states.
 class NullObserver : public Observer {
  public:
   Verdict observe(const State&, bool) override { return Verdict::ok; }
 };
 
-/// Combines several observers; the first verdict that is not ok counts.
+/// The first verdict that is not ok counts.
 class Observers : public Observer {
  public:
   explicit Observers(std::vector<Observer*> list) : list_(std::move(list)) {}
@@ -83,23 +80,22 @@ class Observers : public Observer {
   std::vector<Observer*> list_;
 };
 
-/// Forces that an engine computes at a state set for this purpose, N (3 x n); each may be empty.
+/// Forces (N, 3 x n) that an engine computes at a state set for this purpose; empty if not reported.
 struct ForceProbe {
   double t = 0;     // s
   Points x, v;      // m, m/s: the state that was set
-  Points springs;   // by the springs alone, at x
-  Points bending;   // by bending alone, at x
-  Points dashpots;  // by the dashpots alone, at x and v
-  Points wind;      // by both winds, at x and t, with the free particles at rest
+  Points springs;   // springs alone, at x
+  Points bending;   // bending alone, at x
+  Points dashpots;  // dashpots alone, at x and v
+  Points wind;      // both winds, at x and t, with the free particles at rest
 };
 
-/// The scene as the engine built it, read from its own data structures after the first step. Empty members are not
-/// reported.
+/// The scene as the engine built it, read from its own data structures after the first step. Empty: not reported.
 struct Readback {
   struct Link {
     int a, b;                         // ends, in the scene's numbering
     double rest;                      // m
-    std::optional<double> stiffness;  // N/m; if the engine does not report it, the probe does
+    std::optional<double> stiffness;  // N/m; empty: the probe reports it
   };
   struct Ball {
     Vec3 centre;                        // m, at the start
@@ -112,12 +108,12 @@ struct Readback {
     std::optional<double> friction;     // Coulomb's mu
     std::optional<double> restitution;  // e
   };
-  /// Pins, spheres and planes in the engine at another time.
+  /// Positions of pins, spheres and planes in the engine at another time.
   struct Places {
     double t;                   // s
     Points pins;                // m, in the scene's order
     std::vector<Vec3> centres;  // m, of spheres
-    std::vector<Vec3> points;   // m, of planes: the points of the faces at that time
+    std::vector<Vec3> points;   // m, of planes, as Face::point
   };
   std::vector<double> mass;  // kg; 0 if the engine holds the particle fixed
   std::vector<char> pinned;  // 1 where fixed
@@ -127,31 +123,31 @@ struct Readback {
   std::optional<std::vector<double>> drag;  // 1/s, drag rate gamma of each free particle
   std::optional<std::vector<Ball>> spheres;
   std::optional<std::vector<Face>> planes;
-  std::optional<Places> later;                  // positions of moved objects at a later time
+  std::optional<Places> later;                  // positions of moved objects
   std::optional<double> margin;                 // m, half the thickness of the cloth
-  std::optional<State> start;                   // positions and velocities from which the first step began
+  std::optional<State> start;                   // positions and velocities before the first step
   std::optional<double> step;                   // s
   std::string precision;                        // "double" or "single"
   std::optional<bool> may_sleep;                // the engine may freeze slow bodies
-  std::map<std::string, std::string> settings;  // other settings that affect the engine's results: name -> value
+  std::map<std::string, std::string> settings;  // other settings that affect results: name -> value
   std::map<std::string, std::string> mapped;    // quantity -> how it was transferred, for the certificate
 };
 
 struct Outcome {
   Verdict verdict = Verdict::ok;
   std::string reason;                      // one sentence if the verdict is not ok
-  double end = 0;                          // s, last time reached; the time of failure if the verdict is not ok
-  double step = 0;                         // s, as used; the mean for adaptive methods
-  bool adaptive = false;                   // an external program reports that it chooses its steps
-  bool serves = false;                     // one process of an external program can run many scenes
-  std::string engine;                      // name and version of an external program's engine
-  double tolerance = 0;                    // adaptive methods only, dimensionless; otherwise 0
+  double end = 0;                          // s, last time reached or time of failure
+  double step = 0;                         // s, as used; mean of adaptive methods
+  bool adaptive = false;                   // an external program chooses its steps
+  bool serves = false;                     // an external program can run many scenes in one process
+  std::string engine;                      // name and version, of an external program
+  double tolerance = 0;                    // tolerance of adaptive methods, dimensionless; otherwise 0
   long steps = 0;                          // taken
   long evaluations = 0;                    // right-hand side evaluations, or the engine's own force passes
-  long degenerate_springs = 0;             // springs at zero length, summed over the evaluations
+  long degenerate_springs = 0;             // springs at zero length, summed over evaluations
   double cpu_seconds = 0;                  // stepping threads, without observers; as reported by an external program
-  double process_seconds = 0;              // CPU time of an external process, including start-up and files; otherwise 0
-  std::string remark;                      // further remarks for the reader, e.g. complaints of an external program
+  double process_seconds = 0;              // CPU time of an external program, including start-up and files; otherwise 0
+  std::string remark;                      // e.g. complaints of an external program
   std::vector<std::string> different_law;  // ingredients that the engine models by another law, one sentence each
   std::optional<Readback> readback;
 };

@@ -1,4 +1,3 @@
-// Expansion of a grid into particles, springs and triangles.
 #include "mysim/scene/grid.h"
 
 #include <fmt/ranges.h>
@@ -12,7 +11,7 @@
 namespace crosscheck {
 namespace {
 
-/// Number of springs that grid_springs() makes, including those of an inextensible grid.
+/// Counts those of an inextensible grid, too.
 double springs_of_grid(const Grid& g) {
   const double a = g.nu, b = g.nv, c = g.nw;
   double count = (a - 1) * b * c + a * (b - 1) * c + a * b * (c - 1);
@@ -22,9 +21,8 @@ double springs_of_grid(const Grid& g) {
   return count;
 }
 
-/// Throws if the grid would not fit into memory even as a scene that is never run, and reports the numbers. Counts each
-/// spring twice (the list and its copy while it is passed on and sorted), and position, velocity and mass of each
-/// particle.
+/// Throws, with the numbers, if the grid as a scene would not fit into memory. Counts each spring twice (the list, and
+/// its copy when it is passed on and sorted), and each particle's position, velocity and mass.
 void require_memory_of_grid(const TomlTable& s, const Grid& g) {
   const double springs = springs_of_grid(g);
   const double stencils = g.bending > 0 ? 3. * g.size() : 0;
@@ -87,7 +85,7 @@ Grid read_grid(const TomlTable& s) {
   if (s.has("bending")) {
     g.bending = s.positive("bending");
     if (g.nw > 1) s.fail("bending", "none with a size of three numbers, which is a block: a sheet bends");
-    // 1e-9: perpendicular up to the rounding of decimal numbers
+    // 1e-9: rounding of decimal numbers
     if (std::abs(g.u.dot(g.v)) > 1e-9 * g.u.norm() * g.v.norm())
       s.fail("bending", "none where u and v are not at right angles: it is derived for those that are");
   }
@@ -109,7 +107,7 @@ Points grid_points(const Grid& g) {
 
 std::vector<Spring> grid_springs(const Grid& g) {
   std::vector<Spring> list;
-  list.reserve((g.nw > 1 ? 12L : 6L) * g.size());  // per particle, except at the edges; large cloths fill the memory
+  list.reserve((g.nw > 1 ? 12L : 6L) * g.size());  // per particle, except at edges; large cloths fill the memory
   const Vec3* side[3] = {&g.u, &g.v, &g.w};
   const int size[3] = {g.nu, g.nv, g.nw}, stride[3] = {1, g.nu, g.nu * g.nv};
   using Steps = std::array<int, 3>;
@@ -168,7 +166,7 @@ Bending grid_bending(const Grid& g) {
 
 std::vector<std::array<int, 3>> grid_triangles(const Grid& g) {
   std::vector<std::array<int, 3>> list;
-  // a face of n by m particles that starts at `first`, with the given strides between neighbours
+  // a face of n by m particles from `first` on, with the given strides
   auto face = [&](int first, int n, int step_n, int m, int step_m) {
     for (int j = 0; j + 1 < m; ++j)
       for (int i = 0; i + 1 < n; ++i) {

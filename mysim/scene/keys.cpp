@@ -1,4 +1,4 @@
-// The table of all keys of a scene file. A new key is one line here and one line where it is read.
+// A new key is one line here and one line where it is read.
 #include "mysim/scene/keys.h"
 
 namespace crosscheck {

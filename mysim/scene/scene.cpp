@@ -1,4 +1,3 @@
-// Scene files: expansion into particles, springs and terms, and the fingerprint of the result.
 #include "mysim/scene/scene.h"
 
 #include <fmt/format.h>
@@ -107,14 +106,13 @@ namespace {
 
 constexpr auto without_mass = "which makes the scene first-order: without mass and without forces";
 
-/// One coefficient c for all particles, or gamma (1/s), which means c_i = gamma m_i.
 Drag read_drag(const TomlTable& s, const Particles& particles) {
   if (s.has("coefficient") && s.has("gamma")) s.fail("gamma", "either coefficient (N s/m) or gamma (1/s), not both");
   if (s.has("gamma")) return {s.positive("gamma") * particles.mass};
   return {Eigen::VectorXd::Constant(particles.size(), s.positive("coefficient"))};
 }
 
-/// Reads the mean wind from `key`, and [gusts] from the same table.
+/// Mean wind from `key`, and [gusts] of the same table.
 WindSignal read_wind_signal(const TomlTable& s, std::string_view key) {
   WindSignal wind_signal{s.vec3(key), std::nullopt};
   if (s.has("gusts")) {
@@ -132,7 +130,6 @@ Aerodynamics read_aerodynamics(const TomlTable& s, const std::vector<std::array<
 
 Motion read_motion(const TomlTable& s) { return {s.vec3("amplitude"), s.positive("frequency"), s.positive("ramp")}; }
 
-/// Margin, friction and restitution of a sphere or a plane.
 template <class Solid>
 void read_contact(const TomlTable& s, Solid& solid) {
   if (s.has("margin")) solid.margin = s.not_negative("margin");
@@ -158,8 +155,8 @@ Plane read_plane(const TomlTable& s) {
   return plane;
 }
 
-// The table of terms with a section of their own; springs, bending, dashpots and constraints come from [grid],
-// [[spring]] and [[constraint]].
+// The terms with a section of their own; springs, bending, dashpots and constraints come from [grid], [[spring]] and
+// [[constraint]].
 struct TermReader {
   std::string_view key;
   Term (*read)(const TomlTable&, const Scene&);
@@ -173,7 +170,6 @@ constexpr TermReader term_readers[] = {
      [](const TomlTable& s, const Scene& scene) -> Term { return read_aerodynamics(s, scene.triangles); }},
 };
 
-/// Particles of [grid] come first, then those of [[particle]].
 void read_particles(const TomlTable& file, const std::optional<Grid>& grid, bool first_order, Scene& scene) {
   const std::vector<TomlTable> single = file.sections("particle");
   const int on_grid = grid ? grid->size() : 0;
@@ -192,16 +188,16 @@ void read_particles(const TomlTable& file, const std::optional<Grid>& grid, bool
   for (int i = on_grid; i < n; ++i) {
     const TomlTable& p = single[i - on_grid];
     scene.start.x.col(i) = p.vec3("position");
-    if (first_order) continue;  // a mass or a velocity is rejected later
+    if (first_order) continue;  // masses and velocities are rejected later
     scene.model.particles.mass[i] = p.positive("mass");
     if (p.has("velocity")) scene.start.v.col(i) = p.vec3("velocity");
   }
 }
 
-/// The two particles of a [[spring]] or [[constraint]], and their initial distance.
+/// The ends of a [[spring]] or [[constraint]].
 struct Ends {
   int a, b;
-  double distance;  // m
+  double distance;  // m, at the start
 };
 Ends read_ends(const TomlTable& s, const Scene& scene) {
   const std::vector<int> ends = s.integers("ends");
@@ -227,7 +223,7 @@ Family read_family(const TomlTable& s) {
                                did_you_mean(word, words)));
 }
 
-/// Reads springs, bending, dashpots and hard distances: the grid's first, then single ones.
+/// Springs, bending, dashpots and hard distances: first the grid's, then single ones.
 void read_pairs(const TomlTable& file, const std::optional<Grid>& grid, Scene& scene) {
   Springs springs;
   Dashpots dashpots;
@@ -257,7 +253,7 @@ void read_pairs(const TomlTable& file, const std::optional<Grid>& grid, Scene& s
   for (const TomlTable& s : file.sections("constraint")) {
     const auto [a, b, distance] = read_ends(s, scene);
     const double length = s.has("length") ? s.positive("length") : distance;
-    // 1e-9: equal up to the rounding of a decimal number
+    // 1e-9: rounding of decimal numbers
     if (!(std::abs(distance - length) <= 1e-9 * length) || distance == 0)
       s.fail("ends", fmt::format("ends that are {:.6g} m apart at the start, as they must stay, got {:.6g} m", length,
                                  distance));
@@ -281,7 +277,7 @@ void read_pairs(const TomlTable& file, const std::optional<Grid>& grid, Scene& s
   if (!constraints.list.empty()) scene.model.terms.emplace_back(std::move(constraints));
 }
 
-/// Reads an initial state that differs from the one that defines the springs' default lengths.
+/// An initial state that differs from the one that defines the springs' default lengths.
 void read_start(const TomlTable& file, bool first_order, Scene& scene) {
   if (!file.has("start")) return;
   const TomlTable s = file.section("start");
@@ -299,7 +295,7 @@ void read_spheres(const TomlTable& file, Scene& scene) {
     const Sphere sphere = read_sphere(s);
     for (int i = 0; i < particles.size(); ++i) {
       const double distance = (scene.start.x.col(i) - sphere.centre).norm();
-      // 1e-9 of the radius: a particle on the surface up to the rounding of a decimal number is not inside
+      // 1e-9: a particle may be inside by the rounding of a decimal number
       if (!particles.pinned[i] && distance < (1 - 1e-9) * sphere.contact_radius())
         s.fail("radius",
                fmt::format("no particle inside radius + margin at the start, got particle {} at {:.6g} m of the "
@@ -312,8 +308,8 @@ void read_spheres(const TomlTable& file, Scene& scene) {
   scene.model.terms.emplace_back(std::move(spheres));
 }
 
-/// Distance between two opposite planes minus their margins (m). Nothing if the sine of the angle between them exceeds
-/// the rounding of a decimal number.
+/// Distance between two opposite planes minus their margins (m). Nothing if the sine of their angle exceeds the
+/// rounding of a decimal number.
 std::optional<double> width_between(const Plane& a, const Plane& b) {
   if (!(a.normal.dot(b.normal) < 0 && a.normal.cross(b.normal).norm() < 1e-9)) return std::nullopt;
   return (b.point - a.point).dot(a.normal) - a.margin - b.margin;
@@ -323,7 +319,7 @@ void read_planes(const TomlTable& file, Scene& scene) {
   if (!file.has(Planes::name)) return;
   Planes planes;
   const Particles& particles = scene.model.particles;
-  // a particle on a plane up to the rounding of a decimal number is not behind it
+  // a particle may be behind a plane by the rounding of a decimal number
   const double rounding = 1e-9 * (scene.size() + largest_column(scene.start.x));
   for (const TomlTable& s : file.one_or_more(Planes::name)) {
     const Plane plane = read_plane(s);
@@ -364,7 +360,7 @@ void read_pins(const TomlTable& file, Scene& scene) {
   particles.pin_home.resize(3, static_cast<int>(particles.pins.size()));
   for (size_t i = 0; i < particles.pins.size(); ++i)
     particles.pin_home.col(static_cast<int>(i)) = scene.start.x.col(particles.pins[i]);
-  // pins keep their mutual distances anyway
+  // pins keep their distances anyway
   if (auto* constraints = scene.model.find<Constraints>())
     std::erase_if(constraints->list, [&](const auto& c) { return particles.pinned[c.a] && particles.pinned[c.b]; });
   if (static_cast<int>(particles.pins.size()) == particles.size())
@@ -391,11 +387,11 @@ void read_time(const TomlTable& file, Scene& scene) {
            fmt::format("a window not longer than the duration of {} s, got {} s", scene.duration, scene.window));
   scene.tolerance = s.positive("tolerance");
   scene.method = s.text("method");
-  // a program: only the command line may name one, not a file (load_scene())
+  // only the command line may name a program (load_scene())
   if (scene.method.find(':') != std::string::npos) scene.method.clear();
 }
 
-/// Checks the values to which `crosscheck advise` fits parameters; engines do not read them.
+/// Checks the targets of `crosscheck advise`; engines do not read them.
 void check_wish(const TomlTable& file) {
   if (!file.has("wish")) return;
   const TomlTable s = file.section("wish");
@@ -476,7 +472,7 @@ double Scene::size() const {
   if (const auto* spheres = model.find<Spheres>())
     for (const Sphere& sphere : spheres->list)
       length = length > 0 ? std::min(length, sphere.contact_radius()) : sphere.contact_radius();
-  if (const auto* planes = model.find<Planes>())  // opposite planes bound the motion
+  if (const auto* planes = model.find<Planes>())  // opposite planes limit the motion
     for (const Plane& a : planes->list)
       for (const Plane& b : planes->list)
         if (const auto width = width_between(a, b)) length = std::min(length, *width);

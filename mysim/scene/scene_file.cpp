@@ -1,4 +1,4 @@
-// Reading of scene files, separate from scene.cpp so that the engine can be built without file access.
+// Separate from scene.cpp so that the engine can be built without file access.
 #include "mysim/base/files.h"
 #include "mysim/base/names.h"
 #include "mysim/scene/scene.h"

@@ -1,10 +1,10 @@
-// TomlTable and the check of keys, on top of toml++. No other file includes a TOML library.
+// The only file that includes a TOML library (toml++).
 #include "mysim/scene/toml.h"
 
 #include <fmt/ranges.h>
-// parse errors are values, so that builds without exceptions report them too
+// parse errors are values, also in builds without exceptions
 #define TOML_EXCEPTIONS 0
-// toml++ asserts (and under NDEBUG lets clang assume) that header keys are well-formed, but files decide that
+// toml++ asserts (and under NDEBUG lets clang assume) that header keys are well-formed, which depends on the file
 #define TOML_ASSERT(expr) static_assert(true)
 #pragma push_macro("NDEBUG")
 #undef NDEBUG
@@ -26,7 +26,7 @@ namespace crosscheck {
 
 namespace {
 
-/// Text between two positions of a file (counted in code points from 1), on one line, shortened if long.
+/// Text between two positions (in code points from 1), on one line, shortened if long.
 std::string written_between(std::string_view text, const toml::source_region& where) {
   std::size_t at = 0;
   for (toml::source_index line = 1; line < where.begin.line && at < text.size(); ++at) line += text[at] == '\n';
@@ -52,17 +52,16 @@ std::string written_between(std::string_view text, const toml::source_region& wh
   return out.substr(0, cut) + "...";
 }
 
-/// A value as messages show it: as written in the file.
 std::string as_written(const toml::node& n, std::string_view text) {
   if (n.is_table() && !n.as_table()->is_inline()) return "a table";
   if (n.is_array_of_tables()) return "tables";
   return written_between(text, n.source());
 }
 
-/// A question ends its sentence; anything else continues after a semicolon.
+/// Continues a sentence after a semicolon, unless it is a question.
 std::string and_then(const std::string& question) { return question.ends_with('?') ? question : question + ";"; }
 
-/// Hint for a value of another type that looks like a number.
+/// Hint for a value that is no number but looks like one.
 std::string mended_number(const toml::node& n) {
   if (const auto* word = n.as_string()) {
     const std::string& text = word->get();
@@ -82,7 +81,7 @@ std::string mended_number(const toml::node& n) {
   return "";
 }
 
-/// The key in a line of the text, resolved by the headers above it; null if there is none.
+/// The key in a line of the text, below the headers above it; null if there is none.
 const Key* key_in_line(std::string_view text, int line, std::span<const Key> keys) {
   std::span<const Key> here = keys;
   const auto find = [](std::span<const Key> among, std::string_view name) {
@@ -119,7 +118,7 @@ std::shared_ptr<const toml::table> parse(std::string_view text, const std::strin
   const toml::parse_error& e = parsed.error();
   TomlError fault = diagnose_toml(text, static_cast<int>(e.source().begin.line), e.description());
   if (const Key* key = key_in_line(text, fault.line, keys); key && key->kind == Key::Kind::value) {
-    // quotes do not mend a word where a number is expected
+    // quotes do not mend a word in place of a number
     if (fault.what.starts_with("expected a text in quotes") && key->expected.find('"') == std::string_view::npos &&
         key->expected.find("quotes") == std::string_view::npos)
       fault.what = "unexpected word" + fault.what.substr(fault.what.find("; the line"));
@@ -324,7 +323,7 @@ std::vector<TomlTable> TomlTable::one_or_more(std::string_view key) const {
 }
 
 void TomlTable::fail(std::string_view key, const std::string& expected) const {
-  // key[i] is an entry of a list; long lists have one line per entry
+  // key[i] is an entry of a list, which may have a line of its own
   const toml::node* n = node_->table->get(key.substr(0, key.find('[')));
   if (const toml::node* entry = n ? (*node_->table).at_path(key).node() : nullptr) n = entry;
   const bool shown = n && n->is_value() && expected.find("got ") == std::string::npos;
@@ -345,7 +344,7 @@ void TomlTable::finish() const {
 
 namespace {
 
-/// Validation of a file against a table of keys, one TOML table after another.
+/// Checks a file against the keys, one TOML table after another.
 class KeyCheck {
  public:
   KeyCheck(std::string_view text, const std::string& file, std::span<const Key> keys)
@@ -368,10 +367,10 @@ class KeyCheck {
   }
 
  private:
-  /// The key as written in a file, with its expected value.
+  /// The key as written in a file, with its expected content.
   static std::string written(const std::string& path, const Key& key) {
     std::string name = full_key(path, key.name), keys, more;
-    // [[sphere]] contains [sphere.motion], without an index
+    // [sphere.motion] belongs to [[sphere]], without an index
     while (name.find('[') != std::string::npos) name.erase(name.find('['), name.find(']') - name.find('[') + 1);
     if (key.kind == Key::Kind::value) return fmt::format("{} = {}", key.name, key.expected);
     for (const Key& below : key.below)
@@ -383,7 +382,7 @@ class KeyCheck {
     throw InputError(fmt::format("{}:{}: {}", file_, std::max<toml::source_index>(line, 1), what));
   }
 
-  /// Every key of the file, with a description of the table it belongs to.
+  /// Every key of the file, and a description of its table.
   using Owned = std::pair<std::string, std::string>;
   void owners(std::span<const Key> keys, const std::string& path, const std::string& table, const std::string& here,
               std::vector<Owned>& out) const {
@@ -395,7 +394,7 @@ class KeyCheck {
     }
   }
 
-  /// Hint about the table to which an unknown key belongs; empty if no table has such a key.
+  /// Hint at the table of an unknown key; empty if no table has such a key.
   std::string elsewhere(std::string_view key, const std::string& here) const {
     std::vector<Owned> all;
     owners(all_, "", "the top of the file, before the first [table]", here, all);
@@ -405,14 +404,14 @@ class KeyCheck {
       if (name == key) tables.push_back(table);
     }
     if (!tables.empty()) return fmt::format("; it belongs to {}", fmt::join(tables, " or "));
-    if (key.size() < 6) return "";  // short words resemble too many keys
+    if (key.size() < 6) return "";  // resembles too many keys
     const std::string meant = closest_match(key, names);
     for (const auto& [name, table] : all)
       if (name == meant) return fmt::format("; did you mean '{}' of {}?", name, table);
     return "";
   }
 
-  /// True if the key may be omitted from the innermost table.
+  /// True if the innermost table need not contain the key.
   bool may_miss(const Key& key) const {
     const auto has = [&](const toml::table* table) { return table->contains(key.unless); };
     return !key.required || (!key.unless.empty() && std::any_of(around_.begin(), around_.end(), has));
@@ -423,7 +422,7 @@ class KeyCheck {
     return included ? "" : fmt::format(", unless the file has '{}'", key.unless);
   }
 
-  /// Reports unknown and missing keys together, since they are often the same mistake.
+  /// Reports unknown and missing keys together, because they are often the same mistake.
   void names(const toml::table& table, const std::string& path, std::span<const Key> keys) const {
     std::vector<std::string> known, absent;
     for (const Key& key : keys) {
@@ -439,7 +438,7 @@ class KeyCheck {
       if (std::find(known.begin(), known.end(), key.str()) != known.end()) continue;
       std::string here = path;
       while (here.find('[') != std::string::npos) here.erase(here.find('['), here.find(']') - here.find('[') + 1);
-      // prefer a missing key to one that is already present
+      // a missing key is likelier than one that is present
       const std::string meant = closest_match(key.str(), absent);
       std::string hint = elsewhere(key.str(), here);
       const bool lacks = std::any_of(missing.begin(), missing.end(), [&](const Key* k) { return k->name == meant; });
@@ -452,7 +451,7 @@ class KeyCheck {
       }
       unknown.emplace_back(key.source().begin.line, fmt::format("{}: unknown key{}", full_key(path, key.str()), hint));
     }
-    // keys found here that belong to a missing table: only its header is missing
+    // keys of a missing table that are present: only its header is missing
     const auto only_header = [&](const Key& key) {
       return std::any_of(unknown.begin(), unknown.end(), [&](const auto& one) {
         return one.second.ends_with(fmt::format("; it belongs to [{}]", full_key(path, key.name)));
@@ -484,7 +483,7 @@ class KeyCheck {
                      one_value ? std::string(missing[0]->expected) + unless_clause(*missing[0]) : lacking));
   }
 
-  /// Reports values that should be tables, and single tables that should be arrays of tables.
+  /// Reports values that should be tables, and single tables that should be arrays.
   void kinds(const toml::table& table, const std::string& path, std::span<const Key> keys) const {
     for (const Key& key : keys) {
       const toml::node* n = table.get(key.name);
@@ -519,7 +518,7 @@ class KeyCheck {
   std::string_view text_;
   const std::string& file_;
   std::span<const Key> all_;
-  std::vector<const toml::table*> around_;  // the table being checked and the enclosing ones
+  std::vector<const toml::table*> around_;  // the table being checked, and the enclosing ones
 };
 
 }  // namespace
@@ -540,7 +539,7 @@ struct TomlDocument::Tree {
   toml::table root;
   std::string file;
 
-  /// The table that contains a path's last key, and that key.
+  /// The table of a path's last key, and that key.
   std::pair<toml::table&, std::string_view> parent(std::string_view path) {
     const size_t dot = path.rfind('.');
     if (dot == std::string_view::npos) return {root, path};

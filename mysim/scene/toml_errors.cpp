@@ -1,4 +1,4 @@
-// Common errors in hand-written TOML files, recognised from the line that contains them.
+// Recognises common errors in hand-written TOML from the line that contains them.
 
 #include <fmt/format.h>
 
@@ -12,12 +12,12 @@
 namespace crosscheck {
 namespace {
 
-/// A line without its comment and with the content of its texts blanked, so that only syntax remains.
+/// A line without comment and content of texts, so that only syntax remains.
 struct BareLine {
-  std::string code;     // same length as the line up to its comment; the content of texts is '_'
+  std::string code;     // as long as the line up to its comment; content of texts is '_'
   std::string shown;    // the original line, trimmed
-  bool open = false;    // contains a text that is not closed
-  bool inside = false;  // begins inside a multi-line text
+  bool open = false;    // a text is not closed
+  bool inside = false;  // begins in a multi-line text
 };
 
 std::string trimmed_line(std::string_view text) {
@@ -27,7 +27,7 @@ std::string trimmed_line(std::string_view text) {
 
 std::vector<BareLine> bare_lines(std::string_view text) {
   std::vector<BareLine> lines;
-  std::string_view fence;  // delimiter of the open multi-line text: """ or '''
+  std::string_view fence;  // of the open multi-line text: """ or '''
   for (std::size_t begin = 0; begin <= text.size();) {
     const std::size_t end = std::min(text.find('\n', begin), text.size());
     const std::string_view line = text.substr(begin, end - begin);
@@ -60,7 +60,7 @@ std::vector<BareLine> bare_lines(std::string_view text) {
   return lines;
 }
 
-/// The code point that begins at `at`, and its length in bytes; nothing if the bytes are not UTF-8.
+/// The code point at `at`, and its length in bytes; nothing if it is not UTF-8.
 std::optional<std::pair<char32_t, int>> code_point_at(std::string_view text, std::size_t at) {
   const auto byte = [&](std::size_t i) { return static_cast<unsigned char>(text[i]); };
   const int length = byte(at) < 0x80       ? 1
@@ -90,7 +90,7 @@ std::string strange_character(char32_t c, std::string_view as_written) {
                      as_written, static_cast<unsigned>(c));
 }
 
-/// Characters and bytes that TOML never allows, anywhere in the file.
+/// Characters and bytes that TOML does not allow anywhere.
 std::optional<TomlError> strange_characters(std::string_view text) {
   if (text.find('\0') != std::string_view::npos)
     return TomlError{1, "the file is not plain text (it may be UTF-16); expected text saved as UTF-8"};
@@ -233,8 +233,7 @@ std::string wrong_with_line(const BareLine& line) {
   return wrong_with_value(value);
 }
 
-/// A list or braces that are still open when the next key or table begins, at the line where the parser stumbled or
-/// before.
+/// A list or braces still open when the next key or table begins, up to the line where the parser stumbled.
 std::optional<TomlError> open_list(const std::vector<BareLine>& lines, int stumbled) {
   int depth = 0, opened = 0;
   const int seen = std::min(stumbled + 1, static_cast<int>(lines.size()));
@@ -258,7 +257,7 @@ std::optional<TomlError> open_list(const std::vector<BareLine>& lines, int stumb
   return std::nullopt;
 }
 
-/// Reports a duplicate key or header, with the line of its first definition, found by searching upwards.
+/// A duplicate key or header, with the line of its first definition.
 std::optional<TomlError> standing_twice(const std::vector<BareLine>& lines, int line, std::string_view description) {
   if (description.find("redefine") == std::string_view::npos || line < 1 || line > static_cast<int>(lines.size()))
     return std::nullopt;

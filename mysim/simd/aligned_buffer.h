@@ -1,4 +1,3 @@
-// Memory for kernels: arrays aligned to a cache line.
 #pragma once
 
 #include <algorithm>
@@ -11,7 +10,7 @@
 
 namespace crosscheck::simd {
 
-/// An array aligned to a cache line, with one spare cache line on either side.
+/// An array aligned to a cache line, with a spare cache line on either side.
 template <class T>
 class AlignedBuffer {
  public:

@@ -1,4 +1,3 @@
-// Instruction sets of this machine, and the selected one.
 #include "mysim/simd/instruction_sets.h"
 
 #include <fmt/format.h>

@@ -1,4 +1,4 @@
-// Selection of the instruction set for the kernels, at first use.
+// Selects the instruction set of the kernels, at first use.
 #pragma once
 
 #include <string_view>
@@ -6,7 +6,7 @@
 
 namespace crosscheck::simd {
 
-/// baseline: available on every machine, two doubles per register, nothing fused (SSE2, NEON, WebAssembly).
+/// baseline: two doubles per register, nothing fused, on every machine (SSE2, NEON, WebAssembly).
 enum class InstructionSet { baseline, avx2, avx512 };
 std::string_view name_of(InstructionSet isa);
 
@@ -16,7 +16,7 @@ Function select(InstructionSet isa, Function baseline, Function avx2, Function a
 }
 
 /// Declares functions that a file compiled once per instruction set defines in `namespace CROSSCHECK_ISA`;
-/// SELECT_COMPILED selects the version compiled for `isa`.
+/// SELECT_COMPILED selects the version of `isa`.
 #define COMPILED_FOR_EACH_INSTRUCTION_SET(...) \
   namespace baseline {                         \
   __VA_ARGS__;                                 \
@@ -29,15 +29,15 @@ Function select(InstructionSet isa, Function baseline, Function avx2, Function a
   }
 #ifdef __x86_64__
 #define SELECT_COMPILED(isa, name) ::crosscheck::simd::select(isa, &baseline::name, &avx2::name, &avx512::name)
-#else  // ARM64 and WebAssembly have only the baseline
+#else  // ARM64 and WebAssembly
 #define SELECT_COMPILED(isa, name) (static_cast<void>(isa), &baseline::name)
 #endif
 
-/// The instruction sets of this machine, best last.
+/// Instruction sets of this machine, best last.
 std::vector<InstructionSet> supported_instruction_sets();
 
-/// The best instruction set, or the one named by CROSSCHECK_INSTRUCTIONS (baseline, avx2, avx512). Throws InputError if
-/// the name is unknown or the machine lacks the instruction set.
+/// The best one, or the one named by CROSSCHECK_INSTRUCTIONS (baseline, avx2, avx512). Throws InputError if the name is
+/// unknown or the machine lacks it.
 InstructionSet active_instruction_set();
 
 }  // namespace crosscheck::simd

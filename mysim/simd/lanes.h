@@ -1,15 +1,13 @@
-// SIMD wrapper: the only file that contains intrinsics. It is compiled once per instruction set, in a namespace of its
-// own and without any std:: function, so that no instruction of a newer machine can end up in shared code.
+// The only file with intrinsics. It is compiled once per instruction set, in a namespace of its own and without any
+// std:: function, so that no newer instruction can end up in shared code.
 //
-// Lanes<T> holds as many numbers as one register, with + - * of the compiler's vector types and the few operations that
-// these lack: loads, fused multiply-add, minimum and maximum, and 1 / sqrt. Points are stored as x y z x y z:
-// add_points converts lanes of x, of y and of z to this order. A record is four numbers, x y z and a 0; Records are as
-// many records as there are lanes. Records are loaded whole from any address, and only the sums of their squares are
-// converted to lanes.
+// Lanes<T> holds as many numbers as a register, with + - * of the compiler's vector types and the few operations that
+// these lack: loads, fused multiply-add, minimum and maximum, 1 / sqrt. Points are stored as x y z x y z; add_points
+// converts lanes of x, of y and of z to this order. A record is four numbers: x y z 0. Records are one record per lane,
+// loaded whole from any address; only the sums of their squares are converted to lanes.
 //
-// Highway is not used: Debian's version (1.0.3) has no SSE2 target, so the build that every machine runs would have one
-// lane and take 1.9 to 2.7 times as long (measured on 1 - 1 / sqrt(s)). It also has no estimate of 1 / sqrt in double
-// precision.
+// Highway is not used: Debian's version (1.0.3) has no SSE2 target, so the build for every machine would have one lane
+// and take 1.9 to 2.7 times as long (measured on 1 - 1 / sqrt(s)), and no estimate of 1 / sqrt in double precision.
 #pragma once
 
 #ifdef __SSE2__
@@ -182,8 +180,8 @@ struct Lanes<float> {
   FORCE_INLINE bool any_less(V a, V b) { return _mm256_movemask_ps(_mm256_cmp_ps(a, b, _CMP_LT_OQ)) != 0; }
 };
 
-#else  // the baseline, two doubles or four floats: SSE2, NEON and WebAssembly. Nothing is fused, and no seed is worth
-       // its steps
+#else  // baseline, two doubles or four floats: SSE2, NEON and WebAssembly. Nothing is fused, and an estimate of 1 /
+       // sqrt does not pay
 
 #define PERMUTE __builtin_shufflevector
 
@@ -280,8 +278,8 @@ struct Lanes<float> {
 
 #endif
 
-/// Lanes for code that must give the same bits on every machine unless `fast`. If `fast`, fma() and fnma() are fused
-/// where the machine can; otherwise their products are rounded.
+/// Lanes that give the same bits on every machine unless `fast`: then fma() and fnma() are fused where possible;
+/// otherwise their products are rounded.
 template <class T, bool fast>
 struct Arithmetic : Lanes<T> {
   using V = typename Lanes<T>::V;
@@ -295,10 +293,10 @@ struct Arithmetic : Lanes<T> {
   }
 };
 
-/// 1 / sqrt(s) to 2 units in the last place, s > 0: by square root and division, which round identically everywhere,
-/// or, if `fast`, from the machine's own estimate, which differs between vendors. With e = 1 - s y^2, of the order of
+/// 1 / sqrt(s), s > 0, to 2 units in the last place: by square root and division, which round identically everywhere,
+/// or, if `fast`, from the machine's own estimate y, which differs between vendors. With e = 1 - s y^2, of the order of
 /// the estimate's error, 1 / sqrt(s) = y (1 + e/2 + 3/8 e^2 + 5/16 e^3 + ...). The correction is added to y, so that
-/// only its last digits are affected by rounding.
+/// rounding affects only its last digits.
 template <class T, bool fast>
 FORCE_INLINE typename Lanes<T>::V rsqrt(typename Lanes<T>::V s) {
   using L = Lanes<T>;

@@ -1,4 +1,3 @@
-// Threads that spin, then yield, then sleep until the next piece of work.
 #include "mysim/simd/thread_pool.h"
 
 #include <atomic>
@@ -11,7 +10,6 @@
 namespace crosscheck::simd {
 namespace {
 
-/// Tells the processor that this thread is spinning.
 void pause() {
 #ifdef __x86_64__
   __builtin_ia32_pause();
@@ -20,9 +18,9 @@ void pause() {
 #endif
 }
 
-/// Waits until `number` differs from `known`; returns its new value.
+/// Waits until `number` differs from `known`; returns it.
 long wait_for_change(const std::atomic<long>& number, long known) {
-  constexpr int spins = 2000, yields = 2000;  // some tens of microseconds; about a millisecond
+  constexpr int spins = 2000, yields = 2000;  // some 10 us; about a millisecond
   for (int i = 0; i < spins + yields; ++i) {
     if (const long now = number.load(std::memory_order_acquire); now != known) return now;
     if (i < spins)
@@ -45,7 +43,7 @@ struct ThreadPool::Workers {
 
   std::vector<Worker> list;
   const std::function<void(int)>* work = nullptr;  // null: terminate
-  std::atomic<long> begun = 0, done = 0;           // pieces begun; pieces that other threads completed
+  std::atomic<long> begun = 0, done = 0;           // pieces begun, and pieces completed by other threads
 };
 
 ThreadPool::ThreadPool(int threads) : workers_(std::make_unique<Workers>()) {

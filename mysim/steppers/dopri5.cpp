@@ -1,4 +1,4 @@
-// Stages, error estimate and interpolant of the Dormand-Prince pair, and its fifth-order rule at a fixed step.
+// The Dormand-Prince pair with error estimate and interpolant, and its fifth-order rule at a fixed step.
 #include "mysim/steppers/steppers.h"
 
 #include <cassert>
@@ -18,13 +18,13 @@ constexpr double weight[7][6] = {
 };
 // fifth-order weights minus fourth-order weights
 constexpr double error_weight[7] = {71. / 57600, 0, -71. / 16695, 71. / 1920, -17253. / 339200, 22. / 525, -1. / 40};
-// correction of the interpolant to the cubic through both ends and their slopes
+// correction to the cubic through both ends and their slopes
 constexpr double dense_weight[7] = {-12715105075. / 11282082432,  0,
                                     87487479700. / 32700410799,   -10690763975. / 1880347072,
                                     701980252875. / 199316789632, -1453857185. / 822651844,
                                     69997945. / 29380423};
 
-/// Computes out = sum of weights[j] k[j], for both parts of a state.
+/// out = sum of weights[j] k[j].
 template <size_t N>
 void combine(const std::array<State, 7>& k, const double (&weights)[N], State& out) {
   out.x.setZero();

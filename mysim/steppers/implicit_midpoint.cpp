@@ -1,5 +1,5 @@
-// Implicit midpoint: v' = v + h F(x_m, v_m, t + h/2) / m and x' = x + h v_m, with x_m, v_m the means of old and new.
-// The midpoint is an implicit Euler step of h/2; the end is as far beyond it as the start is before it.
+// Implicit midpoint: v' = v + h F(x_m, v_m, t + h/2) / m and x' = x + h v_m, with the means x_m, v_m of old and new.
+// The midpoint is an implicit Euler step of h/2; the full step is twice its increment.
 
 #include "mysim/implicit/newton.h"
 #include "mysim/steppers/steppers.h"

@@ -1,20 +1,19 @@
 // Leapfrog in drift-kick-drift form: one force evaluation per step, at the midpoint. Drag is averaged over old and new
-// velocity, v' = v + h a - h gamma (v + v') / 2, so that the step remains its own inverse under h -> -h and of order 2.
+// velocity, v' = v + h a - h gamma (v + v') / 2, so that the step is its own inverse under h -> -h and of order 2.
 
 #include "mysim/steppers/steppers.h"
 
 namespace crosscheck {
 namespace {
 
-/// Writes v' = v + h (a - gamma v) / (1 + h gamma/2) of each particle to `out`, which may be v. In the form ((1 - h
-/// gamma/2) v + h a) / (1 + h gamma/2), the small effect of drag would be rounded to ulps of v in every step.
+/// out = v' = v + h (a - gamma v) / (1 + h gamma/2); may be v itself. The form ((1 - h gamma/2) v + h a) / (1 + h
+/// gamma/2) would round the small effect of drag to ulps of v in every step.
 void kick(const Eigen::ArrayXd& gamma, const Points& v, const Points& a, double h, Points& out) {
   for (int i = 0; i < v.cols(); ++i)
     out.col(i) = v.col(i) + h / (1 + h / 2 * gamma[i]) * (a.col(i) - gamma[i] * v.col(i));
 }
 
-/// Kicks s.v by h with the accelerations `by_position` plus those that depend on velocity, evaluated at the mean of old
-/// and new velocity.
+/// Kicks s.v by h with `by_position` and the velocity-dependent accelerations at the mean of old and new velocity.
 void kick_with_velocity_forces(System& f, State& s, const Points& by_position, double h, int passes, Workspace& w) {
   Points &old = w[1].x, &next = w[1].v, &a = w[2].v;
   old = s.v;
@@ -36,13 +35,13 @@ void leapfrog_step(System& f, State& s, double h, int passes, Workspace& w) {
   Points& a = w[0].v;
   const double start = s.t;
   s.t = start + h / 2;
-  s.x += h / 2 * s.v;             // drift to the midpoint
+  s.x += h / 2 * s.v;             // to the midpoint
   f.position_acceleration(s, a);  // kick with the force there
   if (f.has_velocity_forces())
     kick_with_velocity_forces(f, s, a, h, passes, w);
   else
     kick(f.drag_rate(), s.v, a, h, s.v);
-  s.x += h / 2 * s.v;  // drift to the end
+  s.x += h / 2 * s.v;  // to the end
   s.t = start;
 }
 

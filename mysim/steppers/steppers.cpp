@@ -1,4 +1,4 @@
-// The table of steppers, and their stability limits: closed forms, or roots of |eigenvalue| = 1.
+// The table of steppers, and their stability limits.
 #include "mysim/steppers/steppers.h"
 
 #include <Eigen/Dense>
@@ -16,12 +16,12 @@ namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
-/// First h at which `growth` (of a step of h) exceeds 1, found by scanning and bisection; `scale` is a step that is
-/// large compared with the result. Returns 0 if even the shortest steps grow.
+/// First h at which the growth of a step of h exceeds 1, by scanning and bisection; `scale`: a step much larger than
+/// the result. Returns 0 if even the shortest steps grow.
 template <class Growth>
 double first_exit(Growth growth, double scale) {
   constexpr int walk = 4000;
-  // above 1 by more than rounding: neutral rules are exactly at 1
+  // beyond rounding: neutral rules are exactly at 1
   auto unstable = [&](double h) { return growth(h) > 1 + 1e-13; };
   if (!std::isfinite(scale)) return infinity;
   double low = 0;
@@ -35,7 +35,7 @@ double first_exit(Growth growth, double scale) {
       const double middle = (low + high) / 2;
       (unstable(middle) ? high : low) = middle;
     }
-    // the scan begins at h > 0: a rule that is slowly unstable at every step is recognised at the first point
+    // a rule that grows slowly at every step fails at the first point
     return i == 1 ? 0 : low;
   }
   return infinity;
@@ -49,7 +49,7 @@ Eigenvalues eigenvalues_of(double omega, double gamma) {
   return {-gamma / 2 + root, -gamma / 2 - root};
 }
 
-/// Limit of a Runge-Kutta rule, which multiplies each mode by its stability polynomial R(h lambda).
+/// A Runge-Kutta rule multiplies each mode by its stability polynomial R(h lambda).
 double runge_kutta(StabilityLimit rule, double omega, double gamma) {
   const std::span<const double> coefficients = stability_polynomial(rule);
   const auto [slow, fast] = eigenvalues_of(omega, gamma);
@@ -64,7 +64,7 @@ double runge_kutta(StabilityLimit rule, double omega, double gamma) {
                     8 / fastest);
 }
 
-/// The leapfrog step as a matrix on (u, v); h may be negative.
+/// The leapfrog step on (u, v); h may be negative.
 Eigen::Matrix2d leapfrog_matrix(double omega, double gamma, double h) {
   const double half = h * gamma / 2;
   Eigen::Matrix2d drift, kick;
@@ -97,7 +97,7 @@ double rk4(double omega, double gamma) { return runge_kutta(rk4, omega, gamma); 
 double dopri5(double omega, double gamma) { return runge_kutta(dopri5, omega, gamma); }
 
 std::span<const double> stability_polynomial(StabilityLimit limit) {
-  // all except the last coefficient are those of the exponential, up to the order of each rule
+  // up to the order of each rule, coefficients are those of the exponential
   static constexpr double coefficients[] = {1, 1, 1. / 2, 1. / 6, 1. / 24, 1. / 120, 1. / 600};
   const size_t count = limit == explicit_euler ? 2
                        : limit == trapezoidal  ? 3

@@ -1,4 +1,4 @@
-// Steppers, their table, and building blocks that rules share: leapfrog, rk4, dopri5, stability limits.
+// Steppers, and building blocks that they share: leapfrog, rk4, dopri5, stability limits.
 #pragma once
 
 #include <any>
@@ -12,18 +12,18 @@
 
 namespace crosscheck {
 
-// Steppers, and the table of all of them. A new stepper is a function in its own file and one row.
+// A new stepper is a function in its own file and one row in the table.
 
-/// Working memory of a stepper, allocated at its first step and kept, so that later steps do not allocate.
+/// Working memory of a stepper, allocated at its first step and kept.
 class Workspace {
  public:
   explicit Workspace(const State& like) : like_(like) {}
-  /// The i-th auxiliary state of the scene's size, i = 0, 1, ...
+  /// The i-th auxiliary state, i = 0, 1, ..., of the scene's size.
   State& operator[](int i) {
     while (static_cast<int>(states_.size()) <= i) states_.push_back(like_);
     return states_[i];
   }
-  /// Memory of a stepper-specific type, constructed from `from` at its first use.
+  /// Memory of a stepper's own type, constructed from `from` at first use.
   template <class T, class From>
   T& own(From& from) {
     if (!own_.has_value()) own_.emplace<T>(from);
@@ -32,42 +32,42 @@ class Workspace {
 
  private:
   State like_;
-  std::deque<State> states_;  // a deque keeps references valid
+  std::deque<State> states_;  // keeps references valid
   std::any own_;
 };
 
 /// Advances state.x and state.v from state.t by h (s). The caller sets the new time, moves the pins and resolves
-/// contacts. Throws SolverFailure if an equation inside the step cannot be solved.
+/// contacts. Throws SolverFailure if an equation in the step cannot be solved.
 using StepFunction = void (*)(System&, State&, double h, Workspace&);
 
 /// Largest stable step (s) for u'' = -omega^2 u - gamma u' (rad/s, 1/s); infinite if every step is stable, 0 if none
-/// is. With drag but no spring (omega = 0), it is the limit due to drag alone.
+/// is. For omega = 0, the limit due to drag alone.
 using StabilityLimit = double (*)(double omega, double gamma);
 
-/// A rule composed only of kicks v' = v + h F/m and drifts x' = x + h v'. Either a sequence of leapfrogs (half drift,
-/// kick, half drift) over the given fractions of the step, with drag averaged over old and new velocity; or, if
-/// `kick_first`, whole kicks followed by whole drifts, with drag at the old velocity. Such rules have a fast path on
-/// regular cloths (mysim/simd/cloth_grid/).
+/// A rule of kicks v' = v + h F/m and drifts x' = x + h v' only: a sequence of leapfrogs (half drift, kick, half drift)
+/// over fractions of the step, with drag averaged over old and new velocity; or, if `kick_first`, whole kicks followed
+/// by whole drifts, with drag at the old velocity. Such rules have a fast path on regular cloths
+/// (mysim/simd/cloth_grid/).
 struct KickDriftComposition {
-  std::vector<double> fractions;  // fractions of the step; they add up to 1
+  std::vector<double> fractions;  // sum to 1
   bool kick_first = false;
 };
 
 struct Stepper {
   std::string_view name;
   StepFunction step;
-  int order;         // order of the global error on smooth scenes, including drag
-  int evaluations;   // right-hand side evaluations per step; 0: as many as the step's equations require
+  int order;         // global error on smooth scenes, including drag
+  int evaluations;   // right-hand side evaluations per step; 0: as many as the equations require
   bool first_order;  // supports first-order scenes
   bool symplectic;   // without drag
   StabilityLimit limit;
-  std::string_view limit_formula;  // the limit in readable form; omega and gamma as above
+  std::string_view limit_formula;  // readable, with omega and gamma as above
   std::string_view what;           // intended use
-  bool adaptive = false;           // chooses its own steps to meet a tolerance; `step` is then its rule at a fixed step
+  bool adaptive = false;           // chooses its steps to meet a tolerance; `step`: its rule at a fixed step
   bool hard_constraints = false;   // supports hard distances
   double solved_to = 0;            // implicit rules: residual relative to the largest force, inertia m v / h included
-  StepFunction linear = nullptr;   // the rule for the option +linear
-  KickDriftComposition (*composition)() = nullptr;  // null if the rule is not one
+  StepFunction linear = nullptr;   // for the option +linear
+  KickDriftComposition (*composition)() = nullptr;  // null: the rule is none
 };
 
 void explicit_euler(System& f, State& s, double h, Workspace& w);
@@ -88,17 +88,14 @@ KickDriftComposition suzuki4_composition();
 
 std::span<const Stepper> steppers();
 
-// The leapfrog step, for rules composed of it.
-
 /// Drift h/2, kick h, drift h/2, from state.t; h may be negative. Drag and the other velocity-dependent forces act at
-/// the mean of old and new velocity. Drag alone is solved exactly; dashpots and air need the new velocity, which is
-/// found in `passes` passes, each of which adds a power of h to the accuracy and costs an evaluation. Two passes
+/// the mean of old and new velocity. Drag alone is solved exactly. Dashpots and air need the new velocity, which is
+/// found in `passes` passes, each of which costs an evaluation and adds a power of h to the accuracy. Two passes
 /// preserve order 2.
 void leapfrog_step(System& f, State& s, double h, int passes, Workspace& w);
 
-// The classic fourth-order Runge-Kutta rule, for any right-hand side.
-
-/// Advances s.x and s.v from s.t by h. derivative(stage, rate) writes dX/dt; k holds the four rates.
+/// The classic fourth-order Runge-Kutta rule: advances s.x and s.v from s.t by h. derivative(stage, rate) writes dX/dt;
+/// k holds the four rates.
 template <class Derivative>
 void rk4_step(Derivative derivative, State& s, double h, State* const (&k)[4], State& stage) {
   auto at = [&](double c, const State& rate) -> State& {
@@ -124,19 +121,19 @@ class DormandPrince {
  public:
   explicit DormandPrince(const State& like) : next_(like), stage_(like), k_{like, like, like, like, like, like, like} {}
 
-  /// Attempts a step of h from s: computes next() and the error estimate. Six evaluations; seven at the first step and
-  /// after forget().
+  /// Computes next() and the error estimate of a step of h from s. Six evaluations; seven at the first step and after
+  /// forget().
   void attempt(System& f, State& s, double h);
   const State& next() const { return next_; }
-  /// Estimated error of next() in positions (3 x n, m) and velocities (3 x n, m/s): order 5 compared with order 4.
+  /// Difference of the orders 5 and 4, in positions (3 x n, m) and velocities (3 x n, m/s).
   const State& error();
   /// Largest speed (m/s) that the first stage alone would produce in the attempted step.
   double first_step_speed() const { return stage_.t * largest_column(k_[0].v); }
-  /// Accepts the step: its last stage becomes the first of the next one.
+  /// The last stage becomes the first of the next step.
   void accept() { std::swap(k_[0], k_[6]); }
-  /// Discards the first stage, which must be evaluated again because the state was changed from outside.
+  /// The first stage must be evaluated again, because the state was changed from outside.
   void forget() { first_known_ = false; }
-  /// State at s.t + theta h, 0 <= theta <= 1, of the step last attempted from s and not yet accepted.
+  /// State at s.t + theta h, 0 <= theta <= 1, of the attempted step from s, before accept().
   void interpolate(const State& s, double h, double theta, State& out) const;
 
  private:
@@ -149,8 +146,8 @@ class DormandPrince {
 
 namespace crosscheck::limits {
 
-// Largest stable steps on the damped oscillator u'' = -omega^2 u - gamma u', rule by rule (rad/s, 1/s -> s): the theory
-// against which the steppers are tested. Source: the eigenvalues of each rule's 2 x 2 step matrix.
+// Largest stable steps on the damped oscillator u'' = -omega^2 u - gamma u' (rad/s, 1/s -> s), from the eigenvalues of
+// each rule's 2 x 2 step matrix: the theory against which the steppers are tested.
 
 double explicit_euler(double omega, double gamma);
 double trapezoidal(double omega, double gamma);
@@ -159,10 +156,10 @@ double dopri5(double omega, double gamma);  // its rule at a fixed step
 double symplectic_euler(double omega, double gamma);
 double leapfrog(double omega, double gamma);
 double suzuki4(double omega, double gamma);
-double none(double omega, double gamma);  // infinite: stable at every step
+double none(double omega, double gamma);  // infinite: always stable
 
 /// Coefficients, constant first, of the stability polynomial R(h lambda) of the Runge-Kutta rule with that limit; empty
-/// for the limits of other rules.
+/// for other rules.
 std::span<const double> stability_polynomial(StabilityLimit limit);
 
 }  // namespace crosscheck::limits

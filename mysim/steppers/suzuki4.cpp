@@ -14,7 +14,7 @@ KickDriftComposition suzuki4_composition() {
 
 void suzuki4(System& f, State& s, double h, Workspace& w) {
   const double start = s.t;
-  // four passes leave an asymmetry of velocity-dependent forces of order h^5, the order of the rule's own error
+  // with four passes, velocity-dependent forces are asymmetric by order h^5, the order of the rule's error
   constexpr int passes = 4;
   double done = 0;
   for (const double part : suzuki4_composition().fractions) {

@@ -1,6 +1,6 @@
 // Extended position-based dynamics with small steps (M. Macklin, M. Mueller and N. Chentanez, Motion in Games, 2016; M.
 // Macklin et al., Symposium on Computer Animation, 2019): a free step, then one pass over dashpots, springs, bending
-// and hard distances, each of which immediately corrects the positions of its particles.
+// and hard distances, each of which corrects the positions of its particles at once.
 
 #include <algorithm>
 
@@ -14,14 +14,14 @@ class ProjectionPass {
   ProjectionPass(const Particles& particles, const Eigen::ArrayXd& drag_rate, const Points& x_n, double h, State& s)
       : particles_(particles), drag_rate_(drag_rate), x_n_(x_n), h_(h), s_(s) {}
 
-  /// Drag is implicit: it divides the effect of any force in a step, including these, by 1 + h gamma.
+  /// Drag is implicit: it divides the effect of every force in a step by 1 + h gamma.
   double inverse_mass(int i) const {
     return particles_.pinned[i] ? 0 : 1 / (particles_.mass[i] * (1 + h_ * drag_rate_[i]));
   }
   double inverse_mass(int a, int b) const { return inverse_mass(a) + inverse_mass(b); }
   Vec3 between(int a, int b) const { return s_.x.col(a) - s_.x.col(b); }
   Vec3 moved_apart(int a, int b) const { return between(a, b) - (x_n_.col(a) - x_n_.col(b)); }
-  /// Moves a particle by its inverse mass times the impulse (kg m).
+  /// impulse in kg m.
   void push(int i, const Vec3& impulse) {
     const Vec3 by = inverse_mass(i) * impulse;
     s_.x.col(i) += by;
@@ -61,7 +61,7 @@ void xpbd(System& f, State& s, double h, Workspace& w) {
       const Vec3 d = pass.between(i, j);
       const double length2 = d.squaredNorm(), inverse = pass.inverse_mass(i, j);
       if (length2 == 0) continue;
-      // along the line, the remaining separation is d' with d' + (c h inverse mass) d' = moved apart
+      // remaining separation d' along the line: d' + (c h inverse mass) d' = moved apart
       pass.push(i, j, (-c * h * pass.moved_apart(i, j).dot(d) / (length2 * (1 + c * h * inverse))) * d);
     }
   if (const auto* springs = model.find<Springs>())
@@ -72,7 +72,7 @@ void xpbd(System& f, State& s, double h, Workspace& w) {
         f.count_degenerate_springs(p.rest > 0);
         continue;
       }
-      // implicit along the line, linearised: for Hooke's law -(L - r) / (inverse mass + compliance / h^2)
+      // implicit along the line, linearised; Hooke's law: -(L - r) / (inverse mass + compliance / h^2)
       const auto [force, slope] = tension_of(p, springs->law, length);
       const double stiffening = h * h * std::max(0.0, slope) * pass.inverse_mass(p.a, p.b);
       pass.push(p.a, p.b, (-h * h * force / (length * (1 + stiffening))) * d);
@@ -81,7 +81,7 @@ void xpbd(System& f, State& s, double h, Workspace& w) {
     for (const Bending::Stencil& p : bending->list) {
       double inverse = 0;  // 1/kg, for c
       for (int i = 0; i < p.size; ++i) inverse += p.weight[i] * p.weight[i] * pass.inverse_mass(p.particle[i]);
-      // implicit and linear: the remaining c is c' with c' + (h^2 k inverse mass) c' = c
+      // implicit and linear: remaining c' + (h^2 k inverse mass) c' = c
       const Vec3 impulse = -h * h * p.k / (1 + h * h * p.k * inverse) * bent(p, s.x);
       for (int i = 0; i < p.size; ++i) pass.push(p.particle[i], p.weight[i] * impulse);
     }

@@ -1,4 +1,3 @@
-// Pressure of the air on triangles.
 #include "mysim/terms/aerodynamics.h"
 
 #include <Eigen/Geometry>

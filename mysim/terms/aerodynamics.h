@@ -1,4 +1,4 @@
-// Wind pressure on triangles: the force depends on the relative air velocity, the area and the normal.
+// Wind pressure on triangles.
 #pragma once
 
 #include <array>
@@ -8,16 +8,16 @@
 
 namespace crosscheck {
 
-/// With u = wind velocity - mean velocity of the three corners, and A the area times the unit normal, the force on the
+/// With u = wind velocity - mean velocity of the three corners, and A = area times unit normal, the force on the
 /// triangle is 1/2 rho C |u| (u . A) A / |A|, a third of it on each corner: the pressure on a flat plate, proportional
-/// to |u|^2 and to the sine of the angle between plate and air. It has no potential energy; its work is the work of the
+/// to |u|^2 and to the sine of the angle between plate and air. It has no potential energy; its work is that of the
 /// wind.
 struct Aerodynamics {
   static constexpr std::string_view name = "aerodynamics";
   static constexpr bool uses_velocity = true;
   double density;       // rho of the air, kg/m^3
   double coefficient;   // C, dimensionless: twice the slope of the normal force over the sine, 1 to 2 for a flat plate
-  WindSignal velocity;  // air velocity, m/s
+  WindSignal velocity;  // m/s
   std::vector<std::array<int, 3>> triangles;
 };
 

@@ -8,14 +8,14 @@
 //   x_uu = (x_{i-1} - 2 x_i + x_{i+1}) / p^2 + O(p^2)         on an area p q, half of that on an edge row
 //   x_uv = (x_00 - x_10 - x_01 + x_11) / (p q) + O(p^2 + q^2) on the area p q of a cell
 // and x_vv likewise.
-// The energy is therefore a sum of k/2 |c|^2, c = sum_i w_i x_i, over stencils of particles i with weights w_i:
+// The energy is a sum of k/2 |c|^2, c = sum_i w_i x_i, over stencils of particles i with weights w_i:
 //   (1, -2, 1) along u with k = B q / p^3, along v with B p / q^3, half of it on edge rows
 //   (1, -1, -1, 1) with k = 2 B / (p q).
 // The force on particle i is -k w_i c, and -dF_i/dx_j = k w_i w_j, constant and positive semidefinite. Since the
-// weights sum to zero, |c|^2 = - sum_{i<j} w_i w_j |x_i - x_j|^2: a stencil is equivalent to a set of springs with zero
-// rest length and stiffness -k w_i w_j, some of them negative. Therefore momentum and angular momentum are conserved.
+// weights sum to zero, |c|^2 = - sum_{i<j} w_i w_j |x_i - x_j|^2: a stencil is equivalent to springs of zero rest
+// length and stiffness -k w_i w_j, some of it negative. Therefore momentum and angular momentum are conserved.
 //
-// A row clamped level at s = 0 is held by pins at -p/2 and p/2; the error of its shape then decreases as p^2.
+// Pins at -p/2 and p/2 clamp a row level at s = 0; the error of its shape then decreases as p^2.
 #pragma once
 
 #include <array>
@@ -28,18 +28,18 @@ namespace crosscheck {
 
 struct Bending {
   static constexpr std::string_view name = "bending";
-  static constexpr int most = 5;  // particles in a stencil: at most four on a grid, five on a sheet of rings
+  static constexpr int most = 5;  // particles in a stencil: up to four on a grid, five on a sheet of rings
   struct Stencil {
-    int size;                         // number of particles
-    std::array<int, most> particle;   // the first `size` entries of each array are used
+    int size;
+    std::array<int, most> particle;   // the first `size` entries of both arrays are used
     std::array<double, most> weight;  // dimensionless; they sum to 0
     double k;                         // N/m
   };
   std::vector<Stencil> list;
-  double rigidity;  // B, N m, of the sheet that the stencils form: informative only, not used by the physics
+  double rigidity;  // B, N m, of the sheet; informative only
 };
 
-/// Returns c of a stencil (m).
+/// c of a stencil (m).
 inline Vec3 bent(const Bending::Stencil& s, const Points& x) {
   Vec3 c = Vec3::Zero();
   for (int i = 0; i < s.size; ++i) c += s.weight[i] * x.col(s.particle[i]);
@@ -59,7 +59,7 @@ inline double potential_energy(const Bending& bending, const Particles&, const S
   return energy;
 }
 
-/// Calls visit(a, b, k) for each of the equivalent zero-length springs of the stencils (k in N/m).
+/// Calls visit(a, b, k) for each zero-length spring equivalent to the stencils (k in N/m).
 template <class Visit>
 void for_each_pair(const Bending& bending, Visit visit) {
   for (const Bending::Stencil& s : bending.list)

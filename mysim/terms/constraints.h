@@ -1,4 +1,4 @@
-// Hard distances: |x_a - x_b| = length at all times. Not a force: a method enforces them, or refuses the scene.
+// Hard distances: |x_a - x_b| = length at all times. They are not forces: a method enforces them, or refuses the scene.
 #pragma once
 
 #include <string_view>
@@ -11,15 +11,13 @@ namespace crosscheck {
 struct Constraints {
   static constexpr std::string_view name = "constraints";
   struct Constraint {
-    int a, b;       // ends
+    int a, b;
     double length;  // m
   };
   std::vector<Constraint> list;
 };
 
-/// The largest
-/// |x_a - x_b| / length - 1
-/// (dimensionless).
+/// Largest ||x_a - x_b| / length - 1|.
 inline double largest_constraint_error(const Constraints& constraints, const Points& x) {
   double largest = 0;
   for (const auto& [a, b, length] : constraints.list)

@@ -1,5 +1,5 @@
-// Spring dashpots along the line between two particles: with n the unit vector from b to a, the force on a is -c ((v_a
-// - v_b) . n) n, and the opposite on b. They damp stretching and do not affect free fall and rotation.
+// Spring dashpots along the line between two particles: with the unit vector n from b to a, the force on a is -c ((v_a
+// - v_b) . n) n, and the opposite on b. They damp stretching, but neither free fall nor rotation.
 #pragma once
 
 #include <vector>
@@ -13,7 +13,7 @@ struct Dashpots {
   static constexpr std::string_view name = "dashpots";
   static constexpr bool uses_velocity = true;
   struct Dashpot {
-    int a, b;  // ends
+    int a, b;
     double c;  // N s/m
   };
   std::vector<Dashpot> list;
@@ -30,8 +30,8 @@ inline void add_force(const Dashpots& dashpots, const Particles&, const State& s
   }
 }
 
-/// -dF/dv at the state's directions. The change of the directions (dF/dx) is omitted: implicit methods instead repeat
-/// the solve with the new directions, which keeps the matrix symmetric.
+/// -dF/dv for the state's directions. dF/dx, by their change, is omitted, which keeps the matrix symmetric: implicit
+/// methods repeat the solve with the new directions.
 inline void add_tangent(const Dashpots& dashpots, const Particles&, const State& state, Curvature, Tangent& tangent) {
   for (const auto& [a, b, c] : dashpots.list) {
     const Vec3 d = state.x.col(a) - state.x.col(b);

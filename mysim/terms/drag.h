@@ -8,7 +8,7 @@
 
 namespace crosscheck {
 
-/// A scene specifies one coefficient c for all particles, or gamma (1/s), meaning c_i = gamma m_i; both is an error.
+/// A scene specifies c for all particles, or gamma (1/s), meaning c_i = gamma m_i, but not both.
 struct Drag {
   static constexpr std::string_view name = "drag";
   Eigen::VectorXd c;  // n, N s/m

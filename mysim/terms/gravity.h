@@ -17,7 +17,7 @@ inline void add_force(const Gravity& gravity, const Particles& particles, const 
   for (int i = 0; i < particles.size(); ++i) forces.f.col(i) += particles.mass[i] * gravity.acceleration;
 }
 
-/// Potential energy (J) of the free particles, zero at the origin.
+/// Energy (J) of the free particles, zero at the origin.
 inline double potential_energy(const Gravity& gravity, const Particles& particles, const State& state) {
   double energy = 0;
   for (int i = 0; i < particles.size(); ++i)

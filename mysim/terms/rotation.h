@@ -12,7 +12,7 @@ struct Rotation {
   double rate;  // rad/s
 };
 
-/// Adds the velocity field to rate (3 x n, m/s).
+/// rate: 3 x n, m/s.
 inline void add_velocity(const Rotation& rotation, const State& state, Points& rate) {
   for (int i = 0; i < state.x.cols(); ++i) {
     rate(0, i) -= rotation.rate * state.x(1, i);

@@ -1,4 +1,3 @@
-// Spring laws, and the plain edge loop over them.
 #include "mysim/terms/springs.h"
 
 #include <algorithm>
@@ -39,7 +38,7 @@ static void loop(const std::vector<Spring>& list, const Points& x, Forces& force
     const Vec3 d = x.col(s.a) - x.col(s.b);
     const double squared = d.squaredNorm();
     if (squared == 0) {
-      // coincident ends: no direction, no force, but the event is counted
+      // coincident ends have no direction and no force, but are counted
       forces.degenerate_springs += s.rest > 0;
       continue;
     }
@@ -63,8 +62,8 @@ double potential_energy(const Springs& springs, const Particles&, const State& s
     if (springs.law == SpringLaw::hooke) {
       energy += 0.5 * s.k * (length - s.rest) * (length - s.rest);
     } else {
-      // log1p keeps the digits near the rest length, where both parts nearly cancel; a negative remainder due to
-      // rounding is set to 0
+      // log1p keeps the digits near the rest length, where both parts nearly cancel; rounding may leave a negative
+      // remainder
       const double r2 = s.rest * s.rest, excess = length * length - r2;
       energy += 0.5 * s.k * std::max(0.0, r2 > 0 ? excess - 2 * r2 * std::log1p(excess / (2 * r2)) : excess);
     }

@@ -1,8 +1,7 @@
 // Springs. With d = x_a - x_b and L = |d|, the force on a is -T(L) d / L, and the opposite on b. The law T is
 //   hooke         T = k (L - r), energy k (L - r)^2 / 2;
 //   bullet-link   T = k L (L^2 - r^2) / (L^2 + r^2), energy k/2 (L^2 - r^2 - 2 r^2 ln((L^2 + r^2) / (2 r^2))).
-// The law bullet-link is the limit of Bullet's position-based links as the step goes to 0 (projection per step over
-// h^2).
+// bullet-link is the limit of Bullet's position-based links for steps towards 0 (projection per step over h^2).
 #pragma once
 
 #include <cmath>
@@ -18,10 +17,10 @@ enum class Family { single, structural, shear, bend };
 std::string_view name_of(Family family);
 
 struct Spring {
-  int a, b;       // ends
+  int a, b;
   double k;       // stiffness, N/m
   double rest;    // rest length r, m
-  Family family;  // for colours, tables and ablations; not used by the physics
+  Family family;  // for colours, tables and ablations only
 };
 
 enum class SpringLaw { hooke, bullet_link };
@@ -33,7 +32,7 @@ struct Springs {
   SpringLaw law = SpringLaw::hooke;
 };
 
-/// Tension T(L) of a spring (N; positive if it pulls) and its slope dT/dL (N/m), at length L > 0 (m).
+/// Tension T(L) (N; positive: pulls) and its slope dT/dL (N/m), at length L > 0 (m).
 struct Tension {
   double force, slope;
 };
@@ -50,13 +49,13 @@ double force_over_length(double k, double rest, double squared) {
   return k * (r2 - squared) / (squared + r2);
 }
 
-/// The plain edge loop: the definition of the term, and the reference for every faster kernel
+/// The plain edge loop: defines the term, and is the reference for every faster kernel
 /// (mysim/simd/spring_graph/spring_kernel.h).
 void add_force(const Springs& springs, const Particles& particles, const State& state, Forces& forces);
 void add_force(const Springs& springs, const Points& x, Forces& forces);
 double potential_energy(const Springs& springs, const Particles& particles, const State& state);  // J
-/// -dF/dx. Clamped: the negative transverse stiffness of a compressed spring is omitted, which makes the matrix
-/// positive semidefinite.
+/// -dF/dx. Clamped: without the negative transverse stiffness of compressed springs, which makes it positive
+/// semidefinite.
 void add_tangent(const Springs& springs, const Particles& particles, const State& state, Curvature curvature,
                  Tangent& tangent);
 

@@ -1,4 +1,3 @@
-// Contact of one particle with a surface: position, friction, velocity.
 #include "mysim/terms/surface.h"
 
 #include <cassert>
@@ -8,7 +7,7 @@
 namespace crosscheck {
 namespace {
 
-/// The vector shortened by at most `by`, never beyond zero.
+/// Shortens a vector by at most `by`, never beyond zero.
 Vec3 shortened(const Vec3& vector, double by) {
   const double length = vector.norm();
   return length <= by ? Vec3::Zero() : Vec3(vector * (1 - by / length));
@@ -45,7 +44,6 @@ double resolve_contact(const Surface& surface, const Vec3& origin, const Vec3& x
   const double gap = surface.gap(x - origin);
   if (!(gap < 0)) return 0;
 
-  // put the particle on the surface
   const double push = -gap;
   Vec3 n = surface.normal(x - origin);
   x = surface.put_on(origin, x, n);
@@ -59,7 +57,7 @@ double resolve_contact(const Surface& surface, const Vec3& origin, const Vec3& x
     x = surface.put_on(origin, x, n);
   }
 
-  // remove the velocity into the surface, and apply friction in proportion to what was removed
+  // the velocity into the surface is removed, and friction is proportional to it
   const double inward = v.dot(n);
   if (inward < 0) {
     const Vec3 tangential = v - inward * n;

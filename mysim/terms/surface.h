@@ -1,14 +1,13 @@
-// Surfaces with Coulomb friction and restitution: spheres and planes, fixed or in a prescribed motion. They are not
-// forces: each acts on the whole step of a particle. In the following, positions and velocities are relative to the
-// surface.
+// Surfaces with Coulomb friction and restitution: spheres and planes, fixed or in prescribed motion. They are not
+// forces: each acts on the whole step of a particle. Below, positions and velocities are relative to the surface.
 //
 // The stepper proposes x* and v*. If the gap of x* is negative (|x* - centre| < R, or (x* - point) . normal < 0, margin
-// included), then
+// included):
 //   1. position: the particle is put on the surface, which pushes it by p along the outward normal n;
 //   2. friction on the position: its tangential displacement in the step, relative to x_n, is reduced by at most mu p
-//      (Coulomb: tangential impulse at most mu times the normal one), and the result is put on the surface again;
+//   (Coulomb: tangential impulse at most mu times the normal one), and the result is put on the surface again;
 //   3. velocity: the inward normal component is removed (or reversed times e), and the tangential component is reduced
-//      by at most mu times the change of the normal component.
+//   by at most mu times the change of the normal component.
 // Friction on the velocity alone does not suffice: a particle at rest on a slope would creep at about h g sin(theta) /
 // 2.
 #pragma once
@@ -27,8 +26,8 @@ namespace crosscheck {
 
 struct Sphere {
   Vec3 centre;         // m, at t = 0
-  double radius;       // m, of the solid ball
-  double margin;       // m, half the thickness of the cloth: particles stay at radius + margin from the centre
+  double radius;       // m, of the ball
+  double margin;       // m, half the cloth's thickness: particles stay at radius + margin from the centre
   double friction;     // Coulomb's mu, 1
   double restitution;  // e, 0 to 1
   std::optional<Motion> motion;
@@ -48,9 +47,9 @@ struct Spheres {
 
 /// A solid half-space, fixed or translating.
 struct Plane {
-  Vec3 point;                    // m, any point of the face, at t = 0
+  Vec3 point;                    // m, on the face, at t = 0
   Vec3 normal;                   // unit vector out of the solid
-  double margin;                 // m, half the thickness of the cloth: particles stay at this distance from the face
+  double margin;                 // m, half the cloth's thickness: particles stay at this distance from the face
   double friction;               // Coulomb's mu, 1
   double restitution;            // e, 0 to 1
   std::optional<Vec3> velocity;  // m/s, constant
@@ -67,8 +66,8 @@ struct Planes {
   }
 };
 
-/// The contact surface of a sphere or a plane, margin included: the only interface of the contact rules to either.
-/// Positions are relative to its origin, which is the sphere's centre or a point of the contact plane.
+/// The contact surface of a sphere or a plane, margin included, as the contact rules see it. Positions are relative to
+/// its origin: the sphere's centre, or a point of the contact plane.
 class Surface {
  public:
   Surface(const Sphere& s)  // NOLINT(google-explicit-constructor): a sphere is a surface
@@ -88,7 +87,7 @@ class Surface {
   double friction, restitution;  // mu, e
 
   bool flat() const { return std::isinf(radius_); }
-  double radius() const { return radius_; }  // m, of curvature: infinite for a plane
+  double radius() const { return radius_; }  // m; infinite for a plane
   bool moving() const { return motion_ || drift_; }
   Vec3 origin_at(double t) const {
     if (motion_) return origin_ + displacement_at(*motion_, t);
@@ -100,24 +99,24 @@ class Surface {
   double max_speed() const { return motion_ ? crosscheck::max_speed(*motion_) : drift_ ? drift_->norm() : 0; }  // m/s
 
   double gap(const Vec3& d) const { return flat() ? d.dot(normal_) : d.norm() - radius_; }  // m, negative inside
-  /// Outward unit normal at d; (0, 1, 0) at the centre of a sphere, where all directions are equivalent.
+  /// Outward unit normal at d; (0, 1, 0) at the centre of a sphere.
   Vec3 normal(const Vec3& d) const {
     if (flat()) return normal_;
     const double length = d.norm();
     return length > 0 ? Vec3(d / length) : Vec3(0, 1, 0);
   }
-  /// Normal at a position on the surface; needs no square root.
+  /// Normal at d on the surface; needs no square root.
   Vec3 normal_on(const Vec3& d) const { return flat() ? normal_ : Vec3(d / radius_); }
-  /// Rate of change of the gap, times a positive number, for a particle at d with relative velocity w.
+  /// Rate of change of the gap at d with relative velocity w, times a positive number.
   double approach(const Vec3& d, const Vec3& w) const { return flat() ? w.dot(normal_) : d.dot(w); }
-  /// The position on the surface nearest to d, where n is the normal.
+  /// Point on the surface nearest to d, where n is the normal.
   Vec3 nearest(const Vec3& d, const Vec3& n) const { return flat() ? Vec3(d - d.dot(n) * n) : Vec3(radius_ * n); }
   /// x projected onto the surface whose origin is at `origin`; n is the normal there. A point on a plane up to rounding
   /// keeps its coordinates along the plane.
   Vec3 put_on(const Vec3& origin, const Vec3& x, const Vec3& n) const {
     return flat() ? Vec3(x - (x - origin).dot(n) * n) : Vec3(origin + radius_ * n);
   }
-  /// Length (m) whose rounding equals that of a gap; `reach` is the distance of the particle's coordinates from 0.
+  /// Length (m) with the same rounding as a gap; `reach`: distance of the particle's coordinates from 0.
   double rounding_scale(const Vec3& origin, double reach) const { return (flat() ? reach : radius_) + origin.norm(); }
 
  private:
@@ -128,17 +127,16 @@ class Surface {
   std::optional<Vec3> drift_;
 };
 
-/// Distance (m) of a particle from the nearest contact surface at time t; negative inside.
+/// Distance (m) from the nearest contact surface at time t; negative inside.
 double clearance_from(std::span<const Surface> surfaces, double t, const Vec3& x);
 
-/// Applies the rule above to one particle that was at x_n, in the surface's frame, with the surface's origin at
-/// `origin`. Returns the push p (m), or 0 if there was no contact.
+/// Applies the rule above to one particle that was at x_n in the frame of the surface, whose origin is at `origin`.
+/// Returns the push p (m), or 0 without contact.
 double resolve_contact(const Surface& surface, const Vec3& origin, const Vec3& x_n, Eigen::Ref<Vec3> x,
                        Eigen::Ref<Vec3> v);
 
-/// The assignment's sphere, kept to demonstrate its failure: a touching particle is put back to its previous position,
-/// on the surface, and loses all its velocity, so it freezes to the surface. Returns the push p (m), or 0 if there was
-/// no contact.
+/// The assignment's sphere, kept to demonstrate its failure: a touching particle returns to its previous position, on
+/// the surface, without velocity, so it freezes there. Returns the push p (m), or 0 without contact.
 double resolve_contact_sticky(const Surface& surface, const Vec3& origin, const Vec3& x_n, Eigen::Ref<Vec3> x,
                               Eigen::Ref<Vec3> v);
 

@@ -12,7 +12,7 @@ Gust::Gust(int seed, int channel) {
   std::mt19937_64 engine(1000003ull * static_cast<unsigned>(seed) + static_cast<unsigned>(channel));
   double total = 0;
   for (Wave& wave : waves) {
-    // between 0.2 and 1.2 Hz: slow enough to be resolved by every step in use, fast enough to act as gusts
+    // frequencies of 0.2 to 1.2 Hz: slow enough for every step in use, fast enough for gusts
     wave = {0.5 + uniform(engine), 2 * std::numbers::pi * (0.2 + uniform(engine)),
             2 * std::numbers::pi * uniform(engine)};
     total += wave.weight;

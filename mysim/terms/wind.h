@@ -1,4 +1,4 @@
-// Wind that varies as a smooth function of time, and its simplest force: the same acceleration for every particle.
+// Wind that varies smoothly in time, and its simplest force: the same acceleration for every particle.
 #pragma once
 
 #include <array>
@@ -10,7 +10,7 @@
 
 namespace crosscheck {
 
-/// A smooth random signal between -1 and 1: a sum of sines with seeded frequencies and phases.
+/// A smooth random signal in [-1, 1]: a sum of sines with seeded frequencies and phases.
 struct Gust {
   struct Wave {
     double weight, omega, phase;  // dimensionless, rad/s, rad; the weights add up to 1
@@ -30,7 +30,7 @@ struct WindSignal {
     int seed;
     Gust along, across;
   };
-  std::optional<Gusts> gusts;  // none: steady
+  std::optional<Gusts> gusts;  // default: steady wind
 
   Vec3 at(double t) const;
 };

@@ -19,7 +19,7 @@ using L = simd::Lanes<T>;
 template <class T>
 using V = typename L<T>::V;
 
-/// Size of a tile that holds `numbers` values per particle.
+/// `numbers`: values per particle.
 template <int numbers>
 inline constexpr int tile_size = numbers* lanes;
 
@@ -60,12 +60,10 @@ struct Sum {
   }
 };
 
-// Stiffness of a cloth's springs, and the inverse diagonal blocks.
-
 using D = L<double>;
 using Vd = V<double>;
 
-/// m^2: ends closer than the root of this have no direction, and their spring has no stiffness.
+/// m^2: ends closer than the root of this have no direction; their spring has no stiffness.
 inline constexpr double min_squared_length = 1e-290;
 
 struct Stiffness {
@@ -77,7 +75,7 @@ struct Stiffness {
 FORCE_INLINE Stiffness stiffness_of(const Vd* d, Vd k, Vd rest, bool clamped) {
   Vd squared = D::fma(d[2], d[2], D::fma(d[1], d[1], d[0] * d[0]));
   const Vd inverse = simd::rsqrt<double, false>(D::max(squared, D::all(min_squared_length)));
-  // 1 where the ends are distinct, 0 where they coincide
+  // 1 where the ends are distinct, otherwise 0
   const Vd there = D::min(squared * D::all(1 / min_squared_length), D::all(1));
   Stiffness s;
   s.a = there * k * D::fnma(rest, inverse, D::all(1));
@@ -146,12 +144,10 @@ void to_float(const double* from, float* to, long count) {
   for (long i = 0; i < count; ++i) to[i] = static_cast<float>(from[i]);
 }
 
-// Products with a cloth's matrix, and the operations performed on them row by row.
-
 template <int value>
 struct Number {};
 
-/// Adds a d + (n . d) n to one end and subtracts it from the other.
+/// Adds a d + (n . d) n to one end's force and subtracts it from the other's.
 template <class T>
 FORCE_INLINE void spring(const V<T>* near, V<T>* own, const T* far, T* other, const T* s) {
   const V<T> n[3] = {L<T>::load(s), L<T>::load(s + lanes), L<T>::load(s + 2 * lanes)}, a = L<T>::load(s + 3 * lanes);
@@ -187,8 +183,8 @@ FORCE_INLINE void springs_of_row(const Matrix<T>& m, const T* x, int row, T* con
     }
 }
 
-/// Calls take(position in the field, tile index, lane, A x there) for each register of each row, then done(position of
-/// the row).
+/// Calls take(position in the field, tile, lane, A x there) for each register of each row, then done(position of the
+/// row).
 template <class T, class Take, class Done>
 FORCE_INLINE void each_product(const Matrix<T>& m, const T* x, Take take, Done done) {
   over_rows<3>(
@@ -230,7 +226,6 @@ double product(const Matrix<double>& m, const double* p, double* q) {
   return sum.total();
 }
 
-/// D^-1 r.
 FORCE_INLINE void scale(const Matrix<float>& m, long tile, int lane, const V<float>* r, V<float>* z) {
   using F = L<float>;
   const float* i = m.inverse + tile * tile_size<6> + lane;
@@ -289,15 +284,12 @@ void residual(const Matrix<float>& m, const float* b, const float* x, float* r) 
       [&](long begin) __attribute__((always_inline)) { fill_halo<tile_size<3>>(r + begin, m.tiles); });
 }
 
-// Transfer between a grid and the next coarser one.
-
 using F = L<float>;
 using Vf = V<float>;
 
 /// Restriction weight of the fine row below an even one: 1/2, or 1 if there is no next coarse row.
 FORCE_INLINE float down(const Transfer& t, int coarse_row) { return coarse_row + 1 < t.coarse_rows ? 0.5f : 1; }
 
-/// Fine-row values gathered onto the coarse particles of a tile.
 FORCE_INLINE Vf gathered(const Transfer& t, const float* fine, int tile, int lane, int c) {
   const float* at = fine + 2L * tile * tile_size<3> + c * lanes + lane;
   const Vf right = F::load(t.right + tile * lanes + lane), left = F::load(t.left + tile * lanes + lane);
@@ -356,9 +348,7 @@ void prolong_and_add(const Transfer& t, const float* coarse, const float* free, 
   }
 }
 
-// Vector operations of conjugate gradients.
-
-/// Calls take(position, lane) for each register of a row's tiles, then done(position of the row).
+/// Visits registers and rows like each_product().
 template <class Take, class Done>
 FORCE_INLINE void each_place(int rows, int tiles, Take take, Done done) {
   for (int row = 0; row < rows; ++row) {
@@ -386,7 +376,6 @@ double update_solution(const Matrix<double>& m, double length, const double* p, 
   return sum.total();
 }
 
-/// Single-precision values as doubles.
 FORCE_INLINE Vd widened(const float* z) {
   alignas(64) double wide[D::width];
   for (int j = 0; j < D::width; ++j) wide[j] = z[j];

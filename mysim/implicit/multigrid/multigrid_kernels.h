@@ -1,13 +1,12 @@
 // Linear systems of implicit steps on a cloth: A u = b with A = inertia + stiffness of the springs, never assembled.
 //
-// Conjugate gradients need many iterations when springs are stiff for the step, because a pull at one end travels by
-// one spring per iteration. On a grid of every second row and column it travels twice as fast, on one of every fourth
-// four times as fast. The error that remains on the finest grid consists of short waves, which a few rounds of
-// relaxation remove. The preconditioner is therefore one V-cycle over such grids. A coarse grid has springs of the same
-// stiffness and twice the length (the elastic energy of an area does not depend on the grid), acting on differences of
-// its own particles, and carries the total mass: W. Hackbusch, Multi-Grid Methods and Applications, Springer 1985. A
-// preconditioner only needs to be approximate: it works in single precision, with half the memory, while the outer
-// iteration in double precision corrects it.
+// Conjugate gradients need many iterations when springs are stiff for the step, because a pull travels by one spring
+// per iteration. On a grid of every second row and column it travels twice as fast, on one of every fourth four times
+// as fast. The error that remains on the finest grid consists of short waves, which a few rounds of relaxation remove.
+// The preconditioner is therefore one V-cycle over such grids (W. Hackbusch, Multi-Grid Methods and Applications,
+// Springer 1985). A coarse grid carries the total mass, and has springs of the same stiffness and twice the length,
+// because the elastic energy of an area does not depend on the grid. An approximate preconditioner suffices: it works
+// in single precision, with half the memory, and the outer iteration corrects it in double precision.
 //
 // The relaxation is Chebyshev's, with the inverse 3 x 3 diagonal blocks. The eigenvalues of D^-1 A are below 2 for any
 // springs: u.A u sums (u_a - u_b).K (u_a - u_b) <= 2 (u_a.K u_a + u_b.K u_b) over springs, which is twice the sum over
@@ -15,9 +14,9 @@
 //
 // The memory layout is that of the fused step (simd/cloth_grid/fused_step.h), with as many lanes for double as for
 // single precision, so that both use the same order: column c is in lane c / tiles of tile c % tiles. The coarse
-// columns are then the even tiles, lane by lane, and no data moves across lanes between grids. Each product is one pass
-// over the rows: the forces on a row are complete once its own springs have been evaluated, so the row can then be
-// modified in place.
+// columns are the even tiles, lane by lane, and no data moves across lanes between grids. Each product is one pass over
+// the rows: the forces on a row are complete once its own springs have been evaluated, so the row can then be modified
+// in place.
 #pragma once
 
 #include "mysim/simd/cloth_grid/fused_step.h"
@@ -32,8 +31,8 @@ using simd::right_halo;
 
 inline constexpr int lanes = 16;
 
-/// A grid, and the position-dependent part of its matrix. A field holds three numbers per particle: rows x (left_halo +
-/// tiles + right_halo) x 3 x lanes, with the halo filled where springs reach into it.
+/// A grid's matrix. A field holds three numbers per particle: rows x (left_halo + tiles + right_halo) x 3 x lanes, with
+/// the halo filled where springs reach into it.
 template <class T>
 struct Matrix {
   int rows, tiles;
@@ -45,7 +44,7 @@ struct Matrix {
   T* force;                 // N: three rows of a field, working memory
 };
 
-/// Input from which the springs' stiffness is computed.
+/// Input of linearise().
 struct SpringGeometry {
   int rows, tiles;
   double* x;                    // m: a field; linearise() fills its halo
@@ -55,8 +54,8 @@ struct SpringGeometry {
   double* sums;                 // three rows of 6 numbers, working memory
 };
 
-/// The transfer between a coarse and a fine grid. A fine particle between two coarse ones interpolates with weight 1/2
-/// each; beyond the last coarse particle it takes the value of that one.
+/// The transfer between grids. A fine particle between two coarse ones interpolates them with weights 1/2; beyond the
+/// last coarse particle it has the value of that one.
 struct Transfer {
   int coarse_rows, coarse_tiles, fine_rows;
   // coarse tiles x lanes: weights of this coarse particle for the fine particle to its right (1/2 or 1) and to its left
@@ -64,10 +63,9 @@ struct Transfer {
   const float *right, *left;
 };
 
-/// The functions of one instruction set. Sums are formed lane by lane and then in a fixed order, identical on all sets.
+/// The functions of one instruction set. Sums are formed lane by lane and then in a fixed order, the same for all sets.
 struct Kernels {
-  /// Writes springs to `springs` (as in Matrix), and the sums of their blocks over both ends to `blocks` (rows x tiles
-  /// x 6 x lanes).
+  /// Writes `springs` (as in Matrix), and the sums of their blocks over both ends (rows x tiles x 6 x lanes).
   void (*linearise)(const SpringGeometry&, double* const* springs, double* blocks);
   /// Inverts blocks + inertia in place; 0 where not free.
   void (*invert)(double* blocks, const double* inertia, const double* free, long count);

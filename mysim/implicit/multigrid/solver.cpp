@@ -1,4 +1,3 @@
-// The grids of the V-cycle and their memory, the V-cycle itself, and the conjugate gradients that use it.
 #include "mysim/implicit/multigrid/solver.h"
 
 #include <algorithm>
@@ -13,7 +12,7 @@ Kernels kernels(simd::InstructionSet isa) { return SELECT_COMPILED(isa, kernels_
 
 Layout Layout::of(const GridTopology& topology) {
   assert(topology.rows > 0 && topology.columns > 0);
-  // halve down to one tile or three; the remaining lanes, at most a third, stay empty
+  // halve down to one tile or three; at most a third of the lanes stays empty
   int tiles = (topology.columns + lanes - 1) / lanes, times = 1;
   for (; tiles > 3; tiles = (tiles + 1) / 2) times *= 2;
   return {topology.rows, topology.columns, tiles * times == 3 ? 4 : tiles * times};
@@ -109,16 +108,15 @@ struct ChebyshevSmoother {
   int rounds;
   double lowest, highest = 2;
 };
-// The next grid resolves waves of at least four of this grid's springs, whose eigenvalues are below about a fifth of 2.
-// In trials on hanging cloths of 24 to 128 columns at 60 and 240 steps per second, one to four rounds took the same
-// time.
+// The next grid resolves waves of at least four of this grid's springs; their eigenvalues are below about a fifth of 2.
+// In trials on hanging cloths of 24 to 128 columns at 60 and 240 steps per second, one to four rounds were equally
+// fast.
 constexpr ChebyshevSmoother level_smoother{2, 0.4};
-/// With the share s of inertia in the diagonal D, D^-1 A has eigenvalues in [s, 2 - s], and Chebyshev iteration reduces
+/// If inertia is the share s of the diagonal D, D^-1 A has eigenvalues in [s, 2 - s], and Chebyshev iteration reduces
 /// the error by 1 / cosh(rounds acosh(1 / (1 - s))) (Y. Saad, Iterative Methods for Sparse Linear Systems, 2003,
-/// 12.3.2). At this share or above, five rounds reduce it tenfold, with less work than a coarser grid.
+/// 12.3.2). From this share on, five rounds reduce it tenfold, with less work than a coarser grid.
 constexpr double enough_inertia = 0.2;
-/// On the coarsest grid: enough rounds for a tenfold reduction; with less inertia, as many as a pull needs to cross the
-/// grid.
+/// Enough rounds to reduce the error tenfold; with less inertia, enough for a pull to cross the grid.
 ChebyshevSmoother coarsest_smoother(const Level& level) {
   if (const double share = level.inertia_share(); share >= enough_inertia)
     return {static_cast<int>(std::ceil(std::acosh(10.) / std::acosh(1 / (1 - share)))), share, 2 - share};
@@ -179,7 +177,7 @@ void VCycle::set_inertia(const Eigen::ArrayXd& inertia) {
   levels_.front().load_inertia();
   for (size_t l = 1; l < levels_.size(); ++l) {
     const Layout &fine = levels_[l - 1].layout(), &coarse = levels_[l].layout();
-    // distribute each particle's inertia to the coarse particles that interpolate it
+    // each particle's inertia goes to the coarse particles that interpolate it
     Eigen::ArrayXd& sum = levels_[l].inertia.setZero();
     for (int row = 0; row < fine.rows; ++row)
       for (int column = 0; column < fine.columns; ++column)
@@ -257,7 +255,7 @@ CgResult MultigridSolver::solve(const Eigen::ArrayXd& inertia, const Points& x, 
   u.setZero(3, b.cols());
   if ((result.converged = size == 0)) return result;
 
-  // b / |b|: values near 1 stay within the range of single precision
+  // b / |b| stays within the range of single precision
   v_cycle_.layout().put(b, 1 / size, r_);
   for (AlignedBuffer<double>* field : {&u_, &p_, &q_}) std::fill_n(field->data(), field->size(), 0);
   f.to_float(r_.data(), v_cycle_.b().data(), static_cast<long>(r_.size()));
@@ -267,8 +265,8 @@ CgResult MultigridSolver::solve(const Eigen::ArrayXd& inertia, const Points& x, 
     double products[2];
     f.dot_products(a, r_.data(), q_.data(), v_cycle_.u().data(), products);
     ++result.iterations;
-    // The preconditioner is rounded to single precision and therefore differs slightly between iterations. The formula
-    // beta = z.(r - r_before) / (z.r)_before (Polak and Ribiere) keeps the directions conjugate nevertheless.
+    // The preconditioner is rounded to single precision and therefore differs slightly between iterations. Even so,
+    // beta = z.(r - r_before) / (z.r)_before (Polak and Ribiere) keeps the directions conjugate.
     keep = result.iterations > 1 ? -keep * products[1] / rz : 0;
     rz = products[0];
     f.update_direction(a, v_cycle_.u().data(), keep, p_.data());

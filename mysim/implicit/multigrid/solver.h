@@ -16,21 +16,19 @@
 
 namespace crosscheck {
 
-// Conjugate gradients with a preconditioner for a symmetric matrix that is never assembled; vectors are 3 x n, in N.
-
 struct CgResult {
   int iterations = 0;
   bool converged = false;
-  bool negative_curvature = false;  // a direction p with p . A p <= 0 was found: the matrix is not positive definite
+  bool negative_curvature = false;  // found a direction p with p . A p <= 0: the matrix is not positive definite
 };
 
-/// Working memory, kept between solves.
 struct CgMemory {
   Points r, z, p, q;
 };
 
-/// Solves A x = b from x = 0 until |b - A x| <= tolerance |b|. apply(p, q): q = A p. precondition(r, z): z = M^-1 r
-/// with M symmetric positive definite. Stops immediately at negative curvature and returns that direction in x.
+/// Solves A x = b by preconditioned conjugate gradients, from x = 0 until |b - A x| <= tolerance |b|. Vectors are 3 x
+/// n. apply(p, q): q = A p, symmetric. precondition(r, z): z = M^-1 r with M symmetric positive definite. Stops at
+/// negative curvature and returns that direction in x.
 template <class Apply, class Precondition>
 CgResult conjugate_gradients(Apply apply, Precondition precondition, const Points& b, double tolerance,
                              int most_iterations, Points& x, CgMemory& m) {
@@ -67,7 +65,7 @@ namespace crosscheck::multigrid {
 
 Kernels kernels(simd::InstructionSet isa);
 
-// Placement of a cloth's particles in lanes, with conversion to and from this layout.
+// Places a cloth's particles in lanes, and converts to and from this layout.
 
 using simd::AlignedBuffer;
 using simd::GridTopology;
@@ -75,9 +73,8 @@ using simd::GridTopology;
 struct Layout {
   int rows, columns, tiles;
 
-  /// Chooses a number of tiles that can be halved often and leaves few of them empty.
+  /// Chooses a number of tiles that can be halved often, with few empty lanes.
   static Layout of(const GridTopology& topology);
-  /// The layout of every second row and column.
   Layout coarsened() const { return {(rows + 1) / 2, (columns + 1) / 2, tiles / 2}; }
   bool can_coarsen() const { return tiles % 2 == 0 && rows > 2; }
 
@@ -88,7 +85,7 @@ struct Layout {
     return AlignedBuffer<T>(static_cast<size_t>(rows) * row_length());
   }
 
-  /// Calls take(particle index, position among rows x tiles x lanes, position of its first component in a field).
+  /// Calls take(particle, position in rows x tiles x lanes, position of its first component in a field).
   template <class Take>
   void each(Take take) const {
     for (int row = 0; row < rows; ++row)
@@ -97,18 +94,16 @@ struct Layout {
           take(row * columns + column, (static_cast<long>(row) * tiles + tile) * lanes + lane,
                row * row_length() + static_cast<long>(left_halo + tile) * 3 * lanes + lane);
   }
-  /// Copies every second row and column of a field, without the halo.
+  /// Copies every second row and column, without the halo.
   void inject(const AlignedBuffer<double>& fine, AlignedBuffer<double>& coarse) const;
   /// put() copies points times `factor` into a field, without its halo; get() copies them back.
   void put(const Points& points, double factor, AlignedBuffer<double>& field) const;
   void get(const AlignedBuffer<double>& field, double factor, Points& points) const;
 };
 
-// One grid: its springs, its matrix and the V-cycle's vectors on it.
-
 class Level {
  public:
-  /// Springs are `times_longer` than those of the topology, with the same stiffness.
+  /// Springs are `times_longer` than the topology's, and equally stiff.
   Level(const Layout& layout, const GridTopology& topology, double times_longer);
 
   const Layout& layout() const { return layout_; }
@@ -120,11 +115,11 @@ class Level {
   AlignedBuffer<float> b, u, change, r;  // fields: right side and solution of the V-cycle, and working memory
 
   void load_inertia();  // reads `inertia` and `free`
-  /// Smallest share of inertia in the matrix diagonal over all particles; 1 without springs.
+  /// Smallest share of inertia in the diagonal over all particles; 1 without springs.
   double inertia_share() const { return inertia_share_; }
   /// Computes the clamped stiffness at x, and the inverse diagonal blocks.
   void linearise(const Kernels& f);
-  /// Computes the exact (unclamped) stiffness, in exact() only.
+  /// Computes the unclamped stiffness, in exact() only.
   void linearise_unclamped(const Kernels& f);
 
  private:
@@ -138,7 +133,7 @@ class Level {
   Matrix<double> exact_{};
 };
 
-// A cloth's matrix, and the V-cycle over its coarser grids.
+// The V-cycle over a cloth's grids.
 
 class VCycle {
  public:
@@ -151,7 +146,7 @@ class VCycle {
   const Layout& layout() const { return levels_.front().layout(); }
   const Matrix<double>& exact() const { return levels_.front().exact(); }
 
-  /// Right-hand side and solution of one V-cycle: fields.
+  /// Right side and solution of a V-cycle: fields.
   AlignedBuffer<float>& b() { return levels_.front().b; }
   const AlignedBuffer<float>& u() const { return levels_.front().u; }
   void cycle() { cycle(0); }
@@ -159,7 +154,6 @@ class VCycle {
   double products() const;
 
  private:
-  /// Transfer from a grid to the next coarser one.
   struct GridTransfer {
     Transfer transfer{};
     AlignedBuffer<float> right, left;
@@ -172,10 +166,10 @@ class VCycle {
   std::vector<Level> levels_;
   std::vector<GridTransfer> transfers_;
   Eigen::ArrayXd inertia_;  // per particle, as last set
-  size_t coarsest_ = 0;     // index of the first level on which relaxation alone suffices
+  size_t coarsest_ = 0;     // first level on which relaxation alone suffices
 };
 
-// Conjugate gradients for the linear systems of implicit steps on a cloth.
+// Conjugate gradients preconditioned by the V-cycle.
 
 class MultigridSolver {
  public:
@@ -183,12 +177,12 @@ class MultigridSolver {
 
   /// Solves (inertia + K(x)) u = b for u (3 x n) until |b - A u| <= tolerance |b|. `inertia` (N/m) is per particle, x
   /// (m) and b (N) are 3 x n; pins do not move. As in conjugate_gradients(), the residual is the recurrence's, and the
-  /// solve stops immediately at negative curvature with that direction in u. Gives up after 500 iterations, ten times
-  /// the number that cloths are known to need.
+  /// solve stops at negative curvature with that direction in u. Gives up after 500 iterations, ten times as many as
+  /// cloths are known to need.
   CgResult solve(const Eigen::ArrayXd& inertia, const Points& x, Curvature curvature, const Points& b, double tolerance,
                  Points& u);
 
-  /// Matrix products per iteration; those on coarse grids count in proportion to their size.
+  /// Matrix products per iteration, counted as in VCycle::products().
   double products() const { return 1 + v_cycle_.products(); }
 
  private:
@@ -196,7 +190,7 @@ class MultigridSolver {
   AlignedBuffer<double> u_, r_, p_, q_;
 };
 
-/// Null unless the model is a sufficiently large regular cloth whose stiffness comes from springs only.
+/// Null unless the model is a large enough regular cloth whose stiffness comes from springs only.
 std::unique_ptr<MultigridSolver> make_multigrid_solver(const Model& model);
 
 }  // namespace crosscheck::multigrid

@@ -1,4 +1,3 @@
-// A cloth as a regular grid: recognised from a scene's springs, laid out in lanes, split into slabs for threads.
 #include "mysim/simd/cloth_grid/cloth_grid.h"
 
 #include <algorithm>
@@ -24,8 +23,7 @@ Kernel<float> kernel(InstructionSet isa, bool fast) {
 
 namespace {
 
-/// Candidate column counts, from the largest index difference: springs with that difference lead two rows on, or to the
-/// next row.
+/// Candidate column counts, from the largest index difference of a spring.
 std::vector<int> candidate_columns(const Springs& springs, int particles) {
   int farthest = 0;
   for (const Spring& s : springs.list) farthest = std::max(farthest, std::abs(s.b - s.a));
@@ -38,7 +36,7 @@ std::vector<int> candidate_columns(const Springs& springs, int particles) {
   return columns;
 }
 
-/// The direction of a spring whose first end is the earlier particle; nothing if it is not one of the six.
+/// Direction of a spring from the earlier particle; nothing if it is not one of the six.
 std::optional<int> direction_of(int a, int b, int columns) {
   const Direction to{b / columns - a / columns, b % columns - a % columns};
   for (int d = 0; d < directions; ++d)
@@ -106,7 +104,7 @@ ClothGridMemory<T>::ClothGridMemory(const GridTopology& topology)
   x_ = AlignedBuffer<T>(row * rows_);
   v_ = AlignedBuffer<T>(static_cast<size_t>(tiles_) * tile_size<T> * rows_);
   force_ = AlignedBuffer<T>(3 * row);
-  // empty lanes stay far from the particles and from each other
+  // empty lanes: far from the particles and from each other
   for (size_t i = 0; i < x_.size(); ++i) x_.data()[i] = T(1e6) + static_cast<T>(i % 4096) * T(17);
   grid_ = {rows_, tiles_, 0, 0, x_.data(), v_.data(), force_.data(), {}, {}, nullptr, nullptr, nullptr, 0};
   for (int d = 0; d < directions; ++d) {
@@ -207,7 +205,7 @@ namespace {
 
 constexpr int halo_rows = 2;
 
-/// Number of slabs such that each has at least twice as many rows as its neighbours copy.
+/// Each slab has at least twice as many rows as its neighbours copy.
 int slab_count(int rows, int threads) { return std::clamp(rows / (2 * halo_rows), 1, std::max(threads, 1)); }
 
 }  // namespace

@@ -15,15 +15,13 @@
 
 namespace crosscheck::simd {
 
-/// The functions of the fused step (fused_step.h). `fast`: fused multiply-add, and inverse square roots from the
-/// machine's own estimate; otherwise the same bits on every machine.
+/// The fused step (fused_step.h). `fast`: fused multiply-add, and inverse square roots from the machine's own estimate;
+/// otherwise the same bits on every machine.
 template <class T>
 Kernel<T> kernel(InstructionSet isa, bool fast);
 
-// Recognition of the regular grid in a scene's springs, if there is one.
-
-/// All springs of a rows x columns grid whose particle (row, column) has the index row * columns + column. For each
-/// direction (fused_step.h), either all springs that fit or none are present, with one stiffness and one rest length.
+/// All springs of a rows x columns grid whose particle (row, column) has index row * columns + column. Each direction
+/// (fused_step.h) has all springs that fit or none, with one stiffness and one rest length.
 struct GridTopology {
   struct Stiffness {
     double k, rest;  // N/m, m
@@ -32,11 +30,10 @@ struct GridTopology {
   std::array<std::optional<Stiffness>, directions> families;
 };
 
-/// Nothing if the springs follow another law or do not form exactly one such grid; such scenes use the kernels for
-/// general spring graphs.
+/// Nothing if the springs follow another law or do not form exactly one such grid.
 std::optional<GridTopology> find_grid_topology(const Springs& springs, int particles);
 
-// The memory of a cloth: conversion between scene order and lanes.
+// A cloth's memory: conversion between scene order and lanes.
 
 /// With fewer columns, a row is a single tile of floats, whose skip-one springs would cross two lanes. Both precisions
 /// support the same cloths.
@@ -50,26 +47,26 @@ class ClothGridMemory {
 
   ClothGrid<T>& grid() { return grid_; }
   int size() const { return rows_ * columns_; }  // particles
-  /// One row of positions including its halo: row_length() numbers.
+  /// Positions of a row and its halo: row_length() numbers.
   T* row(int which) {
     assert(0 <= which && which < rows_);
     return x_.data() + which * row_length();
   }
   long row_length() const { return static_cast<long>(left_halo + tiles_ + right_halo) * 3 * lanes<T>; }
 
-  /// Copies all particles in, and fills the halos of the rows.
+  /// Copies all particles in, and fills the halos.
   void put(const Eigen::Ref<const Points>& x, const Eigen::Ref<const Points>& v);
-  /// Copies some rows out; the column of x and v of particle i is first + i.
+  /// Copies some rows out; particle i has column first + i of x and v.
   void get(int row, int rows, int first, Points& x, Points& v) const;
-  /// Sets the position of one particle, including halo copies; its velocity is set to 0.
+  /// Moves a particle, including its halo copies; its velocity becomes 0.
   void place(int particle, const Vec3& x);
   Vec3 position(int particle) const;
   Vec3 velocity(int particle) const;
-  /// One value per particle (or one for all) in the layout that the kernel reads; lanes without a particle hold 0 if
-  /// each particle has its own value.
+  /// One value per particle (or one for all) in the kernel's layout. Lanes without a particle are 0 if each particle
+  /// has its own value.
   AlignedBuffer<T> spread(const Eigen::ArrayXd& values) const;
 
-  /// Index of the particle in a lane of a tile; -1 if the lane is empty.
+  /// Particle in a lane of a tile; -1 if the lane is empty.
   int particle(int row, int tile, int lane) const {
     assert(0 <= row && row < rows_ && 0 <= tile && tile < tiles_ && 0 <= lane && lane < lanes<T>);
     const int column = lane * tiles_ + tile;
@@ -77,7 +74,7 @@ class ClothGridMemory {
   }
 
  private:
-  long x_at(int particle) const;  // position of its first coordinate; each further coordinate is a cache line apart
+  long x_at(int particle) const;  // position of its first coordinate; the others are one cache line apart
   long v_at(int particle) const;
 
   int rows_, columns_, tiles_;
@@ -86,12 +83,10 @@ class ClothGridMemory {
   ClothGrid<T> grid_{};
 };
 
-// A cloth split into slabs of rows, one slab per thread.
-
-/// Around its own rows a slab has two halo rows of each neighbour, because a spring spans at most two rows. Before a
-/// fused step it receives the positions that the neighbour sent after the last one. Two such buffers are used
-/// alternately, so that all slabs send and receive at the same time and threads wait for each other only once per fused
-/// step. Forces are summed in the order of a single slab: the same bits for any number of slabs.
+/// A cloth split into slabs of rows, one per thread. A slab has two halo rows of each neighbour around its own, because
+/// a spring spans at most two rows. Before a fused step it receives the positions that the neighbour sent after the
+/// last one, through two alternating buffers, so that threads wait for each other only once per fused step. Forces are
+/// summed in the order of a single slab: the same bits for any number of slabs.
 template <class T>
 class Slabs {
  public:
@@ -102,20 +97,20 @@ class Slabs {
   struct Slab {
     int which;
     ClothGridMemory<T> body;
-    int first;                          // index of the slab's first particle in the scene
-    int leading_halo, own_rows;         // rows
-    AlignedBuffer<T> outgoing_halo[2];  // for the neighbours: the first two and the last two own rows
+    int first;  // the slab's first particle
+    int leading_halo, own_rows;
+    AlignedBuffer<T> outgoing_halo[2];  // copies of the first two and the last two own rows
     std::vector<KickFactors> factors;   // one per kick
-    /// The slab's index of the scene's particle i; -1 if it is in none of the slab's rows.
+    /// The slab's index of particle i; -1 if it is in none of its rows.
     int here(int i) const { return i >= first && i - first < body.size() ? i - first : -1; }
   };
 
-  /// Creates as many slabs as threads, or fewer if there are few rows.
+  /// One slab per thread, or fewer if there are few rows.
   Slabs(const GridTopology& topology, int threads);
 
   void put(const Points& x, const Points& v);
   void get(Points& x, Points& v) const;
-  /// Calls work(slab) for each slab on its own thread, with the neighbours' rows up to date.
+  /// Calls work(slab) for each slab on its thread, with the neighbours' rows up to date.
   template <class Work>
   void for_each(Work work) {
     const std::function<void(int)> exchange_and_work = [&](int which) {

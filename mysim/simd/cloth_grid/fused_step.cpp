@@ -1,4 +1,4 @@
-// See fused_step.h. Compiled once per instruction set, named by CROSSCHECK_ISA.
+// Compiled once per instruction set, CROSSCHECK_ISA.
 #include "mysim/simd/cloth_grid/fused_step.h"
 
 #include <cassert>
@@ -11,7 +11,7 @@ namespace {
 template <class T>
 using V = typename Lanes<T>::V;
 
-/// Three coordinates of as many particles as a register has lanes; in memory they are a cache line apart.
+/// Coordinates of one register of particles; in memory they are a cache line apart.
 template <class T>
 struct Three {
   V<T> x, y, z;
@@ -32,7 +32,7 @@ inline constexpr bool is_double = sizeof(T) == 8;
 template <class T>
 inline constexpr int tile_size = 3 * lanes<T>;  // numbers per tile
 
-/// m^2; below any nonzero squared length that occurs.
+/// m^2; below any nonzero squared length.
 template <class T>
 inline constexpr T min_squared_length = T(1e-30);
 
@@ -41,7 +41,7 @@ FORCE_INLINE long row_length(const ClothGrid<T>& s) {
   return static_cast<long>(left_halo + s.tiles + right_halo) * tile_size<T>;
 }
 
-/// One spring per lane: adds its force to the near end and subtracts it from the far end.
+/// One spring per lane: adds the forces on the near end and subtracts them from the far end's.
 template <class T, bool fast>
 FORCE_INLINE void spring(const Three<T>& near, Three<T>& force, const T* far, T* far_force, const T* k, V<T> rest,
                          V<T>& least) {
@@ -50,7 +50,7 @@ FORCE_INLINE void spring(const Three<T>& near, Three<T>& force, const T* far, T*
   const V<T> dx = near.x - q.x, dy = near.y - q.y, dz = near.z - q.z;
   V<T> s = L::fma(dz, dz, L::fma(dy, dy, dx * dx));
   least = L::min(least, s);
-  // coincident ends: a large number times a difference of 0
+  // coincident ends: a large number times 0
   s = L::max(s, L::all(min_squared_length<T>));
   const V<T> scale = L::load(k) * L::fma(rest, rsqrt<T, fast>(s), L::all(-1));
   force.x = L::fma(scale, dx, force.x), force.y = L::fma(scale, dy, force.y), force.z = L::fma(scale, dz, force.z);
@@ -58,7 +58,6 @@ FORCE_INLINE void spring(const Three<T>& near, Three<T>& force, const T* far, T*
   store(far_force, Three<T>{L::fnma(scale, dx, f.x), L::fnma(scale, dy, f.y), L::fnma(scale, dz, f.z)});
 }
 
-/// A compile-time number.
 template <int n>
 struct Number {
   static constexpr int value = n;
@@ -66,11 +65,11 @@ struct Number {
 
 template <class T>
 struct RowWindow {
-  const T* x[3];  // this row and the two below, at tile 0; the last rows of a cloth have none below
+  const T* x[3];  // this row and the next two, at tile 0; not used beyond the last row
   T* f[3];
 };
 
-/// All springs that begin in a row. Each direction is a compile-time constant.
+/// All springs that begin in a row; directions are compile-time constants.
 template <class T, bool fast>
 FORCE_INLINE void springs_of_row(const ClothGrid<T>& s, const RowWindow<T>& rows, int rows_below, V<T>& least) {
   using L = Lanes<T>;
@@ -130,8 +129,8 @@ FORCE_INLINE bool touches(const Three<T>& x, const BoundingPlane& plane) {
   return Lanes<T>::any_less(dot<T>(x - all<T>(plane.origin), all<T>(plane.normal)), Lanes<T>::all(T(plane.near)));
 }
 
-// resolve_contact() of terms/surface.h, vectorised operation by operation: a test verifies that both give the same
-// bits. Processed one by one, particles take five times as long, since each square root waits for the previous one.
+// resolve_contact() of terms/surface.h, vectorised operation by operation: a test verifies that the bits agree. One by
+// one, particles take five times as long, because each square root waits for the previous one.
 
 template <class T>
 FORCE_INLINE Three<T> shortened(const Three<T>& a, V<T> by) {
@@ -145,14 +144,14 @@ FORCE_INLINE Three<T> normal_of(const Three<T>& d, V<T> length) {
   const V<T> none = L::all(0);
   return choose<T>(length > none, Three<T>{d.x / length, d.y / length, d.z / length}, Three<T>{none, L::all(1), none});
 }
-/// Velocity after contact with a fixed surface of normal n; returns v if the particle recedes.
+/// Velocity after contact with a fixed surface of normal n; v if the particle recedes.
 template <class T, class Solid>
 FORCE_INLINE Three<T> velocity_after_contact(const Solid& s, const Three<T>& n, const Three<T>& v) {
   using L = Lanes<T>;
   const V<T> none = L::all(0), friction = L::all(s.friction);
   const V<T> inward = dot<T>(v, n), change = L::all(-(1 + s.restitution)) * inward;
   const Three<T> held = shortened<T>(v - scaled<T>(inward, n), friction * change) + scaled<T>(inward + change, n);
-  const Three<T> zero{none, none, none};  // velocity of the surface: adding it turns -0 into 0
+  const Three<T> zero{none, none, none};  // the surface's velocity: adding it turns -0 into 0
   return choose<T>(inward < none, held, v) + zero;
 }
 template <class T>
@@ -190,8 +189,7 @@ FORCE_INLINE void resolve_contact(const BoundingPlane& s, const Three<T>& x_n, T
   v = choose<T>(touching, velocity_after_contact<T>(s, n, v), v);
 }
 
-/// Kick, contacts and drift of a row. The code for planes is a template option, so that scenes without planes do not
-/// pay for it.
+/// Kick, contacts and drift of a row. Scenes without planes do not pay for their code.
 template <class T, bool fast, bool planes>
 FORCE_INLINE void move_row(const ClothGrid<T>& s, const KickDrift<T>& step, int row, T* x, const T* f) {
   using L = Arithmetic<T, fast>;
@@ -246,7 +244,7 @@ FORCE_INLINE void move_row(const ClothGrid<T>& s, const KickDrift<T>& step, int 
   fill_halo<tile_size<T>>(x, s.tiles);
 }
 
-/// Number of degenerate springs that begin in a row, counted one by one; called only if a length was 0.
+/// Degenerate springs that begin in a row, counted one by one; called only if a length was 0.
 template <class T>
 [[gnu::noinline]] long count_degenerate_springs(const ClothGrid<T>& s, const RowWindow<T>& rows, int rows_below) {
   long degenerate_springs = 0;
@@ -263,8 +261,8 @@ template <class T>
   return degenerate_springs;
 }
 
-/// Row by row: computes the forces of the springs that begin in the row, then kicks and drifts it, since all of its
-/// forces are complete. Returns the number of degenerate springs that begin in own rows.
+/// Row by row: computes the forces of the springs that begin in the row, after which the forces on the row are
+/// complete, and then kicks and drifts it. Returns the number of degenerate springs that begin in own rows.
 template <class T, bool fast>
 long fused_step(const ClothGrid<T>& s, const KickDrift<T>& step) {
   assert(s.tiles >= 2);  // fits(): a spring crosses at most one lane
@@ -311,7 +309,7 @@ int multiply_and_add(long rounds, T* sum) {
   constexpr int chains = 12;  // two pipes, each with four or five operations in flight
   V<T> y[chains];
   for (int i = 0; i < chains; ++i) y[i] = L::all(T(1) / T(i + 1));
-  const V<T> half = L::all(T(0.5));  // fixed point at 1: neither overflow nor denormal numbers, which are slow
+  const V<T> half = L::all(T(0.5));  // fixed point at 1: no overflow, and no slow denormal numbers
   for (long round = 0; round < rounds; ++round)
     for (int i = 0; i < chains; ++i) y[i] = L::fma(y[i], half, half);
   V<T> all = L::all(0);

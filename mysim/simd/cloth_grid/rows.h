@@ -1,5 +1,5 @@
-// Rows of tiles with a halo (simd/cloth_grid/fused_step.h), of `tile_size` numbers per tile. Like simd/lanes.h, include
-// this file only in code that is compiled for each instruction set.
+// Rows of tiles with a halo (simd/cloth_grid/fused_step.h), of `tile_size` numbers per tile. Include it only in code
+// that is compiled for each instruction set.
 #pragma once
 
 #include <cassert>
@@ -16,8 +16,8 @@ FORCE_INLINE void clear(T* row, long numbers) {
   for (long i = 0; i < numbers; i += Lanes<T>::width) Lanes<T>::store(row + i, Lanes<T>::all(0));
 }
 
-/// Adds the forces on the halo of a row to the tiles that it copies, shifted by one lane. The one lane of a halo tile
-/// without an original holds 0, so that the position beyond the tile to which it is added remains unchanged.
+/// Adds the forces on a row's halo to the tiles that it copies, shifted by one lane. The one lane of a halo tile
+/// without an original holds 0, so that the number beyond the tile to which it is added does not change.
 template <int tile_size, class T>
 FORCE_INLINE void reduce_halo(T* row, int tiles) {
   assert(tiles >= 1);
@@ -25,13 +25,12 @@ FORCE_INLINE void reduce_halo(T* row, int tiles) {
   const auto give = [](T * to, const T* from) __attribute__((always_inline)) {
     for (int i = 0; i < tile_size; i += L::width) L::store(to + i, L::load(to + i) + L::load(from + i));
   };
-  // from the last: if there is one tile, the second copy is a copy of the first
+  // from the last: with a single tile, the second copy is a copy of the first
   for (int b = right_halo - 1; b >= 0; --b) give(row + b * tile_size + 1, row + (tiles + b) * tile_size);
   give(row + (tiles - 1) * tile_size - 1, row - tile_size);
 }
 
-/// Copies positions into the halo of a row. The one lane without an original receives a nearby number; no spring
-/// reaches it.
+/// Copies positions into a row's halo. The one lane without an original receives a nearby number, which no spring uses.
 template <int tile_size, class T>
 FORCE_INLINE void fill_halo(T* row, int tiles) {
   assert(tiles >= 1);

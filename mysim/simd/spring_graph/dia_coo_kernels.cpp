@@ -1,4 +1,4 @@
-// Spring forces by offset (DIA) and edge by edge (COO), compiled once per instruction set.
+// Compiled once per instruction set.
 #include "mysim/simd/spring_graph/dia_coo_kernels.h"
 
 #include <cassert>
@@ -11,16 +11,15 @@ namespace {
 using L = simd::Lanes<double>;
 using V = L::V;
 
-/// m^2; below any nonzero squared length that occurs.
+/// m^2; below any nonzero squared length.
 inline constexpr double min_squared_length = 1e-290;
 
-/// Force divided by the difference of the ends (N/m) at squared length s (m^2): -T / L. For coincident ends, a large
-/// number times a difference of 0.
+/// -T / L (N/m) at squared length s (m^2). Coincident ends: a large number times a difference of 0.
 /// Square root and division are the machine's, correctly rounded, and nothing is fused, so that each spring's force
 /// equals that of the plain loop to the last bit, on all instruction sets. This matters most near the rest length,
 /// where r - L is a small difference of large numbers: springs at rest must exert no force. An estimate of 1 / L with
-/// Newton steps (as in simd/lanes.h) does not pay: correcting the length to be rounded correctly takes a third longer
-/// than square root and division, which overlap with other work.
+/// Newton steps (as in simd/lanes.h) does not pay: correct rounding of the length takes a third longer than square root
+/// and division, which overlap with other work.
 template <bool hooke>
 FORCE_INLINE V scale_of(V s, V k, V rest) {
   s = L::max(s, L::all(min_squared_length));
@@ -32,11 +31,11 @@ FORCE_INLINE V scale_of(V s, V k, V rest) {
   return k * (r2 - s) / (s + r2);
 }
 
-/// Registers that process a tile together and share the loop overhead.
+/// Registers that process a tile together, to share the loop overhead.
 inline constexpr int registers_per_group = L::width == tile ? 1 : 2;
 inline constexpr int group_size = registers_per_group * L::width;
 
-/// Three coordinates of the particles in `registers_per_group` registers.
+/// Coordinates of the particles in these registers.
 struct Sums {
   V f[3][registers_per_group];
 };
@@ -44,7 +43,7 @@ struct Sums {
 FORCE_INLINE long ring_length(const Diagonal& diagonal) { return diagonal.mask + 1 + tile; }
 FORCE_INLINE long place(int b) { return static_cast<long>(b) * tile; }
 
-/// Computes the springs that begin in one group of a tile.
+/// Springs that begin in one group of a tile.
 template <bool hooke>
 FORCE_INLINE Sums begin_at(const DiaSprings& s, int b, int lane, const int* coefficient_row, V& least) {
   const long at = place(b) + lane;
@@ -65,7 +64,7 @@ FORCE_INLINE Sums begin_at(const DiaSprings& s, int b, int lane, const int* coef
       const V scale = scale_of<hooke>(squared, L::load(own), L::load(own + tile));
       double* to = diagonal->ring + r + a * L::width;
       for (int c = 0; c < 3; ++c) {
-        d[c] = scale * d[c];  // now the force
+        d[c] = scale * d[c];  // becomes the force
         sum.f[c][a] = sum.f[c][a] + d[c];
         L::store(to + c * n, d[c]);
       }
@@ -87,9 +86,8 @@ FORCE_INLINE void begin_tile(const DiaSprings& s, int b, const int*& coefficient
   for (int i = 0; i < s.count; ++i) coefficient_row += b >= s.diagonals[i].first && b < s.diagonals[i].last;
 }
 
-/// Adds the forces of all springs on a tile to f.
 FORCE_INLINE void finish_tile(const DiaSprings& s, int b, double* f) {
-  alignas(64) double last[3 * tile];  // copy of the last tile, which may hold fewer particles
+  alignas(64) double last[3 * tile];  // the last tile may hold fewer particles
   const int there = s.particles - b * tile;
   double* to = f + 3 * place(b);
   if (there < tile) {
@@ -107,7 +105,7 @@ FORCE_INLINE void finish_tile(const DiaSprings& s, int b, double* f) {
       const long from = place(b) - diagonal.offset;
       if (from + tile <= place(diagonal.first) || from >= place(diagonal.last)) continue;
       const long n = ring_length(diagonal);
-      // at most one tile extends beyond the end of the ring, where its first tile is repeated
+      // at most one tile extends beyond the ring, where the first tile is repeated
       const double* pushes = diagonal.ring + (from & diagonal.mask) + lane;
       for (int c = 0; c < 3; ++c)
         for (int a = 0; a < registers_per_group; ++a)
@@ -120,7 +118,7 @@ FORCE_INLINE void finish_tile(const DiaSprings& s, int b, double* f) {
     for (int i = 0; i < 3 * there; ++i) to[i] = last[i];
 }
 
-/// Clears one tile of a ring: before the first springs and after the last ones.
+/// Clears a tile of a ring: before the first springs and after the last ones.
 FORCE_INLINE void clear(const Diagonal& diagonal, int b) {
   const long r = place(b) & diagonal.mask;
   for (int c = 0; c < 3; ++c)

@@ -3,45 +3,45 @@
 
 namespace crosscheck::spring_graph {
 
-// DIA: springs by diagonals. dia_coo_kernels.cpp is compiled once per instruction set.
+// DIA: springs by diagonals of the adjacency matrix.
 //
 // The cost of a spring is the access to its ends: scattered numbers are gathered one by one, and adding to both ends is
-// a scatter in which no two lanes may collide. But particles are seldom numbered at random. When they are numbered row
-// by row, as in cloths, tiles and chains, most springs join particle i to i + offset, with a handful of offsets: they
-// lie on a few diagonals of the adjacency matrix. Eight springs of a diagonal that begin next to each other also end
-// next to each other: their ends are six loads, and nothing is gathered. Lanes without a spring have stiffness 0.
+// a scatter in which no two lanes may collide. But when particles are numbered row by row, as in cloths, tiles and
+// chains, most springs join particle i to i + offset, with a handful of offsets: they lie on a few diagonals of the
+// adjacency matrix. Eight springs of a diagonal that begin next to each other also end next to each other: their ends
+// are six loads, and nothing is gathered. Lanes without a spring have stiffness 0.
 //
-// The kernel visits tiles of eight particles. First it computes the springs that begin in a tile: their forces on it
-// are summed in registers, and each force is also stored in its diagonal's ring. Then the previous tile is finished:
-// the springs that end at a particle are `offset` places back in the ring of each diagonal, contiguous again. So each
-// spring is computed once, and each force is written once and read once while it is still in the cache, for graphs of
-// any size: a ring is about as long as its offset.
+// The kernel visits tiles of eight particles. It first computes the springs that begin in a tile: it sums their forces
+// on the tile in registers, and stores each force in its diagonal's ring. Then it finishes the previous tile: the
+// springs that end at a particle are `offset` places back in the ring of each diagonal, contiguous again. So each
+// spring is computed once, and each force is written and read once while it is in the cache, for graphs of any size: a
+// ring is about as long as its offset.
 //
-// Stiffness and rest length of eight springs form a coefficient row; equal rows share their memory. In a grid nearly
-// all rows are equal; for a large grid this saves most of the traffic to main memory.
+// Stiffness and rest length of eight springs form a coefficient row. Equal rows share their memory: in a large grid,
+// where nearly all are equal, this saves most of the traffic to main memory.
 
 inline constexpr int tile = 8;  // particles, and springs, per tile
 
-/// Springs from particle i to i + offset, for i in the tiles [first, last).
+/// Springs from particle i to i + offset, for i in tiles [first, last).
 struct Diagonal {
   int offset;
   int first, last;
-  long mask;     // length of the ring minus 1, where the length is a power of two
-  double* ring;  // N: the force at i is in place i & mask; x, y and z, each with its first tile repeated at its end
+  long mask;     // length of the ring, a power of two, minus 1
+  double* ring;  // N: the force at i is in place i & mask; x, y and z, each with its first tile repeated at the end
 };
 
 struct DiaSprings {
   int particles, tiles, count;
   const Diagonal* diagonals;
-  const int* coefficient_row;  // per tile and diagonal, tile by tile: index of its coefficient row
+  const int* coefficient_row;  // per tile and diagonal, tile by tile: index of the coefficient row
   const double* coefficients;  // N/m and m: per row, the springs' stiffness, then their rest lengths
-  double* x[3];                // m: coordinates, with a spare tile on either side in which no two particles coincide
-  double* pulls;               // N: two tiles of 3 x tile each; working memory
+  double* x[3];                // m: coordinates; no two particles coincide in the spare tile on either side
+  double* pulls;               // N: two tiles of 3 x tile, working memory
 };
 
 // COO: a list of springs with arbitrary ends.
 //
-// Positions and forces are records of four numbers, x y z 0, each fetched as a whole, which is cheaper than gathering
+// Positions and forces are records of four numbers, x y z 0, which are fetched whole; this is cheaper than gathering
 // coordinates. As many springs as a register has lanes are processed together. The records of their ends are
 // subtracted, and the sums of squares and the laws are computed lane by lane. Each record times its lane is then added
 // to one end and subtracted from the other, spring after spring, so that no two collide. Springs are sorted by their
@@ -49,14 +49,13 @@ struct DiaSprings {
 
 struct CooSprings {
   int particles, springs;  // springs: whole tiles, padded with springs between two extra particles
-  const int* ends;         // per spring, two: positions in x
-  const double *k, *rest;  // N/m, m: per spring
+  const int* ends;         // two per spring: positions in x
+  const double *k, *rest;  // N/m, m
   double *x, *force;       // m, N: particles + 2 records
 };
 
-/// The functions of one instruction set. Both add the springs' forces at positions x (m) to f (N), both 3 x particles,
-/// and return true if some two ends coincided. Lanes without a spring may cause a false positive: the caller must check
-/// whether springs were affected.
+/// Both functions add the springs' forces at positions x (m) to f (N), both 3 x particles, and return true if the ends
+/// of a spring coincided, or of a lane without a spring: the caller must check.
 struct Kernels {
   bool (*dia)(const DiaSprings&, const double* x, double* f);
   bool (*coo)(const CooSprings&, const double* x, double* f);

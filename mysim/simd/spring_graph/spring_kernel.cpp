@@ -1,4 +1,3 @@
-// Spring forces through the kernels of each part of the partition (simd/spring_graph/spring_layout.h).
 #include "mysim/simd/spring_graph/spring_kernel.h"
 
 #include <cassert>

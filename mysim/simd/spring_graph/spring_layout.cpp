@@ -1,4 +1,3 @@
-// Partition of springs by their cost in each kernel, and their memory layout for the kernels.
 #include "mysim/simd/spring_graph/spring_layout.h"
 
 #include <algorithm>
@@ -18,7 +17,7 @@ Kernels kernels(simd::InstructionSet isa, SpringLaw law) {
 
 namespace {
 
-/// m: positions of padding particles, far from the real ones and from each other.
+/// m: padding particles, far from the real ones and from each other.
 double padding_position(long i) { return 1e6 + 17 * static_cast<double>(i); }
 
 }  // namespace
@@ -28,7 +27,7 @@ DiaStorage::DiaStorage(const std::vector<OrientedSprings>& diagonals, int partic
   for (const OrientedSprings& diagonal : diagonals) {
     assert(!diagonal.empty() && diagonal.front().a < diagonal.front().b && diagonal.back().b < particles);
     const int offset = diagonal.front().b - diagonal.front().a;
-    // room for the springs of a tile, of the previous tile (finished at that time), and for loads beyond them
+    // room for the springs of a tile, of the previous tile (being finished), and for loads beyond them
     const long places = std::bit_ceil(static_cast<unsigned long>(offset + 3 * tile));
     rings_.emplace_back(3 * (places + tile));
     diagonals_.push_back(
@@ -131,12 +130,12 @@ Spring oriented(Spring s) {
 
 bool by_first_end(const Spring& p, const Spring& q) { return p.a < q.a; }
 
-/// Number of tiles from the first to the last in which springs of this order begin.
+/// Tiles from the first to the last in which springs of this order begin.
 int tiles_of(const std::vector<Spring>& springs, const std::vector<int>& order) {
   return oriented(springs[order.back()]).a / tile + 1 - oriented(springs[order.front()]).a / tile;
 }
 
-/// Springs by offset, sorted by a; of several springs between the same two particles, only the first.
+/// Springs by offset, sorted by a; only the first between the same two particles.
 std::map<int, std::vector<int>> by_offset(const std::vector<Spring>& springs) {
   std::map<int, std::vector<int>> found;
   for (size_t i = 0; i < springs.size(); ++i)

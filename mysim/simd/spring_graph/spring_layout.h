@@ -1,5 +1,4 @@
-// The format in which each spring's force is cheapest, and the memory of both formats: offsets and coefficient rows for
-// DIA, the list of edges for COO.
+// The format in which each spring's force is cheapest, and the memory of both formats.
 #pragma once
 
 #include "mysim/simd/aligned_buffer.h"
@@ -11,11 +10,11 @@ namespace crosscheck::spring_graph {
 
 Kernels kernels(simd::InstructionSet isa, SpringLaw law);
 
-/// Costs in ns, measured on one machine with AVX2; only their ratios matter. All instruction sets share them, so that
-/// they partition springs identically, add forces in the same order, and give the same bits.
+/// Costs in ns, measured on one machine with AVX2; only their ratios matter. All instruction sets share them, to
+/// partition springs identically, add forces in the same order, and give the same bits.
 struct Costs {
   double coefficient_row = 9;  // DIA: eight adjacent springs of a diagonal
-  double tile = 10;            // DIA: loading and storing eight particles
+  double tile = 10;            // DIA: load and store eight particles
   double coo_spring = 1.8, coo_particle = 2;
   double plain = 3.1;  // one spring in the plain loop
   double call = 30;    // calling a kernel
@@ -25,13 +24,12 @@ using simd::AlignedBuffer;
 /// Springs with a < b, sorted by a.
 using OrientedSprings = std::vector<Spring>;
 
-/// Memory of the DIA format.
 class DiaStorage {
  public:
-  /// Each list holds springs of one offset; no two lists share an offset.
+  /// One list per offset.
   DiaStorage(const std::vector<OrientedSprings>& diagonals, int particles);
   const DiaSprings& view() const { return view_; }
-  /// Number of springs with nonzero rest length whose ends coincide in the positions last loaded.
+  /// Springs with nonzero rest length whose ends coincide in the positions last loaded.
   long degenerate_springs() const;
 
  private:
@@ -44,7 +42,6 @@ class DiaStorage {
   AlignedBuffer<double> coefficients_, x_, pulls_;
 };
 
-/// Memory of the COO format.
 class CooStorage {
  public:
   CooStorage(const OrientedSprings& springs, int particles);
@@ -57,13 +54,13 @@ class CooStorage {
   AlignedBuffer<double> k_, rest_, x_, force_;
 };
 
-/// Each spring in exactly one of three lists.
+/// Each spring is in exactly one list.
 struct SpringPartition {
   std::vector<OrientedSprings> dia;  // one list per offset
   OrientedSprings coo;
-  std::vector<Spring> plain;  // for the plain loop, unchanged
+  std::vector<Spring> plain;  // unchanged, for the plain loop
 };
-/// The partition of least cost.
+/// The cheapest partition.
 SpringPartition partition_springs(const std::vector<Spring>& springs, int particles, const Costs& costs);
 
 }  // namespace crosscheck::spring_graph
