@@ -1,4 +1,3 @@
-// The table of families, and the parsing of method names with options.
 #include "reference/method.h"
 
 #include <fmt/format.h>
@@ -170,7 +169,7 @@ Method find_method(const std::string& text) {
     }
     for (const std::string& full : row.full_names()) known.push_back(full);
   }
-  // "leapfrg" is closer to the short name
+  // compares short names, because "leapfrg" is closer to them
   std::vector<std::string> names = known;
   if (parts[0].find('/') == std::string::npos)
     for (std::string& full : names) full = short_name(full);
@@ -231,13 +230,13 @@ std::vector<Method> find_methods(const std::string& list) {
 
 namespace {
 
-/// Observes free particles from one state that verdicts are based on to the next.
+/// Observes free particles from one verdict's state to the next.
 ///
-/// Largest speed: the verdict uses differences over two states, which hide a vibration that reverses in every step. A
-/// stable vibration near its limit may oscillate in this way, which is no failure.
+/// Largest speed: the verdict's differences over two states hide a vibration that reverses in every step. A stable
+/// vibration near its limit may do so, which is no failure.
 ///
-/// Passages through a sphere: both ends are outside, and the chord is deeper inside than the path may deviate from it.
-/// A path whose velocity changes by dv within a time tau, at one instant or evenly, stays within tau |dv| / 4 of its
+/// Passages through a sphere: both ends are outside, and the chord is deeper inside than the path may deviate from it:
+/// tau |dv| / 4, if the velocity changes by dv within a time tau, at one instant or evenly.
 /// chord.
 class StepObserver : public Observer {
  public:
@@ -269,7 +268,8 @@ class StepObserver : public Observer {
       return sphere.motion ? Vec3(s.v.col(i) - velocity_at(*sphere.motion, s.t)) : Vec3(s.v.col(i));
     };
     const double bend = span / 4 * (seen(state) - seen(last_)).norm();
-    // a position on the surface, rounded to single precision, is outside; one pushed out on the near side has touched
+    // outside includes positions on the surface, rounded to single precision; one pushed out on the near side has
+    // touched
     const double outside = radius * (1 - 1e-6);
     if (!(from.norm() > outside && to.norm() > outside && to.dot(seen(last_)) > 0 &&
           (from + closest * way).norm() + bend < outside))
@@ -286,7 +286,7 @@ void add_remark(Outcome& out, const std::string& remark) { out.remark += (out.re
 
 }  // namespace
 
-/// mysim's methods run through simulate(), mysim/run/engine.cpp.
+/// simulate() (mysim/run/engine.cpp) runs mysim's methods.
 Outcome run_method(const Method& method, const Scene& scene, const Run& run, std::vector<Observer*> observers,
                    const MotionBoundsFunction& bounds) {
   DivergenceMonitor monitor(scene, run, bounds);

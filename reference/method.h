@@ -1,4 +1,4 @@
-// Methods by name, i.e. everything that runs a scene, and their families.
+// Methods (everything that runs a scene) by name, and their families.
 #pragma once
 
 #include <filesystem>
@@ -15,10 +15,9 @@
 
 namespace crosscheck {
 
-// The families of methods. Code that depends on a method's kind reads its family, never its name; adding an engine is
-// adding a row.
+// Code that depends on a method's kind reads its family, never its name; adding an engine is adding a row.
 
-/// The role of a family in the comparison: the engine under test, its peers, independent integrators on the separately
+/// A family's role in the comparison: the engine under test, its peers, independent integrators of the separately
 /// written right-hand side, reference solutions, and the user's own programs and trajectories.
 enum class Role { subject, peer, integrator, truth, outside };
 
@@ -28,21 +27,21 @@ enum class Build { unknown, here, debian, own_program };
 struct MethodRow;
 
 struct MethodFamily {
-  std::string_view name;   // prefix before '/' or ':' in the names of its methods
-  std::string_view title;  // display name
+  std::string_view name;   // prefix of its methods' names, before '/' or ':'
+  std::string_view title;  // for display
   Role role;
-  std::string_view representative = {};        // the family's representative where a single method is needed
-  std::string_view representative_title = {};  // display name of the representative; empty: its name
-  std::string_view noun = "method";            // term for one of its methods: Bullet calls them worlds
+  std::string_view representative = {};        // method used where a single one is needed
+  std::string_view representative_title = {};  // for display; empty: its name
+  std::string_view noun = "method";            // Bullet calls its methods worlds
   std::string_view variant_of = {};            // another build of that engine: run by `regress`, else only by name
   Build build = Build::unknown;
   std::string_view build_text = "a program of its own";
   double call = 200e-9, element = 12e-9;  // s, cost of an evaluation, and in addition per particle and spring
-  double start = 0;                       // s, start-up time of its program
+  double start = 0;                       // s, start-up of its program
   bool single_precision = false;
-  int highest_order = 0;                          // highest order of its rules; 0: unknown
+  int highest_order = 0;                          // highest order among its rules; 0: unknown
   bool grid_kernel = false;                       // has a kernel for regular cloths
-  std::string_view departure = {};                // reason why it may deviate from linear theory
+  std::string_view departure = {};                // why it may deviate from linear theory
   std::vector<MethodRow> (*methods)() = nullptr;  // null: the user names them
 
   bool is_subject() const { return role == Role::subject; }
@@ -52,19 +51,19 @@ struct MethodFamily {
   bool in_process() const { return is_engine() && build != Build::own_program; }
 };
 
-/// The table of families (method.cpp). Exactly one family is the subject.
+/// Exactly one family is the subject.
 std::span<const MethodFamily> method_families();
 const MethodFamily& subject();
 
-/// The peers that run by default, in the table's order.
+/// Peers that run by default, in the table's order.
 std::vector<const MethodFamily*> default_peers();
-/// True for the first default peer, which some table columns refer to.
+/// True for the first default peer, to which some table columns refer.
 bool is_first_peer(const MethodFamily& family);
 
 /// Selects families; empty: all.
 using FamilyFilter = std::function<bool(const MethodFamily&)>;
 
-/// The family of a method's or family's name; a name without a known prefix belongs to the programs of `exec:`.
+/// The family of a method's or family's name; names without a known prefix are programs of `exec:`.
 const MethodFamily& family_of(std::string_view name);
 
 struct FoundRule;
@@ -72,22 +71,22 @@ struct FoundRule;
 struct Method {
   std::string name;     // full, e.g. "mysim/leapfrog+sticky"
   std::string what;     // one line for the user
-  std::string rule;     // as returned by rule_of(), for methods that are not identified from their runs; may be empty
+  std::string rule;     // as by rule_of(), for methods that are not identified from their runs; may be empty
   Engine engine;        // throws Unsupported
-  ContactLoss contact;  // availability of the energy lost in contacts
-  const Stepper* stepper = nullptr;  // null except for mysim's methods
+  ContactLoss contact;  // source of the energy lost in contacts: reported, inferred or sampled
+  const Stepper* stepper = nullptr;  // only for mysim's methods, otherwise null
   bool adaptive = false;             // uses run.tolerance instead of run.step
   bool implicit = false;             // solves an equation in each step
   bool position_based = false;
   bool multistep = false;
-  bool splits_dashpots = false;    // solves dashpots after an explicit step
-  std::string on_one_spring = {};  // equivalent rule on one linear spring; empty: `rule`
-  std::string fingerprint = {};    // hash of an external program's or trajectory's file; empty for built-in methods
-  std::function<const FoundRule&()> identify = {};  // rule identified from the runs of another engine (which_rule.h)
-  bool counts_evaluations = true;           // false: only its steps are known, not the cost of its solver in each step
-  bool sticky_contact = false;              // a touching particle is put back to its previous position
-  SpringLaw spring_law = SpringLaw::hooke;  // for position-based methods: law of the springs, regardless of the scene
-  bool own_friction = false;                // friction does not follow Coulomb's law
+  bool splits_dashpots = false;                     // solves dashpots after an explicit step
+  std::string on_one_spring = {};                   // equivalent rule on one linear spring; empty: `rule`
+  std::string fingerprint = {};                     // hash of an external program or trajectory; otherwise empty
+  std::function<const FoundRule&()> identify = {};  // identifies another engine's rule from its runs (which_rule.h)
+  bool counts_evaluations = true;                   // false: the cost of its solver in each step is unknown
+  bool sticky_contact = false;                      // puts a touching particle back to its previous position
+  SpringLaw spring_law = SpringLaw::hooke;          // spring law of position-based methods, regardless of the scene
+  bool own_friction = false;                        // friction does not follow Coulomb's law
 
   const MethodFamily& family() const { return family_of(name); }
 };
@@ -95,60 +94,58 @@ struct Method {
 /// Every available method, without options.
 std::vector<Method> all_methods();
 
-/// The result of all_methods(), computed once.
+/// all_methods(), computed once.
 std::span<const Method> builtin_methods();
 
 /// The built-in method with this name, or null; for readers of tables.
 const Method* builtin_method(std::string_view name);
 
-/// The built-in method on which a name with options is based, or null.
+/// The built-in method of a name with options, or null.
 const Method* builtin_without_options(std::string_view name);
 
-/// Name of the subject's first method with such a stepper, or empty.
+/// The subject's first method with such a stepper, or empty.
 std::string subject_method(const std::function<bool(const Stepper&)>& asked);
 
-/// "leapfrog" for mysim's methods; otherwise the whole name.
+/// "leapfrog" for mysim's methods, otherwise the whole name.
 std::string short_name(const std::string& method);
 
-/// Display name of an external program or trajectory, from its file and options: "my-mujoco, n=4". It is preceded by as
-/// many folders as are needed to distinguish it from the other programs in `beside`: "a/engine".
+/// Display name of an external program or trajectory, from its file and options: "my-mujoco, n=4", preceded by the
+/// folders that distinguish it from the other programs in `beside`: "a/engine".
 std::string program_title(const std::string& method, std::span<const std::string> beside = {});
 
 /// The subject's representative with the contact rule that puts a touching particle back.
 std::string sticky_method();
 
-/// Prefix of the names of programs.
 inline constexpr std::string_view program_prefix = "exec:";
 
-/// Finds a method by name: "rk4" (short for "mysim/rk4"), "bullet/pbd+n=10", "exec:./program". Throws InputError that
-/// lists the available methods.
+/// Finds a method: "rk4" (short for "mysim/rk4"), "bullet/pbd+n=10", "exec:./program". Throws InputError that lists the
+/// available methods.
 Method find_method(const std::string& text);
 
 /// The positions in a .npy file (samples + 1 frames x particles x 3, m) as a method, "file:NAME". Throws InputError
-/// that names the file and what was expected.
+/// with the file's name and what was expected.
 Method trajectory_method(const std::filesystem::path& file, const Scene& scene, const Run& run);
 
-/// mysim's table row of the rule that a method follows, or null: odeint/rk4 has that of rk4, and another engine that of
-/// the identified rule. +linear counts as implicit Euler: a single Newton step is the whole step if forces are linear.
+/// mysim's table row of the rule that a method follows, or null. For odeint/rk4 it is the row of rk4; for a method of
+/// another engine, the row of the rule identified from its runs. +linear counts as implicit Euler: if forces are
+/// linear, a single Newton step is the whole step.
 const Stepper* stepper_of(const Method& method);
 
-/// Name of the rule that a method follows, from its family's row or its runs; empty if it is none of mysim's rules.
+/// The rule that a method follows, from its family's row or its runs; empty if it is none of mysim's rules.
 std::string rule_of(const Method& method);
 
 /// True if two methods follow the same rule on scenes with the model's ingredients, so that they must agree to rounding
 /// without contact and differing laws; empty if unknown. A rule identified from runs holds for the ingredients of these
-/// runs. For built-in engines it also holds for other ingredients, because those engines declare differing laws.
+/// runs, and for other ingredients only if the engine is built in, because such engines declare differing laws.
 std::optional<bool> same_rule(const Method& a, const Method& b, const Model& model);
 
-/// Splits "a,b,c" and finds each method.
+/// `list`: "a,b,c".
 std::vector<Method> find_methods(const std::string& list);
 
-/// Runs the method under a DivergenceMonitor (mysim/run/observers.h), which may call `bounds`. Unsupported becomes an
-/// outcome with that verdict.
+/// Runs the method under a DivergenceMonitor (mysim/run/observers.h), which may call `bounds`. Unsupported becomes the
+/// outcome's verdict.
 Outcome run_method(const Method& method, const Scene& scene, const Run& run, std::vector<Observer*> observers,
                    const MotionBoundsFunction& bounds = motion_bounds_of);
-
-// The methods of each family, constructed in the files of methods/.
 
 /// The options after the plus signs of a name: "sticky", "n=10".
 using MethodOptions = std::vector<std::string>;
@@ -168,11 +165,11 @@ struct MethodRow {
 
 std::vector<MethodRow> mysim_methods();
 std::vector<MethodRow> bullet_methods();
-std::vector<MethodRow> bullet32_methods();  // in single precision, in a separate program
+std::vector<MethodRow> bullet32_methods();  // in a separate program
 std::vector<MethodRow> odeint_methods();
 std::vector<MethodRow> sundials_methods();
 std::vector<MethodRow> truth_methods();
-/// A method for an external program; `text` is the part after "exec:".
+/// `text`: the part after "exec:".
 Method exec_method(const std::string& text);
 
 }  // namespace crosscheck

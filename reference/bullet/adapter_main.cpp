@@ -1,4 +1,4 @@
-// Bullet as a program of the engine protocol: the same worlds in another precision, or built against another Bullet.
+// Bullet as a program of the engine protocol: the same worlds in another precision, or of another Bullet.
 //
 //   PROGRAM scene.json OUTDIR [world=deformable-explicit | world=pbd ...] [options of that world]
 

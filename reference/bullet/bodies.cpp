@@ -99,7 +99,7 @@ class BodiesWorld : public World {
       auto& node = body.bt->m_nodes[node_of[i]];
       node.m_v = node.m_vn = particles.pinned[i] ? btVector3(0, 0, 0) : to_bullet(scene_.start.v.col(i));
     }
-    body.bt->getCollisionShape()->setMargin(10);  // m: does not limit speeds (soft_body.cpp)
+    body.bt->getCollisionShape()->setMargin(10);  // m; so large that Bullet limits no speed (soft_body.cpp)
     body.bt->updateBounds();
     body.bt->setActivationState(DISABLE_DEACTIVATION);
     world_->addSoftBody(body.bt.get());

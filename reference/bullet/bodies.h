@@ -5,10 +5,10 @@
 
 namespace crosscheck::bullet {
 
-/// btDeformableMultiBodyDynamicsWorld, explicit: each piece of the spring graph is a separate body with its own
-/// mass-spring force and gravity force, as in Bullet's demos. There is no read-back; a run shows if the world keeps the
-/// stiffnesses separate. Throws Unsupported if a piece has several stiffnesses or the scene contains anything but
-/// Hookean springs and gravity.
+/// btDeformableMultiBodyDynamicsWorld, explicit: each piece of the spring graph is a body with its own mass-spring
+/// force and gravity force, as in Bullet's demos. Runs show whether the world keeps their stiffnesses apart; there is
+/// no read-back. Throws Unsupported if a piece has several stiffnesses, or the scene anything but Hookean springs and
+/// gravity.
 Outcome run_bodies(const Scene& scene, const Run& run, Observer& observer);
 
 }  // namespace crosscheck::bullet

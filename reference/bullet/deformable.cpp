@@ -1,4 +1,3 @@
-// Bullet's deformable world, its forces, and a force class for terms that Bullet's own forces do not support.
 #include "reference/bullet/deformable.h"
 
 #include <BulletSoftBody/btDeformableBodySolver.h>
@@ -30,7 +29,7 @@ btVector3 SceneForce::velocity(int particle) const {
 }
 
 btVector3 SceneForce::dashpot_axis(int a, int b) const {
-  // positions used by Bullet's own dashpots in the explicit world, and by the springs in the implicit world
+  // as Bullet's own dashpots in the explicit world, and the springs in the implicit world
   return carried_.implicit ? node(a).m_q - node(b).m_q : node(a).m_x - node(b).m_x;
 }
 
@@ -158,8 +157,8 @@ std::set<double> stiffnesses(const Springs& springs) {
   return all;
 }
 
-/// The common coefficient of dashpots that coincide with all springs, in the same order, as Bullet's own force
-/// requires; otherwise nothing.
+/// The common coefficient of dashpots along all springs, in the same order, as Bullet's own force requires; otherwise
+/// nothing.
 std::optional<double> one_dashpot_each(const Springs* springs, const Dashpots* dashpots) {
   if (!springs || !dashpots || springs->list.size() != dashpots->list.size()) return std::nullopt;
   for (size_t i = 0; i < springs->list.size(); ++i)
@@ -297,7 +296,7 @@ std::optional<std::vector<double>> DeformableForces::drag_rates(SceneForce* own)
   if (implicit_) {
     own->addScaledDampingForceDifferential(1, common, moving);
   } else {
-    // among Crosscheck's forces, a common velocity affects only the drag, unless there is aerodynamic force
+    // a common velocity changes only the drag of Crosscheck's forces, unless there is aerodynamic force
     if (own->carried().air) return own->carried().drag ? std::nullopt : std::optional(rates);
     ProbeState placed(scene_, soft_body_, t_);
     placed.stop();
@@ -317,7 +316,7 @@ ForceProbe DeformableForces::probe(btAlignedObjectArray<btDeformableLagrangianFo
   const auto by = static_cast<btScalar>(factor_);
   ProbeState placed(scene_, soft_body_, t_);
   using Stack = btDeformableLagrangianForce::TVStack;
-  Stack springs, bending, elastic, dashpots, all;  // elastic: both, added in the order of the world, bit for bit
+  Stack springs, bending, elastic, dashpots, all;  // elastic: both, added in the world's order, bit for bit
   for (Stack* stack : {&springs, &bending, &elastic, &dashpots, &all})
     stack->resize(particles.size(), btVector3(0, 0, 0));
   for (int i = 0; i < in_world.size(); ++i) {
@@ -340,13 +339,12 @@ ForceProbe DeformableForces::probe(btAlignedObjectArray<btDeformableLagrangianFo
 
 namespace {
 
-/// Gives access to the tolerance of Bullet's linear solver, which is protected.
+/// The tolerance of Bullet's linear solver is protected.
 class BodySolver : public btDeformableBodySolver {
  public:
   void set_tolerance(double squared) {
     m_cg.m_tolerance = static_cast<btScalar>(squared);
-    // the default of 300 may stop before the tolerance is reached on a large cloth: conjugate gradients with 3 n
-    // unknowns
+    // conjugate gradients with 3 n unknowns: the default of 300 may end before the tolerance on a large cloth
     m_cg.m_maxIterations = 10000;
   }
 };
@@ -387,7 +385,7 @@ class DeformableWorld : public SoftBodyWorld<btDeformableMultiBodyDynamicsWorld>
     world_->stepSimulation(static_cast<btScalar>(h_), 0);
     soft_body_->place_pins(t_next);
     for (int i = 0; i < body().m_nodes.size() && !speed_limit_; ++i)
-      // the limit sets a speed exactly; drag and contact may then reduce it slightly
+      // the limit sets a speed exactly, which drag and contact may then reduce slightly
       if (body().m_nodes[i].m_im > 0 && !(body().m_nodes[i].m_v.length() < 0.999 * limit)) speed_limit_ = limit;
   }
 
@@ -403,7 +401,7 @@ class DeformableWorld : public SoftBodyWorld<btDeformableMultiBodyDynamicsWorld>
 
  private:
   bool implicit_;
-  std::optional<double> speed_limit_;  // m/s, set if Bullet limited a speed to the body's box over the step
+  std::optional<double> speed_limit_;  // m/s, if Bullet limited a speed to the body's box over the step
   BodySolver body_solver_;
   btDeformableMultiBodyConstraintSolver solver_;
   std::unique_ptr<DeformableForces> forces_;
@@ -428,7 +426,7 @@ Outcome run_deformable(const Scene& scene, const Run& run, Observer& observer, c
   if (scene.model.find<Dashpots>() && !settings.implicit)
     out.different_law.push_back("dashpots: Bullet solves them implicitly, at the end of the explicit step");
   if (const auto limit = world.speed_limit(); limit && out.verdict == Verdict::ok) {
-    // a failed run is a failure anyway; a successful run under Bullet's speed limit solves a different problem
+    // a failed run stays a failure; a successful one under Bullet's speed limit solves another problem
     if (!settings.defaults.margin)
       throw Unsupported(fmt::format(
           "Bullet's deformable world limits speeds to the body's box over the step, here to {:.3g} m/s", *limit));

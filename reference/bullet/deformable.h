@@ -11,15 +11,14 @@
 
 namespace crosscheck::bullet {
 
-// A force class for Bullet's deformable world that covers what Bullet's own forces do not support. For springs these
-// are more than two stiffnesses, laws other than Hooke's, and implicit steps that cannot blow up. The others are
-// bending, dashpots that differ or are attached to moved pins, drag that differs between particles or is implicit, and
-// wind.
+// A force class for Bullet's deformable world that supplements Bullet's own forces: springs of more than two
+// stiffnesses, of other laws than Hooke's, or in implicit steps that cannot blow up; bending; dashpots that differ or
+// are attached to moved pins; drag that differs between particles or is implicit; wind.
 
 /// In the explicit world, springs, drag and wind act at (x_n, v_n, t_n), and Bullet solves the dashpots separately and
-/// implicitly. In the implicit world everything is evaluated at q = x + h v, v and t_{n+1}. The springs' stiffness is
-/// passed without its negative part (the transverse stiffness of a compressed spring is omitted), which keeps the
-/// matrix positive definite. Wind on triangles is constant within the step.
+/// implicitly. In the implicit world all forces are evaluated at q = x + h v, v and t_{n+1}. The springs' matrix omits
+/// the negative transverse stiffness of compressed springs, so that it is positive definite. Wind on triangles is
+/// constant within the step.
 class SceneForce : public btDeformableLagrangianForce {
  public:
   struct CarriedTerms {
@@ -29,7 +28,7 @@ class SceneForce : public btDeformableLagrangianForce {
     const Drag* drag = nullptr;
     const Wind* wind = nullptr;
     const Aerodynamics* air = nullptr;
-    double factor = 1;  // multiplies all forces except the dashpots'
+    double factor = 1;  // multiplies all forces but the dashpots'
     bool implicit = false;
     bool any() const { return springs || bending || dashpots || drag || wind || air; }
   };
@@ -45,17 +44,17 @@ class SceneForce : public btDeformableLagrangianForce {
   void addScaledElasticForceDifferential(btScalar scale, const TVStack& dx, TVStack& df) override;
   void buildDampingForceDifferentialDiagonal(btScalar scale, TVStack& diagonal) override;
 
-  /// Springs only, and bending only, at m_q; also used by the certificate's probe.
+  /// Springs only, and bending only, at m_q; also for the certificate's probe.
   void addScaledElasticForce(btScalar scale, TVStack& force);
   void add_bending_force(btScalar scale, TVStack& force);
-  /// An enum value that Bullet does not use: forces of a known type would be merged with the first force of that type.
+  /// A value that Bullet does not use: it merges a force with the first one of its type.
   static constexpr auto type = static_cast<btDeformableLagrangianForceType>(7);
   btDeformableLagrangianForceType getForceType() override { return type; }
 
  private:
   const btSoftBody::Node& node(int particle) const;
   btVector3 velocity(int particle) const;
-  btVector3 dashpot_axis(int a, int b) const;  // vector from b to a along which a dashpot acts
+  btVector3 dashpot_axis(int a, int b) const;  // from b to a, along which the dashpot acts
   void add_particle_forces(btScalar scale, TVStack& force);
 
   CarriedTerms carried_;
@@ -66,26 +65,26 @@ class SceneForce : public btDeformableLagrangianForce {
   Forces aerodynamic_forces_;  // N
 };
 
-// The forces of a scene in Bullet's deformable world: Bullet's own where supported, otherwise SceneForce; and their
-// read-back.
+// The forces of a scene in Bullet's deformable world and their read-back: Bullet's own where supported, otherwise
+// SceneForce.
 
 class DeformableForces {
  public:
   /// Adds the forces to the world. implicit: the world's mode; shipped: use Bullet's own spring force in implicit mode
-  /// too. Throws Unsupported if `shipped` is set and that force does not support the springs.
+  /// too. Throws Unsupported if that force does not support the springs.
   DeformableForces(const Scene& scene, double h, bool implicit, bool shipped, SoftBody& body,
                    btDeformableMultiBodyDynamicsWorld& world);
 
   void set_time(double t);  // s, for wind and pins
 
-  /// Gravity, drag rates, and probes of springs, bending, dashpots and wind, read from the forces that the world's
-  /// solver holds.
+  /// Gravity, drag rates, and probes of springs, bending, dashpots and wind, from the forces that the world's solver
+  /// holds.
   void read_back(btAlignedObjectArray<btDeformableLagrangianForce*>& in_world, Readback& readback) const;
 
  private:
   void carry_drag(const Drag* drag, SceneForce::CarriedTerms& ours);
   void carry_springs(const Springs* springs, const Dashpots* dashpots, SceneForce::CarriedTerms& ours, bool shipped);
-  /// Drag rate of each particle (1/s); nothing if drag cannot be separated from other forces.
+  /// Drag rate of each particle (1/s); nothing if it cannot be separated from other forces.
   std::optional<std::vector<double>> drag_rates(SceneForce* own) const;
   ForceProbe probe(btAlignedObjectArray<btDeformableLagrangianForce*>& in_world) const;
 
@@ -93,7 +92,7 @@ class DeformableForces {
   double h_;
   bool implicit_;
   SoftBody& soft_body_;
-  double factor_ = 1;  // 1 - h gamma: factor by which the body's drag factor reduces a velocity in one step
+  double factor_ = 1;  // 1 - h gamma: the body's drag factor reduces a velocity by this factor in one step
   double t_ = 0;
   std::map<std::string, std::string> mapped_;
   std::unique_ptr<btDeformableMassSpringForce> spring_force_;
@@ -101,23 +100,22 @@ class DeformableForces {
   std::unique_ptr<SceneForce> scene_force_;
 };
 
-// Bullet's deformable world, in explicit and implicit mode.
-
 struct DeformableSettings {
   bool implicit = false;
-  bool shipped = false;   // implicit: Bullet's own spring force, whose second derivatives are indefinite
-  bool tight = false;     // implicit: conjugate gradients to 1e-28 of the squared residual, instead of its round-off
-  bool projected = true;  // implicit: with setUseProjection(true); without it the world freezes
-  double voxel = 0.005;   // m, of the distance field: Bullet's default here
+  bool shipped = false;   // implicit: Bullet's own spring force, with indefinite second derivatives
+  bool tight = false;     // implicit: conjugate gradients to 1e-28 of the squared residual instead of Bullet's default,
+                          // its round-off
+  bool projected = true;  // implicit: setUseProjection(true), without which the world freezes
+  double voxel = 0.005;   // m, of the distance field; Bullet's default
   BulletDefaults defaults;
 };
 
 /// btDeformableMultiBodyDynamicsWorld.
 ///
-/// Explicit: symplectic Euler with the scene's own laws. Bullet's own mass-spring force carries the springs if possible
-/// (at most two stiffnesses, Hooke's law). With gamma the drag rate, stiffness and gravity are then passed divided by
-/// (1 - h gamma), and the body's drag factor is h gamma. This makes Bullet's rule v' = (v + h f/m)(1 - h gamma) equal
-/// to drag as a force at v_n. Dashpots are then solved implicitly by Bullet.
+/// Explicit: symplectic Euler with the scene's own laws. Bullet's own mass-spring force applies the springs if possible
+/// (at most two stiffnesses, Hooke's law). With the drag rate gamma, stiffness and gravity are then passed divided by
+/// (1 - h gamma), and the body's drag factor is h gamma, so that Bullet's rule v' = (v + h f/m)(1 - h gamma) equals
+/// drag as a force at v_n. Bullet then solves the dashpots implicitly.
 ///
 /// Implicit: one Newton step of backward Euler from q = x + h v, (M + h C + h^2 K(q)) dv = h f(q, v): mysim's
 /// implicit-euler+linear.

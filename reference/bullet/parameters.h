@@ -1,5 +1,5 @@
-// Conversion between a scene's parameters and those of Bullet's worlds; each formula is defined here once. Includes no
-// header of Bullet, so that translation and measurement use the same functions as the worlds.
+// Conversion between parameters of a scene and of Bullet's worlds. Includes no header of Bullet, so that translation
+// and measurement use the same formulas as the worlds.
 #pragma once
 
 #include <fmt/format.h>
@@ -12,14 +12,14 @@
 
 namespace crosscheck::bullet {
 
-/// Reduced mass mu of the two ends, 1 / (1/m_a + 1/m_b), with infinite mass for pins (kg); infinite between two pins.
+/// Reduced mass 1 / (1/m_a + 1/m_b) of the two ends, with infinite mass for pins (kg); infinite between two pins.
 inline double pair_mass(const Particles& particles, const Spring& spring) {
   const double inverse = (particles.pinned[spring.a] ? 0 : 1 / particles.mass[spring.a]) +
                          (particles.pinned[spring.b] ? 0 : 1 / particles.mass[spring.b]);
   return inverse > 0 ? 1 / inverse : std::numeric_limits<double>::infinity();
 }
 
-// Position-based links: every relaxation removes the share kLST of a link's extension, so n relaxations leave (1 -
+// Position-based links: each relaxation removes the share kLST of a link's extension, so n relaxations leave (1 -
 // kLST)^n of the extension after a free step of length h. Backward Euler on a spring k leaves 1 / (1 + k h^2 / mu).
 
 /// kLST (dimensionless) of a link with stiffness k (N/m) between particles of reduced mass mu (kg), relaxed n times in
@@ -27,11 +27,11 @@ inline double pair_mass(const Particles& particles, const Spring& spring) {
 inline double link_stiffness(double k, double mu, double h, int n) {
   return std::isinf(mu) ? 1 : -std::expm1(-std::log1p(k * h * h / mu) / n);
 }
-/// Stiffness (N/m) that corresponds to kLST: the inverse of link_stiffness().
+/// Stiffness (N/m) of a link: the inverse of link_stiffness().
 inline double newton_per_metre(double kLST, double mu, double h, int n) {
   return mu / (h * h) * std::expm1(-n * std::log1p(-kLST));
 }
-/// d ln k / d ln kLST: amplification of a relative error of kLST in the corresponding stiffness.
+/// d ln k / d ln kLST, by which a relative error of kLST is amplified.
 inline double link_condition(double kLST, int n) {
   const double log_left = n * std::log1p(-kLST);  // logarithm of (1 - kLST)^n
   return n * kLST / (1 - kLST) / -std::expm1(log_left);
@@ -39,19 +39,19 @@ inline double link_condition(double kLST, int n) {
 inline std::string link_stiffness_text(int n) { return fmt::format("kLST = 1 - (1 + k h^2 / mu)^(-1/{})", n); }
 
 /// kDP (dimensionless) of the position-based world, the share by which a step reduces all velocities, for a drag rate
-/// gamma (1/s); and the inverse.
+/// gamma (1/s); and its inverse.
 inline double damping_of_drag(double gamma, double h) { return -std::expm1(-gamma * h); }
 inline double drag_of_damping(double kDP, double h) { return -std::log1p(-kDP) / h; }
-/// d ln gamma / d ln kDP: amplification of a relative error of kDP in the corresponding drag rate.
+/// d ln gamma / d ln kDP, by which a relative error of kDP is amplified.
 inline double damping_condition(double kDP) { return kDP > 0 ? kDP / (1 - kDP) / -std::log1p(-kDP) : 1; }
 
-// The explicit deformable world: v' = (v + h f / m) (1 - h gamma), whereas drag as a force at v_n would not reduce the
-// contribution of f. The forces are therefore passed divided by (1 - h gamma).
+// The explicit deformable world computes v' = (v + h f / m) (1 - h gamma), but drag as a force at v_n would not reduce
+// the contribution of f. The forces are therefore passed divided by (1 - h gamma).
 
-/// The body's drag factor (dimensionless) for a drag rate gamma (1/s), and the inverse.
+/// The body's drag factor (dimensionless) for a drag rate gamma (1/s), and its inverse.
 inline double drag_factor(double gamma, double h) { return h * gamma; }
 inline double drag_of_factor(double factor, double h) { return factor / h; }
-/// A stiffness or an acceleration scaled so that the drag factor restores its value.
+/// A stiffness or acceleration that the drag factor restores to `value`.
 inline double before_drag(double value, double factor) { return value / (1 - factor); }
 
 }  // namespace crosscheck::bullet

@@ -1,4 +1,3 @@
-// Bullet's position-based soft-body world.
 #include "reference/bullet/pbd.h"
 
 #include <BulletSoftBody/btSoftBodySolvers.h>
@@ -47,7 +46,7 @@ class PbdWorld : public SoftBodyWorld<btSoftRigidDynamicsWorld> {
     cfg.piterations = settings.iterations;
     cfg.viterations = 0;
     cfg.kDP = static_cast<btScalar>(damping_of_drag(*rate, h_));
-    cfg.kKHR = btScalar(0.1);  // at 1 contacts bounce, at 0 links pull nodes into the sphere
+    cfg.kKHR = btScalar(0.1);  // contacts bounce at 1; at 0, links pull nodes into the sphere
     cfg.collisions = btSoftBody::fCollision::SDF_RS;
     if (settings.own_wind) use_own_wind(*model.find<Aerodynamics>());
     add_to_world();
@@ -132,7 +131,7 @@ class PbdWorld : public SoftBodyWorld<btSoftRigidDynamicsWorld> {
     body().m_cfg.kDG = static_cast<btScalar>(air.coefficient);
   }
 
-  /// Terms that links cannot represent, applied as forces on the nodes for one step, at the nodes' state.
+  /// Terms that links cannot represent, applied for one step as forces on the nodes, at their state.
   struct Wanted {
     bool bending = false, dashpots = false, winds = false;
   };
@@ -160,7 +159,7 @@ class PbdWorld : public SoftBodyWorld<btSoftRigidDynamicsWorld> {
       if (!model.particles.pinned[i]) body().addForce(to_bullet(added_.f.col(i)), soft_body_->node_of(i));
   }
 
-  /// Forces on the nodes in a known state. Springs are not forces in this world.
+  /// Forces on the nodes in a known state; springs are not forces in this world.
   ForceProbe probe(double t) {
     ProbeState placed(scene_, *soft_body_, t);
     using Stack = btAlignedObjectArray<btVector3>;

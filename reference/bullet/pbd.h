@@ -8,15 +8,15 @@ namespace crosscheck::bullet {
 
 struct PbdSettings {
   int iterations = 1;
-  bool demo = false;      // settings of Bullet's own cloth demos: every link at kLST = 1
-  bool own_wind = false;  // Bullet's own wind on triangles instead of the scene's
+  bool demo = false;      // as in Bullet's own cloth demos: every link at kLST = 1
+  bool own_wind = false;  // Bullet's wind on triangles instead of the scene's
   double voxel = 0.02;    // m, of the distance field; Bullet's default of 0.25 would misplace a ball by 1.5 cm
   BulletDefaults defaults;
 };
 
-/// btSoftRigidDynamicsWorld: position-based links. Stiffness is mapped per link and drag for the whole body
-/// (parameters.h). Its link law is not Hooke's and its friction is not Coulomb's: both are marked as different laws.
-/// Throws Unsupported with the reason.
+/// btSoftRigidDynamicsWorld: position-based links. Stiffness is mapped per link, drag for the whole body
+/// (parameters.h). Links do not follow Hooke's law, nor friction Coulomb's: both are reported as different laws. Throws
+/// Unsupported with the reason.
 Outcome run_pbd(const Scene& scene, const Run& run, Observer& observer, const PbdSettings& settings);
 
 }  // namespace crosscheck::bullet

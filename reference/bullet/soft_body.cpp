@@ -1,4 +1,3 @@
-// Conversion of the expanded scene to nodes, links and obstacles of Bullet, and its read-back.
 #include "reference/bullet/soft_body.h"
 
 #include <fmt/format.h>
@@ -19,7 +18,7 @@ Points small_offsets(const Bending& bending, const Points& x) {
     shortest = std::min(shortest, (x.col(s.particle[0]) - x.col(s.particle[1])).norm());
   std::mt19937_64 engine(1);
   Points offsets(3, x.cols());
-  // a vector of three components up to 1/90 is shorter than 1/50
+  // three components of at most 1/90 form a vector shorter than 1/50
   for (double& part : offsets.reshaped()) part = shortest / 90 * (2 * uniform(engine) - 1);
   return offsets;
 }
@@ -53,7 +52,6 @@ SoftBody::SoftBody(const Scene& scene, btSoftBodyWorldInfo& info, const BulletDe
   const std::vector<double> margins = margins_of(model);
   const int n = particles.size();
 
-  // free particles first, pins last
   node_of_.resize(n);
   for (int pinned = 0; pinned < 2; ++pinned)
     for (int i = 0; i < n; ++i)
@@ -87,10 +85,10 @@ SoftBody::SoftBody(const Scene& scene, btSoftBodyWorldInfo& info, const BulletDe
     const btVector3 v = particles.pinned[i] ? btVector3(0, 0, 0) : to_bullet(scene.start.v.col(i));
     bt_body_->m_nodes[node].m_v = bt_body_->m_nodes[node].m_vn = v;
   }
-  // without contact the margin only limits speeds (box diagonal over step): large enough to have no effect
+  // without contact the margin only limits speeds (box diagonal over step), so it is made large
   if (!defaults.margin)
     bt_body_->getCollisionShape()->setMargin(static_cast<btScalar>(margins.empty() ? 10.0 : margins[0]));
-  bt_body_->updateBounds();  // until now they included the constructor's margin; they limit speeds in the first step
+  bt_body_->updateBounds();  // until now with the constructor's margin, which would limit speeds in the first step
   bt_body_->m_cfg.kDF = 1;
   bt_body_->setGravityFactor(static_cast<btScalar>(defaults.gravity_factor));
   if (defaults.kLST) {
@@ -100,7 +98,7 @@ SoftBody::SoftBody(const Scene& scene, btSoftBodyWorldInfo& info, const BulletDe
   }
   if (!defaults.sleep) bt_body_->setActivationState(DISABLE_DEACTIVATION);
   built_ = read_state(0);
-  // the implicit world starts from m_vn, the explicit one from m_v: report a velocity only if both agree
+  // the implicit world starts from m_vn, the explicit one from m_v: report a velocity only if they agree
   for (int node = 0; node < n; ++node)
     if (!(bt_body_->m_nodes[node].m_v == bt_body_->m_nodes[node].m_vn))
       built_.v.col(particle_of_[node]).setConstant(std::numeric_limits<double>::quiet_NaN());
@@ -167,8 +165,8 @@ Readback SoftBody::read_back() const {
 
 namespace {
 
-/// Half the edge (m) of the cube whose face is a plane: the possible displacement of the particles and the plane from
-/// the middle of their box, doubled to allow for springs and wind.
+/// Half the edge (m) of the cube whose face is a plane: twice the distance that particles and plane may move from the
+/// middle of their box; the factor 2 allows for springs and wind.
 double half_edge(const Scene& scene, const Plane& plane) {
   const auto* gravity = scene.model.find<Gravity>();
   const double t = scene.duration, g = gravity ? gravity->acceleration.norm() : 0;
@@ -188,12 +186,11 @@ Obstacles::Obstacles(const Scene& scene) {
   for (const Plane& p : planes->list) {
     const auto half = static_cast<btScalar>(half_edge(scene, p));
     auto cube = std::make_unique<btBoxShape>(btVector3(half, half, half));
-    cube->setMargin(0);  // the distance field is that of the shape without its margin
+    cube->setMargin(0);  // the distance field ignores the margin
     const Vec3 d = middle - p.point, aside = d - d.dot(p.normal) * p.normal;
     add(p, std::move(cube), aside - (p.margin + half) * p.normal);
     btTransform place = obstacles_.back().body->getWorldTransform();
     const Vec3 axis = Vec3::UnitY().cross(p.normal);
-    // the shortest rotation from the y axis to the normal
     place.setRotation(axis.isZero(1e-12) ? btQuaternion(btVector3(1, 0, 0), p.normal.y() < 0 ? SIMD_PI : 0)
                                          : btQuaternion(to_bullet(axis.normalized()),
                                                         btScalar(std::atan2(axis.norm(), p.normal.y()))));
@@ -207,7 +204,7 @@ void Obstacles::add(const Surface& surface, std::unique_ptr<btConvexShape> shape
   btRigidBody::btRigidBodyConstructionInfo info(0, nullptr, shape.get());
   info.m_startWorldTransform.setIdentity();
   info.m_startWorldTransform.setOrigin(to_bullet(surface.origin_at(0) + middle));
-  info.m_friction = static_cast<btScalar>(surface.friction);  // multiplied by the body's kDF, which is set to 1
+  info.m_friction = static_cast<btScalar>(surface.friction);  // times the body's kDF, which is 1
   info.m_restitution = 0;
   auto body = std::make_unique<btRigidBody>(info);
   if (surface.moving()) {
@@ -235,7 +232,7 @@ void Obstacles::place(double t) {
 
 namespace {
 
-/// The upper face of a box as represented in Bullet, at which particles with that margin touch.
+/// The upper face of a box in Bullet, at which particles with that margin touch.
 Readback::Face face_of(const btBoxShape& box, const btTransform& place, double margin) {
   const Vec3 normal = from_bullet(place.getBasis().getColumn(1));
   return {from_bullet(place.getOrigin()) + (box.getHalfExtentsWithMargin().y() + margin) * normal, normal, {}, {}};
@@ -261,7 +258,7 @@ void Obstacles::read_back(const btDiscreteDynamicsWorld& world, const btSoftBody
   readback.margin = body.getCollisionShape()->getMargin();
   readback.spheres.emplace(), readback.planes.emplace();
   const btCollisionObjectArray& objects = world.getCollisionObjectArray();
-  size_t known = 0;  // for an object that was not built here, the current position is used
+  size_t known = 0;  // objects not built here: their current position is used
   for (int i = 0; i < objects.size(); ++i) {
     const auto* ball = dynamic_cast<const btSphereShape*>(objects[i]->getCollisionShape());
     const auto* box = dynamic_cast<const btBoxShape*>(objects[i]->getCollisionShape());

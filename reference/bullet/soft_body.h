@@ -1,4 +1,4 @@
-// A scene as one soft body of Bullet with its obstacles: the part shared by all Bullet worlds.
+// A scene as one soft body of Bullet with its obstacles, for all Bullet worlds.
 #pragma once
 
 #include <BulletSoftBody/btSoftBody.h>
@@ -14,17 +14,17 @@
 
 namespace crosscheck::bullet {
 
-// Pitfalls of Bullet (all measured). Pinned nodes must come last, because the implicit world shifts its contact
-// prediction by one node per preceding pin. The first step overwrites rest lengths unless the update flag is cleared.
-// Bodies slower than 0.04 m/s fall asleep unless that is disabled. A disconnected spring graph hangs the builder of the
-// node tree. The body's margin is 0.25 m unless set. The explicit world clamps speeds to the diagonal of the body's box
-// over the step.
+// Pitfalls of Bullet (all measured). Pinned nodes must come last: the implicit world shifts its contact prediction by
+// one node per preceding pin. The first step overwrites rest lengths unless the update flag is cleared. Bodies slower
+// than 0.04 m/s fall asleep unless that is disabled. A disconnected spring graph hangs the builder of the node tree.
+// The body's margin is 0.25 m unless set. The explicit world clamps speeds to the diagonal of the body's box over the
+// step.
 
-/// Conversion of vectors between mysim and Bullet, in the precision that Bullet was built with.
+/// Converts vectors between mysim and Bullet, in Bullet's precision.
 inline btVector3 to_bullet(const Vec3& v) { return {btScalar(v.x()), btScalar(v.y()), btScalar(v.z())}; }
 inline Vec3 from_bullet(const btVector3& v) { return {v.x(), v.y(), v.z()}; }
 
-/// Objects that every world needs, destroyed in the right order.
+/// The objects of every world, destroyed in the right order.
 struct CollisionPipeline {
   btSoftBodyRigidBodyCollisionConfiguration configuration;
   btCollisionDispatcher dispatcher{&configuration};
@@ -32,17 +32,17 @@ struct CollisionPipeline {
 };
 
 /// Throws Unsupported if Bullet would hang (a spring graph in several pieces near a surface; not checked if `may_hang`)
-/// or does not support the scene (first order, restitution). Call it before a world is built.
+/// or does not support the scene (first order, restitution). Call it before building a world.
 void require_supported(const Scene& scene, bool may_hang = false);
 
-/// Parameters left at Bullet's defaults, or set against its advice, to demonstrate the failure.
+/// Bullet's defaults that are kept, or settings against its advice, to demonstrate their failure.
 struct BulletDefaults {
-  bool rest = false;           // the first step overwrites rest lengths with the current lengths
+  bool rest = false;           // the first step overwrites rest lengths by current lengths
   bool margin = false;         // 0.25 m
-  bool sleep = false;          // bodies slower than 0.04 m/s for 2 s are put to sleep
-  bool pieces = false;         // accepts a network in pieces near a sphere, although Bullet then never returns
-  double gravity_factor = 1;   // the body's; the world's gravity is the scene's divided by it
-  std::optional<double> kLST;  // for all links, regardless of the scene's stiffness
+  bool sleep = false;          // bodies slower than 0.04 m/s for 2 s fall asleep
+  bool pieces = false;         // allow a network in pieces near a sphere, on which Bullet never returns
+  double gravity_factor = 1;   // the body's factor; the world's gravity is the scene's divided by it
+  std::optional<double> kLST;  // value for all links, whatever the scene's stiffness
 };
 
 class SoftBody {
@@ -53,14 +53,13 @@ class SoftBody {
   btSoftBody& body() { return *bt_body_; }
   int node_of(int particle) const { return node_of_[particle]; }
 
-  /// Writes rest lengths and their squares to the links, springs first, then hard distances, because Bullet overwrites
-  /// them.
+  /// Writes rest lengths and their squares to the links, springs first, then hard distances. Bullet overwrites them.
   void restore_lengths();
-  /// Writes position and velocity of the pins at time t (s) to the nodes. Bullet's forces read m_q.
+  /// Writes positions and velocities of the pins at time t (s) to the nodes. Bullet's forces read m_q.
   void place_pins(double t);
-  /// Current positions and velocities in the scene's numbering.
+  /// In the scene's numbering.
   const State& read_state(double t);
-  /// Masses, pins, initial state, and links with rest lengths, springs first; the world adds the rest.
+  /// Masses, pins, initial state, and links with rest lengths, springs first. The world adds the rest.
   Readback read_back() const;
 
  private:
@@ -71,15 +70,14 @@ class SoftBody {
   State state_, built_;  // current; as built
 };
 
-/// Random offsets (m), each at most a fiftieth of the shortest distance between the first two particles of a stencil.
+/// Random offsets (m), each at most a fiftieth of the shortest distance between a stencil's first two particles.
 Points small_offsets(const Bending& bending, const Points& x);
 
-// A state that a body is temporarily put into, to probe its world's forces.
-
-/// Sets the nodes to 1.1 times the initial positions, so that all springs pull. With bending, each node is also
-/// displaced by up to a fiftieth of the shortest distance in a stencil, so that no stencil is flat. The velocities are
-/// not a rigid motion: x + P x (as m/s), where P rotates the coordinates cyclically; every distance d then grows, since
-/// d . (d + P d) >= |d|^2 / 2. The destructor restores the previous state.
+/// Puts a body into a known state, to probe its world's forces; the destructor restores the previous state. The nodes
+/// are at 1.1 times the initial positions, so that all springs pull. With bending, each node is also displaced by up to
+/// a fiftieth of the shortest distance in a stencil, so that no stencil is flat. The velocities are x + P x (as m/s),
+/// where P rotates the coordinates cyclically: not a rigid motion, because every distance d grows, d . (d + P d) >=
+/// |d|^2 / 2.
 class ProbeState {
  public:
   ProbeState(const Scene& scene, SoftBody& body, double t) : body_(body) {
@@ -109,7 +107,7 @@ class ProbeState {
   ProbeState(const ProbeState&) = delete;
   ProbeState& operator=(const ProbeState&) = delete;
 
-  /// Sets all velocities to zero; positions remain.
+  /// Sets all velocities to zero.
   void stop() {
     for (int i = 0; i < body_.body().m_nodes.size(); ++i) body_.body().m_nodes[i].m_v = btVector3(0, 0, 0);
   }
@@ -139,30 +137,29 @@ class ProbeState {
   std::vector<SavedNode> saved_;  // by particle
 };
 
-// The scene's spheres and planes as Bullet's rigid bodies: fixed, or moved as kinematic bodies.
+// The scene's spheres and planes as Bullet's rigid bodies, fixed or kinematic.
 //
-// A plane is the upper face of a cube, below the middle of the particles. Half its edge is twice their possible
+// A plane is the upper face of a cube below the middle of the particles. Half its edge is twice their possible
 // displacement during the scene, so that none reaches its rim. The cube's distances are linear, so the grid from which
-// Bullet's soft bodies read distances and normals errs only by rounding, for any voxel size. On a floor and on a slope
-// of 25 degrees, a node and a cloth of 25 are within 1e-14 m of the face in the explicit deformable world and slide by
-// Coulomb's law. btStaticPlaneShape has no such grid: Bullet treats it as a concave mesh of two triangles as large as
-// the body's box, each with its own grid. With it, the same bodies sink in by 0.12 m and drift sideways by 43 mm in
-// half a second, and the position-based world throws them up by 3 m.
+// Bullet's soft bodies read distances and normals has only rounding errors, for any voxel size. On a floor and on a
+// slope of 25 degrees, a node and a cloth of 25 stay within 1e-14 m of the face in the explicit deformable world and
+// slide by Coulomb's law. btStaticPlaneShape has no such grid: Bullet treats it as a concave mesh of two triangles as
+// large as the body's box, each with its own grid. With it, the same bodies sink in by 0.12 m and drift sideways by 43
+// mm in half a second, and the position-based world throws them up by 3 m.
 
 class Obstacles {
  public:
   explicit Obstacles(const Scene& scene);
 
-  /// Adds them to the world, or removes them.
   void add_to_world(btDiscreteDynamicsWorld& world);
   void remove_from_world(btDiscreteDynamicsWorld& world);
-  /// Moves the moving ones to their positions at time t (s). Call it before each step with the step's end: Bullet
-  /// derives the speed of a kinematic body from the distance between two successive positions.
+  /// Moves kinematic obstacles to their positions at time t (s). Call it before each step with the step's end: Bullet
+  /// derives their speed from two successive positions.
   void place(double t);
   /// Reads positions at time t (s): centres of spheres, points of planes. Leaves the world unchanged.
   void read_places(double t, double margin, Readback::Places& places);
 
-  /// Reads back the built objects: positions, radii or normals, friction and restitution, and the soft body's margin.
+  /// The obstacles as built: positions, radii or normals, friction and restitution, and the soft body's margin.
   void read_back(const btDiscreteDynamicsWorld& world, const btSoftBody& body, Readback& readback) const;
 
  private:
@@ -170,22 +167,22 @@ class Obstacles {
     std::unique_ptr<btConvexShape> shape;
     std::unique_ptr<btRigidBody> body;
     Surface surface;
-    Vec3 middle;  // m, of the body, relative to the surface's origin
+    Vec3 middle;  // m, middle of the body relative to the surface's origin
   };
   void add(const Surface& surface, std::unique_ptr<btConvexShape> shape, const Vec3& middle);
 
   std::vector<Obstacle> obstacles_;
-  std::vector<btTransform> built_;  // transforms at which they were added
+  std::vector<btTransform> built_;  // with which they were added
 };
 
-/// "5 mrad on voxels of a = 10 mm": maximum error of Bullet's normals in each direction, on the scene's smallest ball;
-/// the scene must have one. Inside a voxel, the gradient of the distance grid is constant along each axis: correct in
-/// the middle and off by half a voxel's angle at its faces.
+/// "5 mrad on voxels of a = 10 mm": largest error of Bullet's normals, in each direction, on the scene's smallest ball;
+/// there must be one. Inside a voxel, the gradient of the distance grid is constant along each axis: correct in the
+/// middle, and wrong by half a voxel's angle at its faces.
 std::string normal_error_text(const Scene& scene, double voxel);
 
-/// The part shared by all Bullet worlds: a soft body and its obstacles in a world, destroyed in the right order.
-/// BulletWorld: a soft-body world of Bullet. The derived class creates world_ and soft_body_, calls add_to_world(), and
-/// calls remove_all() in its destructor, since its forces and solvers must outlive the world.
+/// A soft body and its obstacles in a soft-body world of Bullet, destroyed in the right order. The derived class
+/// creates world_ and soft_body_, calls add_to_world(), and calls remove_all() in its destructor, because its forces
+/// and solvers must outlive the world.
 template <class BulletWorld>
 class SoftBodyWorld : public World {
  public:
@@ -202,7 +199,7 @@ class SoftBodyWorld : public World {
     world_->setGravity(btVector3(0, 0, 0));  // for rigid bodies only; the obstacles are fixed or kinematic
   }
 
-  /// Pins and surfaces with prescribed motion, at a time at which no round frequency has returned them to the start.
+  /// Prescribed positions of pins and surfaces, at a time at which no round frequency has returned them to the start.
   Readback::Places prescribed_places() {
     const double t = 0.382 * scene_.duration;
     std::optional<ProbeState> kept;  // restores the nodes at the end

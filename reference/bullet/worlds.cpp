@@ -1,4 +1,3 @@
-// The table of Bullet's worlds and their options.
 #include "reference/bullet/worlds.h"
 
 #include <fmt/format.h>
@@ -18,7 +17,7 @@ namespace {
 
 using Options = std::vector<std::string>;
 
-/// The number after "KEY=", within [low, high]; nothing if it is another option or not such a number.
+/// The number in "KEY=NUMBER", within [low, high]; nothing for other options and invalid numbers.
 std::optional<double> read_number(const std::string& option, std::string_view key, double low, double high) {
   if (!option.starts_with(key)) return std::nullopt;
   double value = 0;
@@ -28,7 +27,7 @@ std::optional<double> read_number(const std::string& option, std::string_view ke
   return value;
 }
 
-/// Reads the options common to both worlds; returns false if it is another option or the number is invalid.
+/// Reads the options of both worlds; returns false for other options and invalid numbers.
 bool read_common(const std::string& option, double& voxel, BulletDefaults& defaults) {
   if (const auto a = read_number(option, "voxel=", 1e-4, 1))  // m
     voxel = *a;

@@ -1,5 +1,4 @@
-// Bullet's soft-body worlds by name, with their options; their table is in worlds.cpp. The Bullet library that they are
-// compiled against determines double or single precision.
+// Bullet's soft-body worlds by name, with their options. The Bullet library determines double or single precision.
 #pragma once
 
 #include <string>
@@ -9,19 +8,18 @@
 
 namespace crosscheck::bullet {
 
-/// A world with the chosen options.
 struct WorldChoice {
   std::string what;  // one line for the user
   Engine engine;
   bool implicit = false, position_based = false;
-  bool may_hang = false;  // must run in a separate process with a time limit
+  bool may_hang = false;  // to be run in a separate process with a time limit
 };
 
-/// "deformable-explicit", "deformable-implicit", "pbd".
+/// The names "deformable-explicit", "deformable-implicit", "pbd".
 std::vector<std::string> world_names();
 
 /// options: the parts after the plus signs of a method's name, e.g. {"n=10"}. Throws InputError that lists the valid
-/// options.
+/// ones.
 WorldChoice choose_world(const std::string& world, const std::vector<std::string>& options);
 
 }  // namespace crosscheck::bullet

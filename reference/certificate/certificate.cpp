@@ -1,4 +1,3 @@
-// Comparison of the scene with an engine's read-back.
 #include "reference/certificate/certificate.h"
 
 #include <fmt/format.h>
@@ -28,7 +27,7 @@ void certify_particles(const Scene& scene, const Readback& r, CertificateWriter&
         std::equal(r.pinned.begin(), r.pinned.end(), p.pinned.begin(), p.pinned.end()));
 }
 
-/// Prescribed motions of pins, spheres and planes; fixed ones have a row only if the engine moves them.
+/// Rows for the motions of pins, spheres and planes; fixed ones have a row only if the engine moves them.
 void certify_motion(const Scene& scene, const Readback& r, CertificateWriter& w) {
   const Particles& p = scene.model.particles;
   const auto* spheres = scene.model.find<Spheres>();
@@ -63,14 +62,13 @@ void certify_motion(const Scene& scene, const Readback& r, CertificateWriter& w)
   if (planes && planes->moving() && r.later->points.size() != count)
     w.add_unattested("motion of planes", "as in the scene");
   for (size_t i = 0; i < std::min(count, r.later->points.size()); ++i) {
-    // any point of the face may be reported, therefore displacements are compared
+    // the engine may report any point of the face, so displacements are compared
     const auto& velocity = planes->list[i].velocity;
     row(numbered("plane", i, count), velocity ? vector(*velocity) + " m/s" : "",
         Vec3(t * velocity.value_or(Vec3::Zero())), Vec3(r.later->points[i] - (*r.planes)[i].point));
   }
 }
 
-/// The engine's initial state.
 void certify_start(const Scene& scene, const Readback& r, CertificateWriter& w) {
   if (!r.start || r.start->x.cols() != scene.start.x.cols()) {
     w.row("start", "as in the scene", r.start ? "other particles" : "not told",
@@ -156,7 +154,7 @@ Certificate certify(const std::string& method, const Scene& scene, const Outcome
   if (outcome.adaptive)
     w.row("step", step, "chosen by the engine", Parity::unattested);
   else if (r.step)
-    // single precision cannot represent 0.001: the nearest value is off by half an ulp
+    // single precision represents 0.001 with an error of up to half an ulp
     w.row("step", step, fmt::format("{:.6g} s", *r.step),
           std::abs(*r.step - outcome.step) <= (r.precision == "single" ? 0x1p-24 : w.tolerance()) * outcome.step);
   else

@@ -1,4 +1,4 @@
-// The parity certificate verifies that an engine built the same scene. For each quantity it holds the scene's value,
+// The parity certificate verifies that an engine built the same scene. Each row has the scene's value of a quantity,
 // how it was mapped, the value read back, and the verdict.
 #pragma once
 
@@ -10,10 +10,10 @@
 namespace crosscheck {
 
 enum class Parity {
-  match,          // equals the scene's value within the engine's precision
-  different_law,  // the ingredient is modelled by another law
-  mismatch,       // a different scene was built: no comparison
-  unattested,     // not reported by the engine
+  match,          // equal within the engine's precision
+  different_law,  // the engine models the ingredient by another law
+  mismatch,       // the engine built another scene: no comparison
+  unattested,     // the engine does not report it
 };
 std::string_view name_of(Parity parity);
 
@@ -26,14 +26,14 @@ struct Certificate {
   std::string method, scene;
   std::vector<CertificateRow> rows;
   bool mismatch() const;
-  bool fully_attested() const;  // no row is Parity::unattested
+  bool fully_attested() const;
 };
 
-/// One line: how many quantities were read back, and which do not match, follow another law or are not attested.
+/// One line: the number of quantities read back, and those that do not match, follow another law or are not attested.
 std::string summary_of(const Certificate& certificate);
 
-/// Compares the engine's read-back with the scene. Quantities of the scene that the engine does not report have a row
-/// that says so. Ingredients that the scene lacks and the engine does not deny share a single row.
+/// Compares the engine's read-back with the scene. Quantities that the engine does not report are marked as such in
+/// their rows. Ingredients that the scene lacks and the engine does not deny share a row.
 Certificate certify(const std::string& method, const Scene& scene, const Outcome& outcome);
 
 }  // namespace crosscheck

@@ -1,5 +1,4 @@
-// The certificate's rows for each term: springs, bending, hard distances, dashpots, gravity, drag, wind, spheres and
-// planes.
+// The certificate's rows for each term.
 #include "reference/certificate/rows.h"
 
 #include <algorithm>
@@ -7,7 +6,7 @@
 namespace crosscheck {
 namespace {
 
-/// Springs of one family: number, ends, rest lengths and stiffness.
+/// Number, ends, rest lengths and stiffness of one family of springs.
 void certify_family(Family family, const Springs& springs, const Readback& r, CertificateWriter& w) {
   const std::string name = family == Family::single ? "springs" : fmt::format("{} springs", name_of(family));
   int count = 0, same = 0;
@@ -30,14 +29,14 @@ void certify_family(Family family, const Springs& springs, const Readback& r, Ce
   w.deviation(name + ": rest lengths", range_of(shortest, longest, "m"), rest, std::max(longest, 1e-300));
   const std::string range = range_of(softest, stiffest, "N/m");
   if (reported)
-    // inverting a mapping by powers amplifies rounding: k h^2/mu may be 1e-6, which leaves an error of eps / 1e-6
+    // inverting a mapping by powers amplifies rounding: with k h^2/mu = 1e-6, to eps / 1e-6
     w.row(name + ": stiffness", range, fmt::format("largest deviation {:.2g}", stiffness),
           stiffness <= std::max(1e-8, w.tolerance()));
-  else if (!r.probe || r.probe->springs.size() == 0)  // otherwise the forces show it, with the law
+  else if (!r.probe || r.probe->springs.size() == 0)  // otherwise the forces show the stiffness and the law
     w.add_unattested(name + ": stiffness", range);
 }
 
-/// True if a force (N) that the scene does not have exceeds the rounding of the forces that it has.
+/// True if a force (N) that the scene lacks exceeds the rounding of its own forces.
 bool beyond_rounding(const Scene& scene, const Points& force, const CertificateWriter& w) {
   const double lengths = scene.size() + largest_column(scene.start.x);
   double scale = 0;
@@ -48,15 +47,14 @@ bool beyond_rounding(const Scene& scene, const Points& force, const CertificateW
   return !(largest_column(force) <= w.tolerance() * scale);
 }
 
-/// Compares forces that the engine computed at a known stretch and speed with the scene's own.
+/// Compares forces that the engine computed at a known state with the scene's own.
 void certify_forces(const Scene& scene, const Readback& r, CertificateWriter& w) {
   const Particles& particles = scene.model.particles;
   const auto* springs = scene.model.find<Springs>();
   const auto* dashpots = scene.model.find<Dashpots>();
   State probed = scene.start;
   if (r.probe) probed.x = r.probe->x;
-  /// Number of pairs without a force in the known state, about which it says nothing. Pairs of two pins are not
-  /// counted.
+  /// Number of pairs without a force in the known state, which says nothing about them. Ignores pairs of two pins.
   auto count_force_free = [&](const auto& list, auto pulls) {
     return std::count_if(list.begin(), list.end(), [&](const auto& pair) {
       return !(particles.pinned[pair.a] && particles.pinned[pair.b]) && !pulls(pair);
@@ -66,12 +64,11 @@ void certify_forces(const Scene& scene, const Readback& r, CertificateWriter& w)
                      const Points& reported, long force_free) {
     Forces ours{Points::Zero(3, particles.size()), 0};
     add_force(term, particles, probed, ours);
-    Points others = reported;  // forces on pins have no effect, and some engines omit them
+    Points others = reported;  // forces on pins have no effect; some engines omit them
     for (const int pin : particles.pins) ours.f.col(pin).setZero(), others.col(pin).setZero();
     const double scale = largest_column(ours.f), off = largest_column(ours.f - others);
     const std::string found = fmt::format("forces at a known state off by {:.2g}", scale > 0 ? off / scale : off);
-    // forces are differences of lengths at a stretch of one tenth, which costs a digit; sums of a dozen springs cost
-    // another
+    // a stretch by a tenth loses one digit in differences of lengths, a sum of a dozen springs another
     const bool same = off <= 100 * w.tolerance() * scale;
     if (same && force_free > 0)
       w.row(quantity, requested, fmt::format("{}; {} of {} have none there", found, force_free, term.list.size()),
@@ -80,7 +77,7 @@ void certify_forces(const Scene& scene, const Readback& r, CertificateWriter& w)
       w.row(quantity, requested, found, same);
   };
   if (springs && !springs->list.empty() && r.probe && r.probe->springs.size() > 0) {
-    // a stretch below a thousandth does not distinguish laws: all of them are linear there
+    // all laws are linear below a stretch of a thousandth
     const long force_free = count_force_free(springs->list, [&](const Spring& s) {
       return std::abs((probed.x.col(s.a) - probed.x.col(s.b)).norm() - s.rest) > 1e-3 * s.rest;
     });
@@ -100,7 +97,7 @@ void certify_forces(const Scene& scene, const Readback& r, CertificateWriter& w)
     else
       compare("bending", requested, *bending, r.probe->bending,
               std::ranges::count_if(bending->list, [&](const Bending::Stencil& s) {
-                // flat up to a millionth of the distance between neighbouring particles
+                // flat up to a millionth of the distance between neighbours
                 return bent(s, probed.x).norm() <=
                        1e-6 * (probed.x.col(s.particle[0]) - probed.x.col(s.particle[1])).norm();
               }));
@@ -159,7 +156,7 @@ void certify_springs(const Scene& scene, const Readback& r, CertificateWriter& w
 
 namespace {
 
-/// Adds a row for a number of a sphere or a plane that the engine may not report.
+/// Row for a number of a sphere or plane, which the engine may not report.
 void certify_number(const std::string& what, double wanted, const std::optional<double>& reported, const char* unit,
                     double scale, CertificateWriter& w) {
   if (reported)
@@ -169,7 +166,7 @@ void certify_number(const std::string& what, double wanted, const std::optional<
     w.add_unattested(what, fmt::format("{:.6g}{}", wanted, unit));
 }
 
-/// Adds the row that counts spheres or planes; returns false if they cannot be compared one by one.
+/// Row for the number of spheres or planes; returns false if they cannot be compared one by one.
 template <class Reported>
 bool certify_count(const char* what, size_t requested, const std::optional<Reported>& reported, CertificateWriter& w) {
   if (!reported) {
@@ -209,7 +206,7 @@ void certify_planes(const Scene& scene, const Readback& r, CertificateWriter& w)
     const std::string of = requested > 1 ? fmt::format(" of plane {}", i + 1) : "";
     const auto direction = [](const Vec3& n) { return fmt::format("({:.6g}, {:.6g}, {:.6g})", n.x(), n.y(), n.z()); };
     w.row("normal" + of, direction(p.normal), direction(face.normal), (face.normal - p.normal).norm() <= w.tolerance());
-    // any point of the face may be reported, therefore its distance from the scene's plane is compared
+    // the engine may report any point of the face, so its distance from the scene's plane is compared
     const double scale = scene.size() + face.point.norm() + p.point.norm();
     certify_number("contact offset" + of, p.margin, (face.point - p.point).dot(p.normal), " m", scale, w);
     certify_number("friction" + of, p.friction, face.friction, "", 1, w);
@@ -217,7 +214,7 @@ void certify_planes(const Scene& scene, const Readback& r, CertificateWriter& w)
   }
 }
 
-/// Compares both winds through the forces that the engine computed at a known state with the particles at rest.
+/// Compares both winds by the forces that the engine computed at a known state with particles at rest.
 void certify_wind(const Scene& scene, const Readback& r, CertificateWriter& w) {
   const auto* wind = scene.model.find<Wind>();
   const auto* air = scene.model.find<Aerodynamics>();
@@ -244,7 +241,7 @@ void certify_wind(const Scene& scene, const Readback& r, CertificateWriter& w) {
   Points reported_forces = r.probe->wind;
   for (const int pin : scene.model.particles.pins) ours.f.col(pin).setZero(), reported_forces.col(pin).setZero();
   const double scale = largest_column(ours.f), off = largest_column(ours.f - reported_forces);
-  // rounding of the springs' and bending's forces, which remains when they are subtracted from the sum
+  // rounding error left by springs and bending, which are subtracted from the sum
   double elastic = 0;
   for (const Points* taken : {&r.probe->springs, &r.probe->bending})
     if (taken->size() > 0) elastic = std::max(elastic, largest_column(*taken));
@@ -277,16 +274,15 @@ void certify_drag(const Drag& drag, const Particles& particles, const Readback& 
   double worst = 0;
   for (int i = 0; i < particles.size(); ++i)
     if (!particles.pinned[i]) worst = max_or_nan(worst, std::abs((*r.drag)[i] - rates[i]));
-  // gamma is recovered from 1 - exp(-gamma h), which leaves an error of eps / (gamma h)
+  // gamma is recovered from 1 - exp(-gamma h), with an error of eps / (gamma h)
   w.row("drag", requested, fmt::format("largest deviation {:.2g} /s", worst),
         worst <= std::max(w.tolerance(), 1e-9) * high);
 }
 
-/// Ingredients that the scene lacks must be absent from the engine, too; those that the engine does not deny share one
-/// row.
+/// Rows for ingredients that the scene lacks and the engine has, and one row for those that the engine does not deny.
 void certify_absent(const Scene& scene, const Readback& r, CertificateWriter& w) {
   const Model& model = scene.model;
-  // allows for the rounding of a position in each step, and of 1 - exp(-gamma h)
+  // tolerates rounding of a position in each step, and of 1 - exp(-gamma h)
   if (!model.find<Gravity>() && r.gravity && !(r.gravity->norm() * w.step() * w.step() <= w.tolerance() * scene.size()))
     w.row("gravity", "none", acceleration_text(*r.gravity), false);
   if (!model.find<Drag>() && r.drag &&
@@ -300,7 +296,7 @@ void certify_absent(const Scene& scene, const Readback& r, CertificateWriter& w)
       {"drag", !model.find<Drag>() && !r.drag},
       {"dashpots", !model.find<Dashpots>() && !(r.probe && r.probe->dashpots.size() > 0)},
       {"wind", !model.find<Wind>() && !model.find<Aerodynamics>() && !(r.probe && r.probe->wind.size() > 0)},
-      {"spheres", !spheres && !r.spheres},  // engines written before planes existed need not deny them
+      {"spheres", !spheres && !r.spheres},  // engines older than planes need not deny them
       {"motion of pins", !model.particles.pins.empty() && !model.particles.move && !r.later},
       {"motion of spheres", spheres && !spheres->moving() && !r.later},
   };
@@ -317,7 +313,7 @@ void certify_terms(const Scene& scene, const Readback& r, CertificateWriter& w) 
       [&](const Gravity& t) { certify_gravity(t, r, w); },
       [&](const Drag& t) { certify_drag(t, scene.model.particles, r, w); },
       [&](const Rotation& t) { w.add_unattested("rotation", fmt::format("{:.6g} rad/s", t.rate)); },
-      [](const OneOf<Wind, Aerodynamics, Spheres, Planes> auto&) {},      // below: the engine may have them anyway
+      [](const OneOf<Wind, Aerodynamics, Spheres, Planes> auto&) {},  // below, because the engine may have them anyway
       [](const OneOf<Springs, Bending, Dashpots, Constraints> auto&) {},  // above
   };
   for (const Term& term : scene.model.terms) std::visit(certify_term, term);

@@ -1,4 +1,4 @@
-// The writer of a certificate's rows, and the functions that write them.
+// Writes a certificate's rows.
 #pragma once
 
 #include <fmt/format.h>
@@ -10,12 +10,12 @@
 
 namespace crosscheck {
 
-/// The larger value, or nan if either is nan, so that a nan deviation never passes.
+/// The larger value; nan if either is nan, so that it passes no comparison.
 inline double max_or_nan(double a, double b) { return std::isnan(b) || b > a ? b : a; }
 
 class CertificateWriter {
  public:
-  /// The outcome must have a read-back.
+  /// The outcome needs a read-back.
   CertificateWriter(Certificate& certificate, const Outcome& outcome)
       : certificate_(certificate), outcome_(outcome), readback_(*outcome.readback) {}
 
@@ -33,19 +33,19 @@ class CertificateWriter {
   void add_unattested(const std::string& quantity, std::string requested) {
     row(quantity, std::move(requested), "not told", Parity::unattested);
   }
-  /// Adds a row for a quantity compared by its largest deviation, relative to its scale.
+  /// Row for a quantity compared by its largest deviation, relative to its scale.
   void deviation(const std::string& quantity, std::string requested, double largest, double scale) {
     row(quantity, std::move(requested), fmt::format("largest deviation {:.2g}", scale > 0 ? largest / scale : largest),
         largest <= tolerance() * scale);
   }
-  /// True if the engine itself reports another law for the ingredient, which has a row of its own.
+  /// True if the engine itself reports another law for the ingredient, in a row of its own.
   bool has_different_law(std::string_view ingredient) const {
     return std::any_of(outcome_.different_law.begin(), outcome_.different_law.end(), [&](const std::string& law) {
       return law.starts_with(ingredient) && law.substr(ingredient.size()).starts_with(": ");
     });
   }
   double step() const { return outcome_.step; }  // s
-  /// Rounding error of an engine in this precision after a mapping and its inverse: some tens of ulps.
+  /// Rounding error after a mapping and its inverse: some tens of ulps of the engine's precision.
   double tolerance() const { return readback_.precision == "single" ? 1e-5 : 1e-12; }
 
  private:
@@ -54,7 +54,7 @@ class CertificateWriter {
   const Readback& readback_;
 };
 
-/// "200 N/m", or "75 to 300 N/m".
+/// "200 N/m" or "75 to 300 N/m".
 inline std::string range_of(double low, double high, const char* unit) {
   return low == high ? fmt::format("{:.6g} {}", low, unit) : fmt::format("{:.6g} to {:.6g} {}", low, high, unit);
 }

@@ -1,8 +1,8 @@
 // Box3D as a program of the engine protocol (tried: version 0.2.0, commit 30c67b5e6d0a). Built by box3d/CMakeLists.txt.
 //
-// springs=joint (default) represents springs, with the dashpots between the same ends, by distance joints with a
-// frequency and a damping ratio. springs=forces applies them as forces, which Box3D repeats in each of its n sub-steps:
-// a body moves by h v + h^2 a (n + 1) / (2 n), so springs gain energy unless n is 1.
+// springs=joint (default): springs, with the dashpots between the same ends, are distance joints with a frequency and a
+// damping ratio. springs=forces: they are forces, which Box3D repeats in each of its n sub-steps; a body then moves by
+// h v + h^2 a (n + 1) / (2 n), so springs gain energy unless n is 1.
 #include <box3d/box3d.h>
 
 #include "crosscheck_engine.h"
@@ -34,7 +34,7 @@ class Box3dWorld : public World {
     b3WorldDef world = b3DefaultWorldDef();
     world.gravity = to_box3d(scene.gravity);
     world.enableSleep = false;
-    world.maximumLinearSpeed = 1e9f;  // m/s; default 400, above which bodies are slowed down silently
+    world.maximumLinearSpeed = 1e9f;  // m/s; default 400, above which bodies are silently slowed down
     world_ = b3CreateWorld(&world);
     for (size_t i = 0; i < x_.size(); ++i) {
       b3BodyDef body = b3DefaultBodyDef();
@@ -99,7 +99,7 @@ class Box3dWorld : public World {
     read_back_joints(scene_, forced_, joints,
                      "soft constraints, implicit along the line between the ends in each sub-step", run);
     r.gravity = from_box3d(b3World_GetGravity(world_));
-    r.precision = "single";  // velocities are single precision in both builds
+    r.precision = "single";  // velocities are single in both builds
     r.may_sleep = b3World_IsSleepingEnabled(world_);
     r.step = float(scene_.step);
     r.spheres.emplace(), r.planes.emplace();
@@ -136,7 +136,7 @@ class Box3dWorld : public World {
   }
 
   const Scene& scene_;
-  Scene forced_;  // contains only the springs and dashpots applied as forces
+  Scene forced_;  // only the springs and dashpots applied as forces
   int substeps_;
   b3WorldId world_;
   std::vector<b3BodyId> bodies_;

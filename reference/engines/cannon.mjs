@@ -6,7 +6,7 @@
 //
 // Options: springs=spring|distance (class Spring, or distance constraints as in cannon's cloth example, which enforce
 // the rest lengths), iterations=N (of the solver, default 10 as in cannon), damping=zero|as-written. cannon interprets
-// `new Spring(a, b, { damping: 0 })` as 1 N s/m and `stiffness: 0` as 100 N/m; `zero` sets both again afterwards.
+// `new Spring(a, b, { damping: 0 })` as 1 N s/m and `stiffness: 0` as 100 N/m; damping=zero sets both to 0 afterwards.
 import * as CANNON from 'cannon-es';
 import { serve, unsupported } from '../protocol/crosscheck_engine.mjs';
 
@@ -22,7 +22,7 @@ function place(body, x, v) {
   body.velocity.set(...v);
 }
 
-/// Particles as bodies; they have no size in cannon.
+/// Particles have no size in cannon.
 function particles(scene) {
   const shape = new CANNON.Particle(), material = new CANNON.Material({ friction: 1, restitution: 1 });
   return Array.from(scene.pinned, (held, i) => new CANNON.Body({
@@ -32,8 +32,7 @@ function particles(scene) {
     collisionFilterGroup: ball_group, collisionFilterMask: obstacle_group }));
 }
 
-/// A sphere or plane that particles touch at the scene's distance. A contact uses the product of both bodies'
-/// coefficients.
+/// Particles touch a sphere or plane at the scene's distance. A contact multiplies both bodies' coefficients.
 function obstacle(of) {
   const { friction, restitution, radius, margin, normal } = of, z = new CANNON.Vec3(0, 0, 1);
   const shape = normal ? new CANNON.Plane() : new CANNON.Sphere(radius + margin);
@@ -52,7 +51,7 @@ serve(description, (scene) => {
   const kind = scene.option('springs', ['spring', 'distance']), iterations = scene.option('iterations', 10);
   const written = scene.option('damping', ['zero', 'as-written']) === 'as-written', { h } = scene;
   if (written && scene.dashpots.count) unsupported('damping=as-written: takes no dashpots');
-  CANNON.Body.idCounter = 0;  // body numbers must not depend on scenes served before
+  CANNON.Body.idCounter = 0;  // body numbers must not depend on earlier scenes
   const world = new CANNON.World({ gravity: vec3(scene.gravity), allowSleep: false }), bodies = particles(scene);
   world.solver.iterations = iterations;
   const spheres = scene.spheres.map(obstacle), planes = scene.planes.map(obstacle), obstacles = [...spheres, ...planes];
@@ -94,7 +93,7 @@ serve(description, (scene) => {
     act();
     return Float64Array.from(bodies.flatMap((body) => components(body.force)));
   };
-  /// Forces from cannon's own objects; those known to follow another law are omitted.
+  /// Forces of cannon's own objects, without those that are reported as another law.
   const probe = () => {
     const state = scene.probeState();
     bodies.forEach((body, i) => place(body, components(vec3(state.x, i)), [0, 0, 0]));

@@ -1,4 +1,3 @@
-// Reads engines.json.
 #include "reference/engines/engines.h"
 
 #include <fmt/format.h>

@@ -1,4 +1,4 @@
-// The engines for which `crosscheck engine NAME` builds an adapter: the rows of engines.json.
+// The engines of `crosscheck engine NAME`, which builds their adapters: the rows of engines.json.
 #pragma once
 
 #include <filesystem>
@@ -12,34 +12,34 @@ struct OutsideEngine {
   std::string name, title;  // "mujoco", "MuJoCo 2"
   std::string built;        // "native", "JavaScript" or "WebAssembly"
   std::string licence, precision;
-  std::string rule;    // time-stepping rule, by default and by option
-  std::string forces;  // option that applies springs as forces, if that is a different rule from the default
+  std::string rule;    // time stepping, by default and by option
+  std::string forces;  // option that applies springs as forces, if that is another rule than the default
 
-  // Files in reference/engines from which the adapter is built: a source for the compiler, a folder for CMake, or a
-  // module for npm's package.
+  // Files in reference/engines from which the adapter is built: a source file, a folder for CMake, or a module for
+  // npm's package.
   std::string source, cmake, module;
-  std::string package, header;     // Debian package of the engine, and one of its headers
-  std::vector<std::string> flags;  // for the compiler
+  std::string package, header;     // Debian package, and one of its headers
+  std::vector<std::string> flags;  // compiler options
   std::string npm;                 // npm package; npm/NAME pins its version
-  std::string prefix;              // the tree for --prefix, which must contain `prefix_file`; empty: no such option
+  std::string prefix;              // the tree for --prefix, which contains `prefix_file`; empty: no such option
   std::string prefix_file;
 
   bool is_native() const { return built == "native"; }
 };
 
-/// The rows of the file, in order. Throws InputError.
+/// In the order of the file. Throws InputError.
 std::vector<OutsideEngine> outside_engines();
 
-/// The program that `engine NAME` keeps for reports; it need not exist.
+/// The program that `crosscheck engine NAME` keeps for reports; it need not exist.
 std::filesystem::path kept_program(const std::string& engine);
 
-/// The engine whose kept program the method "exec:PATH+option" names, or nothing.
+/// The engine whose kept program "exec:PATH+option" names, or nothing.
 std::optional<OutsideEngine> kept_engine_of(const std::string& method);
 
-/// A method's name for the terminal: "mujoco+drag=callback" for a kept program, otherwise the whole name.
+/// "mujoco+drag=callback" for a kept program, otherwise the whole name.
 std::string without_folders(const std::string& method);
 
-/// The command that builds the engine: "crosscheck engine box3d --prefix DIR".
+/// "crosscheck engine box3d --prefix DIR".
 std::string command_to_build(const OutsideEngine& engine);
 
 }  // namespace crosscheck

@@ -1,5 +1,5 @@
-// Jolt's soft body, compiled natively, as a program of the engine protocol: one body among static balls, with the same
-// options and laws as npm's build. The README explains each changed default. Built by jolt/CMakeLists.txt.
+// Jolt's soft body, compiled natively, as a program of the engine protocol: one body among static balls, with the
+// options and laws of npm's build (jolt.mjs). The README explains each changed default.
 #include <Jolt/Jolt.h>  // must precede all other headers of Jolt
 
 #include <Jolt/ConfigurationString.h>
@@ -23,7 +23,7 @@ using namespace crosscheck_engine;
 namespace {
 
 constexpr JPH::ObjectLayer layer = 0;
-constexpr JPH::uint memory = 32 << 20;  // bytes for temporary data of a step; the rest is allocated
+constexpr JPH::uint memory = 32 << 20;  // bytes for temporary data of a step; other memory is allocated
 
 JPH::Vec3 to_jolt(const Vec& v) { return {float(v[0]), float(v[1]), float(v[2])}; }
 template <class Vector>
@@ -33,13 +33,12 @@ Vec from_jolt(const Vector& v) {
 
 struct Vertex {
   Vec x, v;             // m in the scene's frame, m/s
-  double inverse_mass;  // 1/kg; 0 if held
+  double inverse_mass;  // 1/kg; 0: held
 };
 
-/// One soft body among balls, in its own physics system.
 class SoftBody {
  public:
-  /// `origin`: origin of the body's frame (m), in which positions are rounded to single precision. `damping`: 1/s.
+  /// `origin` (m) of the body's frame, in which positions are rounded to single precision. `damping`: 1/s.
   SoftBody(const std::vector<Vertex>& vertices, const std::vector<Spring>& edges, const std::vector<Sphere>& spheres,
            const Vec& origin, int iterations, double damping) {
     pairs_.EnableCollision(layer, layer);
@@ -65,11 +64,11 @@ class SoftBody {
     JPH::SoftBodyCreationSettings creation(shared, position, JPH::Quat::sIdentity(), layer);
     creation.mNumIterations = static_cast<JPH::uint32>(iterations);
     creation.mLinearDamping = float(damping);  // default 0.1 / s
-    creation.mMaxLinearVelocity = 1e15f;       // m/s; default 500, above which vertices are slowed down silently
+    creation.mMaxLinearVelocity = 1e15f;       // m/s; default 500, above which vertices are silently slowed down
     creation.mUpdatePosition = false;  // otherwise the frame follows, and vertices are rounded once more per step
     creation.mAllowSleeping = false;   // otherwise a body slower than 0.17 m/s for half a second stops
-    creation.mFriction = 1;            // a contact uses sqrt(body's times sphere's)
-    creation.mRestitution = 0;         // a contact uses the larger of the two
+    creation.mFriction = 1;            // contacts use sqrt(body's times sphere's)
+    creation.mRestitution = 0;         // contacts use the larger one
     JPH::BodyInterface& all = system.GetBodyInterface();
     body = all.CreateSoftBody(creation);
     if (!body) throw std::runtime_error("Jolt made no soft body");
@@ -117,7 +116,7 @@ class SoftBody {
   JPH::JobSystemSingleThreaded jobs_{JPH::cMaxPhysicsJobs};
 };
 
-/// Refuses ingredients that Jolt does not support. Returns the linear damping (1/s).
+/// Refuses unsupported ingredients. Returns the linear damping (1/s).
 double supported_damping(const Scene& scene, int iterations) {
   for (const auto& [term, why] :
        {std::pair("bending", "Jolt bends by angles between triangles, not by a rigidity in N m"),
@@ -131,7 +130,7 @@ double supported_damping(const Scene& scene, int iterations) {
   for (size_t i = 0; i < scene.x.size(); ++i) {
     if (scene.pinned[i]) continue;
     const double gamma = scene.drag[i] / scene.mass[i];
-    // gamma is recovered from c = m gamma, hence equal up to a few roundings
+    // gammas recovered from c = m gamma agree up to a few roundings
     if (rate && std::abs(gamma - *rate) > 4 * std::numeric_limits<double>::epsilon() * *rate)
       unsupported("drag that differs between particles: Jolt has one damping (1/s) for a body");
     if (!rate) rate = gamma;
@@ -140,7 +139,7 @@ double supported_damping(const Scene& scene, int iterations) {
   return rate.value_or(0);
 }
 
-/// Springs, then hard distances, whose stiffness is infinite.
+/// Springs, then hard distances, which are infinitely stiff.
 std::vector<Spring> edges_of(const Scene& scene) {
   std::vector<Spring> edges = scene.springs;
   edges.insert(edges.end(), scene.constraints.begin(), scene.constraints.end());
@@ -154,7 +153,7 @@ std::vector<Vertex> vertices_of(const Scene& scene) {
   return vertices;
 }
 
-/// Middle of the scene's bounding box (m, single precision), which minimises coordinates relative to it.
+/// Middle of the scene's bounding box (m, single precision), relative to which coordinates are smallest.
 Vec middle_of(const Scene& scene) {
   Vec low = scene.x.at(0), high = low;
   for (const Vec& x : scene.x)
@@ -163,8 +162,8 @@ Vec middle_of(const Scene& scene) {
 }
 
 /// Spring forces (N) at x as Jolt computes them: each spring separately, in one step d, from a free vertex at the
-/// origin, where small displacements are not rounded away, to a held vertex. The vertex has w d^2 = 1e-6 compliance, so
-/// it moves by w d^2 k (L - r) to within a millionth.
+/// origin, where small displacements are not rounded away, to a held vertex. The compliance is 1e6 w d^2, so the free
+/// vertex moves by w d^2 k (L - r) to within a millionth.
 std::vector<Vec> spring_forces(const Scene& scene, const std::vector<Vec>& x) {
   std::vector<Vec> forces(x.size(), Vec{});
   constexpr double d = 1. / 1024;  // s
@@ -204,10 +203,11 @@ class JoltWorld : public World {
   }
 
   void step(double t) override {
-    // for free particles, gravity and wind form a single acceleration
+    // on free particles, gravity and wind are one acceleration
     if (scene_.wind) body_.system.SetGravity(to_jolt(scene_.gravity + scene_.wind_at(t)));
     const double h = scene_.step;
-    // a held vertex moves by its velocity; its position is set too, since n sub-steps round n times
+    // a held vertex is moved by setting its velocity; its position is set too, because n sub-steps accumulate n
+    // roundings
     const Motion& motion = scene_.pin_motion;
     if (scene_.pins_move)
       for (const int pin : scene_.pins)
@@ -251,7 +251,7 @@ class JoltWorld : public World {
       if (r.later) r.later->centres.push_back(r.spheres->back().centre);
     }
     Probe probe = probe_state(scene_);
-    probe.t = 0.3;  // s; gusts are active by then
+    probe.t = 0.3;  // s; gusts have begun
     probe.springs = spring_forces(scene_, probe.x);
     probe.dashpots = probe.wind = std::vector<Vec>(scene_.x.size(), Vec{});
     body_.system.SetGravity(to_jolt(scene_.gravity + scene_.wind_at(probe.t)));
@@ -268,7 +268,7 @@ class JoltWorld : public World {
                   {"frame", frame_},
                   {"largest speed", JsonWriter::of(motion.GetMaxLinearVelocity()) + " m/s"}};
     // A step begins above the ball, on the plane that was tangent where the previous step began. This subtracts another
-    // half of v^2 / R from the depth from which friction is computed.
+    // half of v^2 / R from the depth that determines friction.
     for (const Sphere& s : scene_.spheres)
       if (s.friction > 0 && run.different_law.empty())
         run.different_law.push_back(

@@ -2,13 +2,12 @@
 // Jolt's soft body (npm's WebAssembly build) as an engine of crosscheck (PROTOCOL.md), in single precision.
 //
 // Jolt's rule (measured: README.md in this folder): `Update(h)` performs n sub-steps of d = h / n. Each adds gravity to
-// the velocities, multiplies them by 1 - damping d, and moves by v d. It then corrects each edge once, one after
-// another, by (L - r) / (w_a + w_b + compliance / d^2), and sets the velocity to (x - x_before) / d. This is extended
+// the velocities, multiplies them by 1 - damping d, and moves by v d. It then corrects one edge after another, once, by
+// (L - r) / (w_a + w_b + compliance / d^2), and sets the velocity to (x - x_before) / d. This is extended
 // position-based dynamics with one pass; compliance is in m/N, independent of d.
 //
-// Options: n=N, Jolt's iterations, which are sub-steps (default 1; Jolt's own default is 5); frame=scene|world puts the
-// origin of the body's frame in the middle of the scene's box, where coordinates are smallest, or at the world's
-// origin.
+// Options: n=N, Jolt's iterations, which are sub-steps (default 1; Jolt's own default is 5); frame=scene|world: the
+// origin of the body's frame is the middle of the scene's box, where coordinates are smallest, or the world's origin.
 import loadJolt from 'jolt-physics/wasm-compat';
 import { serve, unsupported } from '../protocol/crosscheck_engine.mjs';
 
@@ -41,7 +40,7 @@ class World {
   gravity() { return components(this.system.GetGravity()); }
   remove(body) { for (const act of ['RemoveBody', 'DestroyBody']) this.bodies[act](body.GetID()); }
 
-  /// Adds a soft body with its frame at `origin`. Vertices: x (in the frame, m), v (m/s), w (1/kg). Edges: rest,
+  /// Adds a soft body with its frame at `origin`. Vertices: x (in the frame, m), v (m/s), w (1/kg). Edges: rest (m),
   /// compliance (m/N).
   addSoftBody({ origin, vertices, edges, iterations, damping }) {
     const shared = new Jolt.SoftBodySharedSettings(), vertex = new Jolt.SoftBodySharedSettingsVertex();
@@ -58,7 +57,7 @@ class World {
     const creation = new Jolt.SoftBodyCreationSettings(shared, new Jolt.RVec3(...origin), this.upright, 0);
     Object.assign(creation, {
       mNumIterations: iterations, mLinearDamping: damping,  // default damping 0.1 / s
-      mMaxLinearVelocity: 1e15,   // m/s; default 500, above which vertices are slowed down silently
+      mMaxLinearVelocity: 1e15,   // m/s; default 500, above which vertices are silently slowed down
       mUpdatePosition: false,     // otherwise the frame follows, and vertices are rounded once more per step
       mAllowSleeping: false,      // otherwise a body slower than 0.17 m/s for half a second stops
       mFriction: 1, mRestitution: 0 });  // a contact uses sqrt(body's times sphere's); the larger of the two
@@ -68,7 +67,7 @@ class World {
     return { body, motion, vertices: vertices.map((_, i) => motion.GetVertex(i)) };
   }
 
-  /// Particles touch a ball at radius + margin, which is the radius of Jolt's sphere; its vertices have no radius.
+  /// Particles touch a ball at radius + margin, the radius of Jolt's sphere; its vertices have no radius.
   addBall({ centre, radius, margin, friction, restitution }) {
     const shape = new Jolt.SphereShape(radius + margin), position = new Jolt.RVec3(...centre);
     const creation = new Jolt.BodyCreationSettings(shape, position, this.upright, Jolt.EMotionType_Static, 0);
@@ -79,7 +78,7 @@ class World {
   }
 }
 
-/// Jolt's edges in the given order, which Jolt changes; parallel edges keep their own order.
+/// Jolt's edges in the given order; parallel edges keep their own order.
 function edgesLike({ motion }, wanted) {
   const edges = motion.GetSettings().mEdgeConstraints, found = new Map();
   for (let i = 0; i < edges.size(); ++i) {
@@ -90,8 +89,8 @@ function edgesLike({ motion }, wanted) {
 }
 
 /// Spring forces (N) at x as Jolt computes them: each spring separately, in one step d, from a free vertex at the
-/// origin, where small displacements are not rounded away, to a held vertex. The vertex has w d^2 = 1e-6 compliance, so
-/// it moves by w d^2 k (L - r) to within a millionth.
+/// origin, where small displacements are not rounded away, to a held vertex. The compliance is 1e6 w d^2, so the free
+/// vertex moves by w d^2 k (L - r) to within a millionth.
 function springForces(world, springs, x) {
   const forces = new Float64Array(x.length), d = 2 ** -10, v = [0, 0, 0];
   world.setGravity([0, 0, 0]);
@@ -133,13 +132,14 @@ serve(description, (scene) => {
     step(t, next) {
       if (scene.wind) blow(t);
       if (!pins.motion) return void world.jolt.Step(h, 1);
-      // a held vertex moves by its velocity; its position is set too, since n sub-steps round n times
+      // a held vertex is moved by setting its velocity; its position is set too, because n sub-steps accumulate n
+      // roundings
       const from = scene.pinsAt(t), to = scene.pinsAt(next), held = to.map(({ particle }) => soft.vertices[particle]);
       held.forEach((one, i) => (one.mVelocity = world.vec3(to[i].x.map((e, k) => (e - from[i].x[k]) / h))));
       world.jolt.Step(h, 1);
       held.forEach((one, i) => (one.mPosition = world.vec3(to[i].x.map((e, k) => e - origin[k]))));
     },
-    read(x, v) {  // in the scene's coordinates; the sum is computed in double precision
+    read(x, v) {  // in the scene's coordinates, summed in double precision
       soft.vertices.forEach((vertex, i) => {
         x.set(components(vertex.mPosition).map((e, k) => origin[k] + e), 3 * i);
         v.set(components(vertex.mVelocity), 3 * i);
@@ -162,8 +162,8 @@ serve(description, (scene) => {
       probe.wind = Float64Array.from(probe.x, (_, e) => readback.mass[(e / 3) | 0] * extra[e % 3]);
       [body, ...balls].forEach((one) => world.remove(one));
       probe.springs = springForces(world, springs, probe.x);
-      // a step begins above the ball, on an older tangent plane: the depth that gives friction is reduced by half of
-      // v^2 / R
+      // a step begins above the ball, on an older tangent plane, which subtracts another half of v^2 / R from the depth
+      // that determines friction
       const law = 'friction: on a ball of radius R it is mu m (g_n - 3/2 v^2 / R) with n = 1, not mu m (g_n - v^2 / R)';
       return { force_evaluations: Math.round(scene.times.at(-1) / h) * iterations * 2, readback,
                different_law: scene.spheres.some((ball) => ball.friction > 0) ? [law] : [] };

@@ -1,9 +1,9 @@
 // MuJoCo as a program of the engine protocol.
 //
 // A particle is a body with three slide joints, a pin is a mocap body, a spring is a spatial tendon between two sites.
-// Everything that tendons cannot represent goes through mjcb_passive: bending, wind, bullet-link springs, and springs
-// that start at zero length (a tendon would pull along x). This also applies to dashpots at moved pins (tendons ignore
-// the velocity of a mocap body), and under RK4 springs at moved pins (a mocap body does not move during a step).
+// mjcb_passive applies what tendons cannot represent: bending, wind, bullet-link springs, and springs that start at
+// zero length (a tendon would pull along x); dashpots at moved pins (tendons ignore the velocity of a mocap body); and
+// under RK4, springs at moved pins (a mocap body does not move during a step).
 #include <mujoco/mujoco.h>
 
 #include "crosscheck_engine.h"
@@ -61,7 +61,7 @@ class MujocoWorld : public World {
   }
 
   void read(std::vector<Vec>& x, std::vector<Vec>& v) override {
-    v = v_;  // velocities of pins
+    v = v_;  // contains the velocities of pins
     for (size_t i = 0; i < x.size(); ++i)
       for (int k = 0; k < 3; ++k)
         if (scene_.pinned[i])
@@ -90,7 +90,7 @@ class MujocoWorld : public World {
       r.links.push_back({end(t, 0), end(t, 1), hard, m.tendon_length0[t]});
     r.gravity = Vec{m.opt.gravity[0], m.opt.gravity[1], m.opt.gravity[2]};
     r.step = m.opt.timestep;
-    r.may_sleep = false;  // this version has no sleeping
+    r.may_sleep = false;  // this version cannot sleep
     read_surfaces(r);
     r.probe = probe();
     r.mapped = {{"springs", tendons_ ? "spatial tendons" : "mjcb_passive"},
@@ -115,8 +115,8 @@ class MujocoWorld : public World {
   int end(int tendon, int which) const { return model_->wrap_objid[model_->tendon_adr[tendon] + which]; }  // a site
 
   std::string xml() {
-    const size_t most = x_.size() * (scene_.spheres.size() + scene_.planes.size());  // number of possible contacts
-    double bead = 1e-3;  // m, radius of the geoms of particles; balls and planes are smaller by it
+    const size_t most = x_.size() * (scene_.spheres.size() + scene_.planes.size());  // possible contacts
+    double bead = 1e-3;  // m, radius of particles' geoms; balls and planes are smaller by it
     for (const Sphere& s : scene_.spheres) bead = std::min(bead, 0.5 * s.contact_radius());
     std::string xml = join("<mujoco><size nconmax='", most, "' njmax='", 3 * most + scene_.constraints.size(),
                            "'/><option cone='elliptic'/><worldbody>");
@@ -215,7 +215,7 @@ class MujocoWorld : public World {
         d->qfrc_passive[dof(i) + k] += f_[i][k] - (joint_drag_ ? 0 : scene_.drag[i] * v_[i][k]);
   }
 
-  /// Balls and planes as represented in the model. They are its first geoms; the last geom belongs to a particle.
+  /// Balls and planes in the model: its first geoms, before those of particles.
   void read_surfaces(Readback& r) const {
     const mjModel& m = *model_;
     r.spheres.emplace(), r.planes.emplace();
@@ -265,10 +265,10 @@ class MujocoWorld : public World {
 
   static inline MujocoWorld* current_ = nullptr;  // MuJoCo's callbacks have no user pointer
   const Scene& scene_;
-  Scene called_;  // contains only the springs and dashpots applied by the callback
+  Scene called_;  // only the springs and dashpots applied by the callback
   std::string integrator_;
   bool tendons_ = true, joint_drag_ = true;
-  std::vector<int> tendon_of_;                    // tendon index of each spring; -1: applied by the callback
+  std::vector<int> tendon_of_;                    // by spring; -1: applied by the callback
   std::map<std::pair<int, int>, size_t> tendon_;  // by pair of particles
   std::vector<Vec> x_, v_, f_;
   std::unique_ptr<mjModel, Free> model_;

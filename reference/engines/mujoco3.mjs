@@ -2,11 +2,11 @@
 // MuJoCo 3 (the official WebAssembly build) as an engine of crosscheck (PROTOCOL.md), in double precision. A particle
 // is a body on three slide joints, whose damping is the drag.
 //
-// Options: integrator=euler|rk4|implicit|implicitfast, springs=tendon|flex (spatial tendons, or edges of one-
-// dimensional flexes, one per stiffness), eulerdamp=enable|disable, timeconst=S (of contacts and constraints, default
-// 0.02 as in MuJoCo; at least two steps). MuJoCo's Euler is symplectic Euler with implicit drag, v = (v + h f / m) /
-// (1 + h c / m); with eulerdamp=disable, drag is explicit, as in mysim. The implicit integrators treat springs
-// explicitly. MuJoCo assumes zero velocity for moved bodies.
+// Options: integrator=euler|rk4|implicit|implicitfast, springs=tendon|flex (spatial tendons, or edges of
+// one-dimensional flexes, one per stiffness), eulerdamp=enable|disable, timeconst=S (of contacts and constraints,
+// default 0.02 as in MuJoCo; at least two steps). MuJoCo's Euler is symplectic Euler with implicit drag, v = (v + h f /
+// m) / (1 + h c / m); with eulerdamp=disable, drag is explicit, as in mysim. The implicit integrators treat springs
+// explicitly. MuJoCo ignores the velocities of moved bodies.
 import load from '@mujoco/mujoco';
 import wasmBinary from '@mujoco/mujoco/mujoco.wasm';
 import { serve, unsupported } from '../protocol/crosscheck_engine.mjs';
@@ -20,11 +20,11 @@ const description = {
 };
 const integrators = { euler: 'Euler', rk4: 'RK4', implicit: 'implicit', implicitfast: 'implicitfast' };
 const text = (v) => Array.from(v).join(' ');
-/// Damping ratio of a contact whose bounce preserves the fraction e of the speed, and the inverse.
+/// Damping ratio of a contact that returns the fraction e of the speed, and its inverse.
 const ratio = (e) => (e > 0 ? -Math.log(e) / Math.hypot(Math.PI, Math.log(e)) : 1);
 const bounce = (zeta) => (zeta < 1 ? Math.exp((-Math.PI * zeta) / Math.sqrt(1 - zeta * zeta)) : 0);
 
-/// Flexes, each for springs of one stiffness.
+/// One flex per stiffness.
 function flexes({ list }) {
   return [...new Set(list.map((one) => one.stiffness))].map((k) => {
     const some = list.filter((one) => one.stiffness === k), ends = some.flatMap(({ a, b }) => [a, b]);
@@ -35,8 +35,8 @@ function flexes({ list }) {
   }).join('');
 }
 
-/// The scene in MuJoCo's XML. Particles are balls with the smallest margin as radius; obstacles account for the rest of
-/// the distance.
+/// The scene in MuJoCo's XML. Particles are balls with the smallest margin as radius; obstacles contain the rest of
+/// each margin.
 function modelText(scene, { integrator, eulerdamp, flex, timeconst }) {
   const { x, mass, drag, pinned, springs, dashpots, rods } = scene, obstacles = [...scene.spheres, ...scene.planes];
   const size = Math.min(...obstacles.map(({ margin }) => margin)) || scene.task.size / 1000;
@@ -64,7 +64,7 @@ function modelText(scene, { integrator, eulerdamp, flex, timeconst }) {
     <deformable>${flex ? flexes(springs) : ''}</deformable></mujoco>`;
 }
 
-/// Edges of the flexes in the order of the springs. Sets each rest length, which MuJoCo takes from the initial state.
+/// Edges of the flexes in the order of the springs. Sets their rest lengths, which MuJoCo takes from the initial state.
 function flexEdges(model, { list }) {
   const name = (a, b) => (a < b ? `${a} ${b}` : `${b} ${a}`), at = new Map(list.map(({ a, b }, i) => [name(a, b), i]));
   const edges = [], { flex_edge: ends, flexedge_length0: rests, flex_vertbodyid: bodies, flex_vertadr: first } = model;
@@ -89,7 +89,7 @@ serve(description, (scene) => {
   if (obstacles.length + rods.count && timeconst < 2 * scene.h) unsupported(`timeconst=${timeconst}: below two steps`);
   const model = MuJoCo.MjModel.from_xml_string(modelText(scene, { integrator, eulerdamp, flex, timeconst }));
   const data = new MuJoCo.MjData(model), edges = flex ? flexEdges(model, springs) : [];
-  const dofs = Array.from(model.body_dofadr.subarray(1, count + 1));  // first degree of freedom of each particle, or -1
+  const dofs = Array.from(model.body_dofadr.subarray(1, count + 1));  // first degree of freedom by particle, or -1
   /// Calls act(index in the scene's flat arrays, index in MuJoCo's) for each coordinate of the free particles.
   const each = (act) => dofs.forEach((at, i) => at < 0 || [0, 1, 2].forEach((k) => act(3 * i + k, at + k)));
   const mocap = (t) => {

@@ -1,9 +1,8 @@
 // ODE as a program of the engine protocol.
 //
-// Particles are bodies, pins are kinematic bodies. springs=forces (default) applies all forces through dBodyAddForce,
-// which makes ODE's step symplectic Euler. springs=dball represents springs, with the dashpots between the same ends,
-// by distance joints with ERP = h k / (h k + c) and CFM = 1 / (h k + c): an implicit step along the line between the
-// ends.
+// Particles are bodies, pins are kinematic bodies. springs=forces (default): dBodyAddForce applies all forces, which
+// makes ODE's step symplectic Euler. springs=dball: springs, with the dashpots between the same ends, are distance
+// joints with ERP = h k / (h k + c) and CFM = 1 / (h k + c), an implicit step along the line between the ends.
 #include <ode/ode.h>
 
 #include "crosscheck_engine.h"
@@ -33,7 +32,7 @@ class OdeWorld : public World {
     for (size_t i = 0; i < x_.size(); ++i) {
       bodies_.push_back(dBodyCreate(world_));
       dMass mass;
-      dMassSetSphereTotal(&mass, scene.mass[i], 1);  // bodies do not rotate: all forces act at their centres
+      dMassSetSphereTotal(&mass, scene.mass[i], 1);  // any: all forces act at the centres, so bodies do not rotate
       dBodySetMass(bodies_[i], &mass);
       if (scene.pinned[i]) dBodySetKinematic(bodies_[i]);
       place(i, scene.x[i], scene.v[i]);
@@ -124,8 +123,7 @@ class OdeWorld : public World {
     }
   }
 
-  /// Adds a contact of particle i with a sphere or plane, at the particle itself, so that friction does not rotate the
-  /// body.
+  /// Adds a contact of particle i with a sphere or plane, at the particle itself, so that friction does not rotate it.
   template <class Surface>
   void touch(size_t i, const Surface& surface, double gap, const Vec& outward) {
     if (gap >= 0) return;
@@ -135,7 +133,8 @@ class OdeWorld : public World {
     contact.surface.mu = surface.friction, contact.surface.bounce = surface.restitution;
     contact.geom.depth = -gap;
     for (int k = 0; k < 3; ++k) contact.geom.pos[k] = x_[i][k], contact.geom.normal[k] = n[k];
-    if (const double speed = length(along); speed > 0) {  // friction is a box: one side along the sliding direction
+    if (const double speed = length(along);
+        speed > 0) {  // friction is a box, with one side along the sliding direction
       contact.surface.mode |= dContactFDir1;
       for (int k = 0; k < 3; ++k) contact.fdir1[k] = along[k] / speed;
     }
@@ -143,7 +142,7 @@ class OdeWorld : public World {
   }
 
   const Scene& scene_;
-  Scene forced_;  // contains only the springs and dashpots applied as forces
+  Scene forced_;  // only the springs and dashpots applied as forces
   int iterations_ = 20;
   dWorldID world_;
   dJointGroupID contacts_;

@@ -5,8 +5,8 @@
 // springs=joint|softbody|forces:
 // - joint: spring joints, soft constraints that are implicit along the line at the step's start, explicit across it;
 // - softbody: edges of a soft body, each with a frequency and a damping ratio; rest lengths are the initial ones;
-// - forces: computed by this adapter, applied by addForce. Rapier keeps a force during the step and applies it in each
-//   sub-step, so x moves by h v + h^2 a (n + 1) / (2n), not by h v + h^2 a: energy grows unless n = 1.
+// - forces: computed by this adapter, applied by addForce. Rapier repeats a step's force in each sub-step, so x moves
+// by h v + h^2 a (n + 1) / (2n) instead of h v + h^2 a: energy grows unless n = 1.
 // Drag is linear damping: v is divided by 1 + gamma h / n in each sub-step.
 import RAPIER from '@dimforge/rapier3d-compat';
 import { serve, unsupported } from '../protocol/crosscheck_engine.mjs';
@@ -25,14 +25,14 @@ function newWorld(gravity, h, n) {
   return Object.assign(new RAPIER.World(vec3(gravity)), { timestep: h, numSolverIterations: n });
 }
 const joint = ({ rest, k, c }) => RAPIER.JointData.spring(rest, k, c, origin, origin);
-/// Creates a free particle (with a mass, kg) or a held one.
+/// A free particle (with a mass, kg) or a held one.
 function particle(world, x, v, mass, motion) {
   const desc = RAPIER.RigidBodyDesc[mass ? 'dynamic' : motion ?? 'fixed']().setAdditionalMass(mass);
   return world.createRigidBody(desc.setTranslation(...x).setLinvel(...v).lockRotations().setCanSleep(false));
 }
 
 /// Forces (N) of the links at x and v as Rapier computes them: each link separately, between a held particle and a free
-/// one at the origin, in one short step d. The free particle, of mass m = 1e6 (d^2 k + d c), hardly moves in it.
+/// one at the origin, in one short step d. The free particle, of mass m = 1e6 (d^2 k + d c), hardly moves.
 function measuredForces(links, x, v) {
   const forces = new Float64Array(x.length), d = 2 ** -10, world = newWorld([0, 0, 0], d, 1);
   const apart = (array, { a, b }) => [0, 1, 2].map((k) => array[3 * b + k] - array[3 * a + k]);
@@ -51,7 +51,7 @@ function measuredForces(links, x, v) {
   return forces;
 }
 
-/// Soft body of the springs; an edge's softness is the frequency (Hz) and damping ratio of its two particles.
+/// Soft body of the springs. An edge's softness is the frequency (Hz) and damping ratio of its two particles.
 function softBody(world, scene, springs) {
   const { x, mass, pinned: p } = scene, w = (i) => (p[i] ? 0 : 1 / mass[i]), ends = springs.flatMap((s) => [s.a, s.b]);
   const hertz = ({ a, b, k }) => Math.sqrt(k * (w(a) + w(b))) / (2 * Math.PI);
@@ -68,8 +68,8 @@ function softBody(world, scene, springs) {
   return body;
 }
 
-/// Obstacles as colliders, read back. Particles are balls with the smallest margin as radius; obstacles account for the
-/// rest.
+/// Colliders of the obstacles, read back. Particles are balls with the smallest margin as radius; obstacles contain the
+/// rest of each margin.
 function addContacts(world, scene, bodies) {
   const all = [...scene.spheres, ...scene.planes], { Max } = RAPIER.CoefficientCombineRule, { ColliderDesc } = RAPIER;
   const size = Math.min(...all.map((one) => one.margin)) || scene.task.size / 1000;

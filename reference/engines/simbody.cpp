@@ -2,7 +2,7 @@
 //
 // Particles are bodies on Translation mobilizers, pins have a prescribed motion, springs and dashpots are Simbody's
 // two-point elements, drag is a mobility damper, hard distances are rods. One custom force applies bending, wind,
-// bullet-link springs, and springs that start at zero length (for which Simbody's own element would divide by zero).
+// bullet-link springs, and springs that start at zero length, for which Simbody's element would divide by zero.
 #include <Simbody.h>
 
 #include "crosscheck_engine.h"
@@ -19,7 +19,7 @@ using Bodies = std::vector<MobilizedBody::Translation>;
 SimTK::Vec3 to_simbody(const Vec& v) { return {v[0], v[1], v[2]}; }
 Vec from_simbody(const SimTK::Vec3& v) { return {v[0], v[1], v[2]}; }
 
-/// A pin's prescribed position. The body's frame is the world's: coordinates are positions.
+/// Prescribes a pin's position. The body's frame is the world's: coordinates are positions.
 class PinMotion : public SimTK::Motion::Custom::Implementation {
  public:
   PinMotion(const Scene& scene, size_t pin) : scene_(scene), pin_(pin) {}
@@ -40,7 +40,6 @@ class PinMotion : public SimTK::Motion::Custom::Implementation {
   size_t pin_;
 };
 
-/// Applies the header's forces to all bodies.
 class HeaderForces : public SimTK::Force::Custom::Implementation {
  public:
   HeaderForces(const Scene& scene, const Bodies& bodies) : scene_(scene), bodies_(bodies) {}
@@ -98,7 +97,7 @@ class SimbodyWorld : public World {
   }
 
   void step(double) override {
-    const double end = static_cast<double>(++steps_) * scene_.step;  // a sum of steps would drift by its rounding
+    const double end = static_cast<double>(++steps_) * scene_.step;  // a sum of steps would accumulate rounding errors
     while (integrator_->getTime() < end) integrator_->stepTo(end);   // the first call returns at t = 0
   }
 
@@ -180,7 +179,7 @@ class SimbodyWorld : public World {
   }
 
   const Scene& scene_;
-  Scene called_;  // contains only the springs applied by the custom force
+  Scene called_;  // only the springs applied by the custom force
   std::string name_;
   long steps_ = 0;
   SimTK::MultibodySystem system_;

@@ -1,4 +1,4 @@
-// Bullet's worlds as methods: in double precision in this process, and in single precision as a separate program, since
+// Bullet's worlds as methods: in double precision in this process, in single precision as a separate program, because
 // one program cannot contain both.
 
 #include <fmt/format.h>
@@ -15,7 +15,7 @@
 namespace crosscheck {
 namespace {
 
-/// Sets the properties of a world that hold in either precision.
+/// The properties of a world in either precision.
 void describe(Method& method, const bullet::WorldChoice& chosen) {
   method.implicit = chosen.implicit, method.position_based = chosen.position_based;
   method.counts_evaluations = !chosen.implicit && !chosen.position_based;
@@ -35,7 +35,7 @@ Method in_double_precision(const std::string& world, const MethodOptions& option
   Method method{"bullet/" + world, chosen.what, "", chosen.engine, ContactLoss::inferred};
   describe(method, chosen);
   method.splits_dashpots = !chosen.implicit && !chosen.position_based;
-  // there, one Newton step, or a link that falls and is pulled back, is backward Euler
+  // in these worlds, one Newton step is backward Euler, and so is a link that falls and is pulled back
   if (!method.splits_dashpots) method.on_one_spring = "implicit-euler";
   return method;
 }

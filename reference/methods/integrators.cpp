@@ -1,4 +1,4 @@
-// Independent integrators: other libraries that solve the scene's separately written equations.
+// Other libraries as integrators of the separately written equations.
 
 #include "reference/truth/independent/integrators.h"
 #include "mysim/base/text.h"
@@ -9,7 +9,7 @@ namespace crosscheck {
 namespace {
 
 struct Integrator {
-  std::string name, option;  // option that selects it; empty: none
+  std::string name, option;  // option: selects the integrator; may be empty
   std::string what, rule;
   Outcome (*run)(const Scene&, const Run&, Observer&);
   bool adaptive, multistep = false;

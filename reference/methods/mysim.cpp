@@ -1,5 +1,3 @@
-// mysim's steppers as methods.
-
 #include <fmt/format.h>
 
 #include <charconv>
@@ -13,7 +11,7 @@
 namespace crosscheck {
 namespace {
 
-/// N of "threads=N", 1 to 256.
+/// N in "threads=N", 1 to 256.
 std::optional<int> threads_in(const std::string& option) {
   constexpr std::string_view key = "threads=";
   if (!option.starts_with(key)) return std::nullopt;
@@ -28,9 +26,9 @@ Method mysim_method(const Stepper& stepper, const MethodOptions& options) {
   ContactRule contact = ContactRule::coulomb;
   Execution execution;
   Stepper rule = stepper;
-  std::string same_as(stepper.name);  // freezing to spheres is a different law, reported in each run
+  std::string same_as(stepper.name);  // ignores freezing to spheres, a different law that each run reports
   const std::string name = fmt::format("mysim/{}", stepper.name);
-  std::string path_option;  // option that selected the path
+  std::string path_option;  // the option that selected the path
   const auto choose = [&](const std::string& option, ExecutionPath path) {
     if (!path_option.empty() && path_option != option)
       throw InputError(fmt::format("method {}: +{} and +{} each choose how a step is computed; expected one of them",
@@ -66,7 +64,7 @@ Method mysim_method(const Stepper& stepper, const MethodOptions& options) {
                                 stepper.composition ? ", +fast, +single, +plain, +threads=N" : ""));
   }
   if (contact == ContactRule::events) {
-    same_as += "+events";  // with contact, not identical to round-off
+    same_as += "+events";  // not identical to round-off with contact
     if (execution.path == ExecutionPath::single_precision)
       throw InputError(
           fmt::format("method {}: +events locates contact in double precision; expected it without +single", name));

@@ -1,4 +1,4 @@
-// Reference solutions, replayed through the observer like any other method.
+// Reference solutions, replayed like any other method.
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -48,7 +48,7 @@ MethodOptions names_of_discrete_rules() {
   return names;
 }
 
-/// Closed form of the discrete solution that a rule should produce.
+/// Closed form of a rule's discrete solution.
 Method discrete_method(const MethodOptions& options) {
   const std::string name = "truth/exact-discrete";
   const std::string known = fmt::format("one of the rules +{}", fmt::join(names_of_discrete_rules(), ", +"));

@@ -1,4 +1,4 @@
-// The table of engines: one row per engine, with a rule for each parameter of a scene; and the look-up by name.
+// One row per engine, with a rule for each parameter of a scene; and the look-up by name.
 #include "reference/parameters/parameters.h"
 
 #include <fmt/format.h>
@@ -50,7 +50,7 @@ constexpr std::string_view a_positive = "a number above zero", a_share = "a numb
                                "a number above 0 and below 1: a link at 1 is rigid, above 1 it over-relaxes, from "
                                "2 on it explodes, and none of these is a stiffness",
                            always = "everywhere", coulomb = "everywhere: Coulomb's law, without restitution",
-                           // sequential_limit
+                           // 0.03 is sequential_limit
     in_nets =
         "on one link of small strain; in a net up to k h^2 / mu of about 0.03, above which it is softer than asked";
 
@@ -65,7 +65,7 @@ NumberRule mass_as_it_is() {
 }
 NumberRule nothing(SceneNumber quantity, std::string_view why) { return {quantity, "", "", why, why, "nowhere"}; }
 
-/// kLST under the engine's name for it.
+/// kLST under the engine's name.
 NumberRule link(std::string_view name, Gather gather) {
   return {.quantity = SceneNumber::stiffness,
           .name = name,
@@ -78,12 +78,12 @@ NumberRule link(std::string_view name, Gather gather) {
           .gather = gather,
           .expected = a_link,
           .valid = between_zero_and_one,
-          // k is proportional to mu, whose masses are rounded as well
+          // masses in mu are rounded as well
           .condition = [](double kLST, const Context& at) { return 1 + bullet::link_condition(kLST, at.n); },
           .one_by_one = true};
 }
 
-/// kDP under the engine's name for it.
+/// kDP under the engine's name.
 NumberRule step_damping(std::string_view name) {
   return {.quantity = SceneNumber::drag,
           .name = name,
@@ -138,7 +138,7 @@ NumberRule damping_ratio(std::string_view name) {
           .from = [](double ratio, const Context& at) { return 2 * ratio * std::sqrt(at.k * at.mu); },
           .condition = [](double, const Context&) { return 3.; }};  // k and the masses are rounded as well
 }
-/// Damping by which each sub-step divides the velocity.
+/// Damping as a divisor of the velocity in each sub-step.
 NumberRule dividing_damping(std::string_view name) {
   return {.quantity = SceneNumber::drag,
           .name = name,
@@ -193,7 +193,7 @@ std::vector<EngineNumbers> make_table() {
                       // gamma itself is rounded as well
                       .condition = [](double, const Context& at) { return 1 / (1 - at.h * at.gamma); }};
   };
-  // Jolt reduces a velocity by the share gamma h / n in each of n sub-steps; this value leaves exp(-gamma h) of it
+  // each of Jolt's n sub-steps reduces a velocity by the share gamma h / n; with this value exp(-gamma h) remains
   NumberRule jolt_damping{
       .quantity = SceneNumber::drag,
       .name = "mLinearDamping",
@@ -304,7 +304,7 @@ std::span<const EngineNumbers> engine_numbers() {
 
 namespace {
 
-/// N of "n=N".
+/// N in "n=N".
 std::optional<int> iterations_in(const std::string& option) {
   int n = 0;
   const char *begin = option.data() + 2, *end = option.data() + option.size();

@@ -1,4 +1,4 @@
-// Reading and writing of files with an engine's numbers, and of a scene file with numbers converted back.
+// Files with an engine's numbers, and scene files with numbers converted back.
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -13,7 +13,7 @@
 namespace crosscheck {
 namespace {
 
-/// The number with enough digits to restore its bits.
+/// The number with all digits needed to restore its bits.
 std::string toml_number(double value) {
   std::string text = fmt::format("{}", value);
   if (text.find_first_of(".e") == std::string::npos) text += ".0";
@@ -99,12 +99,11 @@ NumbersFile read_numbers(const std::string& text, const std::string& name, const
 
 namespace {
 
-/// A scene file in which numbers are replaced.
 class SceneFile {
  public:
   SceneFile(const Scene& source, double within) : file_(source.source, source.name), within_(within), scene_(source) {}
 
-  /// Sets the number at each path. Entries with the same path must agree, since the file holds only one number there.
+  /// Sets the number at each path. Entries of the same path must agree, because the file has one number for them.
   void set(const std::vector<std::pair<std::string, double>>& values) {
     for (size_t i = 0; i < values.size(); ++i) {
       const auto& [path, value] = values[i];
@@ -133,7 +132,7 @@ class SceneFile {
 
 std::string scene_toml(const Scene& source, const Scene& changed, double within) {
   SceneFile file(source, within);
-  // differences explained by rounding keep the file's own digits
+  // numbers that agree to rounding keep the file's own digits
   const auto same = [&](SceneNumber quantity) {
     return std::ranges::equal(values_of(source, quantity), values_of(changed, quantity),
                               [&](double a, double b) { return std::abs(a - b) <= within * std::abs(a); });
@@ -146,7 +145,7 @@ std::string scene_toml(const Scene& source, const Scene& changed, double within)
   const Particles& particles = changed.model.particles;
   int single = 0;
   while (file.has(fmt::format("particle[{}]", single))) ++single;
-  const int on_grid = particles.size() - single;  // those of [grid] come first
+  const int on_grid = particles.size() - single;  // grid particles come first
 
   std::vector<std::pair<std::string, double>> values;
   if (!same(SceneNumber::mass))
@@ -158,7 +157,7 @@ std::string scene_toml(const Scene& source, const Scene& changed, double within)
         values.emplace_back(fmt::format("particle[{}].mass", i - on_grid), particles.mass[i]);
     }
   const auto* springs = changed.model.find<Springs>();
-  int listed = 0;  // number of [[spring]] entries so far
+  int listed = 0;  // [[spring]] entries so far
   if (springs && !same(SceneNumber::stiffness))
     for (const Spring& s : springs->list)
       values.emplace_back(s.family == Family::single ? fmt::format("spring[{}].stiffness", listed++)
