@@ -1,4 +1,3 @@
-// Runs of mysim's steppers and of a method on small nets, for comparison.
 #include "reference/which_rule.h"
 
 #include <fmt/format.h>
@@ -68,8 +67,8 @@ std::vector<Candidate> candidates() {
   return list;
 }
 
-/// Forms of drag separate from a rule: the velocity is multiplied by a factor before or after the step, or (kick) after
-/// the kick of symplectic Euler.
+/// Drag that is separate from a rule: a factor on the velocity before or after the step, or (kick) after the kick of
+/// symplectic Euler.
 struct DragForm {
   std::string name;
   enum { before, after, kick } where;
@@ -88,7 +87,7 @@ std::vector<DragForm> drag_forms() {
 
 constexpr double gamma = 4;  // 1/s
 
-/// Five particles with eight springs that start up to a fifth too long or too short; or only the first spring.
+/// Five particles with eight springs, or only the first spring, that start up to a fifth too long or too short.
 Scene net(bool held, bool pulled, bool one_spring = false) {
   std::string text =
       "question = \"Which rule is it?\"\nparameters = \"A small net.\"\n[time]\nduration = 1\nsamples = 50\nstep = "
@@ -119,7 +118,7 @@ Scene with_drag(Scene scene) {
   return scene;
 }
 
-/// Empty if the rule finds no solution.
+/// The rule's path; empty if it finds no solution.
 Path path_of(const Candidate& rule, const Scene& scene, const State& start, double h, int n,
              const DragForm* form = nullptr) {
   System f(scene.model);
@@ -166,7 +165,7 @@ struct Runs {
   bool own_steps = false;
 };
 
-/// Throws Unsupported, or InputError if a run failed.
+/// Runs the method at both steps. Throws Unsupported, or InputError if a run failed.
 Runs runs_of(const Method& method, const Scene& scene) {
   Runs runs;
   bool single = true;
@@ -222,7 +221,7 @@ Match match_of(const Candidate& rule, const Scene& scene, const Runs& runs, int 
     match.distance = std::max(match.distance, off / size);
     const bool tells = noise[i] + solved < 1e-3 * size;
     match.ratio = std::max(match.ratio, tells ? off / (noise[i] + solved) : i < 10 ? infinity : 0);
-    // an equation is solved to rounding times its condition number, which is at most about 1e4 here
+    // an equation is solved to rounding times its condition number, here about 1e4 at most
     const double solving = rule.solves ? 1e4 * runs.u * size : 0;
     match.rounding = std::max(match.rounding, tells ? off / (noise[i] + solving) : 0);
   }
@@ -234,7 +233,7 @@ Match match_of(const Candidate& rule, const Scene& scene, const Runs& runs, cons
   return {std::max(a.ratio, b.ratio), std::max(a.rounding, b.rounding), std::max(a.distance, b.distance)};
 }
 
-/// The rule that matches best, or null if none is the same.
+/// The rule that matches best; null if none is the same.
 const Candidate* same_as(const std::vector<Candidate>& rules, const Scene& scene, const Runs& runs, Match& best) {
   const Candidate* same = nullptr;
   best = {infinity, infinity, infinity};
@@ -261,7 +260,7 @@ FoundRule::Kind kind_by_steps(const Scene& scene, const Runs& runs, const std::v
   return fine_error < least ? FoundRule::own_steps : FoundRule::ignores_step;
 }
 
-/// Sets the drag that the runs on the net with drag show, for a rule that is the same without drag.
+/// Finds the drag by runs with drag, for a rule that is the same without drag.
 void find_drag(const Method& method, const Candidate& rule, const Scene& plain, FoundRule& found) {
   const Scene dragged = with_drag(plain);
   try {
@@ -335,7 +334,7 @@ FoundRule find_rule(const Method& method) {
         std::erase_if(rules, [](const Candidate& rule) { return !rule.one_by_one; });
         const Scene one = net(each.held, each.pulled, true);
         if (const Candidate* same = same_as(rules, one, runs_of(method, one), match)) found.on_one_spring = same->name;
-      } catch (const std::runtime_error&) {  // its rule on one spring remains unknown
+      } catch (const std::runtime_error&) {  // its rule on one spring stays unknown
       }
     return found;
   }
@@ -385,7 +384,7 @@ FoundRule cached_rule(const Method& method) {
         for (const auto& [name, member] : texts) found.*member = stored[name].text();
         return found;
       }
-    } catch (const InputError&) {  // damaged: identified again
+    } catch (const InputError&) {  // damaged: identify again
     }
   const FoundRule found = find_rule(method);
   Json json{{"key", key},
@@ -396,7 +395,7 @@ FoundRule cached_rule(const Method& method) {
   try {
     write_file(file, dump(json, 1) + "\n");
   } catch (const InputError&) {
-    // no space or no write permission: identified again next time
+    // disk full or read-only: the next run identifies it again
   }
   return found;
 }

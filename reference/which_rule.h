@@ -1,4 +1,4 @@
-// Identifies the time-stepping rule of a method from its runs on small spring nets without contact.
+// Identifies a method's time-stepping rule from its runs on small spring nets without contact.
 #pragma once
 
 #include <string>
@@ -10,39 +10,39 @@ namespace crosscheck {
 struct FoundRule {
   enum Kind { unknown, same, nearest, own_steps, ignores_step };
   Kind kind = unknown;
-  std::string rule;           // "rk4"; the nearest one if none is the same
-  std::string like;           // mysim's stepper with that order and stability limit; empty unless it is exact
+  std::string rule;           // "rk4"; the nearest if none is the same
+  std::string like;           // mysim's stepper of that order and stability limit; empty unless exact
   std::string drag;           // "explicit", "implicit", "exact", "time-symmetric"; empty: not tried, or none of these
   bool own_drag = false;      // the rule's own drag
   bool exact = false;         // agrees to rounding, not only to its solver's error
   bool single = false;        // computes in single precision
   double distance = 0;        // from the rule, largest over both steps (nearest: at the shorter), in sizes of the net
-  std::string tried;          // ingredients, "springs, gravity, pins, drag"
+  std::string tried;          // ingredients: "springs, gravity, pins, drag"
   std::string reason;         // why the rule or its drag is unknown
   std::string on_one_spring;  // rule that is the same on a net of one spring, if none is on the whole net
 };
 
 /// Runs the method on a net of five particles, without and with drag, at two steps, 50 steps each. Compares the
-/// positions with those of every fixed-step rule of mysim, of velocity Verlet, and of symplectic Euler with positions
-/// first. A rule is the same if all positions agree within the possible growth of rounding in the engine's precision:
-/// three times the growth of a perturbation of 20 u L sqrt(n), where u is the unit round-off, L the size of the net and
-/// n the number of steps, plus 1e-8 L if an equation is solved. A method chooses its steps if its two runs differ by
-/// less than a hundredth of the difference for any rule, unless its error falls with a high power of the step. If its
-/// error is as large as that of a rule, it ignores the step. Rules that solve springs one after the other depend on
-/// their order; a net of one spring identifies such a rule.
+/// positions with every fixed-step rule of mysim, velocity Verlet, and symplectic Euler with positions first. A rule is
+/// the same if all positions agree within the possible growth of rounding in the engine's precision: three times the
+/// growth of a perturbation of 20 u L sqrt(n), with the unit round-off u, the size L of the net and n steps, plus 1e-8
+/// L if an equation is solved. A method chooses its steps if its two runs differ by less than a hundredth of the
+/// difference for any rule, unless its error falls with a high power of the step. If its error is as large as that of a
+/// rule, it ignores the step. Rules that solve springs one after the other depend on their order; a net of one spring
+/// identifies such a rule.
 FoundRule find_rule(const Method& method);
 
 /// "rk4 on a net of springs, gravity, pins, drag (explicit drag): largest difference 3.0e-15 of the net's size".
 std::string sentence_of(const FoundRule& found);
 
-/// Name in known breaks: "rk4", "xpbd on one spring, single precision", "implicit-euler+linear, solver above rounding";
-/// empty if no rule is the same.
+/// "rk4", "xpbd on one spring, single precision", "implicit-euler+linear, solver above rounding" in known breaks; empty
+/// if no rule is the same.
 std::string name_of(const FoundRule& found);
 
-/// Like `find_rule`, but reads the cache folder if this build has identified the program with these options before.
+/// Like find_rule(), but cached: reads what this build has identified for the program with these options.
 FoundRule cached_rule(const Method& method);
 
-/// Makes the method identify its rule when it is first requested.
+/// Identifies the method's rule when it is first requested.
 void identify_by_runs(Method& method);
 
 }  // namespace crosscheck

@@ -1,5 +1,3 @@
-// Conversion of a scene's numbers to an engine and back, and its losses.
-
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -21,7 +19,7 @@ std::vector<double> values_of(const Scene& scene, SceneNumber quantity) {
       if (!particles.pinned[i]) values.push_back(value(i));
   };
   if (quantity == SceneNumber::mass) of_free([&](int i) { return particles.mass[i]; });
-  // other terms have no equivalent number in engines; their treatment is stated in the certificates
+  // engines have no numbers for other terms; the certificates state how these are treated
   const Overloaded take{
       [&](const Springs& springs) {
         if (quantity == SceneNumber::stiffness)
@@ -100,13 +98,13 @@ std::string range_text(std::span<const double> values) {
   return low == high ? fmt::format("{:.4g}", low) : fmt::format("{:.4g} to {:.4g}", low, high);
 }
 
-/// True for a link between two pins: nothing moves there, so the link is 1 for any stiffness, which cannot be
+/// True for a link between two pins. Neither end moves, so the engine's link is 1 for any stiffness, which cannot be
 /// recovered.
 bool lies_between_pins(const NumberRule& rule, const NumberContext& at) {
   return rule.quantity == SceneNumber::stiffness && std::isinf(at.mu) && rule.condition;
 }
 
-/// The engine's numbers for one quantity; `at` has the context of each of the scene's values.
+/// `at`: the context of each of the scene's values.
 std::vector<double> engine_values(const NumberRule& rule, const TranslationTarget& target,
                                   const std::vector<double>& scene, const std::vector<NumberContext>& at) {
   if (rule.gather == Gather::same && std::ranges::any_of(scene, [&](double v) { return v != scene[0]; }))
@@ -149,7 +147,7 @@ double rounding_of(const NumberRule& rule, double engine, bool single, const Num
          (rule.condition ? std::max(1.0, rule.condition(engine, at)) : 1);
 }
 
-/// Largest relative error of a conversion and its inverse: rounding, plus the exactly known error of using one number
+/// Largest relative error of a conversion and its inverse: rounding, plus the exactly known error of one number used
 /// for many.
 double stated_error(const NumberRule& rule, const TranslatedNumber& number, bool single,
                     const std::vector<NumberContext>& at) {
@@ -164,7 +162,7 @@ double stated_error(const NumberRule& rule, const TranslatedNumber& number, bool
   return most;
 }
 
-/// Text that states if the scene is within the range of its stiffness rule.
+/// States whether the scene is within the range of its stiffness rule.
 std::string range_here(const Scene& scene, const NumberRule& rule, const Translation& t,
                        const std::vector<NumberContext>& at) {
   if (!rule.one_by_one) {
@@ -194,7 +192,7 @@ std::string range_here(const Scene& scene, const NumberRule& rule, const Transla
 
 Scene scene_of(const Scene& scene, const EngineNumbers& engine, const NumbersFile& file) {
   Scene changed = scene;
-  // in the table's order: values that a formula depends on are converted before it
+  // in the table's order, so that values on which a formula depends come first
   for (const NumberRule& rule : engine.rules)
     for (const auto& [of, engine_values] : file.numbers) {
       if (of != &rule) continue;

@@ -1,5 +1,4 @@
-// Conversion of a scene's stiffness, damping and masses to another engine: the numbers, their inverse, and the accuracy
-// lost. The table of engines is in engines.cpp; Bullet's formulas are those of its worlds (bullet/parameters.h).
+// Conversion of a scene's stiffness, damping and masses to another engine's numbers and back, and the accuracy lost.
 #pragma once
 
 #include <optional>
@@ -13,29 +12,29 @@
 
 namespace crosscheck {
 
-/// The numbers of a scene, in conversion order: a stiffness may depend on masses and drag.
+/// Quantities in conversion order: a stiffness may depend on masses and drag.
 enum class SceneNumber { mass, drag, stiffness, dashpot, gravity, friction };
 std::string_view name_of(SceneNumber quantity);    // "spring stiffness k"
 std::string_view unit_of(SceneNumber quantity);    // the scene's unit: "N/m"
-std::string_view holder_of(SceneNumber quantity);  // the object that has such a number: "spring"
+std::string_view holder_of(SceneNumber quantity);  // the object that has the number: "spring"
 
-/// The scene's values, one per free particle, spring, dashpot or sphere; a single one for a uniform drag rate gamma = c
-/// / m (1/s), and for the magnitude of gravity. Empty if the scene has none.
+/// The scene's values: one per free particle, spring, dashpot or sphere; one for a uniform drag rate gamma = c / m
+/// (1/s), and for the magnitude of gravity. Empty if there are none.
 std::vector<double> values_of(const Scene& scene, SceneNumber quantity);
 
-/// Quantities that a formula may depend on besides the number itself.
+/// Quantities besides the number itself on which a formula may depend.
 struct NumberContext {
   double h;       // s, step
   int n;          // iterations or sub-steps per step
   double gamma;   // 1/s, if drag is uniform
-  double mu;      // kg, reduced mass of the ends of a spring or dashpot; infinite between two pins
+  double mu;      // kg, reduced mass of a spring's or dashpot's ends; infinite between two pins
   int particles;  // including pins
-  double k = 0;   // N/m, of the spring parallel to a dashpot
+  double k = 0;   // N/m, spring parallel to a dashpot
 };
 
 struct NumberRule {
-  /// Reduction of many springs' or particles' numbers to the engine's: one each; one, which requires equal values; one,
-  /// the median spring's or the mean particle's.
+  /// Numbers of many springs or particles in the engine: one each; one, if all are equal; one, of the median spring or
+  /// the mean particle.
   enum class Gather { each, same, median, mean };
 
   SceneNumber quantity;
@@ -45,55 +44,55 @@ struct NumberRule {
   double (*to)(double, const NumberContext&) = nullptr;  // null: the engine has no such number
   double (*from)(double, const NumberContext&) = nullptr;
   Gather gather = Gather::each;
-  std::string_view expected = {};   // description of valid numbers
-  bool (*valid)(double) = nullptr;  // null: any finite non-negative number
-  /// Amplification of a relative error of the engine's number in the scene's; null: 1.
+  std::string_view expected = {};   // valid numbers
+  bool (*valid)(double) = nullptr;  // null: any finite number >= 0
+  /// Relative error of the scene's number over that of the engine's; null: 1.
   double (*condition)(double, const NumberContext&) = nullptr;
   bool one_by_one = false;  // springs are solved one after another: in a network valid for short steps only
 };
 
 /// k h^2 / mu (dimensionless) up to which a network whose springs are solved one after another has the requested
-/// stiffness to 1 %. The sag of a chain of three is too large by 0.25 to 0.32 times this number, that of a cloth by
-/// 0.27 (experiment `stiffness`).
+/// stiffness to 1 %. The sag is too large by 0.25 to 0.32 times this number for a chain of three, and by 0.27 for a
+/// cloth (experiment `stiffness`).
 inline constexpr double sequential_limit = 0.03;
 
-/// An engine's numbers: a row of the table.
+/// A row of the table.
 struct EngineNumbers {
-  std::string_view name = {};        // for engines that are not methods here, e.g. "jolt"; empty: the methods' names
-  std::string_view title = {};       // display name
+  std::string_view name = {};        // of an engine that is no method here, e.g. "jolt"; empty: the methods' names
+  std::string_view title = {};       // for display
   std::string_view iterations = {};  // the engine's name for them; empty: not adjustable
   int usual_iterations = 1;
   bool sub_steps = false;               // the iterations divide the step
   bool single_precision = false;        // stores its numbers in single precision
-  bool (*of)(const Method&) = nullptr;  // true for methods that take scenes in this way; null: none does
+  bool (*of)(const Method&) = nullptr;  // true for methods that read scenes in this way; null: none does
   std::string_view deaf = {};           // an option with which the method ignores the scene's stiffness
-  std::string_view stand_in = {};       // the available method with the same rule, if the engine itself cannot run
+  std::string_view stand_in = {};       // a method here with the same rule, if the engine itself cannot run
   std::string_view source = {};         // origin of the formulas
   std::vector<NumberRule> rules = {};
 };
 std::span<const EngineNumbers> engine_numbers();
 
-/// The engine for which a scene is translated.
+/// The engine to which a scene is translated.
 struct TranslationTarget {
   std::string name;  // "bullet/pbd+n=4", "jolt+n=10"
   const EngineNumbers* numbers;
   int iterations;
-  bool iterations_given;  // explicitly, not the usual ones
+  bool iterations_given;  // false: the usual iterations
   bool single_precision;
-  std::optional<Method> runs = {};  // the method that can run the translated scene
+  std::optional<Method> runs = {};  // method that can run the translated scene
   bool stand_in = false;            // `runs` follows the engine's rule, but is not the engine
 };
-/// Finds a target by the name of a method, or of an engine in the table, with "+n=N". iterations: 0, or the same number
-/// as in +n. Throws InputError that lists the known targets.
+/// Finds a target by the name of a method, or of an engine in the table, with "+n=N". iterations: 0, or N again. Throws
+/// InputError that lists the known targets.
 TranslationTarget find_target(const std::string& name, int iterations);
 
 struct TranslatedNumber {
   const NumberRule* rule;
   std::vector<double> scene;   // the scene's values
   std::vector<double> engine;  // one per scene value, or one for all
-  std::vector<double> back;    // the engine's values converted back, one per scene value
+  std::vector<double> back;    // `engine` converted back, one per scene value
   double stated = 0;           // largest relative error of the round trip: rounding, or one number for many
-  std::string here = {};       // statement if this scene is within the rule's range of validity
+  std::string here = {};       // statement whether this scene is within the rule's range of validity
 };
 
 struct Translation {
@@ -104,33 +103,33 @@ struct Translation {
   Scene back;                     // the scene that the engine's numbers represent
 };
 
-/// Translates at a step of h (s). Throws Unsupported, with the reason, if the engine has no equivalent for a number of
+/// Translates at a step of h (s). Throws Unsupported with the reason if the engine has no equivalent for a number of
 /// the scene.
 Translation translate(const Scene& scene, const TranslationTarget& target, double h);
 
-/// An engine's numbers for a scene, as stored in a file.
+/// The content of a file of numbers.
 struct NumbersFile {
   double h = 0;  // s
   int iterations = 1;
   std::vector<std::pair<const NumberRule*, std::vector<double>>> numbers;
 };
 
-/// The scene with the values represented by the engine's numbers; others remain unchanged.
+/// The scene with the values that the engine's numbers represent; others stay unchanged.
 Scene scene_of(const Scene& scene, const EngineNumbers& engine, const NumbersFile& numbers);
-/// The largest relative rounding error in the numbers of that scene.
+/// Largest relative rounding error in the numbers of that scene.
 double rounding_of(const Scene& changed, const TranslationTarget& target, const NumbersFile& numbers);
 
 /// The translation as TOML: method, step, iterations, and each number under the engine's name, one for all or a list in
 /// the scene's order.
 std::string numbers_toml(const Scene& scene, const Translation& translation);
-/// Reads a file of numbers. A nonzero step (s), and explicit iterations of the target, override those in the file.
-/// Throws InputError: "FILE:LINE: KEY: expected ...".
+/// Reads a file of numbers. A nonzero step (s) and explicit iterations of the target override those in the file. Throws
+/// InputError: "FILE:LINE: KEY: expected ...".
 NumbersFile read_numbers(const std::string& text, const std::string& file, const Scene& scene,
                          const TranslationTarget& target, double step);
 
-/// The source scene's file with the numbers of a scene derived from it. Throws InputError if such a file cannot
-/// represent them: the springs of a grid's family share one stiffness. `within` is the relative difference attributed
-/// to rounding.
+/// The source scene's file with the numbers of a scene derived from it. Throws InputError if a file cannot represent
+/// them, e.g. because springs of one grid family share a stiffness. `within`: relative difference attributed to
+/// rounding.
 std::string scene_toml(const Scene& source, const Scene& changed, double within);
 
 }  // namespace crosscheck

@@ -1,6 +1,5 @@
-# Common part of adapters that are built against a tree of their engine: the target mysim, i.e. the libraries that
-# crosscheck was built with.
-#   CROSSCHECK_LIBRARIES   their folder: a build folder, or lib/crosscheck of an installation
+# For adapters built against a tree of their engine: the target mysim is the libraries that crosscheck was built with.
+#   CROSSCHECK_LIBRARIES   folder of the libraries: a build folder, or lib/crosscheck of an installation
 set(CMAKE_CXX_STANDARD 20)
 set(CMAKE_CXX_STANDARD_REQUIRED ON)
 set(CMAKE_CXX_EXTENSIONS OFF)
@@ -15,7 +14,7 @@ find_package(Threads REQUIRED)
 get_filename_component(CROSSCHECK_SOURCE ${CMAKE_CURRENT_LIST_DIR}/../.. ABSOLUTE)
 add_library(mysim INTERFACE)
 target_include_directories(mysim INTERFACE ${CROSSCHECK_SOURCE})
-# same flags as in the rooms themselves: a fused multiply-add would give different results
+# as the rooms themselves: a fused multiply-add would change results
 target_compile_options(mysim INTERFACE -ffp-contract=off -fno-math-errno)
 target_link_libraries(mysim INTERFACE
   ${CROSSCHECK_LIBRARIES}/libprotocol.a ${CROSSCHECK_LIBRARIES}/libmysim.a Eigen3::Eigen fmt::fmt)

@@ -1,4 +1,4 @@
-// An engine linked with crosscheck's libraries, as a program of the engine protocol.
+// Turns an engine linked with crosscheck's libraries into a program that speaks the engine protocol.
 #pragma once
 
 #include <functional>
@@ -9,9 +9,9 @@
 
 namespace crosscheck {
 
-/// The main function of such a program: reads the task named by its arguments, runs the engine, and writes the output
-/// that PROTOCOL.md requires. `engine_of` selects the engine by the options. Exit status: 3 if the engine throws
-/// Unsupported, 2 for InputError, 1 for any other exception; the message goes to standard error.
+/// The program's main function: reads the task named by its arguments, runs the engine that `engine_of` selects by the
+/// options, and writes the output that PROTOCOL.md requires. Exit status: 3 for Unsupported, 2 for InputError, 1 for
+/// other exceptions; the message goes to standard error.
 int run_as_program(int argc, char** argv, const std::function<Engine(const std::vector<std::string>&)>& engine_of);
 
 }  // namespace crosscheck

@@ -1,6 +1,6 @@
 // The engine protocol for C++17 programs, without dependencies: reads scene.json, writes trajectory.npy, velocities.npy
 // and run.json. Copy this file into your project; PROTOCOL.md documents every key. SI units throughout. The shortest
-// way to an adapter is a World and run_program(), at the end of this file.
+// adapter is a World and run_program(), at the end of this file.
 #pragma once
 
 #include <algorithm>
@@ -31,7 +31,7 @@ inline Vec operator*(double s, const Vec& a) { return {s * a[0], s * a[1], s * a
 inline double dot(const Vec& a, const Vec& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
 inline double length(const Vec& a) { return std::sqrt(dot(a, a)); }
 
-/// A JSON value. Look-ups throw std::runtime_error that names the key.
+/// A JSON value. Look-ups throw std::runtime_error with the key.
 struct Json {
   enum class Type { null, boolean, number, string, array, object } type = Type::null;
   double value = 0;  // the number; 1 for true, 0 for false
@@ -65,7 +65,7 @@ struct Json {
   }
 };
 
-/// Reads the JSON that crosscheck writes: the whole standard, except that surrogate pairs in \u become '?'.
+/// Reads crosscheck's JSON: the whole standard, except that surrogate pairs in \u become '?'.
 class JsonReader {
  public:
   static Json parse(const std::string& text) {
@@ -125,7 +125,7 @@ class JsonReader {
     } else if (!word("null")) {
       char* end = nullptr;
       json.type = Json::Type::number;
-      json.value = std::strtod(at_, &end);  // the nearest double, i.e. the scene's exact bits
+      json.value = std::strtod(at_, &end);  // the nearest double: the scene's exact bits
       if (end == at_) fail("a value");
       at_ = end;
     }
@@ -172,7 +172,7 @@ class JsonReader {
   const char *at_, *begin_;
 };
 
-/// Ends the program with exit status 3 and one line: the engine does not support the scene.
+/// Ends the program with status 3 and one line: the engine does not support the scene.
 [[noreturn]] inline void unsupported(const std::string& why) {
   std::fprintf(stderr, "%s\n", why.c_str());
   std::exit(3);
@@ -190,7 +190,7 @@ struct Motion {
   Vec acceleration(double t) const { return at(t)[2] * amplitude; }  // m/s^2
 
  private:
-  /// Value and first two time derivatives of r(t / ramp) sin(2 pi frequency t).
+  /// Value and two time derivatives of r(t / ramp) sin(2 pi frequency t).
   std::array<double, 3> at(double t) const {
     const double omega = 2 * pi * frequency, s = t < ramp ? t / ramp : 1;
     const double r = s * s * s * (10 + s * (6 * s - 15)), slope = t < ramp ? 30 * s * s * (1 - s) * (1 - s) / ramp : 0;
@@ -236,17 +236,17 @@ inline Wind wind_of(const Json& json) {
 }
 
 struct Spring {
-  int a, b;                       // ends
+  int a, b;
   double stiffness, rest_length;  // N/m, m
 };
 
 /// Damping along the line between two particles.
 struct Dashpot {
-  int a, b;            // ends
+  int a, b;
   double coefficient;  // N s/m
 };
 
-/// Bending energy k/2 |c|^2 with c = sum of weight times position; the weights add up to zero.
+/// Bending energy k/2 |c|^2 with c = sum of weight times position; the weights sum to 0.
 struct Stencil {
   std::vector<int> particles;
   std::vector<double> weights;  // dimensionless
@@ -280,26 +280,26 @@ struct Scene {
   int steps_per_sample = 0, samples = 0;
   std::vector<double> mass;   // kg; empty in first-order scenes
   std::vector<Vec> x, v;      // m, m/s
-  std::vector<char> pinned;   // 1 if held
-  std::vector<int> pins;      // indices of held particles
+  std::vector<char> pinned;   // 1 if fixed or moved
+  std::vector<int> pins;      // pinned particles
   std::vector<Vec> pin_home;  // m, positions at t = 0
   bool pins_move = false;
   Motion pin_motion{};
   std::string spring_law = "hooke";
   std::vector<Spring> springs;
-  std::vector<Spring> constraints;  // hard distances: rest length is the distance, stiffness infinite
+  std::vector<Spring> constraints;  // hard distances: infinitely stiff, rest length is the distance
   std::vector<Dashpot> dashpots;
   std::vector<Stencil> bending;
   std::vector<Sphere> spheres;
   std::vector<Plane> planes;
   Vec gravity{};             // m/s^2
   std::optional<Wind> wind;  // acceleration of all particles
-  std::vector<double> drag;  // N s/m, per particle; zeros if the scene has no drag
+  std::vector<double> drag;  // N s/m, per particle; 0 without drag
   std::vector<std::string> options;
 
   /// Acceleration by the wind (m/s^2); zero without wind.
   Vec wind_at(double t) const { return wind ? wind->at(t) : Vec{}; }
-  Vec pin_at(size_t pin, double t) const {  // m, position of the pin with this index in `pins`
+  Vec pin_at(size_t pin, double t) const {  // m, position of pins[pin]
     return pins_move ? pin_home[pin] + pin_motion.displacement(t) : pin_home[pin];
   }
   /// The scene's term of this type, or null.
@@ -308,13 +308,13 @@ struct Scene {
       if (t["type"].text == type) return &t;
     return nullptr;
   }
-  /// Ends the program as unsupported if the scene has a term that is not in the list.
+  /// Ends the program as unsupported if the scene has any other term.
   void require_only(std::initializer_list<const char*> known) const {
     for (const Json& t : json["terms"].list)
       if (std::find(known.begin(), known.end(), t["type"].text) == known.end())
         unsupported("this engine has no " + t["type"].text);
   }
-  /// Ends the program as unsupported, for the given reason, if a sphere or plane moves.
+  /// Ends the program as unsupported, with the reason, if a sphere or plane moves.
   void require_resting_surfaces(const std::string& why) const {
     bool moving = false;
     for (const Sphere& s : spheres) moving |= s.motion.has_value();
@@ -448,11 +448,11 @@ inline void set_forces(const Scene& scene, const std::vector<Vec>& x, const std:
   add_wind(scene, t, f);
 }
 
-/// Options in the method's name, such as "n=4" and "springs=tendon". Each get() declares one option.
+/// Options in the method's name, such as "n=4" and "springs=tendon". Each get() declares one.
 class Options {
  public:
   explicit Options(const Scene& scene) : asked_(scene.options) {}
-  /// Value of an option that is a whole number from 1 to a million.
+  /// Value of an option: a whole number from 1 to a million.
   int get(const std::string& name, int otherwise) {
     const std::string text = value(name, name + "=" + std::to_string(otherwise), std::to_string(otherwise));
     const bool digits = text.size() < 8 && text.find_first_not_of("0123456789") == std::string::npos;
@@ -461,7 +461,7 @@ class Options {
       unsupported("option " + name + "=" + text + ": expected a whole number from 1 to 1000000");
     return number;
   }
-  /// Value of an option with a fixed set of values; the first value is the default.
+  /// Value of an option: one of a fixed set, the default first.
   std::string get(const std::string& name, std::initializer_list<const char*> values) {
     std::string list;
     for (const char* v : values) list += std::string(list.empty() ? "" : "|") + v;
@@ -470,7 +470,7 @@ class Options {
       if (text == v) return text;
     unsupported("option " + name + "=" + text + ": expected " + name + "=" + list);
   }
-  /// Ends the program as unsupported if there are options that no get() declared.
+  /// Ends the program as unsupported if there are options without a get().
   void refuse_others() const {
     for (const std::string& option : asked_)
       unsupported("unknown option " + option + ": expected " + (expected_.empty() ? "none" : expected_));
@@ -490,7 +490,7 @@ class Options {
   std::string expected_;
 };
 
-/// Writes frames x particles x 3, float64, in the format of numpy.load. Little-endian machines only.
+/// Writes frames x particles x 3, float64, for numpy.load. Little-endian machines only.
 inline void write_npy(const std::string& file, const std::vector<std::vector<Vec>>& frames) {
   std::string header = "{'descr': '<f8', 'fortran_order': False, 'shape': (" + std::to_string(frames.size()) + ", " +
                        std::to_string(frames.empty() ? 0 : frames[0].size()) + ", 3), }";
@@ -506,25 +506,25 @@ inline void write_npy(const std::string& file, const std::vector<std::vector<Vec
   if (!out) throw std::runtime_error(file + ": cannot be written");
 }
 
-// run.json: what the program reports about its run. Unknown keys are omitted from the file.
+// run.json: what the program reports about its run, without unknown keys.
 
-/// No value: the key is omitted. A stiffness of `hard` is omitted as well, since JSON has no infinity.
+/// Keys without a value, and stiffnesses of `hard` because JSON has no infinity, are left out of run.json.
 constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
 constexpr double hard = std::numeric_limits<double>::infinity();
 
-/// A sphere as represented in the engine.
+/// A sphere in the engine.
 struct Ball {
   Vec centre;                                                          // m, at the start
   double radius = unknown, friction = unknown, restitution = unknown;  // m, at which particles touch; mu; e
 };
 
-/// A plane as represented in the engine: the face that particles touch.
+/// A plane in the engine: the face that particles touch.
 struct Face {
   Vec point, normal;                                 // m, at the start; unit vector
   double friction = unknown, restitution = unknown;  // mu, e
 };
 
-/// Positions of prescribed motions at a later time.
+/// Prescribed positions at a later time.
 struct Places {
   double t;                      // s
   std::vector<Vec> pins;         // m, in the scene's order
@@ -532,8 +532,8 @@ struct Places {
   std::vector<Vec> points = {};  // m, of planes
 };
 
-/// Forces in a state of the program's choice. A list that is left empty is not reported; zeros mean that the engine has
-/// no such force.
+/// Forces at a state of the program's choice. An empty list is not reported; zeros mean that the engine has no such
+/// force.
 struct Probe {
   double t = 0;                              // s
   std::vector<Vec> x, v;                     // m, m/s
@@ -541,11 +541,11 @@ struct Probe {
   std::vector<Vec> bending = {};             // N, at x
 };
 
-/// Input of the parity certificate: read it from the engine's own data, not from the scene. Members as in the table of
-/// PROTOCOL.md.
+/// Input of the parity certificate, with the keys of PROTOCOL.md. Read it from the engine's own data, not from the
+/// scene.
 struct Readback {
-  std::vector<double> mass;   // kg; arbitrary for held particles
-  std::vector<char> pinned;   // 1 if held
+  std::vector<double> mass;   // kg; arbitrary for pins
+  std::vector<char> pinned;   // 1 if pinned
   std::vector<Spring> links;  // springs, then constraints, in the scene's order; stiffness may be `hard` or `unknown`
   std::optional<Vec> gravity = {};                // m/s^2
   std::string precision = "double";               // or "single"
@@ -555,7 +555,7 @@ struct Readback {
   double margin = unknown;                        // m
   std::optional<bool> may_sleep = {};
   double step = unknown;                        // s
-  std::vector<Vec> start_x = {}, start_v = {};  // m, m/s: state from which the first step began
+  std::vector<Vec> start_x = {}, start_v = {};  // m, m/s: state before the first step
   std::optional<Places> later = {};
   std::optional<Probe> probe = {};
   std::map<std::string, std::string> mapped = {}, settings = {};
@@ -565,7 +565,7 @@ struct RunReport {
   double cpu_seconds = unknown;                                      // stepping only
   long steps = -1, force_evaluations = -1, coincident_springs = -1;  // negative: not counted
   double step = unknown;                                             // s, as used
-  std::string verdict = {}, reason = {};        // for a run that reports failure: energy, stretch, nan, solver, frozen
+  std::string verdict = {}, reason = {};        // for a failed run: energy, stretch, nan, solver, frozen
   double end = unknown;                         // s, time of failure
   std::vector<std::string> different_law = {};  // "ingredient: how its law differs"
   std::optional<Readback> readback = {};
@@ -573,9 +573,8 @@ struct RunReport {
   bool adaptive = false;    // the engine chooses its steps
 };
 
-/// A state in which the force laws are visible: the start, stretched about the origin by a tenth or more until no
-/// spring is within a hundredth of its rest length. It is growing, so that dashpots act too, and bent if the scene has
-/// bending.
+/// A state that shows the force laws: the start, stretched about the origin by a tenth or more until no spring is
+/// within a hundredth of its rest length. It grows, so that dashpots act too, and is bent if the scene has bending.
 inline Probe probe_state(const Scene& scene) {
   const double bend = scene.bending.empty() ? 0 : 0.1 / scene.json["size"].number();  // 1/m
   for (int tenths = 11;; ++tenths) {
@@ -589,12 +588,12 @@ inline Probe probe_state(const Scene& scene) {
       const double l = length(probe.x[s.a] - probe.x[s.b]);
       return l == 0 || std::abs(l - s.rest_length) > 0.01 * s.rest_length;
     });
-    if (shows || tenths == 30) return probe;  // no larger stretch is tried: some springs stay unattested
+    if (shows || tenths == 30) return probe;  // larger stretches are not tried: some springs stay unattested
   }
 }
 
-/// The coefficient (N s/m) of the dashpots parallel to each spring, for engines whose springs have their own damping.
-/// If several springs join the same ends, the first gets it. Dashpots without a parallel spring are added to `others`.
+/// Coefficients (N s/m) of the dashpots parallel to each spring, for engines whose springs have their own damping. The
+/// first of parallel springs gets it. Dashpots without a parallel spring are added to `others`.
 inline std::vector<double> damping_of_springs(const Scene& scene, std::vector<Dashpot>& others) {
   std::map<std::pair<int, int>, size_t> first;
   for (size_t i = 0; i < scene.springs.size(); ++i) first.emplace(std::pair{scene.springs[i].a, scene.springs[i].b}, i);
@@ -607,10 +606,10 @@ inline std::vector<double> damping_of_springs(const Scene& scene, std::vector<Da
   return damping;
 }
 
-/// The probe at the state in `p`, for an engine whose springs, dashpots, bending and wind are computed by the functions
+/// The probe at the state `p`, for an engine whose springs, dashpots, bending and wind are computed by the functions
 /// above.
 inline Probe probe_of_forces(const Scene& scene, Probe p) {
-  p.t = 0.3;  // s; gusts are active by then
+  p.t = 0.3;  // s; gusts have begun
   p.springs = p.dashpots = p.bending = p.wind = std::vector<Vec>(p.x.size(), Vec{});
   add_springs(scene, p.x, p.springs);
   add_dashpots(scene, p.x, p.v, p.dashpots);
@@ -620,13 +619,13 @@ inline Probe probe_of_forces(const Scene& scene, Probe p) {
 }
 inline Probe probe_of_forces(const Scene& scene) { return probe_of_forces(scene, probe_state(scene)); }
 
-/// A spring that the engine solves as a constraint, as described by the engine's own data.
+/// A spring that the engine solves as a constraint, from the engine's own data.
 struct SoftJoint {
   double stiffness, rest_length, damping;  // N/m, m, N s/m
 };
 
-/// Fills links and probe for an engine that represents the scene's springs by `joints` obeying `law`, one per spring,
-/// and applies the springs and dashpots of `forced` as forces. Without joints, all springs are forces.
+/// Fills links and probe for an engine that represents each of the scene's springs by one of `joints`, which obey
+/// `law`, and applies the springs and dashpots of `forced` as forces. Without joints, all springs are forces.
 inline void read_back_joints(const Scene& scene, const Scene& forced, const std::vector<SoftJoint>& joints,
                              const std::string& law, RunReport& run) {
   Readback& r = *run.readback;
@@ -645,7 +644,7 @@ inline void read_back_joints(const Scene& scene, const Scene& forced, const std:
   if (!scene.dashpots.empty()) run.different_law.push_back("dashpots: implicit, in the joints of springs");
 }
 
-/// Writes JSON: numbers with all their digits, lists, and objects without the keys that have no value.
+/// Writes JSON: numbers with all digits, lists, objects without keys that have no value.
 class JsonWriter {
  public:
   static std::string of(double value) {
@@ -745,20 +744,20 @@ inline void write_run_json(const std::string& file, const RunReport& run) {
   if (!out) throw std::runtime_error(file + ": cannot be written");
 }
 
-/// An engine that holds one scene. The constructor may refuse the scene (`unsupported`, Scene::require_only, Options).
+/// An engine with one scene. The constructor may refuse the scene (`unsupported`, Scene::require_only, Options).
 struct World {
   virtual ~World() = default;
-  /// Advances from t to t + scene.step (s), including pins and other prescribed motions. An exception ends the run.
+  /// Advances from t to t + scene.step (s), including prescribed motions. An exception ends the run.
   virtual void step(double t) = 0;
-  /// Copies all positions (m) and velocities (m/s), in the scene's order; both vectors already have their size.
+  /// Copies positions (m) and velocities (m/s) in the scene's order; both vectors have their size.
   virtual void read(std::vector<Vec>& x, std::vector<Vec>& v) = 0;
   /// Completes the report: `engine`, counts, differing laws, and the read-back from the engine's own data, at least
-  /// `mass`, `pinned` and `links`. Already filled in: times, steps, `start`, and the pins of `later` as returned by
-  /// read().
+  /// `mass`, `pinned` and `links`. Times, steps, `start`, and the pins of `later`, as returned by read(), are already
+  /// filled in.
   virtual void report(RunReport& report) = 0;
 };
 
-/// Steps the world through the scene's samples; stops if a state is not finite or step() throws. Only step() is timed.
+/// Steps the world through the scene's samples, until a state is not finite or step() throws. Times only step().
 inline RunReport run_world(const Scene& scene, World& world, std::vector<std::vector<Vec>>& frames,
                            std::vector<std::vector<Vec>>& speeds) {
   std::vector<Vec> x(scene.x.size()), v(scene.x.size());
@@ -800,8 +799,8 @@ inline RunReport run_world(const Scene& scene, World& world, std::vector<std::ve
   return report;
 }
 
-/// The main function of an adapter: reads the task, runs the world that `make` builds, writes the three files. Exits
-/// with status 3 if the scene is refused, with 1 after any other error.
+/// An adapter's main function: reads the task, runs the world that `make` builds, writes the three files. Exit status:
+/// 3 if the scene is refused, 1 after any other error.
 inline int run_program(int argc, char** argv, std::unique_ptr<World> (*make)(const Scene&)) {
   try {
     if (argc != 3) throw std::runtime_error(std::string("usage: ") + argv[0] + " scene.json OUTDIR");
@@ -817,7 +816,7 @@ inline int run_program(int argc, char** argv, std::unique_ptr<World> (*make)(con
   }
   return 0;
 }
-template <class Engine>  // a World that is constructed from a Scene
+template <class Engine>  // a World constructed from a Scene
 int run_program(int argc, char** argv) {
   return run_program(argc, argv, [](const Scene& s) -> std::unique_ptr<World> { return std::make_unique<Engine>(s); });
 }

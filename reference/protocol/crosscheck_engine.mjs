@@ -14,12 +14,12 @@ import { createInterface } from 'node:readline';
 class Unsupported extends Error {}
 class Failed extends Error {}
 
-/// Refuses the scene (exit status 3) because the engine does not support it.
+/// Refuses an unsupported scene (exit status 3).
 export function unsupported(reason) {
   throw new Unsupported(reason);
 }
 
-/// Ends the run early with a verdict of run.json (`nan`, `solver`, ...); the frames written so far are kept.
+/// Ends the run with a verdict of run.json (`nan`, `solver`, ...); the frames so far are kept.
 export function failed(verdict, reason) {
   throw Object.assign(new Failed(reason), { verdict });
 }
@@ -36,7 +36,7 @@ export function motionAt(motion, t) {
            acceleration: amplitude.map((a) => a * rise) };
 }
 
-/// Value of wind or air at time t: the mean with its gusts, in the unit of the mean.
+/// Wind or air at time t, with gusts, in the unit of the mean.
 function blowing(mean, gusts, t) {
   if (!gusts) return [...mean];
   const waves = (list) => list.reduce((sum, w) => sum + w.weight * Math.sin(w.omega * t + w.phase), 0);
@@ -44,7 +44,7 @@ function blowing(mean, gusts, t) {
   return mean.map((e, k) => e * along + gusts.side[k] * across);
 }
 
-/// Links of a term as arrays: ends a and b, and one array for each named number.
+/// A term's links as arrays: ends a and b, and one array per named number.
 function links(list, numbers) {
   const columns = { list, count: list.length };
   columns.a = Int32Array.from(list, (link) => link.a);
@@ -54,7 +54,7 @@ function links(list, numbers) {
 }
 
 export class Scene {
-  /// Constructs from the content of scene.json, which remains available as `task`.
+  /// `task`: the content of scene.json.
   constructor(task) {
     const { particles, run, pins } = task;
     this.task = task;
@@ -90,8 +90,8 @@ export class Scene {
     this.expected = [];
   }
 
-  /// Value of option NAME=VALUE. `otherwise` is the default: a number (the option must be positive, and whole if the
-  /// default is), or a list of all allowed words, the default first.
+  /// Value of option NAME=VALUE. `otherwise`: the default number (the option must be positive, and whole if the default
+  /// is), or a list of all allowed words, the default first.
   option(name, otherwise) {
     const text = this.words.get(name), value = text?.slice(name.length + 1), words = Array.isArray(otherwise);
     this.words.delete(name);
@@ -103,35 +103,35 @@ export class Scene {
       unsupported(`${text}: expected a ${whole ? 'whole ' : ''}number above 0, at most 1000000`);
     return number;
   }
-  /// Refuses options that no call of option() has declared.
+  /// Refuses options without a call of option().
   requireKnownOptions() {
     for (const text of this.words.values())
       unsupported(`unknown option ${text}: expected ${this.expected.join(' or ') || 'no option'}`);
   }
 
-  /// Acceleration by the wind (m/s^2), and velocity of the air (m/s), at time t.
+  /// Acceleration by the wind (m/s^2) and velocity of the air (m/s) at time t.
   windAt(t) { return this.wind ? blowing(this.wind.acceleration, this.wind.gusts, t) : [0, 0, 0]; }
   airAt(t) { return this.air ? blowing(this.air.velocity, this.air.gusts, t) : [0, 0, 0]; }
-  /// Displacement, velocity and acceleration of all pins at time t.
+  /// Motion of all pins at time t, like motionAt().
   pinMotion(t) { return motionAt(this.pins.motion, t); }
-  /// Pins at time t: particle, position x (m), velocity v (m/s).
+  /// Particle, position x (m) and velocity v (m/s) of each pin at time t.
   pinsAt(t) {
     const { particles, home } = this.pins, { displacement, velocity } = this.pinMotion(t);
     return particles.map((particle, i) => ({ particle, x: home[i].map((e, k) => e + displacement[k]), v: velocity }));
   }
-  /// Sets position and velocity of the pins in x and v to those at time t.
+  /// Writes the pins' positions and velocities at time t to x and v.
   placePins(t, x, v) {
     for (const pin of this.pinsAt(t)) x.set(pin.x, 3 * pin.particle), v.set(pin.v, 3 * pin.particle);
   }
   /// Distance of a link's ends at t = 0 (m).
   lengthOf({ a, b }) { return Math.hypot(...[0, 1, 2].map((k) => this.x[3 * a + k] - this.x[3 * b + k])); }
-  /// Drag of all free particles as a single number (1/s); refuses drag that differs between them.
+  /// The drag rate of all free particles (1/s); refuses rates that differ.
   oneDamping(reason) {
     const all = this.damping.filter((_, i) => !this.pinned[i]), first = all[0] ?? 0;
     return all.some((e) => Math.abs(e - first) > 1e-6 * first) ? unsupported(reason) : first;
   }
 
-  /// Position at time t (m) of a sphere's centre, or of a plane's face shifted out of the solid by `off` (m).
+  /// Position (m) at time t of a sphere's centre, or of a plane's face shifted out of the solid by `off` (m).
   obstacleAt({ centre, motion, point, normal, velocity = [0, 0, 0] }, t, off = 0) {
     if (point) return point.map((p, k) => p + velocity[k] * t + off * normal[k]);
     const { displacement } = motionAt(motion, t);
@@ -140,7 +140,7 @@ export class Scene {
 
   // Forces (N), added to f.
 
-  /// Returns the number of springs whose ends coincide: these have no direction, hence no force.
+  /// Returns the number of springs whose ends coincide and which therefore exert no force.
   addSpringForces(x, f) {
     const { a, b, k, rest, count, law } = this.springs, hooke = law === 'hooke';
     let coincident = 0;
@@ -189,9 +189,9 @@ export class Scene {
     const all = [...this.springs.list, ...this.rods.list];
     return all.map((link, i) => ({ a: link.a, b: link.b, ...attest(i, link, i >= this.springs.count) }));
   }
-  /// A state in which the law of every spring is visible: the start, stretched about the origin by a tenth or more
-  /// until no spring is within a hundredth of its rest length. It is growing, so that dashpots act too, and curved if
-  /// there is bending.
+  /// A state that shows the law of every spring: the start, stretched about the origin by a tenth or more until no
+  /// spring is within a hundredth of its rest length. It grows, so that dashpots act too, and is curved if there is
+  /// bending.
   probeState() {
     const l = this.springs.list.map((spring) => this.lengthOf(spring)), { rest } = this.springs;
     let tenths = 11;
@@ -200,7 +200,7 @@ export class Scene {
     const x = this.x.map((e, i) => (tenths / 10) * e + (this.bending.length && 0.02 * along(i) ** 2 / this.task.size));
     return { t: 0.3, x, v: this.x.map((e) => 0.5 * e) };
   }
-  /// Probe for an engine that obtains its forces from the functions above.
+  /// Probe for an engine whose forces are the functions above.
   ownProbe() {
     const probe = this.probeState(), force = (add) => {
       const f = new Float64Array(3 * this.count);
@@ -215,7 +215,7 @@ export class Scene {
   }
 }
 
-/// Frames of one quantity as a NumPy file: a header of 128 bytes, then the numbers.
+/// Frames of one quantity in NumPy's format: a header of 128 bytes, then the numbers.
 class Frames {
   constructor(frames, count) {
     this.size = 3 * count;
@@ -233,7 +233,7 @@ class Frames {
 /// A flat array as a list of vectors.
 const vectors = (flat) => Array.from({ length: flat.length / 3 }, (_, i) => [...flat.subarray(3 * i, 3 * i + 3)]);
 
-/// Text of run.json: flat arrays of the particles' vectors become lists; non-finite numbers are omitted.
+/// Text of run.json: flat arrays of the particles' vectors become lists; non-finite numbers are left out.
 function runText(run) {
   const probe = run.readback?.probe;
   if (probe) for (const key in probe) if (probe[key] instanceof Float64Array) probe[key] = vectors(probe[key]);
@@ -243,7 +243,7 @@ function runText(run) {
   });
 }
 
-/// Refuses terms, laws and first-order scenes that the engine does not support.
+/// Refuses unsupported terms, laws and first-order scenes.
 function requireTerms(scene, { engine, terms, lacks = {}, laws = ['hooke'] }) {
   const name = engine.replace(/ [0-9.]+$/, '');
   if (scene.firstOrder && !terms.includes('rotation')) unsupported(`${name} has no first-order systems`);
@@ -253,7 +253,7 @@ function requireTerms(scene, { engine, terms, lacks = {}, laws = ['hooke'] }) {
     unsupported(`${name} has no springs of the law ${scene.springs.law}`);
 }
 
-/// Runs one scene as `PROGRAM scene.json OUTDIR`.
+/// Runs one scene, as `PROGRAM scene.json OUTDIR`.
 async function runScene(file, out, description, makeWorld) {
   const scene = new Scene(JSON.parse(readFileSync(file, 'utf8'))), { samples, stepsPerSample, h, count } = scene;
   requireTerms(scene, description);
@@ -292,7 +292,7 @@ async function runScene(file, out, description, makeWorld) {
   }
 }
 
-/// Status and reason of a call: 0, 3 (unsupported) or 1. `broken`: WebAssembly trapped, and its memory may be damaged.
+/// Status (0, 3: unsupported, or 1) and reason of a call. `broken`: WebAssembly trapped, and its memory may be damaged.
 async function answer(call) {
   try {
     await call();
@@ -305,7 +305,7 @@ async function answer(call) {
 
 /// The program's main function: runs one scene, or with --serve those named on stdin. `description`: the engine's name
 /// and version, the supported `terms`, optionally reasons for what it `lacks`, `laws` of springs, and `init`, which
-/// runs once before the first world is made (it may set `engine`). A world's `free` is called when its scene is done.
+/// runs once before the first world is made (it may set `engine`). A world's `free` is called after its scene.
 export async function serve(description, makeWorld) {
   let ready;
   const run = (scene, out) => answer(() => runScene(scene, out, description, async (asked) => {
@@ -319,7 +319,7 @@ export async function serve(description, makeWorld) {
     process.exitCode = status;
     return;
   }
-  console.log = console.info = console.error;  // stdout holds the answers only
+  console.log = console.info = console.error;  // stdout is for answers only
   for await (const line of createInterface({ input: process.stdin })) {
     const { broken, ...told } = await answer(async () => JSON.parse(line)).then(async (read) => {
       if (read.status) return read;

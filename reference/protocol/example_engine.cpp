@@ -26,7 +26,7 @@ class SymplecticEuler : public World {
 
   void read(std::vector<Vec>& x, std::vector<Vec>& v) override { x = x_, v = v_; }
 
-  /// The read-back. This engine uses the scene's own lists, and has no dashpots, wind or obstacles.
+  /// This engine uses the scene's own lists, and has no dashpots, wind or obstacles.
   void report(RunReport& run) override {
     run.force_evaluations = run.steps;
     Readback& r = *run.readback;

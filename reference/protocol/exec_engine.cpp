@@ -1,4 +1,3 @@
-// Locates an external program and runs it once: private folder, scene.json in, result files out.
 #include "reference/protocol/exec_engine.h"
 
 #include <fmt/format.h>
@@ -55,11 +54,11 @@ double parse_timeout(const std::string& method, const std::string& value) {
 
 class Server {
  public:
-  /// Called after a run whose program reports that it serves.
+  /// Called after a run of a program that reports that it serves.
   void allow() { allowed_ = !failed_; }
 
-  /// Runs the task in the server. Returns nullopt if the program must be called normally: it does not serve, is busy in
-  /// another thread, or gave no valid answer.
+  /// Runs the task in the server. Returns nullopt if it does not serve, is busy in another thread, or gave no valid
+  /// answer: the program must be called normally.
   std::optional<ProgramResult> run(const Program& program, const fs::path& task, const fs::path& results) {
     const std::unique_lock lock(busy_, std::try_to_lock);
     if (!lock || !allowed_) return std::nullopt;
@@ -91,7 +90,7 @@ class Server {
 
 Program find_program(const std::string& text) {
   Program program;
-  // the longest prefix that is a file: names may contain plus signs, and option values may contain slashes
+  // the longest prefix that is a file: names may contain plus signs, option values may contain slashes
   size_t end = text.size();
   std::optional<fs::path> found = find_in_path(text);
   while (!found && end > 0 && (end = text.rfind('+', end - 1)) != std::string::npos)
@@ -121,7 +120,7 @@ void add_option(Program& program, const std::string& method, const std::string& 
 
 namespace {
 
-/// The last non-blank line: printable, and short enough for a table.
+/// The last non-blank line, printable and short enough for a table.
 std::string last_line(const std::string& text) {
   const size_t last = text.find_last_not_of(" \t\r\n");
   if (last == std::string::npos) return "";
@@ -147,9 +146,9 @@ Outcome failed(Outcome out, Verdict verdict, const std::string& what, const Prog
   return out;
 }
 
-/// Maximum size of run.json in bytes. A number takes 26 with its blank and comma. A particle has 27 numbers (mass, pin,
-/// drag, two vectors of the start, five of the probe, one of later positions) and a link 4, plus as many keys (60): 702
-/// and 164. Three times that leaves room for line breaks. A mebibyte is reserved for texts.
+/// Maximum size of run.json in bytes. A number with its blank and comma takes 26. A particle has 27 numbers (mass, pin,
+/// drag, two vectors of the start, five of the probe, one of later positions); a link has 4, and keys of 60 bytes: 702
+/// and 164 bytes. Three times that leaves room for line breaks, and a mebibyte for texts.
 std::uintmax_t largest_run_json(const Scene& scene) {
   const auto* springs = scene.model.find<Springs>();
   const auto* constraints = scene.model.find<Constraints>();
@@ -190,9 +189,9 @@ Frames read_results(const fs::path& folder, const Scene& scene, const Run& run, 
 
 }  // namespace
 
-// Allowed deviation: sixteen half ulps of the engine's precision (2^-53; 2^-24 if single or unknown) for home,
-// displacement and their sum, as for the first frame. A program that accumulates its steps is also off by half an ulp
-// of the time per step, during which the pin moves along its path.
+// Allowed deviation: sixteen half ulps of the engine's precision (2^-53; 2^-24 if single or unknown) of home,
+// displacement and their sum, as for the first frame. A program that accumulates its steps also loses half an ulp of
+// the time per step, during which the pin moves along its path.
 std::string misled_pin(const Frames& frames, const Scene& scene, const Run& run, const Outcome& out) {
   const Particles& particles = scene.model.particles;
   const TimeGrid grid = time_grid(run);
@@ -211,7 +210,7 @@ std::string misled_pin(const Frames& frames, const Scene& scene, const Run& run,
     const Vec3 moved = particles.move ? displacement_at(*particles.move, t) : Vec3::Zero();
     for (size_t i = 0; i < particles.pins.size(); ++i) {
       const Vec3 off = frames.x[frame].col(particles.pins[i]) - particles.pin_home.col(static_cast<int>(i)) - moved;
-      // a non-finite value is a failed run anyway
+      // a non-finite value fails the run anyway
       if (off.norm() > std::max(worst, allowed)) worst = off.norm(), when = t, which = particles.pins[i];
     }
   }
@@ -223,7 +222,7 @@ std::string misled_pin(const Frames& frames, const Scene& scene, const Run& run,
 }
 
 Outcome run_outside_engine(const Program& program, const Scene& scene, const Run& asked, Observer& observer) {
-  // the program writes every state that verdicts are based on, as many as in-process engines provide
+  // the program writes every state on which verdicts are based, as many as engines in this process
   const TimeGrid grid = time_grid(asked);
   const int per_sample =
       observer.between_samples() ? grid.steps_per_sample / verdict_stride(grid, scene.model.particles.size()) : 1;

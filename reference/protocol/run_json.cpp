@@ -1,4 +1,3 @@
-// Conversion of outcomes to JSON, and back.
 #include "reference/protocol/run_json.h"
 
 #include <fmt/format.h>
@@ -170,7 +169,7 @@ std::string run_json(const Outcome& out) {
 
 void read_run_json(const std::filesystem::path& path, Outcome& out, double duration) {
   const JsonField f = JsonField::parse_file(path.string());
-  constexpr double most_counted = 9007199254740992;  // 2^53: larger integers cannot be distinguished
+  constexpr double most_counted = 9007199254740992;  // 2^53: larger integers are not distinct
   constexpr double most_seconds = 1e9;
   auto number = [&](const char* key, double lowest, double highest, const char* expected) -> std::optional<double> {
     const auto found = f.find(key);
@@ -203,7 +202,7 @@ void read_run_json(const std::filesystem::path& path, Outcome& out, double durat
   if (const auto engine = f.find("engine")) out.engine = printable(engine->text());
   if (const auto laws = f.find("different_law")) {
     for (const JsonField& law : laws->elements()) {
-      // "ingredient: how it differs", as the certificate prints it
+      // "ingredient: how it differs", as in the certificate
       if (law.text().find(": ") == std::string::npos) law.fail("a sentence \"ingredient: how its law differs\"");
       out.different_law.push_back(printable(law.text()));
     }

@@ -1,5 +1,4 @@
-// run.json of the engine protocol: a program's report on its run, besides the trajectory. Its format is described in
-// PROTOCOL.md.
+// run.json of the engine protocol (PROTOCOL.md): a program's report on its run.
 #pragma once
 
 #include <filesystem>
@@ -10,12 +9,12 @@
 
 namespace crosscheck {
 
-/// The file's content: verdict, cost, laws and read-back of the outcome.
+/// Verdict, cost, laws and read-back of the outcome.
 std::string run_json(const Outcome& outcome);
 
-/// Reads the existing keys into the outcome and leaves the rest unchanged. `readback` must be complete: masses, pins,
-/// links and precision are required. Impossible numbers are rejected (counts beyond 2^53, steps and times beyond the
-/// run's duration (s), more CPU time than thirty years). Throws InputError: "FILE: PLACE: expected ...".
+/// Reads the existing keys into the outcome, and leaves the rest unchanged. A `readback` requires masses, pins, links
+/// and precision. Impossible numbers are rejected: counts beyond 2^53, steps and times beyond the run's duration (s),
+/// more CPU time than thirty years. Throws InputError: "FILE: PLACE: expected ...".
 void read_run_json(const std::filesystem::path& file, Outcome& outcome,
                    double duration = std::numeric_limits<double>::infinity());
 

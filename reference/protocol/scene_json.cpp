@@ -1,4 +1,3 @@
-// Conversion of a scene and a run to JSON, and back.
 #include "reference/protocol/scene_json.h"
 
 #include <fmt/format.h>
@@ -164,7 +163,7 @@ std::string scene_json(const Scene& scene, const Run& run, const std::vector<std
   }
   if (!scene.triangles.empty()) json["triangles"] = scene.triangles;
 
-  // one line per part, which keeps long lists out of the way
+  // one line per key, which keeps long lists out of the way
   return dump_in_lines(json);
 }
 
@@ -186,7 +185,7 @@ WindSignal blowing_of(const JsonField& f, std::string_view key) {
   if (const auto g = f.find("gusts")) {
     const int seed = (*g)["seed"].whole_number(0, 2147483647);
     wind_signal.gusts = {(*g)["variation"].number(), vec3_of((*g)["side"]), seed, Gust(seed, 1), Gust(seed, 2)};
-    read_waves((*g)["along"], wind_signal.gusts->along);  // the written waves count, not those that the seed would give
+    read_waves((*g)["along"], wind_signal.gusts->along);  // the written waves count, not the seed's
     read_waves((*g)["across"], wind_signal.gusts->across);
   }
   return wind_signal;
@@ -290,7 +289,7 @@ Term planes_of(const JsonField& f, const Scene&) {
   return planes;
 }
 
-// the table of terms: one row per alternative of Term
+// one row per alternative of Term
 struct TermReader {
   std::string_view type;
   Term (*read)(const JsonField&, const Scene&);

@@ -1,4 +1,3 @@
-// Writes and reads trajectories as .npy files, and replays them.
 #include "reference/protocol/trajectory_files.h"
 
 #include <fmt/format.h>
@@ -17,8 +16,8 @@ static_assert(std::endian::native == std::endian::little, "the data are written 
 std::string npy_header(long frames, long particles) {
   std::string header =
       fmt::format("{{'descr': '<f8', 'fortran_order': False, 'shape': ({}, {}, 3), }}", frames, particles);
-  // The magic (6), version (2), length (2), header and newline fill a multiple of 64 bytes. It is 128, because the
-  // words alone exceed 64, and the numbers have room for 57 digits.
+  // Magic (6), version (2), length (2), header and newline fill a multiple of 64 bytes. It is 128: the words alone
+  // exceed 64, and the numbers have room for 57 digits.
   header.resize((10 + header.size() + 1 + 63) / 64 * 64 - 10 - 1, ' ');
   header += '\n';
   std::string out("\x93NUMPY\x01\x00", 8);
@@ -46,7 +45,7 @@ struct Header {
   std::vector<long> shape;
 };
 
-/// Value of 'key': in the header's dictionary, from its first character that is not a space.
+/// Value of 'key': in the header's dictionary, from its first non-blank.
 std::optional<std::string> dictionary_value(const std::string& dictionary, const std::string& key) {
   size_t at = dictionary.find("'" + key + "'");
   if (at == std::string::npos || (at = dictionary.find(':', at)) == std::string::npos) return std::nullopt;
@@ -107,7 +106,7 @@ std::vector<Points> read_npy(const std::filesystem::path& file, int min_frames, 
     length += 65536u * head[10] + 16777216u * head[11];
     begin = 12 + length;
   }
-  constexpr size_t longest = 65535;  // the limit of format 1.0; shapes of three numbers need 128
+  constexpr size_t longest = 65535;  // limit of format 1.0; shapes of three numbers need 128
   if (length > longest) fail(fmt::format("expected a header of at most {} bytes, got {}", longest, length));
   std::string dictionary(begin <= size ? length : 0, ' ');
   in.read(dictionary.data(), static_cast<std::streamsize>(dictionary.size()));
@@ -165,7 +164,7 @@ std::vector<Points> read_positions(const std::filesystem::path& file, const Scen
                                    bool may_be_truncated) {
   const int frames = time_grid(run).samples + 1;
   std::vector<Points> x = read_npy(file, may_be_truncated ? 1 : frames, frames, scene.model.particles.size());
-  // in single precision, the start is accurate to 1e-7 of its coordinates
+  // single precision stores the start to 1e-7 of its coordinates
   const double off = largest_column(x[0] - scene.start.x), scale = scene.size() + largest_column(scene.start.x);
   if (!(off <= 1e-6 * scale))
     throw InputError(fmt::format("{}: expected the scene's start as the first frame, got one that is {:.3g} m off",

@@ -1,5 +1,4 @@
-// Trajectories in NumPy's .npy files: their format, writing them during a run, reading them and replaying them to
-// observers.
+// Trajectories in NumPy's .npy files: writing them during a run, reading them, and replaying them to observers.
 #pragma once
 
 #include <filesystem>
@@ -14,31 +13,27 @@
 
 namespace crosscheck {
 
-// NumPy's .npy files, in which trajectories are stored.
-
-/// Header of frames x particles x 3 numbers, float64, little endian, C order (format 1.0). It always has 128 bytes.
+/// Header of frames x particles x 3 numbers, float64, little endian, C order (format 1.0): always 128 bytes.
 std::string npy_header(long frames, long particles);
-/// Numbers of a frame, as they follow the header.
+/// Raw data of one frame, in the format of the data after the header.
 std::string_view npy_data(const Points& frame);
 /// Content of a whole file.
 std::string npy_bytes(const std::vector<Points>& frames);
 
 /// Reads frames x particles x 3 numbers: float64 or float32, little endian, C order, format 1.0 or 2.0. Throws
-/// InputError, with the file's name and the expected content, if the file is something else, has a different number of
-/// particles, fewer than min_frames or more than max_frames frames, or is shorter or longer than its header says.
+/// InputError, with the file's name and the expected content, if the file is something else, has another number of
+/// particles, fewer than min_frames or more than max_frames frames, or a length that its header does not state.
 std::vector<Points> read_npy(const std::filesystem::path& file, int min_frames, int max_frames, int particles);
 
-// Frames of a run written directly to disk: none is kept in memory.
-
-/// Writes positions at samples (m) to trajectory.npy and, if the states have them, velocities (m/s) to velocities.npy.
-/// The files become visible in finish(), not before. Throws InputError if they cannot be written.
+/// Writes positions at samples (m) to trajectory.npy and velocities (m/s), if there are any, to velocities.npy during a
+/// run; keeps no frame in memory. The files appear in finish(). Throws InputError if they cannot be written.
 class TrajectoryWriter : public Observer {
  public:
   explicit TrajectoryWriter(std::filesystem::path folder) : folder_(std::move(folder)) {}
   Verdict observe(const State& state, bool sample) override;
-  /// Writes the number of frames into both files: a run that failed has fewer than requested.
+  /// Writes the number of frames, which a failed run has fewer of than requested.
   void finish();
-  /// Times of the frames, s.
+  /// Times of the frames (s).
   const std::vector<double>& times() const { return times_; }
 
  private:
@@ -48,21 +43,19 @@ class TrajectoryWriter : public Observer {
   long particles_ = 0;
 };
 
-// Frames from another program, replayed to observers as if an engine stepped through them.
-
-/// Sampled positions (m), and velocities (m/s) if they were delivered.
+/// Another program's samples: positions (m), and velocities (m/s) if delivered.
 struct Frames {
   std::vector<Points> x, v;
 };
 
 /// Reads positions of the scene's particles at the run's samples, including the start. Throws InputError, with the
-/// file's name and the expected content, also if the first frame is not the scene's start. `may_be_truncated`: fewer
-/// frames than samples are allowed, because the run failed according to the program itself.
+/// file's name and the expected content, also if the first frame is not the scene's start. `may_be_truncated`: allow
+/// fewer frames than samples, because the program reports a failure.
 std::vector<Points> read_positions(const std::filesystem::path& file, const Scene& scene, const Run& run,
                                    bool may_be_truncated = false);
 
-/// Shows the frames to the observer, every `per_sample`-th as a sample. Sets verdict, reason and end of the outcome if
-/// the observer ends the run.
+/// Shows the frames to the observer as if an engine stepped through them, every `per_sample`-th as a sample. Sets
+/// verdict, reason and end of the outcome if the observer ends the run.
 void replay(const Frames& frames, const Scene& scene, const Run& run, Observer& observer, Outcome& out,
             int per_sample = 1);
 

@@ -1,4 +1,3 @@
-// Files of the truth cache, and the running program's build id, which is part of their keys.
 #include "reference/truth/cache.h"
 
 #include <elf.h>
@@ -20,7 +19,7 @@
 namespace crosscheck {
 namespace {
 
-/// Called for the program itself first, then for its libraries; a return value other than 0 ends the iteration.
+/// Called for the program, then for its libraries, until it returns nonzero.
 int find_build_id_note(dl_phdr_info* object, size_t, void* out) {
   for (int i = 0; i < object->dlpi_phnum; ++i) {
     const ElfW(Phdr)& segment = object->dlpi_phdr[i];
@@ -56,7 +55,8 @@ namespace fs = std::filesystem;
 namespace {
 
 constexpr auto extension = ".truth";
-constexpr int error_bar_version = 5;  // increased when the meaning of error bars changes: older truths are not found
+constexpr int error_bar_version =
+    5;  // increased when the meaning of error bars changes, so that older truths are not found
 
 class ByteWriter {
  public:
@@ -86,7 +86,7 @@ class ByteWriter {
 
 struct CorruptFile {};
 
-/// Reads the output of ByteWriter; throws CorruptFile if there is less than announced.
+/// Reads the output of ByteWriter; throws CorruptFile if it is too short.
 class ByteReader {
  public:
   explicit ByteReader(std::string_view bytes) : remaining_(bytes) {}
@@ -150,7 +150,7 @@ std::string serialized(const std::string& key, const std::optional<Truth>& truth
   return sum.bytes() + w.bytes();
 }
 
-/// Truth in the file; throws CorruptFile if the file contains none, or that of another key.
+/// The truth in a file; throws CorruptFile if there is none, or another key's.
 std::optional<Truth> deserialized(const std::string& key, const std::string& file) {
   ByteReader r(file);
   if (r.count() != Fnv1a::of(std::string_view(file).substr(sizeof(std::uint64_t))) || r.text() != key)
@@ -171,7 +171,7 @@ std::optional<Truth> deserialized(const std::string& key, const std::string& fil
   return truth;
 }
 
-/// Removes files older than a month: those of builds that no longer exist would accumulate.
+/// Removes files older than a month, which accumulate because no later build reads them.
 void remove_old_files(const fs::path& folder) {
   std::error_code error;
   const auto limit = fs::file_time_type::clock::now() - std::chrono::hours(30 * 24);
@@ -183,7 +183,7 @@ void remove_old_files(const fs::path& folder) {
   }
 }
 
-/// The stored truth, or nothing if there is none or it is damaged.
+/// The stored truth; nothing if there is no file, or a damaged one.
 std::optional<std::optional<Truth>> load_file(const fs::path& file, const std::string& key) {
   const std::optional<std::string> content = try_read_file(file);
   if (!content) return std::nullopt;
@@ -194,8 +194,7 @@ std::optional<std::optional<Truth>> load_file(const fs::path& file, const std::s
   }
 }
 
-/// Holds a file's lock during its lifetime; the lock of a process that dies is released. If no lock can be obtained, it
-/// does not wait.
+/// Holds a file's lock until destroyed or until the process dies. Does not wait if no lock can be obtained.
 class FileLock {
  public:
   explicit FileLock(const fs::path& file) {
@@ -224,7 +223,7 @@ std::optional<TruthCache> TruthCache::from_environment() {
 }
 
 std::string TruthCache::key_of(const Scene& scene, const Run& run) const {
-  // the hash is recomputed: a scene changed in memory keeps that of its file
+  // a scene changed in memory keeps its file's hash, so compute it
   return fmt::format("{} bars {} {} {:a} {:a} {} {}", program_, error_bar_version, hash_of(scene), scene.step,
                      run.duration, run.samples, scene.window);
 }
@@ -240,7 +239,7 @@ std::optional<Truth> TruthCache::find_or_compute(const Scene& scene, const Run& 
   const std::string key = key_of(scene, run);
   const fs::path file = file_at(key);
   if (auto stored = load_file(file, key)) return *stored;
-  // the processes of a sweep need the same truth at the same time: one computes it, the others wait
+  // processes of a sweep need the same truth at the same time: one computes it, the others wait
   const FileLock lock(file);
   if (auto stored = load_file(file, key)) return *stored;
   std::optional<Truth> truth = compute();
@@ -248,7 +247,7 @@ std::optional<Truth> TruthCache::find_or_compute(const Scene& scene, const Run& 
     write_file(file, serialized(key, truth));
     remove_old_files(folder_);
   } catch (const InputError&) {
-    // no space or no write permission: the next run computes it again
+    // disk full or read-only: the next run computes it again
   }
   return truth;
 }

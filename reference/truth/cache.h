@@ -1,4 +1,4 @@
-// Cache of truths in files, by scene, run and program.
+// Cache of truths in files, because converged ones take seconds.
 #pragma once
 
 #include <filesystem>
@@ -10,25 +10,21 @@
 
 namespace crosscheck {
 
-// Identity of the running program.
-
-/// The linker's fingerprint of the running program's content, in hexadecimal digits; empty if it has none.
+/// The linker's fingerprint of the running program (hexadecimal), or empty.
 std::string build_id();
 
-// Truths found earlier: converged ones take seconds, and the same ones are needed repeatedly.
-
-/// Truths of one program in a folder, one file each, with everything a truth depends on as the key: the scene (its hash
-/// and step), and the run's duration and samples. The program is part of the key: another build never reads them.
+/// Truths of one program in a folder, one per file, keyed by everything they depend on: the scene (hash and step), the
+/// run's duration and samples, and the program, so that another build never reads them.
 class TruthCache {
  public:
   TruthCache(std::filesystem::path folder, std::string program)
       : folder_(std::move(folder)), program_(std::move(program)) {}
-  /// The folder $CROSSCHECK_CACHE, else $XDG_CACHE_HOME/crosscheck, else ~/.cache/crosscheck. Returns nullopt if no
-  /// such folder is defined, or the program has no build id.
+  /// The cache in $CROSSCHECK_CACHE, else $XDG_CACHE_HOME/crosscheck, else ~/.cache/crosscheck; nullopt if none is
+  /// defined, or the program has no build id.
   static std::optional<TruthCache> from_environment();
 
-  /// Returns the stored truth, or computes and stores one; "no truth" is stored too. A file that is damaged or was made
-  /// by another program is ignored. If the folder is not writable, nothing is stored.
+  /// The stored truth, or a computed one, which is stored; so is "no truth". Ignores damaged files and those of another
+  /// program. Stores nothing if the folder is not writable.
   std::optional<Truth> find_or_compute(const Scene& scene, const Run& run,
                                        const std::function<std::optional<Truth>()>& compute) const;
   std::filesystem::path file_of(const Scene& scene, const Run& run) const;

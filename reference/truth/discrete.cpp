@@ -1,4 +1,3 @@
-// Table of amplification matrices, and their powers combined into the states of a scene.
 #include "reference/truth/discrete.h"
 
 #include <fmt/format.h>
@@ -10,8 +9,8 @@
 
 namespace crosscheck {
 
-// Table of amplification matrices. With g = drag + dashpot, every rule is applied to u' = v, v' = push - w2 u - g v.
-// The rows are the increments of u and v in a step, as multiples of (u, v, 1).
+// Amplification matrices. With g = drag + dashpot, every rule is applied to u' = v, v' = push - w2 u - g v. The rows
+// are the increments of u and v in a step, as multiples of (u, v, 1).
 
 namespace {
 
@@ -32,7 +31,7 @@ Increment increment_from_rows(const RowVector& u_gains, const RowVector& v_gains
   return e;
 }
 
-/// Runge-Kutta rules up to order 4 multiply by the Taylor polynomial of exp(h A) of their order.
+/// Runge-Kutta rules up to order 4: the Taylor polynomial of exp(h A) of their order.
 template <int order>
 Increment taylor_increment(const Eigen::Matrix3d& a, double h) {
   Increment sum = Increment::Zero(), term = Increment::Identity();
@@ -53,8 +52,8 @@ Increment symplectic_euler_increment(const Mode& m, double h) {
   return increment_from_rows(h * (velocity_row + gain), gain);
 }
 
-/// u_m = u + h v / 2. The kick takes drag at the mean of the old and new velocity. Dashpots act at v in the first pass;
-/// in later passes they act at the mean of v and the result of the previous pass. Then u' = u_m + h v' / 2.
+/// u_m = u + h v / 2. The kick evaluates drag at the mean of old and new velocity, dashpots at v in the first pass, and
+/// later at the mean of v and the previous pass's result. Then u' = u_m + h v' / 2.
 template <int passes>
 Increment leapfrog_increment(const Mode& m, double h) {
   const RowVector force(-m.omega2, -m.omega2 * h / 2, m.forcing);
@@ -81,11 +80,11 @@ Increment implicit_euler_increment(const Mode& m, double h) {
   return increment_from_rows(h * (velocity_row + gain), gain);
 }
 
-/// The midpoint is an implicit Euler step of h / 2, and the end is as far beyond it.
+/// The midpoint is an implicit Euler step of h / 2; the full step is twice its increment.
 Increment implicit_midpoint_increment(const Mode& m, double h) { return 2 * implicit_euler_increment(m, h / 2); }
 
-/// A free step with implicit drag and the dashpot's share of it, then the spring's correction of the position, with u
-/// measured from the unstretched length. Without a dashpot this is implicit Euler.
+/// A free step with implicit drag and dashpot, then the spring's correction of the position, with u measured from the
+/// unstretched length. Without a dashpot this is implicit Euler.
 Increment xpbd_increment(const Mode& m, double h) {
   const RowVector free_gain = h * RowVector(0, -(m.drag + m.dashpot), m.forcing) / (1 + h * (m.drag + m.dashpot));
   const double s = h * h * m.omega2 / (1 + h * m.drag);
@@ -123,11 +122,11 @@ namespace {
 
 constexpr double eps = std::numeric_limits<double>::epsilon();
 
-/// Growth of errors in (u, v), with velocities weighted by 1 / omega.
+/// Growth of errors in (u, v), with velocities divided by omega.
 double amplification_of(const Increment& power, double omega) {
   Eigen::Matrix2d m = power.topLeftCorner<2, 2>() + Eigen::Matrix2d::Identity();
   m(0, 1) *= omega, m(1, 0) /= omega;
-  // the larger singular value of a 2 x 2 matrix: half the sum of the norms of its conformal and anticonformal parts
+  // larger singular value: half the sum of the norms of conformal and anticonformal part
   return (std::hypot(m(0, 0) + m(1, 1), m(0, 1) - m(1, 0)) + std::hypot(m(0, 0) - m(1, 1), m(0, 1) + m(1, 0))) / 2;
 }
 
@@ -155,7 +154,7 @@ Truth rotation_truth(const DiscreteStepper& rule, const Scene& scene, const Time
   return truth;
 }
 
-/// The largest sum(k) / m of a free particle, 1/s^2.
+/// Largest sum(k) / m of a free particle, 1/s^2.
 double stiffest(const Model& model) {
   Eigen::VectorXd sum = Eigen::VectorXd::Zero(model.particles.size());
   if (const auto* springs = model.find<Springs>())

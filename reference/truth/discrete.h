@@ -1,5 +1,5 @@
-// Exact results of one-step rules on linear scenes: powers of the rule's amplification matrix. Written from the rules'
-// definitions, independently of mysim's steppers, which are tested against it.
+// Exact results of one-step rules on linear scenes by powers of amplification matrices, written from the rules'
+// definitions. Steppers are tested against them.
 #pragma once
 
 #include <Eigen/Core>
@@ -12,22 +12,22 @@
 
 namespace crosscheck {
 
-/// Increment of (u, v, 1) in a step, as a matrix E: the rule multiplies by I + E. It is kept without the identity,
-/// because the small entries of short steps would lose their digits in the sum.
+/// Increment of (u, v, 1) in a step, as a matrix E: the rule multiplies by I + E. Without the identity, in whose sum
+/// the small entries of short steps would lose their digits.
 using Increment = Eigen::Matrix3d;
 
 struct DiscreteStepper {
-  std::string_view name;                                       // name of mysim's stepper
+  std::string_view name;                                       // mysim's stepper
   Increment (*of_mode)(const Mode& mode, double h);            // without moved pins
   Increment (*of_system)(const Eigen::Matrix3d& a, double h);  // for y' = A y; null if the rule needs u'' = ...
-  bool one_spring = false;                                     // projects the springs one by one: one spring only
+  bool one_spring = false;                                     // projects springs one by one: supports one spring only
 };
 
-/// The table: every one-step rule of mysim. dopri5 chooses its steps and is not in it.
+/// Every one-step rule of mysim except dopri5, which chooses its steps.
 std::span<const DiscreteStepper> discrete_steppers();
 
-/// (I + E)^n - I by repeated squaring, 2 E + E^2. Exact except for relative rounding errors of about log2(n) ulps, and
-/// of n times the phase of a step.
+/// (I + E)^n - I by repeated squaring, 2 E + E^2. Relative rounding errors: about log2(n) ulps, and n times the phase
+/// of a step.
 Increment increment_power(Increment e, long n);
 
 /// The rule's solution of a linear scene (reference/truth/exact/linear.h, pins at rest) or of a rotation, at the

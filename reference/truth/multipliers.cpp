@@ -1,4 +1,3 @@
-// Accelerations with hard distances, and rk4 applied to them.
 #include "reference/truth/multipliers.h"
 
 #include "mysim/base/errors.h"

@@ -1,4 +1,4 @@
-// Truth of scenes with hard distances from a separate right-hand side: Lagrange multipliers, no projection.
+// Truth of scenes with hard distances, by Lagrange multipliers without projection.
 #pragma once
 
 #include <Eigen/SparseCholesky>
@@ -7,19 +7,18 @@
 
 namespace crosscheck {
 
-/// For each distance d = x_a - x_b let g = (|d|^2 - L^2) / 2, and J its derivatives. The accelerations are
+/// For each distance d = x_a - x_b let g = (|d|^2 - L^2) / 2, and J its derivatives. The accelerations
 ///   a = M^-1 (f + J^T lambda),  (J M^-1 J^T) lambda = -J M^-1 f - |d'|^2,
-/// so that g'' = 0 (index reduction; E. Hairer and G. Wanner, Solving Ordinary Differential Equations II, VII.1).
-/// Integrated by rk4: the distances drift only by its error of order 4. Forces are computed by the terms' plain loops.
+/// keep g'' = 0 (index reduction; E. Hairer and G. Wanner, Solving Ordinary Differential Equations II, VII.1). Under
+/// rk4, the distances drift by its error of order 4 only. Forces are computed by the terms' plain loops.
 class MultiplierWorld : public World {
  public:
-  /// Throws Unsupported if the distances depend on each other (a straight row between two pins, or a closed mesh of
-  /// distances).
+  /// Throws Unsupported if the distances depend on each other (a straight row between two pins, or a closed mesh).
   MultiplierWorld(const Scene& scene, double h);
   void step(double t, double t_next) override;
   const State& state(double) override { return s_; }
 
-  /// Computes velocities and accelerations at the stage; the state of the world is unchanged.
+  /// Velocities and accelerations at the stage; the world's state is unchanged.
   void derivative(const State& stage, State& rate);
 
  private:

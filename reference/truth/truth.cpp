@@ -1,5 +1,4 @@
-// Finds the truth of a scene: a closed form, two independent routes refined until they agree, or the converged contact
-// rule.
+// A closed form, two independent routes refined until they agree, or the converged contact rule.
 #include "reference/truth/truth.h"
 
 #include <fmt/format.h>
@@ -33,7 +32,7 @@ Truth from_closed_form(const ExactSolution& exact, const Scene& scene, const Run
     truth.trajectory.x.push_back(s.x);
     truth.trajectory.v.push_back(s.v);
   }
-  // an angle of many radians is accurate only to eps times itself: the round-off grows with the path
+  // a large angle is rounded by eps times itself: the error grows with the path
   truth.error_bar = 1e-15 * (scene.size() + path);
   return truth;
 }
@@ -81,18 +80,18 @@ double apart_in_contact(const RoutePath& a, const RoutePath& b, size_t i) {
 struct RefinementStudy {
   std::string how;
   double step;   // s, of the fine run; the mean under error control
-  double ratio;  // largest factor by which one refinement lowers the error: more is chance
+  double ratio;  // largest factor by which one refinement may lower the error; a larger one is coincidence
   RoutePath coarse, middle, fine;
 };
 
-/// Error estimate of a refinement study, sample by sample, from the differences between its runs up to that sample.
+/// Error of a refinement study up to each sample, estimated from the differences of its runs.
 class RichardsonEstimate {
  public:
   using Distance = double (*)(const RoutePath&, const RoutePath&, size_t);
   explicit RichardsonEstimate(const RefinementStudy& study, Distance apart = apart_in_place)
       : study_(study), apart_(apart) {}
   /// Error up to sample i, m (or J); to be called in order of i. A refinement divides the error by r (2^p at order p),
-  /// so that the last difference over r - 1 remains. Three times this is returned, because r itself is measured. If the
+  /// so that the last difference over r - 1 remains. Returns three times this, because r itself is measured. If the
   /// differences do not halve, no order is visible, and the whole difference is returned.
   double error_up_to(size_t i) {
     before_ = std::max(before_, apart_(study_.coarse, study_.middle, i));
@@ -110,7 +109,7 @@ class RichardsonEstimate {
   double before_ = 0, last_ = 0;
 };
 
-/// Error estimate of a route from its own refinement and from another route.
+/// Error of a route, from its own refinement and from another route.
 class ErrorOfTwoRoutes {
  public:
   ErrorOfTwoRoutes(const RefinementStudy& one, const RefinementStudy& other,
@@ -118,8 +117,8 @@ class ErrorOfTwoRoutes {
       : one_(one), other_(other), apart_(apart), own_(one, apart), theirs_(other, apart) {}
   /// Error of the first route at sample i, m (or J); to be called in order of i. It is at least the route's own
   /// estimate, and at least the distance from the second route plus that route's estimate, because both may err in the
-  /// same way. A second route of order 1 has by far the larger error, of another kind: instead of the sum, the larger
-  /// of the distance and its last change is used.
+  /// same way. The error of a second route of order 1 is by far the larger one, of another kind: the larger of the
+  /// distance and its last change replaces the sum.
   double error_up_to(size_t i) {
     const double theirs = theirs_.error_up_to(i), own = own_.error_up_to(i),
                  between = apart_(one_.fine, other_.fine, i);
@@ -135,7 +134,7 @@ class ErrorOfTwoRoutes {
   RichardsonEstimate own_, theirs_;
 };
 
-constexpr int most_followed = 49;  // particles, limit of the event-driven route
+constexpr int most_followed = 49;  // particles, in the event-driven route
 
 bool few_particles(const Scene& scene) { return scene.model.particles.size() < 50; }
 
@@ -143,7 +142,7 @@ bool few_particles(const Scene& scene) { return scene.model.particles.size() < 5
 double first_step(const Scene& scene, bool constrained) {
   // rk4 is accurate well below h omega = 0.7 and stable up to 2.83: the first run is at 1.4 or less
   const double omega = scene.model.first_order() ? 0 : highest_frequency(scene.model, scene.start);
-  // few particles are cheap: their bar is reduced until an order is visible; hard distances are expensive
+  // few particles are cheap: refined until an order is visible; hard distances are expensive
   const double part = constrained ? 1 : few_particles(scene) ? 16 : 4;
   return std::min(2 * scene.step / part, omega > 0 ? 1.4 / omega : scene.step);
 }
@@ -165,13 +164,13 @@ std::optional<RoutePath> run_rk4(const Scene& scene, const Run& run, bool constr
   return RoutePath{std::move(recorder.trajectory)};
 }
 
-/// Halves the step, beginning with h, until the result changes little: at least twice, so that an order is visible, and
-/// at most `most_halvings` times. `at` runs at a given step, and returns nothing if that fails; `how` describes a step
-/// given in ms.
+/// Halves the step from h on, until the result changes little: at least twice, so that an order is visible, and at most
+/// `most_halvings` times. `at` runs at a given step (s), and returns nothing if that fails; `how` describes a step in
+/// ms.
 template <class RunAt, class How>
 std::optional<RefinementStudy> refine_step(const Scene& scene, double h, int order, int most_halvings, RunAt at,
                                            How how) {
-  const double enough = 1e-8 * scene.size();  // far below what any scene needs; few particles reach 1e-11 at once
+  const double enough = 1e-8 * scene.size();  // far below any scene's needs; few particles reach 1e-11 at once
   std::optional<RoutePath> coarse, middle = at(h);
   double change = INFINITY;
   for (int i = 1; i <= most_halvings && middle; ++i) {
@@ -179,7 +178,7 @@ std::optional<RefinementStudy> refine_step(const Scene& scene, double h, int ord
     auto fine = at(h);
     if (!fine) return std::nullopt;
     const double before = std::exchange(change, largest_rms_distance(*middle, *fine));
-    // if halving no longer helps, only round-off or chaos is left; between events it helps more and less alternately
+    // if halving no longer helps, only round-off or chaos is left; between events it helps irregularly
     const bool helps = change <= before / 2 || order < 4;
     if (coarse && (change < enough || !helps || (order < 4 && i == most_halvings)))
       return RefinementStudy{how(1e3 * h),    h, std::exp2(order), std::move(*coarse), std::move(*middle),
@@ -203,7 +202,7 @@ std::optional<RefinementStudy> refine_rk4(const Scene& scene, const Run& run) {
       });
 }
 
-/// Runs at three tolerances, a factor of ten apart.
+/// Runs at three tolerances, by factors of ten.
 std::optional<RefinementStudy> refine_tolerance(const Scene& scene, const Run& run, double loosest, std::string how,
                                                 Outcome (*engine)(const Scene&, const Run&, Observer&)) {
   RefinementStudy study{std::move(how), 0, 10, {}, {}, {}};
@@ -228,7 +227,7 @@ std::optional<RefinementStudy> refine_bulirsch_stoer(const Scene& scene, const R
       run_odeint_bulirsch_stoer);
 }
 
-/// The truth with its first `samples` samples; none if there are none.
+/// The first samples of a truth; nothing without samples.
 std::optional<Truth> ended_after(size_t samples, Truth truth) {
   if (samples == 0) return std::nullopt;
   Trajectory& path = truth.trajectory;
@@ -240,8 +239,8 @@ std::optional<Truth> ended_after(size_t samples, Truth truth) {
   return truth;
 }
 
-/// Truth from two routes: the path of `one`, with its error estimated from `other` and both refinements, up to the time
-/// at which the error exceeds `most` (m) or a hundredth of the motion.
+/// Truth from two routes: the path of `one`, with its error estimated from `other` and both refinements, until the
+/// error exceeds `most` (m) or a hundredth of the motion.
 std::optional<Truth> truth_of_routes(const Scene& scene, const Run& run, RefinementStudy one,
                                      const RefinementStudy& other, double most = INFINITY) {
   Truth truth{Tier::converged, fmt::format("{}, against {}", one.how, other.how), one.fine, 0};
@@ -252,10 +251,10 @@ std::optional<Truth> truth_of_routes(const Scene& scene, const Run& run, Refinem
   // one rounding of positions per step, accumulated like a random walk
   const double random_walk = 0.5 * std::numeric_limits<double>::epsilon() * std::sqrt(run.duration / one.step);
   double motion = 0;
-  size_t known = 0;  // samples
+  size_t known = 0;
   for (size_t i = 0; i < std::min(x.size(), other.fine.x.size()); ++i) {
     motion = std::max(motion, rms_distance(x[i], x[0]));
-    // plus some units in the last place, which each route has for itself, regardless of its refinement
+    // plus some ulps, by which each route errs regardless of its refinement
     const double place = x[i].norm() / std::sqrt(x[i].cols());
     const double rounding = std::max(random_walk * place, 1e-15 * std::max(scene.size(), place));
     const double error_bar = of_place.error_up_to(i) + rounding;
@@ -293,7 +292,7 @@ std::optional<Trajectory> run_leapfrog(const Scene& scene, const Run& run) {
   return std::move(recorder.trajectory);
 }
 
-/// Energy taken by contact, inferred for both routes from the energy balance; impulses that they report are ignored.
+/// Energy taken by contact, inferred for both routes from the energy balance; ignores impulses that they report.
 class MissingEnergy : public Ledger {
  public:
   explicit MissingEnergy(const Model& model) : Ledger(model, ContactLoss::inferred) {}
@@ -305,8 +304,7 @@ class MissingEnergy : public Ledger {
   }
 };
 
-/// True if a particle is within 1e-9 of the scene's size of a contact surface, which exceeds the rounding of positions
-/// on it.
+/// True if a particle is within 1e-9 of the scene's size of a contact surface, more than the rounding of its position.
 bool in_contact(const Scene& scene, double t, const Points& x) {
   const double near = 1e-9 * scene.size();
   const std::vector<Surface> surfaces = surfaces_of(scene.model);
@@ -315,7 +313,7 @@ bool in_contact(const Scene& scene, double t, const Points& x) {
   return false;
 }
 
-/// Sample of the first touch, and the last sample at which single positions are predictable; none without a touch.
+/// First touch, and last sample at which single positions are predictable; nothing without a touch.
 struct SampleRange {
   int touch, end;
 };
@@ -341,7 +339,7 @@ std::optional<SampleRange> predictable_samples(const Scene& scene, const Traject
 
 namespace {
 
-/// Runs of the event-driven route at three tolerances, up to the end of the shortest; none if one ends before the
+/// The event-driven route at three tolerances, up to the end of the shortest run; nothing if one ends before the first
 /// sample after the start.
 std::optional<RefinementStudy> refine_events(const Scene& scene, const Run& run) {
   RefinementStudy study{
@@ -371,7 +369,7 @@ std::optional<RefinementStudy> refine_events(const Scene& scene, const Run& run)
   return study;
 }
 
-/// Truth of the first part of a run, with its end; none if it does not continue after the first touch, since it then
+/// Truth of the first part of a run, with its end; nothing if it ends before or at the first touch, because it then
 /// shows nothing about contact.
 std::optional<Truth> truth_of_part(const Scene& scene, const Run& run, const Run& part, std::optional<Truth> truth) {
   if (!truth) return std::nullopt;
@@ -397,8 +395,8 @@ std::optional<RefinementStudy> refine_leapfrog_events(const Scene& scene, const 
       [](double ms) { return fmt::format("mysim/leapfrog+events at {:.3g} ms", ms); });
 }
 
-/// The study with its two finer paths extrapolated to a step of 0, for an error of order 2. If that order is visible,
-/// the extrapolated paths differ by far less than the error of the fine path; otherwise by as much as before, or more.
+/// The two finer paths extrapolated to a step of 0, for an error of order 2. If that order is visible, they then differ
+/// by far less than the error of the fine path; otherwise by as much as before, or more.
 RefinementStudy extrapolated(RefinementStudy study) {
   const auto extrapolate = [](RoutePath& fine, const RoutePath& coarse) {
     for (size_t i = 0; i < std::min(fine.x.size(), coarse.x.size()); ++i) fine.x[i] += (fine.x[i] - coarse.x[i]) / 3;
@@ -409,7 +407,7 @@ RefinementStudy extrapolated(RefinementStudy study) {
   return study;
 }
 
-/// First part of a run, at least one sample, until a route's own estimate exceeds `most` (m).
+/// First part of a run, at least one sample, until the route's own estimate exceeds `most` (m).
 Run known_part(const RefinementStudy& study, const Run& run, double most) {
   RichardsonEstimate estimate(study);
   int last = 0;
@@ -450,7 +448,7 @@ std::optional<Truth> time_stepping_truth(const Scene& scene, const Run& run) try
   const Run seen{run.step, interval * most, most};
   auto events = refine_leapfrog_events(scene, seen, first, 2);
   if (!events) return std::nullopt;
-  // a third: the remaining tolerance for a run's own error is then at least twice the bar
+  // a third: a run's own error may then be at least twice the bar
   const double largest_bar = scene.tolerance / 3;
   const Run part = known_part(*events, seen, largest_bar);
   RefinementStudy stepping{"", first / 32, 2, {}, {}, {}};

@@ -1,4 +1,4 @@
-// The best known solution of a scene, with its tier and error bar, and how it is computed.
+// The best known solution of a scene, with its tier and error bar.
 #pragma once
 
 #include <cmath>
@@ -16,68 +16,67 @@ struct Truth {
   Tier tier;
   std::string how;  // one sentence
   Trajectory trajectory;
-  double error_bar;                // m, error bar of the RMS position error, at any sample
-  std::vector<double> error_bars;  // m, up to each sample; empty if it is constant
-  // result of the in-house contact rule: the distance of other rules from it is a difference, not an error
+  double error_bar;                // m, for the RMS position error at any sample
+  std::vector<double> error_bars;  // m, up to each sample; empty if constant
+  // computed by the in-house contact rule: the distance of other rules is a difference, not an error
   bool under_contact_rule = false;
-  double until = INFINITY;  // s, valid up to this time; the samples end with it
-  // J, energy taken by contact up to each sample (friction and impacts, minus the work done by moving spheres) and its
-  // error bars, from time_stepping_truth(); empty elsewhere
+  double until = INFINITY;  // s, valid up to this time, at which the samples end
+  // J, up to each sample: energy taken by contact (friction and impacts, minus the work of moving spheres) and its
+  // error bars, by time_stepping_truth(); otherwise empty
   std::vector<double> contact, contact_bars;
 };
 
 /// Exact if the scene has a closed form (bar: round-off, 1e-15 x scene size x (1 + radians turned)). Otherwise
-/// converged on two independent routes (below), computed once and kept in a cache (cache.h). For other scenes with
-/// contact, only the limit of the in-house contact rule is known, for a limited time (below).
+/// converged on two independent routes (below), computed once and cached (cache.h). For other scenes with contact, only
+/// the limit of the in-house contact rule is known, for a limited time (below).
 std::optional<Truth> truth_of(const Scene& scene, const Run& run);
 
-// Truth without a closed form: two independent routes, each refined, and the difference between them.
+// Without a closed form: two independent routes, each refined, and their difference.
 
-/// The first route is mysim's rk4, or with hard distances that of MultiplierWorld. It starts at half the scene's step
+/// The first route is mysim's rk4 or, with hard distances, rk4 of MultiplierWorld. It starts at half the scene's step
 /// (an eighth below 50 particles, twice the step with hard distances; at most h omega = 1.4 of the fastest vibration).
 /// The step is halved, at least twice, until the result changes by less than 1e-8 of the scene's size or halving no
-/// longer helps. The second route is odeint's extrapolation under error control on the independently written right-hand
-/// side (truth/independent), at three tolerances. It is the same with and without SUNDIALS, so that a truth does not
-/// depend on the installed packages.
+/// longer helps. The second route is odeint's extrapolation under error control on the independent right-hand side
+/// (truth/independent), at three tolerances. SUNDIALS is not used, so that a truth does not depend on the installed
+/// packages.
 /// The trajectory is that of the first route at its last step. Its error bar, RMS over the particles, is the larger of
-/// two values: the first route's estimate, and the difference between the routes plus the second one's estimate. An
-/// estimate is three times the last refinement's difference over 2^p - 1, with the order p shown by the last two
-/// refinements, or the whole difference if they show none. To this is added 1e-15 of the scene's size, or the random
-/// walk of one rounding per step. None if a route fails or the bar exceeds a hundredth of the motion: a less accurate
-/// result is no truth. The scene must be free of contact.
+/// two values: the first route's estimate, and the difference of the routes plus the second one's estimate. An estimate
+/// is three times the last refinement's difference over 2^p - 1, with the order p shown by the last two refinements, or
+/// the whole difference if they show none. Rounding is added: 1e-15 of the scene's size, or the random walk of one
+/// rounding per step. Nothing if a route fails or the bar exceeds a hundredth of the motion: a less accurate result is
+/// no truth. The scene must be free of contact.
 std::optional<Truth> converged_truth(const Scene& scene, const Run& run);
 
-// Contact of few particles with fixed or moved solids: two independent routes as well, as long as both can be followed.
+// Contact of few particles: two independent routes, as long as both can be followed.
 
-/// The path is that of an event-driven run on independently written equations (truth/independent/event_driven.cpp) at
-/// the last of three tolerances. It is compared with mysim's leapfrog+events, whose step is halved as above, up to 1e7
-/// steps of a particle; the bar is as above. It ends when the bar exceeds a hundredth of the motion, when events are
-/// too close to each other to be followed, or when a particle moves between two surfaces. None for more than 49
-/// particles, if a route fails at once, or if it would end before or at the first touch.
+/// The path is that of an event-driven run on independent equations (truth/independent/event_driven.cpp) at the last of
+/// three tolerances. It is compared with mysim's leapfrog+events, whose step is halved as above, up to 1e7 steps of a
+/// particle; the bar is as above. It ends when the bar exceeds a hundredth of the motion, when events are too close to
+/// each other to be followed, or when a particle moves between two surfaces. Nothing for more than 49 particles, if a
+/// route fails at once, or if it would end before or at the first touch.
 std::optional<Truth> event_truth(const Scene& scene, const Run& run);
 
-// Contact of more particles, for example of cloths: two contact rules that share no equation, as long as the motion is
-// not too sensitive for them to agree.
+// Contact of more particles, e.g. of cloths: two contact rules that share no equation, as long as they agree.
 
 /// The path is that of mysim's leapfrog+events at the last of three steps: the scene's step (at most h omega = 1.4), a
-/// half and a quarter of it. It is compared with Moreau's time stepping on independently written equations
+/// half and a quarter of it. It is compared with Moreau's time stepping on independent equations
 /// (truth/independent/time_stepping.cpp) at 1/8, 1/16 and 1/32. The latter is of order 1: the bar is the largest of the
-/// difference between the two, of its last change, and of the first route's estimate. The truth ends when the bar
-/// exceeds a third of the scene's tolerance or a hundredth of the motion: as the motion becomes sensitive, it is
-/// undecidable which of the two rules is right. It also ends with the scene's window. The energy taken by contact is
-/// what is missing from the energy balance along the path; its bar is found in the same way. None if a route fails, if
-/// a particle touches two surfaces at once, or if it would end before or at the first touch.
+/// difference of the two, of its last change, and of the first route's estimate. The truth ends when the bar exceeds a
+/// third of the scene's tolerance or a hundredth of the motion: when the motion becomes sensitive, it is undecidable
+/// which of the two rules is right. It also ends with the scene's window. The energy taken by contact is what the
+/// energy balance along the path lacks; its bar is found in the same way. Nothing if a route fails, if a particle
+/// touches two surfaces at once, or if it would end before or at the first touch.
 std::optional<Truth> time_stepping_truth(const Scene& scene, const Run& run);
 
-// Limit of a scene with contact as the step approaches 0, under the in-house contact rule.
+// Limit of the in-house contact rule as the step approaches 0.
 
 /// mysim's leapfrog at 1/8, 1/16 and 1/32 of the scene's step. The result is valid as long as the last difference (RMS
 /// over the particles, largest so far) is at most 2/3 of the previous one, as for order 0.6 or more. With contact every
-/// stepper is of first order on smooth motion. It ends with the scene's window. With several free particles it ends
-/// sqrt(0.9 R / g) after the first touch, at the latest, where R is the smallest radius of a sphere (0.3 s for 1 m).
-/// The samples of the truth end there too. The bar is the last difference over (its ratio - 1), the remainder of a
-/// geometric series; at order 1 this is the difference itself. None if nothing is touched, if no order is visible from
-/// the first touch on (after a hard impact, for example), or if the bar exceeds a hundredth of the motion.
+/// stepper is of first order on smooth motion. It ends with the scene's window and, with several free particles, at the
+/// latest sqrt(0.9 R / g) after the first touch, where R is the smallest radius of a sphere (0.3 s for 1 m). The bar is
+/// the last difference over (its ratio - 1), the remainder of a geometric series; at order 1 this is the difference
+/// itself. Nothing if nothing is touched, if no order is visible from the first touch on (after a hard impact, for
+/// example), or if the bar exceeds a hundredth of the motion.
 std::optional<Truth> contact_truth(const Scene& scene, const Run& run);
 
 }  // namespace crosscheck

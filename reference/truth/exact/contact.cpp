@@ -26,7 +26,7 @@ std::optional<ExactSolution> held_by_friction(const Scene& scene) {
     for (const Surface& s : surfaces) {
       const Vec3 d = scene.start.x.col(i) - s.origin_at(0);
       if (s.gap(d) > 1e-12 * (s.flat() ? scene.size() : s.radius())) continue;
-      if (under) return std::nullopt;  // wedged between two surfaces, whose forces must be found together
+      if (under) return std::nullopt;  // wedged: the forces of two surfaces depend on each other
       under = &s, n = s.normal(d);
     }
     if (!under) return std::nullopt;
@@ -43,13 +43,12 @@ std::optional<ExactSolution> held_by_friction(const Scene& scene) {
 
 namespace {
 
-/// Height over the surface and upward speed.
+/// Height over the surface, and upward speed.
 struct Flight {
   double height, speed;  // m, m/s
 };
 
-/// State after time t (s) of falling and bouncing under g (m/s^2) with restitution e: at height 0 the speed is reversed
-/// and multiplied by e.
+/// State after falling and bouncing for t (s) under g (m/s^2): at height 0 the speed is reversed and multiplied by e.
 Flight after_bounces(Flight f, double g, double e, double t) {
   for (;;) {
     const double impact = std::sqrt(f.speed * f.speed + 2 * g * f.height);  // m/s, downwards
@@ -57,7 +56,7 @@ Flight after_bounces(Flight f, double g, double e, double t) {
     if (t <= flight) return {f.height + t * (f.speed - g * t / 2), f.speed - g * t};
     t -= flight;
     f = {0, e * impact};
-    // all later bounces together take 2 v / (g (1 - e)); after that it is at rest
+    // all later bounces take 2 v / (g (1 - e)); then it is at rest
     if (e < 1 && t >= 2 * f.speed / (g * (1 - e)) * (1 - 1e-15)) return {0, 0};
   }
 }
@@ -90,7 +89,7 @@ std::optional<ExactSolution> bounces(const Scene& scene) {
       if (aside >= s.contact_radius()) continue;                    // falls past the ball
       if (aside > 1e-15 * s.contact_radius()) return std::nullopt;  // is deflected sideways
       if (d.dot(up) > 0 && d.dot(up) - s.contact_radius() < gap) below = &s, gap = d.dot(up) - s.contact_radius();
-      if (d.dot(up) < 0) return std::nullopt;  // a ball above: the particle could hit it from below
+      if (d.dot(up) < 0) return std::nullopt;  // a ball above: might be hit from below
     }
     if (!below) return std::nullopt;
     falling_particles.push_back({{std::max(0.0, gap), v.dot(up)}, below->restitution});
@@ -112,23 +111,22 @@ std::optional<ExactSolution> bounces(const Scene& scene) {
 
 namespace {
 
-/// Coordinate that falls and bounces between a wall at 0 and one at `width`, which may be infinite.
+/// A coordinate that falls and bounces between walls at 0 and at `width`, which may be infinite.
 struct Fall {
   double q, v, a;      // m, m/s, m/s^2
   double width, e[2];  // m; restitution at 0 and at `width`
-  double lying = 0;    // s, time in resting contact with a wall at the end
+  double lying = 0;    // s, time in resting contact at the end
 };
 
-/// Time until q >= 0 falls to 0, s; infinite if it does not.
+/// Time until q >= 0 falls to 0 (s), or infinity.
 double time_to_zero(double q, double v, double a) {
   const double square = v * v - 2 * a * q;
   if ((v >= 0 && a >= 0) || square < 0) return INFINITY;
   return v < 0 ? 2 * q / (std::sqrt(square) - v) : (v + std::sqrt(square)) / -a;
 }
 
-/// State of the fall after a time t (s). `flight` is called with the duration of each flight, `impact` with the speed
-/// of each impact and its restitution. Infinite sequences of bounces that together take less than `negligible` (s) are
-/// skipped.
+/// State after a time t (s). `flight` is called with the duration of each flight, `impact` with the speed of each
+/// impact and its restitution. Skips infinite sequences of bounces shorter than `negligible` (s).
 template <class Flight, class Impact>
 Fall fallen(Fall c, double t, double negligible, Flight flight, Impact impact) {
   for (;;) {
@@ -157,7 +155,7 @@ struct Slip {
   double y, v, a;  // m, m/s, m/s^2
   void fly(double t) { y += t * (v + a * t / 2), v += a * t; }
   void lose(double speed) { v = std::copysign(std::max(0.0, std::abs(v) - speed), v); }
-  /// Slides for t seconds against the friction mu N (m/s^2), stops, and stays at rest or slides back.
+  /// Slides for t (s) against the friction mu N (m/s^2), stops, and stays at rest or slides back.
   void slide(double t, double friction) {
     for (int stops = 0; t > 0 && !(v == 0 && std::abs(a) <= friction) && stops < 2; ++stops) {
       const double rate = a - std::copysign(friction, v != 0 ? v : a), stop = v * rate < 0 ? -v / rate : INFINITY;
@@ -171,18 +169,18 @@ struct Slip {
 /// Motion along the normal of one plane or of two opposite planes.
 struct Between {
   Vec3 normal;
-  double wall, speed;  // m, m/s along the normal, of the first plane
+  double wall, speed;  // m, m/s along the normal: first plane
   double friction;     // mu
-  Fall fall;           // relative to the first plane; position and speed are set for each particle
+  Fall fall;           // relative to the first plane; position and speed differ by particle
 };
 
 struct MotionBetweenPlanes {
   Vec3 a;                       // m/s^2
-  std::vector<Between> axes;    // perpendicular; only one if there is friction
-  std::vector<Vec3> direction;  // one per particle; empty without friction
+  std::vector<Between> axes;    // perpendicular; only one with friction
+  std::vector<Vec3> direction;  // per particle; empty without friction
   Vec3 carried = Vec3::Zero();  // m/s, velocity of the plane with friction
 
-  /// Changes x and v of particle i from their values at the start to those after t (s).
+  /// Changes x and v of particle i to those after t (s).
   void move(int i, double t, Eigen::Ref<Vec3> x, Eigen::Ref<Vec3> v) const {
     const bool friction = !direction.empty();
     const Vec3 x0 = x, v0 = v, slip_direction = friction ? direction[i] : Vec3::Zero();
@@ -266,7 +264,7 @@ class Slide {
   double u(double theta) const {  // 1/s^2
     return c_ * std::exp(2 * mu_ * theta) + a_ * std::cos(theta) + b_ * std::sin(theta);
   }
-  /// Finds the angle at which the particle leaves the ball; false if friction stops it before.
+  /// Finds the angle of departure; false if friction stops the particle before.
   bool find_departure() {
     constexpr int pieces = 20000;
     double before = theta0_;
@@ -292,7 +290,7 @@ class Slide {
   /// Angle at time t <= departure_time().
   double theta(double t) const {
     double low = theta0_, high = departure_, at = theta0_ + (departure_ - theta0_) * t / departure_time_;
-    for (int i = 0; i < 60; ++i) {  // Newton's method, with bisection if it would leave the interval
+    for (int i = 0; i < 60; ++i) {  // Newton's method, by bisection outside the interval
       const double off = time(at) - t;
       (off > 0 ? high : low) = at;
       const double next = at - off * std::sqrt(u(at));
@@ -303,8 +301,8 @@ class Slide {
   }
 
  private:
-  /// Time from the start to the angle, s: Gauss quadrature with 5 points on each of 40 pieces. Its error is below
-  /// rounding, because u is smooth.
+  /// Time until the angle (s): Gauss quadrature with 5 points on each of 40 pieces, whose error is below rounding
+  /// because u is smooth.
   double time(double theta) const {
     constexpr double node[] = {0, 0.5384693101056831, 0.9061798459386640};
     constexpr double weight[] = {0.5688888888888889, 0.4786286704993665, 0.2369268850561891};
@@ -339,10 +337,10 @@ std::optional<ExactSolution> slide_over_ball(const Scene& scene) {
   const double speed = v.norm();
   if (!(g > 0) || !(speed > 0) || std::abs(d.norm() - radius) > 1e-12 * radius) return std::nullopt;
   const Vec3 up = -gravity->acceleration / g, n = d.normalized(), forward = v / speed;
-  // tangential to the surface, in the plane of gravity
+  // tangential, and in the plane of gravity
   if (std::abs(forward.dot(n)) > 1e-14 || std::abs(up.dot(n.cross(forward))) > 1e-14) return std::nullopt;
   const double theta0 = std::atan2(-up.dot(forward), up.dot(n));
-  if (!(speed * speed / radius < g * std::cos(theta0))) return std::nullopt;  // it is not in contact at all
+  if (!(speed * speed / radius < g * std::cos(theta0))) return std::nullopt;  // not in contact at all
   Slide slide(g / radius, ball.friction, theta0, speed / radius);
   if (!slide.find_departure()) return std::nullopt;
 

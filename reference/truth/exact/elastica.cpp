@@ -59,7 +59,7 @@ double Elastica::integrate(double curvature, bool keep) {
 }
 
 Elastica::Place Elastica::at(double s) const {
-  // one step from the last stored place before s
+  // one step from the last stored state before s
   const auto after = std::upper_bound(s_.begin(), s_.end(), s);
   const size_t i = static_cast<size_t>(std::max<std::ptrdiff_t>(after - s_.begin() - 1, 0));
   State state = states_[i];
@@ -72,11 +72,11 @@ namespace {
 
 using HangingState = std::array<double, 4>;
 
-/// Pulled by the hinges, the strip rises from its middle towards them by less than a right angle.
+/// Pulled by the hinges, the strip rises from its middle to them by less than a right angle.
 constexpr double most_angle = std::numbers::pi / 2;
 
-/// Half of a hanging strip, in units of its length: theta'' = pull sin theta - weight s cos theta, integrated from
-/// theta'(0). Returns the states after each step, up to one that bends down or is upright.
+/// Half of a hanging strip, in units of its length: theta'' = pull sin theta - weight s cos theta, from theta'(0).
+/// Returns the states after each step, up to one that bends down or is upright.
 std::vector<HangingState> hanging_states(double pull, double weight, double curvature) {
   boost::numeric::odeint::runge_kutta4<HangingState> rule;
   HangingState state{0, curvature, 0, 0};
@@ -93,8 +93,8 @@ std::vector<HangingState> hanging_states(double pull, double weight, double curv
   return all;
 }
 
-/// The smallest theta'(0) above 0 for which the moment vanishes at the hinge. With theta'(0) = 0 the strip bends down;
-/// with weight / 2, the value of a level beam without pull, it bends up.
+/// The smallest theta'(0) > 0 without moment at the hinge. The strip bends down with 0, and up with weight / 2, the
+/// value of a level beam without pull.
 double hanging_curvature(double pull, double weight) {
   const auto left = [&](double curvature) {
     const HangingState end = hanging_states(pull, weight, curvature).back();
@@ -110,8 +110,8 @@ double hanging_curvature(double pull, double weight) {
 
 HangingStrip::HangingStrip(double length, double span, double weight, double rigidity) : half_(length / 2) {
   assert(0 < span && span < length && weight > 0 && rigidity >= 0);
-  // sinh(u) / u = length / span with u = span / (2 H / w). The root is between 0 and a point where e^u / (2 u), a lower
-  // bound, is larger.
+  // sinh(u) / u = length / span with u = span / (2 H / w). The root lies below a point where even the lower bound e^u /
+  // (2 u) is larger.
   const double ratio = length / span;
   const double u =
       root_between(1e-8, 4 + 2 * std::log(ratio + 1), [&](double at) { return std::sinh(at) / at - ratio; });
@@ -133,7 +133,7 @@ HangingStrip::Place HangingStrip::at(double s) const {
   const double from_middle = std::abs(s), side = s < 0 ? -1 : 1;
   if (states_.empty())
     return {side * catenary_ * std::asinh(from_middle / catenary_), std::hypot(catenary_, from_middle) - catenary_};
-  // along the curve from the step before, with the angle halfway: an error of the order of a step cubed
+  // along the curve from the step before, with the angle halfway: an error of the order of a cubed step
   const double at = from_middle / half_ * steps;
   const size_t i = std::min<size_t>(static_cast<size_t>(at), states_.size() - 1);
   const double ds = (at - static_cast<double>(i)) / steps;
@@ -143,7 +143,7 @@ HangingStrip::Place HangingStrip::at(double s) const {
 }
 
 double vibration_of_clamped_strip(const ClampedStrip& strip, double density, int mode) {
-  // the roots lie near odd multiples of pi / 2; after division by cosh, the function remains of order 1
+  // the roots lie near odd multiples of pi / 2; division by cosh keeps the function of order 1
   const double near = (mode + 0.5) * std::numbers::pi;
   const double beta = root_between(near - 0.4, near + 0.4, [](double b) { return std::cos(b) + 1 / std::cosh(b); });
   return beta * beta / (2 * std::numbers::pi) * std::sqrt(strip.rigidity / (density * std::pow(strip.length, 4)));

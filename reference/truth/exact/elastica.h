@@ -1,5 +1,5 @@
-// A strip clamped level at one end and bent by its own weight and a load: the heavy elastica as a two-point boundary
-// value problem. Also its small vibrations.
+// A strip clamped level at one end and bent by its own weight and a load (the heavy elastica), its small vibrations,
+// and a strip hung between hinges.
 #pragma once
 
 #include <array>
@@ -12,17 +12,17 @@ struct ClampedStrip {
   double rigidity;     // B, N m
   double length;       // L, m
   double weight;       // w, N/m^2
-  double load = 0;     // P, N/m, attached at load_at
+  double load = 0;     // P, N/m, at load_at
   double load_at = 0;  // m from the clamp
 };
 
 /// With theta the angle below the horizontal at arc length s: B theta'' = -(w (L - s) + P [s < load_at]) cos theta,
 /// theta(0) = 0, theta'(L) = 0. The moment B theta' balances all loads beyond s; the strip does not stretch. Solved by
-/// shooting over theta'(0), integrated with the classical Runge-Kutta rule in steps of L / 4000, with the load's place
-/// on the grid. theta'(0) is at most the curvature that all loads cause in a level strip. B theta'(0)^2 / 2 equals w
-/// times the integral of sin theta over s, plus P sin theta at the load. Hence theta'(0) is also at most (2 (w L + P) /
-/// B)^(1/2). Among the solutions, the strip that hangs down has the largest theta'(0). The root sought is therefore the
-/// first one below these bounds, at which theta'(L) > 0.
+/// shooting over theta'(0), integrated with the classical Runge-Kutta rule in steps of L / 4000, with the load on the
+/// grid. theta'(0) is at most the curvature that all loads cause in a level strip. B theta'(0)^2 / 2 equals w times the
+/// integral of sin theta over s, plus P sin theta at the load, so theta'(0) is also at most (2 (w L + P) / B)^(1/2).
+/// Among the solutions, the strip that hangs down has the largest theta'(0): the first root below these bounds, at
+/// which theta'(L) > 0.
 class Elastica {
  public:
   explicit Elastica(const ClampedStrip& strip);
@@ -36,7 +36,7 @@ class Elastica {
  private:
   using State = std::array<double, 4>;  // theta, theta', x, drop
   static void advance(const ClampedStrip& strip, double s, double ds, double carried, State& state);
-  /// Integrates both parts, before and beyond the load; returns theta'(L).
+  /// Integrates before and beyond the load; returns theta'(L).
   double integrate(double curvature, bool keep);
 
   ClampedStrip strip_;
@@ -44,12 +44,11 @@ class Elastica {
   std::vector<State> states_;
 };
 
-/// A strip that hangs between two hinges at the same height, which are closer together than the strip is long. With
-/// theta the angle above the horizontal at arc length s from its lowest point in the middle, H the horizontal pull, and
-/// w s the weight between the middle and s:
+/// A strip that hangs between two hinges at the same height, closer together than the strip is long. With theta the
+/// angle above the horizontal at arc length s from its lowest point in the middle, H the horizontal pull, and w s the
+/// weight between the middle and s:
 ///   B theta'' = H sin theta - w s cos theta, theta(0) = 0, theta'(L/2) = 0, the integral of cos theta half the span.
-/// Solved by shooting over theta'(0) for each H, and over H. Without rigidity it is a catenary in closed form: tan
-/// theta = w s / H.
+/// Solved by shooting over theta'(0) for each H, and over H. Without rigidity it is a catenary: tan theta = w s / H.
 class HangingStrip {
  public:
   /// Lengths in m, weight in N/m^2, rigidity in N m (0: none; small enough that the hinges still pull).
@@ -66,8 +65,8 @@ class HangingStrip {
   std::vector<std::array<double, 4>> states_;  // theta, theta', x, height over half the length, evenly spaced
 };
 
-/// Frequency (Hz) of the strip's first, second or third vibration mode (0 to 2) without weight: beta^2 / (2 pi) sqrt(B
-/// / (rho L^4)), where rho is its mass per area (kg/m^2) and cos beta cosh beta = -1.
+/// Frequency (Hz) of the strip's vibration mode 0, 1 or 2 without weight: beta^2 / (2 pi) sqrt(B / (rho L^4)), where
+/// rho is its mass per area (kg/m^2) and cos beta cosh beta = -1.
 double vibration_of_clamped_strip(const ClampedStrip& strip, double density, int mode);
 
 }  // namespace crosscheck

@@ -1,4 +1,4 @@
-// Recognises scenes with a closed form: rotation and free flight are here, the others in linear.cpp and contact.cpp.
+// Closed forms of rotation and free flight; the others are in linear.cpp and contact.cpp.
 #include "reference/truth/exact/exact.h"
 
 #include <cmath>
@@ -34,7 +34,7 @@ std::optional<ExactSolution> rigid_rotation(const Scene& scene) {
       }};
 }
 
-/// (z - 1 + exp(-z)) / z^2, computed as a series where it would cancel; 1/2 without drag.
+/// (z - 1 + exp(-z)) / z^2, as a series where it would cancel; 1/2 without drag.
 double phi2(double z) {
   if (z > 0.5) return (z + std::expm1(-z)) / (z * z);
   double sum = 0, term = 0.5;

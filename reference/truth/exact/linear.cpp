@@ -1,4 +1,3 @@
-// Modes of springs on a line, the driven oscillator, and the closed form as their sum.
 #include "reference/truth/exact/linear.h"
 
 #include <fmt/format.h>
@@ -22,7 +21,7 @@ using Matrix8 = Eigen::Matrix<Complex, 8, 8>;
 using Vector8 = Eigen::Matrix<Complex, 8, 1>;
 constexpr Complex imaginary(0, 1);
 
-/// State at t = 0: u = u' = 0, and among the six functions only the one with j = 0 is 1.
+/// u = u' = 0, and of the six functions only j = 0 is 1.
 Vector8 at_start() { return Vector8::Unit(2); }
 
 }  // namespace
@@ -74,8 +73,7 @@ double DrivenMotion::velocity(double t) const {
 }
 
 double DrivenMotion::amplitude_bound() const {
-  // sqrt(u^2 + u'^2/w2) grows by at most the forcing / w per time: it is evaluated at times between which this is
-  // little
+  // sqrt(u^2 + u'^2/w2) grows by at most the forcing / w per time, which is little between two evaluations
   const double w = std::sqrt(omega2_), size = std::abs(amplitude_);
   const double forcing =
       size * (std::hypot(omega2_, omega_ * dashpot_) + 1.875 * dashpot_ / ramp_);  // m/s^2, see max_speed
@@ -93,7 +91,7 @@ double DrivenMotion::amplitude_bound() const {
 
 namespace {
 
-/// The line through the particles: its direction, and each particle's position and speed along it.
+/// The line through the particles, and their positions and speeds along it.
 struct Line {
   Vec3 direction;
   Eigen::VectorXd along, speed;  // n, m, m/s
@@ -105,7 +103,7 @@ std::optional<Line> line_through(const Scene& scene, const Vec3& acceleration) {
   const double length = (x.colwise() - x.col(0)).colwise().norm().maxCoeff(&farthest);
   if (!(length > 0)) return std::nullopt;
   const Vec3 n = (x.col(farthest) - x.col(0)) / length;
-  // the deviation from the line must be below the rounding of the scene's numbers
+  // deviations from the line must be below the rounding of the scene's numbers
   auto across = [&](const Vec3& p, double size) { return (p - p.dot(n) * n).norm() > 1e-14 * size; };
   for (int i = 0; i < x.cols(); ++i)
     if (across(x.col(i) - x.col(0), length) || across(v.col(i), v.col(i).norm())) return std::nullopt;
@@ -115,7 +113,7 @@ std::optional<Line> line_through(const Scene& scene, const Vec3& acceleration) {
   return Line{n, (x.colwise() - x.col(0)).transpose() * n, v.transpose() * n};
 }
 
-/// Sum over pairs of value times the difference between the two ends, as a matrix.
+/// Sum over pairs of value times the difference of the ends.
 template <class Pairs, class Value>
 Eigen::MatrixXd laplacian(const Pairs& pairs, int n, Value value) {
   Eigen::MatrixXd m = Eigen::MatrixXd::Zero(n, n);
@@ -168,7 +166,7 @@ std::optional<LinearScene> linear_scene(const Scene& scene) {
   const auto line = line_through(scene, *a);
   if (!line) return std::nullopt;
 
-  // M xi'' = f - K xi - C xi' - drag M xi' + M a for the displacement xi from the start, free particles only
+  // M xi'' = f - K xi - C xi' - drag M xi' + M a for the displacement xi of free particles from the start
   const int n = particles.size();
   std::vector<int> free;
   for (int i = 0; i < n; ++i)
@@ -181,13 +179,13 @@ std::optional<LinearScene> linear_scene(const Scene& scene) {
     all[s.a] -= pull, all[s.b] += pull;
   }
   const Eigen::LLT<Eigen::MatrixXd> factor(k);
-  if (factor.info() != Eigen::Success) return std::nullopt;  // something floats freely
+  if (factor.info() != Eigen::Success) return std::nullopt;  // a part floats freely
   const Eigen::VectorXd mass = particles.mass(free), rest = factor.solve(all(free));
   double beta = 0;  // s, ratio of dashpots to stiffness
   if (const auto* dashpots = model.find<Dashpots>()) {
     const Eigen::MatrixXd c = laplacian(dashpots->list, n, [](const auto& d) { return d.c; })(free, free);
     beta = c.trace() / k.trace();
-    // proportional except for the rounding of the scene's numbers
+    // proportional up to the rounding of the scene's numbers
     if (!((c - beta * k).norm() <= 1e-14 * c.norm())) return std::nullopt;
   }
 
@@ -199,7 +197,7 @@ std::optional<LinearScene> linear_scene(const Scene& scene) {
   for (int i = 0; i < static_cast<int>(free.size()); ++i) {
     Eigen::VectorXd shape = inverse_root.asDiagonal() * vibrations.vectors.col(i);
     const double largest = shape.cwiseAbs().maxCoeff();
-    // the dual of the shape: its product with the shape, weighted by the masses, is one
+    // dual of the shape: their product, weighted by the masses, is 1
     const Eigen::VectorXd dual = largest * mass.asDiagonal() * shape;
     shape /= largest;
     const double omega2 = vibrations.values[i];

@@ -1,9 +1,9 @@
-// Contact with spheres and planes as a sequence of smooth motions: odeint's Dormand-Prince pair on the independently
-// written right-hand side, interrupted at each impact, take-off, stop and slip. An independent route to the limit that
-// mysim's contact rules approach; none of them is called.
+// Contact with spheres and planes as a sequence of smooth motions: odeint's Dormand-Prince pair on the independent
+// right-hand side, interrupted at each impact, take-off, stop and slip. An independent route to the limit of mysim's
+// contact rules, none of which is called.
 //
 // Each free particle is in one of four modes. On a surface of radius R about c, let r = x - c, n = r / R, and a the
-// acceleration without the surface's force, relative to c:
+// acceleration relative to c without the surface's force:
 //   flies    r'' = a, until |r| = R
 //   slides   differentiating |r|^2 = R^2 twice gives r . r'' = -|r'|^2. The surface pushes with
 //            N = -a.n - |r'|^2 / R along n (R is infinite for a plane), and with mu N against the motion, until N = 0
@@ -13,7 +13,7 @@
 //            a hundredth of |r'| at most
 //   sticks   r'' = 0, until the part of a along the surface exceeds mu N
 //   wedged   at rest between two fixed surfaces: a must lie between the planes of both, else the run is refused
-// An impact reverses the normal speed u times e and reduces the tangential speed by at most mu (1 + e) u. Rebounds
+// An impact reverses the normal speed u times e, and reduces the tangential speed by at most mu (1 + e) u. Rebounds
 // lower than `lowest_rebound` are ignored. Both limits are relative to the scene's size.
 
 #include <fmt/format.h>
@@ -45,7 +45,7 @@ constexpr double surface_rounding = 2e-15;  // relative to radius and centre: no
 constexpr double most_work = 1e7;           // particle accelerations between samples: a second or two
 constexpr int most_events_in_interval = 10000;
 
-/// A solid now and at the start of the present step; called a ball here, even if it is a plane.
+/// A solid now and at the start of the step; "ball" includes planes.
 struct Ball : Solid {
   Vec3 centre_before = start, velocity_before = velocity;
 };
@@ -55,7 +55,7 @@ struct Particle {
   int ball = -1, other = -1;    // indices of the balls that it touches
   Vec3 forward = Vec3::Zero();  // direction of its slide at the start of the last step
   Vec3 offset = Vec3::Zero();   // m, from the centre of the ball that it sticks to
-  bool creeps = false;          // a slide close to rest
+  bool creeps = false;          // slides close to rest
 };
 
 std::vector<Ball> balls_of(const Scene& scene) {
@@ -64,8 +64,8 @@ std::vector<Ball> balls_of(const Scene& scene) {
   return balls;
 }
 
-/// Point at which the function becomes negative, to round-off; the function is negative at the point returned. The
-/// function must be negative at `high`, with the value `at_high`, and not negative at 0.
+/// Point, to round-off, at which the function becomes negative; it is negative there. It must be negative at `high`,
+/// with the value `at_high`, but not at 0.
 template <class Function>
 double first_negative(Function f, double high, double at_high) {
   constexpr double least = std::numeric_limits<double>::min();
@@ -73,7 +73,7 @@ double first_negative(Function f, double high, double at_high) {
     const double value = f(s);
     return value == 0 ? least : value;
   };
-  // a value of 0 at the start (as in a slide from rest) counts as positive: the first trial halves the bracket
+  // 0 at the start (a slide from rest) counts as positive: the first trial halves the bracket
   const double at_start = std::max(f(0), -at_high);
   const auto narrow = [high](double a, double b) {
     return b - a <= 1e-13 * high + 4 * std::numeric_limits<double>::epsilon() * b;
@@ -106,7 +106,7 @@ class EventDrivenWorld : public World {
       const bool last = t + 1.01 * h_ >= t_next;
       double h = last ? t_next - t : h_, now = t;
       if (!(h > 1e-15 * t_next)) {
-        if (last) return;  // an event within rounding before the sample is at the sample
+        if (last) return;  // an event within rounding of the sample is at the sample
         throw SolverFailure(fmt::format("the step fell below round-off at t = {:.4g} s", t));
       }
       const StateVector before = y_;
@@ -155,7 +155,7 @@ class EventDrivenWorld : public World {
   /// Acceleration (m/s^2) in a rate of change of the unknowns.
   Vec3 acceleration(const StateVector& rate, int i) const { return speed(rate, i); }
   static void put(StateVector& y, int i, const Vec3& value) { std::copy_n(value.data(), 3, y.begin() + 3 * i); }
-  /// Sets a velocity among the unknowns, or an acceleration among their rates of change.
+  /// Sets a velocity among the unknowns, or an acceleration among their rates.
   void put_speed(StateVector& y, int i, const Vec3& value) const { put(y, n_ + i, time_unit_ * value); }
 
   double height(const StateVector& y, int i, int ball) const { return balls_[ball].height(place(y, i)); }
@@ -163,7 +163,7 @@ class EventDrivenWorld : public World {
 
   /// Velocity relative to a ball, m/s.
   Vec3 seen_from(const StateVector& y, int i, int ball) const { return speed(y, i) - balls_[ball].velocity; }
-  /// Returns the push of a ball (m/s^2) on a particle whose acceleration without it, relative to the ball, is a.
+  /// Push of a ball (m/s^2) on a particle with the acceleration a relative to the ball without it.
   double push(const StateVector& y, int i, int ball, const Vec3& a) const {
     const Vec3 n = normal(y, i, ball), w = seen_from(y, i, ball);
     return -a.dot(n) - (w - w.dot(n) * n).squaredNorm() / balls_[ball].radius;
@@ -185,7 +185,7 @@ class EventDrivenWorld : public World {
       }
       const Vec3 a = acceleration(rate, i) - ball.acceleration, n = normal(y, i, p.ball), v = seen_from(y, i, p.ball);
       const double pressed = push(y, i, p.ball, a), friction = ball.friction;
-      // beyond a stop, which ends the step, friction continues as before: the right-hand side remains smooth
+      // friction continues beyond a stop, which ends the step: the right-hand side stays smooth
       Vec3 direction = along(v, n);
       const double size = direction.norm();
       direction = size > 0 ? Vec3(direction / size * (direction.dot(p.forward) < 0 ? -1 : 1)) : p.forward;
@@ -198,7 +198,7 @@ class EventDrivenWorld : public World {
     }
   }
 
-  // both steppers keep the last derivative of the previous step, which is outdated if a mode has changed since
+  // steppers keep the last derivative, which is outdated if a mode has changed
   bool controlled(StateVector& y, double& t, double& h) {
     rule_.reset();
     return rule_.try_step([this](const StateVector& s, StateVector& r, double at) { derivative(s, r, at); }, y, t, h);
@@ -209,7 +209,7 @@ class EventDrivenWorld : public World {
       single_.do_step([this](const StateVector& s, StateVector& r, double at) { derivative(s, r, at); }, y, t, h);
     return y;
   }
-  /// Accelerations without the balls' forces, m/s^2, at the present state.
+  /// Accelerations without the balls' forces (m/s^2) at the present state.
   void accelerations(double t) {
     free_rate_.resize(y_.size());
     f_(y_, free_rate_, t);
@@ -221,7 +221,7 @@ class EventDrivenWorld : public World {
     for (Ball& ball : balls_) ball.move_to(t);
   }
 
-  /// Stores the balls and the directions of slides at the start of a step, at t (s).
+  /// Stores the balls and the directions of slides at the start t (s) of a step.
   void remember_start(double t) {
     move_balls(t);
     begun_ = t;
@@ -233,7 +233,7 @@ class EventDrivenWorld : public World {
     }
   }
 
-  /// Distance of a particle from entering a ball, m; negative if it enters.
+  /// Distance from entering a ball, m; negative if it enters.
   double way_in(const StateVector& y, const StateVector& before, int i, int ball) const {
     const Ball& b = balls_[ball];
     const double scale = b.size + b.centre.norm() + (b.flat() ? place(y, i).norm() : 0),
@@ -245,7 +245,7 @@ class EventDrivenWorld : public World {
       const double lowest = begin - down * down * (now_ - begun_) / (2 * (rise - down)) + rounding;
       return begin > 0 ? std::min(above, lowest) : above;
     }
-    // in and out again within the step: the height of the chord's nearest point, for steps far shorter than the radius
+    // in and out again: height of the chord's nearest point, for steps far shorter than the radius
     const Vec3 from = place(before, i) - b.centre_before, to = place(y, i) - b.centre;
     if (above < 0 || !(from.dot(speed(before, i) - b.velocity_before) < 0 && to.dot(seen_from(y, i, ball)) > 0) ||
         !(from.norm() > b.radius))
@@ -256,7 +256,7 @@ class EventDrivenWorld : public World {
   }
 
   /// Negative if a particle's mode has ended between the two states. Dimensionless, so that units do not decide which
-  /// of several conditions guides the search for the first event.
+  /// condition guides the search for the first event.
   double margin(const StateVector& y, const StateVector& before, int i) const {
     const Particle& p = particles_[i];
     const Vec3 a = felt(i, p.ball);
@@ -285,19 +285,19 @@ class EventDrivenWorld : public World {
     for (int i = 0; i < n_; ++i) least = std::min(least, margin(y, before, i));
     return least;
   }
-  /// Settles the particles whose mode has ended, at the present state.
+  /// Settles the particles whose mode has ended.
   void happen(const StateVector& before, double t) {
     accelerations(t);
     for (int i = 0; i < n_; ++i) {
       if (!ended(y_, before, i)) continue;
       Particle& p = particles_[i];
       if (p.mode == Mode::slides && balls_[p.ball].friction > 0 && seen_from(y_, i, p.ball).dot(p.forward) < 0)
-        put_speed(y_, i, balls_[p.ball].velocity);  // the speed across the direction of motion vanishes with it
+        put_speed(y_, i, balls_[p.ball].velocity);  // the speed across the direction of motion vanishes too
       settle(i);
     }
   }
 
-  /// True if both balls push, and their normal forces alone keep the particle at rest.
+  /// True if both balls push, and their normal forces alone hold the particle.
   bool is_wedged(int i, int first, int second) const {
     const Vec3 a = acceleration(free_rate_, i);
     Eigen::Matrix<double, 3, 2> normals;
@@ -307,20 +307,20 @@ class EventDrivenWorld : public World {
     return pushes.minCoeff() > 0 && (a + normals * pushes).norm() < 1e-9 * a.norm();
   }
 
-  /// Returns the acceleration without the balls' forces (m/s^2), relative to a ball, or absolute if `ball` is negative.
+  /// Acceleration without the balls' forces (m/s^2), relative to a ball, or absolute if `ball` is negative.
   Vec3 felt(int i, int ball) const {
     const Vec3 a = acceleration(free_rate_, i);
     return ball < 0 ? a : Vec3(a - balls_[ball].acceleration);
   }
 
-  /// Applies impacts, then sets the mode from position and velocity.
+  /// Applies impacts, then sets the mode by position and velocity.
   void settle(int i) {
     Particle& p = particles_[i];
     std::vector<int> touched;
     for (int ball = 0; ball < static_cast<int>(balls_.size()); ++ball)
       if (height(y_, i, ball) <= 1e-11 * balls_[ball].size) {
         touched.push_back(ball);
-        // a particle that is inside by rounding would enter repeatedly
+        // a particle inside by rounding would enter repeatedly
         if (height(y_, i, ball) < 0) put(y_, i, balls_[ball].foot(place(y_, i)));
       }
     p = {};
@@ -375,7 +375,7 @@ class EventDrivenWorld : public World {
     hold(i);
   }
 
-  /// Moves a particle back to its surface, which it leaves by rounding, and determines whether a slide creeps.
+  /// Moves a particle that rounding has moved off its surface back, and determines whether a slide creeps.
   void hold(int i) {
     Particle& p = particles_[i];
     if (p.mode == Mode::sticks && balls_[p.ball].moves()) {
@@ -402,7 +402,7 @@ class EventDrivenWorld : public World {
   std::vector<Particle> particles_;
   odeint::result_of::make_controlled<odeint::runge_kutta_dopri5<StateVector>>::type rule_;
   odeint::runge_kutta_dopri5<StateVector> single_;
-  double h_, begun_ = 0, now_ = 0;  // s: next step; start of the present one; time of the solids' positions
+  double h_, begun_ = 0, now_ = 0;  // s: next step; start of this one; time of the solids' positions
   const double longest_;            // s
   State state_;
   long accepted_ = 0;

@@ -1,5 +1,5 @@
-// Library integrators (odeint, SUNDIALS) on a right-hand side written independently of mysim's: ordinary methods, and
-// one of the two routes to a converged truth.
+// Library integrators (odeint, SUNDIALS) on the independent right-hand side: methods, and one of two routes to a
+// converged truth.
 #pragma once
 
 #include <optional>
@@ -9,37 +9,37 @@
 
 namespace crosscheck {
 
-// All except the two for contact throw Unsupported if there is contact. Those under error control keep the estimated
-// error of each step below R (scene size + |component|), with R = run.tolerance and velocities multiplied by a time
-// unit of the scene (velocity_time_unit): odeint in every component, SUNDIALS in the root mean square.
+// All but the two for contact throw Unsupported if there is contact. Those under error control keep the estimated error
+// of each step below R (scene size + |component|), with R = run.tolerance and velocities multiplied by a time unit of
+// the scene (velocity_time_unit): odeint in every component, SUNDIALS in the root mean square.
 
 /// odeint's classic Runge-Kutta rule at run.step.
 Outcome run_odeint_rk4(const Scene& scene, const Run& run, Observer& observer);
-/// odeint's Dormand-Prince 5(4) to run.tolerance, with its own interpolant at the observed times.
+/// odeint's Dormand-Prince 5(4) to run.tolerance, interpolated at the observed times.
 Outcome run_odeint_dopri5(const Scene& scene, const Run& run, Observer& observer);
-/// odeint's Dormand-Prince 5(4) in a scene with contact, interrupted at every impact, take-off, stop and slip, which
-/// are located to round-off (event_driven.cpp). Steps end at the samples and are at most run.step. Throws Unsupported
-/// if there is no contact, or if a particle moves between two surfaces or rests between two moving ones.
+/// odeint's Dormand-Prince 5(4) with contact, interrupted at every impact, take-off, stop and slip, located to
+/// round-off (event_driven.cpp). Steps end at the samples and are at most run.step. Throws Unsupported if there is no
+/// contact, or if a particle moves between two surfaces or rests between two moving ones.
 Outcome run_event_driven(const Scene& scene, const Run& run, Observer& observer);
-/// Moreau's midpoint rule at run.step in a scene with contact with fixed or moving solids and any number of particles
-/// (time_stepping.cpp): order 1 with contact. It is not available as a method, only as a route to truth. Throws
-/// Unsupported if there is no contact, or if a particle touches two surfaces at once.
+/// Moreau's midpoint rule at run.step, with contact between any number of particles and fixed or moving solids
+/// (time_stepping.cpp): order 1. A route to truth only, not a method. Throws Unsupported if there is no contact, or if
+/// a particle touches two surfaces at once.
 Outcome run_time_stepping(const Scene& scene, const Run& run, Observer& observer);
 /// odeint's extrapolation of the midpoint rule, of varying order (Bulirsch and Stoer), to run.tolerance; steps end at
-/// the observed times. Its estimate compares results of different numbers of stages, so that it also detects an error
-/// due to explicit time dependence alone. In Fehlberg's 7(8) pair both rules have the same weights for it: it follows a
-/// moved pin with an error of 1e-9 of the scene's size under a tolerance of 1e-13.
+/// the observed times. Its estimate compares different numbers of stages, and so also detects errors due to explicit
+/// time dependence alone. Both rules of Fehlberg's 7(8) pair have the same weights for it: that pair follows a moved
+/// pin with an error of 1e-9 of the scene's size under a tolerance of 1e-13.
 Outcome run_odeint_bulirsch_stoer(const Scene& scene, const Run& run, Observer& observer);
 /// SUNDIALS ARKODE, explicit, Fehlberg 7(8), to run.tolerance; steps end at the samples. Throws Unsupported with the
 /// package's name if the suite was built without it.
 Outcome run_arkode(const Scene& scene, const Run& run, Observer& observer);
 /// Like run_arkode, with ARKODE's default rule of order 4 (Zonneveld's 5 4 3).
 Outcome run_arkode_order4(const Scene& scene, const Run& run, Observer& observer);
-/// SUNDIALS CVODE, Adams' formulas of varying order with GMRES, to run.tolerance; steps end at the samples. Throws
-/// Unsupported like run_arkode.
+/// SUNDIALS CVODE, Adams' formulas of varying order with GMRES, to run.tolerance; steps end at the samples. Throws like
+/// run_arkode.
 Outcome run_cvode(const Scene& scene, const Run& run, Observer& observer);
 
 std::string odeint_version();                   // Boost's, e.g. "1.74"
-std::optional<std::string> sundials_version();  // nullopt: the suite was built without
+std::optional<std::string> sundials_version();  // nullopt: built without it
 
 }  // namespace crosscheck

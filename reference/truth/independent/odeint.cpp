@@ -1,4 +1,4 @@
-// Boost's odeint, behind the run loop shared by all engines.
+// Boost's odeint, behind the run loop of all engines.
 
 #include <fmt/format.h>
 #include <boost/numeric/odeint/stepper/bulirsch_stoer.hpp>
@@ -56,7 +56,7 @@ class Rk4World : public OdeintWorld {
   odeint::runge_kutta4<StateVector> rule_;
 };
 
-/// Throws SolverFailure if a step of h would be lost in the rounding of times up to t_next (all in s).
+/// Throws SolverFailure if a step of h would be lost in the rounding of times up to t_next (s).
 void require_progress(double t, double h, double t_next) {
   if (!(h > 1e-14 * t_next)) throw SolverFailure(fmt::format("the step fell below round-off at t = {:.4g} s", t));
 }
@@ -97,8 +97,8 @@ class BulirschStoerWorld : public AdaptiveOdeintWorld {
         h_(std::min(run.step, run.duration)),
         ramp_end_(scene.model.particles.move ? scene.model.particles.move->ramp : 0) {}
   void step(double t, double t_next) override {
-    // At the end of the ramp the third derivative of a moved pin jumps: a step that ends there keeps its order. A jump
-    // within a sliver of a sample counts as at the sample, which changes positions by less than a rounding.
+    // At the end of the ramp the third derivative of a moved pin jumps; a step that ends there keeps its order. A jump
+    // within a sliver of a sample counts as at the sample, which changes positions by less than rounding.
     const double sliver = 1e-12 * t_next;
     if (t + sliver < ramp_end_ && ramp_end_ + sliver < t_next) {
       integrate_to(t, ramp_end_);

@@ -1,4 +1,3 @@
-// Data of a scene, prescribed positions at a given time, and the forces on flat arrays.
 #include "reference/truth/independent/right_hand_side.h"
 
 #include <Eigen/Cholesky>
@@ -132,7 +131,7 @@ RightHandSide::RightHandSide(const Scene& scene, double time_unit)
       for (const double v : scene.start.v.col(i)) start_.push_back(time_unit_ * v);
 }
 
-/// A term without an overload here does not compile: no part of a scene is omitted silently.
+/// A term without an overload does not compile: none is omitted silently.
 void RightHandSide::add_term(const Term& term) {
   struct TermVisitor {
     RightHandSide& f;
@@ -145,7 +144,7 @@ void RightHandSide::add_term(const Term& term) {
       for (const Spring& s : t.list) f.springs_.push_back({s.a, s.b, s.k, s.rest});
     }
     void operator()(const Bending& t) const {
-      // multiplied out: k/2 |sum w_i x_i|^2 is the energy of springs without rest length between each pair of particles
+      // expanded: k/2 |sum w_i x_i|^2 is the energy of springs without rest length between each pair of particles
       for (const auto& s : t.list)
         for (int i = 0; i < s.size; ++i)
           for (int j = i + 1; j < s.size; ++j)
@@ -216,7 +215,7 @@ void RightHandSide::operator()(const StateVector& y, StateVector& rate, double t
       f_[3 * b + axis] -= pull;
     }
   add_aerodynamic_forces(t);
-  double all[3] = {gravity_[0], gravity_[1], gravity_[2]};  // m/s^2, the same for every particle
+  double all[3] = {gravity_[0], gravity_[1], gravity_[2]};  // m/s^2, on all particles
   for (const Signal& wind : winds_) {
     double part[3];
     wind.at(t, part);
@@ -244,7 +243,7 @@ void RightHandSide::write_state(const StateVector& y, double t, State& state) {
     state.v = Points::Map(v_.data(), 3, n_);
 }
 
-/// Adds the force of each spring to its ends: a factor times the vector between them.
+/// A spring's force is a factor times the vector between its ends.
 void RightHandSide::add_spring_forces() {
   const double* x = x_.data();
   double* f = f_.data();
@@ -268,7 +267,7 @@ void RightHandSide::add_spring_forces() {
 
 void RightHandSide::add_dashpot_forces() {
   for (const auto& [a, b, c] : dashpots_) {
-    double d[3], square = 0, parting = 0;  // parting: half the rate of change of the square
+    double d[3], square = 0, parting = 0;  // half the rate of change of the square
     for (int axis = 0; axis < 3; ++axis) {
       d[axis] = x_[3 * b + axis] - x_[3 * a + axis];
       square += d[axis] * d[axis];
@@ -282,7 +281,7 @@ void RightHandSide::add_dashpot_forces() {
   }
 }
 
-/// Adds the pressure of the air on the triangles, a third to each corner.
+/// Adds the pressure of the air on triangles, a third to each corner.
 void RightHandSide::add_aerodynamic_forces(double t) {
   for (const Signal& air : air_velocities_) {
     double wind[3];
@@ -310,8 +309,8 @@ void RightHandSide::add_aerodynamic_forces(double t) {
   }
 }
 
-/// Adds the forces along the rods that make d . a + |u|^2 = 0 for each rod, where d, u and a are the differences
-/// between its ends' positions, velocities and accelerations.
+/// Adds the forces along the rods that make d . a + |u|^2 = 0 for each, where d, u and a are the differences of its
+/// ends' positions, velocities and accelerations.
 void RightHandSide::add_constraint_forces() {
   const auto count = static_cast<int>(hard_distances_.size());
   Eigen::MatrixXd matrix = Eigen::MatrixXd::Zero(count, count);
@@ -326,14 +325,14 @@ void RightHandSide::add_constraint_forces() {
     residual[i] = -d.dot(a) - u.squaredNorm();
     for (int j = 0; j <= i; ++j) {
       const HardDistance& s = hard_distances_[j];
-      // effect of a unit of force along s on the difference between the ends of r
+      // effect of a unit of force along s on the difference of r's ends
       const double coupling =
           inverse_mass(r.a) * ((r.a == s.a) - (r.a == s.b)) - inverse_mass(r.b) * ((r.b == s.a) - (r.b == s.b));
       if (coupling != 0) matrix(i, j) = coupling * d.dot(difference(s));
     }
   }
   const Eigen::LLT<Eigen::MatrixXd> factor(matrix);
-  // a dependent rod leaves a pivot at round-off: 1e-12 of the largest, of which the factor holds the square root
+  // a dependent rod leaves a pivot at round-off: 1e-12 of the largest, of which the factor contains the square root
   const auto pivots = factor.matrixLLT().diagonal();
   if (factor.info() != Eigen::Success || !(pivots.minCoeff() > 1e-6 * pivots.maxCoeff()))
     throw Unsupported("its hard distances depend on each other: their forces are not unique");

@@ -1,4 +1,4 @@
-// SUNDIALS' ARKODE and CVODE on the independently written right-hand side.
+// SUNDIALS' ARKODE and CVODE on the independent right-hand side.
 #include "reference/truth/independent/sundials.h"
 
 #include <arkode/arkode_erkstep.h>
@@ -63,7 +63,7 @@ int SundialsWorld::rate(realtype t, N_Vector y, N_Vector out, void* self) {
   try {
     world.f_(world.y_, world.rate_, t);
   } catch (...) {
-    world.thrown_ = std::current_exception();  // there is C code between here and the handler
+    world.thrown_ = std::current_exception();  // C code lies between here and the handler
     return -1;
   }
   std::copy(world.rate_.begin(), world.rate_.end(), N_VGetArrayPointer(out));
@@ -80,12 +80,12 @@ class ArkodeWorld : public SundialsWorld {
       : SundialsWorld(scene, run), memory_(ERKStepCreate(rate, 0, solution(), context())) {
     if (!memory_) throw SolverFailure("SUNDIALS: no memory");
     check_flag(ERKStepSetUserData(memory_.get(), static_cast<SundialsWorld*>(this)), "ERKStepSetUserData");
-    // errors are reported as exceptions, not as lines on stderr
+    // errors become exceptions, not lines on stderr
     check_flag(ERKStepSetErrFile(memory_.get(), nullptr), "ERKStepSetErrFile");
     check_flag(ERKStepSetTableNum(memory_.get(), rule), "ERKStepSetTableNum");
     check_flag(ERKStepSStolerances(memory_.get(), run.tolerance, run.tolerance * scene.size()), "ERKStepSStolerances");
     check_flag(ERKStepSetMaxNumSteps(memory_.get(), std::numeric_limits<long>::max()), "ERKStepSetMaxNumSteps");
-    // at a jump of a motion's third derivative, more than the default of 7 attempts in a row may fail
+    // more than the default of 7 attempts may fail at a jump of a motion's third derivative
     check_flag(ERKStepSetMaxErrTestFails(memory_.get(), 100), "ERKStepSetMaxErrTestFails");
     check_flag(ERKStepSetInitStep(memory_.get(), std::min(run.step, run.duration) / 10), "ERKStepSetInitStep");
   }
@@ -123,10 +123,10 @@ Outcome run_arkode_order4(const Scene& scene, const Run& run, Observer& observer
   return run_table(ARKODE_ZONNEVELD_5_3_4, scene, run, observer);
 }
 
-// SUNDIALS CVODE: Adams' formulas of varying order; their equations are solved by Newton's method with GMRES on
-// difference quotients. The best combination found for CVODE on a cloth of 32 x 32 particles over 1 s: 2.6 s of CPU
-// time for an error of 5e-6 m. Adams' formulas with fixed-point iteration take 4.5 s for 1e-5 m; backward
-// differentiation with GMRES takes 4.3 s for 3e-5 m.
+// SUNDIALS CVODE: Adams' formulas of varying order, solved by Newton's method with GMRES on difference quotients. The
+// best combination found for CVODE on a cloth of 32 x 32 particles over 1 s: 2.6 s of CPU time for an error of 5e-6 m.
+// Adams' formulas with fixed-point iteration take 4.5 s for 1e-5 m, backward differentiation with GMRES 4.3 s for 3e-5
+// m.
 
 namespace {
 
@@ -139,12 +139,12 @@ class CvodeWorld : public SundialsWorld {
     if (!memory_ || !solver_) throw SolverFailure("SUNDIALS: no memory");
     check_flag(CVodeInit(memory_.get(), rate, 0, solution()), "CVodeInit");
     check_flag(CVodeSetUserData(memory_.get(), static_cast<SundialsWorld*>(this)), "CVodeSetUserData");
-    // errors are reported as exceptions, not as lines on stderr
+    // errors become exceptions, not lines on stderr
     check_flag(CVodeSetErrFile(memory_.get(), nullptr), "CVodeSetErrFile");
     check_flag(CVodeSetLinearSolver(memory_.get(), solver_.get(), nullptr), "CVodeSetLinearSolver");
     check_flag(CVodeSStolerances(memory_.get(), run.tolerance, run.tolerance * scene.size()), "CVodeSStolerances");
     check_flag(CVodeSetMaxNumSteps(memory_.get(), std::numeric_limits<long>::max()), "CVodeSetMaxNumSteps");
-    // at a jump of a motion's third derivative, more than the default of 7 attempts in a row may fail
+    // more than the default of 7 attempts may fail at a jump of a motion's third derivative
     check_flag(CVodeSetMaxErrTestFails(memory_.get(), 100), "CVodeSetMaxErrTestFails");
     check_flag(CVodeSetInitStep(memory_.get(), std::min(run.step, run.duration) / 10), "CVodeSetInitStep");
   }

@@ -1,4 +1,4 @@
-// Common part of SUNDIALS' integrators: the scene's equations on SUNDIALS' vectors, behind the run loop of all engines.
+// SUNDIALS' integrators on the scene's equations, behind the run loop of all engines.
 #pragma once
 
 #include <nvector/nvector_serial.h>
@@ -11,16 +11,16 @@
 
 namespace crosscheck {
 
-/// Throws SolverFailure with the name of the call if SUNDIALS returned an error.
+/// Throws SolverFailure with the call's name if SUNDIALS returned an error.
 void check_flag(int flag, const char* what);
 
-/// A scene under one of SUNDIALS' integrators. A derived class creates the integrator on `solution()`, with `rate` as
-/// its function and `this` as a SundialsWorld* as its user data.
+/// A derived class creates the integrator on `solution()`, with `rate` as its function and `this` as a SundialsWorld*
+/// as its user data.
 class SundialsWorld : public World {
  public:
   SundialsWorld(const Scene& scene, const Run& run);
 
-  /// Takes steps of the integrator, which end at samples; between samples its interpolant gives the state.
+  /// The integrator's steps end at samples; between samples its interpolant gives the state.
   void step(double, double t_next) override;
   const State& state(double t) override;
 
@@ -33,7 +33,7 @@ class SundialsWorld : public World {
   static int rate(realtype t, N_Vector y, N_Vector out, void* self);
 
  private:
-  /// Takes one step, which ends at `stop` (s) at the latest, and sets t; returns SUNDIALS' flag.
+  /// Takes one step, until `stop` (s) at the latest, and sets t; returns SUNDIALS' flag.
   virtual int one_step(double stop, double& t) = 0;
   virtual long accepted() const = 0;  // steps
   /// Evaluates the interpolant at a time within the last step.

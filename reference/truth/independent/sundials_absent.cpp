@@ -1,4 +1,4 @@
-// A substitute for SUNDIALS if the suite is built without it.
+// Replaces SUNDIALS if the suite is built without it.
 
 #include "mysim/base/errors.h"
 #include "reference/truth/independent/integrators.h"

@@ -1,7 +1,6 @@
-// Contact as Moreau's measure differential inclusion, integrated by his midpoint rule on the independently written
-// right-hand side: a second route for cloths, whose events are too many to be located individually. None of mysim's
-// contact code is called. J. J. Moreau, "Numerical aspects of the sweeping process", Comput. Methods Appl. Mech. Engrg.
-// 177 (1999).
+// Contact as Moreau's measure differential inclusion, integrated by his midpoint rule on the independent right-hand
+// side: a second route for cloths, which have too many events to locate. Calls none of mysim's contact code. J. J.
+// Moreau, "Numerical aspects of the sweeping process", Comput. Methods Appl. Mech. Engrg. 177 (1999).
 //
 // Let x_m = x + h v / 2, and let v_f = v + h a(x_m) be the velocity without contact. A solid that contains x_m gives
 // the impulse p n + q, with q along its surface. Here w is the velocity relative to the solid; p >= 0 is complementary
@@ -78,7 +77,7 @@ class TimeSteppingWorld : public World {
   RightHandSide f_;
   StateVector y_;
   const size_t half_;           // 3 times the number of free particles
-  std::vector<double> before_;  // m/s, velocities one step ago
+  std::vector<double> before_;  // m/s, one step ago
   StateVector rate_, trial_;
   State state_;
 };
