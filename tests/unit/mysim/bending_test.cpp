@@ -1,5 +1,5 @@
-// Bending: the energy of a bent sheet against that of a plate, equivalent springs, its tangent, its treatment by
-// implicit and position-based rules, and the stencils made from the grid of a scene file.
+// Bending: the energy of a bent sheet compared with that of a plate, equivalent springs, the tangent, implicit and
+// position-based rules, and stencils from the grid of a scene file.
 
 #include <Eigen/Eigenvalues>
 
@@ -16,7 +16,7 @@ using namespace testing_tools;
 
 constexpr double B = 3e-4;  // N m
 constexpr int nu = 7, nv = 5;
-constexpr double p = 0.02, q = 0.03;  // spacings, m
+constexpr double p = 0.02, q = 0.03;  // m, spacings
 
 std::string sheet_text(const std::string& of_grid, const std::string& more = "") {
   return fmt::format(
@@ -42,7 +42,7 @@ Points raised(const Scene& scene, double a, double b, double c) {
 
 TEST(Bending, OfUniformCurvatureHasTheEnergyOfAPlate) {
   const Scene scene = sheet();
-  // Stencils are exact on parabolas. Those along u cover the sheet except for half a spacing at both ends.
+  // Stencils are exact on parabolas. Those along u cover the sheet except half a spacing at both ends.
   const double along_u = (nu - 2) * (nv - 1) * p * q, along_v = (nu - 1) * (nv - 2) * p * q,
                cells = (nu - 1) * (nv - 1) * p * q;
   for (const auto& [a, b, c] : {std::array{2., 0., 0.}, {0., 3., 0.}, {0., 0., 1.5}, {2., -3., 1.5}}) {
@@ -52,7 +52,8 @@ TEST(Bending, OfUniformCurvatureHasTheEnergyOfAPlate) {
 }
 
 TEST(Bending, IsTheSameInEveryDirection) {
-  // a^2 + b^2 + 2 c^2 of a cylinder at any angle, away from the edges: energy per stencil of each kind over its area
+  // a^2 + b^2 + 2 c^2 is the same for a cylinder at any angle, away from the edges: compare the energy per stencil of
+  // each kind over its area
   const Scene scene = sheet();
   const double along_u = (nu - 2) * (nv - 1), along_v = (nu - 1) * (nv - 2), cells = (nu - 1) * (nv - 1);
   for (const double angle : {0.3, 0.8, 1.2}) {
@@ -67,7 +68,7 @@ TEST(Bending, IsTheSameInEveryDirection) {
 }
 
 TEST(Bending, OfACylinderIsThatOfTheArcToTheSecondOrder) {
-  // rolled to radius R without stretching: B / 2 R^2 per area for any direction of the roll
+  // rolled to radius R without stretching, in any direction: B / 2 R^2 per area
   constexpr double radius = 0.05;
   std::vector<double> off;
   for (const int n : {16, 32, 64}) {
@@ -92,8 +93,8 @@ TEST(Bending, LeavesAFlatSheetAndRigidMotionAlone) {
   for (int i = 0; i < 5; ++i) {
     const Network net{scene.model,
                       {0, (random_turn(random) * scene.start.x).colwise() + random.vector(), scene.start.v}};
-    // c is a difference of coordinates up to 3 m, with rounding. k is at most 2 B / p q or B q / p^3 = 1.2 N/m, and
-    // weights are at most 2.
+    // Rounding: c is a difference of coordinates up to 3 m; k is at most 2 B / p q or B q / p^3 = 1.2 N/m, and weights
+    // are at most 2.
     EXPECT_LT(force_of(*net.model.find<Bending>(), net).cwiseAbs().maxCoeff(), 1.2 * 2 * 12 * 8 * eps * 3);
   }
 }
@@ -107,7 +108,7 @@ TEST(Bending, IsSpringsWithoutRestLength) {
       for (int i = 0; i < s.size; ++i)
         for (int j = i + 1; j < s.size; ++j)
           springs.list.push_back({s.particle[i], s.particle[j], -s.k * s.weight[i] * s.weight[j], 0, Family::single});
-    // sums of about thirty products of at most 4 x 5 N/m and 4 m
+    // rounding: sums of about thirty products of at most 4 x 5 N/m and 4 m
     EXPECT_LT((force_of(bending, net) - force_of(springs, net)).cwiseAbs().maxCoeff(), 30 * 20 * 4 * eps);
     EXPECT_NEAR(potential_energy(bending, net.model.particles, net.state),
                 potential_energy(springs, net.model.particles, net.state), 30 * 20 * 16 * eps);
@@ -127,7 +128,7 @@ TEST(Bending, TangentIsTheSlopeOfTheForceAndTakesNoEnergy) {
       d(i % 3, i / 3) = 1;
       tangent.add_product(1, 0, d, out);
       Network moved = net;
-      moved.state.x += d;  // by a metre, as the force is linear
+      moved.state.x += d;  // by a metre: the force is linear
       EXPECT_LT((out + force_of(bending, moved) - force_of(bending, net)).cwiseAbs().maxCoeff(), 30 * 20 * 5 * eps);
       matrix.col(i) = out.reshaped();
     }
@@ -139,7 +140,7 @@ TEST(Bending, TangentIsTheSlopeOfTheForceAndTakesNoEnergy) {
 }
 
 TEST(Bending, FastestVibrationIsThatOfTheSheet) {
-  // For the wave that alternates from particle to particle, x_uu = -4 / p^2 x and x_uv^2 = (4 / p q)^2 x^2. Hence omega
+  // For the wave that alternates from particle to particle, x_uu = -4 / p^2 x and x_uv^2 = (4 / p q)^2 x^2, hence omega
   // = (4 / p^2 + 4 / q^2) sqrt(B / rho). Unstretched springs of a flat sheet do not resist it.
   Scene scene = small_scene(fmt::format(
       "[grid]\nsize = [40, 30]\norigin = [0, 0, 0]\nu = [0.39, 0, 0]\nv = [0, 0.29, 0]\nmass = 0.024\nbending = {}\n"
@@ -154,7 +155,7 @@ TEST(Bending, FastestVibrationIsThatOfTheSheet) {
 }
 
 TEST(Bending, ImplicitStepSolvesItsEquations) {
-  // cloth size at which multigrid would solve a cloth with springs only
+  // at this size, a cloth with springs only would be solved by multigrid
   Scene scene = small_scene(fmt::format(
       "[grid]\nsize = [24, 24]\norigin = [0, 0, 0]\nu = [0.5, 0, 0]\nv = [0, 0, 0.5]\nmass = 0.05\nbending = {}\n"
       "[grid.stiffness]\nstructural = 50\nshear = 30\n[pins]\nparticles = [0, 23]\n[gravity]\n"
@@ -169,14 +170,14 @@ TEST(Bending, ImplicitStepSolvesItsEquations) {
     implicit_euler(f, s, h, w);
     Points a(3, s.x.cols());
     f.acceleration(s, a);
-    // Solved to 1e-12 of the largest force (acceleration g) or to rounding: k up to 250 N/m at positions of 0.7 m,
-    // divided by a mass of 9e-5 kg.
+    // The equations are solved to 1e-12 of the largest force (acceleration g) or to rounding: k up to 250 N/m at
+    // positions of 0.7 m, divided by a mass of 9e-5 kg.
     EXPECT_LT(((s.v - before.v) / h - a).cwiseAbs().maxCoeff(), 250 * 8 * 4 * eps * 0.7 / (0.05 / 576));
   }
 }
 
 TEST(Bending, AnXpbdStepOfOneStencilIsImplicitEulers) {
-  // A single stencil without springs: one linear constraint, so that one pass solves the equations.
+  // A single stencil without springs is one linear constraint, so one pass solves the equations.
   for (unsigned seed = 1; seed <= 5; ++seed) {
     Network net = random_network(seed);
     Random random(seed);

@@ -77,7 +77,7 @@ TEST(SinglePrecision, OnSpheresIsForRulesOfOneKickWithoutStickyAndOthersSaySo) {
 TEST(Contact, FrictionlessParticleLeavesAtTheExactAngleInEveryStepper) {
   for (const Stepper& s : steppers()) {
     SCOPED_TRACE(s.name);
-    // First-order rules are early or late by about h g: 0.16 degrees measured at 1e-5 s.
+    // First-order rules are early or late by about h g: 0.16 degrees, measured at 1e-5 s.
     EXPECT_NEAR(leaving_angle(s, 1e-5) / degree, exact_leaving_angle / degree, 0.5);
   }
 }
@@ -86,7 +86,8 @@ TEST(Contact, SecondOrderRulesLeaveWithinATenthOfADegreeAtAMillisecond) {
   for (const Stepper& s : steppers()) {
     if (s.order < 2) continue;
     SCOPED_TRACE(s.name);
-    // One step at the leaving speed of 2.6 m/s is 0.15 degrees. The last contact falls within the last step before.
+    // At the leaving speed of 2.6 m/s, a step is 0.15 degrees. The last contact falls within the last step before
+    // leaving.
     EXPECT_NEAR(leaving_angle(s, 1e-3) / degree, exact_leaving_angle / degree, 0.1);
   }
 }
@@ -97,7 +98,7 @@ TEST(Contact, HoldsBelowCoulombsLimitAndSlidesAboveInEveryStepper) {
     SCOPED_TRACE(s.name);
     const Scene held = on_sphere(angle, fmt::format("friction = {:.17g}\n", 1.05 * std::tan(angle)));
     const Trajectory still = trajectory_of(s, held, {1e-3, 10, 100});
-    for (const Points& x : still.x) EXPECT_LT((x - held.start.x).norm(), 1e-9);  // bound of the issue; measured: 0 m
+    for (const Points& x : still.x) EXPECT_LT((x - held.start.x).norm(), 1e-9);  // required bound; measured: 0 m
     const Scene loose = on_sphere(angle, fmt::format("friction = {:.17g}\n", 0.95 * std::tan(angle)));
     const Trajectory slid = trajectory_of(s, loose, {1e-3, 10, 100});
     EXPECT_LT(slid.x.back()(1, 0), 0) << "the particle must have slid off";
@@ -113,8 +114,8 @@ TEST(Contact, SlidesAtTheAccelerationThatCoulombLeaves) {
     SCOPED_TRACE(s.name);
     const Trajectory t = trajectory_of(s, scene, {1e-4, t_end, 10});
     const double path = std::acos(t.x.back()(1, 0)) - angle;
-    // Slope and centripetal relief change by path over R (1.2 %), times factors of about 2 / tan. First order in h: 0.4
-    // %.
+    // The slope and the centripetal relief change by path / R (1.2 %), times factors of about 2 / tan. The first-order
+    // error in h is 0.4 %.
     EXPECT_NEAR(path / expected, 1, 0.05);
   }
 }
@@ -156,8 +157,7 @@ TEST(Contact, ReboundsToTheSquareOfRestitutionTimesTheDrop) {
           if (bounced && t.x[i](1, 0) - 1 < peak - 1e-6) break;  // past the top of the first rebound
           if (bounced) peak = std::max(peak, t.x[i](1, 0) - 1);
         }
-        // The step of the impact and a first-order rule each change heights by a step's path, and sampling by g (1
-        // ms)^2.
+        // The step of the impact and a first-order rule each change heights by a step's path, sampling by g (1 ms)^2.
         EXPECT_NEAR(peak, e * e * drop, 3 * speed * h + 1e-5);
       }
     }
@@ -227,7 +227,7 @@ TEST(Contact, SymmetricSceneStaysSymmetric) {
           worst = std::max(worst, (here - Vec3(mirrored_z.x(), mirrored_z.y(), -mirrored_z.z())).norm());
         }
     // 300 steps of round-off (eps each, because sums are in different orders), grown tenfold by the contact. Implicit
-    // rules leave 1e-10 of the force m v / (h/2) at 2 m/s, which acts for 0.3 s.
+    // rules may leave up to 1e-10 of the force m v / (h/2) at 2 m/s, for 0.3 s.
     EXPECT_LT(worst, 10 * (300 * eps + (s.evaluations == 0 ? 1e-10 * 2 / 5e-4 * 0.3 * 0.3 / 2 : 0)));
   }
 }
@@ -249,7 +249,7 @@ TEST(Contact, RuleOnOneParticle) {
   {  // a slow slider stops: position and velocity
     Vec3 x(0.01, 0.95, 0), v(0.01, -1, 0);
     resolve_contact(sphere, sphere.centre, {0, 1, 0}, x, v);
-    EXPECT_LT((x - Vec3(0, 1, 0)).norm(), 2e-4);  // curvature effect of the displacement, d^2 / 2R = 5e-5
+    EXPECT_LT((x - Vec3(0, 1, 0)).norm(), 2e-4);  // curvature: d^2 / 2R = 5e-5 for the displacement d
     EXPECT_LT(std::abs(v.dot(Vec3(x.y(), -x.x(), 0))), 4 * eps);
   }
   {  // an outward velocity does not change
@@ -322,7 +322,7 @@ TEST(MovingSphere, WithoutFrictionItIsLeftBehind) {
   for (const Stepper& s : steppers()) {
     SCOPED_TRACE(s.name);
     const Trajectory t = trajectory_of(s, scene, {1e-3, 1, 10});
-    // A frictionless sphere cannot hold the particle on its top: it slides off by several times the sphere's
+    // The top of a sphere without friction does not hold the particle: it slides off by several times the sphere's
     // displacement.
     const Vec3 relative = t.x.back().col(0) - displacement(scene, t.t.back()) - Vec3(0, 1, 0);
     EXPECT_GT(std::hypot(relative.x(), relative.z()), 0.05);
@@ -335,7 +335,7 @@ TEST(MovingSphere, RaisesWhatRestsOnIt) {
     SCOPED_TRACE(s.name);
     const Trajectory t = trajectory_of(s, scene, {1e-3, 2, 20});
     for (int i = 0; i < t.frames(); ++i)
-      // Accelerations below g: it never leaves the surface except for a flight of one step, g h^2.
+      // The sphere accelerates by less than g: the particle leaves its surface for one step only, g h^2.
       EXPECT_NEAR(t.x[i](1, 0), 1 + displacement(scene, t.t[i]).y(), 2 * 9.81 * 1e-6);
   }
 }
@@ -370,7 +370,7 @@ TEST(MovingSphere, OnlyTheMotionRelativeToTheSphereCounts) {
       path = std::max(path, (relative - Vec3(0, 1, 0)).norm());
     }
   }
-  // The drifts differ by the discretisation of the sphere's motion in a step, h^2 a' h / 24. The unstable top amplifies
+  // The slides differ by the discretisation of the sphere's motion in a step, h^2 a' h / 24. The unstable top amplifies
   // this by e^(sqrt(g/R) t) = e^3: 1e-8 m measured.
   EXPECT_LT(furthest, 1e-5 * path + 1e-7);
   EXPECT_GT(path, 0.01);
@@ -425,7 +425,7 @@ TEST(SeveralSpheres, ALedgerClosesWithWhatMovingSpheresGave) {
   const Scene scene = on_moving_sphere(0.5, {0, 0.03, 0}, 0.5);
   for (const Stepper& s : steppers()) {
     SCOPED_TRACE(s.name);
-    // In each resting step gravity's kick does work along its own path, over 1 s: m g (g h t / 2). The sphere's motion
+    // In each resting step, the kick of gravity works along its own path: m g (g h t / 2) over 1 s. The sphere's motion
     // contributes as much.
     EXPECT_LT(imbalance(s, scene, {1e-3, 1, 20}), 2 * 9.81 * 9.81 * 1e-3 / 2);
   }

@@ -10,11 +10,11 @@
 
 namespace crosscheck::testing_tools {
 
-/// Coarse h omega for order measurements: small enough for the leading error term, large enough to stay above
+/// Coarse h omega for measuring orders: small enough for the leading error term to dominate, large enough to stay above
 /// round-off.
 inline double h_omega_for(int order) { return order == 1 ? 0.002 : order == 2 ? 0.04 : 0.3; }
 
-/// Measured order of a stepper between a step of at most h and half of it, from the largest RMS error over time.
+/// Measured order between a step of at most h and half of it, from the largest RMS error over time.
 inline double measured_order(const Stepper& s, const Scene& scene, const Trajectory& truth, double h, const Run& run) {
   const double used = time_grid({h, run.duration, run.samples}).h;
   const double coarse = sup_rms(trajectory_of(s, scene, {used, run.duration, run.samples}), truth);
@@ -23,7 +23,7 @@ inline double measured_order(const Stepper& s, const Scene& scene, const Traject
   return slope(coarse, fine);
 }
 
-/// 1 kg at rest on a vertical spring of 1 m and omega^2 N/m, with drag. If omega = 0, without spring and gravity.
+/// 1 kg at rest on a vertical spring of 1 m and omega^2 N/m, with drag. Without spring and gravity if omega is 0.
 inline Scene hanging(double omega, double gamma) {
   Scene scene = shipped_scene("spring");
   std::erase_if(scene.model.terms, [&](const Term& t) {
@@ -36,8 +36,8 @@ inline Scene hanging(double omega, double gamma) {
   return gamma > 0 ? with_drag(scene, gamma) : scene;
 }
 
-/// One step of the code as a matrix on (vertical offset, vertical velocity). Exact up to round-off, since the spring is
-/// linear along its axis and offsets are too small to pass the anchor.
+/// A step as a matrix on (vertical offset, vertical velocity). Exact up to round-off, because the spring is linear
+/// along its axis and offsets are too small to pass the anchor.
 inline Eigen::Matrix2d step_matrix(const Stepper& s, double omega, double gamma, double h) {
   const Scene scene = hanging(omega, gamma);
   auto stepped = [&](double offset, double velocity) {
@@ -57,7 +57,7 @@ inline Eigen::Matrix2d step_matrix(const Stepper& s, double omega, double gamma,
   return m;
 }
 
-/// Spectral radius. Rescales time by `rate` first so that the entries have similar magnitudes.
+/// Spectral radius. Time is first rescaled by `rate`, so that the entries have similar magnitudes.
 inline double spectral_radius(const Eigen::Matrix2d& m, double rate) {
   Eigen::Matrix2d scaled = m;
   scaled(0, 1) *= rate;
@@ -65,7 +65,7 @@ inline double spectral_radius(const Eigen::Matrix2d& m, double rate) {
   return eigenvalues(scaled).cwiseAbs().maxCoeff();
 }
 
-/// Damped oscillators for tests of the limits, rad/s and 1/s.
+/// Damped oscillators (rad/s, 1/s) for tests of the limits.
 struct Oscillation {
   double omega, gamma;
 };
@@ -80,7 +80,7 @@ inline double just_above(const Stepper& s, double omega, double gamma) {
   return radius(1.005 * limit) > radius(1.02 * limit) ? 1.005 * limit : 1.02 * limit;
 }
 
-/// One sentence with numbers for each contradiction to the row; empty if everything is as declared.
+/// One sentence with numbers for each contradiction to the row; empty if there is none.
 inline std::string contradiction(const Stepper& row) {
   const Stepper s = at_fixed_step(row);
   std::string found;
@@ -99,7 +99,8 @@ inline std::string contradiction(const Stepper& row) {
     const double limit = s.limit(w, gamma);
     auto radius = [&](double h) { return spectral_radius(step_matrix(s, w, gamma, h), w); };
     // Offsets of 1e-3 m are differences of lengths of about 1 m, so their relative error is some ulps over the offset.
-    // Coincident eigenvalues are known only to its square root. Solvers stop at 1e-10 of the forces.
+    // Coincident eigenvalues are accurate only to the square root of that. Solvers of implicit rules may stop at 1e-10
+    // of the forces.
     const double noise = s.evaluations == 0 ? 1e-6 : 1e-11;
     const double below = limit == 0 ? 0 : std::isinf(limit) ? 100 / w : 0.98 * limit;
     if (below > 0 && !(radius(below) <= 1 + noise))

@@ -1,5 +1,5 @@
-// Energies and the ledger: exact integrals, balance that closes to the order of the stepper, and energy conservation of
-// the implicit midpoint rule.
+// Energies and the ledger: exact integrals, a balance that closes to the order of the stepper, contact losses, the
+// divergence monitor, and energy conservation by the implicit midpoint rule.
 
 #include <numbers>
 
@@ -8,9 +8,6 @@
 #include "tests/unit/helpers.h"
 
 namespace crosscheck {
-
-// Energies and the ledger: exact integrals, balance that closes to the order of the stepper, contact losses, the
-// divergence monitor.
 
 namespace {
 
@@ -44,22 +41,22 @@ TEST(Integral, HasOrderFourOnSmoothCurves) {
   EXPECT_NEAR(slope(error(40), error(80)), 4, 0.15);  // the next term is smaller by h = 0.05
 }
 
-/// Order of the balance between a suitable step for the stepper and half of it.
+/// Order of the balance, from a suitable step for the stepper and half of it.
 double order_of_balance(const Stepper& s, const Scene& scene) {
-  // The steps divide the ramp, at whose end the third derivative of the pins' motion jumps.
+  // The steps divide the ramp, because the third derivative of the pins' motion jumps at its end.
   const double h = s.order == 1 ? 1.25e-4 : s.order == 2 ? 2.5e-4 : 6.25e-4;
   const double coarse = imbalance(s, scene, {h, 0.5, 10}), fine = imbalance(s, scene, {h / 2, 0.5, 10});
   EXPECT_GT(fine, 1e-13) << "the imbalance is at round-off, so the slope would be noise";
   return slope(coarse, fine);
 }
-/// Measurable order of the balance, whose integrals are of order 4.
+/// Measurable order: the balance's integrals have order 4.
 int shown(const Stepper& s) { return std::min(s.order, 4); }
 
 TEST(Ledger, ClosesToTheOrderOfTheStepperUnderDragWindAndMovedPins) {
   for (const Stepper& s : fixed_steppers()) {
     SCOPED_TRACE(s.name);
-    // The next term is smaller by h times the highest frequency, at most 0.1. For rk4 it is large, because its damping
-    // is of order 5.
+    // The next term is smaller by h times the highest frequency, at most 0.1. For rk4, whose damping has order 5, it is
+    // large.
     EXPECT_NEAR(order_of_balance(s, small_cloth()), shown(s), 0.25);
   }
 }
@@ -98,14 +95,15 @@ TEST(Ledger, EveryEntryIsNeeded) {
 }
 
 TEST(Ledger, ClosesToFirstOrderInContact) {
-  // A ball dropped on a sphere off its top lands, loses its normal speed, slides with friction and leaves, under drag.
+  // A ball that is dropped on a sphere beside its top lands, loses its normal speed, slides with friction and leaves,
+  // under drag.
   const Scene scene = small_scene(std::string("[[particle]]\nposition = [0.3, 1.2, 0]\nmass = 1\n[sphere]\n"
                                               "centre = [0, 0, 0]\nradius = 1\nfriction = 0.1\n[drag]\ngamma = 1\n") +
                                   gravity_text);
   for (const Stepper& s : steppers())
     for (const double h : {1e-3, 1e-4}) {
       SCOPED_TRACE(fmt::format("{} h = {}", s.name, h));
-      // m g times a step's path at the top speed of 5 m/s, once for the landing step and once for Euler's lag
+      // m g times the path of a step at the top speed of 5 m/s, once for the landing step and once for Euler's lag
       EXPECT_LT(imbalance(s, scene, {h, 1, 50}), 2 * 9.81 * 5 * h);
     }
 }
@@ -119,8 +117,8 @@ TEST(Ledger, ContactLossIsWhatTheRuleTook) {
     Ledger ledger(scene.model, ContactLoss::reported);
     const double h = 1e-4;  // s
     simulate(s, ContactRule::coulomb, scene, {h, 1, 10}, ledger);
-    // The ball falls 0.2 m and stays, so it loses m g 0.2, up to m g times the path of the last step (2 m/s). Euler's
-    // lag in flight and the kick of each resting step together add m g (g t h / 2) over the run of 1 s.
+    // The ball falls 0.2 m and stays: it loses 0.2 m g, up to m g times the path of the last step (at 2 m/s). Euler's
+    // lag in flight and the kick of each resting step add m g (g t h / 2) in the run of 1 s.
     EXPECT_NEAR(ledger.rows().back().contact, 2 * 9.81 * 0.2, 2 * 9.81 * (2 + 9.81 / 2) * h);
   }
 }
@@ -151,13 +149,13 @@ TEST(Ledger, WhatRestsOnABallLosesNothing) {
     Scene scene;
     double allowed;  // J
   };
-  // impulses m g h times displacements that are rounded by some ulps of the radius, over the step
+  // impulses m g h, times displacements that are rounded by some ulps of the radius, over the step
   const double rounding = 8 * eps * steps * weight;
   const Rest rests[] = {
       {"on the top", on_a_ball(1, {0, 1, 0}, {0, 0, 0}, 0.3), rounding},
       {"with restitution", on_a_ball(1, {0, 1, 0}, {0, 0, 0}, 0, 0.5), rounding},
-      // The friction rule uses the normal at the end of the step, turned by g h^2 / R. The residual of the displacement
-      // g h^2 after this rotation, twice, causes a creep in every step.
+      // The friction rule uses the normal at the end of the step, which is turned by g h^2 / R. Each rotation leaves a
+      // rest of the displacement g h^2, and therefore a creep in every step.
       {"held by friction on a slope", on_a_ball(1, {std::sin(slope), std::cos(slope), 0}, {0, 0, 0}, 1),
        steps * weight * std::pow(2 * 9.81e-4, 3)},
       {"between two balls",
@@ -170,7 +168,7 @@ TEST(Ledger, WhatRestsOnABallLosesNothing) {
     }
   for (const Stepper& s : steppers()) {
     SCOPED_TRACE(s.name);
-    // the sticky sphere takes no more energy from a resting particle
+    // the sticky sphere takes no energy from a resting particle either
     EXPECT_NEAR(ledger_of(s, rests[0].scene, run, ContactRule::sticky).back().contact, 0, rounding);
     // The balance of a resting particle stays constant, except for the kick of one step.
     if (!s.adaptive) {
@@ -184,13 +182,13 @@ TEST(Ledger, FrictionlessContactTakesNothing) {
   const Scene scene = on_a_ball(1, {0, 1, 0}, {1, 0, 0}, 0);
   for (const Stepper& s : steppers()) {
     SCOPED_TRACE(s.name);
-    // Bound from the top until separation: rounding of impulses along the normal, times the path of a metre.
+    // From the top until separation: rounding of impulses along the normal, times the path of a metre.
     EXPECT_NEAR(ledger_of(s, scene, {1e-3, 1, 10}).back().contact, 0, 1000 * 8 * eps * 9.81);
   }
 }
 
-/// Energy (J) lost to friction by a block of 1.5 kg at 2 m/s on the top of a ball of 1 km, mu = 0.3, until it stops.
-/// With u = theta'^2 the motion is du/dtheta = 2 (g/R) (sin theta - mu cos theta) + 2 mu u
+/// Energy (J) that friction takes from a block of 1.5 kg at 2 m/s on the top of a ball of 1 km, mu = 0.3, until it
+/// stops. With u = theta'^2 the motion is du/dtheta = 2 (g/R) (sin theta - mu cos theta) + 2 mu u
 /// (reference/truth/exact/contact.cpp).
 double lost_by_the_block() {
   const double mu = 0.3, w = 9.81 / 1000, u0 = 4e-6;
@@ -214,9 +212,9 @@ TEST(Ledger, FrictionOfASlidingBlockIsItsEnergyToTheOrderOfTheRule) {
     const double coarse = error(2e-3), fine = error(1e-3);
     fmt::print("sliding block, {:18} {:.3g} J at 2 ms, {:.3g} J at 1 ms\n", s.name, coarse, fine);
     const bool new_velocity = s.name == "symplectic-euler" || s.name == "implicit-euler" || s.name == "xpbd";
-    // These rules apply friction m g mu along h v' instead of h (v + v') / 2: less by m g mu h v / 2 in total, with the
-    // initial 2 m/s. All others err by the path of the last step, (mu g h)^2 / 2 per kilogram, and by the ball's
-    // curvature: a height of (v h)^2 / 2 R in each step, with a mean of v^2 / 3.
+    // These rules apply friction m g mu along h v' instead of h (v + v') / 2: in total less by m g mu h v / 2, with the
+    // initial v = 2 m/s. All others err by the path of the last step, (mu g h)^2 / 2 per kilogram, and by the ball's
+    // curvature: a height of (v h)^2 / 2 R in each step, where v^2 is on average a third of its initial value.
     const double lag = new_velocity ? 1.5 * 9.81 * 0.3 * 2 / 2 * 1e-3 : 0;
     const double rest = 1.5 * (std::pow(0.3 * 9.81 * 1e-3, 2) + 9.81 * 0.68 * 2 / 3 / 1000 * 1e-3);
     EXPECT_NEAR(fine, -lag, 2 * rest);
@@ -228,7 +226,7 @@ TEST(Ledger, FrictionOfASlidingBlockIsItsEnergyToTheOrderOfTheRule) {
 }
 
 TEST(Ledger, ImpactsTakeWhatRestitutionLeaves) {
-  // from 0.2 m: m g 0.2 (1 - e^2) in the first bounce, independent of the position within the step
+  // from 0.2 m: m g 0.2 (1 - e^2) in the first bounce, wherever it lies within the step
   for (const double e : {0.0, 0.3, 0.7, 1.0})
     for (const Stepper& s : steppers()) {
       SCOPED_TRACE(fmt::format("{} e = {}", s.name, e));
@@ -295,7 +293,7 @@ TEST(DivergenceMonitor, NoGoodRunIsCondemned) {
       SCOPED_TRACE(fmt::format("{} {}", name, method));
       DivergenceMonitor monitor(scene.model);
       const double duration = std::min(scene.duration, 0.3);
-      // Within the limit of both rules, because a scene may be designed for longer steps.
+      // Within the limit of both rules, because scenes may be designed for longer steps.
       const double omega = highest_frequency(scene.model, scene.start);
       const double step = omega > 0 ? std::min(scene.step, 1.5 / omega) : scene.step;
       const Outcome out = simulate(stepper(method), ContactRule::coulomb, scene, {step, duration, 30}, monitor);
@@ -304,7 +302,7 @@ TEST(DivergenceMonitor, NoGoodRunIsCondemned) {
 }
 
 TEST(DivergenceMonitor, ASceneAtRestIsNotCondemnedForItsRounding) {
-  // A spring whose rest length equals its length up to rounding: a motion of 1e-15 m with energies of 1e-29 J.
+  // A spring whose rest length equals its length up to rounding moves by 1e-15 m, with energies of 1e-29 J.
   for (unsigned seed = 1; seed <= 10; ++seed) {
     Random random(seed);
     std::string text;
@@ -342,7 +340,7 @@ TEST(DivergenceMonitor, BlowUpsAreFoundWhetherOrNotTheWindBlowsAndPinsMove) {
         for (const Points& x : t.x) EXPECT_LT(x.cwiseAbs().maxCoeff(), 3);
         continue;
       }
-      // A spring may exceed its allowed length before two differences reveal the speed.
+      // A spring may exceed its allowed length before two differences reveal its speed.
       EXPECT_NE(out.verdict, Verdict::ok);
       EXPECT_LT(out.end, 2);
       EXPECT_FALSE(out.reason.empty());
@@ -364,16 +362,17 @@ TEST(ImplicitMidpoint, KeepsTheEnergyOfOneSpringAtAnyStep) {
   for (const double h : {1e-3, 1e-2, 0.1, 1.0}) {
     const double error = largest_energy_error(stepper("implicit-midpoint"), scene, {h, 5, 5});
     fmt::print("spring, h = {}: energy error {:.2g} J\n", h, error);
-    // The residual of a solve is 1e-10 of the largest force, and does work along the path. The force is the inertia m v
-    // / (h/2) or the spring's k x = 30 N, the path 2 m/s times 5 s.
+    // The residual force of a solve (at most 1e-10 of the largest force) does work along the path of 2 m/s times 5 s.
+    // The largest force is the inertia m v / (h/2) or the spring's k x = 30 N.
     EXPECT_LT(error, 1e-10 * (2 * 2 / h + 30) * 2 * 5) << h;
   }
-  // in contrast, a rule of the same order that is not exact oscillates by (h omega)^2 / 8 of the energy or more
+  // in contrast, the energy of a rule of the same order that does not conserve it oscillates by at least (h omega)^2 /
+  // 8
   EXPECT_GT(largest_energy_error(stepper("leapfrog"), scene, {1e-2, 5, 100}), 1e-3);
 }
 
 TEST(ImplicitMidpoint, KeepsTheEnergyOfACollinearChain) {
-  // Three masses on a line between two pins, with springs that are always stretched and never rotate: a linear system.
+  // Three masses on a line between two pins; all springs stay stretched and never turn: a linear system.
   std::string text;
   const double at[] = {0, 0.62, 1.13, 1.71, 2.4};
   for (const double x : at) text += fmt::format("[[particle]]\nposition = [{}, 0, 0]\nmass = 0.5\n", x);
@@ -394,7 +393,7 @@ TEST(ImplicitMidpoint, EnergyOfASwingingChainIsBoundedToOrderTwo) {
   for (const double h : {2e-3, 1e-3, 5e-4}) {
     const double error = largest_energy_error(stepper("implicit-midpoint"), scene, {h, 3, 300});
     fmt::print("swinging chain, h = {}: energy error {:.3g} J\n", h, error);
-    // samples hit the maximum at different phases: measured slopes 2.0 to 2.1
+    // samples meet the maximum at different phases: measured slopes 2.0 to 2.1
     if (before > 0) {
       EXPECT_NEAR(slope(before, error), 2, 0.3);
     }

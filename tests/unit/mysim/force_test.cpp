@@ -14,7 +14,7 @@ using namespace testing_tools;
 
 constexpr SpringLaw laws[] = {SpringLaw::hooke, SpringLaw::bullet_link};
 
-/// Calls look(type) for each type of the table of terms, with a null pointer of that type.
+/// Calls look(type) with a null pointer of each type in the table of terms.
 template <class Look, size_t... I>
 void for_each_term_type(Look look, std::index_sequence<I...>) {
   (look(static_cast<std::variant_alternative_t<I, Term>*>(nullptr)), ...);
@@ -54,8 +54,8 @@ TEST(Forces, AreMinusTheGradientOfEveryEnergyThereIs) {
               // Terms with their own energy omit pins; the energies of springs and bending include them.
               if (net.model.particles.pinned[i] && !HasTangent<T>) continue;
               const double slope_there = (energy(axis, i, step) - energy(axis, i, -step)) / (2 * step);
-              // eps^(2/3) times the size of E''' / 6 (up to 5 springs of 3 k r / L^2 = 7000 N/m^2 each; the link law is
-              // no steeper) and of E
+              // eps^(2/3) times E''' / 6 (up to 5 springs of 3 k r / L^2 = 7000 N/m^2 each; the link law is no steeper)
+              // and times E
               EXPECT_NEAR(f(axis, i), -slope_there, 6000 * std::pow(eps, 2.0 / 3)) << T::name;
             }
           ++energies;
@@ -65,7 +65,7 @@ TEST(Forces, AreMinusTheGradientOfEveryEnergyThereIs) {
   EXPECT_EQ(energies, 3 * 2 * 20);  // springs, bending, gravity
 }
 
-/// Product of the tangent of one term with d.
+/// Product of one term's tangent with d.
 template <class T>
 Points product(const Network& net, Curvature curvature, double stiffness, double damping, const Points& d) {
   Tangent tangent;
@@ -135,7 +135,7 @@ TEST(Tangents, ClampedIsPositiveSemidefiniteAndExactWhereAllSpringsAreStretched)
       const Eigen::MatrixXd clamped = matrix_of(net, Curvature::clamped), exact = matrix_of(net, Curvature::exact);
       const double size = clamped.norm();
       auto lowest = [](const Eigen::MatrixXd& k) { return symmetric_eigenvalues(k)[0]; };
-      EXPECT_GE(lowest(clamped), -32 * eps * size);  // round-off of the eigenvalue solver, 18 unknowns
+      EXPECT_GE(lowest(clamped), -32 * eps * size);  // round-off of the eigenvalue solver with 18 unknowns
       EXPECT_LT((exact - exact.transpose()).cwiseAbs().maxCoeff(), 4 * eps * size);
       indefinite += lowest(exact) < -1e-6 * size;
       for (Spring& s : net.model.find<Springs>()->list) s.rest *= 0.1;  // distances >= 0.3 m, rest lengths now <= 0.2 m
@@ -162,8 +162,7 @@ TEST(Forces, InsideABodyKeepMomentumAndAngularMomentum) {
       for (const Points& f : {force_of(*net.model.find<Springs>(), net), force_of(*net.model.find<Bending>(), net),
                               force_of(*net.model.find<Dashpots>(), net)}) {
         const auto [sum, torque] = resultant(f, net.state.x);
-        // about thirty additions of forces up to 900 N (the link law has at most k L) at points up to 2 m from the
-        // origin
+        // about thirty additions of forces up to 900 N (in the link law at most k L), up to 2 m from the origin
         EXPECT_LT(sum.norm(), 30 * eps * 900);
         EXPECT_LT(torque.norm(), 60 * eps * 900 * 2);
       }
@@ -192,7 +191,7 @@ TEST(Forces, TurnAndMoveWithTheBody) {
           const T *here = net.model.find<T>(), *there = moved.model.find<T>();
           ASSERT_TRUE(here && there) << "add the new force to the network: " << T::name;
           const Points expected = turn * force_of(*here, net);
-          // Lengths lose some ulps of 3 m, multiplied by k of up to 100 N/m in five springs. Other forces are weaker.
+          // Lengths lose some ulps of 3 m, times k of up to 100 N/m in five springs. Other forces are weaker.
           EXPECT_LT((force_of(*there, moved) - expected).cwiseAbs().maxCoeff(), 5 * 100 * 3 * 16 * eps) << T::name;
         }
       });
@@ -222,7 +221,7 @@ TEST(Dashpots, LeaveRigidMotionAlone) {
     Random random(seed + 7);
     const Vec3 velocity = random.vector(), spin = 5 * random.vector();
     for (int i = 0; i < 6; ++i) net.state.v.col(i) = velocity + spin.cross(Vec3(net.state.x.col(i)));
-    // (v_a - v_b) . d cancels to some ulps of 9 rad/s times (3.5 m)^2. The division by d is at worst by 0.3 m.
+    // (v_a - v_b) . d cancels to some ulps of 9 rad/s times (3.5 m)^2, divided by d of at least 0.3 m.
     EXPECT_LT(force_of(random_dashpots(seed, net), net).cwiseAbs().maxCoeff(), 5 * 2 * 8 * eps * 9 * 12 / 0.3);
   }
 }
@@ -238,7 +237,7 @@ TEST(LinkLaw, HasTheTensionAndTheEnergyOfItsFormulas) {
     // (a sixth of the third derivative, below 24 k / r^2, plus the size of the force) times eps^(2/3)
     EXPECT_NEAR(slope_there, (tension(length + step) - tension(length - step)) / (2 * step),
                 (4 * s.k / r2 + s.k * 3) * std::pow(eps, 2.0 / 3));
-    // the energy is the integral of the tension from the rest length, here by Simpson's rule with 2000 intervals
+    // the energy is the integral of the tension from the rest length: Simpson's rule with 2000 intervals
     const int n = 2000;
     double integral = 0;
     for (int j = 0; j <= n; ++j)

@@ -10,7 +10,7 @@ namespace {
 
 using namespace testing_tools;
 
-/// Hash after 1000 steps, or the time of a blow-up. Empty if the rule does not support the scene.
+/// Hash after 1000 steps, or time of a blow-up. Empty if the rule does not support the scene.
 std::string hash_of(const Scene& scene, const Stepper& rule) {
   const Run run{.step = scene.step,
                 .duration = golden_duration(scene),

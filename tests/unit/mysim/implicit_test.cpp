@@ -24,7 +24,7 @@ Network busy_network_in_air(unsigned seed, SpringLaw law) {
   return net;
 }
 
-/// Potential of one step of a random network with every ingredient, and a random point at which to evaluate it.
+/// Potential of one step of a random network with every ingredient, and a random point.
 struct Problem {
   Network net;
   System f;
@@ -66,7 +66,7 @@ TEST(IncrementalPotential, GradientIsTheSlopeOfTheValue) {
       const Points d = p.direction(1);
       const double up = p.potential.value(p.u + difference_step * d), noise = p.potential.rounding(),
                    down = p.potential.value(p.u - difference_step * d);
-      // (a sixth of the third derivative, with five springs of 3 k r / L^2 at each particle as in terms_test.cpp) times
+      // (a sixth of the third derivative, with five springs of 3 k r / L^2 at each particle as in force_test.cpp) times
       // the cube of the direction's size, plus the rounding of the values
       EXPECT_NEAR(dot(g, d), (up - down) / (2 * difference_step),
                   6000 * std::pow(d.norm(), 3) * std::pow(eps, 2.0 / 3) + noise / difference_step);
@@ -152,7 +152,7 @@ TEST(ImplicitEuler, StepsSatisfyTheEquations) {
       for (int n = 0; n < 20; ++n) {
         State end = step.solve(s, h);
         EXPECT_NEAR(end.t, s.t + h, 4 * eps);
-        // Tolerance of the solver: 1e-10 of the largest force, or the rounding of the forces. u / h rounds once more.
+        // Residual of at most 1e-10 of the largest force, or the rounding of the forces; u / h rounds once more.
         const double promised =
             1e-10 * step.potential().force_scale() + 2 * step.potential().force_rounding() + 1e-12 / h;
         Points a(3, particles.size());
@@ -169,8 +169,8 @@ TEST(ImplicitEuler, StepsSatisfyTheEquations) {
     }
 }
 
-/// The gravitational potential cancels if heights have both signs, but its rounding errors do not. Tests steps of nets
-/// at rest that fall through height 0, wherever their centre of mass is.
+/// The gravitational potential cancels if heights have both signs, but its rounding errors do not. Nets at rest,
+/// wherever their centre of mass is, fall through height 0.
 TEST(ImplicitEuler, FallsThroughTheHeightZero) {
   const double small = 0x1p-10;  // s
   for (unsigned seed = 1; seed <= 10; ++seed) {
@@ -193,7 +193,7 @@ TEST(ImplicitEuler, FallsThroughTheHeightZero) {
   }
 }
 
-/// A single particle falling with drag: the potential has few summands, each of which is rounded more than once.
+/// A single particle falls with drag: the potential has few summands, each of which is rounded more than once.
 TEST(Implicit, OneParticleFallsInDrag) {
   for (unsigned seed = 1; seed <= 60; ++seed) {
     SCOPED_TRACE(seed);
@@ -264,7 +264,7 @@ TEST(ImplicitEuler, LinearOptionIsOneStepOfTheClampedFormula) {
     Workspace w(s);
     stepper("implicit-euler").linear(f, s, h, w);
     const Eigen::VectorXd values = symmetric_eigenvalues(a);
-    // The solver stops at 1e-12 of the right-hand side, and the error is at most the condition number times that.
+    // The solver stops at 1e-12 of the right-hand side; the error is at most the condition number times that.
     const double bound = 1e-12 * values[values.size() - 1] / values[0] * dv.norm() + 64 * eps;
     for (int i = 0; i < n; ++i) {
       if (particles.pinned[i]) continue;
@@ -298,7 +298,7 @@ TEST(Implicit, LinksAtRestAreSolvedWhereRoundingLeavesThemNoEnergy) {
 }
 
 TEST(Implicit, AStrutOfStiffSpringsBuckles) {
-  // twenty springs, compressed by a tenth of their length and a millimetre off the straight line
+  // twenty springs, compressed by a tenth of their length, up to a millimetre off the straight line
   constexpr int n = 20;
   std::string text;
   for (int i = 0; i <= n; ++i)

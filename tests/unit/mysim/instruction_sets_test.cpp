@@ -1,5 +1,3 @@
-// Objects compiled for one instruction set share no code with others.
-
 #include <gtest/gtest.h>
 
 #include <sstream>
@@ -9,8 +7,8 @@
 namespace crosscheck::testing_tools {
 namespace {
 
-/// The linker must not pick code for a newer machine as the common version of a function. Therefore objects compiled
-/// for an instruction set share no function with others. Each contains the table of its functions.
+/// Objects compiled for one instruction set share no function with others, because the linker could pick code for a
+/// newer machine as the common version. Each object contains the table of its functions.
 TEST(InstructionSets, OfAnInstructionSetKeepTheirCodeToThemselves) {
   std::istringstream objects(CROSSCHECK_KERNEL_OBJECTS);
   int count = 0;

@@ -38,8 +38,8 @@ Changes changes_in(const Stepper& s, const Scene& scene, const Run& run) {
   return changes;
 }
 
-/// Residual force (N) in each step. Implicit rules: 1e-10 of the largest force, the inertia m v / (h / 2) of 2 kg at up
-/// to 20 m/s. Explicit rules: the rounding of forces up to 500 N.
+/// Residual force (N) in each step. Implicit rules: at most 1e-10 of the largest force, the inertia m v / (h / 2) of 2
+/// kg at up to 20 m/s. Explicit rules: the rounding of forces up to 500 N.
 double force_left(const Stepper& s, double h) { return s.evaluations == 0 ? 1e-10 * 2 * 20 / (h / 2) : 32 * eps * 500; }
 
 TEST(Runs, KeepTheMomentumOfFreeBodies) {
@@ -49,8 +49,8 @@ TEST(Runs, KeepTheMomentumOfFreeBodies) {
     for (const bool dashpots : {false, true})
       for (unsigned seed = 1; seed <= 3; ++seed) {
         SCOPED_TRACE(fmt::format("{} seed {} dashpots {}", s.name, seed, dashpots));
-        // Forces of each pair cancel in every stage. What remains is the residual force on six particles for 0.5 s, and
-        // the rounding of velocities up to 20 m/s in 500 steps.
+        // Forces of each pair cancel in every stage. The rest is the residual force on six particles for 0.5 s, and the
+        // rounding of velocities up to 20 m/s in 500 steps.
         EXPECT_LT(changes_in(s, scene_of(free_network(seed, dashpots)), run).momentum,
                   6 * force_left(s, h) * 0.5 + 500 * 6 * 2 * 20 * eps);
       }
@@ -63,21 +63,21 @@ TEST(Runs, KeepAngularMomentumWhereTheRuleIsSymplecticAndToItsOrderElsewhere) {
       const Scene scene = scene_of(free_network(seed, false));
       const double h = 1e-3;
       const double coarse = changes_in(s, scene, {h, 0.5, 10}).angular;
-      // These symplectic rules alternate drifts along v and kicks by central forces, and each part conserves x' x m v'
-      // = x x m v. Residual forces act with arms of up to 5 m.
+      // These symplectic rules alternate drifts along v and kicks by central forces, which both conserve x x m v.
+      // Residual forces act with arms of up to 5 m.
       const double kept = 5 * (6 * force_left(s, h) * 0.5 + 500 * 6 * 2 * 20 * eps);
       if (s.symplectic) {
         EXPECT_LT(coarse, kept);
         continue;
       }
-      // other rules change it by the error of their order or less
+      // other rules change it by at most the error of their order
       EXPECT_GT(coarse, kept / 100);
       const double fine = changes_in(s, scene, {h / 2, 0.5, 10}).angular;
       EXPECT_TRUE(coarse < kept || slope(coarse, fine) > s.order - 0.3) << slope(coarse, fine);
     }
 }
 
-/// The scene rotated about the origin and then translated, including everything that has a direction.
+/// The scene rotated about the origin and then translated, with everything that has a direction.
 Scene turned(Scene scene, const Eigen::Matrix3d& turn, const Vec3& shift) {
   scene.start.x = ((turn * scene.start.x).colwise() + shift).eval();
   scene.start.v = (turn * scene.start.v).eval();
@@ -99,8 +99,7 @@ Scene turned(Scene scene, const Eigen::Matrix3d& turn, const Vec3& shift) {
 TEST(Runs, DoNotDependOnDirectionOrPlace) {
   const double h = 1e-3, duration = 0.1;
   const crosscheck::Run run{h, duration, 5};
-  // An adaptive rule measures errors along the axes of the scene, so its steps are rotation invariant only to the
-  // tolerance.
+  // An adaptive rule measures errors along the axes of the scene, so rotation changes its steps within the tolerance.
   for (const Stepper& s : fixed_steppers())
     for (unsigned seed = 1; seed <= 5; ++seed) {
       SCOPED_TRACE(fmt::format("{} seed {}", s.name, seed));
@@ -114,7 +113,8 @@ TEST(Runs, DoNotDependOnDirectionOrPlace) {
       double apart = 0;
       for (int i = 0; i < here.frames(); ++i)
         apart = std::max(apart, (((turn * here.x[i]).colwise() + shift) - there.x[i]).cwiseAbs().maxCoeff());
-      // Residual force on 0.1 kg for the whole time, and 8 ulps of 3 m per step, both grown at most tenfold in 0.1 s.
+      // The residual force on 0.1 kg during the whole time, and 8 ulps of 3 m per step, both grown at most tenfold in
+      // 0.1 s.
       EXPECT_LT(apart, 10 * (2 * force_left(s, h) / 0.1 * duration * duration / 2 + 8 * 3 * eps * duration / h));
     }
 }

@@ -1,5 +1,4 @@
-// The library behind one header: identical numbers to mysim's own run, refusals with a message, an observer that ends a
-// run.
+// The library behind one header: the numbers of mysim's own run, refusals with a message, an observer that ends a run.
 
 #include <gtest/gtest.h>
 
@@ -83,7 +82,7 @@ TEST(Library, ANetworkSwingsAsItsClosedForm) {
   EXPECT_LT(worst, 0.1 * 20 * 20 * 20 * scene.step() * scene.step() / 24 * 1.1);
   EXPECT_GT(worst, 0.1 * 20 * 20 * 20 * scene.step() * scene.step() / 24 / 4);
   EXPECT_NEAR(first, 1, 1e-12);  // J, k a^2 / 2
-  // the energy that leapfrog conserves is off by a relative (omega h)^2 / 4
+  // leapfrog conserves a quantity that differs from the energy by a relative (omega h)^2 / 4
   EXPECT_LT(drift, 400 * scene.step() * scene.step() / 4 * 1.1);
 }
 

@@ -9,7 +9,7 @@ namespace {
 
 using namespace testing_tools;
 
-/// Largest deviation of the energy in the last tenth of the run, divided by that in the first tenth.
+/// Largest deviation of the energy in the last tenth of the run, over that in the first tenth.
 double late_over_early(const Stepper& s, double h, long steps) {
   const Scene scene = without_drag(shipped_scene("chain"));
   const int samples = static_cast<int>(std::min(steps, 100000l));
@@ -29,17 +29,17 @@ double late_over_early(const Stepper& s, double h, long steps) {
 TEST(AMillionSteps, SymplecticRulesKeepTheEnergyBounded) {
   for (const Stepper& s : steppers()) {
     if (!s.symplectic) continue;
-    // Implicit steps cost about fifty times as much, so these rules run fewer of them. Their first tenth must still be
-    // longer than the 20 s in which the chain's swings become irregular and fast.
-    // A drift would make the last tenth ten times worse than the first. A bounded error recurs, but the chain swings
-    // irregularly, and its fastest moments, which cause the error, differ by up to a factor of two.
+    // Implicit steps cost about fifty times as much, so these rules run fewer of them. Their first tenth must still
+    // exceed the 20 s after which the chain swings irregularly and fast.
+    // A drift would make the last tenth ten times worse than the first. A bounded error recurs, but it is caused by the
+    // fastest moments of irregular swings, which differ by up to a factor of two.
     EXPECT_LT(late_over_early(s, 1e-3, s.evaluations > 0 ? 1000000 : 300000), 3) << s.name;
   }
 }
 
 TEST(AMillionSteps, RulesThatAreNotSymplecticDrift) {
-  // rk4 damps (h omega)^6 / 72 of the energy of the fastest vibrations in each step (h omega = 0.2): eventually all of
-  // it.
+  // rk4 damps (h omega)^6 / 72 of the energy of the fastest vibrations in each step (h omega = 0.2), and eventually all
+  // of it
   EXPECT_GT(late_over_early(stepper("rk4"), 1e-3, 1000000), 3);
 }
 
@@ -74,7 +74,7 @@ TEST(ImplicitEulerForAMinute, DescendsInEveryStepOfAStiffClothAndStaysBounded) {
     newton_steps += static_cast<long>(values.size()) - 1;
     most = std::max(most, static_cast<int>(values.size()) - 1);
     ASSERT_EQ(monitor.observe(s, true), Verdict::ok) << n;
-    // The cloth stays within its diagonal (1.4 m) of its pins, up to the stretch of its springs: m g / k = 1e-5 m.
+    // The cloth stays within its diagonal (1.4 m) from its pins, up to the stretch of its springs: m g / k = 1e-5 m.
     ASSERT_LT(s.x.colwise().norm().maxCoeff(), 2);
   }
   fmt::print("stiff cloth: {:.1f} Newton steps a step, {} at most, {} evaluations, highest rise {:.2g} roundings\n",
@@ -87,9 +87,9 @@ TEST(LedgerOfShippedScenes, ClosesToTheOrderOfTheStepperWithoutContact) {
   for (const auto name : {"pendulum", "chain", "cloth-swing", "cloth-wind"}) {
     const Scene scene = shipped_scene(name);
     for (const Stepper& s : fixed_steppers()) {
-      // Explicit Euler would need steps of microseconds on these scenes. On a cloth the other non-symplectic rules damp
-      // the fastest waves by h^(order + 1), which hides the order at these steps. energy_test.cpp tests them on a small
-      // cloth.
+      // Explicit Euler would need steps of microseconds on these scenes. On a cloth, the other non-symplectic rules
+      // damp the fastest waves by h^(order + 1), which hides the order at these steps; energy_test.cpp tests them on a
+      // small cloth.
       const bool cloth = !scene.triangles.empty();
       if (!s.symplectic && (s.order == 1 || cloth)) continue;
       SCOPED_TRACE(fmt::format("{} {}", name, s.name));
@@ -98,7 +98,7 @@ TEST(LedgerOfShippedScenes, ClosesToTheOrderOfTheStepperWithoutContact) {
       const double order = slope(imbalance(s, scene, {h, 1, 20}), imbalance(s, scene, {h / 2, 1, 20}));
       fmt::print("{:12} {:18} order of the balance {:.2f}\n", name, s.name, order);
       // The next term is h omega: below 0.1 up to order 2 (0.2 squared on cloth), and 0.4 squared above. There the
-      // integrals of the ledger, which are of order 4, may dominate.
+      // ledger's integrals, of order 4, may dominate.
       EXPECT_GT(order, std::min(s.order, 4) - (s.order < 4 ? 0.1 : 0.25));
       EXPECT_LT(order, s.order + (s.order < 4 ? 0.1 : 0.25));
     }
@@ -119,8 +119,8 @@ TEST(LedgerOfShippedScenes, ClosesToFirstOrderWithContact) {
     // At each step size the 900 particles land at different fractions of a step. The spread of their mean is a few per
     // cent, which changes the order by 0.1. The explicit trapezoidal rule, near its stability limit at the largest
     // step, converges last.
-    // Contact loss is an impulse times a mean velocity. First-order rules contribute their own error. For the others,
-    // the contact positions contribute an error between order one and two, besides their own.
+    // Contact loss is an impulse times a mean velocity. First-order rules contribute their own error. The others
+    // contribute, besides their own, an error of the contact positions, of an order between one and two.
     const double order = slope(errors[2], errors[3]);
     EXPECT_GT(order, 0.8);
     EXPECT_LT(order, s.order == 1 ? 1.2 : 2.2);

@@ -12,7 +12,7 @@ struct Network {
   State state;
 };
 
-/// Six particles at random, at least 0.3 m apart, all connected to each other, with random masses.
+/// Six particles at random places, at least 0.3 m apart, all connected to each other, with random masses.
 inline Network random_network(unsigned seed, SpringLaw law = SpringLaw::hooke) {
   Random random(seed);
   const int n = 6;
@@ -79,7 +79,7 @@ inline void pin(Network& net, std::vector<int> pins, std::optional<Motion> motio
   p.place_pins(net.state);
 }
 
-/// The network with bending, drag, dashpots and gusts, and with moving first and fourth particles.
+/// With bending, drag, dashpots and gusts; the first and the fourth particle are moved.
 inline Network busy_network(unsigned seed, SpringLaw law = SpringLaw::hooke) {
   Network net = random_network(seed, law);
   Random random(seed + 2000);
@@ -95,7 +95,7 @@ inline Network busy_network(unsigned seed, SpringLaw law = SpringLaw::hooke) {
   return net;
 }
 
-/// A scene that starts in the network's state, at t = 0.
+/// Starts in the network's state, at t = 0.
 inline Scene scene_of(const Network& net) {
   Scene scene{};
   scene.name = "network";

@@ -1,5 +1,5 @@
 // Result folders and temporary folders: user files are never lost, a finished result stays until the next one is
-// complete, and leftovers of dead processes are removed.
+// complete, there is only one writer, and leftovers of dead processes are removed.
 
 #include <fcntl.h>
 #include <fmt/format.h>
@@ -36,9 +36,6 @@ extern "C" int renameat2(int from, const char* old_name, int to, const char* new
 }
 
 namespace crosscheck {
-
-// Result folders: user files are never lost, a finished result stays until the next one is complete, and there is only
-// one writer.
 
 namespace {
 
@@ -195,7 +192,7 @@ TEST_P(Output, TheSecondWriterIsToldWhoIsTheFirst) {
   expect_no_working_folder();
 }
 
-/// Whenever the process is killed, one of the two results must be complete.
+/// Whenever the process is killed, one of the two results is complete.
 TEST_P(Output, KilledAtAnyMomentTheFirstIsWholeOrTheSecond) {
   Files one, two;
   for (int i = 0; i < 60; ++i) {
@@ -214,7 +211,7 @@ TEST_P(Output, KilledAtAnyMomentTheFirstIsWholeOrTheSecond) {
   int undisturbed = 0;
   for (int trial = 0; trial < 60; ++trial) {
     const pid_t child = fork();
-    while (child == 0) {  // endless, so the kill interrupts a write on any machine
+    while (child == 0) {  // endless, so that the kill interrupts a write on any machine
       put(two);
       put(one);
     }
@@ -445,7 +442,8 @@ class TemporaryFolders : public testing_tools::InFolder {
   std::optional<std::string> before_;
 };
 
-/// Creates a temporary folder, and two child processes with one each: a worker, and one that leaves the session.
+/// Creates a temporary folder and two child processes that own one each: a worker, and a process that leaves the
+/// session.
 int work_with_children() {
   const TemporaryFolder own("own");
   for (const bool leaves : {false, true})
@@ -470,7 +468,7 @@ TEST_F(TemporaryFolders, ThoseOfKilledProcessesAreSweptAndNoOthers) {
   });
   wait_for(1);
   const TemporaryFolder living("living");
-  // these belong to other programs or to the user
+  // owned by other programs or by the user
   const std::vector<std::string> foreign = {"crosscheck-mine-abcdef", "crosscheck-notes", "crosscheck-report.backup",
                                             "crosscheck-1.latest", "crosscheck-run-2.backup"};
   for (const std::string& name : foreign) fs::create_directory(folder_ / name);

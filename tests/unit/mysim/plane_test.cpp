@@ -25,7 +25,7 @@ struct NamedRule {
   const Stepper stepper;
   ContactRule contact;
 };
-/// Every stepper with per-step contact, and those that locate events.
+/// Every stepper with contact on whole steps, and those that locate events.
 std::vector<NamedRule> rules() {
   std::vector<NamedRule> list;
   for (const Stepper& s : fixed_steppers()) {
@@ -35,7 +35,8 @@ std::vector<NamedRule> rules() {
   return list;
 }
 
-/// Displacement from residuals of implicit rules: 1e-10 of the largest force in each step gives 1e-10 g t^2 / h / 2.
+/// Displacement by residuals of implicit rules: at most 1e-10 of the largest force in each step, hence 1e-10 g t^2 / h
+/// / 2.
 double unsolved(const NamedRule& rule, double t, double h) {
   return rule.stepper.evaluations == 0 ? 1e-10 * g * t * t / h : 0;
 }
@@ -69,7 +70,7 @@ TEST(Surface, NormalIsTheGradientOfTheGapAndTheNearestPlaceLiesOnIt) {
 }
 
 TEST(Surface, PlaneIsTheLimitOfALargeSphere) {
-  // over a path of 1 m a sphere of radius R falls off by 1 / 2R
+  // over a path of 1 m, a sphere of radius R drops by 1 / 2R below the plane
   const double radius = 1e7;
   const auto text = [&](const std::string& surface) {
     return "[[particle]]\nposition = [0, 0.2, 0]\nmass = 1\nvelocity = [1, 0, 0]\n" + surface + "friction = 0.2\n" +
@@ -79,10 +80,10 @@ TEST(Surface, PlaneIsTheLimitOfALargeSphere) {
               sphere =
                   small_scene(text(fmt::format("[sphere]\ncentre = [0, {0}, 0]\nradius = {1}\n", -radius, radius)));
   for (const NamedRule& rule : rules()) {
-    if (rule.stepper.evaluations == 0) continue;  // their equations are solved relative to the largest coordinate
+    if (rule.stepper.evaluations == 0) continue;  // solved relative to the largest coordinate
     SCOPED_TRACE(rule.name);
     const Trajectory a = path_of(rule, plane, {1e-3, 1, 20}), b = path_of(rule, sphere, {1e-3, 1, 20});
-    // rounding of 1e7 m, and the fall-off
+    // rounding errors of coordinates of 1e7 m, plus the sphere's drop below the plane
     EXPECT_LT(largest_rms_distance(a, b), 100 * radius * eps + 1 / radius);
   }
 }
@@ -115,12 +116,12 @@ TEST(PlaneFile, ReportsWhatIsWrongWithFileLineAndKey) {
       {"[[plane]]\npoint = [0, -1, 0]\n", "normal"},
   };
   for (const auto& [text, expected] : bad) {
-    // The pin is particle 1, the upper one, which a plane from above cuts off.
+    // The pin is particle 1, the upper one, which a plane from above excludes.
     const std::string message = message_of(scene_text(particle + pins + text));
     EXPECT_TRUE(contains(message, expected)) << text << message;
     EXPECT_TRUE(contains(message, "bad.toml:")) << message;
   }
-  // Opposite planes with a gap smaller than their margins: a particle in the middle, on both planes up to rounding.
+  // A particle between opposite planes whose gap is smaller than their margins, on both planes up to rounding.
   const std::string middle = "[[particle]]\nposition = [0, 0, 0]\nmass = 1\n";
   const std::string thin = message_of(scene_text(middle + plane("0, 0, 0", "0, 1, 0") + plane("0, 0, 0", "0, -1, 0")));
   EXPECT_TRUE(contains(thin, "plane[1].point: expected more than the two margins, 0 m, to the opposite plane, got 0 m"))
@@ -142,8 +143,8 @@ TEST(Plane, HoldsAThousandthBelowCoulombsLimitAndSlidesAThousandthAbove) {
       const Scene loose = on_slope(angle, fmt::format("friction = {:.17g}", mu));
       const Trajectory slid = path_of(rule, loose, {h, t, 1});
       const double way = slid.x.back().col(0).norm();
-      // First-order rules err by the displacement of a step, h v = h a t, and by the free fall of a step, h^2 g, before
-      // friction first acts. Located events are exact under constant forces.
+      // First-order rules err by the displacement of a step, h v = h a t, and by the free fall of the step before
+      // friction acts, h^2 g. Located events are exact under constant forces.
       const double allowed = rule.contact == ContactRule::events ? 1e-12 : 2 * h * a * t + 2 * h * h * g;
       EXPECT_NEAR(way, a * t * t / 2, allowed + unsolved(rule, t, h));
       EXPECT_LT(slid.x.back()(0, 0), 0);  // downhill
@@ -157,7 +158,7 @@ TEST(Plane, RestingParticlesLoseNothing) {
       const Scene scene = on_slope(angle, "friction = 0.6");
       Ledger ledger(scene.model, ContactLoss::reported);
       simulate(rule.stepper, rule.contact, scene, {1e-3, 1, 10}, ledger);
-      // J: rounding of m g h in a thousand steps. Explicit Euler is in contact in every other step only. Free fall adds
+      // J: rounding of m g h in a thousand steps. Explicit Euler is in contact in every other step only: free fall adds
       // energy in one step and contact removes it in the next, which is no loss either.
       for (const LedgerRow& row : ledger.rows()) EXPECT_NEAR(row.contact, 0, 1e-12 + unsolved(rule, 1, 1e-3)) << row.t;
     }
@@ -191,7 +192,7 @@ TEST(Plane, ApicesFallByTheSquareOfRestitution) {
         for (int i = 1; i < n; ++i) t += 2 * fall * std::pow(e, i);
         t += fall * std::pow(e, n);
         const Trajectory path = path_of(rule, scene, {t / 97, t, 1});
-        // Impact times are exact to their last bits, and the speed converts the error to metres.
+        // Impact times are exact to their last bits; the speed converts their error to metres.
         EXPECT_NEAR(path.x.back()(1, 0), drop * std::pow(e, 2 * n), 1e-13 + unsolved(rule, t, t / 97) * 5);
         EXPECT_NEAR(path.v.back()(1, 0), 0, 1e-12 + unsolved(rule, t, t / 97) * 50);
       }
@@ -208,9 +209,8 @@ TEST(Plane, ParticleBetweenTwoWallsReturnsAfterTwiceTheWayOverItsSpeed) {
     SCOPED_TRACE(rule.name);
     const double t = 20 * period;
     const auto off = [&](double h) { return std::abs(path_of(rule, scene, {h, t, 20}).x.back()(0, 0) - 0.3); };
-    // Each impact of a whole step puts the particle on the wall, up to a step's path v h behind its exact position.
-    // Located events count as contact within 1e-12 of the coordinates, and here every impact falls on the end of a
-    // step.
+    // Each impact on whole steps puts the particle on the wall, up to the path v h of a step from its exact position.
+    // Located events count as contact within 1e-12 of the coordinates; here every impact falls on the end of a step.
     for (const double h : {1e-3, 2.5e-4})
       EXPECT_LT(off(h), rule.contact == ContactRule::events ? 40 * 1e-12 * 6 : 40 * speed * h) << h;
   }
@@ -286,7 +286,7 @@ TEST(MovingPlane, CarriesWhatLiesOnItAndItsWorkIsAccountedFor) {
     EXPECT_LT(rest, slip);
     EXPECT_NEAR(last.x(1, 0), 0.4, 1e-12 + unsolved(rule, 1, h) + (rule.name == "explicit-euler" ? g * h * h : 0));
     EXPECT_NEAR(last.x(0, 0), x, rule.contact == ContactRule::events ? 1e-12 + unsolved(rule, 1, h) : 2e-3);
-    // J: the plane's work equals the particle's energy, m (v^2 / 2 + g y). First order in the slip.
+    // J: the plane's work equals the particle's energy, m (v^2 / 2 + g y), to first order in the slip.
     const double off = ledger.rows().back().balance() - ledger.rows().front().balance();
     EXPECT_NEAR(off, 0, rule.contact == ContactRule::events ? 1e-11 + 10 * unsolved(rule, 1, h) : 0.03);
   }
@@ -306,7 +306,8 @@ TEST(Plane, RotatedAndScaledScenesGiveTheSameMotion) {
     SCOPED_TRACE(rule.name);
     const Scene si = parse_scene(text(1, 1), "si"), milli = parse_scene(text(1e3, 1e3), "milli");
     const Trajectory a = path_of(rule, si, {1e-3, 1, 20}), b = path_of(rule, milli, {1, 1e3, 20});
-    // Decimal units are rounded, which may move an impact to the end of another step in per-step rules. This is rare.
+    // Decimal units are rounded, which may, rarely, move an impact to the end of another step with contact on whole
+    // steps.
     for (int i = 0; i < a.frames(); ++i)
       EXPECT_LT((a.x[i] - 1e-3 * b.x[i]).norm(), 1e-9 + 10 * unsolved(rule, 1, 1e-3)) << i;
   }

@@ -1,4 +1,4 @@
-// A new stepper takes one function and one row. This test adds Ralston's rule, runs it, and applies the check that all
+// A new stepper needs one function and one row. This test adds Ralston's rule, runs it, and applies the check that all
 // rows of the table must pass. Rows with false declarations must fail.
 
 #include "mysim/run/observers.h"

@@ -1,4 +1,4 @@
-// Dependencies of rooms: neither files nor tests of a room include headers of a room above it.
+// Dependencies of rooms: no file or test of a room includes headers of a room above it.
 
 #include <gtest/gtest.h>
 
@@ -18,7 +18,7 @@ namespace fs = std::filesystem;
 
 constexpr std::array<std::string_view, 4> rooms = {"mysim", "reference", "experiments", "report"};
 
-/// Headers included by a text of a room that belong to higher rooms or their tests.
+/// Headers of higher rooms or their tests that a text of a room includes.
 std::vector<std::string> headers_from_above(const std::string& text, std::string_view room) {
   std::vector<std::string> found;
   std::istringstream lines(text);
@@ -57,7 +57,7 @@ TEST(Rooms, NoneIncludesHeadersFromAbove) {
     }
 }
 
-/// The grader uses mysim only, and from the protocol only the header for engines.
+/// The grader uses mysim, and of the protocol only the header for engines.
 TEST(Rooms, TheGraderIncludesMysimOnly) {
   int files = 0;
   for (const auto& entry : fs::recursive_directory_iterator(fs::path(CROSSCHECK_SOURCE) / "tests/coursework")) {

@@ -16,7 +16,7 @@ namespace {
 
 using namespace testing_tools;
 
-// a scene with every available key; the expectations below refer to its line numbers
+// a scene with every available key; the expectations below contain its line numbers
 constexpr auto whole = R"(question = "q"
 parameters = "p"
 [time]
@@ -74,7 +74,7 @@ eye = [0, 0, 9]
 target = [0, 0, 0]
 )";
 
-/// The whole scene with one line replaced. An empty text blanks the line but keeps the line count.
+/// The whole scene with one line replaced; an empty text keeps the line count.
 std::string with_line(int number, const std::string& text) {
   std::istringstream in(whole);
   std::string out, line;
@@ -216,7 +216,7 @@ TEST(SceneFaults, Contradictions) {
       {55, "target = [0, 0, 9]", "bad.toml:55: camera.target: ", "expected a point other than the eye"},
       {55, "target = [0, 0, 0]\nat = 1.5", "bad.toml:56: camera.at: ", "expected a time not after the end of the run"},
       {55, "target = [0, 0, 0]\nat = -1", "bad.toml:56: camera.at: ", "expected a number not below zero"},
-      // 1e12 steps are too many: the count overflows and must not wrap into a single step of a second.
+      // 1e12 steps overflow the count, which must not wrap into a single step of a second.
       {6, "step = 1e-13", "bad.toml:6: time.step: ", "expected"}};
   expect_messages(faults);
 }

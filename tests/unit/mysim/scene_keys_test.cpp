@@ -1,4 +1,5 @@
-// Scene files: keys of constraints, spring laws, dashpots, air, spheres and blocks, and the expansion of blocks.
+// Scene files: keys of constraints, spring laws, dashpots, air, spheres and blocks, their errors, and their effect on
+// the fingerprint.
 
 #include <map>
 
@@ -7,9 +8,6 @@
 #include "tests/unit/helpers.h"
 
 namespace crosscheck {
-
-// Scene files: keys of constraints, spring laws, dashpots, air, several and moving spheres, and blocks; their errors
-// and their effect on the fingerprint.
 
 namespace {
 
@@ -254,8 +252,7 @@ TEST(SceneKeys, AHardGridIsAnotherSceneThanASoftOne) {
 
 }  // namespace
 
-// Blocks: number of springs of each family by formula, distances of neighbours, and a closed surface with outward
-// orientation.
+// Blocks: number of springs of each family by formula, distances of neighbours, and a closed surface oriented outwards.
 
 namespace {
 
@@ -334,7 +331,7 @@ TEST(Block, SurfaceIsClosedAndFacesOutwards) {
       for (const auto& edge : {std::pair(a, b), std::pair(b, c), std::pair(c, a)})
         EXPECT_EQ(++edges[edge], 1) << "two triangles traverse an edge in the same direction";
     }
-    // every edge belongs to two triangles that traverse it in opposite directions
+    // every edge belongs to two triangles, in opposite directions
     for (const auto& [edge, count] : edges) EXPECT_TRUE(edges.contains({edge.second, edge.first}));
     const double expected = sides[0].cross(sides[1]).dot(sides[2]);
     EXPECT_EQ(static_cast<int>(s.triangles.size()),

@@ -1,4 +1,4 @@
-// The fast spring kernel against the plain edge loop: any network, within the round-off of another summation order.
+// The fast spring kernel equals the plain edge loop on any network, up to round-off by another summation order.
 // tests/unit/experiments/spring_graph_test.cpp tests its SIMD variants one by one.
 
 #include <cstring>
@@ -17,7 +17,7 @@ struct Loose {
   State state;
 };
 
-/// Springs between random pairs (pairs repeat), with stiffness over six decades, some zero rest lengths, some
+/// Springs between random pairs, some of them repeated, with stiffness over six decades, some zero rest lengths, some
 /// coincident ends, and two particles without springs.
 Loose random_springs(unsigned seed, int springs, SpringLaw law) {
   Random random(seed);
@@ -58,7 +58,7 @@ TEST(SpringKernel, IsTheEdgeLoopButForTheOrderOfTheSum) {
         degenerate_springs += plain.degenerate_springs;
 
         // Each force has a few roundings in either variant, and each sum one per spring: 8 eps of all magnitudes. The
-        // magnitude of a Hooke force is k (L + r), because the difference of lengths carries their rounding.
+        // magnitude of a Hooke force is k (L + r), because the difference of lengths contains their rounding errors.
         Eigen::ArrayXd sizes_at = Eigen::ArrayXd::Zero(n);
         Eigen::ArrayXi springs_at = Eigen::ArrayXi::Zero(n);
         for (const Spring& s : net.springs.list)
@@ -87,7 +87,7 @@ TEST(SpringKernel, GivesTheSameBitsTwiceAndAddsToWhatIsThere) {
       kernel.add_force(net.state.x, onto);
       other.add_force(net.state.x, again);
       EXPECT_EQ(once.f, again.f);
-      // one rounding per spring at most, of the magnitude of the existing value
+      // at most one rounding per spring, of the magnitude of the existing value
       const double most = 1e6 + once.f.cwiseAbs().maxCoeff() * size;
       EXPECT_LE((onto.f.array() - once.f.array() - 1e6).abs().maxCoeff(), (size + 1) * eps * most);
       again.f.setZero();

@@ -30,7 +30,7 @@ TEST(Steppers, LeapfrogIsItsOwnInverseUnderDrag) {
   const double h = 1e-3;
   for (int i = 0; i < 50; ++i) leapfrog(f, s, h, w), s.t = (i + 1) * h, scene.model.particles.place_pins(s);
   for (int i = 50; i > 0; --i) leapfrog(f, s, -h, w), s.t = (i - 1) * h, scene.model.particles.place_pins(s);
-  // A hundred steps of a few ulps each of a scene of 1 m, with velocities of some m/s over h.
+  // A hundred steps of a few ulps each, on a scene of 1 m with velocities of some m/s over h.
   EXPECT_LT((s.x - scene.start.x).cwiseAbs().maxCoeff(), 1e3 * eps);
 }
 
@@ -56,7 +56,7 @@ TEST(Steppers, EvaluationsAndStepsAreCounted) {
       const Outcome out = simulate(s, ContactRule::coulomb, scene, {0.01, 0.5, 10}, r);
       EXPECT_EQ(out.steps, 50);
       if (s.evaluations > 0)
-        // A rule that reuses its last stage must evaluate it at the start of a fixed step: one more evaluation.
+        // A rule that reuses its last stage must evaluate it at the start of a fixed step.
         EXPECT_EQ(out.evaluations, 50 * (s.evaluations + stepper(s.name).adaptive));
       else
         EXPECT_GE(out.evaluations, 2 * 50);  // forces at the start and end of the solve
@@ -94,8 +94,8 @@ TEST(TimeGrid, RefusesMoreStepsThanCanBeCounted) {
 
 }  // namespace
 
-// Stability of every stepper on both sides of the limit in its row, by its step matrix and by running it, and the
-// verdict on springs that only ever get longer.
+// Stability of every stepper on both sides of its row's limit, by the step matrix and by a run, and the verdict on
+// springs that only get longer.
 
 namespace {
 
@@ -109,15 +109,15 @@ TEST(Stability, StepMatrixTurnsUnstableAtTheLimit) {
       auto radius = [&](double h) { return spectral_radius(step_matrix(s, omega, gamma, h), omega); };
       if (std::isinf(limit)) {
         for (const double h_omega : {0.1, 1.0, 10.0, 100.0})
-          // Implicit rules solve to 1e-10 of the forces, which are up to (h omega)^2 times that of the offset.
+          // Implicit rules solve to at least 1e-10 of the forces, which are up to (h omega)^2 times that of the offset.
           EXPECT_LE(radius(h_omega / omega), 1 + 1e-6);
       } else if (limit == 0) {
         // the slowest growth is (h omega)^4 / 8 per step
         for (const double h_omega : {0.1, 0.5}) EXPECT_GT(radius(h_omega / omega), 1 + 1e-6);
       } else {
-        // Coincident eigenvalues on the unit circle are known only to the square root of the round-off (1e-13).
+        // Coincident eigenvalues on the unit circle are accurate only to the square root of the round-off (1e-13).
         for (const double part : {0.1, 0.5, 0.9, 0.999}) EXPECT_LE(radius(part * limit), 1 + 1e-11) << part;
-        EXPECT_GT(radius(1.001 * limit), 1 + 1e-8);  // the flattest is dopri5 without drag: 6e-7
+        EXPECT_GT(radius(1.001 * limit), 1 + 1e-8);  // the smallest growth is that of dopri5 without drag: 6e-7
       }
     }
 }
@@ -138,7 +138,7 @@ TEST(Stability, TheFormulaInWordsHasTheNumbersOfTheLimit) {
     SCOPED_TRACE(s.name);
     const double spring = number_after(s.limit_formula, "h omega < ", " without drag"),
                  drag = number_after(s.limit_formula, "h gamma < ", " without springs");
-    // documented to two decimal places, one for dopri5
+    // the text has two decimal places, one for dopri5
     for (const auto& [written, limit] : {std::pair{spring, s.limit(1, 0)}, std::pair{drag, s.limit(0, 1)}}) {
       if (std::isnan(written)) continue;
       EXPECT_NEAR(limit, written, 0.01);
@@ -182,9 +182,9 @@ class Excursions : public Observer {
 
 struct Fate {
   Verdict verdict;
-  double growth;  // ratio of excursions in the last and first tenth
+  double growth;  // excursions in the last tenth over those in the first
 };
-/// Runs h * steps seconds. `steps` must be a multiple of the ten samples, or the run would shorten them.
+/// For h * steps seconds. `steps` must be a multiple of the ten samples, which would otherwise shorten them.
 Fate try_out(const Stepper& s, const Oscillation& o, double h, int steps) {
   Scene scene = hanging(o.omega, o.gamma);
   const double rest = scene.start.x(1, 1);
@@ -206,14 +206,14 @@ TEST(Stability, RunsHoldBelowTheLimitAndFailAbove) {
         const bool any = std::isinf(limit);
         const Fate below = try_out(s, o, any ? 100 / o.omega : 0.98 * limit, any ? 1000 : 10000);
         EXPECT_EQ(below.verdict, Verdict::ok);
-        // a sampled stable orbit comes within 1e-3 of its maximum within a hundred steps
+        // within a hundred steps, the samples of a stable orbit come within 1e-3 of its maximum
         EXPECT_LE(below.growth, 1 + 1e-3);
       }
       if (std::isfinite(limit)) {
         const double above = just_above(s, o.omega, o.gamma);
-        // Number of steps for a factor of 1000 according to the step matrix (if drag dominates, the growing vector is a
-        // thirtieth of the initial state). Nine tenths of them lie between the first and the last tenth of the run. The
-        // slowest is dopri5 without drag: 1.3e-5 per step.
+        // Number of steps in which the step matrix grows by a factor of 1000 (if drag dominates, the growing vector is
+        // a thirtieth of the initial state). Nine tenths of them lie between the first and the last tenth of the run.
+        // The slowest growth is that of dopri5 without drag: 1.3e-5 per step.
         const double growth = spectral_radius(step_matrix(s, o.omega, o.gamma, above), o.omega);
         const int steps = 10 * (10 + static_cast<int>(std::min(1e5, 0.1 * std::log(1000) / std::log(growth))));
         const Fate fate = try_out(s, o, above, steps);
@@ -254,8 +254,7 @@ TEST(Stability, WhatHangsStillStaysWhereItHangs) {
     }
 }
 
-/// Verdict for 1 kg on a spring of 1 N/m and 1 m that is suddenly stretched by `extension` (m), without the
-/// corresponding speed.
+/// Verdict for 1 kg on a spring of 1 N/m and 1 m that is suddenly stretched by `extension` (m), without any speed.
 Verdict verdict_at(double extension) {
   Scene scene = hanging(1, 0);
   scene.start.x(1, 1) = -1;
@@ -269,8 +268,9 @@ Verdict verdict_at(double extension) {
 }
 
 TEST(Stretch, IsAVerdictBesideEnergy) {
-  // The true motion, a fall from rest, exceeds a metre by 2 W / k = 19.62 m. Ten times this length is 206.2 m, known to
-  // 3 %. Two states do not reveal the speed.
+  // In free fall from rest, the true extension is at most 2 W / k = 19.62 m beyond the rest length of 1 m. The bound is
+  // ten times the largest length, 206.2 m, accurate to 3 %. Two states alone do not give a speed, so only the length is
+  // tested.
   EXPECT_EQ(verdict_at(19.62), Verdict::ok);
   EXPECT_EQ(verdict_at(199), Verdict::ok);
   EXPECT_EQ(verdict_at(212), Verdict::stretch);
@@ -279,9 +279,9 @@ TEST(Stretch, IsAVerdictBesideEnergy) {
 
 using namespace testing_tools;
 
-/// Error of rk4 at h over that of suzuki4 at 1.25 h: both use 4 evaluations per h.
+/// Error of rk4 at h over that of suzuki4 at 1.25 h; both need 4 evaluations per h.
 double advantage(const Scene& scene, double h, double duration) {
-  // sampling at multiples of 5 h, which both steps divide
+  // samples at multiples of 5 h, which both steps divide
   const int samples = static_cast<int>(std::lround(duration / (20 * h)));
   const Trajectory truth = trajectory_of(at_fixed_step(stepper("dopri5")), scene, {h / 4, duration, samples});
   Recorder one, other;

@@ -27,7 +27,7 @@ TEST(Terms, EndsThatMeetGetNoForceAndAreCounted) {
 }
 
 TEST(Terms, ARunCountsEndsThatMet) {
-  // Two particles meet in one point in exactly representable steps, then separate again.
+  // Two particles meet in exactly representable steps, and separate again.
   const Scene scene = small_scene(
       "[[particle]]\nposition = [-1, 0, 0]\nmass = 1\nvelocity = [1, 0, 0]\n"
       "[[particle]]\nposition = [1, 0, 0]\nmass = 1\nvelocity = [-1, 0, 0]\n"
@@ -57,7 +57,7 @@ TEST(Terms, DragTakesPowerAndIsLinear) {
   }
 }
 
-/// Error of a value in units in the last place (ulp).
+/// Error in units in the last place (ulp).
 double error_of(double value, long double exact) {
   const double nearest = std::abs(static_cast<double>(exact));
   return static_cast<double>(std::abs(value - exact)) / (std::nextafter(nearest, INFINITY) - nearest);
@@ -91,7 +91,7 @@ TEST(PortableTrigonometry, IsOddEvenAndNotANumberOfWhatIsNotFinite) {
     EXPECT_TRUE(std::isnan(portable_sin(x)) && std::isnan(portable_cos(x)));
 }
 
-/// Recorded values that any build must reproduce, whatever its C library.
+/// Any build must reproduce these bits, whatever its C library.
 TEST(PortableTrigonometry, HasTheseBits) {
   EXPECT_EQ(portable_sin(1), 0x1.aed548f090ceep-1);
   EXPECT_EQ(portable_cos(1), 0x1.14a280fb5068cp-1);
@@ -100,7 +100,7 @@ TEST(PortableTrigonometry, HasTheseBits) {
 }
 
 TEST(Vectors, AreSummedFromTheFirstToTheLast) {
-  // each summation order gives a different last digit
+  // each summation order gives another last digit
   const Vec3 v(1, 0x1p-53, 0x1p-53);
   EXPECT_EQ(v.sum(), (1 + 0x1p-53) + 0x1p-53);
   EXPECT_NE(v.sum(), 1 + (0x1p-53 + 0x1p-53));
@@ -173,7 +173,7 @@ TEST(PrescribedMotion, StartsAtRestAndIsTwiceContinuousAtBothEndsOfTheRamp) {
   };
   for (const double joint : {0.0, 0.5}) {
     const double before = joint == 0 ? 0 : acceleration(joint - 2e-6).z(), after = acceleration(joint + 1e-6).z();
-    // The jerk next to a joint is at most 60 A / ramp^3 = 72 m/s^3. In 3e-6 s it changes the acceleration by 2.2e-4.
+    // The jerk next to a joint is at most 60 A / ramp^3 = 72 m/s^3, which changes the acceleration by 2.2e-4 in 3e-6 s.
     EXPECT_NEAR(before, after, 2.2e-4);
     EXPECT_LT((displacement_at(motion, joint + 1e-9) - displacement_at(motion, std::max(0.0, joint - 1e-9))).norm(),
               2e-9);  // speeds stay below 1 m/s
@@ -246,7 +246,7 @@ TEST(Aerodynamics, WithoutRelativeMotionThereIsNone) {
     net.state.t = 0.3;
     const Vec3 wind = net.model.find<Aerodynamics>()->velocity.at(0.3);
     for (int i = 0; i < 6; ++i) net.state.v.col(i) = wind;
-    // The residual of w - (w + w + w) / 3 is an ulp of 7 m/s, and the force is quadratic in it.
+    // w - (w + w + w) / 3 leaves an ulp of 7 m/s, and the force is quadratic in it.
     EXPECT_LT(force_of(*net.model.find<Aerodynamics>(), net).cwiseAbs().maxCoeff(), 10 * std::pow(8 * eps, 2) * 50);
   }
 }
@@ -260,7 +260,7 @@ TEST(Aerodynamics, OnlyTheRelativeVelocityCounts) {
     const Vec3 boost = random.vector();
     net.state.v.colwise() += boost;
     Aerodynamics& air = *net.model.find<Aerodynamics>();
-    // Gusts act on the mean, so replace them by a steady wind of the same value at this time.
+    // Gusts act on the mean: replace them by a steady wind of the same value at this time.
     air.velocity = {air.velocity.at(net.state.t) + boost, std::nullopt};
     EXPECT_LT((force_of(air, net) - f).cwiseAbs().maxCoeff(), 64 * eps * f.cwiseAbs().maxCoeff() + 64 * eps);
   }
