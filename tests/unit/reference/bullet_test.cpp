@@ -1,5 +1,5 @@
-// Bullet against mysim on small scenes: the explicit world, the implicit world, the position-based map and its link
-// law, refusals.
+// Bullet compared with mysim on small scenes: the explicit world, the implicit world, the position-based map and its
+// link law, refusals.
 
 #include <Eigen/Dense>
 
@@ -16,7 +16,7 @@ namespace {
 
 using namespace testing_tools;
 
-/// Largest distance (m) between corresponding particles of symplectic Euler and Bullet's explicit world.
+/// Largest distance (m) of corresponding particles between symplectic Euler and Bullet's explicit world.
 double apart(const Scene& scene, const Run& run, const std::string& carried_by) {
   const MethodRun ours = run_and_record("symplectic-euler", scene, run),
                   theirs = run_and_record("bullet/deformable-explicit", scene, run);
@@ -32,7 +32,7 @@ double apart(const Scene& scene, const Run& run, const std::string& carried_by) 
 
 constexpr auto bullets_force = "Bullet's own mass-spring force";
 constexpr auto own_force = "force class of our own";
-// bound of the issue: round-off of the summation order (1e-15 m) times the growth of a perturbation (below 1e3)
+// required bound: round-off by the summation order (1e-15 m) times the growth of a perturbation (below 1e3)
 constexpr double identity = 1e-12;  // m
 
 TEST(BulletExplicit, IsSymplecticEulerOnSpringPendulumAndChain) {
@@ -92,8 +92,8 @@ TEST(BulletExplicit, CarriesRestLengthZero) {
 }
 
 TEST(BulletExplicit, NeverLimitsASpeedInSilence) {
-  // The explicit world limits speeds to the diagonal of the body's box per step. With a sphere, the box of a lone
-  // particle has the size of its margin. Far from the sphere both must be in free flight, or the limit must be
+  // The explicit world limits speeds to the diagonal of the body's box per step. With a sphere in the scene, the box of
+  // a lone particle is as large as its margin. Far from the sphere both must be in free flight, or the limit must be
   // reported.
   for (const auto margin : {"", "margin = 0.02\n"}) {
     SCOPED_TRACE(margin);
@@ -198,7 +198,7 @@ TEST(Bullet, RefusesWhatItLacksWithTheReason) {
 
 using namespace testing_tools;
 
-/// An 8 x 8 cloth of 0.7 m held at two corners, with more ingredients and springs under tension and compression.
+/// An 8 x 8 cloth of 0.7 m, held at two corners, with more ingredients, and springs under tension and compression.
 Scene cloth(const std::string& more, const std::string& grid = "", const std::string& pins = "") {
   return small_scene("[grid]\nsize = [8, 8]\norigin = [0, 0, 0]\nu = [0.7, 0, 0]\nv = [0, -0.2, 0.6]\nmass = 0.3\n" +
                          grid +
@@ -254,14 +254,14 @@ TEST(BulletImplicit, TightIsOneNewtonStepOfBackwardEuler) {
   for (const Case& c : cases()) {
     const double tight = distance_to_newton_step("bullet/deformable-implicit+tight", c.scene);
     fmt::print("{:24} {:.2g} m\n", c.name, tight);
-    // Bound of the issue: both solve to round-off, 1e-15 m per step, and drag and implicitness damp its growth.
+    // Required bound: both solve to round-off, 1e-15 m per step, whose growth drag and implicit steps damp.
     EXPECT_LE(tight, 1e-12) << c.name;
   }
 }
 
 TEST(BulletImplicit, DefaultToleranceCostsEightDigits) {
-  // Conjugate gradients stop at a squared residual of 2.2e-16 relative to the initial one: 1.5e-8 of each step's change
-  // of velocity remains. Over the changes of a run, some m/s for 1.5 s, this is about 1e-8 m.
+  // Conjugate gradients stop at a squared residual of 2.2e-16 of the initial one, which leaves 1.5e-8 of each step's
+  // change of velocity. Over the changes of a run, some m/s for 1.5 s, this is about 1e-8 m.
   for (const Scene& scene : {shortened("chain", 1. / 240), cloth(""), cloth(drag)}) {
     const double tight = distance_to_newton_step("bullet/deformable-implicit+tight", scene),
                  loose = distance_to_newton_step("bullet/deformable-implicit", scene);
@@ -271,7 +271,7 @@ TEST(BulletImplicit, DefaultToleranceCostsEightDigits) {
   }
 }
 
-/// The root with positive imaginary part of the best-fitting recurrence y_{n+2} = p y_{n+1} - q y_n.
+/// The root with positive imaginary part of the recurrence y_{n+2} = p y_{n+1} - q y_n that fits best.
 std::complex<double> root_of(const std::vector<double>& y) {
   Eigen::MatrixXd known(y.size() - 2, 2);
   Eigen::VectorXd next(y.size() - 2);
@@ -299,14 +299,13 @@ TEST(BulletImplicit, OneSpringHasBackwardEulersFrequencyAndDecayToSixDigits) {
       const std::complex<double> root = root_of(y);
       EXPECT_NEAR(std::arg(root) / std::atan(omega * h), 1, 1e-6);
       EXPECT_NEAR(std::abs(root) * std::sqrt(1 + omega * omega * h * h), 1, 1e-6);
-      // Conversely, neither the continuous spring's nor symplectic Euler's frequency, which differ by at least 1/3 (h
-      // omega)^2.
+      // Conversely, the frequency is neither that of the continuous spring nor of symplectic Euler, which differ by at
+      // least 1/3 (h omega)^2.
       const double away = omega * omega * h * h / 4;
       EXPECT_GT(std::abs(std::arg(root) / (omega * h) - 1), std::min(away, 0.05));
     }
 }
 
-/// The scene with its particles in reverse order.
 Scene reversed(const Scene& scene) {
   Scene other = scene;
   const int n = scene.model.particles.size();
@@ -358,7 +357,7 @@ TEST(BulletLink, PositionBasedWorldConvergesToItsLinkLawAndNotToHookes) {
              link.back(), law.front(), law.back());
   for (size_t i = 1; i < link.size(); ++i)
     EXPECT_NEAR(slope(link[i - 1], link[i]), 1, 0.1);  // first order; the next term is smaller by h omega = 0.03
-  // The remaining difference from Hooke is due to the law: a tenth of the force at these strains.
+  // The remaining difference from Hooke's springs is due to the law: a tenth of the force at these strains.
   EXPECT_GT(law.back(), 10 * link.back());
   EXPECT_GT(law.back(), 0.01);
 }
@@ -396,7 +395,7 @@ TEST(BulletLink, HardDistancesAreLinksThatGiveWayToNothing) {
     EXPECT_LT(stretch(one), 0.02);
     EXPECT_LT(stretch(ten), 0.5 * stretch(one));  // more iterations help
     EXPECT_LT(sup_rms(one.trajectory, truth_of(scene, run)->trajectory), 0.02);
-    // a length changed during the run is a mismatch
+    // a length that changes during the run is a mismatch
     Outcome wrong = one.outcome;
     wrong.readback->links.back().rest *= 1.001;
     EXPECT_TRUE(certify("bullet/pbd", scene, wrong).mismatch());

@@ -1,4 +1,4 @@
-// The parity certificate: it matches the scene as built, and detects every manipulation and every real mismatch.
+// The parity certificate matches the scene as built, and detects every manipulation and every real mismatch.
 
 #include <functional>
 
@@ -20,7 +20,7 @@ TEST(Certificate, MatchesOnEveryShippedSceneAndNamesOtherLaws) {
       const Scene scene = shipped_scene(std::string(name));
       if (scene.model.first_order()) continue;
       const Outcome out = run_and_record(method, scene, {scene.step, 2 * scene.step, 1}).outcome;
-      if (out.verdict == Verdict::unsupported) continue;  // see bullet_test.cpp for the reasons
+      if (out.verdict == Verdict::unsupported) continue;  // bullet_test.cpp tests the reasons
       ASSERT_TRUE(out.readback);
       for (const CertificateRow& row : certify(method, scene, out).rows)
         EXPECT_EQ(row.parity, row.quantity.starts_with("law of ") ? Parity::different_law : Parity::match)
@@ -67,7 +67,7 @@ TEST(Certificate, WhatIsNotToldHasARow) {
       {"restitution", [](Readback& r) { r.spheres->at(0).restitution.reset(); }},
       {"step", [](Readback& r) { r.step.reset(); }},
       {"sleeping", [](Readback& r) { r.may_sleep.reset(); }},
-      {"nothing else", [](Readback& r) { r.later.reset(); }},  // the sphere of the scene is at rest
+      {"nothing else", [](Readback& r) { r.later.reset(); }},  // the scene's sphere is at rest
       {"nothing else", [](Readback& r) { r.probe->wind.resize(3, 0); }},
   };
   EXPECT_TRUE(certify("engine", drape, honest).fully_attested());
@@ -89,7 +89,7 @@ TEST(Certificate, WhatIsNotToldHasARow) {
 TEST(Certificate, AProbeThatStrainsNothingAttestsNothing) {
   const Scene chain = shipped_scene("chain");
   Outcome lazy = run_and_record("bullet/deformable-explicit", chain, {1e-3, 2e-3, 1}).outcome;
-  // all springs at rest: every law gives 0
+  // with all springs at rest, every law gives 0
   for (int i = 1; i < chain.start.x.cols(); ++i)
     lazy.readback->probe->x.col(i) =
         lazy.readback->probe->x.col(i - 1) + chain.model.find<Springs>()->list[i - 1].rest * Vec3(1, 0, 0);
@@ -142,7 +142,7 @@ TEST(Certificate, CatchesEveryTampering) {
       tamper(*tampered.readback);
       EXPECT_TRUE(certify(method, scene, tampered).mismatch());
     }
-    Outcome stiffer = honest;  // reported per link by one world, probed in the other
+    Outcome stiffer = honest;  // one world reports it per link, the other in the probe
     if (stiffer.readback->probe->springs.size() > 0)
       stiffer.readback->probe->springs.col(5) *= 1.001;
     else
@@ -166,7 +166,7 @@ TEST(Certificate, CatchesIngredientsThatTheSceneDoesNotHaveAndOnesThatAreGone) {
   EXPECT_TRUE(certified([&](Scene& s) { without(s, "gravity"); })) << "gravity that is not in the scene";
   EXPECT_TRUE(certified([&](Scene& s) { without(s, "drag"); })) << "drag that is not in the scene";
   EXPECT_TRUE(certified([&](Scene& s) { without(s, "springs"); })) << "springs that are not in the scene";
-  // a sphere unknown to the engine must not go unnoticed
+  // a sphere that the engine does not report must not go unnoticed
   Outcome blind = run_and_record("bullet/deformable-explicit", drape, {1e-3, 2e-3, 1}).outcome;
   blind.readback->spheres.reset();
   bool said = false;
@@ -177,8 +177,7 @@ TEST(Certificate, CatchesIngredientsThatTheSceneDoesNotHaveAndOnesThatAreGone) {
 
 }  // namespace
 
-// The certificate against real mismatches: each of Bullet's worlds runs a mutant of the scene, and the result is
-// certified against the original scene.
+// Each of Bullet's worlds runs a mutant of the scene, and the result is certified against the original scene.
 
 namespace {
 
@@ -208,7 +207,7 @@ void expect_caught(const Scene& honest, std::span<const Mutation> mutations) {
       m.mutate(mutant);
       const Certificate c = certificate_of(world, mutant, honest);
       if (m.blind.contains(world)) {
-        // The table lists exceptions. Remove them once the world reports these values.
+        // The table lists exceptions: remove them once the world reports these values.
         EXPECT_FALSE(c.mismatch()) << world << ": " << m.what << ": " << mismatches(c);
         continue;
       }
@@ -228,7 +227,7 @@ TEST(SeededMismatch, OfPrescribedMotionsIsCaught) {
   expect_caught(small_cloth(), of_the_swing);
   expect_caught(shipped_scene("cloth-carried"), of_the_carried);
   expect_caught(draped(), of_a_still_one);
-  // an engine that does not report them is assumed not to have them
+  // an engine that does not report motions is assumed to have none
   for (const Scene& scene : {small_cloth(), shipped_scene("cloth-carried")}) {
     Outcome silent = run_and_record("bullet/pbd", scene, {1e-3, 2e-3, 1}).outcome;
     silent.readback->later.reset();

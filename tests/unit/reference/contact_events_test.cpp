@@ -1,4 +1,5 @@
-// Contact located within the step: second order against closed forms and against an independent event-driven solution.
+// Contact located within the step is of second order, compared with closed forms and an independent event-driven
+// solution.
 
 #include <numbers>
 #include <numeric>
@@ -16,7 +17,6 @@ using namespace testing_tools;
 
 constexpr double g = 9.81, degrees_of_turn = 180 / std::numbers::pi;
 
-/// Rules that locate events.
 const std::vector<std::string> rules = {"leapfrog", "implicit-midpoint"};
 
 Trajectory with_events(const std::string& rule, const Scene& scene, double h, double until, int samples) {
@@ -25,14 +25,14 @@ Trajectory with_events(const std::string& rule, const Scene& scene, double h, do
   return recorder.trajectory;
 }
 
-/// Orders between steps h, h/2 and h/4 from their errors.
+/// Orders between steps h, h/2 and h/4.
 template <class Error>
 std::pair<double, double> orders(Error error, double h) {
   const double coarse = error(h), middle = error(h / 2), fine = error(h / 4);
   return {slope(coarse, middle), slope(middle, fine)};
 }
 
-/// Expects orders of 2. Two-sided to a tenth for leapfrog, from below for the other rules.
+/// Expects order 2: within 0.1 for leapfrog, and at least 1.9 for the other rules.
 void expect_second_order(const std::string& rule, std::pair<double, double> seen) {
   for (const double order : {seen.first, seen.second}) {
     EXPECT_GT(order, 1.9) << rule;
@@ -51,8 +51,8 @@ Scene on_ball(double degrees, const std::string& surface, const std::string& vel
                   std::sin(angle), std::cos(angle), velocity, surface, more, gravity_text));
 }
 
-/// Angle (degrees) at which a particle left a ball of 1 m, from its state in free flight. In flight it keeps the
-/// horizontal speed v cos(theta) of the point where v^2 = g R cos(theta).
+/// Angle (degrees) at which a particle left a ball of 1 m, from its state in free flight. It keeps the horizontal speed
+/// v cos(theta) of the point where v^2 = g R cos(theta).
 double left_at(const State& s) { return std::acos(std::cbrt(s.v(0, 0) * s.v(0, 0) / g)) * degrees_of_turn; }
 
 TEST(ContactEvents, ParticleLeavesABallWhereEnergySays) {
@@ -124,7 +124,7 @@ TEST(ContactEvents, HoldsAndSlidesWithinAThousandthOfCoulombsAngle) {
       const Scene held = on_ball(degrees, fmt::format("friction = {:.17g}", 1.001 * limit));
       EXPECT_LT((with_events(rule, held, 1e-3, 2, 2).x.back() - held.start.x).norm(), 8 * eps);
       const Scene loose = on_ball(degrees, fmt::format("friction = {:.17g}", 0.999 * limit));
-      // It moves by at least g (sin - mu cos) t^2 / 2, because the slope only increases.
+      // The particle moves by at least g (sin - mu cos) t^2 / 2, because the slope only increases.
       const double way = g * 0.001 * std::sin(degrees / degrees_of_turn) * 0.25 / 2;
       EXPECT_GT((with_events(rule, loose, 1e-3, 0.5, 1).x.back() - loose.start.x).norm(), way);
     }
@@ -141,7 +141,7 @@ TEST(ContactEvents, ThirdApexIsExactAndEndlessBouncesEndInRest) {
       const double fall = std::sqrt(0.6 / g), apex = fall * (1 + 2 * e + 2 * e * e + e * e * e);
       const Trajectory t = with_events(rule, scene, 7e-3, apex, 30);
       // Some roundings of 1.3 m and of the impact time at 2.4 m/s, in a few hundred steps. Newton's method of implicit
-      // rules leaves 1e-10 of the force m v / h: 1e-10 g t^2 of 2 m/s / (h g).
+      // rules may leave 1e-10 of the force m v / h at 2 m/s: 1e-10 g t^2 times v / (h g).
       const double allowed = rule == "implicit-midpoint" ? 1e-7 : 1e-13 * 30;
       for (int i = 0; i < t.frames(); ++i) EXPECT_NEAR(t.x[i](1, 0), exact->at(t.t[i]).x(1, 0), allowed);
       EXPECT_NEAR(t.x.back()(1, 0) - 1, 0.3 * std::pow(e, 6), allowed);
@@ -163,14 +163,14 @@ TEST(ContactEvents, EnergyIsAccountedForInSlidesStopsAndImpacts) {
           worst = std::max(worst, std::abs(row.balance() - ledger.rows()[0].balance()));
         return worst;
       };
-      // J: second order, with some joules converted at 1/s^2. Bounces no higher than a step are ignored: m g (g h^2 /
-      // 8) each.
+      // Energy gap (J), of second order in h: some joules are exchanged, with a relative error of about (h / 1 s)^2.
+      // Each ignored bounce, no higher than a step resolves, adds m g (g h^2 / 8).
       EXPECT_LT(open(1e-3), 1e-4) << rule;
       EXPECT_LT(open(1e-4), 1e-6) << rule;
     }
 }
 
-/// Two balls of 1 m next to each other, with centres `apart` (m), and a particle on the first one.
+/// Two balls of 1 m with centres `apart` (m), and a particle on the first one.
 Scene valley(double apart, double degrees, double friction) {
   const double angle = degrees / degrees_of_turn;
   return small_scene(
@@ -217,7 +217,7 @@ TEST(EventDriven, IsWhatClosedFormsSay) {
   }
 }
 
-/// A chain of n particles along a great circle over the top of a ball. Only their weight stretches the springs.
+/// A chain of n particles along a great circle over the top of a ball, whose springs are stretched by weight only.
 Scene chain_on_ball(int n, double friction, const std::string& more = "") {
   std::string text;
   for (int i = 0; i < n; ++i) {
@@ -242,7 +242,7 @@ TEST(ContactEvents, ChainOnABallAgreesWithTheEventDrivenRouteToSecondOrder) {
         if (friction == 0) {
           expect_second_order(rule, orders(error, 5e-3));
         } else {
-          // The instant in a step at which friction lets go changes errors by some per cent, so use four halvings
+          // The instant in a step at which friction lets go changes errors by some per cent: use four halvings
           // together.
           EXPECT_NEAR(slope(error(2.5e-3), error(2.5e-3 / 16)) / 4, 2, 0.1);
         }
@@ -267,9 +267,9 @@ TEST(EventTruth, OfAChainCoversItsErrorAndIsNoDifference) {
 }
 
 TEST(EventDriven, StopsSlipsAndShortBouncesDoNotHoldItUp) {
-  // Friction may reverse slow slides faster than any step. Without the creep rule, the second scene took 4e7
-  // evaluations and the third never ended. The bounces of the first scene also never ended if an impact was detected
-  // 1e-13 of the radius inside.
+  // Friction may reverse a slow slide within a single step, however short. Without the creep rule, the second scene
+  // took 4e7 evaluations and the third never ended. The bounces of the first scene never ended either if impacts were
+  // detected 1e-13 of the radius inside.
   for (const unsigned seed : {3u, 4u, 8u}) {
     const Scene scene = random_contact_scene(seed);
     NullObserver nobody;
@@ -279,7 +279,7 @@ TEST(EventDriven, StopsSlipsAndShortBouncesDoNotHoldItUp) {
   }
 }
 
-/// A particle on top of a moving ball.
+/// A particle at `position` near a moving ball.
 Scene on_moving_ball(double friction, const char* position, const char* amplitude, const char* velocity = "[0, 0, 0]") {
   return small_scene(
       fmt::format("[[particle]]\nposition = {}\nmass = 1\nvelocity = {}\n[sphere]\ncentre = [0, 0, 0]\nradius = 1\n"
@@ -289,7 +289,7 @@ Scene on_moving_ball(double friction, const char* position, const char* amplitud
 }
 
 TEST(EventTruth, BarsBesideMovingBallsAreThoseOfRoutesOfHighOrder) {
-  // Rounding of the thousands of steps of the other route: a few hundred eps of the positions.
+  // Rounding in the thousands of steps of the other route: a few hundred eps of the positions.
   const auto expect_bar = [](const Scene& scene, auto exact, double round_off) {
     const auto truth = event_truth(scene, default_run(scene));
     ASSERT_TRUE(truth);
@@ -324,7 +324,7 @@ TEST(EventTruth, BarsBesideMovingBallsAreThoseOfRoutesOfHighOrder) {
     const double height = s < 0 ? 1 + displacement_at(away, t)[1] : from + v * s - g * s * s / 2;
     EXPECT_NEAR(path.trajectory.x[i](1, 0), height, 1e-9) << t;  // differences of velocities over 2e-5 s
   }
-  // a slide with friction, against a run of the same route with a tighter tolerance
+  // a slide with friction, compared with the same route at a tighter tolerance
   for (const double friction : {0., 0.1, 0.3}) {
     SCOPED_TRACE(friction);
     const Scene slide = on_moving_ball(friction, "[0, 1, 0]", "[0.05, 0.02, 0.03]", "[1, 0, 0.2]");
@@ -374,11 +374,11 @@ TEST(ContactEvents, NothingEndsInsideAndNothingPassesThrough) {
         for (int i = 0; i < path.trajectory.frames(); ++i)
           for (int j = 0; j < path.trajectory.x[i].cols(); ++j) {
             const Vec3 x = path.trajectory.x[i].col(j);
-            // projected to one ball after the other and measured again
+            // projected to one ball after the other, and measured again
             EXPECT_FALSE(clearance_from(surfaces_of(scene.model), path.trajectory.t[i], x) < -1e-12);
           }
       }
-  // At 100 m/s, a step of 1/20 s would carry it past the ball at once.
+  // At 100 m/s, a step of 1/20 s would carry the particle past the ball at once.
   const Scene fast = on_ball(0, "restitution = 1", "[0, 0, 0]");
   Scene shot = fast;
   shot.start.x.col(0) = Vec3(0, 3.5, 0), shot.start.v.col(0) = Vec3(0, -100, 0);
@@ -420,7 +420,7 @@ TEST(ContactEvents, ChangeNoBitWhereNothingTouches) {
   }
 }
 
-/// A particle on a moving sphere. In the sphere's frame, gravity is reduced by the sphere's acceleration.
+/// In the frame of the moving sphere, gravity is reduced by the sphere's acceleration.
 TEST(ContactEvents, AMovingSphereIsFollowedToSecondOrder) {
   for (const double friction : {0., 0.1, 0.5}) {
     const Scene scene = small_scene(
@@ -433,13 +433,13 @@ TEST(ContactEvents, AMovingSphereIsFollowedToSecondOrder) {
       const Trajectory finest = with_events(rule, scene, 5e-5, 0.8, 8);
       const auto error = [&](double h) { return sup_rms(with_events(rule, scene, h, 0.8, 8), finest); };
       if (friction == 0) {
-        // the error of the finest run is 1/2500 of the last one's
+        // the finest run's error is 1/2500 of the last one's
         expect_second_order(rule, orders(error, 1e-2));
       } else if (friction == 0.1) {
-        // It sticks and slips. The instant in a step at which it lets go determines the constant of h^2.
+        // The particle sticks and slips. The instant in a step at which it lets go determines the constant of h^2.
         EXPECT_LT(error(1.25e-3), 2e-6);
         EXPECT_GT(sup_rms(trajectory_of(stepper(rule), scene, {1.25e-3, 0.8, 8}), finest), 5e-5);
-      } else {  // it is carried along the sphere's known path
+      } else {  // the particle is carried along the sphere's known path
         const Vec3 carried = displacement_at(*scene.model.find<Spheres>()->list[0].motion, 0.8);
         EXPECT_LT((finest.x.back().col(0) - Vec3(0, 1, 0) - carried).norm(), 1e-12);
         EXPECT_LT(error(1e-2), 1e-12);
@@ -448,7 +448,7 @@ TEST(ContactEvents, AMovingSphereIsFollowedToSecondOrder) {
   }
 }
 
-/// Checks the statement of contact_events.h against a solution that shares no equation with the rule.
+/// Checks the statement of contact_events.h with a solution that shares no equation with the rule.
 TEST(ContactEvents, StickAndSlipOnAMovingSphereKeepTheOrderInTheTrendOnly) {
   const char* const motions[] = {"amplitude = [0.05, 0.02, 0.03]\nfrequency = 0.7\nramp = 0.5\n",
                                  "amplitude = [0.02, 0.01, 0.04]\nfrequency = 2\nramp = 0.3\n",
@@ -492,8 +492,8 @@ TEST(ContactEvents, AreTheSameInTheFusedStepOfACloth) {
       Recorder fused, general;
       simulate(stepper(rule), ContactRule::events, scene, {1e-3, 0.2, 10}, fused);
       simulate(stepper(rule), ContactRule::events, scene, {1e-3, 0.2, 10}, general, {ExecutionPath::general, 1});
-      // Rounding, and particles that end a fused step outside while pressed on by O(h): h^3 each time one leaves. A
-      // first-order rule passes them on to its own path, h^2 away.
+      // Rounding, and particles that end a fused step outside, although they were pressed on by O(h): h^3 each time one
+      // leaves. A first-order rule continues on its own path, h^2 away.
       EXPECT_LT(sup_rms(fused.trajectory, general.trajectory), rule == std::string_view("leapfrog") ? 1e-6 : 1e-3);
       double nearest = 1;
       for (int i = 0; i < general.trajectory.frames(); ++i)

@@ -1,5 +1,4 @@
-// Closed forms with contact and by modes: they satisfy their own laws, mysim converges to them, and other scenes are
-// refused.
+// Closed forms with contact and by modes satisfy their own laws, mysim converges to them, and other scenes are refused.
 
 #include <Eigen/Geometry>
 
@@ -14,7 +13,7 @@ namespace {
 
 using namespace testing_tools;
 
-/// Largest distance (m) of a particle from the closed form at any sample up to `until`.
+/// Largest distance (m) from the closed form at any sample up to `until`.
 double off(const Scene& scene, const ExactSolution& exact, const std::string& method, double h, double until) {
   const int samples = 50;
   const Trajectory t = trajectory_of(stepper(method), scene, {h, until, samples});
@@ -42,7 +41,7 @@ TEST(Bounces, ReturnTheSquareOfRestitutionAndEndInRest) {
     EXPECT_NEAR(top.x(1, i), e * e * drop, 8 * eps) << e;
     EXPECT_NEAR(top.v(1, i), 0, 16 * eps) << e;
     if (e > 0.5) continue;
-    // total time of all bounces: fall (1 + e) / (1 - e); afterwards it rests
+    // total time of all bounces: fall (1 + e) / (1 - e); then it rests
     const double end = fall * (1 + e) / (1 - e);
     EXPECT_GT(exact->at(0.99 * end).x(1, i) + std::abs(exact->at(0.99 * end).v(1, i)), 0);
     EXPECT_NEAR(exact->at(1.01 * end).x(1, i), 0, eps);
@@ -58,7 +57,7 @@ TEST(Bounces, KeepEnergyBetweenImpacts) {
       const double energy = s.x(1, i) * 9.81 + s.v(1, i) * s.v(1, i) / 2, start = 0.3 * 9.81;
       EXPECT_LE(energy, start * (1 + 8 * eps));
       EXPECT_GE(s.x(1, i), -8 * eps);
-      // the remaining energy is the initial one times a power of e^2
+      // the energy left is the initial one times a power of e^2
       const double e = i == 1 ? 0.5 : 0.9, impacts = std::log(energy / start) / std::log(e * e);
       if (i > 0 && energy > 1e-3) {
         EXPECT_NEAR(impacts, std::round(impacts), 1e-9);  // a logarithm, to some ulps
@@ -82,7 +81,8 @@ TEST(Slide, SatisfiesCoulombsLawOnTheBallAndFliesFreelyAfterwards) {
     EXPECT_LT(((up.x.col(0) - down.x.col(0)) / (2 * dt) - v).norm(), 1e-8);  // eps^(2/3) times some m/s^3
     if (d.norm() < radius * (1 + 1e-12)) {
       EXPECT_FALSE(left);
-      // The ball's force: the normal component must not pull, and friction is mu times that, against the motion.
+      // Force of the ball: its normal component must not pull, and friction is mu times the normal force, against the
+      // motion.
       const Vec3 force = a - g;
       const double normal = force.dot(n), along = force.dot(v.normalized());
       EXPECT_GT(normal, -1e-6);
@@ -100,7 +100,7 @@ TEST(Slide, WithoutFrictionItLeavesWhereEnergySays) {
   scene.model.find<Spheres>()->list[0].friction = 0;
   const auto exact = exact_solution(scene);
   ASSERT_TRUE(exact);
-  // v^2 = v0^2 + 2 g R (1 - cos); it leaves at v^2 = g R cos: cos = (2 + v0^2 / (g R)) / 3
+  // v^2 = v0^2 + 2 g R (1 - cos), and it leaves at v^2 = g R cos: cos = (2 + v0^2 / (g R)) / 3
   const double radius = 1.02, cosine = (2 + 1 / (9.81 * radius)) / 3;
   double low = 0, high = 2;
   for (int i = 0; i < 60; ++i) {
@@ -126,7 +126,7 @@ TEST(ContactExact, MysimConvergesToTheClosedForms) {
   }
 }
 
-/// A particle at rest on a ball, 20 degrees from its top, with friction `part` times the tangent.
+/// A particle at rest on a ball, 20 degrees from its top; friction is `part` times the tangent of that angle.
 Scene held(double part, const std::string& more = "") {
   const double angle = 20 * std::numbers::pi / 180;
   return small_scene(
@@ -211,7 +211,7 @@ TEST(NormalModes, AreRefusedWhereSpringsAreNotLinear) {
   linked.model.find<Springs>()->law = SpringLaw::bullet_link;
   EXPECT_FALSE(exact_solution(linked));
   Scene wild = shipped_scene("normal-modes");
-  wild.start.v(0, 4) = 20;  // it would hit its neighbour
+  wild.start.v(0, 4) = 20;  // would hit its neighbour
   EXPECT_FALSE(exact_solution(wild));
   Scene loose = shipped_scene("normal-modes");
   loose.model.particles.pins.clear();

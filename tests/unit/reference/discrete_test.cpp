@@ -37,7 +37,6 @@ std::string reason(std::string_view rule, const Scene& scene, const crosscheck::
   return text;
 }
 
-/// A mass on a spring with the given damping.
 Scene spring(double gamma, double dashpot, double g = 9.81) {
   SceneWriter w;
   w.particle({0, 0, 0}, 1);
@@ -49,7 +48,7 @@ Scene spring(double gamma, double dashpot, double g = 9.81) {
   return w.scene(fmt::format("spring with drag {} and dashpot {}", gamma, dashpot), 2, 5e-3, 40);
 }
 
-/// All linear shipped scenes, and linear scenes of kinds that are not shipped.
+/// Linear shipped scenes, and linear scenes of kinds that are not shipped.
 std::vector<Scene> linear_scenes() {
   std::vector<Scene> scenes;
   for (const auto& name : shipped_scene_names()) {
@@ -64,8 +63,8 @@ std::vector<Scene> linear_scenes() {
   return scenes;
 }
 
-/// Residual of an implicit rule's solver: 1e-12 of the forces in each step (mysim/implicit/newton.cpp), converted to a
-/// velocity and to a position after 1 / omega.
+/// Residual of an implicit rule's solver, 1e-12 of the forces in each step (mysim/implicit/newton.cpp), converted to a
+/// velocity, and to a position after 1 / omega.
 double left_by_solver(const Stepper& s, const Truth& truth, const Scene& scene, const crosscheck::Run& run) {
   if (s.evaluations > 0) return 0;
   const auto linear = linear_scene(scene);
@@ -101,7 +100,7 @@ TEST(ExactDiscrete, MysimProducesTheClosedFormOfItsRuleOverTime) {
         s.step = s.linear;
         EXPECT_LE(sup_distance(trajectory_of(s, scene, run), truth->trajectory), allowed);
       }
-      // The error bar must be far below the error of the rule itself.
+      // The error bar must be far below the rule's own error.
       EXPECT_LT(truth->error_bar, 1e-9 * (1 + scene.size()));
     }
   for (const DiscreteStepper& rule : discrete_steppers())
@@ -109,7 +108,7 @@ TEST(ExactDiscrete, MysimProducesTheClosedFormOfItsRuleOverTime) {
 }
 
 /// True if two rules coincide on a scene. One Gauss-Seidel pass over one spring without a dashpot solves the implicit
-/// Euler equation. If nothing depends on position, leapfrog's mean velocity is the implicit midpoint's.
+/// Euler equation. If no force depends on position, leapfrog's mean velocity is the implicit midpoint's.
 bool one_and_the_same(const Scene& scene, std::set<std::string_view> pair) {
   using Names = std::set<std::string_view>;
   return (pair == Names{"xpbd", "implicit-euler"} && !scene.model.find<Dashpots>()) ||
@@ -151,7 +150,7 @@ TEST(ExactDiscrete, FallsToTheExactSolutionWithTheOrderOfTheRule) {
         worst = std::max(worst, (truth.trajectory.x[i] - exact->at(truth.trajectory.t[i]).x).norm());
       return worst;
     };
-    // h omega = 0.0125: the next order is smaller by about that factor
+    // the next order is smaller by about h omega = 0.0125
     EXPECT_NEAR(slope(off(1.25e-3), off(6.25e-4)), stepper(rule.name).order, 0.05);
   }
 }
@@ -205,7 +204,7 @@ TEST(ExactDiscrete, XpbdHangsAMassOnADashpotTooHigh) {
 
 TEST(ExactDiscrete, PowersAreThoseOfPlainProducts) {
   const Mode modes[] = {{100, 0, 0, -9.81, 0, 0, 0, {}},
-                        {100, 20, 0, 1, 0, 0, 0, {}},  // critical damping: eigenvalues of rk4 coincide
+                        {100, 20, 0, 1, 0, 0, 0, {}},  // critical damping: the eigenvalues of rk4 coincide
                         {100, 3, 4, 1, 0, 0, 0, {}},
                         {0, 0, 0, -9.81, 0, 0, 0, {}},  // free fall: all three eigenvalues are 1
                         {0, 0.5, 0, 2, 0, 0, 0, {}}};
@@ -215,7 +214,7 @@ TEST(ExactDiscrete, PowersAreThoseOfPlainProducts) {
       Increment product = Increment::Zero();
       for (int n = 0; n <= 1000; ++n) {
         if (n < 5 || n % 111 == 0) {
-          // Each product rounds all entries by some eps of the largest, which grows as n in free fall and with a
+          // Each product rounds all entries by some eps of the largest, which grows as n in free fall and under a
           // constant push.
           EXPECT_LT((increment_power(e, n) - product).norm(), 10 * eps * (n + 1) * (1 + product.norm()))
               << rule.name << n;

@@ -1,5 +1,5 @@
-// The divergence monitor: its verdict is ok up to the limit of a rule, a failure beyond it at the right time, and ok
-// for runs that only resemble a failure.
+// The divergence monitor's verdict is ok up to the limit of a rule, a failure beyond it at the right time, and ok for
+// runs that only resemble a failure.
 
 #include <numbers>
 #include <optional>
@@ -14,7 +14,7 @@ namespace {
 
 using namespace testing_tools;
 
-/// One kilogram on 100 N/m, without gravity; rest length 1 m.
+/// One kilogram on 100 N/m, without gravity, with a rest length of 1 m.
 Scene kilogram(double start, double speed, double duration = 20) {
   return small_scene(fmt::format("[[particle]]\nposition = [0, 0, 0]\nmass = 1\n[[particle]]\nposition = [{}, 0, 0]\n"
                                  "mass = 1\nvelocity = [{}, 0, 0]\n[[spring]]\nends = [0, 1]\nstiffness = 100\n"
@@ -33,8 +33,8 @@ TEST(DivergenceMonitorOnASpring, HoldsAHundredthBelowTheLimitAndFailsAHundredthA
           const double h = part * limit;
           const int samples = 4200 / per_sample;
           const MethodRun a = run_and_record(name, scene, {h, h * per_sample * samples, samples});
-          // Speeds are central differences. For rk4 at its limit, where a step is 109 degrees of the vibration, they
-          // are a third of its own velocities. At 1.01 of the limit they remain at four times the true speed.
+          // Speeds are central differences. At the limit of rk4, where a step is 109 degrees of the vibration, they are
+          // a third of its own velocities. At 1.01 of the limit they stay at four times the true speed.
           if (part < 1 || name == std::string("rk4"))
             EXPECT_EQ(a.outcome.verdict, Verdict::ok) << a.outcome.reason;
           else
@@ -44,8 +44,8 @@ TEST(DivergenceMonitorOnASpring, HoldsAHundredthBelowTheLimitAndFailsAHundredthA
 }
 
 TEST(DivergenceMonitorOnASpring, JudgesAtTheStepOfLeavingOrTheNextSample) {
-  // 1 % above the limit the solution is x_n = (-1)^n A cosh(n p), p = 2 acosh(1.01) = 0.28, with A = 0.1 m. K^ exceeds
-  // the available energy, so the true motion is computed, before the speed is ten times the true one, 1 m/s.
+  // 1 % above the limit the solution is x_n = (-1)^n A cosh(n p) with p = 2 acosh(1.01) = 0.28 and A = 0.1 m. K^
+  // exceeds the available energy, so the true motion is computed, before the speed is ten times the true one, 1 m/s.
   const Scene scene = kilogram(1.1, 0);
   const double h = 0.202;
   for (const int per_sample : {1, 40, 1000}) {
@@ -61,7 +61,7 @@ TEST(DivergenceMonitorOnASpring, JudgesAtTheStepOfLeavingOrTheNextSample) {
 }
 
 TEST(DivergenceMonitorOnASpring, SeesBlowUpsBetweenSamples) {
-  // 10 % above the limit K^ grows by exp(2 * 0.887) per step, from B to 1000 B in four steps, all of which are
+  // 10 % above the limit K^ grows by exp(2 * 0.887) per step: from B to 1000 B in four steps, all of which are
   // observed.
   const Scene scene = kilogram(1.1, 0);
   const double h = 0.22;
@@ -82,7 +82,7 @@ TEST(DivergenceMonitorOnASpring, JudgesGrowthThatIsCertainAsRun) {
 }
 
 TEST(DivergenceMonitorOnASpring, NeedsNoVelocities) {
-  struct WithoutVelocities : Observer {  // as an external engine that reports no velocities
+  struct WithoutVelocities : Observer {  // like an external engine that reports no velocities
     explicit WithoutVelocities(DivergenceMonitor& w) : monitor(w) {}
     Verdict observe(const State& s, bool sample) override { return monitor.observe({s.t, s.x, Points(3, 0)}, sample); }
     DivergenceMonitor& monitor;
@@ -92,7 +92,7 @@ TEST(DivergenceMonitorOnASpring, NeedsNoVelocities) {
     for (const double h : {0.05, 0.205}) {
       DivergenceMonitor monitor(scene.model, &scene.start);
       WithoutVelocities positions(monitor);
-      // from rest at the spring's rest length nothing ever moves
+      // nothing moves from rest at the spring's rest length
       const Verdict expected = h > 0.2 && speed > 0 ? Verdict::energy : Verdict::ok;
       EXPECT_EQ(simulate(stepper("leapfrog"), ContactRule::coulomb, scene, {h, 400 * h, 400}, positions).verdict,
                 expected);
@@ -124,7 +124,7 @@ TEST(DivergenceMonitorOnSoftLinks, PassesPositionBasedClothsThatFallSmoothly) {
       }
 }
 
-/// Verdict on a particle on a spring at these positions (m), a second apart.
+/// Verdict on a particle on a spring at these positions (m), one second apart.
 Verdict verdict_on(const std::vector<double>& along, bool knows_the_scene) {
   const Scene scene = kilogram(1.1, 0);  // 0.5 J, pull 100 kg m^2/s^4: B = 200.5 J for steps of 1 s
   const crosscheck::Run run{1, 10, 10};
@@ -149,14 +149,14 @@ TEST(DivergenceMonitorOnSamples, HoldsSpeedsAndLengthsAgainstTheTrueMotion) {
 }
 
 TEST(DivergenceMonitorOnSamples, GoesByEnergyWhereThereIsNothingToHoldThemAgainst) {
-  // K^ = (x_2 - x_0)^2 / 8 compared with 10 B = 2005 J: 126.6 m; thirty times the initial length: 33 m
+  // K^ = (x_2 - x_0)^2 / 8 is compared with 10 B = 2005 J: 126.6 m; thirty times the initial length is 33 m
   EXPECT_EQ(verdict_on({1.2, 32}, false), Verdict::ok);
   EXPECT_EQ(verdict_on({1.2, 34}, false), Verdict::stretch);
   EXPECT_EQ(verdict_on({1.2, 140}, false), Verdict::energy);
 }
 
 TEST(MotionBounds, IsThatOfTheClosedForm) {
-  const Scene scene = kilogram(1.1, 0);  // to 3 %: h omega = 0.5 at a quarter of the limit
+  const Scene scene = kilogram(1.1, 0);  // bounds are accurate to 3 %: a quarter of the limit is h omega = 0.5
   const auto bounds = motion_bounds_of(scene, {0.1, 20, 10});
   ASSERT_TRUE(bounds.has_value());
   EXPECT_NEAR(bounds->speed, 1, 0.04);

@@ -119,7 +119,7 @@ TEST_F(EngineHeader, OptionsRefuseWhatIsNotExpected) {
   EXPECT_EXIT(get({"fast"}), exits, "unknown option fast: expected n=4, springs=tendon.callback");
 }
 
-/// Falls, and fails at a given time in one of two ways.
+/// Falls, and fails after a given time in one of two ways.
 struct Faller : header::World {
   explicit Faller(const header::Scene& s) : scene(s), x(s.x), v(s.v) {}
   void step(double t) override {

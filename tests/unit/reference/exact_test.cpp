@@ -1,5 +1,5 @@
-// Closed forms: they satisfy their equations, agree with a fine rk4, are claimed only for valid scenes, and are the
-// limits of the corresponding scenes.
+// Closed forms satisfy their equations, agree with a fine rk4, are claimed only for valid scenes, and are the limits of
+// the corresponding scenes.
 
 #include <numbers>
 
@@ -22,7 +22,7 @@ std::string spring_text(const std::string& more = "", double start = -0.9, const
       "[[spring]]\nends = [0, 1]\nstiffness = 200\nrest = 1\n{}{}[pins]\nparticles = [0]\n{}",
       start, free_more, spring_more, gravity_text, more);
 }
-/// The spring with its pin moved along the spring at `part` times its frequency of 10 rad/s.
+/// The spring, whose pin is moved along it at `part` times its frequency of 10 rad/s.
 std::string driven_text(double part, double amplitude, double ramp, const std::string& more = "",
                         const std::string& spring_more = "") {
   return spring_text(fmt::format("[pins.motion]\namplitude = [0, {}, 0]\nfrequency = {}\nramp = {}\n{}", amplitude,
@@ -113,7 +113,7 @@ TEST(Exact, AgreesWithAFineRungeKutta) {
 }
 
 TEST(Exact, AgreesWithAnAdaptiveRuleOnRandomScenes) {
-  for (unsigned seed = 0; seed < 200; seed += 5) {  // every fifth, to save time: the same number of each kind
+  for (unsigned seed = 0; seed < 200; seed += 5) {  // every fifth, to save time: as many of each kind
     const Scene scene = random_exact_scene(seed);
     SCOPED_TRACE(scene.name);
     const auto exact = exact_solution(scene);
@@ -128,7 +128,7 @@ TEST(Exact, AgreesWithAnAdaptiveRuleOnRandomScenes) {
       worst = std::max(worst, (r.trajectory.x[i] - s.x).norm());
       farthest = std::max(farthest, largest_column(s.x));
     }
-    // Each step may lose its tolerance, relative to the scene's size and to the position.
+    // Each step may err by the tolerance, relative to the scene's size and to the position.
     EXPECT_LT(worst, static_cast<double>(out.steps) * run.tolerance * farthest);
   }
 }
@@ -149,7 +149,7 @@ TEST(Exact, IsClaimedOnlyWhereItHolds) {
       {"spring pushed aside", small_scene(spring_text("", -0.9, "velocity = [0.1, 0, 0]\n"))},
       {"driven aside", small_scene(spring_text("[pins.motion]\namplitude = [0.01, 0, 0]\nfrequency = 1\nramp = 1\n"))},
       {"driven into its anchor", small_scene(driven_text(0.9, 0.2, 0.5))},  // 0.2 m / (1 - 0.81) = 1.05 m
-      {"driven at resonance", small_scene(driven_text(1, 1e-6, 0.5))},      // undamped: it grows for ever
+      {"driven at resonance", small_scene(driven_text(1, 1e-6, 0.5))},      // undamped: it grows without limit
       // equilibrium length 1.0981 m: released 1.1 m from it, the mass reaches the anchor
       {"spring that reaches the anchor", small_scene(spring_text("", -2.2))}};
   for (const Case& c : none) {
@@ -184,7 +184,7 @@ TEST(RigidPendulum, PeriodAgainstKnownValues) {
   EXPECT_NEAR(rigid_pendulum_period(1, 9.81, 0.1) / small, 1 + 0.01 / 16 + 11e-4 / 3072, 3e-10);
 }
 
-/// Mean period of the first swings of the shipped pendulum with another stiffness, from passages of the vertical.
+/// Mean period of the first swings of the shipped pendulum with another stiffness, by passages of the vertical.
 double swing_period(double stiffness) {
   Scene scene = shipped_scene("pendulum");
   for (Term& term : scene.model.terms)
@@ -241,12 +241,12 @@ TEST(HangingRest, CarriesTheWeightBelow) {
 TEST(HangingRest, IsNotClaimedElsewhere) {
   for (const auto name : {"normal-modes", "cloth-hang", "chain-link", "circle", "projectile"})
     EXPECT_FALSE(hanging_equilibrium(shipped_scene(name))) << name;
-  Scene loop = shipped_scene("chain");  // a spring per free particle, but the last one is not attached
+  Scene loop = shipped_scene("chain");  // a spring per free particle, but the last one is loose
   loop.model.find<Springs>()->list.back() = {0, 2, 100, 1, Family::single};
   EXPECT_FALSE(hanging_equilibrium(loop));
 }
 
-/// The chain with a drag of 3/s, released from the horizontal.
+/// The chain with a drag rate of 3/s, released from the horizontal.
 Scene damped_chain() { return with_drag(without_drag(shipped_scene("chain")), 3); }
 
 TEST(HangingRest, IsWhereMysimComesToRest) {
@@ -280,7 +280,7 @@ TEST(HangingRest, OneSweepAStepHangsLongerByTheSquareOfTheStep) {
 }
 
 /// A flat cloth of n x n particles, 0.2 m apart, held along its edge, with springs stretched by a tenth. Each free
-/// particle is displaced along `direction` by `amplitude` (m) times the bump sin sin.
+/// particle is displaced along `direction` by `amplitude` (m) times sin sin, a bump.
 Scene flat_cloth(int n, double amplitude, const Vec3& direction, bool shear) {
   SceneWriter w;
   const double side = 0.2, stretch = 1.1;
@@ -323,8 +323,8 @@ TEST(Linearised, FrequenciesOfAMembrane) {
     }
 }
 
-/// Largest deviation from the linearised motion over three periods of the slowest vibration, relative to the amplitude,
-/// in the plane and out of it.
+/// Largest deviation, in and out of the plane, from the linearised motion over three periods of the slowest vibration,
+/// relative to the amplitude.
 struct Deviation {
   double in_plane, out_of_plane;
 };
@@ -347,12 +347,12 @@ TEST(Linearised, FailsAsThePowerOfTheAmplitudeThatItsSymmetryGives) {
   const Vec3 up(0, 1, 0), aside(1, 0, 0);
   const Deviation a = deviation(0.005, up), b = deviation(0.0025, up);
   const Deviation c = deviation(0.005, aside), d = deviation(0.0025, aside);
-  // the next term is smaller by the amplitude over the spring length of 0.2 m, 0.02
+  // the next term is smaller by 0.02, the amplitude over the spring length of 0.2 m
   EXPECT_NEAR(slope(a.out_of_plane, b.out_of_plane), 2, 0.04);
   EXPECT_NEAR(slope(a.in_plane, b.in_plane), 1, 0.04);
   EXPECT_NEAR(slope(c.in_plane, d.in_plane), 1, 0.04);
-  EXPECT_LT(c.out_of_plane, 1e-13);  // it never leaves the plane
-  // amplitudes with a deviation of 1 %, as documented to two digits in tests/unit/reference/limits_of_motion.h
+  EXPECT_LT(c.out_of_plane, 1e-13);  // it stays in the plane
+  // amplitudes with a deviation of 1 %, as in tests/unit/reference/limits_of_motion.h (two digits)
   EXPECT_NEAR(deviation(0.011, up).out_of_plane, 0.01, 0.001);
   EXPECT_NEAR(deviation(0.0088, aside).in_plane, 0.01, 0.001);
 }
@@ -366,18 +366,18 @@ TEST(Linearised, IsNotClaimedElsewhere) {
   for (Spring& s : pressed.model.find<Springs>()->list) s.rest *= 1.2;
   EXPECT_FALSE(linearised_solution(slack, flat.start.x));
   EXPECT_FALSE(linearised_solution(pressed, flat.start.x));
-  pulled.model.terms.emplace_back(Gravity{{0, -9.81, 0}});  // so the flat cloth is no equilibrium
+  pulled.model.terms.emplace_back(Gravity{{0, -9.81, 0}});  // no equilibrium for the flat cloth
   EXPECT_FALSE(linearised_solution(pulled, flat.start.x));
   Scene moved = flat;
   moved.model.particles.move = Motion{up, 1, 1};
   EXPECT_FALSE(linearised_solution(moved, flat.start.x));
   EXPECT_FALSE(linearised_solution(shipped_scene("chain-link"), shipped_scene("chain-link").start.x));
-  // it must not be claimed as a reference solution either
+  // nor may it be claimed as a reference solution
   EXPECT_FALSE(exact_solution(flat_cloth(6, 1e-3, up, true)));
 }
 
 TEST(Linearised, AgreesWithTheExactModesOfAStretchedChain) {
-  // Along the line the linearisation is exact, so it equals the solution.
+  // Along the line the linearisation is exact.
   const Scene scene = shipped_scene("normal-modes");
   Scene resting = scene;
   for (int i = 0; i < 10; ++i) resting.start.x(0, i) = 0.275 * i;
@@ -389,7 +389,7 @@ TEST(Linearised, AgreesWithTheExactModesOfAStretchedChain) {
 }
 
 TEST(Linearised, HangingChainSwingsAsTheLimitSays) {
-  // about the equilibrium from hanging_equilibrium, displaced by 1e-4 m
+  // about the equilibrium of hanging_equilibrium(), displaced by 1e-4 m
   Scene scene = damped_chain();
   const Points rest = *hanging_equilibrium(scene);
   scene.start.x = rest;

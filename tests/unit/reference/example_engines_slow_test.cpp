@@ -1,4 +1,4 @@
-// The two example engines of the protocol agree with mysim.
+// The protocol's two example engines agree with mysim.
 
 #include "reference/certificate/certificate.h"
 #include "reference/method.h"
@@ -13,7 +13,7 @@ using namespace testing_tools;
 
 class ExampleEngines : public InFolder {
  protected:
-  /// Debian's python3, for which python3-numpy is installed. Another python3 may come first in PATH.
+  /// Debian's python3, which has python3-numpy. Another python3 may come first in PATH.
   std::string python() const {
     return script("example_engine.py",
                   "exec /usr/bin/python3 '" CROSSCHECK_SOURCE "/reference/protocol/example_engine.py' \"$@\"\n");

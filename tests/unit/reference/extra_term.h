@@ -1,5 +1,5 @@
-// An additional term, as a contributor would write it. The compiler includes it first (g++ -include), which adds it to
-// the list of terms without any change to the source. Used by new_term_slow_test.cpp.
+// An additional term, as a contributor would write it, for new_term_slow_test.cpp. The compiler includes it first (g++
+// -include), which adds it to the list of terms without any change to the source.
 #pragma once
 
 #include "mysim/forces.h"

@@ -1,5 +1,5 @@
-// Hard distances: XPBD keeps them to second order. The solution with Lagrange multipliers conserves the distances, the
-// period and the energy.
+// Hard distances: XPBD keeps them to second order, with the rigid pendulum's period. The solution with Lagrange
+// multipliers conserves the distances, the period and the energy. Other rules refuse them.
 
 #include <Eigen/Dense>
 
@@ -13,9 +13,6 @@
 #include "tests/unit/reference/limits_of_motion.h"
 
 namespace crosscheck {
-
-// Hard distances: kept to second order, the rigid pendulum's period, the equations with Lagrange multipliers. Other
-// rules refuse them.
 
 namespace {
 
@@ -50,7 +47,7 @@ TEST(HardDistances, AreKeptToSecondOrder) {
         worst = std::max(worst, largest_constraint_error(*scene.model.find<Constraints>(), x));
       fmt::print("rope of ten links, h = {}: stretched by {:.3g}\n", h, worst);
       // One Gauss-Seidel pass per step leaves the transverse motion of a step, h^2 times an acceleration over a link's
-      // length. This is of second order, but a whip reaches its maximum at other moments.
+      // length: second order, but a whip reaches its maximum at other moments.
       if (before > 0) {
         EXPECT_NEAR(slope(before, worst), 2, 0.5);
       }
@@ -84,8 +81,8 @@ TEST(HardDistances, APendulumHasTheRigidPeriodToFirstOrder) {
   }
 }
 
-/// Integrates the rope by the equations with Lagrange multipliers, differentiated twice: (J M^-1 J^T) lambda = J M^-1 f
-/// + J' v, M v' = f - J^T lambda. Uses rk4 with a dense solve.
+/// The rope by the equations with Lagrange multipliers, differentiated twice: (J M^-1 J^T) lambda = J M^-1 f + J' v, M
+/// v' = f - J^T lambda. Uses rk4 with a dense solve.
 class RopeByMultipliers {
  public:
   explicit RopeByMultipliers(const Scene& scene) : scene_(scene) {}
@@ -136,7 +133,7 @@ TEST(HardDistances, ConvergeToTheEquationsWithMultipliersInFirstOrder) {
   const int samples = 12;
   const RopeByMultipliers rope_by_multipliers(scene);
   const Trajectory truth = rope_by_multipliers.run(1e-3, duration, samples);
-  // The reference is of order 4 and keeps its distances. Compares 1e-3 s with half of it.
+  // The reference is of order 4 and keeps its distances: compare 1e-3 s with half of it.
   EXPECT_LT(sup_rms(truth, rope_by_multipliers.run(5e-4, duration, samples)), 1e-8);
   for (const Points& x : truth.x) EXPECT_LT(largest_constraint_error(*scene.model.find<Constraints>(), x), 1e-7);
   for (const Stepper& s : hard_steppers()) {
@@ -173,7 +170,7 @@ TEST(HardDistances, AreRefusedByRulesThatKnowForcesOnly) {
 }
 
 TEST(HardDistances, EndsThatMeetAreCountedAndFinite) {
-  // two ends meet in one point in exactly representable steps
+  // two ends meet in exactly representable steps
   const Scene scene = small_scene(
       "[[particle]]\nposition = [-1, 0, 0]\nmass = 1\nvelocity = [4, 0, 0]\n"
       "[[particle]]\nposition = [1, 0, 0]\nmass = 1\nvelocity = [-4, 0, 0]\n[[constraint]]\nends = [0, 1]\n",
@@ -193,15 +190,14 @@ TEST(Xpbd, OneSpringUnderDragIsImplicitEuler) {
     const crosscheck::Run run{h, 1, 10};
     const Trajectory one = trajectory_of(stepper("xpbd"), scene, run),
                      other = trajectory_of(stepper("implicit-euler"), scene, run);
-    // Implicit Euler stops at 1e-10 of the forces, from 10 N to m v / h = 2000 N, on 1 kg in each step.
+    // Implicit Euler may leave 1e-10 of the forces, from 10 N to m v / h = 2000 N, on 1 kg in each step.
     EXPECT_LT(sup_rms(one, other), 1e-10 * (10 + 2 / h) * h) << h;
   }
 }
 
 }  // namespace
 
-// Solutions with hard distances: Lagrange multipliers conserve the distances, the period and the energy. Dependent
-// constraints are refused.
+// Solutions with Lagrange multipliers. Dependent constraints are refused.
 
 namespace {
 
@@ -239,7 +235,7 @@ TEST(Multipliers, OneRodIsTheRigidPendulum) {
       std::string(gravity_text));
   const double period = rigid_pendulum_period(1, 9.81, std::numbers::pi / 3);
   const Trajectory t = by_multipliers(scene, {1e-3, period, 1});
-  // It returns to rest at its start. The phase error of rk4 is about 1e-12, and its square enters the position.
+  // The rope returns to rest at its start. The phase error of rk4 is about 1e-12, and its square enters the position.
   EXPECT_LT((t.x.back() - scene.start.x).norm(), 1e-9);
   EXPECT_LT(t.v.back().norm(), 1e-9);
 }

@@ -1,4 +1,4 @@
-// Requirements of some tests that the suite does not need. Without them, tests are skipped with the name of the missing
+// Requirements of some tests that the suite does not have. A test without them is skipped with the name of the missing
 // package.
 #pragma once
 
@@ -10,7 +10,7 @@
 #include "reference/truth/truth.h"
 #include "tests/unit/helpers.h"
 
-// Skips a test without Debian's `package`, at its beginning. `not_tried` names the part that is not tested.
+// Skips a test, at its beginning, without Debian's `package`; `not_tried`: what is then not tested.
 #define NEEDS_PROGRAM(program, package, not_tried) \
   if (!crosscheck::on_path(program)) GTEST_SKIP() << "package " package " is not installed: " not_tried
 #define NEEDS_CHROMIUM NEEDS_PROGRAM("chromium", "chromium", "the page is not tested in a browser")
@@ -20,7 +20,7 @@
 
 namespace crosscheck::testing_tools {
 
-/// Trajectory and outcome of a method that is given by its name.
+/// Trajectory and outcome of a method given by name.
 struct MethodRun {
   Trajectory trajectory;
   Outcome outcome;

@@ -1,5 +1,4 @@
-// Independently written right-hand side: identical to mysim's on every shipped scene, so that an error in either one is
-// detected.
+// The independent right-hand side equals mysim's on every shipped scene, so that an error in either one is detected.
 
 #include <array>
 #include <span>
@@ -15,15 +14,15 @@ namespace {
 
 using namespace testing_tools;
 
-/// Every shipped scene without contacts, and two cloths with every smooth ingredient.
+/// Shipped scenes without their contacts, and two cloths with every smooth ingredient.
 std::vector<Scene> smooth_scenes() {
   std::vector<Scene> scenes{small_cloth(), small_cloth_in_air()};
   for (const auto& name : shipped_scene_names()) scenes.push_back(without_contact(shipped_scene(std::string(name))));
   return scenes;
 }
 
-/// A state near the scene's initial state at a random time: free particles displaced by up to a tenth of the scene's
-/// size, with speeds of 1 m/s.
+/// A state near the initial state, at a random time: free particles are displaced by up to a tenth of the scene's size,
+/// with speeds of 1 m/s.
 State random_state(const Scene& scene, unsigned seed) {
   Random random(seed);
   State s = scene.start;
@@ -42,7 +41,7 @@ StateVector flat(const Scene& scene, const State& s) {
   return y;
 }
 
-/// mysim's time derivative of the free particles.
+/// mysim's rates of the free particles.
 StateVector rate_by_mysim(const Scene& scene, State s) {
   State rate = s;
   if (scene.model.find<Constraints>())
@@ -60,8 +59,8 @@ StateVector rate_apart(const Scene& scene, const State& s) {
   return rate;
 }
 
-/// Allowed difference (m/s^2) of two ways of rounding: 16 roundings of the largest sum of magnitudes at one particle.
-/// Lengths are rounded before they are subtracted, so a spring contributes k (L + r).
+/// Allowed difference (m/s^2) of two roundings: 16 roundings of the largest sum of magnitudes at one particle. Lengths
+/// are rounded before they are subtracted, so a spring contributes k (L + r).
 double round_off(const Scene& scene, const State& s) {
   const Particles& p = scene.model.particles;
   Eigen::VectorXd sum = Eigen::VectorXd::Zero(p.size());
@@ -197,7 +196,7 @@ TEST(Integrators, OdeintsRungeKuttaIsMysims) {
     EXPECT_EQ(theirs.outcome.evaluations, 4 * theirs.outcome.steps);
     EXPECT_EQ(theirs.outcome.steps, ours.outcome.steps);
     EXPECT_EQ(ours.trajectory.t, theirs.trajectory.t);
-    // one rounding per step, some thousand steps, and growth of at most a hundredfold
+    // one rounding in each of some thousand steps, grown at most a hundredfold
     EXPECT_LT(sup_rms(ours.trajectory, theirs.trajectory), 1e-11);
   }
 }

@@ -26,7 +26,7 @@ class JavaScriptEngines : public InFolder {
   static std::string engine() { return CROSSCHECK_SOURCE "/tests/unit/reference/module_engine.mjs"; }
   static crosscheck::Run short_run(const Scene& scene) { return {scene.step, 100 * scene.step, 4}; }
 
-  /// Files of an answer, without the CPU time, which varies between runs.
+  /// Files of an answer, without the CPU time.
   std::string answer(const std::string& out) const {
     const std::string run = read(folder_ / out / "run.json");
     return read(folder_ / out / "trajectory.npy") + read(folder_ / out / "velocities.npy") +
@@ -52,7 +52,7 @@ TEST_F(JavaScriptEngines, ForcesAndMotionsAreThoseOfMysim) {
     const MethodRun theirs = run_and_record("exec:" + engine(), scene, short_run(scene));
     ASSERT_EQ(theirs.outcome.verdict, Verdict::ok) << theirs.outcome.reason;
     EXPECT_EQ(theirs.outcome.remark, "");
-    // sums differ only in their order: 1e-15 m, times a growth of perturbations below 1e3
+    // only the summation order differs: 1e-15 m times a growth of perturbations below 1e3
     EXPECT_LE(sup_distance(ours.trajectory, theirs.trajectory), 1e-12);
     for (const CertificateRow& row : certify("engine", scene, theirs.outcome).rows)
       EXPECT_EQ(row.parity, Parity::match) << row.quantity << ": " << row.read_back;

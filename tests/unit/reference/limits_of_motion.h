@@ -25,8 +25,8 @@ inline double rigid_pendulum_period(double length, double gravity, double theta0
   return 2 * std::numbers::pi * std::sqrt(length / gravity) / a;
 }
 
-/// Equilibrium (3 x n, m) of a tree of Hooke springs below a single pin, under gravity and steady wind: each spring is
-/// extended by its load over its stiffness. The scene need not start there. Returns nothing for other scenes.
+/// Equilibrium (3 x n, m) of a tree of Hooke's springs below a single pin, under gravity and steady wind: each spring
+/// is extended by its load over its stiffness. The scene need not start there. Returns nothing for other scenes.
 inline std::optional<Points> hanging_equilibrium(const Scene& scene) {
   const Model& model = scene.model;
   const Particles& particles = model.particles;
@@ -40,8 +40,8 @@ inline std::optional<Points> hanging_equilibrium(const Scene& scene) {
   std::vector<std::vector<const Spring*>> at(n);
   for (const Spring& s : springs->list) at[s.a].push_back(&s), at[s.b].push_back(&s);
 
-  // Load of each particle, including its own weight, from the pin downwards. The number of springs equals the number of
-  // free particles, so each is reached once unless there is a loop, which leaves a particle unreached.
+  // Load of each particle, including its own weight, from the pin downwards. There are as many springs as free
+  // particles, so each is reached once unless there is a loop, which leaves a particle unreached.
   std::vector<char> reached(n, 0);
   std::vector<double> carried(n, 0);  // kg
   std::vector<std::pair<const Spring*, int>> order;
@@ -66,22 +66,22 @@ inline std::optional<Points> hanging_equilibrium(const Scene& scene) {
   return x;
 }
 
-/// The limit of the motion as its amplitude tends to 0. This is not an exact solution of a scene with springs off a
-/// line, and is never claimed as one.
+/// The limit of the motion for amplitudes towards 0. It is no exact solution of a scene with springs off a line, and is
+/// never claimed as one.
 struct LinearisedSolution {
-  std::vector<double> omega;          // rad/s, of the vibrations, ascending
+  std::vector<double> omega;          // rad/s, angular frequencies of the vibrations, ascending
   std::function<State(double t)> at;  // s -> state
 };
 
-/// Small motion of Hooke springs under gravity, steady wind and one drag rate about an equilibrium (3 x n, m) near the
-/// initial state. Returns nothing if the given positions are no equilibrium, for an unstable one (an unstretched cloth
-/// has no transverse stiffness, and a compressed one buckles), and for other scenes.
+/// Small motion of Hooke's springs under gravity, steady wind and one drag rate about an equilibrium (3 x n, m) near
+/// the initial state. Returns nothing if the positions are no equilibrium or an unstable one (an unstretched cloth has
+/// no transverse stiffness, and a compressed one buckles), and for other scenes.
 ///
 /// Neglected terms start with the square of the amplitude a. A flat cloth that moves out of its plane is symmetric in
-/// up and down. Out of the plane, the deviation over a decreases as a^2. In the plane, where nothing moves to first
+/// up and down: out of the plane, the deviation over a decreases as a^2; in the plane, where nothing moves to first
 /// order, it decreases as a. Motion in the plane has a relative error of first order in a.
 /// Example: a cloth of 6 x 6 particles, held along its edge of 1 m, stretched by a tenth and released in its first
-/// bump. It deviates by 1 % within three periods from an amplitude of 11 mm out of the plane, or 8.8 mm in it.
+/// bump, deviates by 1 % within three periods from an amplitude of 11 mm out of the plane, or 8.8 mm in it.
 inline std::optional<LinearisedSolution> linearised_solution(const Scene& scene, const Points& equilibrium) {
   const Model& model = scene.model;
   const Particles& particles = model.particles;
@@ -111,7 +111,7 @@ inline std::optional<LinearisedSolution> linearised_solution(const Scene& scene,
     stiffness = std::max(stiffness, s.k);
   }
   for (int pin : particles.pins) force.col(pin).setZero();
-  // check for an equilibrium, up to the rounding of the written values
+  // an equilibrium, up to the rounding of the written values
   if (!(largest_column(force) <= 1e-10 * stiffness * scene.size())) return std::nullopt;
 
   std::vector<int> free;  // coordinates

@@ -1,6 +1,6 @@
 #!/usr/bin/env node
-// An engine on crosscheck_engine.mjs without packages: symplectic Euler with the forces of the module.
-// Option fail=N ends a run with a verdict after N steps.
+// An engine on crosscheck_engine.mjs without packages: symplectic Euler with the module's forces. Option fail=N ends a
+// run with a verdict after N steps.
 import { failed, serve } from '../../../reference/protocol/crosscheck_engine.mjs';
 
 const description = { engine: 'module engine 1.0', laws: ['hooke', 'bullet-link'],

@@ -1,4 +1,4 @@
-// Unit tests of crosscheck_engine.mjs. Exits with 0 if all assertions hold, otherwise stops at the first failure.
+// Tests crosscheck_engine.mjs. Exits with 0 if all assertions hold, otherwise stops at the first failure.
 import assert from 'node:assert/strict';
 import { motionAt, Scene } from '../../../reference/protocol/crosscheck_engine.mjs';
 

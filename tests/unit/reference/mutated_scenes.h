@@ -1,4 +1,4 @@
-// Scenes with a single change each, which the parity certificate must detect.
+// Scenes with a single change, each of which the parity certificate must detect.
 #pragma once
 
 #include <functional>
@@ -18,7 +18,7 @@ inline Scene draped() {
                          gravity_text,
                      1, 1e-3, 10);
 }
-/// A 4 x 4 cloth in air, free, with bending.
+/// A free 4 x 4 cloth in air, with bending.
 inline Scene in_air() {
   return small_scene(std::string("[grid]\nsize = [4, 4]\norigin = [0, 0, 0]\nu = [0.5, 0, 0]\nv = [0, 0.5, 0]\n"
                                  "mass = 0.1\nbending = 0.01\n[grid.stiffness]\nstructural = 20\nshear = 20\nbend = 5\n"
@@ -48,7 +48,7 @@ inline void add_pin(Scene& s) {
 struct Mutation {
   std::string what;
   std::function<void(Scene&)> mutate;
-  std::set<std::string> quantities;  // rows of the certificate that may show it, by prefix
+  std::set<std::string> quantities;  // certificate rows that may show it, by prefix
   std::set<std::string> blind = {};  // worlds that cannot report it
 };
 

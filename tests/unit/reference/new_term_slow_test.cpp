@@ -1,5 +1,5 @@
-// A new term of the physics must be handled everywhere that all terms are listed. Until then these files must not
-// compile. The tests run the compiler on each original file with one more term in the list (extra_term.h).
+// A new term must be handled everywhere that all terms are listed; until then these files must not compile. The tests
+// run the compiler on each original file with one more term in the list (extra_term.h).
 
 #include <gtest/gtest.h>
 
@@ -13,7 +13,7 @@ ProgramResult compiled_with_a_new_term(const std::string& file) {
                       {"-include", CROSSCHECK_SOURCE "/tests/unit/reference/extra_term.h"});
 }
 
-/// Location of a missing term that the compiler's error must name.
+/// A missing term that the compiler's error must name.
 struct Place {
   std::string file, where, what;
 };
@@ -43,7 +43,7 @@ TEST(NewTerm, DoesNotCompileWhereItIsNotAnswered) {
   }
 }
 
-/// Conversely, the term itself is valid, and files that use terms through their functions compile.
+/// Conversely, the term is valid: files that use terms through their functions compile.
 TEST(NewTerm, CompilesWhereTermsAreTakenByTheirFunctions) {
   for (const char* file : {"mysim/model/system.cpp", "mysim/implicit/newton.cpp"}) {
     const ProgramResult end = compiled_with_a_new_term(file);

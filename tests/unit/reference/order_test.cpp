@@ -1,4 +1,4 @@
-// Orders of all steppers, two-sided, and error control: errors follow the tolerance.
+// Orders of all steppers, from both sides, and error control: errors follow the tolerance.
 
 #include "reference/truth/exact/exact.h"
 #include "tests/unit/helpers.h"
@@ -23,7 +23,7 @@ TEST(Orders, OnCircleAgainstTheExactSolution) {
   for (const Stepper& s : fixed_steppers()) {
     if (!s.first_order) continue;
     SCOPED_TRACE(s.name);
-    // The next error term changes the slope by about h omega: at most 0.04 here, with a bound of 0.1.
+    // The next error term changes the slope by about h omega, here at most 0.04.
     const double h = s.order == 1 ? 0.002 : s.order == 2 ? 0.02 : 0.1;
     EXPECT_NEAR(measured_order(s, scene, truth, h, run), s.order, 0.1);
   }
@@ -55,11 +55,11 @@ TEST(Orders, OnPendulumPlainDampedAndMovedByHand) {
 
 TEST(Orders, SurviveDashpotsAirAndPinsMovedByHand) {
   const Scene scene = small_cloth_in_air();
-  const crosscheck::Run run{0, 0.25, 5};  // the ramp ends then: its third derivative jumps there
+  const crosscheck::Run run{0, 0.25, 5};  // the end of the ramp, where its third derivative jumps
   const Trajectory truth = trajectory_of(stepper("rk4"), scene, {6.25e-5, run.duration, run.samples});
   for (const Stepper& s : fixed_steppers()) {
     SCOPED_TRACE(s.name);
-    // h omega at the cloth's fastest wave (180 rad/s): 0.02, 0.05 and 0.2
+    // h omega of the cloth's fastest wave (180 rad/s): 0.02, 0.05 and 0.2
     const double h = s.order == 1 ? 1e-4 : s.order == 2 ? 2.5e-4 : 1.25e-3;
     const double order = measured_order(s, scene, truth, h, run);
     fmt::print("cloth in air, {:18} order {:.3f}\n", s.name, order);
@@ -199,8 +199,7 @@ TEST(Adaptive, BesideASphereNoStepIsLongerThanTheRunsStep) {
 }
 
 TEST(Adaptive, EveryContactOnTheWayToAStateIsInTheLedger) {
-  // Two particles on a stiff spring slide down a ball. Many internal steps fit into one step of the run, and each has
-  // contact.
+  // Two particles on a stiff spring slide down a ball. One step of the run has many internal steps, each with contact.
   const Scene scene = small_scene(
       "[[particle]]\nposition = [0.1, 1.05, 0]\nmass = 1\n[[particle]]\nposition = [0.3, 1.05, 0]\nmass = 1\n"
       "[[spring]]\nends = [0, 1]\nstiffness = 4000\nrest = 0.2\n" +
@@ -215,8 +214,8 @@ TEST(Adaptive, EveryContactOnTheWayToAStateIsInTheLedger) {
       ASSERT_GT(out.steps, 3 * 50) << "expected several internal steps per step of the run";
       const auto& rows = ledger.rows();
       ASSERT_GT(rows.back().contact, 0.1) << "friction must dissipate energy";
-      // No other losses: the imbalance is the error of a few hundred steps, plus the error of the contact rule. Each
-      // step's error is below the tolerance times the 20 J that the fall converts.
+      // Without other losses, the imbalance is the error of a few hundred steps, plus the error of the contact rule.
+      // Each step's error is below the tolerance times the 20 J that the fall converts.
       // In each step the contact rule moves a particle back by a h^2 / 2, where a = g cos theta - v^2 / R presses it
       // on, and takes m (a h)^2 / 2. This is too little by m h^2 a (v^2 / R) / 2. On the way down from rest a v^2 / R
       // is at most g^2 / 6: g^2 h / 6 for two kilograms in a second.

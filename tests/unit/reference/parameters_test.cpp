@@ -25,11 +25,12 @@ constexpr const char* targets[] = {"mysim/leapfrog",
                                    "mujoco",
                                    "godot"};
 
-// every kind of scene: single springs, a chain with another law, cloths, a block with dashpots on a ball, hard lengths
+// every kind of scene: single springs, a chain with another law, cloths, a block with dashpots on a ball, hard
+// distances
 constexpr const char* twelve[] = {"spring",      "normal-modes", "pendulum",   "chain", "chain-link",    "cloth-hang",
                                   "cloth-stiff", "cloth-swing",  "cloth-wind", "jelly", "cloth-carried", "flag"};
 
-/// Compares all numbers of a scene with those of another.
+/// Compares all numbers of two scenes.
 void expect_within(const Scene& back, const Scene& scene, const Translation& t) {
   for (const TranslatedNumber& number : t.numbers) {
     const auto was = values_of(scene, number.rule->quantity), is = values_of(back, number.rule->quantity);
@@ -89,7 +90,7 @@ TEST(Translation, StatedErrorIsReached) {
   }
 }
 
-/// Two particles of 1 kg on a spring. If the first one is pinned, `mu` is 1 kg.
+/// Two particles of 1 kg on a spring; mu is 1 kg if the first one is pinned.
 Scene one_spring(double k, bool pinned, const std::string& more = "") {
   return small_scene(
       fmt::format("[[particle]]\nposition = [0, 0, 0]\nmass = 1\n[[particle]]\nposition = [0, -1, 0]\n"
@@ -105,7 +106,7 @@ double engine_number(const Translation& t, SceneNumber quantity) {
 }
 
 TEST(Translation, OfALinkHasTheMeasuredValues) {
-  // Measured once from the sag of a mass on one link of Bullet: mu = 1 kg, N/m to five digits, kLST to as many.
+  // Measured once from the sag of a mass on one link of Bullet: mu = 1 kg; N/m and kLST to five digits.
   struct Case {
     double kLST, h;
     int n;
@@ -133,7 +134,7 @@ TEST(Translation, ToSoftConstraintsIsFrequencyAndDampingRatioAtTheReducedMass) {
   const double k = 250, h = 0.01, gamma = 2;
   for (const bool held : {true, false}) {
     const Scene scene = one_spring(k, held, "[drag]\ngamma = 2\n");
-    double inverse = 0;  // pins count as infinite mass
+    double inverse = 0;  // pins have infinite mass
     for (int i = 0; i < scene.model.particles.size(); ++i)
       if (!scene.model.particles.pinned[i]) inverse += 1 / scene.model.particles.mass[i];
     for (const char* to : {"rapier", "box3d"}) {
@@ -212,7 +213,7 @@ TEST(Translation, SaysWhatHasNoNumber) {
   EXPECT_NE(refusal(one_spring(1, true, "[drag]\ngamma = 200\n"), "bullet/deformable-explicit", 0.01)
                 .find("drag = 2; expected a number from 0 to below 1"),
             std::string::npos);
-  // a link indistinguishable from a rigid one in single precision
+  // a link that single precision cannot distinguish from a rigid one
   EXPECT_NE(refusal(one_spring(1e12, true), "bullet32/pbd", 0.01).find("in single precision"), std::string::npos);
 }
 

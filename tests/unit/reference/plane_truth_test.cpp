@@ -1,4 +1,4 @@
-// Planes: closed forms against their own laws, the event-driven route and located events against closed forms,
+// Planes: closed forms satisfy their own laws, the event-driven route and located events agree with closed forms,
 // comparison with Bullet's worlds, and planes in the certificate and the protocol.
 
 #include <Eigen/Geometry>
@@ -104,8 +104,7 @@ TEST(BetweenPlanes, ApicesAndPeriodsAreThoseOfABall) {
 }
 
 TEST(BetweenPlanes, FrictionAtImpactsAndEndlessBouncesFollowsCoulomb) {
-  // Each of the impacts u e^k removes mu (1 + e) u e^k of the tangential speed, until the particle rests and slides to
-  // a stop.
+  // Each impact u e^k removes mu (1 + e) u e^k of the tangential speed, until the particle rests and slides to a stop.
   const double e = 0.5, mu = 0.1, u = std::sqrt(2 * g * 0.2), fall = u / g, end = fall * (1 + e) / (1 - e);
   const Scene scene = slope(0, mu, e, 0.2, 2, 3);
   const auto exact = exact_solution(scene);
@@ -179,7 +178,7 @@ TEST(ContactEvents, OnFixedPlanesUnderConstantForcesMakesRoundingsOnly) {
         for (int i = 0; i < r.trajectory.frames(); ++i)
           worst = std::max(worst, (r.trajectory.x[i] - exact->at(r.trajectory.t[i]).x).norm());
         // Rebounds within a step are ignored: for e = 0.5 to 0.9 a height of g h^2 / 8 and its friction. Implicit rules
-        // leave 1e-10 of the force m v / h.
+        // may leave 1e-10 of the force m v / h.
         const bool ends_in_rest = contains(name, "bounces") || contains(name, "returns") || name == "lift";
         EXPECT_LT(worst, 1e-11 + (ends_in_rest ? g * h * h : 0) + (std::string(rule) == "leapfrog" ? 0 : 1e-6));
       }
@@ -205,7 +204,7 @@ TEST(ContactEvents, OnFixedPlanesIsOfOrderTwo) {
     ASSERT_EQ(truth.trajectory.frames(), 21);
     for (const char* rule : {"leapfrog", "implicit-midpoint"}) {
       SCOPED_TRACE(fmt::format("{} {} {}", rule, friction, restitution));
-      // Use the trend over four halvings, because events fall anywhere in a step, which scatters single orders.
+      // Uses the trend over four halvings, because events fall anywhere in a step, which scatters single orders.
       const auto error = [&](double h) {
         Recorder r;
         simulate(stepper(rule), ContactRule::events, scene, {h, 1, 20, 1e-10}, r);
@@ -225,7 +224,8 @@ TEST(Truth, OfARoughCornerEndsWhereItIsReachedOrIsMarkedAsAContactModel) {
                                    plane_text(Vec3::Zero(), Vec3(-0.5, 1, 0).normalized(), rough) + gravity_text);
   const auto truth = truth_of(scene, default_run(scene));
   ASSERT_TRUE(truth);
-  // It slides into the corner at 0.27 s, then alternates between the slopes until it rests there, before 0.5 s.
+  // The particle slides into the corner at 0.27 s, then alternates between the slopes until it rests there, before 0.5
+  // s.
   EXPECT_TRUE(truth->under_contact_rule || truth->until < 0.5);
   const auto closed = truth_of(corner(3), default_run(corner(3)));
   ASSERT_TRUE(closed);
@@ -265,7 +265,7 @@ TEST(BulletOnPlanes, HoldsAndSlidesAtCoulombsAngleAndDiffersFromOursByRoundings)
 }
 
 TEST(BulletOnPlanes, HoldsWhatSlidesFarOverAFaceThatIsNearlyAlongAnAxis) {
-  // If Bullet does not know the rotation, the face of the unrotated cube ends next to the particle.
+  // If Bullet ignores the rotation, the face of the unrotated cube ends next to the particle.
   for (const Vec3& direction : {Vec3(0.09, -0.98, 0.2), Vec3(0.03, -1, 0.02), Vec3(0.1, 0.1, 0.99)}) {
     const Vec3 n = direction.normalized();
     int axis = 0;

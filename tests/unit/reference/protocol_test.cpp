@@ -41,7 +41,7 @@ TEST_F(SceneJson, GivesEveryShippedSceneAndItsRunBackToTheBit) {
     EXPECT_EQ(time_grid(task.run).steps_per_sample, time_grid(run).steps_per_sample);
     EXPECT_EQ(task.run.tolerance, run.tolerance);
     EXPECT_EQ(task.options, (std::vector<std::string>{"n=10", "shipped"}));
-    // trajectories must agree bit for bit, which covers properties that are not part of the hash
+    // trajectories must agree bit for bit, also in properties outside the hash
     const Stepper& rule = stepper(scene.model.first_order() ? "rk4" : "symplectic-euler");
     if (!takes(rule, scene)) continue;
     const crosscheck::Run few{scene.step, 10 * scene.step, 10};
@@ -227,7 +227,7 @@ TEST_F(RunJson, TheShippedHeaderLeavesOutWhatIsHardOrUnknown) {
                out.readback->probe);
 }
 
-/// A .npy file with this header, followed by `bytes` bytes of data.
+/// A .npy file with this header and `bytes` bytes of data.
 std::string npy_file(const std::string& dictionary, size_t bytes, int version = 1) {
   std::string text = "\x93NUMPY";
   text += static_cast<char>(version);
@@ -352,7 +352,7 @@ TEST_F(FramesOnDisk, SayWhichFileCannotBeWritten) {
   const Scene scene = small_cloth();
   EXPECT_TRUE(contains(refusal_of([&] { TrajectoryWriter(write("file", "") / "x").observe(scene.start, true); }),
                        "file/x/trajectory.npy: cannot be written; expected a folder with write permission"));
-  // emulates a full disk by a limit of 1000 bytes for the process
+  // a limit of 1000 bytes for the process emulates a full disk
   const auto write_more = [&] {
     const rlimit limit{1000, 1000};
     setrlimit(RLIMIT_FSIZE, &limit);

@@ -1,4 +1,5 @@
-// Random scenes by seed: scenes with a closed form, small contact-free networks, and few particles on balls at rest.
+// Random scenes by seed: with a closed form, small networks without contact, few particles on balls at rest or on
+// planes.
 #pragma once
 
 #include <fmt/ranges.h>
@@ -55,16 +56,15 @@ class SceneWriter {
   std::string text_;
 };
 
-/// Random number between low and high, uniform in its logarithm.
+/// Uniform in its logarithm, between low and high.
 inline double decades(Random& random, double low, double high) {
   return low * std::pow(high / low, random.between(0, 1));
 }
-/// True with the given probability.
 inline bool chance(Random& random, double probability) { return random.between(0, 1) < probability; }
 inline int whole(Random& random, int low, int high) { return static_cast<int>(random.between(low, high + 1)); }
 
-/// One mass on one spring in any direction. Damped by drag, a dashpot or both, up to overdamped. Driven by its pin on
-/// request.
+/// One mass on one spring in any direction, optionally damped by drag, a dashpot or both, up to overdamped, and driven
+/// by its pin.
 inline Scene random_spring(unsigned seed, bool damped, bool driven) {
   Random random(seed);
   SceneWriter w;
@@ -95,7 +95,7 @@ inline Scene random_spring(unsigned seed, bool damped, bool driven) {
   return w.scene(fmt::format("random-spring-{}", seed), random.between(2, 6) * period, period / 100, 20);
 }
 
-/// One particle thrown, with or without drag and a steady wind.
+/// One thrown particle, with or without drag and a steady wind.
 inline Scene random_projectile(unsigned seed) {
   Random random(seed);
   SceneWriter w;
@@ -107,7 +107,7 @@ inline Scene random_projectile(unsigned seed) {
   return w.scene(fmt::format("random-projectile-{}", seed), duration, duration / 200, 20);
 }
 
-/// Two to six masses between springs on a line, pinned at one or both ends, undamped or damped in proportion to mass,
+/// Two to six masses between springs on a line, pinned at one or both ends; undamped, or damped in proportion to mass,
 /// stiffness or both.
 inline Scene random_chain(unsigned seed) {
   Random random(seed);
@@ -141,7 +141,7 @@ inline Scene random_chain(unsigned seed) {
   return w.scene(fmt::format("random-chain-{}", seed), duration, 0.06 / omega, 20);
 }
 
-/// A scene with an exact solution (reference/exact): springs with and without drag, dashpot and driven pin,
+/// A scene with an exact solution (reference/truth/exact): springs with and without drag, dashpot and driven pin,
 /// projectiles, and chains on a line. Parameters range over some decades, and the duration over some periods.
 inline Scene random_exact_scene(unsigned seed) {
   switch (seed % 6) {
@@ -166,8 +166,8 @@ inline std::vector<Scene> random_exact_scenes() {
 }
 
 /// 3 to 30 particles in a connected random network of springs under gravity, with one or two pins. About half of the
-/// seeds have drag, half steady or gusty wind, half moving pins and half initial velocities. Lasts 0.5 s, with steps of
-/// a tenth of the stability limit.
+/// seeds each have drag, steady or gusty wind, moving pins, initial velocities. Lasts 0.5 s, with steps of a tenth of
+/// the stability limit.
 inline Scene random_contact_free_scene(unsigned seed) {
   Random random(seed);
   SceneWriter w;
@@ -289,8 +289,8 @@ inline Scene random_contact_scene(unsigned seed) {
   return w.scene(fmt::format("random-contact-{}", seed), random.between(0.5, 1.2), 0.2 / omega, 20);
 }
 
-/// Particles, a chain or a small net that falls on a floor or slope with zero to two walls, with friction of 0 to 0.6
-/// and restitution of 0 to 0.9, with or without drag. Lasts 0.5 to 1.2 s, with steps of a tenth of the stability limit.
+/// Like random_contact_scene(), with particles, a chain or a small net that falls on a floor or slope with zero to two
+/// walls.
 inline Scene random_plane_scene(unsigned seed) {
   Random random(seed);
   SceneWriter w;

@@ -59,7 +59,7 @@ TEST_F(Cache, ReturnsTheSameBitsWithoutComputingAgain) {
   EXPECT_EQ(again->until, 0.25);
   EXPECT_EQ(again->contact, (std::vector{0., 2.}));
   EXPECT_EQ(again->contact_bars, (std::vector{0, 1e-3}));
-  // one file and its lock, and no partial file
+  // one file and its lock, no partial file
   EXPECT_EQ(std::distance(fs::directory_iterator(folder), {}), 2);
   EXPECT_TRUE(fs::exists(cache.file_of(scene, run).string() + ".lock"));
 }
@@ -90,7 +90,7 @@ TEST_F(Cache, RemembersThatNothingIsKnown) {
 TEST_F(Cache, AnotherSceneOrProgramIsAnotherTruth) {
   look_up(cache, scene, run);
   Scene heavier = scene, finer = scene;
-  heavier.model.particles.mass[1] *= 1 + 1e-15;  // changes a few bits; the file's hash remains
+  heavier.model.particles.mass[1] *= 1 + 1e-15;  // changes a few bits; the file's hash stays
   finer.step /= 2;
   look_up(cache, heavier, run);
   look_up(cache, finer, run);

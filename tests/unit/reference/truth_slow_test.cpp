@@ -1,4 +1,4 @@
-// Error bars of the converged truth: compared with exact solutions, and as small as required.
+// Error bars of the converged truth cover the error, and are as small as required.
 
 #include "tests/unit/reference/helpers.h"
 #include "tests/unit/reference/truth_trials.h"
@@ -46,8 +46,8 @@ TEST(Truth, BarsAreAsSmallAsAskedForInTheWindows) {
   for (const auto& [name, largest] : error_bars) {
     SCOPED_TRACE(name);
     const Scene scene = shipped_scene(name);
-    // To save time, only the first half second of the cloths' windows: 2e-9 to 7e-9 m are measured over the whole
-    // windows.
+    // To save time, only the first half second of the cloths' windows; over the whole windows, 2e-9 to 7e-9 m were
+    // measured.
     const double until = scene.triangles.empty() ? scene.window : std::min(0.5, scene.window);
     const auto truth = converged_truth(scene, {scene.step, until, 20});
     ASSERT_TRUE(truth);

@@ -1,4 +1,4 @@
-// One trial of an error bar: the converged truth of a scene, compared with its exact solution.
+// Compares a scene's converged truth and its error bar with the exact solution.
 #pragma once
 
 #include "reference/truth/exact/exact.h"
@@ -11,8 +11,8 @@ struct BarTrial {
   std::string scene;
   bool known = false;    // a converged truth was found
   double error_bar = 0;  // m
-  double error = 0;      // m, the largest at any sample
-  /// Uncertainty (m) of the closed form itself: 1e-15 times the scene's size plus the path length.
+  double error = 0;      // m, largest at any sample
+  /// m, of the closed form: 1e-15 times the scene's size plus the path length.
   double round_off = 0;
 
   double ratio() const { return error_bar / error; }
@@ -37,7 +37,6 @@ inline BarTrial bar_trial(const Scene& scene) {
   return trial;
 }
 
-/// Statistics of many trials.
 struct BarSummary {
   size_t scenes = 0, known = 0, covered = 0, above = 0;
   double median = 0, high = 0;  // bar over error above round-off: median and 95th percentile
