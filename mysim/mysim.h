@@ -78,7 +78,7 @@ class Scene {
 struct Frame {
   double t;                   // s
   std::span<const double> x;  // m: components x[3 i], x[3 i + 1], x[3 i + 2] of particle i
-  std::span<const double> v;  // m/s, as x; empty for first-order scenes
+  std::span<const double> v;  // m/s, in the layout of x; empty for first-order scenes
   bool sample;                // one of the equally spaced samples, not a step between them (Settings::every_step)
 };
 

@@ -9,7 +9,8 @@
 namespace crosscheck {
 
 /// Prescribed motion of a sphere, or of all pins together. The displacement is d(t) = amplitude r(t) sin(2 pi frequency
-/// t), where the ramp r rises from 0 to 1 during the first `ramp` seconds as 6 s^5 - 15 s^4 + 10 s^3 (C^2).
+/// t), where the ramp r rises from 0 to 1 during the first `ramp` seconds as 6 s^5 - 15 s^4 + 10 s^3 (twice
+/// continuously differentiable).
 struct Motion {
   Vec3 amplitude;    // m
   double frequency;  // Hz

@@ -12,7 +12,7 @@ namespace crosscheck {
 namespace fs = std::filesystem;
 namespace {
 
-/// Folders in crosscheck.folders by key; each line holds both.
+/// Folders in crosscheck.folders by their keys; each line has a key and a folder.
 const std::map<std::string, fs::path>& folders() {
   static const auto found = [] {
     const fs::path program = fs::read_symlink("/proc/self/exe");

@@ -25,7 +25,7 @@ constexpr std::size_t longest_derived_name = 220;
 /// beginning with '-' or '.'.
 bool is_name(std::string_view text, std::size_t most = 200);
 
-/// Returns a valid name, otherwise throws InputError "PLACE: expected a name ..., got '...'".
+/// Returns the name if it is valid, otherwise throws InputError "PLACE: expected a name ..., got '...'".
 const std::string& require_name(const std::string& name, const std::string& place, std::size_t most = 200);
 
 /// Throws InputError unless the text is valid for a cell of that column: printable; with line feeds and tabs only

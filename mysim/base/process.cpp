@@ -212,7 +212,7 @@ void keep_as_number_3(int file) {
   for (int number = 4; number < std::min(sysconf(_SC_OPEN_MAX), 65536L); ++number) close(number);
 }
 
-constexpr milliseconds grace(200);     // for the children of a terminated program to end as well
+constexpr milliseconds grace(200);     // time for the children of a terminated program to end as well
 constexpr int try_without_users = -1;  // not an errno value: the user maps could not be written
 
 /// The watcher's main loop. Reports once all processes have ended, at most ten seconds after the limit or SIGTERM.

@@ -85,8 +85,8 @@ bool on_path(const std::string& program);
 
 std::string last_lines(const std::string& text, int count);
 
-/// Ends all children of this process, and the orphans it adopts as a subreaper: SIGTERM, after the grace period
-/// SIGKILL. Gives up ten seconds later. Allocates nothing.
+/// Ends all children of this process, and the orphans it adopts as a subreaper: SIGTERM, then
+/// SIGKILL after the grace period. Gives up ten seconds later. Allocates nothing.
 void end_children(std::chrono::milliseconds grace);
 
 }  // namespace crosscheck

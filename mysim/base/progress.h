@@ -36,7 +36,7 @@ class Progress {
   void expect(int more);
   /// Erases the line from the terminal until the next step begins.
   void done();
-  /// fork() while the display thread sleeps, because a lock that it holds (e.g. of the allocator) would never be
+  /// Calls fork() while the display thread sleeps: a lock that this thread holds (e.g. of the allocator) would never be
   /// released in the child.
   pid_t fork();
 

@@ -76,7 +76,7 @@ std::string did_you_mean(std::string_view word, const std::vector<std::string>& 
 
 std::string unknown_name(std::string_view kind, std::string_view word, const std::vector<std::string>& names,
                          std::string_view list) {
-  constexpr std::size_t longest = 60;  // bytes of the word that are repeated, of the message's 200
+  constexpr std::size_t longest = 60;  // bytes of the word in a message of at most 200
   std::string shown(word);
   if (shown.size() > longest) {
     std::size_t end = longest - 3;
@@ -131,7 +131,7 @@ std::string shell_quote(const std::string& word) {
     const auto c = static_cast<unsigned char>(word[i]);
     const bool shown = length > 0 && c >= 32 && c != 127;
     if (!shown)
-      escaped += fmt::format("\\{:03o}", c);  // three digits, whatever digit follows
+      escaped += fmt::format("\\{:03o}", c);  // three digits, so that a following digit is not included
     else
       escaped += (c == '\'' || c == '\\' ? "\\" : "") + word.substr(i, length);
     plain &= shown &&

@@ -180,8 +180,8 @@ void IncrementalPotential::precondition(const Points& r, Points& out) const {
 namespace {
 
 constexpr int most_repetitions = 100;
-/// 200, and more for few particles: a strut of stiff springs buckles in many short descending steps, because each step
-/// that turns its springs stretches them to second order. With few particles these steps are cheap.
+/// 200 steps, and more for few particles: a strut of stiff springs buckles in many short descending steps, because each
+/// step that turns its springs stretches them to second order. With few particles these steps are cheap.
 int most_newton_steps(long particles) { return static_cast<int>(std::max(200L, 100'000 / particles)); }
 /// Most cloths need ten steps. Following negative curvature far from a minimum may be a detour, and is reserved for
 /// solves that exceed this number.

@@ -42,7 +42,7 @@ struct Overloaded : Functions... {
 };
 template <class... Functions>
 Overloaded(Functions...) -> Overloaded<Functions...>;  // clang deduces this itself from version 17 on
-/// For terms that a visitor ignores: [](const OneOf<Drag, Wind> auto&) {}.
+/// Terms that a visitor ignores, by name: [](const OneOf<Drag, Wind> auto&) {}.
 template <class T, class... Terms>
 concept OneOf = (std::same_as<T, Terms> || ...);
 

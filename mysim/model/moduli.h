@@ -26,17 +26,17 @@ struct Moduli {
   double anisotropy() const;
   /// Transverse contraction over extension under a pull along axis 1; 0 for a line.
   double poisson() const;
-  /// Along axis 1.
+  /// Young's modulus along axis 1.
   double young() const;
   /// Young's modulus of a sheet at an angle (rad) from axis 1.
   double young_at(double angle) const;
-  /// Smallest and largest of a sheet, over all angles.
+  /// Smallest and largest Young's modulus of a sheet over all angles.
   std::pair<double, double> young_range() const;
 };
 
 struct NetModuli {
   std::optional<Moduli> moduli;
-  std::string why_not;  // if there are none
+  std::string why_not;  // reason if there are no moduli
 };
 
 /// Moduli of a network whose springs are at rest and the same at every particle, each with an opposite one. A uniform

@@ -35,7 +35,7 @@ System::System(const Model& model) : model_(model) {
     has_velocity_forces_ |= std::visit([]<class T>(const T&) { return UsesVelocity<T>; }, term);
 }
 
-/// Sums the forces of all terms for which wanted(term) is true in forces_.
+/// Sets forces_ to the sum over all terms for which wanted(term) is true.
 template <class Wanted>
 void System::sum_forces(const State& stage, Wanted wanted) {
   assert(stage.x.cols() == model_.particles.size());

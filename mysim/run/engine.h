@@ -47,7 +47,7 @@ class RunLoop {
   bool ended() const { return sample_ >= grid_.samples || out_.verdict != Verdict::ok; }
   /// Time of the last state (s).
   double time() const { return out_.end; }
-  /// Call it once the run has ended.
+  /// The outcome of the run, after it has ended.
   Outcome outcome();
 
  private:

@@ -11,7 +11,7 @@
 namespace crosscheck {
 namespace {
 
-/// Counts those of an inextensible grid, too.
+/// Number of springs that grid_springs() makes, including those of an inextensible grid.
 double springs_of_grid(const Grid& g) {
   const double a = g.nu, b = g.nv, c = g.nw;
   double count = (a - 1) * b * c + a * (b - 1) * c + a * b * (c - 1);
@@ -85,7 +85,7 @@ Grid read_grid(const TomlTable& s) {
   if (s.has("bending")) {
     g.bending = s.positive("bending");
     if (g.nw > 1) s.fail("bending", "none with a size of three numbers, which is a block: a sheet bends");
-    // 1e-9: rounding of decimal numbers
+    // 1e-9 allows for the rounding of decimal numbers
     if (std::abs(g.u.dot(g.v)) > 1e-9 * g.u.norm() * g.v.norm())
       s.fail("bending", "none where u and v are not at right angles: it is derived for those that are");
   }

@@ -14,7 +14,7 @@ namespace crosscheck {
 /// Particle (i, j, l) has index i + nu (j + nv l) and starts at origin + i/(nu-1) u + j/(nv-1) v + l/(nw-1) w.
 struct Grid {
   int nu, nv, nw;        // nw = 1: cloth
-  Vec3 origin, u, v, w;  // m; the sides span the whole grid
+  Vec3 origin, u, v, w;  // m; u, v and w are the whole sides
   double mass;           // kg, total; shared equally
   struct {
     double structural, shear, bend;  // N/m; 0: none; infinite: hard distances

@@ -112,7 +112,7 @@ Drag read_drag(const TomlTable& s, const Particles& particles) {
   return {Eigen::VectorXd::Constant(particles.size(), s.positive("coefficient"))};
 }
 
-/// Mean wind from `key`, and [gusts] of the same table.
+/// Reads the mean wind from `key`, and [gusts] from the same table.
 WindSignal read_wind_signal(const TomlTable& s, std::string_view key) {
   WindSignal wind_signal{s.vec3(key), std::nullopt};
   if (s.has("gusts")) {
@@ -253,7 +253,7 @@ void read_pairs(const TomlTable& file, const std::optional<Grid>& grid, Scene& s
   for (const TomlTable& s : file.sections("constraint")) {
     const auto [a, b, distance] = read_ends(s, scene);
     const double length = s.has("length") ? s.positive("length") : distance;
-    // 1e-9: rounding of decimal numbers
+    // 1e-9 allows for the rounding of decimal numbers
     if (!(std::abs(distance - length) <= 1e-9 * length) || distance == 0)
       s.fail("ends", fmt::format("ends that are {:.6g} m apart at the start, as they must stay, got {:.6g} m", length,
                                  distance));
@@ -295,7 +295,7 @@ void read_spheres(const TomlTable& file, Scene& scene) {
     const Sphere sphere = read_sphere(s);
     for (int i = 0; i < particles.size(); ++i) {
       const double distance = (scene.start.x.col(i) - sphere.centre).norm();
-      // 1e-9: a particle may be inside by the rounding of a decimal number
+      // 1e-9 allows a particle to be inside by the rounding of a decimal number
       if (!particles.pinned[i] && distance < (1 - 1e-9) * sphere.contact_radius())
         s.fail("radius",
                fmt::format("no particle inside radius + margin at the start, got particle {} at {:.6g} m of the "

@@ -19,7 +19,7 @@ struct Camera {
 struct Scene {
   std::string name;
   std::string question;    // one sentence
-  std::string parameters;  // why they were chosen
+  std::string parameters;  // explanation of the chosen parameters
   Model model;
   State start;
 
@@ -28,7 +28,7 @@ struct Scene {
   double step;         // s, default
   double window;       // s, end of pointwise comparison (a 1e-10 m perturbation grows by less than 1e3)
   double tolerance;    // m, smaller differences are irrelevant to the scene's purpose
-  std::string method;  // default
+  std::string method;  // default method
 
   std::vector<std::array<int, 3>> triangles;  // surface of grids, for pictures
   std::optional<Camera> camera;               // default: everything is visible
@@ -53,9 +53,9 @@ struct Scene {
 /// Reads a scene file. The scene is named after the file, with characters unsafe in file names replaced. Throws
 /// InputError: "FILE:LINE: KEY: expected ...".
 Scene read_scene(const std::string& file);
-/// Messages name `file`.
+/// Parses the text of a scene file; messages name `file`.
 Scene parse_scene(std::string_view text, const std::string& file, const std::string& name);
-/// Messages name the scene.
+/// Parses a text without a file; messages name the scene.
 inline Scene parse_scene(std::string_view text, const std::string& name) { return parse_scene(text, name, name); }
 
 /// FNV-1a over the exact bits of particles, springs, terms and initial state.

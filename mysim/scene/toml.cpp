@@ -118,7 +118,7 @@ std::shared_ptr<const toml::table> parse(std::string_view text, const std::strin
   const toml::parse_error& e = parsed.error();
   TomlError fault = diagnose_toml(text, static_cast<int>(e.source().begin.line), e.description());
   if (const Key* key = key_in_line(text, fault.line, keys); key && key->kind == Key::Kind::value) {
-    // quotes do not mend a word in place of a number
+    // quotes do not turn a word into the expected number
     if (fault.what.starts_with("expected a text in quotes") && key->expected.find('"') == std::string_view::npos &&
         key->expected.find("quotes") == std::string_view::npos)
       fault.what = "unexpected word" + fault.what.substr(fault.what.find("; the line"));
@@ -404,7 +404,7 @@ class KeyCheck {
       if (name == key) tables.push_back(table);
     }
     if (!tables.empty()) return fmt::format("; it belongs to {}", fmt::join(tables, " or "));
-    if (key.size() < 6) return "";  // resembles too many keys
+    if (key.size() < 6) return "";  // short words resemble too many keys
     const std::string meant = closest_match(key, names);
     for (const auto& [name, table] : all)
       if (name == meant) return fmt::format("; did you mean '{}' of {}?", name, table);
@@ -438,7 +438,7 @@ class KeyCheck {
       if (std::find(known.begin(), known.end(), key.str()) != known.end()) continue;
       std::string here = path;
       while (here.find('[') != std::string::npos) here.erase(here.find('['), here.find(']') - here.find('[') + 1);
-      // a missing key is likelier than one that is present
+      // a misspelt key is likelier to be a missing one than one that is present
       const std::string meant = closest_match(key.str(), absent);
       std::string hint = elsewhere(key.str(), here);
       const bool lacks = std::any_of(missing.begin(), missing.end(), [&](const Key* k) { return k->name == meant; });

@@ -77,7 +77,7 @@ struct TomlError {
   std::string what;
 };
 
-/// line, description: of the parser; the description is kept if no better diagnosis is known.
+/// line, description: the parser's; the description is kept if no better diagnosis is known.
 TomlError diagnose_toml(std::string_view text, int line, std::string_view description);
 
 /// Error for a key with so many dots that toml++, which recurses for each, would exhaust the stack.

@@ -12,7 +12,7 @@
 namespace crosscheck {
 namespace {
 
-/// A line without comment and content of texts, so that only syntax remains.
+/// A line without its comment and the content of its texts, so that only syntax remains.
 struct BareLine {
   std::string code;     // as long as the line up to its comment; content of texts is '_'
   std::string shown;    // the original line, trimmed
@@ -27,7 +27,7 @@ std::string trimmed_line(std::string_view text) {
 
 std::vector<BareLine> bare_lines(std::string_view text) {
   std::vector<BareLine> lines;
-  std::string_view fence;  // of the open multi-line text: """ or '''
+  std::string_view fence;  // delimiter of the open multi-line text: """ or '''
   for (std::size_t begin = 0; begin <= text.size();) {
     const std::size_t end = std::min(text.find('\n', begin), text.size());
     const std::string_view line = text.substr(begin, end - begin);

@@ -35,13 +35,13 @@ void leapfrog_step(System& f, State& s, double h, int passes, Workspace& w) {
   Points& a = w[0].v;
   const double start = s.t;
   s.t = start + h / 2;
-  s.x += h / 2 * s.v;             // to the midpoint
+  s.x += h / 2 * s.v;             // drift to the midpoint
   f.position_acceleration(s, a);  // kick with the force there
   if (f.has_velocity_forces())
     kick_with_velocity_forces(f, s, a, h, passes, w);
   else
     kick(f.drag_rate(), s.v, a, h, s.v);
-  s.x += h / 2 * s.v;  // to the end
+  s.x += h / 2 * s.v;  // drift to the end
   s.t = start;
 }
 

@@ -64,7 +64,7 @@ double runge_kutta(StabilityLimit rule, double omega, double gamma) {
                     8 / fastest);
 }
 
-/// The leapfrog step on (u, v); h may be negative.
+/// The leapfrog step as a matrix on (u, v); h may be negative.
 Eigen::Matrix2d leapfrog_matrix(double omega, double gamma, double h) {
   const double half = h * gamma / 2;
   Eigen::Matrix2d drift, kick;

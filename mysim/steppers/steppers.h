@@ -56,7 +56,7 @@ struct KickDriftComposition {
 struct Stepper {
   std::string_view name;
   StepFunction step;
-  int order;         // global error on smooth scenes, including drag
+  int order;         // order of the global error on smooth scenes, including drag
   int evaluations;   // right-hand side evaluations per step; 0: as many as the equations require
   bool first_order;  // supports first-order scenes
   bool symplectic;   // without drag
@@ -66,8 +66,8 @@ struct Stepper {
   bool adaptive = false;           // chooses its steps to meet a tolerance; `step`: its rule at a fixed step
   bool hard_constraints = false;   // supports hard distances
   double solved_to = 0;            // implicit rules: residual relative to the largest force, inertia m v / h included
-  StepFunction linear = nullptr;   // for the option +linear
-  KickDriftComposition (*composition)() = nullptr;  // null: the rule is none
+  StepFunction linear = nullptr;   // rule of the option +linear
+  KickDriftComposition (*composition)() = nullptr;  // null if the rule is none
 };
 
 void explicit_euler(System& f, State& s, double h, Workspace& w);
@@ -125,7 +125,7 @@ class DormandPrince {
   /// forget().
   void attempt(System& f, State& s, double h);
   const State& next() const { return next_; }
-  /// Difference of the orders 5 and 4, in positions (3 x n, m) and velocities (3 x n, m/s).
+  /// Estimated error of next(): order 5 minus order 4, in positions (3 x n, m) and velocities (3 x n, m/s).
   const State& error();
   /// Largest speed (m/s) that the first stage alone would produce in the attempted step.
   double first_step_speed() const { return stage_.t * largest_column(k_[0].v); }

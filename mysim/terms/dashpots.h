@@ -30,7 +30,7 @@ inline void add_force(const Dashpots& dashpots, const Particles&, const State& s
   }
 }
 
-/// -dF/dv for the state's directions. dF/dx, by their change, is omitted, which keeps the matrix symmetric: implicit
+/// -dF/dv at the state's directions. Their change (dF/dx) is omitted, which keeps the matrix symmetric: implicit
 /// methods repeat the solve with the new directions.
 inline void add_tangent(const Dashpots& dashpots, const Particles&, const State& state, Curvature, Tangent& tangent) {
   for (const auto& [a, b, c] : dashpots.list) {

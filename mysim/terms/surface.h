@@ -5,9 +5,9 @@
 // included):
 //   1. position: the particle is put on the surface, which pushes it by p along the outward normal n;
 //   2. friction on the position: its tangential displacement in the step, relative to x_n, is reduced by at most mu p
-//   (Coulomb: tangential impulse at most mu times the normal one), and the result is put on the surface again;
+//      (Coulomb: tangential impulse at most mu times the normal one), and the result is put on the surface again;
 //   3. velocity: the inward normal component is removed (or reversed times e), and the tangential component is reduced
-//   by at most mu times the change of the normal component.
+//      by at most mu times the change of the normal component.
 // Friction on the velocity alone does not suffice: a particle at rest on a slope would creep at about h g sin(theta) /
 // 2.
 #pragma once

@@ -1,4 +1,4 @@
-// Compiled once per instruction set, CROSSCHECK_ISA.
+// Compiled once per instruction set, which CROSSCHECK_ISA names.
 #include "mysim/simd/cloth_grid/fused_step.h"
 
 #include <cassert>
