@@ -230,7 +230,7 @@ std::vector<Method> find_methods(const std::string& list) {
 
 namespace {
 
-/// Observes free particles from one verdict's state to the next.
+/// Observes free particles between the states on which verdicts are based.
 ///
 /// Largest speed: the verdict's differences over two states hide a vibration that reverses in every step. A stable
 /// vibration near its limit may do so, which is no failure.

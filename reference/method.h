@@ -71,7 +71,7 @@ struct FoundRule;
 struct Method {
   std::string name;     // full, e.g. "mysim/leapfrog+sticky"
   std::string what;     // one line for the user
-  std::string rule;     // as by rule_of(), for methods that are not identified from their runs; may be empty
+  std::string rule;     // as returned by rule_of(), for methods that are not identified from their runs; may be empty
   Engine engine;        // throws Unsupported
   ContactLoss contact;  // source of the energy lost in contacts: reported, inferred or sampled
   const Stepper* stepper = nullptr;  // only for mysim's methods, otherwise null
@@ -103,7 +103,7 @@ const Method* builtin_method(std::string_view name);
 /// The built-in method of a name with options, or null.
 const Method* builtin_without_options(std::string_view name);
 
-/// The subject's first method with such a stepper, or empty.
+/// Name of the subject's first method with such a stepper, or empty.
 std::string subject_method(const std::function<bool(const Stepper&)>& asked);
 
 /// "leapfrog" for mysim's methods, otherwise the whole name.

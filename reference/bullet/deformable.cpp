@@ -29,7 +29,7 @@ btVector3 SceneForce::velocity(int particle) const {
 }
 
 btVector3 SceneForce::dashpot_axis(int a, int b) const {
-  // as Bullet's own dashpots in the explicit world, and the springs in the implicit world
+  // positions used by Bullet's own dashpots in the explicit world, and by the springs in the implicit world
   return carried_.implicit ? node(a).m_q - node(b).m_q : node(a).m_x - node(b).m_x;
 }
 
@@ -339,7 +339,7 @@ ForceProbe DeformableForces::probe(btAlignedObjectArray<btDeformableLagrangianFo
 
 namespace {
 
-/// The tolerance of Bullet's linear solver is protected.
+/// Gives access to the tolerance of Bullet's linear solver, which is protected.
 class BodySolver : public btDeformableBodySolver {
  public:
   void set_tolerance(double squared) {

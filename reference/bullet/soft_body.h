@@ -57,7 +57,7 @@ class SoftBody {
   void restore_lengths();
   /// Writes positions and velocities of the pins at time t (s) to the nodes. Bullet's forces read m_q.
   void place_pins(double t);
-  /// In the scene's numbering.
+  /// Current state in the scene's numbering.
   const State& read_state(double t);
   /// Masses, pins, initial state, and links with rest lengths, springs first. The world adds the rest.
   Readback read_back() const;
@@ -172,7 +172,7 @@ class Obstacles {
   void add(const Surface& surface, std::unique_ptr<btConvexShape> shape, const Vec3& middle);
 
   std::vector<Obstacle> obstacles_;
-  std::vector<btTransform> built_;  // with which they were added
+  std::vector<btTransform> built_;  // transforms with which they were added
 };
 
 /// "5 mrad on voxels of a = 10 mm": largest error of Bullet's normals, in each direction, on the scene's smallest ball;

@@ -6,7 +6,7 @@
 namespace crosscheck {
 namespace {
 
-/// Number, ends, rest lengths and stiffness of one family of springs.
+/// Rows for number, ends, rest lengths and stiffness of one family of springs.
 void certify_family(Family family, const Springs& springs, const Readback& r, CertificateWriter& w) {
   const std::string name = family == Family::single ? "springs" : fmt::format("{} springs", name_of(family));
   int count = 0, same = 0;

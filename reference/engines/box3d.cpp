@@ -59,7 +59,8 @@ class Box3dWorld : public World {
     for (size_t i = 0; i < x_.size(); ++i)
       if (!scene_.pinned[i]) b3Body_ApplyForceToCenter(bodies_[i], to_box3d(f_[i]), true);
     const double h = scene_.step;
-    for (size_t p = 0; p < scene_.pins.size() && scene_.pins_move; ++p)  // moved by a velocity to the end of the step
+    for (size_t p = 0; p < scene_.pins.size() && scene_.pins_move;
+         ++p)  // a velocity moves the pin to its place at the end of the step
       b3Body_SetLinearVelocity(bodies_[scene_.pins[p]],
                                to_box3d(1 / h * (scene_.pin_at(p, t + h) - x_[scene_.pins[p]])));
     b3World_Step(world_, float(h), substeps_);

@@ -27,7 +27,7 @@ struct OutsideEngine {
   bool is_native() const { return built == "native"; }
 };
 
-/// In the order of the file. Throws InputError.
+/// The engines in the order of the file. Throws InputError.
 std::vector<OutsideEngine> outside_engines();
 
 /// The program that `crosscheck engine NAME` keeps for reports; it need not exist.

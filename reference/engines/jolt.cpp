@@ -68,7 +68,7 @@ class SoftBody {
     creation.mUpdatePosition = false;  // otherwise the frame follows, and vertices are rounded once more per step
     creation.mAllowSleeping = false;   // otherwise a body slower than 0.17 m/s for half a second stops
     creation.mFriction = 1;            // contacts use sqrt(body's times sphere's)
-    creation.mRestitution = 0;         // contacts use the larger one
+    creation.mRestitution = 0;         // contacts use the larger of the two
     JPH::BodyInterface& all = system.GetBodyInterface();
     body = all.CreateSoftBody(creation);
     if (!body) throw std::runtime_error("Jolt made no soft body");

@@ -268,7 +268,7 @@ class MujocoWorld : public World {
   Scene called_;  // only the springs and dashpots applied by the callback
   std::string integrator_;
   bool tendons_ = true, joint_drag_ = true;
-  std::vector<int> tendon_of_;                    // by spring; -1: applied by the callback
+  std::vector<int> tendon_of_;                    // tendon of each spring; -1: applied by the callback
   std::map<std::pair<int, int>, size_t> tendon_;  // by pair of particles
   std::vector<Vec> x_, v_, f_;
   std::unique_ptr<mjModel, Free> model_;

@@ -32,7 +32,8 @@ class OdeWorld : public World {
     for (size_t i = 0; i < x_.size(); ++i) {
       bodies_.push_back(dBodyCreate(world_));
       dMass mass;
-      dMassSetSphereTotal(&mass, scene.mass[i], 1);  // any: all forces act at the centres, so bodies do not rotate
+      dMassSetSphereTotal(&mass, scene.mass[i],
+                          1);  // any radius: all forces act at the centres, so bodies do not rotate
       dBodySetMass(bodies_[i], &mass);
       if (scene.pinned[i]) dBodySetKinematic(bodies_[i]);
       place(i, scene.x[i], scene.v[i]);

@@ -6,7 +6,7 @@
 // - joint: spring joints, soft constraints that are implicit along the line at the step's start, explicit across it;
 // - softbody: edges of a soft body, each with a frequency and a damping ratio; rest lengths are the initial ones;
 // - forces: computed by this adapter, applied by addForce. Rapier repeats a step's force in each sub-step, so x moves
-// by h v + h^2 a (n + 1) / (2n) instead of h v + h^2 a: energy grows unless n = 1.
+//   by h v + h^2 a (n + 1) / (2n) instead of h v + h^2 a: energy grows unless n = 1.
 // Drag is linear damping: v is divided by 1 + gamma h / n in each sub-step.
 import RAPIER from '@dimforge/rapier3d-compat';
 import { serve, unsupported } from '../protocol/crosscheck_engine.mjs';

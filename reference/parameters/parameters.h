@@ -44,7 +44,7 @@ struct NumberRule {
   double (*to)(double, const NumberContext&) = nullptr;  // null: the engine has no such number
   double (*from)(double, const NumberContext&) = nullptr;
   Gather gather = Gather::each;
-  std::string_view expected = {};   // valid numbers
+  std::string_view expected = {};   // description of valid numbers
   bool (*valid)(double) = nullptr;  // null: any finite number >= 0
   /// Relative error of the scene's number over that of the engine's; null: 1.
   double (*condition)(double, const NumberContext&) = nullptr;
@@ -56,7 +56,7 @@ struct NumberRule {
 /// cloth (experiment `stiffness`).
 inline constexpr double sequential_limit = 0.03;
 
-/// A row of the table.
+/// An engine's numbers: a row of the table.
 struct EngineNumbers {
   std::string_view name = {};        // of an engine that is no method here, e.g. "jolt"; empty: the methods' names
   std::string_view title = {};       // for display

@@ -280,7 +280,7 @@ struct Scene {
   int steps_per_sample = 0, samples = 0;
   std::vector<double> mass;   // kg; empty in first-order scenes
   std::vector<Vec> x, v;      // m, m/s
-  std::vector<char> pinned;   // 1 if fixed or moved
+  std::vector<char> pinned;   // 1 if pinned
   std::vector<int> pins;      // pinned particles
   std::vector<Vec> pin_home;  // m, positions at t = 0
   bool pins_move = false;
@@ -593,7 +593,7 @@ inline Probe probe_state(const Scene& scene) {
 }
 
 /// Coefficients (N s/m) of the dashpots parallel to each spring, for engines whose springs have their own damping. The
-/// first of parallel springs gets it. Dashpots without a parallel spring are added to `others`.
+/// first of several parallel springs gets it. Dashpots without a parallel spring are added to `others`.
 inline std::vector<double> damping_of_springs(const Scene& scene, std::vector<Dashpot>& others) {
   std::map<std::pair<int, int>, size_t> first;
   for (size_t i = 0; i < scene.springs.size(); ++i) first.emplace(std::pair{scene.springs[i].a, scene.springs[i].b}, i);

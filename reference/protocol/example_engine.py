@@ -28,7 +28,7 @@ free = ~np.isin(np.arange(len(x)), held)
 
 
 def pins_at(t):
-    """Where the pins are, and how fast: d(t) = amplitude r(t / ramp) sin(2 pi frequency t)."""
+    """Positions and velocities of the pins: d(t) = amplitude r(t / ramp) sin(2 pi frequency t)."""
     if "motion" not in pins:
         return home, 0
     move = pins["motion"]
@@ -63,7 +63,7 @@ def shortened(vectors, by):
 
 
 def touch(plane, before, t):
-    """Puts particles on the plane; Coulomb friction on their displacement and their velocity, as the plane sees them."""
+    """Puts particles on the plane, with Coulomb friction on their displacement and velocity relative to the plane."""
     (point, velocity), n, mu = face_at(plane, t), plane["normal"], plane["friction"]
     i = np.flatnonzero(((x - point) @ n < 0) & free)
     push = -(x[i] - point) @ n
@@ -78,7 +78,7 @@ def touch(plane, before, t):
 
 
 def readback(end):
-    """What was simulated, for the certificate: this engine has no dashpots, wind and spheres."""
+    """The scene as simulated, for the certificate: this engine has no dashpots, wind and spheres."""
     start, speed = np.array(task["particles"]["x"]), np.array(task["particles"]["v"])
     stretched, none = start, np.zeros_like(start)
     for factor in np.arange(1.1, 3, 0.1):  # until no spring is within a hundredth of its rest length

@@ -147,8 +147,8 @@ Outcome failed(Outcome out, Verdict verdict, const std::string& what, const Prog
 }
 
 /// Maximum size of run.json in bytes. A number with its blank and comma takes 26. A particle has 27 numbers (mass, pin,
-/// drag, two vectors of the start, five of the probe, one of later positions); a link has 4, and keys of 60 bytes: 702
-/// and 164 bytes. Three times that leaves room for line breaks, and a mebibyte for texts.
+/// drag, two vectors of the start, five of the probe, one of later positions); a link has 4, plus 60 bytes for its
+/// keys: 702 and 164 bytes. Three times that leaves room for line breaks, and a mebibyte for texts.
 std::uintmax_t largest_run_json(const Scene& scene) {
   const auto* springs = scene.model.find<Springs>();
   const auto* constraints = scene.model.find<Constraints>();

@@ -22,12 +22,12 @@ struct Program {
 };
 
 /// Parses "PATH+option+option". PATH is relative to the working directory; a bare word is searched for there, then in
-/// PATH. All after the longest prefix that is a file is options, for the program except timeout=SECONDS. Throws
-/// InputError if there is no such program.
+/// PATH. Everything after the longest prefix that is a file is options; timeout=SECONDS is for Crosscheck, the others
+/// are for the program. Throws InputError if there is no such program.
 Program find_program(const std::string& text);
 
-/// Adds an option from a method's name, for the program except timeout=SECONDS. Throws InputError that names `method`
-/// if the timeout is invalid.
+/// Adds an option of a method's name; timeout=SECONDS is for Crosscheck. Throws InputError that names `method` if the
+/// timeout is invalid.
 void add_option(Program& program, const std::string& method, const std::string& option);
 
 /// Runs the program on the scene and replays its results through the observer. Verdict::timeout or Verdict::crash, with

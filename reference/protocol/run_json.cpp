@@ -169,7 +169,7 @@ std::string run_json(const Outcome& out) {
 
 void read_run_json(const std::filesystem::path& path, Outcome& out, double duration) {
   const JsonField f = JsonField::parse_file(path.string());
-  constexpr double most_counted = 9007199254740992;  // 2^53: larger integers are not distinct
+  constexpr double most_counted = 9007199254740992;  // 2^53: larger integers are inexact
   constexpr double most_seconds = 1e9;
   auto number = [&](const char* key, double lowest, double highest, const char* expected) -> std::optional<double> {
     const auto found = f.find(key);

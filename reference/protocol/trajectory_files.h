@@ -31,7 +31,7 @@ class TrajectoryWriter : public Observer {
  public:
   explicit TrajectoryWriter(std::filesystem::path folder) : folder_(std::move(folder)) {}
   Verdict observe(const State& state, bool sample) override;
-  /// Writes the number of frames, which a failed run has fewer of than requested.
+  /// Writes the number of frames; a failed run has fewer than requested.
   void finish();
   /// Times of the frames (s).
   const std::vector<double>& times() const { return times_; }

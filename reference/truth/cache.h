@@ -23,8 +23,8 @@ class TruthCache {
   /// defined, or the program has no build id.
   static std::optional<TruthCache> from_environment();
 
-  /// The stored truth, or a computed one, which is stored; so is "no truth". Ignores damaged files and those of another
-  /// program. Stores nothing if the folder is not writable.
+  /// Returns the stored truth, or computes and stores one ("no truth" is stored too). Ignores damaged files and those
+  /// of another program. Stores nothing if the folder is not writable.
   std::optional<Truth> find_or_compute(const Scene& scene, const Run& run,
                                        const std::function<std::optional<Truth>()>& compute) const;
   std::filesystem::path file_of(const Scene& scene, const Run& run) const;

@@ -12,8 +12,8 @@
 
 namespace crosscheck {
 
-/// Increment of (u, v, 1) in a step, as a matrix E: the rule multiplies by I + E. Without the identity, in whose sum
-/// the small entries of short steps would lose their digits.
+/// Increment of (u, v, 1) in a step, as a matrix E: the rule multiplies by I + E. The identity is left out, because
+/// the small entries of short steps would lose their digits in the sum.
 using Increment = Eigen::Matrix3d;
 
 struct DiscreteStepper {

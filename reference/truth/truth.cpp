@@ -117,8 +117,8 @@ class ErrorOfTwoRoutes {
       : one_(one), other_(other), apart_(apart), own_(one, apart), theirs_(other, apart) {}
   /// Error of the first route at sample i, m (or J); to be called in order of i. It is at least the route's own
   /// estimate, and at least the distance from the second route plus that route's estimate, because both may err in the
-  /// same way. The error of a second route of order 1 is by far the larger one, of another kind: the larger of the
-  /// distance and its last change replaces the sum.
+  /// same way. If the second route has order 1, its error is by far the larger one and of another kind: the larger of
+  /// the distance and its last change then replaces the sum.
   double error_up_to(size_t i) {
     const double theirs = theirs_.error_up_to(i), own = own_.error_up_to(i),
                  between = apart_(one_.fine, other_.fine, i);
@@ -304,7 +304,7 @@ class MissingEnergy : public Ledger {
   }
 };
 
-/// True if a particle is within 1e-9 of the scene's size of a contact surface, more than the rounding of its position.
+/// True if a particle is closer to a contact surface than 1e-9 of the scene's size, which exceeds position rounding.
 bool in_contact(const Scene& scene, double t, const Points& x) {
   const double near = 1e-9 * scene.size();
   const std::vector<Surface> surfaces = surfaces_of(scene.model);

@@ -169,7 +169,7 @@ struct Slip {
 /// Motion along the normal of one plane or of two opposite planes.
 struct Between {
   Vec3 normal;
-  double wall, speed;  // m, m/s along the normal: first plane
+  double wall, speed;  // m, m/s along the normal, of the first plane
   double friction;     // mu
   Fall fall;           // relative to the first plane; position and speed differ by particle
 };
@@ -290,7 +290,7 @@ class Slide {
   /// Angle at time t <= departure_time().
   double theta(double t) const {
     double low = theta0_, high = departure_, at = theta0_ + (departure_ - theta0_) * t / departure_time_;
-    for (int i = 0; i < 60; ++i) {  // Newton's method, by bisection outside the interval
+    for (int i = 0; i < 60; ++i) {  // Newton's method; bisection if it would leave the interval
       const double off = time(at) - t;
       (off > 0 ? high : low) = at;
       const double next = at - off * std::sqrt(u(at));
@@ -301,8 +301,8 @@ class Slide {
   }
 
  private:
-  /// Time until the angle (s): Gauss quadrature with 5 points on each of 40 pieces, whose error is below rounding
-  /// because u is smooth.
+  /// Time from the start to the angle (s): Gauss quadrature with 5 points on each of 40 pieces, whose error is below
+  /// rounding because u is smooth.
   double time(double theta) const {
     constexpr double node[] = {0, 0.5384693101056831, 0.9061798459386640};
     constexpr double weight[] = {0.5688888888888889, 0.4786286704993665, 0.2369268850561891};

@@ -133,7 +133,7 @@ HangingStrip::Place HangingStrip::at(double s) const {
   const double from_middle = std::abs(s), side = s < 0 ? -1 : 1;
   if (states_.empty())
     return {side * catenary_ * std::asinh(from_middle / catenary_), std::hypot(catenary_, from_middle) - catenary_};
-  // along the curve from the step before, with the angle halfway: an error of the order of a cubed step
+  // along the curve from the step before, with the angle halfway: an error of third order in the step
   const double at = from_middle / half_ * steps;
   const size_t i = std::min<size_t>(static_cast<size_t>(at), states_.size() - 1);
   const double ds = (at - static_cast<double>(i)) / steps;

@@ -21,7 +21,7 @@ using Matrix8 = Eigen::Matrix<Complex, 8, 8>;
 using Vector8 = Eigen::Matrix<Complex, 8, 1>;
 constexpr Complex imaginary(0, 1);
 
-/// u = u' = 0, and of the six functions only j = 0 is 1.
+/// At the start u = u' = 0, and of the six functions only j = 0 is 1.
 Vector8 at_start() { return Vector8::Unit(2); }
 
 }  // namespace

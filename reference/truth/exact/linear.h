@@ -49,10 +49,10 @@ struct Oscillator {
 /// u'' = -w2 (u - d) - drag u' - dashpot (u' - d') from rest at u = 0, where d = a r(t) sin(W t) is a prescribed motion
 /// (mysim/particles.h) along a line. d is the imaginary part of a r(t) e^(iWt), and r is a polynomial of degree 5
 /// during the ramp:
-/// - during the ramp u, u' and the six functions t^j e^(iWt) satisfy a linear system with constant coefficients. Its
-/// matrix exponential gives u, and remains finite at resonance, unlike undetermined coefficients;
+///   - during the ramp u, u' and the six functions t^j e^(iWt) satisfy a linear system with constant coefficients. Its
+///     matrix exponential gives u, and remains finite at resonance, unlike undetermined coefficients;
 ///   - afterwards u = Im(Z e^(iWt)) with Z = a (w2 + iW dashpot) / (w2 - W^2 + iW (drag + dashpot)), plus a free motion
-///   that matches the ramp's end. Z is infinite only at the resonance of an undamped oscillator.
+///     that matches the ramp's end. Z is infinite only at the resonance of an undamped oscillator.
 class DrivenMotion {
  public:
   DrivenMotion(double omega2, double drag, double dashpot, double amplitude, const Motion& motion);
@@ -99,9 +99,9 @@ struct LinearScene {
 
 /// Modes of the scene, or nothing if it is neither of these:
 ///   - one free particle under gravity, steady wind and drag: three modes;
-/// - Hooke's springs and masses on a line, with at least one of them pinned; gravity, steady wind, velocities and the
-/// motion of the pins along the line; one drag rate; and dashpots in proportion to the stiffness (always so with one
-/// free mass).
+///   - Hooke's springs and masses on a line, with at least one of them pinned; gravity, steady wind, velocities and the
+///     motion of the pins along the line; one drag rate; and dashpots in proportion to the stiffness (always so with
+///     one free mass).
 /// The caller must check that no spring turns over.
 std::optional<LinearScene> linear_scene(const Scene& scene);
 

@@ -163,7 +163,7 @@ class EventDrivenWorld : public World {
 
   /// Velocity relative to a ball, m/s.
   Vec3 seen_from(const StateVector& y, int i, int ball) const { return speed(y, i) - balls_[ball].velocity; }
-  /// Push of a ball (m/s^2) on a particle with the acceleration a relative to the ball without it.
+  /// Push of a ball (m/s^2) on a particle, whose acceleration relative to the ball is a without this push.
   double push(const StateVector& y, int i, int ball, const Vec3& a) const {
     const Vec3 n = normal(y, i, ball), w = seen_from(y, i, ball);
     return -a.dot(n) - (w - w.dot(n) * n).squaredNorm() / balls_[ball].radius;

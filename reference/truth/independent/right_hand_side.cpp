@@ -267,7 +267,7 @@ void RightHandSide::add_spring_forces() {
 
 void RightHandSide::add_dashpot_forces() {
   for (const auto& [a, b, c] : dashpots_) {
-    double d[3], square = 0, parting = 0;  // half the rate of change of the square
+    double d[3], square = 0, parting = 0;  // parting: half the rate of change of the square
     for (int axis = 0; axis < 3; ++axis) {
       d[axis] = x_[3 * b + axis] - x_[3 * a + axis];
       square += d[axis] * d[axis];

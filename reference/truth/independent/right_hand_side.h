@@ -60,7 +60,8 @@ std::vector<Solid> solids_of(const Scene& scene);
 class RightHandSide {
  public:
   /// Copies its numbers from the scene, and calls none of mysim's forces, motions or gusts. Throws Unsupported if there
-  /// is contact, which a right-hand side cannot represent. `time_unit` (s): of the velocities among the unknowns.
+  /// is contact, which a right-hand side cannot represent. `time_unit` (s) multiplies the velocities among the
+  /// unknowns.
   explicit RightHandSide(const Scene& scene, double time_unit = 1);
 
   StateVector start() const;
