@@ -366,8 +366,8 @@ TEST(ImplicitMidpoint, KeepsTheEnergyOfOneSpringAtAnyStep) {
     // The largest force is the inertia m v / (h/2) or the spring's k x = 30 N.
     EXPECT_LT(error, 1e-10 * (2 * 2 / h + 30) * 2 * 5) << h;
   }
-  // in contrast, the energy of a rule of the same order that does not conserve it oscillates by at least (h omega)^2 /
-  // 8
+  // in contrast, with a rule of the same order that does not conserve it, the energy oscillates by a relative
+  // (h omega)^2 / 8 or more
   EXPECT_GT(largest_energy_error(stepper("leapfrog"), scene, {1e-2, 5, 100}), 1e-3);
 }
 
