@@ -66,18 +66,19 @@ TEST(Grade, EveryWayToFailHasItsMessageAndCostsItsOwnPart) {
        "double twice(double x) { return 2 * x; }",
        "twice.cpp defines sums("},
       {"crash", "double twice(double x) { volatile int* p = nullptr; return *p + x; }",
-       "crashed (segmentation fault). Run once more, it ends in line 5 of twice.cpp."},
+       "crashed (segmentation fault). A second run ends in line 5 of twice.cpp."},
       {"index",
        "#include <vector>\ndouble twice(double x) { std::vector<double> all(3, x);\n  return all[1] + all[x < 99 ? 3 : "
        "2]; }",
-       "crashed (aborted). Run once more with every index checked, line 7 of twice.cpp asks for index 3 of 3 "
+       "crashed (aborted). A second run, with every index checked, shows that line 7 of twice.cpp asks for index 3 of "
+       "3 "
        "elements."},
       {"throws", "double twice(double) { throw std::runtime_error(\"not today\"); }", "exception: not today"},
       {"recursion", "double twice(double x) { return twice(x) + 1; }", "a function called itself"},
       {"compiler's memory", "__asm__(\".rept 400000000\\n.quad 0\\n.endr\"); double twice(double x) { return x; }",
        "the compiler needed more than 1024 MB"},
       {"our words", "double twice(double) { throw std::runtime_error(std::string(300, 'q')); }",
-       "its text is not shown"},
+       "its message is not shown"},
       {"nan", "double twice(double x) { return x / 0.0 * 0.0; }", "Not a finite number at double"},
       {"memory", "double twice(double x) { std::vector<double> v(20000000000ull, x); return v[1]; }", "more memory"},
       {"exit", "double twice(double) { std::exit(0); }", "ended the program before"},
@@ -195,17 +196,15 @@ TEST(Grade, ALoopWithoutEndIsNotGradedAndNotRunAgain) {
     seconds += test.seconds;
   }
   const std::string& said = result.tests[0].said;
-  EXPECT_NE(said.find("Not graded: your code was too slow. It was stopped after 2 s of processor time; the official "
+  EXPECT_NE(said.find("Not graded: your code was too slow. It was stopped after 2 s of CPU time; the official "
                       "solution needs 0."),
             std::string::npos)
       << said;
-  EXPECT_NE(said.find("The last function that was called is twice; that was call number 1."), std::string::npos)
-      << said;
+  EXPECT_NE(said.find("The last function called is twice; this was call number 1."), std::string::npos) << said;
   EXPECT_EQ(result.tests.back().part == "twice" ? result.tests.back().said : result.tests[3].said,
-            "Not graded, as test " + result.tests[0].id + ": it makes the same calls.");
+            "Not graded: it makes the same calls as test " + result.tests[0].id + ", which was not graded.");
   const std::string text = text_of(result, common_texts());
-  EXPECT_NE(text.find("Total: 50 of 50 points\n50 more points could not be given or refused"), std::string::npos)
-      << text;
+  EXPECT_NE(text.find("Total: 50 of 50 points\n50 more points are undecided"), std::string::npos) << text;
 }
 
 TEST(Grade, KnownMistakesLoseTheirTestsAndAreNamed) {

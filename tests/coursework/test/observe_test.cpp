@@ -60,16 +60,17 @@ TEST(Seen, SaysWhichVectorsAreRightAndWhatTheOthersAre) {
   EXPECT_EQ(seen([](double, double, double, double) { return 0.; }),
             "Right: x'. Wrong: v'. Where v' is wrong, it is 0.");
   EXPECT_EQ(seen([](double m, double g, double drag, double v) { return -(m * g - drag * v); }),
-            "Right: x'. Wrong: v'. Where v' is wrong, it is the right one with the opposite sign.");
+            "Right: x'. Wrong: v'. Where v' is wrong, it is the right value with the opposite sign.");
   EXPECT_EQ(seen([](double m, double g, double drag, double v) { return m * (m * g - drag * v); }),
-            "Right: x'. Wrong: v'. Where v' is wrong, it is the right one times m.");
+            "Right: x'. Wrong: v'. Where v' is wrong, it is the right value times m.");
   EXPECT_EQ(seen([](double m, double g, double drag, double v) { return (m * g - drag * v) / 3; }),
-            "Right: x'. Wrong: v'. Where v' is wrong, it is the right one times 1/3.");
-  EXPECT_EQ(seen([](double m, double, double, double v) { return m * v; }),
-            "Right: x'. Wrong: v'. Where v' is wrong, it is v as it was given. Where v' is wrong, it is what x' should "
-            "be.");
+            "Right: x'. Wrong: v'. Where v' is wrong, it is the right value times 1/3.");
+  EXPECT_EQ(
+      seen([](double m, double, double, double v) { return m * v; }),
+      "Right: x'. Wrong: v'. Where v' is wrong, it equals v of the input. Where v' is wrong, it is what x' should "
+      "be.");
   EXPECT_EQ(seen([](double m, double g, double drag, double v) { return m * g - drag * v + m * drag * v; }),
-            "Right: x'. Wrong: v'. Where v' is wrong, it is the right one plus (drag) times v.");
+            "Right: x'. Wrong: v'. Where v' is wrong, it is the right value plus (drag) times v.");
   // two errors at once: no simple explanation
   EXPECT_EQ(seen([](double m, double g, double drag, double v) { return 1.3 * m * g - 1.7 * drag * v + 0.1; }),
             "Right: x'. Wrong: v'.");
@@ -88,9 +89,9 @@ TEST(Seen, AFactorNeedsASecondCase) {
   const std::string split = "Right: x'. Wrong: v'.";
   EXPECT_EQ(seen_text(common_texts(), layouts(), what, answer(what, 1.0 / 6)), split);
   EXPECT_EQ(told(1.0 / 6, 1.0 / 3), split);
-  EXPECT_EQ(told(1.0 / 6, 1.0 / 6), split + " Where v' is wrong, it is the right one times 1/6.");
+  EXPECT_EQ(told(1.0 / 6, 1.0 / 6), split + " Where v' is wrong, it is the right value times 1/6.");
   // drag = 0.2 in this case, so that 0.1 is drag/2 here and 1/10 nowhere
-  EXPECT_EQ(told(0.1, 0.15), split + " Where v' is wrong, it is the right one times drag/2.");
+  EXPECT_EQ(told(0.1, 0.15), split + " Where v' is wrong, it is the right value times drag/2.");
 }
 
 TEST(Table, HasExpectedBesideGot) {
@@ -178,21 +179,23 @@ std::string observed(Numbers (*student)(const Numbers&), double mass = 0.5) {
 TEST(Observe, TellsWithWhichNumbersTheAnswersWouldBeRight) {
   EXPECT_EQ(
       observed([](const Numbers& in) { return rates(in, [](double m, double g, double, double) { return m * g; }); }),
-      "Tried with other numbers: all your answers of this kind are what the right code gives with drag = 0.");
-  EXPECT_EQ(observed([](const Numbers& in) {
-              return rates(in, [&](double, double g, double drag, double v) { return in[1] * g - drag * v; });
-            }),
-            "Tried with other numbers: with g = 0 your answers are right. They are wrong only where that comes in. "
-            "Its contribution: Where v' is wrong, it is the right one times m[0]/m.");
+      "Tried with other numbers: all your answers of this kind are what the right code returns with drag = 0.");
+  EXPECT_EQ(
+      observed([](const Numbers& in) {
+        return rates(in, [&](double, double g, double drag, double v) { return in[1] * g - drag * v; });
+      }),
+      "Tried with other numbers: with g = 0 your answers are right. They are wrong only where this quantity matters. "
+      "Its contribution: Where v' is wrong, it is the right value times m[0]/m.");
 }
 
 TEST(Observe, TellsWithoutWhichTermTheAnswerIsRight) {
-  EXPECT_EQ(observed([](const Numbers& in) {
-              return rates(in,
-                           [](double m, double g, double drag, double v) { return m * g - drag * v * std::abs(v); });
-            }),
-            "Tried with other numbers: with drag = 0 your answers are right. They are wrong only where that comes in. "
-            "Tried with other numbers: with v = 0 your answers are right. They are wrong only where that comes in.");
+  EXPECT_EQ(
+      observed([](const Numbers& in) {
+        return rates(in, [](double m, double g, double drag, double v) { return m * g - drag * v * std::abs(v); });
+      }),
+      "Tried with other numbers: with drag = 0 your answers are right. They are wrong only where this quantity "
+      "matters. "
+      "Tried with other numbers: with v = 0 your answers are right. They are wrong only where this quantity matters.");
   EXPECT_EQ(observed([](const Numbers& in) { return rates(in, [](double, double, double, double) { return 7.; }); }),
             "");
   // right by accident without drag, because the first mass is 1 and the second particle moves along no axis
@@ -278,7 +281,7 @@ TEST(Look, ReadsAStepperOffItsCalls) {
             "Your step returns x + 1/2 h k1 + 1/4 h k2, where k1 is the first slope, k2 the second; right is x + 1/2 h "
             "k1 + 1/2 h k2.");
   EXPECT_EQ(looked([](auto f, double t, const Numbers& x, double h) { return moved(x, h, f(t, x)); }),
-            "Your step calls f so often, for a system of five numbers: expected 2, got 1.");
+            "Number of times your step calls f, for a system of five numbers: expected 2, got 1.");
 }
 
 TEST(Look, ReadsTheEquationOfAnImplicitStep) {

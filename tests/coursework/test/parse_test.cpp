@@ -93,7 +93,7 @@ TEST(Answers, LastWordsExplainAnEndAndProveNothing) {
   const Answer unusable = answers_of({End::How::exited, 0, "unusable f_size 3 2\ntoken T\n", ""}, "T", 1, {})[0];
   const Case what;
   EXPECT_EQ(words(common_texts(), common_texts(), what, unusable, judge(what, unusable)),
-            "What your code gave back cannot be used: f was called with 3 numbers, and the system has 2.");
+            "The result of your code cannot be used: f was called with 3 numbers, but the system has 2.");
   const Answer unknown = answers_of({End::How::exited, 0, "unusable secret\ntoken T\n", ""}, "T", 1, {})[0];
   EXPECT_EQ(words(common_texts(), common_texts(), what, unknown, judge(what, unknown)).find("secret"),
             std::string::npos);
@@ -323,9 +323,9 @@ TEST(Words, OfAnIndexTellWhichItWas) {
     return words(common_texts(), Texts(), what, answer, judge(what, answer));
   };
   EXPECT_EQ(say("vector::_M_range_check: __n (which is 18446744073709551615) >= this->size() (which is 3)"),
-            "Your code threw an exception: at() was asked for index -1 of 3 elements.");
+            "Your code threw an exception: at() was called with index -1, but there are only 3 elements.");
   EXPECT_EQ(say("array::at: __n (which is 5) >= _Nm (which is 3)"),
-            "Your code threw an exception: at() was asked for index 5 of 3 elements.");
+            "Your code threw an exception: at() was called with index 5, but there are only 3 elements.");
   EXPECT_EQ(say("no such spring"), "Your code threw an exception: no such spring");
 }
 
@@ -353,7 +353,7 @@ TEST(Words, OfSmallCasesTellTheFirstThatFails) {
   const std::vector<Case> small = {{"call", {1}, {1}, 1, 0, "", "y"}, {"call", {2}, {2}, 1, 0, "", "y"}};
   const Answer right{.how = How::answered, .got = {1}}, wrong{.how = How::answered, .got = {7}};
   EXPECT_EQ(smaller_text(common, own, small, {right, wrong}),
-            "The smallest case that fails too: First difference at y: expected 2, got 7. Given: x = 2.");
+            "The smallest case that also fails: First difference at y: expected 2, got 7. Given: x = 2.");
   EXPECT_EQ(smaller_text(common, own, small, {right, {.how = How::answered, .got = {2}}}), "");
   EXPECT_EQ(smaller_text(common, own, small, {{.how = How::out_of_time}}), "");
 }
