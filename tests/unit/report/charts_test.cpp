@@ -256,7 +256,8 @@ TEST(FabricCharts, SayTheDrapeAndWhatItDependsOn) {
   EXPECT_TRUE(contains(figure_info(charts[0])->finding, "power 2.00 to 2.00"));
   EXPECT_TRUE(says(figure_info(charts[1])->finding, {"5 nodes", "71.5 %", "0.5 points", "8 rings", "71 to 74 %"}))
       << figure_info(charts[1])->finding;
-  EXPECT_TRUE(contains(figure_info(charts[1])->caption, "with four times as much 76.0 % on 8 rings"));
+  EXPECT_TRUE(
+      contains(figure_info(charts[1])->caption, "with four times this C66, the coefficient is 76.0 % on 8 rings"));
 }
 
 TEST(OwnCharts, AreOfScenesThatTheExperimentLooksAt) {
