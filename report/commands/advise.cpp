@@ -283,8 +283,8 @@ void add_advise(CLI::App& app, Invocation& call) {
                   "a shipped scene or a TOML file; values \"fit\" are determined from its [wish]")
       ->required();
   advise.add_option("--tolerance", options.tolerance,
-                    "largest RMS position error, m, or in per cent of the motion (1%); not needed to fit a scene's "
-                    "parameters only");
+                    "largest RMS position error, m, or in per cent of the motion (1%); not needed if only a "
+                    "scene's parameters are fitted");
   advise.add_option("--methods", options.methods, "methods to try: A,B,... (default: all of mysim)");
   advise.add_option("--out", options.out, "folder (out/advise)");
 }

@@ -297,7 +297,7 @@ void add_figures(CLI::App& app, Invocation& call) {
   figures.add_option("--out", options.out, "folder (out/figures)");
   add_quick_and_full(figures, options.full);
   figures
-      .add_option("--from", options.from, "DIR: draws figures of the report in it, by their names, and runs nothing")
+      .add_option("--from", options.from, "DIR: draws figures of the report in DIR, by their names, and runs nothing")
       ->excludes(methods);
 }
 

@@ -142,9 +142,9 @@ void add_regress(CLI::App& app, Invocation& call) {
   auto [regress, options] =
       add_command(app, call, "regress", "compares the results of this build with stored baselines", regress_command);
   regress.add_option("scenes", options.scenes, "scenes or TOML files (default: all that come with Crosscheck)");
-  regress.add_option("--filter", options.filter, "GLOB: only cases whose SCENE or SCENE/METHOD it matches");
+  regress.add_option("--filter", options.filter, "GLOB: only cases whose SCENE or SCENE/METHOD matches");
   regress.add_option("--method", options.methods, "methods to run: A,B,... (default: all of mysim and Bullet)");
-  regress.add_option("--against", options.against, "a method that --method is compared with, instead of baselines");
+  regress.add_option("--against", options.against, "a method with which --method is compared, instead of baselines");
   regress.add_option("--baselines", options.baselines,
                      "folder of baselines (default: those that come with Crosscheck)");
   auto* bless = regress.add_flag("--bless", options.bless, "stores the results of this run as baselines");

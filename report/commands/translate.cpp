@@ -204,14 +204,14 @@ void add_translate(CLI::App& app, Invocation& call) {
                   translate_command);
   translate.add_option("SCENE", options.scene, "a shipped scene or a TOML file")->required();
   translate.add_option("--to", options.to,
-                       "METHOD that is given the scene: a method of mysim or of Bullet, or jolt, rapier, box3d, "
+                       "METHOD that receives the scene: a method of mysim or of Bullet, or jolt, rapier, box3d, "
                        "mujoco, godot; +n=N: iterations");
   translate.add_option("--from", options.from, "METHOD FILE: an engine's numbers (TOML, as --to --out writes them)")
       ->expected(2)
       ->type_name("METHOD FILE");
-  translate.add_option("--step", options.step, "time step, s (the scene's, or the file's)")
+  translate.add_option("--step", options.step, "time step, s (default: that of the scene or of the file)")
       ->transform(time_above_zero());
-  translate.add_option("--iterations", options.iterations, "iterations or sub-steps in a step (the engine's usual)")
+  translate.add_option("--iterations", options.iterations, "iterations or sub-steps per step (default: the engine's)")
       ->check(CLI::Range(1, 1000));
   translate.add_option("--run", options.run,
                        "METHOD that runs the translated scene, such as exec:PROGRAM (default: that of --to)");

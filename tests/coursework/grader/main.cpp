@@ -14,7 +14,7 @@ using namespace coursework;
 namespace {
 
 int run(int argc, char** argv) {
-  CLI::App app{"crosscheck-grade grades coursework: one process per test, away from tests, results and network."};
+  CLI::App app{"crosscheck-grade grades coursework: one process per test, without access to results and network."};
   app.require_subcommand(1);
   int status = 0;
 
@@ -42,7 +42,7 @@ int run(int argc, char** argv) {
       ->check(CLI::IsMember({"moodle", "canvas", "csv"}))
       ->needs(all, roster);
   roster->needs("--gradebook");
-  grade->add_option("--column", command.column, "NAME of the roster's column for the points, if not the assignment's")
+  grade->add_option("--column", command.column, "NAME of the roster's column for points (default: the assignment's)")
       ->needs(roster);
   grade->add_option("--rubric", command.rubric, "FILE.toml: points of tests, and of single students with a reason");
   grade
