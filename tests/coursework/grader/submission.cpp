@@ -70,38 +70,47 @@ bool FileMatcher::may_be_included(const std::string& path) const {
          path.rfind("__MACOSX/", 0) != 0 && !in_library(path);
 }
 
-void FileMatcher::take(const std::string& path, std::string content) {
-  const std::string name = match(path);
-  if (!name.empty()) {
-    taken_ += content.size();
-    found_[name].push_back({path, {}, plain_utf8(std::move(content))});
-  } else if (beside_.size() < most_program_files && (beside_size_ += content.size()) <= largest_program) {
-    beside_[path] = plain_utf8(std::move(content));
-  }
-}
-
 namespace {
 
-/// Names in lines `#include "X"` and `#include <X>`.
-std::vector<std::string> includes_of(const std::string& text) {
-  std::vector<std::string> found;
+/// Position and length of each name in the lines `#include "X"` and `#include <X>`.
+std::vector<std::pair<std::size_t, std::size_t>> include_names(const std::string& text) {
+  std::vector<std::pair<std::size_t, std::size_t>> found;
   std::istringstream lines(text);
-  for (std::string line; std::getline(lines, line);) {
+  std::size_t line_start = 0;
+  for (std::string line; std::getline(lines, line); line_start += line.size() + 1) {
     const std::size_t sign = line.find_first_not_of(" \t"), word = line.find_first_not_of("# \t", sign);
     if (word == std::string::npos || line[sign] != '#' || line.compare(word, 7, "include") != 0) continue;
     const std::size_t begin = line.find_first_of("\"<", word), end = line.find_first_of("\">", begin + 1);
     if (begin != std::string::npos && end != std::string::npos)
-      found.push_back(line.substr(begin + 1, end - begin - 1));
+      found.emplace_back(line_start + begin + 1, end - begin - 1);
   }
   return found;
 }
 
+/// The source in UTF-8, with '/' in the names of included files, in which Visual Studio accepts backslashes.
+std::string plain_source(std::string text) {
+  text = plain_utf8(std::move(text));
+  for (const auto& [begin, length] : include_names(text))
+    for (std::size_t i = begin; i < begin + length; ++i)
+      if (text[i] == '\\') text[i] = '/';
+  return text;
+}
+
 }  // namespace
+
+void FileMatcher::take(const std::string& path, std::string content) {
+  const std::string name = match(path);
+  if (!name.empty()) {
+    taken_ += content.size();
+    found_[name].push_back({path, {}, plain_source(std::move(content))});
+  } else if (beside_.size() < most_program_files && (beside_size_ += content.size()) <= largest_program) {
+    beside_[path] = plain_source(std::move(content));
+  }
+}
 
 std::map<std::string, std::string> own_includes(const std::map<std::string, std::string>& files,
                                                 const std::string& path, const std::string& content) {
-  const auto normal = [](const std::string& folder, std::string name) {
-    std::replace(name.begin(), name.end(), '\\', '/');
+  const auto normal = [](const std::string& folder, const std::string& name) {
     return (fs::path(folder) / name).lexically_normal().generic_string();
   };
   const auto folder_of = [](const std::string& file) { return fs::path(file).parent_path().generic_string(); };
@@ -111,7 +120,8 @@ std::map<std::string, std::string> own_includes(const std::map<std::string, std:
     if (place != path && found.emplace(place, file).second) open.emplace_back(place, &files.at(file));
   };
   for (std::size_t i = 0; i < open.size(); ++i)
-    for (const std::string& name : includes_of(*open[i].second)) {
+    for (const auto& [begin, length] : include_names(*open[i].second)) {
+      const std::string name = open[i].second->substr(begin, length);
       const std::string beside = normal(folder_of(open[i].first), name), here = normal(folder_of(path), name);
       if (name.empty() || fs::path(name).is_absolute()) continue;
       if (files.count(beside) || files.count(here)) {

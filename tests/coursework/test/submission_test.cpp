@@ -239,7 +239,7 @@ TEST(Submission, WhatPartsIncludeIsTakenAlong) {
   const TemporaryFolder here("test");
   const std::map<std::string, std::string> all = {
       {"src/rk4.cpp",
-       "#include \"helper.h\"\n#include <vector>\n#include \"util/more.h\"\n#include \"../inc/far.h\"\n"},
+       "#include \"helper.h\"\n#include <vector>\n#include \"util\\more.h\"\n#include \"../inc/far.h\"\n"},
       {"src/euler.cpp", "#include \"Odd.H\"\n#include \"/etc/passwd\"\n#include \"../../out.h\"\n"},
       {"src/helper.h", "#include \"table.inc\"\n"},
       {"src/table.inc", "#include \"helper.h\"\n"},
@@ -259,6 +259,7 @@ TEST(Submission, WhatPartsIncludeIsTakenAlong) {
     EXPECT_EQ(taken, (std::vector<std::string>{"euler.cpp", "inc/far.h", "rk4.cpp", "src/helper.h", "src/odd.h",
                                                "src/table.inc", "src/util/more.h"}))
         << name;
+    EXPECT_NE(one.files.at("rk4.cpp").find("#include \"util/more.h\""), std::string::npos) << "only / works everywhere";
     const auto found = own_includes(one.files, one.places.at("rk4.cpp"), one.files.at("rk4.cpp"));
     EXPECT_EQ(found, (std::map<std::string, std::string>{{"inc/far.h", "inc/far.h"},
                                                          {"src/helper.h", "src/helper.h"},
