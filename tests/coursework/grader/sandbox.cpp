@@ -144,6 +144,7 @@ class BwrapSandbox final : public Sandbox {
     start.command = arguments(job, staging);
     start.folder = "/";
     start.user = user ? user->id() : 0;
+    start.lock = user ? user->lock() : -1;
     start.passed = {filter.get(), status.get()};
     start.input = job.input;
     start.limits = job.limits;
@@ -189,6 +190,7 @@ class UidSandbox final : public Sandbox {
                          "TMPDIR=" + staging.own().string()};
     start.folder = job.writable.empty() ? staging.own() : staging.of(job.writable);
     start.user = user.id();
+    start.lock = user.lock();
     // Nothing bounds the total size of its files: without a writable folder it must not create any.
     start.filter = filter_program({job.limits.processes > 0, !job.writable.empty()});
     start.input = job.input;

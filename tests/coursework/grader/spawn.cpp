@@ -137,7 +137,10 @@ void supervise(const ChildSetup& setup) {
   ChildSetup own = setup;
   own.report = dup2(setup.report, setup.count);
   fcntl(own.report, F_SETFD, FD_CLOEXEC);
-  close_from(own.report + 1);
+  // If the grader is killed, nobody may use this user before all its processes have been killed here.
+  own.lock = dup2(setup.lock, own.report + 1);
+  if (own.lock >= 0) fcntl(own.lock, F_SETFD, FD_CLOEXEC);
+  close_from(std::max(own.report, own.lock) + 1);
   prctl(PR_SET_PDEATHSIG, SIGTERM);
   prctl(PR_SET_CHILD_SUBREAPER, 1);
   sigset_t waited;
@@ -377,6 +380,7 @@ ProcessResult spawn(const SpawnOptions& start) {
   std::vector<int> descriptors{in.from.get(), captured_output.to.get(), captured_output.to.get(), answers.to.get()};
   descriptors.insert(descriptors.end(), start.passed.begin(), start.passed.end());
   const std::string folder = start.folder.string();
+  const Descriptor lock(start.lock < 0 ? -1 : fcntl(start.lock, F_DUPFD_CLOEXEC, above));
   const ChildSetup setup{command.data(),
                          environment.data(),
                          folder.c_str(),
@@ -385,6 +389,7 @@ ProcessResult spawn(const SpawnOptions& start) {
                          descriptors.data(),
                          static_cast<int>(descriptors.size()),
                          reports.to.get(),
+                         lock.get(),
                          static_cast<rlim_t>(std::ceil(start.limits.cpu)),
                          static_cast<rlim_t>(start.limits.memory) << 20,
                          static_cast<rlim_t>(start.limits.file) << 20,

@@ -24,6 +24,7 @@ struct ChildSetup {
   const int* descriptors;    // become 0, 1, 2, ...; all others are closed
   int count;
   int report;  // descriptor to which a ChildStatus is written
+  int lock;    // descriptor that the supervisor holds open until it ends; -1: none
   rlim_t cpu, memory, file, processes;
 };
 
@@ -44,6 +45,7 @@ struct SpawnOptions {
   std::vector<std::string> command, environment;  // environment as NAME=value
   std::filesystem::path folder;                   // working directory
   unsigned user = 0;                              // user and group of the program; 0: ours
+  int lock = -1;                                  // reserves the user until the supervisor has cleaned up; -1: none
   std::string filter = {};                        // see filter_program(); empty: none
   std::vector<int> passed = {};                   // descriptors that it receives as 4, 5, ...
   std::string input = {};

@@ -34,6 +34,8 @@ class SandboxUser {
   SandboxUser(const SandboxUser&) = delete;
   SandboxUser& operator=(const SandboxUser&) = delete;
   unsigned id() const { return id_; }
+  /// Descriptor that reserves the id for as long as any process holds it open.
+  int lock() const { return held_; }
 
  private:
   unsigned id_ = 0;

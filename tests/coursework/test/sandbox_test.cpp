@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 #include <signal.h>
 #include <sys/stat.h>
+#include <sys/wait.h>
 
 #include <atomic>
 #include <fstream>
@@ -234,6 +235,39 @@ TEST_P(SandboxTest, ManyRunAtOnceAndDoNotMix) {
     });
   for (std::thread& thread : threads) thread.join();
   for (std::size_t i = 0; i < answers.size(); ++i) EXPECT_EQ(answers[i], std::to_string(i) + "\n");
+}
+
+/// The only child of the process, as soon as it has one.
+pid_t child_of(pid_t parent) {
+  pid_t child = 0;
+  const std::string file = "/proc/" + std::to_string(parent) + "/task/" + std::to_string(parent) + "/children";
+  while (!(std::ifstream(file) >> child)) std::this_thread::sleep_for(std::chrono::milliseconds(10));
+  return child;
+}
+
+// The supervisor of a killed grader kills all processes of its user, who must not be another grader's by then.
+TEST_P(SandboxTest, ProgramsSurviveTheEndOfAKilledGrader) {
+  adopt_orphans();
+  const pid_t grader = fork();
+  if (grader == 0) {
+    sandbox().run(shell("while :; do :; done"));
+    _exit(0);
+  }
+  const pid_t supervisor = child_of(grader);
+  child_of(supervisor);
+  kill(supervisor, SIGSTOP);
+  kill(grader, SIGKILL);
+  waitpid(grader, nullptr, 0);
+  std::thread later([supervisor] {
+    std::this_thread::sleep_for(std::chrono::milliseconds(300));
+    kill(supervisor, SIGCONT);
+  });
+  Job counting = shell("i=0; while [ $i -lt 500000 ]; do i=$((i+1)); done; echo done >&3");
+  counting.limits = {.cpu = 30, .wall = 60};
+  const End end = sandbox().run(counting);
+  later.join();
+  EXPECT_TRUE(done(end)) << end.how << ' ' << show(end);
+  waitpid(supervisor, nullptr, 0);
 }
 
 TEST_P(SandboxTest, WhatCannotBeStartedSaysSo) {
