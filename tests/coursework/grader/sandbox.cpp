@@ -221,6 +221,9 @@ constexpr std::string_view no_sandbox_means =
     "among it, and use the network; only time, memory, processes and output stay limited. Do that for code you trust, "
     "or in a virtual machine that you throw away.";
 
+/// On a machine under load even a shell takes seconds to start.
+constexpr Limits probe_limits{.wall = 60};
+
 /// Runs a shell in the sandbox. Returns an empty text if it runs, sees no secret of ours and cannot start a process;
 /// otherwise the reason.
 std::string lacks(const Sandbox& sandbox) {
@@ -230,6 +233,7 @@ std::string lacks(const Sandbox& sandbox) {
     job.command = {"/bin/sh", "-c",
                    R"(if [ -r "$0" ]; then echo sees >&3; else echo blind >&3; fi; (true) && echo forks >&3)",
                    secret.path().string()};
+    job.limits = probe_limits;
     const End end = sandbox.run(job);
     if (end.answers == "blind\n") return {};
     if (end.answers.find("sees") == 0) return "a program in it still reads folders of mode 0700";
@@ -278,8 +282,14 @@ std::unique_ptr<Sandbox> sandbox_named(const std::string& name) {
 
 bool sees(const Sandbox& sandbox, const std::filesystem::path& secret) {
   Job job;
-  job.command = {"/bin/sh", "-c", R"([ -r "$0" ] && echo sees >&3)", std::filesystem::absolute(secret).string()};
-  return sandbox.run(job).answers == "sees\n";
+  job.command = {"/bin/sh", "-c", R"(if [ -r "$0" ]; then echo sees; else echo blind; fi >&3)",
+                 std::filesystem::absolute(secret).string()};
+  job.limits = probe_limits;
+  const std::string answer = sandbox.run(job).answers;
+  if (answer != "sees\n" && answer != "blind\n")
+    throw std::runtime_error(
+        fmt::format("sandbox {}: no answer to whether a program in it can read {}", sandbox.name(), secret.string()));
+  return answer == "sees\n";
 }
 
 }  // namespace coursework

@@ -64,7 +64,7 @@ std::unique_ptr<Sandbox> choose_sandbox(const std::string& named, bool unsafe);
 std::unique_ptr<Sandbox> sandbox_named(const std::string& name);
 
 /// Tests by trial whether a program in this sandbox can read the folder or file. The grader checks tests, solution,
-/// secret and other people's submissions before it runs anything.
+/// secret and other people's submissions before it runs anything. Throws std::runtime_error if it gives no answer.
 bool sees(const Sandbox& sandbox, const std::filesystem::path& secret);
 
 // Available sandboxes, for the table in sandbox.cpp.

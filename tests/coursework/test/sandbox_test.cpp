@@ -300,6 +300,17 @@ TEST(ChooseSandbox, UnsafeMustBeSaidTwiceAndNamesAreListed) {
   EXPECT_EQ(message("nosuch", false), "--lane nosuch: there is no such lane; expected one of: bwrap, uid, bare");
 }
 
+struct Stalled final : Sandbox {
+  std::string_view name() const override { return "stalled"; }
+  std::string_view says() const override { return ""; }
+  End run(const Job& job) const override {
+    EXPECT_GE(job.limits.wall, 60) << "on a machine under load even a shell takes seconds to start";
+    return {How::wall, 0, "", "", 0};
+  }
+};
+
+TEST(Sees, StalledSandboxIsAnErrorAndNoProofOfBlindness) { EXPECT_THROW(sees(Stalled(), "/x"), std::runtime_error); }
+
 /// Output of choose_sandbox in a process that is started in another way.
 std::string elsewhere(const std::string& before) {
   const std::string command = before + " " SANDBOX_CHOICE;
