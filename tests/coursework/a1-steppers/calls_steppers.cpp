@@ -127,6 +127,7 @@ void take_twice(Stepper step, const Derivative& f, const Start& s, Numbers& out)
   State other = s.x;
   for (double& number : other) number = 1 - 2 * number;
   advanced(step, f, s.t + 1, other, s.h / 2);
+  advanced(step, f, s.t, other, s.h);
   put(advanced(step, f, s.t, s.x, s.h), out);
 }
 

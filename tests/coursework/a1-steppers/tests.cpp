@@ -120,7 +120,7 @@ std::vector<Case> sizes(Random& random) {
 template <Rule rule()>
 std::vector<Case> zero_and_back(Random& random) {
   return {linear_case(rule(), random, Depends::on_state, 2, 1, 0),
-          linear_case(rule(), random, Depends::on_state, 2, 4, -random.uniform(0.2, 0.5))};
+          linear_case(rule(), random, Depends::on_state_and_time, 2, 4, -random.uniform(0.2, 0.5))};
 }
 
 /// x' = r (1 + cos(w t + p) / 2) x (1 - x): for u = x / (1 - x), ln u grows by r (t + sin(w t + p) / (2 w)).

@@ -67,12 +67,13 @@ inline std::vector<Case> spring_cases(Random& random) {
   return {c};
 }
 
-/// Special springs: at rest length; with rest length zero, which pull with stiffness times distance; and with
-/// coincident ends.
+/// Special springs: at rest length; with rest length zero, which pull with stiffness times distance; with coincident
+/// ends; and with ends a fraction of a millimetre apart, near the origin.
 inline std::vector<Case> special_spring_cases(Random& random) {
   Case at_rest{"spring", {2}, Numbers(12), 3, 0, "end", "force"};
   Case no_rest{"spring", {2}, {}, 3, round_off(1000), "end", "force"};
   Case meeting{"spring", {2}, Numbers(12), 3, round_off(1000), "end", "force"};
+  Case near{"spring", {2}, {}, 3, round_off(1000), "end", "force"};
   for (int i = 0; i < 2; ++i) {
     const double stiffness = random.uniform(5, 60), rest = random.uniform(1, 2);
     const Vector a = random_vector(random, 2), along = random_direction(random);
@@ -81,9 +82,12 @@ inline std::vector<Case> special_spring_cases(Random& random) {
     add_spring(stiffness, 0, a, a - d, no_rest);
     put(-stiffness * d, no_rest.expected), put(stiffness * d, no_rest.expected);
     add_spring(stiffness, rest, a, a, meeting);
+    const double apart = random.uniform(2e-4, 6e-4);
+    add_spring(stiffness, rest, apart * a, apart * (a - along), near);
+    put(-stiffness * (apart - rest) * along, near.expected), put(stiffness * (apart - rest) * along, near.expected);
   }
   at_rest.tolerance = round_off(1000);
-  return {at_rest, no_rest, meeting};
+  return {at_rest, no_rest, meeting, near};
 }
 
 }  // namespace coursework::a2

@@ -104,8 +104,10 @@ inline std::vector<Case> evaluation_cases(Random& random) {
     const auto state = moving(random, n);
     Case c = symplectic_case("symplectic.points", coupled(random, n), state, 1, random.uniform(0.1, 0.3));
     c.row = "evaluation";
-    put(state, c.expected), put(state, c.expected);
+    put(state, c.expected);
     c.tolerance = round_off(10);
+    cases.push_back(c);
+    c.call = "symplectic.kept", c.row = "step";
     cases.push_back(c);
   }
   return cases;

@@ -189,11 +189,15 @@ Cases inside_at_the_start(Random& random) {
   const double r = sphere.contact_radius();
   Case c = contact_case("corrected_position", sphere, places, "position", 3);
   for (int i = 0; i < places; ++i) {
-    // both ends are inside; one proposed position is the exact centre
+    // both ends are inside; one proposed position is the exact centre; friction stops two of the other particles
     const Vec3 n = random_direction(random);
     const double depth = random.uniform(0.1, 0.2) * r, along = random.uniform(1.5, 2.5) * sphere.friction * depth;
     const Vec3 proposed = i == 0 ? sphere.centre : Vec3(sphere.centre + (r - depth) * n);
-    const Vec3 before = proposed - 0.05 * r * n - (i == 0 ? 0.1 : 1) * along * random_tangent(random, n);
+    const Vec3 before = proposed - 0.05 * r * n -
+                        (i == 0       ? 0.1
+                         : i % 2 == 0 ? 0.3
+                                      : 1) *
+                            along * random_tangent(random, n);
     put(c.in, before);
     put(c.in, proposed);
     put(c.expected, resolved(sphere, before, proposed, Vec3::Zero()).x);

@@ -126,9 +126,11 @@ std::vector<Case> pivoting(Random& random) {
 std::vector<Case> singular(Random& random) {
   std::vector<Case> cases;
   for (const int n : {3, 4}) {
-    Rows a = strong_diagonal(random, n, -3, 3);
+    Rows a = strong_diagonal(random, n, n == 3 ? -3 : 1, 3);
     for (int j = 0; j < n; ++j) a[n - 1][j] = (a[0][j] + a[1][j]) / 2;
-    cases.push_back(linear("linear.singular", a, whole(random, n)));
+    // the larger one has negative entries only, and its last pivot is small but not zero
+    if (n == 4) a[3][3] += 2e-13;
+    cases.push_back(linear("linear.singular", a, whole(random, n), n == 3 ? 1 : -1));
     cases.back().expected = {1}, cases.back().row = "call", cases.back().column = "thrown";
   }
   return cases;
