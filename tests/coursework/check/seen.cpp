@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstdlib>
 #include <functional>
+#include <set>
 
 #include "words.h"
 
@@ -75,7 +76,7 @@ class Seen {
       std::vector<size_t> bad;
       for (size_t row = 0; row < rows_; ++row)
         if (wrong_in(block, row)) bad.push_back(row);
-      all.push_back(bad.empty() ? std::vector<Instead>() : explanations(block, bad));
+      all.push_back(bad.empty() || is_code(block) ? std::vector<Instead>() : explanations(block, bad));
       all_wrong_.push_back(!bad.empty());
     }
     return all;
@@ -104,6 +105,13 @@ class Seen {
     for (size_t k = 0; k < block.width; ++k)
       parts += (k ? ", " : "") + column_text(own_, what_, static_cast<int>(block.begin + k));
     return parts;
+  }
+
+  /// True for numbers that stand for words (kinds, directions), to which arithmetic does not apply.
+  bool is_code(const Block& block) const {
+    for (size_t row = 0; row < rows_; ++row)
+      if (expected(block, row, 0) != std::round(expected(block, row, 0))) return false;
+    return own_.has("column." + what_.column + ".legend");
   }
 
   std::string rows_text(const std::vector<size_t>& rows) const {
@@ -275,6 +283,10 @@ class Seen {
       for (const size_t row : rows)
         for (size_t k = 0; k < block.width; ++k) values.push_back(unit(row, k));
       if (std::find(tried.begin(), tried.end(), values) != tried.end()) return;
+      // any constant explains a constant offset
+      if (values.size() > 1 && block.width == 1 &&
+          std::count(values.begin(), values.end(), values[0]) == std::ssize(values))
+        return;
       tried.push_back(values);
       const double factor = multiple(block, rows, off, unit);
       add_factors(found, factor, std::isfinite(factor) ? "" : row_multiple(block, rows, off, unit), "seen.off", name,
@@ -353,12 +365,13 @@ Answered others_of(const Case& what, const std::vector<Case>& cases, const std::
 
 namespace {
 
-/// Explanations of one case that the other cases confirm.
-std::string borne_out(const Texts& common, const Texts& own, const Seen& seen, const Answered& others) {
+/// Explanations of one case that another case confirms and, if `by_all`, none contradicts.
+std::string borne_out(const Texts& common, const Texts& own, const Seen& seen, const Answered& others, bool by_all) {
   if (!seen.exact()) return "";
   const std::vector<std::vector<Instead>> all = seen.instead();
   std::vector<std::vector<Instead>> kept(all.size());
   std::vector<bool> compared(all.size(), false);
+  std::set<std::string> denied;
   for (const auto& [what, answer] : others) {
     if (answer.how != How::answered || !comparable(own, what, answer.got) || judge(what, answer).right) continue;
     const Seen other(common, own, what, answer.got);
@@ -369,7 +382,9 @@ std::string borne_out(const Texts& common, const Texts& own, const Seen& seen, c
       compared[i] = true;
       for (const Instead& one : all[i]) {
         const auto same = [&](const Instead& it) { return it.text == one.text; };
-        if (std::any_of(there[i].begin(), there[i].end(), same) && std::none_of(kept[i].begin(), kept[i].end(), same))
+        if (std::none_of(there[i].begin(), there[i].end(), same))
+          denied.insert(one.text);
+        else if (std::none_of(kept[i].begin(), kept[i].end(), same))
           kept[i].push_back(one);
       }
     }
@@ -380,7 +395,8 @@ std::string borne_out(const Texts& common, const Texts& own, const Seen& seen, c
       for (const Instead& one : all[i])
         if (!one.factor) kept[i].push_back(one);
     if (kept[i].size() > 2) continue;
-    for (const Instead& one : kept[i]) text += (text.empty() ? "" : " ") + one.text;
+    for (const Instead& one : kept[i])
+      if (!by_all || denied.count(one.text) == 0) text += (text.empty() ? "" : " ") + one.text;
   }
   return text;
 }
@@ -392,14 +408,14 @@ std::string seen_text(const Texts& common, const Texts& own, const Case& what, c
   if (answer.how != How::answered || !answer.of.empty() || !comparable(own, what, answer.got)) return "";
   if (judge(what, answer).right) return "";
   const Seen seen(common, own, what, answer.got);
-  const std::string split = seen.split(), instead = borne_out(common, own, seen, others);
+  const std::string split = seen.split(), instead = borne_out(common, own, seen, others, false);
   return split + (split.empty() || instead.empty() ? "" : " ") + instead;
 }
 
 std::string instead_text(const Texts& common, const Texts& own, const Case& what, const Answer& answer,
                          const Answered& others) {
   if (!comparable(own, what, answer.got)) return "";
-  return borne_out(common, own, Seen(common, own, what, answer.got), others);
+  return borne_out(common, own, Seen(common, own, what, answer.got), others, true);
 }
 
 }  // namespace coursework

@@ -153,9 +153,10 @@ std::vector<Change> removals_of(const Texts& own, const Case& what) {
   for (const Param& p : params) {
     if (p.name == "on") all.push_back({Change::choice, p.name, {}, 0});
     // excluded: without a step nothing moves, without a radius or at another place there is no contact, so nothing is
-    // wrong
-    static const std::set<std::string> no_terms = {"h",      "frame",  "duration", "radius", "margin",
-                                                   "centre", "before", "proposed", "x"};
+    // wrong; a direction is never zero, and `exact` is what answers are compared with
+    static const std::set<std::string> no_terms = {"h",      "frame",     "duration", "radius", "margin",
+                                                   "centre", "before",    "proposed", "x",      "normal",
+                                                   "n",      "direction", "exact"};
     // likewise without whatever moves the particle into the obstacle
     const bool makes_contact = meets && (p.name == "g" || p.name == "v");
     if (!p.whole && no_terms.count(p.name) == 0 && !makes_contact) all.push_back({Change::zero, p.name});
