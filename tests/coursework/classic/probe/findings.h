@@ -20,7 +20,7 @@ struct Findings {
   ///   purity   f with another stored state, f again, f with the same state stored, change of the stored state
   ///   motion   v, x', v', and v at the start
   ///   gravity  v' at x, v' at its mirror image, both at rest
-  ///   drag     a velocity w of this particle alone, and its v' at 0, w and 2 w
+  ///   drag     a velocity w of this particle alone, its v' at 0 and w, and at 2 w while all others have w
   std::vector<std::array<Plain, 4>> rows;
   std::size_t n = 0;       // rows of a draw: entries for purity, otherwise particles
   double per_entry = 0;    // purity: entries that evalF returns per entry of the state

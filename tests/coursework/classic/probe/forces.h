@@ -109,9 +109,12 @@ class Forces {
       const Plain rest = moved;
       moved = w;
       const Plain f1 = pull(state, chosen[i]);
-      moved = plus(w, 1, w);
-      out.rows.push_back({w, f0[i], f1, pull(state, chosen[i])});
       moved = rest;
+      // drag by the own velocity alone does not feel that all others move
+      State all = state;
+      for (std::size_t k = 0; k < n_; ++k) all[v(k)] = w;
+      all[chosen[i]] = plus(w, 1, w);
+      out.rows.push_back({w, f0[i], f1, pull(all, chosen[i])});
     }
     out.repeats = repeats(state);
   }
