@@ -46,8 +46,8 @@ Answer ask(const Case& what, Numbers* all = nullptr) {
       throw std::runtime_error("check does not know the call " + what.call + "; are its files those of the hand-out?");
     if (all) *all = answer.got;
     const Found found = compared(what, answer.got);
+    answer.how = found.got.empty() && !answer.got.empty() ? How::undecided : How::answered;
     answer.got = found.got, answer.of = found.of;
-    answer.how = answer.got.empty() && !what.expected.empty() ? How::undecided : How::answered;
   } catch (const Unusable& error) {
     answer.how = How::unusable, answer.detail = error.what();
     for (const std::size_t number : error.numbers()) answer.counts.emplace_back("", static_cast<long>(number));
@@ -160,7 +160,10 @@ bool asked_for(const PublicTest& test, const std::vector<std::string>& which) {
 }
 
 int check(const std::string& language, const std::vector<std::string>& which) {
-  const std::string folder = HANDOUT_FOLDER, file = folder + "/check/public_cases.txt", mine = folder + "/mine.html";
+  // a path in UTF-8 cannot be opened on Windows: then the current folder is tried
+  const std::string cases = "/check/public_cases.txt";
+  const std::string folder = std::ifstream(HANDOUT_FOLDER + cases) ? HANDOUT_FOLDER : ".";
+  const std::string file = folder + cases, mine = folder + "/mine.html";
   std::ifstream in(file);
   if (!in) throw std::runtime_error(file + ": cannot be read");
   const PublicTests all = read_cases(in);
