@@ -16,6 +16,7 @@
 #   latex       a paper with a set of figures
 #   sanitizers  the fast tests under address and undefined-behaviour sanitizers
 #   arm64       mysim and its tests, cross-compiled, under qemu-user
+#   windows     hand-outs of the coursework, cross-compiled, under Wine
 #   debian-13   the README's commands in a bare Debian 13
 #   testing     build, run, report, figures and the fast tests in a bare Debian testing
 #
@@ -23,7 +24,7 @@
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/../.."
 
-parts=(regress mutants builds corpus kill rehearsals node engines latex sanitizers arm64 debian-13 testing)
+parts=(regress mutants builds corpus kill rehearsals node engines latex sanitizers arm64 windows debian-13 testing)
 declare -A tests=( # names as ctest knows them; a part without tests runs something else
   [corpus]='All/(EachCheat|OddPrograms|UnusualPrograms)\.|All/Corpus\..*/classic|Mutants\.LosePointsAtTheirPart'
   [kill]='OutputOfReport\.(KilledAtTenMoments|AFullDisk)'
@@ -48,8 +49,8 @@ fi
 [ $# -gt 0 ] && parts=("$@")
 for part in "${parts[@]}"; do
   case $part in
-    regress | mutants | builds | corpus | kill | rehearsals | node | engines | latex | sanitizers | arm64 | debian-13 | testing) ;;
-    *) sed -n '2,22s/^# \{0,1\}//p' "$0" >&2; exit 2 ;;
+    regress | mutants | builds | corpus | kill | rehearsals | node | engines | latex | sanitizers | arm64 | windows | debian-13 | testing) ;;
+    *) sed -n '2,21s/^# \{0,1\}//p' "$0" >&2; exit 2 ;;
   esac
 done
 
@@ -77,6 +78,7 @@ for part in "${parts[@]}"; do
       ./crosscheck report --engines all --quick --out out/engines || status=$?
       ;;
     arm64) experiments/ci/arm64.sh || status=$? ;;
+    windows) experiments/ci/windows.sh || status=$? ;;
     debian-13) BARE_SUITE=trixie .ci/bare-root sh -exc './crosscheck report; ./crosscheck test' || status=$? ;;
     testing)
       BARE_SUITE=testing .ci/bare-root sh -exc './crosscheck run chain; ./crosscheck report --quick
