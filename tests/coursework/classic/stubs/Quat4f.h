@@ -43,8 +43,8 @@ class Quat4f {
   float e_[4];
 };
 
-__attribute__((weak, init_priority(101))) const Quat4f Quat4f::ZERO(0.0f, 0.0f, 0.0f, 0.0f);
-__attribute__((weak, init_priority(101))) const Quat4f Quat4f::IDENTITY(1.0f, 0.0f, 0.0f, 0.0f);
+VECMATH_CONSTANT const Quat4f Quat4f::ZERO(0.0f, 0.0f, 0.0f, 0.0f);
+VECMATH_CONSTANT const Quat4f Quat4f::IDENTITY(1.0f, 0.0f, 0.0f, 0.0f);
 
 inline Quat4f operator+(const Quat4f& a, const Quat4f& b) {
   return Quat4f(a[0] + b[0], a[1] + b[1], a[2] + b[2], a[3] + b[3]);

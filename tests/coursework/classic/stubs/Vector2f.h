@@ -91,9 +91,16 @@ class Vector2f {
 };
 
 // weak, so that a header may define them under C++14
-__attribute__((weak, init_priority(101))) const Vector2f Vector2f::ZERO(0.0f, 0.0f);
-__attribute__((weak, init_priority(101))) const Vector2f Vector2f::UP(0.0f, 1.0f);
-__attribute__((weak, init_priority(101))) const Vector2f Vector2f::RIGHT(1.0f, 0.0f);
+#if defined(_MSC_VER)
+#define VECMATH_CONSTANT __declspec(selectany)
+#elif defined(_WIN32)
+#define VECMATH_CONSTANT __attribute__((selectany, init_priority(101)))
+#else
+#define VECMATH_CONSTANT __attribute__((weak, init_priority(101)))
+#endif
+VECMATH_CONSTANT const Vector2f Vector2f::ZERO(0.0f, 0.0f);
+VECMATH_CONSTANT const Vector2f Vector2f::UP(0.0f, 1.0f);
+VECMATH_CONSTANT const Vector2f Vector2f::RIGHT(1.0f, 0.0f);
 
 inline Vector2f operator+(Vector2f a, const Vector2f& b) { return a += b; }
 inline Vector2f operator-(Vector2f a, const Vector2f& b) { return a -= b; }

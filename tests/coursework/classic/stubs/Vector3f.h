@@ -104,10 +104,10 @@ class Vector3f {
 };
 
 // weak, so that a header may define them under C++14
-__attribute__((weak, init_priority(101))) const Vector3f Vector3f::ZERO(0.0f, 0.0f, 0.0f);
-__attribute__((weak, init_priority(101))) const Vector3f Vector3f::UP(0.0f, 1.0f, 0.0f);
-__attribute__((weak, init_priority(101))) const Vector3f Vector3f::RIGHT(1.0f, 0.0f, 0.0f);
-__attribute__((weak, init_priority(101))) const Vector3f Vector3f::FORWARD(0.0f, 0.0f, -1.0f);
+VECMATH_CONSTANT const Vector3f Vector3f::ZERO(0.0f, 0.0f, 0.0f);
+VECMATH_CONSTANT const Vector3f Vector3f::UP(0.0f, 1.0f, 0.0f);
+VECMATH_CONSTANT const Vector3f Vector3f::RIGHT(1.0f, 0.0f, 0.0f);
+VECMATH_CONSTANT const Vector3f Vector3f::FORWARD(0.0f, 0.0f, -1.0f);
 
 inline Vector3f operator+(Vector3f a, const Vector3f& b) { return a += b; }
 inline Vector3f operator-(Vector3f a, const Vector3f& b) { return a -= b; }
