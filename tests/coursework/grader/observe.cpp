@@ -107,7 +107,7 @@ class Observer {
   }
 
   std::string right_with() const {
-    // the same single number for all calls has many causes
+    // many causes make all calls return the same single number
     const auto same = [&](const auto& one) { return one.second.got.size() == 1 && one.second.got == got_->got; };
     if (asked_.size() > 1 && std::all_of(asked_.begin(), asked_.end(), same)) return "";
     const std::vector<Change> changes = changes_of(with_.own, *subject_);
