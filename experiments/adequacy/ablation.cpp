@@ -1,4 +1,3 @@
-// Runs the ablations of a model.
 #include "experiments/adequacy/ablation.h"
 
 #include <fmt/ranges.h>
@@ -15,7 +14,7 @@
 namespace crosscheck {
 namespace {
 
-/// The cheapest rule that supports the scene without changes and has an observable order.
+/// Cheapest rule that supports the scene unchanged and has an observable order.
 std::string rule_for(const Scene& scene) {
   if (scene.model.find<Constraints>()) return "mysim/xpbd";
   return scene.model.first_order() ? "mysim/rk4" : "mysim/leapfrog";

@@ -1,5 +1,5 @@
-// Experiment `adequacy`: ablations of each scene's model, the smallest model within its tolerance, and the grid
-// dependence of cloth.
+// Experiment `adequacy`: ablations of each scene's model, its smallest sufficient model, and the grid dependence of
+// cloth.
 
 #include <fmt/ranges.h>
 
@@ -19,7 +19,7 @@ namespace {
 
 constexpr unsigned unseen_starts = 3;
 
-/// Largest RMS speed of the particles over the run, m/s.
+/// m/s, RMS over the particles.
 double largest_speed(const Trajectory& t) {
   double largest = 0;
   for (const Points& v : t.v)
@@ -27,7 +27,7 @@ double largest_speed(const Trajectory& t) {
   return largest;
 }
 
-/// The scene without the named ingredients, removed in this order.
+/// Removes the ingredients in this order.
 Scene without_all(Scene scene, const std::vector<std::string>& names) {
   for (const std::string& name : names)
     for (const Ingredient& i : ingredients_of(scene))
@@ -38,7 +38,7 @@ Scene without_all(Scene scene, const std::vector<std::string>& names) {
   return scene;
 }
 
-/// Error of the smallest model from another start, compared with the full model by the same rule and step, m. If
+/// Error (m) of the smallest model from another start, relative to the full model with the same rule and step. If
 /// nothing can be left out: the smallest error of any removal. Empty if the full model itself fails.
 std::optional<double> unseen_error(const Scene& scene, const ReferenceSolution& y,
                                    const std::vector<std::string>& out) {
@@ -50,7 +50,7 @@ std::optional<double> unseen_error(const Scene& scene, const ReferenceSolution& 
   for (const Ingredient& i : ingredients_of(scene))
     if (const auto e = model_error(without(scene, i), y, full.trajectory, ignored))
       least = std::min(*e, least.value_or(*e));
-  return least.value_or(INFINITY);  // every removal fails
+  return least.value_or(INFINITY);  // every removal failed
 }
 
 std::string truth_text(const Truth& truth) {
@@ -148,7 +148,7 @@ void bending_on(const Request& request, TableSet& tables) {
 }  // namespace
 
 std::vector<Point> adequacy_points(const Request& request) {
-  std::vector<Point> points;  // the longest first, so that none is left at the end for the others to wait for
+  std::vector<Point> points;  // the longest first, so that no core waits at the end
   for (const Scene& scene : request.scenes) {
     if (!cloth_grid_of(scene) || has_contact(scene.model)) continue;
     Request alone = request;

@@ -1,4 +1,3 @@
-// Runs a cloth at several resolutions.
 #include "experiments/adequacy/resolution.h"
 
 #include <fmt/format.h>
@@ -15,7 +14,7 @@ namespace {
 
 constexpr int material_points = 17;  // along each side: twice as fine as the coarsest grid
 
-/// The scene reduced to what can come to rest: springs, gravity and fixed pins.
+/// Keeps what can come to rest: springs, gravity and fixed pins.
 Scene for_rest(Scene scene) {
   std::erase_if(scene.model.terms, [](const Term& t) {
     return std::holds_alternative<Wind>(t) || std::holds_alternative<Aerodynamics>(t) ||
@@ -25,8 +24,8 @@ Scene for_rest(Scene scene) {
   return scene;
 }
 
-/// Height of the highest point above the lowest at rest, along gravity, m. Also moves the scene's start to this rest,
-/// which is near the rest of cloths with similar stiffness.
+/// Height of the highest point above the lowest at rest, along gravity, m. Moves the scene's start to this rest,
+/// because cloths with similar stiffness have a similar rest.
 std::optional<double> settle_and_sag(Scene& scene) {
   const auto* gravity = scene.model.find<Gravity>();
   if (!gravity || gravity->acceleration.isZero(0)) return std::nullopt;
@@ -37,7 +36,7 @@ std::optional<double> settle_and_sag(Scene& scene) {
   return depth.maxCoeff() - depth.minCoeff();
 }
 
-/// The stiffness factor that gives the wished sag, by the secant method in 1 / k, in which the sag is nearly linear.
+/// The stiffness factor for a wished sag, by the secant method in 1 / k, in which the sag is nearly linear.
 std::optional<double> factor_for(const Scene& at_rest, double wished, double sag_at_1) {
   double a = 1, of_a = sag_at_1, b = 1.1;
   for (int i = 0; i < 12; ++i) {
@@ -102,7 +101,6 @@ std::optional<PowerLaw> power_law(const std::vector<std::pair<double, double>>& 
 }
 
 std::vector<BendSprings> bending_stiffness(const std::vector<int>& sizes) {
-  // a line of a cloth of 1 m x 1 m and 0.1 kg
   const auto line = [](int n, double bend) {
     const double d = 1 / (n - 1.5);
     std::string text = fmt::format(
@@ -112,13 +110,13 @@ std::vector<BendSprings> bending_stiffness(const std::vector<int>& sizes) {
     for (int i = 0; i < n; ++i)
       text += fmt::format("[[particle]]\nposition = [{}, 0, 0]\nmass = {}\n", (i - 0.5) * d,
                           (i == n - 1 ? 0.05 : 0.1) * d * d);
-    // ten times the bend springs at every n, so that the extension is the same fraction on every grid
+    // ten times the bend springs at every n, so that the relative extension is the same on every grid
     for (int i = 0; i + 1 < n; ++i)
       text += fmt::format("[[spring]]\nends = [{}, {}]\nstiffness = {}\n", i, i + 1, 10 * bend);
     for (int i = 0; i + 2 < n; ++i)
       text += fmt::format("[[spring]]\nends = [{}, {}]\nstiffness = {}\n", i, i + 2, bend);
     Scene scene = parse_scene(text, "bending");
-    // starts away from the flat state, which is unstable: bend springs do not resist the first turn
+    // not from the flat state, which is unstable: bend springs do not resist the first turn
     for (int i = 2; i < n; ++i) scene.start.x(1, i) -= 0.1 * (i - 1) * (i - 1) * d * d;
     return scene;
   };

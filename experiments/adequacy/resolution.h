@@ -18,28 +18,27 @@ struct GridResult {
   long evaluations = 0, springs = 0;
 };
 
-/// Runs the cloth with leapfrog at each resolution, in ascending order; the last is the finest. Computes the rest if
-/// the scene has one, with its pins fixed and without winds and drag.
+/// Runs the cloth with leapfrog at each resolution, in ascending order; the last one is the reference. If the scene has
+/// a state of rest, computes it with fixed pins and without winds and drag.
 std::vector<GridResult> grid_convergence(const Scene& scene, const std::vector<int>& sizes);
 
-/// y = a x^p by least squares in the logarithms: the exponent and its standard error. Nothing for fewer than three
+/// Exponent of y = a x^p, and its standard error, by least squares in the logarithms. Nothing for fewer than three
 /// points.
 struct PowerLaw {
   double exponent, deviation;
 };
 std::optional<PowerLaw> power_law(const std::vector<std::pair<double, double>>& points);
 
-/// Scaling of the stiffness k of bend (skip-one) springs with the grid, for a cloth of the same droop. The model is one
-/// line of a cloth of 1 m and 0.1 kg, held flat by bend springs and kept from stretching by structural ones. It is
-/// clamped flat at one end by two pinned particles, half a cell to either side of the clamp, so that the free length is
-/// the same on all grids. Derivation: if lengths are preserved, a curvature kappa turns neighbouring cells of size d by
-/// d kappa, which shortens a bend spring over them by d^3 kappa^2 / 4. The energy of one line is k d^6 kappa^4 / 32 per
-/// particle, and that of the cloth is k d^4 kappa^4 / 32 per area. For the same cloth, k must grow as d^-4: the fourth
-/// power of the number of cells.
+/// Scaling of the stiffness k of bend (skip-one) springs with the grid, for the same droop. The model is one line of
+/// a cloth of 1 m and 0.1 kg, which inextensible structural springs and bend springs hold flat. Two pinned particles,
+/// half a cell to either side of the clamp, clamp it flat, so that the free length is the same on all grids.
+/// Derivation: if lengths are preserved, a curvature kappa turns neighbouring cells of size d by d kappa, which
+/// shortens a bend spring over them by d^3 kappa^2 / 4. The energy of one line is k d^6 kappa^4 / 32 per particle, and
+/// that of the cloth is k d^4 kappa^4 / 32 per area. Hence k must grow as d^-4.
 struct BendSprings {
   int n;
   double cells;      // 1, in the free length: n - 3/2
-  double stiffness;  // N/m, of the bend springs, for the droop of the first n
+  double stiffness;  // N/m, of a bend spring, for the same droop as with the first n
   double droop;      // m
 };
 std::vector<BendSprings> bending_stiffness(const std::vector<int>& sizes);

@@ -1,4 +1,3 @@
-// The search over models and methods, the scene file of the chosen run, and the check of that file.
 #include "experiments/advise/advice.h"
 
 #include <fmt/ranges.h>
@@ -17,22 +16,21 @@ namespace crosscheck {
 
 namespace {
 
-/// The key time.tolerance (m) of a file for a relative tolerance, rounded to 20 bits, so that a run of the file has
-/// exactly the tolerance of the trial.
+/// The file's time.tolerance (m) for a relative tolerance, rounded to 20 bits, so that a run of the file has exactly
+/// the tolerance of the trial.
 double written_tolerance(const Scene& scene, double relative) {
   int exponent = 0;
   const double part = std::frexp(100 * relative * scene.size(), &exponent);
   return std::ldexp(std::round(std::ldexp(part, 20)), exponent - 20);
 }
 
-/// A model of the scene, and the ingredients that it leaves out.
 struct Candidate {
   std::string name;  // "full", or "without ..."
   Scene scene;
   std::vector<Ingredient> out;
 };
 
-/// The smallest model that a scene file can express and whose error is at most half of the tolerance.
+/// The smallest model that a scene file can express, with an error of at most half the tolerance.
 std::optional<Candidate> least_of(const Scene& scene, double tolerance) {
   try {
     const ReferenceSolution y = reference_solution_of(scene, tolerance);
@@ -58,11 +56,11 @@ std::optional<Candidate> least_of(const Scene& scene, double tolerance) {
     least.name = fmt::format("without {}", fmt::join(names, ", "));
     return least;
   } catch (const Unsupported&) {
-    return std::nullopt;  // no step of the reference solution is fine enough for a model's error
+    return std::nullopt;  // no step is fine enough for the reference solution
   }
 }
 
-/// The scene's file with the choices of the search.
+/// The scene file, with the model, method and step that the search chose.
 std::string file_of(const Advice& a, const Candidate& model, const Trial& chosen, const Method& method) {
   TomlDocument file(a.scene.source, a.scene.name);
   for (const Ingredient& i : model.out)
@@ -96,7 +94,7 @@ void caveats_of(Advice& a, const Trial& t) {
         fmt::format("the method follows a different law: {}", fmt::join(t.outcome.different_law, "; ")));
 }
 
-/// The advice without its trials; throws CannotGuarantee if the truth does not permit one.
+/// The advice without trials. Throws CannotGuarantee if the truth does not permit one.
 Advice guarantee_of(const Scene& scene, double tolerance, const DenseTruth& path) {
   const Truth& truth = path.truth();
   Advice a{.scene = scene,
@@ -119,10 +117,9 @@ Advice guarantee_of(const Scene& scene, double tolerance, const DenseTruth& path
   return a;
 }
 
-/// Runs a method and returns the outcome and the distance from the truth, m.
+/// Returns the outcome of a run and its distance from the truth, m.
 using Measured = std::function<std::pair<Outcome, double>(const Method&, const Scene&, const Setting&)>;
 
-/// Distances at the samples, as in a report.
 Measured at_samples(const Truth& truth, double until) {
   return [&truth, until](const Method& method, const Scene& scene, const Setting& setting) {
     Recorder recorder;
@@ -132,7 +129,6 @@ Measured at_samples(const Truth& truth, double until) {
   };
 }
 
-/// Distances after every step.
 Measured after_steps(const DenseTruth& path) {
   return [&path](const Method& method, const Scene& scene, const Setting& setting) {
     MaxErrorObserver farthest(path);
@@ -141,7 +137,7 @@ Measured after_steps(const DenseTruth& path) {
   };
 }
 
-/// Tries all methods on all models, and chooses; throws CannotGuarantee if none meets the tolerance.
+/// Tries all methods on all models, and chooses. Throws CannotGuarantee if none meets the tolerance.
 void search(Advice& a, const std::vector<Candidate>& models, const std::vector<Method>& methods, double bound,
             const Measured& measured) {
   a.trials.clear();
@@ -166,7 +162,7 @@ void search(Advice& a, const std::vector<Candidate>& models, const std::vector<M
       return TriedRun{.verdict = done.outcome.verdict, .error = done.error, .cost = done.cost()};
     };
     StepSearch search(model.scene, default_run(model.scene), bound, trial, runs, 4,
-                      model.name);  // 4: stops at four times the best cost, beyond which no method is an alternative
+                      model.name);  // stops at four times the best cost, beyond which no method is an alternative
     search.search(methods);
   }
   for (size_t i = 0; i < runs.size(); ++i) {
@@ -183,7 +179,7 @@ void search(Advice& a, const std::vector<Candidate>& models, const std::vector<M
   a.chosen = chosen->run, a.tied = chosen->tied, a.second = chosen->second, a.bound = chosen->bound;
   a.of_full.reset();
   if (a.trials[a.chosen].model == "full") return;
-  std::erase_if(runs, [](const TriedRun& run) { return run.model != "full"; });  // keeps the last ones
+  std::erase_if(runs, [](const TriedRun& run) { return run.model != "full"; });  // keeps the end of the list
   if (const auto full = recommend(runs, bound)) a.of_full = a.trials.size() - runs.size() + full->run;
 }
 
@@ -225,7 +221,7 @@ Advice advise(const Scene& scene, double tolerance, std::vector<Method> methods)
     least->scene.samples = scene.samples;  // trials run as the written file will
     models.insert(models.begin(), std::move(*least));
   }
-  // widely spaced samples give a larger error bar of the truth than dense ones
+  // the truth has a larger error bar at widely spaced samples than at dense ones
   const auto sampled = truth_of(scene, default_run(scene));
   bool kept = false;
   if (sampled && sampled->error_bar < tolerance) try {

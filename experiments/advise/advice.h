@@ -16,12 +16,11 @@
 
 namespace crosscheck {
 
-/// No trial meets the tolerance, or no reference can prove that one does. what() is the reason in one line.
+/// No trial meets the tolerance, or no reference can prove that one does. what(): the reason in one line.
 struct CannotGuarantee : std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-/// One run of the search.
 struct Trial {
   std::string model;  // "full", or "without ..."
   std::string method;
@@ -33,7 +32,6 @@ struct Trial {
   std::optional<double> limit;  // s, largest stable step by theory; empty if theory gives none
   bool accidental = false;      // within the tolerance, but a shorter step of the same method and model is not
   bool meets = false;           // error + error bar of the truth are within the tolerance, and the run held to the end
-  /// Force evaluations times springs.
   double cost() const { return static_cast<double>(outcome.evaluations) * static_cast<double>(springs); }
 };
 
@@ -51,20 +49,19 @@ struct Advice {
   std::optional<size_t> second = {};   // the cheapest other method that meets it
   std::optional<size_t> of_full = {};  // the choice for the full scene, if a smaller model is cheaper
   StepBound bound = StepBound::none;   // reason why the step is not longer
-  bool between_samples = false;        // the errors at the samples alone would have been misleading
+  bool between_samples = false;        // the error between samples exceeded the tolerance
   std::vector<std::string> left_out = {};
-  std::string toml = {};                // a scene file that runs as advised
-  double checked = 0;                   // m, error of the run of that file
+  std::string toml = {};                // scene file that runs as advised
+  double checked = 0;                   // m, error of a run of that file
   std::vector<WishResult> wishes = {};  // wishes, with their values in that run
   std::vector<std::string> caveats = {};
 };
 
-/// Searches the full scene and the smallest model whose own error is at most half the tolerance (StepSearch), and
-/// chooses a run with recommend(): for the full scene and 1 % of its motion, it is the run that a report recommends.
-/// The search uses the errors at the samples, as a report does. Then the file of the chosen run is run once more, with
-/// its error observed after every step (dense_truth.h); if this exceeds the tolerance, the whole search is repeated
-/// with such errors. Throws CannotGuarantee if no truth is known, its error bar exceeds a third of the tolerance, the
-/// tolerance exceeds the scene's motion, or no method meets it.
+/// Searches the full scene, and the smallest model whose own error is at most half the tolerance (StepSearch). Chooses
+/// with recommend(), as the report does for 1 % of the motion. The search uses the errors at the samples. The chosen
+/// run is then repeated with its error observed after every step (dense_truth.h); if that exceeds the tolerance, the
+/// search is repeated with such errors. Throws CannotGuarantee if no truth is known, its error bar exceeds a third of
+/// the tolerance, the tolerance exceeds the scene's motion, or no method meets it.
 Advice advise(const Scene& scene, double tolerance, std::vector<Method> methods);
 
 }  // namespace crosscheck

@@ -1,4 +1,3 @@
-// Samples of the truth, and interpolation between them.
 #include "experiments/advise/dense_truth.h"
 
 #include <fmt/format.h>
@@ -15,7 +14,7 @@ namespace {
 
 constexpr double turn = 2 * std::numbers::pi;
 constexpr double samples_per_period = 8;
-constexpr double most_numbers = 6e7;  // samples times coordinates, for which both routes of a converged truth take 2 GB
+constexpr double most_numbers = 6e7;  // samples times coordinates: both routes of a converged truth then take 2 GB
 
 double fastest_gust(const WindSignal& wind_signal) {
   double omega = 0;
@@ -25,7 +24,7 @@ double fastest_gust(const WindSignal& wind_signal) {
   return omega;
 }
 
-/// Spacing of samples, s. A scene without vibrations is resolved by its own step.
+/// Spacing of samples, s. The scene's own step if nothing vibrates.
 double first_spacing(const Scene& scene) {
   const double interval = scene.duration / scene.samples, omega = fastest_motion(scene);
   const bool resolved_by_step = scene.model.first_order() || scene.model.find<Constraints>();
@@ -33,8 +32,7 @@ double first_spacing(const Scene& scene) {
   return omega > 0 ? std::min(own, turn / omega / samples_per_period) : own;
 }
 
-/// Number of dense samples for each sample of the scene, at that spacing; throws CannotGuarantee if they would not fit
-/// in memory.
+/// Dense samples per sample of the scene, at that spacing. Throws CannotGuarantee if they do not fit in memory.
 int samples_at(const Scene& scene, double spacing) {
   const double samples = std::ceil(scene.duration / scene.samples / spacing * (1 - 1e-9));
   const double all = samples * scene.samples * static_cast<double>(scene.start.x.size());
@@ -80,12 +78,12 @@ DenseTruth::DenseTruth(const Scene& scene, double tolerance) : dense_(scene), ex
     // with contact the error falls as the square of the spacing where forces jump, otherwise as its fourth power
     if (has_contact(scene.model))
       for (double left = lost / 4; left > tolerance / 30 && i + 1 < most_doublings; left /= 4, ++i) spacing /= 2;
-    if (i == most_doublings && bar_ <= tolerance / 3) break;  // as accurate as advice requires
+    if (i == most_doublings && bar_ <= tolerance / 3) break;  // accurate enough for advice
     if (i == most_doublings)
       throw CannotGuarantee(fmt::format(
           "between its samples the truth is known to {:.2g} m only, but {:.2g} m is requested", bar_, tolerance));
   }
-  // an eighth of a period is 0.79 rad
+  // an eighth of a period has a phase of 0.79
   const double omega = fastest_motion(scene);
   time_resolution_ = omega > 0 ? 1 / (16 * omega) : scene.duration / dense_.samples / 8;
 }
@@ -117,8 +115,8 @@ Points DenseTruth::free_path(int sample, double t) const {
 }
 
 /// Cubic between two samples with the velocities at both (Hermite); linear in a first-order scene, which has no
-/// velocities. A particle whose free path enters a solid in between follows that path up to the impact, and then the
-/// free path back from the later sample: nothing is interpolated across an impact.
+/// velocities. A particle that enters a solid on its free path follows this path up to the impact, and then the free
+/// path back from the later sample, so that nothing is interpolated across the impact.
 Points DenseTruth::interpolated(int from, int to, double t) const {
   const Trajectory& path = truth_.trajectory;
   const double span = path.t[to] - path.t[from], s = (t - path.t[from]) / span;

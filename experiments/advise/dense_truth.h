@@ -14,9 +14,9 @@ namespace crosscheck {
 /// motion of pins and spheres, and of gusts. 0 if nothing vibrates.
 double fastest_motion(const Scene& scene);
 
-/// The truth at any time up to the end of the guarantee. A closed form is evaluated at each time. Converged truth is
-/// sampled at least eight times per period of the fastest motion. It is interpolated by cubics with the velocities at
-/// both samples, but not across impacts. The number of samples is doubled until the interpolation error, estimated by
+/// The truth at any time up to the end of the guarantee. A closed form is evaluated directly. Converged truth is
+/// sampled at least eight times per period of the fastest motion, and interpolated by cubics with the velocities at
+/// both samples, except across impacts. The number of samples is doubled until the interpolation error, estimated by
 /// leaving out every other sample, is below a thirtieth of `tolerance` (m).
 class DenseTruth {
  public:
@@ -24,13 +24,13 @@ class DenseTruth {
   DenseTruth(const Scene& scene, double tolerance);
 
   const Truth& truth() const { return truth_; }
-  /// The scene with all these samples, so that measurements in it cover the whole motion.
+  /// The scene with all these samples.
   const Scene& dense() const { return dense_; }
   double until() const { return until_; }    // s
   double error_bar() const { return bar_; }  // m, of the truth, including the interpolation error
   double motion() const { return motion_; }  // m, largest RMS distance from the start
   /// Time in which the phase of the fastest motion advances by a sixteenth of a radian, s. No error changes by more
-  /// than 0.2 % of its largest value in that time.
+  /// than 0.2 % of its maximum in that time.
   double time_resolution() const { return time_resolution_; }
   Points at(double t) const;  // m, 3 x n; t in s, up to until()
 
@@ -49,11 +49,11 @@ class DenseTruth {
 };
 
 /// The scene's own run, observed at the time resolution of the truth. An adaptive method is observed on the grid of the
-/// run's step, which does not affect the steps it takes. With contact the grid limits its steps and is left as it is.
+/// run's step, which does not affect its steps. With contact that grid would limit them, so the run stays unchanged.
 Run observed_run(const Method& method, const Scene& scene, const DenseTruth& path);
 
-/// Observes every step of a run and keeps the largest RMS distance from the truth. Skips steps that follow the previous
-/// one within the time resolution of the truth, but never samples.
+/// Keeps the largest RMS distance of a run from the truth. Skips steps that follow the previous one within the time
+/// resolution of the truth, but never samples.
 class MaxErrorObserver : public Observer {
  public:
   explicit MaxErrorObserver(const DenseTruth& path) : path_(path) {}

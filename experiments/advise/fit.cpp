@@ -1,4 +1,3 @@
-// Fits parameters to wishes.
 #include "experiments/advise/fit.h"
 
 #include <fmt/ranges.h>
@@ -19,8 +18,8 @@
 namespace crosscheck {
 namespace {
 
-/// The kinds of parameters that can be fitted, by the end of their path, with their search range. The range is in a
-/// unit of the scene: a mass (or 1) over a power of a time.
+/// The kinds of parameters that can be fitted, by the end of their path, with their search range in units of the scene:
+/// mass (or 1) over time to the power `times`.
 struct Kind {
   std::string_view ending, name, unit;
   double low, high;
@@ -50,7 +49,7 @@ struct Objective {
   Measurement measure;
 };
 
-/// The desired behaviour of a scene (experiments/measures.h): section [wish] of its file.
+/// Desired measures (experiments/measures.h): section [wish] of the scene file.
 struct Wish {
   std::optional<double> sag, period, settle_time;  // m, s, s
   std::optional<double> max_stretch;               // 1
@@ -105,7 +104,7 @@ class Fit {
       if (!kind)
         throw InputError(
             fmt::format("{}: {}: expected a value; only stiffness, mass, drag and dashpot can be fitted", name, path));
-      // isotropy depends on the ratio between families of springs, so that each family needs a value of its own
+      // anisotropy depends on the ratio between families of springs, so that each family needs its own value
       const std::string family = path.substr(path.rfind('.') + 1),
                         name_of_value = file_.has("wish.anisotropy") && kind->ending.starts_with("stiffness.")
                                             ? fmt::format("{} stiffness", family)
@@ -117,7 +116,7 @@ class Fit {
       }
       known->paths.push_back(path);
     }
-    // reads the wishes with provisional values in place of those to be fitted
+    // provisional values, because the wishes can only be read from a complete scene
     units_ = Eigen::VectorXd::Ones(size());
     Eigen::VectorXd middle = Eigen::VectorXd::Zero(size());
     set_units(scene_at(middle));
@@ -173,8 +172,8 @@ class Fit {
   }
   Scene scene_at(const Eigen::VectorXd& p) const { return parse_scene(file_at(p).text(), name_); }
 
-  /// Sets the unit of each kind's range. The time is that of the wish, or of a fall over the scene's size, or the
-  /// duration. The mass is the mean over the particles; if masses are fitted, a known stiffness times the time squared.
+  /// Sets the unit of each kind's range. Time: that of the wish, or of a fall over the scene's size, or the duration.
+  /// Mass: the mean over the particles; if masses are fitted, a known stiffness times the time squared.
   void set_units(const Scene& scene) {
     const auto* gravity = scene.model.find<Gravity>();
     const auto* springs = scene.model.find<Springs>();
@@ -193,7 +192,7 @@ class Fit {
     }
   }
 
-  /// log(measured / wished) of each wish; nothing if one of them cannot be measured.
+  /// log(measured / wished) of each wish; nothing if a wish cannot be measured.
   std::optional<Eigen::VectorXd> residual(const Eigen::VectorXd& p, MeasuredBy by) const {
     const Scene scene = scene_at(p);
     Eigen::VectorXd r(size());
@@ -206,8 +205,8 @@ class Fit {
   }
 
   /// The best point of a grid with one value per decade, or per two decades for several unknowns. A single unknown is
-  /// taken from the first decade in which the wish is crossed: a very small and a very large drag may give the same
-  /// settling time.
+  /// taken from the first decade in which the measure crosses the wish: a very small and a very large drag may give the
+  /// same settling time.
   Eigen::VectorXd coarse() const {
     const double pace = std::log(size() == 1 ? 10. : 100.);
     std::optional<Eigen::VectorXd> best;
@@ -242,7 +241,7 @@ class Fit {
     return *best;
   }
 
-  /// A damped Gauss-Newton step that reduces the residual, or nothing.
+  /// A damped Gauss-Newton step that reduces the residual; nothing if there is none.
   std::optional<std::pair<Eigen::VectorXd, Eigen::VectorXd>> better(const Eigen::VectorXd& p,
                                                                     const Eigen::VectorXd& r) const {
     constexpr double nudge = 0.02;  // above the noise of the measures
@@ -255,7 +254,7 @@ class Fit {
       slope.col(j) = (*there - r) / nudge;
     }
     Eigen::VectorXd step = slope.completeOrthogonalDecomposition().solve(-r);
-    constexpr double longest = 2.3;  // a decade
+    constexpr double longest = 2.3;
     if (step.norm() > longest) step *= longest / step.norm();
     for (int halvings = 0; halvings < 8; ++halvings, step /= 2)
       if (const auto there = residual(p + step, MeasuredBy::converged_runs); there && there->norm() < r.norm())
@@ -266,8 +265,8 @@ class Fit {
   std::string name_;
   TomlDocument file_;
   std::vector<Unknown> unknowns_;
-  std::vector<const Kind*> kinds_;  // kinds of the unknowns
-  Eigen::VectorXd units_;           // an unknown is its unit times the exponential of its parameter
+  std::vector<const Kind*> kinds_;
+  Eigen::VectorXd units_;  // an unknown is its unit times exp(parameter)
   std::vector<Objective> objectives_;
 };
 
@@ -284,7 +283,7 @@ std::vector<WishResult> keep_wishes(const Scene& scene, Scene& file) {
     }
   const Scene given = file;
   const bool follows_step = !find_method(file.method).adaptive;
-  constexpr int most_halvings = 10;  // reduce an error of order 1 a thousandfold
+  constexpr int most_halvings = 10;  // enough to reduce a first-order error a thousandfold
   for (int i = 0;; ++i) {
     bool kept = true;
     for (size_t w = 0; w < wishes.size(); ++w) {

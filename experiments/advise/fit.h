@@ -10,11 +10,11 @@
 
 namespace crosscheck {
 
-/// A parameter written as "fit" in the file. All parameters of one kind share one value: every mass, every stiffness.
-/// If anisotropy is wished, each family of springs has a stiffness of its own.
+/// A parameter written as "fit" in the file. All parameters of one kind share one value: every mass, every stiffness. A
+/// wish for anisotropy gives each family of springs its own stiffness.
 struct Unknown {
   std::string name, unit;          // "stiffness", "N/m"
-  std::vector<std::string> paths;  // its places in the file
+  std::vector<std::string> paths;  // its occurrences in the file
   double value = 0;
 };
 
@@ -27,9 +27,8 @@ struct WishResult {
   bool kept() const { return std::abs(own - reached) <= tolerance * std::abs(reached); }
 };
 
-/// Measures the wishes in `scene`, and in `file`, a scene to be run in its place, with its own method. Halves the step
-/// of `file` until the wishes are kept (WishResult::kept) or a shorter step no longer helps. Leaves out wishes that
-/// cannot be measured.
+/// Measures the wishes in `scene`, and in `file`, the scene that will be run, with its own method. Halves the step of
+/// `file` until WishResult::kept holds or a shorter step no longer helps. Leaves out wishes that cannot be measured.
 std::vector<WishResult> keep_wishes(const Scene& scene, Scene& file);
 
 struct FitResult {
@@ -39,14 +38,14 @@ struct FitResult {
   std::vector<WishResult> wishes;
 };
 
-/// True if the text of a scene file contains values to be fitted. Throws InputError if it is not valid TOML.
+/// True if a scene file contains values to be fitted. Throws InputError if it is not valid TOML.
 bool has_unknowns(std::string_view text, const std::string& name);
 
 /// Finds the values by simulation: first on a coarse grid over decades, then by damped Gauss-Newton steps in the
-/// logarithms of the parameters and measures, until each wish is met within 0.02 %. The step is at most half of
-/// leapfrog's limit, and so short that a run of the file keeps its wishes, if possible. Throws InputError if the number
-/// of wishes differs from that of the values, or a value cannot be fitted. Throws CannotGuarantee if a wish cannot be
-/// measured or is not met within 2 %.
+/// logarithms of parameters and measures, until each wish is met within 0.02 %. The step is at most half of leapfrog's
+/// limit and, if possible, so short that a run of the file keeps its wishes. Throws InputError if the numbers of wishes
+/// and of values differ, or a value cannot be fitted. Throws CannotGuarantee if a wish cannot be measured or is not met
+/// within 2 %.
 FitResult fit_to_wishes(std::string_view text, const std::string& name);
 
 }  // namespace crosscheck

@@ -1,4 +1,3 @@
-// The measurements of the quick and the full bench, in order.
 #include "experiments/bench/bench.h"
 
 #include "experiments/scenes/scenes.h"
@@ -17,8 +16,8 @@ Peer bullet_implicit() { return {"bullet/deformable-implicit", {4, 1}}; }
 Peer bullet_pbd() { return {"bullet/pbd", {1, 0.5}, true}; }
 Peer bullet_pbd_on_links() { return {"bullet/pbd", {1, 0.25}}; }
 
-/// An engine without known properties: at leapfrog's limit and three successive halves of it, to cover the cost of
-/// large and of small errors; adaptive methods at tolerances like odeint's.
+/// For engines with unknown properties: leapfrog's limit and three successive halves of it, to cover the cost of large
+/// and of small errors; for adaptive methods, tolerances like odeint's.
 Peer chosen(const std::string& name) {
   if (find_method(name).adaptive) return {name, {1e-4, 1e-6}};
   return {name, {1, 0.5, 0.25, 0.125}};
@@ -46,7 +45,8 @@ BenchSuite bench_suite(bool full, const std::vector<std::string>& beside) {
                    {11, 0.015},
                    {11, 0.004},
                    {},
-                   // one thread only; the smallest for two threads; the largest in the caches of two cores; beyond them
+                   // one thread only; the smallest for two threads; the largest in the caches of two cores; beyond the
+                   // caches
                    {{64, 96, 256, 512}, {11, 0.06}}};
   if (full) {
     suite.cloths = {{32, all},
@@ -63,7 +63,7 @@ BenchSuite bench_suite(bool full, const std::vector<std::string>& beside) {
     suite.threads.turns = {21, 0.2};
   }
   suite.same_step.turns = suite.turns;
-  // named engines run on two small cloths, because most of them would take minutes on larger ones
+  // named engines run on two small cloths, because most of them take minutes on larger ones
   if (!beside.empty()) suite.cloths.insert(suite.cloths.begin(), {16, {}});
   for (BenchSuite::PeerCloth& cloth : suite.cloths)
     for (const std::string& name : beside)

@@ -1,4 +1,3 @@
-// The factorised step, and the times of both solvers for a falling cloth.
 #include "experiments/bench/implicit_step.h"
 
 #include <fmt/format.h>
@@ -107,7 +106,6 @@ namespace {
 
 constexpr double falls_for = 0.5;  // s
 
-/// A falling cloth, and its state after a while.
 struct FallingCloth {
   Scene scene;
   State state;
@@ -118,7 +116,7 @@ struct FallingCloth {
   }
 };
 
-/// mysim's solver with the instruction set that was active when it was created.
+/// mysim's solver with a given instruction set, which is chosen when the solver is created.
 struct MysimStep {
   System system;
   ImplicitStep step;

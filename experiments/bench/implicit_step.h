@@ -9,20 +9,19 @@
 
 namespace crosscheck {
 
-/// Solves (M (1/h^2 + gamma/h) + K) u = M (g - gamma v) + F(x + h v), with K the clamped tangent at x + h v, without
-/// the rows and columns of pins; then x' = x + h v + u. For springs, gravity, uniform drag and fixed pins. K is written
-/// into a pattern that is built once, with a fill-reducing order that is computed once (approximate minimum degree).
+/// Solves (M (1/h^2 + gamma/h) + K) u = M (g - gamma v) + F(x + h v) for the free particles, with K the clamped tangent
+/// at x + h v; then x' = x + h v + u. Supports springs, gravity, uniform drag and fixed pins. The sparsity pattern of K
+/// and its fill-reducing order (approximate minimum degree) are computed once.
 class FactorisedStep {
  public:
-  /// Throws std::invalid_argument if the drag is not the same rate for all particles.
+  /// Throws std::invalid_argument if the drag rate differs among particles.
   FactorisedStep(const Scene& scene, double h);
-  /// Positions after a step from x, v (3 x n), m; valid until the next call.
+  /// Positions after a step from x, v (3 x n), m. Valid until the next call.
   const Points& step(const Points& x, const Points& v);
 
  private:
   using Sparse = Eigen::SparseMatrix<double>;
-  /// Positions of the entries of a 3 x 3 block of two particles in the lower triangle; -1 for entries that are not
-  /// kept.
+  /// Indices of a 3 x 3 block of two particles among the stored entries of the lower triangle; -1 if not stored.
   struct Places {
     int number[3][3];
   };

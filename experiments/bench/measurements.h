@@ -12,7 +12,6 @@
 
 namespace crosscheck {
 
-/// The results, and the shared resources of the measurements.
 struct BenchRecord {
   const LockPatience& patience;
   Progress& progress;
@@ -20,32 +19,32 @@ struct BenchRecord {
   std::vector<std::string> notes = {};  // omissions, with their reasons
 };
 
-/// Sets both times and their ratio, from the seconds of each round multiplied by a factor.
+/// Sets both times and their ratio, from the seconds of each round times a factor.
 void set_times(BenchRow& row, const std::vector<double>& peer, const std::vector<double>& mysim, double peer_factor = 1,
                double factor = 1);
 
-/// Kinds of work: the values of the column `work`.
+/// Values of the column `work`.
 namespace bench_work {
 constexpr auto springs = "springs", springs_of_scene = "springs of a shipped scene", same_error = "same error",
                same_step = "same step", implicit_step = "linear implicit Euler step", two_threads = "two threads";
 }
 constexpr auto naive_loop_name = "naive loop";
 
-/// CPU time per spring and step on a cloth with `side` particles along each side, for each kernel and for the naive
-/// loop (Eigen::Vector3d, spring by spring). Naive loop, plain loop and general kernel compute forces only; the fused
-/// step is a whole step. `share` is the rate of flop_per_spring relative to the peak of the same instruction set.
+/// CPU time per spring and step on a cloth with `side` particles a side, for each kernel and for the naive loop
+/// (Eigen::Vector3d, spring by spring). The fused step is a whole step; all others compute forces only. `share` is the
+/// rate of flop_per_spring relative to the peak of the same instruction set.
 void measure_kernels(int side, const MicrobenchmarkOptions& options, BenchRecord& record);
 
-/// Time of one evaluation of the spring forces in the engine's own kernels and in the naive loop, on each scene with
-/// springs. The kernels are the general one and, for regular grids, the fused step, which is a whole step.
+/// Time of one evaluation of the spring forces on each scene with springs: naive loop, general kernel and, for regular
+/// grids, the fused step, which is a whole step.
 void measure_scenes(const std::vector<Scene>& scenes, const MicrobenchmarkOptions& options, BenchRecord& record);
 
 /// A method to compare with, and its settings: tolerances for adaptive methods, else steps in units of leapfrog's
-/// largest stable step, 2 / omega with the scene's fastest vibration omega.
+/// stability limit 2 / omega, with the scene's fastest vibration omega.
 struct Peer {
   std::string method;
   std::vector<double> settings;
-  bool other_model = false;  // it does not converge to the scene's springs
+  bool other_model = false;  // does not converge to the scene's springs
 };
 
 struct EqualErrorOptions {
@@ -53,26 +52,25 @@ struct EqualErrorOptions {
   std::vector<Peer> peers;
   TimedRunOptions turns;
 };
-/// Number of progress steps of the measurement.
 int work_of(const EqualErrorOptions& options);
 
 /// Compares each run of each peer with mysim's cheapest run that is at least as accurate; the error bar of the truth
-/// counts against mysim on both sides. The truth is suzuki4 at a sixteenth of its largest step. No ratio if the peer's
-/// error is within the error bar.
+/// counts against mysim on both sides. The truth is suzuki4 at a sixteenth of its largest step. Sets no ratio if the
+/// peer's error is within the error bar.
 void measure_equal_error(const EqualErrorOptions& options, BenchRecord& record);
 
 struct SameStepOptions {
-  int side = 64;          // particles along a side of the cloth
+  int side = 64;          // particles along each side of the cloth
   double duration = 0.2;  // s, of both runs
   TimedRunOptions turns;
 };
-/// Compares Bullet's explicit world with mysim's symplectic Euler. Both are the same rule, so that only the time of a
-/// step differs. The first cloth has three stiffnesses, which a force class of Crosscheck's implements in Bullet
-/// (without faces); the second has two stiffnesses and uses Bullet's own spring force.
+/// Compares Bullet's explicit world with mysim's symplectic Euler. The rule is the same, so that only the time of a
+/// step differs. The first cloth has three stiffnesses, which need Crosscheck's own force class in Bullet (without
+/// faces); the second has two and uses Bullet's own spring force.
 void measure_same_step(const SameStepOptions& options, BenchRecord& record);
 
 struct ImplicitStepOptions {
-  std::vector<int> sides;     // particles along a side of the cloth
+  std::vector<int> sides;     // particles along each side of the cloth
   std::vector<double> rates;  // steps per second
   MicrobenchmarkOptions microbenchmarks;
 };
@@ -81,13 +79,13 @@ struct ImplicitStepOptions {
 void measure_implicit_steps(const ImplicitStepOptions& options, BenchRecord& record);
 
 struct ThreadsOptions {
-  std::vector<int> sides;  // particles along a side of each cloth
+  std::vector<int> sides;  // particles along each side of the cloth
   TimedRunOptions turns;
 };
-/// Wall time of a step of leapfrog with one thread, and with +threads=2, which uses only one thread on small cloths.
-/// `share` is the fraction of the cores' time that the threads got. Threads spin while they wait, so that other
-/// processes had the rest, and the ratio is then below the capability of the machine. A note says so below 95 %, and if
-/// there is only one core. Call it before the process is bound to a core.
+/// Wall time of a leapfrog step with one thread, and with +threads=2, which uses only one thread on small cloths.
+/// `share` is the fraction of the cores' time that the threads got. Because waiting threads spin, the rest went to
+/// other processes, and the ratio underestimates the machine. A note says so below 95 %, or if there is only one core.
+/// Call it before the process is bound to a core.
 void measure_threads(const ThreadsOptions& options, BenchRecord& record);
 
 }  // namespace crosscheck

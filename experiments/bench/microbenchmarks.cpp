@@ -1,4 +1,3 @@
-// Times pieces of work in rounds.
 #include "experiments/bench/microbenchmarks.h"
 
 #include "experiments/timing/timing.h"

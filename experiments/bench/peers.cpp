@@ -1,4 +1,4 @@
-// Whole runs of mysim and of its peers on a cloth: at the same error, and at the same step.
+// Whole runs of mysim and of its peers on a cloth, at the same error and at the same step.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -16,31 +16,30 @@
 namespace crosscheck {
 namespace {
 
-/// A method of mysim whose step is shortened until it is accurate enough: its longest step (in 2 / omega, below the
-/// rule's limit), and the ratio of consecutive steps.
+/// A method of mysim whose step is shortened until it is accurate enough. first: longest step (in 2 / omega, below the
+/// rule's limit); ratio: of consecutive steps.
 struct MysimMethod {
   const char* method;
   double first, ratio;
 };
-constexpr double fine = 0.8409, coarse = 0.5;  // 2^(-1/4); for slow runs of a rule that is not the best one
+constexpr double fine = 0.8409, coarse = 0.5;  // fine: 2^(-1/4); coarse: for a rule that is slow and not the best one
 // the most efficient first: a later method stops when an earlier one is more accurate with as many evaluations
 constexpr MysimMethod own_methods[] = {{"mysim/suzuki4+fast", 1.3, fine},
                                        {"mysim/leapfrog+fast", 0.95, fine},
                                        {"mysim/leapfrog+single", 0.95, fine},
                                        {"mysim/rk4", 1.35, coarse}};
-constexpr double longest = 60;           // s: a longer run of an external program is left out
+constexpr double longest = 60;           // s: external programs that would take longer are left out
 constexpr double shortest = 0.05;        // shortest step of a method over its first
 constexpr double truth_step = 1.36 / 8;  // in 2 / omega: an eighth of suzuki4's largest step; later halved
 
-/// A whole run.
 struct PeerRun {
   Method method;
   Run run;
   Outcome outcome;
-  double setting;               // step in s, or tolerance
-  std::optional<double> error;  // RMS over the particles at the end, m; empty if the run failed
+  double setting;               // s, or a tolerance
+  std::optional<double> error;  // m, RMS over the particles at the end; empty if the run failed
   bool other_model = false;
-  double projected = 0;  // s of CPU time, for a run that was left out because it would take too long; else 0
+  double projected = 0;  // s of predicted CPU time, for a run that was left out as too long; else 0
   bool ok() const { return error.has_value(); }
 };
 
@@ -58,12 +57,12 @@ class PeerRuns {
 
   std::vector<PeerRun> of(const std::vector<Peer>& peers) const;
   /// Runs of mysim, for each method from long steps to short ones. A method stops when a run's error is at most
-  /// `wanted` (m), when it takes more than `most` evaluations, or when a more accurate run of another method takes no
-  /// more. In single precision only if the cloth is wide enough.
+  /// `wanted` (m), when it takes more than `most` evaluations, or when another method has been more accurate with as
+  /// few. Includes single precision if the cloth is wide enough.
   std::vector<PeerRun> own(double wanted, long most) const;
 
  private:
-  /// `projects`: runs the first fiftieth of the run to predict whether the whole run would take too long.
+  /// `projects`: runs the first fiftieth to predict whether the whole run would take too long.
   PeerRun done(const Method& method, double setting, bool projects = false) const;
   Points end_of(double part) const {
     Recorder recorder;
@@ -130,7 +129,8 @@ std::vector<PeerRun> PeerRuns::own(double wanted, long most) const {
   return runs;
 }
 
-/// Sets mysim's cheapest run with an error of at most `bound` (m), its time and the ratio; false if there is none.
+/// Sets mysim's cheapest run with an error of at most `bound` (m), its time and the ratio. Returns false if there is
+/// none.
 bool set_cheapest(BenchRow& row, const PeerRun& peer, const std::vector<double>& peer_times,
                   const std::vector<PeerRun>& own, double bound,
                   const std::map<std::string, std::vector<double>>& own_times) {
@@ -152,7 +152,7 @@ bool set_cheapest(BenchRow& row, const PeerRun& peer, const std::vector<double>&
 }  // namespace
 
 int work_of(const EqualErrorOptions& options) {
-  size_t work = 2 + std::size(own_methods);  // the truth, mysim's methods, and the timing in turns
+  size_t work = 2 + std::size(own_methods);  // 2: the truth, and the timing in turns
   for (const Peer& peer : options.peers) work += peer.settings.size();
   return static_cast<int>(work);
 }
@@ -221,7 +221,6 @@ void measure_equal_error(const EqualErrorOptions& options, BenchRecord& record) 
 
 namespace {
 
-/// Positions at the end of a run, m.
 Points end_of(const Method& method, const Scene& scene, const Run& run,
               std::optional<simd::InstructionSet> instructions, Outcome* outcome = nullptr) {
   std::optional<ScopedInstructionSet> kept;

@@ -1,4 +1,3 @@
-// The cost of a spring, kernel by kernel, on generated cloths and on shipped scenes.
 #include "experiments/bench/measurements.h"
 
 #include <fmt/format.h>
@@ -18,7 +17,7 @@ using simd::InstructionSet;
 
 constexpr auto double_precision = "double", single_precision = "single";
 
-/// A cloth with a wave in it, so that every spring exerts a force.
+/// With a wave, so that every spring exerts a force.
 Scene waving_cloth(int n) {
   Scene scene = hanging_cloth(n);
   for (int i = 0; i < scene.start.x.cols(); ++i)
@@ -35,7 +34,7 @@ struct TimedKernel {
 };
 
 std::vector<TimedKernel> kernels_of(const Scene& scene) {
-  const InstructionSet baseline = InstructionSet::baseline;  // that of the suite's build
+  const InstructionSet baseline = InstructionSet::baseline;  // instruction set of the suite's build
   std::vector<TimedKernel> kernels{{naive_loop_name, baseline, double_precision, naive_loop(scene)},
                                    {"plain loop", baseline, double_precision, plain_loop(scene)}};
   const auto add = [&](const char* name, InstructionSet isa, const char* precision,
@@ -52,7 +51,6 @@ std::vector<TimedKernel> kernels_of(const Scene& scene) {
   return kernels;
 }
 
-/// Peak rate of an instruction set.
 struct Peak {
   std::string name;
   double operations;  // per run

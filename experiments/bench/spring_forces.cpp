@@ -1,4 +1,3 @@
-// Spring loops and kernels as functions for the bench.
 #include "experiments/bench/spring_forces.h"
 
 #include <memory>
@@ -27,7 +26,7 @@ BenchmarkFunction naive_loop(const Scene& scene) {
       work->f[s.a] += force;
       work->f[s.b] -= force;
     }
-    // tells the compiler that the forces are read, so that it does not drop the work
+    // prevents the compiler from removing the work
     asm volatile("" : : "r"(work->f.data()) : "memory");
   };
 }
@@ -74,7 +73,7 @@ std::optional<BenchmarkFunction> fused_step(const Scene& scene, simd::Instructio
   auto work = std::make_shared<Work>(Work{simd::ClothGridMemory<T>(*topology), {}, {}, {}});
   const double h = scene.step, m = scene.model.particles.mass[0];
   const auto all = [&](double value) { return work->body.spread(Eigen::ArrayXd::Constant(1, value)); };
-  // strongly damped, so that the cloth comes to rest; the springs are computed all the same
+  // strongly damped, so that the cloth comes to rest, which does not affect the cost
   work->damping = all(0.1), work->inverse_mass_dt = all(h / m), work->dt = all(h);
   work->body.put(scene.start.x, scene.start.v);
   simd::ClothGrid<T>& grid = work->body.grid();

@@ -1,4 +1,4 @@
-// The forces of a scene's springs, computed in several ways for the bench to compare.
+// The forces of a scene's springs, computed in several ways for the bench. All scenes must have springs.
 #pragma once
 
 #include <functional>
@@ -9,17 +9,17 @@
 
 namespace crosscheck {
 
-/// Does the work once per call, always on the same memory.
+/// Does the work once per call, on the same memory each time.
 using BenchmarkFunction = std::function<void()>;
 
-/// The straightforward loop over springs with Eigen's vectors. All functions here require a scene with springs.
+/// The straightforward loop over springs with Eigen's vectors.
 BenchmarkFunction naive_loop(const Scene& scene);
 /// The reference implementation of the term (mysim/terms/springs.h).
 BenchmarkFunction plain_loop(const Scene& scene);
-/// The engine's kernel for any spring graph, with an instruction set that the machine supports.
+/// The engine's kernel for any spring graph. The machine must support the instruction set.
 BenchmarkFunction general_kernel(const Scene& scene, simd::InstructionSet isa);
-/// The engine's fused step: a whole step of a cloth including kick and drift. T: double or float; `fast` as in
-/// simd::kernel(). Nothing if the springs do not form a regular grid, or one that is too narrow.
+/// A whole step of a cloth including kick and drift. T: double or float; `fast` as in simd::kernel(). Nothing if the
+/// springs do not form a regular grid, or the grid is too narrow.
 template <class T>
 std::optional<BenchmarkFunction> fused_step(const Scene& scene, simd::InstructionSet isa, bool fast);
 

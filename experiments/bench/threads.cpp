@@ -1,4 +1,3 @@
-// Wall times with one thread and with two.
 #include "experiments/bench/measurements.h"
 
 #include <fmt/format.h>
@@ -14,7 +13,8 @@ namespace crosscheck {
 namespace {
 
 constexpr auto rule = "mysim/leapfrog";
-/// Below this share, the missing time matters as much as the loss of two threads that are 1.9 times as fast as one.
+/// Below this share, the missing time matters as much as the loss of two threads that are only 1.9 times as fast as
+/// one.
 constexpr double nearly_all = 0.95;
 
 double cpu_of_all_threads() {
@@ -23,7 +23,6 @@ double cpu_of_all_threads() {
   return static_cast<double>(t.tv_sec) + 1e-9 * static_cast<double>(t.tv_nsec);
 }
 
-/// A cloth that is stepped indefinitely.
 class TimedCloth {
  public:
   TimedCloth(const Scene& scene, int threads)
@@ -31,7 +30,6 @@ class TimedCloth {
         world_(simd::make_cloth_grid_world(*find_method(rule).stepper, ContactRule::coulomb, scene, h_,
                                            {ExecutionPath::reproducible, threads}, no_observers_)) {}
 
-  /// Wall time of a step, s.
   double step(long steps) {
     using Clock = std::chrono::steady_clock;
     const double cpu = cpu_of_all_threads();
@@ -41,9 +39,8 @@ class TimedCloth {
     share_.push_back((cpu_of_all_threads() - cpu) / (threads() * wall));
     return wall / static_cast<double>(steps);
   }
-  /// Number of working threads.
   int threads() const { return world_->work().worker_seconds > 0 ? 2 : 1; }
-  /// Share that the threads got of the time of as many cores.
+  /// Share of their cores' time that the threads got.
   double share() const { return timing_of(share_).median; }
 
  private:
