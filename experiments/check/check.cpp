@@ -1,4 +1,3 @@
-// Checks relations of methods, and reads the table of known breaks.
 #include "experiments/check/check.h"
 
 #include <fmt/format.h>
@@ -30,7 +29,7 @@ const KnownBreak* known_break(const Answer& answer, const std::vector<KnownBreak
   return nullptr;
 }
 
-/// A program none of whose runs ended (it is missing, or cannot start) has shown nothing about its mechanics.
+/// If all runs of a program crashed (it is missing, or cannot start), they show nothing about its mechanics.
 void withdraw_where_nothing_ran(std::vector<Answer>& answers) {
   const auto says_nothing = [](const Answer& a) {
     return a.mark == RelationMark::not_applicable || a.failure == Verdict::crash;

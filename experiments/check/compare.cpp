@@ -1,4 +1,3 @@
-// Comparison of trajectories, and properties of scenes.
 #include "experiments/check/compare.h"
 
 #include <fmt/format.h>

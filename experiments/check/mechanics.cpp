@@ -11,7 +11,7 @@
 namespace crosscheck {
 namespace {
 
-/// Compares the value (in `unit`) with its bound at each sample.
+/// Compares a value (in `unit`) with its bound at each sample.
 RelationResult over_time(std::string what, std::string unit, const Trajectory& path, const std::vector<double>& bound,
                          const std::function<double(int)>& value) {
   RelationResult worst{std::move(what), std::move(unit), 0, bound[0]};
@@ -31,7 +31,7 @@ void require_velocities(const Trajectory& path) {
 
 Vec3 start_velocity_of_the_centre(const Scene& scene) { return centre_of_mass(scene, scene.start.v); }
 
-/// Final state of a damped run: its positions, and the largest movement in its last quarter, m.
+/// Final state of a damped run, and the largest movement in its last quarter, m.
 struct Rest {
   Points x;
   double unsettled;
@@ -70,12 +70,12 @@ RelationResult free_fall(Subject& subject, const Scene& scene, unsigned) {
     return largest_column(((path.x[i] - start).colwise() - fallen(i)).eval());
   });
   // a rule of order two falls g t^2 / 2 exactly, one of order one g t (t + h) / 2 or g t (t - h) / 2; any other rule
-  // lies between these
+  // lies in between
   const Method& method = subject.method();
   const bool known = stepper_of(method) != nullptr;
   const double h = chooses_steps(method) || (known && order_of(method) > 1) ? 0 : run.outcome.step;
-  // the fall is g t^2 / 2 + g h (a t + b h) / 2; a known rule of order one determines a = 1 or -1, with b = 0;
-  // otherwise a and b, at most 1, are taken from the first and last sample, whose rounding adds to that of the others
+  // the fall is g t^2 / 2 + g h (a t + b h) / 2. A known rule of order one has a = 1 or -1, and b = 0. Otherwise a and
+  // b, at most 1, are taken from the first and last sample, whose rounding adds to that of the others
   const int last = path.frames() - 1;
   const auto late = [&](int i) {  // in units of g h / 2
     const Vec3 off = fallen(i) - v * path.t[i] - g * (path.t[i] * path.t[i] / 2);
@@ -132,7 +132,7 @@ RelationResult angular_momentum_kept(Subject& subject, const Scene& scene, unsig
   double far = 0, fast = 0;
   for (int i = 0; i < path.frames(); ++i)
     far = std::max(far, largest_column(path.x[i])), fast = std::max(fast, largest_column(path.v[i]));
-  // m x' x v + m x x v', at the largest distance and speed, with the step halved `times` times
+  // bound m (x' x v + x x v') at the largest distance and speed, with the step halved `times` times
   const auto rounding = [&](int times) {
     Scene finer = scene;
     finer.step = std::ldexp(scene.step, -times);
@@ -142,7 +142,7 @@ RelationResult angular_momentum_kept(Subject& subject, const Scene& scene, unsig
     return bound;
   };
   const Stepper* rule = stepper_of(subject.method());
-  // half drifts, and kicks along central forces, conserve it; other rules change it by an error of their order
+  // rules made of drifts, and kicks along central forces, conserve it; other rules change it by an error of their order
   if (chooses_steps(subject.method()) || (rule && rule->symplectic))
     return over_time("change of angular momentum", "kg m^2/s", path, rounding(0), [&](int i) { return whole[i]; });
   const std::vector<double> half = changes_in(halved(subject, scene, 1));
@@ -164,7 +164,7 @@ RelationResult angular_momentum_kept(Subject& subject, const Scene& scene, unsig
 
 namespace {
 
-/// The drift of the energy in a run, J, and the oscillation and rounding that can hide a drift.
+/// Drift of the energy in a run, and the oscillation and rounding that can hide a drift, J.
 struct Drift {
   double change, hidden;
   std::vector<double> changes, times;  // mean energy of each tenth of the run relative to the first, J; s
@@ -212,7 +212,7 @@ RelationResult energy_without_drift(Subject& subject, const Scene& scene, unsign
   if (!method.adaptive && chooses_steps(method))
     throw CannotBeAsked("its energy drifts, and as it chooses its own steps, no order of the drift can be seen");
   // rules that are not symplectic gain or lose energy by an error of at least their order; half a power is left for
-  // terms of higher order. The error of an adaptive rule falls with its tolerance, by a power near one
+  // terms of higher order. The error of an adaptive rule is roughly proportional to its tolerance
   const double part = method.adaptive ? 0.5 : std::exp2(0.5 - order_of(method));
   const auto finer = [&](int times) {
     Run fine = run;
@@ -237,7 +237,7 @@ RelationResult pins_on_their_path(Subject& subject, const Scene& scene, unsigned
   const SubjectRun& run = subject.run(scene);
   const Trajectory& path = run.path;
   const Particles& p = scene.model.particles;
-  // positions of pins are computed anew or rounded in every step; no error grows on a pin
+  // positions of pins are recomputed or rounded in every step, and their errors do not grow
   const double steps = static_cast<double>(std::max(1L, run.outcome.steps));
   const std::vector<double> bound(path.frames(),
                                   10 * subject.unit_roundoff() * std::sqrt(steps) * lengths_in(scene, path));
@@ -296,7 +296,7 @@ RelationResult stiffness_has_effect(Subject& subject, const Scene& scene, unsign
     stiff.hash = hash_of(stiff);
     const Rest hard = at_rest(subject, stiff);
     const double before = extension_of(spring, soft.x), after = extension_of(spring, hard.x);
-    // any effect larger than the remaining settling counts
+    // any effect larger than the remaining movement counts
     RelationResult found{
         fmt::format("extension of the spring between {} and {} with four times its stiffness, of that before", spring.a,
                     spring.b),

@@ -1,4 +1,3 @@
-// Small scenes, and the checks of each call of the program.
 #include "experiments/check/protocol_kit.h"
 
 #include <fmt/format.h>
@@ -48,7 +47,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// Scenes of one or two particles, which contain every ingredient of the protocol except the wind on triangles.
+// With every ingredient of the protocol except the wind on triangles.
 constexpr const char* kit_scenes[] = {"fall", "damped-spring", "led-pin", "ball", "slope", "rod", "circle", "gusts"};
 
 // s: a step of these scenes costs microseconds, and an interpreter starts in less than a second
@@ -57,7 +56,6 @@ constexpr double call_limit = 30;
 constexpr auto called = "How it is called", answers = "What it answers", scene_file = "scene.json",
                run_file = "run.json";
 
-/// The result of one call; its folder is deleted with it.
 struct KitCall {
   TemporaryFolder folder{"kit"};
   ProgramResult end;
@@ -68,7 +66,7 @@ struct KitCall {
   bool good() const {
     return end.signal == 0 && end.status == 0 && !end.timed_out && !end.killed_watcher && unreadable.empty();
   }
-  /// The last line of stderr, or of stdout if stderr is empty.
+  /// Falls back to stdout if stderr is empty.
   std::string last_line() const {
     std::string line = last_lines(end.err.find_first_not_of(" \t\r\n") == std::string::npos ? end.out : end.err, 1);
     line.erase(std::find(line.begin(), line.end(), '\n'), line.end());
@@ -115,7 +113,8 @@ class Kit {
            const char* section) {
     add(scene, topic, ok ? Conformance::ok : Conformance::lacks, required, told, section);
   }
-  /// Adds a line that is ok if the work throws no InputError; otherwise the line has its message without the folder.
+  /// Adds a line that is ok if `work` throws no InputError; otherwise the line has the error message without the
+  /// folder.
   bool add_tried(const Scene& scene, const std::string& topic, const char* section, const KitCall& call,
                  const std::function<std::string()>& work) {
     try {
@@ -174,7 +173,7 @@ class Kit {
     try_whole(scene, run, made);
   }
 
-  /// Checks the files. Returns false if there is no trajectory to continue with.
+  /// Returns false if there is no trajectory to continue with.
   bool try_files(const Scene& scene, const Run& run, const KitCall& made) {
     const int frames = time_grid(run).samples + 1, particles = scene.model.particles.size();
     const fs::path x = made.results() / "trajectory.npy", v = made.results() / "velocities.npy",
@@ -214,8 +213,8 @@ class Kit {
     return begins;
   }
 
-  /// Checks the sample times. Nothing acts along x in this scene, and every consistent rule moves along x at the
-  /// initial speed. Hence the position shows the time, much more precisely than the half step that is allowed.
+  /// Nothing acts along x in this scene, so that every consistent rule moves along x at the initial speed. The position
+  /// hence shows the time, much more precisely than to the allowed half step.
   void try_times(const Scene& scene, const Run& run, const std::vector<Points>& path) {
     const TimeGrid grid = time_grid(run);
     for (size_t i = 0; i < path.size(); ++i) {
@@ -230,7 +229,7 @@ class Kit {
     add(scene.name, "sample times", true, true, "at run.times", scene_file);
   }
 
-  /// Checks the speeds. A rule of first order is off by g h / 2, and velocities half a step late or early by as much.
+  /// A first-order rule is off by g h / 2, and so are velocities half a step late or early.
   void try_speeds(const Scene& scene, const Run& run, const std::vector<Points>& speeds) {
     const TimeGrid grid = time_grid(run);
     const Vec3 g = scene.model.find<Gravity>()->acceleration;
@@ -295,7 +294,7 @@ class Kit {
   void try_ingredients(const Scene& scene, const Run& run, const Trajectory& theirs) {
     const std::vector<Ingredient> all = ingredients_of(scene);
     const auto in = [](unsigned set, size_t i) { return (set >> i & 1) != 0; };
-    // infinite if one ingredient is removed together with another one of the set: a smaller set then says the same
+    // infinite if removing one ingredient also removes another one of the set: a smaller set then has the same effect
     const auto distance_without = [&](unsigned set) -> double {
       Recorder recorder;
       try {
@@ -310,7 +309,7 @@ class Kit {
           recorder.trajectory = {theirs.t, std::vector<Points>(theirs.x.size(), scene.start.x), {}};
         else if (find_method(scene.method).engine(less, run, recorder).verdict != Verdict::ok)
           return INFINITY;
-      } catch (const std::runtime_error&) {  // no valid scene without them
+      } catch (const std::runtime_error&) {
         return INFINITY;
       }
       return largest_rms_distance(theirs, recorder.trajectory);
@@ -351,7 +350,7 @@ class Kit {
   static int rank(Parity parity) {
     return parity == Parity::mismatch ? 3 : parity == Parity::unattested ? 2 : parity == Parity::different_law ? 1 : 0;
   }
-  /// The key of the read-back that attests a row.
+  /// The key of the read-back that certifies a row.
   static std::string key_of(const std::string& quantity) {
     static constexpr std::pair<std::string_view, std::string_view> keys[] = {
         {"start", "start"},
@@ -394,7 +393,7 @@ class Kit {
     }
   }
 
-  /// Changes the first supported scene in ways in which other versions and callers may write it.
+  /// Changes the first supported scene as other versions and callers may write it.
   void try_changed_scenes() {
     if (taken_ == 0) return;
     for (const char* name : kit_scenes) {
@@ -445,7 +444,7 @@ class Kit {
   bool has_readback_ = false;
   bool hangs_ = false;
   std::string first_json_;  // the scene whose run.json has lines for its keys
-  std::map<std::string, std::pair<std::string, CertificateRow>> rows_;  // by quantity: the worst row, and its scene
+  std::map<std::string, std::pair<std::string, CertificateRow>> rows_;  // worst row and its scene, by quantity
 };
 
 }  // namespace

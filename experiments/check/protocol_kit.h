@@ -1,4 +1,4 @@
-// The conformance kit of the engine protocol: runs a program on small scenes and reports the missing parts.
+// Conformance kit of the engine protocol: runs a program on small scenes and reports the missing parts.
 #pragma once
 
 #include <string>
@@ -10,17 +10,17 @@ namespace crosscheck {
 enum class Conformance {
   ok,       // conforms to PROTOCOL.md
   lacks,    // missing so far
-  refuses,  // the program reports by exit status 3 that it does not support the ingredient
+  refuses,  // exit status 3: the ingredient is not supported
 };
 std::string_view name_of(Conformance state);
 
 struct ConformanceLine {
-  std::string scene;  // empty: applies to all scenes
+  std::string scene;  // empty: all scenes
   std::string topic;  // "sample times"
   Conformance state;
-  bool required;        // without it the program is no adapter; optional parts make results more informative
+  bool required;        // otherwise optional: results are more informative with it
   std::string told;     // the observation, and advice if something is missing
-  std::string section;  // section of PROTOCOL.md, if something is missing; else empty
+  std::string section;  // section of PROTOCOL.md, if something is missing
 };
 
 struct ConformanceReport {
@@ -29,8 +29,8 @@ struct ConformanceReport {
   bool complete() const;  // no required part is missing
 };
 
-/// Runs the program on eight scenes of one and two particles, twice each, and on three that are changed as a later
-/// version or a careless caller might do. Throws InputError if there is no such program.
+/// Runs the program twice on each of eight scenes of one and two particles, and on three scene files as a later version
+/// or a careless caller might write them. Throws InputError if there is no such program.
 ConformanceReport try_adapter(const std::string& program);
 
 }  // namespace crosscheck

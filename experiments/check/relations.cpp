@@ -1,4 +1,3 @@
-// The table of relations.
 #include "experiments/check/relations.h"
 
 #include <fmt/format.h>
@@ -16,7 +15,7 @@
 namespace crosscheck {
 namespace {
 
-// reasons why a relation does not apply to a scene
+// why a relation does not apply to a scene
 
 std::string any_scene(const Scene&) { return ""; }
 std::string with_springs(const Scene& s) {

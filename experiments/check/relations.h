@@ -12,14 +12,13 @@
 
 namespace crosscheck {
 
-/// A measured value and its tolerance.
 struct RelationResult {
   std::string what;  // quantity that was compared, as a phrase
   std::string unit;
   double measured = 0, tolerance = 0;  // in the unit
   std::optional<double> since = {};    // s, first time at which the tolerance is exceeded
 
-  /// measured / tolerance; infinite if the tolerance is zero or the measured value is NaN.
+  /// infinite if the tolerance is zero or the measured value is NaN
   double ratio() const;
   bool holds() const { return ratio() <= 1; }
 };
@@ -38,15 +37,14 @@ struct Relation {
   RelationResult (*ask)(Subject& subject, const Scene& scene, unsigned seed);
 };
 
-/// The table (relations.cpp).
 std::span<const Relation> relations();
-/// The relation of that name, or null.
+/// Null if there is none.
 const Relation* relation_named(std::string_view name);
-/// The relation of that name. Throws InputError with a suggestion.
+/// Throws InputError with a suggestion.
 const Relation& find_relation(const std::string& name);
 
-// The functions of the table: transformed scenes in transformed.cpp, mechanics in mechanics.cpp, and one scene solved
-// with different settings in settings.cpp.
+// Transformed scenes are in transformed.cpp, mechanics in mechanics.cpp, and one scene with different settings in
+// settings.cpp.
 
 RelationResult turned_start(Subject& subject, const Scene& scene, unsigned seed);
 RelationResult shifted_start(Subject& subject, const Scene& scene, unsigned seed);

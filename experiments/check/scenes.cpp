@@ -1,4 +1,3 @@
-// The scenes of relations and of the conformance kit, from the files in this folder.
 #include <initializer_list>
 
 #include "experiments/check/transformations.h"

@@ -20,8 +20,8 @@ void require_own_step(const Method& method) {
         0, Verdict::ok);
 }
 
-/// Requires `fine` to be at most `part` of `coarse` plus twice the noise, as long as `coarse` is at most a hundredth of
-/// the lengths. Beyond that, the phase error of a vibration is so large that no power of the step is visible.
+/// Requires `fine` to be at most `part` of `coarse` plus twice the noise, while `coarse` is at most a hundredth of the
+/// lengths: beyond that, the phase error of a vibration hides any power of the step.
 RelationResult shrinking(std::string what, const Scene& scene, const Trajectory& path,
                          const std::vector<double>& coarse, const std::vector<double>& fine, double part,
                          const std::vector<double>& noise) {
@@ -69,7 +69,7 @@ RelationResult half_the_step(Subject& subject, const Scene& scene, unsigned) {
       shrinking(fmt::format("a half against a quarter of the step, {} the whole against a half", allowed), scene, one,
                 difference(0), difference(1), std::exp2(0.5 - order), noise_at(subject, scene, 2));
   if (found.holds()) return found;
-  // terms of higher order may cancel the first difference at one step, but not at the next one as well
+  // terms of higher order may cancel the first difference at one step, but not also at the next one
   RelationResult finer =
       shrinking(fmt::format("a quarter against an eighth of the step, {} a half against a quarter", allowed), scene,
                 one, difference(1), difference(2), std::exp2(0.5 - order), noise_at(subject, scene, 3));
@@ -81,7 +81,7 @@ RelationResult one_answer(Subject& subject, const Scene& scene, unsigned) {
   const auto noise = noise_at(subject, scene, 3);
   const Trajectory &one = halved(subject, scene, 0), &two = halved(subject, scene, 1),
                    &four = halved(subject, scene, 2), &eight = halved(subject, scene, 3);
-  // order one makes it a quarter; a difference that falls below half in two halvings has a limit
+  // order one reduces the difference to a quarter in two halvings of the step; if it falls below half, there is a limit
   RelationResult found =
       shrinking("a quarter against an eighth of the step, which is to be half of the whole against a half", scene, one,
                 distances(one, two), distances(four, eight), 0.5, noise);
@@ -93,7 +93,7 @@ RelationResult one_answer(Subject& subject, const Scene& scene, unsigned) {
   }
   const auto more = subject.with_iterations(2);
   if (!more) return found;
-  // n and 2n iterations converge to one answer if their difference shrinks with the step
+  // n and 2n iterations have a common limit if their difference shrinks with the step
   Subject other(*more);
   return worse(found, shrinking("n against 2n iterations at half the step, which is to be less than at the whole step",
                                 scene, one, distances(one, halved(other, scene, 0)),
@@ -120,7 +120,7 @@ RelationResult stop_and_go_on(Subject& subject, const Scene& scene, unsigned) {
     second_half.t.push_back(whole.t[i]);
     second_half.x.push_back(whole.x[i]);
   }
-  // a rule with more state than positions and velocities restarts, which is an error of its order
+  // a rule with more state than positions and velocities restarts, with an error of its order
   std::vector<double> bound = subject.noise(scene).x;
   if (!chooses_steps(subject.method())) bound = sum_of(std::move(bound), distances(whole, halved(subject, scene, 1)));
   bound.erase(bound.begin(), bound.begin() + middle);

@@ -1,4 +1,3 @@
-// Runs of the engine under test, and their rounding.
 #include "experiments/check/subject.h"
 
 #include <fmt/format.h>

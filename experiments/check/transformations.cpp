@@ -1,4 +1,3 @@
-// Scenes derived from other scenes.
 #include "experiments/check/transformations.h"
 
 #include <Eigen/Geometry>
@@ -72,7 +71,7 @@ Scene placed(Scene scene, const Placement& placement) {
 Scene renumbered(const Scene& scene, const std::vector<int>& order) {
   Scene other = scene;
   const int n = scene.model.particles.size();
-  std::vector<int> number(n);  // new number of each particle
+  std::vector<int> number(n);
   for (int i = 0; i < n; ++i) number[order[i]] = i;
   const auto reorder = [&](const Points& from, Points& to) {
     for (int i = 0; i < from.cols(); ++i) to.col(i) = from.col(order[i]);
@@ -82,7 +81,7 @@ Scene renumbered(const Scene& scene, const std::vector<int>& order) {
   reorder(scene.start.x, other.start.x);
   reorder(scene.start.v, other.start.v);
   for (int i = 0; i < n; ++i) to.mass[i] = from.mass[order[i]], to.pinned[i] = from.pinned[order[i]];
-  std::map<int, int> homes;  // pins ascend
+  std::map<int, int> homes;  // a map, because the list of pins must ascend
   for (size_t i = 0; i < from.pins.size(); ++i) homes[number[from.pins[i]]] = static_cast<int>(i);
   to.pins.clear();
   for (const auto& [pin, home] : homes) {
@@ -195,8 +194,8 @@ Scene scaled(Scene scene, const Scaling& scaling) {
 
 namespace {
 
-/// The image of each particle, which has the mirrored position, the same mass and velocity, and is pinned alike; or
-/// nothing if a particle has none.
+/// The image of each particle: at the mirrored position, with the same mass and velocity, and pinned alike. Nothing if
+/// a particle has none.
 std::optional<std::vector<int>> images_of(const Scene& scene, const Scene& other, double near) {
   const Particles& p = scene.model.particles;
   std::vector<int> image(p.size(), -1);
@@ -211,7 +210,7 @@ std::optional<std::vector<int>> images_of(const Scene& scene, const Scene& other
   return image;
 }
 
-/// The elements that join particles, by their ends and parameters.
+/// All springs and other links, by their ends and parameters.
 std::multiset<std::vector<double>> joined(const Scene& scene, const std::vector<int>& image) {
   std::multiset<std::vector<double>> all;
   const auto add = [&](double kind, int a, int b, double first, double second) {
@@ -227,7 +226,6 @@ std::multiset<std::vector<double>> joined(const Scene& scene, const std::vector<
                               std::vector<std::pair<int, double>> members;
                               for (int i = 0; i < s.size; ++i) members.emplace_back(image[s.particle[i]], s.weight[i]);
                               std::sort(members.begin(), members.end());
-                              // the overall sign of the weights does not affect the energy
                               const double sign = members[0].second < 0 ? -1 : 1;
                               std::vector<double> key{4, s.k};
                               for (const auto& [particle, weight] : members)
@@ -249,7 +247,7 @@ std::multiset<std::vector<double>> joined(const Scene& scene, const std::vector<
   return all;
 }
 
-/// True if all directions and positions of the two scenes' surroundings agree.
+/// True if directions and positions of wind, gravity, surfaces, etc. agree.
 bool same_outside(const Scene& scene, const Scene& other, double near) {
   const auto same = [](const Vec3& a, const Vec3& b) { return (a - b).norm() <= 1e-12 * a.norm(); };
   const auto same_motion = [&](const std::optional<Motion>& a, const std::optional<Motion>& b) {
@@ -263,7 +261,7 @@ bool same_outside(const Scene& scene, const Scene& other, double near) {
     all = all && same(g->acceleration, other.model.find<Gravity>()->acceleration);
   if (const auto* w = scene.model.find<Wind>())
     all = all && same_wind(w->acceleration, other.model.find<Wind>()->acceleration);
-  // not symmetric: the triangles of a sheet cut its squares along one diagonal
+  // air is not symmetric: the triangles of a sheet cut its squares along one diagonal
   all = all && !scene.model.find<Aerodynamics>() && !scene.model.first_order();
   if (const auto* spheres = scene.model.find<Spheres>())
     for (size_t i = 0; i < spheres->list.size(); ++i) {
@@ -287,7 +285,9 @@ std::optional<Mirror> mirror_of(const Scene& scene) {
   std::vector<int> itself(scene.model.particles.size());
   std::iota(itself.begin(), itself.end(), 0);
   for (int axis = 0; axis < 3; ++axis) {
-    if (high[axis] - low[axis] <= near) continue;  // reflection in a plane that contains all particles is trivial
+    if (high[axis] - low[axis] <= near)
+      continue;  // skips the trivial reflection in a plane that contains all
+                 // particles
     Mirror mirror;
     mirror.reflection.turn(axis, axis) = -1;
     mirror.reflection.shift[axis] = low[axis] + high[axis];

@@ -1,5 +1,5 @@
-// Scenes derived from other scenes by rotation, translation, reflection, renumbering and scaling, so that their runs
-// must be related in the same way; and the smallest scenes that show relations.
+// Scenes derived from others by rotation, translation, reflection, renumbering and scaling; and the smallest scenes
+// that show relations.
 #pragma once
 
 #include <optional>
@@ -21,7 +21,7 @@ Eigen::Matrix3d seeded_turn(unsigned seed);
 /// The numbers 0 to n - 1 in a seeded order in which none keeps its place.
 std::vector<int> seeded_order(int n, unsigned seed);
 
-/// The scene with all its directions and positions transformed.
+/// The scene with all directions and positions transformed.
 Scene placed(Scene scene, const Placement& placement);
 
 /// The scene with particle `order[i]` renumbered to i.
@@ -29,25 +29,24 @@ Scene renumbered(const Scene& scene, const std::vector<int>& order);
 /// Springs, bending, dashpots and hard distances in another order, half of them with their ends swapped.
 Scene springs_reordered(Scene scene, unsigned seed);
 
-/// Factors of the units of length, mass and time.
+/// In units of length, mass and time.
 struct Scaling {
   double length = 1, mass = 1, time = 1;
 };
 Scene scaled(Scene scene, const Scaling& scaling);
 
-/// The image of each particle under the reflection in the plane through the scene's centre normal to axis 0, 1 or 2;
-/// nothing if the scene is not symmetric to 1e-9 of its size.
+/// The image of each particle under the reflection through the scene's centre along axis 0, 1 or 2; nothing if the
+/// scene is not symmetric to 1e-9 of its size.
 struct Mirror {
   Placement reflection;
   std::vector<int> image;
 };
 std::optional<Mirror> mirror_of(const Scene& scene);
 
-/// The scene in experiments/check/FOLDER/NAME.toml.
 Scene scene_in(const std::string& folder, const std::string& name);
 
-// The smallest scenes that show relations. Their step is 2^-10 s, which every precision represents exactly, and a tenth
-// of the stable one: explicit Euler's growth of 1 + (h omega)^2 / 2 per step stays below tenfold in a second.
+// The smallest scenes that show relations. Their step of 2^-10 s is exact in every precision, and a tenth of the stable
+// step: explicit Euler's growth of 1 + (h omega)^2 / 2 per step stays below tenfold in a second.
 
 std::vector<Scene> small_nets();      // five particles, one of them pinned, swinging under gravity
 std::vector<Scene> falling_nets();    // a tetrahedron at rest: soft, stiff, with dashpots

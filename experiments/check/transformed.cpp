@@ -12,12 +12,12 @@ RelationResult beside_placed(Subject& subject, const Scene& scene, const Placeme
   const Trajectory& here = subject.run(scene).path;
   const Trajectory& there = subject.run(other).path;
   const double lengths = std::max(lengths_in(scene, here), lengths_in(other, there));
-  // the residual of an implicit equation depends on the coordinates, so that it differs between the two runs
+  // the residual of an implicit equation depends on the coordinates
   return farthest(what, with_positions(here, [&](const Points& x) { return placement.of(x); }), there,
                   subject.noise_with_unsolved(scene, lengths).x, lengths);
 }
 
-/// Bound for runs that differ in the order of summation or iteration: each has an iteration error of its own.
+/// Bound for runs with another order of summation or iteration: each run has its own iteration error.
 std::vector<double> bound_of_order(Subject& subject, const Scene& scene, const Scene& other) {
   std::vector<double> bound = subject.noise(scene).x;
   for (const Scene* one : {&scene, &other})
@@ -33,7 +33,6 @@ RelationResult turned_start(Subject& subject, const Scene& scene, unsigned seed)
 }
 
 RelationResult shifted_start(Subject& subject, const Scene& scene, unsigned seed) {
-  // by the size of the scene, in a seeded direction
   const Vec3 shift = scene.size() * seeded_turn(seed).col(0);
   return beside_placed(subject, scene, {Eigen::Matrix3d::Identity(), shift},
                        "the shifted run against the run of the shifted start");
