@@ -1,4 +1,4 @@
-// Experiment `contact`: collision response to balls and planes. Probes with one known result each, and draped cloths.
+// Experiment `contact`: collision response to balls and planes. Probes with a known result, and draped cloths.
 
 #include <fmt/format.h>
 
@@ -57,7 +57,7 @@ void cones_on(Ground ground, const Request& request, const Method& method, Table
   const bool flat = ground == Ground::plane;
   Table table = flat ? table_of<PlaneConeRow>() : table_of<ConeRow>();
   std::vector<double> steps = {1e-3};
-  // at longer steps, the error of a step exceeds the distance that a thousandth beyond the limit gives
+  // at longer steps, the error of a step hides the distance travelled a thousandth beyond the limit
   if (request.full && !flat) steps = {1. / 60, 1. / 240, 1e-3};
   for (const double h : steps)
     for (const double degrees : {10., 20., 30., 40., 50.}) {
@@ -65,7 +65,7 @@ void cones_on(Ground ground, const Request& request, const Method& method, Table
       std::vector<double> frictions = {0.95 * limit, 1.05 * limit};
       if (flat) frictions = {limit / 1.001, limit / 0.999};
       for (int i = 0; i <= 12; ++i)
-        // the two values above cover the range within a twentieth of the limit
+        // the two values above represent the range within a twentieth of the limit
         if (std::abs(0.1 * i / limit - 1) > 0.05) frictions.push_back(0.1 * i);
       std::sort(frictions.begin(), frictions.end());
       for (const double mu : frictions) {
@@ -109,7 +109,7 @@ void plane_probes(const Request&, const Method& method, TableSet& tables) {
   tables.add(table);
 }
 
-/// The order of contact of a rule, and of the rule with events located within the step.
+/// Orders of a rule with contact, and of the rule with event location.
 void orders_of_contact(const Request& request, const Method& method, TableSet& tables) {
   Table table = table_of<ContactOrderRow>();
   std::vector<Method> methods = {method};
@@ -138,7 +138,7 @@ void orders_of_contact(const Request& request, const Method& method, TableSet& t
                             .truth_bar = truth->error_bar};
         if (out.verdict == Verdict::ok) {
           row.error = largest_rms_distance(recorder.trajectory, truth->trajectory);
-          // below thirty error bars, the error is not precise enough for a power of the step
+          // below thirty error bars of the truth, the error is too uncertain for a power of the step
           const bool known = *row.error > 30 * truth->error_bar;
           if (before && known) row.order = std::log2(*before / *row.error);
           before = known ? row.error : std::nullopt;
@@ -150,7 +150,7 @@ void orders_of_contact(const Request& request, const Method& method, TableSet& t
   tables.add(table);
 }
 
-/// One run of a scene with balls or planes: its penetration depth, settling time and final state.
+/// Penetration depth, settling time and final state of a run with balls or planes.
 void drape(const Scene& scene, const Method& method, double step, TableSet& tables) {
   Table summary = table_of<DrapeRow>();
   Table deep = table_of<PenetrationRow>();

@@ -1,4 +1,3 @@
-// The scenes of the probes, and measurements of their runs.
 #include "experiments/contact/probes.h"
 
 #include <fmt/format.h>
@@ -108,7 +107,6 @@ Scene probe(const std::string& name, double duration, const std::string& more) {
 
 constexpr auto downwards = "[gravity]\nacceleration = [0, -9.81, 0]\n";
 
-/// A run that is sampled at every step.
 Trajectory each_step(const Method& method, const Scene& scene, double step, Outcome& out, Ledger* ledger = nullptr) {
   Recorder recorder;
   std::vector<Observer*> observers{&recorder};
@@ -118,7 +116,7 @@ Trajectory each_step(const Method& method, const Scene& scene, double step, Outc
   return std::move(recorder.trajectory);
 }
 
-/// Angle from the top (degrees) and speed where the gap equals `gap`, given the states at both ends of a step.
+/// Angle from the top (degrees) and speed where the gap equals `gap`, interpolated over a step.
 Leaving passing(const Vec3& x0, const Vec3& v0, const Vec3& x1, const Vec3& v1) {
   const double before = x0.norm() - ball - gap, after = x1.norm() - ball - gap, part = before / (before - after);
   const Vec3 x = x0 + part * (x1 - x0);
@@ -138,8 +136,8 @@ std::optional<double> rebound(const Method& method, const Scene& scene, double s
   const Trajectory path = each_step(method, scene, step, out);
   if (out.verdict != Verdict::ok) return std::nullopt;
   const double fall = std::sqrt(2 * drop / gravity);  // s
-  // the highest point after the landing, which is the lowest of the samples within two steps of the impact; before the
-  // landing, a height above the surface belongs to the fall
+  // the highest point after the landing (the lowest sample within two steps of the impact), because earlier heights
+  // belong to the fall
   int landed = 0;
   double lowest = INFINITY;
   for (int i = 0; i < path.frames(); ++i)
@@ -205,8 +203,8 @@ std::optional<ConeResult> cone(const Method& method, double degrees, double fric
   ConeResult result{(path.x.back() - path.x.front()).norm(),
                     std::max(0.0, gravity * (std::sin(angle) - friction * std::cos(angle))) * t * t / 2,
                     ContactState::neither};
-  // m: a thousandth beyond the limit at 10 degrees the distance is 0.21 mm, and the error of a rule of order one is
-  // 0.02 mm
+  // m: a thousandth beyond the limit at 10 degrees the distance is 0.21 mm, and the error of a first-order rule is 0.02
+  // mm
   const double negligible = ground == Ground::plane ? 5e-5 : 1e-3;
   if (result.distance < negligible)
     result.state = ContactState::sticks;
@@ -220,7 +218,7 @@ namespace {
 constexpr double returned = 0.8, width = 0.7, speed = 3;  // e, m between the contact planes, m/s
 constexpr int periods = 10;
 
-/// The highest position after the third landing, m; 0 if there are fewer than three.
+/// m; 0 with fewer than three landings.
 double third_apex(const Trajectory& path) {
   int landings = 0;
   bool falling = false;

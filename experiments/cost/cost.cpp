@@ -1,4 +1,4 @@
-// The timed points of experiment `cost`, and loops with a known amount of work.
+// Timed points of experiment `cost`, and loops with a known amount of work.
 #include "experiments/cost/cost.h"
 
 #include <fmt/ranges.h>
@@ -20,10 +20,10 @@
 namespace crosscheck {
 namespace {
 
-/// Tells the compiler that the data are read, so that it does not drop the work.
+/// Prevents the compiler from removing the work on `data`.
 void keep(const double* data) { asm volatile("" : : "r"(data) : "memory"); }
 
-/// Compiled for each instruction set; the best one that the machine supports is used.
+/// Compiled for each instruction set; the machine's best is used.
 #if defined(__SANITIZE_ADDRESS__)
 // the function that chooses the clone runs before the sanitizer is ready
 #else
@@ -67,22 +67,22 @@ Kernel triad_kernel(double bytes) {
 
 namespace {
 
-/// A run of that many steps, without samples in between.
+/// Without samples in between.
 Run steps_of(const Scene& scene, long steps) { return {scene.step, scene.step * static_cast<double>(steps), 1}; }
 
-/// Number of steps that take about 10 ms by the estimate; at least 2.
+/// Takes about 10 ms by the estimate.
 long steps_to_time(const Method& method, const Scene& scene) {
   const double each = estimated_seconds(method, scene, steps_of(scene, 1));
   return std::clamp(std::lround(0.01 / each), 2L, 2000L);
 }
 
-/// A timed function, which returns its CPU time, s; `count` is the number of steps or calls, known after a run.
+/// `run` returns its CPU time, s; `count`: number of steps or calls, known after a run.
 struct TimedLoop {
   std::function<double()> run;
   std::shared_ptr<double> count = std::make_shared<double>(1);
 };
 
-/// Steps of a method; returns no time if the method does not support the scene.
+/// Steps of a method. `run` returns 0 if the method does not support the scene.
 TimedLoop timed_steps(const Method& method, const Scene& scene, long steps, Outcome* outcome = nullptr) {
   TimedLoop loop;
   loop.run = [&method, &scene, steps, outcome, count = loop.count] {
@@ -114,10 +114,10 @@ long springs_of(const Scene& scene) { return static_cast<long>(scene.model.find<
 void cost_of_size(const Request& request, int n, TableSet& tables) {
   const Scene scene = sized_cloth(n);
   std::vector<Method> methods, requested = methods_of(request, scene);
-  // for comparison with engines that know spring graphs only: the same rule without the fused step
+  // for comparison with engines without a fused step: the same rule on a general spring graph
   if (request.methods.empty()) requested.push_back(find_method(std::string(subject().representative) + "+plain"));
   for (Method& method : requested) {
-    if (method.adaptive) continue;  // chooses the length of its steps
+    if (method.adaptive) continue;
     if (run_method(method, scene, steps_of(scene, 1), {}).verdict != Verdict::unsupported)
       methods.push_back(std::move(method));
   }
@@ -156,7 +156,6 @@ void cost_of_size(const Request& request, int n, TableSet& tables) {
 
 namespace {
 
-/// Calls of the spring kernel alone.
 TimedLoop springs_alone(const Scene& scene) {
   auto kernel = std::make_shared<SpringKernel>(*scene.model.find<Springs>(), static_cast<int>(scene.start.x.cols()));
   auto forces = std::make_shared<Forces>(Forces{Points::Zero(3, scene.start.x.cols())});
@@ -169,7 +168,6 @@ TimedLoop springs_alone(const Scene& scene) {
   return {run, std::make_shared<double>(calls)};
 }
 
-/// Evaluations of all forces, as in the stepper.
 TimedLoop forces_alone(const Scene& scene) {
   auto system = std::make_shared<System>(scene.model);
   auto state = std::make_shared<State>(scene.start);
@@ -209,7 +207,6 @@ Table phases_table(int n, const std::vector<std::string>& methods, const std::ve
 
 void cost_of_phases(const Request& request, int n, TableSet& tables) {
   const Scene plain = sized_cloth(n), above = sized_cloth(n, true);
-  // the fused step has no phases
   const Method ours = find_method("mysim/leapfrog+plain"), fused = find_method("mysim/leapfrog");
   std::vector<Method> others;
   for (Method& m : methods_of(request, above))
@@ -278,7 +275,7 @@ std::vector<Point> cost_points(const Request& request) {
   if (request.full) sides.insert(sides.end(), {256, 512});
   std::string content = request.full ? "full" : "quick";
   for (const Method& m : request.methods) content += fmt::format(" {} {}", m.name, m.fingerprint);
-  Request alone = request;  // without scenes: the experiment uses its own cloth
+  Request alone = request;  // the experiment uses its own cloth
   alone.scenes.clear();
   std::vector<Point> points;
   for (const int n : sides)

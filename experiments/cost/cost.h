@@ -1,4 +1,4 @@
-// Experiment `cost`: the time of a step by size, by phase, and relative to the roofline of this machine.
+// Experiment `cost`: the time of a step by size, by phase, and relative to this machine's roofline.
 #pragma once
 
 #include <functional>
@@ -11,8 +11,7 @@
 
 namespace crosscheck {
 
-// The peaks of this machine, measured by small loops of this build (S. Williams, A. Waterman and D. Patterson,
-// "Roofline", 2009).
+// Measured peaks of this machine (S. Williams, A. Waterman and D. Patterson, "Roofline", 2009).
 
 /// A loop with a known amount of work; run() executes it once and returns its CPU time, s.
 struct Kernel {
@@ -20,11 +19,10 @@ struct Kernel {
   std::function<double()> run;
 };
 
-/// Independent multiplications and additions in registers, with the instructions that mysim's kernels use (fused ones
-/// if these kernels have them).
+/// Independent multiplications and additions in registers, fused if mysim's kernels use fused ones.
 Kernel multiply_add_kernel();
 
-/// a = b + s c over three arrays of `bytes` in total: the bandwidth of memory of that size. 24 bytes per element.
+/// a = b + s c over three arrays of `bytes` in total, 24 bytes per element: the bandwidth of memory of that size.
 Kernel triad_kernel(double bytes);
 
 /// `size-cost`: time per step of every method on a cloth of n x n particles.
@@ -33,17 +31,17 @@ void cost_of_size(const Request& request, int n, TableSet& tables);
 /// contact and the rest of the step. In the fused step, which does everything in one pass: the whole step. For Bullet's
 /// worlds: the whole step, because their phases cannot be observed from outside.
 void cost_of_phases(const Request& request, int n, TableSet& tables);
-/// Table `phases-cost` from measured times, s: springs, all forces, a step without the sphere and a step with it (all
-/// of methods[0]), then whole steps of methods[1] and onwards.
+/// Table `phases-cost` from measured times, s. For methods[0]: springs, all forces, a step without the sphere, a step
+/// with it. Then whole steps of the other methods.
 Table phases_table(int n, const std::vector<std::string>& methods, const std::vector<Timing>& times);
 /// `roofline-cost`: the machine's peaks and the spring kernel at several sizes.
 void cost_against_roofline(bool full, TableSet& tables);
-/// The remark on a measured peak below the rate of the triad loop, flop/s; nothing if there is no doubt.
+/// A remark if the measured peak is below the rate of the triad loop (both in flop/s); otherwise nothing.
 std::optional<std::string> doubt_about_peak(double peak, double triad);
 
-/// Work of the spring kernel per spring, in floating-point operations: 3 differences, 5 for the squared length, 1
-/// difference and 1 product for the tension, 3 products, and 6 to add the force to both ends. A root and a quotient
-/// count as 7 each, the number of multiplications and additions that they displace.
+/// Floating-point operations of the spring kernel per spring: 3 differences, 5 for the squared length, 1 difference and
+/// 1 product for the tension, 3 products, and 6 to add the force to both ends. A root and a quotient count as 7 each,
+/// the number of multiplications and additions that they displace.
 inline constexpr double flop_per_spring = 33;
 /// Memory traffic of the kernel per spring and per particle, B. Spring: two ends (8), stiffness and rest length (16),
 /// the force written once and read twice (3 x 32), the index of its second end (4). Particle: a position copied (24 +

@@ -1,4 +1,4 @@
-// Experiment `disagreements`: runs all of them, measures, and writes tables.
+// Experiment `disagreements`.
 #include "experiments/disagreements/disagreements.h"
 
 #include <fmt/format.h>
@@ -50,7 +50,7 @@ Scene scene_of(const Disagreement& disagreement) {
 
 namespace {
 
-/// The method that a row names; for "engine:NAME+option", the kept program.
+/// For "engine:NAME+option", the kept program.
 std::string method_named(const std::string& name) {
   if (!name.starts_with(engine_prefix)) return name;
   const size_t end = name.find('+');
@@ -179,7 +179,7 @@ std::string criterion_of(const Disagreement& d) {
 
 namespace {
 
-/// The fingerprint of the kept program that a row is about, if it is among the methods.
+/// Fingerprint of the kept program that a row is about, if it is among the methods.
 std::optional<std::string> fingerprint_of(const Disagreement& row, const Request& request) {
   const std::string program = method_named(row.world);
   for (const Method& method : request.methods)
@@ -192,7 +192,7 @@ std::optional<std::string> fingerprint_of(const Disagreement& row, const Request
 std::vector<Point> disagreements_points(const Request& request) {
   std::string program, fingerprint;
   for (const Method& method : request.methods)
-    // a program with Bullet's worlds is recognised by its option +world
+    // a program with Bullet's worlds has the option +world
     if (const size_t at = method.name.find("+world=");
         method.name.starts_with(program_prefix) && at != method.name.npos) {
       if (!program.empty() && program != method.name.substr(0, at))

@@ -1,4 +1,3 @@
-// Quantities of the known disagreements, and sentences about them.
 #include "experiments/disagreements/effects.h"
 
 #include <fmt/format.h>
@@ -52,8 +51,8 @@ double sag(const Scene& scene, const State& s) {
 double length(const Scene&, const State& s) { return (s.x.col(1) - s.x.col(0)).norm(); }
 double along_wind(const Scene&, const State& s) { return s.v.row(2).mean(); }
 double gap(const Scene& scene, const State& s) { return 1e3 * *clearance(scene, s.t, s.x); }
-/// Angle by which the particle's path is steeper than the local tangent of the ball, mrad; 0 in the first half
-/// millimetre, where the particle falls freely to the surface of a field of 20 mm, up to 0.1 mm below.
+/// Angle by which the particle's path is steeper than the ball's tangent, mrad. 0 in the first half millimetre, where
+/// the particle falls freely to the surface of a 20 mm field, up to 0.1 mm below.
 double steeper(const Scene& scene, const State& s) {
   const Vec3 v = s.v.col(0), from = s.x.col(0) - scene.model.find<Spheres>()->list[0].centre;
   return moved(scene, s) < 5e-4 ? 0 : 1e3 * (std::atan2(-v.y(), v.x()) - std::atan2(from.x(), from.y()));
@@ -105,7 +104,7 @@ std::string hessian_effect(const std::vector<Series>& all) {
 }
 
 std::string rest_effect(const std::vector<Series>& all) {
-  // halfway between the turning points: a mean over time would depend on the number of periods in the run
+  // halfway between the turning points: a mean over time would depend on the number of periods
   auto middle = [](const Series& s) {
     const auto [low, high] =
         std::ranges::minmax(s.points | std::views::transform([](const auto& point) { return point.second; }));
@@ -118,7 +117,7 @@ std::string rest_effect(const std::vector<Series>& all) {
 }
 
 std::string wind_effect(const std::vector<Series>& all) {
-  // the time at which each run has half the final speed of the reference
+  // time until half of the reference's final speed
   const double half = all[0].last() / 2;
   auto reached = [&](const Series& s) {
     for (const auto& [t, v] : s.points)
@@ -157,7 +156,7 @@ TableWithSentence directions(const Disagreement& d) {
   for (double degrees = first; degrees <= last; degrees += 0.5) angles.push_back(degrees * std::numbers::pi / 180);
   const Scene scene = scene_of(d);
   Table table = table_of<ContactAngleRow>(d.name + "-angles");
-  double steeper_by = 0, flatter_by = 0, sideways = 0;  // mrad
+  double steeper_by = 0, flatter_by = 0, sideways = 0;
   const std::string bullet = d.variants[1].method;
   for (const std::string& method : {d.variants[0].method, bullet, d.variants[3].method, d.variants[4].method})
     for (const DirectionError& e : direction_errors(method, scene, angles)) {
@@ -178,8 +177,8 @@ std::string hop_effect(const std::vector<Series>& all) {
 }
 
 std::string precision_effect(const std::vector<Series>& all) {
-  // numbers of 24 bits are rounded by 6e-8 of their size; about ten roundings per step accumulate like a random walk
-  constexpr double length = 2;  // m, of the positions in the scene
+  // 24 bits are rounded by 6e-8 of the value; about ten roundings per step accumulate like a random walk
+  constexpr double length = 2;  // m, positions in the scene
   const double expected = 10 * 6e-8 * length * std::sqrt(static_cast<double>(all[2].outcome.steps));
   return fmt::format(
       "From mysim, in double precision, Bullet parts by {:.1g} m in double and by {:.1g} m in single precision; the "
@@ -221,7 +220,7 @@ std::string unused_effect(const std::vector<Series>& all) {
 }
 
 std::string over_relaxation_effect(const std::vector<Series>& all) {
-  // a sample is a step; after a few, the decaying root has vanished and the stretch is still small
+  // a sample is a step; from step 6 the decaying root has vanished, and the stretch is still small
   auto growth = [](const Series& s) -> double {
     constexpr size_t from = 6, to = 12;
     if (s.points.size() <= to) return NAN;
@@ -253,7 +252,6 @@ std::string sleeping_effect(const std::vector<Series>& all) {
 void ten_times_stiffer(Scene& scene) {
   for (Spring& s : scene.model.find<Springs>()->list) s.k *= 10;
 }
-/// Joins the second and the third particle.
 void join(Scene& scene) {
   const double distance = (scene.start.x.col(2) - scene.start.x.col(1)).norm();
   scene.model.find<Springs>()->list.push_back({1, 2, 1e-9, distance, {}});

@@ -1,11 +1,9 @@
-// Measured quantities of the known disagreements, and the sentences that state them.
+// Quantities of the known disagreements, in the units of the table's rows, and sentences about their measured size.
 #pragma once
 
 #include "experiments/disagreements/disagreements.h"
 
 namespace crosscheck::effects {
-
-// Quantities of the curves, in the units of the table's rows.
 
 double moved(const Scene& scene, const State& s);
 double sag(const Scene& scene, const State& s);
@@ -17,8 +15,6 @@ double stretch(const Scene& scene, const State& s);
 double second_stretch(const Scene& scene, const State& s);
 double lowest(const Scene&, const State& s);
 double energy(const Scene& scene, const State& s);
-
-// The measured size of an effect as a sentence, from the curves of a row's variants.
 
 std::string friction_effect(const std::vector<Series>& all);
 std::string stiffness_effect(const std::vector<Series>& all);
@@ -40,10 +36,8 @@ std::string over_relaxation_effect(const std::vector<Series>& all);
 std::string small_effect(const std::vector<Series>& all);
 std::string sleeping_effect(const std::vector<Series>& all);
 
-/// The direction of contact over the angle, in the limit of small steps.
+/// The direction of contact over the angle, extrapolated to step 0.
 TableWithSentence directions(const Disagreement& d);
-
-// Changes of a variant's scene.
 
 void ten_times_stiffer(Scene& scene);
 void join(Scene& scene);

@@ -10,7 +10,7 @@ namespace {
 
 constexpr auto differs = Condition::Kind::apart, agrees = Condition::Kind::within;
 
-/// "Rapier, 4 sub-steps is up to 0.0134 m from symplectic Euler, mysim; Rapier, 1 sub-step up to 2e-06 m."
+/// E.g. "Rapier, 4 sub-steps is up to 0.0134 m from symplectic Euler, mysim; Rapier, 1 sub-step up to 2e-06 m."
 std::string distances(const std::vector<Series>& all) {
   std::string text;
   for (size_t i = 1; i < all.size(); ++i)
@@ -22,8 +22,8 @@ std::string distances(const std::vector<Series>& all) {
 }  // namespace
 
 std::vector<Disagreement> engine_disagreements() {
-  // The error of single precision after 500 steps is 2e-6 m for lengths of a metre; 1e-4 m is far above that and far
-  // below each effect. In double precision the same rule agrees to 1e-13 m, and 1e-9 m is allowed.
+  // The error of single precision after 500 steps is 2e-6 m for lengths of a metre; the bound of 1e-4 m is far above
+  // that and far below each effect. In double precision the same rule agrees to 1e-13 m, and the bound is 1e-9 m.
   return with_texts({
       {.name = "constant-forces",
        .world = "engine:rapier",

@@ -1,4 +1,3 @@
-// The table of known disagreements.
 #include "experiments/disagreements/disagreements.h"
 
 #include <fmt/format.h>
@@ -16,8 +15,8 @@ namespace {
 using namespace effects;
 constexpr auto apart = Condition::Kind::apart, within = Condition::Kind::within, hangs = Condition::Kind::hangs;
 
-/// Fills in heading, cause and threads from the section "# NAME" of disagreements.md. The last paragraph begins with
-/// "Upstream: " if threads are known. Throws std::logic_error if there is no such section.
+/// Adds heading, cause and threads from the section "# NAME" of disagreements.md. If threads are known, the last
+/// paragraph begins with "Upstream: ". Throws std::logic_error if there is no section.
 void add_texts(Disagreement& row) {
   static const std::string file =
       read_file(data_folder() / "experiments/disagreements/disagreements.md", "the texts of disagreements");
@@ -93,7 +92,7 @@ std::vector<Disagreement> table() {
         {"Bullet, as shipped", "bullet/deformable-implicit+shipped"}},
        energy,
        hessian_effect,
-       // as much again as the initial 20 J
+       // the energy doubles from its initial 20 J
        {{apart, 2, 0, 20}},
        {{within, 1, 0, 1e-3}}},
       {"rest-lengths",
@@ -142,7 +141,7 @@ std::vector<Disagreement> table() {
         {"Bullet, voxel of 0.02 m", "bullet/pbd"}},
        gap,
        field_effect,
-       // mm: a^2 / 4R is 15.6 and 0.1
+       // mm: a^2 / 4R is 15.6 and 0.1 for the two grid sizes a
        {{apart, 1, 0, 1}},
        {{within, 2, 0, 0.1}}},
       {"contact-direction",
@@ -156,7 +155,7 @@ std::vector<Disagreement> table() {
         {"Bullet, voxel of 1.25 mm", "bullet/deformable-explicit+voxel=0.00125"}},
        steeper,
        direction_effect,
-       // mrad: a / 2R is 9.8 at 20 mm and 0.6 at 1.25 mm
+       // mrad: a / 2R is 9.8 for a grid of 20 mm and 0.6 for 1.25 mm
        {{apart, 3, 0, 4}},
        {{within, 4, 0, 1.5}},
        directions},
@@ -203,7 +202,7 @@ std::vector<Disagreement> table() {
         {"Bullet, one body, one force", "bullet/deformable-explicit"}},
        second_stretch,
        one_stiffness_effect,
-       // with a tenth of the stiffness it is stretched by up to 196 mm instead of 20 mm; h v = 0.3 mm at 0.31 m/s
+       // a tenth of the stiffness stretches it by up to 196 mm instead of 20 mm; h v = 0.3 mm at 0.31 m/s
        {{apart, 1, 0, 50}},
        {{within, 2, 0, 0.5}}},
       {"gravity-factor",

@@ -1,4 +1,3 @@
-// The gallery of upstream problems, and reports of two of them that are ready to be sent.
 #include "experiments/disagreements/upstream.h"
 
 #include <fmt/format.h>
@@ -13,7 +12,6 @@
 namespace crosscheck {
 namespace {
 
-/// A template with its keys replaced by values.
 std::string filled(const std::string& name, const std::vector<std::pair<std::string, std::string>>& values) {
   std::string text = read_file(data_folder() / "experiments/disagreements/upstream" / name, "a text");
   for (const auto& [key, value] : values)
@@ -21,11 +19,10 @@ std::string filled(const std::string& name, const std::vector<std::pair<std::str
   return text;
 }
 
-/// The row's world if it is a program; otherwise the installed version of Bullet, from the tables' line of engines, and
-/// the world.
+/// The row's program, or the installed version of Bullet (from the tables' line of engines) and the row's world.
 std::string version_of(const DisagreementRow& row, const std::string& engines) {
   if (row.world.starts_with(program_prefix)) return row.world;
-  const size_t bullet = engines.find("Bullet");  // after the other engines
+  const size_t bullet = engines.find("Bullet");  // Bullet is the last engine
   return fmt::format("{}, {}", bullet == std::string::npos ? engines : engines.substr(bullet), row.world);
 }
 

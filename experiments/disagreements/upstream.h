@@ -14,10 +14,9 @@ struct UpstreamText {
   std::string file, text;  // Markdown
 };
 
-/// upstream-gallery.md: each disagreement with its threads, its state and the measured evidence, and the threads for
-/// which there is no scene. upstream-NAME.md: a report for each disagreement that is written up, if it was reproduced.
-/// Empty without rows. `engines`: the versions that were run, as in the tables; rows of an external program name the
-/// program.
+/// upstream-gallery.md: each disagreement with its threads, its state and the evidence, and the threads without a
+/// scene. upstream-NAME.md: a report for each reproduced disagreement that is written up. Empty without rows.
+/// `engines`: the versions that were run, as in the tables; rows of an external program name the program.
 std::vector<UpstreamText> upstream_texts(const TableSet& rows, const std::string& engines);
 
 }  // namespace crosscheck

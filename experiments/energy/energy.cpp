@@ -15,11 +15,11 @@ namespace {
 
 constexpr long all_steps = 100000;
 constexpr int samples = 200;
-/// Ratio of the step to the scene's for rules that solve an equation in each step: they are meant for longer steps.
+/// Rules that solve an equation in each step are meant for longer steps: this many times the scene's.
 constexpr int longer = 10;
 
-/// All energy sources and sinks in one small scene: a cloth held by two moving corners swings in gusts against a ball,
-/// with drag and with springs that have dashpots.
+/// All energy sources and sinks: a cloth held by two moving corners swings in gusts against a ball, with drag and
+/// dashpots.
 Scene everything() {
   return parse_scene(
       "question = \"Where does the energy go when everything acts at once?\"\n"
@@ -34,8 +34,8 @@ Scene everything() {
       "all-at-once");
 }
 
-/// Number of steps, at the scene's step, that defines the duration of all methods' runs: as many as the slowest
-/// engine's representative takes within a CPU budget. In a full run, this allows all steps on a cloth of 10 x 10.
+/// The number of steps, at the scene's step, that determines the duration of all runs: as many as the slowest engine's
+/// representative takes within a CPU budget. A full run's budget suffices for all steps of a cloth of 10 x 10.
 long steps_for(const Request& request, const Scene& scene) {
   const double budget = request.full ? 2.5 : 0.9;  // s
   double of_all = 0;
@@ -119,7 +119,7 @@ void long_run(const Request& request, const Scene& scene, const Method& method, 
                                        all_steps, scene.name, scene.model.particles.size(),
                                        request.full ? "" : "; --full takes more"));
 
-  // an adaptive rule chooses the number of its steps: stiff springs take millions
+  // an adaptive rule may take millions of steps for stiff springs
   if (const double seconds = method.adaptive ? estimated_as_it_begins(method, scene, run) : 0; seconds > 30) {
     tables.notes.push_back(
         fmt::format("energy leaves out {} on {}: as it begins, its {:.3g} s would cost about {:.0f} s of CPU time",
@@ -127,7 +127,7 @@ void long_run(const Request& request, const Scene& scene, const Method& method, 
     return;
   }
 
-  // some ten thousand observations suffice to find the largest residual, and cost less than the steps
+  // twenty thousand observations suffice to find the largest residual, and cost less than the steps
   ThinnedLedger ledger(scene.model, method.contact, std::max(1l, steps / 20000));
   const Outcome out = run_method(method, scene, run, {&ledger});
   if (out.verdict == Verdict::ok && ledger.rows().empty())
@@ -164,7 +164,7 @@ std::vector<Point> energy_points(const Request& request) {
   if (request.scenes_only) return points;
   const Scene oscillator = undamped_oscillator();
   for (const Method& method : methods_of(request, oscillator)) {
-    if (method.adaptive) continue;  // has no fixed step
+    if (method.adaptive) continue;
     Request alone = request;
     alone.methods = {method};
     points.push_back({fmt::format("energy: numerical damping of {}", method.name), content_of(alone, oscillator),

@@ -1,4 +1,3 @@
-// Least-squares lines through residuals and through the logarithm of the energy.
 #include "experiments/energy/long_run.h"
 
 #include <algorithm>
@@ -40,7 +39,7 @@ ResidualStatistics residual_statistics(const std::vector<LedgerRow>& rows) {
   run.growth = early > 0 ? std::log10(run.worst / early) : 0;
   run.equivalent_drag = twice_kinetic > 0 ? -run.final / twice_kinetic : 0;
 
-  // the first states of each decade are dense at the start: the weight of a row is the time since the previous one
+  // rows are dense at the start: the weight of a row is the time since the previous one
   double weight = 0, mean_t = 0, mean_r = 0, tt = 0, tr = 0, rr = 0;
   const auto each = [&](auto&& use) {
     for (size_t i = 1; i < rows.size(); ++i) use(rows[i].t - rows[i - 1].t, rows[i].t, residual(rows[i]));
@@ -58,7 +57,7 @@ ResidualStatistics residual_statistics(const std::vector<LedgerRow>& rows) {
 
 namespace {
 
-/// |R(i y)| for rules that map x and v alike in one step.
+/// |R(i y)| of rules that treat x and v alike in one step.
 std::optional<double> gain(const std::string& rule, double y) {
   const std::complex<double> z(0, y);
   if (rule == "explicit-euler") return std::abs(1. + z);

@@ -1,4 +1,4 @@
-// Statistics of long runs: drift, oscillation and growth of the energy residual, and numerical damping.
+// Long runs: drift, oscillation and growth of the energy residual, and numerical damping.
 #pragma once
 
 #include <optional>
@@ -10,10 +10,8 @@
 
 namespace crosscheck {
 
-// The ledger of a run of very many steps: it includes every step, but keeps few rows.
-
-/// A ledger that selects its rows: the run's samples, every `stride`-th state, and the first states of each decade, so
-/// that both short and long times are visible. Keeps no states.
+/// A ledger that includes every step, but keeps few rows: the samples, every `stride`-th state, and the first states of
+/// each decade, so that both short and long times are visible. Keeps no states.
 class ThinnedLedger : public Observer {
  public:
   ThinnedLedger(const Model& model, ContactLoss contact, long stride) : ledger_(model, contact), stride_(stride) {}
@@ -29,15 +27,14 @@ class ThinnedLedger : public Observer {
   long stride_, seen_ = 0, next_ = 1;
 };
 
-/// Statistics of the residual r over a long run: the balance minus the balance at the start (J).
+/// Statistics of the residual r (J) over a long run: the energy balance minus that at the start.
 struct ResidualStatistics {
-  double energy_scale = 0;  // J: the largest kinetic energy, or largest change of gravitational or elastic energy
+  double energy_scale = 0;  // J, largest kinetic energy, or largest change of gravitational or elastic energy
   double worst = 0;         // J, largest |r|
   double final = 0;         // J, r at the end
   double drift = 0;         // J/s, slope of the least-squares line through r
   double oscillation = 0;   // J, RMS deviation of r from that line
-  /// log10 of the largest |r| over the run over that of its first tenth: 0 if r is bounded, 1 if it grows linearly with
-  /// time.
+  /// log10 of the largest |r| of the whole run over that of its first tenth: 0 if r is bounded, 1 if it grows linearly.
   double growth = 0;
   /// Drag rate gamma that would dissipate as much in the same motion, 1/s: -(r(T) - r(0)) / integral of 2 K dt, because
   /// drag dissipates gamma m v^2 per second. Negative if energy is created.
@@ -45,18 +42,15 @@ struct ResidualStatistics {
 };
 ResidualStatistics residual_statistics(const std::vector<LedgerRow>& rows);
 
-// Numerical damping: the energy that a rule removes from an undamped oscillator.
-
-/// Negative least-squares slope of y over t for at least two points (t, y): 1/s if y is a logarithm and t in seconds.
+/// Negative least-squares slope of y over t for at least two points (t, y); 1/s if y is a logarithm and t in seconds.
 double decay_rate(std::span<const std::pair<double, double>> points);
 
 /// A mass of 1 kg on a spring of 100 N/m without gravity or drag, released 1 mm from its rest length.
 Scene undamped_oscillator();
 inline constexpr double oscillator_omega = 10;  // rad/s
 
-/// Drag rate (1/s) equivalent to the numerical damping of a rule at h omega per step: -2 ln|R(i h omega)| / h with its
-/// stability function R; 0 for symplectic rules. Negative if energy is created. Empty for rules without a stability
-/// function.
+/// Drag rate (1/s) equivalent to a rule's numerical damping at step h: -2 ln|R(i h omega)| / h with its stability
+/// function R; 0 for symplectic rules, negative if energy is created. Empty for rules without a stability function.
 std::optional<double> damping_by_theory(const Method& method, double h, double omega);
 
 /// Drag rate from a run of `steps` steps: negative least-squares slope of ln(energy) over time. Empty if the method
@@ -67,7 +61,7 @@ struct MeasuredDamping {
 };
 MeasuredDamping measured_damping(const Method& method, double h, int steps);
 
-/// Adds table energy-damping: both rates, over a range of steps, for a method with fixed steps.
+/// Adds table energy-damping: both rates over a range of steps. For methods with fixed steps.
 void add_damping(const Method& method, bool full, TableSet& tables);
 
 }  // namespace crosscheck

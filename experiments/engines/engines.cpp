@@ -1,4 +1,3 @@
-// Experiment `engines`: all methods on the same scene at the same step, with their energies.
 
 #include <fmt/ranges.h>
 
@@ -14,12 +13,12 @@
 
 namespace crosscheck {
 
-// The experiment compares all methods on the same scene at the same step: distance from the truth, distance from each
-// other, and cost.
+// Experiment `engines` compares all methods on the same scene at the same step: distance from the truth and from each
+// other, energies, and cost.
 
 namespace {
 
-/// The largest value of a column up to `until` (s); nothing if there is none.
+/// Up to `until` (s); nothing if there is no value.
 std::optional<double> largest(const std::vector<EngineTimeRow>& rows, std::optional<double> EngineTimeRow::*member,
                               double until) {
   double most = -1;
@@ -37,11 +36,11 @@ std::optional<double> predicted_limit(const Method& method, const Scene& scene, 
   return {};
 }
 
-/// Adds table SCENE-statistics: means over perturbed runs.
+/// Table SCENE-statistics: means over perturbed runs.
 void add_statistics(const Request& request, const Scene& scene, const Run& run, MethodResults& results,
                     TableSet& tables) {
   Table table = table_of<StatisticRow>(scene.name + "-statistics");
-  std::vector<Statistic> reference;   // statistics of the subject
+  std::vector<Statistic> reference;   // statistics of the engine under test
   constexpr double rounding = 1e-12;  // relative to the mean: a smaller spread is not due to the motion
   const auto add_rows = [&](const Method& method, const std::vector<Statistic>& statistics, bool of_one_run) {
     for (size_t i = 0; i < statistics.size(); ++i) {
@@ -54,7 +53,7 @@ void add_statistics(const Request& request, const Scene& scene, const Run& run, 
     }
   };
   std::vector<std::string> perturbed_methods;
-  // only the representatives of the engines: sixteen runs of every method would show no more
+  // representatives of the engines only: sixteen runs of every method would show no more
   for (const MethodFamily& family : method_families()) {
     if (!family.by_default()) continue;
     const auto methods = methods_of(request, scene);
@@ -66,7 +65,6 @@ void add_statistics(const Request& request, const Scene& scene, const Run& run, 
                                          family.representative, scene.name));
       continue;
     }
-    // no statistics for a method that refuses the scene or fails on it
     const MethodResult& result = result_of(request, scene, *method, results);
     if (result.outcome.verdict != Verdict::ok) continue;
     const std::vector<Statistic> statistics = contact_statistics(*method, scene, run);
@@ -74,7 +72,7 @@ void add_statistics(const Request& request, const Scene& scene, const Run& run, 
     if (family.is_subject()) reference = statistics;
     perturbed_methods.push_back(method->name);
   }
-  // for the other methods the existing run, if there is a spread to relate it to
+  // other methods: the existing run, if there is a spread to compare it with
   for (const Method& method : methods_of(request, scene)) {
     const MethodResult& result = result_of(request, scene, method, results);
     const bool runs = result.outcome.verdict == Verdict::ok && result.trajectory.frames() > 0 &&
@@ -94,7 +92,7 @@ struct Standards {
     const std::string of(request.reference.empty() ? subject().representative : request.reference);
     const auto requested = std::ranges::find(request.methods, of, &Method::name);
     method = requested == request.methods.end() ? find_method(of) : *requested;
-    // differences from a failed run would be meaningless
+    // differences from a failed run are meaningless
     const MethodResult& result = result_of(request, scene, method, results);
     if (result.outcome.verdict == Verdict::ok) reference = result.trajectory;
     const bool known = reference.frames() > 0;
@@ -110,10 +108,10 @@ struct Standards {
   Trajectory reference;  // empty if that run failed
   Growth growing;
   double motion = 0;  // m
-  double omega = 0;   // rad/s, of the fastest vibration at the start
+  double omega = 0;   // rad/s, fastest vibration at the start
 };
 
-/// Certifies the scene that another engine built. If it differs from the requested one, the run counts as unsupported.
+/// Certifies the scene that another engine built. If it differs from the request, the run counts as unsupported.
 void certify_result(const Method& method, const Scene& scene, Outcome& out, TableSet& tables) {
   if (out.verdict == Verdict::unsupported || method.stepper) return;
   tables.certificates.push_back(certify(method.name, scene, out));
@@ -264,7 +262,6 @@ void add_energies(const Request& request, const Scene& scene, const std::optiona
       row.balance_error = worst;
       if (energy_scale > 0) row.relative_balance_error = worst / energy_scale;
     }
-    // the samples of both are at the same times
     if (const size_t known = truth ? truth->contact.size() : 0; known > 0 && result.ledger.size() >= known) {
       row.contact = result.ledger[known - 1].contact, row.contact_until = result.ledger[known - 1].t;
       row.contact_in_truth = truth->contact.back(), row.contact_bar = truth->contact_bars.back();

@@ -69,7 +69,7 @@ Springs springs_of(const DrapedDisc& disc, const Points& flat) {
   return springs;
 }
 
-/// Lagrange weights of the values at 0, 1, 2 and 3 for cubic interpolation.
+/// Lagrange weights of the values at 0, 1, 2 and 3.
 std::array<double, 4> cubic(double at) {
   std::array<double, 4> weights{1, 1, 1, 1};
   for (int i = 0; i < 4; ++i)

@@ -34,8 +34,8 @@ struct DrapedDisc {
 
   int spokes() const { return 10 * rings; }  // so that q^2 < 3 p^2 up to the rim
   double spacing() const { return (specimen - disc) / (rings + 0.5); }
-  /// Radius of ring 0 (pinned, half a spacing inside the disc's edge), 1 (pinned, as far outside), ..., rings + 1
-  /// (rim), m.
+  /// m. Ring 0 is pinned half a spacing inside the disc's edge, ring 1 pinned as far outside; ring rings + 1 is the
+  /// rim.
   double radius(int ring) const { return disc + (ring - 0.5) * spacing(); }
   int particle(int ring, int spoke) const { return ring * spokes() + (spoke + spokes()) % spokes(); }
 };
@@ -43,15 +43,15 @@ struct DrapedDisc {
 /// The scene of the flat sheet. The height is y.
 Scene disc_scene(const DrapedDisc& disc);
 
-/// Initial shape of the search for rest: a flat sheet with `waves` waves of a centimetre around the rim, and ten
-/// micrometres of noise that break their symmetry. With waves = 0: random waves, two to nine around the rim.
+/// Initial shape for the search: a flat sheet with `waves` waves of a centimetre around the rim, and ten micrometres of
+/// noise that breaks their symmetry. waves = 0: random waves, two to nine around the rim.
 Points wavy(const DrapedDisc& disc, int waves, unsigned seed);
 
 /// The shape x on another net, by cubic interpolation.
 Points on_net(const DrapedDisc& from, const Points& x, const DrapedDisc& to);
 
 /// Drape coefficient (projected area - disc) / (specimen - disc), %. The areas are those of the net's polygons; the
-/// projected area is everything below any part of the cloth.
+/// projected area includes everything below any part of the cloth.
 double drape_coefficient(const DrapedDisc& disc, const Points& x);
 
 /// Number of nodes of the drape: maxima of the rim's distance from the axis.

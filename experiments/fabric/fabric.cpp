@@ -1,5 +1,5 @@
-// Experiment `fabric`: strips of cloth with the bending term compared with Euler's elastica, a clamped beam and the
-// catenary, on several grids; skip-one springs in comparison; and Cusick's drape test.
+// Experiment `fabric`: strips of cloth with the bending term or skip-one springs compared with Euler's elastica, a
+// clamped beam and the catenary; and Cusick's drape test.
 
 #include <fmt/format.h>
 
@@ -120,7 +120,7 @@ void hanging(TableSet& tables) {
   tables.add(shapes);
 }
 
-/// Bending rigidity of the draped cloth, for which the bending length (B / w)^(1/3) is 2.4 cm.
+/// The bending length (B / w)^(1/3) of the draped cloth is then 2.4 cm.
 constexpr double draped_rigidity = 2e-5;  // N m
 
 struct Drape {
@@ -130,7 +130,7 @@ struct Drape {
   double energy;
 };
 
-/// Rest of the disc from a guess; nothing if none is found.
+/// Nothing if there is no rest near the guess.
 std::optional<Drape> drape_from(const DrapedDisc& disc, const std::string& start, const Points& guess) {
   const Scene scene = disc_scene(disc);
   const auto rest = rest_near(scene, guess);

@@ -1,4 +1,3 @@
-// The state of rest of a scene near a guess, found without simulating the motion.
 #pragma once
 
 #include <optional>

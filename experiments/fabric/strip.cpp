@@ -44,7 +44,7 @@ ClampedStrip continuum_of(const StripNet& net) {
 Scene strip_scene(const StripNet& net) {
   const ClampedStrip strip = continuum_of(net);
   const double d = cell_of(net);
-  const int n = net.cells + 1;  // particles in a row
+  const int n = net.cells + 1;
   Scene scene = two_rows(net.cells, -d / 2, strip.weight * strip.length + strip.load, {0, 1, n, n + 1},
                          net.skip_one ? 0 : strip.rigidity, net.skip_one.value_or(0));
   for (const int last : {n - 1, 2 * n - 1}) scene.model.particles.mass[last] += strip.load * d / gravity / 2;
@@ -87,7 +87,7 @@ Points along_elastica(const StripNet& net) {
   Points x = strip_scene(net).start.x;
   for (int row = 0; row < 2; ++row)
     for (int i = 2; i < n; ++i) {
-      // slope of the elastica half way between the two particles
+      // slope of the elastica halfway between the two particles
       const double angle = elastica.at((i - 1) * d).angle;
       x.col(row * n + i).head<2>() =
           x.col(row * n + i - 1).head<2>() + d * Vec3(std::cos(angle), -std::sin(angle), 0).head<2>();
