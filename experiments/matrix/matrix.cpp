@@ -1,5 +1,5 @@
-// Experiment `matrix`: differences between engines, as one answer of each engine to each question. Runs only if an
-// external engine is among the methods.
+// Experiment `matrix`: one answer of each engine to each question. Runs only if an external engine is among the
+// methods.
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -43,8 +43,8 @@ UndampedMode mode_of_spring() {
           2 * std::numbers::pi / oscillator_omega / 72};
 }
 
-/// The chain without drag, released in its slowest mode about its rest. No particle is farther from rest than a
-/// thousandth of the scene's size, so that the motion is linear to a thousandth.
+/// The chain without drag, released in its slowest mode about its rest, with an amplitude of a thousandth of the
+/// scene's size, so that the motion is linear to a thousandth.
 UndampedMode mode_of_chain() {
   Scene scene = load_scene("chain");
   std::erase_if(scene.model.terms, [](const Term& term) { return std::holds_alternative<Drag>(term); });
@@ -109,7 +109,7 @@ Answer damping_of(const Method& method, const UndampedMode& mode) {
   return answer;
 }
 
-/// Damping of the spring as a user-supplied force, for an engine whose own springs follow another rule.
+/// Damping of a spring that is a user-supplied force, for engines whose own springs follow another rule.
 std::optional<Answer> damping_by_forces(const Method& method) {
   const std::optional<OutsideEngine> engine = kept_engine_of(method.name);
   if (!engine || engine->forces.empty() || method.name.find('+') != std::string::npos) return std::nullopt;
@@ -139,7 +139,7 @@ Answer rule_answer(const Method& method) {
   return answer;
 }
 
-/// "MuJoCo 2.2.2, native, double precision".
+/// E.g. "MuJoCo 2.2.2, native, double precision".
 Answer build_answer(const Method& method) {
   const UndampedMode mode = mode_of_spring();
   NullObserver nothing;

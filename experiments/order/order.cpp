@@ -1,5 +1,5 @@
-// Experiment `order`: error over step, its slope compared with the declared order, and the distance of each run from
-// the same method's run at its smallest step, which reveals methods that converge to a different solution.
+// Experiment `order`: error over step, and its slope compared with the declared order. The distance of each run from
+// the method's own run at its smallest step reveals methods that converge to a different solution.
 
 #include <fmt/ranges.h>
 
@@ -20,7 +20,6 @@ struct ErrorAtStep {
   double step, error;
 };
 
-/// One method at one step.
 struct Refinement {
   Outcome outcome;
   Trajectory trajectory;
@@ -31,8 +30,8 @@ struct Fit {
   double order, from, to;  // slope, and the steps (s) between which it was fitted
 };
 
-/// The slope of the finest three points if it is steady, that is, if two consecutive slopes differ by less than 0.3.
-/// Otherwise the error is not yet, or no longer, a power of the step, and there is no order.
+/// The slope of the finest three points if it is steady (two consecutive slopes differ by less than 0.3). Otherwise the
+/// error is not yet, or no longer, a power of the step, and there is no order.
 std::optional<Fit> asymptotic_order(const std::vector<ErrorAtStep>& points) {
   if (points.size() < 3) return std::nullopt;
   const ErrorAtStep *p = &points[points.size() - 3], *q = p + 1, *r = p + 2;
@@ -44,7 +43,7 @@ std::optional<Fit> asymptotic_order(const std::vector<ErrorAtStep>& points) {
   return Fit{slope(p, r), p->step, r->step};
 }
 
-/// The reason why a scene is left out, or nothing.
+/// Why a scene is left out; empty if it is not.
 std::string why_not(const Scene& scene) {
   if (has_contact(scene.model)) return "contact makes every rule first order, erratically after impacts";
   if (scene.start.x.cols() > 50) return "its runs would cost much; speed-accuracy has its error over the step";
@@ -74,7 +73,7 @@ void order_on(const Request& request, const Scene& scene, TableSet& tables) {
       adaptive.insert(method.name);
       continue;
     }
-    // a step of other engines costs ten times as much
+    // steps of other engines cost ten times as much
     const int steps = method.stepper ? halvings : std::min(halvings, 5);
     std::vector<Refinement> runs;
     for (int i = 0; i < steps; ++i) {
@@ -103,7 +102,7 @@ void order_on(const Request& request, const Scene& scene, TableSet& tables) {
       if (r.ok() && runs.back().ok() && !finest)
         row.distance_to_finest = largest_rms_distance(r.trajectory, runs.back().trajectory, scene.window);
       add(points, row);
-      // below 30 error bars the slope would be off by more than 0.05; likewise below round-off
+      // below 30 error bars, or below round-off, the slope would be off by more than 0.05
       if (r.ok() && error > 30 * truth->error_bar && error < 0.1 * motion) good.push_back({out.step, error});
     }
     const auto fit = asymptotic_order(good);

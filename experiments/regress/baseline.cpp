@@ -1,4 +1,3 @@
-// Reads and writes baselines and shapes.
 #include "experiments/regress/baseline.h"
 
 #include <fmt/format.h>

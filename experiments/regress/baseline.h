@@ -12,42 +12,40 @@
 
 namespace crosscheck {
 
-// One readable file per scene.
-
 struct BaselineRow {
   std::string method, without;
   bool slow = false;  // selected in full runs only
   QuantityWithTolerance what;
-  int blessing = 1;  // number of its blessing in the file, from 1
+  int blessing = 1;  // number of the blessing that it comes from, from 1
 };
 
 struct Baseline {
-  std::string scene, hash;  // the scene of these quantities
+  std::string scene, hash;
   std::vector<Blessing> blessings;
   std::vector<BaselineRow> expected;
-  std::string source = {};  // hash of the text of the scene's file; empty in baselines of earlier versions
+  std::string source = {};  // hash of the scene file's text; empty in baselines of earlier versions
 };
 
 /// Text of SCENE.csv: comment lines with the scene's hash and each blessing, then one row per quantity.
 std::string text_of(const Baseline& baseline);
 std::filesystem::path file_of(const std::filesystem::path& folder, const std::string& scene);
 
-/// Throws InputError "FILE:LINE: expected ..." if the text is not a baseline. Returns nothing if there is no file.
+/// Throws InputError "FILE:LINE: expected ..." if the text is not a baseline. Nothing if there is no file.
 std::optional<Baseline> read_baseline(const std::filesystem::path& folder, const std::string& scene);
 
-// The last shape of a scene with its own method, kept next to its baseline for pictures of failures.
+// The last shape of a scene with its own method, for pictures of failures.
 
-/// SCENE-shape.csv in the folder.
+/// SCENE-shape.csv
 std::filesystem::path shape_file(const std::filesystem::path& folder, const std::string& scene);
 
-/// One row per particle, m, with 6 digits, enough for a picture; t in s.
+/// One row per particle, m, with 6 digits (enough for a picture); t in s.
 std::string shape_text(const std::string& scene, const std::string& method, double t, const Points& x);
 
 struct FinalShape {
   double t;  // s
   Points x;  // m
 };
-/// Returns nothing if there is no such file, or if it does not have `particles` rows.
+/// Nothing if there is no such file, or if it does not have `particles` rows.
 std::optional<FinalShape> read_shape(const std::filesystem::path& folder, const std::string& scene, int particles);
 
 }  // namespace crosscheck

@@ -1,4 +1,3 @@
-// Selects the cases and runs one of them.
 #include "experiments/regress/cases.h"
 
 #include <fmt/format.h>
@@ -16,9 +15,9 @@
 namespace crosscheck {
 namespace {
 
-/// Factor of the estimates, which are for release builds. Without optimisation, each access to a number through Eigen
-/// is several function calls: mysim's rules on cloth-hang, chain and spring take up to 350 times as long. Detected by
-/// the assertions, because fmt's headers switch optimisation on for a while, after which g++ reports it as on.
+/// Factor for the estimates, which are for release builds. Without optimisation, each access to a number through Eigen
+/// is several function calls: mysim's rules on cloth-hang, chain and spring take up to 350 times as long. NDEBUG stands
+/// for optimisation, which fmt's headers temporarily switch on, so that g++ always reports it as on.
 #ifdef NDEBUG
 constexpr double slower = 1;
 #else
@@ -82,7 +81,6 @@ std::vector<Method> engines() {
 double seconds(const Case& q) {
   Run run = default_run(q.scene);
   run.duration = q.scene.window, run.samples = 1;
-  // an external program takes time to start
   return estimated_seconds(q.method, q.scene, run) + q.method.family().start;
 }
 

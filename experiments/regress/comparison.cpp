@@ -1,4 +1,3 @@
-// Compares quantities with their baselines.
 #include "experiments/regress/comparison.h"
 
 #include <algorithm>
@@ -9,7 +8,7 @@
 namespace crosscheck {
 namespace {
 
-/// False also for the verdict of a run that ended in NaN.
+/// False also for verdict `nan`.
 bool is_finite(const Quantity& q) { return q.is_word() ? q.word != name_of(Verdict::nan) : std::isfinite(q.value); }
 
 Status state_of(const Quantity& is, const QuantityWithTolerance& was) {
@@ -36,7 +35,6 @@ void set(std::optional<double>& number, std::string& word, const Quantity& quant
 }  // namespace
 
 std::string_view name_of(Status state) {
-  // in the order of the states
   constexpr std::string_view names[] = {"moved", "not finite", "gone", "missing", "stale", "unreadable", "new", "same"};
   return names[static_cast<int>(state)];
 }

@@ -7,9 +7,9 @@
 
 namespace crosscheck {
 
-/// Failures come first; `added` is reported but is no failure.
+/// Failures come first; all before `added` are failures.
 enum class Status {
-  moved,       // differs by more than the tolerance, or is another word
+  moved,       // by more than the tolerance, or to another word
   not_finite,  // NaN or infinite, or the verdict nan
   gone,        // blessed and selected, but no longer measured
   missing,     // the scene has no baseline file
@@ -27,7 +27,7 @@ struct Comparison {
   std::string was_word, is_word;
   double tolerance = 0;
   Status state = Status::same;
-  std::string note;  // additional remark, e.g. the error in a file
+  std::string note;  // e.g. the error in a file
   /// Difference in units of the tolerance; 0 for words, infinite for counts.
   double off() const;
   /// Sort key for reports: words first, then numbers by off(), then counts.
@@ -38,19 +38,18 @@ struct Comparison {
 std::vector<Comparison> compared(const Case& test_case, const std::vector<Quantity>& is,
                                  const std::vector<BaselineRow>& expected);
 
-/// The failed row with the largest rank for each case and status, so that a thousand rows fit on a screen.
+/// The failed row with the largest rank of each case and status, so that a thousand rows fit on a screen.
 std::vector<Comparison> worst_comparisons(const std::vector<Comparison>& rows);
 
-/// A method whose quantities are all new in some scenes: it was added after their baselines were blessed, or it is slow
+/// A method whose quantities are all new in some scenes: it was added after their baselines were blessed, or is slow
 /// and they were blessed in a quick run.
 struct NewMethod {
   std::string method;
   size_t scenes = 0, quantities = 0;
 };
-/// The new methods among the rows, by name.
+/// Sorted by name.
 std::vector<NewMethod> new_methods(std::span<const Comparison> rows);
 
-/// The rows of `baseline` that belong to the case.
 std::vector<BaselineRow> baseline_rows_of(const Baseline& baseline, const Case& test_case);
 
 }  // namespace crosscheck

@@ -1,4 +1,3 @@
-// The table of quantities, and their measurement in a run.
 #include "experiments/regress/quantities.h"
 
 #include <fmt/format.h>
@@ -29,7 +28,6 @@ std::vector<int> frames_at(const Trajectory& path, int parts) {
 
 std::string at_time(const std::string& what, double t) { return fmt::format("{} at {:.6g} s", what, t); }
 
-/// RMS distance of the particles from their start.
 void offsets(const Observation& seen, Quantities& out) {
   for (const int i : frames_at(seen.path(), 8))
     out.push_back({offset_at(seen.path().t[i]), "m", rms_distance(seen.path().x[i], seen.path().x.front())});
@@ -46,7 +44,6 @@ void places(const Observation& seen, Quantities& out) {
     out.push_back({places_at(seen.path().t[i]), "m", dot(along, seen.path().x[i] - seen.path().x.front())});
 }
 
-/// Total energy relative to the start, and energy lost in contact.
 void energies(const Observation& seen, Quantities& out) {
   const auto& rows = seen.case_run.ledger;
   if (rows.empty()) return;
@@ -69,11 +66,11 @@ void peak_stretch(const Observation& seen, Quantities& out) {
   if (std::isfinite(most)) out.push_back({"peak stretch", "1", most});
 }
 
-/// The offset at the end as waves along and across the initial scene: the first of them is the mean offset.
+/// Amplitudes of the final offset in waves along and across the initial scene; the first is the mean offset.
 void shape(const Observation& seen, Quantities& out) {
   const Points &x0 = seen.scene().start.x, offset = seen.path().x.back() - seen.path().x.front();
   if (x0.cols() < 9) return;
-  // the two widest directions of the start; the first of equal ones
+  // the two widest directions of the start; the first ones of equal width
   const Vec3 low = x0.rowwise().minCoeff(), width = x0.rowwise().maxCoeff() - low;
   std::array<int, 3> axes{0, 1, 2};
   std::stable_sort(axes.begin(), axes.end(), [&](int a, int b) { return width[a] > (1 + 1e-9) * width[b]; });
@@ -91,7 +88,6 @@ void shape(const Observation& seen, Quantities& out) {
   }
 }
 
-/// Largest displacement of a particle along gravity.
 void sag(const Observation& seen, Quantities& out) {
   const auto* gravity = seen.scene().model.find<Gravity>();
   if (!gravity || seen.scene().model.particles.pins.empty()) return;
@@ -99,7 +95,7 @@ void sag(const Observation& seen, Quantities& out) {
   out.push_back({"sag", "m", (gravity->acceleration.normalized().transpose() * offset).maxCoeff()});
 }
 
-/// Twice the mean time between turning points of the particles' mean position, at parabolas through three samples.
+/// From turning points of the particles' mean position, at parabolas through three samples.
 void period(const Observation& seen, Quantities& out) {
   const Trajectory& path = seen.path();
   if (has_contact(seen.scene().model) || path.frames() < 8) return;
@@ -114,7 +110,7 @@ void period(const Observation& seen, Quantities& out) {
     if ((before > 0) == (after > 0)) continue;
     turns.push_back(path.t[i] + 0.5 * (path.t[i] - path.t[i - 1]) * (before + after) / (before - after));
   }
-  // the number of turning points of an oscillation: small ripples have no period
+  // more turning points are small ripples, which have no period
   if (turns.size() < 3 || turns.size() > 40) return;
   out.push_back({"period", "s", 2 * (turns.back() - turns.front()) / static_cast<double>(turns.size() - 1)});
 }
@@ -127,21 +123,20 @@ void smallest_clearance(const Observation& seen, Quantities& out) {
   out.push_back({"smallest clearance", "m", least});
 }
 
-/// The truth over the scene's run if it has a closed form, else nothing: a converged one takes minutes to compute.
+/// The truth over the scene's run if it has a closed form: a converged one takes minutes to compute.
 std::optional<Truth> exact_truth(const Scene& scene) {
   if (!exact_solution(scene)) return std::nullopt;
   const auto truth = truth_of(scene, default_run(scene));
   return truth && truth->tier == Tier::exact ? truth : std::nullopt;
 }
 
-/// Largest height of particles above a surface after their first contact, m.
 void rebound_height(const Observation& seen, Quantities& out) {
   if (std::ranges::none_of(surfaces_of(seen.scene().model), [](const Surface& s) { return s.restitution > 0; })) return;
   bool touched = false;
   double highest = 0;
   for (int i = 0; i < seen.path().frames(); ++i) {
     const double gap = *clearance(seen.scene(), seen.path().t[i], seen.path().x[i]);
-    // counts as touching if the gap is below the fall in one step, because the actual contact lies between two samples
+    // touching: the gap is below the fall in one step, because the contact lies between two samples
     const double fall = i > 0 ? largest_column(seen.path().x[i] - seen.path().x[i - 1]) : 0;
     touched |= i > 0 && gap < fall;
     if (touched) highest = std::max(highest, gap);
@@ -150,7 +145,7 @@ void rebound_height(const Observation& seen, Quantities& out) {
 }
 
 /// Largest RMS distance from the same run at half the step, m, if there is no closed form: an estimate of the error,
-/// correct up to a factor that depends on the order. Needs one more run, twice as long; skipped for scenes without an
+/// correct up to a factor that depends on the order. Needs a run twice as long; skipped for scenes without an
 /// ingredient.
 void change_at_half_the_step(const Observation& seen, Quantities& out) {
   const Scene& scene = seen.scene();
@@ -163,8 +158,8 @@ void change_at_half_the_step(const Observation& seen, Quantities& out) {
   out.push_back({halving_quantity, "m", largest_rms_distance(seen.path(), recorder.trajectory, scene.window)});
 }
 
-/// log2 of the error relative to the closed form, if there is one, over that at half the step: close to the rule's
-/// order. Needs one more run. Skipped if the error is below 1e-10 of the scene's size, where it has no meaning.
+/// log2 of the error relative to the closed form over that at half the step: close to the rule's order. Needs one more
+/// run. Skipped if the error is below 1e-10 of the scene's size, where it has no meaning.
 void order_of_error(const Observation& seen, Quantities& out) {
   const Scene& scene = seen.scene();
   const Stepper* rule = seen.test_case.method.stepper;
@@ -181,7 +176,7 @@ void order_of_error(const Observation& seen, Quantities& out) {
   // 1e3 times the rounding of positions, below which there is no order
   if (!(halved > 1e-10 * std::max(1.0, scene.size()))) return;
   out.push_back({"order of the error", "1", std::log2(whole / halved)});
-  // each error has an uncertainty of the error bar
+  // each error is uncertain by the error bar
   out.back().error_bar = truth->error_bar / halved * 2 / std::log(2.);
 }
 
@@ -218,8 +213,7 @@ double size_of_unit(const std::string& unit, const Scene& scene, const CaseRun& 
   return most;
 }
 
-/// Counts that are unaffected by rounding: for rules at a fixed step without an inner equation that is solved to a
-/// tolerance.
+/// Counts that rounding cannot change: rules with fixed steps, without an equation that is solved to a tolerance.
 void counts(const Observation& seen, Quantities& out) {
   const Stepper* rule = seen.test_case.method.stepper;
   if (!rule || rule->adaptive || rule->evaluations == 0) return;
@@ -227,8 +221,7 @@ void counts(const Observation& seen, Quantities& out) {
   out.push_back({"force evaluations", "1", static_cast<double>(seen.case_run.outcome.evaluations), {}, true});
 }
 
-/// Largest RMS distance from the closed form, if the scene has one. A converged truth would add nothing to the
-/// comparison of positions.
+/// Only with a closed form: a converged truth would add nothing to the comparison of positions.
 void error_against_truth(const Observation& seen, Quantities& out) {
   const Scene& scene = seen.scene();
   const auto truth = exact_truth(scene);
@@ -237,7 +230,7 @@ void error_against_truth(const Observation& seen, Quantities& out) {
   out.back().error_bar = truth->error_bar;
 }
 
-/// The settings that the engine reports, with six digits because single precision rounds its input.
+/// With six digits, because single precision rounds its input.
 void settings(const Observation& seen, Quantities& out) {
   if (!seen.case_run.outcome.readback) return;
   const Readback& readback = *seen.case_run.outcome.readback;
@@ -268,7 +261,7 @@ constexpr void (*table[])(const Observation&, Quantities&) = {settings,
                                                               change_at_half_the_step,
                                                               largest_stable_step};
 
-/// The quantities of a failed run, up to half the time until its failure.
+/// Taken up to half the time until the failure.
 constexpr void (*table_of_failed[])(const Observation&, Quantities&) = {offsets, places};
 
 /// True if the motion itself failed, at a reproducible time.
@@ -333,7 +326,7 @@ std::vector<Quantity> quantities_of(const Case& test_case, const CaseRun& case_r
       for (const auto add : table_of_failed) add({test_case, half}, all);
     size(all, half);
     all.push_back({time_of_failure, "s", case_run.outcome.end});
-    // a threshold may be crossed one sample later, because failures are detected at samples, or one step later
+    // failures are detected at samples, so that a threshold may be crossed one sample or one step later
     const Run run = run_over_window(test_case.scene);
     all.back().error_bar = run.duration / run.samples + 2 * case_run.outcome.step;
   }

@@ -14,11 +14,11 @@ struct Observation {
 };
 using Quantities = std::vector<Quantity>;
 
-/// The last time at which the kinetic energy falls below a hundredth of its largest value, for runs that come to rest.
+/// The last time at which the kinetic energy falls below a hundredth of its maximum, for runs that come to rest.
 void settle_time(const Observation& seen, Quantities& out);
 
-/// The angle from the top of a ball at which a particle that starts on the ball first rises 1 mm above the contact
-/// surface, in degrees.
+/// For a particle that starts on a ball: the angle from the top at which it first rises 1 mm above the contact surface,
+/// in degrees.
 void leaving_angle(const Observation& seen, Quantities& out);
 
 }  // namespace crosscheck

@@ -1,4 +1,3 @@
-// Runs cases as points of a sweep, compares them with baselines, and blesses new baselines.
 #include "experiments/regress/regress.h"
 
 #include <fmt/format.h>
@@ -15,7 +14,7 @@
 namespace crosscheck {
 namespace {
 
-/// A case and the name of its result; tolerances need three more runs.
+/// A case and the name of its result. Tolerances need three more runs.
 struct Job {
   Case test_case;
   std::string name;
@@ -25,10 +24,10 @@ struct Job {
 struct JobResults {
   std::map<std::string, std::vector<QuantityWithTolerance>>
       quantities;                     // by name; tolerances are 0 if the job does not compute them
-  std::vector<FailedPoint> failures;  // cases without a result: a crash
+  std::vector<FailedPoint> failures;  // cases without a result, i.e. crashes
 };
 
-/// A quantity of a case, as passed from the process that ran the case.
+/// Passed from the process that ran the case.
 struct QuantityRow {
   TABLE("quantities");
   COLUMN(std::string, test_case, "case", "1", "scene, method and the removed ingredient");
@@ -41,7 +40,6 @@ struct QuantityRow {
   COLUMN(std::string, derivation, "derivation", "1", "derivation of the tolerance");
 };
 
-/// A point whose rows are the case's quantities.
 Point point_of(const Job& job) {
   const auto& [test_case, name, tolerances] = job;
   return {name, test_case.scene.hash + test_case.method.fingerprint + (tolerances ? " tolerances" : ""),
@@ -67,7 +65,7 @@ std::vector<QuantityWithTolerance> quantities_of(const Table& table) {
   return all;
 }
 
-/// Runs cases in parallel, each in a process of its own; `out` is the folder for finished ones.
+/// Each case runs in its own process; `out`: folder for finished ones.
 JobResults run_jobs(const std::vector<Job>& all, const std::filesystem::path& out, const LockPatience& patience,
                     Progress& progress) {
   std::vector<Point> points;
@@ -106,15 +104,14 @@ std::string name_with_other_method(const Case& q) { return q.in_words() + " (aga
 
 std::string source_hash(const Scene& scene) { return fmt::format("{:016x}", Fnv1a::of(scene.source)); }
 
-/// True for the verdict of a case that ran, and for any other word.
+/// False only for refusals.
 bool is_measured(const std::string& word) { return !word.empty() && word != name_of(Verdict::unsupported); }
 
-/// The scenes' baselines; an invalid file adds a row.
+/// The scenes' baselines. An invalid file adds a row.
 class BaselineCache {
  public:
   BaselineCache(const std::filesystem::path& folder, std::vector<Comparison>& rows) : folder_(folder), rows_(rows) {}
 
-  /// Null if there is no usable baseline.
   const Baseline* of(const Case& test_case) {
     const std::string& scene = test_case.scene.name;
     if (const auto known = cache_.find(scene); known != cache_.end()) return known->second ? &*known->second : nullptr;
@@ -158,7 +155,7 @@ std::vector<BaselineRow> rows_from_other_method(const std::vector<QuantityWithTo
   return expected;
 }
 
-/// Blessed cases that no longer exist, because a method, an ingredient or a scene's case was removed.
+/// Blessed cases that no longer exist, because a method, an ingredient or a scene was removed.
 std::vector<Comparison> no_longer_selected(const Baseline& baseline, const std::vector<Case>& all, bool full) {
   std::set<std::pair<std::string, std::string>> selected;
   for (const Case& q : all)
@@ -228,7 +225,6 @@ namespace {
 
 using CaseKey = std::pair<std::string, std::string>;  // method, without
 
-/// Updates the baseline of one scene.
 class Change {
  public:
   /// Throws InputError if the file cannot be read, or if only a part of a stale one is selected.
@@ -249,7 +245,7 @@ class Change {
     baseline_.blessings.push_back(blessing);
   }
 
-  /// Adds quantities; unchanged ones keep their row and blessing. Throws InputError if a number is not finite.
+  /// Unchanged quantities keep their row and blessing. Throws InputError if a number is not finite.
   void add(const Case& q, const std::vector<QuantityWithTolerance>& now) {
     selected_.emplace(q.method.name, q.without);
     const std::vector<BaselineRow> before = baseline_rows_of(baseline_, q);
@@ -273,7 +269,6 @@ class Change {
     baseline_.expected.insert(baseline_.expected.end(), after.begin(), after.end());
   }
 
-  /// Removes blessed rows that are no longer selected.
   void drop_what_is_not_selected() {
     std::erase_if(baseline_.expected, [&](const BaselineRow& e) {
       if (!selected_by_default(e.method) || selected_.contains({e.method, e.without})) return false;
@@ -303,7 +298,7 @@ class Change {
   std::vector<Comparison> changed_;
 };
 
-/// Text of the last shape under the scene's own method, for pictures; empty if there is none.
+/// The last shape under the scene's own method, for pictures; empty if there is none.
 std::string shape_of(const Case& q) {
   const CaseRun part = comparable_part(run_case(q));
   if (part.trajectory.frames() == 0) return "";

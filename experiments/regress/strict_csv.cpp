@@ -1,4 +1,3 @@
-// Small parsers whose messages state the expected form.
 #include "experiments/regress/strict_csv.h"
 
 #include <fmt/format.h>

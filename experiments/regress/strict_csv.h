@@ -17,10 +17,10 @@ struct Blessing {
 };
 /// "# blessing 2: DATE | COMMIT | BUILD | REASON"
 std::string comment_line_of(const Blessing& blessing, size_t number);
-/// Parses the part after the colon. Throws InputError, "expected ...", as do the functions below.
+/// Parses the part after the colon. Throws InputError "expected ...", as do the functions below.
 Blessing blessing_from(const std::string& text);
 
-/// The fields of a line of CSV (RFC 4180; without line breaks inside fields).
+/// The fields of a CSV line (RFC 4180, without line breaks inside fields).
 std::vector<std::string> fields_of(const std::string& line);
 
 double finite_number(const std::string& text, const std::string& what);
@@ -28,17 +28,16 @@ double finite_number(const std::string& text, const std::string& what);
 /// A whole number from 1 to `most`.
 int number_up_to(size_t most, const std::string& text, const std::string& what);
 
-/// The text with line breaks replaced by blanks.
+/// Replaces line breaks by blanks.
 std::string one_line(std::string text);
 
-/// The rest of a line that begins with `begin`.
 std::string without_prefix(const std::string& begin, const std::string& line);
 
-/// The `count` parts of "A | B | C", none of them empty; `form` is the expected form, for the message.
+/// The `count` non-empty parts of "A | B | C"; `form`: the expected form, for the message.
 std::vector<std::string> split_by_bars(const std::string& text, size_t count, const std::string& form);
 
-/// Reads a file of comment lines, a header and rows, line by line. Inside read_strictly(), "FILE:LINE: " is prepended
-/// to the messages of exceptions.
+/// Reads comment lines, a header and rows. Inside read_strictly(), "FILE:LINE: " is prepended to the messages of
+/// exceptions.
 class StrictCsvReader {
  public:
   explicit StrictCsvReader(const std::filesystem::path& file) : in_(read_file(file, "a file of baselines")) {}
@@ -48,7 +47,7 @@ class StrictCsvReader {
   void next();
   /// Reads the lines "# blessing 1: ...", "# blessing 2: ..." from the current one on.
   std::vector<Blessing> blessings();
-  /// Reads from the line "# rows: N" on: further comments, the header, and N rows, each of which is passed to `add`.
+  /// Reads from the line "# rows: N" on: further comments, the header, and N rows, which are passed to `add`.
   void rows(const std::string& header, const std::function<void(const std::string&)>& add);
 
  private:

@@ -1,4 +1,3 @@
-// Tolerances from perturbed runs.
 #include "experiments/regress/tolerance.h"
 
 #include <fmt/format.h>
@@ -22,15 +21,15 @@ bool single(const Method& method, const CaseRun& case_run) {
   return method.family().single_precision;
 }
 
-/// Rounded up to two digits.
+/// To two digits.
 double rounded_up(double tolerance) {
-  if (!(tolerance > 0)) return 0;  // all of the unit is exactly zero
+  if (!(tolerance > 0)) return 0;  // all values of this unit are exactly zero
   const double unit = std::pow(10, std::floor(std::log10(tolerance)) - 1);
   return std::ceil(tolerance / unit) * unit;
 }
 
-/// Increases the speed of all free particles along one axis, by what gives the same displacement within the run.
-/// Roundings that are alike for all particles add up in the offset, where individual directions would average out.
+/// Increases the speed of all free particles along one axis, so that they are displaced by `size` within the run. Equal
+/// roundings of all particles add up in the offset, where individual directions would average out.
 Scene pushed(Scene scene, double size, int axis) {
   for (int i = 0; i < scene.start.v.cols(); ++i)
     if (!scene.model.particles.pinned[i]) scene.start.v(axis, i) += size / run_over_window(scene).duration;
@@ -42,7 +41,7 @@ double motion_in(const CaseRun& case_run) {
 }
 
 /// Residual of one step's equation in positions, m. mysim's rules stop at 1e-12 of the inertial forces, or where the
-/// rounding of positions makes the spring forces indistinguishable; the lightest particle has the largest error.
+/// rounding of positions hides changes of the spring forces. The lightest particle has the largest error.
 double left_by_one_step(const Case& test_case, const CaseRun& case_run, double lengths) {
   const Model& model = test_case.scene.model;
   double stiffest = 0, lightest = INFINITY;
@@ -54,9 +53,9 @@ double left_by_one_step(const Case& test_case, const CaseRun& case_run, double l
   return lengths * (1e-12 + 8 * eps * stiffest * h * h / lightest);
 }
 
-/// Contribution of the steps to the error of a quantity: from solvers, and from sums over steps. With a damping rule a
-/// change of the start does not reveal it: the initial excess has vanished by the end, but the residual of the last
-/// steps has not.
+/// Error of a quantity from the steps: from solvers, and from sums over steps. With a damping rule, a change of the
+/// start does not reveal it: the effect of the change has vanished by the end, but the residual of the last steps has
+/// not.
 double left_by_steps(const Case& test_case, const CaseRun& case_run, const Rounding& rounding, const Quantity& q) {
   const Outcome& outcome = case_run.outcome;
   // a sum over steps of impulses times distances; for a particle at rest on a sphere, each is rounded in the same way

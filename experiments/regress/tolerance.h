@@ -1,4 +1,4 @@
-// The tolerance of each quantity: the change that rounding explains, as measured.
+// The tolerance of each quantity: the largest change that rounding explains, as measured.
 #pragma once
 
 #include "experiments/regress/cases.h"
@@ -11,19 +11,18 @@ struct QuantityWithTolerance {
   std::string derivation;  // short form; derivations.txt explains it
 };
 
-/// The total rounding error of a run, expressed as a change of the start, m.
+/// The total rounding error of a run, as a change of the start, m.
 struct Rounding {
   double size;
   std::string kind;
-  double one_step = 0;  // m, residual of a step's equation, for rules that solve one in each step
+  double one_step = 0;  // m, residual of a step's equation, for rules that solve one
 };
 Rounding rounding_of(const Case& test_case, const CaseRun& case_run);
 
-/// The case's quantities with their tolerances. Moves the start by a small distance in three seeded sets of directions.
-/// The tolerance is the largest change of the quantity, scaled from that distance to the rounding error, plus the last
-/// digits of the number itself. A quantity that is zero except for rounding is bounded relative to the largest one of
-/// its unit. Exceptions, which are not scaled: the time at which a run failed, and quantities beyond prediction, which
-/// a fourth, much smaller change of the start reveals.
+/// Moves the start by a small distance in three seeded sets of directions. The tolerance is the largest change of the
+/// quantity, scaled from that distance to the rounding error, plus the last digits of the number itself. A quantity
+/// that is zero except for rounding is bounded relative to the largest one of its unit. Not scaled: the time at which a
+/// run failed, and unpredictable quantities, which a fourth, much smaller change of the start reveals.
 std::vector<QuantityWithTolerance> with_tolerances(const Case& test_case);
 
 }  // namespace crosscheck

@@ -1,4 +1,3 @@
-// Builds cloths as the text of scene files.
 #include "experiments/scenes/cloths.h"
 
 #include <fmt/format.h>
@@ -14,7 +13,7 @@
 namespace crosscheck {
 namespace {
 
-/// A step well below leapfrog's limit, or the scene's own if that is smaller.
+/// Well below leapfrog's limit, and at most the scene's own step.
 double stable_step(const Scene& scene) {
   const double omega = highest_frequency(scene.model, scene.start);
   return omega > 0 ? std::min(scene.step, 1.4 / omega) : scene.step;
@@ -112,7 +111,7 @@ Scene sized_cloth(int n, bool sphere) {
   constexpr double pi = std::numbers::pi;
   for (int i = 0; i < scene.start.x.cols(); ++i)
     scene.start.x(1, i) += 0.05 * std::sin(3 * pi * scene.start.x(0, i)) * std::sin(2 * pi * scene.start.x(2, i));
-  // pins are not moved: at the corners, x = -0.5 or 0.5 and z = 0, sin(2 pi 0) = 0
+  // the wave leaves the pins in place: at the corners, z = 0
   return scene;
 }
 

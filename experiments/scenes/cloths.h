@@ -8,36 +8,30 @@
 
 namespace crosscheck {
 
-// A cloth with a different number of particles, and surfaces of different grids at the same points of the material.
-
-/// The cloth grid of the scene, read from its text. Nothing if it has no grid, if there are other elements (a block,
-/// single particles), or if its springs do not follow the grid.
+/// The cloth grid of the scene's text. Nothing if there is none, if there are other elements (a block, single
+/// particles), or if the springs do not follow the grid.
 std::optional<Grid> cloth_grid_of(const Scene& scene);
 
-/// The scene with n particles along the longer side of its cloth, and along the other side as many as preserve the
+/// The scene with n particles along the longer side of its cloth, and as many along the other side as preserve the
 /// shape of the cells. Pins keep their place on the material: a completely pinned edge remains pinned, other pins move
 /// to the nearest particle. The step is at most 0.7 of leapfrog's limit. Throws Unsupported without a cloth.
 Scene with_resolution(const Scene& scene, int n);
 
-/// The scene with all spring stiffnesses multiplied by a factor, and the step adapted.
+/// Multiplies all spring stiffnesses by the factor, and adapts the step.
 Scene with_stiffness(Scene scene, double factor);
 
-/// Samples a surface of nu x nv particles (3 x nu nv, m; particle (i, j) in column i + nu j) at the points
-/// (p / (m - 1), q / (m - 1)), p, q = 0 ... m - 1, of the unit square of the material, by bilinear interpolation; exact
-/// if the surface is bilinear in every cell. Returns 3 x m m values, with point (p, q) in column p + m q.
+/// Samples a surface of nu x nv particles (3 x nu nv, m; particle (i, j) in column i + nu j) at the points (p / (m -
+/// 1), q / (m - 1)), p, q = 0 ... m - 1, of the unit square of the material, by bilinear interpolation. Returns 3 x m m
+/// values, with point (p, q) in column p + m q.
 Points at_material_points(const Points& x, int nu, int nv, int m);
 
-// The cloth of the scene cloth-hang at other resolutions.
-
 /// cloth-hang with n x n particles: 1 m, 0.25 kg in total, 200 N/m for all three families, two corners pinned, drag
-/// 4/s. The step is 1e-2 s / n, which is 0.45 of the explicit limit at each size, because the mass of a particle scales
-/// as n^-2. Starts as a wave 5 cm high, so that springs pull from the first step on. `sphere` adds a sphere (0.3 m)
-/// below its middle.
+/// 4/s. The step of 1e-2 s / n is 0.45 of the explicit limit at each size, because the mass of a particle scales as
+/// n^-2. Starts as a wave 5 cm high, so that springs pull from the first step on. `sphere`: with a sphere (0.3 m) below
+/// its middle.
 Scene sized_cloth(int n, bool sphere = false);
 
-// The scene on which all engines are timed.
-
-/// N/m: along the threads, along the diagonals of the cells, along two cells.
+/// N/m
 struct Stiffnesses {
   double structural = 400, shear = 200, bend = 20;
 };
@@ -47,12 +41,11 @@ struct Stiffnesses {
 /// error of every method random. Its step is below every explicit rule's limit.
 Scene hanging_cloth(int n, const Stiffnesses& stiffnesses = {});
 
-/// hanging_cloth() with equal stiffness along the threads and the diagonals: two stiffnesses in total, which Bullet's
-/// own spring force supports.
+/// hanging_cloth() with equal structural and shear stiffness, as Bullet's own spring force requires.
 Scene hanging_cloth_of_two_stiffnesses(int n);
 
-/// hanging_cloth() with the law of Bullet's position-based links instead of Hooke's (mysim/terms/springs.h): the law
-/// that they converge to, which separates their error from that of their model.
+/// hanging_cloth() with the law of Bullet's position-based links instead of Hooke's (mysim/terms/springs.h). The links
+/// converge to that law, so this separates the error of their solver from that of their model.
 Scene hanging_cloth_of_links(int n);
 
 }  // namespace crosscheck

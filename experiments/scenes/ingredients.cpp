@@ -1,4 +1,3 @@
-// The table of ingredients.
 #include "experiments/scenes/ingredients.h"
 
 #include <algorithm>
@@ -16,7 +15,7 @@ void drop(Model& model) {
   std::erase_if(model.terms, [](const Term& t) { return std::holds_alternative<T>(t); });
 }
 
-/// True if the springs include this family and others.
+/// Requires other families as well.
 template <Family family>
 bool has_family(const Model& model) {
   const auto* springs = model.find<Springs>();
@@ -63,7 +62,6 @@ bool has_friction(const Model& model) {
 bool has_restitution(const Model& model) {
   return std::ranges::any_of(surfaces_of(model), [](const Surface& s) { return s.restitution > 0; });
 }
-/// Calls `change` for each sphere and each plane.
 template <class Change>
 void each_solid(Model& model, Change change) {
   for (Term& term : model.terms)
@@ -79,7 +77,7 @@ struct IngredientRow {
 
 const std::vector<IngredientRow>& table() {
   static const std::vector<IngredientRow> rows{
-      {{"rotation", {}, drop<Rotation>}, has<Rotation>},  // nothing moves without it, which no file can express
+      {{"rotation", {}, drop<Rotation>}, has<Rotation>},  // without it nothing moves, which no file can express
       {{"gravity", {"gravity"}, drop<Gravity>}, has<Gravity>},
       // required in a grid's file
       {{"structural springs", {}, drop_family<Family::structural>}, has_family<Family::structural>},

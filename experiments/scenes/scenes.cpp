@@ -1,4 +1,3 @@
-// The shipped scenes, one per line.
 #include "experiments/scenes/scenes.h"
 
 #include <fmt/format.h>
@@ -18,7 +17,7 @@ namespace {
 std::filesystem::path folder_of_scenes() { return data_folder() / "experiments" / "scenes"; }
 std::filesystem::path folder_of_disagreements() { return folder_of_scenes() / "disagreements"; }
 
-/// Scenes that quick runs leave out, which keep one cloth of each kind.
+/// Quick runs keep one cloth of each kind.
 constexpr std::string_view left_to_full_runs[] = {"cloth-stiff", "cloth-cantilever", "cloth-swing", "cloth-wind",
                                                   "flag",        "cloth-carried",    "curtain",     "jelly",
                                                   "floor-drop",  "cloth-small",      "room-bounce"};
@@ -67,7 +66,6 @@ std::vector<std::string> quick_scenes() {
 
 namespace {
 
-/// The scenes of known disagreements: the files of a separate folder.
 std::vector<std::string> scenes_of_disagreements() {
   std::vector<std::string> names;
   for (const auto& file : std::filesystem::directory_iterator(folder_of_disagreements()))
