@@ -1,4 +1,4 @@
-// The steps and tolerances at which methods run, their runs, and the timing of these runs.
+// Steps and tolerances of the methods, their runs, and the timing of these runs.
 #include "experiments/speed_accuracy/speed_accuracy.h"
 
 #include <fmt/ranges.h>
@@ -45,7 +45,7 @@ std::vector<Setting> settings_of(const Method& method, const Scene& scene, const
   if (method.adaptive) {
     for (double tolerance = 1e-2; tolerance > (full ? 5e-11 : 5e-9); tolerance /= 100) {
       const Setting setting{true, tolerance};
-      // if stability determines its steps, a loose tolerance costs as much as a tight one
+      // if stability limits its steps, a loose tolerance costs as much as a tight one
       if (!full && estimated_as_it_begins(method, scene, setting.applied_to(run)) > 1.3) {
         if (dropped) ++*dropped;
         continue;
@@ -73,7 +73,7 @@ std::vector<Setting> settings_of(const Method& method, const Scene& scene, const
 TimedPart part_of(const Method& method, const Scene& scene, const Run& base, const Setting& setting, bool full,
                   bool whole) {
   Run run = setting.applied_to(base);
-  if (!method.fingerprint.empty()) return {run};  // an external program: the cost of its start is unknown
+  if (!method.fingerprint.empty()) return {run};  // an external program, which takes an unknown time to start
   const bool touches = has_contact(scene.model);  // contact may cost more than the fall before it
   if (method.adaptive && (touches || whole)) return {run};
   const double enough = full ? 0.02 : 0.006;  // s: thousands of clock ticks
@@ -90,7 +90,7 @@ TimedPart part_of(const Method& method, const Scene& scene, const Run& base, con
     run.duration = base.duration * run.samples / base.samples;
     return {run, static_cast<double>(run.samples) / base.samples};
   }
-  // the clock is read at each sample, which takes 0.3 microseconds: one sample in 100 steps suffices to detect a
+  // the clock is read at each sample, which takes 0.3 microseconds; one sample in 100 steps suffices to detect a
   // blow-up
   const long all = static_cast<long>(time_grid(run).steps_per_sample) * run.samples;
   long steps = whole ? all : std::min(all, std::max(20L, std::lround(share * static_cast<double>(all))));
@@ -119,11 +119,11 @@ namespace {
 struct SettingRun {
   Setting setting;
   Outcome outcome;
-  Trajectory trajectory, end;  // `end`: the last frames of a failed run, if a callback needs them
+  Trajectory trajectory, end;  // `end`: the last frames of a failed run, for playback
   bool ok() const { return outcome.verdict == Verdict::ok; }
 };
 
-/// The runs of one method; empty if it does not support the scene. A note reports settings that it refused although it
+/// The runs of one method; empty if it does not support the scene. Notes report settings that it refused although it
 /// accepted others, and settings for which it built another scene.
 std::vector<SettingRun> runs_at(const Method& method, const Scene& scene, const Run& base,
                                 const std::vector<Setting>& settings, bool recorded, MotionBoundsCache& bounds,
@@ -145,7 +145,7 @@ std::vector<SettingRun> runs_at(const Method& method, const Scene& scene, const 
       mismatch = true;
       continue;
     }
-    // the last frames need a separate run, because observing every step makes adaptive methods take other steps
+    // a separate run, because observing every step makes adaptive methods take other steps
     LastFrames last(omega, setting.tolerance ? 0 : setting.value);
     if (recorded && out.verdict != Verdict::ok)
       run_method(method, scene, setting.applied_to(base), {&last}, std::ref(bounds));
@@ -157,19 +157,19 @@ std::vector<SettingRun> runs_at(const Method& method, const Scene& scene, const 
   return tries;
 }
 
-/// All methods of mysim and Bullet, and the library integrators of the same equations.
+/// Default: all methods of mysim and Bullet, and the library integrators.
 std::vector<Method> methods_for(const Request& request, const Scene& scene) {
   std::vector<Method> methods = methods_of(request, scene);
   if (!request.methods.empty()) return methods;
-  // multistep formulas take hundreds of times as long on undamped springs: `bench` shows that on one scene
+  // multistep formulas take hundreds of times as long on undamped springs, which `bench` shows on one scene
   for (Method& method : all_methods())
     if (method.family().role == Role::integrator && !method.multistep) methods.push_back(std::move(method));
   return methods;
 }
 
-/// The reason why a scene is left out, or empty.
+/// Why a scene is left out; empty if it is not.
 std::string why_not(const Scene& scene, double motion) {
-  // 1e-6 of its size: if nothing moves, a run of one step is as accurate as any other
+  // if nothing moves, a run of one step is as accurate as any other
   if (!(motion > 1e-6 * scene.size())) return "nothing moves there";
   return "";
 }
@@ -185,7 +185,7 @@ struct Judged {
   std::optional<Truth> truth;
   double motion = 0, until = 0;  // m, s
   bool under_contact_rule() const { return truth && truth->under_contact_rule; }
-  /// Accuracy for which a run is recommended, m; nothing if no error is known.
+  /// Largest error of a recommended run, m; nothing if no error is known.
   std::optional<double> bound() const {
     if (!truth || under_contact_rule()) return std::nullopt;
     const double left = recommended_part * motion - truth->error_bar;
@@ -231,7 +231,7 @@ std::map<std::string, std::vector<Setting>> searched_settings(const Request& req
   return settings;
 }
 
-/// Settings of both lists, from coarse to fine.
+/// From coarse to fine.
 std::vector<Setting> merged(std::vector<Setting> settings, const std::vector<Setting>& more) {
   for (const Setting& each : more)
     if (std::ranges::none_of(settings, [&](const Setting& s) { return std::abs(s.value / each.value - 1) < 1e-9; }))
@@ -241,7 +241,7 @@ std::vector<Setting> merged(std::vector<Setting> settings, const std::vector<Set
 }
 
 /// Adds runs of another engine between the last step that misses the bound and the first that meets it, so that its
-/// cheapest run is found as precisely as the subject's.
+/// cheapest run is found as precisely as mysim's.
 void refine(const Method& method, const Judged& of, const Request& request, MotionBoundsCache& bounds,
             std::vector<SettingRun>& tries, std::vector<std::string>& notes) {
   const auto bound = of.bound();
@@ -250,7 +250,7 @@ void refine(const Method& method, const Judged& of, const Request& request, Moti
   const auto add = [&](const SettingRun& run) {
     TriedRun tried = tried_run(of, run.outcome, run.trajectory);
     tried.method = method.name, tried.setting = run.setting;
-    // uses the steps as cost, because an engine need not count its evaluations and its steps all cost the same
+    // engines need not count evaluations, and their steps all cost the same
     tried.cost = static_cast<double>(run.outcome.steps);
     return tried;
   };
@@ -350,7 +350,6 @@ void speed_accuracy_on(const Request& request, const Scene& scene, TableSet& tab
 
 namespace {
 
-/// A timed run, whole or its first part.
 struct TimedRow {
   const SpeedAccuracyRow* row;
   const Method* method;
@@ -363,7 +362,7 @@ struct TimedRow {
   }
 };
 
-/// The rows that a recommendation compares: the recommended run, its ties, and the cheapest run of each other engine.
+/// The recommended run, its ties, and the cheapest run of each other engine.
 std::vector<size_t> compared_rows(const std::vector<TimedRow>& timed, const std::vector<Timing>& times) {
   std::map<std::string, size_t> cheapest;  // by engine
   std::vector<size_t> compared;
@@ -413,7 +412,7 @@ void time_speed_accuracy(const Request& request, const Scene& scene, const Table
     const Setting setting{row.setting == SettingKind::tolerance, row.requested};
     timed.push_back({&row, &method, part_of(method, scene, base, setting, request.full)});
   }
-  MotionBoundsCache bounds;  // short runs are repeated a thousand times
+  MotionBoundsCache bounds;  // cached, because short runs are repeated a thousand times
   const auto run_once = [&](TimedRow& run) {
     // monitored, because after a blow-up a step of Bullet's worlds takes many times as long
     const Outcome out = run_method(*run.method, scene, run.part.run, {}, std::ref(bounds));

@@ -10,61 +10,56 @@
 
 namespace crosscheck {
 
-// The steps and tolerances at which a method is run on a scene, and the timed part of each run.
-
 struct Setting {
   bool tolerance;  // otherwise a step
   double value;    // s; for tolerances 1
   SettingKind kind() const { return tolerance ? SettingKind::tolerance : SettingKind::step; }
-  /// The run at this setting.
   Run applied_to(Run run) const;
 };
 
-/// Largest stable step of the method's rule at the start of the scene, by theory, s; infinite if unknown.
+/// Largest stable step of the method's rule at the start of the scene, by linear theory, s; infinite if unknown.
 double stability_limit(const Method& method, const Scene& scene);
 
-/// The ladder of steps begins with 2^longest_halving times the run's step.
+/// The ladder of steps begins at 2^longest_halving times the run's step.
 inline constexpr int longest_halving = 6;
 /// True if the ladder skips a step h (s): one or two failing steps suffice to show where the others would end.
 inline bool is_beyond(double limit, int halving, double h) { return halving > 3 && h > 2 * limit; }
 
 /// Fixed steps, halved from 64 times the run's step down to a 16th of it. Steps above 8 times the run's step are
-/// limited to twice the rule's stability limit, if it is known. Steps longer than the sampling interval are replaced by
-/// that interval. Tolerances range from 1e-2 to 1e-8 (full: 1e-10). Leaves out runs that would take more than 0.14 s of
-/// CPU time (0.72 s at the run's own step and longer ones) by an estimate that is equal on every machine; with `full`
-/// 2.5 times as much. Without `full`, also leaves out tolerances whose runs would take more than 1.3 s. `dropped`
-/// counts the omissions.
+/// limited to twice the rule's stability limit, if known, and all steps to the sampling interval. Tolerances range from
+/// 1e-2 to 1e-8 (full: 1e-10). Leaves out runs with more than 0.14 s of CPU time (0.72 s at the run's own step and
+/// longer ones), by an estimate that is equal on every machine; full: 2.5 times as much. Unless full, also leaves out
+/// tolerances with more than 1.3 s. `dropped` counts the omissions.
 std::vector<Setting> settings_of(const Method& method, const Scene& scene, const Run& run, bool full,
                                  int* dropped = nullptr);
 
-/// The timed part of a run: the whole run, or its first part.
 struct TimedPart {
   Run run;
   double share = 1;  // fraction of the run's steps or samples
 };
-/// A part that takes about 6 ms (`full`: 20 ms) by the estimate or, for adaptive methods, by the beginning of the run.
-/// The whole run if it takes less than 12 ms (`full`: 0.2 s), if there is contact (which may cost more than the fall
-/// before it), for external programs, and with `whole`.
+/// A part that takes about 6 ms (full: 20 ms) by the estimate or, for adaptive methods, by the beginning of the run.
+/// The whole run if it takes less than 12 ms (full: 0.2 s), with contact (which may cost more than the fall before it),
+/// for external programs, and with `whole`.
 TimedPart part_of(const Method& method, const Scene& scene, const Run& base, const Setting& setting, bool full,
                   bool whole = false);
 
-/// Distance of two runs over their common samples up to a time: RMS over the particles, m.
+/// RMS distance of the particles of two runs over their common samples up to `until`, m.
 struct TrajectoryDistance {
   double largest = 0;    // maximum over time
   double over_time = 0;  // RMS over time
 };
 TrajectoryDistance distance_over_time(const Trajectory& a, const Trajectory& b, double until);
 
-/// Rows of `speed-accuracy`, without times. Besides the ladder they contain the steps of the search for the cheapest
-/// run within 1 % of the motion (step_search.h), and for other engines the steps between the last run outside that
-/// accuracy and the first one within. Notes list the omissions.
+/// Rows of `speed-accuracy`, without times. In addition to the ladder they contain the steps of the search for the
+/// cheapest run within 1 % of the motion (step_search.h) and, for other engines, steps between the last run outside
+/// that accuracy and the first one within. Notes list the omissions.
 void speed_accuracy_on(const Request& request, const Scene& scene, TableSet& tables);
 /// Rows of `speed-accuracy-timing-cost`: the runs of `rows`, timed in turns. Long runs are timed over their first part,
-/// since each evaluation of a scene without contact costs the same. The recommended run, its ties and the cheapest run
-/// of each other engine within 1 % of the motion are timed whole.
+/// since each evaluation without contact costs the same. The recommended run, its ties and the cheapest run of each
+/// other engine within 1 % of the motion are timed whole.
 void time_speed_accuracy(const Request& request, const Scene& scene, const TableSet& rows, TableSet& tables);
 
-/// The accuracy for which the report recommends a run, as a fraction of the motion.
+/// The report recommends a run with this accuracy, as a fraction of the motion.
 inline constexpr double recommended_part = 0.01;
 
 /// The build that the timed code of a method comes from.

@@ -1,4 +1,3 @@
-// Search by halving and bisection, and the choice by cost.
 #include "experiments/speed_accuracy/step_search.h"
 
 #include <algorithm>
@@ -17,7 +16,7 @@ constexpr double most_cost = 1e9;                   // a run of some seconds
 
 bool same_search(const TriedRun& a, const TriedRun& b) { return a.method == b.method && a.model == b.model; }
 
-/// True if run a has a shorter step, or a tighter tolerance, than run b of the same method and model.
+/// A shorter step, or a tighter tolerance, of the same method and model.
 bool is_finer(const TriedRun& a, const TriedRun& b) {
   return same_search(a, b) && a.setting.value < b.setting.value * (1 - 1e-9);
 }
@@ -58,7 +57,7 @@ std::string_view name_of(StepBound bound) {
 }
 
 std::optional<Recommendation> recommend(const std::vector<TriedRun>& runs, double bound) {
-  std::vector<size_t> best;  // one per method and model
+  std::vector<size_t> best;
   for (size_t i = 0; i < runs.size(); ++i) {
     if (!(runs[i].cost > 0) || !is_confirmed(runs, runs[i], bound)) continue;
     const auto own = std::ranges::find_if(best, [&](size_t j) { return same_search(runs[i], runs[j]); });

@@ -1,5 +1,4 @@
-// The cheapest run of a scene within an accuracy: the search for it, and the choice among the runs that were tried. The
-// report and `advise` base their recommendations on both.
+// The cheapest run of a scene within an accuracy, on which the recommendations of the report and `advise` are based.
 #pragma once
 
 #include <functional>
@@ -13,7 +12,6 @@
 
 namespace crosscheck {
 
-/// A run of the search.
 struct TriedRun {
   std::string model = {};  // empty: the full scene
   std::string method;
@@ -24,8 +22,8 @@ struct TriedRun {
   bool is_within(double bound) const { return verdict == Verdict::ok && error && *error <= bound; }
 };
 
-/// Outcome of the next longer step (looser tolerance) that was tried: it blew up, missed the bound, or failed in
-/// another way; none: no longer step can be tried.
+/// Outcome of the next longer step (or looser tolerance): it blew up, missed the bound, or failed in another way; none:
+/// there is no longer step.
 enum class StepBound { stability, accuracy, failure, none };
 /// "stability", "accuracy", "failure" or "sampling".
 std::string_view name_of(StepBound bound);
@@ -37,29 +35,29 @@ struct Recommendation {
   StepBound bound = StepBound::none;
 };
 
-/// Factor between costs that count as equal: the resolution of the search for steps.
+/// Costs within this factor count as equal: the resolution of the search for steps.
 inline constexpr double step_resolution = 1.05;
 
-/// The cheapest run with an error of at most `bound` (m) that is not accidental: all finer runs of its method and
-/// model, at least one, are within the bound, too. Among runs of equal cost (step_resolution) the most accurate one.
+/// The cheapest run with an error of at most `bound` (m) that is not accidental: there are finer runs of its method and
+/// model, and all of them are within the bound. Among runs of equal cost (step_resolution) the most accurate one.
 /// Nothing if there is none. Does not depend on timings.
 std::optional<Recommendation> recommend(const std::vector<TriedRun>& runs, double bound);
 
-/// True if the method can be recommended: one of the subject's methods or a program of the user's, but no
-/// demonstration.
+/// True for the methods of the engine under test (except demonstrations) and for the user's programs.
 bool is_candidate(const std::string& method);
-/// The candidates' runs on a scene in table `speed-accuracy`; their cost excludes the factor of the scene's springs.
+/// The candidates' runs on a scene in table `speed-accuracy`. Their cost is in evaluations, without the factor of the
+/// scene's springs.
 std::vector<TriedRun> tried_runs(const std::vector<SpeedAccuracyRow>& rows, const std::string& scene);
-/// All methods of the subject; on scenes with contact, also with event location for those that support it.
+/// All methods of the engine under test; on scenes with contact, also with event location if supported.
 std::vector<Method> candidates(const Scene& scene);
 
 /// Searches steps and tolerances on one model, always with the cheapest next run. Halves a method's step (starting with
 /// the longest of the ladder of `speed-accuracy`; tolerances are divided by 100) until two consecutive runs are within
-/// the bound. Then bisects between the last run outside and the first within, down to step_resolution. Existing runs
-/// are not repeated. Abandons a method if everything that it can reach costs at least `given_up` times the best.
+/// the bound. Then bisects between the last run outside and the first within, down to step_resolution. Does not repeat
+/// existing runs. Abandons a method if everything that it can reach costs at least `given_up` times the best.
 class StepSearch {
  public:
-  /// Runs a method at a setting; returns nothing if that is not affordable, which ends the method's search.
+  /// Nothing if the run is not affordable, which ends the method's search.
   using Trial = std::function<std::optional<TriedRun>(const Method&, const Setting&)>;
 
   /// `base` has the scene's own step, duration and samples. New runs are appended to `runs`, under the name `model`.
@@ -76,10 +74,10 @@ class StepSearch {
   void search(std::vector<Method> methods);
 
  private:
-  using Runs = std::vector<const TriedRun*>;  // runs of one method, from coarse to fine
+  using Runs = std::vector<const TriedRun*>;  // one method's runs, from coarse to fine
   struct Step {
-    double value = 0, cost = 0;  // next run, and its least cost
-    double reach = 0;            // the least cost at which the method's search can end
+    double value = 0, cost = 0;  // setting of the next run, and its smallest possible cost
+    double reach = 0;            // the smallest cost at which the method's search can end
   };
   Runs known(const Method& method) const;
   std::optional<Step> next_step(const Method& method, double best) const;

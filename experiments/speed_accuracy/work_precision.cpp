@@ -1,4 +1,3 @@
-// Pareto fronts and the cheapest methods, from the rows of all points.
 #include "experiments/speed_accuracy/work_precision.h"
 
 #include <fmt/ranges.h>
@@ -44,11 +43,11 @@ std::vector<std::string> statistically_tied(const std::vector<WorkPrecisionPoint
 
 namespace {
 
-/// The runs of one scene with evaluations as cost, and the properties of its truth.
+/// The runs of one scene, with evaluations as cost.
 struct SceneRuns {
   std::string scene;
   double motion = 0;
-  std::optional<double> error_bar;  // m; none: no truth
+  std::optional<double> error_bar;  // m; empty without truth
   Measure measure = Measure::error;
   std::vector<WorkPrecisionPoint> points;
 };
@@ -77,7 +76,7 @@ std::vector<WorkPrecisionPoint> timed_points(const SceneRuns& s, const std::vect
       if (row.scene != s.scene || row.method != p.method || row.setting != p.setting || row.requested != p.requested)
         continue;
       const auto measured = static_cast<double>(row.evaluations);
-      // the end of a failed run may differ from that of its timed twin, which had no observer
+      // a failed run may end elsewhere when it is timed, without observer
       const double factor = measured > 0 && p.cost > 0 ? p.cost / measured : 1 / row.part;
       WorkPrecisionPoint timed = p;
       timed.time = Timing{row.cpu, row.cpu_low, row.cpu_high, row.repetitions}.times(factor);
@@ -120,7 +119,7 @@ template <Cost kind>
 void add_cheapest(const SceneRuns& s, const std::vector<WorkPrecisionPoint>& points, double noise, Table& table) {
   if (!s.error_bar) return;
   for (const double part : parts_of_motion) {
-    // the error of the truth is subtracted, so that the accuracy is met wherever the truth lies within its error bar
+    // the error bar is subtracted, so that the accuracy is met wherever the truth lies within it
     const double bound = part * s.motion, left = bound - *s.error_bar;
     CheapestRow<kind> row{.scene = s.scene, .part_of_motion = part, .bound = bound, .measure = s.measure};
     const WorkPrecisionPoint *best = cheapest(points, left), *bullet = cheapest(points, left, is_first_peer),

@@ -1,4 +1,4 @@
-// Analysis of errors and costs: Pareto fronts, and the cheapest method and engine within an accuracy.
+// Work-precision analysis: Pareto fronts, and the cheapest method and engine within an accuracy.
 #pragma once
 
 #include <optional>
@@ -11,9 +11,6 @@
 
 namespace crosscheck {
 
-// Work-precision analysis of runs: the Pareto front, and the cheapest run within an accuracy.
-
-/// One run as a point on a chart of error against cost.
 struct WorkPrecisionPoint {
   std::string method;
   SettingKind setting;
@@ -25,31 +22,26 @@ struct WorkPrecisionPoint {
   double part = 1;                  // timed fraction of the run; the rest is scaled up
 };
 
-/// The Pareto front, from cheap to expensive, each run with a smaller error than the previous one. Errors below the
-/// floor (m) count as equal to the floor.
+/// The Pareto front, from cheap to expensive. Errors below the floor (m) count as equal to it.
 std::vector<WorkPrecisionPoint> pareto_line(std::vector<WorkPrecisionPoint> points, double floor);
 
 /// The cheapest run with an error of at most `bound`, among eligible families; null if there is none.
 const WorkPrecisionPoint* cheapest(const std::vector<WorkPrecisionPoint>& points, double bound,
                                    const FamilyFilter& is_eligible = {});
 
-/// Other methods whose cheapest run within the bound cannot be distinguished from the best one by its time, given the
+/// Other methods whose cheapest run within the bound cannot be distinguished from `best` by its time, given the
 /// relative noise.
 std::vector<std::string> statistically_tied(const std::vector<WorkPrecisionPoint>& points,
                                             const WorkPrecisionPoint& best, double bound, double noise);
 
-// The cheapest run of each engine within an accuracy, compared with mysim's.
-
-/// The engine of a method: "mysim" for "mysim/leapfrog". A program or a trajectory of the user's is an engine of its
-/// own: "exec:./a".
+/// "mysim" for "mysim/leapfrog". The user's programs and trajectories are engines of their own: "exec:./a".
 std::string engine_of(const std::string& method);
-/// Name of a method next to that of its engine: "leapfrog", "exec:./a".
+/// Short name of a method: "leapfrog", "exec:./a".
 std::string name_beside_engine(const std::string& method);
 
-/// Adds an EngineSpeedRow for each engine that has a timed run within `bound` (m), from which the truth's error bar is
-/// already subtracted. The row has the engine's cheapest run, and the ratio of its time to that of mysim's cheapest
-/// run. `low` and `high` are the extremes that both 90 % intervals allow. The row also has the timed fraction of each
-/// run; the rest is scaled up. Without a run of mysim within the bound there is no ratio.
+/// Adds an EngineSpeedRow for each engine with a timed run within `bound` (m), from which the truth's error bar is
+/// already subtracted: its cheapest run, and the ratio of its time to that of mysim's cheapest run. `low` and `high`
+/// are the extremes that both 90 % intervals allow. Without a run of mysim within the bound there is no ratio.
 void add_by_engine(const std::string& scene, double part_of_motion, Measure measure, double bound,
                    const std::vector<WorkPrecisionPoint>& points, Table& table);
 

@@ -9,16 +9,16 @@ namespace crosscheck {
 
 struct Eigenpair {
   double value;
-  Eigen::VectorXd vector;  // normalised to length 1
+  Eigen::VectorXd vector;  // normalised
 };
 
-/// Largest eigenvalue of a symmetric matrix to a relative `tolerance`, and its vector; nothing without convergence.
+/// Relative `tolerance`. Nothing without convergence.
 std::optional<Eigenpair> largest_eigenpair(const Eigen::SparseMatrix<double>& symmetric, double tolerance);
 
 /// The eigenpair nearest to `shift` of a symmetric matrix whose eigenvalues are all above `shift`.
 std::optional<Eigenpair> eigenpair_above(const Eigen::SparseMatrix<double>& symmetric, double shift, double tolerance);
 
-/// The `count` eigenvalues of largest modulus of a general square matrix; a conjugate pair counts as two.
+/// Those of largest modulus of a general matrix; a conjugate pair counts as two.
 std::optional<Eigen::VectorXcd> largest_eigenvalues(const Eigen::SparseMatrix<double>& square, int count,
                                                     double tolerance);
 

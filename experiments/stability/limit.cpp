@@ -1,4 +1,3 @@
-// Limits from modes and amplification matrices; perturbed runs, and the search for the largest step that holds.
 #include "experiments/stability/limit.h"
 
 #include <fmt/format.h>
@@ -155,7 +154,7 @@ Rates rates_of(const Vibration& m) {
 }
 
 /// Distance of the scene from rest, at the start and in the first and last tenth of the run. If each step multiplies
-/// the perturbed mode: also its amplitude at the start and at the end.
+/// the perturbed mode by a constant: also its amplitude at the start and at the end.
 class GrowthObserver : public Observer {
  public:
   GrowthObserver(const BaseState& base, bool multiplies, int mode, double duration)
@@ -224,8 +223,7 @@ BaseState base_state_of(const Scene& scene) {
   if (const auto* springs = scene.model.find<Springs>())
     for (const Spring& s : springs->list) {
       const double length = (base.scene.start.x.col(s.a) - base.scene.start.x.col(s.b)).norm();
-      // coincident ends provide no scale: a perturbation relative to a millionth of the scene would vanish in the
-      // rounding of the scene
+      // coincident ends provide no scale: a perturbation relative to a millionth of the scene would vanish in rounding
       if (length > 1e-6 * scene.size()) base.spacing = std::min(base.spacing, length);
     }
   return base;
@@ -285,8 +283,8 @@ PerturbedRun run_perturbed(const Method& method, const BaseState& base, double h
   if (base.at_rest) observers.push_back(&growth_observer);
   const Outcome out = run_method(method, perturbed_scene(base, perturbation), run, observers, bounds);
   PerturbedRun trial{out.verdict, out.reason, out.end};
-  // unknown rules, and rules that correct positions spring by spring, may rest in another state: a motion to that state
-  // is no growth (except for a rotation about the origin)
+  // unknown rules, and rules that correct positions spring by spring, may rest in another state, and the motion to that
+  // state is no growth (except for a rotation about the origin)
   const bool rests_there = rule && !rule->hard_constraints;
   if (growth_observer.first > 0 && (rests_there || rotation)) {
     trial.growth = growth_observer.last / growth_observer.first;
@@ -338,7 +336,7 @@ MeasuredLimit measured_limit(const Method& method, const BaseState& base, long s
   std::map<double, std::string> refused;  // by step
   bool accepted = false;
   MotionBoundsCache bounds;  // all trials have the same start
-  // a method of another or an unknown rule may rest elsewhere: its way there must be small relative to the perturbation
+  // other rules may rest elsewhere: the way there must be small relative to the perturbation
   if (const Stepper* rule = stepper_of(method); !rule || rule->hard_constraints)
     perturbation.size = std::max(perturbation.size, 1e-3);
   const auto holds = [&](double h) {
@@ -347,11 +345,11 @@ MeasuredLimit measured_limit(const Method& method, const BaseState& base, long s
     accepted |= !trial.without_answer();
     return trial.held();
   };
-  // without drag, a rule that grows at h omega = 1/64 grows at every step; with drag, the limit is still found for a
+  // without drag, a rule that grows at h omega = 1/64 grows at every step; with drag, the limit is found even for a
   // drag of a millionth of omega
   const double lowest = unit / (damped ? 1 << 20 : 64), highest = 128 * unit;
-  // between one and five radians, steps increase by tenths: a composed rule may hold again beyond an unstable interval
-  // (suzuki4 at 4.05 radians, above its limit of 2.72), and doubling could skip that interval
+  // for h omega between one and five, steps increase by tenths: a composed rule may hold again beyond an unstable
+  // interval (suzuki4 at 4.05, above its limit of 2.72), and doubling could skip that interval
   MeasuredLimit m = largest_step(holds, std::clamp(base.scene.step, lowest, highest), lowest, highest, precision, unit);
   if (refused.empty()) return m;
   if (!accepted) return {MeasuredLimit::unsupported, 0, 0, refused.begin()->second};

@@ -1,4 +1,4 @@
-// The largest stable step of a method on a scene, as predicted by linear theory and as measured by perturbed runs.
+// The largest stable step of a method on a scene, predicted by linear theory and measured by perturbed runs.
 #pragma once
 
 #include <cmath>
@@ -12,8 +12,6 @@
 
 namespace crosscheck {
 
-// The largest stable step of a rule on a scene by theory: the minimum over the scene's modes.
-
 /// True for Runge-Kutta rules, which depend on f(X, t) only and multiply every eigenvector of the Jacobian by R(h
 /// lambda).
 inline bool is_runge_kutta(const Stepper& rule) { return rule.first_order; }
@@ -21,38 +19,36 @@ inline bool is_runge_kutta(const Stepper& rule) { return rule.first_order; }
 struct PredictedLimit {
   double limit = 0;     // s; 0: no step is stable; infinite: every step is
   int mode = -1;        // index of the mode that determines the limit; -1: none, or not identified
-  std::string missing;  // why there is no prediction; empty if there is one
+  std::string missing;  // why there is no prediction
 };
-/// The minimum of the rule's limit over the modes. If damping and stiffness do not commute:
+/// The smallest limit of the rule for any mode. If damping and stiffness do not commute:
 /// - Runge-Kutta rules use the individual eigenvalues of the first-order Jacobian.
-/// - Symplectic Euler is stable while 4 - h^2 K - 2 h C is positive definite: in w'(4 - h^2 K - 2 h C) w both
-/// conditions of
-///   a single mode hold for every w, and where the matrix is singular there is an eigenvalue -1.
+/// - Symplectic Euler is stable while 4 - h^2 K - 2 h C is positive definite: both conditions of a single mode then
+/// hold for the quadratic form of every w; where the matrix is singular there is an eigenvalue -1.
 /// - Leapfrog is stable while 4 - h^2 K is positive definite, if there are no dashpots.
 /// - Other rules use the largest eigenvalue of their step matrix, up to 90 free coordinates.
 /// If only the fastest rates are known, only rules whose stability region has almost the same depth in all directions
 /// have a prediction: rk4's is equal to 12 %.
 PredictedLimit predicted_limit(const Stepper& rule, const Spectrum& spectrum);
 
-/// Prediction for the rule that the method follows; `missing` if it follows none, or not with this scene's ingredients.
+/// Prediction for the rule that the method follows; `missing` if it follows none, or a different one with this scene's
+/// ingredients.
 PredictedLimit predicted_limit(const Method& method, const Spectrum& spectrum);
 
-// Runs that show whether a perturbation of the state of rest grows.
-
-/// The base state for a scene's stability: its rest, or its start if there is no rest.
+/// The base state for a scene's stability: its equilibrium, or its initial state if there is none.
 struct BaseState {
   Scene scene;  // starts in the base state
   bool at_rest = false;
   bool saddle = false;  // a saddle was found (and left, if at_rest)
   Spectrum spectrum;    // about the base state
-  double spacing = 1;   // m, length of the shortest spring of non-zero length: the scale for small perturbations
+  double spacing = 1;   // m, shortest spring of non-zero length: the scale for small perturbations
 };
 BaseState base_state_of(const Scene& scene);
 
 struct Perturbation {
   int mode = -1;         // index of the mode; -1: the fastest shape of the stiffness
-  double size = 1.5e-8;  // relative to the shortest spring. At the square root of the rounding error, rounding (eps /
-                         // size per step) and nonlinearity (size) disturb linear motion equally
+  double size = 1.5e-8;  // relative to `spacing`: the square root of the rounding error eps, where rounding (eps / size
+                         // per step) and nonlinearity (size) disturb linear motion equally
 };
 
 struct PerturbedRun {
@@ -61,29 +57,27 @@ struct PerturbedRun {
   double end = 0;        // s
   double growth = 0;     // growth of sqrt(|w'|^2 + w K w) from the first to the last tenth of the run; 0: unknown
   double per_step = 1;   // mean factor per step of the perturbed mode's amplitude (|x| for a rotation); 1: unknown
-  double amplitude = 1;  // amplitude of the perturbed mode at the end over that at the start
-  long steps = 0;        // steps taken, if the two values above are known
-  bool of_mode = false;  // true if the two values above are known
+  double amplitude = 1;  // final over initial amplitude of the perturbed mode
+  long steps = 0;        // if per_step and amplitude are known
+  bool of_mode = false;  // per_step and amplitude are known
   bool unsupported() const { return verdict == Verdict::unsupported; }
   /// True if the method refused the step, or its program died or took too long, which says nothing about stability.
   bool without_answer() const { return unsupported() || verdict == Verdict::crash || verdict == Verdict::timeout; }
-  /// True if the step held: no failure, and no growth. A perturbed rest may grow by up to 1/20 over the run (beats of a
-  /// neutral rule's modes reach a thousandth). If a Runge-Kutta rule multiplies the mode by a constant factor, this
-  /// factor is limited too: rounding and nonlinearity change a perturbation by 1e-6 over a run, and a growth of less
-  /// than 1e-9 per step counts as neutral, however long the run is.
+  /// True without failure or growth. A perturbed rest may grow by up to 1/20 over the run (beats of a neutral rule's
+  /// modes reach a thousandth). If a Runge-Kutta rule multiplies the mode by a constant factor, this factor is limited
+  /// too: rounding and nonlinearity change a perturbation by 1e-6 over a run, and a growth of less than 1e-9 per step
+  /// counts as neutral, however long the run is.
   bool held() const;
   /// The verdict, or `energy` if the run ended before the growing motion had more energy than the monitor allows.
   Verdict effective_verdict() const { return verdict == Verdict::ok && !held() ? Verdict::energy : verdict; }
 };
 
-/// Runs the method from the perturbed base state (from the unperturbed start if the scene has no rest). `observers` are
-/// additional ones; `bounds` gives the bounds of the true motion.
+/// Runs the method from the perturbed base state (from the unperturbed start if the scene has no rest). `bounds`:
+/// bounds of the true motion.
 PerturbedRun run_perturbed(const Method& method, const BaseState& base, double h, long steps, Perturbation perturbation,
                            std::vector<Observer*> observers = {},
                            const MotionBoundsFunction& bounds = motion_bounds_of);
-/// Duration and samples of such a run.
 Run run_of_perturbed(double h, long steps);
-/// The base scene with the perturbed start.
 Scene perturbed_scene(const BaseState& base, const Perturbation& perturbation);
 
 /// The largest step that `holds`: doubles and halves from `first` until one step holds and one fails, then bisects in
@@ -91,10 +85,9 @@ Scene perturbed_scene(const BaseState& base, const Perturbation& perturbation);
 /// five times that, increases the step by a factor of 1.1 instead of 2.
 MeasuredLimit largest_step(const std::function<bool(double)>& holds, double first, double lowest, double highest,
                            double precision, double fine_above = std::numeric_limits<double>::infinity());
-/// Measures that limit by trials of the method, starting from the scene's own step. Does not use theory for the limit;
-/// the scene's fastest vibration by theory only determines where the search ends. A step without an answer counts as
-/// failed. If the bracket ends at such a step, the result is `refused_above` instead of a limit; if every step was
-/// refused, it is `unsupported`.
+/// Measures that limit by trials, starting from the scene's own step. Theory only determines where the search ends (by
+/// the scene's fastest vibration). A step without an answer counts as failed. If the bracket ends at such a step, the
+/// result is `refused_above` instead of a limit; if every step was refused, it is `unsupported`.
 MeasuredLimit measured_limit(const Method& method, const BaseState& base, long steps, Perturbation perturbation,
                              double precision);
 

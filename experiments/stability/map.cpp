@@ -1,4 +1,3 @@
-// Computes cells and limits of maps.
 #include "experiments/stability/map.h"
 
 #include <fmt/format.h>
@@ -21,10 +20,10 @@ Scene with_gamma(Scene scene, double gamma) {
 }
 
 /// Relative size of the perturbation. Cells show actual blow-ups: a perturbation of a ten-thousandth of the springs'
-/// length grows until the monitor judges it.
+/// length grows until the monitor detects it.
 constexpr double visible = 1e-4;
 
-/// Step for position 0 <= part <= 1 among the columns: h omega from 1/50 to 20, with omega of the original scene.
+/// Step of a column at relative position 0 <= part <= 1: h omega from 1/50 to 20, with omega of the original scene.
 double step_at(double part, double omega) { return 0.02 / omega * std::pow(1000, part); }
 
 }  // namespace

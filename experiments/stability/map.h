@@ -7,10 +7,9 @@
 
 namespace crosscheck {
 
-/// The parameter that varies over the rows of a map.
 struct MapKind {
   std::string_view name;  // "stiffness" (over the scene's own), "drag" (gamma, 1/s)
-  /// The value for position 0 <= part <= 1 among the rows, on a logarithmic scale; omega: fastest vibration of the
+  /// The value of a row at relative position 0 <= part <= 1, on a logarithmic scale. omega: fastest vibration of the
   /// original scene, rad/s.
   double (*value)(double part, double omega);
   Scene (*with)(Scene, double value);
@@ -20,7 +19,7 @@ std::span<const MapKind> map_kinds();
 
 struct MapSize {
   int rows, columns;
-  long steps;  // steps of each run
+  long steps;  // per run
   bool check;  // also runs each cell ten times longer, and counts the cells that change
 };
 /// The finest size that costs less than 4 s of CPU time in a full run; nothing if none does. Quick maps are coarser.
@@ -32,8 +31,8 @@ std::optional<MapSize> map_size(const Method& method, const Scene& scene, bool f
 void add_map(const MapKind& kind, const Scene& scene, const Method& method, const MapSize& size, TableSet& tables,
              const RunCallback& on_runs = {});
 
-/// The scene used for the maps of a scene: itself, if it has at most 64 particles; for a cloth, the same cloth with 6
-/// particles along its longer side, "NAME-6"; otherwise itself in a full run, or nothing.
+/// The scene for the maps: itself, if it has at most 64 particles; a cloth with 6 particles along its longer side
+/// instead, "NAME-6"; otherwise itself in a full run, or nothing.
 std::optional<Scene> map_scene(const Scene& scene, bool full);
 
 }  // namespace crosscheck

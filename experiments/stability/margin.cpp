@@ -1,4 +1,3 @@
-// Stability margins from the stiffness of a net whose springs are stretched far.
 #include "experiments/stability/margin.h"
 
 #include <fmt/format.h>
@@ -37,7 +36,7 @@ double growth_per_step(const Stepper& rule, const Vibration& vibration, double h
       Eigen::Matrix2d m = each.of_mode(mode, h).topLeftCorner<2, 2>() + Eigen::Matrix2d::Identity();
       const double unit = vibration.omega > 0 ? vibration.omega : 1;
       m(0, 1) *= unit, m(1, 0) /= unit;
-      // the roots of lambda^2 - trace lambda + determinant
+      // roots of lambda^2 - trace lambda + determinant
       const double half = m.trace() / 2, determinant = m.determinant(), square = half * half - determinant;
       return square < 0 ? std::sqrt(determinant) : std::abs(half) + std::sqrt(square);
     }

@@ -1,4 +1,3 @@
-// Warnings about the stability of longer runs, which the verdict of a run cannot show.
 #pragma once
 
 #include <string>
@@ -8,11 +7,11 @@
 
 namespace crosscheck {
 
-/// A warning about a run that held at step h (s), or nothing. The rule's step may be within a tenth of the limit for a
-/// net whose springs are all stretched far. (A net without drag then slowly gains energy and may fail later: the
-/// stiffness of a stretched spring acts across its line, too.) Or the rule may have no stable step here; the warning
-/// then gives its growth. Nothing for scenes with dashpots or unequal drag rates, for rules without a theory, and for
-/// adaptive ones.
+/// A warning about longer runs, after a run that held at step h (s); empty if there is none. The step may be within a
+/// tenth of the limit for a net whose springs are all stretched far. (A net without drag then slowly gains energy and
+/// may fail later: the stiffness of a stretched spring acts across its line, too.) Or the rule may have no stable step
+/// here; the warning then gives its growth. Empty for scenes with dashpots or unequal drag rates, for rules without a
+/// theory, and for adaptive ones.
 std::string stability_warning(const Method& method, const Scene& scene, double h);
 
 /// Growth factor per step of the vibration's amplitude, from the eigenvalues of the rule's amplification matrix; 1 if

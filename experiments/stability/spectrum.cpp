@@ -1,4 +1,3 @@
-// Jacobians and eigenvalues.
 #include "experiments/stability/spectrum.h"
 
 #include <Eigen/SparseCholesky>
@@ -27,7 +26,7 @@ Sparse assembled(const std::vector<Tangent::Pair>& pairs, const std::vector<int>
         for (int i = 0; i < 3; ++i)
           for (int j = 0; j < 3; ++j) {
             const int row = row_of[3 * a + i], column = row_of[3 * b + j];
-            if (i != j && p.along == p.across) continue;  // block is a multiple of the identity
+            if (i != j && p.along == p.across) continue;  // the block is a multiple of the identity
             if (row < 0 || column < 0) continue;
             parts.emplace_back(row, column, (a == b ? 1 : -1) * block(i, j) / (root[row] * root[column]));
           }
@@ -45,7 +44,6 @@ void dense_modes(Spectrum& s, double gamma) {
   for (const double w2 : dense.values) s.modes.push_back({root_or_zero(w2), gamma});
 }
 
-/// Computes the slowest and the fastest mode.
 void extreme_modes(Spectrum& s, double gamma) {
   const auto fast = largest_eigenpair(s.system.k, 1e-10);
   if (!fast) throw SolverFailure("the fastest mode was not found");
@@ -58,7 +56,7 @@ void extreme_modes(Spectrum& s, double gamma) {
   s.complete = false;
 }
 
-/// Computes the modes from the eigenvalues of ((0, I), (-K, -C)).
+/// From the eigenvalues of ((0, I), (-K, -C)).
 void quadratic_modes(Spectrum& s) {
   const int n = s.system.size();
   const Sparse c = s.system.damping();
@@ -196,7 +194,7 @@ std::optional<State> converged_rest(const Scene& scene) {
   } catch (const SolverFailure&) {
     return std::nullopt;
   }
-  // those stop at 1e-10 of the forces; perturbations as small as 1e-8 of a spring need the rest to its last digits
+  // the steps stop at 1e-10 of the forces; perturbations as small as 1e-8 of a spring need a more precise rest
   for (double left = largest_column(a); left > 0;) {
     const Linearised l = linearised(model, s);
     Sparse k = l.k;
@@ -216,8 +214,8 @@ std::optional<State> converged_rest(const Scene& scene) {
   return s;
 }
 
-/// True if the stiffness is negative in some direction: the signs of the pivots of K are those of its eigenvalues
-/// (J. J. Sylvester, 1852). Adds a billionth of the stiffest spring for rounding.
+/// True if the stiffness is negative in some direction: the signs of the pivots of K are those of its eigenvalues (J.
+/// J. Sylvester, 1852). Adds a billionth of the stiffest spring for rounding.
 bool is_saddle(const Model& model, const State& state) {
   const Linearised l = linearised(model, state);
   const double rounding = 1e-9 * stiffest_of(model);

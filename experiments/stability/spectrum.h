@@ -14,16 +14,16 @@ namespace crosscheck {
 /// triangles and the rotation of dashpots.
 struct Linearised {
   std::vector<int> free;                 // coordinates 3 i + axis of the particles that are not pinned
-  Eigen::VectorXd root_mass;             // square root of the mass of each, sqrt(kg)
+  Eigen::VectorXd root_mass;             // sqrt(kg), for each free coordinate
   Eigen::SparseMatrix<double> k;         // M^-1/2 K M^-1/2, 1/s^2
   Eigen::VectorXd drag;                  // diagonal of M^-1 C, 1/s
   Eigen::SparseMatrix<double> dashpots;  // M^-1/2 C M^-1/2 for the dashpots, 1/s
 
   int size() const { return static_cast<int>(free.size()); }
   bool has_dashpots() const { return dashpots.nonZeros() > 0; }
-  /// C including drag and dashpots.
+  /// C, with drag and dashpots.
   Eigen::SparseMatrix<double> damping() const;
-  /// Conversion of mass-weighted offsets to those of all particles (3 x n, m), and back; pins have none.
+  /// Conversion of mass-weighted offsets to those of all particles (3 x n, m), and back. Pins have zero offset.
   Points offsets(const Eigen::VectorXd& w, int particles) const;
   Eigen::VectorXd weighted(const Points& offsets) const;
 };
@@ -37,11 +37,10 @@ struct Vibration {
 struct Spectrum {
   Linearised system;
   /// If all particles have the same drag rate and there are no dashpots: the modes of K, from slow to fast. Otherwise
-  /// each eigenvalue z of the first-order Jacobian, as the vibration with |z| and -2 Re z, of which it is an
-  /// eigenvalue.
+  /// each eigenvalue z of the first-order Jacobian, as the vibration with |z| and -2 Re z that has this eigenvalue.
   std::vector<Vibration> modes;
-  Eigen::MatrixXd shapes;   // columns, mass-weighted, of length 1; of the modes if `commuting`
-  Eigen::VectorXd fastest;  // fastest shape of K, mass-weighted, of length 1
+  Eigen::MatrixXd shapes;   // columns, mass-weighted and normalised; of the modes if `commuting`
+  Eigen::VectorXd fastest;  // fastest shape of K, mass-weighted and normalised
   bool commuting = true;    // damping and stiffness have common modes
   bool complete = true;     // false: only some modes, see spectrum_of()
   double omega = 0;         // frequency of `fastest`, rad/s
@@ -57,11 +56,11 @@ struct Equilibrium {
   std::optional<State> rest;
   bool saddle = false;  // a saddle was found on the way, and left
 };
-/// The state of rest of experiments/measures.h, refined by Newton steps to the last digits: no acceleration of a
-/// particle exceeds 1e-11 of what its springs could cause. A rotation rests at the origin. An equilibrium with negative
-/// stiffness in some direction (omega^2 < 0) is a saddle, the end of motions that start in a plane of symmetry, and is
-/// not accepted as rest. It is left by random pushes of a hundredth of the shortest spring and more, until a stable
-/// rest is found. After three attempts there is no rest.
+/// The state of rest of experiments/measures.h, refined by Newton steps to the last digits: no acceleration exceeds
+/// 1e-11 of what the particle's springs could cause. A rotation rests at the origin. An equilibrium with negative
+/// stiffness in some direction (omega^2 < 0) is a saddle, where motions that start in a plane of symmetry end, and is
+/// not accepted as rest. Random pushes of at least a hundredth of the shortest spring move the scene away from it,
+/// until a stable rest is found. After three attempts there is no rest.
 Equilibrium equilibrium_of(const Scene& scene);
 
 }  // namespace crosscheck

@@ -1,5 +1,5 @@
 // Experiment `stability`: the largest stable step of every method on every scene, measured and predicted; growth rates
-// for rules without a stable step; and maps of the verdicts of runs.
+// for rules without a stable step; and maps of verdicts.
 #include "experiments/stability/stability.h"
 
 #include <fmt/format.h>
@@ -43,7 +43,7 @@ void add_growth(const Method& method, const Stepper& rule, const BaseState& base
   for (const double h : steps) {
     const double expected = growth_per_step(rule, vibration, h);
     if (expected == 1) continue;
-    // enough steps to change the amplitude tenfold and to average over rounding, but few enough to be affordable
+    // enough steps to change the amplitude tenfold and to average over rounding, but affordable
     const long count = std::clamp(std::lround(2.3 / std::abs(std::log(expected))), 100L, 2000L);
     const PerturbedRun trial = run_perturbed(method, base, h, count, {mode});
     if (!trial.of_mode) continue;
@@ -62,15 +62,15 @@ void add_growth(const Method& method, const Stepper& rule, const BaseState& base
   tables.add(table);
 }
 
-/// True for the rule whose failure is shown: the cheapest of order two, the recommended rule when stability limits the
-/// step.
+/// True for the rule whose failure is shown: the cheapest second-order rule, which we recommend when stability limits
+/// the step.
 bool shows_failure(const Method& method) {
   return method.family().is_subject() && method.stepper &&
          method.name == fmt::format("{}/{}", subject().name, method.stepper->name) && method.stepper->order == 2 &&
          method.stepper->evaluations == 1 && method.stepper->symplectic;
 }
 
-/// Runs the method and returns one sample per step h, up to a failure.
+/// One sample per step h, up to a failure.
 Trajectory steps_of(const Method& method, const Scene& scene, double h, int per_sample, int samples) {
   Recorder recorder;
   Run run{h / per_sample, h * samples, samples};
@@ -88,7 +88,8 @@ void add_failure(const Scene& scene, const Method& method, double limit, std::op
   const Trajectory run = steps_of(method, scene, h, 1, most);
   if (run.frames() > most) return;  // no failure from the scene's own start
   const Trajectory holds = steps_of(method, scene, h, 4, run.frames() - 1);
-  // pictures: the last frame in which no particle is farther off than half of the scene's size, and some frames before
+  // pictures: the last frame in which no particle is farther from the stable run than half the scene's size, and some
+  // frames before it
   const auto strayed = [&](int i) {
     return i >= holds.frames() || !run.x[i].allFinite() || largest_column(run.x[i] - holds.x[i]) > 0.5 * scene.size();
   };
@@ -117,7 +118,7 @@ void add_failure(const Scene& scene, const Method& method, double limit, std::op
 
 namespace {
 
-/// The reason why a method is not measured, or empty.
+/// Why a method is not measured; empty if it is.
 std::string why_not(const Method& method) {
   if (method.family().role == Role::truth) return "truth takes no steps";
   if (method.adaptive) return "steps that follow a tolerance";
@@ -132,15 +133,15 @@ bool is_dear(const Method& method, const Scene& scene) {
   return !is_small(scene) && (!rule || std::isinf(rule->limit(1, 0)));
 }
 
-/// True if two rules fail alike: both symplectic or neither, and both or neither with a stable step without drag.
+/// Both symplectic or neither, and both or neither with a stable step without drag.
 bool same_stability_class(const Stepper& a, const Stepper& b) {
   return a.symplectic == b.symplectic && (a.limit(1, 0) > 0) == (b.limit(1, 0) > 0);
 }
 
 bool has_linear_limit(const Stepper& rule) { return std::isfinite(rule.limit(1, 0)); }
 
-/// For scenes without rest, shows whether the motion is followed below a limit and lost above it: adds errors relative
-/// to the truth at the nearest steps that divide the sampling interval.
+/// For scenes without rest: shows whether the motion is followed below a limit and lost above it, by errors relative to
+/// the truth at the nearest steps that divide the sampling interval.
 void add_errors_beside_limit(const Scene& scene, const Method& method, LimitRow& row) {
   const Run whole = default_run(scene);
   const auto truth = truth_of(scene, whole);
@@ -190,7 +191,7 @@ Effort effort_for(const Method& method, const Scene& scene, bool full) {
                        : method.stepper || is_small(scene) ? Effort{4000, 0.002}
                                                            : Effort{1000, 0.01};
   if (!full) return least;
-  // a bisection takes about 25 runs; their length is limited by 0.5 s in total
+  // a bisection takes about 25 runs, which take 0.5 s in total
   const long steps = std::lround(0.5 / 25 / estimated_seconds(method, scene, 1));
   if (steps <= least.steps) return least;
   return {std::min(20000L, steps), std::min(least.precision, steps < 4000 ? 0.005 : 0.001)};
@@ -219,7 +220,7 @@ void add_limit(const Scene& scene, const Method& method, const Effort& effort, T
   if (measured.kind == MeasuredLimit::found) {
     row.measured = measured.limit(), row.precision = measured.precision();
     if (finite && predicted.limit > 0) row.deviation = measured.limit() / predicted.limit - 1;
-    // run at a twentieth above the failed step, with a perturbation large enough to be visible
+    // with a perturbation large enough to be visible
     row.above = run_perturbed(method, base, 1.05 * measured.failed, effort.steps, {perturbation.mode, 1e-3})
                     .effective_verdict();
     if (!base.at_rest) add_errors_beside_limit(scene, method, row);

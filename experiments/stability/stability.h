@@ -6,9 +6,7 @@
 
 namespace crosscheck {
 
-// Reasons for a deviation of the measured limit from the predicted one.
-
-/// The reason why the run may differ from theory, which describes small motion about one state.
+/// Why a run may differ from theory, which describes small motion about one state.
 inline std::string deviation_reason(const BaseState& base, const Method& method) {
   const Model& model = base.scene.model;
   std::vector<std::string> reasons;
@@ -25,7 +23,6 @@ inline std::string deviation_reason(const BaseState& base, const Method& method)
   return all;
 }
 
-/// A note about a saddle for the row; empty if there was none.
 inline std::string saddle_note(const BaseState& base) {
   if (!base.saddle) return "";
   return base.at_rest
@@ -33,7 +30,7 @@ inline std::string saddle_note(const BaseState& base) {
              : "the only equilibrium found is a saddle, not a rest";
 }
 
-/// The reason why the measurement differs from theory, or why there is no prediction; empty if they agree.
+/// Why the measurement differs from theory, or why there is no prediction; empty if they agree.
 inline std::string reason_for(const BaseState& base, const Method& method, const PredictedLimit& p,
                               const MeasuredLimit& m) {
   // a bracket is no more precise than its width
@@ -53,16 +50,14 @@ inline std::string reason_for(const BaseState& base, const Method& method, const
   }
 }
 
-/// The effort of a search.
 struct Effort {
   long steps;        // per run
   double precision;  // at which the bisection ends
 };
-/// Quick: fine on small scenes, coarse if each step solves an equation. Full: as fine as about 0.5 s of CPU time
-/// permits.
+/// Quick: fine on small scenes, coarse if each step solves an equation. Full: as fine as 0.5 s of CPU time permits.
 Effort effort_for(const Method& method, const Scene& scene, bool full);
 
-/// True for scenes that cost so little that every method is measured on them, with high precision.
+/// Small scenes cost so little that every method is measured on them, with high precision.
 inline bool is_small(const Scene& scene) { return scene.start.x.cols() <= 50; }
 
 /// Adds a row of table stability, and rows of stability-growth if steps multiply modes.
@@ -71,13 +66,13 @@ void add_limit(const Scene& scene, const Method& method, const Effort& effort, T
 /// A step at which runs fail within several steps, but not within one.
 inline double failing_step(double limit) { return 1.75 * limit; }
 
-/// Adds rows of stability-failure: the last steps of a run at that step from the scene's own start, four of which are
-/// shown in pictures, and a run that holds for comparison. Adds nothing if the run does not fail within 400 steps.
+/// Adds rows of stability-failure: the last steps of a run at failing_step() from the scene's own start, four of which
+/// are shown in pictures, and a run that holds for comparison. Nothing if the run does not fail within 400 steps.
 void add_failure(const Scene& scene, const Method& method, double limit, std::optional<double> growth,
                  TableSet& tables);
 
-/// True if the method's maps are drawn by default: methods of the peers, and for each way of failing the subject's
-/// first rule that fails in that way.
+/// True if the method's maps are drawn by default: the peers' methods, and for each way of failing the first rule of
+/// mysim that fails in that way.
 bool is_mapped(const Method& method);
 
 }  // namespace crosscheck

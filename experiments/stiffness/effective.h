@@ -7,7 +7,7 @@
 
 namespace crosscheck {
 
-/// Points of experiment `stiffness`, one per net.
+/// One per net.
 std::vector<Point> effective_stiffness_points(bool full);
 
 }  // namespace crosscheck

@@ -1,5 +1,5 @@
-// Virtual stretching: the moduli of a net, measured from the energy of its springs under small uniform strains,
-// independently of the formula of mysim/model/moduli.h.
+// Virtual stretching: a net's moduli from the energy of its springs under small uniform strains, independently of the
+// formula of mysim/model/moduli.h.
 #pragma once
 
 #include <Eigen/Core>
@@ -9,7 +9,6 @@
 
 namespace crosscheck {
 
-/// Springs of a square net, or of a cube, with spacing d (m).
 struct NetSprings {
   double structural, shear, bend;  // N/m
   double spacing;                  // m
@@ -25,9 +24,9 @@ class StrainedNets {
 
   /// Energy per area (J/m^2) or volume (J/m^3) if positions are multiplied by 1 + strain.
   double energy_density(const Eigen::Matrix3d& strain) const;
-  /// Stiffness (N/m) of a sheet in axes turned by an angle (rad) around its normal, for the strains along 1, along 2
-  /// and twice the shear. Uses central differences of the energy over strains of 1e-4; the nonlinearity of springs
-  /// causes an error of the order of the square of that.
+  /// Stiffness (N/m) of a sheet for the strains along 1, along 2 and twice the shear, in axes turned by an angle (rad)
+  /// around its normal. Uses central differences of the energy over strains of 1e-4, with a relative error of the order
+  /// of 1e-8 from the springs' nonlinearity.
   Eigen::Matrix3d stiffness(double angle) const;
   /// Young's modulus (N/m) of a sheet pulled at an angle from a row, free to contract and to shear.
   double young(double angle) const;
@@ -38,7 +37,7 @@ class StrainedNets {
   std::vector<Scene> scenes_;
 };
 
-/// Points of experiment `stiffness`: sheets of three kinds, pulled at 0 to 45 degrees from a row.
+/// Sheets of three kinds, pulled at 0 to 45 degrees from a row.
 std::vector<Point> pulled_sheet_points();
 
 }  // namespace crosscheck

@@ -1,5 +1,5 @@
-// Experiment `stiffness`: the actual stiffness of a position-based link in N/m, compared with the formula that maps it;
-// the validity of the formula in a network; and the stiffness of hanging nets over step and iterations (effective.cpp).
+// Experiment `stiffness`: the stiffness of a position-based link in N/m, compared with the formula that maps it; the
+// validity of the formula in a network; and the stiffness of hanging nets over step and iterations (effective.cpp).
 
 #include <fmt/format.h>
 
@@ -14,7 +14,7 @@
 namespace crosscheck {
 namespace {
 
-/// A chain of masses (kg) that hangs from a pin on links of k (N/m) and length 1 m, under g (m/s^2), with drag.
+/// Masses (kg) that hang from a pin on links of k (N/m) and length 1 m, under g (m/s^2), with drag.
 Scene hanging_chain(int masses, double mass, double k, double g, double gamma, double duration, double h) {
   std::string text = fmt::format(
       "question = \"q\"\nparameters = \"p\"\n[time]\nduration = {}\nsamples = 1\nstep = {}\nwindow = {}\n"
@@ -28,7 +28,7 @@ Scene hanging_chain(int masses, double mass, double k, double g, double gamma, d
   return parse_scene(text, "hanging-chain");
 }
 
-/// Displacement of the chain's end until the end of the run, m; the run must be long enough for it to come to rest.
+/// Displacement of the chain's end at the end of the run, m. The run must be long enough for it to come to rest.
 double sag(const Scene& scene, const std::string& method) {
   Recorder recorder;
   const Outcome out = run_method(find_method(method), scene, default_run(scene), {&recorder});

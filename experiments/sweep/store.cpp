@@ -1,4 +1,3 @@
-// Stores the list of points and their rows as JSON files.
 #include "experiments/sweep/store.h"
 
 #include <fmt/format.h>
@@ -48,8 +47,8 @@ PointList read_point_list(const std::filesystem::path& folder) {
 
 std::filesystem::path store_in(const std::filesystem::path& folder) { return folder / "points"; }
 
-// Cells: an empty cell is null, words are strings, whole numbers are integers, and numbers are floats. JSON has no NaN
-// and no infinity, which are written as {"number": "nan"}.
+// An empty cell is null, words are strings, whole numbers are integers, and numbers are floats. JSON has no NaN and no
+// infinity, which are written as {"number": "nan"}.
 
 namespace {
 

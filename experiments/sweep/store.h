@@ -11,7 +11,7 @@
 
 namespace crosscheck {
 
-// The list of a sweep's points, written next to the store so that shards can be joined later.
+// Written next to the store, so that shards can be joined later.
 
 struct PointList {
   struct Entry {
@@ -20,36 +20,34 @@ struct PointList {
   };
   std::vector<std::string> experiments;  // those with conclusions from the rows of all points
   std::vector<Entry> points;
-  Provenance provenance;  // provenance of the tables: command, commit, scenes, ...
+  Provenance provenance;  // origin of the tables: command, commit, scenes, ...
 };
 
 PointList point_list_of(std::vector<std::string> experiments, std::span<const Point> points, Provenance provenance);
 
 void write_point_list(const PointList& list, const std::filesystem::path& folder);
-/// Throws InputError with the name of the file and the expected content.
+/// Throws InputError with the file's name and the expected content.
 PointList read_point_list(const std::filesystem::path& folder);
 
-/// The folder for the points of a sweep with this output folder.
+/// The folder for points below the sweep's output folder.
 std::filesystem::path store_in(const std::filesystem::path& folder);
 
-// A table set as JSON, which reads back to the same bits: the stored form of a finished point.
+// JSON of a table set, which reads back to the same bits.
 
 std::string table_set_json(const TableSet& set);
-/// Throws InputError, "expected ...", if the text is not a table set.
 TableSet read_table_set(const std::string& text);
 
-// The folder in which a sweep keeps the rows of its points: one file per point, named by its hash.
+// A folder with the rows of finished points: one file per point, named by its hash.
 
 class Store {
  public:
   explicit Store(std::filesystem::path folder) : folder_(std::move(folder)) {}
   bool has(const std::string& hash) const { return find(hash).has_value(); }
-  /// Nothing if the point is missing. A file that cannot be read counts as missing, and `fault` gets the reason.
+  /// Nothing if the point is missing or its file cannot be read; `fault` gets the reason.
   std::optional<TableSet> find(const std::string& hash, std::string* fault = nullptr) const;
-  /// Writes under another name and renames the file, so that a killed run leaves only complete files.
+  /// Writes under another name and renames, so that a killed run leaves only complete files.
   void keep(const std::string& hash, const TableSet& tables) const;
-  /// Stores the reason of a failure in a separate file. The point remains missing; the next keep() or run replaces the
-  /// file.
+  /// Stores the reason of a failure. The point remains missing, and the next keep() or run replaces the file.
   void keep_failure(const std::string& hash, const std::string& why) const;
   void forget_failure(const std::string& hash) const;
   std::optional<std::string> failure_of(const std::string& hash) const;

@@ -1,4 +1,3 @@
-// Worker processes that take points from a shared counter.
 #include "experiments/sweep/sweep.h"
 
 #include <fmt/format.h>
@@ -22,8 +21,7 @@
 namespace crosscheck {
 namespace {
 
-/// Makes sure that children can be waited for, even if this program's parent ignores SIGCHLD. In that case the system
-/// would reap the children itself, and waitpid() would not find them.
+/// Makes waitpid() work even if this program's parent ignores SIGCHLD: the system would then reap the children itself.
 class DefaultSigchld {
  public:
   DefaultSigchld() {
@@ -39,7 +37,7 @@ class DefaultSigchld {
   struct sigaction before_ {};
 };
 
-/// One batch of points, timed or not, processed by `jobs` processes.
+/// Points, timed or not, that `jobs` processes compute.
 class Batch {
  public:
   Batch(std::vector<const Point*> points, int jobs, const Store& store, Progress& progress,
@@ -100,8 +98,7 @@ class Batch {
     const pid_t parent = getpid(), pid = progress_.fork();
     if (pid < 0) throw std::system_error(errno, std::generic_category(), "fork");
     if (pid == 0) {
-      // ends the worker if the sweep is killed, because a resumed sweep would otherwise compute the same points
-      // concurrently
+      // ends the worker if the sweep is killed, because a resumed sweep would compute the same points concurrently
       prctl(PR_SET_PDEATHSIG, SIGKILL);
       if (getppid() != parent) _exit(1);
       work(worker);

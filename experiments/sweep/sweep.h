@@ -1,4 +1,4 @@
-// Computes the points of a sweep. Finished points are not repeated; if a point fails, the others continue.
+// Computes the points of a sweep. Finished points are not repeated, and a failed point does not stop the others.
 #pragma once
 
 #include <span>
@@ -11,7 +11,7 @@
 
 namespace crosscheck {
 
-/// Part I of N of a list: its points I-1, I-1+N, I-1+2N, ...
+/// Points I-1, I-1+N, I-1+2N, ... of a list.
 struct Shard {
   int index = 1, count = 1;
   bool holds(size_t point) const { return static_cast<int>(point % static_cast<size_t>(count)) == index - 1; }
@@ -20,8 +20,8 @@ struct Shard {
 Shard shard_from(const std::string& text);
 
 struct SweepOptions {
-  LockPatience patience;  // patience of the command
-  int jobs = 0;           // concurrent processes; 0: one per core that this process may use
+  LockPatience patience;
+  int jobs = 0;  // concurrent processes; 0: one per core that this process may use
   Shard shard = {};
 };
 
@@ -30,18 +30,17 @@ struct FailedPoint {
 };
 
 /// Computes the shard's points that are missing in the store, and stores their rows. Points run in separate processes
-/// (an engine that crashes affects only one point, and Bullet keeps state per process). Timed points run after all
-/// others, one at a time, pinned to a core, while no other sweep of this user computes on the machine. Returns the
-/// points that threw or crashed; their rows are not stored.
+/// (a crash affects only one point, and Bullet keeps state per process). Timed points run after all others, one at a
+/// time, pinned to a core, while no other sweep of this user computes on the machine. Returns the points that threw or
+/// crashed, whose rows are not stored.
 std::vector<FailedPoint> run_points(std::span<const Point> points, const SweepOptions& options, const Store& store,
                                     Progress& progress);
 
-/// The rows of all points of the list in order, each from the first store that has it, and the conclusions of the
-/// list's experiments. Appends the names of points that no store has to `missing`, with the reason if a file cannot be
-/// read.
+/// The rows of all points in the order of the list, each from the first store that has it, and the conclusions of the
+/// list's experiments. Points that no store has are appended to `missing`, with the reason if a file cannot be read.
 TableSet joined(const PointList& list, std::span<const Store> stores, std::vector<std::string>& missing);
 
-/// Computes all points in this process, without a store: for a few points, and for tests. Lets exceptions through.
+/// Computes all points in this process, without a store. Lets exceptions through.
 TableSet computed(std::span<const Point> points);
 
 }  // namespace crosscheck

@@ -1,4 +1,3 @@
-// Memory shared by the processes of a sweep.
 #pragma once
 
 #include <sys/mman.h>
@@ -10,7 +9,7 @@
 
 namespace crosscheck {
 
-/// Memory shared by the parent and its workers. A worker that dies leaves the number of its point behind.
+/// Shared memory of the parent and its workers. A worker that dies leaves the index of its point behind.
 struct WorkQueue {
   static constexpr int most_workers = 256;
   std::atomic<int> next{0};
