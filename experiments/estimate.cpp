@@ -1,4 +1,3 @@
-// Estimates of time, memory and disk; progress of runs.
 #include "experiments/estimate.h"
 
 #include <fmt/format.h>
@@ -18,7 +17,6 @@
 namespace crosscheck {
 namespace {
 
-/// CPU time of one evaluation, s.
 double seconds_of_evaluation(const Method& method, const Scene& scene) {
   const auto* springs = scene.model.find<Springs>();
   const auto* bending = scene.model.find<Bending>();
@@ -116,7 +114,7 @@ Run with_duration(const Method& method, const Scene& scene, Run run, double dura
   longer.duration = duration;
   if (samples > most_samples) {
     const double interval = scene.duration / scene.samples;
-    longer.samples = 1, longer.duration = interval;  // the estimate of one interval is multiplied
+    longer.samples = 1, longer.duration = interval;  // estimates one interval, then multiplies
     const ResourceEstimate one = resource_estimate_of(method, scene, longer);
     const ResourceEstimate all{one.steps * samples, one.seconds * samples, one.memory, one.frames / 2 * samples};
     throw InputError(
@@ -157,7 +155,7 @@ void require_resources_to_keep(const std::vector<Method>& methods, const Scene& 
 
 namespace {
 
-/// Reports the progress of a run at its samples and forwards all calls.
+/// Reports the progress of a run at its samples, and forwards all calls.
 class ProgressObserver : public Observer {
  public:
   ProgressObserver(Observer& inner, double duration, Progress& progress)

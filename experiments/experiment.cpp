@@ -1,4 +1,3 @@
-// The table of experiments; the functions of points, table sets and requests.
 #include "experiments/experiment.h"
 
 #include <fmt/format.h>
@@ -66,13 +65,13 @@ std::span<const Experiment> experiments() {
   static constexpr std::string_view long_runs[] = {"spring", "pendulum"};
   // particles on balls; cloths, which show more, are probes of the experiment itself
   static constexpr std::string_view on_balls[] = {"slide", "bounce"};
-  // all scenes but the slowest: a cloth of hard lengths, and one on a ball
+  // all but the slowest: a cloth of hard lengths, and one on a ball
   static constexpr std::string_view timed_scenes[] = {"circle",   "projectile", "spring",        "normal-modes",
                                                       "pendulum", "chain",      "chain-link",    "rod",
                                                       "slide",    "bounce",     "cloth-student", "cloth-hang"};
   // moving scenes from small to large; the last is shared with the other experiments
   static constexpr std::string_view speed_charts[] = {"pendulum", "chain", "cloth-hang"};
-  // includes the hanging cloth: its rest on a coarse grid is another example of how stiffness scales with the grid
+  // includes the hanging cloth, whose rest on a coarse grid is another example of how stiffness scales with the grid
   static constexpr std::string_view all_and_swing[] = {"circle",
                                                        "projectile",
                                                        "spring",
@@ -88,7 +87,7 @@ std::span<const Experiment> experiments() {
                                                        "cloth-inextensible",
                                                        "cloth-swing",
                                                        "cloth-sphere"};
-  // scenes with removable ingredients, or with several families of springs to compare
+  // with removable ingredients, or with several families of springs to compare
   static constexpr std::string_view cloths[] = {"cloth-student", "cloth-hang", "cloth-inextensible", "cloth-swing",
                                                 "cloth-sphere"};
   static constexpr std::string_view stability_scenes[] = {"spring", "normal-modes", "cloth-hang"};
@@ -96,7 +95,7 @@ std::span<const Experiment> experiments() {
       {"engines", "Do mysim and Bullet agree on the same scene, and at what cost?", engines_points},
       {"speed-accuracy", "What error does each method have at which cost, and where does it fail?",
        speed_accuracy_points, timed_scenes, conclude_speed_accuracy, speed_charts},
-      // its longest points take longer than all others, and start early in a report
+      // near the front, because its longest points take longer than all others
       {"adequacy", "How little model is enough for a scene?", adequacy_points, all_and_swing, conclude_adequacy,
        cloths},
       {"order", "How fast does the error fall when the step is made smaller?", order_points},

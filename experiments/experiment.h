@@ -1,4 +1,4 @@
-// Experiments: their points and what a point computes, requests, and the table of experiments.
+// Experiments: their points, requests, and the table of experiments (experiment.cpp).
 #pragma once
 
 #include <deque>
@@ -21,7 +21,7 @@ namespace crosscheck {
 // A point is one piece of an experiment's work, independent of all others. A sweep computes points in any order, on any
 // machine, and keeps their tables.
 
-/// The tables of one point, or of all points, joined by appending the rows of tables of the same name.
+/// The tables of one point, or of several: rows of tables of the same name are joined.
 struct TableSet {
   std::vector<Table> tables;
   std::vector<Certificate> certificates;
@@ -30,11 +30,11 @@ struct TableSet {
   const Table* table(const std::string& name) const;
   /// Appends the rows to the table of the same name, or adds the table. Throws std::logic_error if the columns differ.
   void add(const Table& table);
-  /// Appends everything in `other`; notes that exist already are not repeated.
+  /// Notes that exist already are not repeated.
   void append(const TableSet& other);
 };
 
-/// The rows of the table Row::table; empty if there is no such table.
+/// The rows of table Row::table; empty if there is no such table.
 template <class Row>
 std::vector<Row> rows_of(const TableSet& tables) {
   const Table* table = tables.table(std::string(Row::table));
@@ -52,19 +52,16 @@ struct Point {
   std::shared_ptr<const Point> after = {};
   std::function<void(const TableSet&, TableSet&)> compute_from = {};
 
-  /// Fingerprint of name, content and program: 16 hexadecimal digits. Points of different builds are different points.
+  /// Fingerprint of name, content and program: 16 hexadecimal digits. Differs between builds.
   std::string hash() const;
 };
 
 /// A timed point that is computed from the rows of another one.
 Point timed_after(const Point& first, std::string name, std::function<void(const TableSet&, TableSet&)> compute_from);
 
-/// The data of a scene that rows depend on: its name, hash, times, tolerance and default method.
+/// The data of a scene that rows depend on: name, hash, times, tolerance and default method.
 std::string content_of(const Scene& scene);
 
-// Experiments: drivers that run methods over scenes and write tables. The table of them is in experiment.cpp.
-
-/// A run, recorded for playback.
 struct RecordedRun {
   Outcome outcome;
   Trajectory path;                  // its samples; for failed runs and cells of maps, the last frames; empty if refused
@@ -84,13 +81,12 @@ struct Request {
   std::vector<Method> methods;  // empty: the default ones of each scene
   bool full = false;            // more points of the same experiments
   double step = 0;              // s, for all fixed-step methods; 0: each scene's own step
-  bool scenes_only = false;     // these scenes only, without the experiments' own ones
+  bool scenes_only = false;     // omits the experiments' own scenes
   bool all_engines = false;     // compares all engines: those in WebAssembly run small scenes only
-  std::string reference = {};   // method that `engines` measures differences from; empty: representative of the subject
+  std::string reference = {};   // method that `engines` measures differences from; empty: the subject's representative
   RunCallback on_runs = {};     // receives the runs of engines, speed-accuracy and maps; rows do not depend on it
 };
 
-/// A method's run of a scene at the request's step, kept so that experiments and pictures share it.
 struct MethodResult {
   std::string scene, method;
   Outcome outcome;
@@ -101,14 +97,14 @@ struct MethodResult {
 
 struct Experiment {
   std::string_view name, question;
-  /// The list of points; equal requests give equal lists.
+  /// Equal requests give equal lists.
   std::vector<Point> (*points)(const Request&);
   /// The scenes of a quick run if no scene is named; empty: quick_scenes().
   std::span<const std::string_view> quick_scenes = {};
   /// Adds the tables that are derived from the rows of all points.
   void (*conclude)(TableSet&) = nullptr;
-  /// The scenes that have charts and playable runs of their own in a quick run if no scene is named; the others appear
-  /// in tables and in the charts of all scenes. Empty: all scenes have.
+  /// The scenes that get their own charts and playable runs in a quick run if no scene is named. Other scenes appear in
+  /// tables and joint charts only. Empty: all scenes.
   std::span<const std::string_view> quick_charts = {};
 };
 
@@ -127,17 +123,16 @@ std::vector<Point> fabric_points(const Request& request);
 std::vector<Point> matrix_points(const Request& request);
 void conclude_adequacy(TableSet& tables);
 void conclude_matrix(TableSet& tables);
-/// Adds the results that follow from the errors and costs of all scenes (speed_accuracy/work_precision.cpp).
 void conclude_speed_accuracy(TableSet& tables);
 
 std::span<const Experiment> experiments();
-/// The experiment with this current or former name, or null.
+/// Accepts former names, too. Null if there is none.
 const Experiment* experiment_named(std::string_view name);
-/// Throws InputError with a suggestion if there is no such experiment.
+/// Throws InputError with a suggestion if there is none.
 const Experiment& find_experiment(const std::string& name);
 
-/// The scenes of an experiment: the named ones; if none is named, all shipped scenes or, in a quick run, its quick
-/// ones. `methods` as for load_scene().
+/// The named scenes or, if none is named, all shipped ones (in a quick run, the experiment's quick ones). `methods` as
+/// for load_scene().
 std::vector<Scene> scenes_for(const Experiment& experiment, const std::vector<std::string>& names, bool full,
                               const std::string& methods = "");
 
@@ -148,20 +143,19 @@ bool has_own_charts(const std::string& experiment, const std::string& scene, boo
 /// Appends the scenes of `more` whose names are not in `all`.
 void add_missing(std::vector<Scene>& all, const std::vector<Scene>& more);
 
-/// The methods that run if none is named: all of mysim and Bullet. Excluded are truth methods (the reference for the
-/// others), external integrators (not engines), and single precision, which doubles the work and matters in few scenes.
+/// All methods of mysim and Bullet except truth methods (the reference for the others), external integrators (not
+/// engines) and single precision (doubles the work and matters in few scenes).
 std::vector<Method> default_methods();
-/// The methods that a request runs on a scene: the named ones, or all of mysim and Bullet. Scenes with contact also get
-/// the assignment's sticky sphere, to show its failure.
+/// The named methods, or default_methods(). For scenes with contact, default methods include the assignment's sticky
+/// sphere, to show its failure.
 std::vector<Method> methods_of(const Request& request, const Scene& scene);
 
-/// Results so far, in a deque so that references stay valid.
+/// A deque, so that references stay valid.
 using MethodResults = std::deque<MethodResult>;
 
 /// The method's result on the scene at the request's step, taken from `results` or computed and appended.
 MethodResult& result_of(const Request& request, const Scene& scene, const Method& method, MethodResults& results);
 
-/// Runs the method with a recorder as its only observer.
 MethodResult recorded_result(const Method& method, const Scene& scene, const Run& run);
 
 /// Adds the tables SCENE-energy and engines-energy: the ledgers of the results at the request's step, and the contact
@@ -169,10 +163,10 @@ MethodResult recorded_result(const Method& method, const Scene& scene, const Run
 void add_energies(const Request& request, const Scene& scene, const std::optional<Truth>& truth, MethodResults& results,
                   TableSet& tables);
 
-/// Runs experiment `engines` on one scene and keeps the results that it used.
+/// Runs experiment `engines` on one scene, and adds its results to `results`.
 void engines_on(const Request& request, const Scene& scene, MethodResults& results, TableSet& tables);
 
-/// One point per scene. `compute` receives a request for that scene alone. The content is that of scene and request.
+/// `compute` receives a request for that scene alone. The content is that of scene and request.
 std::vector<Point> one_point_per_scene(const Request& request, const std::string& experiment,
                                        void (*compute)(const Request&, const Scene&, TableSet&));
 
@@ -180,10 +174,10 @@ std::vector<Point> one_point_per_scene(const Request& request, const std::string
 /// the step and the number of points.
 std::string content_of(const Request& request, const Scene& scene);
 
-/// True if the method would take too long on the scene in a report of all engines.
+/// True if the method takes too long on the scene for a report of all engines.
 bool is_left_out(const Request& request, const Method& method, const Scene& scene);
 
-/// The default run of the scene, at the request's step if it has one.
+/// The scene's default run, at the request's step if it has one.
 Run run_of(const Request& request, const Scene& scene);
 
 }  // namespace crosscheck

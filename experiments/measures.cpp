@@ -1,4 +1,3 @@
-// Rest by dynamic relaxation, and measures from runs that are observed at every step.
 #include "experiments/measures.h"
 
 #include <algorithm>
@@ -81,7 +80,7 @@ class StepObserver : public Observer {
 /// Observes every step of a run of this duration (s); returns false if it failed.
 using MeasuringRun = std::function<bool(double duration, const std::function<void(const State&)>& look)>;
 
-/// A run of leapfrog, or of xpbd for hard distances, at a step of h_omega over the highest frequency.
+/// Leapfrog (xpbd for hard distances) with a step of h_omega over the highest frequency.
 MeasuringRun run_at(const Scene& scene, double h_omega) {
   return [&scene, h_omega](double duration, const std::function<void(const State&)>& look) {
     const bool hard = scene.model.find<Constraints>() != nullptr;

@@ -9,29 +9,24 @@
 namespace crosscheck {
 
 /// The state of rest under gravity, springs and steady winds, with the pins in their initial places. Uses dynamic
-/// relaxation with kinetic damping: all velocities are set to zero at each peak of the kinetic energy, until the RMS
-/// acceleration of the free particles is 1e-5 of its largest value. Drag is left out, because it does not affect the
-/// rest. Nothing if there is no rest to find: first-order scenes, hard distances, spheres, gusts, moving pins, no pins,
-/// or no rest within a hundred thousand steps.
+/// relaxation with kinetic damping: sets all velocities to zero at each peak of the kinetic energy, until the RMS
+/// acceleration of the free particles is 1e-5 of its largest value. Omits drag, which does not affect the rest. Returns
+/// nothing if there is no rest after a hundred thousand steps, and for first-order scenes, hard distances, spheres,
+/// gusts, moving pins and scenes without pins.
 std::optional<State> rest_of(const Scene& scene);
 
-// Measures that a [wish] can prescribe.
-
-/// Runs that a measure is taken from.
 enum class MeasuredBy {
   one_run,         // one run of leapfrog, accurate to a few per cent
   converged_runs,  // leapfrog at halved steps, extrapolated until the change is below 1e-4 of the measure
   own_method,      // the scene's method at its step, as in `crosscheck run`
 };
 
-/// Largest displacement of a particle along gravity between the start and the state of rest, m. Nothing if there is no
-/// such rest (see rest_of()).
+/// Largest displacement of a particle along gravity between the start and the state of rest, m. Nothing if rest_of()
+/// finds no rest.
 std::optional<double> sag_of(const Scene& scene);
 
-/// Period of the slowest visible oscillation of the centre of mass of the free particles, s: twice the mean time
-/// between turning points of its path, projected on the direction of largest motion. A turning point counts if the path
-/// turns back by at least a tenth of its whole range. Nothing if there are fewer than three turning points in 72 times
-/// `about` (s), the expected period.
+/// Period of the slowest visible oscillation of the centre of mass of the free particles, s (see period_of_path()).
+/// Nothing if there are fewer than three turning points in 72 times `about` (s), the expected period.
 std::optional<double> period_of(const Scene& scene, double about, MeasuredBy by = MeasuredBy::converged_runs);
 
 /// Time after which the mechanical energy above that at rest (kinetic, elastic and gravitational) stays below a

@@ -1,4 +1,3 @@
-// Metrics of single trajectories and of perturbed runs.
 #include "experiments/metrics.h"
 
 #include <algorithm>

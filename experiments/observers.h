@@ -11,10 +11,8 @@
 
 namespace crosscheck {
 
-// The last moments of a run, with frames as close together as its fastest vibration requires.
-
-/// Keeps the last 25 frames of a run, whatever its length: eight per period of the vibration omega (rad/s), or every
-/// step if steps are longer than that or nothing vibrates. Thus no motion appears slower than it was.
+/// Keeps the last 25 frames of a run: eight per period of the vibration omega (rad/s), or every step if steps are
+/// longer than that or nothing vibrates. Thus no motion appears slower than it was.
 class LastFrames : public Observer {
  public:
   LastFrames(double omega, double h)
@@ -37,9 +35,7 @@ class LastFrames : public Observer {
   std::deque<State> kept_;
 };
 
-// A limit on the CPU time of runs.
-
-/// Ends a run that takes much longer than it should. An adaptive rule takes ever shorter steps in an exploding motion.
+/// Ends a run that takes too long: an adaptive rule takes ever shorter steps in an exploding motion.
 class TimeoutObserver : public Observer {
  public:
   explicit TimeoutObserver(double seconds)

@@ -1,4 +1,3 @@
-// Turning points of a path, and the period that follows from them.
 #include "experiments/period.h"
 
 #include <algorithm>
@@ -8,7 +7,7 @@
 namespace crosscheck {
 namespace {
 
-/// Times of the turning points of y(t) that turn back by `least` or more, at the vertex of a parabola through three
+/// Times of the turning points of y(t) that turn back by at least `least`, at the vertex of a parabola through three
 /// points.
 std::vector<double> turning_points(const std::vector<double>& t, const std::vector<double>& y, double least) {
   std::vector<double> out;

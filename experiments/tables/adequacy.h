@@ -5,7 +5,7 @@
 
 namespace crosscheck {
 
-/// Ablation that a model belongs to: none, a single ingredient, or an ingredient together with all before it.
+/// A model is complete, lacks a single ingredient, or lacks an ingredient together with all before it.
 enum class ModelKind { full, single, cumulative };
 constexpr std::string_view name_of(ModelKind kind) {
   return kind == ModelKind::full ? "full" : kind == ModelKind::single ? "single" : "cumulative";
@@ -13,7 +13,6 @@ constexpr std::string_view name_of(ModelKind kind) {
 template <>
 inline constexpr std::pair range_of<ModelKind>{ModelKind::full, ModelKind::cumulative};
 
-/// Origin of a tolerance.
 enum class ToleranceKind { of_scene, hundredth_of_motion, tenth_of_motion };
 constexpr std::string_view name_of(ToleranceKind kind) {
   return kind == ToleranceKind::of_scene              ? "the scene's own"
@@ -23,7 +22,7 @@ constexpr std::string_view name_of(ToleranceKind kind) {
 template <>
 inline constexpr std::pair range_of<ToleranceKind>{ToleranceKind::of_scene, ToleranceKind::tenth_of_motion};
 
-/// A quantity that scales with a power of the number of cells.
+/// Quantities that scale with a power of the number of cells.
 enum class ScalingQuantity { error, stiffness_for_sag, bend_stiffness_for_droop };
 constexpr std::string_view name_of(ScalingQuantity quantity) {
   return quantity == ScalingQuantity::error               ? "error of the motion against cells along a side"
@@ -33,7 +32,6 @@ constexpr std::string_view name_of(ScalingQuantity quantity) {
 template <>
 inline constexpr std::pair range_of<ScalingQuantity>{ScalingQuantity::error, ScalingQuantity::bend_stiffness_for_droop};
 
-/// A model of a scene with some of its ingredients left out.
 struct AdequacyRow {
   TABLE("adequacy");
   COLUMN(std::string, scene, "scene", "1", "scene");
@@ -53,7 +51,7 @@ struct AdequacyRow {
   COLUMN(double, cost, "cost", "spring evaluations", "force evaluations times springs");
 };
 
-/// The smallest model of a scene within a tolerance.
+/// The smallest sufficient model of a scene at one tolerance. `holds` is about three other initial states.
 struct LeastModelRow {
   TABLE("adequacy-least");
   COLUMN(std::string, scene, "scene", "1", "scene");

@@ -13,7 +13,6 @@ inline std::string_view name_of(RelationMark mark) {
 template <>
 inline constexpr std::pair range_of<RelationMark>{RelationMark::holds, RelationMark::not_applicable};
 
-/// A relation that was checked for a method.
 struct RelationRow {
   TABLE("relations");
   COLUMN(std::string, method, "method", "1", "method that was checked");

@@ -5,7 +5,7 @@
 
 namespace crosscheck {
 
-/// The behaviour of a particle on a slope: sticks (hardly moves), slides (Coulomb's distance), or neither.
+/// A particle on a slope sticks (hardly moves), slides (Coulomb's distance), or neither.
 enum class ContactState { sticks, slides, neither };
 constexpr std::string_view name_of(ContactState state) {
   return state == ContactState::sticks ? "sticks" : state == ContactState::slides ? "slides" : "neither";
@@ -67,12 +67,12 @@ struct ConeRow {
   COLUMN(ContactState, state_by_theory, "answer by theory", "1", "that answer by Coulomb's law");
 };
 
-/// A particle at rest on a plane. The friction coefficients next to the limit differ from it by a thousandth.
+/// On a plane. The friction coefficients next to the limit differ from it by a thousandth.
 struct PlaneConeRow : ConeRow {
   static constexpr std::string_view table = "plane-cone";
 };
 
-/// Motions on planes that have a closed form, each characterised by a dimensionless number.
+/// Motions on planes with a closed form, each characterised by a dimensionless number.
 enum class PlaneProbe { apex, period, loss, held };
 constexpr std::string_view name_of(PlaneProbe probe) {
   return probe == PlaneProbe::apex     ? "height of the third apex over that of the drop"
@@ -95,7 +95,7 @@ struct PlaneProbeRow {
   COLUMN(double, by_theory, "by theory", "1", "value from the closed form");
 };
 
-/// The final state of a cloth on a ball.
+/// Final state of a cloth on a ball.
 struct DrapeRow {
   TABLE("sphere-drape");
   COLUMN(std::string, scene, "scene", "1", "scene");
@@ -117,7 +117,6 @@ struct DrapeRow {
          "largest distance of a particle from its partner's mirror image at the end");
 };
 
-/// The penetration depth of a cloth into a ball.
 struct PenetrationRow {
   TABLE("sphere-penetration");
   COLUMN(std::string, scene, "scene", "1", "scene");

@@ -37,7 +37,6 @@ struct PhaseCostRow {
   COLUMN(std::string, how, "how", "1", "method of measurement");
 };
 
-/// The machine's peaks, and the spring kernel in comparison.
 struct RooflineRow {
   TABLE("roofline-cost");
   COLUMN(std::string, what, "what", "1", "loop that was timed");

@@ -1,4 +1,3 @@
-// The data dictionary, made from one list of all row types.
 #include "experiments/tables/dictionary.h"
 
 #include <algorithm>
@@ -51,7 +50,6 @@ struct DictionaryRow {
   COLUMN(std::string, description, "description", "1", "description of the column");
 };
 
-/// A declared table, without its rows.
 struct DeclaredTable {
   std::string_view name;
   std::span<const TypedColumn> columns;

@@ -10,10 +10,10 @@ namespace crosscheck {
 /// Table "dictionary": table, column, unit, type and description of each column, in the order of the list of row types.
 /// Tables that exist once per scene are listed as SCENE-..., those of disagreements as NAME-....
 Table dictionary();
-/// Table "dictionary" restricted to the tables in `present`.
+/// Restricted to the tables in `present`.
 Table dictionary(std::span<const Table> present);
 
-/// A table read from a file, with the types that its row type declares: in a file, a number that happens to be whole
+/// Gives a table read from a file the types that its row type declares: in a file, a number that happens to be whole
 /// looks like a count. Tables without a row type are returned unchanged. Throws InputError as rows_of() does.
 Table with_declared_types(Table read);
 

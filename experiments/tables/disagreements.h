@@ -5,7 +5,6 @@
 
 namespace crosscheck {
 
-/// A case in which one of Bullet's worlds solves a different problem from the scene's.
 struct DisagreementRow {
   TABLE("disagreements");
   COLUMN(std::string, name, "name", "1", "name of the disagreement and of its scene");
@@ -20,7 +19,7 @@ struct DisagreementRow {
   COLUMN(std::string, scene_hash, "scene hash", "1", "fingerprint of the scene file");
 };
 
-/// A disagreement over time. The last column of each such table is named after the quantity that it holds.
+/// A disagreement over time. The last column of each table is named after its quantity.
 struct DisagreementCurveRow {
   TABLE("NAME-disagreement");
   COLUMN(std::string, curve, "curve", "1", "title of the curve");
@@ -31,7 +30,7 @@ struct DisagreementCurveRow {
   COLUMN(double, value, "QUANTITY", "UNIT", "quantity that shows the disagreement; the file has its name and unit");
 };
 
-/// Direction in which a ball pushes.
+/// Direction in which a ball pushes a particle.
 struct ContactAngleRow {
   TABLE("NAME-angles");
   COLUMN(std::string, method, "method", "1", "method that was run");

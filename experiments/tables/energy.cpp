@@ -1,4 +1,3 @@
-// Writes the ledger of a run as rows.
 #include "experiments/tables/energy.h"
 
 namespace crosscheck {

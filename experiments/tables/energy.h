@@ -1,4 +1,3 @@
-// The energies of runs as tables.
 #pragma once
 
 #include "experiments/tables/typed.h"
@@ -45,7 +44,6 @@ struct SceneLedgerRow {
   COLUMN(OptionalNumber, largest_residual, "largest residual", "J", "largest absolute value of the residual so far");
 };
 
-/// A run of very many steps.
 struct EnergyRow {
   TABLE("energy");
   COLUMN(std::string, scene, "scene", "1", "scene");
@@ -85,7 +83,6 @@ struct EnergyRow {
   COLUMN(OptionalNumber, pins, "pins gave", "J", "work done by moving pins over the run");
 };
 
-/// The numerical damping of a rule on an undamped oscillator.
 struct DampingRow {
   TABLE("energy-damping");
   COLUMN(std::string, method, "method", "1", "method that was run");
@@ -99,8 +96,8 @@ struct DampingRow {
          "equivalent drag by the stability function of the rule; empty if the rule has none");
 };
 
-/// Appends the ledger of one run. The balance error is empty if the contact loss was inferred, because no closed
-/// balance is claimed then.
+/// Appends the ledger of one run. If the contact loss was inferred, the balance is not closed, and the balance error is
+/// empty.
 void add_ledger(Table& table, const std::string& method, const std::vector<LedgerRow>& rows, bool contact_inferred);
 
 }  // namespace crosscheck

@@ -5,7 +5,7 @@
 
 namespace crosscheck {
 
-/// Tier of a truth. A solution that the in-house contact rule converges to is a truth of that rule only.
+/// Tier of a truth. A limit of the in-house contact rule is a truth of that rule only.
 struct TruthKind {
   Tier tier = Tier::exact;
   bool of_contact_rule = false;

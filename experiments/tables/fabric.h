@@ -27,7 +27,7 @@ struct StripVibrationRow {
   COLUMN(double, deviation, "deviation", "1", "frequency over that of the beam, less 1");
 };
 
-/// A strip with the bending term, compared with one of skip-one springs that droops alike on one grid.
+/// A strip with the bending term, and one whose skip-one springs give the same droop on one grid.
 struct SkipOneRow {
   TABLE("fabric-skip-one");
   COLUMN(std::string, net, "net", "1", "model of the bending resistance");
@@ -47,7 +47,7 @@ struct HangingStripRow {
   COLUMN(double, deviation, "deviation", "1", "sag over the true sag, less 1");
 };
 
-/// The shape of that strip on one grid: the true curve and, at each particle, the position in the net.
+/// The shape of that strip on one grid: the true curve, and the particles of the net.
 struct HangingShapeRow {
   TABLE("fabric-hanging-shapes");
   COLUMN(double, gamma, "gamma", "1", "weight per area x length^3 / rigidity; 0: without bending");
@@ -57,7 +57,7 @@ struct HangingShapeRow {
   COLUMN(OptionalNumber, net_height, "net height", "m", "height of the particle at that place");
 };
 
-/// A round cloth over a disc: a state of rest, found from one start.
+/// A state of rest of a round cloth over a disc, found from one start.
 struct DrapedDiscRow {
   TABLE("fabric-drapes");
   COLUMN(std::string, start, "start", "1", "initial shape of the search");
@@ -69,7 +69,7 @@ struct DrapedDiscRow {
   COLUMN(double, energy, "energy", "J", "elastic and gravitational energy above that of the flat sheet");
 };
 
-/// The particles of the drape of lowest energy, on one grid.
+/// The drape of lowest energy on one grid.
 struct DrapedParticleRow {
   TABLE("fabric-drape-shape");
   COLUMN(long, ring, "ring", "1", "number of the ring, from the edge of the disc outwards; the first two are pinned");

@@ -1,1 +1,1 @@
-// Contains no code: the headers that the rooms above mysim share are precompiled once, for this target.
+// No code: precompiles the headers that the rooms above mysim share, once for this target.

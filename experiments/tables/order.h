@@ -5,7 +5,6 @@
 
 namespace crosscheck {
 
-/// A method at one step.
 struct OrderRow {
   TABLE("order");
   COLUMN(std::string, scene, "scene", "1", "scene");

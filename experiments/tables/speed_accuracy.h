@@ -5,7 +5,6 @@
 
 namespace crosscheck {
 
-/// The kind of a run's setting: a step, or the tolerance of an adaptive method.
 enum class SettingKind { step, tolerance };
 inline std::string_view name_of(SettingKind kind) { return kind == SettingKind::step ? "step [s]" : "tolerance [1]"; }
 template <>
@@ -22,7 +21,6 @@ inline std::string_view name_of(RunEnd end) { return end == RunEnd::ok ? "ok" : 
 template <>
 inline constexpr std::pair range_of<RunEnd>{RunEnd::ok, RunEnd::failed};
 
-/// The cost by which runs are compared.
 enum class Cost { evaluations, cpu };
 
 /// Errors of every method at many steps or tolerances.
@@ -52,7 +50,7 @@ struct SpeedAccuracyRow {
   COLUMN(std::string, different_law, "different law", "1", "ingredients that the method models with a different law");
 };
 
-/// CPU time of the same runs, or of their first part.
+/// CPU time of the runs in `speed-accuracy`, or of their first part.
 struct SpeedAccuracyTimingRow {
   TABLE("speed-accuracy-timing-cost");
   COLUMN(std::string, scene, "scene", "1", "scene");
@@ -68,7 +66,6 @@ struct SpeedAccuracyTimingRow {
   COLUMN(double, noise, "noise", "1", "relative difference of two measurements of the same run");
 };
 
-/// CPU time of whole runs.
 struct SpeedAccuracyCostRow {
   TABLE("speed-accuracy-cost");
   COLUMN(std::string, scene, "scene", "1", "scene");
@@ -87,7 +84,7 @@ struct SpeedAccuracyCostRow {
   COLUMN(std::string, build, "build", "1", "build that the timed code comes from");
 };
 
-/// Runs of the Pareto front: no cheaper run is as accurate.
+/// No cheaper run is as accurate.
 template <Cost kind>
 struct ParetoRow {
   static constexpr bool timed = kind == Cost::cpu;
@@ -101,7 +98,6 @@ struct ParetoRow {
   COLUMN(double, requested, "asked", "see setting", "requested step or tolerance");
 };
 
-/// Cheapest run within an accuracy, over all methods and over those of Bullet.
 template <Cost kind>
 struct CheapestRow {
   static constexpr bool timed = kind == Cost::cpu;
@@ -131,7 +127,6 @@ struct CheapestRow {
   COLUMN(std::optional<std::string>, remark, "remark", "1", "why there is no run");
 };
 
-/// Cheapest run of each engine within an accuracy, compared with mysim's.
 struct EngineSpeedRow {
   TABLE("speed-accuracy-engines-cost");
   COLUMN(std::string, scene, "scene", "1", "scene");

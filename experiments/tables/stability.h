@@ -15,7 +15,6 @@ inline constexpr std::pair range_of<LimitState>{LimitState::rest, LimitState::st
 
 enum class PredictionKind { limit, no_step, every_step, none };
 inline std::string_view name_of(PredictionKind kind) {
-  // in the order of the kinds
   constexpr std::string_view names[] = {"limit", "no stable step", "every step", "none"};
   return names[static_cast<int>(kind)];
 }
@@ -29,12 +28,11 @@ struct MeasuredLimit {
   std::string reason;           // for a refusal
   /// Geometric mean of the bracket, s.
   double limit() const { return kind == found ? std::sqrt(held * failed) : 0; }
-  /// Width of the bracket over its lower end; 0 if there is no bracket.
+  /// Width of the bracket over its lower end.
   double precision() const { return kind == found ? failed / held - 1 : 0; }
 };
 
 inline std::string_view name_of(MeasuredLimit::Kind kind) {
-  // in the order of the kinds
   constexpr std::string_view names[] = {"limit", "no stable step", "every step tried", "held up to a refusal",
                                         "unsupported"};
   return names[kind];
@@ -42,7 +40,6 @@ inline std::string_view name_of(MeasuredLimit::Kind kind) {
 template <>
 inline constexpr std::pair range_of<MeasuredLimit::Kind>{MeasuredLimit::found, MeasuredLimit::unsupported};
 
-/// Largest stable steps, measured and predicted.
 struct LimitRow {
   TABLE("stability");
   COLUMN(std::string, scene, "scene", "1", "scene");
@@ -72,7 +69,7 @@ struct LimitRow {
   COLUMN(OptionalNumber, truth_bar, "truth bar", "m", "error bar of the truth");
 };
 
-/// One step of a run above its method's limit, from the scene's own start.
+/// One step of a run at failing_step(), from the scene's own start.
 struct FailureRow {
   TABLE("stability-failure");
   COLUMN(std::string, scene, "scene", "1", "scene");
@@ -89,7 +86,6 @@ struct FailureRow {
   COLUMN(bool, still, "still", "1", "1 if the report shows a picture of this moment");
 };
 
-/// Growth of one mode per step.
 struct GrowthRow {
   TABLE("stability-growth");
   COLUMN(std::string, scene, "scene", "1", "scene");
@@ -104,7 +100,7 @@ struct GrowthRow {
   COLUMN(double, deviation, "deviation", "1", "measured over predicted growth, less 1");
 };
 
-/// Cells of maps: one run per cell.
+/// One run of a map.
 struct MapRow {
   TABLE("stability-map");
   COLUMN(std::string, scene, "scene", "1", "scene");
@@ -117,7 +113,6 @@ struct MapRow {
   COLUMN(OptionalNumber, growth, "growth", "1", "growth of the initial perturbation over the run");
 };
 
-/// Largest stable steps for the rows of maps.
 struct MapLimitRow {
   TABLE("stability-map-limit");
   COLUMN(std::string, scene, "scene", "1", "scene");
@@ -129,7 +124,7 @@ struct MapLimitRow {
   COLUMN(OptionalNumber, failed, "failed", "s", "smallest step at which a run failed");
 };
 
-/// Cells of maps whose verdict changes in runs ten times longer.
+/// Verdicts of a map's cells that change in runs ten times longer.
 struct MapCheckRow {
   TABLE("stability-map-check");
   COLUMN(std::string, scene, "scene", "1", "scene");

@@ -5,7 +5,6 @@
 
 namespace crosscheck {
 
-/// One position-based link.
 struct LinkStiffnessRow {
   TABLE("stiffness");
   COLUMN(double, kLST, "kLST", "1", "Bullet's linear stiffness of the link");
@@ -16,7 +15,6 @@ struct LinkStiffnessRow {
   COLUMN(double, deviation, "deviation", "1", "measured over formula, less 1");
 };
 
-/// A chain of three position-based links.
 struct NetworkStiffnessRow {
   TABLE("stiffness-network");
   COLUMN(double, stiffness, "k h^2/mu", "1",
@@ -28,7 +26,6 @@ struct NetworkStiffnessRow {
   COLUMN(double, deviation, "deviation", "1", "measured sag over the expected one, less 1");
 };
 
-/// The effective stiffness of a hanging net under a method, from its sag and from its period.
 struct EffectiveStiffnessRow {
   TABLE("stiffness-effective");
   COLUMN(std::string, net, "net", "1", "net that hangs: a chain, or a cloth held along its upper edge");
@@ -49,7 +46,6 @@ struct EffectiveStiffnessRow {
          "effective stiffness over the requested one: (period asked / period)^2");
 };
 
-/// A sheet of springs pulled at an angle from its rows.
 struct PulledSheetRow {
   TABLE("stiffness-sheets");
   COLUMN(std::string, net, "net", "1", "springs of the sheet");

@@ -1,4 +1,3 @@
-// Writes and reads CSV; converts rows to structs and back.
 #include "experiments/tables/table.h"
 
 #include <fmt/format.h>
@@ -70,7 +69,6 @@ void write_csv(const Table& table, const Provenance& provenance, const std::file
 
 namespace {
 
-/// Reads CSV text record by record.
 class Reader {
  public:
   Reader(std::string text, std::filesystem::path file) : text_(std::move(text)), file_(std::move(file)) {}
@@ -164,7 +162,7 @@ std::vector<Cell> cells_of(std::span<const TypedColumn> typed, const void* row) 
 
 namespace {
 
-/// Calls `work` for each column with its index; exceptions get the names of the table and column.
+/// Calls `work` for each column with its index. Exceptions get the names of the table and column.
 template <class Do>
 void with_each(std::span<const TypedColumn> typed, const Table& table, const Do& work) {
   for (size_t i = 0; i < typed.size(); ++i) try {

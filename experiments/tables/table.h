@@ -11,11 +11,11 @@
 
 namespace crosscheck {
 
-/// Empty means not applicable. nan and inf are allowed in failed rows only.
+/// Empty: not applicable. nan and inf are allowed in failed rows only.
 using Cell = std::variant<std::monostate, std::string, double, long>;
 inline Cell cell_of(const std::optional<double>& value) { return value ? Cell(*value) : Cell(); }
 
-/// `# key: value` lines above a table: the program that made these numbers, its input and its tools.
+/// `# key: value` lines above a table: the program that made the numbers, its input and its tools.
 using Provenance = std::vector<std::pair<std::string, std::string>>;
 
 struct Column {
@@ -28,22 +28,20 @@ struct Table {
   std::vector<Column> columns;
   std::vector<std::vector<Cell>> rows;
 
-  void add(std::vector<Cell> row);  // throws std::logic_error unless it has as many cells as there are columns
+  void add(std::vector<Cell> row);            // throws std::logic_error unless it has one cell per column
   int column(const std::string& name) const;  // throws std::out_of_range with the name
   const Cell& at(size_t row, const std::string& column) const { return rows[row][this->column(column)]; }
 };
 
-/// Text of a number with 17 significant digits, which reads back to the same bits.
+/// 17 significant digits, which read back to the same bits.
 std::string exact_text(double value);
 
-/// A row of the CSV text, without the line feed.
+/// Without the line feed.
 std::string csv_row(const std::vector<Cell>& row);
 
-/// CSV text as in RFC 4180: comma, LF, quotes where needed; one header row "name [unit]".
+/// RFC 4180: comma, LF, quotes where needed; one header row "name [unit]".
 std::string csv(const Table& table, const Provenance& provenance);
 void write_csv(const Table& table, const Provenance& provenance, const std::filesystem::path& folder);
-
-// Look-ups of cells, for charts, sentences and conclusions.
 
 /// Throws std::bad_variant_access if the cell is not text.
 inline const std::string& text_at(const Table& table, size_t row, const std::string& column) {
@@ -69,7 +67,7 @@ inline bool flag_at(const Table& table, size_t row, const std::string& column) {
   const auto* flag = std::get_if<long>(&table.at(row, column));
   return flag && *flag != 0;
 }
-/// The distinct texts of a column, in order of first appearance.
+/// In order of first appearance.
 inline std::vector<std::string> distinct(const Table& table, const std::string& column) {
   std::vector<std::string> all;
   for (size_t i = 0; i < table.rows.size(); ++i)
@@ -78,11 +76,8 @@ inline std::vector<std::string> distinct(const Table& table, const std::string& 
   return all;
 }
 
-// Tables read back from their files.
-
-/// Reads a table that write_csv() wrote, without its provenance. Cells that read as whole numbers are long, other
-/// numbers are double. In a column that holds any other text, or nothing at all, all cells are text. Throws InputError:
-/// "FILE:LINE: expected ...".
+/// Reads a table that write_csv() wrote, without its provenance. Whole numbers become long, others double. In a column
+/// with any other text, or without content, all cells are text. Throws InputError: "FILE:LINE: expected ...".
 Table read_csv(const std::filesystem::path& file);
 
 }  // namespace crosscheck

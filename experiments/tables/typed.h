@@ -1,4 +1,4 @@
-// Tables as structs: a row is a struct that declares its columns once, for writers and readers.
+// Tables as structs: a row type declares its columns once, for writers and readers.
 #pragma once
 
 #include <fmt/format.h>
@@ -17,7 +17,7 @@
 
 namespace crosscheck {
 
-/// First and last value of an enum in tables, whose cells hold name_of(value). Specialised next to each enum.
+/// First and last value of an enum, whose cells hold name_of(value). Specialised next to each enum.
 template <class Enum>
 inline constexpr std::pair<Enum, Enum> range_of;
 template <>
@@ -28,7 +28,7 @@ inline constexpr std::pair range_of<Tier>{Tier::exact, Tier::another_engine};
 template <class T>
 struct CellOf;
 
-/// The value as a cell: enums as name_of(value), bool as 1 or 0, an empty optional as an empty cell.
+/// Enums as name_of(value), bool as 1 or 0, an empty optional as an empty cell.
 template <class T>
 Cell to_cell(const T& value) {
   return CellOf<T>::write(value);
@@ -46,7 +46,7 @@ struct CellOf<std::string> {
 template <>
 struct CellOf<double> {
   static Cell write(double value) { return value; }
-  static double read(const Cell& cell) {  // accepts whole numbers of a file, too
+  static double read(const Cell& cell) {  // a file may contain whole numbers
     if (const auto* number = std::get_if<double>(&cell)) return *number;
     if (const auto* whole = std::get_if<long>(&cell)) return static_cast<double>(*whole);
     throw InputError("expected a number");
@@ -75,7 +75,7 @@ requires std::is_enum_v<Enum>
 struct CellOf<Enum> {
   static Cell write(Enum value) { return std::string(name_of(value)); }
   static Enum read(const Cell& cell) {
-    // read_csv() reads a column that holds only the word "nan", or nothing, as numbers
+    // read_csv() reads a column of nothing but the word "nan" as numbers
     const auto* number = std::get_if<double>(&cell);
     const std::string word = number && std::isnan(*number) ? "nan" : CellOf<std::string>::read(cell);
     for (int i = static_cast<int>(range_of<Enum>.first); i <= static_cast<int>(range_of<Enum>.second); ++i)
@@ -83,7 +83,7 @@ struct CellOf<Enum> {
     throw InputError(fmt::format("unknown word '{}'", word));
   }
 };
-/// An optional value. read_csv() reads an all-empty column as the text "", which counts as empty.
+/// read_csv() reads an all-empty column as the text "", which counts as empty.
 template <class T>
 struct CellOf<std::optional<T>> {
   static Cell write(const std::optional<T>& value) { return value ? CellOf<T>::write(*value) : Cell(); }
@@ -96,11 +96,11 @@ struct CellOf<std::optional<T>> {
   }
 };
 
-/// Functions that write, read and describe the members of one type, independently of the row type.
+/// Type-erased functions for the members of one type.
 struct CellType {
   Cell (*write)(const void* member);
   void (*read)(void* member, const Cell& cell);
-  Cell (*retyped)(const Cell& cell);  // the cell in the type of the member, which a number in a file does not show
+  Cell (*retyped)(const Cell& cell);  // converts to the member's type: in a file, 2.0 looks like a count
   std::string (*name)();              // for the data dictionary
 };
 
@@ -132,25 +132,23 @@ inline constexpr CellType cell_type = {
     [](void* member, const Cell& cell) { *static_cast<T*>(member) = CellOf<T>::read(cell); },
     [](const Cell& cell) { return to_cell(CellOf<T>::read(cell)); }, &TypeName<T>::of};
 
-/// A column of a table whose rows are structs: its name and unit in the header, its description for the data
-/// dictionary, and the offset of its value in the row.
+/// A column: its name and unit in the header, its description in the data dictionary, and the offset of its member.
 struct TypedColumn {
   std::string_view name, unit, description;
   const CellType* type;
   std::ptrdiff_t offset;  // bytes
 };
 
-// One function of each kind for all row types: as templates they took a tenth of the suite's compile time.
+// Type-erased, because templates took a tenth of the suite's compile time.
 
 std::vector<Column> columns_of(std::span<const TypedColumn> typed);
 std::vector<Cell> cells_of(std::span<const TypedColumn> typed, const void* row);
-/// Throws InputError with the names of the table and column if a cell holds another type.
+/// Throws InputError with the names of the table and column if a cell has another type.
 void read_cells(std::span<const TypedColumn> typed, const Table& table, std::span<const Cell> cells, void* row);
 std::vector<Cell> retyped(std::span<const TypedColumn> typed, const Table& table, std::span<const Cell> cells);
 /// Throws InputError with the names of both tables if the columns differ.
 void require_columns(std::span<const TypedColumn> typed, const Table& table, std::string_view declared);
 
-/// Initial value of a row's member: 0, empty, or the first value of an enum.
 template <class T>
 constexpr T initial_value() {
   if constexpr (std::is_enum_v<T>)
@@ -159,10 +157,9 @@ constexpr T initial_value() {
     return T{};
 }
 
-/// A number, or an empty cell.
 using OptionalNumber = std::optional<double>;
 
-/// A line number in a header; it identifies a column and defines the order of the columns.
+/// A line number in a header, which identifies a column and defines the order of columns.
 template <int line>
 using Line = std::integral_constant<int, line>;
 inline constexpr int most_lines = 100;  // in the declaration of a row
@@ -187,7 +184,7 @@ inline constexpr int most_lines = 100;  // in the declaration of a row
   }                                                                                                   \
   static_assert(true)
 
-/// The columns of a row type, in the order of their lines.
+/// In the order of their lines.
 template <class Row>
 std::span<const TypedColumn> typed_columns() {
   static const std::vector<TypedColumn> declared = [] {
@@ -210,8 +207,7 @@ std::vector<Column> columns_of() {
   return columns_of(typed_columns<Row>());
 }
 
-/// An empty table of such rows. Its name is Row::table unless another one is given (for tables that exist once per
-/// scene).
+/// Tables that exist once per scene need a name.
 template <class Row>
 Table table_of(std::string name = std::string(Row::table)) {
   return {std::move(name), columns_of<Row>(), {}};
@@ -222,8 +218,7 @@ void add(Table& table, const Row& row) {
   table.rows.push_back(cells_of(typed_columns<Row>(), &row));
 }
 
-/// Throws InputError with the name of the table if its columns differ, and with the name of the column if a cell holds
-/// another type.
+/// Throws InputError with the name of the table if its columns differ, and of the column if a cell has another type.
 template <class Row>
 std::vector<Row> rows_of(const Table& table) {
   require_columns(typed_columns<Row>(), table, Row::table);

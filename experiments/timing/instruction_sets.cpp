@@ -1,4 +1,3 @@
-// Sets and restores CROSSCHECK_INSTRUCTIONS.
 #include "experiments/timing/instruction_sets.h"
 
 #include <cstdlib>

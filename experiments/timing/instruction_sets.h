@@ -1,4 +1,3 @@
-// Temporary restriction of mysim to one instruction set; the sets in which it is timed against others.
 #pragma once
 
 #include <optional>
@@ -10,7 +9,7 @@
 namespace crosscheck {
 
 /// Restricts mysim's fast paths to an instruction set during its lifetime, as CROSSCHECK_INSTRUCTIONS does from
-/// outside. Not for use while other threads run.
+/// outside. Not thread-safe.
 class ScopedInstructionSet {
  public:
   explicit ScopedInstructionSet(simd::InstructionSet isa);
@@ -22,9 +21,8 @@ class ScopedInstructionSet {
   std::optional<std::string> before_;
 };
 
-/// The instruction sets in which mysim is timed against others: the machine's best (or that of
-/// CROSSCHECK_INSTRUCTIONS), and the baseline, which the distribution's libraries use because their builds run on every
-/// machine.
+/// The instruction sets in which mysim is timed: the machine's best (or that of CROSSCHECK_INSTRUCTIONS), and the
+/// baseline, which the distribution's libraries use because they must run on every machine.
 std::vector<simd::InstructionSet> compared_instruction_sets();
 
 }  // namespace crosscheck

@@ -1,4 +1,3 @@
-// Affinity masks, and the lock file.
 #include "experiments/timing/machine.h"
 
 #include <fcntl.h>
@@ -51,8 +50,8 @@ LockPatience::LockPatience(double seconds) {
 
 namespace {
 
-/// "process 12 (crosscheck report, begun at 12:03:04)" for a process that holds the file's lock; "another process" if
-/// none is visible, for example in another container.
+/// "process 12 (crosscheck report, begun at 12:03:04)" for the process that holds the lock; "another process" if none
+/// is visible, for example in another container.
 std::string holder_of(int handle) {
   constexpr auto unknown = "another process";
   struct stat file {};

@@ -1,4 +1,3 @@
-// Round-robin timing and order statistics.
 #include "experiments/timing/timing.h"
 
 #include <algorithm>
@@ -107,7 +106,8 @@ bool differ(const Timing& a, const Timing& b, double noise) {
 
 namespace {
 
-/// The first part of a run as one sample: sampling in between would cost as much as a few steps of a small scene.
+/// The first part of a run as one sample, because sampling in between would cost as much as a few steps of a small
+/// scene.
 Run part_of(const TimedRun& turn, double share) {
   Run part = turn.run;
   part.samples = 1;
@@ -133,7 +133,6 @@ Outcome outcome_of(const TimedRun& turn, double share) {
   }
 }
 
-/// The fraction of the run that takes `seconds`.
 double share_to_time(const TimedRun& turn, double seconds) {
   double share = 1. / 256;
   while (share < 1) {
@@ -158,7 +157,7 @@ std::vector<EvaluationTimes> time_round_robin(const std::vector<TimedRun>& turns
       return out.evaluations > 0 ? out.cpu_seconds / static_cast<double>(out.evaluations) : 0;
     });
   }
-  // a run returns the time per evaluation instead of its own time; its length is sufficient already
+  // a run returns the time per evaluation instead of its own time; its length is already sufficient
   const auto times = time_rounds(runs, plan.rounds);
   for (size_t i = 0; i < turns.size(); ++i)
     if (times[i] != std::vector<double>{0}) all[i].per_evaluation = times[i];

@@ -1,4 +1,4 @@
-// Timing: runs and methods measured in turns, medians with intervals, and the noise level.
+// Timing of runs in turns: medians with intervals, and the noise level.
 #pragma once
 
 #include <functional>
@@ -13,24 +13,20 @@
 
 namespace crosscheck {
 
-// Runs measured in turns; the median with an interval, and the noise level.
-
 /// CPU time of one run, s.
 struct Timing {
-  double median = 0, low = 0, high = 0;  // low to high: 90 % interval of the median, see timing_of()
+  double median = 0, low = 0, high = 0;  // 90 % interval of the median, see timing_of()
   long repetitions = 0;
-  /// The timing multiplied by a factor.
   Timing times(double factor) const { return {median * factor, low * factor, high * factor, repetitions}; }
 };
 
 /// Median and interval of repeated times. The interval is between the k-th smallest and the k-th largest time, with the
 /// largest k for which it contains the true median with a probability of at least 0.9 for any distribution (the number
 /// of times below the median is binomial; H. A. David and H. N. Nagaraja, Order Statistics, 7.1). Fewer than five times
-/// cannot guarantee that; the interval is then from the smallest to the largest. Throws std::invalid_argument without
-/// times.
+/// cannot guarantee that; the interval then contains all of them. Throws std::invalid_argument without times.
 Timing timing_of(std::vector<double> seconds);
 
-/// Mean time of a run that returns its own time, s, repeated until the total is `resolution`.
+/// Mean time of a run that returns its own time, s. Repeats it until the total is `resolution`.
 double mean_time(const std::function<double()>& run, double resolution);
 
 /// Number of repetitions that take `seconds`, found by trial; seconds_of(n) returns the time of n repetitions.
@@ -38,22 +34,22 @@ long repetitions_in(double seconds, const std::function<double(long)>& seconds_o
 
 struct TimingOptions {
   int least = 5, most = 11;    // repetitions of each run
-  double enough = 0.2;         // s: a run whose total time reaches this is repeated `least` times only
+  double enough = 0.2;         // s: a run whose total time reaches this is repeated only `least` times
   double resolution = 100e-6;  // s: shorter runs are repeated within a repetition until they reach this
   double warm = 0.5;           // s: a first run of this length needs no warm-up, and its time counts
 };
 
-/// Times of every repetition of every run. A run does its work once and returns its CPU time, s. Each run is executed
-/// once to warm up. Then all runs are executed one after the other, round by round, so that a slow spell of the machine
-/// affects all. A run that returns 0 has no time (a program without a clock, a method that refused): it is not
-/// repeated, and its only time is 0.
+/// Times of every repetition of every run. Each run does its work once and returns its CPU time, s. After one warm-up
+/// of each, all runs are executed one after the other, round by round, so that a slow spell of the machine affects all.
+/// A run that returns 0 has no time (a program without a clock, a method that refused): it is not repeated, and its
+/// only time is 0.
 std::vector<std::vector<double>> time_round_robin(std::span<const std::function<double()>> runs,
                                                   const TimingOptions& plan);
 
-/// Times of `rounds` rounds of one repetition each, after one execution of each run to warm up.
+/// Times of `rounds` rounds of one repetition each, after a warm-up of each run.
 std::vector<std::vector<double>> time_rounds(std::span<const std::function<double()>> runs, int rounds);
 
-/// Ratio of the times of two runs, round by round, over their common rounds: its median with its interval.
+/// Median ratio of the times of two runs, round by round, over their common rounds.
 Timing ratio_of_rounds(const std::vector<double>& a, const std::vector<double>& b);
 
 double median_of(std::vector<double> values);
@@ -62,13 +58,10 @@ double median_of(std::vector<double> values);
 /// difference between the medians of their even and odd repetitions; at least 1 %.
 double noise_floor(std::span<const std::vector<double>> times);
 
-/// True if two timings show different costs: their intervals are disjoint, and their medians differ by more than the
-/// noise.
+/// True if the intervals are disjoint, and the medians differ by more than the noise.
 bool differ(const Timing& a, const Timing& b, double noise);
 
-// Methods timed in turns, over as much of a run as the resolution of the clock requires.
-
-/// One run of a method on a scene, with mysim's fast paths restricted to an instruction set if one is given.
+/// `instructions`: the set to which mysim's fast paths are restricted.
 struct TimedRun {
   Method method;
   std::shared_ptr<const Scene> scene;
@@ -87,8 +80,8 @@ struct TimedRunOptions {
 };
 
 /// CPU time of each run over its number of evaluations, without observers. Without contact each evaluation costs the
-/// same, so that the first part of a run gives the time of the whole. A round executes all runs. A run that reports no
-/// time or fails at once has no times.
+/// same, so that the first part of a run suffices. A round executes all runs. A run that reports no time or fails at
+/// once has no times.
 std::vector<EvaluationTimes> time_round_robin(const std::vector<TimedRun>& turns, const TimedRunOptions& plan,
                                               const LockPatience& patience);
 

@@ -1,4 +1,3 @@
-// The translated run, and its distance from the source's truth.
 #include "experiments/translate/translated_run.h"
 
 #include <fmt/format.h>
