@@ -56,7 +56,6 @@ struct Point {
   std::string hash() const;
 };
 
-/// A timed point that is computed from the rows of another one.
 Point timed_after(const Point& first, std::string name, std::function<void(const TableSet&, TableSet&)> compute_from);
 
 /// The data of a scene that rows depend on: name, hash, times, tolerance and default method.
@@ -140,7 +139,6 @@ std::vector<Scene> scenes_for(const Experiment& experiment, const std::vector<st
 /// find_experiment() does.
 bool has_own_charts(const std::string& experiment, const std::string& scene, bool all);
 
-/// Appends the scenes of `more` whose names are not in `all`.
 void add_missing(std::vector<Scene>& all, const std::vector<Scene>& more);
 
 /// All methods of mysim and Bullet except truth methods (the reference for the others), external integrators (not

@@ -19,7 +19,7 @@ namespace {
 
 constexpr unsigned unseen_starts = 3;
 
-/// m/s, RMS over the particles.
+/// Largest RMS speed of the particles, m/s.
 double largest_speed(const Trajectory& t) {
   double largest = 0;
   for (const Points& v : t.v)

@@ -117,7 +117,7 @@ Advice guarantee_of(const Scene& scene, double tolerance, const DenseTruth& path
   return a;
 }
 
-/// Returns the outcome of a run and its distance from the truth, m.
+/// Runs a method, and returns the outcome and the distance from the truth, m.
 using Measured = std::function<std::pair<Outcome, double>(const Method&, const Scene&, const Setting&)>;
 
 Measured at_samples(const Truth& truth, double until) {

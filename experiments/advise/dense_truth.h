@@ -24,7 +24,7 @@ class DenseTruth {
   DenseTruth(const Scene& scene, double tolerance);
 
   const Truth& truth() const { return truth_; }
-  /// The scene with all these samples.
+  /// The scene with the samples of the dense truth.
   const Scene& dense() const { return dense_; }
   double until() const { return until_; }    // s
   double error_bar() const { return bar_; }  // m, of the truth, including the interpolation error

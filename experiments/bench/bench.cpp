@@ -45,8 +45,7 @@ BenchSuite bench_suite(bool full, const std::vector<std::string>& beside) {
                    {11, 0.015},
                    {11, 0.004},
                    {},
-                   // one thread only; the smallest for two threads; the largest in the caches of two cores; beyond the
-                   // caches
+                   // one thread only; the smallest for two threads; the largest in the caches of two cores; beyond
                    {{64, 96, 256, 512}, {11, 0.06}}};
   if (full) {
     suite.cloths = {{32, all},

@@ -1,4 +1,3 @@
-// Times small pieces of work side by side.
 #pragma once
 
 #include <map>

@@ -1,4 +1,3 @@
-// Whole runs of mysim and of its peers on a cloth, at the same error and at the same step.
 #include <fmt/format.h>
 
 #include <algorithm>

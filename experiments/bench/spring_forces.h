@@ -12,7 +12,6 @@ namespace crosscheck {
 /// Does the work once per call, on the same memory each time.
 using BenchmarkFunction = std::function<void()>;
 
-/// The straightforward loop over springs with Eigen's vectors.
 BenchmarkFunction naive_loop(const Scene& scene);
 /// The reference implementation of the term (mysim/terms/springs.h).
 BenchmarkFunction plain_loop(const Scene& scene);

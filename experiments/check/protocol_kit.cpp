@@ -47,7 +47,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// With every ingredient of the protocol except the wind on triangles.
+// together with every ingredient of the protocol except the wind on triangles
 constexpr const char* kit_scenes[] = {"fall", "damped-spring", "led-pin", "ball", "slope", "rod", "circle", "gusts"};
 
 // s: a step of these scenes costs microseconds, and an interpreter starts in less than a second

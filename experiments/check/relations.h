@@ -18,12 +18,11 @@ struct RelationResult {
   double measured = 0, tolerance = 0;  // in the unit
   std::optional<double> since = {};    // s, first time at which the tolerance is exceeded
 
-  /// infinite if the tolerance is zero or the measured value is NaN
+  /// Infinite if the tolerance is zero or the measured value is NaN.
   double ratio() const;
   bool holds() const { return ratio() <= 1; }
 };
 
-/// The result with the larger ratio to its tolerance.
 RelationResult worse(RelationResult a, RelationResult b);
 
 struct Relation {

@@ -285,9 +285,7 @@ std::optional<Mirror> mirror_of(const Scene& scene) {
   std::vector<int> itself(scene.model.particles.size());
   std::iota(itself.begin(), itself.end(), 0);
   for (int axis = 0; axis < 3; ++axis) {
-    if (high[axis] - low[axis] <= near)
-      continue;  // skips the trivial reflection in a plane that contains all
-                 // particles
+    if (high[axis] - low[axis] <= near) continue;  // trivial: the plane contains all particles
     Mirror mirror;
     mirror.reflection.turn(axis, axis) = -1;
     mirror.reflection.shift[axis] = low[axis] + high[axis];

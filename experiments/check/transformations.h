@@ -29,7 +29,7 @@ Scene renumbered(const Scene& scene, const std::vector<int>& order);
 /// Springs, bending, dashpots and hard distances in another order, half of them with their ends swapped.
 Scene springs_reordered(Scene scene, unsigned seed);
 
-/// In units of length, mass and time.
+/// Factors of the units of length, mass and time.
 struct Scaling {
   double length = 1, mass = 1, time = 1;
 };

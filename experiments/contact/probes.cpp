@@ -218,7 +218,7 @@ namespace {
 constexpr double returned = 0.8, width = 0.7, speed = 3;  // e, m between the contact planes, m/s
 constexpr int periods = 10;
 
-/// m; 0 with fewer than three landings.
+/// Highest position after the third landing, m; 0 with fewer landings.
 double third_apex(const Trajectory& path) {
   int landings = 0;
   bool falling = false;

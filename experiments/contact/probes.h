@@ -32,13 +32,11 @@ class MirrorSymmetry {
   std::array<std::vector<int>, 2> partner_;  // for the planes normal to x and to z
 };
 
-// ---- rebound ----
 /// A particle dropped from 0.3 m onto the top of a ball of 0.5 m with a coefficient of restitution e.
 Scene drop_on_ball(double restitution);
 /// Height of the rebound above the contact surface, m; in theory e^2 0.3 m. Empty if the run failed.
 std::optional<double> rebound(const Method& method, const Scene& scene, double step, Outcome& out);
 
-// ---- leaving ----
 /// A particle on a ball of 1.02 m without friction, 1 degree off the top, with the speed of a slide from the very top.
 Scene frictionless_slide();
 struct Leaving {
@@ -48,7 +46,6 @@ std::optional<Leaving> leaving(const Method& method, double step, Outcome& out);
 /// From the closed form. Contact itself ends at cos(angle) = 2/3 (for a slide from the very top).
 Leaving leaving_by_theory();
 
-// ---- cone ----
 enum class Ground { ball, plane };
 /// A particle at rest on a slope (degrees): a plane, or the side of a ball so large that it is locally flat.
 Scene on_slope(double degrees, double friction, Ground ground);
@@ -60,7 +57,6 @@ struct ConeResult {
 std::optional<ConeResult> cone(const Method& method, double degrees, double friction, Ground ground, double step,
                                Outcome& out);
 
-// ---- planes ----
 /// A particle dropped from 0.3 m onto a floor with a coefficient of restitution of 0.8, until after its third apex.
 Scene drop_on_floor();
 /// A particle that flies back and forth between two walls ten times, without loss.
@@ -69,12 +65,10 @@ Scene between_walls();
 std::optional<double> measured(PlaneProbe probe, const Method& method, double step, Outcome& out);
 double by_theory(PlaneProbe probe);
 
-// ---- order ----
 /// Scenes with contact and a known truth: a slide that leaves the ball, without friction and with; a slide that stops;
 /// a bouncing ball; the valley between two balls; a chain of nine particles on a ball.
 std::vector<Scene> contact_order_probes();
 
-// ---- drape ----
 /// A cloth of 1 m, 13 x 13 particles, dropped on the centre of a ball of 0.5 m with friction 0.5: it drapes over the
 /// ball and must remain as symmetric as it starts.
 Scene drop_centred();

@@ -1,4 +1,3 @@
-// Timed points of experiment `cost`, and loops with a known amount of work.
 #include "experiments/cost/cost.h"
 
 #include <fmt/ranges.h>

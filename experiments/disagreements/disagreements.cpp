@@ -1,4 +1,3 @@
-// Experiment `disagreements`.
 #include "experiments/disagreements/disagreements.h"
 
 #include <fmt/format.h>

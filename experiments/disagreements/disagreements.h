@@ -83,7 +83,7 @@ struct Disagreement {
   /// variant's run, on a logarithmic axis.
   std::function<double(const Scene&, const State&)> value;
   std::function<std::string(const std::vector<Series>&)> effect;  // the measured size, one sentence
-  /// The latter is empty if no variant removes the cause.
+  /// cause_removed is empty if no variant removes the cause.
   std::vector<Condition> symptom, cause_removed;
   std::function<TableWithSentence(const Disagreement&)> measured = nullptr;  // additional measurements
   // from disagreements.md
@@ -93,7 +93,6 @@ struct Disagreement {
   std::string scene = {};    // name of the scene file, if it is not `name`
 };
 
-/// Prefix for engines that `engine NAME` builds.
 inline constexpr std::string_view engine_prefix = "engine:";
 
 std::vector<Disagreement> disagreements();

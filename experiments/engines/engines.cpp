@@ -18,7 +18,7 @@ namespace crosscheck {
 
 namespace {
 
-/// Up to `until` (s); nothing if there is no value.
+/// The largest value up to `until` (s); nothing if there is none.
 std::optional<double> largest(const std::vector<EngineTimeRow>& rows, std::optional<double> EngineTimeRow::*member,
                               double until) {
   double most = -1;
@@ -36,7 +36,6 @@ std::optional<double> predicted_limit(const Method& method, const Scene& scene, 
   return {};
 }
 
-/// Table SCENE-statistics: means over perturbed runs.
 void add_statistics(const Request& request, const Scene& scene, const Run& run, MethodResults& results,
                     TableSet& tables) {
   Table table = table_of<StatisticRow>(scene.name + "-statistics");

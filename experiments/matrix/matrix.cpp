@@ -139,7 +139,6 @@ Answer rule_answer(const Method& method) {
   return answer;
 }
 
-/// E.g. "MuJoCo 2.2.2, native, double precision".
 Answer build_answer(const Method& method) {
   const UndampedMode mode = mode_of_spring();
   NullObserver nothing;

@@ -58,7 +58,6 @@ std::vector<Quantity> quantities_of(const Case& test_case, const CaseRun& case_r
 std::string offset_at(double t);
 std::string places_at(double t);
 
-/// Null if there is none.
 const Quantity* find(const std::vector<Quantity>& all, const std::string& name);
 
 /// The part of a run that is compared: the whole run, or for a failed one the first half, in which the motion is still

@@ -47,7 +47,6 @@ struct NewMethod {
   std::string method;
   size_t scenes = 0, quantities = 0;
 };
-/// Sorted by name.
 std::vector<NewMethod> new_methods(std::span<const Comparison> rows);
 
 std::vector<BaselineRow> baseline_rows_of(const Baseline& baseline, const Case& test_case);

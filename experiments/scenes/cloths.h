@@ -31,7 +31,7 @@ Points at_material_points(const Points& x, int nu, int nv, int m);
 /// its middle.
 Scene sized_cloth(int n, bool sphere = false);
 
-/// N/m
+/// Spring stiffnesses, N/m.
 struct Stiffnesses {
   double structural = 400, shear = 200, bend = 20;
 };

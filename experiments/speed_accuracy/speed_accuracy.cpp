@@ -1,4 +1,3 @@
-// Steps and tolerances of the methods, their runs, and the timing of these runs.
 #include "experiments/speed_accuracy/speed_accuracy.h"
 
 #include <fmt/ranges.h>
@@ -231,7 +230,7 @@ std::map<std::string, std::vector<Setting>> searched_settings(const Request& req
   return settings;
 }
 
-/// From coarse to fine.
+/// All settings of both lists, from coarse to fine.
 std::vector<Setting> merged(std::vector<Setting> settings, const std::vector<Setting>& more) {
   for (const Setting& each : more)
     if (std::ranges::none_of(settings, [&](const Setting& s) { return std::abs(s.value / each.value - 1) < 1e-9; }))

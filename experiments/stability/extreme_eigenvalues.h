@@ -12,7 +12,7 @@ struct Eigenpair {
   Eigen::VectorXd vector;  // normalised
 };
 
-/// Relative `tolerance`. Nothing without convergence.
+/// Nothing without convergence to the relative `tolerance`.
 std::optional<Eigenpair> largest_eigenpair(const Eigen::SparseMatrix<double>& symmetric, double tolerance);
 
 /// The eigenpair nearest to `shift` of a symmetric matrix whose eigenvalues are all above `shift`.

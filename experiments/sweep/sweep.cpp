@@ -37,7 +37,6 @@ class DefaultSigchld {
   struct sigaction before_ {};
 };
 
-/// Points, timed or not, that `jobs` processes compute.
 class Batch {
  public:
   Batch(std::vector<const Point*> points, int jobs, const Store& store, Progress& progress,

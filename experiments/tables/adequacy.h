@@ -1,4 +1,3 @@
-// The tables of experiment `adequacy`.
 #pragma once
 
 #include "experiments/tables/typed.h"
@@ -73,7 +72,6 @@ struct LeastModelRow {
   COLUMN(double, cost_of_full, "cost of full", "1", "cost of that model over that of the full model");
 };
 
-/// A cloth on one grid.
 struct GridRow {
   TABLE("adequacy-resolution");
   COLUMN(std::string, scene, "scene", "1", "scene");
@@ -99,7 +97,6 @@ struct BendingRow {
   COLUMN(double, droop, "droop", "m", "depth of the free end below the clamp");
 };
 
-/// A power law in the number of cells.
 struct ScalingRow {
   TABLE("adequacy-scaling");
   COLUMN(std::string, scene, "scene", "1", "scene; empty for the clamped line");

@@ -1,4 +1,3 @@
-// The table of `bench`.
 #pragma once
 
 #include "experiments/tables/typed.h"

@@ -1,4 +1,3 @@
-// The table of parity certificates.
 #pragma once
 
 #include "experiments/tables/typed.h"

@@ -1,4 +1,3 @@
-// The table of `check`.
 #pragma once
 
 #include "experiments/tables/typed.h"

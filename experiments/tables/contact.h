@@ -1,4 +1,4 @@
-// The tables of experiment `contact`. Tables about balls keep the names that they had in reports of older versions.
+// Tables about balls keep the names that they had in reports of older versions.
 #pragma once
 
 #include "experiments/tables/typed.h"
@@ -13,7 +13,6 @@ constexpr std::string_view name_of(ContactState state) {
 template <>
 inline constexpr std::pair range_of<ContactState>{ContactState::sticks, ContactState::neither};
 
-/// A particle dropped on a ball.
 struct ReboundRow {
   TABLE("sphere-rebound");
   COLUMN(std::string, method, "method", "1", "method that was run");
@@ -25,7 +24,6 @@ struct ReboundRow {
   COLUMN(double, by_theory, "by theory", "m", "height of the rebound by theory");
 };
 
-/// A particle that slides off a ball without friction.
 struct LeavingRow {
   TABLE("sphere-leaving");
   COLUMN(std::string, method, "method", "1", "method that was run");
@@ -52,7 +50,6 @@ struct ContactOrderRow {
   COLUMN(double, truth_bar, "truth bar", "m", "error bar of the truth");
 };
 
-/// A particle at rest on a slope.
 struct ConeRow {
   TABLE("sphere-cone");
   COLUMN(std::string, method, "method", "1", "method that was run");
@@ -83,7 +80,6 @@ constexpr std::string_view name_of(PlaneProbe probe) {
 template <>
 inline constexpr std::pair range_of<PlaneProbe>{PlaneProbe::apex, PlaneProbe::held};
 
-/// A particle on planes.
 struct PlaneProbeRow {
   TABLE("plane-probes");
   COLUMN(PlaneProbe, probe, "probe", "1", "what is measured");
@@ -95,7 +91,6 @@ struct PlaneProbeRow {
   COLUMN(double, by_theory, "by theory", "1", "value from the closed form");
 };
 
-/// Final state of a cloth on a ball.
 struct DrapeRow {
   TABLE("sphere-drape");
   COLUMN(std::string, scene, "scene", "1", "scene");
@@ -132,7 +127,6 @@ struct PenetrationRow {
   COLUMN(OptionalNumber, triangles_at_end, "triangles at end", "%", "that depth of triangles at the end");
 };
 
-/// A cloth on a ball over time.
 struct DrapeTimeRow {
   TABLE("SCENE-drape");
   COLUMN(std::string, method, "method", "1", "method that was run");

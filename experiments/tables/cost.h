@@ -1,11 +1,9 @@
-// The tables of experiment `cost`.
 #pragma once
 
 #include "experiments/tables/typed.h"
 
 namespace crosscheck {
 
-/// CPU time of a step as a function of the size of a cloth.
 struct SizeCostRow {
   TABLE("size-cost");
   COLUMN(std::string, method, "method", "1", "method");
@@ -24,7 +22,6 @@ struct SizeCostRow {
   COLUMN(std::string, build, "build", "1", "build that the timed code comes from");
 };
 
-/// CPU time of the phases of a step.
 struct PhaseCostRow {
   TABLE("phases-cost");
   COLUMN(std::string, method, "method", "1", "method");

@@ -1,4 +1,3 @@
-// The tables of experiment `disagreements`.
 #pragma once
 
 #include "experiments/tables/typed.h"

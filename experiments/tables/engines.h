@@ -1,4 +1,3 @@
-// The tables of experiment `engines`.
 #pragma once
 
 #include "experiments/tables/typed.h"

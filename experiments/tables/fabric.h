@@ -1,4 +1,3 @@
-// The tables of experiment `fabric`.
 #pragma once
 
 #include "experiments/tables/typed.h"
@@ -37,7 +36,6 @@ struct SkipOneRow {
   COLUMN(double, truth, "drop of the elastica", "1", "that drop from the boundary-value problem of the elastica");
 };
 
-/// A strip that hangs between two hinges.
 struct HangingStripRow {
   TABLE("fabric-hanging");
   COLUMN(long, cells, "cells", "1", "cells along the strip");

@@ -1,4 +1,4 @@
-// The tables of experiment `matrix`: the answer of each engine to each question.
+// The answer of each engine to each question.
 #pragma once
 
 #include <array>

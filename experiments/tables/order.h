@@ -1,4 +1,3 @@
-// The tables of experiment `order`.
 #pragma once
 
 #include "experiments/tables/typed.h"
@@ -20,7 +19,6 @@ struct OrderRow {
   COLUMN(Verdict, verdict, "verdict", "1", "how the run ended");
 };
 
-/// The slope of the error in the range where it is a power of the step.
 struct OrderSlopeRow {
   TABLE("order-slopes");
   COLUMN(std::string, scene, "scene", "1", "scene");

@@ -1,4 +1,3 @@
-// The tables of experiment `speed-accuracy`.
 #pragma once
 
 #include "experiments/tables/typed.h"
@@ -23,7 +22,6 @@ inline constexpr std::pair range_of<RunEnd>{RunEnd::ok, RunEnd::failed};
 
 enum class Cost { evaluations, cpu };
 
-/// Errors of every method at many steps or tolerances.
 struct SpeedAccuracyRow {
   TABLE("speed-accuracy");
   COLUMN(std::string, scene, "scene", "1", "scene");

@@ -1,4 +1,3 @@
-// The tables of experiment `stability`.
 #pragma once
 
 #include <cmath>
@@ -21,7 +20,6 @@ inline std::string_view name_of(PredictionKind kind) {
 template <>
 inline constexpr std::pair range_of<PredictionKind>{PredictionKind::limit, PredictionKind::none};
 
-/// Largest stable step as measured by runs.
 struct MeasuredLimit {
   enum Kind { found, no_step, every_step, refused_above, unsupported } kind = found;
   double held = 0, failed = 0;  // s: the bracket; 0 if there is none
@@ -100,7 +98,6 @@ struct GrowthRow {
   COLUMN(double, deviation, "deviation", "1", "measured over predicted growth, less 1");
 };
 
-/// One run of a map.
 struct MapRow {
   TABLE("stability-map");
   COLUMN(std::string, scene, "scene", "1", "scene");

@@ -1,4 +1,3 @@
-// The tables of experiment `stiffness`.
 #pragma once
 
 #include "experiments/tables/typed.h"

@@ -145,7 +145,7 @@ Table read_csv(const std::filesystem::path& file) {
   return table;
 }
 
-// typed.h
+// Functions of typed.h.
 
 std::vector<Column> columns_of(std::span<const TypedColumn> typed) {
   std::vector<Column> columns;

@@ -47,12 +47,10 @@ void write_csv(const Table& table, const Provenance& provenance, const std::file
 inline const std::string& text_at(const Table& table, size_t row, const std::string& column) {
   return std::get<std::string>(table.at(row, column));
 }
-/// The text, or "" if the cell is empty.
 inline std::string text_or_none(const Table& table, size_t row, const std::string& column) {
   const auto* text = std::get_if<std::string>(&table.at(row, column));
   return text ? *text : "";
 }
-/// The number, whole or not; nothing if the cell is empty or text.
 inline std::optional<double> number_at(const Table& table, size_t row, const std::string& column) {
   const Cell& cell = table.at(row, column);
   if (const auto* number = std::get_if<double>(&cell)) return *number;

@@ -61,7 +61,7 @@ double noise_floor(std::span<const std::vector<double>> times);
 /// True if the intervals are disjoint, and the medians differ by more than the noise.
 bool differ(const Timing& a, const Timing& b, double noise);
 
-/// `instructions`: the set to which mysim's fast paths are restricted.
+/// `instructions` restricts mysim's fast paths to one set.
 struct TimedRun {
   Method method;
   std::shared_ptr<const Scene> scene;
