@@ -1,4 +1,3 @@
-// Comparison of the limits of two methods.
 #include "tests/hunt/agreement.h"
 
 #include <fmt/format.h>
@@ -29,15 +28,14 @@ constexpr Relation of_pairs{
     says_nothing,
     of_two};
 
-/// The law, independent of the step, that a method follows instead of the scene's, or an empty text. A different solver
-/// for springs or dashpots does not count, because its effect vanishes with the step.
+/// The law that a method follows instead of the scene's, or an empty text. Other solvers for springs or dashpots do not
+/// count, because their effect vanishes with the step.
 std::string other_law(const Outcome& out) {
   for (const std::string& law : out.different_law)
     if (!law.starts_with("springs:") && !law.starts_with("dashpots:")) return law.substr(0, law.find(':'));
   return "";
 }
 
-/// The spring law of the method on the scene; nothing without springs.
 std::optional<SpringLaw> law_of(const Method& method, const Scene& scene) {
   const auto* springs = scene.model.find<Springs>();
   if (!springs) return std::nullopt;
@@ -46,7 +44,7 @@ std::optional<SpringLaw> law_of(const Method& method, const Scene& scene) {
 
 LimitEstimate limit_of_truth(const Scene& scene) {
   const Run run = run_for_relations(scene);
-  // does not use the cache for converged truths, because the scene is needed only once
+  // without the cache for converged truths, because the scene is needed only once
   const auto truth = exact_solution(scene)      ? truth_of(scene, run)
                      : has_contact(scene.model) ? std::nullopt
                                                 : converged_truth(scene, run);
@@ -67,7 +65,7 @@ LimitEstimate limit_of(Subject& subject, const Scene& scene) {
   if (method.family().role == Role::truth) return limit_of_truth(scene);
   if (const std::string law = other_law(subject.run(scene).outcome); !law.empty())
     throw CannotBeAsked(fmt::format("{} follows another law of {}", method.name, law));
-  // with contact, adaptive rules also keep to the run's step, because contact acts on whole steps
+  // with contact, adaptive rules also use the run's step, because contact acts on whole steps
   const bool contact = has_contact(scene.model);
   if (method.adaptive && !contact) {
     Run finer = run_for_relations(scene);

@@ -1,29 +1,29 @@
-// Agreement: two methods converge to the same limit as their steps go to 0, within the accuracy that halved steps show.
+// Agreement: two methods converge to the same limit as their steps go to 0, to the accuracy that halved steps show.
 #pragma once
 
 #include "experiments/check/check.h"
 
 namespace crosscheck {
 
-/// A row for two methods, similar to those of the table of relations but without functions of its own.
+/// A row for two methods, like those of the table of relations but without functions of its own.
 const Relation& agreement();
 
-/// A method's best run of a scene, and a bound on the distance of the method's limit from that run.
+/// A method's best run of a scene, and a bound on its distance from the method's limit.
 struct LimitEstimate {
   Trajectory path;
-  std::vector<double> bar;  // m, up to each sample; infinite from the sample on where nothing is known
+  std::vector<double> bar;  // m, up to each sample; infinite where nothing is known
 };
 /// For a fixed-step rule, the run at a quarter of the step. Let d1 be the difference between the whole and half the
 /// step, d2 that between half and a quarter of the step, and p the order (1 with contact). As long as d2 is at most
-/// 2^(1/2 - p) d1, the error is assumed to behave like C h^p. The limit is then within three times d2 / (2^p - 1):
-/// Richardson's estimate, with the factor of the error bars of converged truths (reference/truth/truth.h), plus twice
-/// the rounding. For an adaptive rule without contact, the difference of two tolerances. For a truth its own error bar,
+/// 2^(1/2 - p) d1, the error is assumed to behave like C h^p. The limit is then within three times d2 / (2^p - 1)
+/// (Richardson's estimate, with the factor of the error bars of converged truths, reference/truth/truth.h), plus twice
+/// the rounding. For an adaptive rule without contact: the difference of two tolerances. For a truth: its error bar,
 /// which is a mean over the particles, times the square root of their number. Throws CannotBeAsked and RunFailed.
 LimitEstimate limit_of(Subject& subject, const Scene& scene);
 
-/// Checks that the two limits differ by at most the sum of both bounds, as long as both are known to a hundredth of the
-/// scene's lengths. The pair is called "A & B". Not applicable if a method follows a different law from the scene's, or
-/// fails.
+/// Checks that the two limits differ by at most the sum of both bounds, as long as both bounds are at most a hundredth
+/// of the scene's lengths. The pair is called "A & B". Not applicable if a method follows a different law from the
+/// scene's, or fails.
 Answer ask_agreement(Subject& a, Subject& b, const Scene& scene, const std::vector<KnownBreak>& known);
 
 }  // namespace crosscheck

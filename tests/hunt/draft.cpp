@@ -1,4 +1,3 @@
-// The text of a scene file.
 #include "tests/hunt/draft.h"
 
 #include <fmt/format.h>

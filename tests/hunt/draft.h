@@ -1,5 +1,5 @@
 // A scene in the form of its file, particle by particle and spring by spring, which is drawn at random and then reduced
-// part by part.
+// step by step.
 #pragma once
 
 #include <array>
@@ -11,7 +11,6 @@
 
 namespace crosscheck {
 
-/// The nearest number with that many decimal digits.
 double to_digits(double value, int digits);
 
 struct SceneDraft {
@@ -23,7 +22,7 @@ struct SceneDraft {
   struct Link {  // a spring, with or without a dashpot
     int a, b;
     double k;                    // N/m
-    std::optional<double> rest;  // m; none: the initial length
+    std::optional<double> rest;  // m; empty: the initial length
     double dashpot = 0;          // N s/m
     Family family = Family::single;
   };
@@ -42,7 +41,7 @@ struct SceneDraft {
   std::vector<std::array<int, 2>> constraints;  // distances that keep their initial value
   SpringLaw law = SpringLaw::hooke;
   std::optional<Motion> pin_motion;
-  std::optional<double> rotation;  // rad/s; then the scene consists of the particles alone
+  std::optional<double> rotation;  // rad/s; then there are only particles
   std::optional<Vec3> gravity;     // m/s^2
   std::optional<double> gamma;     // 1/s, drag over mass
   std::optional<Breeze> wind;
@@ -54,11 +53,11 @@ struct SceneDraft {
   /// Upper bound of the fastest rate, 1/s: the frequency of a vibration (omega^2 <= 2 max sum k / m by Gershgorin;
   /// links stiffen to 5/4 k), or a damping rate. 0 if nothing vibrates and nothing is damped.
   double largest_rate() const;
-  /// Its ingredients, one word each: "pins-springs-gravity"; equal for all scenes of that kind.
+  /// Ingredients, one word each: "pins-springs-gravity".
   std::string kind() const;
-  /// The scene file, with the shortest numbers that read back to the same bits.
+  /// With the shortest numbers that read back to the same bits.
   std::string text() const;
-  /// The file as read, with its kind as name. Throws InputError if the reader refuses it.
+  /// The file as read, named after its kind. Throws InputError if the reader refuses it.
   Scene scene() const;
 };
 

@@ -1,4 +1,4 @@
-// Random scenes: twelve kinds, each required by some relation.
+// Twelve kinds of random scenes, each required by some relation.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -12,7 +12,7 @@
 namespace crosscheck {
 namespace {
 
-/// Random numbers with four digits, so that scenes are readable.
+/// With few digits, so that scenes are readable.
 class Draw {
  public:
   Draw(unsigned seed, long index) : engine_(seed * 0x9e3779b97f4a7c15ULL + static_cast<std::uint64_t>(index)) {
@@ -33,8 +33,8 @@ class Draw {
   std::mt19937_64 engine_;
 };
 
-/// The units of a scene: a spring's length, a particle's mass, and the frequency of a particle on one spring, for which
-/// the weight of a particle stretches a spring by a hundredth to a quarter.
+/// Units of a scene: a spring's length, a particle's mass, and the frequency of a particle on one spring. The weight of
+/// a particle stretches such a spring by a hundredth to a quarter.
 struct Units {
   double length, mass, omega;  // m, kg, rad/s
   double k() const { return mass * omega * omega; }
@@ -64,7 +64,7 @@ class DraftMaker {
     if (damping > 0) s.dashpot = to_digits(2 * damping * units_.mass * units_.omega, 3);
     draft.springs.push_back(s);
   }
-  /// n particles in a connected net, at distances of at least 0.6 lengths.
+  /// n particles in a connected net, at distances of at least 0.6 unit lengths.
   void net(int n, double strain, double speed, double damping) {
     const double side = 0.9 * units_.length * std::cbrt(n);
     for (int tries = 0; draft.size() < n && tries < 1000; ++tries) {
@@ -80,7 +80,7 @@ class DraftMaker {
       spring(a, b, strain, damping, families[random_.whole(0, 3)]);
     }
   }
-  /// nu x nv particles with a grid's springs, in the plane of u and v, the first at `origin`.
+  /// nu x nv particles with a grid's springs, along u and v from `origin`.
   void patch(int nu, int nv, const Vec3& origin, const Vec3& u, const Vec3& v, double strain, double speed,
              double damping) {
     const int first = draft.size();
@@ -174,7 +174,6 @@ void hanging_chain(Draw& random, DraftMaker& make, const Units& units) {
   make.time(32, static_cast<int>(std::ceil(12 / decay / make.draft.duration)), part);
 }
 
-/// A strip whose two halves are mirror images.
 void symmetric_strip(Draw& random, DraftMaker& make, const Units& units) {
   const int half = random.whole(1, 4);
   for (int i = -half; i <= half; ++i) {
@@ -215,7 +214,6 @@ void on_a_ball(Draw& random, DraftMaker& make, const Units& units) {
   make.time(16, 32);
 }
 
-/// One thrown particle, with random forces.
 void projectile(Draw& random, DraftMaker& make) {
   make.particle(random.vector(1), 0.5);
   make.draft.gravity = Vec3(0, -9.81, 0);
@@ -224,7 +222,6 @@ void projectile(Draw& random, DraftMaker& make) {
   make.time(16, 32);
 }
 
-/// Particles that rotate about an axis: first order.
 void rotation(Draw& random, DraftMaker& make) {
   const int n = random.whole(1, 3);
   for (int i = 0; i < n; ++i) make.particle(random.vector(1), 0);
@@ -232,7 +229,6 @@ void rotation(Draw& random, DraftMaker& make) {
   make.time(16, 32);
 }
 
-/// Links of fixed length, hung from a pin.
 void hard_chain(Draw& random, DraftMaker& make, const Units& units) {
   const int n = random.whole(2, 5);
   for (int i = 0; i < n; ++i) make.particle({0.8 * units.length * i, -0.6 * units.length * i, 0}, 0);

@@ -1,5 +1,5 @@
 // The hunt: draws random scenes, checks relations of methods and the agreement of each pair of methods on them, and
-// shrinks every scene that shows a break.
+// shrinks every scene that shows a violation.
 #pragma once
 
 #include <functional>
@@ -11,26 +11,20 @@
 
 namespace crosscheck {
 
-// Random scenes (draw.cpp).
-
 /// Depends only on seed and index. 1 to 30 particles, with steps of at most a twentieth of the critical one. The index
 /// modulo drawn_kinds selects the kind of scene, so that every relation applies to some scenes.
 SceneDraft draw(unsigned seed, long index);
 inline constexpr int drawn_kinds = 12;
 
-// The smallest scene that still shows a property (shrink.cpp).
-
 using StillShows = std::function<bool(const Scene&)>;
 struct Shrunk {
   SceneDraft draft;
-  int trials = 0;  // scenes that were tried
+  int trials = 0;
 };
 /// Delta debugging: removes ingredients, particles, springs and pins, shortens the duration, and rounds numbers to few
 /// digits, as long as `shows` is true for the result, until nothing more can be removed or `most_trials` scenes were
 /// tried. `shows` gets each scene as read from its file. The result depends only on the arguments.
 Shrunk shrink(const SceneDraft& draft, const StillShows& shows, int most_trials);
-
-// Breaks.
 
 struct Hunt {
   std::vector<Method> methods;
@@ -38,16 +32,16 @@ struct Hunt {
   unsigned seed = 1;
   int most_trials = 400;  // per shrinking: half of them remove parts, the others round numbers
 
-  /// Seed of rotations, translations and orders for a case.
+  /// For rotations, translations and orders.
   unsigned seed_of(long index) const { return seed + static_cast<unsigned>(index); }
 };
 
-/// A broken relation, or a disagreement of two methods, on the smallest scene found.
+/// A violated relation, or a disagreement of two methods, on the smallest scene found.
 struct Break {
-  Answer answer;  // on that scene
+  Answer answer;
   Shrunk smallest;
 };
-/// The unknown breaks of case `index`. Increases `answers` by the number of relations that were measured.
+/// The unknown violations of case `index`. Increases `answers` by the number of relations that were measured.
 std::vector<Break> breaks_of(const Hunt& hunt, long index, int& answers);
 
 }  // namespace crosscheck

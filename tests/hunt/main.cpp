@@ -1,10 +1,10 @@
 // hunt METHOD... [--seconds 60] [--seed 1] [--from 0] [--known FILE] [--out out/hunt]
 //
 // A tool for developers of engines and of Crosscheck. Draws random scenes and checks every relation of `crosscheck
-// check`, and whether each pair of methods converges to the same limit as the steps go to 0. A scene that shows a break
-// is shrunk and written to OUT/RELATION-METHODS-KIND.toml. Later breaks of the same relation, methods and kind of scene
-// are only counted. Case i of a seed is always the same scene; several processes can share the work with different
-// values of --from or --seed. Exit status: 0 if no unknown break was found, 1 otherwise, 2 for bad usage.
+// check`, and whether each pair of methods converges to the same limit as the steps go to 0. A scene that shows a
+// violation is shrunk and written to OUT/RELATION-METHODS-KIND.toml. Later violations of the same relation, methods and
+// kind of scene are only counted. Case i of a seed is always the same scene; several processes can share the work with
+// different values of --from or --seed. Exit status: 0 if no unknown violation was found, 1 otherwise, 2 for bad usage.
 //
 //   cmake --build build/release --target hunt && build/release/tests/hunt/hunt exec:./engine leapfrog --seconds 600
 
@@ -51,7 +51,7 @@ int hunt_for(const Options& options) {
   Hunt hunt{{}, read_known_breaks(options.known), options.seed};
   for (const std::string& name : options.methods) hunt.methods.push_back(find_method(name));
   std::filesystem::create_directories(options.out);
-  std::map<std::string, int> groups;  // breaks by relation, methods and kind of scene
+  std::map<std::string, int> groups;  // violations by relation, methods and kind of scene
   int answers = 0;
   long index = options.from;
   const auto end = std::chrono::steady_clock::now() + std::chrono::duration<double>(options.seconds);

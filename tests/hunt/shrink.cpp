@@ -13,7 +13,6 @@
 namespace crosscheck {
 namespace {
 
-/// Removes the marked parts from the draft.
 using LeaveOut = std::function<void(SceneDraft&, const std::vector<char>& gone)>;
 
 void leave_out_particles(SceneDraft& draft, const std::vector<char>& gone) {
@@ -64,7 +63,7 @@ std::vector<double*> numbers_of(SceneDraft& d) {
   return all;
 }
 
-/// True if the value has fewer digits; 0 and 1 are the simplest.
+/// True if `value` has fewer digits; 0 and 1 are the simplest.
 bool simpler(double value, double than) {
   const auto rank = [](double v) {
     if (v == 0) return 0;
@@ -102,8 +101,8 @@ class Shrinker {
   bool spent() const { return best_.trials >= most_trials_; }
 
   /// Accepts the candidate if it still shows the property. Skips candidates that were tried before or are not valid
-  /// scenes. Also skips those whose step is coarser relative to their fastest rate, which would only show the effect of
-  /// the step.
+  /// scenes, and those with a coarser step relative to their fastest rate, which would only show the effect of the
+  /// step.
   bool take(SceneDraft candidate) {
     if (spent() || candidate.particles.empty() || candidate.step * candidate.largest_rate() > coarseness_) return false;
     const std::string text = candidate.text();

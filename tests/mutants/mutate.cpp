@@ -1,5 +1,5 @@
-// mutate MUTATIONS MYSIM FILE OUT: writes mysim's FILE including all its mutations, each behind a switch that is read
-// at run time.
+// mutate MUTATIONS MYSIM FILE OUT: writes mysim's FILE with all its mutations, each behind a switch that is read at run
+// time.
 
 #include <fmt/format.h>
 
@@ -16,7 +16,7 @@ using namespace crosscheck;
 namespace {
 
 struct Mutation {
-  std::string name, file;    // file: in the folder mysim
+  std::string name, file;    // file: below mysim/
   std::string right, wrong;  // an expression, or statements that end in ';'
 };
 
@@ -54,8 +54,7 @@ std::vector<Mutation> read_mutations(const std::filesystem::path& file) {
   return all;
 }
 
-/// The switch is read once, so that it costs no more than a branch.
-/// Text with both versions behind a switch, which is read once so that it costs no more than a branch.
+/// Both versions behind a switch, which is read once so that it costs no more than a branch.
 std::string switched(const Mutation& m) {
   const std::string on =
       fmt::format("[]() -> bool {{ static const bool on = ::crosscheck::mutant(\"{}\"); return on; }}()", m.name);
