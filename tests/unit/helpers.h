@@ -1,4 +1,3 @@
-// Shared by unit tests: seeded random numbers, small scenes, shipped scenes by name, runs, and distances over time.
 #pragma once
 
 #include <fmt/format.h>
@@ -19,11 +18,11 @@
 
 namespace crosscheck::testing_tools {
 
-// Shared by unit tests: seeded random numbers, small scenes, runs, and distances over time.
+// Shared by unit tests: seeded random numbers, small scenes, shipped scenes by name, runs, and distances over time.
 
 inline constexpr double eps = std::numeric_limits<double>::epsilon();
 
-/// Seeded random numbers, identical with every standard library.
+/// Identical with every standard library.
 class Random {
  public:
   explicit Random(unsigned seed) : engine_(seed) {}
@@ -44,24 +43,21 @@ inline const Stepper& stepper(std::string_view name) {
   throw std::out_of_range("no stepper " + std::string(name));
 }
 
-/// The stepper with a fixed step, even if it is adaptive.
 inline Stepper at_fixed_step(Stepper s) {
   s.adaptive = false;
   return s;
 }
-/// Every row of the table, with a fixed step.
 inline std::vector<Stepper> fixed_steppers() {
   std::vector<Stepper> list;
   for (const Stepper& s : steppers()) list.push_back(at_fixed_step(s));
   return list;
 }
 
-/// True if the stepper supports the scene.
 inline bool takes(const Stepper& s, const Scene& scene) {
   return (!scene.model.first_order() || s.first_order) && (!scene.model.find<Constraints>() || s.hard_constraints);
 }
 
-/// Text of a scene file: the mandatory header, then `more`, which contains particles and terms.
+/// The mandatory header of a scene file, then `more`, which contains particles and terms.
 inline std::string scene_text(const std::string& more, double duration = 1, double step = 1e-3, int samples = 10) {
   return fmt::format(
              "question = \"q\"\nparameters = \"p\"\n[time]\nduration = {}\nsamples = {}\nstep = {}\nwindow = {}\n"
@@ -73,10 +69,9 @@ inline Scene small_scene(const std::string& more, double duration = 1, double st
   return parse_scene(scene_text(more, duration, step, samples), "small");
 }
 
-/// Folder of the scenes that come with Crosscheck.
 inline std::filesystem::path shipped_scene_folder() { return CROSSCHECK_SOURCE "/experiments/scenes"; }
 inline Scene shipped_scene(const std::string& name) { return read_scene(shipped_scene_folder() / (name + ".toml")); }
-/// Names of all shipped scenes, sorted.
+/// Sorted.
 inline std::vector<std::string> shipped_scene_names() {
   std::vector<std::string> names;
   for (const auto& entry : std::filesystem::directory_iterator(shipped_scene_folder()))
@@ -137,7 +132,7 @@ inline Trajectory trajectory_of(const Stepper& s, const Scene& scene, const Run&
   return recorder.trajectory;
 }
 
-/// Largest RMS distance (m) of two trajectories over time up to `until`. Both must have the same samples.
+/// Both must have the same samples. Ignores samples after `until` (s). Result in m.
 inline double sup_rms(const Trajectory& a, const Trajectory& b, double until = INFINITY) {
   EXPECT_EQ(a.frames(), b.frames());
   double largest = 0;
@@ -169,7 +164,6 @@ inline double imbalance(const Stepper& s, const Scene& scene, const Run& run) {
   return worst;
 }
 
-/// True if both agree bit for bit in every frame.
 inline bool identical(const Trajectory& a, const Trajectory& b) { return a.t == b.t && a.x == b.x && a.v == b.v; }
 
 /// Checks on messages; failures show the actual text.
@@ -196,8 +190,6 @@ inline ::testing::AssertionResult says(const std::string& sentence, std::initial
 /// Order of convergence from the errors with a step and half of it.
 inline double slope(double coarse, double fine) { return std::log2(coarse / fine); }
 
-// Messages on bad input.
-
 /// Message of the InputError that f throws, or "".
 template <class F>
 std::string refusal_of(F f) {
@@ -209,9 +201,7 @@ std::string refusal_of(F f) {
   return "";
 }
 
-// Runs without a stop.
-
-/// First step at which an unstopped run is more than ten times as fast as `speed`, by central differences.
+/// First step at which a run, which is not stopped, is more than ten times as fast as `speed`, by central differences.
 inline long step_of_leaving(const Scene& scene, const crosscheck::Run& run, const char* rule, double speed) {
   struct Free : Observer {
     explicit Free(double fastest) : most(fastest) {}

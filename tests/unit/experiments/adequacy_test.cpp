@@ -40,7 +40,8 @@ TEST(Ablations, NothingCanBeLeftOutOfTheAssignmentsScenes) {
     const ReferenceSolution y = reference_solution_of(scene, scene.tolerance);
     EXPECT_LE(y.floor, scene.tolerance / 5);
     const std::vector<AblatedModel> models = ablations_of(scene, y, scene.tolerance);
-    EXPECT_EQ(models.size(), 1 + ingredients_of(scene).size());  // no second removal after one that is too large
+    EXPECT_EQ(models.size(), 1 + ingredients_of(scene).size());  // no second removal, because every single one is too
+                                                                 // large
     for (const AblatedModel& r : models)
       if (!r.out.empty() && r.error) {
         EXPECT_GT(*r.error, scene.tolerance) << r.name;
@@ -158,7 +159,8 @@ TEST(Bending, SkipOneSpringsStiffenAsTheFourthPowerOfTheCells) {
   for (const BendSprings& b : bending_stiffness({8, 10, 13})) points.emplace_back(b.cells, b.stiffness);
   const auto law = power_law(points);
   ASSERT_TRUE(law);
-  // The first cell is clamped, so only n - 2 cells bend. With so few cells this changes the exponent by some tenths.
+  // The first cell is clamped, so that only n - 2 cells bend. With so few cells this changes the exponent by some
+  // tenths.
   EXPECT_NEAR(law->exponent, 4, 0.7);
 }
 

@@ -1,4 +1,4 @@
-// One trial of `advise`: computes the advice, writes it, runs its file again and compares with every candidate tried.
+// One trial of `advise`: computes the advice, runs its file again, and compares with every candidate tried.
 #pragma once
 
 #include "experiments/advise/advice.h"
@@ -17,7 +17,7 @@ struct AdviseCase {
   double tolerance = 0, error = 0;  // m
 };
 
-/// Requests advice for a tolerance of `part` of the scene's motion.
+/// The tolerance is `part` of the scene's motion.
 inline AdviseCase advise_case(const Scene& scene, double part) {
   AdviseCase c;
   const auto truth = truth_of(scene, default_run(scene));
@@ -41,7 +41,7 @@ inline AdviseCase advise_case(const Scene& scene, double part) {
   return c;
 }
 
-/// Advice on a scene with contact for a tolerance of a fraction of its motion. The advised file is compared with the
+/// Advice on a scene with contact for a tolerance of a fraction of its motion. Compares the advised file with the
 /// event-driven solution after every step.
 struct ContactCase {
   bool promised = false, met = false;
@@ -51,7 +51,6 @@ struct ContactCase {
   double duration = 0, until = 0, step = 0, tolerance = 0, error = 0, bar = 0;  // s and m
 };
 
-/// Records every step.
 class StepRecorder : public Observer {
  public:
   bool every_step() const override { return true; }
@@ -75,7 +74,7 @@ inline ContactCase contact_case(const Scene& scene, double part) {
     c.method = written.method;
     StepRecorder run;
     const Outcome out = run_method(method, written, default_run(written), {&run});
-    // Sample the event-driven solution at every step of the run until the promise ends. For adaptive methods, use the
+    // Samples the event-driven solution at every step of the run until the promise ends; for adaptive methods, at the
     // maximum step size.
     Run dense = default_run(scene);
     const double h = method.adaptive ? written.step : out.step;

@@ -1,4 +1,3 @@
-// Measured quantities against closed forms, parameters fitted to wishes, and advice on scenes of known order.
 
 #include <fmt/ranges.h>
 
@@ -33,11 +32,10 @@ TEST(Measures, OfASpringHaveClosedForms) {
               damped = parse_scene(mass_on_spring("0.5", "80", "[drag]\ngamma = 1.5\n"), "damped");
   EXPECT_NEAR(*sag_of(free), m * 9.81 / k, 1e-4 * m * 9.81 / k);
   const double period = 2 * std::numbers::pi * std::sqrt(m / k);
-  // converged value, to 1e-4
   for (const double about : {period, 3 * period, period / 10})
     EXPECT_NEAR(*period_of(free, about), period, 1e-4 * period);
   EXPECT_NEAR(*max_stretch_of(free), 2 * m * 9.81 / k, 1e-4 * 2 * m * 9.81 / k);
-  // The scene's own method: leapfrog runs fast by (h omega)^2 / 24, here 6.7e-4.
+  // The scene's own method: leapfrog's periods are shorter by (h omega)^2 / 24, here 6.7e-4.
   EXPECT_NEAR(*period_of(free, period, MeasuredBy::own_method), period * (1 - 16e-3 / 24), 1e-4 * period);
   // The energy decays as exp(-gamma t), with a ripple of gamma / omega.
   const double settle = std::log(1e3) / gamma, ripple = 1 / std::sqrt(k / m);
@@ -79,7 +77,6 @@ TEST(Fit, ReachesWishesWithinTwoPercent) {
   }
 }
 
-/// One mass under many springs, each attached to a separate pin.
 std::string mass_under_pins(int pins, const std::string& k, const std::string& more) {
   std::string text = "[[particle]]\nposition = [0, -1, 0]\nmass = 0.5\n", list;
   for (int i = 1; i <= pins; ++i) {
@@ -123,7 +120,7 @@ TEST(Fit, FindsTwoAtOnce) {
 }
 
 TEST(Fit, RefusesWhatItCannotDo) {
-  // The error message for such a file refers to `advise`.
+  // Files with "fit" are for `advise`, as the message says.
   EXPECT_TRUE(contains(message_of(mass_on_spring("0.5", "\"fit\"")),
                        "spring[0].stiffness: expected a number above zero; \"fit\" is for `crosscheck advise`"));
   EXPECT_TRUE(contains(message_of(mass_on_spring("0.5", "80", "[wish]\n")), "expected at least one of sag, period"));
@@ -194,7 +191,7 @@ TEST(Advise, TakesTheLongestStepThatMeetsTheTolerance) {
       const Trial& t = a.trials[a.chosen];
       EXPECT_LE(*t.error + a.error_bar, tolerance);
       EXPECT_NEAR(a.checked, *t.error, 1e-9 * tolerance + 1e-12);
-      // The order is at least 1, so doubling the step about doubles the error. Steps divide the sampling interval.
+      // The order is at least 1, so that doubling the step about doubles the error. Steps divide the sampling interval.
       const auto truth = truth_of(scene, default_run(scene));
       crosscheck::Run twice = default_run(scene);
       twice.step = 2 * t.step;
@@ -207,8 +204,8 @@ TEST(Advise, TakesTheLongestStepThatMeetsTheTolerance) {
   }
 }
 
-/// A mass of 0.5 kg, pulled down by 0.1 m, on a spring of 1 m and 300 N/m without gravity. The run lasts twelve
-/// periods. For `springs` > 1, a row of such springs.
+/// A mass of 0.5 kg, pulled down by 0.1 m, on a spring of 1 m and 300 N/m without gravity, for twelve periods. For
+/// `springs` > 1, a row of such springs.
 Scene sampled_spring(double samples_in_a_period, int springs = 1) {
   const double period = 2 * std::numbers::pi * std::sqrt(0.5 / 300), duration = 12 * period;
   std::string text = "[[particle]]\nposition = [0, 0, 0]\nmass = 1\n";
@@ -222,7 +219,7 @@ Scene sampled_spring(double samples_in_a_period, int springs = 1) {
 }
 
 TEST(Advise, KeepsItsPromiseBetweenTheSamples) {
-  // One sample per period sees no motion; one per half period sees only turning points. A bent row of two springs has
+  // One sample per period shows no motion, and one per half period only turning points. A bent row of two springs has
   // no closed form.
   for (const auto& [scene, truth_is] : {std::pair{sampled_spring(1), Tier::exact},
                                         {sampled_spring(2), Tier::exact},
@@ -233,7 +230,7 @@ TEST(Advise, KeepsItsPromiseBetweenTheSamples) {
       const Advice a =
           advise(scene, tolerance, find_methods("leapfrog,symplectic-euler,rk4,dopri5,implicit-midpoint,suzuki4"));
       EXPECT_EQ(a.tier, truth_is);
-      // Compare with the truth after every step, or at 1000 times if the method is adaptive.
+      // Compares with the truth after every step, or at 1000 times if the method is adaptive.
       const Scene written = parse_scene(a.toml, "sampled");
       crosscheck::Run run = default_run(written);
       const Method method = find_method(written.method);
@@ -299,7 +296,7 @@ TEST(Advise, StepKeepsTheWishesOfAScene) {
 TEST(Advise, SeesTheFastestMotionOfAScene) {
   EXPECT_NEAR(fastest_motion(sampled_spring(1)), std::sqrt(300 / 0.5), 1e-2);
   EXPECT_EQ(fastest_motion(load_scene("projectile")), 0);
-  // The motion of a pin may be faster than the motion of the particle on its spring.
+  // A pin may move faster than the particle on its spring.
   const Scene led = parse_scene(
       mass_on_spring("0.5", "80", "[pins.motion]\namplitude = [0, 0.01, 0]\nfrequency = 40\nramp = 0.1\n"), "led");
   EXPECT_NEAR(fastest_motion(led), 80 * std::numbers::pi, 1e-9);

@@ -2,7 +2,7 @@
 // tolerances each, and parameters fitted to wishes. Prints every case. Exits 1 if a wish is not reached within 2 %,
 // fewer than 95 % of the promised cases meet their tolerance, or a tried candidate meets it at less than 0.8 of the
 // advised cost.
-// `advise_trials contact FIRST LAST [PART]` tries random scenes with contact of these seeds instead, with a tolerance
+// `advise_trials contact FIRST LAST [PART]` instead tries random scenes with contact with these seeds, for a tolerance
 // of PART (default 0.01) times their motion. Exits 1 if a promise is broken.
 
 #include <cstdio>

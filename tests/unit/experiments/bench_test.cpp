@@ -1,4 +1,4 @@
-// The bench: scenes, rows, and ratios next to times.
+// The bench: scenes, rows, and ratios next to times. Tests never check speeds.
 
 #include <cstdlib>
 #include <set>
@@ -15,8 +15,6 @@
 
 namespace crosscheck {
 
-// Tests never check speeds.
-
 namespace {
 
 using namespace testing_tools;
@@ -24,7 +22,6 @@ using namespace testing_tools;
 const TimedRunOptions hasty_turns{3, 1e-4};
 const MicrobenchmarkOptions hasty{3, 1e-4};
 
-/// Rows and notes of a measurement.
 class Measured {
  public:
   template <class Options>
@@ -104,7 +101,7 @@ TEST(BenchInstructions, AreAsBeforeAfterwards) {
 
 TEST(BenchKernels, EachOneForEachInstructionSet) {
   const Measured kernels(measure_kernels, 40);  // includes the tolerance of single precision
-  // two loops compiled once; for each instruction set the general kernel and three fused steps
+  // the naive and the plain loop; for each instruction set the general kernel and three fused steps
   EXPECT_EQ(kernels.rows().size(), 2 + 4 * simd::supported_instruction_sets().size());
   std::set<std::string> names;
   for (const BenchRow& row : kernels.rows()) {
@@ -175,7 +172,7 @@ TEST_F(BenchEqualError, APeersRunThatFailsIsARow) {
   EXPECT_FALSE(measured.rows()[0].ratio);
 }
 
-/// Errors of one peer, from its first setting to its last.
+/// From the first setting of the peer to its last.
 std::vector<double> errors_of(const Measured& measured, const std::string& peer) {
   std::vector<double> errors;
   for (const BenchRow& row : measured.rows())
@@ -184,7 +181,7 @@ std::vector<double> errors_of(const Measured& measured, const std::string& peer)
   return errors;
 }
 
-/// Expects the errors of an adaptive peer at two tolerances to follow the tolerance.
+/// The errors of an adaptive peer at two tolerances.
 void expect_tolerance_followed(const std::vector<double>& errors) {
   ASSERT_GE(errors.size(), 2u);
   EXPECT_LT(errors[0], 1e-4);
@@ -192,7 +189,7 @@ void expect_tolerance_followed(const std::vector<double>& errors) {
 }
 
 TEST_F(BenchEqualError, OthersComeToMysimsTruthAsTheirOrdersSay) {
-  // Each peer uses independently written equations or Bullet: truth and peers share no code.
+  // Each peer uses independently written equations or Bullet, so that truth and peers share no code.
   const Measured measured = rows_of(
       {{"odeint/rk4", {0.5, 0.25}}, {"odeint/dopri5", {1e-6, 1e-8}}, {"bullet/deformable-explicit", {0.2, 0.1}}});
   const auto rk4 = errors_of(measured, "odeint/rk4"), euler = errors_of(measured, "bullet/deformable-explicit");

@@ -1,5 +1,5 @@
 // Common mistakes in scene files. A user who sees only the file and the message must be able to fix the mistake in one
-// edit, so each message names the line to change, the key, the value found and the value expected.
+// edit, so that each message names the line to change, the key, the value found and the value expected.
 
 #include <fstream>
 
@@ -68,7 +68,7 @@ friction = 0.4
 struct Breakage {
   const char* name;
   std::string_view good, broken;    // text in the valid file, and its replacement in the broken one
-  int line;                         // in the message; 0: the file as a whole
+  int line;                         // line in the message; 0: the file as a whole
   std::vector<const char*> expect;  // substrings of the message
 };
 

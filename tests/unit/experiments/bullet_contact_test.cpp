@@ -1,4 +1,3 @@
-// Bullet's contacts and traps: friction, moving spheres, and each trap reproduced and avoided.
 
 #include "experiments/metrics.h"
 #include "experiments/scenes/scenes.h"
@@ -53,7 +52,8 @@ TEST(BulletFriction, OfTheDeformableWorldHoldsAboveTheLimitAndSlidesBelow) {
       const Trajectory path = run_and_record(method, scene, {1e-3, scene.duration, scene.samples}).trajectory;
       return (path.x.back() - path.x.front()).norm();
     };
-    EXPECT_LT(way(1.05 * limit), 1e-5);  // it settles in: Bullet leaves a part of the weight uncompensated
+    EXPECT_LT(way(1.05 * limit), 1e-5);  // Bullet leaves a part of the weight uncompensated, so that the particle first
+                                         // settles
     EXPECT_LT(way(2 * limit), 1e-5);
     // 5 % below the limit it accelerates by 5 % of g sin(30) for 0.5 s.
     EXPECT_NEAR(way(0.95 * limit), 0.05 * g * 0.5 * 0.125, 0.02 * 0.05 * g * 0.5 * 0.125);
@@ -65,21 +65,21 @@ TEST(BulletFriction, OfThePositionBasedWorldIsACreepInProportionToTheStep) {
     for (const double h : {5e-4, 1e-3, 5e-3}) {
       const Trajectory path = run_and_record("bullet/pbd", on_slope(f), {h, 0.5, 50}).trajectory;
       const double creep = g * std::sin(slope_angle) * h * (1 - f) / f;
-      // Sometimes a node is out of contact for one step and is faster for a few. The median ignores this.
+      // Sometimes a node is out of contact for one step and faster for a few; the median ignores this.
       std::vector<double> speeds;
       for (int i = 25; i <= 50; ++i) speeds.push_back(path.v[i].col(0).norm());
       std::nth_element(speeds.begin(), speeds.begin() + 13, speeds.end());
       const double found = speeds[13];
       EXPECT_NEAR(found / creep, 1, 1e-3) << fmt::format("f {} h {}", f, h);
     }
-  // Sufficient friction holds the particle. Bullet still reports a speed, which the divergence monitor accepts.
+  // Sufficient friction holds the particle, although Bullet reports a speed, which the divergence monitor accepts.
   Recorder recorder;
   find_method("bullet/pbd").engine(on_slope(0.7), {1e-3, 0.5, 50}, recorder);
   EXPECT_LT((recorder.trajectory.x.back() - recorder.trajectory.x.front()).norm(), 1e-5);
 }
 
 TEST(BulletFriction, AHeldParticleHasNotBlownUpAndAThrownOneHas) {
-  // Bullet pushes the particle out of the contact at 3e-4 m/s from zero energy: a correction, not a blow-up.
+  // Bullet pushes the particle, whose energy was zero, out of the contact at 3e-4 m/s: a correction, not a blow-up.
   EXPECT_GE(speed_at_the_end("bullet/pbd", on_slope(0.7), 1e-3), 0);
   // Conversely, a blow-up needs more than ten times the energy of a fall by 1/256 of the ball (1 km here).
   const Scene scene = on_slope(0.7);
@@ -112,8 +112,8 @@ TEST(BulletMovingSphere, CarriesTheClothAlong) {
       closest = std::min(closest, *clearance(scene, a.trajectory.t[i], a.trajectory.x[i]));
     const double along = centre_of_mass(scene, a.trajectory.x.back()).x() - centre_of_mass(scene, scene.start.x).x();
     fmt::print("{}: clearance {:.2g} m, carried {:.3f} of {:.3f} m\n", method, closest, along, moved);
-    // Bullet resolves contact against the ball's position at the start of the step: |u| h = 0.6 m/s x 1 ms, and the hop
-    // due to its curvature (v h)^2 / 2R, about 1e-6 m.
+    // Bullet resolves contact against the ball's position at the start of the step: |u| h = 0.6 m/s x 1 ms, and a hop
+    // of (v h)^2 / 2R, about 1e-6 m.
     EXPECT_GE(closest, -1e-3);
     EXPECT_NEAR(along, moved, 0.1 * moved);  // the cloth sags and slips a little
   }
@@ -155,7 +155,7 @@ TEST(BulletSpheres, TwoHoldAChainBetweenThem) {
     EXPECT_GT(touched[0], 10);
     EXPECT_GT(touched[1], 10);
     EXPECT_GE(closest, -2e-3);  // penetration on impact at 1.5 m/s: less than 1.5 m/s x 1 ms
-    // Impacts follow different rules. Position-based friction holds particles that slide here.
+    // The engines follow different impact rules. Position-based friction holds particles that slide here.
     EXPECT_LE(sup_rms(ours, a.trajectory, method == explicit_world ? 0.6 : 0.25), 0.01);
   }
 }
@@ -224,8 +224,8 @@ TEST(BulletTraps, SpeedLimitActsOnlyWithTheDefaultMargin) {
   const Scene scene = trap("speed-clamp");
   const MethodRun open = play("bullet/deformable-explicit+default-margin", scene),
                   closed = play("bullet/deformable-explicit", scene), ours = play("symplectic-euler", scene);
-  // The box of a lone particle is a cube of twice the margin. The limit is its diagonal per step, less than 80 m/s
-  // here.
+  // The box of a lone particle is a cube of twice the margin. The limit is its diagonal per step, here less than 80
+  // m/s.
   const double limit = 2 * 0.25 * std::sqrt(3) / scene.step;
   for (size_t i = 1; i < open.trajectory.v.size(); ++i)
     EXPECT_LE(open.trajectory.v[i].col(0).norm(), limit * (1 + 1e-12));
@@ -243,7 +243,7 @@ TEST(BulletTraps, OwnWindDoesNotBeginOnAClothAtRest) {
   double fastest = 0;
   for (int i = 0; i < own.frames() && own.t[i] <= 0.3; ++i) fastest = std::max(fastest, largest_column(own.v[i]));
   EXPECT_LT(fastest, 1e-6);
-  // 13.5 m/s^2 at first, half of that at 0.9 m/s of 3 m/s
+  // The wind's initial acceleration is 13.5 m/s^2, and half of that once the cloth moves at 0.9 m/s in a wind of 3 m/s.
   EXPECT_GT(largest_column(added.v[added.frames() / 4]), 1);
 }
 
@@ -267,7 +267,7 @@ TEST(BulletTraps, DistanceFieldIsWrongByTheSquareOfItsVoxel) {
   };
   const double coarse = gap("bullet/pbd+default-voxel"), fine = gap("bullet/pbd");
   fmt::print("distance field: {:.3g} m with 0.25 m, {:.3g} m with 0.02 m\n", coarse, fine);
-  // Trilinear interpolation of the distance errs by a^2 / 8R along one axis and by twice that across a cell.
+  // Trilinear interpolation of the distance has an error of a^2 / 8R along one axis, and twice that across a cell.
   EXPECT_LE(coarse, 0.25 * 0.25 / (4 * radius));
   EXPECT_LE(fine, 0.02 * 0.02 / (4 * radius));
   EXPECT_GT(coarse, 1e-3);

@@ -30,8 +30,9 @@ TEST(BulletPbdStiffness, OfOneLinkIsTheFormulas) {
     SCOPED_TRACE(
         fmt::format("kLST {}, h {}, n {}", share, number(table, row, "step"), number(table, row, "iterations")));
     count += share == 0.1 || share == 0.5;
-    EXPECT_LT(std::abs(deviation), 2e-3);  // the bound
-    // The last Gauss-Seidel pass finds the strain 1e-4 / (1 - kLST) and removes half of that more than Hooke's share.
+    EXPECT_LT(std::abs(deviation), 2e-3);  // required bound
+    // The last Gauss-Seidel pass finds the strain 1e-4 / (1 - kLST). It removes half of that strain more than Hooke's
+    // law would.
     EXPECT_NEAR(deviation, 0.5e-4 / (1 - share), 0.02 * 0.5e-4 / (1 - share));
   }
   EXPECT_EQ(count, 18);  // 2 shares, 3 steps, 3 iterations
@@ -55,7 +56,8 @@ TEST(BulletPbdStiffness, OfANetworkIsTheFormulasOnlyWhereTheStepIsSmall) {
     EXPECT_GT(at_largest, 0.1);
     EXPECT_LT(at_smallest, 0.01);
     EXPECT_GT(at_smallest, 1e-4);     // and is above round-off
-    EXPECT_NEAR(last_slope, 4, 0.2);  // as k h^2/mu, to first order
+    EXPECT_NEAR(last_slope, 4, 0.2);  // to first order, the deviation is proportional to k h^2/mu, which grows 4-fold
+                                      // from step to step
   }
 }
 
@@ -126,9 +128,9 @@ TEST(BulletPbdNetwork, ConvergesToTheLinkLawAndNotToHookes) {
   }
   fmt::print("soft cloth: {:.3g} to {:.3g} m from the link law, {:.3g} to {:.3g} m from Hooke's\n", from_link.front(),
              from_link.back(), from_hooke.front(), from_hooke.back());
-  // First order: half the step, half the error. At the largest step the square of k h^2/mu = 0.02 contributes.
+  // First order: half the step, half the error. At the largest step, the square of k h^2/mu = 0.02 contributes.
   for (size_t i = 1; i < from_link.size(); ++i) EXPECT_NEAR(slope(from_link[i - 1], from_link[i]), 1, 0.1);
-  EXPECT_LE(from_link.back(), from_link.front() / 4);  // the bound
+  EXPECT_LE(from_link.back(), from_link.front() / 4);  // required bound
   EXPECT_GT(from_hooke.back(), from_hooke.front() / 2);
   EXPECT_GT(from_hooke.back(), 5 * from_link.back());
 }
@@ -141,8 +143,8 @@ TEST(BulletPbdDrag, OfAFreeParticleIsExact) {
           "[[particle]]\nposition = [0, 0, 0]\nmass = 0.3\nvelocity = [1, -2, 0.5]\n[drag]\ngamma = {}\n", gamma));
       const int steps = 60;
       const Trajectory path = run_and_record("bullet/pbd", scene, {h, steps * h, steps}).trajectory;
-      // Velocities are differences of positions divided by h, so each step rounds them by an ulp of the path length
-      // over h.
+      // Velocities are differences of positions divided by h, so that each step rounds them by an ulp of the path
+      // length over h.
       const double rounding = steps * eps * path.x.back().norm() / h;
       for (int i = 0; i <= steps; ++i)
         EXPECT_LE((path.v[i] - std::exp(-gamma * i * h) * scene.start.v).norm(), rounding) << i;
@@ -174,7 +176,7 @@ TEST(BulletPbdForces, AddedToNodesConvergeToTheScenesSolution) {
     for (const double h : {1e-3, 5e-4, 2.5e-4})
       error.push_back(sup_rms(with_law(scene, SpringLaw::bullet_link, "bullet/pbd", h), truth));
     fmt::print("{}: {:.3g}, {:.3g}, {:.3g} m\n", what, error[0], error[1], error[2]);
-    // First order. The bound is two-sided because an error independent of the step would stop the convergence.
+    // First order. The bound is two-sided because an error that is independent of the step would stop the convergence.
     EXPECT_NEAR(slope(error[1], error[2]), 1, 0.15) << what;
     EXPECT_LT(error[2], 2e-3) << what;
   }

@@ -1,4 +1,4 @@
-// Bullet against mysim on the shipped scenes, in both precisions, compared with the measured growth of a perturbation.
+// Bullet compared with mysim on the shipped scenes in both precisions, within the measured growth of a perturbation.
 
 #include "experiments/experiment.h"
 #include "experiments/metrics.h"
@@ -16,7 +16,7 @@ namespace {
 
 using namespace testing_tools;
 
-/// Runs a method over the whole scene at the scene's own step and expects it to finish.
+/// At the scene's own step; expects the run to finish.
 MethodRun play(const std::string& method, const Scene& scene) {
   MethodRun a = run_and_record(method, scene, default_run(scene));
   EXPECT_EQ(a.outcome.verdict, Verdict::ok) << method << ": " << a.outcome.reason;
@@ -32,7 +32,7 @@ void expect_identity(const std::string& name, const std::string& carried_by) {
   const double apart = sup_distance(ours.trajectory, theirs.trajectory, scene.window);
   const double growth = perturbation_growth(find_method("symplectic-euler"), scene, scene.step, scene.window);
   fmt::print("{}: {:.3g} m apart, growth {:.3g}\n", name, apart, growth);
-  EXPECT_LE(apart, 1e-12);  // the issue's bound: round-off of the summation order (1e-15 m) times growth
+  EXPECT_LE(apart, 1e-12);  // required bound: round-off of the summation order (1e-15 m) times growth
   EXPECT_LT(growth, 1e3);
 }
 
@@ -56,15 +56,15 @@ TEST(Scenes, PerturbationsGrowLessThanAThousandfoldInTheWindowForEveryStableStep
     const Scene scene = load_scene(std::string(name));
     const double omega = scene.model.first_order() ? 0 : highest_frequency(scene.model, scene.start);
     int stable = 0;
-    bool own = false;  // the scene's own method is stable
+    bool own = false;
     for (const Stepper& s : steppers()) {
-      // Implicit steps cost many evaluations, so they run only on scenes that use them.
+      // Implicit steps cost many evaluations, so that they run only on scenes that use them.
       if (s.evaluations == 0 && s.name != scene.method) continue;
       if (omega > 0 && s.limit(omega, uniform_drag_rate(scene.model).value_or(0)) < scene.step) continue;
-      if (s.adaptive) continue;  // its steps change with the perturbation, so growth shows only the tolerance
+      if (s.adaptive) continue;  // its steps change with the perturbation, so that growth shows only the tolerance
       SCOPED_TRACE(fmt::format("{} {}", name, s.name));
       const Method method = find_method(std::string(s.name));
-      // Run the scene's own method to the end to find the end of its window, and the others in the declared window.
+      // Runs the scene's own method to the end, to find where its window ends, and the others over the declared window.
       const bool to_the_end = s.name == scene.method;
       Recorder r;
       crosscheck::Run run = default_run(scene);
@@ -83,19 +83,19 @@ TEST(Scenes, PerturbationsGrowLessThanAThousandfoldInTheWindowForEveryStableStep
         EXPECT_GT(growing.window(), scene.window - 1.001 * scene.duration / scene.samples);
       }
       EXPECT_GT(growth, 0);
-      // Bound by which the windows were chosen. Dissipative first-order rules effectively simulate a cloth of another
+      // The windows were chosen by this bound. Dissipative first-order rules effectively simulate a cloth of another
       // stiffness (xpbd, with one sweep per step: 6e3 measured on cloth-hang).
       EXPECT_LT(growth, s.order == 1 && !s.symplectic ? 1e4 : 1e3);
     }
     EXPECT_TRUE(own) << name;
-    // The two symplectic rules and rk4, or the three for first-order scenes. On special scenes only few rules are
-    // stable.
+    // The two symplectic rules and rk4, or the three rules that support first-order scenes. On special scenes only few
+    // rules are stable.
     const bool special = scene.model.find<Constraints>() || scene.method == "implicit-euler";
     EXPECT_GE(stable, special ? 1 : 3) << name;
   }
 }
 
-/// Records the time (s) at the end of the first step with a contact.
+/// Time (s) at the end of the first step with a contact.
 class FirstTouch : public Observer {
  public:
   bool every_step() const override { return true; }
@@ -115,10 +115,10 @@ TEST(BulletDrape, AgreesUntilTheWindowAndInTheMeanAfterwards) {
   const MethodRun ours = play("symplectic-euler", scene), theirs = play("bullet/deformable-explicit", scene);
   FirstTouch touch;
   run_method(find_method("symplectic-euler"), scene, default_run(scene), {&touch});
-  EXPECT_NEAR(scene.window, touch.time + 0.3, 0.01);  // the window is written to two digits
+  EXPECT_NEAR(scene.window, touch.time + 0.3, 0.01);  // the scene file gives two digits
   const auto sampled = first_contact(scene, ours.trajectory);
   ASSERT_TRUE(sampled);
-  EXPECT_NEAR(*sampled, touch.time, 0.02 + scene.step);  // a touch shows at the next sample, at most 0.02 s later
+  EXPECT_NEAR(*sampled, touch.time, 0.02 + scene.step);  // the next sample is at most 0.02 s later
   const double rms = sup_rms(ours.trajectory, theirs.trajectory, scene.window);
   double mean_apart = 0, closest = 0;
   for (int i = 0; i < ours.trajectory.frames(); ++i) {
@@ -130,9 +130,10 @@ TEST(BulletDrape, AgreesUntilTheWindowAndInTheMeanAfterwards) {
   }
   fmt::print("cloth-sphere: touch {:.3g} s, rms {:.3g} m, centre of mass {:.3g} m, clearance {:.3g} m\n", touch.time,
              rms, mean_apart, closest);
-  EXPECT_LE(rms, 2e-3);         // bounds of the issue: Bullet uses normals of the old position,
-  EXPECT_LE(mean_apart, 5e-3);  // so that nodes hop by (v h)^2 / 2R in each step
-  EXPECT_GE(closest, -1e-3);    // distance field with voxels of 0.005 m: 6e-6 m, and one hop
+  // required bounds: Bullet uses normals of the old position, so that nodes hop by (v h)^2 / 2R in each step
+  EXPECT_LE(rms, 2e-3);
+  EXPECT_LE(mean_apart, 5e-3);
+  EXPECT_GE(closest, -1e-3);  // voxels of 0.005 m: 6e-6 m, and one hop
 }
 
 }  // namespace
@@ -145,8 +146,8 @@ namespace {
 using namespace testing_tools;
 
 /// Both sum the same forces in a different order, which differs by about 1e-15 m (an ulp of some metres) in each step.
-/// Over thousands of steps this accumulates like a random walk, to 100 times that, and grows like any perturbation.
-/// The bound is at least 1e-12 m because rounding of velocities adds a drift of sqrt(N) T h eps k L / m in N steps.
+/// Over thousands of steps this accumulates like a random walk, to 100 times that, and grows like any perturbation. The
+/// bound is at least 1e-12 m because rounding of velocities adds a drift of sqrt(N) T h eps k L / m in N steps.
 /// (Springs of 200 000 N/m in a cloth coarser than those tried here reach 4e-12 m that way.)
 double allowed(double growth) { return 1e-13 * std::max(10.0, growth); }
 
@@ -204,7 +205,7 @@ TEST(BulletIdentity, OnTwoHundredRandomContactFreeScenes) {
   for (unsigned seed = 0; seed < 200; ++seed) {
     SCOPED_TRACE(seed);
     Scene scene = random_contact_free_scene(seed);
-    if (seed % 2 == 1)  // two stiffnesses, softer than before, within Bullet's own force
+    if (seed % 2 == 1)  // two stiffnesses, softer than before, so that Bullet's own force supports them
       for (Spring& s : scene.model.find<Springs>()->list) s.k = s.k < 100 ? 10 : 100;
     const auto [apart, growth] = compare(scene, default_run(scene));
     EXPECT_LE(apart, allowed(growth)) << "growth " << growth;
@@ -285,7 +286,8 @@ TEST(Bullet32, IsSymplecticEulerWithinTheRoundOffOfSinglePrecision) {
     const MethodRun ours = run_and_record("symplectic-euler", scene, run);
     ASSERT_EQ(theirs.outcome.verdict == Verdict::ok, ours.outcome.verdict == Verdict::ok) << theirs.outcome.reason;
     if (ours.outcome.verdict != Verdict::ok) {
-      // A stiff cloth blows up at this step in any precision. Bullet clamps speeds, so lengths may show it first.
+      // A stiff cloth blows up at this step in any precision. Bullet clamps speeds, so that its run may be flagged for
+      // stretch before it is flagged for energy.
       EXPECT_EQ(ours.outcome.verdict, Verdict::energy);
       EXPECT_TRUE(theirs.outcome.verdict == Verdict::energy || theirs.outcome.verdict == Verdict::stretch)
           << theirs.outcome.reason;
@@ -326,7 +328,6 @@ TEST(Bullet32, SaysThatItIsSingleAndPassesOptionsOn) {
       said |= row.quantity == "precision" && row.parity == Parity::different_law;
     EXPECT_TRUE(said);
   }
-  // contacts and refusals are passed on unchanged
   EXPECT_EQ(run_and_record("bullet32/deformable-explicit", load_scene("slide"), {1e-3, 0.1, 2}).outcome.verdict,
             Verdict::ok);
   EXPECT_TRUE(

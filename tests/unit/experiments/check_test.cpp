@@ -1,4 +1,4 @@
-// Relations: each detects the engine that breaks it, and a correct engine breaks none.
+// Relations: each detects the engine that violates it, and a correct engine violates none.
 
 #include "experiments/check/check.h"
 #include "experiments/check/transformations.h"
@@ -77,8 +77,8 @@ TEST(Relations, OfPlacedRunsCountWhatAnImplicitStepLeavesUnsolvedOfABendingStrip
   Subject implicit(find_method("implicit-midpoint")), explicit_rule(find_method("leapfrog"));
   const Answer shifted = ask(find_relation("shifted"), implicit, strip, 1, {});
   EXPECT_EQ(shifted.mark, RelationMark::holds) << shifted.sentence();
-  EXPECT_GT(shifted.finding.measured, implicit.noise(strip).x.back());  // exceeds rounding
-  EXPECT_LT(shifted.finding.tolerance, 1e-6 * strip.size());            // far below any visible defect
+  EXPECT_GT(shifted.finding.measured, implicit.noise(strip).x.back());
+  EXPECT_LT(shifted.finding.tolerance, 1e-6 * strip.size());  // far below any visible defect
   EXPECT_EQ(ask(find_relation("turned"), implicit, strip, 1, {}).mark, RelationMark::holds);
   const Answer rounded = ask(find_relation("shifted"), explicit_rule, strip, 1, {});
   EXPECT_EQ(rounded.mark, RelationMark::holds) << rounded.sentence();
@@ -110,7 +110,7 @@ TEST(Relations, CannotBeAskedOfAMethodThatEndsNoRun) {
   for (const Answer& a : answers) EXPECT_EQ(a.mark, RelationMark::not_applicable) << a.relation->name;
   EXPECT_TRUE(contains(answers.front().sentence(), "it did not start"));
   EXPECT_EQ(status_of(answers), 1);
-  // An engine that completes some scenes breaks the relations of the scenes on which it fails.
+  // An engine that completes some scenes violates the relations of the scenes on which it fails.
   weak.engine = [&dead, alive = weak.engine](const Scene& scene, const crosscheck::Run& run, Observer& observer) {
     return (scene.model.find<Springs>() ? dead.engine : alive)(scene, run, observer);
   };

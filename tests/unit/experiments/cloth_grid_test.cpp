@@ -1,5 +1,5 @@
-// The fused step of regular cloths takes the same steps as the general engine, on every instruction set and on several
-// threads.
+// The fused step of regular cloths takes the same steps as the general engine, on every instruction set and with
+// several threads.
 
 #include <gtest/gtest.h>
 
@@ -28,7 +28,7 @@ TEST(ClothGrid, TakesTheSameStepsAsTheGeneralEngine) {
     for (const char* rule : fused_rules) {
       const Trajectory plain = path_of(std::string(rule) + "+plain", scene);
       const double motion = motion_of(plain);
-      // Measured growth of a perturbation over 200 steps. A different summation order is such a perturbation.
+      // Measured growth of a perturbation over 200 steps; a different summation order is such a perturbation.
       const double growth = perturbation_growth(find_method(std::string(rule) + "+plain"), scene, scene.step, 0.2);
       for (const InstructionSet isa : simd::supported_instruction_sets()) {
         const ScopedInstructionSet only(isa);
@@ -105,7 +105,6 @@ TEST(ClothGrid, ContactsInLanesHaveTheBitsOfTheRule) {
       }
 }
 
-/// The fused step accepts the scenes it supports and leaves others to the general engine.
 TEST(ClothGrid, RecognisesRegularCloths) {
   for (const char* name :
        {"cloth-hang", "cloth-swing", "cloth-sphere", "cloth-wind", "cloth-carried", "flag", "cloth-stiff"})
@@ -138,7 +137,6 @@ TEST(ClothGrid, RecognisesRegularCloths) {
     Scene scene = scene_of(cloth);
     change(springs_of(scene).list);
     EXPECT_FALSE(grid_topology_in(scene)) << what;
-    // +plain, the general engine, gives the same result
     EXPECT_EQ(path_of("leapfrog", scene).x.back(), path_of("leapfrog+plain", scene).x.back()) << what;
   }
 }
@@ -211,7 +209,7 @@ TEST(ClothGrid, InverseRootsAreGoodToTwoUnitsInTheLastPlace) {
 }
 
 TEST(ClothGrid, InstructionsThatAreNotThereAreNamed) {
-  const ScopedInstructionSet as_before(InstructionSet::baseline);  // restored afterwards
+  const ScopedInstructionSet as_before(InstructionSet::baseline);  // restores the variable
   setenv("CROSSCHECK_INSTRUCTIONS", "mmx", 1);
   try {
     path_of("leapfrog", scene_of(cloths()[0]));
@@ -270,7 +268,7 @@ TEST(ThreadPool, CountsWhatTheOthersWork) {
       }
       own[which] += s;
     });
-  // The pool also counts clock reads. The first thread's work is twenty times as much.
+  // The pool also counts clock reads. The first thread has twenty times as much work.
   EXPECT_GE(pool.seconds(), own[1] + own[2]);
   EXPECT_LT(pool.seconds(), own[0]);
 }

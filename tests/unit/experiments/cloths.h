@@ -1,4 +1,4 @@
-// Cloths that the fused step accepts, and other terms of a scene that it must handle.
+// Cloths that the fused step accepts, with the other terms of a scene that it must handle.
 #pragma once
 
 #include <fmt/format.h>
@@ -49,7 +49,7 @@ inline std::string text_of(const Cloth& cloth, const std::string& stiffness) {
       cloth.columns, cloth.rows, (cloth.rows - 1) / (cloth.columns - 1.), stiffness, cloth.more);
 }
 
-/// A cloth with an initial wave, so that springs are under tension from the first step on.
+/// With an initial wave, so that springs are under tension from the first step on.
 inline Scene scene_of(const Cloth& cloth, const std::string& stiffness = "structural = 40\nshear = 25\nbend = 10") {
   Scene scene = small_scene(text_of(cloth, stiffness), 0.2, 1e-3, 4);
   scene.window = 0.2;

@@ -1,4 +1,3 @@
-// Probes of collision response: depths computed by hand, both sides of every law, a symmetric scene.
 
 #include "experiments/contact/probes.h"
 #include "experiments/experiment.h"
@@ -46,9 +45,9 @@ TEST(TriangleDepth, CutsTheBallBetweenCornersThatLieOnIt) {
   scene.triangles = {{0, 1, 2}};
   Points x = scene.start.x;
   x.col(0) = Vec3(2, 0, 0), x.col(1) = Vec3(0, 2, 0), x.col(2) = Vec3(0, 0, 2);
-  EXPECT_NEAR(*depth_of_triangles(scene, 0, x), 2 - 2 / std::sqrt(3), 8 * eps);  // its centre is at 2 / sqrt(3)
-  EXPECT_EQ(*clearance(scene, 0, x), 0);                                         // no particle is inside
-  x.col(2) = Vec3(0, 0, 9);  // the nearest point is now near the edge between the others
+  EXPECT_NEAR(*depth_of_triangles(scene, 0, x), 2 - 2 / std::sqrt(3), 8 * eps);  // centre at 2 / sqrt(3)
+  EXPECT_EQ(*clearance(scene, 0, x), 0);
+  x.col(2) = Vec3(0, 0, 9);  // the nearest point is now near the edge between the other corners
   EXPECT_NEAR(*depth_of_triangles(scene, 0, x), 2 - 1 / std::sqrt(0.25 + 0.25 + 1. / 81), 8 * eps);
   x.col(0) = Vec3(2, 1, 0), x.col(1) = Vec3(2, -1, 0), x.col(2) = Vec3(9, 0, 0);
   EXPECT_NEAR(*depth_of_triangles(scene, 0, x), 0, 8 * eps);                  // touching edge
@@ -113,7 +112,7 @@ TEST(PlaneCone, HoldsAThousandthInsideAndSlidesAThousandthOutside) {
       const Scene scene = on_slope(degrees, limit / 1.001, Ground::plane);
       const auto exact = exact_solution(scene);
       ASSERT_TRUE(exact);
-      EXPECT_NEAR((exact->at(0.5).x - scene.start.x).norm(), slid->coulomb, 1e-13);  // a thousandth of 1 m, cancelled
+      EXPECT_NEAR((exact->at(0.5).x - scene.start.x).norm(), slid->coulomb, 1e-13);  // a millimetre of 1 m, cancelled
     }
   // two failures: the position-based world creeps, the sticky rule holds everything
   EXPECT_EQ(cone(find_method("bullet/pbd"), 35, 0.35, Ground::plane, 1e-3, out)->state, ContactState::neither);
@@ -131,14 +130,14 @@ TEST(PlaneProbes, ClosedFormsHoldWithinTheOrderOfEachMethod) {
         EXPECT_TRUE(value) << out.reason;
         return std::abs(value.value_or(NAN) - by_theory(probe));
       };
-      // An impact errs in speed by at most (1 + e) g h. Three impacts err by v / g times as much in the height after
-      // 1.24 m/s, plus one step at that speed. With events, only the highest sample errs: it is g h^2 / 8 below the
-      // apex. All relative to 0.3 m.
+      // An impact changes the speed by up to (1 + e) g h too much. Three impacts change the height after them, at 1.24
+      // m/s, by v / g times as much, plus one step at that speed. With events, only sampling matters: the highest
+      // sample is up to g h^2 / 8 below the apex. All relative to 0.3 m.
       EXPECT_LT(off(PlaneProbe::apex), events ? 9.81 * h * h / 8 / 0.3 + 1e-9 : (3 * 1.8 + 1) * 1.24 * h / 0.3);
       // each of two impacts in 0.467 s lasts until the end of its step
       EXPECT_LT(off(PlaneProbe::period), events ? 1e-9 : 2 * h / (1.4 / 3) * (1 + 1e-9));
       EXPECT_LT(off(PlaneProbe::loss), 1e-12);  // rounding
-      // Explicit Euler moves with the velocity before the fall, so it touches one step later.
+      // Explicit Euler moves with the velocity before the fall, so that it touches one step later.
       EXPECT_EQ(off(PlaneProbe::held), method.name == "mysim/explicit-euler" ? 0.5 : 0);
     }
   }
@@ -215,7 +214,8 @@ TEST(SphereOrder, EveryProbeHasATruthAndEventsAreOfOrderTwoOnIt) {
 }
 
 TEST(SphereLeaving, IsWhereEnergyAndFreeFlightSay) {
-  // On the ball v^2 = 2 g R (1 - cos). It leaves at cos = 2/3, then falls freely until the gap is a millimetre.
+  // On the ball v^2 = 2 g R (1 - cos). The particle leaves at cos = 2/3, then falls freely until the gap is a
+  // millimetre.
   const double r = 1.02, g = 9.81, c = 2. / 3, s = std::sqrt(1 - c * c), v = std::sqrt(g * r * c);
   double t = 0, x = 0, y = 0;
   while (std::hypot(x, y) < r + 1e-3) {
@@ -230,12 +230,12 @@ TEST(SphereLeaving, IsWhereEnergyAndFreeFlightSay) {
   for (const auto name : {"leapfrog", "rk4", "bullet/deformable-explicit"}) {
     const auto found = leaving(find_method(name), 1e-3, out);
     ASSERT_TRUE(found) << name;
-    // A step is 0.15 degrees there. After contact ends the gap grows as the cube of the time, so a step more or less of
-    // contact changes the angle by at most a degree.
+    // A step is 0.15 degrees there. After contact ends, the gap grows as the cube of the time, so that one step more or
+    // less of contact changes the angle by at most a degree.
     EXPECT_NEAR(found->angle, exact.angle, 1) << name;
     EXPECT_NEAR(found->speed, exact.speed, 0.02 * exact.speed) << name;
   }
-  EXPECT_FALSE(leaving(find_method(sticky), 1e-3, out));  // it never leaves
+  EXPECT_FALSE(leaving(find_method(sticky), 1e-3, out));
   EXPECT_EQ(out.verdict, Verdict::ok);
 }
 

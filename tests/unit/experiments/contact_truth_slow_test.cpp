@@ -57,7 +57,6 @@ TEST(ContactTruth, OfADrapeIsThatOfTwoRulesWithoutACommonEquationUntilItIsSensit
   fmt::print("drape: bar {:.2g} m, {:.2g} m from another rule, until {:.2g} s\n", truth->error_bar, off, truth->until);
   EXPECT_LT(off, truth->error_bar);
   EXPECT_GT(off, truth->error_bar / 40);
-  // also compare the energy lost to contact, which neither route computes
   ASSERT_EQ(truth->contact.size(), truth->trajectory.t.size());
   const double taken = ledger.rows().back().contact, bar = truth->contact_bars.back();
   fmt::print("drape: contact takes {:.6g} J, bar {:.2g} J, {:.6g} J by another rule\n", truth->contact.back(), bar,
@@ -126,13 +125,12 @@ TEST(ContactTruth, BarsCoverThirtyRandomScenesOnPlanes) {
     const Trajectory& path = truth->trajectory;
     const double bar = truth->error_bar;
     const crosscheck::Run run{scene.step, path.t.back(), path.frames() - 1};
-    // event-driven, at a hundredth of the truth's finest tolerance
     Recorder finer;
     run_event_driven(scene, {run.step, run.duration, run.samples, 1e-14}, finer);
     const double off = sup_rms(path, finer.trajectory);
     EXPECT_LE(off, bar);
     closest = std::min(closest, bar / off);
-    // a third rule, with its last refinement at fine steps as its own uncertainty
+    // a third rule, whose last refinement is its uncertainty
     Recorder coarse, fine;
     for (const auto& [recorder, part] : {std::pair{&coarse, 64}, {&fine, 128}})
       run_method(method, scene, {scene.step / part, run.duration, run.samples}, {recorder});
@@ -210,7 +208,7 @@ TEST(FloorDrop, KeepsAPerturbationSmallToTheEndOfItsWindowAndEndsInOneState) {
       if (path.t[i] <= scene.window * (1 + 1e-9))
         growth = std::max(growth, largest_column(path.x[i] - plain.x[i]) / size);
     }
-    // Height, clearance, energies and outline at the end differ by about the size of the perturbation.
+    // height, clearance, energies and outline at the end differ by about the size of the perturbation
     const auto end = contact_quantities(start, path);
     for (size_t q = 0; q < end.size(); ++q) EXPECT_NEAR(end[q].mean, expected[q].mean, 10 * size) << end[q].quantity;
   }
@@ -250,13 +248,12 @@ TEST(ContactStatistics, SpreadIsThatOfThePerturbationAndSeedsAreFixed) {
     EXPECT_EQ(first[i].deviation, again[i].deviation);
   }
   EXPECT_EQ(first[0].quantity, "height of the centre of mass at the end");
-  // The motion is hardly sensitive: the mean agrees with the unperturbed run up to the spread of 216 particles moved by
-  // 1e-6 m, as modified by contact.
+  // The motion is hardly sensitive: the mean agrees with the unperturbed run up to the effect of moving 216 particles
+  // by 1e-6 m, as modified by contact.
   EXPECT_NEAR(first[0].mean, plain_values[0], 1e-5);
   EXPECT_GT(first[0].deviation, 1e-10);
   EXPECT_LT(first[0].deviation, 1e-5);
-  EXPECT_GT(first[3].mean, 0.05);  // J; compressed by some millimetres under a weight of 49 N
-  // unsupported methods have no statistics
+  EXPECT_GT(first[3].mean, 0.05);  // J: springs are compressed by some millimetres under a weight of 49 N
   EXPECT_TRUE(contact_statistics(find_method("odeint/rk4"), scene, run).empty());
 }
 

@@ -1,4 +1,4 @@
-// Experiment `cost`: the cloth at other sizes, phases from given times, kernels of known work. No test compares two
+// Experiment `cost`: the cloth at other sizes, phases from given times, kernels of known work. No test compares times.
 // times.
 
 #include <set>
@@ -43,7 +43,7 @@ TEST(Cost, TheStepKeepsItsDistanceFromTheLimitAtEverySize) {
 }
 
 TEST(Cost, PhasesAreTheDifferencesOfTimings) {
-  // springs, forces, step without and with the sphere, fused step, another engine; uncertainty +-0.1 or +-0.2
+  // springs, forces, step without and with the sphere, fused step, another engine; each +-0.1, +-0.2 or +-1
   const std::vector<Timing> times = {{1, 0.9, 1.1, 5}, {3, 2.8, 3.2, 5}, {4, 3.9, 4.1, 7},
                                      {6, 5.8, 6.2, 5}, {2, 1.9, 2.1, 5}, {8, 7, 9, 5}};
   const Table t = phases_table(8, {"general", "fused", "other"}, times);
@@ -82,7 +82,7 @@ TEST(Cost, PhasesAreThoseOfTheMethodsThatAreAskedFor) {
   for (size_t i = 0; i < 5; ++i) EXPECT_EQ(std::get<std::string>(t.at(i, "method")), "mysim/leapfrog+plain");
   EXPECT_EQ(std::get<std::string>(t.at(5, "method")), "mysim/leapfrog");
   EXPECT_EQ(std::get<std::string>(t.at(6, "method")), "bullet/deformable-explicit");
-  // Phases are timed separately and subtracted, which describes a step only if it evaluates the forces once.
+  // Phases are timed separately and subtracted, which is correct only if a step evaluates the forces once.
   const Scene scene = sized_cloth(8);
   const Outcome out = run_and_record("mysim/leapfrog+plain", scene, {scene.step, 10 * scene.step, 1}).outcome;
   EXPECT_EQ(out.evaluations, out.steps);

@@ -1,5 +1,5 @@
 // Engines with a single defect each, made from a correct one: the relation that must detect it, and others that it may
-// break.
+// violate.
 #pragma once
 
 #include <functional>
@@ -34,7 +34,6 @@ class ChangedStates : public Observer {
 using ChangeScene = std::function<void(Scene&, const crosscheck::Run&)>;
 using ChangeState = std::function<void(const Scene&, State&)>;
 
-/// The method applied to a modified scene, or with modified states.
 inline Method with_defect(const std::string& base, ChangeScene scene_change, ChangeState state_change = nullptr) {
   Method method = find_method(base);
   method.engine = [inner = method.engine, scene_change, state_change](const Scene& scene, const crosscheck::Run& run,
@@ -51,7 +50,7 @@ inline Method with_defect(const std::string& base, ChangeScene scene_change, Cha
 struct Defect {
   std::string relation, what;
   std::function<Method(const std::string& base)> make;
-  std::set<std::string> also = {};  // other relations that it must or may break
+  std::set<std::string> also = {};  // other relations that it must or may violate
   std::string because = {};
   int least_order = 1;  // minimum order of the rules in which this counts as a defect
   std::set<std::string> also_in_bullet = {};

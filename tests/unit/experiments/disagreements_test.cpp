@@ -81,7 +81,7 @@ TEST(Disagreements, EachIsThereAndSaysSo) {
 TEST(Disagreements, AHealthyMethodHasNone) {
   for (Disagreement d : disagreements()) {
     SCOPED_TRACE(d.name);
-    // Replace each Bullet world by the reference method, at its own step.
+    // Replaces each Bullet world by the reference method, at its own step.
     for (Variant& v : d.variants)
       if (find_method(v.method).family().role == Role::peer) v.method = d.variants[0].method, v.step = 0;
     EXPECT_EQ(name_of(state_of(d, run_variants(d, scene_of(d)))), "not reproduced");
@@ -159,7 +159,7 @@ TEST(Disagreements, AProgramTakesThePlaceOfBulletsWorlds) {
   EXPECT_EQ(with_worlds_of(row("one-stiffness"), "exec:./other").world, "exec:./other+world=deformable-explicit");
 }
 
-/// Rows on an external program: the single-precision adapter, or an engine that knows nothing of Bullet's worlds.
+/// Rows about an external program: the single-precision adapter, or an engine without Bullet's disagreements.
 TEST(Disagreements, AreAskedOfAProgram) {
   const std::string adapter = "exec:" CROSSCHECK_BULLET32_PROGRAM, healthy = "exec:" CROSSCHECK_EXAMPLE;
   for (const auto name : {"one-stiffness", "gravity-factor"}) {
@@ -170,7 +170,6 @@ TEST(Disagreements, AreAskedOfAProgram) {
     EXPECT_EQ(state(adapter), "explained") << name;
     EXPECT_EQ(state(healthy), "not reproduced") << name;
   }
-  // A program without spheres, or without the option, reports it.
   Disagreement d = with_worlds_of(row("gravity-factor"), adapter);
   d.variants[1].method += "+no-such-option";
   EXPECT_TRUE(contains(why_not_asked(d, run_variants(d, scene_of(d))), "unknown option '+no-such-option'"));
@@ -223,7 +222,7 @@ TEST(Disagreements, DirectionOfContactIsTheGradientOfTheGridInAVoxel) {
       const double in_plane = std::atan2(n.x(), n.y()) - e.angle, sideways = std::asin(n.z());
       fmt::print("{:.4f} rad, voxel {:g} m: in plane {:+.2e}, by the grid {:+.2e}; sideways {:+.2e}, {:+.2e}\n",
                  e.angle, voxel, e.in_plane, in_plane, e.sideways, sideways);
-      // Its displacement d turns the gradient by at most d / R = 6e-5.
+      // The displacement d of the particle turns the gradient by at most d / R = 6e-5.
       EXPECT_NEAR(e.in_plane, in_plane, 1e-4);
       EXPECT_NEAR(e.sideways, sideways, 1e-4);
       largest = std::max(largest, std::abs(e.in_plane));
@@ -247,7 +246,7 @@ TEST(Disagreements, EverySceneFileIsInTheTableAndEveryRowHasOne) {
   std::set<std::string> names = rows;
   for (const Disagreement& d : engine_disagreements()) {
     EXPECT_TRUE(names.insert(d.name).second) << d.name;
-    rows.insert(d.scene.empty() ? d.name : d.scene);  // several rows may share one
+    rows.insert(d.scene.empty() ? d.name : d.scene);  // several rows may share a scene
   }
   EXPECT_EQ(files, rows);
 }

@@ -1,4 +1,3 @@
-// Energy over long runs: the ledger's residual over many steps, theoretical numerical damping, and parts known exactly.
 
 #include "experiments/energy/long_run.h"
 #include "experiments/scenes/scenes.h"
@@ -49,7 +48,7 @@ TEST(ResidualStatistics, TellsDriftFromOscillation) {
     swinging.push_back({t, {kinetic, 0.5 * std::sin(2 * t), 0}, 0, 0, 0, 0, 0});
   }
   const ResidualStatistics a = residual_statistics(drifting), b = residual_statistics(swinging);
-  EXPECT_NEAR(a.drift, -3e-3, 1e-12);  // a straight line up to rounding of 2 J
+  EXPECT_NEAR(a.drift, -3e-3, 1e-12);  // a straight line, up to the rounding of energies of 2 J
   EXPECT_LT(a.oscillation, 1e-6);      // square root of the rounding of r^2
   EXPECT_NEAR(a.growth, 1, 1e-12);
   EXPECT_NEAR(a.equivalent_drag, 0.3 / (2 * 2 * 100), 1e-12);    // 0.3 J of 2 K over 100 s
@@ -75,13 +74,13 @@ TEST(NumericalDamping, IsWhatTheStabilityFunctionSays) {
       const auto theory = damping_by_theory(method, h, 10);
       ASSERT_TRUE(found.rate && theory);
       if (*theory == 0) {
-        // fitted slope over the run of an oscillation of ln(E) with amplitude at most h omega
+        // fitted slope of an oscillation of ln(E) with amplitude at most h omega, over the run
         EXPECT_LT(std::abs(*found.rate), 6 * 10 * h / (400 * h));
         continue;
       }
       ++damped;
       // Rounding of 1e-13 of 1 mm, and solves to 1e-10 of the forces. The link of the position-based world is stiffer
-      // than Hooke's law by half the strain, which is 1e-3.
+      // than Hooke's law by half the strain of 1e-3.
       const bool linked = std::string(name) == "bullet/pbd";
       EXPECT_NEAR(*found.rate, *theory, (linked ? 5e-4 : 1e-7) * std::abs(*theory) + 1e-10);
     }
@@ -97,7 +96,8 @@ TEST(LongEnergy, SymplecticRulesDoNotDrift) {
       // A random walk grows with exponent 0.5 and a drift with 1. A tenth of 0.5 is allowed because the maxima of two
       // vibrations rarely coincide.
       EXPECT_LT(r.growth, 0.05);
-      // 6 A / (Omega T) as above: 0.03 at twice the slowest frequency, the swing of the pendulum, with a margin of two
+      // 6 A / (Omega T) as above is 0.03 for Omega of twice the slowest frequency (the pendulum's swing); the bound is
+      // twice that
       EXPECT_LT(std::abs(r.drift) * 40, 0.06 * r.worst);
     }
     for (const auto method : {"trapezoidal", "rk4"}) {
@@ -117,7 +117,7 @@ TEST(LongEnergy, ImplicitMidpointKeepsItWhereForcesAreLinear) {
       fmt::print("{} h = {}: residual {:.2g} of the energy per step\n", name, h,
                  exact.worst / exact.energy_scale / steps);
       EXPECT_LT(exact.worst, 1e-12 * exact.energy_scale * steps);
-      // in contrast, a rule of the same order that is not exact
+      // in contrast to a rule of the same order that is not exact
       EXPECT_GT(long_run("leapfrog", scene, h, steps).worst, 100 * exact.worst);
     }
 }
@@ -196,7 +196,7 @@ TEST(LongEnergy, WorkOfAStepIsForceTimesWayAsEachRuleMoves) {
       off_gravity = std::max(off_gravity, std::abs(now.gravitational - last.gravitational - gravity));
       off_kinetic = std::max(off_kinetic, std::abs(now.kinetic - last.kinetic - kinetic));
     }
-    // Some ulps of 2.5 J in each row. For other rules the force at the start is off by a relative h / period.
+    // Some ulps of 2.5 J in each row. For other rules, the force at the start has a relative error of h / period.
     EXPECT_LT(off_gravity, 8 * eps * s.g * 0.25);
     EXPECT_EQ(off_kinetic < 8 * eps * s.g * 0.25, rule.force_at_start);
   }

@@ -19,7 +19,7 @@ namespace {
 using namespace testing_tools;
 using EngineRun = crosscheck::Run;
 
-/// A method restricted to the output of an external program: only the states on which verdicts are based.
+/// Restricts a method to the output of an external program: only the states on which verdicts are based.
 Method as_program(Method method) {
   method.engine = [inner = method.engine](const Scene& scene, const EngineRun& asked, Observer& observer) {
     const TimeGrid grid = time_grid(asked);
@@ -222,7 +222,7 @@ TEST(WhichRule, NamesTheNearestWhereItIsNone) {
   EXPECT_EQ(stepper_of(wrong), nullptr);
 }
 
-/// Uses its own step and ignores the requested one.
+/// Ignores the requested step.
 Method with_step(const char* base, double step) {
   Method method = find_method(base);
   method.engine = [inner = method.engine, step](const Scene& scene, const EngineRun& asked, Observer& observer) {
@@ -267,7 +267,7 @@ TEST(WhichRule, OfBulletsWorldsIsMeasuredToo) {
   EXPECT_EQ(rule_of(find_method("bullet/deformable-implicit")), "implicit-euler+linear, solver above rounding");
 }
 
-/// Positions stored in single precision, and velocities as their differences.
+/// Positions are stored in single precision, and velocities are their differences.
 Method in_single_precision(const char* rule, bool reversed) {
   Method method = find_method(rule);
   method.engine = [step = stepper(rule).step, reversed](const Scene& asked, const EngineRun& run, Observer& observer) {
@@ -335,7 +335,7 @@ std::vector<std::string> broken_by(const Method& method) {
 }
 
 TEST(RelationsOfPrograms, AreBrokenByNoRuleThatIsRight) {
-  // rk4 and explicit Euler change the energy by errors of their order, which is correct behaviour for them
+  // rk4 and explicit Euler change the energy by errors of their order, as they should
   for (const char* name : {"rk4", "explicit-euler", "dopri5"})
     for (const std::string& broken : broken_by(as_program(name))) ADD_FAILURE() << name << ": " << broken;
   Method unknown = as_program("rk4");

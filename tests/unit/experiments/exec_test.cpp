@@ -41,7 +41,7 @@ class Exec : public InFolder {
     write("few-frames.npy", npy_bytes({right.x.begin(), right.x.end() - 1}));
     write("few-particles.npy", npy_bytes(std::vector<Points>(5, Points::Zero(3, 3))));
   }
-  /// Shell command that copies a file to the output as the trajectory.
+  /// Shell command that writes the file to the output.
   std::string deliver(const std::string& file, const std::string& as = "trajectory.npy") const {
     return "cp '" + (folder_ / file).string() + "' \"$2/" + as + "\"\n";
   }
@@ -424,7 +424,7 @@ TEST_F(ExecServer, RefusesAndFailsInItsOwnWords) {
   const MethodRun failed = run(fails);
   EXPECT_EQ(failed.outcome.verdict, Verdict::crash);
   EXPECT_TRUE(contains(failed.outcome.reason, "out of luck"));
-  const Method empty = server("echo '{\"status\": 0}'");  // without files
+  const Method empty = server("echo '{\"status\": 0}'");
   run(empty);
   EXPECT_TRUE(contains(run(empty).outcome.reason, "trajectory.npy: missing"));
 }

@@ -1,5 +1,5 @@
-// Strips of cloth against the elastica: the two-point boundary value problem against published and limiting values,
-// drops and frequencies under grid refinement, and the behaviour of skip-one springs in the same tests.
+// Strips of cloth compared with the elastica: the boundary value problem against published and limiting values, drops
+// and frequencies under grid refinement, and skip-one springs in the same tests.
 
 #include <Eigen/Geometry>
 #include <Eigen/LU>
@@ -40,8 +40,8 @@ TEST(Elastica, HasItsLimits) {
   EXPECT_NEAR(integral, std::sqrt(2 * 2.), 1e-7);  // midpoint rule: (top / n)^2 times the second derivative
   // moments about the clamp: B theta'(0) = P x(L), estimated from the angle over the first thousandth
   EXPECT_NEAR(loaded.at(1e-3).angle / 1e-3, 2 * loaded.tip().x, 2e-3);
-  // as above, with the same substitution (K. E. Bisshopp and D. C. Drucker, Quart. Appl. Math. 3, 1945, with elliptic
-  // integrals)
+  // the integral of sin theta with the same substitution (K. E. Bisshopp and D. C. Drucker, Quart. Appl. Math. 3, 1945,
+  // with elliptic integrals)
   EXPECT_NEAR(loaded.tip().drop, drop / std::sqrt(2 * 2.), 1e-7);
 }
 
@@ -57,7 +57,8 @@ TEST(Elastica, DropsDeeperTheHeavierAndKeepsItsLength) {
       const auto a = elastica.at(i * 1e-3), b = elastica.at((i + 1) * 1e-3);
       length += std::hypot(b.x - a.x, b.drop - a.drop);
     }
-    // Chords of arcs of a thousandth at curvatures up to about gamma^(1/3): shorter by their square over 24.
+    // Chords are shorter than arcs of length s = 1e-3 by a relative (kappa s)^2 / 24, with curvatures kappa up to about
+    // gamma^(1/3).
     EXPECT_NEAR(length, 1, std::pow(gamma, 2. / 3) * 2e-7);
     before = tip.drop;
   }
@@ -98,7 +99,7 @@ TEST(HangingStrip, IsACatenaryInTheLimit) {
   const HangingStrip limp(2, 1.4, 3, 0.006), limper(2, 1.4, 3, 0.003);
   EXPECT_NEAR((limp.sag() - loose.sag()) / (limper.sag() - loose.sag()), 2, 0.25);
   EXPECT_NEAR(limp.at(1).x, 0.7, 1e-9);
-  // interpolated values between two integration steps agree with those on them
+  // values interpolated between integration steps agree with those on them
   EXPECT_NEAR((limp.at(0.50005).height - limp.at(0.49995).height) / 1e-4,
               (limp.at(0.5005).height - limp.at(0.4995).height) / 1e-3, 1e-6);
 }
@@ -193,9 +194,9 @@ TEST(DrapedDisc, IsIsotropicInItsPlane) {
   }
 }
 
-/// Deflection of the rim of a plate clamped at r = a and free at r = b under a load q per area, Poisson's ratio 0:
-/// w = q r^4 / 64 B + A + C ln r + D r^2 + E r^2 ln r. Boundary conditions: w = w' = 0 at a; w'' = 0 and
-/// (w'' + w' / r)' = 0 at b (S. Timoshenko and S. Woinowsky-Krieger, chapter 3).
+/// Deflection of the rim of a plate clamped at r = a and free at r = b under a load q per area, Poisson's ratio 0: w =
+/// q r^4 / 64 B + A + C ln r + D r^2 + E r^2 ln r. Boundary conditions: w = w' = 0 at a; w'' = 0 and (w'' + w' / r)' =
+/// 0 at b (S. Timoshenko and S. Woinowsky-Krieger, chapter 3).
 double rim_of_plate(double a, double b, double q, double rigidity) {
   const double unit = q / (64 * rigidity);
   Eigen::Matrix4d m;
@@ -230,9 +231,9 @@ TEST(DrapedDisc, SagsAsAPlateUnderALightLoad) {
 TEST(DrapedDisc, ItsCoefficientIsThatOfKnownShadows) {
   const DrapedDisc disc{8, 2e-5};
   Points x = disc_scene(disc).start.x;
-  // sampling of a round edge by rows of height 2 R / 2000
+  // error from sampling a round edge by rows of height 2 R / 2000
   EXPECT_NEAR(drape_coefficient(disc, x), 100, 2e-3);
-  // folded over its disc, with a shadow of radius r computed from one part of it
+  // folded over its disc, so that its shadow has the radius r computed here
   for (int i = 2; i <= disc.rings + 1; ++i)
     for (int j = 0; j < disc.spokes(); ++j) {
       const double shrunk = (0.09 + 0.6 * (disc.radius(i) - 0.09)) / disc.radius(i);
@@ -274,7 +275,7 @@ TEST(Fabric, AStripVibratesAsAClampedBeam) {
 
 TEST(Fabric, SkipOneSpringsAreAnotherStripOnEveryGrid) {
   // Four times as many cells with the same k divide the total angle into quarter angles per cell. The energy depends on
-  // their fourth powers, so the strip behaves nearly like a chain.
+  // their fourth powers, so that the strip behaves nearly like a chain.
   StripNet net{16, 5};
   net.skip_one = 2000;
   const auto drop = [&](int cells) {

@@ -1,4 +1,3 @@
-// Shared by tests of experiments: shipped scenes at other sizes, and a method that refuses long steps.
 #pragma once
 
 #include <fmt/ranges.h>
@@ -25,9 +24,6 @@ inline std::optional<double> first_contact(const Scene& scene, const Trajectory&
   return std::nullopt;
 }
 
-// Shipped scenes at other sizes: grids with another number of particles, other scenes with other lengths.
-
-/// Source text of a shipped scene.
 inline std::string text_of(const std::string& name) {
   std::ifstream in(std::filesystem::path(CROSSCHECK_SOURCE) / "experiments/scenes" / (name + ".toml"));
   std::stringstream text;
@@ -51,7 +47,6 @@ inline Scene with_grid(const std::string& name, int n) {
   return parse_scene(text, fmt::format("{}-{}", name, n));
 }
 
-/// The scene with all lengths scaled by `factor`.
 inline Scene with_lengths(Scene scene, double factor) {
   scene.start.x *= factor;
   scene.start.v *= factor;
@@ -62,7 +57,7 @@ inline Scene with_lengths(Scene scene, double factor) {
   return scene;
 }
 
-/// A shipped scene in three sizes: other numbers of particles in its grid, or other lengths.
+/// A shipped scene in three sizes, which differ in the grid resolution or, for scenes without a grid, in lengths.
 inline std::vector<Scene> three_sizes(const std::string& name) {
   const Scene scene = load_scene(name);
   // a strip of two rows has no square grid
@@ -86,9 +81,7 @@ inline ClampedStrip strip_of(const Scene& scene) {
       .weight = -scene.model.find<Gravity>()->acceleration.y() * scene.model.particles.mass.sum() / (columns * d * d)};
 }
 
-// A method that refuses some steps, as Bullet's clamped world does.
-
-/// Leapfrog that refuses steps longer than `step`.
+/// Leapfrog that refuses steps longer than `step`, as Bullet's clamped world does.
 inline Method refusing_above(double step) {
   Method method = find_method("leapfrog");
   method.engine = [inner = method.engine, step](const Scene& scene, const crosscheck::Run& run, Observer& observer) {

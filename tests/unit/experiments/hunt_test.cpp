@@ -40,7 +40,7 @@ TEST(Draw, GivesScenesWithEveryIngredientAndOneForEveryRelation) {
     for (const Relation& relation : relations())
       if (relation.excluded(scene).empty()) asked.emplace(relation.name);
   }
-  // Aerodynamics acts on the triangles of a grid, and drawn scenes have none.
+  // without aerodynamics, which acts on the triangles of a grid
   EXPECT_EQ(terms, (std::set<std::string>{"rotation", "gravity", "springs", "dashpots", "constraints", "drag", "wind",
                                           "sphere"}));
   EXPECT_EQ(families.size(), 4U);
@@ -103,7 +103,6 @@ TEST(Shrink, StopsAfterSoManyTrialsAndAsksNothingTwice) {
   EXPECT_TRUE(has_shear_and_gravity(smallest.draft.scene()));
 }
 
-/// Gravity 1 % too strong.
 Method heavy(const std::string& base) {
   return with_defect(base, [](Scene& s, const crosscheck::Run&) { multiply_gravity(s, 1.01); });
 }

@@ -8,8 +8,7 @@
 namespace crosscheck {
 namespace {
 
-/// A flat cloth stays near saddles of the potential, from which it wrinkles to either side. Newton's steps are short
-/// there.
+/// A flat cloth stays near saddles of the potential, where Newton's steps are short, before it wrinkles to either side.
 TEST(ImplicitCloth, WrinklesOfALargeSheetAtLongStepsAreFound) {
   const Scene scene = hanging_cloth(128);
   System f(scene.model);

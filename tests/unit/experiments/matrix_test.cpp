@@ -1,4 +1,3 @@
-// Experiment `matrix`: the measured damping agrees with theory.
 
 #include <gtest/gtest.h>
 
@@ -49,7 +48,7 @@ TEST(Matrix, DampingOfASpringIsThatOfTheory) {
   EXPECT_EQ(compared, 6);
 }
 
-/// The example engine under the name of a kept program whose engine treats springs as forces by another rule.
+/// The example engine under the name of a kept program, whose engine offers springs as forces by another rule.
 TEST_F(MatrixInFolder, SpringsAsForcesAreAnAnswerOfTheirOwn) {
   const SetVariable cache("CROSSCHECK_CACHE", folder_.c_str());
   const auto program = kept_program("rapier");

@@ -68,8 +68,7 @@ TEST(Methods, NoProductFileAsksForAnEngineByTheBeginningOfAName) {
   EXPECT_GT(files, 100);
 }
 
-/// Files that contain method names as data: Bullet's settings, the rows of the bench, chart styles of methods, and
-/// charts of a class.
+/// Files with method names as data: Bullet's settings, rows of the bench, and chart styles of methods and classes.
 constexpr std::string_view name_methods_as_data[] = {
     "experiments/disagreements/table.cpp", "experiments/stiffness/stiffness.cpp", "experiments/stiffness/effective.cpp",
     "experiments/bench/bench.cpp",         "report/commands/grader.cpp",          "report/figures/figure.cpp"};
@@ -115,7 +114,7 @@ TEST(Methods, ABareNameMeansMysimAndOptionsFollowAPlus) {
   EXPECT_EQ(find_method("rk4").stepper, &stepper("rk4"));
   EXPECT_EQ(find_method("leapfrog+sticky").name, "mysim/leapfrog+sticky");
   EXPECT_EQ(find_method("bullet/pbd+n=10").name, "bullet/pbd+n=10");
-  // Methods of one rule must agree on contact-free scenes: a contact rule does not change the rule, other options do.
+  // A contact rule does not change the rule on contact-free scenes; other options do.
   EXPECT_EQ(rule_of(find_method("symplectic-euler")), rule_of(find_method("bullet/deformable-explicit")));
   EXPECT_EQ(rule_of(find_method("symplectic-euler+sticky")), rule_of(find_method("symplectic-euler")));
   EXPECT_EQ(rule_of(find_method("implicit-euler+linear")), rule_of(find_method("bullet/deformable-implicit+tight")));
@@ -225,7 +224,7 @@ TEST(Methods, EveryOneMeetsEveryShippedScene) {
       ++accepted;
       // Adaptive methods follow their tolerance, and their mean step is at most the duration.
       EXPECT_LE(out.step, out.tolerance > 0 ? 0.05 : scene.step * (1 + 1e-9));
-      if (out.verdict != Verdict::ok) continue;  // explicit Euler on a stiff cloth: a row with its verdict
+      if (out.verdict != Verdict::ok) continue;  // explicit Euler on a stiff cloth gives a row with its verdict
       ASSERT_EQ(r.trajectory.frames(), 3);
       EXPECT_NEAR(out.end, 0.05, 4 * eps);
       for (const Points& x : r.trajectory.x) EXPECT_TRUE(x.allFinite());

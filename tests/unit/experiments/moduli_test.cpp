@@ -16,8 +16,8 @@ namespace {
 
 using namespace testing_tools;
 
-// Springs are not linear: strains of 1e-4 have a relative error of their square in energies averaged over the sign of
-// the strain. Differences of energies of 1e-8 of k d^2 are rounded to 1e-16 of the energy of all springs, which is 1e3
+// Springs are not linear: strains of 1e-4 cause a relative error of 1e-8 in energies that are averaged over the sign of
+// the strain. Differences of energies of 1e-8 k d^2 are rounded to 1e-16 of the energy of all springs, which is 1e3
 // times as large.
 constexpr double enough = 1e-5;
 
@@ -124,7 +124,7 @@ TEST(Moduli, AreKnownOfShippedScenesOrWhyNot) {
   Scene uneven = load_scene("cloth-hang");
   uneven.model.find<Springs>()->list[0].k *= 2;
   EXPECT_EQ(moduli_of(uneven.model, uneven.start).why_not, "its springs differ from place to place");
-  Scene twice = load_scene("cloth-hang");  // an extra particle without springs, at the position of another
+  Scene twice = load_scene("cloth-hang");  // with an extra particle without springs, at the position of another
   const long n = twice.start.x.cols();
   twice.start.x.conservativeResize(3, n + 1);
   twice.start.x.col(n) = twice.start.x.col(210);

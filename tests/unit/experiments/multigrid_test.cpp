@@ -1,5 +1,5 @@
 // Linear systems of implicit steps on cloths: solved to tolerance for any size, pins and instruction set, with
-// iteration counts that hardly depend on the size of the cloth.
+// iteration counts that hardly depend on the size.
 
 #include <Eigen/Dense>
 #include <Eigen/SparseCholesky>
@@ -106,7 +106,7 @@ TEST(Multigrid, SolvesWhatAFactorisationSolves) {
 }
 
 TEST(Multigrid, TakesCurvatureAsItIs) {
-  // Springs are up to a tenth too long for their positions. Some are compressed, and inertia keeps the matrix definite.
+  // Springs are up to a tenth too long for their positions: some are compressed, and inertia keeps the matrix definite.
   for (unsigned seed = 1; seed <= 5; ++seed) {
     Problem p(seed, 20, 40, 0.05, 20);
     p.inertia += 100;
@@ -160,7 +160,7 @@ Points cycle(multigrid::VCycle& matrix, const Points& r) {
 
 TEST(Multigrid, APreconditionerIsSymmetricAndPositive) {
   for (const auto& [rows, columns] : sizes)
-    for (const double heavier : {1., 30., 1e3}) {  // all grids; fewer; only the finest
+    for (const double heavier : {1., 30., 1e3}) {  // levels used: all; fewer; only the finest
       SCOPED_TRACE(fmt::format("{} x {}, {} times as heavy", rows, columns, heavier));
       const Problem p(11, rows, columns), other(12, rows, columns);
       multigrid::VCycle matrix(p.topology, p.pins);
@@ -203,8 +203,8 @@ TEST(Multigrid, IterationsHardlyGrowWithTheSheet) {
   for (const double rate : {60.0, 240.0}) {
     const int small = iterations(24, rate, false), large = iterations(96, rate, false);
     const int small_plain = iterations(24, rate, true), large_plain = iterations(96, rate, true);
-    // Four times as wide. With block-diagonal preconditioning alone about four times as many iterations, the square
-    // root of the condition number.
+    // Four times as wide. Block-diagonal preconditioning alone needs about four times as many iterations, the square
+    // root of the ratio of the condition numbers.
     EXPECT_LT(large, 2 * small) << rate;
     EXPECT_GT(large_plain, 3 * small_plain) << rate;
     EXPECT_LT(large, 60) << rate;
@@ -248,8 +248,9 @@ TEST(ImplicitCloth, BeyondSinglePrecisionItIsSolvedAllTheSame) {
     p.gradient(Points::Zero(3, u.cols()), g);
     p.linearise(Points::Zero(3, u.cols()), Curvature::clamped);
     p.apply(u, product);
-    // The solve stops at 1e-12 of the right-hand side. Components of u differ by up to the condition number, so A u
-    // itself has a rounding error of eps |A| |u|, and |A| <= inertia + 2 (sum of a particle's springs, 4 to each side).
+    // The solve stops at 1e-12 of the right-hand side. Components of u differ by up to the condition number, so that A
+    // u itself has a rounding error of eps |A| |u|, with |A| <= inertia + 2 (sum of a particle's springs, 4 to each
+    // side).
     const double inertia = p.inertia().maxCoeff(), size = inertia + 2 * 8 * 620 * stiffer;
     EXPECT_LE((product + g).norm(), 1e-11 * g.norm() + 10 * eps * size * u.norm()) << stiffer;
     EXPECT_GT(u.norm(), 0);

@@ -10,7 +10,7 @@ namespace crosscheck::testing_tools {
 
 class ProtocolKit : public InFolder {
  protected:
-  /// Runs the conformance kit on the shipped example, wrapped in a script that corrupts the scene or the answer.
+  /// Runs the kit on the shipped example, wrapped in a script that corrupts the scene or the answer.
   ConformanceReport spoiled(const std::string& before, const std::string& after = "") const {
     return try_adapter("exec:" + script("adapter", before + CROSSCHECK_EXAMPLE " \"$1\" \"$2\" || exit $?\n" + after));
   }

@@ -1,4 +1,3 @@
-// Tests of the regression tests: baselines and shapes, tolerances, verdicts on single quantities.
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
@@ -61,7 +60,7 @@ TEST(Baselines, ThatAreLinksOrPipesAreNotRead) {
   EXPECT_THROW(read_shape(folder.path, "chain", 4), InputError);
 }
 
-/// Tolerances come from perturbed runs. If those are wrong, a tolerance may become so large that nothing fails.
+/// Wrong perturbed runs could make a tolerance so large that nothing fails.
 TEST(Baselines, ShippedOnesAreOfTheScenesAsTheyAreAndTheirTolerancesCanFail) {
   long all = 0, unpredictable = 0;
   for (const std::string_view name : shipped_scenes()) {
@@ -182,7 +181,6 @@ TEST(Regression, RefusesScenesOfTheSameNameOrFileName) {
   EXPECT_FALSE(cases({{path("a/s.toml"), path("b/s-s.toml")}}).empty());
 }
 
-/// A regression test of one scene and one method, in its own folder.
 class RegressionOfOneScene : public testing::Test {
  protected:
   Regression regression_with(const std::string& method, const std::string& scene) const {
@@ -218,7 +216,7 @@ TEST_F(RegressionOfOneScene, BlessingSaysAnewWhichRowsAreOfFullRunsOnly) {
   blessed(regression);
   Baseline baseline = *read_baseline(regression.baselines, "spring");
   for (BaselineRow& row : baseline.expected) row.slow = true;
-  baseline.expected.pop_back();  // something to bless
+  baseline.expected.pop_back();
   write_file(file_of(regression.baselines, "spring"), text_of(baseline));
   blessed(regression);
   int kept = 0;
@@ -304,7 +302,6 @@ TEST(Shapes, ComeBackAndDamagedOnesAreNone) {
 
 using testing_tools::test_case;
 
-/// Quantities observed by one row of the table.
 Quantities taken(void (*row)(const Observation&, Quantities&), const Case& q, const CaseRun& case_run) {
   Quantities out;
   row({q, case_run}, out);
@@ -332,7 +329,7 @@ TEST(Quantities, OfARunThatSlidesOffABallTheAngleIsThatOfTheClosedForm) {
   const CaseRun case_run = run_case(q);
   const Quantities angle = taken(leaving_angle, q, case_run);
   ASSERT_EQ(angle.size(), 1u);
-  // Contact ends at 53.1 degrees. A gap of 1 mm is reached somewhat later.
+  // Contact ends at 53.1 degrees, and the gap reaches 1 mm somewhat later.
   EXPECT_GT(angle[0].value, 53.1);
   EXPECT_LT(angle[0].value, 60);
   EXPECT_TRUE(taken(leaving_angle, test_case("bounce"), run_case(test_case("bounce"))).empty());
@@ -366,8 +363,7 @@ TEST(Quantities, SettingsAreWhatTheEngineTells) {
   EXPECT_TRUE(settings_of("mysim/leapfrog").empty());
 }
 
-/// The assumed rounding of a step must cover the difference between two engines that implement the same rule
-/// differently.
+/// The assumed rounding of a step must cover the difference between two implementations of the same rule.
 TEST(Tolerances, HoldBetweenTwoEnginesOfOneRule) {
   for (const char* scene : {"projectile", "chain", "pendulum", "spring"}) {
     const Case ours = test_case(scene, "symplectic-euler"), theirs = test_case(scene, "bullet/deformable-explicit");

@@ -1,5 +1,5 @@
-// Texts of scene files are true: every number in the words of a scene file is one of its values or is computed here
-// from the scene, and statements about growth are measured.
+// Texts of scene files are true: every number in them is one of the scene's values or is computed here, and statements
+// about growth are measured.
 
 #include <numbers>
 #include <regex>
@@ -22,9 +22,9 @@ using namespace testing_tools;
 constexpr double degree = std::numbers::pi / 180;
 
 double omega_of(const Scene& s) { return highest_frequency(s.model, s.start); }
-double part_of_limit(const Scene& s) { return s.step * omega_of(s) / 2; }  // the limit of leapfrog is 2 / omega
+double part_of_limit(const Scene& s) { return s.step * omega_of(s) / 2; }  // leapfrog's limit is 2 / omega
 
-/// Height (m) of the closed-form solution above its start.
+/// m, of the closed-form solution above its start.
 double rise_of(const Scene& s) {
   const auto exact = exact_solution(s);
   double highest = 0;
@@ -32,7 +32,7 @@ double rise_of(const Scene& s) {
   return highest - s.start.x(1, 0);
 }
 
-/// Angle from the top (degrees) at which the closed-form solution leaves the ball.
+/// Degrees from the top at which the closed-form solution leaves the ball.
 double leaving_angle(const Scene& s) {
   const auto exact = exact_solution(s);
   const Sphere& ball = s.model.find<Spheres>()->list.at(0);
@@ -73,7 +73,7 @@ double growth_at_two_corners(const Scene& s) {
   return perturbation_growth(find_method("symplectic-euler"), corners, corners.step, corners.duration);
 }
 
-/// Largest acceleration (m/s^2) of the first sphere.
+/// m/s^2, of the first sphere.
 double largest_acceleration(const Scene& s) {
   const Sphere& ball = s.model.find<Spheres>()->list.at(0);
   const double dt = 1e-3;
@@ -201,7 +201,7 @@ const ClaimedNumber claims[] = {
      }},
     {"cloth-wind", "varies by {} %",
      [](const Scene& s) { return 100 * s.model.find<Wind>()->acceleration.gusts->variation; }},
-    // two dimensions of clocks and rulers that belong to no scene
+    // a dimension of pictures that belongs to no scene
     {"", "a picture of {} pixels", [](const Scene&) { return 1000.; }},
 };
 
@@ -233,7 +233,7 @@ const std::vector<Scene>& all_scenes() {
   return scenes;
 }
 
-/// Words of a scene file: its text on parameters, and its comments, each preceded by the value to which it belongs.
+/// The words of a scene file: its text on parameters, and its comments, each preceded by its value.
 std::string words_of(const Scene& s) {
   std::string words = TomlTable::parse_text(s.source, s.name).text("parameters") + "\n";
   std::istringstream in(s.source);
@@ -247,7 +247,6 @@ std::string words_of(const Scene& s) {
   return words;
 }
 
-/// Every number among the values of the file.
 std::vector<double> values_of(const Scene& s) {
   std::string values;
   std::istringstream in(s.source);
@@ -267,7 +266,7 @@ double half_digit(const std::string& number) {
   return 0.5 * std::pow(10, static_cast<double>(number.size() - number.find_last_not_of('0') - 1));
 }
 
-/// Position and length of the number of a sentence in a text, or nothing if the text does not contain the sentence.
+/// Position and length of the claimed number in a text; nothing if the text does not contain the claim.
 std::optional<std::pair<size_t, size_t>> place_of(const ClaimedNumber& t, const std::string& text) {
   const std::string words = t.words, before = words.substr(0, words.find("{}")),
                     after = words.substr(before.size() + 2);

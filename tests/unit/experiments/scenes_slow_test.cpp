@@ -1,4 +1,3 @@
-// Shipped scenes show their intended effects, and each of their ingredients changes the motion.
 
 #include "experiments/metrics.h"
 #include "experiments/scenes/ingredients.h"
@@ -25,7 +24,7 @@ TEST(Scenes, EveryIngredientMattersWithinTheWindow) {
     for (const Ingredient& ingredient : ingredients_of(scene)) {
       SCOPED_TRACE(fmt::format("{} without {}", name, ingredient.name));
       const Scene less = without(scene, ingredient);
-      // Without its only term a first-order scene cannot run, which counts as a change.
+      // A first-order scene cannot run without its only term, which counts as a change.
       if (scene.model.first_order() && !less.model.first_order()) continue;
       const double change = sup_rms(whole, trajectory_of(s, less, run));
       fmt::print("{:12} without {:18} {:.3g} m (tolerance {:.3g} m)\n", name, ingredient.name, change, scene.tolerance);
@@ -124,7 +123,7 @@ TEST(Rods, StretchByLessThanAThousandth) {
     for (const Points& x : a.trajectory.x)
       worst = std::max(worst, largest_constraint_error(*scene.model.find<Constraints>(), x));
     fmt::print("{}: stretched by {:.2g}\n", name, worst);
-    EXPECT_LT(worst, 1e-3);  // bound of the issue
+    EXPECT_LT(worst, 1e-3);  // required bound
     EXPECT_GT(motion_of(a.trajectory), 0.3);
   }
 }
@@ -142,7 +141,7 @@ TEST(ClothCantilever, ComesToRestAsTheElastica) {
     fmt::print("{}: the tip is {:.4g} of the length below, the elastica's {:.4g}\n", name, drop / strip.length,
                truth / strip.length);
     // Grid: order 2, 0.006 % at 64 cells (experiment fabric) is 0.17 % at 12. Stretch: half of w L over the 50 N/m of
-    // two rows per width of one.
+    // two rows per unit width.
     EXPECT_NEAR(drop, truth, (0.0017 + strip.weight * strip.length / 2 / 50) * truth) << name;
     EXPECT_LT(rms_distance(end, a.trajectory.x[90]), scene.tolerance);
   }

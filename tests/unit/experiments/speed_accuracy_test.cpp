@@ -44,8 +44,8 @@ TEST(Timing, RunsTakeTurnsAndShortOnesAreRepeated) {
   const std::vector<std::function<double()>> runs = {[&] { return order += 'a', 1.; },
                                                      [&] { return order += 'b', 0.4e-3; }};
   const auto times = time_round_robin(runs, {.least = 2, .most = 4, .enough = 1.5, .resolution = 1e-3});
-  // One warm-up run each. The one of a takes 1 s, long enough to count. Then b runs three times per turn until it took
-  // 1 ms, and a stops after two runs.
+  // One warm-up run each. That of a takes 1 s, long enough to count. Then b runs three times per turn until it took 1
+  // ms, and a stops after two runs.
   EXPECT_EQ(order, "ababbbbbbbbbbbb");
   EXPECT_EQ(times[0], (std::vector<double>{1, 1}));
   ASSERT_EQ(times[1].size(), 4u);
@@ -53,8 +53,7 @@ TEST(Timing, RunsTakeTurnsAndShortOnesAreRepeated) {
 }
 
 TEST(Timing, ARunThatTakesNoTimeEnds) {
-  // A program without a clock, or a refusal: each call is a process, and 1000 of them give no more information than
-  // one.
+  // A program without a clock, or a refusal: each call is a process, and more calls would give no more information.
   int calls = 0;
   const std::vector<std::function<double()>> runs = {[&] { return ++calls, 0.; }, [] { return 1.; }};
   const auto times = time_round_robin(runs, {.least = 5, .most = 7});
@@ -78,7 +77,6 @@ TEST(Timing, TheNoiseFloorIsWhatHalvesOfTheRepetitionsDifferBy) {
   EXPECT_DOUBLE_EQ(noise_floor(Times{{1}}), 0.01);  // a single repetition shows no noise
 }
 
-/// A hand-made example of cost and error.
 std::vector<WorkPrecisionPoint> tiny() {
   auto point = [](const char* method, double cost, std::optional<double> error) {
     return WorkPrecisionPoint{
@@ -136,7 +134,7 @@ TEST(Recommendation, IsTheCheapestConfirmedRunAndOfEqualsTheMostAccurate) {
                              tried("mysim/a", 1, 400, 4e-3),
                              tried("mysim/b", 2, 205, 2e-3),
                              tried("mysim/b", 1, 410, 1e-3),
-                             tried("mysim/c", 8, 50, 5e-3),  // by accident: the finer run misses the bound
+                             tried("mysim/c", 8, 50, 5e-3),  // accidental: the finer run misses the bound
                              tried("mysim/c", 4, 100, 0.02),
                              tried("mysim/d", 8, 50, 5e-3),  // not confirmed by another run
                              tried("mysim/e", 1, 300, 1e-3),
@@ -162,7 +160,8 @@ TEST(StepSearch, FindsTheSameStepWithTheLadderAndWithout) {
   const Scene scene = load_scene("cloth-hang");
   const crosscheck::Run base = default_run(scene);
   const double interval = base.duration / base.samples, limit = 1.12e-3;
-  // rk4 is limited by accuracy at a higher cost than its rivals, leapfrog by stability, explicit Euler by no step tried
+  // rk4 is limited by accuracy at a higher cost than its rivals, leapfrog by stability; explicit Euler fails at every
+  // step
   const auto trial = [&](const Method& m, const Setting& s) -> std::optional<TriedRun> {
     const double evaluations = m.stepper->evaluations * base.duration / s.value;
     const bool fails = m.name == "mysim/leapfrog" ? s.value > limit : m.name == "mysim/explicit-euler";
@@ -319,7 +318,6 @@ TEST(SpeedAccuracy, ABoundIsMetWithTheTruthsOwnBar) {
   EXPECT_EQ(std::get<std::string>(best.at(2, "remark")), "below the error bar of the truth");
 }
 
-/// Untimed rows of one scene and some methods.
 TableSet rows_of(const Scene& scene, const std::string& methods) {
   Request request;
   request.scenes = {scene};
@@ -331,7 +329,6 @@ TableSet rows_of(const Scene& scene, const std::string& methods) {
   return tables;
 }
 
-/// A cell of the i-th row of a method.
 const Cell& cell(const TableSet& tables, const std::string& method, int i, const std::string& column) {
   const Table& t = *tables.table("speed-accuracy");
   for (size_t row = 0; row < t.rows.size(); ++row)
@@ -360,7 +357,7 @@ TEST(SpeedAccuracy, RowsAreTheSameTwiceAndFailedRunsAreRows) {
   EXPECT_NEAR(slope(coarse, fine), 2, 0.2);
   EXPECT_NEAR(std::get<double>(cell(once, "mysim/leapfrog", 4, "distance to own finest")) / fine, 1, 0.1);
 
-  // Bullet implements symplectic Euler, of order 1, so leapfrog needs fewer evaluations for the same error.
+  // Bullet implements symplectic Euler, of order 1, so that leapfrog needs fewer evaluations for the same error.
   const Table& best = *once.table("speed-accuracy-cheapest");
   ASSERT_EQ(best.rows.size(), 3u);
   for (size_t i = 0; i < 3; ++i) EXPECT_EQ(std::get<std::string>(best.at(i, "measure")), "error");
@@ -372,7 +369,7 @@ TEST(SpeedAccuracy, RowsAreTheSameTwiceAndFailedRunsAreRows) {
 TEST(SpeedAccuracy, FirstOrderScenesAreAnsweredByWhoTakesThem) {
   const TableSet tables = rows_of(load_scene("circle"), "rk4,leapfrog,explicit-euler,dopri5");
   auto of_rk4 = [&](int i, const char* column) { return std::get<double>(cell(tables, "mysim/rk4", i, column)); };
-  // Order 4. Steps divide the sampling interval, so they are not exactly halved.
+  // Order 4. Steps divide the sampling interval, so that they are not exactly halved.
   EXPECT_NEAR(std::log(of_rk4(2, "largest error") / of_rk4(3, "largest error")) /
                   std::log(of_rk4(2, "step") / of_rk4(3, "step")),
               4, 0.1);

@@ -1,4 +1,4 @@
-// The DIA and COO kernels for general springs against the plain edge loop, on every instruction set.
+// The DIA and COO kernels for general springs, compared with the plain edge loop on every instruction set.
 
 #include <cstdlib>
 #include <set>
@@ -119,7 +119,7 @@ std::vector<std::pair<std::string, SpringGraph>> networks(SpringLaw law) {
   return all;
 }
 
-/// Each spring's force equals the plain loop's bit for bit. Sums have one rounding per spring, in either order.
+/// Each spring's force equals the plain loop's bit for bit. Sums may differ by one rounding per spring.
 void expect_close(const SpringGraph& net, const Forces& fast, const Forces& plain) {
   const int n = static_cast<int>(net.x.cols());
   Eigen::ArrayXd sizes = Eigen::ArrayXd::Zero(n);
@@ -153,7 +153,7 @@ TEST(SpringGraph, DiaAndCooAreTheEdgeLoopButForTheOrderOfTheSum) {
           const Forces fast = sorted.forces(net.x);
           expect_close(net, fast, plain);
           EXPECT_EQ(sorted.forces(net.x).f, fast.f) << "repeated evaluation";
-          // an evaluation elsewhere leaves no traces in the next one
+          // another state in between leaves no traces
           sorted.forces(2 * net.x.rowwise().reverse());
           EXPECT_EQ(sorted.forces(net.x).f, fast.f);
         }
@@ -172,7 +172,7 @@ TEST(SpringGraph, InstructionsGiveTheSameBits) {
         }
 }
 
-/// Forces near the rest length are small differences of large numbers. At rest they are exactly 0, not rounding errors.
+/// Forces near the rest length are small differences of large numbers; at rest they are exactly 0.
 TEST(SpringGraph, SpringsAtRestPullAtNothing) {
   Random random(3);
   SpringGraph net = random_points(random, 100, SpringLaw::hooke);

@@ -1,5 +1,5 @@
-// Stability limits of whole scenes: spectra against closed forms and against the code's own Jacobian, and runs that are
-// stable just below the predicted limit and fail just above it.
+// Stability limits of whole scenes: spectra against closed forms and the code's own Jacobian, and runs that are stable
+// just below the predicted limit and fail just above it.
 
 #include "experiments/stability/limit.h"
 #include "experiments/stability/margin.h"
@@ -46,13 +46,12 @@ TEST(Spectrum, OfAStretchedChainIsItsClosedForm) {
   std::sort(expected.begin(), expected.end());
   const auto found = frequencies(base.spectrum);
   ASSERT_EQ(found.size(), expected.size());
-  // The equilibrium is solved to 1e-11 of what the springs could exert, 2e-8 m/s^2. The slowest mode (11 / s^2) turns
-  // this into 2e-9 m: 1e-7 of the stretch and the tension, and half of that for frequencies.
+  // The equilibrium is solved to 1e-11 of what the springs could exert, 2e-8 m/s^2. For the slowest mode (11 / s^2)
+  // this is 2e-9 m: 1e-7 of the stretch and the tension, and half of that for frequencies.
   for (size_t i = 0; i < found.size(); ++i) EXPECT_NEAR(found[i], expected[i], 1e-7 * expected.back());
 }
 
-/// Eigenvalues of the code's Jacobian, by central differences of its accelerations with respect to positions and
-/// velocities.
+/// Eigenvalues of the code's Jacobian, by central differences of its accelerations.
 Eigen::VectorXcd rates_by_differences(const Scene& scene) {
   System f(scene.model);
   const Linearised l = linearised(scene.model, scene.start);
@@ -75,7 +74,7 @@ Eigen::VectorXcd rates_by_differences(const Scene& scene) {
   return eigenvalues(a);
 }
 
-/// A small net at rest with differing drag rates and damped springs: damping and stiffness do not share modes.
+/// At rest, with differing drag rates and damped springs, so that damping and stiffness do not share modes.
 Scene mixed_net() {
   Scene scene = small_scene(std::string("[grid]\nsize = [3, 3]\norigin = [0, 0, 0]\nu = [1, 0, 0]\nv = [0, 0, 1]\n"
                                         "mass = 0.9\n[grid.stiffness]\nstructural = 100\nshear = 60\nbend = 40\n"
@@ -100,7 +99,7 @@ TEST(Spectrum, OfMixedDampingHasTheRatesOfTheCode) {
     double nearest = INFINITY;
     for (const Vibration& v : base.spectrum.modes)
       nearest = std::min(nearest, std::hypot(v.omega - std::abs(z), v.gamma + 2 * z.real()));
-    // Differences over 1e-5 m of accelerations of thousands of m/s^2, including third derivatives.
+    // The differences over 1e-5 m of accelerations of thousands of m/s^2 include third derivatives.
     EXPECT_LT(nearest, 1e-4 * base.spectrum.omega) << z.real() << " + " << z.imag() << " i";
   }
 }
@@ -149,7 +148,7 @@ TEST(PredictedLimit, OfMixedDampingIsWhereTheStepMatrixTurnsUnstable) {
     if (!std::isfinite(p.limit)) continue;
     ++finite;
     ASSERT_GT(p.limit, 0);
-    // Differences are accurate to about 1e-9. Coincident eigenvalues are known to the square root of that.
+    // Differences are accurate to about 1e-9, and coincident eigenvalues to the square root of that.
     EXPECT_LE(step_radius(rule, base.scene, 0.98 * p.limit), 1 + 1e-4);
     EXPECT_GT(step_radius(rule, base.scene, 1.02 * p.limit), 1 + 1e-4);
   }
@@ -246,7 +245,7 @@ TEST(MeasuredLimit, OnLinearScenesHoldsTwoPerCentBelowAndFailsTwoPerCentAbove) {
   EXPECT_EQ(tried, 3 * 6 + 3 * 8);  // without drag explicit Euler and trapezoidal have no stable step
 }
 
-/// Rounding in single precision does not count as growth: the limit equals that of the same rule in double precision.
+/// Rounding in single precision does not count as growth.
 TEST(MeasuredLimit, OfSinglePrecisionIsThePredictedOneToTwoPerCent) {
   const BaseState base = base_state_of(load_scene("chain-link"));
   const Method single = find_method("bullet32/deformable-explicit");
@@ -281,7 +280,7 @@ TEST(MeasuredLimit, OfAKilogramOnASpringIsThatOfTheRuleWhereverTheSearchBegins) 
       const MeasuredLimit m = measured_limit(find_method(name), base, 4000, {}, 0.002);
       ASSERT_EQ(m.kind, MeasuredLimit::found);
       EXPECT_NEAR(m.limit() / (stepper(name).limit(10, 0)), 1, 0.01);
-      // A search that started at the theoretical limit would hit it exactly. This one stays below.
+      // A search that started at the theoretical limit would hit it exactly.
       EXPECT_LT(m.held, stepper(name).limit(10, 0));
     }
   }

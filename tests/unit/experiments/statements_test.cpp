@@ -1,4 +1,4 @@
-// Corrected statements in texts that no table feeds must remain correct.
+// Corrected statements in hand-written texts must remain correct.
 
 #include <fstream>
 
@@ -19,7 +19,6 @@ std::string file_text(const std::string& name) {
   return {std::istreambuf_iterator<char>(in), {}};
 }
 
-/// Lines of the README of `reference` that contain a string.
 std::vector<std::string> lines_with(const std::string& word) {
   std::vector<std::string> lines;
   std::istringstream in(file_text("reference/README.md"));
@@ -29,7 +28,7 @@ std::vector<std::string> lines_with(const std::string& word) {
 }
 
 TEST(Statements, BulletsExplicitWorldIsSymplecticEulerWhereItSaysSoItself) {
-  // With dashpots the world reports a different law, so the README must not claim the same rule there.
+  // With dashpots the world reports a different law, so that the README must not claim the same rule there.
   const Scene jelly = load_scene("jelly");
   ASSERT_TRUE(jelly.model.find<Dashpots>());
   const Outcome with = run_and_record("bullet/deformable-explicit", jelly, {jelly.step, 2 * jelly.step, 1}).outcome;

@@ -54,7 +54,7 @@ class Sweep : public InFolder {
     for (int i = 0; i < count; ++i) points.push_back(point("p" + std::to_string(i), 1.0 / (i + 3)));
     return points;
   }
-  /// Records in a file that a point ran, because points run in other processes.
+  /// In a file, because points run in other processes.
   void note(const std::string& name) const { std::ofstream(folder_ / "ran", std::ios::app) << name << "\n"; }
   std::vector<std::string> ran() const {
     std::ifstream in(folder_ / "ran");
@@ -160,7 +160,7 @@ TEST_F(Sweep, WaitsForTheMachineALimitedTimeAndMarksTimesMeasuredBesideOtherWork
   EXPECT_TRUE(missing.empty());
   ASSERT_EQ(all.notes.size(), 2u);
   EXPECT_TRUE(contains(all.notes[0], "p2 was timed beside other work"));
-  // All locks share one patience, and a free lock is acquired without any.
+  // All locks share one patience, and acquiring a free lock needs none.
   LockPatience little(0.1), none(0);
   EXPECT_FALSE(MachineLock(MachineLock::Mode::shared, little).held());
   close(other);
@@ -240,7 +240,7 @@ TEST_F(Sweep, AnotherContentOrNameIsAnotherPoint) {
   Point a = point("a", 1), b = a, c = a;
   b.content += " step=2";
   c.name = "b";
-  EXPECT_EQ(a.hash(), point("a", 2).hash());  // the hash ignores the computation and includes its inputs
+  EXPECT_EQ(a.hash(), point("a", 2).hash());  // the hash depends on the inputs, not on the function
   EXPECT_NE(a.hash(), b.hash());
   EXPECT_NE(a.hash(), c.hash());
   EXPECT_EQ(a.hash().size(), 16u);
@@ -296,7 +296,7 @@ TEST_F(Sweep, EndsWhereChildrenAreIgnored) {
   const auto before = std::signal(SIGCHLD, SIG_IGN);
   const pid_t child = fork();
   if (child == 0) {
-    alarm(20);  // otherwise it would wait for ever
+    alarm(20);  // otherwise it would wait forever
     _exit(run(several(3)).empty() ? 0 : 1);
   }
   std::signal(SIGCHLD, before);

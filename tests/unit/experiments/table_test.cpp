@@ -24,7 +24,6 @@ namespace {
 namespace fs = std::filesystem;
 using namespace testing_tools;
 
-/// An empty temporary folder that the destructor removes.
 class Folder {
  public:
   explicit Folder(const std::string& name)
@@ -97,7 +96,6 @@ struct ProbeRow {
   bool operator==(const ProbeRow&) const = default;
 };
 
-/// Writes the table and reads it back.
 Table read_back(const Table& table) {
   const Folder folder("rows");
   write_csv(table, {{"command", "test"}}, folder.path());
@@ -234,7 +232,7 @@ TEST(Files, UnwritablePathsAreNamedAndNothingIsLeft) {
   const Folder folder("unwritable");
   write_file(folder.path() / "file", "x");
   fs::create_directories(folder.path() / "taken" / "inside");
-  // Below a file, in place of a non-empty folder, and in a file system without regular files. These fail for root too.
+  // Below a file, in place of a non-empty folder, and in a file system without regular files: these fail for root too.
   for (const fs::path& file :
        {folder.path() / "file" / "below.csv", folder.path() / "taken", fs::path("/proc/crosscheck.csv")}) {
     SCOPED_TRACE(file);

@@ -1,4 +1,3 @@
-// A regression case: a shipped scene with a method.
 #pragma once
 
 #include "experiments/regress/cases.h"

@@ -1,4 +1,3 @@
-// Runs of translated scenes against the reference solution of the source scene.
 
 #include "experiments/translate/translated_run.h"
 
@@ -16,8 +15,7 @@ TranslatedRun run(const Scene& scene, const std::string& to, double h) {
 }
 
 TEST(TranslatedRun, ErrsAsTheEngineDoes) {
-  // Translating there and back yields the scene up to rounding. What remains is the engine's own error at this step,
-  // which is above round-off.
+  // Translating there and back yields the scene up to rounding. What remains is the engine's own error at this step.
   const Scene scene = load_scene("chain");
   for (const std::string to : {"bullet/pbd+n=4", "bullet/deformable-implicit", "mysim/xpbd"}) {
     const crosscheck::Run at = default_run(scene);
@@ -48,7 +46,7 @@ TEST(TranslatedRun, OfOneSliderIsWorseThanOfOneForEachLink) {
 
 TEST(TranslatedRun, WithContactOfWhichNoTruthIsKnownIsADifferenceAndNoError) {
   // Two particles on a spring above a moving ball, which they reach after 0.2 s. The ball is listed twice, which the
-  // second route does not support, so only the contact rule is left.
+  // second route does not support, so that only the contact rule is left.
   const std::string ball =
       "[[sphere]]\ncentre = [0, 0, 0]\nradius = 1\nmargin = 0.1\nfriction = 0.3\n"
       "[sphere.motion]\namplitude = [0, 0.01, 0]\nfrequency = 0.5\nramp = 0.5\n";

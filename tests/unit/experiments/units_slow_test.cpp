@@ -17,7 +17,6 @@ namespace {
 
 using namespace testing_tools;
 
-/// Sizes of the units of length, mass and time.
 struct Units {
   double length = 1, mass = 1, time = 1;
 };
@@ -199,7 +198,7 @@ TEST(Units, ByPowersOfTenKeepTierErrorsWithinTheBarsAndBarsWithinAFactorTwo) {
   }
 }
 
-/// Runs the scene with a step (s) converted from the units of `kind`.
+/// `step` in s, converted from the units of `kind`.
 MethodRun run_in(const Kind& kind, const Units& u, const std::string& method, double step) {
   const Scene scene = scene_in(kind, u);
   return run_and_record(method, scene, {step * u.time, 8 * step * u.time * 12, 8, 1e-6});
@@ -218,7 +217,7 @@ TEST(Units, ChangeNoVerdict) {
         for (const Units& u : units_by({0x1p10, 0x1p20}, 1, seed++)) {
           const MethodRun there = run_in(kind, u, method, step);
           SCOPED_TRACE(fmt::format("{} {} {} {:a} {:a} {:a}", kind.name, method, step, u.length, u.mass, u.time));
-          // The range of floating-point numbers is absolute: squares overflow one step earlier in some units.
+          // Floating-point overflow is absolute: squares overflow one step earlier in some units.
           const auto blew_up = [](Verdict v) { return v == Verdict::energy || v == Verdict::nan; };
           if (there.outcome.verdict != here.outcome.verdict && blew_up(there.outcome.verdict) &&
               blew_up(here.outcome.verdict)) {

@@ -1,5 +1,4 @@
-// A fixed sample of the verdict trials. verdict_trials.cpp runs all of them, and data/ next to the rooms contains its
-// output.
+// A fixed sample of the verdict trials. verdict_trials.cpp runs all of them; tests/data contains its output.
 
 #include <filesystem>
 

@@ -58,7 +58,7 @@ int main(int argc, char** argv) {
                {"margin", "1"}},
               {}};
   std::map<std::string, std::array<Count, 2>> counts;  // by family: stable, unstable
-  std::map<std::string, std::array<long, 2>> later;    // fails later; of these, reported as a small margin
+  std::map<std::string, std::array<long, 2>> later;    // fails later; among these, reported as a small margin
   for (unsigned seed = first; seed <= last; ++seed) {
     std::optional<Trial> t;
     try {

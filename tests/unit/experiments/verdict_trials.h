@@ -139,7 +139,7 @@ inline TrialScene trial_scene(Random& random) {
         trial.scene.triangles.push_back({i, i + 1, i + nx});
         trial.scene.triangles.push_back({i + 1, i + nx + 1, i + nx});
       }
-    // a pressure of up to a third of the force of a spring stretched by its length
+    // the pressure is up to a third of the force of a spring stretched by its length
     const double flow = omega * d, density = decades(random, 1e-3, 0.3) * mass / (d * d * d);
     model.terms.emplace_back(Aerodynamics{density, 1, WindSignal{flow * random.vector(), {}}, trial.scene.triangles});
     trial.kind += "a";
@@ -149,12 +149,11 @@ inline TrialScene trial_scene(Random& random) {
   return trial;
 }
 
-/// Extent and speed of a run at every step, computed from positions alone, and the verdicts of monitors that do not
-/// stop it.
+/// Extent and speed of a run at every step, from positions alone, and the verdicts of monitors that do not stop it.
 class UnstoppedRun : public Observer {
  public:
   /// Uses two monitors: one observes all steps, the other only the states that verdicts are normally based on.
-  /// `most_stretch` and `most_speed` are the bounds of a good run.
+  /// `most_stretch` and `most_speed`: bounds of a good run.
   UnstoppedRun(const TrialScene& trial, const Run& run, double most_stretch, double most_speed)
       : trial_(trial),
         most_stretch_(most_stretch),
@@ -180,7 +179,7 @@ class UnstoppedRun : public Observer {
   double largest_ratio() const { return all_.largest_ratio(); }
 
   double stretch = 0, speed = 0;  // largest values: spring length over rest length [1], and speed of a particle (m/s)
-  long left = 0;                  // first step beyond either bound, or 0
+  long left = 0;                  // first step beyond either bound; 0 if there is none
   Verdict by_all = Verdict::ok, by_pairs = Verdict::ok;
   long when_all = 0, when_pairs = 0;  // steps of these verdicts
 
@@ -206,7 +205,7 @@ class UnstoppedRun : public Observer {
   long step_ = 0;
 };
 
-/// Extent and speed of the reference solution at every step.
+/// Largest extent and speed of the reference solution.
 struct TrueMotion : Observer {
   explicit TrueMotion(const Model& of) : model(of) {}
   bool every_step() const override { return true; }
@@ -221,20 +220,19 @@ struct TrueMotion : Observer {
   double stretch = 0, speed = 0;  // 1; m/s
 };
 
-/// A trial and its result.
 struct Trial {
   unsigned seed = 0;
   std::string family, method, kind;
   double step = 0, share = 0;  // s; step over limit, or 0 without a limit
   long steps = 0;
   double stretch = 0, speed = 0;          // relative to the truth's maximum
-  bool within = false;                    // both within a factor of ten to the end
-  bool later = false;                     // but not in a run ten times as long
+  bool within = false;                    // stretch and speed stay within a factor of ten to the end
+  bool later = false;                     // within, but not in a run ten times as long
   long left = 0;                          // first step beyond the bounds
-  Verdict verdict = Verdict::ok;          // with the states that runs are normally judged on
-  Verdict every = Verdict::ok;            // with every step observed
+  Verdict verdict = Verdict::ok;          // from the states that runs are normally judged on
+  Verdict every = Verdict::ok;            // from every step
   long when_verdict = 0, when_every = 0;  // steps of these verdicts
-  double most = 0;                        // K^ / B
+  double most = 0;                        // K^ / B of mysim/run/observers.h
   double margin = 0;                      // 1: limit with every spring stretched far, divided by the step, minus 1
   bool wrong(Verdict said) const { return within ? said != Verdict::ok : said == Verdict::ok; }
 };
@@ -244,8 +242,8 @@ inline double nominal_limit(const Stepper& rule, const TrialScene& trial, double
   return std::min(rule.limit(omega, trial.gamma + trial.beta * omega * omega), rule.limit(omega, trial.gamma));
 }
 
-/// Runs the trial of a seed. Returns nothing if the method does not support the scene, the step is within 0.5 % of the
-/// limit, or the reference solution hardly moves.
+/// Nothing if the method does not support the scene, the step is within 0.5 % of the limit, or the reference solution
+/// hardly moves.
 inline std::optional<Trial> tried(unsigned seed, bool longer = true) {
   Random random(seed);
   const TrialFamily& family = trial_families()[seed % trial_families().size()];
