@@ -1,4 +1,4 @@
-// cheat: dies after the test, when static objects go
+// cheat: crashes after the test, when static objects are destroyed
 // says: differs
 #include <cstdlib>
 

@@ -1,4 +1,4 @@
-// cheat: dies when a local object goes
+// cheat: crashes when a local object is destroyed
 // says: crashed
 #include <cstdlib>
 

@@ -1,4 +1,4 @@
-// cheat: asks for 100 GB
+// cheat: allocates 100 GB
 // says: out_of_memory
 #include <vector>
 

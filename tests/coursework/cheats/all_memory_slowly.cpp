@@ -1,4 +1,4 @@
-// cheat: asks for memory bit by bit, and keeps it
+// cheat: allocates memory bit by bit, and keeps it
 // says: out_of_memory out_of_time as_ungraded
 #include <vector>
 

@@ -1,4 +1,4 @@
-// cheat: becomes the program of another part, or of another submission, which has our solution of this part in it
+// cheat: executes the program of another part, or of another submission, which contains our solution of this part
 // says: differs
 #include <glob.h>
 #include <unistd.h>

@@ -1,6 +1,6 @@
-// What the cheats share. Where a trick works they return the right answer, so that it earns points and is noticed;
-// where it does not, they return what nobody gets points for. The runner defines the macros: it tells each cheat all
-// that an informed student could have found out.
+// Shared by the cheats. Where a trick works they return the right answer, so that it earns points and is noticed;
+// otherwise they return an answer that earns nothing. The runner defines macros with all that an informed student could
+// have found out:
 //   RESULTS, HOME_FOLDER, TESTS: folders that hold results, a home, the assignment with tests and solution.
 #pragma once
 

@@ -1,4 +1,4 @@
-// cheat: makes the compiler run a loop without end
+// cheat: makes the compiler evaluate an endless loop
 // says: not_compiled
 #include "cheat.h"
 

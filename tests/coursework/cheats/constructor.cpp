@@ -1,4 +1,4 @@
-// cheat: runs before main: writes answers and leaves
+// cheat: runs before main: writes answers and exits
 // says: no_token
 #include <unistd.h>
 #include <cstring>

@@ -1,4 +1,4 @@
-// cheat: answers without end
+// cheat: writes endless answers
 // says: too_much_answered too_much_output no_token as_ungraded
 #include <unistd.h>
 

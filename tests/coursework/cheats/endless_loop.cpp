@@ -1,4 +1,4 @@
-// cheat: never comes to an end
+// cheat: never ends
 // says: out_of_time as_ungraded
 #include "cheat.h"
 

@@ -1,4 +1,4 @@
-// cheat: prints without end
+// cheat: prints endlessly
 // says: too_much_output
 #include <cstdio>
 

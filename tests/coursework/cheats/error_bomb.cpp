@@ -1,4 +1,4 @@
-// cheat: makes the compiler complain without end
+// cheat: makes the compiler print endless errors
 // says: not_compiled
 #include "cheat.h"
 

@@ -1,4 +1,4 @@
-// cheat: ends the program past all handlers
+// cheat: ends the program, bypassing all handlers
 // says: no_token
 #include <unistd.h>
 

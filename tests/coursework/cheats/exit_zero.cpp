@@ -1,4 +1,4 @@
-// cheat: ends the program as if all were well
+// cheat: ends the program with status 0
 // says: no_token
 #include <cstdlib>
 

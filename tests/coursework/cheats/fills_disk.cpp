@@ -1,4 +1,4 @@
-// cheat: fills the disk with files of the size that it may have
+// cheat: fills the disk with files of the largest permitted size
 // says: differs too_much_output
 #include <fcntl.h>
 #include <unistd.h>

@@ -1,4 +1,4 @@
-// cheat: starts processes without end
+// cheat: starts processes endlessly
 // says: out_of_time differs as_ungraded
 #include <unistd.h>
 

@@ -1,4 +1,4 @@
-// cheat: writes answers and a guessed token, and leaves
+// cheat: writes answers and a guessed token, and exits
 // says: no_token
 #include <unistd.h>
 #include <string>

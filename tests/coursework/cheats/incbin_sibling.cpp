@@ -1,4 +1,4 @@
-// cheat: lets the assembler read what stands beside it while it is compiled: our objects for another part
+// cheat: makes the assembler read a neighbouring file during compilation: our objects for another part
 // says: not_compiled
 #include "cheat.h"
 

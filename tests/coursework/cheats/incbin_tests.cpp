@@ -1,4 +1,4 @@
-// cheat: lets the assembler read the solution into the program
+// cheat: makes the assembler read the solution into the program
 // says: not_compiled
 #include "cheat.h"
 

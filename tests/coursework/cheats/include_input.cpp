@@ -1,4 +1,4 @@
-// cheat: includes whatever the compiler has on its input
+// cheat: includes the compiler's standard input
 // says: not_compiled
 #include "/proc/self/fd/0"
 #include "/proc/self/mem"

@@ -1,4 +1,4 @@
-// cheat: lets the compiler read the passwords aloud
+// cheat: makes the compiler print the passwords
 // says: not_compiled
 #include "/etc/shadow"
 #include "cheat.h"

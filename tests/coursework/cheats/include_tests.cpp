@@ -1,4 +1,4 @@
-// cheat: takes the solution by #include where the compiler can see it
+// cheat: includes the solution if the compiler can see it
 // says: differs not_compiled
 #include "cheat.h"
 

@@ -1,4 +1,4 @@
-// cheat: takes the solution by #include
+// cheat: includes the solution
 // says: not_compiled
 #include TESTS "/solution/euler.cpp"
 #include "cheat.h"

@@ -1,4 +1,4 @@
-// cheat: includes a file that has no end
+// cheat: includes an endless file
 // says: not_compiled
 #include "/dev/zero"
 #include "cheat.h"

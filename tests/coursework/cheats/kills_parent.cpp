@@ -1,4 +1,4 @@
-// cheat: kills the grader, and all that it can
+// cheat: kills the grader, and every process that it can
 // says: differs no_token crashed
 #include <unistd.h>
 #include <csignal>

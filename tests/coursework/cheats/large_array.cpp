@@ -1,4 +1,4 @@
-// cheat: asks for 100 GB before main
+// cheat: reserves 100 GB before main
 // says: not_compiled crashed out_of_memory
 #include "cheat.h"
 

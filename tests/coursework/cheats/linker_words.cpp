@@ -1,4 +1,4 @@
-// cheat: hands options to compiler and linker from within the file
+// cheat: passes options to compiler and linker from within the file
 // says: not_compiled differs
 #include "cheat.h"
 

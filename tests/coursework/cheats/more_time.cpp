@@ -1,4 +1,4 @@
-// cheat: lifts its own limits
+// cheat: raises its own limits
 // says: differs
 #include <sys/resource.h>
 

@@ -1,4 +1,4 @@
-// cheat: sends the answers elsewhere
+// cheat: redirects the answers
 // says: no_token
 #include <fcntl.h>
 #include <unistd.h>

@@ -1,4 +1,4 @@
-// cheat: calls home
+// cheat: connects to the internet
 // says: differs
 #include <arpa/inet.h>
 #include <netinet/in.h>

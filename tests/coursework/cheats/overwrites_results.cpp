@@ -1,4 +1,4 @@
-// cheat: writes the result itself, wherever it may lie
+// cheat: writes the result itself, to every place where it may be
 // says: differs
 #include <fcntl.h>
 #include <unistd.h>

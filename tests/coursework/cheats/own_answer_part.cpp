@@ -1,4 +1,4 @@
-// cheat: puts its own answer_euler() in the place of the test's
+// cheat: replaces the test's answer_euler() by its own
 // says: not_compiled
 #include <string>
 #include <vector>

@@ -1,4 +1,4 @@
-// cheat: brings a main of its own
+// cheat: defines its own main
 // says: not_compiled
 #include "cheat.h"
 

@@ -1,4 +1,4 @@
-// cheat: puts its own write() in the place of the system's
+// cheat: replaces the system's write() by its own
 // says: no_token differs size not_compiled
 #include <sys/syscall.h>
 #include <unistd.h>

@@ -1,4 +1,4 @@
-// cheat: changes names by macros before the headers are read
+// cheat: redefines names with macros before the headers are included
 // says: differs not_compiled
 #define judge(...) true
 #define answer(...) always(__VA_ARGS__)

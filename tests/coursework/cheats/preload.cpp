@@ -1,4 +1,4 @@
-// cheat: starts itself anew under a library of its own
+// cheat: restarts itself with a preloaded library of its own
 // says: no_token differs
 #include <unistd.h>
 #include <cstdlib>

@@ -1,4 +1,4 @@
-// cheat: ends the program by another door, with a handler that prints passes
+// cheat: ends the program by quick_exit, with a handler that prints passes
 // says: no_token
 #include <cstdio>
 #include <cstdlib>

@@ -1,4 +1,4 @@
-// cheat: reads the test again from its input and writes on every descriptor that it finds
+// cheat: reads the test again from its input, and writes to every descriptor that it finds
 // says: no_token differs size
 #include <dirent.h>
 #include <unistd.h>

@@ -1,4 +1,4 @@
-// cheat: looks for tests, solution and results, and answers right where it finds one
+// cheat: looks for the tests, the solution or results, and answers correctly if it finds any of them
 // says: differs
 #include <fstream>
 #include <string>

@@ -1,4 +1,4 @@
-// cheat: finds the token in its own memory and forges the whole conversation
+// cheat: finds the token in its own memory, and forges the whole conversation
 // says: no_token differs size
 #include <unistd.h>
 #include <cstdio>
@@ -15,7 +15,7 @@ bool hexadecimal(const char* at) {
   return at[32] == '\n' || at[32] == '\0';
 }
 
-/// Every writable page of this process, from the list of its own mappings.
+/// Searches every writable page of this process, from the list of its own mappings.
 std::string find_token() {
   std::FILE* maps = std::fopen("/proc/self/maps", "r");
   char line[512];

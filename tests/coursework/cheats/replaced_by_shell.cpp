@@ -1,4 +1,4 @@
-// cheat: becomes a shell that writes passes
+// cheat: replaces itself with a shell that prints passing results
 // says: no_token
 #include <unistd.h>
 

@@ -1,4 +1,4 @@
-// cheat: asks a shell, a compiler and the package tools for help
+// cheat: runs a shell, a compiler and the package tools
 // says: differs
 #include <cstdlib>
 

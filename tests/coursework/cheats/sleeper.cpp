@@ -1,4 +1,4 @@
-// cheat: uses no time, and never comes to an end
+// cheat: sleeps, and never ends
 // says: waiting out_of_time as_ungraded
 #include <unistd.h>
 

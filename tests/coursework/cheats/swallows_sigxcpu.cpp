@@ -1,4 +1,4 @@
-// cheat: ignores the signal that says its time is up
+// cheat: ignores the signal for exceeded time
 // says: out_of_time as_ungraded
 #include <csignal>
 

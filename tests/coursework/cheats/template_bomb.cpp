@@ -1,4 +1,4 @@
-// cheat: makes the compiler count to two to the thousand
+// cheat: makes the compiler instantiate 2^1000 templates
 // says: not_compiled
 #include "cheat.h"
 

@@ -1,4 +1,4 @@
-// cheat: looks into every process that it can see
+// cheat: inspects every process that it can see
 // says: differs
 #include <dirent.h>
 #include <fcntl.h>

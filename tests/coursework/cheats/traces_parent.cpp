@@ -1,4 +1,4 @@
-// cheat: looks into the grader
+// cheat: inspects the grader
 // says: differs
 #include <fcntl.h>
 #include <sys/ptrace.h>

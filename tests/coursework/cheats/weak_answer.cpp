@@ -1,4 +1,4 @@
-// cheat: a weak answer() that hopes to be taken
+// cheat: defines a weak answer(), in case the linker prefers it
 // says: differs
 #include <string>
 #include <vector>

@@ -1,4 +1,4 @@
-// cheat: writes answers of its own on the answers' descriptor, beside those of the test
+// cheat: writes answers of its own to the answers' descriptor, in addition to those of the test
 // says: no_token differs size
 #include <unistd.h>
 #include <cstring>

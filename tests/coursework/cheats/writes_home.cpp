@@ -1,4 +1,4 @@
-// cheat: leaves something in the home folder
+// cheat: writes to the home folder
 // says: differs
 #include <fcntl.h>
 #include <unistd.h>
