@@ -12,7 +12,7 @@
 namespace coursework {
 
 /// Thrown by the calls around the student's code if its return value is unusable; reported with the text unusable.KEY,
-/// filled in with these numbers.
+/// into which the numbers are inserted.
 class Unusable : public std::runtime_error {
  public:
   explicit Unusable(const std::string& key, const std::vector<std::size_t>& numbers = {})
@@ -23,25 +23,25 @@ class Unusable : public std::runtime_error {
   std::vector<std::size_t> numbers_;
 };
 
-/// Announces a call of this function of the student's, for the message on code that is too slow. Each program around
-/// the code defines it.
+/// Announces a call of this student function, for the message on code that is too slow. Each program around the code
+/// defines it.
 void calling(const char* function);
 
-/// Calls the student's code. Returns false if no part knows the call. Exceptions of the student's code pass through.
-/// Each assignment defines it in calls.cpp, which tries its parts in turn; part P lives in calls_P.cpp and has the form
+/// Calls the student's code. Returns false if no part knows the call. Lets exceptions of the student's code through.
+/// Each assignment defines it in calls.cpp, which tries its parts in turn; part P is in calls_P.cpp and has the form
 /// `bool answer_P(const std::string& call, const Numbers& in, Numbers& out)`.
 bool answer(const std::string& call, const Numbers& in, Numbers& out);
 
 /// Only for the hand-out's `check`: the numbers of an answer to compare with the case's `expected`. All of them
-/// (as_given.cpp), or the features that the assignment's calls.cpp extracts, if constants are the student's choice.
+/// (as_given.cpp), or the features that the assignment's calls.cpp extracts, if students choose the constants.
 Found compared(const Case& what, const Numbers& answered);
 
 /// Only for the hand-out's `check`: the question and the answer as text, if the compared numbers are not the answer
 /// itself; otherwise empty.
 std::string asked_and_came(const Texts& own, const Case& what, const Numbers& answered);
 
-/// Only for the hand-out's `check`: a motion to draw for a test that compares no curve itself; `expected` is the right
-/// one and `got` the student's. Returns false if there is none. Exceptions of the student's code pass through.
+/// Only for the hand-out's `check`: a motion to draw for a test that compares no curve itself. `expected` is the right
+/// motion, `got` the student's. Returns false if there is none. Lets exceptions of the student's code through.
 bool motion_of(const std::string& test, Case& drawn, Numbers& got);
 
 }  // namespace coursework

@@ -1,4 +1,4 @@
-// A case: a call of the student's code and the expected answer. Shared by the grader and the hand-out's `check`: C++17,
+// A call of the student's code and the expected answer. Shared by the grader and the hand-out's `check`: C++17,
 // standard library only.
 #pragma once
 
@@ -10,12 +10,11 @@ namespace coursework {
 
 using Numbers = std::vector<double>;
 
-/// One call of the student's code. The call's name and the layout of its numbers are those of the assignment's
-/// calls_PART.cpp.
+/// The assignment's calls_PART.cpp defines the call's name and the layout of its numbers.
 struct Case {
   std::string call;
   Numbers in;
-  Numbers expected;      // row after row
+  Numbers expected;      // row by row
   int columns = 1;       // numbers in a row
   double tolerance = 0;  // absolute, for each number
   std::string row;       // kind of a row, a key of the texts: "step", "particle", "spring"
@@ -25,7 +24,6 @@ struct Case {
   double row_size = 1;   // extent of a row along x; s if rows are steps
 };
 
-/// Outcome of a call of the student's code.
 enum class How {
   answered,
   threw,
@@ -47,11 +45,11 @@ struct Answer {
   How how = How::missing;
   Numbers got;
   std::string detail = {};  // exception text, signal name, first error of the compiler, or a key of the texts
-  /// Names with numbers. unusable: the numbers that its text needs. out_of_time: the number of calls of each function
-  /// of the student's so far, the function called last at the end.
+  /// Names with numbers. unusable: the numbers that its text needs. out_of_time: the number of calls of each student
+  /// function so far, with the function called last at the end.
   std::vector<std::pair<std::string, long>> counts = {};
   double reference = 0;  // s, for out_of_time: CPU time of the official solution for all calls of the test
-  Numbers of = {};       // denominators of the numbers in `got` that are shares; 0: not a share
+  Numbers of = {};       // denominators of those numbers in `got` that are shares; 0: not a share
 };
 
 /// The numbers to compare with a case's `expected`, and the denominators of shares, as in Answer.
@@ -60,8 +58,8 @@ struct Found {
   Found(Numbers numbers, Numbers all = {}) : got(std::move(numbers)), of(std::move(all)) {}
 };
 
-/// True if the outcome is neither right nor wrong: the code ran into a limit that depends on the machine, or its
-/// answers cannot be measured.
+/// True if the outcome is neither right nor wrong: the code reached a limit that depends on the machine, or its answers
+/// cannot be measured.
 inline bool ungraded(How how) {
   return how == How::out_of_time || how == How::waiting || how == How::too_much_answered || how == How::undecided;
 }

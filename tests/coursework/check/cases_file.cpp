@@ -26,7 +26,6 @@ void write_numbers(std::ostream& out, const char* word, const Numbers& numbers) 
   out << '\n';
 }
 
-/// One line, split into words and numbers.
 class Line {
  public:
   Line(const std::string& text, int number) : in_(text), number_(number) { in_ >> word_; }

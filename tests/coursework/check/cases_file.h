@@ -18,12 +18,11 @@ struct PublicTest {
 
 struct PublicTests {
   std::string assignment, title;
-  int hidden = 0;  // number of tests that run later, in the grader
+  int hidden = 0;  // tests that run later, in the grader
   std::vector<PublicTest> tests;
 };
 
-/// Lines of a keyword and its values; numbers have 17 digits and read back as the same double. nan and inf are written
-/// as such.
+/// Lines of a keyword and its values. Numbers have 17 digits and read back as the same double, including nan and inf.
 void write_cases(std::ostream& out, const PublicTests& tests);
 
 /// Throws std::runtime_error with the line number if the file is unreadable, a keyword is unknown, a number is

@@ -1,4 +1,4 @@
-// The hand-out's `check`: runs the public tests on the student's functions, reports the grader's feedback, and writes
+// The hand-out's `check`: runs the public tests on the student's functions, prints the grader's feedback, and writes
 // mine.html. C++17, standard library only, no POSIX.
 //   check             all tests
 //   check 2 3.1       tests whose number begins with one of these; also the name of a part
@@ -28,8 +28,7 @@ using namespace coursework;
 
 namespace {
 
-// Global, because a signal handler has access to nothing else; prepared in advance, because it must not allocate
-// either.
+// Global, because a signal handler can access nothing else; prepared in advance, because it must not allocate.
 const char* if_it_crashes = "";
 
 void crashed(int) {
@@ -98,7 +97,8 @@ std::string smallest(const PublicTest& test, const Words& words) {
   return smaller_text(words.common, words.own, test.small, answers);
 }
 
-/// Numbers of a failing case and the observations on them. Runs later cases of its call up to the next failure.
+/// Returns the numbers of a failing case and observations on them. Also runs later cases with the same call, up to the
+/// next failure.
 std::string shown_beside(const PublicTest& test, const Case& what, const Answer& answer, const Words& words) {
   Answered others;
   for (std::size_t i = static_cast<std::size_t>(&what - test.cases.data()) + 1; i < test.cases.size(); ++i)
@@ -111,9 +111,9 @@ std::string shown_beside(const PublicTest& test, const Case& what, const Answer&
   return text + (text.empty() || seen.empty() ? "" : "\n") + seen;
 }
 
-/// Runs the test's cases up to the first wrong one and keeps a few plots, among them that of the wrong case.
-/// `failed_before`: the first failed test of its function, if any; `told`: functions with feedback on small cases so
-/// far.
+/// Runs the test's cases up to the first wrong one, and keeps a few plots, including that of the wrong case.
+/// `failed_before`: the first failed test of its function, if any; `told`: functions that already have feedback on
+/// small cases.
 ShownTest run(const PublicTest& test, const Words& words, const std::string& failed_before,
               std::set<std::string>& told) {
   ShownTest shown{words.title_of(test.part), test.id + " " + words.title_of(test.id), true, "", {}};
@@ -196,7 +196,7 @@ int check(const std::string& language, const std::vector<std::string>& which) {
               << words.common.fill("points", std::to_string(good ? test.points : 0), std::to_string(test.points))
               << "\n"
               << (good ? std::string() : indented(shown.back().said)) << std::flush;
-    // after the verdict, because the code that advances the motion may be another part of the student's, and may crash
+    // after the verdict, because the motion may run another part of the student's code, which may crash
     shown.back().plots.push_back(motion(test.id, words));
     total = words.common.fill("total", std::to_string(earned), std::to_string(points));
     std::ofstream(mine) << page(words.common.of("page.lang"), title, total, shown, words.common.of("passed"),

@@ -27,19 +27,19 @@ struct Call {
   coursework::Numbers in;
 };
 
-/// Global, because a signal handler has access to nothing else.
+/// Global, because a signal handler can access nothing else.
 struct Watched {
   static constexpr int most = 8;
   const char* function[most] = {};  // names of the student's functions, in the order of their first calls
   long count[most] = {};
   int last = 0;
-  volatile std::sig_atomic_t sending = 0;  // nonzero while a line is being written: no other output may interrupt it
+  volatile std::sig_atomic_t sending = 0;  // nonzero while a line is being written, which no other output may interrupt
   const char* stack_end = nullptr;         // the lowest address that the stack may reach
 };
 Watched watched;
 
 #ifdef TELLS_PLACES
-/// Writes the current location to standard error: the addresses of the call stack, for addr2line.
+/// Writes the addresses of the call stack to standard error, for addr2line.
 _Unwind_Reason_Code tell_address(_Unwind_Context* call, void*) {
   int before = 0;
   const auto at = _Unwind_GetIPInfo(call, &before);
@@ -144,7 +144,7 @@ std::string answer_line(const Call& call) {
 
 }  // namespace
 
-/// Called by std::thread::hardware_concurrency(): one thread per processor has to fit into the limits.
+/// Called by std::thread::hardware_concurrency(): one thread per processor must fit into the limits.
 extern "C" int get_nprocs() noexcept { return 4; }
 
 void coursework::calling(const char* function) {
@@ -155,9 +155,9 @@ void coursework::calling(const char* function) {
 }
 
 int main() {
-  // each additional arena of a thread would reserve 64 MB of the limited address space
+  // each thread's arena would reserve 64 MB of the limited address space
   mallopt(M_ARENA_MAX, 1);
-  // the token lives only on main's stack, and all input is read before any of the student's code is called
+  // the token is only on main's stack, and all input is read before any of the student's code is called
   const std::string all{std::istreambuf_iterator<char>(std::cin), {}};
   std::istringstream lines(all);
   std::string token, line;

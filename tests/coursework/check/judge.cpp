@@ -1,4 +1,3 @@
-// Compares number by number, row by row.
 #include "judge.h"
 
 #include <cmath>

@@ -1,4 +1,3 @@
-// Parses layouts together with the numbers of a call.
 #include "layout.h"
 
 #include <cstdlib>
@@ -78,7 +77,7 @@ class Reading {
     return size > 0 && read_ < in_.size() ? (in_.size() - read_) / size : 0;
   }
 
-  /// Value of a count; registers one more use of it.
+  /// Value of a count, whose use it registers.
   std::size_t use_of(const std::string& word) {
     const std::string name =
         word.size() > 2 && word.compare(word.size() - 2, 2, "-1") == 0 ? word.substr(0, word.size() - 2) : word;
@@ -116,7 +115,7 @@ class Reading {
   const Numbers& in_;
   std::vector<std::string> words_;
   std::map<std::string, std::size_t> places_;  // position of each single number, by name
-  std::map<int, int> uses_;                    // number of uses of each count, by its position
+  std::map<int, int> uses_;                    // number of uses of each count, by the count's position
   int last_count_ = -1;
   CallLayout found_;
   int row_, group_ = -1;

@@ -9,7 +9,7 @@
 
 namespace coursework {
 
-/// Numbers of a call under one name. In a repeated group each repetition has its own fields.
+/// Numbers of a call under one name. Each repetition of a group has its own fields.
 struct Field {
   std::string name;
   int item = -1;  // index within its group, -1 outside of groups
@@ -37,7 +37,7 @@ struct CallLayout {
   std::vector<FieldGroup> groups;
   bool fits = false;  // the layout accounts for exactly the given numbers
 
-  /// `row` (of `rows`) is the row that differs; -1: none.
+  /// `row` (of `rows`): the row that differs; -1: none.
   static CallLayout read(const std::string& layout, const Numbers& in, int row = -1, std::size_t rows = 0);
   /// Layout of a call, without its sentence. `fits` is false if the texts do not mention the call.
   static CallLayout of(const Texts& own, const Case& what, int row = -1);

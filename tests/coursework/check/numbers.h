@@ -8,8 +8,8 @@
 
 namespace coursework {
 
-/// Reads the numbers of a call in order; throws std::out_of_range after the last. Vectors can be any type of the
-/// assignment with members x, y, z.
+/// Reads the numbers of a call in order; throws std::out_of_range after the last. Vectors can have any type with
+/// members x, y, z.
 class Reader {
  public:
   explicit Reader(const Numbers& in) : in_(in) {}

@@ -1,4 +1,3 @@
-// Names of numbers in terms of the parameters of a call.
 #include "params.h"
 
 #include <cmath>
@@ -43,14 +42,14 @@ std::string alone(const Simple& one) {
   return (above.empty() ? "1" : above.substr(0, above.size() - 1)) + below;
 }
 
-/// Text such as 4/3; empty if the number is none of the simple ones.
+/// Such as 4/3; empty if the number is none of the simple ones.
 std::string simple_name(double value, double relative) {
   for (const Simple& one : simple)
     if (std::abs(std::abs(value) - one.value) <= relative * std::abs(value)) return (value < 0 ? "-" : "") + alone(one);
   return "";
 }
 
-/// Names such as h^2/2, all that fit; products of two parameters only if no single one fits.
+/// All that fit, such as h^2/2. Products of two parameters only if no single parameter fits.
 std::set<std::string> product_names(double value, double relative, const std::vector<Param>& params,
                                     const Numbers& in) {
   if (relative > 1e-6) return {};  // too many products would match by chance

@@ -17,7 +17,7 @@ struct PlotTexts {
 /// keeps its size.
 std::string plot(const Case& what, const Numbers& got, const PlotTexts& texts);
 
-/// Escapes a text for use in HTML.
+/// For use in HTML.
 std::string escaped(const std::string& text);
 
 }  // namespace coursework

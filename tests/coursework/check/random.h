@@ -23,7 +23,7 @@ class Random {
     const double value = low + (high - low) * static_cast<double>(next() >> 11) * 0x1p-53;
     return round_ ? rounded(value, low, high) : value;
   }
-  /// Uniform in low..high, both included.
+  /// Uniform in low..high, inclusive.
   int integer(int low, int high) { return low + static_cast<int>(next() % static_cast<std::uint64_t>(high - low + 1)); }
 
  private:

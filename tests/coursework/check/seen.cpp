@@ -1,4 +1,4 @@
-// Tries simple explanations one after the other by direct arithmetic.
+// Tries simple explanations of a wrong answer one by one, by direct arithmetic.
 #include "seen.h"
 
 #include <algorithm>
@@ -14,13 +14,13 @@ namespace {
 
 using std::size_t;
 
-/// An explanation of the wrong numbers of a vector.
+/// A possible origin of the wrong numbers of a vector.
 struct Instead {
   std::string text;
   bool factor = false;  // states a factor, which may fit a single case by chance
 };
 
-/// The expected and actual numbers of an answer, viewed as one vector (block) per row.
+/// The expected and actual numbers of an answer, as one vector (block) per row.
 class Seen {
  public:
   Seen(const Texts& common, const Texts& own, const Case& what, const Numbers& got)
@@ -69,7 +69,7 @@ class Seen {
     return common_.fill("seen.split", right, wrong);
   }
 
-  /// Explanations of each wrong vector, in the order of the vectors.
+  /// By vector.
   std::vector<std::vector<Instead>> instead() const {
     std::vector<std::vector<Instead>> all;
     for (const Block& block : blocks_) {
@@ -81,7 +81,7 @@ class Seen {
     }
     return all;
   }
-  /// True if any number of this vector is wrong; call instead() first.
+  /// True if any number of this vector is wrong. Call instead() first.
   bool is_wrong(size_t block) const { return all_wrong_.at(block); }
 
  private:
@@ -180,13 +180,13 @@ class Seen {
     relative_ = std::max(
         1e-11, 4 * tolerance_ * std::max(1.0, std::abs(factor)) / (largest * std::max(std::abs(factor), 1e-300)));
     relative_ = std::min(relative_, 1e-3);
-    // an unnamed factor needs more evidence than a chance match
+    // a factor without a name needs more evidence, because it may match by chance
     const bool named =
         !names_of_number(factor, relative_, counted > 1 ? params_ : std::vector<Param>(), what_.in).empty();
     return named || counted >= 6 ? factor : NAN;
   }
 
-  /// A factor that varies by row as a list of the call does, such as m or 1/m; empty if there is none.
+  /// A factor that varies by row like a list of the call, such as m or 1/m; empty if there is none.
   template <class Value, class Unit>
   std::string row_multiple(const Block& block, const std::vector<size_t>& rows, Value value, Unit unit) const {
     std::string found;
@@ -273,7 +273,7 @@ class Seen {
     return found;
   }
 
-  /// Adds differences to the expected numbers that are multiples of a named quantity.
+  /// Differences from the expected numbers that are multiples of a named quantity.
   void add_offsets(const Block& block, const std::vector<size_t>& rows, std::vector<Instead>& found) const {
     const std::string name = block_text(block);
     const auto off = [&](size_t row, size_t k) { return got(block, row, k) - expected(block, row, k); };

@@ -21,19 +21,19 @@ std::vector<Block> blocks_of(const Texts& own, const Case& what);
 /// Other cases with the same student's answers to them.
 using Answered = std::vector<std::pair<Case, Answer>>;
 
-/// The cases with the same call, except the case itself.
+/// All other cases with the same call.
 Answered others_of(const Case& what, const std::vector<Case>& cases, const std::vector<Answer>& answers);
 
-/// "Right: x'. Wrong: v' of particle 1, 2. Where v' is wrong, it is 1/m times the right one." Reports only explanations
-/// that hold to round-off for all wrong numbers of a vector, and only if there are at most two of them. A single case
-/// may match by chance: if other cases are wrong in the same vector, at least one of them has to confirm the
-/// explanation, and a factor always requires such a second case. Empty if the answer is right, is missing, has rows in
-/// any order, or is compared with a tolerance that round-off does not explain.
+/// For example: "Right: x'. Wrong: v' of particle 1, 2. Where v' is wrong, it is 1/m times the right one." Reports only
+/// explanations that hold to round-off for all wrong numbers of a vector, and only if there are at most two of them. A
+/// single case may match by chance: if other cases are wrong in the same vector, at least one of them must confirm the
+/// explanation, and a factor always needs such a second case. Empty if the answer is right or missing, has rows in any
+/// order, or is compared with a tolerance that round-off does not explain.
 std::string seen_text(const Texts& common, const Texts& own, const Case& what, const Answer& answer,
                       const Answered& others = {});
 
-/// As seen_text(), for numbers that are not an answer by themselves, such as the contribution of a term: explains them
-/// without listing which are right. Empty if no simple explanation fits.
+/// As seen_text(), for numbers that are not an answer by themselves, such as the contribution of a term. Does not list
+/// which numbers are right. Empty if no simple explanation fits.
 std::string instead_text(const Texts& common, const Texts& own, const Case& what, const Answer& answer,
                          const Answered& others = {});
 

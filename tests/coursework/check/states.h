@@ -18,7 +18,6 @@ State read_state(Reader& in, std::size_t count) {
   return state;
 }
 
-/// Position and velocity of each particle.
 template <class State>
 void put_state(Numbers& out, const State& state) {
   for (std::size_t i = 0; i < state.x.size(); ++i) put(out, state.x[i]), put(out, state.v.at(i));

@@ -1,4 +1,4 @@
-// The words of an assignment in one language. C++17, standard library only.
+// The texts of an assignment in one language. C++17, standard library only.
 #pragma once
 
 #include <map>
@@ -6,7 +6,7 @@
 
 namespace coursework {
 
-/// A file of paragraphs: a line `[key]`, then its text up to the next key; lines that begin with `#` are comments.
+/// A file of paragraphs: a line `[key]`, then its text up to the next key. Lines that begin with `#` are comments.
 /// fill() replaces {0}, {1}, ... in a text.
 class Texts {
  public:

@@ -1,4 +1,3 @@
-// Builds sentences from numbers.
 #include "words.h"
 
 #include <algorithm>
@@ -16,7 +15,7 @@
 namespace coursework {
 
 std::string with_digits(double value, int digits) {
-  if (std::isnan(value)) return "nan";  // the sign of nan has no meaning, nor does that of zero
+  if (std::isnan(value)) return "nan";  // the sign of nan has no meaning, nor has that of zero
   if (value == 0) return "0";
   char text[40];
   std::snprintf(text, sizeof text, "%.*g", digits, value);
@@ -41,7 +40,7 @@ std::vector<std::string> listed(const std::string& text) {
   return names;
 }
 
-/// Position such as "step 3, velocity[1]"; a single row needs no number.
+/// Such as "step 3, velocity[1]"; a single row needs no number.
 std::string place(const Texts& common, const Texts& own, const Case& what, const Judged& judged) {
   const std::size_t columns = static_cast<std::size_t>(what.columns > 0 ? what.columns : 1);
   const std::string column = column_text(own, what, judged.column);
@@ -198,7 +197,7 @@ std::string rows_without(const Numbers& some, const Numbers& others, std::size_t
   return more > 3 ? text + ", ..." : text;
 }
 
-/// For rows in any order, a missing or surplus row says more than the first number that differs.
+/// For rows in any order, a missing or surplus row is more informative than the first number that differs.
 std::string as_set(const Texts& common, const Texts& own, const Case& what, const Answer& answer) {
   const std::string key = "set." + what.row;
   if (!own.has(key) || what.columns < 1) return "";
@@ -240,7 +239,7 @@ std::string words(const Texts& common, const Texts& own, const Case& what, const
 
 namespace {
 
-/// Width of a text in a monospaced font; Chinese characters count as two.
+/// Width in a monospaced font, in which Chinese characters count as two.
 std::size_t columns_of(const std::string& text) {
   std::size_t columns = 0;
   for (const char c : text) {
@@ -254,7 +253,7 @@ std::string blanks(std::size_t columns, const std::string& text) {
   return std::string(columns > columns_of(text) ? columns - columns_of(text) : 0, ' ');
 }
 
-/// Six digits; a number that is negligible compared with the largest becomes 0.
+/// Six digits. A number that is negligible compared with the largest becomes 0.
 std::string plain(double value, double largest) { return with_digits(std::abs(value) < 1e-9 * largest ? 0 : value, 6); }
 
 }  // namespace

@@ -9,13 +9,13 @@
 
 namespace coursework {
 
-/// The number with `digits` significant digits; "nan" and "0" have no sign.
+/// "nan" and "0" have no sign.
 std::string with_digits(double value, int digits);
 
-/// Shortest text that distinguishes the value from `other`: at least six digits.
+/// Shortest text that distinguishes the value from `other`, with at least six digits.
 std::string number_text(double value, double other);
 
-/// The assignment's name of a kind of row or column ("row.step"), or the bare word if its texts have none.
+/// The assignment's name of a kind of row or column ("row.step"), or `word` if its texts have none.
 std::string name_text(const Texts& own, const std::string& kind, const std::string& word);
 
 /// Name of a column's numbers. If the text is a list "(x, y, z)" with a name for each column, one of these names;
@@ -30,8 +30,8 @@ bool has_layout(const Texts& own, const Case& what);
 std::string given_text(const Texts& common, const Texts& own, const Case& what, const Judged& judged,
                        std::size_t most = 60);
 
-/// All numbers of a wrong answer beside those expected, one per line, if there are at most six; otherwise those that
-/// differ, if they are at most six. Lines begin with two blanks, and columns are aligned in a monospaced font. Empty
+/// All numbers of a wrong answer next to those expected, one per line, if there are at most six; otherwise those that
+/// differ, if there are at most six. Lines begin with two blanks, and columns are aligned in a monospaced font. Empty
 /// for a single number, for shares, and for rows in any order.
 std::string table_text(const Texts& common, const Texts& own, const Case& what, const Answer& answer);
 /// True if the line belongs to such a table.
@@ -52,8 +52,8 @@ std::vector<std::size_t> angles_in(const Texts& own, const Case& what);
 std::string smaller_text(const Texts& common, const Texts& own, const std::vector<Case>& small,
                          const std::vector<Answer>& answers);
 
-/// Ratios of actual to expected numbers of several cases with one number each, all compared to round-off; otherwise
-/// empty.
+/// Ratios of actual to expected numbers of several cases with one number each, if all are compared to round-off;
+/// otherwise empty.
 std::string factors_text(const Texts& common, const std::vector<Case>& cases, const std::vector<Answer>& answers);
 
 /// One or two sentences: the expected and actual numbers, and the first difference; for rows that form a set (text
