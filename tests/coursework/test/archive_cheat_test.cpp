@@ -57,7 +57,7 @@ class Packer {
   archive* to_;
 };
 
-/// The honest parts, with a tricky euler.
+/// The honest parts, except for a malicious euler.
 struct Trick {
   std::string name;  // name of the submission
   std::function<void(const fs::path& file, const Canaries&)> make;

@@ -10,7 +10,6 @@ namespace coursework {
 namespace fs = std::filesystem;
 namespace {
 
-/// Records mode, owner and content of everything below `top`.
 void look(const fs::path& top, std::map<std::string, std::string>& state) {
   for (const auto& entry : fs::recursive_directory_iterator(top)) {
     struct stat about {};

@@ -18,7 +18,7 @@ class Canaries {
   std::filesystem::path home() const { return home_.path(); }
   std::filesystem::path results() const { return results_.path(); }
   std::filesystem::path tests() const;
-  /// Everything changed, added or removed there, or left in world-writable folders, since construction; empty: nothing.
+  /// Everything changed, added or removed there, or left in world-writable folders, since construction.
   std::string harm() const;
 
  private:

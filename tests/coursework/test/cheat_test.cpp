@@ -32,7 +32,7 @@ std::vector<std::string> cheats() {
   return names;
 }
 
-/// The assignment with a few of its tests, which suffice because a trick acts in each of them.
+/// A few tests suffice, because a trick acts in each of them.
 struct Few {
   Few() : assignment(find_assignment("a1-steppers")) {
     for (const Test& test : assignment.tests)
@@ -72,7 +72,7 @@ class CheatTest : public testing::TestWithParam<std::tuple<std::string, std::str
   static std::string sandbox_name() { return std::get<0>(GetParam()); }
   static fs::path cheat() { return fs::path(COURSEWORK_FOLDER) / "cheats" / (std::get<1>(GetParam()) + ".cpp"); }
 
-  /// The cheat as a student would hand it in: one file, with everything that could be known about this machine.
+  /// The cheat as a student would submit it: one file, with everything that could be known about this machine.
   std::string source() const {
     std::string text = content_of_file(cheat());
     std::string shared = content_of_file(cheat().parent_path() / "cheat.h");
@@ -99,7 +99,6 @@ std::vector<std::string> expected(const fs::path& cheat) {
   return keys;
 }
 
-/// True if the sentence was made from one of the texts under these keys.
 bool says(const Texts& common, const std::string& said, const std::vector<std::string>& keys) {
   for (const std::string& key : keys) {
     const std::string& text = common.of(common.has("how." + key) ? "how." + key : key);
@@ -172,7 +171,7 @@ constexpr Trick tricks[] = {
 };
 
 /// The assignment with one test of the attacked part: the first part of a hand-out with a file per part, or the last
-/// part of a whole program, so that the others' needs are excluded.
+/// part of a whole program, which excludes the needs of the others.
 struct OnePart {
   explicit OnePart(const Assignment& whole) : assignment(whole) {
     part = whole.takes_whole_program() ? whole.parts.back().name : whole.parts.front().name;

@@ -86,7 +86,6 @@ TEST(Classic, OutputAndAMissingFileCostNothingElse) {
   }
 }
 
-/// Remarks on these files, and on a part that cannot be built, without running anything.
 std::string said_of(const classic::Files& files, const std::string& part) {
   const crosscheck::TemporaryFolder scratch("test");
   const Compiler compiler;
@@ -143,7 +142,7 @@ TEST(Classic, WhatKeepsAClassFromBeingUsedIsToldWithoutDenyingIt) {
             std::string::npos);
 }
 
-// A fault is reported as itself, whatever it resembles: features of answers are no evidence of the precision.
+// A fault is reported as itself, whatever it resembles: features of answers are no evidence of single precision.
 TEST(Classic, AKnownMistakeIsNamedAsTheCause) {
   const Assignment& whole = find_assignment("classic");
   std::vector<coursework::Test> tests;

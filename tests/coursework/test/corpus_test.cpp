@@ -1,6 +1,5 @@
 // Every assignment's corpus on many seeds: solution and styles earn all points; each known mistake loses exactly its
-// tests and is named; other mistakes are given no name. CORPUS_SEEDS and CORPUS_MISTAKES (per assignment) set the
-// amount.
+// tests and is named; other mistakes get no name. CORPUS_SEEDS and CORPUS_MISTAKES (per assignment) set the amount.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -55,7 +54,6 @@ class Corpus : public testing::TestWithParam<const Assignment*> {
     return asked;
   }
 
-  /// Ids of the lost tests.
   static std::set<std::string> lost(const std::vector<TestRun>& asked) {
     std::set<std::string> ids;
     for (const TestRun& one : asked)
@@ -125,7 +123,7 @@ TEST_P(Corpus, SolutionAndOtherStylesLoseNothing) {
   EXPECT_GE(styles, 3);
 }
 
-// Small cases, which tell a student where to begin, have right answers and show their inputs.
+// Small cases, which show a student where to begin, have right answers and show their inputs.
 TEST_P(Corpus, SmallCasesAreRightAndSayWhatWasGiven) {
   const Texts own = Texts::read((assignment_.folder() / "texts.en.txt").string());
   for (const coursework::Test& test : assignment_.tests) {
@@ -160,7 +158,7 @@ TEST_P(Corpus, KnownMistakesLoseExactlyTheirTestsAndAreNamed) {
   }
 }
 
-// Right programs unlike the solution, and wrong ones with a single error.
+// Correct programs that differ from the solution, and wrong ones with a single error.
 class UnusualPrograms : public Corpus {};
 
 TEST_P(UnusualPrograms, LoseExactlyTheirTests) {

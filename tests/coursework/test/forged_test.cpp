@@ -87,7 +87,7 @@ class Forged : public testing::TestWithParam<const char*> {
     return builder_->ours(GetParam(), solution_ + table + "};\n" + forger);
   }
 
-  /// Ids of the tests that the program passes; `asked_seed` of 0: with the seeds that the tests draw themselves.
+  /// Ids of the tests that the program passes. `asked_seed` 0: with the seeds that the tests draw themselves.
   std::set<std::string> passed(const std::filesystem::path& program, std::uint64_t seed, int asked_seed = 0) const {
     std::set<std::string> ids;
     for (const coursework::Test& test : tests_) {
@@ -109,7 +109,7 @@ class Forged : public testing::TestWithParam<const char*> {
   std::unique_ptr<Builder> builder_;
   std::string solution_;
   std::filesystem::path honest_;
-  std::vector<coursework::Test> tests_;  // tests of the part
+  std::vector<coursework::Test> tests_;
   std::set<std::string> ids_;
 };
 
@@ -193,7 +193,7 @@ TEST_P(Forged, NoRecordHarmsTheGrader) {
         changed[static_cast<std::size_t>(random.integer(0, static_cast<int>(honest.size()) - 1))] = value;
         looked_at(changed);
       }
-      // as long as a line may be
+      // the maximum line length
       classic::replay(what, Numbers(2000000, value));
       Numbers large = {1e5};
       large.resize(2000000, value);

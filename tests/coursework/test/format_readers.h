@@ -12,8 +12,6 @@
 
 namespace coursework::testing_tools {
 
-// A small checker of JSON against a table of fields: required fields, types, allowed values, and no other fields.
-
 struct Field {
   std::string name;
   enum Type { number, text, flag, object, list, any } type;
@@ -39,7 +37,7 @@ inline bool is(const crosscheck::JsonField& value, Field::Type type) {
   return false;
 }
 
-/// Violations of the schema, one per line; empty: none.
+/// Violations of the schema, one per line.
 inline std::string violations(const crosscheck::JsonField& value, const std::vector<Field>& fields,
                               const std::string& where) {
   if (!value.is_object()) return where + " is no object\n";
@@ -64,7 +62,7 @@ inline std::string violations(const crosscheck::JsonField& value, const std::vec
   return wrong;
 }
 
-// A reader of the subset of XML that the tests need: elements, attributes, text, the five named and decimal entities.
+// A subset of XML: elements, attributes, text, the five named and decimal entities.
 
 struct Element {
   std::string name, text;

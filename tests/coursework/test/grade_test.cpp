@@ -22,7 +22,7 @@ namespace {
 
 Result graded(const std::map<std::string, std::string>& changed = {}, std::uint64_t seed = 7,
               double least_cpu = GradeOptions().least_cpu) {
-  // bare, because these tests are about the grader, not about isolation
+  // these tests are about the grader, not about isolation
   const auto sandbox = choose_sandbox("bare", true);
   GradeOptions options = options_for(tiny(), seed);
   options.least_cpu = least_cpu;
@@ -94,7 +94,7 @@ TEST(Grade, EveryWayToFailHasItsMessageAndCostsItsOwnPart) {
   }
 }
 
-// As in the hand-out: headers beside the parts, including names of ours, and functions defined in an earlier part.
+// As in the hand-out: headers next to the parts, including names of ours, and functions defined in an earlier part.
 TEST(Grade, OwnHeadersAreTakenAndOursAreNotReplaced) {
   Submission submission =
       submission_of(tiny(), {{"twice.cpp",
@@ -395,7 +395,7 @@ TEST(Class, IsGradedResumedAndPutIntoATable) {
     EXPECT_TRUE(result_from_json(content_of_file(base + ".json"), base).complete);
     EXPECT_NE(content_of_file(base + ".html").find("</html>"), std::string::npos);
   }
-  // a second run reads unchanged results and grades changed ones again
+  // a second run reuses unchanged results, and grades changed submissions again
   const auto written = [&](const char* name) { return fs::last_write_time(out / (file_name_for(name) + ".json")); };
   const auto right = written("all right"), other = written("-o");
   write_file(handed / "-o/sums.cpp", content_of_file(tiny().folder() / "solution/sums.cpp"));

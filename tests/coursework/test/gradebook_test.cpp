@@ -18,7 +18,7 @@ namespace fs = std::filesystem;
 using crosscheck::TemporaryFolder;
 using crosscheck::write_file;
 
-/// A result of the tiny assignment with all points, or without those of the second part.
+/// All points, or without those of the second part.
 GradedSubmission graded(const std::string& name, bool all = true) {
   GradedSubmission one;
   one.result.submission = name;

@@ -182,7 +182,8 @@ TEST(HandoutCheck, SaysOfAWholeProgramWhatTheGraderSays) {
         << failing.said;
   }
   EXPECT_NE(failing.said.find(total(earned)), std::string::npos) << failing.said;
-  // Euler's rule is right, in round and in other numbers; the trapezoidal rule is wrong, as is everything that it moves
+  // Euler's rule is right, with round and other numbers; the trapezoidal rule is wrong, and so is everything that it
+  // moves
   EXPECT_EQ(curves_apart(given.folder / "mine.html"), (std::vector<bool>{false, false, true, true, true}));
 
   given.put(solution);
@@ -191,7 +192,7 @@ TEST(HandoutCheck, SaysOfAWholeProgramWhatTheGraderSays) {
   EXPECT_NE(right.said.find(total(points)), std::string::npos) << right.said;
   EXPECT_EQ(curves_apart(given.folder / "mine.html"), std::vector<bool>(6, false));
 
-  // a student who hands in the whole folder hands in no file of ours
+  // a student who submits the whole folder submits no file of ours
   const classic::Selection chosen = classic::choose_files(classic::files_below(given.folder));
   for (const auto& [path, content] : chosen.files)
     EXPECT_TRUE(solution.count(path) || path.starts_with("vecmath/")) << path;

@@ -129,10 +129,10 @@ TEST(Handout, HasNoLineOfSolutionStylesMistakesAndTests) {
   }
 }
 
-/// True for a short decimal number up to rounding: zero, 0.2, 1.5.
+/// True for a short decimal number, up to rounding: zero, 0.2, 1.5.
 bool is_plain(double value) { return std::abs(value) < 1e-12 || fmt::format("{:.12g}", value).size() <= 6; }
 
-/// Numbers with many digits, as written in the file.
+/// As written in the file.
 std::set<std::string> long_numbers(const PublicTests& tests) {
   std::ostringstream out;
   write_cases(out, tests);

@@ -17,7 +17,7 @@ inline Texts common_texts(const std::string& language = "en") {
   return Texts::read((folder_of_coursework() / "check" / ("common." + language + ".txt")).string());
 }
 
-/// Converts a text to a valid test name: letters, digits, and _ for all other characters.
+/// Letters, digits, and _ for all other characters.
 inline std::string name_of_test(std::string_view text) {
   std::string name(text);
   std::replace_if(
@@ -34,7 +34,7 @@ inline GradeOptions options_for(const Assignment& assignment, std::uint64_t seed
   return options;
 }
 
-/// The solution with these files replaced; an empty content removes a file.
+/// The solution with these files replaced. An empty content removes a file.
 inline Submission submission_of(const Assignment& assignment, const std::map<std::string, std::string>& changed = {}) {
   Submission submission;
   submission.name = "somebody";

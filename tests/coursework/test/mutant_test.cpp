@@ -1,6 +1,6 @@
 // Mutants of every official solution must lose points at a test of the wrong part; mutants/equivalent.txt justifies
-// those that cannot. MUTANTS sets their number, spread by MUTANTS_SEED (default 40 and 1; 0: all); MUTANTS_SURVIVORS
-// names a file for all survivors.
+// those that cannot. MUTANTS sets their number (default 40; 0: all), MUTANTS_SEED (default 1) selects them, and
+// MUTANTS_SURVIVORS names a file for all survivors.
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
@@ -22,10 +22,9 @@ namespace coursework {
 namespace {
 namespace fs = std::filesystem;
 
-/// Limit per rule and file; all would be four thousand, and take hours.
+/// Limit per rule and file; all mutants would be four thousand, and take hours.
 constexpr std::size_t most_of_a_rule = 2;
 
-/// A mutant in its place, and its outcome.
 struct Tried {
   const Assignment* assignment = nullptr;
   const Builder* builder = nullptr;

@@ -26,7 +26,7 @@ const Texts& layouts() {
   return texts;
 }
 
-/// Two particles that fall with drag; `force` maps m, g, drag and v, for components 0 to 2, to a force.
+/// Two particles that fall with drag. `force` maps m, g, drag and v, for components 0 to 2, to a force.
 template <class Force>
 Numbers rates(const Numbers& in, Force force) {
   Numbers out;

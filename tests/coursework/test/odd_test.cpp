@@ -1,5 +1,5 @@
-// Unusual but right programs: variants of the classic solution and its styles, modelled on real submissions. Each earns
-// all points, or is told, without loss of points, what cannot be decided. A few here, all with ODD_PROGRAMS=1000.
+// Unusual but correct programs: variants of the classic solution and its styles, modelled on real submissions. Each
+// earns all points; undecidable features are reported without loss of points. A few here, all with ODD_PROGRAMS=1000.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -16,7 +16,7 @@ namespace {
 
 using classic::Files;
 
-/// Replaces whole words; names of headers stay.
+/// Replaces whole words, except in names of headers.
 std::string with_word(std::string text, const std::string& from, const std::string& to) {
   const auto in_word = [](char c) { return std::isalnum(static_cast<unsigned char>(c)) || c == '_'; };
   for (std::size_t at = 0; (at = text.find(from, at)) != std::string::npos;) {
@@ -33,7 +33,7 @@ void rename_class(Files& files, const std::string& from, const std::string& to) 
   for (auto& [path, content] : files) content = with_word(content, from, to);
 }
 
-/// Replaces an existing text.
+/// Throws if the text does not exist.
 void put(Files& files, const std::string& path, const std::string& from, const std::string& to) {
   std::string& text = files.at(path);
   const std::size_t at = text.find(from);
@@ -53,7 +53,6 @@ std::string before_ending(const std::string& path, const std::string& mark) {
   return path.substr(0, path.rfind('.')) + mark + path.substr(path.rfind('.'));
 }
 
-/// Disables all springs.
 std::string broken(const std::string& text) { return with_word(with_word(text, "stiffness", "0.0f"), "k", "0.0f * k"); }
 
 constexpr const char* begin_evalF = "evalF(vector<Vector3f> state) {";

@@ -460,7 +460,7 @@ TEST(CasesFile, ReadsBackWhatWasWritten) {
   EXPECT_EQ(back.tests[0].points, 3);
   ASSERT_EQ(back.tests[0].cases.size(), 2u);
   const Case& d = back.tests[0].cases[0];
-  EXPECT_EQ(d.in, c.in);  // bit by bit
+  EXPECT_EQ(d.in, c.in);
   EXPECT_EQ(d.expected, c.expected);
   EXPECT_EQ(std::tie(d.call, d.columns, d.tolerance, d.row, d.column, d.plot_x, d.plot_y, d.row_size),
             std::tie(c.call, c.columns, c.tolerance, c.row, c.column, c.plot_x, c.plot_y, c.row_size));

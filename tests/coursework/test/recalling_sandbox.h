@@ -10,8 +10,8 @@
 
 namespace coursework {
 
-/// Returns the answers of `inner`, cached by program and input except for the token, the first line of the input, which
-/// differs every time. Jobs that write are never cached.
+/// Caches the answers of `inner` by program and input, except for the token, the first line of the input, which differs
+/// every time. Jobs that write are never cached.
 class RecallingSandbox : public Sandbox {
  public:
   explicit RecallingSandbox(std::unique_ptr<Sandbox> inner) : inner_(std::move(inner)) {}

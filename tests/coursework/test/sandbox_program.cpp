@@ -1,5 +1,5 @@
-// A program that uses one resource up to a limit or beyond it, for sandbox_test: sandbox_program WHAT AMOUNT. It writes
-// `done` on descriptor 3 if it reaches its end.
+// Uses one resource up to a limit or beyond it, for sandbox_test: sandbox_program WHAT AMOUNT. Writes `done` to
+// descriptor 3 if it reaches its end.
 
 #include <arpa/inet.h>
 #include <fcntl.h>
@@ -48,7 +48,7 @@ void burn(double seconds) {
   }
 }
 
-/// Starts as many sleeping processes as possible, at most `count`.
+/// As many sleeping processes as possible, at most `count`.
 long sleepers(long count) {
   for (long i = 0; i < count; ++i) {
     const pid_t child = fork();
@@ -95,7 +95,7 @@ const std::map<std::string, std::function<int(const char*)>> things = {
     {"swallow", [](const char* amount) { return std::signal(SIGXCPU, SIG_IGN), burn(std::atof(amount)), 0; }},
     {"sleep",
      [](const char* amount) {
-       sigset_t none;  // no call that the filter lets return at once
+       sigset_t none;  // sleep functions return at once under the filter; sigtimedwait() does not
        sigemptyset(&none);
        const timespec time{static_cast<time_t>(std::atof(amount)),
                            static_cast<long>(1e9 * std::fmod(std::atof(amount), 1))};

@@ -88,7 +88,7 @@ TEST_P(SandboxTest, SleepingIsOverAtOnceAndWhoNeedsAProcessorIsNotIdle) {
 TEST_P(SandboxTest, ItStartsNoMoreProcessesThanItMay) {
   for (const long may : {0, 5}) {
     if (may > 0 && (GetParam() == "bare" || geteuid() != 0))
-      continue;  // it declares that only the filter and the clock bound it
+      continue;  // the sandbox states that only the filter and the clock bound it
     for (const long tries : {may, may + 1}) {
       Job starting = job("processes", std::to_string(tries));
       starting.limits.processes = may;

@@ -1,4 +1,3 @@
-// Finds processes that a sandboxed program left running.
 #include "tests/coursework/test/sandboxes.h"
 
 #include <signal.h>

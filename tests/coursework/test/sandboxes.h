@@ -34,8 +34,7 @@ class SandboxTest : public testing::TestWithParam<std::string> {
     if (!sandbox_) GTEST_SKIP() << why_;
   }
 
-  /// A folder that programs in all sandboxes can access; this build's programs may be in a folder that only we can
-  /// access.
+  /// A folder that programs in all sandboxes can access, unlike the folder of this build's programs.
   std::filesystem::path open_folder(const std::string& name) const {
     const auto folder = open_.path() / name;
     std::filesystem::create_directory(folder);

@@ -22,8 +22,8 @@ Scene disturbed() {
   return s;
 }
 
-/// True if speeds are higher after twice as many steps. A growing deviation alternates in sign in each step, so it has
-/// a high speed.
+/// True if speeds are higher after twice as many steps. A growing deviation alternates in sign in each step, so that it
+/// has a high speed.
 bool explodes(int passes, double rho) {
   Scene s = disturbed();
   double before = 0;
@@ -41,7 +41,7 @@ double theory(int passes) {
                        passes);
 }
 
-// Measured in 1 - rho, the relevant quantity near 1; passes alone converge for every rho below 1.
+// Measured in 1 - rho, the relevant quantity near 1. Passes without acceleration converge for every rho below 1.
 TEST(Solvers, ExplodeFromTheRhoThatEigenvaluesSay) {
   for (const int passes : {4, 8}) {
     const double expected = theory(passes);

@@ -30,7 +30,7 @@ struct Entry {
   std::string link = {};
 };
 
-/// Format by the extension of the name, otherwise zip or tar.gz.
+/// The file's extension selects the format. Without a known extension, `zip` selects zip or tar.gz.
 void pack(const fs::path& file, const std::vector<Entry>& entries, bool zip) {
   archive* to = archive_write_new();
   const std::string ending = file.extension().string();
@@ -480,7 +480,7 @@ TEST(Submission, BombsAreRefusedOnBothSidesOfTheLimit) {
 
 TEST(Submission, DamagedGzipIsUnreadableWhereverTheDamageIs) {
   const TemporaryFolder here("test");
-  std::string noise;  // incompressible: a changed byte changes only the text
+  std::string noise;  // incompressible, so that a changed byte changes only the text
   for (unsigned i = 1; noise.size() < 3000; i = i * 1664525 + 1013904223) noise += static_cast<char>(i >> 24);
   pack(here.path / "whole", {{"rk4.cpp", noise}, {"euler.cpp", "euler"}}, false);
   const std::string whole = content_of_file(here.path / "whole");
@@ -562,7 +562,6 @@ TEST(Whole, ALargerOneThanAProgramIsIsRefused) {
   EXPECT_EQ(read_submission(here.path, {"more.h"}).files.size(), 1u);
 }
 
-/// Keys of the remarks on the files, in order.
 std::vector<std::string> notes_on(const classic::Files& files) {
   std::vector<std::string> keys;
   for (const Remark& note : classic::choose_files(files).notes) keys.push_back(note.key);
