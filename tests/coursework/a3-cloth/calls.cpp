@@ -1,4 +1,3 @@
-// All calls of the cloth assignment.
 #include "calls.h"
 
 namespace coursework {

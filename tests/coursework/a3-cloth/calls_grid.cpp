@@ -6,7 +6,7 @@
 namespace coursework {
 
 /// index: the number of each particle, row by row.
-/// neighbours: for each particle the number of neighbours, then the first four in ascending order, padded with -1.
+/// neighbours: for each particle, the number of neighbours, then the first four in ascending order, padded with -1.
 /// positions: x, y, z of each particle.
 bool answer_grid(const std::string& call, const Numbers& in, Numbers& out) {
   if (call != "index" && call != "neighbours" && call != "positions") return false;

@@ -1,4 +1,4 @@
-// Calls of part 2. The order of springs and of their ends is free, so all answers are sorted.
+// Calls of part 2. All answers are sorted, because the order of springs and of their ends is free.
 #include <algorithm>
 #include <array>
 #include <cmath>

@@ -49,7 +49,7 @@ Sheet random_sheet(Random& random, int smallest, int largest, double bent) {
 }
 
 Sheet small_sheet(Random& random, int size, double bent) {
-  // mysim's grid has no rows of one particle, so a row is made here
+  // mysim's grid does not support a single row
   const double across = 0.1, down = 0.2, k = 100;
   Sheet sheet{size < 4 ? Mesh{1, size, across, down, {1, 2, -1}} : Mesh{2, 2, across, down, {1, 2, -1}}, {}, {}};
   sheet.x = sheet.mesh.points();

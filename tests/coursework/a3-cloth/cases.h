@@ -1,5 +1,5 @@
-// Inputs and expected answers of the cloth assignment. Expected answers come from mysim's grid and terms and from
-// closed forms; this file includes none of the student's headers.
+// Inputs and expected answers of the cloth assignment, from mysim's grid and terms and from closed forms. Includes none
+// of the student's headers.
 #pragma once
 
 #include <vector>
@@ -25,7 +25,7 @@ struct Mesh {
 
 Vec3 random_vector(Random& random, double size);  // each component in [-size, size]
 Vec3 random_direction(Random& random);            // length 1
-/// A grid with more columns than rows, or more rows than columns: never square, and never with square cells.
+/// Never square, and never with square cells.
 Mesh random_mesh(Random& random, int smallest, int largest);
 /// A sheet with all three families, displaced from its flat shape by up to `bent` in each direction.
 struct Sheet {
@@ -43,7 +43,6 @@ void put(Numbers& out, const Mesh& mesh);
 void put(Numbers& out, const std::vector<crosscheck::Spring>& springs);
 void put(Numbers& out, const std::vector<std::array<int, 3>>& triangles);
 Numbers numbers_of(const Points& points);
-/// Forces of one term alone.
 Points force_of(const crosscheck::Term& term, const crosscheck::Particles& particles, const crosscheck::State& state);
 
 crosscheck::Grid grid_of(const Mesh& mesh, double structural, double shear, double flexion);

@@ -63,7 +63,7 @@ Scene scene_of(Random& random, const Sheet& sheet) {
   scene.v.resize(3, count);
   for (int i = 0; i < count; ++i) {
     scene.v.col(i) = random_vector(random, 1);
-    // in round numbers, two random masses could coincide
+    // round random numbers could coincide
     scene.mass.push_back(random.rounds() ? 0.02 + 0.01 * i : random.uniform(0.02, 0.04));
   }
   if (scene.sheet.mesh.rows > 1) scene.faces = grid_triangles(grid_of(scene.sheet.mesh, 1, 0, 0));
@@ -73,7 +73,6 @@ Scene scene_of(Random& random, const Sheet& sheet) {
 
 Scene random_scene(Random& random) { return scene_of(random, random_sheet(random, 3, 4, 0.03)); }
 
-/// Small scenes: one particle, two with a spring, a cell with wind.
 template <class Make>
 Cases small_scenes(Random& random, Make make) {
   Cases cases;
@@ -198,7 +197,7 @@ Cases hanging_strip(Random& random) {
     rest(1, i) -= fallen;
   }
   c.expected = numbers_of(rest);
-  // drag damps every mode at least as exp(-4 t): after 8 s, 1e-14 of some 0.5 m is left; round-off 1e-13
+  // drag damps every mode at least as fast as exp(-4 t): after 8 s, 1e-14 of some 0.5 m is left; round-off 1e-13
   c.tolerance = 1e-9;
   c.plot_x = 0;
   c.plot_y = 1;
@@ -223,8 +222,8 @@ Cases swinging_cloth(Random& random) {
     state.t = (n + 1) * h;
     put(c.expected, Vec3(state.x.col(watched)));
   }
-  // identical rule and order of stages: round-off only, 1e-14 m at most on 20 seeds; 0.3 s is too short for a cloth
-  // with this drag to amplify it by 1e5
+  // identical rule and order of stages: round-off of at most 1e-14 m on 20 seeds, which a cloth with this drag cannot
+  // amplify by 1e5 in 0.3 s
   c.tolerance = 1e-9;
   c.plot_x = 0;
   c.plot_y = 1;

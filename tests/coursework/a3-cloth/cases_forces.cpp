@@ -33,7 +33,7 @@ double energy(const std::vector<Spring>& springs, const Points& x) {
   return potential_energy(Springs{springs}, {}, State{0, x, {}});
 }
 
-/// -dE/ds of E(x + s u) at s = 0, by two central differences whose leading errors cancel.
+/// -dE/ds of E(x + s u) at s = 0, from two central differences whose leading errors cancel.
 double power(const std::vector<Spring>& springs, const Points& x, const Points& u) {
   auto difference = [&](double s) { return (energy(springs, x + s * u) - energy(springs, x - s * u)) / (2 * s); };
   const double s = 1e-3;
@@ -109,8 +109,8 @@ Case laws_of(Random& random, const Sheet& sheet) {
   put(c.in, u);
   c.expected.assign(8, 0.0);
   c.expected.push_back(power(sheet.springs, sheet.x, u));
-  // some 5 J differenced over 1e-3 m: round-off of 1e-12 N. The truncation error scales with the fourth power of step
-  // over length, (0.001 / 0.05)^4 = 2e-7, of some 10 N (measured on 20 seeds: 6e-7 N)
+  // some 5 J differenced over 1e-3 m: round-off of 1e-12 N. The truncation error is about (step / length)^4 = (0.001 /
+  // 0.05)^4 = 2e-7 of some 10 N (measured on 20 seeds: 6e-7 N)
   c.tolerance = 1e-5;
   return c;
 }

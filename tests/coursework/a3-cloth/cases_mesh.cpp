@@ -1,4 +1,4 @@
-// Parts 1 and 2: the grid and its springs. All expected numbers are integers or exact to round-off.
+// Parts 1 and 2: the grid and its springs. All expected numbers are integers, or exact to round-off.
 #include <algorithm>
 #include <cmath>
 
@@ -91,7 +91,6 @@ Cases structural(Random& random) { return pairs_cases("structural", Family::stru
 Cases shear(Random& random) { return pairs_cases("shear", Family::shear, random); }
 Cases flexion(Random& random) { return pairs_cases("flexion", Family::bend, random); }
 
-/// Case of one grid.
 Case spring_steps_of(Random& random) {
   const Mesh mesh = random_mesh(random, 4, 6);
   Case c = mesh_case("spring_steps", mesh, "offset", "rest", 6);

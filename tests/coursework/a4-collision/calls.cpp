@@ -1,4 +1,3 @@
-// All calls of the collision assignment.
 #include "calls.h"
 
 namespace coursework {

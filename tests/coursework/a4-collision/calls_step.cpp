@@ -7,7 +7,7 @@
 namespace coursework {
 namespace {
 
-// distances are computed here instead of by the student's gap()
+// not by the student's gap()
 double height_over(const Sphere& sphere, const Vec3& x) {
   return length(x - sphere.centre) - sphere.radius - sphere.margin;
 }
@@ -34,7 +34,7 @@ Run read_run(Reader& in) {
   return run;
 }
 
-/// Angle from the vertical (degrees) and speed (in percent of sqrt(g R)) after the last step that ended on the surface.
+/// Angle from the vertical (degrees) and speed (% of sqrt(g R)) after the last step that ended on the surface.
 Numbers leaving(Run run) {
   const double radius = run.sphere.radius + run.sphere.margin, weight = length(run.g);
   const Vec3 up = -run.g / weight;
@@ -51,7 +51,7 @@ Numbers leaving(Run run) {
   return {angle, speed};
 }
 
-/// Greatest height over the surface between the first touch and the next, in percent of the height at the start.
+/// Greatest height over the surface between the first two contacts, in % of the initial height.
 Numbers rebound(Run run) {
   const double start = height_over(run.sphere, run.state.x[0]);
   bool touched = false;
@@ -70,7 +70,7 @@ Numbers rebound(Run run) {
 }  // namespace
 
 /// contact_step: position and velocity of each particle after all steps. contact_path: position of the first particle
-/// after each step. leaving, rebound: see the functions above, for the first particle.
+/// after each step. leaving, rebound: see above, for the first particle.
 bool answer_step(const std::string& call, const Numbers& in, Numbers& out) {
   if (call != "contact_step" && call != "contact_path" && call != "leaving" && call != "rebound") return false;
   Reader reader(in);

@@ -1,5 +1,5 @@
-// Inputs and expected answers of the collision assignment. Expected answers come from mysim's contact rule, its stepper
-// and closed forms; this file includes none of the student's headers.
+// Inputs and expected answers of the collision assignment, from mysim's contact rule, its stepper and closed forms.
+// Includes none of the student's headers.
 #pragma once
 
 #include <vector>
@@ -17,17 +17,16 @@ using Cases = std::vector<Case>;
 
 Vec3 random_vector(Random& random, double size);  // each component in [-size, size]
 Vec3 random_direction(Random& random);            // length 1
-/// A random unit vector perpendicular to n.
 Vec3 random_tangent(Random& random, const Vec3& n);
 Sphere random_sphere(Random& random, double friction, double restitution);
-/// Gravity of about 10 m/s^2 in a random direction.
+/// About 10 m/s^2 in a random direction.
 Vec3 random_gravity(Random& random);
 
 void put(Numbers& out, const Vec3& v);
 void put(Numbers& out, const Points& points);
 void put(Numbers& out, const Sphere& sphere);
 
-/// Result of mysim's contact rule for one particle: x and v after contact.
+/// x and v of one particle after mysim's contact rule.
 struct Resolved {
   Vec3 x, v;
 };

@@ -167,15 +167,14 @@ Cases small_cloth_step(Random& random) {
     scene.spheres.push_back({{0.1, kind == 0 ? -2 : -0.5, 0}, 0.5, 0.03, 0.5, 0.5, std::nullopt});
     if (kind == 4) scene.spheres.push_back({{-0.1, -0.5, 0}, 0.5, 0.03, 0.5, 0.5, std::nullopt});
     cases.push_back(scene.run("cloth_step", 0.01, 1, -1));
-    cases.back().tolerance = 1e-9;  // the tolerance of one step of a cloth
+    cases.back().tolerance = 1e-9;  // as for one step of a cloth
   }
   return cases;
 }
 
-/// Case of a cloth of n x n particles.
 Case pins_and_spheres_of(Random& random, int n) {
-  // a cloth that falls on two overlapping spheres. One pin is inside a sphere and stays there; the middle particle is
-  // 0.07 m inside both, and still 0.02 m inside the second after the first has pushed it out
+  // a cloth that falls on two overlapping spheres. One pin is inside a sphere and stays there. The middle particle is
+  // 0.07 m inside both spheres, and still 0.02 m inside the second after the first has pushed it out
   const Vec3 middle = random_vector(random, 1);
   Scene scene = square(random, n, 0.8, middle, Vec3::UnitX(), Vec3::UnitZ(), {0, 2 * n + 1});
   shake(random, scene, 0.01, 0.5);
@@ -195,7 +194,7 @@ Case pins_and_spheres_of(Random& random, int n) {
 Cases pins_and_spheres(Random& random) { return {pins_and_spheres_of(random, 5), pins_and_spheres_of(random, 4)}; }
 
 Cases patch_on_a_slope(Random& random) {
-  // a patch at rest on the side of a large sphere, seen from its middle particle
+  // a patch at rest on the side of a large sphere, observed at its middle particle
   Cases cases;
   for (const double factor : {1.4, 0.5}) {
     const double angle = random.uniform(15, 25) * std::numbers::pi / 180, turn = random.uniform(0, 6);
@@ -209,7 +208,8 @@ Cases patch_on_a_slope(Random& random) {
       scene.start.x.col(i) = sphere.centre + r * (scene.start.x.col(i) - sphere.centre).normalized();
     scene.spheres = {sphere};
     Case c = scene.run("cloth_path", 0.005, 100, 4);
-    c.tolerance = 1e-9;  // round-off of 1e-15 m in each step, which friction and drag do not let grow (measured)
+    c.tolerance = 1e-9;  // round-off of 1e-15 m in each step, which does not grow because of friction and drag
+                         // (measured)
     cases.push_back(c);
   }
   return cases;

@@ -16,7 +16,7 @@ Case contact_case(const char* call, const Sphere& sphere, int count, const char*
 
 constexpr int places = 6;
 
-/// Positions alternately outside and inside, in seeded directions; `expect` appends the expected numbers.
+/// Positions alternately outside and inside, in random directions. `expect` appends the expected numbers.
 template <class Expect>
 Cases around(Random& random, const char* call, const char* column, int columns, Expect expect) {
   const Sphere sphere = random_sphere(random, 0, 0);
@@ -30,7 +30,7 @@ Cases around(Random& random, const char* call, const char* column, int columns, 
   return {c};
 }
 
-/// A particle that began at `before` and proposes to go to `proposed`, `depth` inside: its displacement along the
+/// A particle that began at `before` and proposes to go to `proposed`, `depth` inside. Its displacement along the
 /// sphere, as a multiple of mu times depth, decides whether it slides (> 1) or sticks (< 1).
 struct Move {
   Vec3 before, proposed;
@@ -47,7 +47,7 @@ Cases moves(Random& random, double friction, double least, double most) {
   Case c = contact_case("corrected_position", sphere, places, "position", 3);
   for (int i = 0; i < places; ++i) {
     const double depth = random.uniform(0.04, 0.1);
-    // every other particle is near the limit of friction, where an incorrect comparison shows
+    // every other particle is near the limit of friction, where a wrong comparison is noticed
     const double multiple = i % 2 == 0 ? random.uniform(least, most)
                             : most < 1 ? random.uniform(0.9, 0.97)
                                        : random.uniform(1.05, 1.3);
@@ -62,8 +62,8 @@ Cases moves(Random& random, double friction, double least, double most) {
   return {c};
 }
 
-/// Velocities with a component along n, and a tangential one of `ratio` times mu (1 + e) times the normal one (times 1
-/// without friction).
+/// Velocities with a normal component (against n if sign < 0) and a tangential one of `ratio` times mu (1 + e) times
+/// the normal one (without friction, times 1).
 Cases velocities(Random& random, double friction, double restitution, double sign, double least, double most) {
   const Sphere sphere = random_sphere(random, friction, restitution);
   Case c = contact_case("corrected_velocity", sphere, places, "velocity", 3);
@@ -87,8 +87,7 @@ Cases velocities(Random& random, double friction, double restitution, double sig
 
 namespace {
 
-/// A sphere around the origin that a particle touches at the height 1, so that every number of the result has one
-/// cause.
+/// A sphere around the origin that a particle touches at height 1, so that every number of the result has one cause.
 Sphere plain_sphere(double friction, double restitution) {
   return {Vec3::Zero(), 0.75, 0.25, friction, restitution, std::nullopt};
 }
@@ -109,7 +108,7 @@ Case move_case(double friction, const Vec3& before, const Vec3& proposed) {
   return c;
 }
 
-/// A contact at the top of the sphere.
+/// At the top of the sphere.
 Case velocity_case(double friction, double restitution, const Vec3& v, const Vec3& after) {
   Case c = contact_case("corrected_velocity", plain_sphere(friction, restitution), 1, "velocity", 3);
   put(c.in, Vec3(0, 1, 0));

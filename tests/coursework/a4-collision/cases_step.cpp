@@ -105,8 +105,8 @@ Cases leaving_angle(Random& random) {
   s.h = 2e-4 * std::sqrt(s.sphere.contact_radius() / s.g.norm());
   s.steps = 30000;
   // symplectic Euler falls by half a step's gravity too much, which holds the particle on the surface for another
-  // sqrt(h v cos / (3 R sin)) = 0.4 degrees, or 0.6 percent of speed (as measured); a slide that sticks, rubs or loses
-  // speed ends 5 degrees or more away
+  // sqrt(h v cos / (3 R sin)) = 0.4 degrees, or 0.6 % of speed (as measured); a slide that sticks, rubs or loses speed
+  // ends 5 degrees or more away
   Case c = step_case("leaving", s, "whole", "leaving", 2, 1.0);
   const double cosine = 2.0 / 3 * std::cos(start);
   c.expected = {std::acos(cosine) * 180 / std::numbers::pi, 100 * std::sqrt(cosine)};
@@ -118,7 +118,7 @@ Cases rebound_height(Random& random) {
   Start s{random_sphere(random, 0.5, e), random_gravity(random), 0, 6000, {}, {Vec3::Zero()}};
   s.x = {s.sphere.centre - (s.sphere.contact_radius() + drop) * s.g.normalized()};
   s.h = 5e-4 * std::sqrt(2 * drop / s.g.norm());
-  // a step shifts the moment of impact by at most h: 2 h / fall time = 0.1 percent of the speed, 0.2 of the height
+  // a step shifts the moment of impact by at most h: 2 h / fall time = 0.1 % of the speed, 0.2 % of the height
   Case c = step_case("rebound", s, "whole", "rebound", 1, 0.5);
   c.expected = {100 * e * e};
   return {c};

@@ -1,7 +1,7 @@
 // Calls of implicit_euler_step. Both begin with n, steps, h, drag, gravity (3), number of springs, then per spring a,
 // b, stiffness, rest, then mass (n), fixed (n; 0 or 1), x (3 n), v (3 n).
-//   implicit_euler.all     after the last step, a row per particle: x (3), v (3)
-//   implicit_euler.watch   one more number, a particle: its row after each step
+// implicit_euler.all: after the last step, a row per particle: x (3), v (3)
+// implicit_euler.watch: one more number, a particle: its row after each step
 #include <stdexcept>
 #include <utility>
 

@@ -1,6 +1,6 @@
 // Calls of solve. Both begin with n, a (n x n, by rows), b (n).
 //   linear.solve       a row for each component of x
-//   linear.singular    1 when std::domain_error is thrown, 0 when something is returned
+// linear.singular    1 if std::domain_error is thrown, 0 if something is returned
 #include <stdexcept>
 
 #include "calls.h"

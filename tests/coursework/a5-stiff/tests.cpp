@@ -43,7 +43,7 @@ Case jacobian(const Points& ends, double k, double rest) {
   return c;
 }
 
-/// Springs of 0.2 m to 0.7 m; the ratio of length to rest length is random between the two bounds.
+/// Springs of 0.2 m to 0.7 m, with a random ratio of length to rest length between the two bounds.
 std::vector<Case> springs(Random& random, double shortest, double longest) {
   std::vector<Case> cases;
   while (cases.size() < 3) {
@@ -78,9 +78,9 @@ std::vector<Case> small_springs(Random&) {
 
 using Rows = std::vector<Numbers>;
 
-/// Diagonal entries 20, 22, ... 40, the others from low to high, at most 3: each column's diagonal entry exceeds the
-/// sum of the others by at least 5 if n <= 6, so the norm of the inverse is below 0.2, the condition number below 12,
-/// and the error below 1e-13.
+/// Diagonal entries 20, 22, ... 40, the others from low to high, at most 3. If n <= 6, each column's diagonal entry
+/// exceeds the sum of the others by at least 5, so that the norm of the inverse is below 0.2, the condition number
+/// below 12, and the error below 1e-13.
 Rows strong_diagonal(Random& random, int n, int low, int high) {
   Rows a(n, Numbers(n));
   for (int i = 0; i < n; ++i)
@@ -136,7 +136,8 @@ std::vector<Case> singular(Random& random) {
   return cases;
 }
 
-/// Two unknowns: a diagonal matrix, then with an entry below the diagonal alone, then above, then both.
+/// Two unknowns: a diagonal matrix, one with an entry below the diagonal, one with an entry above it; then three
+/// unknowns.
 std::vector<Case> small_plain(Random& random) {
   return {linear("linear.solve", {{4, 0}, {0, 8}}, whole(random, 2)),
           linear("linear.solve", {{8, 0}, {4, 2}}, whole(random, 2)),
@@ -158,7 +159,7 @@ std::vector<Case> small_singular(Random& random) {
 
 using Limit = double (*)(double, double);
 
-/// One oscillator per ratio gamma / omega; a negative ratio stands for omega = 0.
+/// One oscillator per ratio gamma / omega; a negative ratio means omega = 0.
 Case limit(Random& random, Rule rule, Limit right, const std::vector<double>& ratios) {
   Case c;
   c.call = "limits.step", c.columns = 2, c.row = "oscillator", c.column = "limit";
@@ -231,7 +232,7 @@ std::vector<Case> accurate_steps(Random& random) {
     while (c.expected.size() < 3) {
       // h omega from 0.1 to 0.5: far below every limit
       const double omega = random.uniform(2, 30), wanted = random.uniform(0.1, 0.5) / omega;
-      // in round numbers: half a step more, so that rounding cannot decide the number of steps
+      // round numbers get half a step more, so that rounding cannot decide the number of steps
       const double duration = (random.uniform(8, 40) + (random.rounds() ? 0.5 : 0)) * wanted;
       add(c, omega, duration, constant * omega * duration * std::pow(wanted * omega, order), wanted);
     }
@@ -240,8 +241,7 @@ std::vector<Case> accurate_steps(Random& random) {
                  duration = random.uniform(0.3, 0.8) * wanted;
     add(c, omega, duration, constant * omega * duration * std::pow(wanted * omega, order), wanted);
     if (rule == implicit_euler) {
-      // an exact integer number of steps: omega and h are powers of two, so that every formula finds it without
-      // rounding
+      // an integer number of steps: omega and h are powers of two, so that every formula gives it exactly
       const double h = 1.0 / 32, whole = random.integer(5, 30) * h;
       c.in.insert(c.in.end(), {4, whole, constant * 4 * whole * 4 * h}), c.expected.push_back(h);
     }
@@ -258,11 +258,11 @@ std::vector<Case> stable_steps(Random& random) {
     Case c = predicted(rule);
     while (c.expected.size() < 2) {
       const double omega = random.uniform(2, 30), h = 0.9 * limit_of(omega, 0);
-      // a tolerance so large that accuracy would allow more than ten times the limit
+      // the tolerance is so large that accuracy would allow more than ten times the limit
       add(c, omega, (random.uniform(4, 12) + (random.rounds() ? 0.5 : 0)) * h, 1e6, h);
     }
     cases.push_back(c);
-    cases.back().tolerance *= 1e3;  // limits are required to eight digits, ours have eleven
+    cases.back().tolerance *= 1e3;  // limits are required to eight digits; ours have eleven
   }
   for (const Rule rule : {explicit_euler, trapezoidal}) {
     Case c = predicted(rule);

@@ -1,5 +1,5 @@
-// Expected answers: closed forms on a line and in free fall; elsewhere mysim's forces and tangents in a dense solve by
-// Eigen, or, for linear forces, mysim's own implicit Euler.
+// Expected answers: closed forms on a line and in free fall; otherwise mysim's forces and tangents in a dense solve by
+// Eigen or, for linear forces, mysim's own implicit Euler.
 #include "tests/coursework/a5-stiff/tests_motion.h"
 
 #include <Eigen/Dense>
@@ -57,7 +57,7 @@ void add_row(const Scene& s, int i, Numbers& out) {
 }
 
 /// A step is a well-conditioned solve (each case says why), which costs a digit or two of sixteen, and errors do not
-/// add up over damped steps: 1e-9 of the largest number leaves room for any order of summation.
+/// add up over damped steps: 1e-9 of the largest number allows for any order of summation.
 constexpr double accuracy = 1e-9;
 
 Case watched(const Scene& start, int steps, int particle, void (*step)(Scene&)) {
@@ -148,8 +148,8 @@ void linearised_step(Scene& s) {
   }
 }
 
-/// Along the line through both ends the spring is linear: with e = L - r,
-///   v' = (v - h w^2 e) / (1 + (h w)^2),   e' = e + h v'.
+/// Along the line through both ends the spring is linear: with e = L - r, v' = (v - h w^2 e) / (1 + (h w)^2) and e' = e
+/// + h v'.
 void oscillator_step(Scene& s) {
   const crosscheck::Spring& spring = s.springs[0];
   const int free = s.fixed[0] ? 1 : 0;
@@ -198,7 +198,7 @@ std::vector<Case> one_spring(Random& random) {
     const Vec3 u = direction(random);
     s.x.resize(3, 2), s.v.setZero(3, 2);
     s.x.col(fixed) = vector(random, 1);
-    // less energy than reaching the fixed end requires
+    // too little energy to reach the fixed end
     s.x.col(1 - fixed) = s.x.col(fixed) + u * rest * random.uniform(1.2, 1.4);
     s.v.col(1 - fixed) = u * rest * omega * random.uniform(0.2, 0.4) * (random.integer(0, 1) ? 1 : -1);
     s.mass = {mass, mass}, s.fixed = {fixed == 0, fixed == 1};
@@ -228,15 +228,15 @@ Case network_of(Random& random, int count) {
   s.h = random.uniform(0.02, 0.1), s.drag = random.uniform(0.5, 3);
   s.gravity = direction(random) * random.uniform(5, 12);
   s.x.resize(3, count), s.v.resize(3, count);
-  // a distorted tetrahedron, so that no two particles coincide
+  // distorted, so that no two particles coincide
   const double corners[4][3] = {{1, 1, 1}, {1, -1, -1}, {-1, 1, -1}, {-1, -1, 1}};
   for (int i = 0; i < count; ++i) {
     s.x.col(i) = Vec3(corners[i][0], corners[i][1], corners[i][2]) + vector(random, 0.3);
     s.v.col(i) = vector(random, 2);
     s.mass.push_back(random.uniform(0.5, 2)), s.fixed.push_back(0);
     for (int j = 0; j < i; ++j) {
-      // springs shortened by at most a tenth subtract at most h^2 k 4 / 10 < m / 2 from the matrix, so its condition
-      // number is below a hundred
+      // springs shortened by at most a tenth subtract at most h^2 k 4 / 10 < m / 2 from the matrix, so that its
+      // condition number is below a hundred
       const double length = (s.x.col(i) - s.x.col(j)).norm(), k = random.uniform(0.5, 1.25) * 0.5 / (s.h * s.h);
       s.springs.push_back({i, j, k, length * random.uniform(0.6, 1.1), crosscheck::Family::single});
     }

@@ -1,4 +1,3 @@
-// Tests of implicit_euler.cpp: inputs, and the expected answers from mysim.
 #pragma once
 
 #include <vector>

@@ -12,7 +12,7 @@
 namespace coursework {
 namespace {
 
-/// A film with prescribed errors, given as a table.
+/// A film whose errors are given as a table.
 class Table : public Film {
  public:
   std::vector<Plan> plans;

@@ -1,4 +1,4 @@
-// Cases of sag.cpp and iterations.cpp: inputs and expected answers.
+// Inputs and expected answers of sag.cpp and iterations.cpp.
 #pragma once
 
 #include <vector>

@@ -31,8 +31,8 @@ Hanging hanging(Random& random, int n, double softest, double stiffest) {
   return c;
 }
 
-/// One step. Pulls p (times h^2) satisfy A p = -stretch with A = G G^T / m + 1 / (k h^2). Performs the given number of
-/// iterations, or, if it is negative, solves the equation exactly, which gives implicit Euler.
+/// One step. Pulls p (times h^2) satisfy A p = -stretch with A = G G^T / m + 1 / (k h^2). A negative number of
+/// iterations solves the equation exactly, which gives implicit Euler.
 void step(Hanging& c, double h, int iterations) {
   const MatrixXd g = c.gradient();
   const VectorXd start = c.x, ahead = c.x + h * c.v + VectorXd::Constant(c.n, h * h * c.gravity);

@@ -12,7 +12,7 @@ struct HalfChain {
   double width = 0, depth = 0;
 };
 
-/// Every link has the same horizontal pull H; its vertical pull is half its own weight plus the weight of all links
+/// Every link has the same horizontal pull H. Its vertical pull is half its own weight plus the weight of all links
 /// below.
 HalfChain own_weight(int links, double length, double weight, double stiffness, double across) {
   HalfChain half;
@@ -41,7 +41,7 @@ HalfChain along_span(int links, double length, double across) {
   return half;
 }
 
-/// Depth at the pull for which the half chain is as wide as half the span: the width increases with the pull.
+/// Depth at the pull for which the half chain is half the span wide: the width increases with the pull.
 double depth_at(double span, double hardest, const std::function<HalfChain(double)>& pulled) {
   double low = 0, high = hardest;
   for (int i = 0; i < 60; ++i) {  // to 1e-16 of the weight
@@ -51,8 +51,8 @@ double depth_at(double span, double hardest, const std::function<HalfChain(doubl
   return pulled(low).depth;
 }
 
-/// Extrapolated depth of the curve: a polygon's error decreases with the square of the number of links, so two polygons
-/// give 1e-10 of the length (compared with the closed forms, at worst 7e-11 on 300 seeds).
+/// Extrapolated depth of the curve. A polygon's error decreases with the square of the number of links, so that two
+/// polygons give 1e-10 of the length (at most 7e-11 from the closed forms on 300 seeds).
 double extrapolated(const std::function<double(int)>& depth) { return (4 * depth(400) - depth(200)) / 3; }
 
 double own_weight_depth(double length, double span, double weight, double stiffness) {

@@ -1,5 +1,5 @@
-// The tests of m1-misconceptions: parts, points, and the cases of kick_drift, verlet and rk4. If a belief predicts a
-// number, it is the last input of a call, to be shown next to the correct one.
+// Parts, points, and the cases of kick_drift, verlet and rk4. If a misconception predicts a number, this number is the
+// last input of the call, so that it can be shown next to the correct value.
 #include <cmath>
 #include <numbers>
 
@@ -23,8 +23,8 @@ Oscillator oscillator(Random& random, double low, double high) {
   return {omega, angle / omega, random.uniform(0.2, 0.9), random.uniform(1, 5) * (random.integer(0, 1) ? 1 : -1)};
 }
 
-/// x, v after `steps` steps of the map with the new velocity. Its matrix has determinant 1 and trace 2 - a^2, so it
-/// rotates by theta with cos(theta) = 1 - a^2/2, and M^n = (sin(n theta) M - sin((n - 1) theta)) / sin(theta).
+/// x, v after `steps` steps of the map with the new velocity. Its matrix M has determinant 1 and trace 2 - a^2, so that
+/// it rotates by theta with cos(theta) = 1 - a^2/2, and M^n = (sin(n theta) M - sin((n - 1) theta)) / sin(theta).
 std::pair<double, double> after(const Oscillator& o, int steps) {
   const double a = o.angle(), theta = std::acos(1 - a * a / 2);
   const double of_m = std::sin(steps * theta) / std::sin(theta),
@@ -47,7 +47,7 @@ std::vector<Case> one_step(Random& random) {
   return cases;
 }
 
-/// Prediction of a belief: the energy relative to the start if the drift uses the mean of both velocities.
+/// Prediction of a misconception: the energy relative to the start if the drift uses the mean of both velocities.
 double with_mean_velocity(const Oscillator& o, int steps) {
   Oscillator now = o;
   for (int i = 0; i < steps; ++i) {
@@ -57,8 +57,8 @@ double with_mean_velocity(const Oscillator& o, int steps) {
   return now.energy() / o.energy();
 }
 
-/// With the old velocity a step multiplies the energy by 1 + a^2 exactly. With the new one it stays near its initial
-/// value.
+/// With the old velocity, a step multiplies the energy by exactly 1 + a^2. With the new one, the energy stays near its
+/// initial value.
 std::vector<Case> energy_of_both(Random& random) {
   std::vector<Case> cases;
   for (int i = 0; i < 2; ++i) {
@@ -72,7 +72,8 @@ std::vector<Case> energy_of_both(Random& random) {
     }
     const double of_old = std::pow(growth, 1000);
     c.in.insert(c.in.end(), {of_old, with_mean_velocity(o, 1000)});
-    // a thousand steps of ten roundings each, of numbers up to the largest energy; theta is known to eps / a
+    // rounding: a thousand steps with ten operations each, on values up to the largest energy; theta is accurate to eps
+    // / a
     c.tolerance = (1e4 + 1000 / o.angle()) * 1.2e-16 * of_old;
     c.plot_y = 1, c.row_size = 100 * o.h;
     cases.push_back(c);
@@ -112,8 +113,8 @@ std::vector<Case> next_position(Random& random) {
   return cases;
 }
 
-/// The errors after a time of 4 to 5 over omega, where a cosine of a small phase is far from its zeros: with a = h
-/// omega the error is C a^2 (1 + O(a / 4)), which changes the order by less than 0.05 for a below 0.12; that of one
+/// The errors after a time of 4 to 5 over omega, where a cosine of a small phase is far from its zeros. With a = h
+/// omega the error is C a^2 (1 + O(a / 4)), which changes the order by less than 0.05 for a below 0.12. That of one
 /// step is C a^4 (1 + O(a^2)).
 std::vector<Case> both_orders(Random& random) {
   std::vector<Case> cases;
@@ -140,7 +141,7 @@ std::vector<Case> both_orders(Random& random) {
   return cases;
 }
 
-/// The error of the rule after the time T from x = 1 and the exact next position: this rule, too, rotates by theta per
+/// The error of the rule after the time T from x = 1 and the exact next position. This rule also rotates by theta per
 /// step with cos(theta) = 1 - a^2/2.
 double verlet_error(double a, double steps) {
   const double theta = std::acos(1 - a * a / 2);
@@ -148,8 +149,8 @@ double verlet_error(double a, double steps) {
   return std::abs(std::cos(steps * theta) + sine * std::sin(steps * theta) - std::cos(steps * a));
 }
 
-/// The actual error by the closed form. It equals the error over times^2 up to the next power of a: within 3 per cent
-/// for a below 0.06.
+/// The actual error by the closed form. It equals the error over times^2 up to the next power of a: within 3 % for a
+/// below 0.06.
 std::vector<Case> smaller_steps(Random& random) {
   std::vector<Case> cases;
   for (const int times : {2, 4, 10}) {
@@ -183,7 +184,7 @@ std::vector<Case> rk4_steps(Random& random) {
   }
   return cases;
 }
-/// RK4 loses energy at an ordinary step; near 2.83 it loses on one side and gains on the other.
+/// RK4 loses energy at an ordinary step; near h omega = 2.83 it loses on one side and gains on the other.
 std::vector<Case> rk4_energies(Random& random) {
   std::vector<Case> cases;
   for (const auto& [low, high] : {std::pair{0.4, 0.7}, std::pair{2.826, 2.828}, std::pair{2.829, 2.831}}) {

@@ -1,4 +1,4 @@
-// The three families: each spring is added from one of its ends only, where the other one exists.
+// The three families. Each spring is added from one of its ends only, if the other one exists.
 #include <cmath>
 
 #include "cloth.h"

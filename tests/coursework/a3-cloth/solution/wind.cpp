@@ -1,4 +1,4 @@
-// Wind that comes and goes and presses on triangles.
+// Wind that varies over time, and its pressure on triangles.
 #include "cloth.h"
 
 std::vector<Triangle> triangles(const Grid& grid) {

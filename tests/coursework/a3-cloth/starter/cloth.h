@@ -1,4 +1,4 @@
-// What you write, and what it works on. Ours: do not change it, the grader uses its own copy.
+// What you write, and its data types. Ours: do not change it, the grader uses its own copy.
 // Units: m, kg, s, N. The y axis points up.
 #pragma once
 
@@ -8,7 +8,7 @@
 
 // ---- grid.cpp
 
-/// Rows of particles. Those of one row follow each other along +x, the rows follow each other along +z.
+/// Rows of particles. Along a row, x increases; from row to row, z increases.
 struct Grid {
   int rows = 0, columns = 0;
   double across = 0;  // m, between neighbours in a row
@@ -18,9 +18,9 @@ struct Grid {
 
 /// Number of the particle in a row and column: all of row 0 first, then all of row 1, ...
 int index_of(const Grid& grid, int row, int column);
-/// The particles beside it in its row and in its column: one to four of them. Any order.
+/// The adjacent particles in its row and in its column: one to four, in any order.
 std::vector<int> neighbours(const Grid& grid, int row, int column);
-/// Where each particle starts, in the order of the indices.
+/// Initial position of each particle, in the order of the indices.
 std::vector<Vec3> positions(const Grid& grid);
 
 // ---- springs.cpp
@@ -31,14 +31,14 @@ struct Spring {
   double rest = 0;   // m, rest length
 };
 
-/// Each family: every pair once, in any order, all with stiffness k, at rest in the flat grid.
+/// Each family: every pair once, in any order, all with stiffness k and at rest in the flat grid.
 std::vector<Spring> structural(const Grid& grid, double k);  // to the next in the row, to the next in the column
 std::vector<Spring> shear(const Grid& grid, double k);       // both diagonals of every cell
 std::vector<Spring> flexion(const Grid& grid, double k);     // to the next but one in the row, and in the column
 
 // ---- forces.cpp: the force on each particle, N
 
-/// The sum of all springs at each particle. A spring whose ends meet has no direction: it gives no force.
+/// The sum of all springs at each particle. A spring whose ends coincide has no direction, and exerts no force.
 std::vector<Vec3> spring_forces(const std::vector<Spring>& springs, const std::vector<Vec3>& x);
 /// Gravity: mass times g (m/s^2).
 std::vector<Vec3> gravity_forces(const std::vector<double>& mass, const Vec3& g);
@@ -60,7 +60,7 @@ struct Wind {
   bool on = false;
   Vec3 direction;                              // where it blows to, length 1
   double speed = 0;                            // m/s, on average
-  double gust = 0, frequency = 0, offset = 0;  // 1, Hz, rad: its coming and going
+  double gust = 0, frequency = 0, offset = 0;  // 1, Hz, rad: how the speed varies
   double density = 0;                          // of the air, kg/m^3
   double coefficient = 0;                      // 1, of the pressure
 };
@@ -76,7 +76,7 @@ std::vector<Vec3> wind_forces(const Wind& wind, const std::vector<Triangle>& tri
 
 struct Cloth {
   std::vector<double> mass;  // kg, of each particle
-  std::vector<int> pins;     // these particles are held
+  std::vector<int> pins;     // these particles are fixed
   std::vector<Spring> springs;
   std::vector<Triangle> triangles;
   Vec3 gravity;     // m/s^2
@@ -84,5 +84,5 @@ struct Cloth {
   Wind wind;
 };
 
-/// The rate of change of the whole state: in .x that of the positions, in .v that of the velocities.
+/// The rate of change of the whole state: .x for the positions, .v for the velocities.
 State derivative(const Cloth& cloth, const State& state, double t);

@@ -1,4 +1,5 @@
-// The velocity after contact: the inward part is turned round times e, friction takes its share of the rest.
+// The velocity after contact: the inward component is reversed and multiplied by e, and friction reduces the tangential
+// one.
 #include "contact.h"
 
 Vec3 corrected_velocity(const Sphere& sphere, const Vec3& n, const Vec3& v) {

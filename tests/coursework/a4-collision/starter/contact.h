@@ -1,4 +1,4 @@
-// What you write, and what it works on. Ours: do not change it, the grader uses its own copy.
+// What you write, and its data types. Ours: do not change it, the grader uses its own copy.
 // Units: m, kg, s, N. The y axis points up.
 #pragma once
 
@@ -16,8 +16,8 @@ struct Sphere {
   double restitution = 0;  // e, 0 to 1
 };
 
-/// A solid half-space that does not move: a floor, a slope, a wall. Particles stay outside its contact surface, the
-/// plane that lies `margin` above its face.
+/// A solid half-space that does not move: a floor, a slope, a wall. Particles stay outside its contact surface, a plane
+/// at a distance of `margin` from its face.
 struct Plane {
   Vec3 point;           // m, somewhere on the face
   Vec3 normal;          // out of the solid, length 1
@@ -29,25 +29,25 @@ struct Plane {
 
 /// Distance from the contact surface, m: positive outside, negative inside.
 double gap(const Sphere& sphere, const Vec3& x);
-/// Outward direction at x, length 1. At the very centre, where no direction is better than another: (0, 1, 0).
+/// Outward direction at x, length 1. At the exact centre, where all directions are equivalent: (0, 1, 0).
 Vec3 normal(const Sphere& sphere, const Vec3& x);
-/// The point of the contact surface that is nearest to x; at the very centre the topmost one.
+/// The point of the contact surface that is nearest to x; for the exact centre, the topmost one.
 Vec3 nearest(const Sphere& sphere, const Vec3& x);
-/// Distance, normal and nearest point of a plane's contact surface.
+/// The same for a plane.
 double gap(const Plane& plane, const Vec3& x);
 inline Vec3 normal(const Plane& plane, const Vec3& /*x*/) { return plane.normal; }
 Vec3 nearest(const Plane& plane, const Vec3& x);
 
 // ---- position.cpp
 
-/// Where a particle ends that began the step at `before` and would go to `proposed`. Unchanged where that is not
-/// inside.
+/// The position after contact of a particle that began the step at `before` and would go to `proposed`. Returns
+/// `proposed` if that is not inside.
 Vec3 corrected_position(const Sphere& sphere, const Vec3& before, const Vec3& proposed);
 Vec3 corrected_position(const Plane& plane, const Vec3& before, const Vec3& proposed);
 
 // ---- velocity.cpp
 
-/// The velocity after contact at a place with outward normal n. Unchanged where v does not point inwards.
+/// The velocity after contact at a point with outward normal n. Returns v if it does not point inwards.
 Vec3 corrected_velocity(const Sphere& sphere, const Vec3& n, const Vec3& v);
 
 // ---- step.cpp
@@ -64,7 +64,7 @@ State contact_step(const Sphere& sphere, const State& state, const Vec3& g, doub
 
 struct Cloth {
   std::vector<double> mass;  // kg, of each particle
-  std::vector<int> pins;     // these particles are held
+  std::vector<int> pins;     // these particles are fixed
   std::vector<Spring> springs;
   Vec3 gravity;     // m/s^2
   double drag = 0;  // N s/m, of each particle

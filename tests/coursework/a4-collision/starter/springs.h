@@ -6,9 +6,9 @@
 #include "vec3.h"
 
 struct Spring {
-  int a = 0, b = 0;  // its ends
-  double k = 0;      // N/m
-  double rest = 0;   // m
+  int a = 0, b = 0;
+  double k = 0;     // N/m
+  double rest = 0;  // m
 };
 
 /// Sum of all springs at each particle, N.

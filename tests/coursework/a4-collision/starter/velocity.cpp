@@ -2,5 +2,5 @@
 #include "contact.h"
 
 Vec3 corrected_velocity(const Sphere& /*sphere*/, const Vec3& /*n*/, const Vec3& /*v*/) {
-  return {};  // yours: all stands still
+  return {};  // yours: everything stops
 }

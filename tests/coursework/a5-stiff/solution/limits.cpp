@@ -1,4 +1,4 @@
-// Closed forms where there is one; for the two Runge-Kutta rules the first step at which |R(h lambda)| reaches 1.
+// Closed forms if they exist; for the two Runge-Kutta rules, the first step at which |R(h lambda)| reaches 1.
 #include <algorithm>
 #include <cmath>
 #include <complex>
@@ -9,7 +9,7 @@ namespace {
 
 using Complex = std::complex<double>;
 
-/// |R(z)| of the rule that is the Taylor polynomial of exp of that order.
+/// |R(z)| of a rule that is the Taylor polynomial of exp of this order.
 double size(int order, Complex z) {
   Complex sum = 1, power = 1;
   for (int i = 1; i <= order; ++i) {

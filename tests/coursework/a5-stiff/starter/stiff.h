@@ -31,23 +31,23 @@ struct State {
 
 enum class Rule { explicit_euler, trapezoidal, rk4, symplectic_euler, leapfrog, implicit_euler };
 
-/// jacobian.cpp: the derivative dF_a/dx_a of a spring's force on its end a, at d = x_a - x_b. All zeros when d is zero.
+/// jacobian.cpp: the derivative dF_a/dx_a of a spring's force on its end a, at d = x_a - x_b. All zeros if d is zero.
 Matrix3 spring_jacobian(const Vec3& d, double stiffness, double rest);
 
-/// linear.cpp: the x with a x = b. Throws std::domain_error when a is singular (see the handout).
+/// linear.cpp: the x with a x = b. Throws std::domain_error if a is singular (see the handout).
 Vector solve(Matrix a, Vector b);
 
-/// implicit_euler.cpp: the state one linearised implicit Euler step of h later. Calls the two functions above.
+/// implicit_euler.cpp: the state after one linearised implicit Euler step of h. Calls the two functions above.
 State implicit_euler_step(const System& system, const State& state, double h);
 
-/// limits.cpp: the largest step (s) at which the rule does not grow on u'' = -omega^2 u - gamma u'. HUGE_VAL when every
-/// step is stable, 0 when none is.
+/// limits.cpp: the largest step (s) at which the solution by the rule does not grow on u'' = -omega^2 u - gamma u'.
+/// HUGE_VAL if every step is stable, 0 if none is.
 double largest_stable_step(Rule rule, double omega, double gamma);
 
 /// choose.cpp: a step that divides the duration, keeps the error on u'' = -omega^2 u at its end below the tolerance,
-/// and is stable. 0 when the rule has no stable step.
+/// and is stable. 0 if the rule has no stable step.
 double predicted_step(Rule rule, double omega, double duration, double tolerance);
 
-/// choose.cpp: run(h) is the state at the end of a run with steps of h, by a rule of that order. Returns the step whose
-/// error is the tolerance, judged from two runs: with h and with h/2.
+/// choose.cpp: run(h) is the final state of a run with steps of h, by a rule of this order. Returns the step whose
+/// error equals the tolerance, estimated from two runs: with h and with h/2.
 double measured_step(const std::function<Vector(double)>& run, int order, double h, double tolerance);

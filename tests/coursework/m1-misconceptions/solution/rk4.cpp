@@ -1,4 +1,4 @@
-// Four slopes; on a spring they make exp up to its fourth power, whose size falls until h omega is the root of 8.
+// Four slopes. On a spring they give exp up to its fourth power, whose modulus is below 1 until h omega = sqrt(8).
 #include <cmath>
 
 #include "beliefs.h"

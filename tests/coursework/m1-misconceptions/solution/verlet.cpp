@@ -1,4 +1,5 @@
-// One step is off by h^4; over a fixed time there are more of them the smaller they are, and they add up twice.
+// One step has an error of order h^4. The number of steps in a fixed time is proportional to 1 / h, and errors add up
+// twice: h^2.
 #include <cmath>
 
 #include "beliefs.h"

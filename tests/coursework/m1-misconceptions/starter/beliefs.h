@@ -1,4 +1,4 @@
-// Five common beliefs, tried in numbers: what the parts share. Do not change this file: the grader uses its own copy.
+// Five common beliefs, tested with numbers: shared by the parts. Do not change this file: the grader uses its own copy.
 #pragma once
 
 #include <cmath>
@@ -17,7 +17,7 @@ Swing explicit_step(double omega, Swing now, double h);
 /// Semi-implicit Euler: the kick first, then the drift with the velocity that the kick has just made.
 Swing semi_implicit_step(double omega, Swing now, double h);
 
-/// What semi-implicit Euler keeps the same for ever with this step, in m^2/s^2; the energy over the mass where h is 0.
+/// The quantity (m^2/s^2) that semi-implicit Euler conserves exactly with this step; for h = 0, the energy per mass.
 double kept(double omega, Swing now, double h);
 
 // ---- verlet.cpp
@@ -25,37 +25,38 @@ double kept(double omega, Swing now, double h);
 /// Position Verlet: the position h later, from the last two positions and the acceleration (m/s^2) at `now`.
 double verlet_next(double before, double now, double acceleration, double h);
 
-/// The order that errors show: the first belongs to some step, each of the others to half the step before it.
+/// The order that a list of errors shows. Each error belongs to half the step of the one before.
 double observed_order(const std::vector<double>& errors);
 
-/// Over a fixed time position Verlet has made this error. What error will it make with a step so many times smaller?
+/// Position Verlet has made this error over a fixed time. Which error will it make with a step so many times smaller?
 double predicted_error(double error, double times_smaller);
 
-// ---- sag.cpp: how far the middle hangs below two ends of one height, m, to a billionth of the length
+// ---- sag.cpp: how far the middle hangs below two ends at the same height, m, to a billionth of the length
 
-/// A chain of this length that cannot stretch, in its own weight.
+/// An inextensible chain of this length under its own weight.
 double catenary_sag(double length, double span);
 
-/// A cable of this length that cannot stretch, under a load that is even along the span: a bridge hangs on it.
+/// An inextensible cable of this length under a load that is uniform along the span, such as a bridge.
 double parabola_sag(double length, double span);
 
-/// A chain that stretches. Its length is that without any pull; weight in N per metre of that length; a pull of T (N)
-/// makes each metre of it 1 + T / stiffness long.
+/// An elastic chain. length: unstretched length; weight: N per metre of unstretched length. A tension T (N) stretches
+/// each metre to 1 + T / stiffness.
 double elastic_sag(double length, double span, double weight, double stiffness);
 
-/// The number at which f is 0, between a millionth and a million. f must have different signs at the two.
+/// The number at which f is 0, between a millionth and a million. f must have different signs at these two.
 template <class Function>
 double root_of(const Function& f) {
   double low = 1e-6, high = 1e6;
   const bool rises = f(high) > 0;
   for (int i = 0; i < 100; ++i) {
-    const double middle = std::sqrt(low * high);  // halves the number of digits that are open
+    const double middle = std::sqrt(low * high);  // halves the remaining range of digits
     ((f(middle) > 0) == rises ? high : low) = middle;
   }
   return high;
 }
 
-// ---- iterations.cpp: particles on a vertical line, each on a spring below the one above; the first on the ceiling
+// ---- iterations.cpp: particles on a vertical line, each on a spring below the previous one; the first below the
+// ceiling
 
 struct Chain {
   double mass, stiffness, rest, gravity;  // kg, N/m, m, m/s^2
@@ -65,13 +66,13 @@ struct Line {
   std::vector<double> x, v;  // depth below the ceiling in m, downward speed in m/s
 };
 
-/// How a frame of the film is computed: so many steps, and in each so many iterations.
+/// How a frame of the film is computed: `steps` steps with `iterations` iterations each.
 struct Plan {
   int steps, iterations;
 };
 
-/// One iteration of extended position-based dynamics: goes over the springs once, from the top, and moves the two
-/// particles of each. `pulls` has a number for each spring, all of them 0 before the first iteration of a step of h.
+/// One iteration of extended position-based dynamics: visits the springs once, from the top, and moves the two
+/// particles of each. `pulls` has a number for each spring, which is 0 before the first iteration of a step of h.
 inline void iterate(const Chain& chain, double h, std::vector<double>& x, std::vector<double>& pulls) {
   const double softness = 1 / (chain.stiffness * h * h);
   for (std::size_t i = 0; i < x.size(); ++i) {
@@ -91,7 +92,7 @@ Line advance(const Chain& chain, Line line, double frame, Plan plan);
 class Film {
  public:
   virtual ~Film() = default;
-  /// The largest error in m where every frame is computed by this plan; it is measured for you.
+  /// The largest error in m if every frame is computed by this plan; it is measured for you.
   virtual double error(Plan plan) const = 0;
 };
 
@@ -107,5 +108,5 @@ Swing rk4_step(double omega, Swing now, double h);
 /// Factor by which one step multiplies the energy; angle is h omega.
 double rk4_energy_factor(double angle);
 
-/// The largest step (s) with which it gains no energy.
+/// The largest step (s) at which the rule gains no energy.
 double rk4_largest_step(double omega);
