@@ -1,4 +1,4 @@
-// The derivative with the standard algorithms: the velocities are copied, the forces added up list by list.
+// With the standard algorithms: copies the velocities, and sums the forces list by list.
 #include <algorithm>
 #include <numeric>
 

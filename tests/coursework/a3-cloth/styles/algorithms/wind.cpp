@@ -1,4 +1,4 @@
-// Wind by triangles, each on its own: the pressure first, then its share.
+// Wind by triangles: the pressure first, then the share of each corner.
 #include <array>
 #include <cmath>
 #include <numeric>
@@ -7,7 +7,7 @@
 
 std::vector<Triangle> triangles(const Grid& grid) {
   std::vector<Triangle> all;
-  // the lower ones first, then the upper ones, their corners in another order
+  // the lower ones first, then the upper ones, with their corners in another order
   for (int r = 1; r < grid.rows; ++r)
     for (int c = 1; c < grid.columns; ++c)
       all.push_back({index_of(grid, r, c), index_of(grid, r - 1, c), index_of(grid, r, c - 1)});
@@ -30,7 +30,7 @@ std::vector<Vec3> wind_forces(const Wind& wind, const std::vector<Triangle>& tri
       const Vec3 v = std::accumulate(corners.begin(), corners.end(), Vec3(),
                                      [&](const Vec3& sum, int i) { return sum + state.v[i]; });
       const Vec3 u = wind_at(wind, t) - v * (1.0 / 3);
-      // twice the area, and the sine between plate and air, stand in one product
+      // one product contains both twice the area and the sine of the angle between plate and air
       const Vec3 doubled = cross(state.x[b] - state.x[a], state.x[c] - state.x[a]);
       if (length(doubled) == 0) continue;
       const double pressure = wind.density * wind.coefficient * length(u) * dot(u, doubled) / length(doubled) / 4;

@@ -1,4 +1,4 @@
-// The grid by offsets: one table says where neighbours are, one function what is inside.
+// The grid by offsets: a table of neighbours, and a function that tests whether a position is inside.
 #include <utility>
 
 #include "cloth.h"

@@ -1,4 +1,4 @@
-// All families by one function: offsets tried from both ends, a set keeps each pair once, rest lengths are measured.
+// One function for all families: tries offsets from both ends, keeps each pair once in a set, measures rest lengths.
 #include <initializer_list>
 #include <set>
 #include <utility>

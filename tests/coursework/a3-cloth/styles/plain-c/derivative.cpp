@@ -1,4 +1,4 @@
-// Plain loops into one array of forces; pins are asked for one by one.
+// Plain loops over an array of forces; looks up each pin separately.
 #include "cloth.h"
 using namespace std;
 

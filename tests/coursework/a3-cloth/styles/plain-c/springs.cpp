@@ -14,7 +14,7 @@ static void connect(vector<Spring>& springs, int a, int b, double k, double rest
   springs.push_back(s);
 }
 
-// springs to the particle `skip` further on, along rows and along columns
+// springs to the particle `skip` positions away, along rows and along columns
 static vector<Spring> straight(const Grid& g, double k, int skip) {
   vector<Spring> springs;
   for (int i = 0; i < g.rows; i++)

@@ -1,4 +1,4 @@
-// Structure of arrays: x, y and z apart, put together at the end.
+// Structure of arrays: x, y and z are separate, and combined at the end.
 #include <array>
 #include <cmath>
 #include <valarray>

@@ -1,4 +1,4 @@
-// Friction by coordinates on the sphere: the tangential part is split along a unit vector, and shortened there.
+// Friction by coordinates on the sphere: shortens the tangential component along a unit vector.
 #include <algorithm>
 
 #include "contact.h"
@@ -12,7 +12,7 @@ Vec3 corrected_position(const Sphere& sphere, const Vec3& before, const Vec3& pr
   const Vec3 on_surface = sphere.centre + r * up;
   if (sphere.friction == 0) return on_surface;
 
-  // seen from `on_surface`: friction draws it back towards `before`, within the plane across `up`
+  // friction draws the particle from `on_surface` back towards `before`, within the plane normal to `up`
   Vec3 back = before - on_surface;
   back -= dot(back, up) * up;
   const double way = length(back);
@@ -22,7 +22,7 @@ Vec3 corrected_position(const Sphere& sphere, const Vec3& before, const Vec3& pr
   return sphere.centre + r / length(rubbed) * rubbed;
 }
 
-// a plane needs no second push: what stays on it in the tangent plane is on it
+// a plane needs no second correction: motion within the tangent plane stays on the plane
 Vec3 corrected_position(const Plane& plane, const Vec3& before, const Vec3& proposed) {
   const double depth = -gap(plane, proposed);
   if (!(depth > 0)) return proposed;

@@ -1,4 +1,4 @@
-// The velocity split along the normal and along the direction of sliding.
+// The velocity is split along the normal and along the direction of sliding.
 #include <algorithm>
 
 #include "contact.h"

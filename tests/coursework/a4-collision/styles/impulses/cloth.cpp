@@ -1,4 +1,4 @@
-// Momenta: forces times h change momenta, momenta move particles.
+// Momenta: forces times h change the momenta, and the momenta move the particles.
 #include "contact.h"
 
 std::vector<Vec3> accelerations(const Cloth& cloth, const State& state) {

@@ -9,7 +9,7 @@ Vec3 corrected_velocity(const Sphere& sphere, const Vec3& n, const Vec3& v) {
   const double normal_impulse = (1 + sphere.restitution) * approach;
   Vec3 after = v;
   after += normal_impulse * n;
-  // what would stop the sliding altogether, and what the cone allows of it
+  // the impulse that stops the sliding, limited by Coulomb's cone
   Vec3 friction_impulse = cross(n, cross(n, v));
   const double wanted = length(friction_impulse), allowed = sphere.friction * normal_impulse;
   if (wanted > allowed) friction_impulse *= allowed / wanted;

@@ -1,4 +1,4 @@
-// One function says where the centre is, all others ask it.
+// One function computes the offset from the centre; all others call it.
 #include <tuple>
 
 #include "contact.h"

@@ -1,4 +1,4 @@
-// Without accelerations in the step: the cloth's own copy of the pins as a set, one loop over particles.
+// One loop over particles, with a copy of the pins as a set.
 #include <set>
 
 #include "contact.h"

@@ -1,4 +1,4 @@
-// Each particle by a lambda of its own; the state is made of what it returns.
+// A lambda for each particle; the state is built from the results.
 #include <algorithm>
 #include <utility>
 

@@ -1,4 +1,4 @@
-// Plain expressions, number by number.
+// Plain expressions, component by component.
 #include <math.h>
 
 #include "contact.h"
@@ -27,7 +27,7 @@ Vec3 normal(const Sphere& s, const Vec3& p) {
   return n;
 }
 
-// from where it is, back along the normal by the gap
+// back from p along the normal by the gap
 Vec3 nearest(const Sphere& s, const Vec3& p) { return p - gap(s, p) * normal(s, p); }
 
 double gap(const Plane& p, const Vec3& x) {

@@ -1,4 +1,4 @@
-// The same through logarithms, and steps counted up.
+// Computes the steps through logarithms, and increases their number until they cover the duration.
 #include <algorithm>
 #include <cmath>
 #include <map>

@@ -1,5 +1,5 @@
-// One way for all rules: the 2 x 2 matrix of a step on (u, v), its spectral radius, and the first step at which that
-// leaves 1 for good.
+// The same method for all rules: the 2 x 2 matrix of a step on (u, v), its spectral radius, and the first step from
+// which on the radius exceeds 1.
 #include <cmath>
 #include <limits>
 
@@ -51,10 +51,10 @@ double radius(const M& m) {
 double largest_stable_step(Rule rule, double omega, double gamma) {
   const double every = std::numeric_limits<double>::infinity();
   if (rule == Rule::implicit_euler || omega + gamma <= 0) return every;
-  // Growth of h^4 hides in round-off where h is small: without drag the trapezoidal rule is known to grow at once.
+  // For small h, growth of order h^4 is hidden by round-off: without drag the trapezoidal rule always grows.
   if (rule == Rule::trapezoidal && gamma == 0) return 0;
-  // Without a spring one eigenvalue is 1. Where the other comes near it the radius of the matrix is good to eight
-  // digits only; the determinant, which is then the other one, has them all.
+  // Without a spring one eigenvalue is 1. If the other is near 1, the radius of the matrix is accurate to eight digits
+  // only; the determinant equals the other eigenvalue and is fully accurate.
   auto stable = [&](double h) {
     const M m = step_of(rule, omega, gamma, h);
     return (omega == 0 ? std::fabs(m.a * m.d - m.b * m.c) : radius(m)) < 1 + 1e-12;

@@ -1,4 +1,4 @@
-// Gauss-Jordan with the largest entry of all as pivot; columns are renamed, not moved.
+// Gauss-Jordan elimination with the largest of all entries as pivot; columns are renumbered, not moved.
 #include <algorithm>
 #include <cmath>
 #include <numeric>

@@ -1,5 +1,5 @@
-// The way moved is the unknown, and only particles that move have a place in the equations:
-// (M / h^2 + c I / h - J) dx = M v / h + springs + gravity.
+// The displacement is the unknown, and the equations contain only particles that move: (M / h^2 + c I / h - J) dx = M v
+// / h + springs + gravity.
 #include <cmath>
 
 #include "stiff.h"

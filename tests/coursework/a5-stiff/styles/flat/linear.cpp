@@ -1,4 +1,4 @@
-// Householder's reflections on one flat array, then back substitution.
+// Householder reflections on one flat array, then back substitution.
 #include <algorithm>
 #include <cmath>
 #include <stdexcept>

@@ -1,5 +1,5 @@
 // The new velocity is the unknown: (M + h c I - h^2 J) v' = M v + h (springs + gravity). The force at x + h v' is the
-// force now plus h J v', so J v stands on neither side.
+// current force plus h J v', so that J v cancels.
 #include <cmath>
 #include <tuple>
 

@@ -1,5 +1,5 @@
-// By polynomials: for the trapezoidal rule |R|^2 - 1 is a cubic in h when the motion swings; real modes have h |lambda|
-// = 2; for RK4 the edge is followed by Newton's method on |R|^2 - 1 with a numerical slope.
+// By polynomials. Trapezoidal rule: |R|^2 - 1 is a cubic in h for oscillations; real modes have h |lambda| = 2. RK4:
+// Newton's method on |R|^2 - 1 with a numerical slope.
 #include <cmath>
 #include <complex>
 
@@ -28,9 +28,9 @@ double largest_stable_step(Rule rule, double w, double g) {
       return g == 0 ? 0 : low;
     }
     case Rule::rk4: {
-      // the real root of 24 + 12 z + 4 z^2 + z^3 at z = -2.785...
+      // -2.785... is the real root of 24 + 12 z + 4 z^2 + z^3
       if (!swings) return 2.785293563405282 / fast(w, g);
-      // from beyond the edge, downwards
+      // starts above the limit
       double h = 3.2 / w;
       for (int i = 0; i < 100; ++i) {
         const double e = 1e-6 * h, slope = (excess(w, g, h + e) - excess(w, g, h - e)) / (2 * e);

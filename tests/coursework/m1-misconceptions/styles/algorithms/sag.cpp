@@ -1,4 +1,4 @@
-// One function for how long the curve is, found from how deep it hangs.
+// Writes each condition as a function, and solves it with root_of.
 #include <cmath>
 
 #include "beliefs.h"

@@ -1,4 +1,4 @@
-// Newton's rule in place of the bisection.
+// Newton's method instead of bisection.
 #include <cmath>
 
 #include "beliefs.h"
@@ -23,7 +23,8 @@ double parabola_sag(double length, double span) {
 
 double elastic_sag(double length, double span, double weight, double stiffness) {
   const double pull = weight * length / 2;
-  double h = pull / 100;  // the pull along the span; from below Newton's rule does not overshoot on a concave function
+  double h = pull / 100;  // the pull along the span; from below, Newton's method does not overshoot on a concave
+                          // function
   for (int i = 0; i < 100; ++i) {
     const double width = 2 * h / weight * std::asinh(pull / h) + h * length / stiffness;
     const double rate = 2 / weight * (std::asinh(pull / h) - pull / std::hypot(pull, h)) + length / stiffness;

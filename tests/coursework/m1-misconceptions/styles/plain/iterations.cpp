@@ -1,4 +1,4 @@
-// Step by step in functions of their own; the plans from the many steps down.
+// A function for a step; plans are tried from the largest number of steps down.
 #include "beliefs.h"
 
 static void step(const Chain& chain, Line& line, double h, int iterations) {

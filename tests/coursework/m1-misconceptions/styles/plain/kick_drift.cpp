@@ -1,4 +1,3 @@
-// Everything written out.
 #include "beliefs.h"
 
 Swing explicit_step(double w, Swing s, double h) {

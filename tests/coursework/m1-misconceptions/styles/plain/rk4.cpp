@@ -1,4 +1,4 @@
-// As the textbook writes it, number by number.
+// The textbook formula, number by number.
 #include "beliefs.h"
 
 Swing rk4_step(double omega, Swing now, double h) {
@@ -12,7 +12,7 @@ Swing rk4_step(double omega, Swing now, double h) {
   return now;
 }
 
-// the energy of a unit swing after one step
+// energy of a unit oscillation after one step
 double rk4_energy_factor(double angle) {
   Swing after = rk4_step(1, {1, 0}, angle);
   return after.x * after.x + after.v * after.v;

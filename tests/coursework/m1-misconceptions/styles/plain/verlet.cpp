@@ -1,4 +1,4 @@
-// The last move once more, and what the force adds to it.
+// Repeats the last move, and adds the effect of the force.
 #include <cmath>
 
 #include "beliefs.h"
