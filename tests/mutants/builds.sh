@@ -1,8 +1,7 @@
 #!/usr/bin/env bash
-# Proves that `crosscheck regress` raises no false alarm for builds that differ only in rounding. Builds Crosscheck
-# with other compilers and options (in build/builds/, five to ten minutes each the first time) and runs each build
-# against the shipped
-# baselines. Exits with 1 if one of them fails.
+# Proves that `crosscheck regress` raises no false alarm for builds that differ only in rounding. Builds Crosscheck with
+# other compilers and options (in build/builds/, five to ten minutes each the first time) and runs each build against
+# the shipped baselines. Exits with 1 if one of them fails.
 #
 #   tests/mutants/builds.sh [NAME]...     without names, all builds
 set -euo pipefail

@@ -1,4 +1,4 @@
-// The same method for all rules: the 2 x 2 matrix of a step on (u, v), its spectral radius, and the first step from
+// All rules use the same method: the 2 x 2 matrix of a step on (u, v), its spectral radius, and the first step from
 // which on the radius exceeds 1.
 #include <cmath>
 #include <limits>
