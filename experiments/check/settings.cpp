@@ -120,7 +120,7 @@ RelationResult stop_and_go_on(Subject& subject, const Scene& scene, unsigned) {
     second_half.t.push_back(whole.t[i]);
     second_half.x.push_back(whole.x[i]);
   }
-  // a rule with more state than positions and velocities restarts, with an error of its order
+  // a rule with more state than positions and velocities must restart, which causes an error of its order
   std::vector<double> bound = subject.noise(scene).x;
   if (!chooses_steps(subject.method())) bound = sum_of(std::move(bound), distances(whole, halved(subject, scene, 1)));
   bound.erase(bound.begin(), bound.begin() + middle);

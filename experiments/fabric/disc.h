@@ -34,8 +34,8 @@ struct DrapedDisc {
 
   int spokes() const { return 10 * rings; }  // so that q^2 < 3 p^2 up to the rim
   double spacing() const { return (specimen - disc) / (rings + 0.5); }
-  /// m. Ring 0 is pinned half a spacing inside the disc's edge, ring 1 pinned as far outside; ring rings + 1 is the
-  /// rim.
+  /// Radius of a ring, m. Ring 0 is pinned half a spacing inside the disc's edge, ring 1 as far outside. The last ring,
+  /// number rings + 1, is the rim.
   double radius(int ring) const { return disc + (ring - 0.5) * spacing(); }
   int particle(int ring, int spoke) const { return ring * spokes() + (spoke + spokes()) % spokes(); }
 };

@@ -120,7 +120,7 @@ void hanging(TableSet& tables) {
   tables.add(shapes);
 }
 
-/// The bending length (B / w)^(1/3) of the draped cloth is then 2.4 cm.
+/// Gives the draped cloth a bending length (B / w)^(1/3) of 2.4 cm.
 constexpr double draped_rigidity = 2e-5;  // N m
 
 struct Drape {

@@ -16,8 +16,8 @@ namespace crosscheck {
 namespace {
 
 /// Factor for the estimates, which are for release builds. Without optimisation, each access to a number through Eigen
-/// is several function calls: mysim's rules on cloth-hang, chain and spring take up to 350 times as long. NDEBUG stands
-/// for optimisation, which fmt's headers temporarily switch on, so that g++ always reports it as on.
+/// is several function calls: mysim's rules on cloth-hang, chain and spring take up to 350 times as long. __OPTIMIZE__
+/// cannot tell, because fmt's headers switch optimisation on for a while, after which g++ reports it as on.
 #ifdef NDEBUG
 constexpr double slower = 1;
 #else

@@ -11,7 +11,7 @@ namespace crosscheck {
 struct Ingredient {
   std::string name;  // "gravity", "bend springs", "gusts", ...
   std::vector<std::string>
-      keys;  // to erase from the scene's file (TomlDocument::erase); empty: a file cannot express the removal
+      keys;  // keys to erase from the scene's file (TomlDocument::erase); empty: a file cannot express the removal
   void (*remove)(Model&);
 };
 

@@ -14,7 +14,7 @@ namespace crosscheck {
 /// From simple to rich.
 std::span<const std::string_view> shipped_scenes();
 
-/// One of each kind, including one of several cloths.
+/// The scenes of a quick run if none is named, with one of each kind.
 std::vector<std::string> quick_scenes();
 
 /// Finds a shipped scene or a known disagreement by name, or any TOML file by path. Throws InputError with a suggestion

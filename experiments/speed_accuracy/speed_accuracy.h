@@ -59,7 +59,7 @@ void speed_accuracy_on(const Request& request, const Scene& scene, TableSet& tab
 /// other engine within 1 % of the motion are timed whole.
 void time_speed_accuracy(const Request& request, const Scene& scene, const TableSet& rows, TableSet& tables);
 
-/// The report recommends a run with this accuracy, as a fraction of the motion.
+/// Accuracy of the run that the report recommends, as a fraction of the motion.
 inline constexpr double recommended_part = 0.01;
 
 /// The build that the timed code of a method comes from.

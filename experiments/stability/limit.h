@@ -46,9 +46,10 @@ struct BaseState {
 BaseState base_state_of(const Scene& scene);
 
 struct Perturbation {
-  int mode = -1;         // index of the mode; -1: the fastest shape of the stiffness
-  double size = 1.5e-8;  // relative to `spacing`: the square root of the rounding error eps, where rounding (eps / size
-                         // per step) and nonlinearity (size) disturb linear motion equally
+  int mode = -1;  // index of the mode; -1: the fastest shape of the stiffness
+  /// Times `spacing`. At sqrt(eps), rounding (eps / size per step) and nonlinearity (size) disturb linear motion
+  /// equally.
+  double size = 1.5e-8;
 };
 
 struct PerturbedRun {

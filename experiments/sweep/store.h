@@ -18,7 +18,7 @@ struct PointList {
     std::string name, hash;
     bool operator==(const Entry&) const = default;
   };
-  std::vector<std::string> experiments;  // those with conclusions from the rows of all points
+  std::vector<std::string> experiments;  // experiments with conclusions from the rows of all points
   std::vector<Entry> points;
   Provenance provenance;  // origin of the tables: command, commit, scenes, ...
 };
