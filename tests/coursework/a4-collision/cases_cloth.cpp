@@ -167,7 +167,7 @@ Cases small_cloth_step(Random& random) {
     scene.spheres.push_back({{0.1, kind == 0 ? -2 : -0.5, 0}, 0.5, 0.03, 0.5, 0.5, std::nullopt});
     if (kind == 4) scene.spheres.push_back({{-0.1, -0.5, 0}, 0.5, 0.03, 0.5, 0.5, std::nullopt});
     cases.push_back(scene.run("cloth_step", 0.01, 1, -1));
-    cases.back().tolerance = 1e-9;  // as for one step of a cloth
+    cases.back().tolerance = 1e-9;  // as in pins_and_spheres_of()
   }
   return cases;
 }
@@ -208,8 +208,7 @@ Cases patch_on_a_slope(Random& random) {
       scene.start.x.col(i) = sphere.centre + r * (scene.start.x.col(i) - sphere.centre).normalized();
     scene.spheres = {sphere};
     Case c = scene.run("cloth_path", 0.005, 100, 4);
-    c.tolerance = 1e-9;  // round-off of 1e-15 m in each step, which does not grow because of friction and drag
-                         // (measured)
+    c.tolerance = 1e-9;  // round-off of 1e-15 m in each step, which friction and drag keep from growing
     cases.push_back(c);
   }
   return cases;

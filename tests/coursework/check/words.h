@@ -34,7 +34,7 @@ std::string given_text(const Texts& common, const Texts& own, const Case& what, 
 /// differ, if there are at most six. Lines begin with two blanks, and columns are aligned in a monospaced font. Empty
 /// for a single number, for shares, and for rows in any order.
 std::string table_text(const Texts& common, const Texts& own, const Case& what, const Answer& answer);
-/// True if the line belongs to such a table.
+/// True if the line belongs to a table of table_text().
 bool is_of_table(const std::string& line);
 
 /// The hint of a failed test. If an earlier test of the same function failed, names that test instead, because hints of

@@ -40,8 +40,7 @@ TEST(Ablations, NothingCanBeLeftOutOfTheAssignmentsScenes) {
     const ReferenceSolution y = reference_solution_of(scene, scene.tolerance);
     EXPECT_LE(y.floor, scene.tolerance / 5);
     const std::vector<AblatedModel> models = ablations_of(scene, y, scene.tolerance);
-    EXPECT_EQ(models.size(), 1 + ingredients_of(scene).size());  // no second removal, because every single one is too
-                                                                 // large
+    EXPECT_EQ(models.size(), 1 + ingredients_of(scene).size());  // single removals only: each is too large
     for (const AblatedModel& r : models)
       if (!r.out.empty() && r.error) {
         EXPECT_GT(*r.error, scene.tolerance) << r.name;

@@ -52,8 +52,7 @@ TEST(BulletFriction, OfTheDeformableWorldHoldsAboveTheLimitAndSlidesBelow) {
       const Trajectory path = run_and_record(method, scene, {1e-3, scene.duration, scene.samples}).trajectory;
       return (path.x.back() - path.x.front()).norm();
     };
-    EXPECT_LT(way(1.05 * limit), 1e-5);  // Bullet leaves a part of the weight uncompensated, so that the particle first
-                                         // settles
+    EXPECT_LT(way(1.05 * limit), 1e-5);  // Bullet leaves a part of the weight uncompensated, and the particle settles
     EXPECT_LT(way(2 * limit), 1e-5);
     // 5 % below the limit it accelerates by 5 % of g sin(30) for 0.5 s.
     EXPECT_NEAR(way(0.95 * limit), 0.05 * g * 0.5 * 0.125, 0.02 * 0.05 * g * 0.5 * 0.125);

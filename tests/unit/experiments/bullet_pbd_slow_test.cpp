@@ -56,8 +56,7 @@ TEST(BulletPbdStiffness, OfANetworkIsTheFormulasOnlyWhereTheStepIsSmall) {
     EXPECT_GT(at_largest, 0.1);
     EXPECT_LT(at_smallest, 0.01);
     EXPECT_GT(at_smallest, 1e-4);     // and is above round-off
-    EXPECT_NEAR(last_slope, 4, 0.2);  // to first order, the deviation is proportional to k h^2/mu, which grows 4-fold
-                                      // from step to step
+    EXPECT_NEAR(last_slope, 4, 0.2);  // first order in k h^2/mu, which falls 4-fold per halved step
   }
 }
 
