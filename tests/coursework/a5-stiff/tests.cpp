@@ -136,8 +136,7 @@ std::vector<Case> singular(Random& random) {
   return cases;
 }
 
-/// Two unknowns: a diagonal matrix, one with an entry below the diagonal, one with an entry above it; then three
-/// unknowns.
+/// A diagonal matrix, one with an entry below the diagonal, two with entries above it, and a full one.
 std::vector<Case> small_plain(Random& random) {
   return {linear("linear.solve", {{4, 0}, {0, 8}}, whole(random, 2)),
           linear("linear.solve", {{8, 0}, {4, 2}}, whole(random, 2)),

@@ -172,7 +172,7 @@ TEST_F(BenchEqualError, APeersRunThatFailsIsARow) {
   EXPECT_FALSE(measured.rows()[0].ratio);
 }
 
-/// From the first setting of the peer to its last.
+/// Errors of one peer, from its first setting to its last.
 std::vector<double> errors_of(const Measured& measured, const std::string& peer) {
   std::vector<double> errors;
   for (const BenchRow& row : measured.rows())
