@@ -1,16 +1,15 @@
-// Dispatches the assignment's calls to its parts.
+// Dispatches the assignment's calls to its parts, which answer the same ones.
 #include "calls.h"
+#include "calls_steppers.h"
 
 namespace coursework {
 
-bool answer_euler(const std::string& call, const Numbers& in, Numbers& out);
-bool answer_trapezoidal(const std::string& call, const Numbers& in, Numbers& out);
-bool answer_rk4(const std::string& call, const Numbers& in, Numbers& out);
-bool answer_engine(const std::string& call, const Numbers& in, Numbers& out);
+Calls answer_engine;
 
 bool answer(const std::string& call, const Numbers& in, Numbers& out) {
-  return answer_euler(call, in, out) || answer_trapezoidal(call, in, out) || answer_rk4(call, in, out) ||
-         answer_engine(call, in, out);
+  return answer_stepper("euler", euler_step, call, in, out) ||
+         answer_stepper("trapezoidal", trapezoidal_step, call, in, out) ||
+         answer_stepper("rk4", rk4_step, call, in, out) || answer_engine(call, in, out);
 }
 
 }  // namespace coursework

@@ -3,11 +3,7 @@
 
 namespace coursework {
 
-bool answer_gravity_drag(const std::string& call, const Numbers& in, Numbers& out);
-bool answer_spring(const std::string& call, const Numbers& in, Numbers& out);
-bool answer_pendulum(const std::string& call, const Numbers& in, Numbers& out);
-bool answer_chain(const std::string& call, const Numbers& in, Numbers& out);
-bool answer_symplectic(const std::string& call, const Numbers& in, Numbers& out);
+Calls answer_gravity_drag, answer_spring, answer_pendulum, answer_chain, answer_symplectic;
 
 bool answer(const std::string& call, const Numbers& in, Numbers& out) {
   return answer_gravity_drag(call, in, out) || answer_spring(call, in, out) || answer_pendulum(call, in, out) ||

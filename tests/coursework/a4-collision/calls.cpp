@@ -2,11 +2,7 @@
 
 namespace coursework {
 
-bool answer_closest(const std::string& call, const Numbers& in, Numbers& out);
-bool answer_position(const std::string& call, const Numbers& in, Numbers& out);
-bool answer_velocity(const std::string& call, const Numbers& in, Numbers& out);
-bool answer_step(const std::string& call, const Numbers& in, Numbers& out);
-bool answer_cloth(const std::string& call, const Numbers& in, Numbers& out);
+Calls answer_closest, answer_position, answer_velocity, answer_step, answer_cloth;
 
 bool answer(const std::string& call, const Numbers& in, Numbers& out) {
   return answer_closest(call, in, out) || answer_position(call, in, out) || answer_velocity(call, in, out) ||

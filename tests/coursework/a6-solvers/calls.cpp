@@ -3,11 +3,7 @@
 
 namespace coursework {
 
-bool answer_pass(const std::string& call, const Numbers& in, Numbers& out);
-bool answer_step(const std::string& call, const Numbers& in, Numbers& out);
-bool answer_rate(const std::string& call, const Numbers& in, Numbers& out);
-bool answer_leftover(const std::string& call, const Numbers& in, Numbers& out);
-bool answer_averaging(const std::string& call, const Numbers& in, Numbers& out);
+Calls answer_pass, answer_step, answer_rate, answer_leftover, answer_averaging;
 
 bool answer(const std::string& call, const Numbers& in, Numbers& out) {
   return answer_pass(call, in, out) || answer_step(call, in, out) || answer_rate(call, in, out) ||

@@ -28,9 +28,10 @@ class Unusable : public std::runtime_error {
 void calling(const char* function);
 
 /// Calls the student's code. Returns false if no part knows the call. Lets exceptions of the student's code through.
-/// Each assignment defines it in calls.cpp, which tries its parts in turn; part P is in calls_P.cpp and has the form
-/// `bool answer_P(const std::string& call, const Numbers& in, Numbers& out)`.
-bool answer(const std::string& call, const Numbers& in, Numbers& out);
+using Calls = bool(const std::string& call, const Numbers& in, Numbers& out);
+
+/// Each assignment defines this in calls.cpp, which tries its parts in turn: `Calls answer_P` of part P is in calls_P.cpp.
+Calls answer;
 
 /// Only for the hand-out's `check`: the numbers of an answer to compare with the case's `expected`. All of them
 /// (as_given.cpp), or the features that the assignment's calls.cpp extracts, if students choose the constants.
