@@ -14,23 +14,6 @@ Points Mesh::points() const {
   return x;
 }
 
-Vec3 random_vector(Random& random, double size) {
-  const double x = random.uniform(-size, size), y = random.uniform(-size, size), z = random.uniform(-size, size);
-  return {x, y, z};
-}
-
-Vec3 random_direction(Random& random) {
-  if (random.rounds()) {
-    Vec3 v(0.36, 0.48, 0.8);
-    std::swap(v[random.integer(0, 2)], v[random.integer(0, 2)]);
-    for (double& part : v) part *= random.integer(0, 1) ? 1 : -1;
-    return v;
-  }
-  const double height = random.uniform(-0.9, 0.9), angle = random.uniform(0, 2 * std::numbers::pi);
-  const double flat = std::sqrt(1 - height * height);
-  return {flat * std::cos(angle), height, flat * std::sin(angle)};
-}
-
 Mesh random_mesh(Random& random, int smallest, int largest) {
   const int few = random.integer(smallest, largest), many = few + random.integer(1, 3);
   const bool wide = random.integer(0, 1) == 1;
@@ -71,8 +54,6 @@ crosscheck::Grid grid_of(const Mesh& mesh, double structural, double shear, doub
   return grid;
 }
 
-void put(Numbers& out, const Vec3& v) { out.insert(out.end(), {v.x(), v.y(), v.z()}); }
-void put(Numbers& out, const Points& points) { out.insert(out.end(), points.data(), points.data() + points.size()); }
 void put(Numbers& out, const Mesh& m) {
   out.insert(out.end(), {double(m.rows), double(m.columns), m.across, m.down});
   put(out, m.corner);

@@ -4,10 +4,8 @@
 
 #include <vector>
 
-#include "mysim/model/model.h"
 #include "mysim/scene/grid.h"
-#include "tests/coursework/check/case.h"
-#include "tests/coursework/check/random.h"
+#include "tests/coursework/grader/vectors.h"
 
 namespace coursework::a3 {
 
@@ -23,8 +21,6 @@ struct Mesh {
   Points points() const;
 };
 
-Vec3 random_vector(Random& random, double size);  // each component in [-size, size]
-Vec3 random_direction(Random& random);            // length 1
 /// Never square, and never with square cells.
 Mesh random_mesh(Random& random, int smallest, int largest);
 /// A sheet with all three families, displaced from its flat shape by up to `bent` in each direction.
@@ -37,8 +33,7 @@ Sheet random_sheet(Random& random, int smallest, int largest, double bent);
 /// One to three particles in a row with springs between neighbours, or four in a cell.
 Sheet small_sheet(Random& random, int size, double bent);
 
-void put(Numbers& out, const Vec3& v);
-void put(Numbers& out, const Points& points);
+using coursework::put;
 void put(Numbers& out, const Mesh& mesh);
 void put(Numbers& out, const std::vector<crosscheck::Spring>& springs);
 void put(Numbers& out, const std::vector<std::array<int, 3>>& triangles);

@@ -4,9 +4,7 @@
 
 #include <vector>
 
-#include "mysim/model/model.h"
-#include "tests/coursework/check/case.h"
-#include "tests/coursework/check/random.h"
+#include "tests/coursework/grader/vectors.h"
 
 namespace coursework::a4 {
 
@@ -15,15 +13,13 @@ using crosscheck::Sphere;
 using crosscheck::Vec3;
 using Cases = std::vector<Case>;
 
-Vec3 random_vector(Random& random, double size);  // each component in [-size, size]
-Vec3 random_direction(Random& random);            // length 1
+/// A random unit vector perpendicular to n.
 Vec3 random_tangent(Random& random, const Vec3& n);
 Sphere random_sphere(Random& random, double friction, double restitution);
 /// About 10 m/s^2 in a random direction.
 Vec3 random_gravity(Random& random);
 
-void put(Numbers& out, const Vec3& v);
-void put(Numbers& out, const Points& points);
+using coursework::put;
 void put(Numbers& out, const Sphere& sphere);
 
 /// x and v of one particle after mysim's contact rule.

@@ -6,6 +6,7 @@
 #include <algorithm>
 
 #include "mysim/steppers/steppers.h"
+#include "tests/coursework/grader/vectors.h"
 
 namespace coursework::a5 {
 namespace {
@@ -23,37 +24,18 @@ struct Scene {
   int size() const { return static_cast<int>(mass.size()); }
 };
 
-Vec3 vector(Random& random, double size) {
-  Vec3 v;
-  for (double& part : v) part = random.uniform(-size, size);
-  return v;
-}
-Vec3 direction(Random& random) {
-  if (random.rounds()) {
-    Vec3 v(0.36, 0.48, 0.8);
-    std::swap(v[random.integer(0, 2)], v[random.integer(0, 2)]);
-    for (double& part : v) part *= random.integer(0, 1) ? 1 : -1;
-    return v;
-  }
-  for (;;) {
-    const Vec3 v = vector(random, 1);
-    if (v.norm() > 0.3 && v.norm() < 1) return v.normalized();
-  }
-}
-
 Numbers inputs(const Scene& s, int steps) {
   Numbers in = {double(s.size()), double(steps), s.h,          s.drag,
                 s.gravity[0],     s.gravity[1],  s.gravity[2], double(s.springs.size())};
   for (const auto& spring : s.springs) in.insert(in.end(), {double(spring.a), double(spring.b), spring.k, spring.rest});
   in.insert(in.end(), s.mass.begin(), s.mass.end());
   in.insert(in.end(), s.fixed.begin(), s.fixed.end());
-  in.insert(in.end(), s.x.data(), s.x.data() + s.x.size());
-  in.insert(in.end(), s.v.data(), s.v.data() + s.v.size());
+  put(in, s.x), put(in, s.v);
   return in;
 }
 
 void add_row(const Scene& s, int i, Numbers& out) {
-  for (const Points* p : {&s.x, &s.v}) out.insert(out.end(), p->col(i).data(), p->col(i).data() + 3);
+  for (const Points* p : {&s.x, &s.v}) put(out, Vec3(p->col(i)));
 }
 
 /// A step is a well-conditioned solve (each case says why), which costs a digit or two of sixteen, and errors do not
@@ -171,15 +153,15 @@ void falling_step(Scene& s) {
 Scene chain(Random& random, double rest_of_length, int n = 6) {
   Scene s;
   s.x.resize(3, n), s.v.setZero(3, n);
-  const Vec3 start = vector(random, 1), along = direction(random) * random.uniform(0.3, 0.6);
+  const Vec3 start = random_vector(random, 1), along = random_direction(random) * random.uniform(0.3, 0.6);
   for (int i = 0; i < n; ++i) {
     s.x.col(i) = start + i * along;
     s.mass.push_back(random.uniform(0.2, 0.6));
     s.fixed.push_back(i == 0 || i == n - 1);
-    if (!s.fixed[i]) s.v.col(i) = vector(random, 1);
+    if (!s.fixed[i]) s.v.col(i) = random_vector(random, 1);
     if (i > 0) s.springs.push_back({i, i - 1, random.uniform(1000, 4000), along.norm() * rest_of_length});
   }
-  s.gravity = direction(random) * random.uniform(5, 15);
+  s.gravity = random_direction(random) * random.uniform(5, 15);
   s.drag = random.uniform(0.5, 2);
   s.h = random.uniform(0.03, 0.1);
   return s;
@@ -195,9 +177,9 @@ std::vector<Case> one_spring(Random& random) {
     const double omega = std::sqrt(k / mass);
     s.h = long_step * random.uniform(0.8, 1.25) / omega;
     const int fixed = random.integer(0, 1);
-    const Vec3 u = direction(random);
+    const Vec3 u = random_direction(random);
     s.x.resize(3, 2), s.v.setZero(3, 2);
-    s.x.col(fixed) = vector(random, 1);
+    s.x.col(fixed) = random_vector(random, 1);
     // too little energy to reach the fixed end
     s.x.col(1 - fixed) = s.x.col(fixed) + u * rest * random.uniform(1.2, 1.4);
     s.v.col(1 - fixed) = u * rest * omega * random.uniform(0.2, 0.4) * (random.integer(0, 1) ? 1 : -1);
@@ -213,8 +195,8 @@ std::vector<Case> gravity_and_drag(Random& random) {
   Scene s;
   s.mass = {random.uniform(0.2, 0.5), random.uniform(2, 4)}, s.fixed = {0, 0};
   s.x.resize(3, 2), s.v.resize(3, 2);
-  for (int i = 0; i < 2; ++i) s.x.col(i) = vector(random, 2), s.v.col(i) = vector(random, 3);
-  s.gravity = direction(random) * random.uniform(5, 12);
+  for (int i = 0; i < 2; ++i) s.x.col(i) = random_vector(random, 2), s.v.col(i) = random_vector(random, 3);
+  s.gravity = random_direction(random) * random.uniform(5, 12);
   s.drag = random.uniform(1, 3), s.h = random.uniform(0.1, 0.5);
   // the matrix is diagonal
   return {watched(s, 12, 0, falling_step), watched(s, 12, 1, falling_step)};
@@ -226,13 +208,13 @@ namespace {
 Case network_of(Random& random, int count) {
   Scene s;
   s.h = random.uniform(0.02, 0.1), s.drag = random.uniform(0.5, 3);
-  s.gravity = direction(random) * random.uniform(5, 12);
+  s.gravity = random_direction(random) * random.uniform(5, 12);
   s.x.resize(3, count), s.v.resize(3, count);
   // distorted, so that no two particles coincide
   const double corners[4][3] = {{1, 1, 1}, {1, -1, -1}, {-1, 1, -1}, {-1, -1, 1}};
   for (int i = 0; i < count; ++i) {
-    s.x.col(i) = Vec3(corners[i][0], corners[i][1], corners[i][2]) + vector(random, 0.3);
-    s.v.col(i) = vector(random, 2);
+    s.x.col(i) = Vec3(corners[i][0], corners[i][1], corners[i][2]) + random_vector(random, 0.3);
+    s.v.col(i) = random_vector(random, 2);
     s.mass.push_back(random.uniform(0.5, 2)), s.fixed.push_back(0);
     for (int j = 0; j < i; ++j) {
       // springs shortened by at most a tenth subtract at most h^2 k 4 / 10 < m / 2 from the matrix, so that its

@@ -81,14 +81,6 @@ void averaging_step(Scene& s, int passes) {
 
 // ---- scenes and their numbers
 
-Vec3 vector(Random& random, double size) {
-  Vec3 v;
-  for (double& part : v) part = random.uniform(-size, size);
-  return v;
-}
-
-void add(Numbers& out, const Points& p) { out.insert(out.end(), p.data(), p.data() + p.size()); }
-
 Numbers numbers(const Scene& s) {
   Numbers in = {double(s.x.cols()),      s.mass, s.stiffness, s.gravity[0], s.gravity[1], s.gravity[2],
                 double(s.springs.size())};
@@ -112,13 +104,13 @@ Scene tangle(Random& random, int count, int held) {
   Scene s;
   s.mass = random.uniform(0.5, 2), s.h = random.uniform(0.02, 0.05);
   s.stiffness = std::round(random.uniform(3, 9) * s.mass / (s.h * s.h));
-  s.gravity = vector(random, 9);
+  s.gravity = random_vector(random, 9);
   s.x.resize(3, count), s.v.resize(3, count);
   const double corners[4][3] = {{1, 1, 1}, {1, -1, -1}, {-1, 1, -1}, {-1, -1, 1}};
   for (int i = 0; i < count; ++i) {
     s.held.push_back(i == held);
-    s.x.col(i) = Vec3(corners[i][0], corners[i][1], corners[i][2]) + vector(random, 0.3);
-    s.v.col(i) = s.held[i] ? Vec3(0, 0, 0) : vector(random, 2);
+    s.x.col(i) = Vec3(corners[i][0], corners[i][1], corners[i][2]) + random_vector(random, 0.3);
+    s.v.col(i) = s.held[i] ? Vec3(0, 0, 0) : random_vector(random, 2);
     for (int j = 0; j < i; ++j)
       s.springs.push_back(
           {j, i, 0, (s.x.col(i) - s.x.col(j)).norm() * random.uniform(0.7, 1.2), crosscheck::Family::single});
@@ -129,13 +121,13 @@ Scene tangle(Random& random, int count, int held) {
 Case of_pass(const char* call, Random& random, const Scene& s) {
   Points ahead = s.x;
   for (int i = 0; i < s.x.cols(); ++i)
-    if (!s.held[i]) ahead.col(i) += vector(random, 0.2);
+    if (!s.held[i]) ahead.col(i) += random_vector(random, 0.2);
   const bool whole = std::string(call) == "pass.jacobi";
   Case c = about(call, s, whole ? "position" : "gradient", 3);
   c.in.push_back(s.h);
-  add(c.in, ahead), add(c.in, s.x);
+  put(c.in, ahead), put(c.in, s.x);
   const Points g = gradient(s, ahead, s.x);
-  add(c.expected, whole ? Points(s.x - g / s.slope()) : g);
+  put(c.expected, whole ? Points(s.x - g / s.slope()) : g);
   compared(c);
   return c;
 }
@@ -149,20 +141,20 @@ Scene met(Scene s) {
 Case of_steps(const char* call, Scene s, int steps, int passes, double rho) {
   const bool averaging = std::string(call) == "averaging.state";
   Case c = about(call, s, "motion", 6);
-  add(c.in, s.x), add(c.in, s.v);
+  put(c.in, s.x), put(c.in, s.v);
   c.in.push_back(s.h);
   if (!averaging) c.in.push_back(rho);
   c.in.insert(c.in.end(), {double(passes), double(steps)});
   for (int k = 0; k < steps; ++k) averaging ? averaging_step(s, passes) : step(s, passes, rho);
   for (int i = 0; i < s.x.cols(); ++i)
-    for (const Points* p : {&s.x, &s.v}) c.expected.insert(c.expected.end(), p->col(i).begin(), p->col(i).end());
+    for (const Points* p : {&s.x, &s.v}) put(c.expected, Vec3(p->col(i)));
   compared(c);
   return c;
 }
 
 Case of_averaging(const Scene& s) {
   Case c = about("averaging.pass", s, "position", 3);
-  add(c.in, s.x), add(c.expected, averaged(s, s.x));
+  put(c.in, s.x), put(c.expected, averaged(s, s.x));
   compared(c);
   return c;
 }
@@ -296,14 +288,14 @@ std::vector<Case> falling_errors(Random& random) {
     Scene s = tangle(random, 4, 0);
     for (auto& spring : s.springs) spring.rest = 0;
     Case c = about("step.errors", s, "distance", 1);
-    add(c.in, s.x), add(c.in, s.v);
+    put(c.in, s.x), put(c.in, s.v);
     c.in.insert(c.in.end(), {s.h, rho});
     const crosscheck::Model model = model_of(s, s.stiffness, true);
     crosscheck::System system(model);
     crosscheck::State exact{0, s.x, velocity_kept * s.v};
     crosscheck::Workspace work(exact);
     crosscheck::implicit_euler(system, exact, s.h, work);
-    add(c.in, exact.x);
+    put(c.in, exact.x);
     const Points first = s.x + s.h * velocity_kept * s.v - exact.x;
     const VectorXd error = first.rightCols(3).reshaped();
     const Eigen::SelfAdjointEigenSolver<MatrixXd> kinds(s.iteration());
@@ -335,7 +327,7 @@ std::vector<Case> course_net(Random& random) {
   Case c{"step.net", {21, 10, s.mass, s.stiffness, 9.8, s.h, rho, double(passes), steps}, {}, 3, 0, "step", "position"};
   for (int k = 0; k < steps; ++k) {
     step(s, passes, rho);
-    add(c.expected, s.x.col(s.x.cols() / 2));
+    put(c.expected, Vec3(s.x.col(s.x.cols() / 2)));
   }
   c.tolerance = 1e-7, c.plot_y = 1, c.row_size = s.h;
   return {c};

@@ -4,9 +4,7 @@
 #include <Eigen/Dense>
 #include <vector>
 
-#include "mysim/model/model.h"
-#include "tests/coursework/check/case.h"
-#include "tests/coursework/check/random.h"
+#include "tests/coursework/grader/vectors.h"
 
 namespace coursework::a6 {
 
