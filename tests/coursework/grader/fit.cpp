@@ -1,50 +1,33 @@
-// Least squares by successive orthogonalisation of the columns.
+// Least squares by Eigen.
 #include "tests/coursework/grader/fit.h"
 
-#include <algorithm>
+#include <Eigen/QR>
 #include <cmath>
 
 #include "tests/coursework/check/params.h"
 
 namespace coursework {
-namespace {
-
-double dot(const Numbers& a, const Numbers& b) {
-  double sum = 0;
-  for (std::size_t i = 0; i < a.size(); ++i) sum += a[i] * b[i];
-  return sum;
-}
-
-}  // namespace
 
 Numbers coefficients(const std::vector<Numbers>& columns, const Numbers& sum, double tolerance) {
-  const std::size_t n = columns.size();
-  std::vector<Numbers> q, r(n, Numbers(n, 0.0));
-  for (std::size_t k = 0; k < n; ++k) {
+  using Eigen::MatrixXd, Eigen::VectorXd;
+  const auto vector = [](const Numbers& all) {
+    return Eigen::Map<const VectorXd>(all.data(), static_cast<Eigen::Index>(all.size()));
+  };
+  MatrixXd unit(sum.size(), columns.size());
+  VectorXd size(columns.size());
+  for (std::size_t k = 0; k < columns.size(); ++k) {
     if (columns[k].size() != sum.size()) return {};
-    Numbers rest = columns[k];
-    for (int twice = 0; twice < 2; ++twice)
-      for (std::size_t j = 0; j < k; ++j) {
-        const double part = dot(q[j], rest);
-        r[j][k] += part;
-        for (std::size_t i = 0; i < rest.size(); ++i) rest[i] -= part * q[j][i];
-      }
-    const double size = std::sqrt(dot(rest, rest));
-    if (!(size > 1e-6 * std::sqrt(dot(columns[k], columns[k])))) return {};
-    for (double& value : rest) value /= size;
-    r[k][k] = size, q.push_back(rest);
+    const auto at = static_cast<Eigen::Index>(k);
+    size[at] = vector(columns[k]).norm();
+    if (!(size[at] > 0)) return {};
+    unit.col(at) = vector(columns[k]) / size[at];
   }
-  Numbers found(n), rest = sum;
-  for (std::size_t k = n; k-- > 0;) {
-    found[k] = dot(q[k], sum);
-    for (std::size_t j = k + 1; j < n; ++j) found[k] -= r[k][j] * found[j];
-    found[k] /= r[k][k];
-  }
-  for (std::size_t i = 0; i < rest.size(); ++i)
-    for (std::size_t k = 0; k < n; ++k) rest[i] -= found[k] * columns[k][i];
-  for (const double value : rest)
-    if (!(std::abs(value) <= tolerance)) return {};
-  return found;
+  Eigen::ColPivHouseholderQR<MatrixXd> qr(unit);
+  qr.setThreshold(1e-6);
+  const VectorXd found = qr.solve(vector(sum));
+  if (qr.rank() < unit.cols() || !((unit * found - vector(sum)).cwiseAbs().maxCoeff() <= tolerance)) return {};
+  const VectorXd scaled = found.cwiseQuotient(size);
+  return {scaled.begin(), scaled.end()};
 }
 
 std::string sum_text(const std::vector<NamedTerm>& terms, const Numbers& coefficients, double tolerance) {
