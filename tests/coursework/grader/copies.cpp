@@ -134,11 +134,10 @@ std::string plain_utf8(std::string text) {
   return is_utf8(text) ? text : converted(text, "GB18030").value_or(text);
 }
 
-double FullerCopy::weight_of(const std::string& folder, const std::string& apart_from) const {
-  double sum = 0;
-  for (const auto& [path, weight] : weights_)
-    if (path.starts_with(folder) && (apart_from.empty() || !path.starts_with(apart_from))) sum += weight;
-  return sum;
+std::ptrdiff_t FullerCopy::files_in(const std::string& folder, const std::string& apart_from) const {
+  return std::count_if(paths_.begin(), paths_.end(), [&](const std::string& path) {
+    return path.starts_with(folder) && (apart_from.empty() || !path.starts_with(apart_from));
+  });
 }
 
 bool FullerCopy::operator()(const std::string& a, const std::string& b) const {
@@ -152,8 +151,8 @@ bool FullerCopy::operator()(const std::string& a, const std::string& b) const {
   if (i < in_a.size()) root_a += in_a[i] + "/";
   if (i < in_b.size()) root_b += in_b[i] + "/";
   if (root_a != root_b) {
-    const double of_a = weight_of(root_a, root_b.starts_with(root_a) ? root_b : "");
-    const double of_b = weight_of(root_b, root_a.starts_with(root_b) ? root_a : "");
+    const auto of_a = files_in(root_a, root_b.starts_with(root_a) ? root_b : "");
+    const auto of_b = files_in(root_b, root_a.starts_with(root_b) ? root_a : "");
     if (of_a != of_b) return of_a > of_b;
   }
   if (in_a.size() != in_b.size()) return in_a.size() < in_b.size();

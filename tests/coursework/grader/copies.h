@@ -22,17 +22,17 @@ bool is_utf8(std::string_view text);
 /// (which includes GBK and GB2312): there the second byte of a character may be the backslash that continues a comment.
 std::string plain_utf8(std::string text);
 
-/// Order between two versions of a file: prefers the one in the fuller copy of the whole. `weight` is the weight of a
-/// path; a copy is everything in the folder at which the two paths diverge.
+/// Order between two versions of a file: prefers the one in the copy of the whole with more files. A copy is everything
+/// in the folder at which the two paths diverge.
 class FullerCopy {
  public:
-  explicit FullerCopy(std::map<std::string, double> weights) : weights_(std::move(weights)) {}
+  explicit FullerCopy(std::vector<std::string> paths) : paths_(std::move(paths)) {}
   /// Order: non-backups before backups, then the fuller copy, the shallower file, the alphabet.
   bool operator()(const std::string& a, const std::string& b) const;
 
  private:
-  double weight_of(const std::string& folder, const std::string& apart_from) const;
-  std::map<std::string, double> weights_;  // by path
+  std::ptrdiff_t files_in(const std::string& folder, const std::string& apart_from) const;
+  std::vector<std::string> paths_;
 };
 
 /// Contents of grade.toml.

@@ -70,30 +70,54 @@ bool FileMatcher::may_be_included(const std::string& path) const {
          path.rfind("__MACOSX/", 0) != 0 && !in_library(path);
 }
 
-namespace {
-
-/// Position and length of each name in the lines `#include "X"` and `#include <X>`.
-std::vector<std::pair<std::size_t, std::size_t>> include_names(const std::string& text) {
-  std::vector<std::pair<std::size_t, std::size_t>> found;
-  std::istringstream lines(text);
-  std::size_t line_start = 0;
-  for (std::string line; std::getline(lines, line); line_start += line.size() + 1) {
-    const std::size_t sign = line.find_first_not_of(" \t"), word = line.find_first_not_of("# \t", sign);
-    if (word == std::string::npos || line[sign] != '#' || line.compare(word, 7, "include") != 0) continue;
-    const std::size_t begin = line.find_first_of("\"<", word), end = line.find_first_of("\">", begin + 1);
-    if (begin != std::string::npos && end != std::string::npos)
-      found.emplace_back(line_start + begin + 1, end - begin - 1);
+std::string code_of(std::string text) {
+  for (std::size_t i = 0; i < text.size(); ++i) {
+    std::size_t end = i;
+    if (text.compare(i, 2, "//") == 0)
+      end = text.find('\n', i);
+    else if (text.compare(i, 2, "/*") == 0)
+      end = std::min(text.find("*/", i + 2), text.size() - 2) + 2;
+    else if (text[i] == '"' || (text[i] == '\'' && (i == 0 || !std::isalnum(static_cast<unsigned char>(text[i - 1])))))
+      for (end += 2; end < text.size() && text[end - 1] != text[i] && text[end - 1] != '\n'; ++end)
+        end += text[end - 1] == '\\';
+    end = std::min(end, text.size());
+    for (std::size_t k = i; k < end; ++k)
+      if (text[k] != '\n') text[k] = ' ';
+    if (end > i) i = end - 1;
   }
-  return found;
+  return text;
 }
+
+std::string with_includes(const std::string& text,
+                          const std::function<std::string(const std::string& name, bool in_brackets)>& lead) {
+  std::string out;
+  std::istringstream lines(text);
+  for (std::string line; std::getline(lines, line); out += line + "\n") {
+    std::size_t at = line.find_first_not_of(" \t");
+    if (at == std::string::npos || line[at] != '#') continue;
+    at = line.find_first_not_of(" \t", at + 1);
+    if (at == std::string::npos || line.compare(at, 7, "include") != 0) continue;
+    at = line.find_first_of("\"<", at + 7);
+    if (at == std::string::npos) continue;
+    const bool in_brackets = line[at] == '<';
+    const std::size_t end = line.find(in_brackets ? '>' : '"', at + 1);
+    if (end == std::string::npos) continue;
+    if (const std::string to = lead(line.substr(at + 1, end - at - 1), in_brackets); !to.empty())
+      line.replace(at, end + 1 - at, to);
+  }
+  return out;
+}
+
+namespace {
 
 /// The source in UTF-8, with '/' in the names of included files, in which Visual Studio accepts backslashes.
 std::string plain_source(std::string text) {
   text = plain_utf8(std::move(text));
-  for (const auto& [begin, length] : include_names(text))
-    for (std::size_t i = begin; i < begin + length; ++i)
-      if (text[i] == '\\') text[i] = '/';
-  return text;
+  if (text.find('\\') == std::string::npos) return text;
+  return with_includes(text, [](std::string name, bool in_brackets) -> std::string {
+    std::ranges::replace(name, '\\', '/');
+    return in_brackets ? "<" + name + ">" : "\"" + name + "\"";
+  });
 }
 
 }  // namespace
@@ -114,14 +138,18 @@ std::map<std::string, std::string> own_includes(const std::map<std::string, std:
     return (fs::path(folder) / name).lexically_normal().generic_string();
   };
   const auto folder_of = [](const std::string& file) { return fs::path(file).parent_path().generic_string(); };
+  const auto includes_of = [](const std::string& text) {
+    std::vector<std::string> names;
+    with_includes(text, [&](const std::string& name, bool) { return names.push_back(name), ""; });
+    return names;
+  };
   std::map<std::string, std::string> found;
   std::vector<std::pair<std::string, const std::string*>> open = {{path, &content}};  // paths and contents
   const auto add = [&](const std::string& place, const std::string& file) {
     if (place != path && found.emplace(place, file).second) open.emplace_back(place, &files.at(file));
   };
   for (std::size_t i = 0; i < open.size(); ++i)
-    for (const auto& [begin, length] : include_names(*open[i].second)) {
-      const std::string name = open[i].second->substr(begin, length);
+    for (const std::string& name : includes_of(*open[i].second)) {
       const std::string beside = normal(folder_of(open[i].first), name), here = normal(folder_of(path), name);
       if (name.empty() || fs::path(name).is_absolute()) continue;
       if (files.count(beside) || files.count(here)) {
@@ -147,19 +175,23 @@ std::optional<Remark> FileMatcher::too_large() const {
   return {};
 }
 
-void FileMatcher::choose(Submission& submission) const {
-  const auto file = found_.find(choice_file);
-  if (file == found_.end()) return;
+std::vector<std::string> FileMatcher::paths() const {
   std::vector<std::string> paths;
   for (const auto& [name, all] : found_)
     for (const Found& one : all)
       if (name != choice_file) paths.push_back(one.path);
+  return paths;
+}
+
+void FileMatcher::choose(Submission& submission) const {
+  const auto file = found_.find(choice_file);
+  if (file == found_.end()) return;
   const Found& found = file->second.front();
   try {
     if (!found.refused.empty() || found.content.size() > largest_choice)
       throw crosscheck::InputError(
           fmt::format("{}: expected a file of at most {} kB", choice_file, largest_choice >> 10));
-    submission.choice = read_choice(found.content, paths, roles_);
+    submission.choice = read_choice(found.content, paths(), roles_);
   } catch (const crosscheck::InputError& error) {
     submission.remarks.push_back({"choice.bad", {std::string(error.what()).substr(0, 400)}});
   }
@@ -176,11 +208,7 @@ void FileMatcher::into(Submission& submission) const {
       else
         submission.remarks.push_back({found.front().refused, {path}});
     }
-  std::map<std::string, double> weights;
-  for (const auto& [name, all] : found_)
-    for (const Found& one : all)
-      if (name != choice_file) weights[one.path] = 1;
-  const FullerCopy fuller(std::move(weights));
+  const FullerCopy fuller(paths());
   std::map<std::string, std::string> beside;
   for (const auto& [path, content] : beside_)
     if (choice.takes(path)) beside[path] = content;

@@ -96,6 +96,7 @@ class FileMatcher {
   };
   std::string match(const std::string& path) const;
   bool may_be_included(const std::string& path) const;
+  std::vector<std::string> paths() const;
   void choose(Submission& submission) const;
   std::vector<std::string> wanted_, roles_;
   std::map<std::string, std::vector<Found>> found_;  // by wanted name, in the order met
@@ -107,6 +108,14 @@ class FileMatcher {
 bool is_cpp(const std::string& path);
 /// True if the file is not a header.
 bool is_source(const std::string& path);
+
+/// The source with comments, strings and character literals replaced by blanks.
+std::string code_of(std::string source);
+
+/// The text with the name of each include, including its quotes or brackets, replaced by the result of `lead`; an empty
+/// result leaves it unchanged.
+std::string with_includes(const std::string& text,
+                          const std::function<std::string(const std::string& name, bool in_brackets)>& lead);
 
 std::string lower(std::string text);
 /// The path component after the last slash.

@@ -80,24 +80,6 @@ bool mends(const Subject& subject, const fs::path& program, const std::vector<Te
   return mends(subject, program, of_part, [](Case&) { return true; });
 }
 
-/// Replaces comments, strings and character literals by blanks.
-std::string code_of(std::string text) {
-  for (std::size_t i = 0; i < text.size(); ++i) {
-    std::size_t end = i;
-    if (text.compare(i, 2, "//") == 0)
-      end = text.find('\n', i);
-    else if (text.compare(i, 2, "/*") == 0)
-      end = std::min(text.find("*/", i + 2), text.size() - 2) + 2;
-    else if (text[i] == '"' || (text[i] == '\'' && (i == 0 || !std::isalnum(static_cast<unsigned char>(text[i - 1])))))
-      for (end += 2; end < text.size() && text[end - 1] != text[i]; ++end) end += text[end - 1] == '\\';
-    end = std::min(end, text.size());
-    for (std::size_t k = i; k < end; ++k)
-      if (text[k] != '\n') text[k] = ' ';
-    if (end > i) i = end - 1;
-  }
-  return text;
-}
-
 constexpr double degree = std::numbers::pi / 180;
 
 /// Trigonometric functions that multiply their angles by `factor`.
