@@ -9,7 +9,6 @@
 
 #include "tests/coursework/check/words.h"
 #include "tests/coursework/classic/oracles.h"
-#include "tests/coursework/classic/replay.h"
 #include "tests/coursework/classic/springs.h"
 #include "tests/coursework/grader/assignment.h"
 

@@ -5,7 +5,6 @@
 
 #include "calls.h"
 #include "tests/coursework/classic/oracles.h"
-#include "tests/coursework/classic/replay.h"
 #include "tests/coursework/classic/springs.h"
 
 namespace coursework {

@@ -12,6 +12,11 @@ namespace coursework::classic {
 
 using probe::Findings;
 
+/// Recomputes the findings of probe/forces.h from the answers of evalF that the student's process recorded; states and
+/// questions are drawn again, and none are taken from that process. `answers` is a record in the format of probe/ask.h,
+/// possibly forged; empty findings if it is malformed.
+Findings replay(const Case& what, const Numbers& answers);
+
 /// A number, or a share with its total.
 struct Feature {
   double got, of = 0;

@@ -19,7 +19,6 @@ struct Spring {
 
 struct Springs {
   int particles = 0;
-  bool repeats = false;
   probe::State places;                    // at the start
   std::vector<bool> fixed, still, moved;  // probe/findings.h
   std::vector<bool> anchors;  // fixed particles, or, if there are none, those attached to fixed points in space

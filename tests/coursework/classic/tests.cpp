@@ -1,15 +1,17 @@
-// The classic assignment: the tests of each part and the expected features.
+// The classic assignment: the tests of each part, the expected features, and the formula of a stepper, recovered from a
+// step of a linear system.
 #include <array>
 #include <cmath>
 #include <complex>
 
+#include "tests/coursework/check/words.h"
 #include "tests/coursework/classic/looks.h"
 #include "tests/coursework/classic/whole_program.h"
 #include "tests/coursework/grader/assignment.h"
+#include "tests/coursework/grader/fit.h"
 
 namespace coursework {
 namespace classic {
-Looked step_text(const Texts& common, const std::string& part, const Ask& student);           // step_fit.cpp
 std::string measured_text(const Texts& common, const std::string& part, const Ask& student);  // measured.cpp
 }  // namespace classic
 namespace {
@@ -101,7 +103,8 @@ std::vector<Case> circle(Random& random) {
 }
 
 /// (x, y, z) becomes (-y, x, 0) without any rounding; 1e-6 permits a multiplication by one.
-std::vector<Case> field(Random& random, bool same) {
+template <bool same>
+std::vector<Case> field(Random& random) {
   std::vector<Case> cases;
   for (int i = 0; i < 3; ++i) {
     Numbers in;
@@ -111,8 +114,6 @@ std::vector<Case> field(Random& random, bool same) {
   }
   return cases;
 }
-std::vector<Case> field_same(Random& random) { return field(random, true); }
-std::vector<Case> field_other(Random& random) { return field(random, false); }
 
 constexpr int pendulum = 2, chain = 4, side = 8;
 
@@ -164,8 +165,8 @@ const Test tests[] = {
     {"1.2", "euler", 2, 1, {"explicit Euler", "growth"}, "Forward Euler", circle<false>},
     {"2.1", "trapezoidal", 3, 2, {"trapezoidal rule"}, "The trapezoidal rule", step<true>},
     {"2.2", "trapezoidal", 2, 1, {"trapezoidal rule", "growth"}, "The trapezoidal rule", circle<true>},
-    {"3.1", "simple", 1, 1, {"ODE"}, "The simple system", field_same},
-    {"3.2", "simple", 1, 1, {"state"}, "The state that evalF is given", field_other},
+    {"3.1", "simple", 1, 1, {"ODE"}, "The simple system", field<true>},
+    {"3.2", "simple", 1, 1, {"state"}, "The state that evalF is given", field<false>},
     {"4.1", "pendulum", 3, 2, {"state"}, "The state that evalF is given", pendulum_purity, features},
     {"4.2",
      "pendulum",
@@ -194,8 +195,52 @@ const Test tests[] = {
     {"5.10", "cloth", 1, 1, {"constraint"}, "Hanging it up", cloth_pins, features},
 };
 
+/// Reports the terms of a stepper: in a whole program only the resulting state is visible, in single precision.
 Looked look(const Texts& common, const std::string& part, const Ask& student) {
-  return part == "euler" || part == "trapezoidal" ? classic::step_text(common, part, student) : Looked();
+  if (part != "euler" && part != "trapezoidal") return {};
+  Random random(31);
+  // three step sizes: terms differ in their order, and h^2 is no linear combination of h and 1
+  std::vector<Case> cases;
+  std::vector<Numbers> columns(5);
+  Own own{0, 0, 0.75, {}, Numbers(12)};
+  for (double& a : own.a) a = single(random.uniform(-1.5, 1.5));
+  for (const double h : {0.25, 0.5, 0.875}) {
+    own.h = h;
+    for (double& x : own.state) x = single(random.uniform(-1.5, 1.5));
+    const Numbers slope = own.f(own.state), bend = own.f(slope);
+    // the last two: a forgotten h, and a surplus one
+    const std::pair<double, const Numbers&> all[] = {
+        {1, own.state}, {h, slope}, {h * h, bend}, {1, slope}, {h * h, slope}};
+    for (std::size_t k = 0; k < 5; ++k)
+      for (const double value : all[k].second) columns[k].push_back(all[k].first * value);
+    cases.push_back({part + ".path", own.in(1), {}, 3});
+  }
+  cases.push_back(cases.front());
+  cases.back().call = part + ".calls";
+  std::vector<Answer> answers = student(cases);
+  const Answer calls = answers.back();
+  answers.pop_back();
+  Numbers result;
+  for (const Answer& answer : answers) {
+    if (answer.how != How::answered || answer.got.size() != 12) return {};
+    result.insert(result.end(), answer.got.begin(), answer.got.end());
+  }
+  const Numbers right{1, 1, part == "trapezoidal" ? 0.5 : 0, 0, 0}, asked{part == "trapezoidal" ? 2.0 : 1.0};
+  std::string often;
+  if (calls.how == How::answered && calls.got.size() == 1 && calls.got != asked)
+    often = common.fill("rule.calls", with_digits(asked[0], 3), with_digits(calls.got[0], 3));
+  const std::vector<NamedTerm> terms{{"x"}, {"h f(x)"}, {"h^2 f(f(x))"}, {"f(x)"}, {"h^2 f(x)"}};
+  // a step is about twenty roundings of 6e-8 of numbers below 10
+  constexpr double rounding = 3e-5, known = 1e-3;
+  Numbers found = coefficients(columns, result, rounding);
+  if (found.empty()) return {often, !often.empty()};
+  for (double& value : found)
+    if (std::abs(value) < known) value = 0;
+  bool same = true;
+  for (std::size_t k = 0; k < 5; ++k) same = same && std::abs(found[k] - right[k]) < known;
+  if (same) return {common.of("rule.right_linear"), false};
+  const std::string rule = common.fill("rule.linear", sum_text(terms, found, known), sum_text(terms, right, known));
+  return {often.empty() ? rule : rule + " " + often, true};
 }
 
 }  // namespace

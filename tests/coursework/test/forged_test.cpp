@@ -6,7 +6,7 @@
 #include <set>
 
 #include "tests/coursework/check/judge.h"
-#include "tests/coursework/classic/replay.h"
+#include "tests/coursework/classic/oracles.h"
 #include "tests/coursework/grader/mistakes.h"
 #include "tests/coursework/grader/run.h"
 #include "tests/coursework/test/helpers.h"

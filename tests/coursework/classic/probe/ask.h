@@ -15,28 +15,16 @@ class Ask : public Asker {
  public:
   Ask(T& system, coursework::Numbers& record) : system_(system), record_(record) {}
 
-  State start() override { return all_of(state_of(system_)); }
+  State start() override { return told(ours(state_of(system_)), {}); }
   void store(const State& state) override { probe::store(system_, theirs(state)); }
   Some stored(const Indices& which) override { return some_of(state_of(system_), which); }
-  State whole(const State& given) override { return all_of(evaluate(system_, theirs(given))); }
   void end(float drawn) override { record_.push_back(drawn); }
   Some some(const State& given, const Indices& which) override {
     return some_of(evaluate(system_, theirs(given)), which);
   }
 
-  /// Records the number of entries and the number of differing ones, then index and value of each differing entry.
   State changed(const State& given, const State& known) override {
-    const State f = ours(evaluate(system_, theirs(given)));
-    Indices differ;
-    // compares bit by bit, so that the values read from the record are exactly f
-    for (std::size_t i = 0; i < f.size(); ++i)
-      if (i >= known.size() || std::memcmp(f[i].at, known[i].at, sizeof f[i].at) != 0) differ.push_back(i);
-    record_.insert(record_.end(), {double(f.size()), double(differ.size())});
-    for (const std::size_t i : differ) {
-      record_.push_back(double(i));
-      record(f[i]);
-    }
-    return f;
+    return told(ours(evaluate(system_, theirs(given))), known);
   }
 
  private:
@@ -54,11 +42,19 @@ class Ask : public Asker {
   }
 
   void record(const Plain& v) { record_.insert(record_.end(), v.at, v.at + 3); }
-  State all_of(const Vec& vectors) {
-    const State all = ours(vectors);
-    record_.push_back(double(all.size()));
-    for (const Plain& v : all) record(v);
-    return all;
+  /// Records the number of entries and the number of differing ones, then each differing entry, after its index if any
+  /// entry is known.
+  State told(const State& f, const State& known) {
+    Indices differ;
+    // compares bit by bit, so that the values read from the record are exactly f
+    for (std::size_t i = 0; i < f.size(); ++i)
+      if (i >= known.size() || std::memcmp(f[i].at, known[i].at, sizeof f[i].at) != 0) differ.push_back(i);
+    record_.insert(record_.end(), {double(f.size()), double(differ.size())});
+    for (const std::size_t i : differ) {
+      if (!known.empty()) record_.push_back(double(i));
+      record(f[i]);
+    }
+    return f;
   }
   Some some_of(const Vec& vectors, const Indices& which) {
     Some some{vectors.size(), {}};

@@ -39,8 +39,7 @@ class Asker {
   virtual void store(const State& state) = 0;
   /// Entries of the stored state.
   virtual Some stored(const Indices& which) = 0;
-  /// Evaluates evalF: all entries; a few entries; or all entries, given a known result that differs in few of them.
-  virtual State whole(const State& given) = 0;
+  /// Evaluates evalF: a few entries; or all entries, given a known result that differs in few of them, or none.
   virtual Some some(const State& given, const Indices& which) = 0;
   virtual State changed(const State& given, const State& known) = 0;
   /// Ends the record. `drawn` is one more draw, unknown to answers that were recorded on another seed.

@@ -121,7 +121,7 @@ class Forces {
 
   bool repeats(const State& state) {
     const State f = derivative(state);
-    return alike(f, again(state, f));
+    return alike(f, derivative(state, f));
   }
 
   void springs(Findings& out) {
@@ -145,7 +145,7 @@ class Forces {
     const Indices chosen = draws_.sample(n_, n_ <= 144 ? n_ : std::max<std::size_t>(24, 20000 / n_));
     out.moved.resize(n_);
     for (const std::size_t b : chosen) out.moved[b] = true;
-    out.repeats = alike(f, again(state, f)) && pairs(state, f, chosen, out.pulls);
+    out.repeats = alike(f, derivative(state, f)) && pairs(state, f, chosen, out.pulls);
   }
 
   /// Returns false if evalF is not deterministic. Particles are moved in an unpredictable order, and as often none is
@@ -157,12 +157,12 @@ class Forces {
     std::vector<std::pair<std::size_t, std::size_t>> affected, joined;
     for (const std::size_t b : order) {
       if (b == n_) {
-        if (!alike(f, again(state, f))) return false;
+        if (!alike(f, derivative(state, f))) return false;
         continue;
       }
       const Plain place = state[x(b)];
       state[x(b)] = plus(place, 0.37f * spacing_, draws_.direction());
-      const State g = again(state, f);
+      const State g = derivative(state, f);
       for (std::size_t a = 0; a < n_; ++a)
         if (a != b && !same(entry(f, v(a)), entry(g, v(a)))) affected.emplace_back(b, a);
       state[x(b)] = place;
@@ -234,11 +234,7 @@ class Forces {
 
   // Stores the state first, so that an evalF that reads the stored state still shows its forces, and loses points only
   // in the test of this property.
-  State derivative(const State& state) {
-    asker_.store(state);
-    return asker_.whole(state);
-  }
-  State again(const State& state, const State& known) {
+  State derivative(const State& state, const State& known = {}) {
     asker_.store(state);
     return asker_.changed(state, known);
   }

@@ -12,14 +12,11 @@ template <class T>
 bool simple(const std::string& call, const coursework::Numbers& in, coursework::Numbers& out) {
   if (call != "field") return false;
   T& system = ready<T>(1, false);
-  const auto vector = [&](std::size_t i) {
-    return Vector3f(static_cast<float>(in[i]), static_cast<float>(in[i + 1]), static_cast<float>(in[i + 2]));
-  };
   const std::size_t size = state_of(system).size();
   // further entries, if there are any, hold other numbers
-  Vec given(size, vector(3)), stored(size, vector(0));
-  given[0] = vector(0);
-  stored[0] = vector(3);
+  Vec given(size, vector_at(in, 3)), stored(size, vector_at(in, 0));
+  given[0] = vector_at(in, 0);
+  stored[0] = vector_at(in, 3);
   store(system, stored);
   const Vec f = evaluate(system, given);
   if (f.empty()) throw coursework::Unusable("evalf_empty");

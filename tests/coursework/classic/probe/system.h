@@ -19,6 +19,10 @@ namespace probe {
 
 using Vec = std::vector<Vector3f>;
 
+inline Vector3f vector_at(const coursework::Numbers& in, std::size_t i) {
+  return Vector3f(static_cast<float>(in.at(i)), static_cast<float>(in.at(i + 1)), static_cast<float>(in.at(i + 2)));
+}
+
 /// Value for an argument of unknown meaning: counts get the count, lengths and masses 1, switches are off.
 struct Filler {
   int count;
@@ -97,13 +101,9 @@ T* make(int count, bool counted) {
   return nullptr;
 }
 
-/// The base class as a type that depends on T, so that missing members can be tested without a compile error.
-template <class T>
-struct BaseOf {
-  using type = ParticleSystem;
-};
-template <class T>
-typename BaseOf<T>::type& base_of(T& system) {
+/// The base class as a type that depends on the call, so that missing members can be tested without a compile error.
+template <class T, class Base = ParticleSystem>
+Base& base_of(T& system) {
   return system;
 }
 
