@@ -2,11 +2,11 @@
 #include "tests/coursework/classic/build_plan.h"
 
 #include <algorithm>
-#include <cctype>
 #include <set>
 #include <sstream>
 
 #include "mysim/base/files.h"
+#include "mysim/base/pattern.h"
 #include "tests/coursework/grader/build.h"
 
 namespace coursework::classic {
@@ -69,9 +69,8 @@ void BuildPlan::write_files() {
     const bool leads_out = name.starts_with("/") || name.find("..") != name.npos || name.find(':') != name.npos;
     return leads_out ? "\"" + last + "\"" : "";
   };
-  std::vector<ClassInfo> all;
   const auto list = [&](const std::vector<std::string>& tokens, const std::string& path, bool ours) {
-    for (ClassInfo& one : classes_in(tokens, path)) one.ours = ours, all.push_back(std::move(one));
+    for (ClassInfo& one : classes_in(tokens, path)) one.ours = ours, classes_.push_back(std::move(one));
   };
   for (const bool headers : {true, false})
     for (const auto& [path, content] : files_) {
@@ -91,13 +90,12 @@ void BuildPlan::write_files() {
     for (const std::string_view name : role.names)
       for (const auto& [path, words] : tokens_) {
         const auto at = std::find(words.begin(), words.end(), name);
-        if (at == words.end() || at == words.begin() || ClassList(all).named(name)) continue;
+        if (at == words.end() || at == words.begin() || named(classes_, name)) continue;
         static const std::set<std::string> makers = {"using", "(", ",", ">"};
         if (makers.count(at[-1]) ||
             std::find(at - std::min<std::ptrdiff_t>(8, at - words.begin()), at, "typedef") != at)
-          all.push_back({std::string(name), "", path, {}});
+          classes_.push_back({std::string(name), "", path, {}});
       }
-  classes_ = ClassList(std::move(all));
   crosscheck::write_file(tree_ / "in" / "names.h", "");
 }
 
@@ -128,7 +126,7 @@ void BuildPlan::plan_objects() {
   std::stable_partition(objects_.begin(), objects_.end(),
                         [](const BuildStep& step) { return !flat_name(step.file).starts_with("main."); });
   for (const auto& [owner, member] : {std::pair{"RK4", "takeStep"}, {"ParticleSystem", "ParticleSystem"}})
-    if (const ClassInfo* one = classes_.named(owner);
+    if (const ClassInfo* one = named(classes_, owner);
         one && std::none_of(tokens_.begin(), tokens_.end(),
                             [&](const auto& file) { return defines_member(file.second, owner, member); }))
       objects_.push_back(compile(ours_ / "base" / "given.cpp", std::string("given") + owner + ".o", "gnu++14",
@@ -137,7 +135,7 @@ void BuildPlan::plan_objects() {
 
 fs::path BuildPlan::file_on_disk(const ClassInfo& one) const { return tree_ / "in" / "his" / flat_name(one.file); }
 
-BuildStep BuildPlan::calls(const std::string& name, const ClassInfo& of, bool stepper, const ClassInfo* chain) const {
+BuildStep BuildPlan::calls(const ClassInfo& of, bool stepper, const ClassInfo* chain) const {
   std::vector<std::string> more = {defined("STUDENT_HEADER", file_on_disk(of)), "-DSTUDENT_CLASS=" + of.full(),
                                    "-DOWN_PROCESS", "-I" + ours_.string(), "-I" + (ours_ / ".." / "check").string()};
   if (stepper) more.push_back("-DSTEPPER");
@@ -147,12 +145,13 @@ BuildStep BuildPlan::calls(const std::string& name, const ClassInfo& of, bool st
                 {defined("STUDENT_CHAIN_HEADER", file_on_disk(*chain)), "-DSTUDENT_CHAIN=" + chain->full()});
   // a class defined in a file that has a main of its own
   if (!is_header(of.file)) more.push_back("-Dmain=main_of_the_student");
-  if (const ClassInfo* base = classes_.named("ParticleSystem")) {
+  if (const ClassInfo* base = named(classes_, "ParticleSystem")) {
     // a source that contains both has no include guard
     if (base->file != of.file) more.push_back(defined("PARTICLE_HEADER", file_on_disk(*base)));
     if (!base->scope.empty()) more.push_back("-DPARTICLE_SCOPE=" + base->scope);
   }
-  return compile(ours_ / "base" / "class_calls.cpp", name + ".o", "gnu++20", more);
+  const std::string object = chain ? "both.o" : "class" + std::to_string(&of - classes_.data()) + ".o";
+  return compile(ours_ / "base" / "class_calls.cpp", object, "gnu++20", more);
 }
 
 bool BuildPlan::concerns(const std::string& file, const ClassInfo& of) const {
@@ -160,23 +159,19 @@ bool BuildPlan::concerns(const std::string& file, const ClassInfo& of) const {
          defines_member(tokens_.at(file), of.name, "takeStep") || defines_member(tokens_.at(file), of.name, of.name);
 }
 
-std::vector<BuildStep> BuildPlan::archives() const {
-  // the linker extracts an object only if something needs it, so an object with a missing symbol affects only its users
-  BuildStep his{{"rcs", (tree_ / "out" / "libhis.a").string()}, tree_ / "out" / "libhis.a", "", true};
-  BuildStep base{{"rcs", (tree_ / "out" / "libbase.a").string()}, tree_ / "out" / "libbase.a", "", true};
-  for (const BuildStep& step : objects_)
-    if (fs::symlink_status(step.makes).type() == fs::file_type::regular)
-      (step.file.empty() ? base : his).words.push_back(step.makes.string());
-  return {his, base};
+BuildStep BuildPlan::archive() const {
+  // the linker extracts an object only if something needs it, so an object with a missing symbol affects only its
+  // users; of several definitions it takes the first, and ours come last
+  const fs::path all = tree_ / "out" / "liball.a";
+  BuildStep step{{"rcs", all.string()}, all, "", true};
+  for (const BuildStep& object : objects_)
+    if (fs::symlink_status(object.makes).type() == fs::file_type::regular) step.words.push_back(object.makes.string());
+  return step;
 }
 
 BuildStep BuildPlan::link(const BuildStep& calls, const fs::path& child) const {
   const fs::path out = fs::path(calls.makes).replace_extension();
-  return {{child.string(), calls.makes.string(), (tree_ / "out" / "libhis.a").string(),
-           (tree_ / "out" / "libbase.a").string(), "-o", out.string()},
-          out,
-          "",
-          false};
+  return {{child.string(), calls.makes.string(), (tree_ / "out" / "liball.a").string(), "-o", out.string()}, out};
 }
 
 bool BuildPlan::declare_drawing(const std::string& captured_output) const {
@@ -184,19 +179,18 @@ bool BuildPlan::declare_drawing(const std::string& captured_output) const {
   std::string text = content_of_file(names), line;
   if (text.empty()) text = "#pragma once\n#include <GL/glut.h>\n";
   bool added = false;
+  const crosscheck::Pattern missing(
+      ".*error: [^']*'((?:gl|glu|glut|glfw)[A-Z]\\w*|(?:GL|GLU|GLUT|GLFW)_[A-Z]\\w*)['( ].*");
   for (std::istringstream lines(captured_output); std::getline(lines, line);) {
     // "'glFoo' was not declared in this scope", "use of undeclared identifier 'GL_FOO'"
-    const std::size_t error = line.find("error: "), quote = line.find('\'', error);
-    if (error == line.npos || quote == line.npos || line.find("declared") == line.npos) continue;
-    std::string word = line.substr(quote + 1, line.find_first_of("'( ", quote + 1) - quote - 1);
-    for (const std::string prefix : {"gl", "glu", "glut", "glfw", "GL_", "GLU_", "GLUT_", "GLFW_"}) {
-      if (!word.starts_with(prefix) || !std::isupper(static_cast<unsigned char>(word[prefix.size()]))) continue;
-      const bool constant = prefix.back() == '_';
-      const std::string one =
-          constant ? "#define " + word + " " + std::to_string(text.size()) : "CLASSIC_NOTHING(" + word + ")";
-      if (text.find(constant ? "#define " + word + " " : one) != text.npos) continue;
-      text += one + "\n", added = true;
-    }
+    const auto found = line.find("declared") == line.npos ? std::nullopt : missing.match(line);
+    if (!found) continue;
+    const std::string& word = (*found)[1];
+    const bool constant = word[0] == 'G';
+    const std::string one =
+        constant ? "#define " + word + " " + std::to_string(text.size()) : "CLASSIC_NOTHING(" + word + ")";
+    if (text.find(constant ? "#define " + word + " " : one) != text.npos) continue;
+    text += one + "\n", added = true;
   }
   if (added) crosscheck::write_file(names, text), fs::permissions(names, fs::perms(0644));
   return added;

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "tests/coursework/classic/class_list.h"
+#include "tests/coursework/classic/source_scan.h"
 
 namespace coursework::classic {
 
@@ -14,7 +14,7 @@ namespace coursework::classic {
 struct BuildStep {
   std::vector<std::string> words;  // arguments after the program's name
   std::filesystem::path makes;
-  std::string file;  // the student's file that is compiled, under its original name; empty: our code around the headers
+  std::string file = {};  // the student's file that is compiled; empty: our code around the headers
   bool archive = false;
   std::filesystem::path source = {};  // the compiled file; empty for archiving or linking
 };
@@ -29,10 +29,10 @@ class BuildPlan {
   /// Steps for the student's sources and our replacements of missing ones. They may run in any order and in parallel. A
   /// failing step affects only its dependents.
   const std::vector<BuildStep>& objects() const { return objects_; }
-  /// Steps to run next: archives of the objects that were made.
-  std::vector<BuildStep> archives() const;
+  /// The step to run next: an archive of the objects that were made.
+  BuildStep archive() const;
   /// Our calls of a class, and of a second one for the chain, compiled against the student's headers.
-  BuildStep calls(const std::string& name, const ClassInfo& of, bool stepper, const ClassInfo* chain = nullptr) const;
+  BuildStep calls(const ClassInfo& of, bool stepper, const ClassInfo* chain = nullptr) const;
   /// The step to run next: links the program. `child` is the object of tests/coursework/check/child_main.cpp.
   BuildStep link(const BuildStep& calls, const std::filesystem::path& child) const;
   /// True if this file of the student's declares or defines the class.
@@ -51,7 +51,7 @@ class BuildPlan {
   Files files_;                                             // the student's
   std::map<std::string, std::vector<std::string>> tokens_;  // by path
   std::vector<BuildStep> objects_;
-  ClassList classes_{{}};
+  ClassList classes_;
 };
 
 }  // namespace coursework::classic

@@ -1,4 +1,4 @@
-// The tokeniser, the queries on its tokens, and the choice of a submission's files.
+// The queries on the tokens of sources, the roles of classes, and the choice of a submission's files.
 #include "tests/coursework/classic/source_scan.h"
 
 #include <algorithm>
@@ -14,47 +14,22 @@ namespace {
 bool starts_word(char c) { return std::isalpha(static_cast<unsigned char>(c)) || c == '_'; }
 bool in_word(char c) { return std::isalnum(static_cast<unsigned char>(c)) || c == '_'; }
 
-/// Position after the comment, string or preprocessor line that begins at `at`; `at` itself if none does.
-std::size_t skip(const std::string& text, std::size_t at, bool first_of_line) {
-  const auto past = [&](const char* end, std::size_t from) {
-    const std::size_t found = text.find(end, from);
-    return found == std::string::npos ? text.size() : found + std::string(end).size();
-  };
-  if (text.compare(at, 2, "//") == 0) return std::min(text.find('\n', at), text.size());
-  if (text.compare(at, 2, "/*") == 0) return past("*/", at + 2);
-  if (text[at] == '#' && first_of_line) {
-    while (at < text.size() && text[at] != '\n') at += text[at] == '\\' && at + 1 < text.size() ? 2 : 1;
-    return std::min(at, text.size());
-  }
-  if (text[at] != '"' && text[at] != '\'') return at;
-  const char quote = text[at];
-  for (++at; at < text.size() && text[at] != quote && text[at] != '\n'; ++at)
-    if (text[at] == '\\') ++at;
-  return std::min(at + 1, text.size());
-}
-
 }  // namespace
 
 std::vector<std::string> tokens_of(const std::string& text) {
   std::vector<std::string> tokens;
-  bool first = true;
-  for (std::size_t at = 0; at < text.size();) {
-    const char c = text[at];
-    if (std::isspace(static_cast<unsigned char>(c))) {
-      first = first || c == '\n';
-      ++at;
-      continue;
+  std::istringstream lines(code_of(text));
+  bool directive = false;
+  for (std::string line; std::getline(lines, line);) {
+    const std::size_t first = line.find_first_not_of(" \t"), last = line.find_last_not_of(" \t\r");
+    directive = directive || (first != line.npos && line[first] == '#');
+    for (std::size_t at = 0, end; at < line.size() && !directive; at = end) {
+      end = at + 1;
+      while (in_word(line[at]) && end < line.size() && in_word(line[end])) ++end;
+      const auto c = static_cast<unsigned char>(line[at]);
+      if (!std::isspace(c) && !std::isdigit(c)) tokens.push_back(line.substr(at, end - at));
     }
-    if (const std::size_t next = skip(text, at, first); next != at) {
-      at = next;
-      continue;
-    }
-    first = false;
-    std::size_t end = at + 1;
-    if (in_word(c))
-      while (end < text.size() && in_word(text[end])) ++end;
-    if (starts_word(c) || !in_word(c)) tokens.push_back(text.substr(at, end - at));
-    at = end;
+    directive = directive && last != line.npos && line[last] == '\\';  // continued
   }
   return tokens;
 }
@@ -63,32 +38,27 @@ std::vector<ClassInfo> classes_in(const std::vector<std::string>& tokens, const 
   static const std::set<std::string> no_bases = {"public", "protected", "private", "virtual", "typename"};
   const auto at = [&](std::size_t i) { return i < tokens.size() ? tokens[i] : std::string(" "); };
   std::vector<ClassInfo> found;
-  std::vector<std::pair<std::string, bool>> open;  // name of each open brace, and whether it is a scope
-  std::pair<std::string, bool> next;
+  std::vector<std::string> open;  // the scope that each open brace begins; empty: none
+  std::string next;
   for (std::size_t i = 0; i < tokens.size(); ++i) {
     if (tokens[i] == "{") {
-      open.push_back(std::exchange(next, {}));
+      open.push_back(std::exchange(next, ""));
     } else if (tokens[i] == "}") {
       if (!open.empty()) open.pop_back();
-    } else if (tokens[i] == "extern" && at(i + 1) == "{") {
-      next.second = true;
     } else if (tokens[i] == "namespace") {
-      std::string name;
-      for (; starts_word(at(i + 1)[0]) || at(i + 1) == ":"; ++i) name += at(i + 1);
-      if (at(i + 1) == "{") next = {name, true};
+      for (next.clear(); starts_word(at(i + 1)[0]) || at(i + 1) == ":"; ++i) next += at(i + 1);
+      if (at(i + 1) != "{") next.clear();
     } else if ((tokens[i] == "class" || tokens[i] == "struct") && starts_word(at(i + 1)[0])) {
       const std::string before = i > 0 ? tokens[i - 1] : "";
       std::size_t end = i + 2;
       if (at(end) == "final") ++end;
       if (before == "enum" || before == "friend" || (at(end) != ":" && at(end) != "{")) continue;
-      ClassInfo one{tokens[i + 1], "", file, {}, before != ">"};
-      next = {one.name, true};
+      ClassInfo one{tokens[i + 1], "", file, {}};
+      next = one.name;
       for (; end < tokens.size() && at(end) != "{" && at(end) != ";"; ++end)
         if (starts_word(at(end)[0]) && !no_bases.count(at(end))) one.bases.push_back(at(end));
-      for (const auto& [name, is_scope] : open) {
-        one.usable = one.usable && is_scope;
+      for (const std::string& name : open)
         if (!name.empty()) one.scope += (one.scope.empty() ? "" : "::") + name;
-      }
       found.push_back(std::move(one));
       i = end - 1;
     }
@@ -101,44 +71,93 @@ bool defines_member(const std::vector<std::string>& tokens, const std::string& o
   return std::search(tokens.begin(), tokens.end(), std::begin(words), std::end(words)) != tokens.end();
 }
 
-std::string with_includes(const std::string& text,
-                          const std::function<std::string(const std::string& name, bool in_brackets)>& lead) {
-  std::string out;
-  std::istringstream lines(text);
-  for (std::string line; std::getline(lines, line); out += line + "\n") {
-    std::size_t at = line.find_first_not_of(" \t");
-    if (at == std::string::npos || line[at] != '#') continue;
-    at = line.find_first_not_of(" \t", at + 1);
-    if (at == std::string::npos || line.compare(at, 7, "include") != 0) continue;
-    at = line.find_first_of("\"<", at + 7);
-    if (at == std::string::npos) continue;
-    const bool in_brackets = line[at] == '<';
-    const std::size_t end = line.find(in_brackets ? '>' : '"', at + 1);
-    if (end == std::string::npos) continue;
-    if (const std::string to = lead(line.substr(at + 1, end - at - 1), in_brackets); !to.empty())
-      line.replace(at, end + 1 - at, to);
-  }
-  return out;
+const std::vector<Role>& roles() {
+  static const std::vector<Role> all = {
+      {"euler", "euler", true, {"ForwardEuler", "Euler", "ExplicitEuler", "EulerStepper"}},
+      {"trapezoidal", "trapezoidal", true, {"Trapzoidal", "Trapezoidal", "Trapezoid", "TrapezoidalRule"}},
+      {"simple", "simple", false, {"SimpleSystem"}},
+      {"cloth", "cloth", false, {"ClothSystem", "Cloth"}},
+      {"pendulum", "pendulum", false, {"PendulumSystem", "Pendulum", "SimplePendulum"}},
+      {"chain", "pendulum", false, {"ChainSystem", "ParticleChain", "PendulumChain", "ChainPendulum"}},
+  };
+  return all;
+}
+
+std::span<const std::string_view> role_names() {
+  static const std::vector<std::string_view> names = [] {
+    std::vector<std::string_view> all;
+    for (const Role& role : roles()) all.push_back(role.name);
+    return all;
+  }();
+  return names;
+}
+
+const Role& role_of(std::string_view name) {
+  return *std::find_if(roles().begin(), roles().end(), [&](const Role& role) { return role.name == name; });
 }
 
 namespace {
 
-bool ends(const std::string& path, const std::set<std::string>& endings) {
-  const std::size_t dot = path.rfind('.');
-  return dot != std::string::npos && endings.count(lower(path.substr(dot + 1))) > 0;
+bool same_name(std::string_view a, std::string_view b) { return lower(std::string(a)) == lower(std::string(b)); }
+
+/// The role with this name; null if none.
+const Role* named_role(const std::string& name) {
+  for (const Role& role : roles())
+    for (const std::string_view known : role.names)
+      if (same_name(known, name)) return &role;
+  return nullptr;
 }
+
+}  // namespace
+
+bool is_kind(const ClassList& all, const ClassInfo& one, bool stepper) {
+  std::vector<std::string> open = one.bases;
+  std::set<std::string> seen;
+  while (!open.empty()) {
+    const std::string name = open.back();
+    open.pop_back();
+    if (same_name(name, stepper ? "TimeStepper" : "ParticleSystem")) return true;
+    if (!seen.insert(name).second) continue;
+    for (const ClassInfo& base : all)
+      if (base.name == name) open.insert(open.end(), base.bases.begin(), base.bases.end());
+  }
+  return false;
+}
+
+std::vector<Candidate> candidates(const ClassList& all, const Role& role,
+                                  const std::map<std::string, std::string>& wanted) {
+  const auto says = wanted.find(std::string(role.name));
+  std::vector<Candidate> named, others;
+  for (const ClassInfo& one : all) {
+    if (says != wanted.end() && (one.name == says->second || one.full() == says->second)) return {{&one, true, true}};
+    // a pendulum of more particles is a chain, and a chain of two is a pendulum
+    if (const Role* bears = named_role(one.name); bears == &role)
+      named.push_back({&one, true, true});
+    else if ((!bears || bears->part == role.part) && is_kind(all, one, role.stepper) && !same_name(one.name, "RK4"))
+      others.push_back({&one, false, bears != nullptr});
+  }
+  named.insert(named.end(), others.begin(), others.end());
+  return named;
+}
+
+const ClassInfo* named(const ClassList& all, std::string_view name) {
+  const auto found =
+      std::find_if(all.begin(), all.end(), [&](const ClassInfo& one) { return same_name(one.name, name); });
+  return found == all.end() ? nullptr : &*found;
+}
+
+namespace {
+
 std::string stem(const std::string& path) {
   const std::string name = flat_name(path);
   return name.substr(0, name.rfind('.'));
 }
 
+/// Rejects hidden files, and characters that a quoted name in an option or an include cannot contain.
 bool counts(const std::string& path) {
-  // rejects hidden files, and characters that a quoted name in an option or an include cannot contain
-  const bool plain = std::none_of(path.begin(), path.end(), [](char c) {
-    return static_cast<unsigned char>(c) < 32 || c == '"' || c == '\\' || c == '<' || c == '>';
-  });
-  return plain && (is_header(path) || is_source(path)) && path[0] != '.' && path.find("/.") == std::string::npos &&
-         !in_library(path);
+  return path[0] != '.' && path.find("/.") == path.npos && std::none_of(path.begin(), path.end(), [](char c) {
+           return static_cast<unsigned char>(c) < 32 || c == '"' || c == '\\' || c == '<' || c == '>';
+         });
 }
 
 /// Folder of the hand-out's `check`, with a trailing slash, if it was handed in along with the rest.
@@ -174,18 +193,19 @@ std::string apart_from(const std::string& path, const std::string& other) {
 
 }  // namespace
 
-bool is_header(const std::string& path) { return ends(path, {"h", "hpp", "hh", "hxx", "inl"}); }
-bool is_source(const std::string& path) { return ends(path, {"cpp", "cc", "cxx", "c++"}); }
+bool is_header(const std::string& path) { return is_cpp(path) && !is_source(path); }
 std::string flat_name(const std::string& path) { return lower(base_name(without_copy_marks(path))); }
 
 Selection choose_files(const Files& all, const std::string& preferred) {
   Selection chosen;
   const std::string check = folder_of_check(all);
   std::vector<std::string> paths;
+  std::map<std::string, std::set<std::string>> owners;  // by source: the classes that it defines
   bool own_vecmath = false;
   for (const auto& [path, content] : all) {
     if (!counts(path) || path.starts_with(check)) continue;
     paths.push_back(path);
+    if (is_source(path)) owners[path] = owners_in(content);
     // the header alone suffices if it computes lengths itself
     own_vecmath =
         own_vecmath || (stem(path) == "vector3f" && (is_source(path) || content.find("sqrt") != content.npos));
@@ -201,36 +221,26 @@ Selection choose_files(const Files& all, const std::string& preferred) {
   };
 
   const auto rank = [&](const std::string& path) {
-    return std::tuple(!path.starts_with(preferred), is_backup(path), std::count(path.begin(), path.end(), '/'));
+    const bool called_otherwise = std::none_of(owners[path].begin(), owners[path].end(),
+                                               [&](const std::string& owner) { return lower(owner) == stem(path); });
+    return std::tuple(!path.starts_with(preferred), is_backup(path), is_source(path) && called_otherwise,
+                      std::count(path.begin(), path.end(), '/'), path);
   };
-  std::sort(paths.begin(), paths.end(),
-            [&](const auto& a, const auto& b) { return std::tuple(rank(a), a) < std::tuple(rank(b), b); });
-  std::map<std::string, std::string> by_name;
+  std::sort(paths.begin(), paths.end(), [&](const auto& a, const auto& b) { return rank(a) < rank(b); });
+  std::map<std::string, std::string> by_name, defined;  // flat name, or class -> path
   for (const std::string& path : paths) {
     const std::string name = flat_name(path);
     constexpr std::size_t longest = 200;  // byte; file systems take 255
-    if (name.size() > longest)
+    if (name.size() > longest) {
       chosen.notes.push_back({"whole.name", {path.substr(0, 100) + "..."}});
-    else if (const auto [at, added] = by_name.emplace(name, path); added)
-      chosen.files[path] = all.at(path);
-    else
+      continue;
+    }
+    if (const auto [at, added] = by_name.emplace(name, path); !added) {
       leave_out("whole.twice", path, at->second);
-  }
-
-  // sources of different names that define the same classes: prefers the one named after its class
-  std::map<std::string, std::set<std::string>> owners;
-  std::erase_if(paths, [&](const std::string& path) { return !is_source(path) || !chosen.files.count(path); });
-  for (const std::string& path : paths) owners[path] = owners_in(all.at(path));
-  const auto called_otherwise = [&](const std::string& path) {
-    return std::none_of(owners[path].begin(), owners[path].end(),
-                        [&](const auto& x) { return lower(x) == stem(path); });
-  };
-  std::stable_sort(paths.begin(), paths.end(), [&](const auto& a, const auto& b) {
-    return std::tuple(!a.starts_with(preferred), called_otherwise(a)) <
-           std::tuple(!b.starts_with(preferred), called_otherwise(b));
-  });
-  std::map<std::string, std::string> defined;  // class -> path
-  for (const std::string& path : paths) {
+      continue;
+    }
+    chosen.files[path] = all.at(path);
+    // sources of different names that define the same classes
     std::string clash;
     bool needed = owners[path].empty();
     for (const std::string& owner : owners[path])

@@ -1,10 +1,11 @@
-// Reads C++ just enough to find the classes that a file declares and its includes. Uses a tokeniser instead of regular
-// expressions, because the text is untrusted.
+// Reads C++ just enough to find the classes that a file declares, and lists the classes that may take each role, in the
+// order in which they are tried. Uses a tokeniser instead of regular expressions, because the text is untrusted.
 #pragma once
 
-#include <functional>
 #include <map>
+#include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "tests/coursework/grader/submission.h"
@@ -21,7 +22,6 @@ struct ClassInfo {
   std::string name, scope;         // scope: namespaces and classes around it, as "a::b"; empty: none
   std::string file;                // path in the submission; flat name for a header of ours
   std::vector<std::string> bases;  // every name between ':' and '{', including template arguments
-  bool usable = true;              // neither a template nor local to a function
   bool ours = false;               // from a header that replaces one that the course provides
 
   std::string full() const { return scope.empty() ? name : scope + "::" + name; }
@@ -31,13 +31,36 @@ std::vector<ClassInfo> classes_in(const std::vector<std::string>& tokens, const 
 /// True if the tokens contain `owner::name`.
 bool defines_member(const std::vector<std::string>& tokens, const std::string& owner, const std::string& name);
 
-/// The text with the name of each include, including its quotes or brackets, replaced by the result of `lead`; an empty
-/// result leaves it unchanged.
-std::string with_includes(const std::string& text,
-                          const std::function<std::string(const std::string& name, bool in_brackets)>& lead);
+/// A role that a class can take in the tests of a part. The chain is tested with the pendulum.
+struct Role {
+  std::string_view name;                // in grade.toml
+  std::string_view part;                // part whose program calls the class
+  bool stepper;                         // true: a time stepper; false: a particle system
+  std::vector<std::string_view> names;  // known class names
+};
+const std::vector<Role>& roles();
+const Role& role_of(std::string_view name);
+std::span<const std::string_view> role_names();
+
+/// All classes of a program: from the student's headers, from the student's sources, and from our replacements of files
+/// that the course provides.
+using ClassList = std::vector<ClassInfo>;
+
+struct Candidate {
+  const ClassInfo* of;
+  bool named;   // it has the role's name, or the student's grade.toml names it: it takes the role even if it is wrong
+  bool likely;  // it is named, or has the name of the other role that is tested with this one
+};
+/// Candidates in the order of trial: the class that `wanted` (role -> class) names, alone; otherwise the classes with
+/// the role's name, and then all others of the kind that do not have the name of a role of another part.
+std::vector<Candidate> candidates(const ClassList& all, const Role& role,
+                                  const std::map<std::string, std::string>& wanted);
+/// The first class of this name; null if none.
+const ClassInfo* named(const ClassList& all, std::string_view name);
+/// True if the class derives from TimeStepper (`stepper`) or from ParticleSystem.
+bool is_kind(const ClassList& all, const ClassInfo& one, bool stepper);
 
 bool is_header(const std::string& path);
-bool is_source(const std::string& path);
 
 /// The unique name under which a file is stored, independent of folder, case and copy marks.
 std::string flat_name(const std::string& path);
@@ -47,9 +70,9 @@ struct Selection {
   std::vector<Remark> notes;        // on files that were left out
   std::vector<std::string> others;  // folders and files with other versions, to prefer in further tries
 };
-/// The C++ files of a submission that count: no drawing library, nothing of the hand-out's check, and vecmath only if
-/// its sources were handed in. Of several versions, chooses the one below `preferred`, then non-backups, then the
-/// shallowest.
+/// The files of read_submission() that count: nothing of the hand-out's check, and vecmath only if its sources were
+/// handed in. Of several versions, chooses the one below `preferred`, then non-backups, then sources named after their
+/// class, then the shallowest.
 Selection choose_files(const Files& all, const std::string& preferred = "");
 
 }  // namespace coursework::classic

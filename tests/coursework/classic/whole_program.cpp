@@ -21,6 +21,11 @@ namespace coursework::classic {
 namespace fs = std::filesystem;
 namespace {
 
+// in place of the output of a compiler that was stopped, or not started for lack of time; or that needed too much
+// memory
+constexpr std::string_view too_long = "the compiler did not come to an end in time";
+constexpr std::string_view too_much = "the compiler needed more memory than there is";
+
 bool there(const fs::path& file) { return fs::symlink_status(file).type() == fs::file_type::regular; }
 
 /// Copies our files that are compiled around a student's classes, in the layout of tests/coursework.
@@ -126,19 +131,6 @@ constexpr int most_versions = 4;                         // complete copies that
 /// Limits of a trial: the choice must not depend on the load of the machine.
 constexpr Limits trial_limits{.cpu = 10, .wall = 600};
 
-/// The first file and line of the student's in a compiler's error messages.
-std::string first_place(const std::string& said) {
-  constexpr std::size_t most = 600;  // types of the standard library are long
-  const std::string folder = std::string(student_folder) + "/";
-  std::istringstream lines(said);
-  for (std::string line; std::getline(lines, line);)
-    if (const std::size_t at = line.find(folder); at != line.npos && line.find("error: ") != line.npos)
-      return line.substr(at + folder.size(), most);
-  const std::size_t error = said.find("error: ");
-  const std::string from = said.substr(error == std::string::npos ? 0 : error + 7);
-  return from.substr(0, from.find('\n')).substr(0, most);
-}
-
 /// Reason why there is no program around a class. `file`: the student's file that does not compile; empty if the
 /// failure is in our calls of the class.
 Remark remark_on(const ClassInfo& of, const std::string& file, const std::string& said) {
@@ -148,7 +140,9 @@ Remark remark_on(const ClassInfo& of, const std::string& file, const std::string
   if (!file.empty()) return first_error(name, said);
   const Remark error = first_error(name, said);
   if (error.key == "build.twice") return error;
-  if (error.key != "build.undefined") return {"whole.interface", {of.full(), name, first_place(said)}};
+  if (error.key == "build.compile")
+    return {"whole.interface", {of.full(), name, fmt::format("{}", fmt::join(error.with, ":"))}};
+  if (error.key != "build.undefined") return {"whole.interface", {of.full(), name, error.with.back()}};
   const std::string table = "vtable for ", &missing = error.with.at(1);
   return missing.starts_with(table) ? Remark{"whole.no_functions", {missing.substr(table.size())}}
                                     : Remark{"whole.undefined", {missing}};
@@ -167,46 +161,43 @@ class Choice {
       : plan_(plan), run_(run), tools_(tools), child_(child), trial_(trial), wanted_(wanted) {}
 
   void decide(const std::vector<std::string>& parts) {
-    std::map<std::string_view, std::vector<ClassList::Candidate>> open;
-    std::map<int, bool> first;
+    std::map<std::string_view, std::vector<Candidate>> open;
+    std::map<const ClassInfo*, bool> first;
     for (const Role& role : roles()) {
       if (!parts.empty() && std::find(parts.begin(), parts.end(), role.part) == parts.end()) continue;
-      auto& all = open[role.name] = plan_.classes().candidates(role, wanted_);
+      auto& all = open[role.name] = candidates(plan_.classes(), role, wanted_);
       all.resize(std::min(all.size(), most_tried));
       if (!all.empty()) first.emplace(all.front().of, role.stepper);
     }
     build(first);
-    // the only candidate, or the first that earns all points
-    for (const Role& role : roles())
-      for (const auto& all = open[role.name]; const ClassList::Candidate& one : all)
-        if (!chosen.count(role.name) && !taken(one.of, role) &&
-            ((all.size() == 1 && one.likely) || earned(one.of, role, true)))
-          chosen[role.name] = one.of;
-    // otherwise the first of its name that can be built, the one that earns most, or the first, for its error message
-    for (const int wish : {0, 1, 2})
-      for (const Role& role : roles())
-        if (std::pair<int, int> best{0, -1}; !chosen.count(role.name)) {
-          for (const ClassList::Candidate& one : open[role.name]) {
-            const int here = taken(one.of, role) ? 0
-                             : wish == 0         ? one.named && !made(one.of, role.stepper).program.empty()
-                             : wish == 1         ? earned(one.of, role)
-                                                 : one.likely;
-            if (here > best.first) best = {here, one.of};
-          }
-          if (best.first > 0) chosen[role.name] = best.second;
+    // the only candidate, or the first that earns all points; otherwise the first of its name that can be built, the
+    // one that earns most, or the first, for its error message
+    for (const int wish : {0, 1, 2, 3})
+      for (const Role& role : roles()) {
+        const std::vector<Candidate>& all = open[role.name];
+        std::pair<int, const ClassInfo*> best;
+        for (const Candidate& one : all) {
+          if (chosen.count(role.name) || taken(one.of, role) || (wish == 0 && best.second)) continue;
+          const int here = wish == 0   ? (all.size() == 1 && one.likely) || earned(one.of, role, true)
+                           : wish == 1 ? one.named && !made(one.of, role.stepper).program.empty()
+                           : wish == 2 ? earned(one.of, role)
+                                       : one.likely;
+          if (here > best.first) best = {here, one.of};
         }
+        if (best.second) chosen[role.name] = best.second;
+      }
     for (const auto& [role, all] : open)
-      for (const ClassList::Candidate& one : all)
+      for (const Candidate& one : all)
         if (!chosen.count(role) && made_.count(one.of)) failed.insert(one.of);
   }
 
-  const Made& made(int of, bool stepper) {
+  const Made& made(const ClassInfo* of, bool stepper) {
     if (!made_.count(of)) run_.allow(30), build({{of, stepper}});
     return made_.at(of);
   }
 
   /// Points earned in a role; with `all`, whether these are all points.
-  int earned(int of, const Role& role, bool all = false) {
+  int earned(const ClassInfo* of, const Role& role, bool all = false) {
     const auto [at, added] = earned_.try_emplace({of, role.name});
     if (added && trial_) {
       tried = true;
@@ -223,15 +214,20 @@ class Choice {
     return one;
   }
 
-  std::map<std::string_view, int> chosen;  // role -> class; no entry: no class
-  std::set<int> failed;                    // candidates that failed, for roles without a class
+  /// The class in a role; null: none.
+  const ClassInfo* in(std::string_view role) const {
+    const auto at = chosen.find(role);
+    return at == chosen.end() ? nullptr : at->second;
+  }
+
+  std::map<std::string_view, const ClassInfo*> chosen;  // role -> class; no entry: no class
+  std::set<const ClassInfo*> failed;                    // candidates that failed, for roles without a class
   bool tried = false;
 
  private:
-  void build(const std::map<int, bool>& classes) {
-    std::vector<std::pair<int, BuildStep>> steps;
-    for (const auto& [of, stepper] : classes)
-      steps.emplace_back(of, plan_.calls("class" + std::to_string(of), plan_.classes().at(of), stepper));
+  void build(const std::map<const ClassInfo*, bool>& classes) {
+    std::vector<std::pair<const ClassInfo*, BuildStep>> steps;
+    for (const auto& [of, stepper] : classes) steps.emplace_back(of, plan_.calls(*of, stepper));
     std::vector<Made> all(steps.size());
     parallel_for(steps.size(), tools_.jobs, [&](std::size_t i) { all[i] = built(steps[i].second); });
     for (std::size_t i = 0; i < steps.size(); ++i) {
@@ -241,7 +237,7 @@ class Choice {
   }
 
   /// True if another part uses the class.
-  bool taken(int of, const Role& role) const {
+  bool taken(const ClassInfo* of, const Role& role) const {
     return std::any_of(chosen.begin(), chosen.end(),
                        [&](const auto& one) { return one.second == of && role_of(one.first).part != role.part; });
   }
@@ -252,36 +248,31 @@ class Choice {
   const fs::path& child_;
   const Trial& trial_;
   const std::map<std::string, std::string>& wanted_;
-  std::map<int, Made> made_;
-  std::map<std::pair<int, std::string_view>, Earned> earned_;
+  std::map<const ClassInfo*, Made> made_;
+  std::map<std::pair<const ClassInfo*, std::string_view>, Earned> earned_;
 };
 
 /// Remarks on the chosen and the rejected classes and files, if there was a choice.
-std::vector<Remark> choice_told(const BuildPlan& plan, const Choice& choice,
+std::vector<Remark> choice_told(const ClassList& classes, const Choice& choice,
                                 const std::map<std::string, std::string>& wanted) {
-  const ClassList& classes = plan.classes();
-  std::string graded, others;
-  std::set<int> taken;
+  std::vector<std::string> graded, others;
+  std::set<const ClassInfo*> taken;
   for (const Role& role : roles())
-    if (const auto of = choice.chosen.find(role.name); of != choice.chosen.end()) {
-      const ClassInfo& one = classes.at(of->second);
-      taken.insert(of->second);
-      graded += (graded.empty() ? "" : ", ") + std::string(role.name) + " = " + one.full();
-      if (!one.ours) graded += " (" + one.file + ")";
+    if (const ClassInfo* one = choice.in(role.name)) {
+      taken.insert(one);
+      graded.push_back(fmt::format("{} = {}{}", role.name, one->full(), one->ours ? "" : " (" + one->file + ")"));
     }
-  for (int i = 0; i < classes.size(); ++i)
-    if (const ClassInfo& one = classes.at(i); choice.tried && !taken.count(i) && one.usable && !one.ours &&
-                                              one.name != "RK4" &&
-                                              (classes.is_kind(i, true) || classes.is_kind(i, false)))
-      others += (others.empty() ? "" : ", ") + one.full();
+  for (const ClassInfo& one : classes)
+    if (choice.tried && !taken.count(&one) && !one.ours && one.name != "RK4" &&
+        (is_kind(classes, one, true) || is_kind(classes, one, false)))
+      others.push_back(one.full());
   std::vector<Remark> notes;
   if (choice.tried || !wanted.empty())
-    notes.push_back({others.empty() ? "whole.graded" : "whole.graded_of", {graded, others}});
-  for (const auto& [role, name] : wanted) {
-    const auto of = choice.chosen.find(role);
-    if (of == choice.chosen.end() || (classes.at(of->second).name != name && classes.at(of->second).full() != name))
+    notes.push_back({others.empty() ? "whole.graded" : "whole.graded_of",
+                     {fmt::format("{}", fmt::join(graded, ", ")), fmt::format("{}", fmt::join(others, ", "))}});
+  for (const auto& [role, name] : wanted)
+    if (const ClassInfo* one = choice.in(role); !one || (one->name != name && one->full() != name))
       notes.push_back({"choice.class", {role, name}});
-  }
   return notes;
 }
 
@@ -307,47 +298,43 @@ Programs build_programs(const Files& files, const fs::path& tree, const fs::path
     all_said.clear();
     for (const std::string& one : said) all_said += one;
   }
-  for (const BuildStep& archive : plan.archives()) run(archive);
+  run(plan.archive());
 
   Choice choice(plan, run, tools, child, trial, wanted);
   choice.decide(parts);
   Programs made;
-  made.notes = choice_told(plan, choice, wanted);
-  const auto why = [&](int of, const std::string& captured) {
-    const ClassInfo& one = plan.classes().at(of);
+  made.notes = choice_told(plan.classes(), choice, wanted);
+  const auto why = [&](const ClassInfo& one, const std::string& captured) {
     // a file of the student's that does not compile explains more than errors that follow from it
     for (std::size_t k = 0; k < said.size(); ++k)
       if (const std::string& file = objects[k].file; !said[k].empty() && !file.empty() && plan.concerns(file, one))
         return remark_on(one, file, said[k]);
     return remark_on(one, "", captured);
   };
-  for (const int of : choice.failed)
-    if (const Choice::Made& one = choice.made(of, plan.classes().is_kind(of, true)); one.program.empty())
-      made.notes.push_back(why(of, one.said));
-  if (const ClassInfo* base = plan.classes().named("ParticleSystem"); base && !base->ours) made.base_file = base->file;
+  for (const ClassInfo* of : choice.failed)
+    if (const Choice::Made& one = choice.made(of, is_kind(plan.classes(), *of, true)); one.program.empty())
+      made.notes.push_back(why(*of, one.said));
+  if (const ClassInfo* base = named(plan.classes(), "ParticleSystem"); base && !base->ours) made.base_file = base->file;
   for (const Role& role : roles()) {
     if (!parts.empty() && std::find(parts.begin(), parts.end(), role.part) == parts.end()) continue;
-    const auto of = choice.chosen.find(role.name);
-    if (rate && of != choice.chosen.end()) made.points += choice.earned(of->second, role);
+    const ClassInfo* of = choice.in(role.name);
+    if (rate && of) made.points += choice.earned(of, role);
     if (role.name != role.part) continue;  // the chain, which the pendulum's program calls
-    Program& program = made.of[std::string(role.part)];
-    program.missing = of == choice.chosen.end();
-    if (program.missing) {
-      program.why = {"whole.missing", {std::string(role.names.front())}};
+    Built& built = made.of[std::string(role.part)];
+    if (!of) {
+      built = {{}, {"whole.missing", {std::string(role.names.front())}}, true};
       continue;
     }
-    Choice::Made one = choice.made(of->second, role.stepper);
-    if (const auto chain = choice.chosen.find("chain");
-        role.name == "pendulum" && chain != choice.chosen.end() && chain->second != of->second) {
-      const ClassInfo& other = plan.classes().at(chain->second);
-      const Choice::Made both = choice.built(plan.calls("both", plan.classes().at(of->second), false, &other));
+    Choice::Made one = choice.made(of, role.stepper);
+    if (const ClassInfo* chain = choice.in("chain"); role.name == "pendulum" && chain && chain != of) {
+      const Choice::Made both = choice.built(plan.calls(*of, false, chain));
       if (both.program.empty())
-        made.notes.push_back(why(chain->second, both.said));
+        made.notes.push_back(why(*chain, both.said));
       else
         one = both;
     }
-    program.file = one.program;
-    if (program.file.empty()) program.why = why(of->second, one.said);
+    built.program = one.program;
+    if (one.program.empty()) built.error = why(*of, one.said);
   }
   return made;
 }
@@ -381,27 +368,23 @@ class WholeBuilder : public Builder {
     return compiler_.cached(key_of(key), "", [&](const fs::path& made) {
       const auto programs =
           build_programs(files, made.parent_path() / "tree", coursework_, trusted_, tools(&compiler_, 1), {part});
-      const Program& program = programs.of.at(part);
-      if (program.file.empty())
+      const Built& built = programs.of.at(part);
+      if (built.program.empty())
         throw std::runtime_error(
-            fmt::format("classic, {}: {} {}", part, program.why.key, fmt::join(program.why.with, " ")));
-      fs::copy_file(program.file, made);
+            fmt::format("classic, {}: {} {}", part, built.error.key, fmt::join(built.error.with, " ")));
+      fs::copy_file(built.program, made);
     });
   }
 
   std::map<std::string, Built> theirs(const Submission& submission, const fs::path& folder,
                                       unsigned jobs) const override {
-    std::map<std::string, Built> all;
     Files files;
     Programs programs = best_version(submission, folder, jobs, files);
     mend_base(submission, std::move(files), programs, folder, jobs);
-    for (const auto& [part, program] : programs.of)
-      all[part] = program.file.empty() ? Built{{}, program.why, program.missing} : Built{program.file};
     // one part reports it for all; a longer list would not be read
-    std::vector<Remark>& notes = all.begin()->second.notes;
-    notes = programs.notes;
-    if (notes.size() > most_notes) notes.resize(most_notes);
-    return all;
+    programs.notes.resize(std::min(programs.notes.size(), most_notes));
+    programs.of.begin()->second.notes = std::move(programs.notes);
+    return std::move(programs.of);
   }
 
   Built checked(const Submission& submission, const std::string& part, const fs::path& folder) const override {
@@ -463,37 +446,28 @@ class WholeBuilder : public Builder {
     return earned;
   }
 
-  /// Tests whether the steppers work with the student's own base class, from which our system derives.
-  bool base_holds(const Programs& programs, const std::vector<std::string>& steppers) const {
-    for (const std::string& part : steppers) {
-      const auto at = programs.of.find(part);
-      if (at == programs.of.end() || at->second.missing) continue;
-      if (at->second.file.empty() && at->second.why.key != "whole.interface") continue;
-      if (at->second.file.empty()) return false;
-      const Answer answer = run_calls(sandbox_, at->second.file, {{"base", {}, {1}}}).front();
-      if (answer.how != How::answered || answer.got != Numbers{1}) return false;
-    }
-    return true;
-  }
-
   /// A base class that cannot be used alone, or that loses the state, is not the steppers' fault: replaces it by the
   /// starter's, if the steppers compile with it.
   void mend_base(const Submission& submission, Files files, Programs& programs, const fs::path& folder,
                  unsigned jobs) const {
     const std::vector<std::string> steppers = {"euler", "trapezoidal"};
-    if (programs.base_file.empty() || base_holds(programs, steppers)) return;
-    std::erase_if(files, [](const auto& file) {
-      const std::vector<std::string> words = tokens_of(file.second);
-      const std::vector<ClassInfo> classes = classes_in(words, file.first);
-      return (is_source(file.first) && defines_member(words, "ParticleSystem", "ParticleSystem")) ||
-             std::any_of(classes.begin(), classes.end(), [](const auto& one) { return one.name == "ParticleSystem"; });
+    const bool holds = std::all_of(programs.of.begin(), programs.of.end(), [&](const auto& one) {
+      const auto& [part, built] = one;
+      if (!role_of(part).stepper) return true;
+      if (built.program.empty()) return built.error.key != "whole.interface";
+      const Answer answer = run_calls(sandbox_, built.program, {{"base", {}, {1}}}).front();
+      return answer.how == How::answered && answer.got == Numbers{1};
     });
-    const Programs mended = build_programs(files, folder / "tree-base", coursework_, sandbox_, tools(nullptr, jobs),
-                                           steppers, nullptr, submission.choice.classes);
-    bool all = true;
-    for (const std::string& part : steppers) all = all && !mended.of.at(part).file.empty();
-    if (all)
-      for (const std::string& part : steppers) programs.of[part] = mended.of.at(part);
+    if (programs.base_file.empty() || holds) return;
+    std::erase_if(files, [&](const auto& file) {
+      return file.first == programs.base_file ||
+             (is_source(file.first) && defines_member(tokens_of(file.second), "ParticleSystem", "ParticleSystem"));
+    });
+    Programs mended = build_programs(files, folder / "tree-base", coursework_, sandbox_, tools(nullptr, jobs), steppers,
+                                     nullptr, submission.choice.classes);
+    const bool all =
+        std::all_of(mended.of.begin(), mended.of.end(), [](const auto& one) { return !one.second.program.empty(); });
+    if (all) mended.of.merge(programs.of), programs.of.swap(mended.of);
     programs.notes.insert(programs.notes.begin(), {all ? "whole.base" : "whole.base_kept", {programs.base_file}});
   }
 

@@ -15,24 +15,12 @@
 
 namespace coursework::classic {
 
-struct Program {
-  std::filesystem::path file;  // empty: not built
-  bool missing = false;        // no class takes the part's role
-  Remark why = {};             // reason, if there is no file
-};
-
 struct Programs {
-  std::map<std::string, Program> of;  // by part
-  std::vector<Remark> notes;          // on the choice of classes and files
-  std::string base_file;              // the student's file with the base class of all systems; empty: ours
-  int points = 0;                     // earned in the public tests; set if `rate` is
+  std::map<std::string, Built> of;  // by part; `missing`: no class takes the part's role
+  std::vector<Remark> notes;        // on the choice of classes and files
+  std::string base_file;            // the student's file with the base class of all systems; empty: ours
+  int points = 0;                   // earned in the public tests; set if `rate` is
 };
-
-/// Replaces the compiler's output if the compiler was stopped, or was not started for lack of time.
-constexpr std::string_view too_long = "the compiler did not come to an end in time";
-
-/// Likewise if it exceeded its memory or wrote too large a file.
-constexpr std::string_view too_much = "the compiler needed more memory than there is";
 
 struct Toolchain {
   std::vector<std::string> compiler;  // g++ and the options of every call; absolute path

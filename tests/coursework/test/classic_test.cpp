@@ -101,8 +101,8 @@ std::string said_of(const classic::Files& files, const std::string& part) {
       });
   std::string text;
   for (const Remark& note : programs.notes) text += said(common_texts(), note) + "\n";
-  const classic::Program& program = programs.of.at(part);
-  return text + (program.file.empty() ? said(common_texts(), program.why) : "built");
+  const Built& built = programs.of.at(part);
+  return text + (built.program.empty() ? said(common_texts(), built.error) : "built");
 }
 
 classic::Files base_and(const std::string& name, const std::string& text) {
