@@ -30,7 +30,8 @@ void calling(const char* function);
 /// Calls the student's code. Returns false if no part knows the call. Lets exceptions of the student's code through.
 using Calls = bool(const std::string& call, const Numbers& in, Numbers& out);
 
-/// Each assignment defines this in calls.cpp, which tries its parts in turn: `Calls answer_P` of part P is in calls_P.cpp.
+/// Each assignment defines this in calls.cpp, which tries its parts in turn: `Calls answer_P` of part P is in
+/// calls_P.cpp.
 Calls answer;
 
 /// Only for the hand-out's `check`: the numbers of an answer to compare with the case's `expected`. All of them
