@@ -42,6 +42,7 @@ class BareSandbox final : public Sandbox {
     start.filter = job.limits.processes > 0 ? std::string() : none_;
     start.input = job.input;
     start.limits = job.limits;
+    start.passed = job.passed;
     start.processes = -1;
     End end = classify(spawn(start), job.limits, false);
     staging.give_back();
@@ -117,7 +118,8 @@ std::vector<std::string> arguments(const Job& job, const StagingFolder& staging)
   add({"--setenv", "PATH", "/usr/bin:/bin", "--setenv", "LANG", "C", "--setenv", "HOME", "/tmp", "--setenv", "TMPDIR",
        "/tmp"});
   add({"--chdir", job.writable.empty() ? "/tmp" : job.writable.string()});
-  add({"--seccomp", "4", "--json-status-fd", "5", "--"});
+  const std::size_t first = 4 + job.passed.size();
+  add({"--seccomp", std::to_string(first), "--json-status-fd", std::to_string(first + 1), "--"});
   // within the namespace, which counts only its own processes; the first option is bash's, the second dash's
   if (job.limits.processes == 0 && geteuid() != 0 && counts_by_namespace())
     add({"/bin/sh", "-c", R"({ ulimit -u "$0" || ulimit -p "$0"; } 2>/dev/null; exec "$@")",
@@ -145,7 +147,8 @@ class BwrapSandbox final : public Sandbox {
     start.folder = "/";
     start.user = user ? user->id() : 0;
     start.lock = user ? user->lock() : -1;
-    start.passed = {filter.get(), status.get()};
+    start.passed = job.passed;
+    start.passed.insert(start.passed.end(), {filter.get(), status.get()});
     start.input = job.input;
     start.limits = job.limits;
     // bwrap itself, its first process inside, and the program. Without a separate user, all processes of the calling
@@ -195,6 +198,7 @@ class UidSandbox final : public Sandbox {
     start.filter = filter_program({job.limits.processes > 0, !job.writable.empty()});
     start.input = job.input;
     start.limits = job.limits;
+    start.passed = job.passed;
     start.processes = tasks(job.limits);
     End end = classify(spawn(start), job.limits, false);
     staging.give_back();

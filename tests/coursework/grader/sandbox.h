@@ -32,6 +32,7 @@ struct Job {
                                                      // Afterwards it holds plain files and folders of ours only
   std::string input = {};                            // its standard input
   Limits limits = {};
+  std::vector<int> passed = {};  // descriptors that it gets as 4, 5, ...
 };
 
 /// Outcome, decided in this order: stopped by us (wall, idle, output, answers); CPU time exceeded (cpu); memory: it

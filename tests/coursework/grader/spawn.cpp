@@ -209,43 +209,25 @@ End classify(ProcessResult ended, const Limits& limits, bool shell) {
   return end;
 }
 
+void Descriptor::reset() {
+  if (fd_ >= 0) close(fd_);
+  fd_ = -1;
+}
+
+Pipe::Pipe() {
+  constexpr int above = 32;
+  int ends[2];
+  if (pipe2(ends, O_CLOEXEC) != 0) throw std::runtime_error(fmt::format("no pipe: {}", std::strerror(errno)));
+  from = Descriptor(fcntl(ends[0], F_DUPFD_CLOEXEC, above));
+  to = Descriptor(fcntl(ends[1], F_DUPFD_CLOEXEC, above));
+  close(ends[0]);
+  close(ends[1]);
+  if (from.get() < 0 || to.get() < 0) throw std::runtime_error("no pipe: too many open files");
+}
+
 namespace {
 
 constexpr std::size_t most_captured = 64 << 10;
-constexpr int above = 32;  // our descriptors are above the numbers that the program's get
-
-class Descriptor {
- public:
-  explicit Descriptor(int fd = -1) : fd_(fd) {}
-  ~Descriptor() { reset(); }
-  Descriptor(const Descriptor&) = delete;
-  Descriptor& operator=(Descriptor&& other) noexcept {
-    std::swap(fd_, other.fd_);
-    return *this;
-  }
-  void reset() {
-    if (fd_ >= 0) close(fd_);
-    fd_ = -1;
-  }
-  int get() const { return fd_; }
-
- private:
-  int fd_;
-};
-
-struct Pipe {
-  Descriptor from, to;
-  Pipe() {
-    int ends[2];
-    if (pipe2(ends, O_CLOEXEC) != 0) throw std::runtime_error(fmt::format("no pipe: {}", std::strerror(errno)));
-    from = Descriptor(fcntl(ends[0], F_DUPFD_CLOEXEC, above));
-    to = Descriptor(fcntl(ends[1], F_DUPFD_CLOEXEC, above));
-    close(ends[0]);
-    close(ends[1]);
-    if (from.get() < 0 || to.get() < 0) throw std::runtime_error("no pipe: too many open files");
-  }
-};
-
 /// Blocks signals that would disturb this thread during communication; restores them at the end.
 class BlockedSignals {
  public:

@@ -6,6 +6,7 @@
 
 #include <filesystem>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "tests/coursework/grader/sandbox.h"
@@ -40,6 +41,28 @@ struct ChildStatus {
 [[noreturn]] void supervise(const ChildSetup& setup);
 
 // Runs a program under limits; the sandboxes differ in its options.
+
+class Descriptor {
+ public:
+  explicit Descriptor(int fd = -1) : fd_(fd) {}
+  ~Descriptor() { reset(); }
+  Descriptor(const Descriptor&) = delete;
+  Descriptor& operator=(Descriptor&& other) noexcept {
+    std::swap(fd_, other.fd_);
+    return *this;
+  }
+  void reset();
+  int get() const { return fd_; }
+
+ private:
+  int fd_;
+};
+
+/// Both descriptors are above those that programs get. Throws std::runtime_error if there are too many.
+struct Pipe {
+  Descriptor from, to;
+  Pipe();
+};
 
 struct SpawnOptions {
   std::vector<std::string> command, environment;  // environment as NAME=value
