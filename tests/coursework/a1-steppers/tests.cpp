@@ -194,7 +194,9 @@ const std::vector<Test>& table() {
   return tests;
 }
 
-constexpr Part parts[] = {{"euler", "euler.title"}, {"trapezoidal", "trapezoidal.title"}, {"rk4", "rk4.title"}};
+constexpr Part parts[] = {{"euler", "euler.title", "euler_step"},
+                          {"trapezoidal", "trapezoidal.title", "trapezoidal_step"},
+                          {"rk4", "rk4.title", "rk4_step"}};
 
 }  // namespace
 

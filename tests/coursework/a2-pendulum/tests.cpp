@@ -43,11 +43,11 @@ const std::vector<Test>& table() {
   return tests;
 }
 
-constexpr Part parts[] = {{"gravity_drag", "gravity_drag.title"},
-                          {"spring", "spring.title"},
-                          {"pendulum", "pendulum.title"},
-                          {"chain", "chain.title"},
-                          {"symplectic", "symplectic.title"}};
+constexpr Part parts[] = {{"gravity_drag", "gravity_drag.title", "gravity_force,drag_force"},
+                          {"spring", "spring.title", "spring_force"},
+                          {"pendulum", "pendulum.title", "pendulum_derivative"},
+                          {"chain", "chain.title", "chain_derivative"},
+                          {"symplectic", "symplectic.title", "symplectic_step"}};
 
 }  // namespace
 

@@ -19,6 +19,8 @@ namespace coursework {
 struct Part {
   std::string_view name;   // the file without its ending; calls_NAME.cpp calls it
   std::string_view title;  // key of the texts
+  /// Its functions, with commas, if students may write it in Python: then all parts have them (python.h).
+  std::string_view functions = {};
 };
 
 struct Test {

@@ -184,7 +184,7 @@ class PartBuilder : public Builder {
     else if (!fs::exists(folder_ / "calls_engine.cpp"))
       command_.push_back("-D_GLIBCXX_ASSERTIONS");
     surroundings_ = compiler_.fingerprint() + fmt::format("{}", fmt::join(command_, " "));
-    for (const fs::path& folder : {check_, folder_, folder_ / "starter"})
+    for (const fs::path& folder : {check_, folder_, folder_ / "starter", folder_.parent_path() / "python"})
       for (const fs::path& header : files_in(folder, "", ".h")) surroundings_ += content_of_file(header);
     surroundings_ = key_of(surroundings_);
   }

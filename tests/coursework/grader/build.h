@@ -102,6 +102,8 @@ class Builder {
 
   /// Path of a part's file within the folder of a solution.
   virtual std::string file_of(const std::string& part) const { return part + ".cpp"; }
+  /// Name of the student's file for a part.
+  virtual std::string handed_in(const std::string& part) const { return file_of(part); }
 };
 
 /// The assignment's own builder, or the default. Throws InputError if there is no C++ compiler.

@@ -23,6 +23,7 @@
 #include "tests/coursework/grader/build.h"
 #include "tests/coursework/grader/formats.h"
 #include "tests/coursework/grader/parallel.h"
+#include "tests/coursework/grader/python.h"
 
 namespace coursework {
 namespace fs = std::filesystem;
@@ -31,7 +32,8 @@ namespace {
 /// Fingerprint of this program and the assignment.
 std::string fingerprint_of(const Assignment& assignment) {
   std::vector<fs::path> files = {fs::read_symlink("/proc/self/exe")};
-  for (const fs::path& folder : {assignment.folder(), folder_of_coursework() / "check"})
+  for (const fs::path& folder :
+       {assignment.folder(), folder_of_coursework() / "check", folder_of_coursework() / "python"})
     for (const auto& entry : fs::recursive_directory_iterator(folder))
       if (entry.is_regular_file()) files.push_back(entry.path());
   std::sort(files.begin() + 1, files.end());
@@ -51,6 +53,8 @@ std::string fingerprint_of(const Submission& submission, const Sandbox& sandbox,
     all += fmt::format("{} {}\n", remark.key, fmt::join(remark.with, " "));
   for (const auto& [name, place] : submission.places) all += fmt::format("{} {}\n", name, place);
   for (const auto& [role, name] : submission.choice.classes) all += fmt::format("{} {}\n", role, name);
+  // with the package installed, the submission is graded again
+  if (submission.python) all += missing_python_package();
   return fmt::format("{:016x}", crosscheck::Fnv1a::of(all));
 }
 

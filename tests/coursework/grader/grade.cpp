@@ -2,6 +2,7 @@
 #include "tests/coursework/grader/grade.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <chrono>
@@ -19,6 +20,7 @@
 #include "tests/coursework/grader/engine.h"
 #include "tests/coursework/grader/mistakes.h"
 #include "tests/coursework/grader/observe.h"
+#include "tests/coursework/grader/python.h"
 #include "tests/coursework/grader/result.h"
 #include "tests/coursework/grader/run.h"
 #include "tests/coursework/grader/suspects.h"
@@ -41,7 +43,8 @@ class Grading {
         sandbox_(sandbox),
         options_(options),
         trusted_(choose_sandbox("bare", true)),
-        builder_(builder_for(assignment, *trusted_, sandbox)),
+        builder_(submission.python ? python_builder(assignment, *trusted_, sandbox)
+                                   : builder_for(assignment, *trusted_, sandbox)),
         scratch_("grade") {
     result_.assignment = assignment.name;
     result_.submission = submission.name;
@@ -51,8 +54,10 @@ class Grading {
   }
 
   Result run() {
-    if (submission_.refused) {
-      result_.not_graded = said(options_.common, submission_.remarks.back());
+    const std::string package = submission_.python ? missing_python_package() : "";
+    if (submission_.refused || !package.empty()) {
+      result_.not_graded = submission_.refused ? said(options_.common, submission_.remarks.back())
+                                               : options_.common.fill("python.package", package);
       result_.complete = true;
       options_.on_progress(result_);
       return result_;
@@ -87,7 +92,7 @@ class Grading {
         one.part = test.part;
         one.title = text_or(options_.own, one.id + ".title", one.id);
         one.heading = assignment_.takes_whole_program() ? text_or(options_.own, one.part + ".title", one.part)
-                                                        : builder_->file_of(one.part);
+                                                        : builder_->handed_in(one.part);
         one.hidden = hidden;
         one.points = hidden ? test.hidden : test.points;
         one.concepts.assign(test.concepts.begin(), test.concepts.end());
@@ -139,7 +144,8 @@ class Grading {
       test_run.answers[k] = reduced(*test_run.test, test_run.cases[k], test_run.answers[k]);
     for (Answer& answer : test_run.answers)
       if (answer.how == How::threw) {
-        answer.detail = shown_exception(answer.detail, submission_.files);
+        answer.detail = submission_.python ? shown_python_exception(answer.detail, submission_.files, one.hidden)
+                                           : shown_exception(answer.detail, submission_.files);
         if (answer.detail.empty()) answer.detail = options_.common.of("threw.unseen");
       }
     judge_test(test_run, raw, one);
@@ -391,7 +397,7 @@ class Grading {
 
   /// Keeps the programs of parts that answered every call: others would crash or hang in every run of the charts.
   void keep_engines() const {
-    if (options_.engines.empty() || !has_engine(assignment_)) return;
+    if (options_.engines.empty() || !has_engine(assignment_) || submission_.python) return;
     for (const auto& [part, program] : programs_) {
       bool answered = true;
       for (const TestRun& test_run : test_runs_)
@@ -432,12 +438,22 @@ std::vector<std::string> wanted_files(const Assignment& assignment) {
   return files;
 }
 
-Submission submission_at(const fs::path& path, const Assignment& assignment) {
-  return read_submission(path, wanted_files(assignment), {assignment.roles.begin(), assignment.roles.end()});
+Submission submission_of(const Handed& handed, const Assignment& assignment) {
+  Submission cpp =
+      read_submission(handed, wanted_files(assignment), {assignment.roles.begin(), assignment.roles.end()});
+  if (!has_python(assignment)) return cpp;
+  Submission python = read_submission(handed, python_files(assignment));
+  python.python = true;
+  const bool both = !cpp.places.empty() && !python.places.empty();
+  Submission chosen = python.places.size() > cpp.places.size() ? std::move(python) : std::move(cpp);
+  if (chosen.refused && chosen.remarks.back().key == "submission.empty")
+    chosen.remarks.back().with.at(0) += fmt::format("; {}", fmt::join(python_files(assignment), ", "));
+  if (both) chosen.remarks.push_back({chosen.python ? "python.chosen" : "python.left_out", {}});
+  return chosen;
 }
 
-Submission submission_of(const Handed& handed, const Assignment& assignment) {
-  return read_submission(handed, wanted_files(assignment), {assignment.roles.begin(), assignment.roles.end()});
+Submission submission_at(const fs::path& path, const Assignment& assignment) {
+  return submission_of(handed_at(path), assignment);
 }
 
 Result grade(const Assignment& assignment, const Submission& submission, const Sandbox& sandbox,

@@ -100,7 +100,7 @@ std::set<std::string> sources_in(const fs::path& folder) {
   for (auto at = fs::recursive_directory_iterator(folder, options); at != fs::recursive_directory_iterator(); ++at) {
     if (at.depth() >= 1) at.disable_recursion_pending();
     const std::string name = lower(at->path().filename().string());
-    if (is_cpp(name) && name.find(".c") != std::string::npos) names.insert(name);
+    if ((is_cpp(name) && name.find(".c") != std::string::npos) || is_python(name)) names.insert(name);
   }
   return names;
 }
@@ -161,7 +161,7 @@ std::string class_layout(const fs::path& folder, const std::vector<std::string>&
       clones += fs::exists(entry / ".git");
       for (const std::string& source : sources_in(entry))
         if (wanted.empty() || std::find(wanted.begin(), wanted.end(), source) != wanted.end()) ++holds[source];
-    } else if (is_cpp(name) && one.layout.empty()) {
+    } else if ((is_cpp(name) || is_python(name)) && one.layout.empty()) {
       return "";  // a single person
     } else {
       archives += is_archive(entry);

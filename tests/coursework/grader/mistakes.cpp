@@ -121,8 +121,7 @@ std::vector<std::pair<std::string, std::string>> read_pairs(const fs::path& file
 std::string with_mistake(const std::string& source, const Mistake& mistake) {
   const std::size_t at = source.find(mistake.find);
   if (at == std::string::npos || source.find(mistake.find, at + 1) != std::string::npos)
-    throw InputError(fmt::format("mistake [{}]: its text must stand exactly once in {}.cpp of the solution; it is {}",
-                                 mistake.name, mistake.part,
+    throw InputError(fmt::format("[{}]: its text must stand exactly once in '{}'; it is {}", mistake.name, mistake.part,
                                  at == std::string::npos ? "not there" : "there more than once"));
   return source.substr(0, at) + mistake.replace + source.substr(at + mistake.find.size());
 }

@@ -11,6 +11,8 @@
 #include <random>
 #include <sstream>
 
+#include "tests/coursework/grader/python.h"
+
 namespace coursework {
 namespace {
 
@@ -206,7 +208,7 @@ std::vector<Answer> run_calls(const Sandbox& sandbox, const std::filesystem::pat
     for (const double value : one.in) job.input += fmt::format(" {:a}", value);
     job.input += '\n';
   }
-  const End end = sandbox.run(job);
+  const End end = is_python_program(program) ? run_python(sandbox, program, job) : sandbox.run(job);
   if (cpu) *cpu = end.cpu;
   if (captured) *captured = end.captured_output;
   return answers_of(end, token, cases.size(), limits);

@@ -41,6 +41,8 @@ bool is_cpp(const std::string& path) {
          std::find(std::begin(endings), std::end(endings), base.substr(dot + 1)) != std::end(endings);
 }
 
+bool is_python(const std::string& path) { return lower(path).ends_with(".py"); }
+
 bool is_source(const std::string& path) { return is_cpp(path) && lower(path.substr(path.rfind('.')))[1] == 'c'; }
 
 int depth_of(const std::string& path) {
@@ -65,9 +67,10 @@ std::string FileMatcher::match(const std::string& path) const {
 
 bool FileMatcher::may_be_included(const std::string& path) const {
   static const std::set<std::string> others = {".c", ".inc", ".ipp", ".tpp", ".tcc", ".txx", ".def"};
-  return !wanted_.empty() && path.size() <= longest_path &&
-         (is_cpp(path) || others.count(lower(fs::path(path).extension().string())) > 0) &&
-         path.rfind("__MACOSX/", 0) != 0 && !in_library(path);
+  const bool source =
+      wants_python() ? is_python(path) : is_cpp(path) || others.count(lower(fs::path(path).extension().string())) > 0;
+  return !wanted_.empty() && path.size() <= longest_path && source && path.rfind("__MACOSX/", 0) != 0 &&
+         !in_library(path);
 }
 
 std::string code_of(std::string text) {
@@ -239,6 +242,9 @@ void FileMatcher::into(Submission& submission) const {
         for (const auto& [place, file] : own_includes(beside, path, content)) submission.files[file] = beside.at(file);
       };
       add_included(best.path, best.content);
+      const std::string folder = best.path.substr(0, best.path.rfind('/') + 1);
+      for (const auto& [path, content] : beside)
+        if (wants_python() && path.starts_with(folder) && !is_backup(path)) submission.files[path] = content;
       // the hand-out builds every source in its folder
       for (const auto& [path, content] : beside)
         if (is_source(path) && !is_backup(path) && fs::path(path).parent_path() == fs::path(best.path).parent_path())
@@ -483,12 +489,16 @@ Submission read_submission(const Handed& handed, const std::vector<std::string>&
   return submission;
 }
 
-Submission read_submission(const fs::path& path, const std::vector<std::string>& wanted,
-                           const std::vector<std::string>& roles) {
+Handed handed_at(const fs::path& path) {
   if (!fs::is_directory(path) && !fs::is_regular_file(path))
     throw crosscheck::InputError(fmt::format("{}: expected a folder or an archive (zip, 7z, rar, tar)", path.string()));
   const std::string name = (path.filename().empty() ? path.parent_path() : path).filename().string();
-  return read_submission({name, {{fs::canonical(path), name}}}, wanted, roles);
+  return {name, {{fs::canonical(path), name}}};
+}
+
+Submission read_submission(const fs::path& path, const std::vector<std::string>& wanted,
+                           const std::vector<std::string>& roles) {
+  return read_submission(handed_at(path), wanted, roles);
 }
 
 }  // namespace coursework

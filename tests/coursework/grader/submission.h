@@ -24,6 +24,7 @@ struct Submission {
   std::map<std::string, Remark> missing;     // reasons why wanted files cannot be used
   std::vector<Remark> remarks;               // on the submission as a whole
   StudentChoice choice = {};                 // contents of the student's grade.toml
+  bool python = false;                       // its parts are in Python
   bool refused = false;                      // nothing can be graded; the last remark has the reason
   // paths of the wanted files that differ from their names
   std::map<std::string, std::string> places = {};
@@ -66,9 +67,15 @@ Submission read_submission(const std::filesystem::path& path, const std::vector<
                            const std::vector<std::string>& roles = {});
 Submission read_submission(const Handed& handed, const std::vector<std::string>& wanted,
                            const std::vector<std::string>& roles = {});
+/// The folder or archive at `path`, as handed in by one person. Throws InputError if there is none.
+Handed handed_at(const std::filesystem::path& path);
 
 /// True if the extension is that of an archive.
 bool is_archive(const std::filesystem::path& file);
+
+/// True if the extension is that of a C++ source or header.
+bool is_cpp(const std::string& path);
+bool is_python(const std::string& path);
 
 // Matches the names in a submission with the wanted files; without wanted files every C++ file matches.
 
@@ -97,6 +104,7 @@ class FileMatcher {
   std::string match(const std::string& path) const;
   bool may_be_included(const std::string& path) const;
   std::vector<std::string> paths() const;
+  bool wants_python() const { return !wanted_.empty() && is_python(wanted_.front()); }
   void choose(Submission& submission) const;
   std::vector<std::string> wanted_, roles_;
   std::map<std::string, std::vector<Found>> found_;  // by wanted name, in the order met
@@ -104,8 +112,6 @@ class FileMatcher {
   std::size_t taken_ = 0, beside_size_ = 0;          // byte
 };
 
-/// True if the extension is that of a C++ source or header.
-bool is_cpp(const std::string& path);
 /// True if the file is not a header.
 bool is_source(const std::string& path);
 

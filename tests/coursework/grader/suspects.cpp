@@ -46,6 +46,19 @@ bool all_single(const std::vector<TestRun>& of_part) {
   return any;
 }
 
+/// True if something is wrong, and the first wrong number of each case is the right one without its fraction.
+bool all_whole(const std::vector<TestRun>& of_part) {
+  bool any = false;
+  for (const TestRun& one : of_part)
+    for (std::size_t i = 0; i < one.cases.size(); ++i) {
+      const Judged judged = judge(one.cases[i], one.answers[i]);
+      if (judged.right || one.test->reduce) continue;
+      if (judged.how != How::answered || judged.wrong_size || judged.got != std::trunc(judged.expected)) return false;
+      any = true;
+    }
+  return any;
+}
+
 /// True if a call that was wrong after others is right as the first call of its program.
 bool keeps_something(const Subject& subject, const std::vector<TestRun>& of_part) {
   for (const TestRun& one : of_part)
@@ -220,12 +233,14 @@ bool can_be_searched(const std::string& source) {
 }
 
 Remark suspected(const Subject& subject, const std::vector<TestRun>& of_part) {
-  if (all_single(of_part)) return {"suspect.float", {}};
+  const bool python = subject.submission.python;
+  if (all_single(of_part)) return {python ? "suspect.float32" : "suspect.float", {}};
+  if (python && all_whole(of_part)) return {"suspect.whole", {}};
   if (keeps_something(subject, of_part)) return {"suspect.state", {}};
   for (const TestRun& one : of_part)  // a crash has its own message, and must not be repeated
     for (const Answer& answer : one.answers)
       if (answer.how != How::answered) return {};
-  const std::string file = subject.builder.file_of(std::string(of_part.front().test->part));
+  const std::string file = subject.builder.handed_in(std::string(of_part.front().test->part));
   const auto source = subject.submission.files.find(file);
   if (source != subject.submission.files.end() && !can_be_searched(source->second)) return {};
   if (const int line = line_of_single(subject, of_part, file); line > 0)
