@@ -28,6 +28,7 @@
 #include "tests/coursework/grader/gradebook.h"
 #include "tests/coursework/grader/handout.h"
 #include "tests/coursework/grader/pack.h"
+#include "tests/coursework/grader/python.h"
 #include "tests/coursework/grader/result.h"
 #include "tests/coursework/grader/rubric.h"
 
@@ -126,6 +127,14 @@ void grade_all(const Assignment& assignment, const GradeCommand& command, const 
   for (const std::string& line : unmatched) fmt::print(stderr, "crosscheck: gradebook: {}\n", line);
 }
 
+/// File names by which a class is recognised; empty for whole programs.
+std::vector<std::string> class_files(const Assignment& assignment) {
+  std::vector<std::string> files = wanted_files(assignment);
+  if (has_python(assignment))
+    for (std::string& file : python_files(assignment)) files.push_back(std::move(file));
+  return files;
+}
+
 /// The submissions of a class; prints which other entries are skipped.
 std::vector<Handed> class_in(const std::string& folder) {
   std::vector<std::string> skipped;
@@ -163,7 +172,7 @@ int grade_command(const GradeCommand& given) {
   options.engines = command.engines;
   options.jobs = std::max(1u, std::thread::hardware_concurrency());
   const Format& format = find_format(command.format);
-  if (const std::string layout = command.all ? "" : class_layout(command.submission, wanted_files(assignment));
+  if (const std::string layout = command.all ? "" : class_layout(command.submission, class_files(assignment));
       !layout.empty())
     throw InputError(
         fmt::format("{}: this looks like a class of {} submissions ({}); add --all to grade each of them, or name the "
@@ -233,7 +242,7 @@ int assignment_command(const AssignmentCommand& command) {
   if (command.out.empty()) throw crosscheck::InputError("assignment: expected --out FOLDER, or --check FILE.zip");
   if (command.pack.empty()) {
     crosscheck::OutputFolder folder(command.out, "assignment " + std::string(assignment.name));
-    write_handout(assignment, folder.path());
+    (command.language == "python" ? write_python_handout : write_handout)(assignment, folder.path());
     folder.finish();
   } else {
     write_package(assignment, secret_of(command), command.out);

@@ -23,7 +23,7 @@ int grade_command(const GradeCommand& command);
 std::string secret_in(const std::string& file);
 
 struct AssignmentCommand {
-  std::string assignment, out, pack, check, secret_file;
+  std::string assignment, out, pack, check, secret_file, language = "cpp";
 };
 int assignment_command(const AssignmentCommand& command);
 

@@ -7,16 +7,33 @@
 #include <set>
 #include <sstream>
 
+#include "mysim/base/errors.h"
 #include "mysim/base/files.h"
 #include "tests/coursework/check/texts.h"
 #include "tests/coursework/grader/build.h"
 #include "tests/coursework/grader/grade.h"
+#include "tests/coursework/grader/mistakes.h"
+#include "tests/coursework/grader/python.h"
 
 namespace coursework {
 
 namespace fs = std::filesystem;
 using crosscheck::write_file;
 namespace {
+
+/// Number of tests and their points as counted by `check`, since some tests exist only in the grader.
+std::pair<int, int> counted(const Assignment& assignment, const PublicTests& tests) {
+  int points = 0, here = 0;
+  for (const PublicTest& test : tests.tests)
+    if (assignment.takes_whole_program() || !test.cases.empty()) points += test.points, ++here;
+  return {here, points};
+}
+
+void write_public_cases(const PublicTests& tests, const fs::path& folder) {
+  std::ostringstream cases;
+  write_cases(cases, tests);
+  write_file(folder / "public_cases.txt", cases.str());
+}
 
 /// Writes README.md, and CMakeLists.txt unless a whole program's starter has one.
 void write_instructions(const Assignment& assignment, const PublicTests& tests, const fs::path& folder) {
@@ -26,9 +43,7 @@ void write_instructions(const Assignment& assignment, const PublicTests& tests, 
     built += fmt::format("  {}.cpp\n", part.name);
     listed += fmt::format("- `{}.cpp`\n", part.name);
   }
-  int points = 0, here = 0;  // as counted by `check`, since some tests exist only in the grader
-  for (const PublicTest& test : tests.tests)
-    if (whole || !test.cases.empty()) points += test.points, ++here;
+  const auto [here, points] = counted(assignment, tests);
   if (!whole)
     write_file(folder / "CMakeLists.txt", filled("handout/CMakeLists.txt", {std::string(assignment.name), built}));
   write_file(folder / "README.md",
@@ -110,7 +125,8 @@ void write_handout(const Assignment& assignment, const fs::path& folder) {
   const fs::path from = assignment.folder(), shared = from.parent_path() / "check", check = folder / "check";
   const bool whole = assignment.takes_whole_program();
   const PublicTests tests = public_tests(assignment);
-  for (const fs::path& file : sorted(from / "starter")) write_file(folder / file.filename(), content_of_file(file));
+  for (const fs::path& file : sorted(from / "starter"))
+    if (!ends(file, {".py"})) write_file(folder / file.filename(), content_of_file(file));
   for (const fs::path& file : sorted(shared))
     if (file.filename() != "child_main.cpp" && !(whole && file.filename() == "as_given.cpp"))
       write_file(check / file.filename(), content_of_file(file));
@@ -122,10 +138,38 @@ void write_handout(const Assignment& assignment, const fs::path& folder) {
     if (is_of_check(name) && ends(file, {".cpp", ".h"})) write_file(check / name, source_in_check(file));
   }
   if (whole) write_surroundings(from, folder);
-  std::ostringstream cases;
-  write_cases(cases, tests);
-  write_file(check / "public_cases.txt", cases.str());
+  write_public_cases(tests, check);
   write_instructions(assignment, tests, folder);
+}
+
+void write_python_handout(const Assignment& assignment, const fs::path& folder) {
+  if (!has_python(assignment))
+    throw crosscheck::InputError(fmt::format(
+        "--language python: {} is in C++ only; a1-steppers and a2-pendulum are also in Python", assignment.name));
+  const fs::path from = assignment.folder(), shared = from.parent_path() / "check", check = folder / "check";
+  std::string listed, lecture = content_of_file(from / "handout.md");
+  for (const Part& part : assignment.parts) {
+    const std::string file = std::string(part.name) + ".py";
+    write_file(folder / file, content_of_file(from / "starter" / file));
+    listed += fmt::format("- `{}`\n", file);
+  }
+  for (const Mistake& one : read_mistakes(from / "handout.python.txt")) lecture = with_mistake(lecture, one);
+  write_file(folder / "handout.md", lecture);
+  write_file(folder / "check.py", content_of_file(from.parent_path() / "python/check.py"));
+  write_file(check / "calls.py", content_of_file(from / "calls.py"));
+  write_file(check / "drawing_stubs.py", content_of_file(from.parent_path() / "python/drawing_stubs.py"));
+  for (const char* language : {"en", "zh"}) {
+    const std::string common = fmt::format("common.{}.txt", language), own = fmt::format("texts.{}.txt", language);
+    write_file(check / common, content_of_file(shared / common));
+    write_file(check / own, shown_texts(from / own));
+  }
+  const PublicTests tests = public_tests(assignment);
+  write_public_cases(tests, check);
+  const auto [here, points] = counted(assignment, tests);
+  write_file(folder / "README.md",
+             filled("handout/README-python.md",
+                    {std::string(assignment.title), listed, std::to_string(here), std::to_string(points),
+                     std::string(assignment.parts.front().name), std::to_string(tests.hidden)}));
 }
 
 }  // namespace coursework

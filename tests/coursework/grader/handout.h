@@ -18,4 +18,8 @@ PublicTests public_tests(const Assignment& assignment);
 /// std::runtime_error if the assignment lacks one.
 void write_handout(const Assignment& assignment, const std::filesystem::path& folder);
 
+/// Writes the hand-out in Python, with check.py in place of the program `check`. Throws InputError if the assignment is
+/// in C++ only.
+void write_python_handout(const Assignment& assignment, const std::filesystem::path& folder);
+
 }  // namespace coursework

@@ -72,6 +72,9 @@ int run(int argc, char** argv) {
       ->required();
   auto* out = assignment->add_option("--out", given.out,
                                      "folder of the hand-out: new, empty or an earlier hand-out; with --pack FILE.zip");
+  assignment
+      ->add_option("--language", given.language, "of the hand-out: cpp (default) or python (a1-steppers, a2-pendulum)")
+      ->check(CLI::IsMember({"cpp", "python"}));
   assignment->add_option("--pack", given.pack, "writes a package for this grading service: gradescope")
       ->check(CLI::IsMember({"gradescope"}))
       ->needs(out);

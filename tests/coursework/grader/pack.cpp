@@ -22,6 +22,7 @@
 #include "mysim/base/text.h"
 #include "tests/coursework/grader/build.h"
 #include "tests/coursework/grader/container.h"
+#include "tests/coursework/grader/python.h"
 #include "tests/coursework/grader/submission.h"
 
 namespace coursework {
@@ -225,6 +226,7 @@ Files files_of_package(const Assignment& assignment) {
     if (file.ends_with(".cpp")) sources += file + "\n";
   }
   add_folder(files, coursework / "check", "tests/coursework/check");
+  add_folder(files, coursework / "python", "tests/coursework/python");
   add_folder(files, assignment.folder(), ours);
   add_headers(files);
   files["sources.txt"] = sources;
@@ -287,6 +289,21 @@ bool not_ready(const std::string& why) {
   return false;
 }
 
+/// Runs the autograder on the submission in `root`; reports what is wrong, or "".
+std::string rehearsed(const fs::path& root, const std::vector<std::string>& environment) {
+  const Container container;
+  const fs::path log = root / "log.txt";
+  fmt::print("run_autograder on the solution: {} MB, {} CPU, {:.0f} s, no new namespaces\n", container.memory,
+             container.cpus, container.time);
+  std::fflush(stdout);
+  const Usage used = run_in_container({(root / "run_autograder").string()}, environment, log, container);
+  fmt::print("  {:.0f} s at {} CPU, {} MB\n{}", used.time, container.cpus, used.memory, last_lines(log));
+  if (used.too_large) return fmt::format("it takes more than {} MB", container.memory);
+  if (used.too_late) return fmt::format("it takes more than {:.0f} s", container.time);
+  if (used.status != 0) return fmt::format("run_autograder ends with {}", used.status);
+  return wrong_with(root / "results/results.json");
+}
+
 }  // namespace
 
 bool rehearse(const Assignment& assignment, const fs::path& zip) {
@@ -307,23 +324,19 @@ bool rehearse(const Assignment& assignment, const fs::path& zip) {
   if (built.too_late) return not_ready("build.sh takes more than half an hour");
   if (built.status != 0) return not_ready(fmt::format("build.sh ends with {}", built.status));
 
-  // Gradescope installs the script at this path and creates the two folders
+  // Gradescope installs the script at this path
   fs::copy_file(source / "run_autograder", root / "run_autograder");
-  fs::create_directories(root / "submission");
-  fs::create_directories(root / "results");
-  for (const auto& entry : fs::directory_iterator(assignment.folder() / "solution"))
-    fs::copy(entry.path(), root / "submission" / entry.path().filename());
-
-  const Container container;
-  fmt::print("run_autograder on the solution: {} MB, {} CPU, {:.0f} s, no new namespaces\n", container.memory,
-             container.cpus, container.time);
-  std::fflush(stdout);
-  const Usage used = run_in_container({(root / "run_autograder").string()}, environment, log, container);
-  fmt::print("  {:.0f} s at {} CPU, {} MB\n{}", used.time, container.cpus, used.memory, last_lines(log));
-  if (used.too_large) return not_ready(fmt::format("it takes more than {} MB", container.memory));
-  if (used.too_late) return not_ready(fmt::format("it takes more than {:.0f} s", container.time));
-  if (used.status != 0) return not_ready(fmt::format("run_autograder ends with {}", used.status));
-  if (const std::string wrong = wrong_with(root / "results/results.json"); !wrong.empty()) return not_ready(wrong);
+  for (const char* ending : {".cpp", ".py"}) {
+    if (ending == std::string_view(".py") && (!has_python(assignment) || !missing_python_package().empty())) continue;
+    fs::create_directories(root / "submission");
+    fs::create_directories(root / "results");
+    for (const auto& entry : fs::directory_iterator(assignment.folder() / "solution"))
+      if (assignment.takes_whole_program() || entry.path().extension() == ending)
+        fs::copy(entry.path(), root / "submission" / entry.path().filename());
+    if (const std::string wrong = rehearsed(root, environment); !wrong.empty()) return not_ready(wrong);
+    fs::remove_all(root / "submission");
+    fs::remove_all(root / "results");
+  }
   fmt::print("ready\n");
   return true;
 }
