@@ -26,7 +26,7 @@ void write(const fs::path& file, const std::string& text) { std::ofstream(file) 
 }  // namespace
 
 Canaries::Canaries() : home_(0755), results_(0700), course_(0700), open_(home_.path().string() + ".canary") {
-  for (const char* part : {"check", "a1-steppers"})
+  for (const char* part : {"check", "python", "a1-steppers"})
     fs::copy(fs::path(COURSEWORK_FOLDER) / part, course_.path() / part, fs::copy_options::recursive);
   for (const char* name : {".bashrc", ".profile", "canary"}) write(home_.path() / name, "untouched");
   write(results_.path() / "results.json", "{}");
