@@ -29,6 +29,8 @@
 namespace coursework {
 namespace {
 
+constexpr int above = 32;  // our descriptors are above the numbers that the program's get
+
 void close_from(int first) {
   if (syscall(SYS_close_range, first, ~0u, 0) == 0) return;
   rlimit files{};  // kernels before 5.9
@@ -215,7 +217,6 @@ void Descriptor::reset() {
 }
 
 Pipe::Pipe() {
-  constexpr int above = 32;
   int ends[2];
   if (pipe2(ends, O_CLOEXEC) != 0) throw std::runtime_error(fmt::format("no pipe: {}", std::strerror(errno)));
   from = Descriptor(fcntl(ends[0], F_DUPFD_CLOEXEC, above));
