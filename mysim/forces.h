@@ -19,11 +19,12 @@ struct Forces {
 
 enum class Curvature {
   exact,    // exact -dF/dx; indefinite where springs are compressed
-  clamped,  // negative parts omitted: positive semidefinite
+  clamped,  // negative parts are omitted, which makes K positive semidefinite
 };
 
 /// K = -dF/dx (N/m) and C = -dF/dv (N s/m), both symmetric and never assembled. Each pair of particles a, b applies the
-/// 3 x 3 block across (I - n n^T) + along n n^T to the difference of their displacements. Pins are left to the caller.
+/// 3 x 3 block `across` (I - n n^T) + `along` n n^T to the difference of their displacements. Pins are left to the
+/// caller.
 class Tangent {
  public:
   struct Pair {
@@ -35,9 +36,9 @@ class Tangent {
   void add_stiffness(const Pair& pair) { stiffness_.push_back(pair); }
   void add_damping(const Pair& pair) { damping_.push_back(pair); }
 
-  /// out += (stiffness K + damping C) d, with d of 3 x n.
+  /// out += (`stiffness` K + `damping` C) d, with d of 3 x n.
   void add_product(double stiffness, double damping, const Points& d, Points& out) const;
-  /// Adds the 3 x 3 blocks on the diagonal of (stiffness K + damping C) to blocks (3 x 3n).
+  /// Adds the 3 x 3 blocks on the diagonal of (`stiffness` K + `damping` C) to `blocks` (3 x 3n).
   void add_diagonal(double stiffness, double damping, Eigen::Matrix3Xd& blocks) const;
   bool empty() const { return stiffness_.empty() && damping_.empty(); }
   const std::vector<Pair>& stiffness() const { return stiffness_; }

@@ -1,4 +1,4 @@
-// Types shared by all rooms: a vector, a set of points, and the state of a scene.
+// Types shared by all modules: a vector, a set of points, and the state of a scene.
 #pragma once
 
 #include "mysim/eigen.h"
@@ -13,7 +13,7 @@ inline double largest_column(const Points& p) { return p.cols() > 0 ? p.colwise(
 /// Sum of the products of corresponding entries.
 inline double dot(const Points& a, const Points& b) { return a.cwiseProduct(b).sum(); }
 
-/// A first-order scene (x' = f(x, t)) has no velocities.
+/// State of a scene. A first-order scene (x' = f(x, t)) has no velocities.
 struct State {
   double t = 0;  // s
   Points x;      // 3 x n, m

@@ -14,7 +14,7 @@ struct InputError : std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-/// A method lacks an ingredient of the scene. what() is the reason, without the method's name.
+/// A method does not support an ingredient of the scene. what() is the reason, without the method's name.
 struct Unsupported : std::runtime_error {
   using std::runtime_error::runtime_error;
 };

@@ -14,7 +14,7 @@ struct Manifest {
   static constexpr auto file_name = "crosscheck.json";
   struct File {
     std::uintmax_t bytes = 0;
-    std::string hash;  // FNV-1a, 16 digits; empty: announced, possibly incomplete
+    std::string hash;  // FNV-1a, 16 digits; empty for an announced file, which may be incomplete
   };
   std::string command;                // command that owns the folder: "report", "run", ...
   bool finished = false;              // state: "finished" or "being written"

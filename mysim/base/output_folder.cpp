@@ -188,7 +188,7 @@ void remove_empty_above(const fs::path& root, const fs::path& path) {
 /// Links the user's files in `target` into the new result `stage`.
 void link_users_files(const fs::path& target, const std::optional<Manifest>& old, const fs::path& stage) {
   const std::vector<std::string> paths = paths_in(target);
-  // changed files of the earlier result last: their new names must not collide with other files
+  // links changed files of the earlier result last, because their new names must not collide with those of other files
   for (const bool changed : {false, true})
     for (const std::string& path : paths) {
       if (changed != (old && old->names(path)) || (changed && old->ours(target, path))) continue;
@@ -248,7 +248,7 @@ fs::path replaced(const OutputLock& place, const fs::path& stage) {
   return old;
 }
 
-/// Removes what a killed writer left behind.
+/// Removes the files and folders that a killed writer left behind.
 void recover(const OutputLock& place) {
   const fs::path left = place.work / new_result, old = place.work / old_result;
   for (const fs::path& leftover : {left, old})

@@ -95,7 +95,7 @@ namespace {
 
 using process_detail::Pipe;
 
-/// Files for stdin, stdout and stderr of a program; -1: /dev/null.
+/// Files for stdin, stdout and stderr of a program; -1 stands for /dev/null.
 using StandardFiles = std::array<int, 3>;
 
 bool set_standard_files(const StandardFiles& files) {

@@ -33,8 +33,8 @@ struct ProgramResult {
   int status = 0;               // exit code, or 128 + signal number
   int signal = 0;               // signal that ended the program; 0 if it exited
   bool timed_out = false;       // only with a time limit, as the next two members
-  bool left_children = false;   // it ended before its children, which were killed
-  bool killed_watcher = false;  // it killed its watcher: its children may still be running
+  bool left_children = false;   // the program ended before its children, which were killed
+  bool killed_watcher = false;  // the program killed its watcher: its children may still run
   double cpu_seconds = 0;       // user and system time of the program and of the children it waited for
   std::string out, err;         // stdout and stderr
 };
@@ -58,11 +58,10 @@ class LineServer {
   LineServer& operator=(const LineServer&) = delete;
 
   struct Answer {
-    std::string
-        line;  // begins with '{'; empty if it ended, did not answer in time, or wrote 64 KiB without such a line
+    std::string line;  // begins with '{'; empty if the program ended, timed out, or wrote 64 KiB without such a line
     bool timed_out = false;
     double cpu_seconds = 0;  // user and system time of the program between request and answer
-    std::string err;         // stderr in the meantime
+    std::string err;         // stderr between request and answer
   };
   /// Sends the line and waits at most `seconds` for a line that begins with '{', skipping others. The server is
   /// unusable after an answer without a line.

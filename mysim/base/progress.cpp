@@ -20,7 +20,7 @@
 namespace crosscheck {
 namespace {
 
-constexpr double silent = 2;  // s; no progress is shown before
+constexpr double silent = 2;  // s; no progress is shown before this time
 
 }  // namespace
 
@@ -60,7 +60,7 @@ struct Progress::Display {
   std::latch ready{1};
   bool shown = false;  // a line is on the terminal
   int total, begun = 0;
-  std::string what;  // empty: nothing to show
+  std::string what;  // description of the step; empty if there is nothing to show
   double expected = 0;
   std::atomic<double> part = 0;
   const bool terminal = isatty(STDERR_FILENO) != 0;

@@ -17,7 +17,8 @@ struct ProgressSnapshot {
   double in_step = 0;        // s, since the start of the step
   std::string what;
 };
-/// "[3/12] what (34 s, about 2 min left)". The remaining time follows from the finished fraction, or from the estimate.
+/// "[3/12] what (34 s, about 2 min left)". The remaining time follows from the finished fraction, or from the
+/// expected duration.
 std::string progress_line(const ProgressSnapshot& seen);
 /// "34 s", "12 min", "3.4 h", "5 days", "1e+05 years".
 std::string format_duration(double seconds);

@@ -76,7 +76,7 @@ std::string did_you_mean(std::string_view word, const std::vector<std::string>& 
 
 std::string unknown_name(std::string_view kind, std::string_view word, const std::vector<std::string>& names,
                          std::string_view list) {
-  constexpr std::size_t longest = 60;  // bytes of the word in a message of at most 200
+  constexpr std::size_t longest = 60;  // bytes of the word that are shown in a message of at most 200 bytes
   std::string shown(word);
   if (shown.size() > longest) {
     std::size_t end = longest - 3;

@@ -65,7 +65,7 @@ namespace fs = std::filesystem;
 
 constexpr double unlimited = std::numeric_limits<double>::infinity();
 
-/// The number in a file, or after a given word; nothing if there is none ("max").
+/// The number in a file, or after a given word; nothing if there is no number ("max").
 std::optional<double> number_of_file(const fs::path& file, std::string_view word = "") {
   std::ifstream in(file);
   for (std::string key; !word.empty() && in >> key && key != word;) in.ignore(100, '\n');
@@ -149,7 +149,7 @@ void tidy_results() {
   for (size_t at = 0; at < used; at += std::strlen(notes->text + at) + 1) try {
       if (notes->text[at]) recover_output(notes->text + at);
     } catch (const std::exception&) {
-      // another process is doing this, or the next start with this folder reports the problem
+      // another process is cleaning up, or the next start with this folder reports the problem
     }
 }
 

@@ -86,7 +86,7 @@ double IncrementalPotential::value(const Points& u) {
     inertia += particles.mass[i] / (2 * h_ * h_) * u.col(i).squaredNorm();
     drag += drag_[i] / (2 * h_) * moved_.col(i).squaredNorm();
   }
-  // sum of magnitudes, because the parts of `given` cancel where heights have both signs
+  // `given_size` sums magnitudes, because the parts of `given` cancel if heights have both signs
   double springs = 0, given = 0, given_size = 0;
   for (const Term& term : model_.terms)
     std::visit(
@@ -117,8 +117,8 @@ double IncrementalPotential::value(const Points& u) {
   frozen_damping_.add_product(0, 1, moved_, a_);
   const double dashpots = dot(moved_, a_) / (2 * h_);
   // A sum of n parts is rounded by at most n eps of their magnitudes, and each part, a product of three coordinates, by
-  // at most 8 eps. A spring's energy is rounded by k |e| eps |x|, because its end points are, and sum k |e| <= sqrt(sum
-  // k e^2) sqrt(sum k).
+  // at most 8 eps. A spring's energy is rounded by k |e| eps |x|, because its end points are rounded, and sum k |e| <=
+  // sqrt(sum k e^2) sqrt(sum k).
   rounding_ = (particles.size() + 8) * eps * (inertia + drag + dashpots + springs + given_size) +
               8 * eps * std::sqrt(2 * springs * stiffness_) * at.x.cwiseAbs().maxCoeff();
   return inertia + drag + dashpots + springs + given;
@@ -180,8 +180,9 @@ void IncrementalPotential::precondition(const Points& r, Points& out) const {
 namespace {
 
 constexpr int most_repetitions = 100;
-/// 200 steps, and more for few particles: a strut of stiff springs buckles in many short descending steps, because each
-/// step that turns its springs stretches them to second order. With few particles these steps are cheap.
+/// At least 200 steps, and more if there are few particles: a strut of stiff springs buckles in many short descending
+/// steps, because each step that turns its springs stretches them to second order. With few particles these steps are
+/// cheap.
 int most_newton_steps(long particles) { return static_cast<int>(std::max(200L, 100'000 / particles)); }
 /// Most cloths need ten steps. Following negative curvature far from a minimum may be a detour, and is reserved for
 /// solves that exceed this number.
@@ -200,7 +201,7 @@ CgResult ImplicitStep::newton_direction(Curvature curvature, double tolerance) {
     result = multigrid_->solve(potential_.inertia(), potential_.end(u_).x, curvature, minus_g_, tolerance, p_);
     potential_.count(result.iterations * multigrid_->products());
   }
-  // other spring graphs, and cloths on which the V-cycle fails (none is known)
+  // used for other spring graphs, and for cloths on which the V-cycle fails (none is known)
   if (!result.converged && !result.negative_curvature) result = by_pairs(curvature, tolerance);
   iterations_ = result.iterations;
   return result;
@@ -214,9 +215,9 @@ CgResult ImplicitStep::by_pairs(Curvature curvature, double tolerance) {
                              3 * static_cast<int>(u_.cols()) + 20, p_, cg_);
 }
 
-/// Moves from u_ along the direction of negative curvature to the lowest potential found; lengths start with the last
-/// step's and double. Near a saddle the gradient and Newton's step are small, and the potential decreases at first by
-/// less than its rounding error. Returns the potential there.
+/// Moves from u_ along the direction of negative curvature to the lowest potential found. Tries lengths that begin with
+/// that of the last step and double. Near a saddle the gradient and Newton's step are small, and the potential
+/// decreases at first by less than its rounding error. Returns the potential there.
 double ImplicitStep::leave_saddle(double value, double step) {
   const double size = largest_column(downhill_);
   potential_.gradient(u_, g_);
@@ -290,7 +291,7 @@ const State& ImplicitStep::solve(const State& s, double h) {
     potential_.freeze(u_);
     descent_.assign(1, potential_.value(u_));
     minimise();
-    // changes below the accuracy of the solves gain nothing
+    // stops at changes that are smaller than the accuracy of the solves
     change = descent_.size() == 1 ? 0 : largest_column(u_ - before);
   }
   return potential_.end(u_);

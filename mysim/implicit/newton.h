@@ -29,14 +29,14 @@ class IncrementalPotential {
   bool freeze(const Points& u);
 
   double value(const Points& u);                             // J, up to a constant
-  double rounding() const { return rounding_; }              // J, of the last value(): bound of its rounding error
-  void gradient(const Points& u, Points& g);                 // N; 0 at pins. One evaluation
-  double force_rounding() const { return force_rounding_; }  // N, of the last gradient
-  double force_scale() const { return force_scale_; }        // N, of the last gradient: its largest contribution
+  double rounding() const { return rounding_; }              // J, bound on the rounding error of the last value()
+  void gradient(const Points& u, Points& g);                 // N; 0 at pins. Costs one evaluation
+  double force_rounding() const { return force_rounding_; }  // N, bound on the rounding error of the last gradient()
+  double force_scale() const { return force_scale_; }        // N, largest contribution to the last gradient()
 
   /// Assembles the matrix M/h^2 + C/h + K of second derivatives at u.
   void linearise(const Points& u, Curvature curvature);
-  void apply(const Points& p, Points& out);               // out = matrix p. One evaluation
+  void apply(const Points& p, Points& out);               // out = matrix times p. Costs one evaluation
   void precondition(const Points& r, Points& out) const;  // by the inverse 3 x 3 diagonal blocks
 
   const Eigen::ArrayXd& inertia() const { return inertia_; }  // per particle, in the matrix, N/m
@@ -100,7 +100,7 @@ class ImplicitStep {
   CgMemory cg_;
   int iterations_ = 0;
   std::shared_ptr<multigrid::MultigridSolver>
-      multigrid_;  // null: solved by pairs; shared by copies, which never step at once
+      multigrid_;  // if null, the pairs are used; shared by copies, which never step at once
   std::vector<double> descent_;
 };
 

@@ -63,7 +63,7 @@ struct Sum {
 using D = L<double>;
 using Vd = V<double>;
 
-/// m^2: ends closer than the root of this have no direction; their spring has no stiffness.
+/// m^2; springs shorter than the square root of this have no direction and no stiffness.
 inline constexpr double min_squared_length = 1e-290;
 
 struct Stiffness {
@@ -147,7 +147,7 @@ void to_float(const double* from, float* to, long count) {
 template <int value>
 struct Number {};
 
-/// Adds a d + (n . d) n to one end's force and subtracts it from the other's.
+/// Adds the force a d + (n . d) n of a spring to `own` and subtracts it from `other`.
 template <class T>
 FORCE_INLINE void spring(const V<T>* near, V<T>* own, const T* far, T* other, const T* s) {
   const V<T> n[3] = {L<T>::load(s), L<T>::load(s + lanes), L<T>::load(s + 2 * lanes)}, a = L<T>::load(s + 3 * lanes);
@@ -287,7 +287,7 @@ void residual(const Matrix<float>& m, const float* b, const float* x, float* r) 
 using F = L<float>;
 using Vf = V<float>;
 
-/// Restriction weight of the fine row below an even one: 1/2, or 1 if there is no next coarse row.
+/// Restriction weight of the fine row after an even one: 1/2, or 1 if there is no next coarse row.
 FORCE_INLINE float down(const Transfer& t, int coarse_row) { return coarse_row + 1 < t.coarse_rows ? 0.5f : 1; }
 
 FORCE_INLINE Vf gathered(const Transfer& t, const float* fine, int tile, int lane, int c) {

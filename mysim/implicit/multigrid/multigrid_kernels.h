@@ -55,7 +55,7 @@ struct SpringGeometry {
 };
 
 /// The transfer between grids. A fine particle between two coarse ones interpolates them with weights 1/2; beyond the
-/// last coarse particle it has the value of that one.
+/// last coarse particle it has the value of that particle.
 struct Transfer {
   int coarse_rows, coarse_tiles, fine_rows;
   // coarse tiles x lanes: weights of this coarse particle for the fine particle to its right (1/2 or 1) and to its left
@@ -73,15 +73,15 @@ struct Kernels {
 
   /// q = A p; returns p . q.
   double (*product)(const Matrix<double>&, const double* p, double* q);
-  /// u += length p, r -= length q, copies r to single precision; returns r . r.
+  /// u += `length` p, r -= `length` q, copies r to single precision; returns r . r.
   double (*update_solution)(const Matrix<double>&, double length, const double* p, const double* q, double* u,
                             double* r, float* single);
   /// sums = {r . z, q . z}.
   void (*dot_products)(const Matrix<double>&, const double* r, const double* q, const float* z, double* sums);
-  /// p = z + keep p, including the halo.
+  /// p = z + `keep` p, including the halo.
   void (*update_direction)(const Matrix<double>&, const float* z, double keep, double* p);
 
-  /// change = keep change + take D^-1 (b - A x), x += change. `first`: x and change start from 0.
+  /// `change` = `keep` `change` + `take` D^-1 (b - A x), x += `change`. If `first`, x and `change` start from 0.
   void (*smooth)(const Matrix<float>&, bool first, float keep, float take, const float* b, float* x, float* change);
   /// r = b - A x, including the halo.
   void (*residual)(const Matrix<float>&, const float* b, const float* x, float* r);

@@ -12,7 +12,7 @@ Kernels kernels(simd::InstructionSet isa) { return SELECT_COMPILED(isa, kernels_
 
 Layout Layout::of(const GridTopology& topology) {
   assert(topology.rows > 0 && topology.columns > 0);
-  // halve down to one tile or three; at most a third of the lanes stays empty
+  // the number of tiles can be halved down to one or three; at most a third of the lanes stays empty
   int tiles = (topology.columns + lanes - 1) / lanes, times = 1;
   for (; tiles > 3; tiles = (tiles + 1) / 2) times *= 2;
   return {topology.rows, topology.columns, tiles * times == 3 ? 4 : tiles * times};
@@ -116,7 +116,7 @@ constexpr ChebyshevSmoother level_smoother{2, 0.4};
 /// the error by 1 / cosh(rounds acosh(1 / (1 - s))) (Y. Saad, Iterative Methods for Sparse Linear Systems, 2003,
 /// 12.3.2). From this share on, five rounds reduce it tenfold, with less work than a coarser grid.
 constexpr double enough_inertia = 0.2;
-/// Enough rounds to reduce the error tenfold; with less inertia, enough for a pull to cross the grid.
+/// Chooses enough rounds to reduce the error tenfold or, if there is less inertia, for a pull to cross the grid.
 ChebyshevSmoother coarsest_smoother(const Level& level) {
   if (const double share = level.inertia_share(); share >= enough_inertia)
     return {static_cast<int>(std::ceil(std::acosh(10.) / std::acosh(1 / (1 - share)))), share, 2 - share};
@@ -232,7 +232,7 @@ void VCycle::cycle(size_t l) {
 namespace {
 
 constexpr int most_iterations = 500;
-// smaller cloths are solved at least as fast spring by spring
+// on smaller cloths, conjugate gradients without multigrid are at least as fast
 constexpr int fewest_rows = 12, fewest_columns = 20;
 
 }  // namespace

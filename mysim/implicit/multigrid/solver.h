@@ -27,8 +27,8 @@ struct CgMemory {
 };
 
 /// Solves A x = b by preconditioned conjugate gradients, from x = 0 until |b - A x| <= tolerance |b|. Vectors are 3 x
-/// n. apply(p, q): q = A p, symmetric. precondition(r, z): z = M^-1 r with M symmetric positive definite. Stops at
-/// negative curvature and returns that direction in x.
+/// n. apply(p, q) sets q = A p, with A symmetric. precondition(r, z) sets z = M^-1 r, with M symmetric positive
+/// definite. Stops at a direction of negative curvature and returns this direction in x.
 template <class Apply, class Precondition>
 CgResult conjugate_gradients(Apply apply, Precondition precondition, const Points& b, double tolerance,
                              int most_iterations, Points& x, CgMemory& m) {
@@ -124,7 +124,7 @@ class Level {
 
  private:
   Layout layout_;
-  double stiffness_ = 0, inertia_share_ = 0;  // N/m, largest sum over the springs of a particle; dimensionless
+  double stiffness_ = 0, inertia_share_ = 0;  // N/m, largest sum over a particle's springs; and a dimensionless share
   SpringGeometry geometry_{};
   AlignedBuffer<double> k_[directions], springs_[directions], inertia_, free_, blocks_, sums_, force_;
   AlignedBuffer<float> single_springs_[directions], single_inertia_, single_free_, single_blocks_, single_force_;
@@ -146,7 +146,7 @@ class VCycle {
   const Layout& layout() const { return levels_.front().layout(); }
   const Matrix<double>& exact() const { return levels_.front().exact(); }
 
-  /// Right side and solution of a V-cycle: fields.
+  /// Fields with the right side and the solution of a V-cycle.
   AlignedBuffer<float>& b() { return levels_.front().b; }
   const AlignedBuffer<float>& u() const { return levels_.front().u; }
   void cycle() { cycle(0); }
@@ -176,9 +176,9 @@ class MultigridSolver {
   MultigridSolver(const GridTopology& topology, const std::vector<int>& pins);
 
   /// Solves (inertia + K(x)) u = b for u (3 x n) until |b - A u| <= tolerance |b|. `inertia` (N/m) is per particle, x
-  /// (m) and b (N) are 3 x n; pins do not move. As in conjugate_gradients(), the residual is the recurrence's, and the
-  /// solve stops at negative curvature with that direction in u. Gives up after 500 iterations, ten times as many as
-  /// cloths are known to need.
+  /// (m) and b (N) are 3 x n; pins do not move. As in conjugate_gradients(), the residual is updated by recurrence, and
+  /// the solve stops at a direction of negative curvature, which it returns in u. Gives up after 500 iterations, ten
+  /// times as many as cloths are known to need.
   CgResult solve(const Eigen::ArrayXd& inertia, const Points& x, Curvature curvature, const Points& b, double tolerance,
                  Points& u);
 
