@@ -96,7 +96,7 @@ struct Result {
   std::string reason;       // one sentence if the run failed
   double end;               // s, last time
   double step;              // s, as used
-  long steps, evaluations;  // evaluations: of the right-hand side
+  long steps, evaluations;  // `evaluations` counts those of the right-hand side
   double cpu_seconds;       // s, stepping only, without observers
   bool ok() const { return verdict == "ok"; }
 };
@@ -108,7 +108,7 @@ using Observer = std::function<bool(const Frame&)>;
 /// impossible settings, and scenes that the stepper cannot run.
 Result run(const Scene& scene, const Settings& settings = {}, const Observer& observer = {});
 
-/// Energy of a state by the scene's formulas (J), gravitational energy relative to the origin. Undefined for
+/// Energy of a state by the scene's formulas (J). The gravitational energy is relative to the origin. Undefined for
 /// first-order scenes.
 struct Energy {
   double kinetic, elastic, gravitational;

@@ -8,7 +8,7 @@
 //   add_velocity(term, state, rate)                   a first-order velocity field
 // Terms with forces that depend on velocity (dashpots, air) also declare `uses_velocity`: leapfrog treats them
 // separately, which preserves its order. Spheres, planes and constraints are not forces: contact acts on whole steps,
-// constraints on methods.
+// and constraints are enforced by methods.
 //
 // Code that must handle every term (energies, hash, JSON, certificate, each engine) visits the variant with one
 // function per term and no generic fallback: a new term does not compile there until it is handled
@@ -71,7 +71,7 @@ struct Model {
   Particles particles;
   std::vector<Term> terms;
 
-  /// Returns null if there is none.
+  /// Returns the first term of type T, or null if the model has none.
   template <class T>
   const T* find() const {
     for (const Term& term : terms)

@@ -39,7 +39,7 @@ std::vector<Vec3> lattice_vectors(const Points& x, int from) {
   if (all.empty()) return basis;
   double shortest = INFINITY;
   for (const Vec3& d : all) shortest = std::min(shortest, d.norm());
-  // equal lengths stay in the order of the particles
+  // lengths are rounded, so that displacements of equal length stay in the order of the particles
   const auto length = [&](const Vec3& d) { return std::round(d.norm() / (round_off * shortest)); };
   std::stable_sort(all.begin(), all.end(), [&](const Vec3& a, const Vec3& b) { return length(a) < length(b); });
   for (const Vec3& d : all) {
@@ -171,7 +171,7 @@ NetModuli moduli_of(const Model& model, const State& start) {
     stars[static_cast<size_t>(s.b)].push_back({-d, k, s.family});
   }
 
-  // The particle nearest to the middle, among those with the most springs, each with an opposite one.
+  // Chooses the particle nearest to the middle among those with the most springs, each paired with an opposite one.
   const Vec3 middle = x.rowwise().mean();
   int inside = -1;
   for (int i = 0; i < x.cols(); ++i) {

@@ -39,7 +39,7 @@ struct NetModuli {
   std::string why_not;  // reason if there are no moduli
 };
 
-/// Moduli of a network whose springs are at rest and the same at every particle, each with an opposite one. A uniform
+/// Moduli of a network whose springs are at rest, the same at every particle, and paired with opposite ones. A uniform
 /// strain then moves every particle affinely, and the energy of a particle per area or volume V gives
 ///   C_ijkl = sum over the springs of one particle of k L^2 n_i n_j n_k n_l / (2 V)
 /// (M. Born and K. Huang, Dynamical Theory of Crystal Lattices, chapter 5, for central forces). Springs along the
@@ -48,10 +48,10 @@ NetModuli moduli_of(const Model& model, const State& start);
 
 /// "N", "N/m" or "Pa".
 std::string_view unit_of_moduli(int dimension);
-/// "C11 = 1200 N/m, C12 = C66 = 200 N/m", and "Young's modulus 1167 N/m along an axis, ..."; one sentence for a line.
-/// Only cubic networks with anisotropy 1 are called isotropic.
+/// Sentences like "C11 = 1200 N/m, C12 = C66 = 200 N/m" and "Young's modulus 1167 N/m along an axis, ..."; only one for
+/// a line. Only cubic networks with anisotropy 1 are called isotropic.
 std::vector<std::string> sentences_of(const Moduli& moduli);
-/// Warns if skip-one springs contribute more than half of c11; otherwise empty.
+/// Returns a warning if skip-one springs contribute more than half of c11, otherwise an empty string.
 std::string skip_one_warning(const Moduli& moduli);
 
 /// Length scale of the folds of a sheet with bending rigidity: (B / w)^(1/3), where w is its weight per area.
@@ -63,10 +63,11 @@ struct BendingLength {
   double spacings() const { return length / spacing; }
 };
 
-/// Nothing without bending. w is the weight of all particles over the area of all cells, in the initial state.
+/// Returns nothing for a model without bending. w is the weight of all particles over the area of all cells, in the
+/// initial state.
 std::optional<BendingLength> bending_length_of(const Model& model, const State& start);
 std::string sentence_of(const BendingLength& bending);
-/// Warns if the grid is coarser than half a fold; otherwise empty.
+/// Returns a warning if the grid is coarser than half a fold, otherwise an empty string.
 std::string coarse_grid_warning(const BendingLength& bending);
 
 }  // namespace crosscheck

@@ -53,10 +53,12 @@ class System {
 };
 
 /// Largest omega (rad/s) of M v'' = -K v with the stiffness K at the state and fixed pins; 0 without springs and
-/// bending. By power iteration from a seeded start, to 1e-4 or for 500 products, which approaches it from below.
+/// bending. Computed by power iteration from a seeded start, which approaches omega from below and stops at a relative
+/// accuracy of 1e-4 or after 500 products.
 double highest_frequency(const Model& model, const State& state);
 
-/// Upper bound of highest_frequency() over all states: a spring that is stretched far is as stiff across as along.
+/// Upper bound of highest_frequency() over all states: a spring stretched far beyond its rest length is as stiff across
+/// its direction as along it.
 double highest_frequency_bound(const Model& model, const State& state);
 
 /// The common drag rate gamma = c / m of all free particles (1/s), 0 without drag; nothing if the rates differ.

@@ -12,8 +12,8 @@
 namespace crosscheck::simd {
 namespace {
 
-/// Times in s: at which forces are evaluated, from the beginning of the step, and by which positions then drift, before
-/// and after contacts.
+/// `at`: time (s) within the step at which forces are evaluated. `drift_before`, `drift_after`: durations (s) for which
+/// positions then drift, before and after contacts are resolved.
 struct Kick {
   double at, drift_before, drift_after;
 };
@@ -50,7 +50,8 @@ class ClothGridWorld : public World {
       begin += part;
     }
     set_factors(composition, h);
-    // fixed surfaces, no pins, no losses per particle; otherwise the callback resolves contacts
+    // contacts are resolved in lanes only with fixed surfaces, and without pins and losses per particle; otherwise the
+    // callback resolves them
     in_lanes_ = std::is_same_v<T, double> && !has_moving_surface(scene.model) && !locates_events_ &&
                 !record_contact_loss_ && scene.model.particles.pins.empty();
     for (const Surface& s : surfaces_) {
@@ -66,7 +67,7 @@ class ClothGridWorld : public World {
     for (const Kick& kick : kicks_) {  // one for leapfrog and symplectic Euler, five for suzuki4
       const KickDrift<T> kick_drift = kick_drift_at(t + kick.at, kick);
       const Vec3 shift = pin_displacement_at(t + kick.at);
-      slabs_.for_each([&](Slab& slab) {  // on the slab's thread, between exchanges of halo rows
+      slabs_.for_each([&](Slab& slab) {  // runs on the slab's thread, between exchanges of halo rows
         place_pins(slab, shift);
         fused_step(slab, kick, kick_drift);
       });
@@ -85,7 +86,7 @@ class ClothGridWorld : public World {
 
   void report_contact(Observer& observer) override {
     bool any = false;
-    double sum = 0;  // summed sequentially: the same bits for any number of slabs
+    double sum = 0;  // summed sequentially, which gives the same bits for any number of slabs
     for (const SlabResult& result : slab_results_)
       for (const double lost : result.lost) sum += lost, any = true;
     if (any) observer.contact(sum);
@@ -209,7 +210,7 @@ class ClothGridWorld : public World {
     Vec3 place = at(x), speed = at(v);
     // state at the beginning of the step
     const Vec3 v_n = slab.body.velocity(here), x_n = slab.body.position(here) - kicks_.back().drift_after * v_n;
-    // a particle that ends its step outside felt at most O(h) in total, and counts as free
+    // contact changes the velocity of a particle that ends its step outside by at most O(h), so it counts as free
     const auto lost = locates_events_ ? resolve_events(tracks_, t_next_ - t_, drag_rate_[i], x_n, v_n, place, speed)
                                       : resolve_surfaces(surfaces_, resolve_contact, t_, t_next_, x_n, v_n, place,
                                                          speed, record_contact_loss_);

@@ -10,7 +10,7 @@ namespace crosscheck {
 namespace {
 
 constexpr double eps = std::numeric_limits<double>::epsilon();
-constexpr int most_events = 16;   // per step; then the rule for whole steps (terms/surface.h) applies
+constexpr int most_events = 16;   // per step; after these, the rule for whole steps (terms/surface.h) applies
 constexpr int most_contacts = 4;  // simultaneous, of a particle
 
 /// The smallest argument, up to the last few bits, at which a condition holds that is false at `low` and true at
@@ -45,7 +45,7 @@ class ParticleStep {
         std::any_of(surfaces.begin(), surfaces.end(), [&](const SurfaceTrack& track) { return inside(track, x, h); });
   }
 
-  /// Returns false if nothing was touched.
+  /// Runs the whole step. Returns false if the particle touched no surface.
   bool run() {
     for (int event = 0; event < most_events && done_ < h_; ++event) {
       find_contacts();
@@ -96,7 +96,7 @@ class ParticleStep {
   }
   Vec3 normal_at(const SurfaceTrack& track) const { return track.surface().normal(x_ - track.origin(done_)); }
   void put_on(const SurfaceTrack& track) { x_ = track.surface().put_on(track.origin(done_), x_, normal_at(track)); }
-  /// Returns false if the particle is already outside.
+  /// Puts the particle on the surface if it is inside. Returns false if it is already outside.
   bool put_outside(const SurfaceTrack& track) {
     if (!(gap(track, x_, done_) < 0)) return false;
     put_on(track);
@@ -118,7 +118,7 @@ class ParticleStep {
     std::array<Contact, most_contacts> near;
     int touching = 0;
     for (const SurfaceTrack& track : surfaces_) {
-      // rounding of a position on the surface: by its centre, its radius, and a step away and back
+      // rounding of a position on the surface: due to its centre, its radius, and a step away and back
       const double rounding = 1e-12 * track.surface().rounding_scale(track.origin(done_), reach_);
       if (touching == most_contacts || !(gap(track, x_, done_) <= rounding)) continue;
       put_outside(track);
@@ -147,7 +147,7 @@ class ParticleStep {
     }
   }
 
-  /// Returns false if the particle does not move inward.
+  /// Applies the impulse of an impact. Returns false if the particle does not move inward.
   bool collide(const Contact& contact) {
     const auto& [track, n] = contact;
     const Surface& surface = track->surface();
@@ -200,7 +200,7 @@ class ParticleStep {
   }
 
   void advance(double s) {
-    // a rounding error before the end counts as the end
+    // a time that is less than the end of the step by a rounding error counts as the end
     done_ = done_ + s >= h_ * (1 - 4 * eps) ? h_ : done_ + s;
   }
 
@@ -211,9 +211,9 @@ class ParticleStep {
     const auto press = [&](const Vec3& n, const Vec3& speed) { return -b.dot(n) - speed.squaredNorm() / radius; };
     const Vec3 n0 = surface.normal_on(r);
     const double press0 = std::max(0.0, press(n0, w));
-    // Half of the slide. Friction opposes the mean velocity of the slide, which points along that of the frictionless
-    // one. If friction opposed an initial velocity much smaller than s mu N, transverse motion would grow without
-    // bound.
+    // First half of the slide. Friction opposes the mean velocity of the slide, which points along that of the slide
+    // without friction. If friction opposed an initial velocity much smaller than s mu N, transverse motion would grow
+    // without bound.
     const Vec3 n = surface.normal(r + s / 2 * w);
     const Vec3 unheld = without_normal_part(w + s / 2 * (b - gamma_ * w + press0 * n0), n);
     Slid end;

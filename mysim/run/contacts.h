@@ -9,7 +9,8 @@
 //   surface; friction acts over the particle's displacement: -(J_t . (x' - x_n) + J_n . s) / h.
 // Hence a particle at rest on a fixed surface loses nothing, whatever the stepper proposes. The energy change of a
 // touching particle by the free step and the push out of the surface is an error of the method, not a loss, and remains
-// in the balance. The factor 3: explicit Euler holds a resting particle in every other step, by |J| = 2 |a| h.
+// in the balance. The factor is 3 because explicit Euler supports a resting particle only in every other step, with |J|
+// = 2 |a| h.
 #pragma once
 
 #include <optional>
@@ -29,8 +30,8 @@ enum class ContactRule {
 /// The rule of a method option ("events", "sticky"), or nothing.
 std::optional<ContactRule> contact_rule_of_option(std::string_view option);
 
-/// True for rules of order 2 under ContactRule::events. A first-order rule moves particles along another path than
-/// their velocities indicate, by h^2 a / 2, as much as contact displaces them. A multi-stage rule evaluates forces
+/// True for rules of order 2 under ContactRule::events. A first-order rule moves particles off the path that their
+/// velocities indicate by h^2 a / 2, which is as much as contact displaces them. A multi-stage rule evaluates forces
 /// inside the solids, where rounding of the speed at first touch decides between two paths.
 bool locates_events(const Stepper& stepper);
 

@@ -1,4 +1,4 @@
-// Detects self-intersections of a surface at samples. They are remarks, never verdicts.
+// Detects self-intersections of a surface at samples. They cause remarks, never verdicts.
 #pragma once
 
 #include <array>
@@ -13,8 +13,8 @@ namespace crosscheck {
 class CrossingDetector {
  public:
   explicit CrossingDetector(std::vector<std::array<int, 3>> triangles);
-  /// Number of edges that pierce a triangle with which they share no particle; 0 if a position is not finite. Linear in
-  /// the number of triangles if their sizes are similar.
+  /// Number of edges that pierce a triangle without sharing a particle with it; 0 if a position is not finite. Linear
+  /// in the number of triangles if their sizes are similar.
   int piercing_edges(const Points& x);
 
  private:

@@ -101,7 +101,7 @@ Outcome run_loop(World& world, const Run& run, Observer& observer) {
 
 namespace {
 
-/// Any rule on any scene: defines the results that every faster world must reproduce.
+/// Applies any rule to any scene; defines the results that every faster world must reproduce.
 class SteppedWorld : public World {
  public:
   SteppedWorld(const Stepper& stepper, ContactRule rule, const Scene& scene, double h)
@@ -167,7 +167,7 @@ class AdaptiveWorld : public World {
   double tolerance_, h_, last_h_ = 0;
   double shortest_;           // s; shorter steps are lost in the rounding of time
   double fastest_;            // m/s, largest of an accepted state
-  double last_ratio_ = 1e-4;  // the previous step's, for the controller
+  double last_ratio_ = 1e-4;  // error ratio of the previous step, for the controller
   State before_, s_, seen_;   // start and end of the last accepted step; requested state
   long accepted_ = 0;
   std::optional<double> lost_;  // J, in contacts since the previous requested state
@@ -190,7 +190,7 @@ AdaptiveWorld::AdaptiveWorld(const Scene& scene, const Run& run, ContactRule con
       s_(scene.start),
       seen_(scene.start) {}
 
-/// Root mean square of estimated over allowed error.
+/// Root mean square of the ratio of estimated to allowed error.
 double AdaptiveWorld::error_ratio() {
   const State &error = pair_.error(), &next = pair_.next();
   const auto part = [&](const Points& e, const Points& from, const Points& to, double scale) {
@@ -201,7 +201,7 @@ double AdaptiveWorld::error_ratio() {
     }
     return e.cols() > 0 ? sum / static_cast<double>(e.cols()) : 0;
   };
-  // from rest: the speed after one step of the initial forces
+  // the speed after one step with the initial forces is for scenes that start at rest
   const double speed = std::max({fastest_, pair_.first_step_speed(), 1e-300});
   return std::sqrt(std::max(part(error.x, s_.x, next.x, scene_.size()), part(error.v, s_.v, next.v, speed)));
 }
@@ -212,7 +212,7 @@ void AdaptiveWorld::advance(double limit) {
   contacts_.begin(s_);
   double room = most;
   for (;;) {
-    // a step that would leave a sliver before the limit goes all the way
+    // a step that would leave a tiny remainder before the limit is extended to the limit
     const double h = s_.t + 1.01 * h_ >= limit ? limit - s_.t : h_;
     if (!(h > shortest_)) throw SolverFailure(fmt::format("the step fell below round-off at t = {:.4g} s", s_.t));
     pair_.attempt(f_, s_, h);
@@ -267,10 +267,10 @@ void require_supported(const Stepper& stepper, const Model& model) {
     throw Unsupported("the scene has hard distances, and this rule knows forces only");
 }
 
-/// Remark about particles that lie on a surface with restitution at the end of a run with steps of h (s); otherwise
-/// empty. Contact on whole steps returns part of each step's speed, so a particle at rest under an acceleration a
-/// (m/s^2) keeps hopping by about a h^2. With explicit Euler, which adds energy in each flight, the height is at least
-/// 9 a h^2.
+/// Returns a remark if particles lie on a surface with restitution at the end of a run with steps of h (s), otherwise
+/// an empty string. Contact on whole steps returns part of each step's speed, so a particle at rest under an
+/// acceleration a (m/s^2) keeps hopping by about a h^2. With explicit Euler, which adds energy in each flight, the
+/// height is at least 9 a h^2.
 std::string hops_at_rest(const Scene& scene, State s, double h) {
   std::vector<Surface> surfaces = surfaces_of(scene.model);
   std::erase_if(surfaces, [](const Surface& surface) { return !(surface.restitution > 0 && surface.restitution < 1); });

@@ -24,14 +24,14 @@ class World {
   virtual ~World() = default;
   /// Advances from t to t_next (s), including pins and contacts.
   virtual void step(double t, double t_next) = 0;
-  /// Positions and velocities in the scene's numbering; t (s): the caller's current time.
+  /// Positions and velocities in the scene's numbering; `t` is the caller's current time (s).
   virtual const State& state(double t) = 0;
   /// Reports the energy lost in the contacts of the last step, if the engine knows it.
   virtual void report_contact(Observer& /*observer*/) {}
   /// The scene as the engine built it, read after the first step.
   virtual std::optional<Readback> read_back() { return std::nullopt; }
   virtual Work work() const { return {}; }
-  /// True if the world covers any interval with steps of its own. The run's step then only defines the states for
+  /// True if the world chooses its own steps within an interval. The run's step then only defines the states for
   /// observers of every step.
   virtual bool chooses_steps() const { return false; }
 };
@@ -61,16 +61,15 @@ class RunLoop {
   const int stride_;  // steps between two observed states
   const bool chooses_steps_;
   CpuClock clock_;
-  long evaluations_ = 0;       // count at the last observed state, if the world chooses its steps
-  int sample_ = 0, step_ = 0;  // samples so far, and steps since the last
+  long evaluations_ = 0;       // number at the last observed state, if the world chooses its steps
+  int sample_ = 0, step_ = 0;  // samples so far, and steps since the last sample
   Outcome out_;
 };
 
 Outcome run_loop(World& world, const Run& run, Observer& observer);
 
-/// Ways to step regular cloths: by the fused step, reproducible (the same bits on every machine), as fast as possible,
-/// or in single precision; or by the general engine for any scene.
-/// or in single precision; or by the general engine for any scene.
+/// Execution paths. Regular cloths use the fused step: reproducible (the same bits on every machine), as fast as
+/// possible, or in single precision. `general` uses the general engine, which handles any scene.
 enum class ExecutionPath { reproducible, fastest, single_precision, general };
 
 struct Execution {
@@ -87,8 +86,8 @@ std::unique_ptr<World> make_world(const Stepper& stepper, ContactRule contact, c
 Outcome simulate(const Stepper& stepper, ContactRule contact, const Scene& scene, const Run& run, Observer& observer,
                  const Execution& execution = {});
 
-/// True for rules with a fixed order of summation; solving equations and choosing steps may give other bits on other
-/// machines.
+/// True for rules with a fixed order of summation; rules that solve equations or choose their steps may give different
+/// bits on different machines.
 inline bool has_same_bits_everywhere(const Stepper& rule) {
   return !rule.adaptive && (rule.evaluations > 0 || rule.hard_constraints);
 }

@@ -85,7 +85,7 @@ class MotionBoundsObserver : public Observer {
     if (sample) until[state.t] = so_far_;
     return Verdict::ok;
   }
-  std::map<double, MotionBounds> until;  // by time (s), up to each sample
+  std::map<double, MotionBounds> until;  // time of a sample (s) -> bounds up to this sample
 
  private:
   const Scene& scene_;
@@ -122,7 +122,7 @@ double largest_length_ratio(const Model& model, const State& start, const Points
 
 namespace {
 
-/// Bounds up to each sample, by time; empty if there are none.
+/// Bounds up to each sample, by the time of the sample (s); empty if leapfrog cannot run the scene, or fails.
 std::map<double, MotionBounds> motion_bounds_over_time(const Scene& scene, const Run& run) {
   const auto rules = steppers();
   const Stepper& rule =
@@ -205,7 +205,7 @@ void DivergenceMonitor::begin(const State& state) {
   System system(model_);
   Points a(3, start.x.cols());
   system.acceleration(start, a);
-  // single precision stores a position to 6e-8 of its coordinates; five such errors in two steps are no motion
+  // single precision stores a position to 6e-8 of its coordinates; five such errors in two steps do not count as motion
   const double known = position_rounding_ = 5 * 6e-8 * start.x.cwiseAbs().maxCoeff();
   for (int i = 0; i < particles.size(); ++i)
     if (!particles.pinned[i]) {
@@ -292,7 +292,7 @@ Verdict DivergenceMonitor::goes_too_far() {
   }
   if (bounds_) return beyond_bounds();
   if (true_motion_bounds_) return Verdict::ok;
-  // no true motion is known
+  // here no bounds of the true motion are known
   if (largest_ratio_ > ratio_suspect) return Verdict::energy;
   return largest_length_ratio_ > allowed * length_bound * initial_length_ratio_ ? Verdict::stretch : Verdict::ok;
 }

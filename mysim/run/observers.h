@@ -106,20 +106,20 @@ struct MotionBounds {
 double largest_length_ratio(const Model& model, const State& start, const Points& x);
 
 /// Simulates the run's duration with leapfrog at a quarter of its stability limit for the highest possible frequency,
-/// where the speed of a vibration is accurate to 3 %. Nothing if leapfrog cannot run the scene, or fails.
+/// where the speed of a vibration is accurate to 3 %. Returns nothing if leapfrog cannot run the scene, or fails.
 std::optional<MotionBounds> motion_bounds_of(const Scene& scene, const Run& run);
 
 using MotionBoundsFunction = std::function<std::optional<MotionBounds>(const Scene&, const Run&)>;
 
-/// motion_bounds_of() for callers that run one scene repeatedly: keeps the bounds of the longest run, and returns those
-/// at the sample at which a shorter run ends.
+/// motion_bounds_of() for callers that run one scene repeatedly: keeps the bounds of the longest run, and for a shorter
+/// run returns the bounds at its last sample.
 class MotionBoundsCache {
  public:
   std::optional<MotionBounds> operator()(const Scene& scene, const Run& run);
 
  private:
   std::map<double, MotionBounds> until_;                        // by time, s
-  double none_from_ = std::numeric_limits<double>::infinity();  // s: runs of at least this duration have none
+  double none_from_ = std::numeric_limits<double>::infinity();  // s; runs of at least this duration have no bounds
 };
 
 // Detects failed runs: ten times faster than the true motion ever is, a spring ten times longer, or a state that is not
@@ -157,7 +157,7 @@ class MotionBoundsCache {
 /// checked under hard distances, whose forces may balance.)
 class DivergenceMonitor : public Observer {
  public:
-  /// Scene and run must outlive the monitor. `bounds` computes those of the true motion.
+  /// Scene and run must outlive the monitor. `bounds` computes the bounds of the true motion.
   DivergenceMonitor(const Scene& scene, const Run& run, MotionBoundsFunction bounds = motion_bounds_of);
   /// For callers that know only the model. The initial energy is that of `start`, for engines that may not report
   /// velocities; without `start`, that of the first observed state.
@@ -183,7 +183,7 @@ class DivergenceMonitor : public Observer {
   };
   void begin(const State& state);
   bool frozen(const State& state);
-  /// Compares with the state before the last. Also fails if a part of B is not finite.
+  /// Compares the state with the one before the last. Also fails if a part of B is not finite.
   Verdict moves_too_fast(const State& state);
   /// Verdict at a sample, by lengths, and by the true motion if needed.
   Verdict goes_too_far();
@@ -194,8 +194,8 @@ class DivergenceMonitor : public Observer {
   std::optional<MotionBounds> bounds_;                               // once computed
   std::optional<State> start_;
   std::optional<Ledger> ledger_;  // if wind or moved pins do work
-  std::optional<State> first_;    // until the next sample
-  double interval_ = 0;           // s, between states that are due; 0: all are due
+  std::optional<State> first_;    // first observed state, kept until the next sample
+  double interval_ = 0;           // s, between states that are due; 0 if all are due
   bool freeze_checked_ = false;
   bool begun_ = false;
   Seen before_, last_;
@@ -204,7 +204,7 @@ class DivergenceMonitor : public Observer {
   double contact_energy_ = 0;         // J, largest contribution of corrections at contacts
   double initial_energy_ = 0;         // J, kinetic and elastic at the start, plus the two contributions above
   double initial_gravitational_ = 0;  // J, gravitational energy at the start
-  double gravitational_change_ = 0;   // J, largest change of that so far
+  double gravitational_change_ = 0;   // J, largest change of gravitational energy so far
   double external_work_ = 0;          // J, largest work of wind and moved pins so far
   double squared_acceleration_ = 0;   // kg m^2/s^4, sum of m |a_0|^2
   double squared_rounding_ = 0;       // kg m^2, sum of m/2 |rounding of a position|^2
@@ -216,8 +216,8 @@ class DivergenceMonitor : public Observer {
   double largest_length_ratio_ = 0;
 };
 
-/// Combines other observers with a monitor, which sees the same states even if others observe every step, so that these
-/// never change a verdict.
+/// Combines other observers with a monitor. The monitor sees the same states even if others observe every step, so that
+/// these observers never change a verdict.
 class MonitoredObservers : public Observer {
  public:
   MonitoredObservers(DivergenceMonitor& monitor, std::vector<Observer*> others)

@@ -21,7 +21,7 @@ enum class Verdict {
   frozen,       // nothing moves, although forces act
   timeout,      // an external program did not end in time
   crash,        // an external program died, or violated the protocol
-  unsupported,  // the method lacks an ingredient of the scene
+  unsupported,  // the method does not support an ingredient of the scene
 };
 std::string_view name_of(Verdict verdict);   // identifier in tables and files
 std::string_view in_words(Verdict verdict);  // readable text
@@ -68,7 +68,7 @@ class NullObserver : public Observer {
   Verdict observe(const State&, bool) override { return Verdict::ok; }
 };
 
-/// The first verdict that is not ok counts.
+/// Passes states to several observers. The first verdict that is not ok counts.
 class Observers : public Observer {
  public:
   explicit Observers(std::vector<Observer*> list) : list_(std::move(list)) {}
@@ -87,15 +87,16 @@ struct ForceProbe {
   Points springs;   // springs alone, at x
   Points bending;   // bending alone, at x
   Points dashpots;  // dashpots alone, at x and v
-  Points wind;      // both winds, at x and t, with the free particles at rest
+  Points wind;      // uniform wind and air on triangles, at x and t, with the free particles at rest
 };
 
-/// The scene as the engine built it, read from its own data structures after the first step. Empty: not reported.
+/// The scene as the engine built it, read from its own data structures after the first step. Members that the engine
+/// does not report are empty.
 struct Readback {
   struct Link {
     int a, b;                         // ends, in the scene's numbering
     double rest;                      // m
-    std::optional<double> stiffness;  // N/m; empty: the probe reports it
+    std::optional<double> stiffness;  // N/m; empty if the probe reports it
   };
   struct Ball {
     Vec3 centre;                        // m, at the start
@@ -137,10 +138,10 @@ struct Outcome {
   Verdict verdict = Verdict::ok;
   std::string reason;                      // one sentence if the verdict is not ok
   double end = 0;                          // s, last time reached or time of failure
-  double step = 0;                         // s, as used; mean of adaptive methods
+  double step = 0;                         // s, as used; for adaptive methods the mean
   bool adaptive = false;                   // an external program chooses its steps
   bool serves = false;                     // an external program can run many scenes in one process
-  std::string engine;                      // name and version, of an external program
+  std::string engine;                      // name and version of an external program
   double tolerance = 0;                    // tolerance of adaptive methods, dimensionless; otherwise 0
   long steps = 0;                          // taken
   long evaluations = 0;                    // right-hand side evaluations, or the engine's own force passes
