@@ -53,8 +53,8 @@ class System {
 };
 
 /// Largest omega (rad/s) of M v'' = -K v with the stiffness K at the state and fixed pins; 0 without springs and
-/// bending. Computed by power iteration from a seeded start, which approaches omega from below and stops at a relative
-/// accuracy of 1e-4 or after 500 products.
+/// bending. Computed by power iteration from a seeded start, which approaches omega from below and stops if a product
+/// changes omega^2 by less than 1e-5 of its value, or after 500 products.
 double highest_frequency(const Model& model, const State& state);
 
 /// Upper bound of highest_frequency() over all states: a spring stretched far beyond its rest length is as stiff across

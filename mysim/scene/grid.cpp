@@ -21,8 +21,8 @@ double springs_of_grid(const Grid& g) {
   return count;
 }
 
-/// Throws, with the numbers, if the grid as a scene would not fit into memory. Counts each spring twice (the list, and
-/// its copy when it is passed on and sorted), and each particle's position, velocity and mass.
+/// Throws InputError with the numbers if a scene made from the grid would not fit into memory. Counts each spring twice
+/// (the list, and its copy when it is passed on and sorted), and each particle's position, velocity and mass.
 void require_memory_of_grid(const TomlTable& s, const Grid& g) {
   const double springs = springs_of_grid(g);
   const double stencils = g.bending > 0 ? 3. * g.size() : 0;
@@ -107,7 +107,7 @@ Points grid_points(const Grid& g) {
 
 std::vector<Spring> grid_springs(const Grid& g) {
   std::vector<Spring> list;
-  list.reserve((g.nw > 1 ? 12L : 6L) * g.size());  // per particle, except at edges; large cloths fill the memory
+  list.reserve((g.nw > 1 ? 12L : 6L) * g.size());  // an inner particle begins this many; large cloths fill the memory
   const Vec3* side[3] = {&g.u, &g.v, &g.w};
   const int size[3] = {g.nu, g.nv, g.nw}, stride[3] = {1, g.nu, g.nu * g.nv};
   using Steps = std::array<int, 3>;
@@ -166,7 +166,7 @@ Bending grid_bending(const Grid& g) {
 
 std::vector<std::array<int, 3>> grid_triangles(const Grid& g) {
   std::vector<std::array<int, 3>> list;
-  // a face of n by m particles from `first` on, with the given strides
+  // adds a face of n by m particles, beginning with particle `first`, with the given strides
   auto face = [&](int first, int n, int step_n, int m, int step_m) {
     for (int j = 0; j + 1 < m; ++j)
       for (int i = 0; i + 1 < n; ++i) {

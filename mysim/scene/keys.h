@@ -10,7 +10,7 @@ namespace crosscheck {
 struct Key {
   enum class Kind { value, table, tables, table_or_tables };  // key = ..., [key], [[key]], either of the two
   std::string_view name;
-  std::string_view expected;  // for a value: with unit; for tables: their purpose
+  std::string_view expected;  // for values, the content with its unit; for tables, their purpose
   bool required = false;
   Kind kind = Kind::value;
   std::span<const Key> below = {};  // keys of a table

@@ -223,7 +223,7 @@ Family read_family(const TomlTable& s) {
                                did_you_mean(word, words)));
 }
 
-/// Springs, bending, dashpots and hard distances: first the grid's, then single ones.
+/// Reads springs, bending, dashpots and hard distances, first those of the grid, then single ones.
 void read_pairs(const TomlTable& file, const std::optional<Grid>& grid, Scene& scene) {
   Springs springs;
   Dashpots dashpots;
@@ -277,7 +277,7 @@ void read_pairs(const TomlTable& file, const std::optional<Grid>& grid, Scene& s
   if (!constraints.list.empty()) scene.model.terms.emplace_back(std::move(constraints));
 }
 
-/// An initial state that differs from the one that defines the springs' default lengths.
+/// Reads an initial state that differs from the one that defines the springs' default lengths.
 void read_start(const TomlTable& file, bool first_order, Scene& scene) {
   if (!file.has("start")) return;
   const TomlTable s = file.section("start");
@@ -308,7 +308,7 @@ void read_spheres(const TomlTable& file, Scene& scene) {
   scene.model.terms.emplace_back(std::move(spheres));
 }
 
-/// Distance between two opposite planes minus their margins (m). Nothing if the sine of their angle exceeds the
+/// Distance between two opposite planes minus their margins (m). Returns nothing if the sine of their angle exceeds the
 /// rounding of a decimal number.
 std::optional<double> width_between(const Plane& a, const Plane& b) {
   if (!(a.normal.dot(b.normal) < 0 && a.normal.cross(b.normal).norm() < 1e-9)) return std::nullopt;
@@ -360,7 +360,7 @@ void read_pins(const TomlTable& file, Scene& scene) {
   particles.pin_home.resize(3, static_cast<int>(particles.pins.size()));
   for (size_t i = 0; i < particles.pins.size(); ++i)
     particles.pin_home.col(static_cast<int>(i)) = scene.start.x.col(particles.pins[i]);
-  // pins keep their distances anyway
+  // erases constraints between pins, which keep their distances anyway
   if (auto* constraints = scene.model.find<Constraints>())
     std::erase_if(constraints->list, [&](const auto& c) { return particles.pinned[c.a] && particles.pinned[c.b]; });
   if (static_cast<int>(particles.pins.size()) == particles.size())

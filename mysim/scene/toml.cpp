@@ -58,7 +58,7 @@ std::string as_written(const toml::node& n, std::string_view text) {
   return written_between(text, n.source());
 }
 
-/// Continues a sentence after a semicolon, unless it is a question.
+/// Appends a semicolon, so that a sentence can follow, unless the text is a question.
 std::string and_then(const std::string& question) { return question.ends_with('?') ? question : question + ";"; }
 
 /// Hint for a value that is no number but looks like one.
@@ -81,7 +81,7 @@ std::string mended_number(const toml::node& n) {
   return "";
 }
 
-/// The key in a line of the text, below the headers above it; null if there is none.
+/// The known key in a line of the text, according to the headers above this line; null if the line has no known key.
 const Key* key_in_line(std::string_view text, int line, std::span<const Key> keys) {
   std::span<const Key> here = keys;
   const auto find = [](std::span<const Key> among, std::string_view name) {
@@ -438,7 +438,7 @@ class KeyCheck {
       if (std::find(known.begin(), known.end(), key.str()) != known.end()) continue;
       std::string here = path;
       while (here.find('[') != std::string::npos) here.erase(here.find('['), here.find(']') - here.find('[') + 1);
-      // a misspelt key is likelier to be a missing one than one that is present
+      // a misspelt key more likely means a missing key than one that is present
       const std::string meant = closest_match(key.str(), absent);
       std::string hint = elsewhere(key.str(), here);
       const bool lacks = std::any_of(missing.begin(), missing.end(), [&](const Key* k) { return k->name == meant; });
@@ -451,7 +451,7 @@ class KeyCheck {
       }
       unknown.emplace_back(key.source().begin.line, fmt::format("{}: unknown key{}", full_key(path, key.str()), hint));
     }
-    // keys of a missing table that are present: only its header is missing
+    // if the keys of a missing table are present, only its header is missing
     const auto only_header = [&](const Key& key) {
       return std::any_of(unknown.begin(), unknown.end(), [&](const auto& one) {
         return one.second.ends_with(fmt::format("; it belongs to [{}]", full_key(path, key.name)));

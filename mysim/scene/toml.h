@@ -31,7 +31,7 @@ class TomlTable {
   Vec3 vec3(std::string_view key) const;                                                         // finite
   std::vector<int> integers(std::string_view key, int least = 0) const;
   Eigen::VectorXd numbers(std::string_view key, int count) const;  // exactly `count`, finite
-  Points points(std::string_view key, int count) const;            // 3 `count` numbers, or `count` triples
+  Points points(std::string_view key, int count) const;            // 3 * count numbers, or count triples
 
   TomlTable section(std::string_view key) const;                   // a table; throws if missing
   std::vector<TomlTable> sections(std::string_view key) const;     // an array of tables; empty if missing
@@ -77,7 +77,7 @@ struct TomlError {
   std::string what;
 };
 
-/// line, description: the parser's; the description is kept if no better diagnosis is known.
+/// `line` and `description` are those of the parser; the description is kept if no better diagnosis is known.
 TomlError diagnose_toml(std::string_view text, int line, std::string_view description);
 
 /// Error for a key with so many dots that toml++, which recurses for each, would exhaust the stack.

@@ -16,8 +16,8 @@ namespace {
 struct BareLine {
   std::string code;     // as long as the line up to its comment; content of texts is '_'
   std::string shown;    // the original line, trimmed
-  bool open = false;    // a text is not closed
-  bool inside = false;  // begins in a multi-line text
+  bool open = false;    // a text in this line is not closed
+  bool inside = false;  // the line begins in a multi-line text
 };
 
 std::string trimmed_line(std::string_view text) {
@@ -60,7 +60,7 @@ std::vector<BareLine> bare_lines(std::string_view text) {
   return lines;
 }
 
-/// The code point at `at`, and its length in bytes; nothing if it is not UTF-8.
+/// The code point at `at`, and its length in bytes; nothing if the bytes there are not UTF-8.
 std::optional<std::pair<char32_t, int>> code_point_at(std::string_view text, std::size_t at) {
   const auto byte = [&](std::size_t i) { return static_cast<unsigned char>(text[i]); };
   const int length = byte(at) < 0x80       ? 1
@@ -233,7 +233,8 @@ std::string wrong_with_line(const BareLine& line) {
   return wrong_with_value(value);
 }
 
-/// A list or braces still open when the next key or table begins, up to the line where the parser stumbled.
+/// A list or braces that are still open when the next key or table begins, at or before the line where the parser
+/// stumbled.
 std::optional<TomlError> open_list(const std::vector<BareLine>& lines, int stumbled) {
   int depth = 0, opened = 0;
   const int seen = std::min(stumbled + 1, static_cast<int>(lines.size()));

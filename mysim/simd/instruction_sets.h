@@ -36,8 +36,8 @@ Function select(InstructionSet isa, Function baseline, Function avx2, Function a
 /// Instruction sets of this machine, best last.
 std::vector<InstructionSet> supported_instruction_sets();
 
-/// The best one, or the one named by CROSSCHECK_INSTRUCTIONS (baseline, avx2, avx512). Throws InputError if the name is
-/// unknown or the machine lacks it.
+/// The best supported instruction set, or the one named by CROSSCHECK_INSTRUCTIONS (baseline, avx2, avx512). Throws
+/// InputError if the name is unknown or the machine lacks it.
 InstructionSet active_instruction_set();
 
 }  // namespace crosscheck::simd

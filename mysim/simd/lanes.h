@@ -3,11 +3,12 @@
 //
 // Lanes<T> holds as many numbers as a register, with + - * of the compiler's vector types and the few operations that
 // these lack: loads, fused multiply-add, minimum and maximum, 1 / sqrt. Points are stored as x y z x y z; add_points
-// converts lanes of x, of y and of z to this order. A record is four numbers: x y z 0. Records are one record per lane,
-// loaded whole from any address; only the sums of their squares are converted to lanes.
+// converts lanes of x, of y and of z to this order. A record is four numbers: x y z 0. The type Records holds one
+// record per lane, loaded whole from any address; only the sums of their squares are converted to lanes.
 //
 // Highway is not used: Debian's version (1.0.3) has no SSE2 target, so the build for every machine would have one lane
-// and take 1.9 to 2.7 times as long (measured on 1 - 1 / sqrt(s)), and no estimate of 1 / sqrt in double precision.
+// and take 1.9 to 2.7 times as long (measured on 1 - 1 / sqrt(s)). Highway also has no estimate of 1 / sqrt in double
+// precision.
 #pragma once
 
 #ifdef __SSE2__
@@ -278,8 +279,8 @@ struct Lanes<float> {
 
 #endif
 
-/// Lanes that give the same bits on every machine unless `fast`: then fma() and fnma() are fused where possible;
-/// otherwise their products are rounded.
+/// Lanes whose fma() and fnma() round the products, which gives the same bits on every machine, or, if `fast`, fuse
+/// them where possible.
 template <class T, bool fast>
 struct Arithmetic : Lanes<T> {
   using V = typename Lanes<T>::V;

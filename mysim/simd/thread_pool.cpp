@@ -20,7 +20,7 @@ void pause() {
 
 /// Waits until `number` differs from `known`; returns it.
 long wait_for_change(const std::atomic<long>& number, long known) {
-  constexpr int spins = 2000, yields = 2000;  // some 10 us; about a millisecond
+  constexpr int spins = 2000, yields = 2000;  // they last some 10 us and about a millisecond
   for (int i = 0; i < spins + yields; ++i) {
     if (const long now = number.load(std::memory_order_acquire); now != known) return now;
     if (i < spins)

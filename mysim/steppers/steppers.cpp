@@ -16,12 +16,12 @@ namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
-/// First h at which the growth of a step of h exceeds 1, by scanning and bisection; `scale`: a step much larger than
+/// First h at which the growth of a step of h exceeds 1, by scanning and bisection; `scale` is a step much larger than
 /// the result. Returns 0 if even the shortest steps grow.
 template <class Growth>
 double first_exit(Growth growth, double scale) {
   constexpr int walk = 4000;
-  // beyond rounding: neutral rules are exactly at 1
+  // 1e-13 exceeds rounding: the growth of neutral rules is exactly 1
   auto unstable = [&](double h) { return growth(h) > 1 + 1e-13; };
   if (!std::isfinite(scale)) return infinity;
   double low = 0;

@@ -63,11 +63,11 @@ struct Stepper {
   StabilityLimit limit;
   std::string_view limit_formula;  // readable, with omega and gamma as above
   std::string_view what;           // intended use
-  bool adaptive = false;           // chooses its steps to meet a tolerance; `step`: its rule at a fixed step
+  bool adaptive = false;           // chooses its steps to meet a tolerance; `step` applies its rule at a fixed step
   bool hard_constraints = false;   // supports hard distances
   double solved_to = 0;            // implicit rules: residual relative to the largest force, inertia m v / h included
   StepFunction linear = nullptr;   // rule of the option +linear
-  KickDriftComposition (*composition)() = nullptr;  // null if the rule is none
+  KickDriftComposition (*composition)() = nullptr;  // null if the rule is no such composition
 };
 
 void explicit_euler(System& f, State& s, double h, Workspace& w);

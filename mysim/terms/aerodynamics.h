@@ -16,7 +16,7 @@ struct Aerodynamics {
   static constexpr std::string_view name = "aerodynamics";
   static constexpr bool uses_velocity = true;
   double density;       // rho of the air, kg/m^3
-  double coefficient;   // C, dimensionless: twice the slope of the normal force over the sine, 1 to 2 for a flat plate
+  double coefficient;   // C, dimensionless: normal-force coefficient divided by the sine, 1 to 2 for a flat plate
   WindSignal velocity;  // air velocity, m/s
   std::vector<std::array<int, 3>> triangles;
 };

@@ -54,7 +54,7 @@ double force_over_length(double k, double rest, double squared) {
 void add_force(const Springs& springs, const Particles& particles, const State& state, Forces& forces);
 void add_force(const Springs& springs, const Points& x, Forces& forces);
 double potential_energy(const Springs& springs, const Particles& particles, const State& state);  // J
-/// -dF/dx. Clamped: without the negative transverse stiffness of compressed springs, which makes it positive
+/// -dF/dx. If clamped, it omits the negative transverse stiffness of compressed springs, which makes it positive
 /// semidefinite.
 void add_tangent(const Springs& springs, const Particles& particles, const State& state, Curvature curvature,
                  Tangent& tangent);

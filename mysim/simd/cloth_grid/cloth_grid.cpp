@@ -36,7 +36,7 @@ std::vector<int> candidate_columns(const Springs& springs, int particles) {
   return columns;
 }
 
-/// Direction of a spring from the earlier particle; nothing if it is not one of the six.
+/// Direction of a spring from the earlier particle; nothing if it is not one of the six directions.
 std::optional<int> direction_of(int a, int b, int columns) {
   const Direction to{b / columns - a / columns, b % columns - a % columns};
   for (int d = 0; d < directions; ++d)
@@ -51,7 +51,7 @@ long spring_count(int rows, int columns, const Direction& d) {
 std::optional<GridTopology> grid_topology_with(const Springs& springs, int rows, int columns) {
   struct Collected {
     GridTopology::Stiffness family;
-    std::vector<char> seen;  // by the earlier end
+    std::vector<char> seen;  // indexed by the earlier end
     long count = 0;
   };
   std::array<Collected, directions> all;
@@ -104,7 +104,7 @@ ClothGridMemory<T>::ClothGridMemory(const GridTopology& topology)
   x_ = AlignedBuffer<T>(row * rows_);
   v_ = AlignedBuffer<T>(static_cast<size_t>(tiles_) * tile_size<T> * rows_);
   force_ = AlignedBuffer<T>(3 * row);
-  // empty lanes: far from the particles and from each other
+  // places empty lanes far from the particles and from each other
   for (size_t i = 0; i < x_.size(); ++i) x_.data()[i] = T(1e6) + static_cast<T>(i % 4096) * T(17);
   grid_ = {rows_, tiles_, 0, 0, x_.data(), v_.data(), force_.data(), {}, {}, nullptr, nullptr, nullptr, 0};
   for (int d = 0; d < directions; ++d) {

@@ -15,13 +15,13 @@
 
 namespace crosscheck::simd {
 
-/// The fused step (fused_step.h). `fast`: fused multiply-add, and inverse square roots from the machine's own estimate;
-/// otherwise the same bits on every machine.
+/// The fused step (fused_step.h). `fast` uses fused multiply-add and the machine's own estimate of inverse square
+/// roots; without it, results have the same bits on every machine.
 template <class T>
 Kernel<T> kernel(InstructionSet isa, bool fast);
 
 /// All springs of a rows x columns grid whose particle (row, column) has index row * columns + column. Each direction
-/// (fused_step.h) has all springs that fit or none, with one stiffness and one rest length.
+/// (fused_step.h) has either all springs that fit, with one stiffness and one rest length, or none.
 struct GridTopology {
   struct Stiffness {
     double k, rest;  // N/m, m
@@ -30,7 +30,7 @@ struct GridTopology {
   std::array<std::optional<Stiffness>, directions> families;
 };
 
-/// Nothing if the springs follow another law or do not form exactly one such grid.
+/// Returns nothing if the springs follow another law or do not form exactly one such grid.
 std::optional<GridTopology> find_grid_topology(const Springs& springs, int particles);
 
 // A cloth's memory: conversion between scene order and lanes.
@@ -85,12 +85,12 @@ class ClothGridMemory {
 
 /// A cloth split into slabs of rows, one per thread. A slab has two halo rows of each neighbour around its own, because
 /// a spring spans at most two rows. Before a fused step it receives the positions that the neighbour sent after the
-/// last one, through two alternating buffers, so that threads wait for each other only once per fused step. Forces are
-/// summed in the order of a single slab: the same bits for any number of slabs.
+/// previous fused step, through two alternating buffers, so that threads wait for each other only once per fused step.
+/// Forces are summed in the order of a single slab, which gives the same bits for any number of slabs.
 template <class T>
 class Slabs {
  public:
-  /// As in ClothGrid: per particle, or one tile for all.
+  /// Factors as in ClothGrid: one per particle, or one tile for all particles.
   struct KickFactors {
     AlignedBuffer<T> damping, inverse_mass_dt, dt;
   };

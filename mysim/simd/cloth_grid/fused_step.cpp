@@ -41,7 +41,7 @@ FORCE_INLINE long row_length(const ClothGrid<T>& s) {
   return static_cast<long>(left_halo + s.tiles + right_halo) * tile_size<T>;
 }
 
-/// One spring per lane: adds the forces on the near end and subtracts them from the far end's.
+/// One spring per lane: adds the force to `force` at the near end and subtracts it from `far_force` at the far end.
 template <class T, bool fast>
 FORCE_INLINE void spring(const Three<T>& near, Three<T>& force, const T* far, T* far_force, const T* k, V<T> rest,
                          V<T>& least) {
@@ -50,7 +50,7 @@ FORCE_INLINE void spring(const Three<T>& near, Three<T>& force, const T* far, T*
   const V<T> dx = near.x - q.x, dy = near.y - q.y, dz = near.z - q.z;
   V<T> s = L::fma(dz, dz, L::fma(dy, dy, dx * dx));
   least = L::min(least, s);
-  // coincident ends: a large number times 0
+  // the force of coincident ends is 0: a large number times 0
   s = L::max(s, L::all(min_squared_length<T>));
   const V<T> scale = L::load(k) * L::fma(rest, rsqrt<T, fast>(s), L::all(-1));
   force.x = L::fma(scale, dx, force.x), force.y = L::fma(scale, dy, force.y), force.z = L::fma(scale, dz, force.z);
@@ -129,8 +129,8 @@ FORCE_INLINE bool touches(const Three<T>& x, const BoundingPlane& plane) {
   return Lanes<T>::any_less(dot<T>(x - all<T>(plane.origin), all<T>(plane.normal)), Lanes<T>::all(T(plane.near)));
 }
 
-// resolve_contact() of terms/surface.h, vectorised operation by operation: a test verifies that the bits agree. One by
-// one, particles take five times as long, because each square root waits for the previous one.
+// resolve_contact() of terms/surface.h, vectorised operation by operation: a test verifies that the bits agree.
+// Particles processed one by one take five times as long, because each square root waits for the previous one.
 
 template <class T>
 FORCE_INLINE Three<T> shortened(const Three<T>& a, V<T> by) {
@@ -261,8 +261,8 @@ template <class T>
   return degenerate_springs;
 }
 
-/// Row by row: computes the forces of the springs that begin in the row, after which the forces on the row are
-/// complete, and then kicks and drifts it. Returns the number of degenerate springs that begin in own rows.
+/// Computes, row by row, the forces of the springs that begin in the row, after which the forces on the row are
+/// complete, and then kicks and drifts it. Returns the number of degenerate springs that begin in the slab's own rows.
 template <class T, bool fast>
 long fused_step(const ClothGrid<T>& s, const KickDrift<T>& step) {
   assert(s.tiles >= 2);  // fits(): a spring crosses at most one lane
@@ -309,7 +309,7 @@ int multiply_and_add(long rounds, T* sum) {
   constexpr int chains = 12;  // two pipes, each with four or five operations in flight
   V<T> y[chains];
   for (int i = 0; i < chains; ++i) y[i] = L::all(T(1) / T(i + 1));
-  const V<T> half = L::all(T(0.5));  // fixed point at 1: no overflow, and no slow denormal numbers
+  const V<T> half = L::all(T(0.5));  // iterates converge to 1, without overflow and slow denormal numbers
   for (long round = 0; round < rounds; ++round)
     for (int i = 0; i < chains; ++i) y[i] = L::fma(y[i], half, half);
   V<T> all = L::all(0);

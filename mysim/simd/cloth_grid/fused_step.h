@@ -90,7 +90,7 @@ template <class T>
 struct Kernel {
   /// Returns the number of springs with nonzero rest length whose ends coincided; they exert no force.
   long (*fused_step)(const ClothGrid<T>&, const KickDrift<T>&);
-  /// 1 / sqrt of each element, as used for springs; `count`: a multiple of the lanes.
+  /// 1 / sqrt of each element, as used for springs; `count` must be a multiple of the number of lanes.
   void (*rsqrt_array)(const T* s, T* y, long count);
   /// Measures the machine's peak by `rounds` rounds of independent multiplications and additions in registers. `sum`
   /// receives a value that depends on all of them. Returns the operations per round.

@@ -16,8 +16,8 @@ FORCE_INLINE void clear(T* row, long numbers) {
   for (long i = 0; i < numbers; i += Lanes<T>::width) Lanes<T>::store(row + i, Lanes<T>::all(0));
 }
 
-/// Adds the forces on a row's halo to the tiles that it copies, shifted by one lane. The one lane of a halo tile
-/// without an original holds 0, so that the number beyond the tile to which it is added does not change.
+/// Adds the forces on a row's halo to the tiles that it copies, shifted by one lane. The only lane of a halo tile that
+/// is not a copy holds 0, so that the number beyond the tile to which it is added does not change.
 template <int tile_size, class T>
 FORCE_INLINE void reduce_halo(T* row, int tiles) {
   assert(tiles >= 1);
@@ -25,12 +25,13 @@ FORCE_INLINE void reduce_halo(T* row, int tiles) {
   const auto give = [](T * to, const T* from) __attribute__((always_inline)) {
     for (int i = 0; i < tile_size; i += L::width) L::store(to + i, L::load(to + i) + L::load(from + i));
   };
-  // from the last: with a single tile, the second copy is a copy of the first
+  // in reverse order, because with a single tile the second copy is a copy of the first
   for (int b = right_halo - 1; b >= 0; --b) give(row + b * tile_size + 1, row + (tiles + b) * tile_size);
   give(row + (tiles - 1) * tile_size - 1, row - tile_size);
 }
 
-/// Copies positions into a row's halo. The one lane without an original receives a nearby number, which no spring uses.
+/// Copies positions into a row's halo. The only lane without a source position receives a nearby number, which no
+/// spring uses.
 template <int tile_size, class T>
 FORCE_INLINE void fill_halo(T* row, int tiles) {
   assert(tiles >= 1);

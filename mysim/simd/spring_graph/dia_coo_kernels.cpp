@@ -14,12 +14,12 @@ using V = L::V;
 /// m^2; below any nonzero squared length.
 inline constexpr double min_squared_length = 1e-290;
 
-/// -T / L (N/m) at squared length s (m^2). Coincident ends: a large number times a difference of 0.
-/// Square root and division are the machine's, correctly rounded, and nothing is fused, so that each spring's force
-/// equals that of the plain loop to the last bit, on all instruction sets. This matters most near the rest length,
-/// where r - L is a small difference of large numbers: springs at rest must exert no force. An estimate of 1 / L with
-/// Newton steps (as in simd/lanes.h) does not pay: correct rounding of the length takes a third longer than square root
-/// and division, which overlap with other work.
+/// -T / L (N/m) at squared length s (m^2). For coincident ends it is a large number, which is multiplied by a
+/// difference of 0. Square root and division are the machine's, correctly rounded, and nothing is fused, so that each
+/// spring's force equals that of the plain loop to the last bit, on all instruction sets. This matters most near the
+/// rest length, where r - L is a small difference of large numbers: springs at rest must exert no force. An estimate of
+/// 1 / L with Newton steps (as in simd/lanes.h) does not pay: correct rounding of the length takes a third longer than
+/// square root and division, which overlap with other work.
 template <bool hooke>
 FORCE_INLINE V scale_of(V s, V k, V rest) {
   s = L::max(s, L::all(min_squared_length));

@@ -8,8 +8,8 @@ namespace crosscheck::spring_graph {
 // The cost of a spring is the access to its ends: scattered numbers are gathered one by one, and adding to both ends is
 // a scatter in which no two lanes may collide. But when particles are numbered row by row, as in cloths, tiles and
 // chains, most springs join particle i to i + offset, with a handful of offsets: they lie on a few diagonals of the
-// adjacency matrix. Eight springs of a diagonal that begin next to each other also end next to each other: their ends
-// are six loads, and nothing is gathered. Lanes without a spring have stiffness 0.
+// adjacency matrix. Eight springs of a diagonal that begin next to each other also end next to each other: six loads
+// read their ends, and nothing is gathered. Lanes without a spring have stiffness 0.
 //
 // The kernel visits tiles of eight particles. It first computes the springs that begin in a tile: it sums their forces
 // on the tile in registers, and stores each force in its diagonal's ring. Then it finishes the previous tile: the
@@ -54,8 +54,8 @@ struct CooSprings {
   double *x, *force;       // m, N: particles + 2 records
 };
 
-/// Both functions add the springs' forces at positions x (m) to f (N), both 3 x particles, and return true if the ends
-/// of a spring coincided, or of a lane without a spring: the caller must check.
+/// Both functions add the springs' forces at positions x (m) to f (N), both 3 x particles, and return true if the two
+/// ends in any lane coincided. The caller must check whether that lane has a spring.
 struct Kernels {
   bool (*dia)(const DiaSprings&, const double* x, double* f);
   bool (*coo)(const CooSprings&, const double* x, double* f);

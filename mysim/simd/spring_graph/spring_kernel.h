@@ -13,11 +13,11 @@ enum class InstructionSet;
 
 /// Adds the forces of the plain edge loop of terms/springs.h, in another order. Each spring uses the cheapest of three
 /// ways (simd/spring_graph/spring_layout.h): by its offset (DIA), in a list of edges (COO; both in
-/// simd/spring_graph/dia_coo_kernels.h), or, if there are too few springs for lanes, the plain loop. Its force has the
+/// simd/spring_graph/dia_coo_kernels.h), or, if there are too few springs for lanes, the plain loop. A force has the
 /// same bits in each way. Results depend neither on threads nor on the instruction set.
 class SpringKernel {
  public:
-  /// `particles`: their number. The law must be Hooke's or Bullet's link law.
+  /// `particles`: number of particles. The law must be Hooke's or Bullet's link law.
   SpringKernel(const Springs& springs, int particles);
   SpringKernel(SpringKernel&&) noexcept;
   ~SpringKernel();

@@ -17,7 +17,7 @@ Kernels kernels(simd::InstructionSet isa, SpringLaw law) {
 
 namespace {
 
-/// m: padding particles, far from the real ones and from each other.
+/// Coordinate (m) of a padding particle, far from the real particles and from other padding particles.
 double padding_position(long i) { return 1e6 + 17 * static_cast<double>(i); }
 
 }  // namespace
@@ -130,12 +130,12 @@ Spring oriented(Spring s) {
 
 bool by_first_end(const Spring& p, const Spring& q) { return p.a < q.a; }
 
-/// Tiles from the first to the last in which springs of this order begin.
+/// Number of tiles from the first to the last in which springs of this order begin.
 int tiles_of(const std::vector<Spring>& springs, const std::vector<int>& order) {
   return oriented(springs[order.back()]).a / tile + 1 - oriented(springs[order.front()]).a / tile;
 }
 
-/// Springs by offset, sorted by a; only the first between the same two particles.
+/// Springs by offset, sorted by `a`; includes only the first of several springs between the same two particles.
 std::map<int, std::vector<int>> by_offset(const std::vector<Spring>& springs) {
   std::map<int, std::vector<int>> found;
   for (size_t i = 0; i < springs.size(); ++i)

@@ -1,4 +1,4 @@
-// The format in which each spring's force is cheapest, and the memory of both formats.
+// Chooses the format in which each spring's force is cheapest, and stores springs in the DIA and COO formats.
 #pragma once
 
 #include "mysim/simd/aligned_buffer.h"
@@ -21,12 +21,12 @@ struct Costs {
 };
 
 using simd::AlignedBuffer;
-/// Springs with a < b, sorted by a.
+/// Springs with `a` < `b`, sorted by `a`.
 using OrientedSprings = std::vector<Spring>;
 
 class DiaStorage {
  public:
-  /// One list per offset.
+  /// `diagonals` has one list of springs per offset.
   DiaStorage(const std::vector<OrientedSprings>& diagonals, int particles);
   const DiaSprings& view() const { return view_; }
   /// Springs with nonzero rest length whose ends coincide in the positions last loaded.
