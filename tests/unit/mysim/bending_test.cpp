@@ -42,7 +42,7 @@ Points raised(const Scene& scene, double a, double b, double c) {
 
 TEST(Bending, OfUniformCurvatureHasTheEnergyOfAPlate) {
   const Scene scene = sheet();
-  // Stencils are exact on parabolas. Those along u cover the sheet except half a spacing at both ends.
+  // Stencils are exact on parabolas. The stencils along u cover the sheet except half a spacing at both ends.
   const double along_u = (nu - 2) * (nv - 1) * p * q, along_v = (nu - 1) * (nv - 2) * p * q,
                cells = (nu - 1) * (nv - 1) * p * q;
   for (const auto& [a, b, c] : {std::array{2., 0., 0.}, {0., 3., 0.}, {0., 0., 1.5}, {2., -3., 1.5}}) {
@@ -52,8 +52,8 @@ TEST(Bending, OfUniformCurvatureHasTheEnergyOfAPlate) {
 }
 
 TEST(Bending, IsTheSameInEveryDirection) {
-  // a^2 + b^2 + 2 c^2 is the same for a cylinder at any angle, away from the edges: compare the energy per stencil of
-  // each kind over its area
+  // a^2 + b^2 + 2 c^2 is the same for a cylinder at any angle, away from the edges, so the energy per stencil of each
+  // kind is divided by the area of the stencil and compared
   const Scene scene = sheet();
   const double along_u = (nu - 2) * (nv - 1), along_v = (nu - 1) * (nv - 2), cells = (nu - 1) * (nv - 1);
   for (const double angle : {0.3, 0.8, 1.2}) {
@@ -68,7 +68,7 @@ TEST(Bending, IsTheSameInEveryDirection) {
 }
 
 TEST(Bending, OfACylinderIsThatOfTheArcToTheSecondOrder) {
-  // rolled to radius R without stretching, in any direction: B / 2 R^2 per area
+  // a sheet that is rolled to radius R without stretching, in any direction, stores B / (2 R^2) per area
   constexpr double radius = 0.05;
   std::vector<double> off;
   for (const int n : {16, 32, 64}) {
@@ -128,7 +128,7 @@ TEST(Bending, TangentIsTheSlopeOfTheForceAndTakesNoEnergy) {
       d(i % 3, i / 3) = 1;
       tangent.add_product(1, 0, d, out);
       Network moved = net;
-      moved.state.x += d;  // by a metre: the force is linear
+      moved.state.x += d;  // by a metre, because the force is linear
       EXPECT_LT((out + force_of(bending, moved) - force_of(bending, net)).cwiseAbs().maxCoeff(), 30 * 20 * 5 * eps);
       matrix.col(i) = out.reshaped();
     }

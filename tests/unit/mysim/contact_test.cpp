@@ -77,7 +77,7 @@ TEST(SinglePrecision, OnSpheresIsForRulesOfOneKickWithoutStickyAndOthersSaySo) {
 TEST(Contact, FrictionlessParticleLeavesAtTheExactAngleInEveryStepper) {
   for (const Stepper& s : steppers()) {
     SCOPED_TRACE(s.name);
-    // First-order rules are early or late by about h g: 0.16 degrees, measured at 1e-5 s.
+    // First-order rules let the particle leave too early or too late by about h g: 0.16 degrees, measured at 1e-5 s.
     EXPECT_NEAR(leaving_angle(s, 1e-5) / degree, exact_leaving_angle / degree, 0.5);
   }
 }
@@ -137,7 +137,7 @@ TEST(Contact, NoParticleEndsAStepInsideNotEvenInABlowUp) {
       Slide slide(scene);
       simulate(s, ContactRule::coulomb, scene, {h, 1, 5}, slide);
       EXPECT_GT(slide.contacts, 0);
-      EXPECT_GE(slide.nearest, 1 - 1e-13);  // projected to the surface and measured again: some ulps of the radius
+      EXPECT_GE(slide.nearest, 1 - 1e-13);  // projection and measurement each round the radius by some ulps
     }
 }
 
@@ -157,7 +157,8 @@ TEST(Contact, ReboundsToTheSquareOfRestitutionTimesTheDrop) {
           if (bounced && t.x[i](1, 0) - 1 < peak - 1e-6) break;  // past the top of the first rebound
           if (bounced) peak = std::max(peak, t.x[i](1, 0) - 1);
         }
-        // The step of the impact and a first-order rule each change heights by a step's path, sampling by g (1 ms)^2.
+        // The step of the impact and the error of a first-order rule each change heights by the path of a step.
+        // Sampling changes them by g (1 ms)^2.
         EXPECT_NEAR(peak, e * e * drop, 3 * speed * h + 1e-5);
       }
     }
@@ -234,7 +235,7 @@ TEST(Contact, SymmetricSceneStaysSymmetric) {
 
 TEST(Contact, RuleOnOneParticle) {
   const Sphere sphere{{0, 0, 0}, 1, 0, 0.5, 0, std::nullopt};
-  {  // outside and on the surface: no change
+  {  // a particle outside or on the surface does not change
     Vec3 x(0, 1, 0), v(1, -1, 0);
     EXPECT_EQ(resolve_contact(sphere, sphere.centre, x, x, v), 0);
     EXPECT_EQ(v, Vec3(1, -1, 0));
@@ -246,7 +247,7 @@ TEST(Contact, RuleOnOneParticle) {
     EXPECT_NEAR(v.x(), 0.95, 4 * eps);
     EXPECT_NEAR(v.y(), 0, eps);
   }
-  {  // a slow slider stops: position and velocity
+  {  // friction stops a slow slider, both its position and its velocity
     Vec3 x(0.01, 0.95, 0), v(0.01, -1, 0);
     resolve_contact(sphere, sphere.centre, {0, 1, 0}, x, v);
     EXPECT_LT((x - Vec3(0, 1, 0)).norm(), 2e-4);  // curvature: d^2 / 2R = 5e-5 for the displacement d
@@ -257,7 +258,7 @@ TEST(Contact, RuleOnOneParticle) {
     resolve_contact(sphere, sphere.centre, {0, 1, 0}, x, v);
     EXPECT_EQ(v, Vec3(0.3, 0.2, 0));
   }
-  {  // at the exact centre: an arbitrary direction, finite values
+  {  // a particle at the exact centre is pushed in an arbitrary direction, with finite values
     Vec3 x(0, 0, 0), v(0, -1, 0);
     EXPECT_EQ(resolve_contact(sphere, sphere.centre, {0, 0, 0}, x, v), 1);
     EXPECT_NEAR(x.norm(), 1, 2 * eps);
@@ -310,8 +311,9 @@ TEST(MovingSphere, CarriesWhatRestsOnItByFriction) {
     }
     EXPECT_GT(moved, 0.02);
     // Friction removes the whole tangential displacement of a step. The projection to the surface is of second order in
-    // it (h a h = 1e-6 m relative to the sphere): 1e-12 m per step. Explicit Euler drifts before it kicks, so contact,
-    // and hence friction, acts in every other step only. In between it slips by h^2 a / 2: 1e-3 m in total.
+    // this displacement (h a h = 1e-6 m relative to the sphere), i.e. 1e-12 m per step. Explicit Euler drifts before it
+    // kicks, so contact, and hence friction, acts in every other step only. In the other steps the particle slips by
+    // h^2 a / 2: 1e-3 m in total.
     const bool drifts_first = s.first_order && s.order == 1;
     EXPECT_LT(furthest, drifts_first ? 1e-3 : 1e-8);
   }
@@ -335,13 +337,14 @@ TEST(MovingSphere, RaisesWhatRestsOnIt) {
     SCOPED_TRACE(s.name);
     const Trajectory t = trajectory_of(s, scene, {1e-3, 2, 20});
     for (int i = 0; i < t.frames(); ++i)
-      // The sphere accelerates by less than g: the particle leaves its surface for one step only, g h^2.
+      // The sphere accelerates by less than g: the particle leaves its surface for one step only, by g h^2.
       EXPECT_NEAR(t.x[i](1, 0), 1 + displacement(scene, t.t[i]).y(), 2 * 9.81 * 1e-6);
   }
 }
 
 TEST(MovingSphere, OnlyTheMotionRelativeToTheSphereCounts) {
-  // A slowly moving sphere, and the same motion in the sphere's frame, where the particle feels minus its acceleration.
+  // Compares a slowly moving sphere with the same motion in the sphere's frame, where the particle feels minus the
+  // sphere's acceleration.
   const Scene scene = on_moving_sphere(0.05, {0.05, 0, 0}, 0.5);
   const Motion motion = *scene.model.find<Spheres>()->list.at(0).motion;
   const double h = 1e-4;
@@ -415,7 +418,7 @@ TEST(SeveralSpheres, EachActsAndNothingEndsInside) {
       Inside inside(scene);
       simulate(s, ContactRule::coulomb, scene, {1e-3, 1, 5}, inside);
       EXPECT_TRUE(inside.touched[0] && inside.touched[1]);
-      EXPECT_LT(inside.deepest, 4 * eps * 2);  // projected to the surface and measured again: some ulps of 2 m
+      EXPECT_LT(inside.deepest, 4 * eps * 2);  // projection and measurement each round 2 m by some ulps
     }
   }
 }

@@ -35,7 +35,7 @@ mass = 0.1
 structural = 10
 )";
 
-/// Counts edges that pierce triangles without a common particle, by solving for the intersection points.
+/// Counts edges that pierce triangles without sharing a particle with them, by solving for the intersection points.
 int counted_pair_by_pair(const Points& x, const std::vector<std::array<int, 3>>& triangles) {
   std::set<std::pair<int, int>> edges, piercing;
   for (const auto& t : triangles)

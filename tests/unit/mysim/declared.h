@@ -14,7 +14,7 @@ namespace crosscheck::testing_tools {
 /// round-off.
 inline double h_omega_for(int order) { return order == 1 ? 0.002 : order == 2 ? 0.04 : 0.3; }
 
-/// Measured order between a step of at most h and half of it, from the largest RMS error over time.
+/// Measured order between a step of at most h and half this step, from the largest RMS error over time.
 inline double measured_order(const Stepper& s, const Scene& scene, const Trajectory& truth, double h, const Run& run) {
   const double used = time_grid({h, run.duration, run.samples}).h;
   const double coarse = sup_rms(trajectory_of(s, scene, {used, run.duration, run.samples}), truth);
@@ -23,7 +23,7 @@ inline double measured_order(const Stepper& s, const Scene& scene, const Traject
   return slope(coarse, fine);
 }
 
-/// 1 kg at rest on a vertical spring of 1 m and omega^2 N/m, with drag. Without spring and gravity if omega is 0.
+/// 1 kg at rest on a vertical spring of 1 m and omega^2 N/m, with drag. Has no spring and no gravity if omega is 0.
 inline Scene hanging(double omega, double gamma) {
   Scene scene = shipped_scene("spring");
   std::erase_if(scene.model.terms, [&](const Term& t) {
@@ -71,8 +71,8 @@ struct Oscillation {
 };
 inline constexpr Oscillation oscillations[] = {{10, 0}, {10, 2}, {10, 15}, {10, 20}, {10, 50}, {3, 0.1}, {40, 7}};
 
-/// A step just above the limit: the less stable one of two, because a composition with a backward substep is unstable
-/// only in a window (1.2 % wide for suzuki4 at gamma = 5 omega). If the limit is 0, a fixed step.
+/// A step just above the limit. Chooses the less stable of two steps, because a composition with a backward substep is
+/// unstable only in a window (1.2 % wide for suzuki4 at gamma = 5 omega). Returns a fixed step if the limit is 0.
 inline double just_above(const Stepper& s, double omega, double gamma) {
   const double limit = s.limit(omega, gamma);
   auto radius = [&](double h) { return spectral_radius(step_matrix(s, omega, gamma, h), omega); };
@@ -80,7 +80,7 @@ inline double just_above(const Stepper& s, double omega, double gamma) {
   return radius(1.005 * limit) > radius(1.02 * limit) ? 1.005 * limit : 1.02 * limit;
 }
 
-/// One sentence with numbers for each contradiction to the row; empty if there is none.
+/// One sentence with numbers for each measurement that contradicts the row; empty if the row is correct.
 inline std::string contradiction(const Stepper& row) {
   const Stepper s = at_fixed_step(row);
   std::string found;
@@ -99,8 +99,8 @@ inline std::string contradiction(const Stepper& row) {
     const double limit = s.limit(w, gamma);
     auto radius = [&](double h) { return spectral_radius(step_matrix(s, w, gamma, h), w); };
     // Offsets of 1e-3 m are differences of lengths of about 1 m, so their relative error is some ulps over the offset.
-    // Coincident eigenvalues are accurate only to the square root of that. Solvers of implicit rules may stop at 1e-10
-    // of the forces.
+    // Coincident eigenvalues are accurate only to the square root of this error. Solvers of implicit rules may stop at
+    // 1e-10 of the forces.
     const double noise = s.evaluations == 0 ? 1e-6 : 1e-11;
     const double below = limit == 0 ? 0 : std::isinf(limit) ? 100 / w : 0.98 * limit;
     if (below > 0 && !(radius(below) <= 1 + noise))

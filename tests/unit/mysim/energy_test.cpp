@@ -38,10 +38,10 @@ TEST(Integral, HasOrderFourOnSmoothCurves) {
     }
     return worst;
   };
-  EXPECT_NEAR(slope(error(40), error(80)), 4, 0.15);  // the next term is smaller by h = 0.05
+  EXPECT_NEAR(slope(error(40), error(80)), 4, 0.15);  // the next error term is smaller by a factor of h = 0.05
 }
 
-/// Order of the balance, from a suitable step for the stepper and half of it.
+/// Measured order of the energy balance, from a step suited to the stepper and half this step.
 double order_of_balance(const Stepper& s, const Scene& scene) {
   // The steps divide the ramp, because the third derivative of the pins' motion jumps at its end.
   const double h = s.order == 1 ? 1.25e-4 : s.order == 2 ? 2.5e-4 : 6.25e-4;
@@ -55,8 +55,8 @@ int shown(const Stepper& s) { return std::min(s.order, 4); }
 TEST(Ledger, ClosesToTheOrderOfTheStepperUnderDragWindAndMovedPins) {
   for (const Stepper& s : fixed_steppers()) {
     SCOPED_TRACE(s.name);
-    // The next term is smaller by h times the highest frequency, at most 0.1. For rk4, whose damping has order 5, it is
-    // large.
+    // The next error term is smaller by a factor of h times the highest frequency, at most 0.1. For rk4, whose damping
+    // has order 5, this term is large.
     EXPECT_NEAR(order_of_balance(s, small_cloth()), shown(s), 0.25);
   }
 }
@@ -77,7 +77,7 @@ TEST(Ledger, OfAnAdaptiveRunFollowsItsTolerance) {
     double before = INFINITY;
     for (const double tolerance : {1e-3, 1e-5, 1e-7}) {
       const double residue = imbalance(s, scene, {1e-3, 1, 20, tolerance});
-      // ideally a hundredth; the ledger's integrals at 1e-3 s add a smaller error
+      // ideally the imbalance falls to a hundredth; the ledger's integrals at 1e-3 s add a smaller error
       EXPECT_LT(residue, before / 10);
       before = residue;
     }
@@ -103,7 +103,8 @@ TEST(Ledger, ClosesToFirstOrderInContact) {
   for (const Stepper& s : steppers())
     for (const double h : {1e-3, 1e-4}) {
       SCOPED_TRACE(fmt::format("{} h = {}", s.name, h));
-      // m g times the path of a step at the top speed of 5 m/s, once for the landing step and once for Euler's lag
+      // The bound is m g times the path of a step at the top speed of 5 m/s, once for the landing step and once for the
+      // lag of an Euler rule.
       EXPECT_LT(imbalance(s, scene, {h, 1, 50}), 2 * 9.81 * 5 * h);
     }
 }
@@ -117,8 +118,8 @@ TEST(Ledger, ContactLossIsWhatTheRuleTook) {
     Ledger ledger(scene.model, ContactLoss::reported);
     const double h = 1e-4;  // s
     simulate(s, ContactRule::coulomb, scene, {h, 1, 10}, ledger);
-    // The ball falls 0.2 m and stays: it loses 0.2 m g, up to m g times the path of the last step (at 2 m/s). Euler's
-    // lag in flight and the kick of each resting step add m g (g t h / 2) in the run of 1 s.
+    // The ball falls 0.2 m and stays: it loses 0.2 m g, with an error of up to m g times the path of the last step (at
+    // 2 m/s). The lag of Euler rules in flight and the kick of each resting step add m g (g t h / 2) in the run of 1 s.
     EXPECT_NEAR(ledger.rows().back().contact, 2 * 9.81 * 0.2, 2 * 9.81 * (2 + 9.81 / 2) * h);
   }
 }
@@ -149,13 +150,13 @@ TEST(Ledger, WhatRestsOnABallLosesNothing) {
     Scene scene;
     double allowed;  // J
   };
-  // impulses m g h, times displacements that are rounded by some ulps of the radius, over the step
+  // bound: impulses m g h times displacements, which are rounded by some ulps of the radius, divided by the step
   const double rounding = 8 * eps * steps * weight;
   const Rest rests[] = {
       {"on the top", on_a_ball(1, {0, 1, 0}, {0, 0, 0}, 0.3), rounding},
       {"with restitution", on_a_ball(1, {0, 1, 0}, {0, 0, 0}, 0, 0.5), rounding},
-      // The friction rule uses the normal at the end of the step, which is turned by g h^2 / R. Each rotation leaves a
-      // rest of the displacement g h^2, and therefore a creep in every step.
+      // The friction rule uses the normal at the end of the step, which is turned by g h^2 / R. Therefore a part of the
+      // displacement g h^2 remains, and the particle creeps in every step.
       {"held by friction on a slope", on_a_ball(1, {std::sin(slope), std::cos(slope), 0}, {0, 0, 0}, 1),
        steps * weight * std::pow(2 * 9.81e-4, 3)},
       {"between two balls",
@@ -182,7 +183,7 @@ TEST(Ledger, FrictionlessContactTakesNothing) {
   const Scene scene = on_a_ball(1, {0, 1, 0}, {1, 0, 0}, 0);
   for (const Stepper& s : steppers()) {
     SCOPED_TRACE(s.name);
-    // From the top until separation: rounding of impulses along the normal, times the path of a metre.
+    // The tolerance covers the rounding of normal impulses over a path of 1 m, from the top until separation.
     EXPECT_NEAR(ledger_of(s, scene, {1e-3, 1, 10}).back().contact, 0, 1000 * 8 * eps * 9.81);
   }
 }
@@ -193,7 +194,7 @@ TEST(Ledger, FrictionlessContactTakesNothing) {
 double lost_by_the_block() {
   const double mu = 0.3, w = 9.81 / 1000, u0 = 4e-6;
   const double a = w * (4 * mu * mu - 2) / (1 + 4 * mu * mu), b = -6 * mu * w / (1 + 4 * mu * mu), c = u0 - a;
-  double low = 0, high = 1e-3;  // rad; it stops at 0.68 m
+  double low = 0, high = 1e-3;  // rad; the block stops at 0.68 m
   for (int i = 0; i < 100; ++i) {
     const double middle = (low + high) / 2;
     (c * std::exp(2 * mu * middle) + a * std::cos(middle) + b * std::sin(middle) > 0 ? low : high) = middle;
@@ -212,9 +213,10 @@ TEST(Ledger, FrictionOfASlidingBlockIsItsEnergyToTheOrderOfTheRule) {
     const double coarse = error(2e-3), fine = error(1e-3);
     fmt::print("sliding block, {:18} {:.3g} J at 2 ms, {:.3g} J at 1 ms\n", s.name, coarse, fine);
     const bool new_velocity = s.name == "symplectic-euler" || s.name == "implicit-euler" || s.name == "xpbd";
-    // These rules apply friction m g mu along h v' instead of h (v + v') / 2: in total less by m g mu h v / 2, with the
-    // initial v = 2 m/s. All others err by the path of the last step, (mu g h)^2 / 2 per kilogram, and by the ball's
-    // curvature: a height of (v h)^2 / 2 R in each step, where v^2 is on average a third of its initial value.
+    // These rules apply friction m g mu along h v' instead of h (v + v') / 2. In total they take less energy, by m g mu
+    // h v / 2 with the initial v = 2 m/s. All others err by the path of the last step, (mu g h)^2 / 2 per kilogram, and
+    // by the ball's curvature, which changes the height by (v h)^2 / 2 R in each step, where v^2 is on average a third
+    // of its initial value.
     const double lag = new_velocity ? 1.5 * 9.81 * 0.3 * 2 / 2 * 1e-3 : 0;
     const double rest = 1.5 * (std::pow(0.3 * 9.81 * 1e-3, 2) + 9.81 * 0.68 * 2 / 3 / 1000 * 1e-3);
     EXPECT_NEAR(fine, -lag, 2 * rest);
@@ -226,7 +228,7 @@ TEST(Ledger, FrictionOfASlidingBlockIsItsEnergyToTheOrderOfTheRule) {
 }
 
 TEST(Ledger, ImpactsTakeWhatRestitutionLeaves) {
-  // from 0.2 m: m g 0.2 (1 - e^2) in the first bounce, wherever it lies within the step
+  // after a fall of 0.2 m, the first bounce loses m g 0.2 (1 - e^2), wherever the impact lies within the step
   for (const double e : {0.0, 0.3, 0.7, 1.0})
     for (const Stepper& s : steppers()) {
       SCOPED_TRACE(fmt::format("{} e = {}", s.name, e));
@@ -234,7 +236,8 @@ TEST(Ledger, ImpactsTakeWhatRestitutionLeaves) {
       auto error = [&](double h) {
         return ledger_of(s, scene, {h, 0.25, 10}).back().contact - 9.81 * 0.2 * (1 - e * e);
       };
-      // Euler's lag in flight, m g (g t h / 2), and a rebound that starts within a step, m g v h
+      // The bound consists of the lag of Euler rules in flight, m g (g t h / 2), and of a rebound that starts within a
+      // step, m g v h.
       for (const double h : {1e-3, 1e-4}) EXPECT_NEAR(error(h), 0, 9.81 * (9.81 * 0.25 / 2 + 2 * e) * h + 1e-12);
     }
 }
@@ -247,7 +250,7 @@ TEST(Ledger, LossesThatAnEngineDoesNotReportAreInferredAndMarked) {
   Ledger inferred(onto.model, ContactLoss::inferred), reported(onto.model, ContactLoss::reported);
   ASSERT_TRUE(inferred.contact_inferred());
   simulate(stepper("leapfrog"), ContactRule::coulomb, onto, {1e-4, 1, 10}, reported);
-  // an identical run by an engine that does not call contact()
+  // simulates an engine that does not call contact()
   struct Mute : Observer {
     explicit Mute(Ledger& l) : ledger(l) {}
     bool every_step() const override { return true; }
@@ -270,7 +273,7 @@ TEST(Energy, OfAKnownState) {
   const Energy e = energy_of(s.model, s.start);
   EXPECT_DOUBLE_EQ(e.kinetic, 9);                   // 2 kg at 3 m/s
   EXPECT_DOUBLE_EQ(e.elastic, 5);                   // 10 N/m by 1 m
-  EXPECT_DOUBLE_EQ(e.gravitational, 2 * 9.81 * 4);  // pins do not count
+  EXPECT_DOUBLE_EQ(e.gravitational, 2 * 9.81 * 4);  // pins have no energy
   EXPECT_DOUBLE_EQ(e.total(), e.kinetic + e.elastic + e.gravitational);
 }
 
@@ -293,7 +296,7 @@ TEST(DivergenceMonitor, NoGoodRunIsCondemned) {
       SCOPED_TRACE(fmt::format("{} {}", name, method));
       DivergenceMonitor monitor(scene.model);
       const double duration = std::min(scene.duration, 0.3);
-      // Within the limit of both rules, because scenes may be designed for longer steps.
+      // Uses a step within the limit of both rules, because the scene's own step may be longer.
       const double omega = highest_frequency(scene.model, scene.start);
       const double step = omega > 0 ? std::min(scene.step, 1.5 / omega) : scene.step;
       const Outcome out = simulate(stepper(method), ContactRule::coulomb, scene, {step, duration, 30}, monitor);
@@ -372,7 +375,7 @@ TEST(ImplicitMidpoint, KeepsTheEnergyOfOneSpringAtAnyStep) {
 }
 
 TEST(ImplicitMidpoint, KeepsTheEnergyOfACollinearChain) {
-  // Three masses on a line between two pins; all springs stay stretched and never turn: a linear system.
+  // Three masses on a line between two pins; all springs stay stretched and never turn, so the system is linear.
   std::string text;
   const double at[] = {0, 0.62, 1.13, 1.71, 2.4};
   for (const double x : at) text += fmt::format("[[particle]]\nposition = [{}, 0, 0]\nmass = 0.5\n", x);
@@ -382,7 +385,7 @@ TEST(ImplicitMidpoint, KeepsTheEnergyOfACollinearChain) {
   for (const double h : {1e-3, 1e-2, 0.1}) {
     const double error = largest_energy_error(stepper("implicit-midpoint"), scene, {h, 5, 50});
     fmt::print("collinear chain, h = {}: energy error {:.2g} J\n", h, error);
-    // as above: 0.5 kg at up to 1 m/s, springs of up to 100 N, three masses
+    // bound as above, with 0.5 kg at up to 1 m/s, springs of up to 100 N, and three masses
     EXPECT_LT(error, 3 * 1e-10 * (1 / h + 100) * 5) << h;
   }
 }
@@ -393,13 +396,13 @@ TEST(ImplicitMidpoint, EnergyOfASwingingChainIsBoundedToOrderTwo) {
   for (const double h : {2e-3, 1e-3, 5e-4}) {
     const double error = largest_energy_error(stepper("implicit-midpoint"), scene, {h, 3, 300});
     fmt::print("swinging chain, h = {}: energy error {:.3g} J\n", h, error);
-    // samples meet the maximum at different phases: measured slopes 2.0 to 2.1
+    // samples meet the maximum at different phases, which gave slopes of 2.0 to 2.1
     if (before > 0) {
       EXPECT_NEAR(slope(before, error), 2, 0.3);
     }
     before = error;
   }
-  EXPECT_GT(before, 1e-7);  // not exact: rotating springs are not linear
+  EXPECT_GT(before, 1e-7);  // the energy is not conserved exactly, because rotating springs are not linear
 }
 
 }  // namespace

@@ -51,11 +51,11 @@ TEST(Forces, AreMinusTheGradientOfEveryEnergyThereIs) {
           };
           for (int i = 0; i < f.cols(); ++i)
             for (int axis = 0; axis < 3; ++axis) {
-              // Terms with their own energy omit pins; the energies of springs and bending include them.
+              // The energies of springs and bending include pins; those of other terms do not.
               if (net.model.particles.pinned[i] && !HasTangent<T>) continue;
               const double slope_there = (energy(axis, i, step) - energy(axis, i, -step)) / (2 * step);
-              // eps^(2/3) times E''' / 6 (up to 5 springs of 3 k r / L^2 = 7000 N/m^2 each; the link law is no steeper)
-              // and times E
+              // The error is eps^(2/3) times E''' / 6 (up to 5 springs of 3 k r / L^2 = 7000 N/m^2 each; the link law
+              // is no steeper) and eps^(2/3) times E.
               EXPECT_NEAR(f(axis, i), -slope_there, 6000 * std::pow(eps, 2.0 / 3)) << T::name;
             }
           ++energies;
@@ -93,7 +93,8 @@ TEST(Tangents, OfSpringsIsTheSlopeOfTheForce) {
       down.state.x -= step * d;
       const Springs& springs = *net.model.find<Springs>();
       const Points slope_there = (force_of(springs, up) - force_of(springs, down)) / (2 * step);
-      // eps^(2/3) times a sixth of the force's third derivative: five springs of 15 k r / L^3 times |d|^3 at 0.3 m
+      // The error is eps^(2/3) times a sixth of the force's third derivative, with five springs of 15 k r / L^3 times
+      // |d|^3 at 0.3 m
       EXPECT_LT((product<Springs>(net, Curvature::exact, 1, 0, d) + slope_there).cwiseAbs().maxCoeff(),
                 1e6 * std::pow(eps, 2.0 / 3));
     }
@@ -108,7 +109,8 @@ TEST(Tangents, OfDashpotsIsExactAlongFixedDirections) {
     faster.state.v += d;
     const Dashpots& dashpots = *net.model.find<Dashpots>();
     const Points change = force_of(dashpots, faster) - force_of(dashpots, net);
-    // The force is linear in the velocities: some roundings of five forces up to 2 N s/m times 4 m/s.
+    // The force is linear in the velocities, so the error is some roundings of five forces of up to 2 N s/m times 4
+    // m/s.
     EXPECT_LT((product<Dashpots>(net, Curvature::exact, 0, 1, d) + change).cwiseAbs().maxCoeff(), 5 * 8 * 16 * eps);
   }
 }
@@ -162,7 +164,8 @@ TEST(Forces, InsideABodyKeepMomentumAndAngularMomentum) {
       for (const Points& f : {force_of(*net.model.find<Springs>(), net), force_of(*net.model.find<Bending>(), net),
                               force_of(*net.model.find<Dashpots>(), net)}) {
         const auto [sum, torque] = resultant(f, net.state.x);
-        // about thirty additions of forces up to 900 N (in the link law at most k L), up to 2 m from the origin
+        // bound: about thirty additions of forces of up to 900 N (in the link law at most k L), at up to 2 m from the
+        // origin
         EXPECT_LT(sum.norm(), 30 * eps * 900);
         EXPECT_LT(torque.norm(), 60 * eps * 900 * 2);
       }
@@ -234,10 +237,11 @@ TEST(LinkLaw, HasTheTensionAndTheEnergyOfItsFormulas) {
     const auto [force, slope_there] = tension_of(s, SpringLaw::bullet_link, length);
     EXPECT_NEAR(force, s.k * length * (l2 - r2) / (l2 + r2), 8 * eps * s.k * length);
     auto tension = [&](double at) { return tension_of(s, SpringLaw::bullet_link, at).force; };
-    // (a sixth of the third derivative, below 24 k / r^2, plus the size of the force) times eps^(2/3)
+    // bound: eps^(2/3) times the sum of a sixth of the third derivative, which is below 24 k / r^2, and of the size of
+    // the force
     EXPECT_NEAR(slope_there, (tension(length + step) - tension(length - step)) / (2 * step),
                 (4 * s.k / r2 + s.k * 3) * std::pow(eps, 2.0 / 3));
-    // the energy is the integral of the tension from the rest length: Simpson's rule with 2000 intervals
+    // the energy is the integral of the tension from the rest length, computed by Simpson's rule with 2000 intervals
     const int n = 2000;
     double integral = 0;
     for (int j = 0; j <= n; ++j)
@@ -258,7 +262,7 @@ TEST(LinkLaw, IsHookesToFirstOrderInTheStretch) {
     return std::abs(tension_of(s, SpringLaw::bullet_link, s.rest + stretch).force - s.k * stretch);
   };
   for (const double stretch : {1e-2, 1e-3}) {
-    // the next term of the tension is k e^2 / (2 r): second order, on both sides
+    // the next term of the tension is k e^2 / (2 r), which is of second order on both sides
     EXPECT_NEAR(difference(stretch), s.k * stretch * stretch / (2 * s.rest), 2 * s.k * stretch * stretch * stretch);
     EXPECT_NEAR(slope(difference(stretch), difference(stretch / 2)), 2, 0.05);
   }

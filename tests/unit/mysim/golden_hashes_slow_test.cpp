@@ -10,7 +10,7 @@ namespace {
 
 using namespace testing_tools;
 
-/// Hash after 1000 steps, or time of a blow-up. Empty if the rule does not support the scene.
+/// Hash of the state after 1000 steps, or the time of a blow-up. Empty if the rule does not support the scene.
 std::string hash_of(const Scene& scene, const Stepper& rule) {
   const Run run{.step = scene.step,
                 .duration = golden_duration(scene),
@@ -73,7 +73,7 @@ std::array<double, 3> projections(const Points& x) {
   return sums;
 }
 
-/// Implicit rules on small scenes, 20 steps. With CROSSCHECK_WRITE_GOLDEN_HASHES=1, writes the table instead.
+/// Runs implicit rules for 20 steps on small scenes. With CROSSCHECK_WRITE_GOLDEN_HASHES=1, writes the table instead.
 TEST(GoldenProjections, OfImplicitRulesAgreeWithTheTable) {
   const std::filesystem::path file = CROSSCHECK_SOURCE "/reference/baselines/implicit-projections.csv";
   std::map<std::string, std::array<double, 3>> computed;

@@ -66,8 +66,8 @@ TEST(IncrementalPotential, GradientIsTheSlopeOfTheValue) {
       const Points d = p.direction(1);
       const double up = p.potential.value(p.u + difference_step * d), noise = p.potential.rounding(),
                    down = p.potential.value(p.u - difference_step * d);
-      // (a sixth of the third derivative, with five springs of 3 k r / L^2 at each particle as in force_test.cpp) times
-      // the cube of the direction's size, plus the rounding of the values
+      // The bound is (a sixth of the third derivative, with five springs of 3 k r / L^2 at each particle as in
+      // force_test.cpp) times eps^(2/3) times the cube of the direction's size, plus the rounding of the values.
       EXPECT_NEAR(dot(g, d), (up - down) / (2 * difference_step),
                   6000 * std::pow(d.norm(), 3) * std::pow(eps, 2.0 / 3) + noise / difference_step);
     }
@@ -84,8 +84,8 @@ TEST(IncrementalPotential, MatrixIsTheSlopeOfTheGradient) {
       p.potential.apply(d, product);
       p.potential.gradient(p.u + difference_step * d, up);
       p.potential.gradient(p.u - difference_step * d, down);
-      // (a sixth of the fourth derivative of the energy, with five springs of 15 k r / L^3 at 0.3 m, plus the gradients
-      // of about 1e3 N) times eps^(2/3)
+      // The bound is (a sixth of the fourth derivative of the energy, with five springs of 15 k r / L^3 at 0.3 m, plus
+      // the gradients of about 1e3 N) times eps^(2/3).
       EXPECT_LT((product - (up - down) / (2 * difference_step)).cwiseAbs().maxCoeff(),
                 1e5 * std::pow(d.norm(), 3) * std::pow(eps, 2.0 / 3));
     }
@@ -152,7 +152,7 @@ TEST(ImplicitEuler, StepsSatisfyTheEquations) {
       for (int n = 0; n < 20; ++n) {
         State end = step.solve(s, h);
         EXPECT_NEAR(end.t, s.t + h, 4 * eps);
-        // Residual of at most 1e-10 of the largest force, or the rounding of the forces; u / h rounds once more.
+        // The residual is at most 1e-10 of the largest force, or the rounding of the forces; u / h rounds once more.
         const double promised =
             1e-10 * step.potential().force_scale() + 2 * step.potential().force_rounding() + 1e-12 / h;
         Points a(3, particles.size());
@@ -264,7 +264,7 @@ TEST(ImplicitEuler, LinearOptionIsOneStepOfTheClampedFormula) {
     Workspace w(s);
     stepper("implicit-euler").linear(f, s, h, w);
     const Eigen::VectorXd values = symmetric_eigenvalues(a);
-    // The solver stops at 1e-12 of the right-hand side; the error is at most the condition number times that.
+    // The solver stops at 1e-12 of the right-hand side; the error is at most the condition number times this residual.
     const double bound = 1e-12 * values[values.size() - 1] / values[0] * dv.norm() + 64 * eps;
     for (int i = 0; i < n; ++i) {
       if (particles.pinned[i]) continue;
@@ -281,7 +281,7 @@ TEST(ImplicitEuler, LinearOptionIsOfTheFirstOrderToo) {
   const Scene scene = small_cloth();
   const Trajectory truth = trajectory_of(stepper("rk4"), scene, {2.5e-4, 0.25, 5});
   auto error = [&](double step) { return sup_rms(trajectory_of(linear, scene, {step, 0.25, 5}), truth); };
-  EXPECT_NEAR(slope(error(2e-4), error(1e-4)), 1, 0.1);  // the next term is smaller by h omega = 0.04
+  EXPECT_NEAR(slope(error(2e-4), error(1e-4)), 1, 0.1);  // the next error term is smaller by a factor of h omega = 0.04
 }
 
 TEST(Implicit, LinksAtRestAreSolvedWhereRoundingLeavesThemNoEnergy) {

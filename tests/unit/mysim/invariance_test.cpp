@@ -38,8 +38,8 @@ Changes changes_in(const Stepper& s, const Scene& scene, const Run& run) {
   return changes;
 }
 
-/// Residual force (N) in each step. Implicit rules: at most 1e-10 of the largest force, the inertia m v / (h / 2) of 2
-/// kg at up to 20 m/s. Explicit rules: the rounding of forces up to 500 N.
+/// Residual force (N) in each step. For implicit rules it is at most 1e-10 of the largest force, the inertia m v / (h /
+/// 2) of 2 kg at up to 20 m/s. For explicit rules it is the rounding of forces up to 500 N.
 double force_left(const Stepper& s, double h) { return s.evaluations == 0 ? 1e-10 * 2 * 20 / (h / 2) : 32 * eps * 500; }
 
 TEST(Runs, KeepTheMomentumOfFreeBodies) {
@@ -64,13 +64,13 @@ TEST(Runs, KeepAngularMomentumWhereTheRuleIsSymplecticAndToItsOrderElsewhere) {
       const double h = 1e-3;
       const double coarse = changes_in(s, scene, {h, 0.5, 10}).angular;
       // These symplectic rules alternate drifts along v and kicks by central forces, which both conserve x x m v.
-      // Residual forces act with arms of up to 5 m.
+      // Residual forces act with lever arms of up to 5 m.
       const double kept = 5 * (6 * force_left(s, h) * 0.5 + 500 * 6 * 2 * 20 * eps);
       if (s.symplectic) {
         EXPECT_LT(coarse, kept);
         continue;
       }
-      // other rules change it by at most the error of their order
+      // other rules change angular momentum by at most the error of their order
       EXPECT_GT(coarse, kept / 100);
       const double fine = changes_in(s, scene, {h / 2, 0.5, 10}).angular;
       EXPECT_TRUE(coarse < kept || slope(coarse, fine) > s.order - 0.3) << slope(coarse, fine);
@@ -113,8 +113,8 @@ TEST(Runs, DoNotDependOnDirectionOrPlace) {
       double apart = 0;
       for (int i = 0; i < here.frames(); ++i)
         apart = std::max(apart, (((turn * here.x[i]).colwise() + shift) - there.x[i]).cwiseAbs().maxCoeff());
-      // The residual force on 0.1 kg during the whole time, and 8 ulps of 3 m per step, both grown at most tenfold in
-      // 0.1 s.
+      // The bound is the effect of the residual force on 0.1 kg during the whole time, plus 8 ulps of 3 m per step;
+      // both grow at most tenfold in 0.1 s.
       EXPECT_LT(apart, 10 * (2 * force_left(s, h) / 0.1 * duration * duration / 2 + 8 * 3 * eps * duration / h));
     }
 }

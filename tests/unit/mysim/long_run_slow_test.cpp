@@ -9,7 +9,7 @@ namespace {
 
 using namespace testing_tools;
 
-/// Largest deviation of the energy in the last tenth of the run, over that in the first tenth.
+/// Largest deviation of the energy in the last tenth of the run, divided by that in the first tenth.
 double late_over_early(const Stepper& s, double h, long steps) {
   const Scene scene = without_drag(shipped_scene("chain"));
   const int samples = static_cast<int>(std::min(steps, 100000l));
@@ -97,8 +97,8 @@ TEST(LedgerOfShippedScenes, ClosesToTheOrderOfTheStepperWithoutContact) {
       const double h = scene.step * (s.order < 4 ? 0.25 : cloth ? 1 : 2);
       const double order = slope(imbalance(s, scene, {h, 1, 20}), imbalance(s, scene, {h / 2, 1, 20}));
       fmt::print("{:12} {:18} order of the balance {:.2f}\n", name, s.name, order);
-      // The next term is h omega: below 0.1 up to order 2 (0.2 squared on cloth), and 0.4 squared above. There the
-      // ledger's integrals, of order 4, may dominate.
+      // The next error term is smaller by a factor of h omega, which is below 0.1 up to order 2 (on cloth, it is 0.2
+      // squared), and 0.4 squared at higher orders. At these, the ledger's integrals, of order 4, may dominate.
       EXPECT_GT(order, std::min(s.order, 4) - (s.order < 4 ? 0.1 : 0.25));
       EXPECT_LT(order, s.order + (s.order < 4 ? 0.1 : 0.25));
     }
@@ -115,7 +115,7 @@ TEST(LedgerOfShippedScenes, ClosesToFirstOrderWithContact) {
     for (const double part : {1, 2, 4, 8}) errors.push_back(imbalance(s, scene, {scene.step / part, 1, 50}));
     fmt::print("cloth-sphere {:16} {:.3g} J, halved thrice {:.3g} J\n", s.name, errors[0], errors[3]);
     for (int i = 1; i < 4; ++i) EXPECT_LT(errors[i], errors[i - 1]);
-    if (s.hard_constraints) continue;  // one Gauss-Seidel pass per step: first order only at smaller steps (0.67 here)
+    if (s.hard_constraints) continue;  // one Gauss-Seidel pass per step has order 1 only at smaller steps (0.67 here)
     // At each step size the 900 particles land at different fractions of a step. The spread of their mean is a few per
     // cent, which changes the order by 0.1. The explicit trapezoidal rule, near its stability limit at the largest
     // step, converges last.

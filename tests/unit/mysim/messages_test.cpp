@@ -64,7 +64,7 @@ TEST(ProgressLine, TellsNumberPartAndWhatIsLeft) {
   EXPECT_EQ(progress_line({1, 1, 0.25, 10, 0, 10, "a run"}), "a run (25 %, 10 s, about 30 s left)");
   // three of four started, two of them finished: half done
   EXPECT_EQ(progress_line({3, 4, 0, 600, 0, 1, "x"}), "[3/4] x (10 min, about 10 min left)");
-  // nothing done yet: the earlier estimate
+  // if nothing is done yet, uses the expected duration
   EXPECT_EQ(progress_line({1, 1, 0, 5, 65, 5, "x"}), "x (5 s, about 60 s left)");
   // the number of runs is unknown
   EXPECT_EQ(progress_line({5, 0, 0.5, 50, 0, 20, "x"}), "[5] x (50 %, 50 s, about 20 s left of this run)");

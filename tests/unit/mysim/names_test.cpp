@@ -68,7 +68,7 @@ TEST(Names, FileNamesMadeOfTwoNamesFitEveryFileSystemAndStayApart) {
       pairs.insert(pair), files.insert(file);
     }
   EXPECT_EQ(files.size(), pairs.size());
-  // longest suffix: a file that the user changed and that is kept
+  // the longest suffix is that of a kept file that the user changed
   const std::string last = file_name_of(std::string(412, 'b')) + ".json.yours";
   write_file(here.path / last, "whole");
   EXPECT_LE(last.size() + std::string(".4194304.part").size() + 1, 255u);

@@ -52,7 +52,7 @@ inline Dashpots random_dashpots(unsigned seed, const Network& net) {
   return dashpots;
 }
 
-/// Bending stencils: two rows, a cell, and one of five particles.
+/// Bending stencils: two of three particles, one of a cell, and one of five particles.
 inline Bending random_bending(unsigned seed) {
   Random random(seed + 4000);
   const auto k = [&] { return random.between(1, 5); };
@@ -79,7 +79,7 @@ inline void pin(Network& net, std::vector<int> pins, std::optional<Motion> motio
   p.place_pins(net.state);
 }
 
-/// With bending, drag, dashpots and gusts; the first and the fourth particle are moved.
+/// A random network with bending, drag, dashpots and gusts; the first and the fourth particle are moved.
 inline Network busy_network(unsigned seed, SpringLaw law = SpringLaw::hooke) {
   Network net = random_network(seed, law);
   Random random(seed + 2000);
@@ -95,7 +95,7 @@ inline Network busy_network(unsigned seed, SpringLaw law = SpringLaw::hooke) {
   return net;
 }
 
-/// Starts in the network's state, at t = 0.
+/// A scene that starts in the network's state, at t = 0.
 inline Scene scene_of(const Network& net) {
   Scene scene{};
   scene.name = "network";

@@ -44,7 +44,7 @@ namespace fs = std::filesystem;
 
 using Files = std::map<std::string, std::string>;
 
-/// With true, the file system cannot exchange names.
+/// With parameter true, the file system cannot exchange names.
 class Output : public InFolder, public testing::WithParamInterface<bool> {
  protected:
   void SetUp() override {
@@ -222,7 +222,7 @@ TEST_P(Output, KilledAtAnyMomentTheFirstIsWholeOrTheSecond) {
     ASSERT_TRUE(WIFSIGNALED(status)) << trial;
     const Files at_once = in(target_);
     const bool whole = at_once == with_mine(one) || at_once == with_mine(two);
-    if (!GetParam()) {  // two renames: it may be absent until recovery
+    if (!GetParam()) {  // with two renames, the folder may be absent until recovery
       EXPECT_TRUE(whole) << trial;
     }
     undisturbed += whole;
@@ -385,7 +385,7 @@ TEST_P(Output, AResultGrowsInPlaceAndGoesOn) {
     write_file(target_ / table, table);
     folder.finish();
   };
-  grow(false, {"a", "b"}, "", false);  // interrupted: existing files are announced
+  grow(false, {"a", "b"}, "", false);  // interrupted after the existing files were announced
   EXPECT_FALSE(read_manifest(target_)->finished);
   std::ofstream(target_ / "points/mine") << "mine";
   grow(true, {"a", "b", "c"}, "one.csv", true);

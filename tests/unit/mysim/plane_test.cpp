@@ -35,8 +35,8 @@ std::vector<NamedRule> rules() {
   return list;
 }
 
-/// Displacement by residuals of implicit rules: at most 1e-10 of the largest force in each step, hence 1e-10 g t^2 / h
-/// / 2.
+/// Bound on the displacement (m) by residual forces of implicit rules, at most 1e-10 m v / (h / 2) in each step, at
+/// speeds v of up to g times 1 s.
 double unsolved(const NamedRule& rule, double t, double h) {
   return rule.stepper.evaluations == 0 ? 1e-10 * g * t * t / h : 0;
 }
@@ -121,7 +121,7 @@ TEST(PlaneFile, ReportsWhatIsWrongWithFileLineAndKey) {
     EXPECT_TRUE(contains(message, expected)) << text << message;
     EXPECT_TRUE(contains(message, "bad.toml:")) << message;
   }
-  // A particle between opposite planes whose gap is smaller than their margins, on both planes up to rounding.
+  // A particle that lies, up to rounding, on two opposite planes whose gap is smaller than their margins.
   const std::string middle = "[[particle]]\nposition = [0, 0, 0]\nmass = 1\n";
   const std::string thin = message_of(scene_text(middle + plane("0, 0, 0", "0, 1, 0") + plane("0, 0, 0", "0, -1, 0")));
   EXPECT_TRUE(contains(thin, "plane[1].point: expected more than the two margins, 0 m, to the opposite plane, got 0 m"))
@@ -209,8 +209,9 @@ TEST(Plane, ParticleBetweenTwoWallsReturnsAfterTwiceTheWayOverItsSpeed) {
     SCOPED_TRACE(rule.name);
     const double t = 20 * period;
     const auto off = [&](double h) { return std::abs(path_of(rule, scene, {h, t, 20}).x.back()(0, 0) - 0.3); };
-    // Each impact on whole steps puts the particle on the wall, up to the path v h of a step from its exact position.
-    // Located events count as contact within 1e-12 of the coordinates; here every impact falls on the end of a step.
+    // In contact on whole steps, each impact puts the particle on the wall, up to the path v h of a step from its exact
+    // position. Located events count as contact within 1e-12 of the coordinates; here every impact falls on the end of
+    // a step.
     for (const double h : {1e-3, 2.5e-4})
       EXPECT_LT(off(h), rule.contact == ContactRule::events ? 40 * 1e-12 * 6 : 40 * speed * h) << h;
   }
@@ -239,7 +240,8 @@ TEST(Plane, CornerAtRightAnglesStopsEachCoordinateByItself) {
           const Vec3 x = turn.transpose() * path.x[i].col(0), free = start + path.t[i] * path.t[i] / 2 * a;
           for (int k = 0; k < 3; ++k) {
             const double exact = k < planes ? std::max(0.0, free[k]) : free[k];
-            // First order: the path of a step, at 4 m/s at most. The events of several planes are located one by one.
+            // First-order rules and contact on whole steps may be off by the distance covered in a step, at speeds of
+            // at most 4 m/s. Located events are exact, also with several planes, because events are located one by one.
             const double allowed = rule.stepper.order == 1 || rule.contact == ContactRule::coulomb ? 3 * h : 1e-12;
             EXPECT_NEAR(x[k], exact, allowed + unsolved(rule, 1, h)) << path.t[i];
           }
@@ -262,7 +264,7 @@ TEST(Plane, NoParticleEndsAStepBehindOneNotEvenInABlowUp) {
       const Trajectory path = path_of(rule, scene, {h, 1, 20});
       for (int i = 0; i < path.frames(); ++i) {
         if (!path.x[i].allFinite()) break;
-        // projected to the plane and measured again: some ulps of the coordinates
+        // projection and measurement each round the coordinates by some ulps
         for (int p = 0; p < path.x[i].cols(); ++p)
           EXPECT_GE(clearance_from(surfaces, path.t[i], path.x[i].col(p)), -8 * eps * (1 + path.x[i].col(p).norm()));
       }
@@ -270,7 +272,7 @@ TEST(Plane, NoParticleEndsAStepBehindOneNotEvenInABlowUp) {
 }
 
 TEST(MovingPlane, CarriesWhatLiesOnItAndItsWorkIsAccountedFor) {
-  // Upwards and sideways: friction carries the particle along once it has slipped for v / (mu g).
+  // The plane moves upwards and sideways. After slipping for v / (mu g), the particle is carried along by friction.
   const Scene scene = on_slope(0, "friction = 0.5\nvelocity = [0.6, 0.4, 0]");
   for (const NamedRule& rule : rules()) {
     SCOPED_TRACE(rule.name);

@@ -1,4 +1,4 @@
-// Dependencies of rooms: no file or test of a room includes headers of a room above it.
+// Dependencies of the top-level folders (rooms): no file or test of a room includes headers of a room above it.
 
 #include <gtest/gtest.h>
 
@@ -57,7 +57,7 @@ TEST(Rooms, NoneIncludesHeadersFromAbove) {
     }
 }
 
-/// The grader uses mysim, and of the protocol only the header for engines.
+/// Apart from mysim, the grader uses only the protocol's header for engines.
 TEST(Rooms, TheGraderIncludesMysimOnly) {
   int files = 0;
   for (const auto& entry : fs::recursive_directory_iterator(fs::path(CROSSCHECK_SOURCE) / "tests/coursework")) {

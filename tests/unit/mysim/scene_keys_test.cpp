@@ -252,7 +252,8 @@ TEST(SceneKeys, AHardGridIsAnotherSceneThanASoftOne) {
 
 }  // namespace
 
-// Blocks: number of springs of each family by formula, distances of neighbours, and a closed surface oriented outwards.
+// Tests blocks: number of springs of each family by formula, distances of neighbours, and a closed surface oriented
+// outwards.
 
 namespace {
 
@@ -336,7 +337,7 @@ TEST(Block, SurfaceIsClosedAndFacesOutwards) {
     const double expected = sides[0].cross(sides[1]).dot(sides[2]);
     EXPECT_EQ(static_cast<int>(s.triangles.size()),
               4 * ((n[0] - 1) * (n[1] - 1) + (n[1] - 1) * (n[2] - 1) + (n[2] - 1) * (n[0] - 1)));
-    // Up to 150 triangles with coordinates up to 5 m: areas sum products of two coordinates, volumes of three.
+    // Up to 150 triangles with coordinates up to 5 m: areas sum products of two coordinates, volumes products of three.
     EXPECT_LT(area.norm(), 150 * 25 * eps);
     EXPECT_NEAR(volume, expected, 150 * 125 * eps);  // positive for outward orientation (divergence theorem)
   }

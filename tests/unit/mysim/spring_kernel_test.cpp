@@ -1,4 +1,4 @@
-// The fast spring kernel equals the plain edge loop on any network, up to round-off by another summation order.
+// The fast spring kernel equals the plain edge loop on any network, up to round-off due to a different summation order.
 // tests/unit/experiments/spring_graph_test.cpp tests its SIMD variants one by one.
 
 #include <cstring>
@@ -57,8 +57,9 @@ TEST(SpringKernel, IsTheEdgeLoopButForTheOrderOfTheSum) {
         EXPECT_EQ(fast.degenerate_springs, plain.degenerate_springs);
         degenerate_springs += plain.degenerate_springs;
 
-        // Each force has a few roundings in either variant, and each sum one per spring: 8 eps of all magnitudes. The
-        // magnitude of a Hooke force is k (L + r), because the difference of lengths contains their rounding errors.
+        // Each force has up to 8 roundings in both variants together, and each sum has one per spring, relative to the
+        // sum of all magnitudes. The magnitude of a Hooke force is k (L + r), because the difference of lengths
+        // contains their rounding errors.
         Eigen::ArrayXd sizes_at = Eigen::ArrayXd::Zero(n);
         Eigen::ArrayXi springs_at = Eigen::ArrayXi::Zero(n);
         for (const Spring& s : net.springs.list)

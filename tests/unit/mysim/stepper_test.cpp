@@ -30,7 +30,7 @@ TEST(Steppers, LeapfrogIsItsOwnInverseUnderDrag) {
   const double h = 1e-3;
   for (int i = 0; i < 50; ++i) leapfrog(f, s, h, w), s.t = (i + 1) * h, scene.model.particles.place_pins(s);
   for (int i = 50; i > 0; --i) leapfrog(f, s, -h, w), s.t = (i - 1) * h, scene.model.particles.place_pins(s);
-  // A hundred steps of a few ulps each, on a scene of 1 m with velocities of some m/s over h.
+  // Each of a hundred steps adds a few ulps of 1 m.
   EXPECT_LT((s.x - scene.start.x).cwiseAbs().maxCoeff(), 1e3 * eps);
 }
 
@@ -87,7 +87,7 @@ TEST(TimeGrid, DividesTheSamplingIntervalAndIsNeverLongerThanAsked) {
 }
 
 TEST(TimeGrid, RefusesMoreStepsThanCanBeCounted) {
-  // 5e13 steps per sampling interval: a count that wraps would silently use a single step per interval.
+  // These are 5e13 steps per sampling interval. A count that wraps would silently use a single step per interval.
   EXPECT_THROW(time_grid({1e-13, 5, 1}), InputError);
   EXPECT_THROW(time_grid({1e-300, 5, 250}), InputError);
 }
@@ -109,7 +109,8 @@ TEST(Stability, StepMatrixTurnsUnstableAtTheLimit) {
       auto radius = [&](double h) { return spectral_radius(step_matrix(s, omega, gamma, h), omega); };
       if (std::isinf(limit)) {
         for (const double h_omega : {0.1, 1.0, 10.0, 100.0})
-          // Implicit rules solve to at least 1e-10 of the forces, which are up to (h omega)^2 times that of the offset.
+          // Implicit rules solve to at least 1e-10 of the forces, which are up to (h omega)^2 times the force of the
+          // offset.
           EXPECT_LE(radius(h_omega / omega), 1 + 1e-6);
       } else if (limit == 0) {
         // the slowest growth is (h omega)^4 / 8 per step
@@ -138,7 +139,7 @@ TEST(Stability, TheFormulaInWordsHasTheNumbersOfTheLimit) {
     SCOPED_TRACE(s.name);
     const double spring = number_after(s.limit_formula, "h omega < ", " without drag"),
                  drag = number_after(s.limit_formula, "h gamma < ", " without springs");
-    // the text has two decimal places, one for dopri5
+    // the text has two decimal places, or one for dopri5
     for (const auto& [written, limit] : {std::pair{spring, s.limit(1, 0)}, std::pair{drag, s.limit(0, 1)}}) {
       if (std::isnan(written)) continue;
       EXPECT_NEAR(limit, written, 0.01);
@@ -182,9 +183,9 @@ class Excursions : public Observer {
 
 struct Fate {
   Verdict verdict;
-  double growth;  // excursions in the last tenth over those in the first
+  double growth;  // excursions in the last tenth divided by those in the first tenth
 };
-/// For h * steps seconds. `steps` must be a multiple of the ten samples, which would otherwise shorten them.
+/// Runs for h * steps seconds. `steps` must be a multiple of the ten samples, which would otherwise shorten them.
 Fate try_out(const Stepper& s, const Oscillation& o, double h, int steps) {
   Scene scene = hanging(o.omega, o.gamma);
   const double rest = scene.start.x(1, 1);
@@ -237,7 +238,8 @@ TEST(Stability, UndampedGrowthOnASpringIsTheFormula) {
           std::string_view(name) == "explicit-euler" ? std::sqrt(1 + z * z) : std::sqrt(1 + z * z * z * z / 4);
       auto amplitude = [&](int i) { return std::hypot(t.x[i](1, 1) - rest, t.v[i](1, 1) / omega); };
       for (int i = 0; i < 8; ++i)
-        // The offset is a difference of lengths of about 1.1 m: some ulps of these, relative to the amplitude.
+        // The offset is a difference of lengths of about 1.1 m: its error is some ulps of these, relative to the
+        // amplitude.
         EXPECT_NEAR(amplitude(i + 1) / amplitude(i), growth, 16 * eps * 1.1 / offset);
     }
 }
@@ -249,7 +251,7 @@ TEST(Stability, WhatHangsStillStaysWhereItHangs) {
       SCOPED_TRACE(fmt::format("{} gamma = {}", s.name, gamma));
       const Scene scene = hanging(10, gamma);
       const Trajectory t = trajectory_of(s, scene, {0.01, 0.1, 10});
-      // ten steps of some ulps of 1 m
+      // the tolerance covers ten steps with errors of some ulps of 1 m
       for (const Points& x : t.x) EXPECT_NEAR(x(1, 1), scene.start.x(1, 1), 100 * eps);
     }
 }
@@ -279,7 +281,7 @@ TEST(Stretch, IsAVerdictBesideEnergy) {
 
 using namespace testing_tools;
 
-/// Error of rk4 at h over that of suzuki4 at 1.25 h; both need 4 evaluations per h.
+/// Error of rk4 at h divided by that of suzuki4 at 1.25 h; both need 4 evaluations per h.
 double advantage(const Scene& scene, double h, double duration) {
   // samples at multiples of 5 h, which both steps divide
   const int samples = static_cast<int>(std::lround(duration / (20 * h)));

@@ -100,7 +100,7 @@ TEST(PortableTrigonometry, HasTheseBits) {
 }
 
 TEST(Vectors, AreSummedFromTheFirstToTheLast) {
-  // each summation order gives another last digit
+  // each summation order gives a different last digit
   const Vec3 v(1, 0x1p-53, 0x1p-53);
   EXPECT_EQ(v.sum(), (1 + 0x1p-53) + 0x1p-53);
   EXPECT_NE(v.sum(), 1 + (0x1p-53 + 0x1p-53));
@@ -158,7 +158,8 @@ TEST(PrescribedMotion, VelocityIsTheDerivativeOfDisplacement) {
   const double step = std::cbrt(eps);
   for (double t = 0.01; t < 2; t += 0.0137) {
     const Vec3 numeric = (displacement_at(motion, t + step) - displacement_at(motion, t - step)) / (2 * step);
-    // eps^(2/3) times a sixth of the third derivative, which the ramp makes as large as 60 A / ramp^3 plus omega^3 A
+    // The error is eps^(2/3) times a sixth of the third derivative, which the ramp makes as large as 60 A / ramp^3 plus
+    // omega^3 A.
     EXPECT_LT((numeric - velocity_at(motion, t)).norm(), 200 * std::pow(eps, 2.0 / 3));
   }
 }
@@ -246,7 +247,7 @@ TEST(Aerodynamics, WithoutRelativeMotionThereIsNone) {
     net.state.t = 0.3;
     const Vec3 wind = net.model.find<Aerodynamics>()->velocity.at(0.3);
     for (int i = 0; i < 6; ++i) net.state.v.col(i) = wind;
-    // w - (w + w + w) / 3 leaves an ulp of 7 m/s, and the force is quadratic in it.
+    // w - (w + w + w) / 3 leaves an ulp of 7 m/s, and the force is quadratic in this difference.
     EXPECT_LT(force_of(*net.model.find<Aerodynamics>(), net).cwiseAbs().maxCoeff(), 10 * std::pow(8 * eps, 2) * 50);
   }
 }
@@ -298,7 +299,7 @@ TEST(Aerodynamics, ATriangleWithoutAreaHasNoForce) {
 
 TEST(Terms, EnergyOfALinkIsNeverBelowZero) {
   // Near the rest length both parts of the energy cancel. A straightforward formula was negative for one in a hundred
-  // lengths within a few roundings of it, and an implicit step takes the square root of the sum.
+  // lengths within a few roundings of the rest length, and an implicit step takes the square root of the sum.
   Random random(1);
   for (int i = 0; i < 2000; ++i) {
     const double rest = random.between(0.1, 3);
