@@ -84,10 +84,10 @@ struct Frame {
 
 struct Settings {
   std::string stepper = "leapfrog";  // one of steppers()
-  double step = 0;          // s, upper bound: reduced to divide the time between samples; 0: the scene's default
+  double step = 0;          // s, upper bound, reduced to divide the time between samples; 0 for the scene's default
   double tolerance = 1e-6;  // relative, for adaptive steppers (dopri5)
   double duration = 0;      // s; 0: the scene's default
-  int samples = 0;          // frames after the first, at i duration / samples; 0: the scene's default
+  int samples = 0;          // frames after the first, at i duration / samples; 0 for the scene's default
   bool every_step = false;  // call the observer after every step
 };
 

@@ -27,7 +27,7 @@ struct Particles {
   std::vector<int> pins;       // pinned particles, ascending
   std::vector<char> pinned;    // n; 1 where pinned
   Points pin_home;             // 3 x pins, m: positions at t = 0
-  std::optional<Motion> move;  // none: the pins are fixed
+  std::optional<Motion> move;  // if absent, the pins are fixed
 
   int size() const { return static_cast<int>(mass.size()); }
   /// Sets the pins' positions and velocities at state.t.

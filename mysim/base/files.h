@@ -64,7 +64,8 @@ std::string file_name_of(std::string_view text);
 /// the next start.
 class TemporaryFolder {
  public:
-  /// `place`: by default the system's folder for temporary files. Throws InputError that names the folder.
+  /// `place`: parent folder, by default the system's folder for temporary files. Throws InputError that names the
+  /// folder.
   explicit TemporaryFolder(std::string_view purpose, const std::filesystem::path& place = {});
   ~TemporaryFolder();
   TemporaryFolder(const TemporaryFolder&) = delete;

@@ -13,8 +13,8 @@
 
 namespace crosscheck {
 
-/// Environment ("NAME=value") of all programs that Crosscheck starts: that of this program, with locale C.UTF-8 and
-/// time zone UTC, so that output does not depend on the terminal or job. `extra` overrides both.
+/// Environment ("NAME=value") of all programs that Crosscheck starts: the environment of this program, with locale
+/// C.UTF-8 and time zone UTC, so that output does not depend on the terminal or job. `extra` overrides both.
 std::vector<std::string> program_environment(const std::vector<std::string>& extra = {});
 
 /// Null-terminated pointers to the texts, as exec*() requires.

@@ -13,7 +13,7 @@ struct ProgressSnapshot {
   int begun = 0, total = 0;  // steps, including the current one; a single step is not numbered
   double part = 0;           // finished fraction of the current step, 0 to 1
   double elapsed = 0;        // s, since the start
-  double expected = 0;       // s, estimated duration of the current step; 0: unknown
+  double expected = 0;       // s, estimated duration of the current step; 0 if unknown
   double in_step = 0;        // s, since the start of the step
   std::string what;
 };

@@ -8,11 +8,11 @@
 
 namespace crosscheck {
 
-/// The name closest to a misspelt word, or nothing: the smallest Damerau-Levenshtein distance (letters inserted,
-/// deleted, substituted or swapped with a neighbour), up to a third of the longer word, ignoring case, '_' and '-'.
-/// Otherwise the shortest name that begins with the word or contains it after a hyphen or slash. Otherwise the longest
-/// name that the word contains in the same way ("rest" for "rest_length"), and finally the name with the longest common
-/// prefix of at least five letters.
+/// The name closest to a misspelt word, or nothing. Prefers the name with the smallest Damerau-Levenshtein distance
+/// (letters inserted, deleted, substituted or swapped with a neighbour) of up to a third of the longer word, ignoring
+/// case, '_' and '-'. Otherwise the shortest name that begins with the word or contains it after a hyphen or slash.
+/// Otherwise the longest name that the word contains in the same way ("rest" for "rest_length"), and finally the name
+/// with the longest common prefix of at least five letters.
 std::string closest_match(std::string_view word, const std::vector<std::string>& names);
 
 /// "; did you mean 'NAME'?" for the closest match, or nothing.

@@ -21,8 +21,8 @@ struct Moduli {
   bool cubic = true;        // the axes are equivalent, and stretch and shear are not coupled
   double c11_of_bend = 0;   // part of c11 due to skip-one springs
 
-  /// 1 if isotropic. Cubic networks: Zener's ratio 2 c66 / (c11 - c12); other sheets: smallest over largest Young's
-  /// modulus; lines and other blocks: 0.
+  /// Measure of anisotropy, 1 if isotropic: Zener's ratio 2 c66 / (c11 - c12) for cubic networks, smallest over largest
+  /// Young's modulus for other sheets, and 0 for lines and other blocks.
   double anisotropy() const;
   /// Transverse contraction over extension under a pull along axis 1; 0 for a line.
   double poisson() const;

@@ -27,7 +27,7 @@ enum class ContactRule {
   events,   // locates touching, leaving and stopping within the step (contact_events.h); requires locates_events()
   sticky,   // the assignment's sphere, kept to demonstrate its failure
 };
-/// The rule of a method option ("events", "sticky"), or nothing.
+/// The rule of a method option ("events", "sticky"), or nothing for other options.
 std::optional<ContactRule> contact_rule_of_option(std::string_view option);
 
 /// True for rules of order 2 under ContactRule::events. A first-order rule moves particles off the path that their

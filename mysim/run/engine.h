@@ -16,7 +16,7 @@ class World {
   struct Work {
     long evaluations = 0;            // right-hand side evaluations
     long degenerate_springs = 0;     // springs at zero length, summed over the evaluations
-    std::optional<long> steps = {};  // accepted, if the world chooses its steps; otherwise the run loop counts
+    std::optional<long> steps = {};  // accepted steps, if the world chooses them; otherwise the run loop counts
     double worker_seconds = 0;       // s, CPU time of all threads but the stepping one
     bool single_precision = false;
   };

@@ -152,9 +152,9 @@ class MotionBoundsCache {
 /// only lengths and non-finite numbers reveal motion that reverses between two states. If no true motion is available
 /// (hard distances; a monitor without a scene), K^ > 10 B is a failure, and so is thirty times the initial length.
 ///
-/// Verdict::frozen if by the first sample no free particle has moved or gained speed, bit for bit, although one that
-/// touches no surface was accelerated at the start: an engine that dropped its forces, or put a body to sleep. (Not
-/// checked under hard distances, whose forces may balance.)
+/// Verdict::frozen if by the first sample no free particle has moved or gained speed, bit for bit, although a free
+/// particle that touches no surface was accelerated at the start: an engine that dropped its forces, or put a body to
+/// sleep. (Not checked under hard distances, whose forces may balance.)
 class DivergenceMonitor : public Observer {
  public:
   /// Scene and run must outlive the monitor. `bounds` computes the bounds of the true motion.

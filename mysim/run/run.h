@@ -146,7 +146,7 @@ struct Outcome {
   long steps = 0;                          // taken
   long evaluations = 0;                    // right-hand side evaluations, or the engine's own force passes
   long degenerate_springs = 0;             // springs at zero length, summed over evaluations
-  double cpu_seconds = 0;                  // stepping threads, without observers; as reported by an external program
+  double cpu_seconds = 0;                  // stepping threads without observers, or as an external program reports
   double process_seconds = 0;              // CPU time of an external program, including start-up and files; otherwise 0
   std::string remark;                      // e.g. complaints of an external program
   std::vector<std::string> different_law;  // ingredients that the engine models by another law, one sentence each

@@ -382,7 +382,7 @@ class KeyCheck {
     throw InputError(fmt::format("{}:{}: {}", file_, std::max<toml::source_index>(line, 1), what));
   }
 
-  /// Every key of the file, and a description of its table.
+  /// A key and a description of its table. owners() lists the keys that a file may have outside the table `here`.
   using Owned = std::pair<std::string, std::string>;
   void owners(std::span<const Key> keys, const std::string& path, const std::string& table, const std::string& here,
               std::vector<Owned>& out) const {

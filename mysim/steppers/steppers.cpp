@@ -35,7 +35,7 @@ double first_exit(Growth growth, double scale) {
       const double middle = (low + high) / 2;
       (unstable(middle) ? high : low) = middle;
     }
-    // a rule that grows slowly at every step fails at the first point
+    // a rule that grows slowly at every step is unstable at the first point
     return i == 1 ? 0 : low;
   }
   return infinity;
@@ -81,7 +81,8 @@ double spectral_radius(const Eigen::Matrix2d& m) {
 }  // namespace
 
 double explicit_euler(double omega, double gamma) {
-  // |1 + h lambda| = 1: complex pair |lambda|^2 = omega^2, Re lambda = -gamma/2; real pair: the fast eigenvalue
+  // at the limit |1 + h lambda| = 1; a complex pair has |lambda|^2 = omega^2 and Re lambda = -gamma/2, and of a real
+  // pair the fast eigenvalue decides
   if (gamma < 2 * omega) return gamma / (omega * omega);
   const double fast = (gamma + std::sqrt(gamma * gamma - 4 * omega * omega)) / 2;
   return fast > 0 ? 2 / fast : infinity;
@@ -108,7 +109,7 @@ std::span<const double> stability_polynomial(StabilityLimit limit) {
 }
 
 double symplectic_euler(double omega, double gamma) {
-  // trace 2 - h gamma - (h omega)^2, determinant 1 - h gamma: stable while trace > -1 - determinant
+  // trace 2 - h gamma - (h omega)^2, determinant 1 - h gamma: stable as long as trace > -1 - determinant
   const double sum = gamma + std::sqrt(gamma * gamma + 4 * omega * omega);
   return sum > 0 ? 4 / sum : infinity;
 }

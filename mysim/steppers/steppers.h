@@ -57,7 +57,7 @@ struct Stepper {
   std::string_view name;
   StepFunction step;
   int order;         // order of the global error on smooth scenes, including drag
-  int evaluations;   // right-hand side evaluations per step; 0: as many as the equations require
+  int evaluations;   // right-hand side evaluations per step; 0 if the equations determine their number
   bool first_order;  // supports first-order scenes
   bool symplectic;   // without drag
   StabilityLimit limit;

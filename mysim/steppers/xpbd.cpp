@@ -61,7 +61,8 @@ void xpbd(System& f, State& s, double h, Workspace& w) {
       const Vec3 d = pass.between(i, j);
       const double length2 = d.squaredNorm(), inverse = pass.inverse_mass(i, j);
       if (length2 == 0) continue;
-      // remaining separation d' along the line: d' + (c h inverse mass) d' = moved apart
+      // dashpots are implicit: the remaining separation d' along the line satisfies d' + (c h inverse mass) d' = moved
+      // apart
       pass.push(i, j, (-c * h * pass.moved_apart(i, j).dot(d) / (length2 * (1 + c * h * inverse))) * d);
     }
   if (const auto* springs = model.find<Springs>())
@@ -72,7 +73,8 @@ void xpbd(System& f, State& s, double h, Workspace& w) {
         f.count_degenerate_springs(p.rest > 0);
         continue;
       }
-      // implicit along the line, linearised; Hooke's law: -(L - r) / (inverse mass + compliance / h^2)
+      // springs are implicit along the line, and linearised; with Hooke's law they correct by -(L - r) / (inverse mass
+      // + compliance / h^2)
       const auto [force, slope] = tension_of(p, springs->law, length);
       const double stiffening = h * h * std::max(0.0, slope) * pass.inverse_mass(p.a, p.b);
       pass.push(p.a, p.b, (-h * h * force / (length * (1 + stiffening))) * d);
@@ -81,7 +83,7 @@ void xpbd(System& f, State& s, double h, Workspace& w) {
     for (const Bending::Stencil& p : bending->list) {
       double inverse = 0;  // 1/kg, for c
       for (int i = 0; i < p.size; ++i) inverse += p.weight[i] * p.weight[i] * pass.inverse_mass(p.particle[i]);
-      // implicit and linear: remaining c' + (h^2 k inverse mass) c' = c
+      // bending is implicit and linear: the remaining c' satisfies c' + (h^2 k inverse mass) c' = c
       const Vec3 impulse = -h * h * p.k / (1 + h * h * p.k * inverse) * bent(p, s.x);
       for (int i = 0; i < p.size; ++i) pass.push(p.particle[i], p.weight[i] * impulse);
     }

@@ -23,7 +23,7 @@ inline void add_force(const Dashpots& dashpots, const Particles&, const State& s
   for (const auto& [a, b, c] : dashpots.list) {
     const Vec3 d = state.x.col(a) - state.x.col(b);
     const double length2 = d.squaredNorm();
-    if (length2 == 0) continue;  // no direction, no force; the spring between the same ends counts the event
+    if (length2 == 0) continue;  // coincident ends have no direction and no force; their spring counts this case
     const Vec3 f = (-c * (state.v.col(a) - state.v.col(b)).dot(d) / length2) * d;
     forces.f.col(a) += f;
     forces.f.col(b) -= f;

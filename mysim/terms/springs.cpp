@@ -75,7 +75,7 @@ void add_tangent(const Springs& springs, const Particles&, const State& state, C
   for (const Spring& s : springs.list) {
     const Vec3 d = state.x.col(s.a) - state.x.col(s.b);
     const double length = d.norm();
-    if (length == 0) continue;  // no direction, no force, no stiffness
+    if (length == 0) continue;  // coincident ends have no direction, no force and no stiffness
     const auto [force, slope] = tension_of(s, springs.law, length);
     double along = slope, across = force / length;
     if (curvature == Curvature::clamped) along = std::max(0.0, along), across = std::max(0.0, across);

@@ -1,12 +1,13 @@
 // Linear systems of implicit steps on a cloth: A u = b with A = inertia + stiffness of the springs, never assembled.
 //
 // Conjugate gradients need many iterations when springs are stiff for the step, because a pull travels by one spring
-// per iteration. On a grid of every second row and column it travels twice as fast, on one of every fourth four times
-// as fast. The error that remains on the finest grid consists of short waves, which a few rounds of relaxation remove.
-// The preconditioner is therefore one V-cycle over such grids (W. Hackbusch, Multi-Grid Methods and Applications,
-// Springer 1985). A coarse grid carries the total mass, and has springs of the same stiffness and twice the length,
-// because the elastic energy of an area does not depend on the grid. An approximate preconditioner suffices: it works
-// in single precision, with half the memory, and the outer iteration corrects it in double precision.
+// per iteration. On a grid of every second row and column it travels twice as fast, and on a grid of every fourth row
+// and column, four times as fast. The error that remains on the finest grid consists of short waves, which a few rounds
+// of relaxation remove. The preconditioner is therefore one V-cycle over such grids (W. Hackbusch, Multi-Grid Methods
+// and Applications, Springer 1985). A coarse grid carries the total mass, and has springs of the same stiffness and
+// twice the length, because the elastic energy of an area does not depend on the grid. An approximate preconditioner
+// suffices: it works in single precision, with half the memory, and the outer iteration corrects it in double
+// precision.
 //
 // The relaxation is Chebyshev's, with the inverse 3 x 3 diagonal blocks. The eigenvalues of D^-1 A are below 2 for any
 // springs: u.A u sums (u_a - u_b).K (u_a - u_b) <= 2 (u_a.K u_a + u_b.K u_b) over springs, which is twice the sum over

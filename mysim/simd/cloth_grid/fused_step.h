@@ -26,8 +26,8 @@
 namespace crosscheck::simd {
 
 inline constexpr int directions = 6;  // spring directions, towards later particles
-/// Offsets between the ends of a spring: along the row, next and skip-one; to the next row, straight and along both
-/// diagonals; two rows on.
+/// Offsets between the ends of a spring: in the row, to the next particle and to the next but one; to the next row,
+/// straight and along both diagonals; and straight to the next row but one.
 struct Direction {
   int down, right;
 };

@@ -215,7 +215,7 @@ TEST(Contact, SymmetricSceneStaysSymmetric) {
   const int n = 9;
   for (const Stepper& s : steppers()) {
     if (s.order == 1 && s.first_order) continue;  // explicit Euler is unstable here and amplifies rounding
-    if (s.hard_constraints) continue;             // a Gauss-Seidel pass starts at one side
+    if (s.hard_constraints) continue;             // a Gauss-Seidel pass starts at one side and is not symmetric
     SCOPED_TRACE(s.name);
     const Trajectory t = trajectory_of(s, scene, {1e-3, 0.3, 30});
     double worst = 0;
@@ -227,8 +227,8 @@ TEST(Contact, SymmetricSceneStaysSymmetric) {
           worst = std::max(worst, (here - Vec3(-mirrored_x.x(), mirrored_x.y(), mirrored_x.z())).norm());
           worst = std::max(worst, (here - Vec3(mirrored_z.x(), mirrored_z.y(), -mirrored_z.z())).norm());
         }
-    // 300 steps of round-off (eps each, because sums are in different orders), grown tenfold by the contact. Implicit
-    // rules may leave up to 1e-10 of the force m v / (h/2) at 2 m/s, for 0.3 s.
+    // The bound is the round-off of 300 steps (eps each, because sums are in different orders), which contact amplifies
+    // tenfold. Implicit rules may leave up to 1e-10 of the force m v / (h/2) at 2 m/s, for 0.3 s.
     EXPECT_LT(worst, 10 * (300 * eps + (s.evaluations == 0 ? 1e-10 * 2 / 5e-4 * 0.3 * 0.3 / 2 : 0)));
   }
 }

@@ -98,9 +98,9 @@ inline std::string contradiction(const Stepper& row) {
   for (const auto& [w, gamma] : oscillations) {
     const double limit = s.limit(w, gamma);
     auto radius = [&](double h) { return spectral_radius(step_matrix(s, w, gamma, h), w); };
-    // Offsets of 1e-3 m are differences of lengths of about 1 m, so their relative error is some ulps over the offset.
-    // Coincident eigenvalues are accurate only to the square root of this error. Solvers of implicit rules may stop at
-    // 1e-10 of the forces.
+    // Offsets of 1e-3 m are differences of lengths of about 1 m, so their relative error is some ulps divided by the
+    // offset. Coincident eigenvalues are accurate only to the square root of this error. Solvers of implicit rules may
+    // stop at 1e-10 of the forces.
     const double noise = s.evaluations == 0 ? 1e-6 : 1e-11;
     const double below = limit == 0 ? 0 : std::isinf(limit) ? 100 / w : 0.98 * limit;
     if (below > 0 && !(radius(below) <= 1 + noise))

@@ -335,7 +335,7 @@ TEST(DivergenceMonitor, BlowUpsAreFoundWhetherOrNotTheWindBlowsAndPinsMove) {
       const Outcome out = simulate(s, ContactRule::coulomb, scene, {0.05, 5, 100}, monitor);
       if (std::isinf(s.limit(200, 2))) {
         // Rules that solve the whole step are stable. One Gauss-Seidel pass leaves residuals in springs, whose energy
-        // may look like a blow-up, but the cloth stays within its fall and its size.
+        // may look like a blow-up, but the cloth does not move further than by its fall and its size.
         if (s.evaluations == 0) {
           EXPECT_EQ(out.verdict, Verdict::ok) << out.reason;
         }

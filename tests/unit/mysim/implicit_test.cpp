@@ -298,7 +298,7 @@ TEST(Implicit, LinksAtRestAreSolvedWhereRoundingLeavesThemNoEnergy) {
 }
 
 TEST(Implicit, AStrutOfStiffSpringsBuckles) {
-  // twenty springs, compressed by a tenth of their length, up to a millimetre off the straight line
+  // twenty springs, compressed by a tenth of their length, with particles up to a millimetre off the straight line
   constexpr int n = 20;
   std::string text;
   for (int i = 0; i <= n; ++i)

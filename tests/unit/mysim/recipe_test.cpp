@@ -55,9 +55,9 @@ TEST(Recipe, AWrongOrderIsFound) {
 
 TEST(Recipe, AWrongLimitIsFound) {
   Stepper wrong = ralston_row;
-  wrong.limit = limits::leapfrog;  // too long without drag
+  wrong.limit = limits::leapfrog;  // this limit is too long without drag
   EXPECT_TRUE(contains(contradiction(wrong), "is unstable, within the limit"));
-  wrong.limit = limits::explicit_euler;  // too short with drag
+  wrong.limit = limits::explicit_euler;  // this limit is too short with drag
   EXPECT_TRUE(contains(contradiction(wrong), "is stable, beyond the limit"));
   wrong.limit = limits::none;
   EXPECT_TRUE(contains(contradiction(wrong), "is unstable, within the limit of inf s"));
