@@ -67,7 +67,7 @@ void StreamingFile::rewrite_beginning(std::string_view bytes) {
 void StreamingFile::finish() {
   if (std::fflush(out_.get()) != 0) fail(no_room);
   if (!named_) {
-    // left behind by a process with the same id that died before the rename
+    // removes a file left behind by a process with the same id that died before the rename
     unlink(temporary_.c_str());
     const std::string self = fmt::format("{}/{}", descriptors, fileno(out_.get()));
     if (linkat(AT_FDCWD, self.c_str(), AT_FDCWD, temporary_.c_str(), AT_SYMLINK_FOLLOW) != 0)

@@ -36,8 +36,8 @@ void require_cell(const std::string& column, const std::string& text);
 /// bytes per component and 1024 in total.
 bool is_path_inside(std::string_view path);
 
-/// The file at a path that comes from data. Throws InputError that names the folder and the path unless
-/// is_path_inside(), or if the file or a folder on the way is a symbolic link or a special file (device, pipe, socket).
+/// The file at a path that comes from data. Throws InputError that names the folder and the path if is_path_inside() is
+/// false, or if the file or a folder on the way is a symbolic link or a special file (device, pipe, socket).
 std::filesystem::path path_inside(const std::filesystem::path& folder, const std::string& path);
 
 /// Throws InputError that names the first symbolic link, special file or unprintable name below a folder.

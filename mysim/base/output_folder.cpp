@@ -208,7 +208,8 @@ void link_users_files(const fs::path& target, const std::optional<Manifest>& old
     }
 }
 
-/// Empties a replaced folder: removes Crosscheck's files and those that `target` also has, and moves the others there.
+/// Empties a replaced folder: removes Crosscheck's files and those that `target` also has, and moves the others to
+/// `target`.
 void absorb(const fs::path& from, const fs::path& target) {
   const std::optional<Manifest> old = read_manifest(from);
   std::set<std::pair<dev_t, ino_t>> there;

@@ -22,7 +22,7 @@ class OutputLock {
   OutputLock& operator=(const OutputLock&) = delete;
   /// False in forked children.
   bool own() const;
-  /// Throws InputError "--out FOLDER: WHY"; default: the folder cannot be created or written to.
+  /// Throws InputError "--out FOLDER: WHY"; by default, WHY says that the folder cannot be created or written to.
   [[noreturn]] void refuse(const std::string& why = "") const;
 
   std::filesystem::path requested;  // as given

@@ -32,7 +32,7 @@ struct CannotStart : std::runtime_error {
 struct ProgramResult {
   int status = 0;               // exit code, or 128 + signal number
   int signal = 0;               // signal that ended the program; 0 if it exited
-  bool timed_out = false;       // only with a time limit, as the next two members
+  bool timed_out = false;       // set only with a time limit, like the next two members
   bool left_children = false;   // the program ended before its children, which were killed
   bool killed_watcher = false;  // the program killed its watcher: its children may still run
   double cpu_seconds = 0;       // user and system time of the program and of the children it waited for

@@ -39,7 +39,7 @@ class IncrementalPotential {
   void apply(const Points& p, Points& out);               // out = matrix times p. Costs one evaluation
   void precondition(const Points& r, Points& out) const;  // by the inverse 3 x 3 diagonal blocks
 
-  const Eigen::ArrayXd& inertia() const { return inertia_; }  // per particle, in the matrix, N/m
+  const Eigen::ArrayXd& inertia() const { return inertia_; }  // N/m, contribution of each particle to the matrix
   /// Counts matrix products computed elsewhere.
   void count(double products) { f_.count(std::lround(products)); }
 

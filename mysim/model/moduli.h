@@ -24,7 +24,7 @@ struct Moduli {
   /// Measure of anisotropy, 1 if isotropic: Zener's ratio 2 c66 / (c11 - c12) for cubic networks, smallest over largest
   /// Young's modulus for other sheets, and 0 for lines and other blocks.
   double anisotropy() const;
-  /// Transverse contraction over extension under a pull along axis 1; 0 for a line.
+  /// Transverse contraction divided by extension under a pull along axis 1; 0 for a line.
   double poisson() const;
   /// Young's modulus along axis 1.
   double young() const;

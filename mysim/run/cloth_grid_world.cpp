@@ -105,7 +105,7 @@ class ClothGridWorld : public World {
   using Slab = typename Slabs<T>::Slab;
   struct SlabResult {
     long degenerate_springs = 0;
-    std::vector<double> lost;  // J, energy lost in contact by each of the slab's particles that touched during the step
+    std::vector<double> lost;  // J, energy lost by each of the slab's particles that touched a surface in the step
   };
   struct ContactContext {
     ClothGridWorld* world;
@@ -128,7 +128,7 @@ class ClothGridWorld : public World {
       for (const double fraction : composition.fractions) {
         const double part = fraction * h;
         const Eigen::ArrayXd half = part / 2 * c;
-        // drag: at the old velocity, or averaged over old and new
+        // drag acts at the old velocity, or at the mean of old and new velocity
         const Eigen::ArrayXd damping =
             composition.kick_first ? Eigen::ArrayXd(part * c) : Eigen::ArrayXd(part * c / (1 + half));
         const Eigen::ArrayXd dt =

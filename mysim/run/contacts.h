@@ -53,7 +53,7 @@ class Contacts {
   void begin(const State& s);
   /// Resolves contacts with all surfaces over the whole step; returns true if any particle touched a surface.
   bool resolve(State& s);
-  /// Energy lost in the last resolve() (J); nothing if no particle touched.
+  /// Energy lost in the last resolve() (J); nothing if no particle touched a surface.
   const std::optional<double>& lost() const { return lost_; }
 
  private:

@@ -166,7 +166,7 @@ class AdaptiveWorld : public World {
   DormandPrince pair_;
   double tolerance_, h_, last_h_ = 0;
   double shortest_;           // s; shorter steps are lost in the rounding of time
-  double fastest_;            // m/s, largest of an accepted state
+  double fastest_;            // m/s, largest speed in accepted states
   double last_ratio_ = 1e-4;  // error ratio of the previous step, for the controller
   State before_, s_, seen_;   // start and end of the last accepted step; requested state
   long accepted_ = 0;

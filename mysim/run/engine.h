@@ -61,7 +61,7 @@ class RunLoop {
   const int stride_;  // steps between two observed states
   const bool chooses_steps_;
   CpuClock clock_;
-  long evaluations_ = 0;       // number at the last observed state, if the world chooses its steps
+  long evaluations_ = 0;       // count up to the last observed state, if the world chooses its steps
   int sample_ = 0, step_ = 0;  // samples so far, and steps since the last sample
   Outcome out_;
 };

@@ -194,7 +194,7 @@ class DivergenceMonitor : public Observer {
   std::optional<MotionBounds> bounds_;                               // once computed
   std::optional<State> start_;
   std::optional<Ledger> ledger_;  // if wind or moved pins do work
-  std::optional<State> first_;    // first observed state, kept until the next sample
+  std::optional<State> first_;    // state at the first sample, kept until the next sample
   double interval_ = 0;           // s, between states that are due; 0 if all are due
   bool freeze_checked_ = false;
   bool begun_ = false;

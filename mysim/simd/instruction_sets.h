@@ -6,7 +6,7 @@
 
 namespace crosscheck::simd {
 
-/// baseline: two doubles per register, nothing fused, on every machine (SSE2, NEON, WebAssembly).
+/// `baseline` has two doubles per register and fuses nothing; it runs on every machine (SSE2, NEON, WebAssembly).
 enum class InstructionSet { baseline, avx2, avx512 };
 std::string_view name_of(InstructionSet isa);
 

@@ -96,14 +96,14 @@ struct Layout {
   }
   /// Copies every second row and column, without the halo.
   void inject(const AlignedBuffer<double>& fine, AlignedBuffer<double>& coarse) const;
-  /// put() copies points times `factor` into a field, without its halo; get() copies them back.
+  /// put() copies points times `factor` into a field, without its halo; get() copies a field times `factor` back.
   void put(const Points& points, double factor, AlignedBuffer<double>& field) const;
   void get(const AlignedBuffer<double>& field, double factor, Points& points) const;
 };
 
 class Level {
  public:
-  /// Springs are `times_longer` than the topology's, and equally stiff.
+  /// Springs are `times_longer` times as long as the topology's, and equally stiff.
   Level(const Layout& layout, const GridTopology& topology, double times_longer);
 
   const Layout& layout() const { return layout_; }

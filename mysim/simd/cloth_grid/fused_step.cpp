@@ -189,7 +189,7 @@ FORCE_INLINE void resolve_contact(const BoundingPlane& s, const Three<T>& x_n, T
   v = choose<T>(touching, velocity_after_contact<T>(s, n, v), v);
 }
 
-/// Kick, contacts and drift of a row. Scenes without planes do not pay for their code.
+/// Kick, contacts and drift of a row. Scenes without planes do not pay for the code of planes.
 template <class T, bool fast, bool planes>
 FORCE_INLINE void move_row(const ClothGrid<T>& s, const KickDrift<T>& step, int row, T* x, const T* f) {
   using L = Arithmetic<T, fast>;

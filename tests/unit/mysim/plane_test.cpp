@@ -308,7 +308,7 @@ TEST(Plane, RotatedAndScaledScenesGiveTheSameMotion) {
     SCOPED_TRACE(rule.name);
     const Scene si = parse_scene(text(1, 1), "si"), milli = parse_scene(text(1e3, 1e3), "milli");
     const Trajectory a = path_of(rule, si, {1e-3, 1, 20}), b = path_of(rule, milli, {1, 1e3, 20});
-    // Decimal units are rounded, which may, rarely, move an impact to the end of another step with contact on whole
+    // Decimal units are rounded, which may, rarely, move an impact to the end of a different step with contact on whole
     // steps.
     for (int i = 0; i < a.frames(); ++i)
       EXPECT_LT((a.x[i] - 1e-3 * b.x[i]).norm(), 1e-9 + 10 * unsolved(rule, 1, 1e-3)) << i;

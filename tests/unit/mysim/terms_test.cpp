@@ -124,7 +124,7 @@ TEST(Wind, IsSeededBoundedAndSmooth) {
     EXPECT_LE((a - wind.mean).norm(), bound * (1 + 4 * eps));
     EXPECT_LE((wind.at(t + dt) - a).norm(), bound * fastest * dt);
   }
-  EXPECT_GT(difference, 0.1 * bound);  // other seeds give other gusts
+  EXPECT_GT(difference, 0.1 * bound);  // different seeds give different gusts
 }
 
 TEST(Wind, GustsAlongAndAcrossDifferAndReachAFairShareOfTheirRange) {
