@@ -237,7 +237,6 @@ namespace {
 ///
 /// Passages through a sphere: both ends are outside, and the chord is deeper inside than the path may deviate from it:
 /// tau |dv| / 4, if the velocity changes by dv within a time tau, at one instant or evenly.
-/// chord.
 class StepObserver : public Observer {
  public:
   explicit StepObserver(const Scene& scene)
@@ -268,8 +267,8 @@ class StepObserver : public Observer {
       return sphere.motion ? Vec3(s.v.col(i) - velocity_at(*sphere.motion, s.t)) : Vec3(s.v.col(i));
     };
     const double bend = span / 4 * (seen(state) - seen(last_)).norm();
-    // outside includes positions on the surface, rounded to single precision; one pushed out on the near side has
-    // touched
+    // positions on the surface, rounded to single precision, count as outside; a particle pushed out on the near side
+    // has touched the sphere and is not a passage
     const double outside = radius * (1 - 1e-6);
     if (!(from.norm() > outside && to.norm() > outside && to.dot(seen(last_)) > 0 &&
           (from + closest * way).norm() + bend < outside))

@@ -31,18 +31,19 @@ struct MethodFamily {
   std::string_view title;  // for display
   Role role;
   std::string_view representative = {};        // method used where a single one is needed
-  std::string_view representative_title = {};  // for display; empty: its name
+  std::string_view representative_title = {};  // for display; empty: the method's name
   std::string_view noun = "method";            // Bullet calls its methods worlds
-  std::string_view variant_of = {};            // another build of that engine: run by `regress`, else only by name
+  std::string_view variant_of = {};            // the engine of which this is another build; such builds run in
+                                               // `regress`, or if named
   Build build = Build::unknown;
   std::string_view build_text = "a program of its own";
-  double call = 200e-9, element = 12e-9;  // s, cost of an evaluation, and in addition per particle and spring
-  double start = 0;                       // s, start-up of its program
+  double call = 200e-9, element = 12e-9;  // s, cost of an evaluation: fixed part, and part per particle and spring
+  double start = 0;                       // s, start-up of the family's program
   bool single_precision = false;
-  int highest_order = 0;                          // highest order among its rules; 0: unknown
+  int highest_order = 0;                          // highest order among the family's rules; 0: unknown
   bool grid_kernel = false;                       // has a kernel for regular cloths
-  std::string_view departure = {};                // why it may deviate from linear theory
-  std::vector<MethodRow> (*methods)() = nullptr;  // null: the user names them
+  std::string_view departure = {};                // why the family may deviate from linear theory
+  std::vector<MethodRow> (*methods)() = nullptr;  // null: the user names the methods
 
   bool is_subject() const { return role == Role::subject; }
   bool is_engine() const { return role == Role::subject || role == Role::peer; }
@@ -60,7 +61,7 @@ std::vector<const MethodFamily*> default_peers();
 /// True for the first default peer, to which some table columns refer.
 bool is_first_peer(const MethodFamily& family);
 
-/// Selects families; empty: all.
+/// Selects families; an empty function selects all.
 using FamilyFilter = std::function<bool(const MethodFamily&)>;
 
 /// The family of a method's or family's name; names without a known prefix are programs of `exec:`.
@@ -69,11 +70,11 @@ const MethodFamily& family_of(std::string_view name);
 struct FoundRule;
 
 struct Method {
-  std::string name;     // full, e.g. "mysim/leapfrog+sticky"
-  std::string what;     // one line for the user
-  std::string rule;     // as returned by rule_of(), for methods that are not identified from their runs; may be empty
-  Engine engine;        // throws Unsupported
-  ContactLoss contact;  // source of the energy lost in contacts: reported, inferred or sampled
+  std::string name;                  // full, e.g. "mysim/leapfrog+sticky"
+  std::string what;                  // one line for the user
+  std::string rule;                  // as returned by rule_of(), unless it is identified from runs; may be empty
+  Engine engine;                     // throws Unsupported
+  ContactLoss contact;               // source of the energy lost in contacts: reported, inferred or sampled
   const Stepper* stepper = nullptr;  // only for mysim's methods, otherwise null
   bool adaptive = false;             // uses run.tolerance instead of run.step
   bool implicit = false;             // solves an equation in each step
@@ -97,16 +98,16 @@ std::vector<Method> all_methods();
 /// all_methods(), computed once.
 std::span<const Method> builtin_methods();
 
-/// The built-in method with this name, or null; for readers of tables.
+/// The built-in method with this name, or null. For readers of tables, which contain such names.
 const Method* builtin_method(std::string_view name);
 
 /// The built-in method of a name with options, or null.
 const Method* builtin_without_options(std::string_view name);
 
-/// Name of the subject's first method with such a stepper, or empty.
+/// Name of the subject's first method whose stepper satisfies `asked`, or an empty string.
 std::string subject_method(const std::function<bool(const Stepper&)>& asked);
 
-/// "leapfrog" for mysim's methods, otherwise the whole name.
+/// Name without the prefix of mysim's methods ("leapfrog"); other methods keep their whole name.
 std::string short_name(const std::string& method);
 
 /// Display name of an external program or trajectory, from its file and options: "my-mujoco, n=4", preceded by the

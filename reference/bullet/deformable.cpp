@@ -157,8 +157,8 @@ std::set<double> stiffnesses(const Springs& springs) {
   return all;
 }
 
-/// The common coefficient of dashpots along all springs, in the same order, as Bullet's own force requires; otherwise
-/// nothing.
+/// The common coefficient of dashpots along all springs, in the springs' order, as Bullet's own force requires;
+/// otherwise nullopt.
 std::optional<double> one_dashpot_each(const Springs* springs, const Dashpots* dashpots) {
   if (!springs || !dashpots || springs->list.size() != dashpots->list.size()) return std::nullopt;
   for (size_t i = 0; i < springs->list.size(); ++i)
@@ -192,7 +192,7 @@ DeformableForces::DeformableForces(const Scene& scene, double h, bool implicit, 
         ours.air = &t;
         mapped_["wind on triangles"] = "force class of our own: Bullet's deformable world has no wind";
       },
-      [](const OneOf<Spheres, Planes> auto&) {},        // not forces: soft_body.h
+      [](const OneOf<Spheres, Planes> auto&) {},        // not forces (see soft_body.h)
       [](const OneOf<Rotation, Constraints> auto&) {},  // refused before a world is built
   };
   for (const Term& term : scene.model.terms) std::visit(take, term);
@@ -296,7 +296,7 @@ std::optional<std::vector<double>> DeformableForces::drag_rates(SceneForce* own)
   if (implicit_) {
     own->addScaledDampingForceDifferential(1, common, moving);
   } else {
-    // a common velocity changes only the drag of Crosscheck's forces, unless there is aerodynamic force
+    // without aerodynamic force, a common velocity changes only the drag among Crosscheck's forces
     if (own->carried().air) return own->carried().drag ? std::nullopt : std::optional(rates);
     ProbeState placed(scene_, soft_body_, t_);
     placed.stop();
@@ -316,7 +316,7 @@ ForceProbe DeformableForces::probe(btAlignedObjectArray<btDeformableLagrangianFo
   const auto by = static_cast<btScalar>(factor_);
   ProbeState placed(scene_, soft_body_, t_);
   using Stack = btDeformableLagrangianForce::TVStack;
-  Stack springs, bending, elastic, dashpots, all;  // elastic: both, added in the world's order, bit for bit
+  Stack springs, bending, elastic, dashpots, all;  // elastic: springs and bending, in the world's order
   for (Stack* stack : {&springs, &bending, &elastic, &dashpots, &all})
     stack->resize(particles.size(), btVector3(0, 0, 0));
   for (int i = 0; i < in_world.size(); ++i) {
@@ -426,7 +426,7 @@ Outcome run_deformable(const Scene& scene, const Run& run, Observer& observer, c
   if (scene.model.find<Dashpots>() && !settings.implicit)
     out.different_law.push_back("dashpots: Bullet solves them implicitly, at the end of the explicit step");
   if (const auto limit = world.speed_limit(); limit && out.verdict == Verdict::ok) {
-    // a failed run stays a failure; a successful one under Bullet's speed limit solves another problem
+    // a failed run stays a failure; a successful run under Bullet's speed limit solved another problem
     if (!settings.defaults.margin)
       throw Unsupported(fmt::format(
           "Bullet's deformable world limits speeds to the body's box over the step, here to {:.3g} m/s", *limit));

@@ -44,10 +44,10 @@ class SceneForce : public btDeformableLagrangianForce {
   void addScaledElasticForceDifferential(btScalar scale, const TVStack& dx, TVStack& df) override;
   void buildDampingForceDifferentialDiagonal(btScalar scale, TVStack& diagonal) override;
 
-  /// Springs only, and bending only, at m_q; also for the certificate's probe.
+  /// Add the force of the springs only, or of the bending only, at m_q. The certificate's probe uses them, too.
   void addScaledElasticForce(btScalar scale, TVStack& force);
   void add_bending_force(btScalar scale, TVStack& force);
-  /// A value that Bullet does not use: it merges a force with the first one of its type.
+  /// A type that Bullet does not use: Bullet merges a force with the first one of the same type.
   static constexpr auto type = static_cast<btDeformableLagrangianForceType>(7);
   btDeformableLagrangianForceType getForceType() override { return type; }
 
@@ -65,8 +65,8 @@ class SceneForce : public btDeformableLagrangianForce {
   Forces aerodynamic_forces_;  // N
 };
 
-// The forces of a scene in Bullet's deformable world and their read-back: Bullet's own where supported, otherwise
-// SceneForce.
+// The forces of a scene in Bullet's deformable world and their read-back: Bullet's own forces where it supports the
+// law, otherwise SceneForce.
 
 class DeformableForces {
  public:
@@ -84,7 +84,7 @@ class DeformableForces {
  private:
   void carry_drag(const Drag* drag, SceneForce::CarriedTerms& ours);
   void carry_springs(const Springs* springs, const Dashpots* dashpots, SceneForce::CarriedTerms& ours, bool shipped);
-  /// Drag rate of each particle (1/s); nothing if it cannot be separated from other forces.
+  /// Drag rate of each particle (1/s); nullopt if the drag cannot be separated from other forces.
   std::optional<std::vector<double>> drag_rates(SceneForce* own) const;
   ForceProbe probe(btAlignedObjectArray<btDeformableLagrangianForce*>& in_world) const;
 

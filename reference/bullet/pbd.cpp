@@ -118,7 +118,7 @@ class PbdWorld : public SoftBodyWorld<btSoftRigidDynamicsWorld> {
       for (const Spring& s : springs->list)
         set(settings_.demo ? 1 : link_stiffness(s.k, pair_mass(scene_.model.particles, s), h_, settings_.iterations));
     if (const auto* constraints = scene_.model.find<Constraints>())
-      for (size_t c = 0; c < constraints->list.size(); ++c) set(1);  // the whole distance in each iteration
+      for (size_t c = 0; c < constraints->list.size(); ++c) set(1);  // each iteration removes the whole error
     body().updateLinkConstants();
     soft_body_->restore_lengths();
   }

@@ -85,7 +85,8 @@ SoftBody::SoftBody(const Scene& scene, btSoftBodyWorldInfo& info, const BulletDe
     const btVector3 v = particles.pinned[i] ? btVector3(0, 0, 0) : to_bullet(scene.start.v.col(i));
     bt_body_->m_nodes[node].m_v = bt_body_->m_nodes[node].m_vn = v;
   }
-  // without contact the margin only limits speeds (box diagonal over step), so it is made large
+  // without contact the margin only limits speeds (to the diagonal of the body's box divided by the step), so it is
+  // made large
   if (!defaults.margin)
     bt_body_->getCollisionShape()->setMargin(static_cast<btScalar>(margins.empty() ? 10.0 : margins[0]));
   bt_body_->updateBounds();  // until now with the constructor's margin, which would limit speeds in the first step
@@ -258,7 +259,7 @@ void Obstacles::read_back(const btDiscreteDynamicsWorld& world, const btSoftBody
   readback.margin = body.getCollisionShape()->getMargin();
   readback.spheres.emplace(), readback.planes.emplace();
   const btCollisionObjectArray& objects = world.getCollisionObjectArray();
-  size_t known = 0;  // objects not built here: their current position is used
+  size_t known = 0;  // number of objects built here; objects beyond it are at their current positions
   for (int i = 0; i < objects.size(); ++i) {
     const auto* ball = dynamic_cast<const btSphereShape*>(objects[i]->getCollisionShape());
     const auto* box = dynamic_cast<const btBoxShape*>(objects[i]->getCollisionShape());

@@ -17,8 +17,8 @@ namespace crosscheck::bullet {
 // Pitfalls of Bullet (all measured). Pinned nodes must come last: the implicit world shifts its contact prediction by
 // one node per preceding pin. The first step overwrites rest lengths unless the update flag is cleared. Bodies slower
 // than 0.04 m/s fall asleep unless that is disabled. A disconnected spring graph hangs the builder of the node tree.
-// The body's margin is 0.25 m unless set. The explicit world clamps speeds to the diagonal of the body's box over the
-// step.
+// The body's margin is 0.25 m unless set. The explicit world clamps speeds to the diagonal of the body's box divided by
+// the step.
 
 /// Converts vectors between mysim and Bullet, in Bullet's precision.
 inline btVector3 to_bullet(const Vec3& v) { return {btScalar(v.x()), btScalar(v.y()), btScalar(v.z())}; }
@@ -172,12 +172,12 @@ class Obstacles {
   void add(const Surface& surface, std::unique_ptr<btConvexShape> shape, const Vec3& middle);
 
   std::vector<Obstacle> obstacles_;
-  std::vector<btTransform> built_;  // transforms with which they were added
+  std::vector<btTransform> built_;  // transforms with which the bodies were added
 };
 
-/// "5 mrad on voxels of a = 10 mm": largest error of Bullet's normals, in each direction, on the scene's smallest ball;
-/// there must be one. Inside a voxel, the gradient of the distance grid is constant along each axis: correct in the
-/// middle, and wrong by half a voxel's angle at its faces.
+/// Largest error of Bullet's normals on the scene's smallest ball, in each direction, e.g. "5 mrad on voxels of a = 10
+/// mm". The scene must contain a ball. Inside a voxel, the gradient of the distance grid is constant along each axis:
+/// correct in the middle, and wrong by half a voxel's angle at the voxel's faces.
 std::string normal_error_text(const Scene& scene, double voxel);
 
 /// A soft body and its obstacles in a soft-body world of Bullet, destroyed in the right order. The derived class

@@ -17,7 +17,7 @@ namespace {
 
 using Options = std::vector<std::string>;
 
-/// The number in "KEY=NUMBER", within [low, high]; nothing for other options and invalid numbers.
+/// The number in "KEY=NUMBER", within [low, high]; nullopt for other options and invalid numbers.
 std::optional<double> read_number(const std::string& option, std::string_view key, double low, double high) {
   if (!option.starts_with(key)) return std::nullopt;
   double value = 0;

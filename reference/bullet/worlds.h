@@ -19,7 +19,7 @@ struct WorldChoice {
 std::vector<std::string> world_names();
 
 /// options: the parts after the plus signs of a method's name, e.g. {"n=10"}. Throws InputError that lists the valid
-/// ones.
+/// options.
 WorldChoice choose_world(const std::string& world, const std::vector<std::string>& options);
 
 }  // namespace crosscheck::bullet

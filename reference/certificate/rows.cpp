@@ -29,14 +29,14 @@ void certify_family(Family family, const Springs& springs, const Readback& r, Ce
   w.deviation(name + ": rest lengths", range_of(shortest, longest, "m"), rest, std::max(longest, 1e-300));
   const std::string range = range_of(softest, stiffest, "N/m");
   if (reported)
-    // inverting a mapping by powers amplifies rounding: with k h^2/mu = 1e-6, to eps / 1e-6
+    // inverting a mapping by powers amplifies the rounding error, e.g. to eps / 1e-6 for k h^2/mu = 1e-6
     w.row(name + ": stiffness", range, fmt::format("largest deviation {:.2g}", stiffness),
           stiffness <= std::max(1e-8, w.tolerance()));
   else if (!r.probe || r.probe->springs.size() == 0)  // otherwise the forces show the stiffness and the law
     w.add_unattested(name + ": stiffness", range);
 }
 
-/// True if a force (N) that the scene lacks exceeds the rounding of its own forces.
+/// True if `force` (N), which is not one of the scene's forces, exceeds the rounding error of the scene's own forces.
 bool beyond_rounding(const Scene& scene, const Points& force, const CertificateWriter& w) {
   const double lengths = scene.size() + largest_column(scene.start.x);
   double scale = 0;
@@ -54,7 +54,8 @@ void certify_forces(const Scene& scene, const Readback& r, CertificateWriter& w)
   const auto* dashpots = scene.model.find<Dashpots>();
   State probed = scene.start;
   if (r.probe) probed.x = r.probe->x;
-  /// Number of pairs without a force in the known state, which says nothing about them. Ignores pairs of two pins.
+  /// Number of pairs that exert no force in the known state, so that nothing is known about them. Ignores pairs of two
+  /// pins.
   auto count_force_free = [&](const auto& list, auto pulls) {
     return std::count_if(list.begin(), list.end(), [&](const auto& pair) {
       return !(particles.pinned[pair.a] && particles.pinned[pair.b]) && !pulls(pair);
@@ -68,7 +69,7 @@ void certify_forces(const Scene& scene, const Readback& r, CertificateWriter& w)
     for (const int pin : particles.pins) ours.f.col(pin).setZero(), others.col(pin).setZero();
     const double scale = largest_column(ours.f), off = largest_column(ours.f - others);
     const std::string found = fmt::format("forces at a known state off by {:.2g}", scale > 0 ? off / scale : off);
-    // a stretch by a tenth loses one digit in differences of lengths, a sum of a dozen springs another
+    // one digit is lost in differences of lengths that are stretched by a tenth, another in the sum of a dozen springs
     const bool same = off <= 100 * w.tolerance() * scale;
     if (same && force_free > 0)
       w.row(quantity, requested, fmt::format("{}; {} of {} have none there", found, force_free, term.list.size()),
@@ -156,7 +157,7 @@ void certify_springs(const Scene& scene, const Readback& r, CertificateWriter& w
 
 namespace {
 
-/// Row for a number of a sphere or plane, which the engine may not report.
+/// Row for a property of a sphere or plane; marked as unattested if the engine does not report it.
 void certify_number(const std::string& what, double wanted, const std::optional<double>& reported, const char* unit,
                     double scale, CertificateWriter& w) {
   if (reported)
@@ -296,7 +297,7 @@ void certify_absent(const Scene& scene, const Readback& r, CertificateWriter& w)
       {"drag", !model.find<Drag>() && !r.drag},
       {"dashpots", !model.find<Dashpots>() && !(r.probe && r.probe->dashpots.size() > 0)},
       {"wind", !model.find<Wind>() && !model.find<Aerodynamics>() && !(r.probe && r.probe->wind.size() > 0)},
-      {"spheres", !spheres && !r.spheres},  // engines older than planes need not deny them
+      {"spheres", !spheres && !r.spheres},  // engines written before planes existed need not deny them
       {"motion of pins", !model.particles.pins.empty() && !model.particles.move && !r.later},
       {"motion of spheres", spheres && !spheres->moving() && !r.later},
   };
@@ -313,7 +314,7 @@ void certify_terms(const Scene& scene, const Readback& r, CertificateWriter& w) 
       [&](const Gravity& t) { certify_gravity(t, r, w); },
       [&](const Drag& t) { certify_drag(t, scene.model.particles, r, w); },
       [&](const Rotation& t) { w.add_unattested("rotation", fmt::format("{:.6g} rad/s", t.rate)); },
-      [](const OneOf<Wind, Aerodynamics, Spheres, Planes> auto&) {},  // below, because the engine may have them anyway
+      [](const OneOf<Wind, Aerodynamics, Spheres, Planes> auto&) {},  // handled below: an engine may have them anyway
       [](const OneOf<Springs, Bending, Dashpots, Constraints> auto&) {},  // above
   };
   for (const Term& term : scene.model.terms) std::visit(certify_term, term);

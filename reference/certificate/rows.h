@@ -10,7 +10,7 @@
 
 namespace crosscheck {
 
-/// The larger value; nan if either is nan, so that it passes no comparison.
+/// The larger value; nan if either is nan, because every comparison with nan fails.
 inline double max_or_nan(double a, double b) { return std::isnan(b) || b > a ? b : a; }
 
 class CertificateWriter {

@@ -13,7 +13,7 @@ struct OutsideEngine {
   std::string built;        // "native", "JavaScript" or "WebAssembly"
   std::string licence, precision;
   std::string rule;    // time stepping, by default and by option
-  std::string forces;  // option that applies springs as forces, if that is another rule than the default
+  std::string forces;  // option that applies springs as forces, if this changes the rule
 
   // Files in reference/engines from which the adapter is built: a source file, a folder for CMake, or a module for
   // npm's package.
@@ -33,13 +33,13 @@ std::vector<OutsideEngine> outside_engines();
 /// The program that `crosscheck engine NAME` keeps for reports; it need not exist.
 std::filesystem::path kept_program(const std::string& engine);
 
-/// The engine whose kept program "exec:PATH+option" names, or nothing.
+/// The engine whose kept program "exec:PATH+option" names, or nullopt.
 std::optional<OutsideEngine> kept_engine_of(const std::string& method);
 
-/// "mujoco+drag=callback" for a kept program, otherwise the whole name.
+/// The method's name without folders if it names a kept program, e.g. "mujoco+drag=callback"; otherwise unchanged.
 std::string without_folders(const std::string& method);
 
-/// "crosscheck engine box3d --prefix DIR".
+/// The command that builds the engine's adapter: "crosscheck engine box3d --prefix DIR".
 std::string command_to_build(const OutsideEngine& engine);
 
 }  // namespace crosscheck

@@ -23,7 +23,7 @@ using namespace crosscheck_engine;
 namespace {
 
 constexpr JPH::ObjectLayer layer = 0;
-constexpr JPH::uint memory = 32 << 20;  // bytes for temporary data of a step; other memory is allocated
+constexpr JPH::uint memory = 32 << 20;  // bytes for temporary data of a step; larger needs use the heap
 
 JPH::Vec3 to_jolt(const Vec& v) { return {float(v[0]), float(v[1]), float(v[2])}; }
 template <class Vector>
@@ -32,7 +32,7 @@ Vec from_jolt(const Vector& v) {
 }
 
 struct Vertex {
-  Vec x, v;             // m in the scene's frame, m/s
+  Vec x, v;             // position (m, in the scene's frame) and velocity (m/s)
   double inverse_mass;  // 1/kg; 0: held
 };
 
@@ -67,8 +67,8 @@ class SoftBody {
     creation.mMaxLinearVelocity = 1e15f;       // m/s; default 500, above which vertices are silently slowed down
     creation.mUpdatePosition = false;  // otherwise the frame follows, and vertices are rounded once more per step
     creation.mAllowSleeping = false;   // otherwise a body slower than 0.17 m/s for half a second stops
-    creation.mFriction = 1;            // contacts use sqrt(body's times sphere's)
-    creation.mRestitution = 0;         // contacts use the larger of the two
+    creation.mFriction = 1;            // contacts use sqrt(body's friction times sphere's)
+    creation.mRestitution = 0;         // contacts use the larger of body's and sphere's
     JPH::BodyInterface& all = system.GetBodyInterface();
     body = all.CreateSoftBody(creation);
     if (!body) throw std::runtime_error("Jolt made no soft body");
@@ -267,8 +267,8 @@ class JoltWorld : public World {
                   {"iterations", std::to_string(iterations)},
                   {"frame", frame_},
                   {"largest speed", JsonWriter::of(motion.GetMaxLinearVelocity()) + " m/s"}};
-    // A step begins above the ball, on the plane that was tangent where the previous step began. This subtracts another
-    // half of v^2 / R from the depth that determines friction.
+    // A step begins above the ball, on the plane that was tangent where the previous step began. The curvature below
+    // that plane subtracts another half of v^2 / R from the depth that determines friction.
     for (const Sphere& s : scene_.spheres)
       if (s.friction > 0 && run.different_law.empty())
         run.different_law.push_back(

@@ -116,7 +116,7 @@ class MujocoWorld : public World {
 
   std::string xml() {
     const size_t most = x_.size() * (scene_.spheres.size() + scene_.planes.size());  // possible contacts
-    double bead = 1e-3;  // m, radius of particles' geoms; balls and planes are smaller by it
+    double bead = 1e-3;  // m, radius of the particles' geoms; balls and planes are built smaller by this radius
     for (const Sphere& s : scene_.spheres) bead = std::min(bead, 0.5 * s.contact_radius());
     std::string xml = join("<mujoco><size nconmax='", most, "' njmax='", 3 * most + scene_.constraints.size(),
                            "'/><option cone='elliptic'/><worldbody>");

@@ -135,7 +135,7 @@ class OdeWorld : public World {
     contact.geom.depth = -gap;
     for (int k = 0; k < 3; ++k) contact.geom.pos[k] = x_[i][k], contact.geom.normal[k] = n[k];
     if (const double speed = length(along);
-        speed > 0) {  // friction is a box, with one side along the sliding direction
+        speed > 0) {  // ODE bounds friction by a rectangle, with one side along the sliding direction
       contact.surface.mode |= dContactFDir1;
       for (int k = 0; k < 3; ++k) contact.fdir1[k] = along[k] / speed;
     }

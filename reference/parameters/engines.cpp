@@ -65,7 +65,7 @@ NumberRule mass_as_it_is() {
 }
 NumberRule nothing(SceneNumber quantity, std::string_view why) { return {quantity, "", "", why, why, "nowhere"}; }
 
-/// kLST under the engine's name.
+/// kLST, called `name` in the engine.
 NumberRule link(std::string_view name, Gather gather) {
   return {.quantity = SceneNumber::stiffness,
           .name = name,
@@ -83,7 +83,7 @@ NumberRule link(std::string_view name, Gather gather) {
           .one_by_one = true};
 }
 
-/// kDP under the engine's name.
+/// kDP, called `name` in the engine.
 NumberRule step_damping(std::string_view name) {
   return {.quantity = SceneNumber::drag,
           .name = name,
@@ -126,7 +126,7 @@ NumberRule frequency(std::string_view name) {
           .from = [](double f, const Context& at) { return at.mu * turn * turn * f * f; },
           .condition = [](double, const Context&) { return 3.; }};  // twice the frequency's error plus the masses'
 }
-/// Damping ratio of such a spring, from the dashpot between the same ends.
+/// Damping ratio of a soft constraint, from the dashpot between the same ends as the spring.
 NumberRule damping_ratio(std::string_view name) {
   return {.quantity = SceneNumber::dashpot,
           .name = name,

@@ -164,7 +164,7 @@ std::string scene_toml(const Scene& source, const Scene& changed, double within)
                                                      : fmt::format("grid.stiffness.{}", name_of(s.family)),
                           s.k);
   if (const auto* dashpots = changed.model.find<Dashpots>(); dashpots && !same(SceneNumber::dashpot)) {
-    size_t of_grid = dashpots->list.size();  // those of single springs come last
+    size_t of_grid = dashpots->list.size();  // dashpots of single springs come last
     std::vector<int> with_dashpot;
     for (int i = 0; file.has(fmt::format("spring[{}]", i)); ++i)
       if (file.has(fmt::format("spring[{}].dashpot", i))) with_dashpot.push_back(i);

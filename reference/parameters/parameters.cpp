@@ -98,8 +98,8 @@ std::string range_text(std::span<const double> values) {
   return low == high ? fmt::format("{:.4g}", low) : fmt::format("{:.4g} to {:.4g}", low, high);
 }
 
-/// True for a link between two pins. Neither end moves, so the engine's link is 1 for any stiffness, which cannot be
-/// recovered.
+/// True for a link between two pins. Neither end moves, so the engine's value is 1 for any stiffness, and the stiffness
+/// cannot be recovered from it.
 bool lies_between_pins(const NumberRule& rule, const NumberContext& at) {
   return rule.quantity == SceneNumber::stiffness && std::isinf(at.mu) && rule.condition;
 }

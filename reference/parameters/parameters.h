@@ -33,8 +33,8 @@ struct NumberContext {
 };
 
 struct NumberRule {
-  /// Numbers of many springs or particles in the engine: one each; one, if all are equal; one, of the median spring or
-  /// the mean particle.
+  /// Ways to represent many springs or particles in the engine: one number each; a common number, if all are equal; the
+  /// number of the median spring; or that of the mean particle.
   enum class Gather { each, same, median, mean };
 
   SceneNumber quantity;
@@ -46,7 +46,7 @@ struct NumberRule {
   Gather gather = Gather::each;
   std::string_view expected = {};   // description of valid numbers
   bool (*valid)(double) = nullptr;  // null: any finite number >= 0
-  /// Relative error of the scene's number over that of the engine's; null: 1.
+  /// Relative error of the scene's number divided by that of the engine's number; null: 1.
   double (*condition)(double, const NumberContext&) = nullptr;
   bool one_by_one = false;  // springs are solved one after another: in a network valid for short steps only
 };
@@ -60,7 +60,7 @@ inline constexpr double sequential_limit = 0.03;
 struct EngineNumbers {
   std::string_view name = {};        // of an engine that is no method here, e.g. "jolt"; empty: the methods' names
   std::string_view title = {};       // for display
-  std::string_view iterations = {};  // the engine's name for them; empty: not adjustable
+  std::string_view iterations = {};  // the engine's name for iterations; empty: not adjustable
   int usual_iterations = 1;
   bool sub_steps = false;               // the iterations divide the step
   bool single_precision = false;        // stores its numbers in single precision

@@ -14,7 +14,7 @@ find_package(Threads REQUIRED)
 get_filename_component(CROSSCHECK_SOURCE ${CMAKE_CURRENT_LIST_DIR}/../.. ABSOLUTE)
 add_library(mysim INTERFACE)
 target_include_directories(mysim INTERFACE ${CROSSCHECK_SOURCE})
-# same flags as the rooms themselves: a fused multiply-add would change results
+# same flags as crosscheck's own libraries: a fused multiply-add would change results
 target_compile_options(mysim INTERFACE -ffp-contract=off -fno-math-errno)
 target_link_libraries(mysim INTERFACE
   ${CROSSCHECK_LIBRARIES}/libprotocol.a ${CROSSCHECK_LIBRARIES}/libmysim.a Eigen3::Eigen fmt::fmt)

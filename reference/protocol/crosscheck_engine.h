@@ -302,13 +302,13 @@ struct Scene {
   Vec pin_at(size_t pin, double t) const {  // m, position of pins[pin]
     return pins_move ? pin_home[pin] + pin_motion.displacement(t) : pin_home[pin];
   }
-  /// The scene's term of this type, or null.
+  /// The scene's term of this type, or nullptr.
   const Json* term(const std::string& type) const {
     for (const Json& t : json["terms"].list)
       if (t["type"].text == type) return &t;
     return nullptr;
   }
-  /// Ends the program as unsupported if the scene has any other term.
+  /// Ends the program as unsupported if the scene has a term that is not in `known`.
   void require_only(std::initializer_list<const char*> known) const {
     for (const Json& t : json["terms"].list)
       if (std::find(known.begin(), known.end(), t["type"].text) == known.end())
@@ -461,7 +461,7 @@ class Options {
       unsupported("option " + name + "=" + text + ": expected a whole number from 1 to 1000000");
     return number;
   }
-  /// Value of an option: one of a fixed set, the default first.
+  /// Value of an option: one of `values`, of which the first is the default.
   std::string get(const std::string& name, std::initializer_list<const char*> values) {
     std::string list;
     for (const char* v : values) list += std::string(list.empty() ? "" : "|") + v;
@@ -506,9 +506,9 @@ inline void write_npy(const std::string& file, const std::vector<std::vector<Vec
   if (!out) throw std::runtime_error(file + ": cannot be written");
 }
 
-// run.json: what the program reports about its run, without unknown keys.
+// run.json: the program's report on its run.
 
-/// Keys without a value, and stiffnesses of `hard` because JSON has no infinity, are left out of run.json.
+/// Values that are not written to run.json: unknown ones, and infinite stiffnesses, because JSON has no infinity.
 constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
 constexpr double hard = std::numeric_limits<double>::infinity();
 
@@ -550,8 +550,8 @@ struct Readback {
   std::optional<Vec> gravity = {};                // m/s^2
   std::string precision = "double";               // or "single"
   std::optional<std::vector<double>> drag = {};   // 1/s, c / m per particle
-  std::optional<std::vector<Ball>> spheres = {};  // an empty list: none
-  std::optional<std::vector<Face>> planes = {};   // an empty list: none
+  std::optional<std::vector<Ball>> spheres = {};  // an empty list: the engine has none
+  std::optional<std::vector<Face>> planes = {};   // an empty list: the engine has none
   double margin = unknown;                        // m
   std::optional<bool> may_sleep = {};
   double step = unknown;                        // s
@@ -592,8 +592,8 @@ inline Probe probe_state(const Scene& scene) {
   }
 }
 
-/// Coefficients (N s/m) of the dashpots parallel to each spring, for engines whose springs have their own damping. The
-/// first of several parallel springs gets it. Dashpots without a parallel spring are added to `others`.
+/// Coefficients (N s/m) of the dashpots parallel to each spring, for engines whose springs have their own damping. Of
+/// several parallel springs, the first gets the coefficient. Dashpots without a parallel spring are added to `others`.
 inline std::vector<double> damping_of_springs(const Scene& scene, std::vector<Dashpot>& others) {
   std::map<std::pair<int, int>, size_t> first;
   for (size_t i = 0; i < scene.springs.size(); ++i) first.emplace(std::pair{scene.springs[i].a, scene.springs[i].b}, i);
@@ -788,7 +788,8 @@ inline RunReport run_world(const Scene& scene, World& world, std::vector<std::ve
   }
   report.cpu_seconds = static_cast<double>(cpu) / CLOCKS_PER_SEC;
   if (report.verdict.empty()) {
-    const int some = (382 * scene.samples + 999) / 1000;  // an inner sample, at which moved pins are rarely at home
+    const int some = (382 * scene.samples + 999) / 1000;  // an inner sample, at which moved pins are unlikely to be at
+                                                          // their initial positions
     r.later = Places{some * scene.steps_per_sample * scene.step, {}, {}};
     for (const int pin : scene.pins) r.later->pins.push_back(frames[static_cast<size_t>(some)][pin]);
     report.end = unknown;

@@ -54,11 +54,11 @@ double parse_timeout(const std::string& method, const std::string& value) {
 
 class Server {
  public:
-  /// Called after a run of a program that reports that it serves.
+  /// Called after a run of a program that reports server support.
   void allow() { allowed_ = !failed_; }
 
-  /// Runs the task in the server. Returns nullopt if it does not serve, is busy in another thread, or gave no valid
-  /// answer: the program must be called normally.
+  /// Runs the task in the server. Returns nullopt if the program does not serve, is busy in another thread, or gave no
+  /// valid answer: it must then be called normally.
   std::optional<ProgramResult> run(const Program& program, const fs::path& task, const fs::path& results) {
     const std::unique_lock lock(busy_, std::try_to_lock);
     if (!lock || !allowed_) return std::nullopt;
@@ -189,9 +189,9 @@ Frames read_results(const fs::path& folder, const Scene& scene, const Run& run, 
 
 }  // namespace
 
-// Allowed deviation: sixteen half ulps of the engine's precision (2^-53; 2^-24 if single or unknown) of home,
-// displacement and their sum, as for the first frame. A program that accumulates its steps also loses half an ulp of
-// the time per step, during which the pin moves along its path.
+// Allowed deviation: sixteen half ulps of the engine's precision (2^-53; 2^-24 if single or unknown) of the pin's
+// initial position, its displacement and their sum, as for the first frame. A program that accumulates its steps also
+// loses half an ulp of the time per step, during which the pin moves along its path.
 std::string misled_pin(const Frames& frames, const Scene& scene, const Run& run, const Outcome& out) {
   const Particles& particles = scene.model.particles;
   const TimeGrid grid = time_grid(run);
@@ -222,7 +222,7 @@ std::string misled_pin(const Frames& frames, const Scene& scene, const Run& run,
 }
 
 Outcome run_outside_engine(const Program& program, const Scene& scene, const Run& asked, Observer& observer) {
-  // the program writes every state on which verdicts are based, as many as engines in this process
+  // the program writes every state on which verdicts are based, as many as other engines do
   const TimeGrid grid = time_grid(asked);
   const int per_sample =
       observer.between_samples() ? grid.steps_per_sample / verdict_stride(grid, scene.model.particles.size()) : 1;

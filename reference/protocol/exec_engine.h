@@ -22,7 +22,7 @@ struct Program {
 };
 
 /// Parses "PATH+option+option". PATH is relative to the working directory; a bare word is searched for there, then in
-/// PATH. Everything after the longest prefix that is a file is options; timeout=SECONDS is for Crosscheck, the others
+/// $PATH. Everything after the longest prefix that is a file is options; timeout=SECONDS is for Crosscheck, the others
 /// are for the program. Throws InputError if there is no such program.
 Program find_program(const std::string& text);
 
@@ -30,9 +30,9 @@ Program find_program(const std::string& text);
 /// timeout is invalid.
 void add_option(Program& program, const std::string& method, const std::string& option);
 
-/// Runs the program on the scene and replays its results through the observer. Verdict::timeout or Verdict::crash, with
-/// the reason, if it does not deliver; throws Unsupported if it refuses the scene. The stderr output of a successful
-/// run becomes the outcome's remark. Without velocities the states have none.
+/// Runs the program on the scene and replays its results through the observer. The verdict is timeout or crash, with
+/// the reason, if the program delivers no results. Throws Unsupported if the program refuses the scene. The stderr
+/// output of a successful run becomes the outcome's remark. Without velocities the states have none.
 Outcome run_outside_engine(const Program& program, const Scene& scene, const Run& run, Observer& observer);
 
 /// Throws InputError if a result file is a link or a special file, or if run.json is longer than a scene of this size

@@ -9,7 +9,7 @@
 
 namespace crosscheck {
 
-/// Verdict, cost, laws and read-back of the outcome.
+/// JSON text with the outcome's verdict, cost, laws and read-back.
 std::string run_json(const Outcome& outcome);
 
 /// Reads the existing keys into the outcome, and leaves the rest unchanged. A `readback` requires masses, pins, links

@@ -185,7 +185,7 @@ WindSignal blowing_of(const JsonField& f, std::string_view key) {
   if (const auto g = f.find("gusts")) {
     const int seed = (*g)["seed"].whole_number(0, 2147483647);
     wind_signal.gusts = {(*g)["variation"].number(), vec3_of((*g)["side"]), seed, Gust(seed, 1), Gust(seed, 2)};
-    read_waves((*g)["along"], wind_signal.gusts->along);  // the written waves count, not the seed's
+    read_waves((*g)["along"], wind_signal.gusts->along);  // uses the waves in the file, not those of the seed
     read_waves((*g)["across"], wind_signal.gusts->across);
   }
   return wind_signal;

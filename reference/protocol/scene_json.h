@@ -16,7 +16,7 @@ Vec3 vec3_of(const JsonField& field);
 /// Matrix (3 x count) from count triples. Throws InputError like JsonField.
 Points points_of(const JsonField& field, int count);
 
-/// Three numbers; one triple per column.
+/// JSON list of three numbers, or of one triple per column.
 Json json_of(const Vec3& v);
 Json json_of(const Points& p);
 

@@ -150,7 +150,7 @@ std::string serialized(const std::string& key, const std::optional<Truth>& truth
   return sum.bytes() + w.bytes();
 }
 
-/// The truth in a file; throws CorruptFile if there is none, or another key's.
+/// The truth in a file; throws CorruptFile if the file contains none, or the truth for another key.
 std::optional<Truth> deserialized(const std::string& key, const std::string& file) {
   ByteReader r(file);
   if (r.count() != Fnv1a::of(std::string_view(file).substr(sizeof(std::uint64_t))) || r.text() != key)
@@ -183,7 +183,7 @@ void remove_old_files(const fs::path& folder) {
   }
 }
 
-/// The stored truth; nothing if there is no file, or a damaged one.
+/// The stored truth, or the stored statement that there is none; nullopt if the file is missing or damaged.
 std::optional<std::optional<Truth>> load_file(const fs::path& file, const std::string& key) {
   const std::optional<std::string> content = try_read_file(file);
   if (!content) return std::nullopt;
@@ -223,7 +223,7 @@ std::optional<TruthCache> TruthCache::from_environment() {
 }
 
 std::string TruthCache::key_of(const Scene& scene, const Run& run) const {
-  // a scene changed in memory keeps its file's hash, so compute it
+  // a scene changed in memory keeps its file's hash, so the hash is computed anew
   return fmt::format("{} bars {} {} {:a} {:a} {} {}", program_, error_bar_version, hash_of(scene), scene.step,
                      run.duration, run.samples, scene.window);
 }

@@ -10,7 +10,7 @@
 
 namespace crosscheck {
 
-/// The linker's fingerprint of the running program (hexadecimal), or empty.
+/// The linker's fingerprint of the running program (hexadecimal), or an empty string.
 std::string build_id();
 
 /// Truths of one program in a folder, one per file, keyed by everything they depend on: the scene (hash and step), the

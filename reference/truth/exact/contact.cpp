@@ -56,7 +56,7 @@ Flight after_bounces(Flight f, double g, double e, double t) {
     if (t <= flight) return {f.height + t * (f.speed - g * t / 2), f.speed - g * t};
     t -= flight;
     f = {0, e * impact};
-    // all later bounces take 2 v / (g (1 - e)); then it is at rest
+    // all later bounces take 2 v / (g (1 - e)); then the particle is at rest
     if (e < 1 && t >= 2 * f.speed / (g * (1 - e)) * (1 - 1e-15)) return {0, 0};
   }
 }
@@ -264,12 +264,12 @@ class Slide {
   double u(double theta) const {  // 1/s^2
     return c_ * std::exp(2 * mu_ * theta) + a_ * std::cos(theta) + b_ * std::sin(theta);
   }
-  /// Finds the angle of departure; false if friction stops the particle before.
+  /// Finds the angle of departure; false if friction stops the particle before it departs.
   bool find_departure() {
     constexpr int pieces = 20000;
     double before = theta0_;
     for (int i = 1; i <= pieces; ++i) {
-      const double theta = theta0_ + (1.6 - theta0_) * i / pieces;  // it leaves before the equator at 1.571
+      const double theta = theta0_ + (1.6 - theta0_) * i / pieces;  // it leaves the ball before the equator, 1.571
       if (!(u(theta) > 0)) return false;
       if (u(theta) >= omega2_ * std::cos(theta)) {
         double low = before, high = theta;

@@ -76,7 +76,7 @@ using HangingState = std::array<double, 4>;
 constexpr double most_angle = std::numbers::pi / 2;
 
 /// Half of a hanging strip, in units of its length: theta'' = pull sin theta - weight s cos theta, from theta'(0).
-/// Returns the states after each step, up to one that bends down or is upright.
+/// Returns the states after each step, up to the first one that bends down or is upright.
 std::vector<HangingState> hanging_states(double pull, double weight, double curvature) {
   boost::numeric::odeint::runge_kutta4<HangingState> rule;
   HangingState state{0, curvature, 0, 0};
@@ -93,8 +93,8 @@ std::vector<HangingState> hanging_states(double pull, double weight, double curv
   return all;
 }
 
-/// The smallest theta'(0) > 0 without moment at the hinge. The strip bends down with 0, and up with weight / 2, the
-/// value of a level beam without pull.
+/// The smallest theta'(0) > 0 without moment at the hinge. With theta'(0) = 0 the strip bends down; with weight / 2,
+/// the value of a level beam without pull, it bends up.
 double hanging_curvature(double pull, double weight) {
   const auto left = [&](double curvature) {
     const HangingState end = hanging_states(pull, weight, curvature).back();
@@ -133,7 +133,7 @@ HangingStrip::Place HangingStrip::at(double s) const {
   const double from_middle = std::abs(s), side = s < 0 ? -1 : 1;
   if (states_.empty())
     return {side * catenary_ * std::asinh(from_middle / catenary_), std::hypot(catenary_, from_middle) - catenary_};
-  // along the curve from the step before, with the angle halfway: an error of third order in the step
+  // follows the curve from the preceding stored state at the angle halfway; the error is of third order in the step
   const double at = from_middle / half_ * steps;
   const size_t i = std::min<size_t>(static_cast<size_t>(at), states_.size() - 1);
   const double ds = (at - static_cast<double>(i)) / steps;

@@ -51,7 +51,8 @@ class Elastica {
 /// Solved by shooting over theta'(0) for each H, and over H. Without rigidity it is a catenary: tan theta = w s / H.
 class HangingStrip {
  public:
-  /// Lengths in m, weight in N/m^2, rigidity in N m (0: none; small enough that the hinges still pull).
+  /// Lengths in m, weight in N/m^2, rigidity in N m: 0 for a catenary, otherwise so small that the strip still pulls on
+  /// its hinges.
   HangingStrip(double length, double span, double weight, double rigidity);
 
   struct Place {
