@@ -87,7 +87,7 @@ std::vector<DragForm> drag_forms() {
 
 constexpr double gamma = 4;  // 1/s
 
-/// Five particles with eight springs, or only the first spring, that start up to a fifth too long or too short.
+/// Five particles with eight springs, or only with the first one; initial and rest lengths differ by up to a fifth.
 Scene net(bool held, bool pulled, bool one_spring = false) {
   std::string text =
       "question = \"Which rule is it?\"\nparameters = \"A small net.\"\n[time]\nduration = 1\nsamples = 50\nstep = "
@@ -170,7 +170,7 @@ Runs runs_of(const Method& method, const Scene& scene) {
   Runs runs;
   bool single = true;
   for (int k = 0; k < 2; ++k) {
-    // h omega of a quarter to a half: rules of order 4 differ by 1e-4 of the motion, and explicit Euler grows by 100
+    // h omega is a quarter to a half: rules of order 4 differ by 1e-4 of the motion, and explicit Euler grows 100-fold
     runs.h[k] = std::exp2(std::floor(std::log2(0.5 / highest_frequency(scene.model, scene.start))) - k);
     Run run{runs.h[k], steps * runs.h[k], steps};
     run.timed = false;
@@ -233,7 +233,7 @@ Match match_of(const Candidate& rule, const Scene& scene, const Runs& runs, cons
   return {std::max(a.ratio, b.ratio), std::max(a.rounding, b.rounding), std::max(a.distance, b.distance)};
 }
 
-/// The rule that matches best; null if none is the same.
+/// The rule that matches best; null if no rule agrees with the runs.
 const Candidate* same_as(const std::vector<Candidate>& rules, const Scene& scene, const Runs& runs, Match& best) {
   const Candidate* same = nullptr;
   best = {infinity, infinity, infinity};
@@ -260,7 +260,7 @@ FoundRule::Kind kind_by_steps(const Scene& scene, const Runs& runs, const std::v
   return fine_error < least ? FoundRule::own_steps : FoundRule::ignores_step;
 }
 
-/// Finds the drag by runs with drag, for a rule that is the same without drag.
+/// Finds the drag by runs with drag, for a rule that agrees with the method without drag.
 void find_drag(const Method& method, const Candidate& rule, const Scene& plain, FoundRule& found) {
   const Scene dragged = with_drag(plain);
   try {

@@ -32,7 +32,7 @@ Truth from_closed_form(const ExactSolution& exact, const Scene& scene, const Run
     truth.trajectory.x.push_back(s.x);
     truth.trajectory.v.push_back(s.v);
   }
-  // a large angle is rounded by eps times itself: the error grows with the path
+  // an angle is rounded by eps times the angle, so the error grows with the path
   truth.error_bar = 1e-15 * (scene.size() + path);
   return truth;
 }
@@ -90,9 +90,10 @@ class RichardsonEstimate {
   using Distance = double (*)(const RoutePath&, const RoutePath&, size_t);
   explicit RichardsonEstimate(const RefinementStudy& study, Distance apart = apart_in_place)
       : study_(study), apart_(apart) {}
-  /// Error up to sample i, m (or J); to be called in order of i. A refinement divides the error by r (2^p at order p),
-  /// so that the last difference over r - 1 remains. Returns three times this, because r itself is measured. If the
-  /// differences do not halve, no order is visible, and the whole difference is returned.
+  /// Error up to sample i, m (or J); call it with increasing i. Each refinement divides the error by r (2^p at order
+  /// p), so the error of the finest run is the last difference divided by r - 1. Returns three times this value,
+  /// because r itself is measured. If the differences do not halve, no order is visible, and the whole difference is
+  /// returned.
   double error_up_to(size_t i) {
     before_ = std::max(before_, apart_(study_.coarse, study_.middle, i));
     last_ = std::max(last_, apart_(study_.middle, study_.fine, i));
@@ -115,7 +116,7 @@ class ErrorOfTwoRoutes {
   ErrorOfTwoRoutes(const RefinementStudy& one, const RefinementStudy& other,
                    RichardsonEstimate::Distance apart = apart_in_place)
       : one_(one), other_(other), apart_(apart), own_(one, apart), theirs_(other, apart) {}
-  /// Error of the first route at sample i, m (or J); to be called in order of i. It is at least the route's own
+  /// Error of the first route at sample i, m (or J); call it with increasing i. It is at least the route's own
   /// estimate, and at least the distance from the second route plus that route's estimate, because both may err in the
   /// same way. If the second route has order 1, its error is by far the larger one and of another kind: the larger of
   /// the distance and its last change then replaces the sum.
@@ -134,7 +135,7 @@ class ErrorOfTwoRoutes {
   RichardsonEstimate own_, theirs_;
 };
 
-constexpr int most_followed = 49;  // particles, in the event-driven route
+constexpr int most_followed = 49;  // number of particles that the event-driven route accepts
 
 bool few_particles(const Scene& scene) { return scene.model.particles.size() < 50; }
 
@@ -147,8 +148,8 @@ double first_step(const Scene& scene, bool constrained) {
   return std::min(2 * scene.step / part, omega > 0 ? 1.4 / omega : scene.step);
 }
 
-/// mysim's run at one step, under a DivergenceMonitor; nothing if it failed. Throws Unsupported if the hard distances
-/// depend on each other.
+/// mysim's run at one step, under a DivergenceMonitor; nullopt if the run failed. Throws Unsupported if the hard
+/// distances depend on each other.
 std::optional<RoutePath> run_rk4(const Scene& scene, const Run& run, bool constrained) {
   Recorder recorder;
   Outcome out;
@@ -165,8 +166,8 @@ std::optional<RoutePath> run_rk4(const Scene& scene, const Run& run, bool constr
 }
 
 /// Halves the step from h on, until the result changes little: at least twice, so that an order is visible, and at most
-/// `most_halvings` times. `at` runs at a given step (s), and returns nothing if that fails; `how` describes a step in
-/// ms.
+/// `most_halvings` times. `at` runs at a given step (s), and returns nullopt if the run fails; `how` describes a step
+/// in ms.
 template <class RunAt, class How>
 std::optional<RefinementStudy> refine_step(const Scene& scene, double h, int order, int most_halvings, RunAt at,
                                            How how) {
@@ -202,7 +203,7 @@ std::optional<RefinementStudy> refine_rk4(const Scene& scene, const Run& run) {
       });
 }
 
-/// Runs at three tolerances, by factors of ten.
+/// Runs at three tolerances, each a tenth of the previous one.
 std::optional<RefinementStudy> refine_tolerance(const Scene& scene, const Run& run, double loosest, std::string how,
                                                 Outcome (*engine)(const Scene&, const Run&, Observer&)) {
   RefinementStudy study{std::move(how), 0, 10, {}, {}, {}};
@@ -227,7 +228,7 @@ std::optional<RefinementStudy> refine_bulirsch_stoer(const Scene& scene, const R
       run_odeint_bulirsch_stoer);
 }
 
-/// The first samples of a truth; nothing without samples.
+/// The first samples of a truth; nullopt without samples.
 std::optional<Truth> ended_after(size_t samples, Truth truth) {
   if (samples == 0) return std::nullopt;
   Trajectory& path = truth.trajectory;
@@ -313,7 +314,7 @@ bool in_contact(const Scene& scene, double t, const Points& x) {
   return false;
 }
 
-/// First touch, and last sample at which single positions are predictable; nothing without a touch.
+/// First sample with contact, and last sample at which single positions are predictable.
 struct SampleRange {
   int touch, end;
 };
@@ -339,8 +340,8 @@ std::optional<SampleRange> predictable_samples(const Scene& scene, const Traject
 
 namespace {
 
-/// The event-driven route at three tolerances, up to the end of the shortest run; nothing if one ends before the first
-/// sample after the start.
+/// The event-driven route at three tolerances, up to the end of the shortest run; nullopt if a run ends before the
+/// first sample after the start.
 std::optional<RefinementStudy> refine_events(const Scene& scene, const Run& run) {
   RefinementStudy study{
       fmt::format("odeint (Boost {}), Dormand and Prince's pair cut at every event, on equations written apart",
@@ -369,8 +370,8 @@ std::optional<RefinementStudy> refine_events(const Scene& scene, const Run& run)
   return study;
 }
 
-/// Truth of the first part of a run, with its end; nothing if it ends before or at the first touch, because it then
-/// shows nothing about contact.
+/// Truth of the first part of a run, with its end; nullopt if the truth ends before or at the first touch, because it
+/// then shows nothing about contact.
 std::optional<Truth> truth_of_part(const Scene& scene, const Run& run, const Run& part, std::optional<Truth> truth) {
   if (!truth) return std::nullopt;
   if (part.samples < run.samples) truth->until = std::min(truth->until, part.duration);
@@ -442,13 +443,13 @@ std::optional<Truth> time_stepping_truth(const Scene& scene, const Run& run) try
   if (scene.model.find<Constraints>() || scene.model.first_order()) return std::nullopt;
   const double omega = highest_frequency(scene.model, scene.start);
   const double first = omega > 0 ? std::min(scene.step, 1.4 / omega) : scene.step;
-  // nothing after the scene's window is evaluated
+  // only samples within the scene's comparison window are evaluated
   const double interval = run.duration / run.samples;
   const int most = std::clamp(static_cast<int>(scene.window / interval * (1 + 1e-9)), 1, run.samples);
   const Run seen{run.step, interval * most, most};
   auto events = refine_leapfrog_events(scene, seen, first, 2);
   if (!events) return std::nullopt;
-  // a third: a run's own error may then be at least twice the bar
+  // a third of the tolerance, so that a run's own error may be at least twice the bar
   const double largest_bar = scene.tolerance / 3;
   const Run part = known_part(*events, seen, largest_bar);
   RefinementStudy stepping{"", first / 32, 2, {}, {}, {}};

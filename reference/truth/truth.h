@@ -43,17 +43,17 @@ std::optional<Truth> truth_of(const Scene& scene, const Run& run);
 /// two values: the first route's estimate, and the difference of the routes plus the second one's estimate. An estimate
 /// is three times the last refinement's difference over 2^p - 1, with the order p shown by the last two refinements, or
 /// the whole difference if they show none. Rounding is added: 1e-15 of the scene's size, or the random walk of one
-/// rounding per step. Nothing if a route fails or the bar exceeds a hundredth of the motion: a less accurate result is
-/// no truth. The scene must be free of contact.
+/// rounding per step. Returns nullopt if a route fails or the bar exceeds a hundredth of the motion: a less accurate
+/// result is no truth. The scene must be free of contact.
 std::optional<Truth> converged_truth(const Scene& scene, const Run& run);
 
 // Contact of few particles: two independent routes, as long as both can be followed.
 
 /// The path is that of an event-driven run on independent equations (truth/independent/event_driven.cpp) at the last of
 /// three tolerances. It is compared with mysim's leapfrog+events, whose step is halved as above, up to 1e7 steps of a
-/// particle; the bar is as above. It ends when the bar exceeds a hundredth of the motion, when events are too close to
-/// each other to be followed, or when a particle moves between two surfaces. Nothing for more than 49 particles, if a
-/// route fails at once, or if it would end before or at the first touch.
+/// particle; the bar is as above. The truth ends when the bar exceeds a hundredth of the motion, when events are too
+/// close to each other to be followed, or when a particle moves between two surfaces. Returns nullopt for more than 49
+/// particles, if a route fails at once, or if the truth would end before or at the first touch.
 std::optional<Truth> event_truth(const Scene& scene, const Run& run);
 
 // Contact of more particles, e.g. of cloths: two contact rules that share no equation, as long as they agree.
@@ -63,20 +63,21 @@ std::optional<Truth> event_truth(const Scene& scene, const Run& run);
 /// (truth/independent/time_stepping.cpp) at 1/8, 1/16 and 1/32. The latter is of order 1: the bar is the largest of the
 /// difference of the two, of its last change, and of the first route's estimate. The truth ends when the bar exceeds a
 /// third of the scene's tolerance or a hundredth of the motion: when the motion becomes sensitive, it is undecidable
-/// which of the two rules is right. It also ends with the scene's window. The energy taken by contact is what the
-/// energy balance along the path lacks; its bar is found in the same way. Nothing if a route fails, if a particle
-/// touches two surfaces at once, or if it would end before or at the first touch.
+/// which of the two rules is right. It also ends with the scene's window. The energy taken by contact is the energy
+/// missing from the balance along the path; its bar is found in the same way. Returns nullopt if a route fails, if a
+/// particle touches two surfaces at once, or if the truth would end before or at the first touch.
 std::optional<Truth> time_stepping_truth(const Scene& scene, const Run& run);
 
 // Limit of the in-house contact rule as the step approaches 0.
 
 /// mysim's leapfrog at 1/8, 1/16 and 1/32 of the scene's step. The result is valid as long as the last difference (RMS
 /// over the particles, largest so far) is at most 2/3 of the previous one, as for order 0.6 or more. With contact every
-/// stepper is of first order on smooth motion. It ends with the scene's window and, with several free particles, at the
-/// latest sqrt(0.9 R / g) after the first touch, where R is the smallest radius of a sphere (0.3 s for 1 m). The bar is
-/// the last difference over (its ratio - 1), the remainder of a geometric series; at order 1 this is the difference
-/// itself. Nothing if nothing is touched, if no order is visible from the first touch on (after a hard impact, for
-/// example), or if the bar exceeds a hundredth of the motion.
+/// stepper is of first order on smooth motion. The truth ends with the scene's window and, with several free particles,
+/// at the latest sqrt(0.9 R / g) after the first touch, where R is the smallest radius of a sphere (0.3 s for 1 m). The
+/// bar is the last difference divided by r - 1, where r is the previous difference divided by the last one: the
+/// remainder of a geometric series, and at order 1 the last difference itself. Returns nullopt if nothing is touched,
+/// if no order is visible from the first touch on (after a hard impact, for example), or if the bar exceeds a hundredth
+/// of the motion.
 std::optional<Truth> contact_truth(const Scene& scene, const Run& run);
 
 }  // namespace crosscheck

@@ -16,7 +16,7 @@ struct ExactSolution {
   std::function<State(double t)> at;  // s -> state
 };
 
-/// Closed form of the scene, or nothing. Recognised:
+/// Closed form of the scene, or nullopt. Recognised scenes:
 ///   - rotation: every point turns about the z axis;
 ///   - one mass on one spring, with start, velocity, gravity and steady wind along it, with or without drag and a
 ///     dashpot: u = e^(-gamma t / 2) (A cos w t + B sin w t) about the hanging length, with gamma = (c_drag +
@@ -34,14 +34,14 @@ struct ExactSolution {
 /// Springs follow Hooke's law and must never turn over, which bounds for all times ensure.
 std::optional<ExactSolution> exact_solution(const Scene& scene);
 
-/// True if the model has no other terms.
+/// True if the model has no terms but those of the types `Allowed`.
 template <class... Allowed>
 bool has_only(const Model& model) {
   return std::all_of(model.terms.begin(), model.terms.end(),
                      [](const Term& t) { return (std::holds_alternative<Allowed>(t) || ...); });
 }
 
-/// Acceleration of gravity and steady wind (m/s^2); nothing if there are gusts.
+/// Acceleration of gravity and steady wind (m/s^2); nullopt if there are gusts.
 std::optional<Vec3> steady_acceleration(const Model& model);
 
 std::optional<ExactSolution> normal_modes(const Scene& scene);

@@ -21,7 +21,7 @@ using Matrix8 = Eigen::Matrix<Complex, 8, 8>;
 using Vector8 = Eigen::Matrix<Complex, 8, 1>;
 constexpr Complex imaginary(0, 1);
 
-/// At the start u = u' = 0, and of the six functions only j = 0 is 1.
+/// State at the start: u = u' = 0, and of the six functions only that with j = 0 is not 0, but 1.
 Vector8 at_start() { return Vector8::Unit(2); }
 
 }  // namespace
@@ -185,7 +185,7 @@ std::optional<LinearScene> linear_scene(const Scene& scene) {
   if (const auto* dashpots = model.find<Dashpots>()) {
     const Eigen::MatrixXd c = laplacian(dashpots->list, n, [](const auto& d) { return d.c; })(free, free);
     beta = c.trace() / k.trace();
-    // proportional up to the rounding of the scene's numbers
+    // the dashpots must be proportional to the stiffnesses, up to the rounding of the scene's numbers
     if (!((c - beta * k).norm() <= 1e-14 * c.norm())) return std::nullopt;
   }
 

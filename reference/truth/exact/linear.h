@@ -86,18 +86,18 @@ struct Mode {
 };
 
 struct LinearScene {
-  Points rest;  // 3 x n, m: u = 0, the equilibrium under the springs alone; without springs, the start
+  Points rest;  // 3 x n, m: positions at u = 0, the equilibrium under the springs alone; without springs, the start
   std::vector<Mode> modes;
   double base_amplitude = 0;  // m, amplitude of d; 0: fixed pins
 
   /// Smallest length of a spring if each mode reaches `amplitude` (m) on either side of `centre` (m), and moved pins
-  /// reach `base_amplitude`. If it is not positive, a spring may turn over, and the scene is not linear. Infinite
-  /// without springs.
+  /// reach `base_amplitude`. If this length is not positive, a spring may turn over, and the scene is not linear.
+  /// Infinite without springs.
   double shortest_spring_length(const Model& model, const std::vector<double>& centre,
                                 const std::vector<double>& amplitude) const;
 };
 
-/// Modes of the scene, or nothing if it is neither of these:
+/// Modes of the scene, or nullopt if it is neither of these:
 ///   - one free particle under gravity, steady wind and drag: three modes;
 ///   - Hooke's springs and masses on a line, with at least one of them pinned; gravity, steady wind, velocities and the
 ///     motion of the pins along the line; one drag rate; and dashpots in proportion to the stiffness (always so with

@@ -11,8 +11,8 @@
 //            rest is shorter than any step. If friction would stop the particle within `shortest_slide`, and the
 //            force is parallel to the motion to a hundredth, the particle keeps its direction ("creeps"). This neglects
 //            a hundredth of |r'| at most
-//   sticks   r'' = 0, until the part of a along the surface exceeds mu N
-//   wedged   at rest between two fixed surfaces: a must lie between the planes of both, else the run is refused
+//   sticks   r'' = 0, until the component of a along the surface exceeds mu N
+//   wedged   at rest between two fixed surfaces: a must lie between the planes of both, or the run is refused
 // An impact reverses the normal speed u times e, and reduces the tangential speed by at most mu (1 + e) u. Rebounds
 // lower than `lowest_rebound` are ignored. Both limits are relative to the scene's size.
 
@@ -52,9 +52,9 @@ struct Ball : Solid {
 
 struct Particle {
   enum class Mode { flies, slides, sticks, wedged } mode = Mode::flies;
-  int ball = -1, other = -1;    // indices of the balls that it touches
-  Vec3 forward = Vec3::Zero();  // direction of its slide at the start of the last step
-  Vec3 offset = Vec3::Zero();   // m, from the centre of the ball that it sticks to
+  int ball = -1, other = -1;    // indices of the balls that the particle touches
+  Vec3 forward = Vec3::Zero();  // direction of the particle's slide at the start of the last step
+  Vec3 offset = Vec3::Zero();   // m, from the centre of the ball that the particle sticks to
   bool creeps = false;          // slides close to rest
 };
 
@@ -64,8 +64,8 @@ std::vector<Ball> balls_of(const Scene& scene) {
   return balls;
 }
 
-/// Point, to round-off, at which the function becomes negative; it is negative there. It must be negative at `high`,
-/// with the value `at_high`, but not at 0.
+/// First point, to round-off, at which `f` is negative; the returned point lies on the negative side. `f` must be
+/// negative at `high`, where its value is `at_high`, but not at 0.
 template <class Function>
 double first_negative(Function f, double high, double at_high) {
   constexpr double least = std::numeric_limits<double>::min();
@@ -106,7 +106,7 @@ class EventDrivenWorld : public World {
       const bool last = t + 1.01 * h_ >= t_next;
       double h = last ? t_next - t : h_, now = t;
       if (!(h > 1e-15 * t_next)) {
-        if (last) return;  // an event within rounding of the sample is at the sample
+        if (last) return;  // an event within rounding of the sample counts as at the sample
         throw SolverFailure(fmt::format("the step fell below round-off at t = {:.4g} s", t));
       }
       const StateVector before = y_;
@@ -163,7 +163,8 @@ class EventDrivenWorld : public World {
 
   /// Velocity relative to a ball, m/s.
   Vec3 seen_from(const StateVector& y, int i, int ball) const { return speed(y, i) - balls_[ball].velocity; }
-  /// Push of a ball (m/s^2) on a particle, whose acceleration relative to the ball is a without this push.
+  /// Acceleration (m/s^2) by which a ball pushes a particle. `a`: the particle's acceleration relative to the ball
+  /// without this push.
   double push(const StateVector& y, int i, int ball, const Vec3& a) const {
     const Vec3 n = normal(y, i, ball), w = seen_from(y, i, ball);
     return -a.dot(n) - (w - w.dot(n) * n).squaredNorm() / balls_[ball].radius;
@@ -233,19 +234,19 @@ class EventDrivenWorld : public World {
     }
   }
 
-  /// Distance from entering a ball, m; negative if it enters.
+  /// Smallest distance (m) between a particle and a ball during the step; negative if the particle enters the ball.
   double way_in(const StateVector& y, const StateVector& before, int i, int ball) const {
     const Ball& b = balls_[ball];
     const double scale = b.size + b.centre.norm() + (b.flat() ? place(y, i).norm() : 0),
                  rounding = surface_rounding * scale, above = height(y, i, ball) + rounding;
-    if (b.flat()) {  // in and out again: lowest point of the parabola with the speeds at both ends
+    if (b.flat()) {  // enters and leaves within the step: lowest point of the parabola with the speeds at both ends
       const double down = (speed(before, i) - b.velocity_before).dot(b.up), rise = seen_from(y, i, ball).dot(b.up);
       if (above < 0 || !(down < 0 && rise > 0)) return above;
       const double begin = b.up.dot(place(before, i) - b.centre_before);
       const double lowest = begin - down * down * (now_ - begun_) / (2 * (rise - down)) + rounding;
       return begin > 0 ? std::min(above, lowest) : above;
     }
-    // in and out again: height of the chord's nearest point, for steps far shorter than the radius
+    // enters and leaves within the step: height of the chord's nearest point, for steps far shorter than the radius
     const Vec3 from = place(before, i) - b.centre_before, to = place(y, i) - b.centre;
     if (above < 0 || !(from.dot(speed(before, i) - b.velocity_before) < 0 && to.dot(seen_from(y, i, ball)) > 0) ||
         !(from.norm() > b.radius))
@@ -303,7 +304,7 @@ class EventDrivenWorld : public World {
     Eigen::Matrix<double, 3, 2> normals;
     normals << normal(y_, i, first), normal(y_, i, second);
     const Eigen::Vector2d pushes = (normals.transpose() * normals).ldlt().solve(-normals.transpose() * a);
-    // a is in the plane of both normals; friction would hold more
+    // the acceleration `a` lies in the plane of both normals; friction would hold more directions
     return pushes.minCoeff() > 0 && (a + normals * pushes).norm() < 1e-9 * a.norm();
   }
 
@@ -375,7 +376,7 @@ class EventDrivenWorld : public World {
     hold(i);
   }
 
-  /// Moves a particle that rounding has moved off its surface back, and determines whether a slide creeps.
+  /// Moves a particle back to its surface, from which rounding has moved it, and determines whether its slide creeps.
   void hold(int i) {
     Particle& p = particles_[i];
     if (p.mode == Mode::sticks && balls_[p.ball].moves()) {

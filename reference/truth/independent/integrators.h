@@ -9,9 +9,9 @@
 
 namespace crosscheck {
 
-// All but the two for contact throw Unsupported if there is contact. Those under error control keep the estimated error
-// of each step below R (scene size + |component|), with R = run.tolerance and velocities multiplied by a time unit of
-// the scene (velocity_time_unit): odeint in every component, SUNDIALS in the root mean square.
+// All but the two for contact throw Unsupported if there is contact. Integrators under error control keep the estimated
+// error of each step below R (scene size + |component|), with R = run.tolerance and velocities multiplied by a time
+// unit of the scene (velocity_time_unit): odeint in every component, SUNDIALS in the root mean square.
 
 /// odeint's classic Runge-Kutta rule at run.step.
 Outcome run_odeint_rk4(const Scene& scene, const Run& run, Observer& observer);
@@ -27,8 +27,8 @@ Outcome run_event_driven(const Scene& scene, const Run& run, Observer& observer)
 Outcome run_time_stepping(const Scene& scene, const Run& run, Observer& observer);
 /// odeint's extrapolation of the midpoint rule, of varying order (Bulirsch and Stoer), to run.tolerance; steps end at
 /// the observed times. Its estimate compares different numbers of stages, and so also detects errors due to explicit
-/// time dependence alone. Both rules of Fehlberg's 7(8) pair give it the same weights: that pair follows a moved
-/// pin with an error of 1e-9 of the scene's size under a tolerance of 1e-13.
+/// time dependence alone. Both rules of Fehlberg's 7(8) pair give this dependence the same weights: that pair follows a
+/// moved pin with an error of 1e-9 of the scene's size under a tolerance of 1e-13.
 Outcome run_odeint_bulirsch_stoer(const Scene& scene, const Run& run, Observer& observer);
 /// SUNDIALS ARKODE, explicit, Fehlberg 7(8), to run.tolerance; steps end at the samples. Throws Unsupported with the
 /// package's name if the suite was built without it.

@@ -332,7 +332,8 @@ void RightHandSide::add_constraint_forces() {
     }
   }
   const Eigen::LLT<Eigen::MatrixXd> factor(matrix);
-  // a dependent rod leaves a pivot at round-off: 1e-12 of the largest, of which the factor contains the square root
+  // a dependent rod leaves a pivot at round-off, 1e-12 of the largest; the factor contains the square roots of the
+  // pivots
   const auto pivots = factor.matrixLLT().diagonal();
   if (factor.info() != Eigen::Success || !(pivots.minCoeff() > 1e-6 * pivots.maxCoeff()))
     throw Unsupported("its hard distances depend on each other: their forces are not unique");

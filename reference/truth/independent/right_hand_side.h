@@ -65,8 +65,8 @@ class RightHandSide {
   explicit RightHandSide(const Scene& scene, double time_unit = 1);
 
   StateVector start() const;
-  /// rate = dy/dt at time t (s). Hard distances: solves for the constraint forces with a dense matrix, and throws
-  /// Unsupported if they are not unique.
+  /// rate = dy/dt at time t (s). With hard distances, it solves for the constraint forces with a dense matrix, and
+  /// throws Unsupported if these forces are not unique.
   void operator()(const StateVector& y, StateVector& rate, double t);
   /// Writes all particles, including pins, in the scene's numbering.
   void write_state(const StateVector& y, double t, State& state);
