@@ -28,8 +28,8 @@ constexpr Relation of_pairs{
     says_nothing,
     of_two};
 
-/// The law that a method follows instead of the scene's, or an empty text. Other solvers for springs or dashpots do not
-/// count, because their effect vanishes with the step.
+/// The law that a method follows instead of the scene's, or an empty string. Other solvers for springs or dashpots do
+/// not count, because their effect vanishes with the step.
 std::string other_law(const Outcome& out) {
   for (const std::string& law : out.different_law)
     if (!law.starts_with("springs:") && !law.starts_with("dashpots:")) return law.substr(0, law.find(':'));

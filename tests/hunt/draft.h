@@ -53,11 +53,11 @@ struct SceneDraft {
   /// Upper bound of the fastest rate, 1/s: the frequency of a vibration (omega^2 <= 2 max sum k / m by Gershgorin;
   /// links stiffen to 5/4 k), or a damping rate. 0 if nothing vibrates and nothing is damped.
   double largest_rate() const;
-  /// Ingredients, one word each: "pins-springs-gravity".
+  /// Names of the ingredients, joined by hyphens: "pins-springs-gravity".
   std::string kind() const;
-  /// With the shortest numbers that read back to the same bits.
+  /// Text of the scene file, with the shortest numbers that read back to the same bits.
   std::string text() const;
-  /// The file as read, named after its kind. Throws InputError if the reader refuses it.
+  /// The scene as read from text(), named after its kind. Throws InputError if the reader refuses it.
   Scene scene() const;
 };
 

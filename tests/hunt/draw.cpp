@@ -12,7 +12,7 @@
 namespace crosscheck {
 namespace {
 
-/// With few digits, so that scenes are readable.
+/// Random numbers with few digits, so that scenes are readable.
 class Draw {
  public:
   Draw(unsigned seed, long index) : engine_(seed * 0x9e3779b97f4a7c15ULL + static_cast<std::uint64_t>(index)) {
@@ -64,7 +64,7 @@ class DraftMaker {
     if (damping > 0) s.dashpot = to_digits(2 * damping * units_.mass * units_.omega, 3);
     draft.springs.push_back(s);
   }
-  /// n particles in a connected net, at distances of at least 0.6 unit lengths.
+  /// Adds n particles in a connected net, at distances of at least 0.6 unit lengths.
   void net(int n, double strain, double speed, double damping) {
     const double side = 0.9 * units_.length * std::cbrt(n);
     for (int tries = 0; draft.size() < n && tries < 1000; ++tries) {
@@ -80,7 +80,7 @@ class DraftMaker {
       spring(a, b, strain, damping, families[random_.whole(0, 3)]);
     }
   }
-  /// nu x nv particles with a grid's springs, along u and v from `origin`.
+  /// Adds nu x nv particles with a grid's springs, along u and v from `origin`.
   void patch(int nu, int nv, const Vec3& origin, const Vec3& u, const Vec3& v, double strain, double speed,
              double damping) {
     const int first = draft.size();
@@ -116,9 +116,10 @@ class DraftMaker {
     if (random_.chance(0.25)) draft.law = SpringLaw::bullet_link;
   }
 
-  /// `steps` steps between consecutive samples, each at most `part` of 1 / rate for the fastest rate (the stability
-  /// limit is 2 / omega). The step is a power of two, which every precision represents exactly. Explicit Euler's growth
-  /// of 1 + (h omega)^2 / 2 per step stays below e^2.6 in 512 steps of a tenth, and below e^1.7 in 2048 of a 25th.
+  /// Sets the step so that `steps` steps lie between consecutive samples, each at most `part` of 1 / rate for the
+  /// fastest rate (the stability limit is 2 / omega). The step is a power of two, which every precision represents
+  /// exactly. Explicit Euler's growth of 1 + (h omega)^2 / 2 per step stays below e^2.6 in 512 steps of a tenth, and
+  /// below e^1.7 in 2048 of a 25th.
   void time(int samples, int steps, double part = 0.1) {
     const double rate = std::max(draft.largest_rate(), draft.rotation ? 0 : units_.omega);
     draft.step = std::exp2(std::floor(std::log2(part / rate)));
@@ -134,7 +135,7 @@ class DraftMaker {
   std::set<std::pair<int, int>> joined_;
 };
 
-/// A net or a patch with a random selection of ingredients.
+/// Adds a net or a patch with a random selection of ingredients.
 void anything(Draw& random, DraftMaker& make, const Units& units, bool patch) {
   const double strain = random.chance(0.7) ? random.between(0.02, 0.15) : 0;
   const double speed = random.chance(0.6) ? random.between(0.02, 0.2) : 0;
@@ -156,13 +157,13 @@ void anything(Draw& random, DraftMaker& make, const Units& units, bool patch) {
   make.time(16, 32);
 }
 
-/// Masses on springs below a pin, with enough damping to come to rest.
+/// Adds masses on springs below a pin, with enough damping to come to rest.
 void hanging_chain(Draw& random, DraftMaker& make, const Units& units) {
   const bool drag = random.chance(0.5);
   const int masses = random.whole(1, 2);
   // The slowest vibration has the frequency omega / 2n or more. Drag damps it critically. Dashpots of 2 m omega damp
-  // the vibration of a single spring critically, and the slowest one at a rate of its square over omega. Twelve time
-  // constants leave 1e-5.
+  // the vibration of a single spring critically, and the slowest vibration at a rate of its squared frequency divided
+  // by omega. Twelve time constants leave 1e-5.
   const double slowest = units.omega / (2 * masses), decay = drag ? slowest : slowest * slowest / units.omega;
   for (int i = 0; i <= masses; ++i) make.particle({0, -units.length * i, 0}, 0);
   for (int i = 0; i < masses; ++i) make.spring(i, i + 1, 0, drag ? 0 : 1.0);
@@ -191,7 +192,7 @@ void symmetric_strip(Draw& random, DraftMaker& make, const Units& units) {
   make.time(16, 32);
 }
 
-/// One particle, a chain or a patch above a ball, released at rest or thrown.
+/// Adds one particle, a chain or a patch above a ball, released at rest or thrown.
 void on_a_ball(Draw& random, DraftMaker& make, const Units& units) {
   const double radius = random.between(0.8, 3) * units.length;
   const double above = 1.03 * radius + units.length * random.between(0, 0.3);

@@ -5,8 +5,8 @@
 namespace crosscheck {
 namespace {
 
-/// True for the same kind of failure or, if the first violation was at least as large, for at least twice the
-/// tolerance, so that the smallest scene is not a borderline case.
+/// True if `answer` fails in the same way as `first`, or breaks the relation by at least twice the tolerance (or as
+/// much as `first`, if that is less), so that the smallest scene is not a borderline case.
 bool same_break(const Answer& answer, const Answer& first) {
   if (answer.mark != RelationMark::broken || answer.failure != first.failure) return false;
   return answer.finding.what.empty() || answer.finding.ratio() >= std::min(2.0, first.finding.ratio());

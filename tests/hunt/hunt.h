@@ -11,8 +11,8 @@
 
 namespace crosscheck {
 
-/// Depends only on seed and index. 1 to 30 particles, with steps of at most a twentieth of the critical one. The index
-/// modulo drawn_kinds selects the kind of scene, so that every relation applies to some scenes.
+/// Draws a scene that depends only on seed and index: 1 to 30 particles, with steps of at most a twentieth of the
+/// critical one. The index modulo drawn_kinds selects the kind of scene, so that every relation applies to some scenes.
 SceneDraft draw(unsigned seed, long index);
 inline constexpr int drawn_kinds = 12;
 
@@ -30,9 +30,9 @@ struct Hunt {
   std::vector<Method> methods;
   std::vector<KnownBreak> known;
   unsigned seed = 1;
-  int most_trials = 400;  // per shrinking: half of them remove parts, the others round numbers
+  int most_trials = 400;  // per shrinking: half of the trials remove parts, the others round numbers
 
-  /// For rotations, translations and orders.
+  /// Seed of the random rotations, translations and orders for the scene `index`.
   unsigned seed_of(long index) const { return seed + static_cast<unsigned>(index); }
 };
 
@@ -41,7 +41,8 @@ struct Break {
   Answer answer;
   Shrunk smallest;
 };
-/// The unknown violations of case `index`. Increases `answers` by the number of relations that were measured.
+/// The violations of case `index` that are not known breaks. Increases `answers` by the number of relations that were
+/// measured.
 std::vector<Break> breaks_of(const Hunt& hunt, long index, int& answers);
 
 }  // namespace crosscheck

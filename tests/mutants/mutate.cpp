@@ -20,7 +20,7 @@ struct Mutation {
   std::string right, wrong;  // an expression, or statements that end in ';'
 };
 
-/// Throws InputError "FILE:LINE: expected ...".
+/// Reads the mutations in a file. Throws InputError "FILE:LINE: expected ...".
 std::vector<Mutation> read_mutations(const std::filesystem::path& file) {
   std::ifstream in(file);
   if (!in) throw InputError(fmt::format("{}: expected a file that can be read", file.string()));
