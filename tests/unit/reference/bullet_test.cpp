@@ -32,7 +32,7 @@ double apart(const Scene& scene, const Run& run, const std::string& carried_by) 
 
 constexpr auto bullets_force = "Bullet's own mass-spring force";
 constexpr auto own_force = "force class of our own";
-// required bound: round-off by the summation order (1e-15 m) times the growth of a perturbation (below 1e3)
+// required bound: round-off due to the summation order (1e-15 m), times the growth of a perturbation (below 1e3)
 constexpr double identity = 1e-12;  // m
 
 TEST(BulletExplicit, IsSymplecticEulerOnSpringPendulumAndChain) {
@@ -93,8 +93,8 @@ TEST(BulletExplicit, CarriesRestLengthZero) {
 
 TEST(BulletExplicit, NeverLimitsASpeedInSilence) {
   // The explicit world limits speeds to the diagonal of the body's box per step. With a sphere in the scene, the box of
-  // a lone particle is as large as its margin. Far from the sphere both must be in free flight, or the limit must be
-  // reported.
+  // a lone particle is as large as its margin. Far from the sphere, the particle must fly freely in both engines, or
+  // the limit must be reported.
   for (const auto margin : {"", "margin = 0.02\n"}) {
     SCOPED_TRACE(margin);
     const Scene scene = small_scene(std::string("[[particle]]\nposition = [0, 3, 0]\nmass = 1\nvelocity = [30, 0, 0]\n"
@@ -143,7 +143,7 @@ TEST(BulletPbd, SingleLinkSwingsAtTheBackwardEulerFrequencyAndReadsBackItsStiffn
       const double measured = 2 * std::numbers::pi * periods / (last - first);
       EXPECT_NEAR(measured / (std::atan(omega * h) / h), 1, 1e-3);  // 27 earlier measurements agreed to 1e-4
       ASSERT_TRUE(a.outcome.readback && a.outcome.readback->links[0].stiffness);
-      // k is computed from 1 - kLST: eps / (k h^2 / mu = 1e-4) is 2e-12, times n
+      // k is computed from 1 - kLST, with a relative error of n eps / (k h^2 / mu), which is 2e-12 n
       EXPECT_NEAR(*a.outcome.readback->links[0].stiffness / k, 1, 1e-8);
       EXPECT_FALSE(certify(method, scene, a.outcome).mismatch());
     }
@@ -198,7 +198,8 @@ TEST(Bullet, RefusesWhatItLacksWithTheReason) {
 
 using namespace testing_tools;
 
-/// An 8 x 8 cloth of 0.7 m, held at two corners, with more ingredients, and springs under tension and compression.
+/// An 8 x 8 cloth of 0.7 m, held at two corners, with springs under tension and compression, and the additional scene
+/// sections `more`.
 Scene cloth(const std::string& more, const std::string& grid = "", const std::string& pins = "") {
   return small_scene("[grid]\nsize = [8, 8]\norigin = [0, 0, 0]\nu = [0.7, 0, 0]\nv = [0, -0.2, 0.6]\nmass = 0.3\n" +
                          grid +

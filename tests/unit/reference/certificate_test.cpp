@@ -29,7 +29,7 @@ TEST(Certificate, MatchesOnEveryShippedSceneAndNamesOtherLaws) {
 }
 
 TEST(Certificate, RestLengthsSurviveTheFirstStep) {
-  // Bullet overwrites rest lengths by the current lengths unless that is disabled. Here they differ by 10 %.
+  // Bullet overwrites rest lengths by the current lengths unless that is disabled. Here the two lengths differ by 10 %.
   for (const auto method : {"bullet/deformable-explicit", "bullet/pbd"}) {
     const Scene scene = shipped_scene("spring");
     const Outcome out = run_and_record(method, scene, {scene.step, 10 * scene.step, 1}).outcome;
@@ -142,7 +142,7 @@ TEST(Certificate, CatchesEveryTampering) {
       tamper(*tampered.readback);
       EXPECT_TRUE(certify(method, scene, tampered).mismatch());
     }
-    Outcome stiffer = honest;  // one world reports it per link, the other in the probe
+    Outcome stiffer = honest;  // one world reports the stiffness per link, the other in the probe
     if (stiffer.readback->probe->springs.size() > 0)
       stiffer.readback->probe->springs.col(5) *= 1.001;
     else

@@ -51,8 +51,8 @@ Scene on_ball(double degrees, const std::string& surface, const std::string& vel
                   std::sin(angle), std::cos(angle), velocity, surface, more, gravity_text));
 }
 
-/// Angle (degrees) at which a particle left a ball of 1 m, from its state in free flight. It keeps the horizontal speed
-/// v cos(theta) of the point where v^2 = g R cos(theta).
+/// Angle (degrees) at which a particle left a ball of 1 m, from its state in free flight. The particle keeps the
+/// horizontal speed v cos(theta) of the point where v^2 = g R cos(theta).
 double left_at(const State& s) { return std::acos(std::cbrt(s.v(0, 0) * s.v(0, 0) / g)) * degrees_of_turn; }
 
 TEST(ContactEvents, ParticleLeavesABallWhereEnergySays) {
@@ -289,7 +289,7 @@ Scene on_moving_ball(double friction, const char* position, const char* amplitud
 }
 
 TEST(EventTruth, BarsBesideMovingBallsAreThoseOfRoutesOfHighOrder) {
-  // Rounding in the thousands of steps of the other route: a few hundred eps of the positions.
+  // `round_off`: rounding in the thousands of steps of the other route, a few hundred eps of the positions.
   const auto expect_bar = [](const Scene& scene, auto exact, double round_off) {
     const auto truth = event_truth(scene, default_run(scene));
     ASSERT_TRUE(truth);
@@ -305,7 +305,7 @@ TEST(EventTruth, BarsBesideMovingBallsAreThoseOfRoutesOfHighOrder) {
   const Motion motion = *carried.model.find<Spheres>()->list[0].motion;
   expect_bar(
       carried, [&](double t) { return Vec3(Vec3(0, 1, 0) + displacement_at(motion, t)); }, 1e-13);
-  // thrown over the ball
+  // a particle thrown over the ball
   const Scene thrown = on_moving_ball(0.9, "[0, 2, 0]", "[0.05, 0.02, 0.03]", "[4, 1, 0]");
   expect_bar(
       thrown, [&](double t) { return Vec3(4 * t, 2 + t - g * t * t / 2, 0); }, 1e-13);
@@ -351,7 +351,7 @@ TEST(EventTruth, IsNoneWhereARouteKnowsNothingAndSaysWhy) {
     return "";
   };
   EXPECT_TRUE(contains(refused(shipped_scene("chain")), "no contact"));
-  // moving along the valley between two balls, perpendicular to the plane of their centres
+  // a particle moving along the valley between two balls, perpendicular to the plane of their centres
   Scene groove = valley(1, 10, 0);
   groove.start.x.col(0) = Vec3(0.5, std::sqrt(0.75) * std::cos(0.3), std::sqrt(0.75) * std::sin(0.3));
   EXPECT_TRUE(contains(refused(groove), "between two surfaces"));
@@ -374,7 +374,7 @@ TEST(ContactEvents, NothingEndsInsideAndNothingPassesThrough) {
         for (int i = 0; i < path.trajectory.frames(); ++i)
           for (int j = 0; j < path.trajectory.x[i].cols(); ++j) {
             const Vec3 x = path.trajectory.x[i].col(j);
-            // projected to one ball after the other, and measured again
+            // tolerance: rounding of the projections onto one ball after the other, and of this measurement
             EXPECT_FALSE(clearance_from(surfaces_of(scene.model), path.trajectory.t[i], x) < -1e-12);
           }
       }
@@ -492,8 +492,8 @@ TEST(ContactEvents, AreTheSameInTheFusedStepOfACloth) {
       Recorder fused, general;
       simulate(stepper(rule), ContactRule::events, scene, {1e-3, 0.2, 10}, fused);
       simulate(stepper(rule), ContactRule::events, scene, {1e-3, 0.2, 10}, general, {ExecutionPath::general, 1});
-      // Rounding, and particles that end a fused step outside, although they were pressed on by O(h): h^3 each time one
-      // leaves. A first-order rule continues on its own path, h^2 away.
+      // The paths differ by rounding, and by h^3 for each particle that leaves a ball in a fused step although it was
+      // pressed on by O(h). A first-order rule continues on its own path, h^2 away.
       EXPECT_LT(sup_rms(fused.trajectory, general.trajectory), rule == std::string_view("leapfrog") ? 1e-6 : 1e-3);
       double nearest = 1;
       for (int i = 0; i < general.trajectory.frames(); ++i)

@@ -41,7 +41,7 @@ TEST(Bounces, ReturnTheSquareOfRestitutionAndEndInRest) {
     EXPECT_NEAR(top.x(1, i), e * e * drop, 8 * eps) << e;
     EXPECT_NEAR(top.v(1, i), 0, 16 * eps) << e;
     if (e > 0.5) continue;
-    // total time of all bounces: fall (1 + e) / (1 - e); then it rests
+    // total time of all bounces: fall (1 + e) / (1 - e); then the particle rests
     const double end = fall * (1 + e) / (1 - e);
     EXPECT_GT(exact->at(0.99 * end).x(1, i) + std::abs(exact->at(0.99 * end).v(1, i)), 0);
     EXPECT_NEAR(exact->at(1.01 * end).x(1, i), 0, eps);
@@ -100,7 +100,7 @@ TEST(Slide, WithoutFrictionItLeavesWhereEnergySays) {
   scene.model.find<Spheres>()->list[0].friction = 0;
   const auto exact = exact_solution(scene);
   ASSERT_TRUE(exact);
-  // v^2 = v0^2 + 2 g R (1 - cos), and it leaves at v^2 = g R cos: cos = (2 + v0^2 / (g R)) / 3
+  // v^2 = v0^2 + 2 g R (1 - cos), and the particle leaves at v^2 = g R cos: cos = (2 + v0^2 / (g R)) / 3
   const double radius = 1.02, cosine = (2 + 1 / (9.81 * radius)) / 3;
   double low = 0, high = 2;
   for (int i = 0; i < 60; ++i) {
@@ -119,9 +119,10 @@ TEST(ContactExact, MysimConvergesToTheClosedForms) {
       SCOPED_TRACE(fmt::format("{} {}", name, method));
       const double until = std::string_view(name) == "bounce" ? 0.6 : 1;
       const double coarse = off(scene, *exact, method, 1e-3, until), fine = off(scene, *exact, method, 1e-5, until);
-      // First order: a hundredth of the error, up to a factor of 4 for the position of an impact within its step.
+      // At first order, the short step has a hundredth of the error, or up to 4 times that, depending on the position
+      // of an impact within its step.
       EXPECT_LT(fine, 0.04 * coarse);
-      EXPECT_LT(coarse, 2 * 3 * 1e-3 * 4);  // path of some steps at 3 m/s
+      EXPECT_LT(coarse, 2 * 3 * 1e-3 * 4);  // distance moved in a few steps at 3 m/s
     }
   }
 }
@@ -172,7 +173,7 @@ TEST(FrictionHold, MysimHoldsIt) {
 
 TEST(ContactExact, IsNotClaimedElsewhere) {
   Scene moved = shipped_scene("bounce");
-  moved.start.x(0, 1) += 1e-6;  // off the axis: it is deflected sideways
+  moved.start.x(0, 1) += 1e-6;  // off the axis, so that the particle is deflected sideways
   EXPECT_FALSE(exact_solution(moved));
   Scene dragged = with_drag(shipped_scene("bounce"), 1);
   EXPECT_FALSE(exact_solution(dragged));

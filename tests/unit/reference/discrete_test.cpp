@@ -232,8 +232,8 @@ TEST(ExactDiscrete, SaysWhereARuleHasNoClosedForm) {
   EXPECT_TRUE(begins(reason("xpbd", shipped_scene("normal-modes"), run), "this rule sweeps the springs one by one"));
   EXPECT_TRUE(begins(reason("leapfrog", shipped_scene("circle"), run), "the scene is a first-order system"));
   EXPECT_TRUE(begins(reason("rk4", random_spring(2, false, true), run), "the pins are moved"));
-  // Forward Euler grows by (h omega)^2 / 2 per step: from 0.1981 m to the anchor at 1.0981 m in ln(5.54) / 0.5 s = 3.42
-  // s.
+  // Forward Euler's amplitude grows by (h omega)^2 / 2 per step: from 0.1981 m to the anchor at 1.0981 m in ln(5.54) /
+  // 0.5 s = 3.42 s.
   const Scene scene = shipped_scene("spring");
   EXPECT_TRUE(begins(reason("explicit-euler", scene, {0.01, 10, 100}), "at 3.5 s a spring may turn over"));
   EXPECT_EQ(reason("explicit-euler", scene, {0.01, 3.4, 34}), "");

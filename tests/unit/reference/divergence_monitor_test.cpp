@@ -14,7 +14,7 @@ namespace {
 
 using namespace testing_tools;
 
-/// One kilogram on 100 N/m, without gravity, with a rest length of 1 m.
+/// A mass of 1 kg on a spring of 100 N/m with a rest length of 1 m, without gravity.
 Scene kilogram(double start, double speed, double duration = 20) {
   return small_scene(fmt::format("[[particle]]\nposition = [0, 0, 0]\nmass = 1\n[[particle]]\nposition = [{}, 0, 0]\n"
                                  "mass = 1\nvelocity = [{}, 0, 0]\n[[spring]]\nends = [0, 1]\nstiffness = 100\n"
@@ -34,7 +34,7 @@ TEST(DivergenceMonitorOnASpring, HoldsAHundredthBelowTheLimitAndFailsAHundredthA
           const int samples = 4200 / per_sample;
           const MethodRun a = run_and_record(name, scene, {h, h * per_sample * samples, samples});
           // Speeds are central differences. At the limit of rk4, where a step is 109 degrees of the vibration, they are
-          // a third of its own velocities. At 1.01 of the limit they stay at four times the true speed.
+          // a third of rk4's own velocities. At 1.01 of the limit the speeds stay at four times the true speed.
           if (part < 1 || name == std::string("rk4"))
             EXPECT_EQ(a.outcome.verdict, Verdict::ok) << a.outcome.reason;
           else

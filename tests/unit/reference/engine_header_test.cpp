@@ -39,7 +39,7 @@ class EngineHeader : public InFolder {
   }
 };
 
-/// A state in which all forces act, and one spring has coincident ends.
+/// A state in which all forces act, and in which one spring has coincident ends.
 State moving(const Scene& scene) {
   State state = scene.start;
   state.t = 0.4;
@@ -90,7 +90,7 @@ TEST_F(EngineHeader, ReadsSpheresPlanesAndMotions) {
   ASSERT_TRUE(sphere.motion);
   for (const double t : {0.1, 0.5, 2.}) {
     EXPECT_LE((points({sphere.centre_at(t)}) - ours.centre_at(t)).norm(), 1e-15);
-    constexpr double d = 1e-5;  // s; central differences err by d^2 and round-off over d
+    constexpr double d = 1e-5;  // s; central differences err by d^2 plus round-off / d
     const header::Vec slope = 1 / (2 * d) * (sphere.motion->velocity(t + d) - sphere.motion->velocity(t - d));
     EXPECT_LE(header::length(slope - sphere.motion->acceleration(t)), 1e-7) << t;
   }
@@ -119,7 +119,7 @@ TEST_F(EngineHeader, OptionsRefuseWhatIsNotExpected) {
   EXPECT_EXIT(get({"fast"}), exits, "unknown option fast: expected n=4, springs=tendon.callback");
 }
 
-/// Falls, and fails after a given time in one of two ways.
+/// A world of falling particles that fails after a given time in one of two ways.
 struct Faller : header::World {
   explicit Faller(const header::Scene& s) : scene(s), x(s.x), v(s.v) {}
   void step(double t) override {

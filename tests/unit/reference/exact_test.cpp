@@ -22,7 +22,7 @@ std::string spring_text(const std::string& more = "", double start = -0.9, const
       "[[spring]]\nends = [0, 1]\nstiffness = 200\nrest = 1\n{}{}[pins]\nparticles = [0]\n{}",
       start, free_more, spring_more, gravity_text, more);
 }
-/// The spring, whose pin is moved along it at `part` times its frequency of 10 rad/s.
+/// The spring of spring_text(), with its pin moved along it at `part` times the natural frequency of 10 rad/s.
 std::string driven_text(double part, double amplitude, double ramp, const std::string& more = "",
                         const std::string& spring_more = "") {
   return spring_text(fmt::format("[pins.motion]\namplitude = [0, {}, 0]\nfrequency = {}\nramp = {}\n{}", amplitude,
@@ -74,7 +74,7 @@ TEST(Exact, SatisfiesTheEquationOfMotion) {
     const double fastest = std::max(10.0, drag ? f.drag_rate().maxCoeff() : 0);  // 1/s; omega is at most 10
     const double dt = std::cbrt(eps) / fastest;
     // Central differences: (rate dt)^2 from the third derivative and eps / dt from rounding, for positions up to 10 m.
-    // Velocities: the same times the rate.
+    // The errors of velocities are larger by a factor of the rate.
     const double tolerance = 10 * (std::pow(fastest * dt, 2) + eps / dt);
     for (int i = 1; i < 20; ++i) {
       State s = exact->at(0.05 * i), rate = s;
@@ -106,14 +106,14 @@ TEST(Exact, AgreesWithAFineRungeKutta) {
     const auto exact = exact_solution(c.scene);
     double worst = 0;
     for (int i = 0; i < t.frames(); ++i) worst = std::max(worst, (t.x[i] - exact->at(t.t[i]).x).norm());
-    // Half an ulp of positions up to 8 m, at worst 1e4 times. rk4 itself loses at most (h gamma)^4 / 120 = 4e-6 of 1e-3
-    // m.
+    // rk4 rounds positions up to 8 m by at most half an ulp in each of 1e4 steps. Its own error is at most (h gamma)^4
+    // / 120 = 4e-6 of 1e-3 m.
     EXPECT_LT(worst, 1e4 * 4 * eps + (c.name.starts_with("overdamped") ? 1e-8 : 0));
   }
 }
 
 TEST(Exact, AgreesWithAnAdaptiveRuleOnRandomScenes) {
-  for (unsigned seed = 0; seed < 200; seed += 5) {  // every fifth, to save time: as many of each kind
+  for (unsigned seed = 0; seed < 200; seed += 5) {  // every fifth seed, to save time; all kinds occur equally often
     const Scene scene = random_exact_scene(seed);
     SCOPED_TRACE(scene.name);
     const auto exact = exact_solution(scene);
@@ -149,14 +149,14 @@ TEST(Exact, IsClaimedOnlyWhereItHolds) {
       {"spring pushed aside", small_scene(spring_text("", -0.9, "velocity = [0.1, 0, 0]\n"))},
       {"driven aside", small_scene(spring_text("[pins.motion]\namplitude = [0.01, 0, 0]\nfrequency = 1\nramp = 1\n"))},
       {"driven into its anchor", small_scene(driven_text(0.9, 0.2, 0.5))},  // 0.2 m / (1 - 0.81) = 1.05 m
-      {"driven at resonance", small_scene(driven_text(1, 1e-6, 0.5))},      // undamped: it grows without limit
+      {"driven at resonance", small_scene(driven_text(1, 1e-6, 0.5))},      // undamped: unbounded growth
       // equilibrium length 1.0981 m: released 1.1 m from it, the mass reaches the anchor
       {"spring that reaches the anchor", small_scene(spring_text("", -2.2))}};
   for (const Case& c : none) {
     SCOPED_TRACE(c.name);
     EXPECT_FALSE(exact_solution(c.scene));
   }
-  EXPECT_TRUE(exact_solution(small_scene(spring_text("", -2.19))));  // 1.092 m from it: just below
+  EXPECT_TRUE(exact_solution(small_scene(spring_text("", -2.19))));  // 1.092 m from equilibrium: just below
 }
 
 TEST(Exact, TruthSaysItsTier) {
@@ -175,7 +175,7 @@ TEST(Exact, TruthSaysItsTier) {
 TEST(RigidPendulum, PeriodAgainstKnownValues) {
   const double small = 2 * std::numbers::pi * std::sqrt(1 / 9.81);
   EXPECT_NEAR(rigid_pendulum_period(1, 9.81, 1e-8), small, 4 * eps * small);
-  // 2 K(sin(theta0 / 2)) / pi from tables of the complete elliptic integral; ten roundings
+  // 2 K(sin(theta0 / 2)) / pi from tables of the complete elliptic integral; the bound is ten roundings
   const std::pair<double, double> table[] = {{90, 1.1803405990161}, {60, 1.0731820071493}, {120, 1.3728805006183}};
   for (const auto& [degrees, ratio] : table)
     EXPECT_NEAR(rigid_pendulum_period(1, 9.81, degrees * std::numbers::pi / 180) / small, ratio, 2e-13);
@@ -255,7 +255,7 @@ TEST(HangingRest, IsWhereMysimComesToRest) {
   ASSERT_TRUE(rest);
   const double off = largest_column(scene.start.x - *rest), omega = highest_frequency(scene.model, scene.start);
   for (const Stepper& s : fixed_steppers()) {
-    if (s.hard_constraints) continue;  // Gauss-Seidel passes have another equilibrium, see below
+    if (s.hard_constraints) continue;  // the equilibrium of Gauss-Seidel passes is different, see below
     SCOPED_TRACE(s.name);
     const Trajectory t = trajectory_of(s, scene, {std::min(2e-3, 0.5 * s.limit(omega, 3)), 16, 8});
     for (int i = 0; i < t.frames(); ++i)
@@ -280,7 +280,7 @@ TEST(HangingRest, OneSweepAStepHangsLongerByTheSquareOfTheStep) {
 }
 
 /// A flat cloth of n x n particles, 0.2 m apart, held along its edge, with springs stretched by a tenth. Each free
-/// particle is displaced along `direction` by `amplitude` (m) times sin sin, a bump.
+/// particle is displaced along `direction` by `amplitude` (m) times the product of two sines (a bump).
 Scene flat_cloth(int n, double amplitude, const Vec3& direction, bool shear) {
   SceneWriter w;
   const double side = 0.2, stretch = 1.1;
@@ -351,7 +351,7 @@ TEST(Linearised, FailsAsThePowerOfTheAmplitudeThatItsSymmetryGives) {
   EXPECT_NEAR(slope(a.out_of_plane, b.out_of_plane), 2, 0.04);
   EXPECT_NEAR(slope(a.in_plane, b.in_plane), 1, 0.04);
   EXPECT_NEAR(slope(c.in_plane, d.in_plane), 1, 0.04);
-  EXPECT_LT(c.out_of_plane, 1e-13);  // it stays in the plane
+  EXPECT_LT(c.out_of_plane, 1e-13);  // the cloth stays in the plane
   // amplitudes with a deviation of 1 %, as in tests/unit/reference/limits_of_motion.h (two digits)
   EXPECT_NEAR(deviation(0.011, up).out_of_plane, 0.01, 0.001);
   EXPECT_NEAR(deviation(0.0088, aside).in_plane, 0.01, 0.001);
@@ -389,7 +389,7 @@ TEST(Linearised, AgreesWithTheExactModesOfAStretchedChain) {
 }
 
 TEST(Linearised, HangingChainSwingsAsTheLimitSays) {
-  // about the equilibrium of hanging_equilibrium(), displaced by 1e-4 m
+  // motion about the equilibrium of hanging_equilibrium(), displaced by 1e-4 m
   Scene scene = damped_chain();
   const Points rest = *hanging_equilibrium(scene);
   scene.start.x = rest;

@@ -1,5 +1,5 @@
-// Hard distances: XPBD keeps them to second order, with the rigid pendulum's period. The solution with Lagrange
-// multipliers conserves the distances, the period and the energy. Other rules refuse them.
+// Hard distances: XPBD satisfies them to second order and reproduces the period of the rigid pendulum. The solution
+// with Lagrange multipliers conserves distances, period and energy. Other integrators refuse hard distances.
 
 #include <Eigen/Dense>
 
@@ -46,8 +46,9 @@ TEST(HardDistances, AreKeptToSecondOrder) {
       for (const Points& x : t.x)
         worst = std::max(worst, largest_constraint_error(*scene.model.find<Constraints>(), x));
       fmt::print("rope of ten links, h = {}: stretched by {:.3g}\n", h, worst);
-      // One Gauss-Seidel pass per step leaves the transverse motion of a step, h^2 times an acceleration over a link's
-      // length: second order, but a whip reaches its maximum at other moments.
+      // One Gauss-Seidel pass per step leaves an error as large as the transverse motion in a step: h^2 times an
+      // acceleration, divided by a link's length. This is of second order, but a whip reaches its maximum at other
+      // moments when the step changes.
       if (before > 0) {
         EXPECT_NEAR(slope(before, worst), 2, 0.5);
       }
@@ -133,7 +134,7 @@ TEST(HardDistances, ConvergeToTheEquationsWithMultipliersInFirstOrder) {
   const int samples = 12;
   const RopeByMultipliers rope_by_multipliers(scene);
   const Trajectory truth = rope_by_multipliers.run(1e-3, duration, samples);
-  // The reference is of order 4 and keeps its distances: compare 1e-3 s with half of it.
+  // The reference is of order 4 and keeps its distances: compare a step of 1e-3 s with half this step.
   EXPECT_LT(sup_rms(truth, rope_by_multipliers.run(5e-4, duration, samples)), 1e-8);
   for (const Points& x : truth.x) EXPECT_LT(largest_constraint_error(*scene.model.find<Constraints>(), x), 1e-7);
   for (const Stepper& s : hard_steppers()) {

@@ -1,4 +1,4 @@
-// Requirements of some tests that the suite does not have. A test without them is skipped with the name of the missing
+// Programs that only some tests require. A test whose program is missing is skipped with the name of the missing
 // package.
 #pragma once
 

@@ -74,7 +74,7 @@ double round_off(const Scene& scene, const State& s) {
     for (const auto& d : dashpots->list) both(d.a, d.b, d.c * (s.v.col(d.a).norm() + s.v.col(d.b).norm()));
   if (const auto* air = scene.model.find<Aerodynamics>())
     for (const auto& triangle : air->triangles)
-      // at most 10 m/s on a triangle as large as the scene
+      // assumes at most 10 m/s on a triangle as large as the scene
       for (int corner : triangle) sum[corner] += air->density * air->coefficient * 100 * std::pow(scene.size(), 2);
   double largest = scene.model.first_order() ? scene.size() : 0;
   for (int i = 0; i < p.size(); ++i) largest = std::max(largest, sum[i] / p.mass[i] + 30);  // gravity, wind, drag
@@ -213,7 +213,7 @@ void expect_tolerances_followed(std::span<const char* const> names) {
       const MethodRun a = run_and_record(name, scene, {1e-3, 1, 20, tolerance});
       EXPECT_EQ(a.outcome.tolerance, tolerance);
       const double error = sup_rms(a.trajectory, fine);
-      EXPECT_LT(error, 300 * tolerance);  // sums over tens of steps in the 5 vibrations and half swing of the run
+      EXPECT_LT(error, 300 * tolerance);  // local errors of tens of steps add up: the run covers 5 vibrations
       if (before > 0) {
         EXPECT_LT(error, before / 10);
       }

@@ -26,7 +26,7 @@ inline double rigid_pendulum_period(double length, double gravity, double theta0
 }
 
 /// Equilibrium (3 x n, m) of a tree of Hooke's springs below a single pin, under gravity and steady wind: each spring
-/// is extended by its load over its stiffness. The scene need not start there. Returns nothing for other scenes.
+/// is extended by its load divided by its stiffness. The scene need not start there. Returns nullopt for other scenes.
 inline std::optional<Points> hanging_equilibrium(const Scene& scene) {
   const Model& model = scene.model;
   const Particles& particles = model.particles;
@@ -78,8 +78,8 @@ struct LinearisedSolution {
 /// no transverse stiffness, and a compressed one buckles), and for other scenes.
 ///
 /// Neglected terms start with the square of the amplitude a. A flat cloth that moves out of its plane is symmetric in
-/// up and down: out of the plane, the deviation over a decreases as a^2; in the plane, where nothing moves to first
-/// order, it decreases as a. Motion in the plane has a relative error of first order in a.
+/// up and down: out of the plane, the deviation divided by a decreases as a^2; in the plane, where nothing moves to
+/// first order, it decreases as a. Motion in the plane has a relative error of first order in a.
 /// Example: a cloth of 6 x 6 particles, held along its edge of 1 m, stretched by a tenth and released in its first
 /// bump, deviates by 1 % within three periods from an amplitude of 11 mm out of the plane, or 8.8 mm in it.
 inline std::optional<LinearisedSolution> linearised_solution(const Scene& scene, const Points& equilibrium) {
@@ -111,7 +111,7 @@ inline std::optional<LinearisedSolution> linearised_solution(const Scene& scene,
     stiffness = std::max(stiffness, s.k);
   }
   for (int pin : particles.pins) force.col(pin).setZero();
-  // an equilibrium, up to the rounding of the written values
+  // the positions must be an equilibrium, up to the rounding of the written values
   if (!(largest_column(force) <= 1e-10 * stiffness * scene.size())) return std::nullopt;
 
   std::vector<int> free;  // coordinates

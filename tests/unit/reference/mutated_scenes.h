@@ -48,8 +48,8 @@ inline void add_pin(Scene& s) {
 struct Mutation {
   std::string what;
   std::function<void(Scene&)> mutate;
-  std::set<std::string> quantities;  // certificate rows that may show it, by prefix
-  std::set<std::string> blind = {};  // worlds that cannot report it
+  std::set<std::string> quantities;  // certificate rows that may show the change, by prefix
+  std::set<std::string> blind = {};  // worlds that cannot report the change
 };
 
 inline const Mutation of_the_drape[] = {

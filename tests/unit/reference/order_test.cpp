@@ -43,7 +43,7 @@ TEST(Orders, OnPendulumPlainDampedAndMovedByHand) {
     const Trajectory truth = trajectory_of(stepper("rk4"), c.scene, {0.005 / omega, run.duration, run.samples});
     for (const Stepper& s : fixed_steppers()) {
       SCOPED_TRACE(c.name + ", " + std::string(s.name));
-      ASSERT_LT(h_omega_for(s.order), 0.6);  // above it rk4 does not show its order (2.8 to 3.2 at 1.2)
+      ASSERT_LT(h_omega_for(s.order), 0.6);  // above 0.6, rk4 does not show its order (2.8 to 3.2 at 1.2)
       // The next error term is smaller by h omega (at most 0.3, which changes the slope by half of that). Amplitude
       // growth (h omega^2 t / 2) changes order 1 by 0.05.
       const double order = measured_order(s, c.scene, truth, h_omega_for(s.order) / omega, run);
@@ -55,7 +55,7 @@ TEST(Orders, OnPendulumPlainDampedAndMovedByHand) {
 
 TEST(Orders, SurviveDashpotsAirAndPinsMovedByHand) {
   const Scene scene = small_cloth_in_air();
-  const crosscheck::Run run{0, 0.25, 5};  // the end of the ramp, where its third derivative jumps
+  const crosscheck::Run run{0, 0.25, 5};  // the end of the ramp, where the motion's third derivative jumps
   const Trajectory truth = trajectory_of(stepper("rk4"), scene, {6.25e-5, run.duration, run.samples});
   for (const Stepper& s : fixed_steppers()) {
     SCOPED_TRACE(s.name);
@@ -165,7 +165,8 @@ TEST(Adaptive, StepsGrowWithTheFifthRootOfTheTolerance) {
       Recorder r;
       return double(simulate(s, ContactRule::coulomb, scene, {1e-3, 4, 10, tolerance}, r).steps);
     };
-    // The estimate of a step is of order h^5, so 1e5 needs ten times as many steps. Swings mix slow and fast parts.
+    // The estimate of a step is of order h^5, so a tolerance lower by 1e5 needs ten times as many steps. Swings mix
+    // slow and fast parts.
     EXPECT_NEAR(std::log10(steps(1e-10) / steps(1e-5)), 1, 0.15);
   }
 }

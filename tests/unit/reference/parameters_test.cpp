@@ -65,8 +65,8 @@ TEST(Translation, OfTwelveScenesThereAndBackIsWithinTheStatedError) {
       expect_within(scene_of(scene, *target.numbers, file), scene, t);
       for (const TranslatedNumber& number : t.numbers) {
         if (number.rule->gather == NumberRule::Gather::median) continue;  // one slider for all springs: not one-to-one
-        // One-to-one: round-off of the precision; for links up to 2 + k h^2 / mu times as much; three times for
-        // frequencies, which are squared and combined with rounded masses.
+        // Conversions that are one-to-one err by the precision's round-off: for links up to 2 + k h^2 / mu times as
+        // much, and for frequencies, which are squared and combined with rounded masses, three times as much.
         const double rounding = 0.5 * (target.single_precision ? 1.2e-7 : eps) + 8 * eps;
         EXPECT_LE(number.stated, (1 + 1e-9) * rounding * (3 + largest_K(scene))) << name_of(number.rule->quantity);
       }
@@ -106,7 +106,7 @@ double engine_number(const Translation& t, SceneNumber quantity) {
 }
 
 TEST(Translation, OfALinkHasTheMeasuredValues) {
-  // Measured once from the sag of a mass on one link of Bullet: mu = 1 kg; N/m and kLST to five digits.
+  // Values measured once from the sag of a mass on one link of Bullet, for mu = 1 kg; N/m and kLST have five digits.
   struct Case {
     double kLST, h;
     int n;
@@ -124,7 +124,7 @@ TEST(Translation, OfALinkHasTheMeasuredValues) {
     const Translation sliders = translate(scene, find_target("godot", c.n), c.h);
     EXPECT_NEAR(engine_number(sliders, SceneNumber::stiffness), c.kLST, 3e-5 * c.kLST);
     EXPECT_EQ(engine_number(sliders, SceneNumber::mass), 2) << "all particles, including the pin";
-    // Two free ends have half the reduced mass, so half the stiffness gives the same share.
+    // Two free ends have half the reduced mass, so half the stiffness gives the same kLST.
     const Translation free = translate(one_spring(c.k / 2, false), t.target, c.h);
     EXPECT_NEAR(engine_number(free, SceneNumber::stiffness), c.kLST, 3e-5 * c.kLST);
   }
@@ -158,7 +158,8 @@ TEST(Translation, OfOtherNumbersIsTheFormulas) {
   EXPECT_DOUBLE_EQ(engine_number(in("bullet/deformable-implicit"), SceneNumber::stiffness), 250);
   EXPECT_DOUBLE_EQ(engine_number(in("mysim/xpbd"), SceneNumber::stiffness), 0.004);
   EXPECT_DOUBLE_EQ(engine_number(in("mysim/xpbd"), SceneNumber::dashpot), 0.5);
-  // Sub-steps of 1 ms, each with a factor of 1 - 1e-3 value: ten of them must give exp(-0.02).
+  // Jolt takes ten sub-steps of 1 ms. Each multiplies velocities by 1 minus 1 ms times the damping, all ten by
+  // exp(-0.02).
   const Translation jolt = in("jolt+n=10");
   EXPECT_NEAR(std::pow(1 - 1e-3 * engine_number(jolt, SceneNumber::drag), 10), std::exp(-0.02), 1e-7);
   EXPECT_FLOAT_EQ(engine_number(jolt, SceneNumber::stiffness), 0.004);

@@ -156,7 +156,7 @@ TEST(EventDriven, OnPlanesIsWhatClosedFormsSay) {
     try {
       run_event_driven(scene, {1e-3, scene.duration, 50, 1e-12}, r);
     } catch (const Unsupported& e) {
-      EXPECT_TRUE(name.starts_with("corner")) << e.what();  // it supports only rest between several surfaces
+      EXPECT_TRUE(name.starts_with("corner")) << e.what();  // the route supports only rest between several surfaces
     }
     EXPECT_GT(r.trajectory.frames(), name.starts_with("corner") ? 0 : 50);
     for (int i = 0; i < r.trajectory.frames(); ++i)
@@ -279,7 +279,7 @@ TEST(BulletOnPlanes, HoldsWhatSlidesFarOverAFaceThatIsNearlyAlongAnAxis) {
       SCOPED_TRACE(fmt::format("{} {}", method, list(n)));
       const MethodRun run = run_and_record(method, scene, default_run(scene));
       ASSERT_EQ(run.outcome.verdict, Verdict::ok) << run.outcome.reason;
-      // Rounding may delay contact of a node on the face by one step: it falls by at most g h^2.
+      // Rounding may delay contact of a node on the face by one step, in which the node falls by at most g h^2.
       for (const Points& x : run.trajectory.x) EXPECT_GT(x.col(0).dot(n), 0.02 - g * 1e-6);
       EXPECT_GT(run.trajectory.x.back().col(0).dot(along), 2);
     }

@@ -165,9 +165,9 @@ inline std::vector<Scene> random_exact_scenes() {
   return scenes;
 }
 
-/// 3 to 30 particles in a connected random network of springs under gravity, with one or two pins. About half of the
-/// seeds each have drag, steady or gusty wind, moving pins, initial velocities. Lasts 0.5 s, with steps of a tenth of
-/// the stability limit.
+/// 3 to 30 particles in a connected random network of springs under gravity, with one or two pins. Drag, wind (steady
+/// or gusty), moving pins and initial velocities each occur for about half of the seeds. The scene lasts 0.5 s, with
+/// steps of a tenth of the stability limit.
 inline Scene random_contact_free_scene(unsigned seed) {
   Random random(seed);
   SceneWriter w;

@@ -46,8 +46,8 @@ TEST(Truth, BarsAreAsSmallAsAskedForInTheWindows) {
   for (const auto& [name, largest] : error_bars) {
     SCOPED_TRACE(name);
     const Scene scene = shipped_scene(name);
-    // To save time, only the first half second of the cloths' windows; over the whole windows, 2e-9 to 7e-9 m were
-    // measured.
+    // To save time, tests only the first half second of the cloths' windows; the bars over the whole windows were 2e-9
+    // to 7e-9 m.
     const double until = scene.triangles.empty() ? scene.window : std::min(0.5, scene.window);
     const auto truth = converged_truth(scene, {scene.step, until, 20});
     ASSERT_TRUE(truth);

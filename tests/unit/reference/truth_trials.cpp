@@ -1,6 +1,7 @@
 // Trials of the error bars of converged truth, not part of the suite. `truth_trials FIRST COUNT` runs random exact
-// scenes by seed, and prints a row for each and a summary. Exits with 1 if fewer than 99 in 100 are covered or if,
-// above ten times round-off, the bars exceed 5 times the error in the median or 20 times at the 95th percentile.
+// scenes by seed, and prints a row for each and a summary. Exits with 1 if fewer than 99 % of the errors are covered or
+// if, for errors above ten times round-off, the bars exceed 5 times the error in the median or 20 times at the 95th
+// percentile.
 #include "tests/unit/reference/truth_trials.h"
 
 #include <cstdio>

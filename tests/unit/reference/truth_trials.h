@@ -39,8 +39,8 @@ inline BarTrial bar_trial(const Scene& scene) {
 
 struct BarSummary {
   size_t scenes = 0, known = 0, covered = 0, above = 0;
-  double median = 0, high = 0;  // bar over error above round-off: median and 95th percentile
-  double least = INFINITY;      // smallest bar over error of all trials
+  double median = 0, high = 0;  // bar divided by error above round-off: median and 95th percentile
+  double least = INFINITY;      // smallest ratio of bar to error in all trials
 };
 
 inline BarSummary summary_of(const std::vector<BarTrial>& trials) {
