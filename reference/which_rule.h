@@ -13,11 +13,11 @@ struct FoundRule {
   std::string rule;           // "rk4"; the nearest rule if none agrees with the runs
   std::string like;           // mysim's stepper of that order and stability limit; empty unless exact
   std::string drag;           // "explicit", "implicit", "exact", "time-symmetric"; empty: not tried, or none of these
-  bool own_drag = false;      // the rule's own drag
+  bool own_drag = false;      // true: the rule's own drag
   bool exact = false;         // agrees to rounding, not only to its solver's error
   bool single = false;        // computes in single precision
-  double distance = 0;        // largest from the rule at both steps (nearest: at the shorter one), relative to the
-                              // net's size
+  double distance = 0;        // largest distance from the rule at both steps (nearest: at the shorter one), relative
+                              // to the net's size
   std::string tried;          // ingredients of the nets: "springs, gravity, pins, drag"
   std::string reason;         // why the rule or its drag is unknown
   std::string on_one_spring;  // rule that agrees on a net of one spring, if none agrees on the whole net

@@ -1,4 +1,4 @@
-// Bullet as a program of the engine protocol: the same worlds in another precision, or of another Bullet.
+// Bullet as a program of the engine protocol: the same worlds in a different precision, or with a different Bullet.
 //
 //   PROGRAM scene.json OUTDIR [world=deformable-explicit | world=pbd ...] [options of that world]
 

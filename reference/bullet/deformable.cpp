@@ -344,7 +344,7 @@ class BodySolver : public btDeformableBodySolver {
  public:
   void set_tolerance(double squared) {
     m_cg.m_tolerance = static_cast<btScalar>(squared);
-    // conjugate gradients with 3 n unknowns: the default of 300 may end before the tolerance on a large cloth
+    // conjugate gradients with 3 n unknowns: the default of 300 may be reached before the tolerance on a large cloth
     m_cg.m_maxIterations = 10000;
   }
 };

@@ -41,7 +41,7 @@ struct BulletDefaults {
   bool margin = false;         // 0.25 m
   bool sleep = false;          // bodies slower than 0.04 m/s for 2 s fall asleep
   bool pieces = false;         // allow a network in pieces near a sphere, on which Bullet never returns
-  double gravity_factor = 1;   // the body's factor; the world's gravity is the scene's divided by it
+  double gravity_factor = 1;   // the body's gravity factor, by which the world's gravity is divided
   std::optional<double> kLST;  // value for all links, whatever the scene's stiffness
 };
 
@@ -59,7 +59,7 @@ class SoftBody {
   void place_pins(double t);
   /// Current state in the scene's numbering.
   const State& read_state(double t);
-  /// Masses, pins, initial state, and links with rest lengths, springs first. The world adds the rest.
+  /// Masses, pins, initial state, and links with rest lengths, springs first. The world adds the other quantities.
   Readback read_back() const;
 
  private:
@@ -139,13 +139,13 @@ class ProbeState {
 
 // The scene's spheres and planes as Bullet's rigid bodies, fixed or kinematic.
 //
-// A plane is the upper face of a cube below the middle of the particles. Half its edge is twice their possible
-// displacement during the scene, so that none reaches its rim. The cube's distances are linear, so the grid from which
-// Bullet's soft bodies read distances and normals has only rounding errors, for any voxel size. On a floor and on a
-// slope of 25 degrees, a node and a cloth of 25 stay within 1e-14 m of the face in the explicit deformable world and
-// slide by Coulomb's law. btStaticPlaneShape has no such grid: Bullet treats it as a concave mesh of two triangles as
-// large as the body's box, each with its own grid. With it, the same bodies sink in by 0.12 m and drift sideways by 43
-// mm in half a second, and the position-based world throws them up by 3 m.
+// A plane is the upper face of a cube below the middle of the particles. Half the cube's edge is twice the particles'
+// possible displacement during the scene, so that no particle reaches the rim. The cube's distances are linear, so the
+// grid from which Bullet's soft bodies read distances and normals has only rounding errors, for any voxel size. On a
+// floor and on a slope of 25 degrees, a node and a cloth of 25 stay within 1e-14 m of the face in the explicit
+// deformable world and slide by Coulomb's law. btStaticPlaneShape has no such grid: Bullet treats it as a concave mesh
+// of two triangles as large as the body's box, each with its own grid. On this shape, the same bodies sink in by 0.12 m
+// and drift sideways by 43 mm in half a second, and the position-based world throws them up by 3 m.
 
 class Obstacles {
  public:
@@ -153,8 +153,8 @@ class Obstacles {
 
   void add_to_world(btDiscreteDynamicsWorld& world);
   void remove_from_world(btDiscreteDynamicsWorld& world);
-  /// Moves kinematic obstacles to their positions at time t (s). Call it before each step with the step's end: Bullet
-  /// derives their speed from two successive positions.
+  /// Moves kinematic obstacles to their positions at time t (s). Call it before each step with the time at the step's
+  /// end: Bullet derives their speed from two successive positions.
   void place(double t);
   /// Reads positions at time t (s): centres of spheres, points of planes. Leaves the world unchanged.
   void read_places(double t, double margin, Readback::Places& places);

@@ -13,7 +13,7 @@ enum class Parity {
   match,          // equal within the engine's precision
   different_law,  // the engine models the ingredient by another law
   mismatch,       // the engine built another scene: no comparison
-  unattested,     // the engine does not report it
+  unattested,     // the engine does not report the quantity
 };
 std::string_view name_of(Parity parity);
 

@@ -98,7 +98,7 @@ void certify_forces(const Scene& scene, const Readback& r, CertificateWriter& w)
     else
       compare("bending", requested, *bending, r.probe->bending,
               std::ranges::count_if(bending->list, [&](const Bending::Stencil& s) {
-                // flat up to a millionth of the distance between neighbours
+                // the stencil is flat up to a millionth of the distance between neighbours
                 return bent(s, probed.x).norm() <=
                        1e-6 * (probed.x.col(s.particle[0]) - probed.x.col(s.particle[1])).norm();
               }));
@@ -215,7 +215,8 @@ void certify_planes(const Scene& scene, const Readback& r, CertificateWriter& w)
   }
 }
 
-/// Compares both winds by the forces that the engine computed at a known state with particles at rest.
+/// Compares acceleration by wind and aerodynamic force by the forces that the engine computed at a known state with
+/// particles at rest.
 void certify_wind(const Scene& scene, const Readback& r, CertificateWriter& w) {
   const auto* wind = scene.model.find<Wind>();
   const auto* air = scene.model.find<Aerodynamics>();

@@ -137,7 +137,7 @@ class Box3dWorld : public World {
   }
 
   const Scene& scene_;
-  Scene forced_;  // only the springs and dashpots applied as forces
+  Scene forced_;  // contains only the springs and dashpots that are applied as forces
   int substeps_;
   b3WorldId world_;
   std::vector<b3BodyId> bodies_;

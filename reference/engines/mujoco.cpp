@@ -215,7 +215,7 @@ class MujocoWorld : public World {
         d->qfrc_passive[dof(i) + k] += f_[i][k] - (joint_drag_ ? 0 : scene_.drag[i] * v_[i][k]);
   }
 
-  /// Balls and planes in the model: its first geoms, before those of particles.
+  /// Reads balls and planes from the model's first geoms, which precede those of particles.
   void read_surfaces(Readback& r) const {
     const mjModel& m = *model_;
     r.spheres.emplace(), r.planes.emplace();
@@ -265,7 +265,7 @@ class MujocoWorld : public World {
 
   static inline MujocoWorld* current_ = nullptr;  // MuJoCo's callbacks have no user pointer
   const Scene& scene_;
-  Scene called_;  // only the springs and dashpots applied by the callback
+  Scene called_;  // contains only the springs and dashpots that the callback applies
   std::string integrator_;
   bool tendons_ = true, joint_drag_ = true;
   std::vector<int> tendon_of_;                    // tendon of each spring; -1: applied by the callback

@@ -143,7 +143,7 @@ class OdeWorld : public World {
   }
 
   const Scene& scene_;
-  Scene forced_;  // only the springs and dashpots applied as forces
+  Scene forced_;  // contains only the springs and dashpots that are applied as forces
   int iterations_ = 20;
   dWorldID world_;
   dJointGroupID contacts_;

@@ -179,7 +179,7 @@ class SimbodyWorld : public World {
   }
 
   const Scene& scene_;
-  Scene called_;  // only the springs applied by the custom force
+  Scene called_;  // contains only the springs that the custom force applies
   std::string name_;
   long steps_ = 0;
   SimTK::MultibodySystem system_;

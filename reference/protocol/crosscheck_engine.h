@@ -448,7 +448,7 @@ inline void set_forces(const Scene& scene, const std::vector<Vec>& x, const std:
   add_wind(scene, t, f);
 }
 
-/// Options in the method's name, such as "n=4" and "springs=tendon". Each get() declares one.
+/// Options in the method's name, such as "n=4" and "springs=tendon". Each get() declares one option.
 class Options {
  public:
   explicit Options(const Scene& scene) : asked_(scene.options) {}
@@ -574,7 +574,8 @@ struct RunReport {
 };
 
 /// A state that shows the force laws: the start, stretched about the origin by a tenth or more until no spring is
-/// within a hundredth of its rest length. It grows, so that dashpots act too, and is bent if the scene has bending.
+/// within a hundredth of its rest length. Its velocities point outwards, so that dashpots act too, and it is bent if
+/// the scene has bending.
 inline Probe probe_state(const Scene& scene) {
   const double bend = scene.bending.empty() ? 0 : 0.1 / scene.json["size"].number();  // 1/m
   for (int tenths = 11;; ++tenths) {
@@ -749,7 +750,7 @@ struct World {
   virtual ~World() = default;
   /// Advances from t to t + scene.step (s), including prescribed motions. An exception ends the run.
   virtual void step(double t) = 0;
-  /// Copies positions (m) and velocities (m/s) in the scene's order; both vectors have their size.
+  /// Copies positions (m) and velocities (m/s) in the scene's order; both vectors already have the right size.
   virtual void read(std::vector<Vec>& x, std::vector<Vec>& v) = 0;
   /// Completes the report: `engine`, counts, differing laws, and the read-back from the engine's own data, at least
   /// `mass`, `pinned` and `links`. Times, steps, `start`, and the pins of `later`, as returned by read(), are already

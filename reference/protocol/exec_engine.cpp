@@ -72,7 +72,7 @@ class Server {
         const JsonField told = JsonField::parse(answer.line, "the server's answer");
         end.status = told["status"].whole_number(0, 255);
         if (const auto reason = told.find("reason"); reason && end.status != 0) end.err = reason->text();
-        if (end.status != 0 && end.status != 3) process_.reset();  // the process may end, with damaged state
+        if (end.status != 0 && end.status != 3) process_.reset();  // a failed process may be ending or damaged
         return end;
       }
     } catch (const InputError&) {

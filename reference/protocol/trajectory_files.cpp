@@ -17,7 +17,7 @@ std::string npy_header(long frames, long particles) {
   std::string header =
       fmt::format("{{'descr': '<f8', 'fortran_order': False, 'shape': ({}, {}, 3), }}", frames, particles);
   // Magic (6), version (2), length (2), header and newline fill a multiple of 64 bytes. The total is 128: the words
-  // alone exceed 64, and 57 digits of the numbers fit.
+  // alone exceed 64, which leaves room for 57 digits.
   header.resize((10 + header.size() + 1 + 63) / 64 * 64 - 10 - 1, ' ');
   header += '\n';
   std::string out("\x93NUMPY\x01\x00", 8);

@@ -143,7 +143,7 @@ bool few_particles(const Scene& scene) { return scene.model.particles.size() < 5
 double first_step(const Scene& scene, bool constrained) {
   // rk4 is accurate well below h omega = 0.7 and stable up to 2.83: the first run is at 1.4 or less
   const double omega = scene.model.first_order() ? 0 : highest_frequency(scene.model, scene.start);
-  // few particles are cheap: refined until an order is visible; hard distances are expensive
+  // few particles are cheap, so their steps are short and show an order; hard distances are expensive
   const double part = constrained ? 1 : few_particles(scene) ? 16 : 4;
   return std::min(2 * scene.step / part, omega > 0 ? 1.4 / omega : scene.step);
 }
@@ -179,7 +179,7 @@ std::optional<RefinementStudy> refine_step(const Scene& scene, double h, int ord
     auto fine = at(h);
     if (!fine) return std::nullopt;
     const double before = std::exchange(change, largest_rms_distance(*middle, *fine));
-    // if halving no longer helps, only round-off or chaos is left; between events it helps irregularly
+    // if halving no longer helps, only round-off or chaos is left; with contact events, halving helps irregularly
     const bool helps = change <= before / 2 || order < 4;
     if (coarse && (change < enough || !helps || (order < 4 && i == most_halvings)))
       return RefinementStudy{how(1e3 * h),    h, std::exp2(order), std::move(*coarse), std::move(*middle),
@@ -359,7 +359,7 @@ std::optional<RefinementStudy> refine_events(const Scene& scene, const Run& run)
       const Outcome out = run_event_driven(scene, {scene.step, shorter.duration, shorter.samples, tolerance}, recorder);
       if (out.verdict == Verdict::ok) study.step = out.step;
     } catch (const Unsupported&) {
-      if (recorder.trajectory.frames() == 0) throw;  // the scene is refused; otherwise a later position
+      if (recorder.trajectory.frames() == 0) throw;  // no frame: the scene is refused; otherwise only a later state
     }
     *path = RoutePath{std::move(recorder.trajectory)};
     const int end = path->frames() - 1;

@@ -18,7 +18,7 @@ struct Truth {
   Trajectory trajectory;
   double error_bar;                // m, for the RMS position error at any sample
   std::vector<double> error_bars;  // m, up to each sample; empty if constant
-  // computed by the in-house contact rule: the distance of other rules is a difference, not an error
+  // computed by mysim's own contact rule: the distance of other rules is a difference, not an error
   bool under_contact_rule = false;
   double until = INFINITY;  // s, valid up to this time, at which the samples end
   // J, up to each sample: energy taken by contact (friction and impacts, minus the work of moving spheres) and its
@@ -28,7 +28,7 @@ struct Truth {
 
 /// Exact if the scene has a closed form (bar: round-off, 1e-15 x scene size x (1 + radians turned)). Otherwise
 /// converged on two independent routes (below), computed once and cached (cache.h). For other scenes with contact, only
-/// the limit of the in-house contact rule is known, for a limited time (below).
+/// the limit of mysim's own contact rule is known, for a limited time (below).
 std::optional<Truth> truth_of(const Scene& scene, const Run& run);
 
 // Without a closed form: two independent routes, each refined, and their difference.
@@ -41,10 +41,10 @@ std::optional<Truth> truth_of(const Scene& scene, const Run& run);
 /// packages.
 /// The trajectory is that of the first route at its last step. Its error bar, RMS over the particles, is the larger of
 /// two values: the first route's estimate, and the difference of the routes plus the second one's estimate. An estimate
-/// is three times the last refinement's difference over 2^p - 1, with the order p shown by the last two refinements, or
-/// the whole difference if they show none. Rounding is added: 1e-15 of the scene's size, or the random walk of one
-/// rounding per step. Returns nullopt if a route fails or the bar exceeds a hundredth of the motion: a less accurate
-/// result is no truth. The scene must be free of contact.
+/// is three times the last refinement's difference divided by 2^p - 1, with the order p shown by the last two
+/// refinements, or the whole difference if they show none. Rounding is added: 1e-15 of the scene's size, or the random
+/// walk of one rounding per step. Returns nullopt if a route fails or the bar exceeds a hundredth of the motion: a less
+/// accurate result is no truth. The scene must be free of contact.
 std::optional<Truth> converged_truth(const Scene& scene, const Run& run);
 
 // Contact of few particles: two independent routes, as long as both can be followed.
@@ -60,15 +60,15 @@ std::optional<Truth> event_truth(const Scene& scene, const Run& run);
 
 /// The path is that of mysim's leapfrog+events at the last of three steps: the scene's step (at most h omega = 1.4), a
 /// half and a quarter of it. It is compared with Moreau's time stepping on independent equations
-/// (truth/independent/time_stepping.cpp) at 1/8, 1/16 and 1/32. The latter is of order 1: the bar is the largest of the
-/// difference of the two, of its last change, and of the first route's estimate. The truth ends when the bar exceeds a
-/// third of the scene's tolerance or a hundredth of the motion: when the motion becomes sensitive, it is undecidable
-/// which of the two rules is right. It also ends with the scene's window. The energy taken by contact is the energy
-/// missing from the balance along the path; its bar is found in the same way. Returns nullopt if a route fails, if a
-/// particle touches two surfaces at once, or if the truth would end before or at the first touch.
+/// (truth/independent/time_stepping.cpp) at 1/8, 1/16 and 1/32 of that step. The latter is of order 1: the bar is the
+/// largest of the difference of the two, of its last change, and of the first route's estimate. The truth ends when the
+/// bar exceeds a third of the scene's tolerance or a hundredth of the motion: when the motion becomes sensitive, it is
+/// undecidable which of the two rules is right. It also ends with the scene's window. The energy taken by contact is
+/// the energy missing from the balance along the path; its bar is found in the same way. Returns nullopt if a route
+/// fails, if a particle touches two surfaces at once, or if the truth would end before or at the first touch.
 std::optional<Truth> time_stepping_truth(const Scene& scene, const Run& run);
 
-// Limit of the in-house contact rule as the step approaches 0.
+// Limit of mysim's own contact rule as the step approaches 0.
 
 /// mysim's leapfrog at 1/8, 1/16 and 1/32 of the scene's step. The result is valid as long as the last difference (RMS
 /// over the particles, largest so far) is at most 2/3 of the previous one, as for order 0.6 or more. With contact every

@@ -337,7 +337,7 @@ std::optional<ExactSolution> slide_over_ball(const Scene& scene) {
   const double speed = v.norm();
   if (!(g > 0) || !(speed > 0) || std::abs(d.norm() - radius) > 1e-12 * radius) return std::nullopt;
   const Vec3 up = -gravity->acceleration / g, n = d.normalized(), forward = v / speed;
-  // tangential, and in the plane of gravity
+  // the velocity must be tangential, and in the plane of gravity and the normal
   if (std::abs(forward.dot(n)) > 1e-14 || std::abs(up.dot(n.cross(forward))) > 1e-14) return std::nullopt;
   const double theta0 = std::atan2(-up.dot(forward), up.dot(n));
   if (!(speed * speed / radius < g * std::cos(theta0))) return std::nullopt;  // not in contact at all

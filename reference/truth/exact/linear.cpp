@@ -21,7 +21,7 @@ using Matrix8 = Eigen::Matrix<Complex, 8, 8>;
 using Vector8 = Eigen::Matrix<Complex, 8, 1>;
 constexpr Complex imaginary(0, 1);
 
-/// State at the start: u = u' = 0, and of the six functions only that with j = 0 is not 0, but 1.
+/// State at the start: u = u' = 0; of the six functions, that with j = 0 is 1, and the others are 0.
 Vector8 at_start() { return Vector8::Unit(2); }
 
 }  // namespace

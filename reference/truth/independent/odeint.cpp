@@ -110,7 +110,7 @@ class BulirschStoerWorld : public AdaptiveOdeintWorld {
  private:
   void integrate_to(double t, double t_next) {
     while (t < t_next) {
-      // a step that would leave a sliver goes all the way; a step that is cut short does not reduce the proposed one
+      // a step that would leave a sliver ends at t_next; a step that is cut short does not reduce the next proposal
       const bool last = t + 1.01 * h_ >= t_next;
       double h = last ? t_next - t : h_;
       const double tried = h;

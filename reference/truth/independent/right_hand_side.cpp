@@ -325,7 +325,7 @@ void RightHandSide::add_constraint_forces() {
     residual[i] = -d.dot(a) - u.squaredNorm();
     for (int j = 0; j <= i; ++j) {
       const HardDistance& s = hard_distances_[j];
-      // effect of a unit of force along s on the difference of r's ends
+      // effect of a unit force along rod s on the difference between the ends of rod r
       const double coupling =
           inverse_mass(r.a) * ((r.a == s.a) - (r.a == s.b)) - inverse_mass(r.b) * ((r.b == s.a) - (r.b == s.b));
       if (coupling != 0) matrix(i, j) = coupling * d.dot(difference(s));

@@ -41,7 +41,7 @@ struct Solid {
   double radius;                 // m, infinite for a half-space
   Vec3 up = Vec3::Zero();        // outward normal of a half-space
   double friction, restitution;  // mu, e
-  double size;                   // m, scale of heights above it: the radius, or the scene's size
+  double size;                   // m, scale of heights above the surface: the radius, or the scene's size
   std::optional<PrescribedMotion> motion = {};
   Vec3 drift = Vec3::Zero();  // m/s, constant velocity of a half-space
   Vec3 centre = start, velocity = drift, acceleration = Vec3::Zero();

@@ -123,10 +123,10 @@ Outcome run_arkode_order4(const Scene& scene, const Run& run, Observer& observer
   return run_table(ARKODE_ZONNEVELD_5_3_4, scene, run, observer);
 }
 
-// SUNDIALS CVODE: Adams' formulas of varying order, solved by Newton's method with GMRES on difference quotients. The
-// best combination found for CVODE on a cloth of 32 x 32 particles over 1 s: 2.6 s of CPU time for an error of 5e-6 m.
-// Adams' formulas with fixed-point iteration take 4.5 s for 1e-5 m, backward differentiation with GMRES 4.3 s for 3e-5
-// m.
+// SUNDIALS CVODE: Adams' formulas of varying order, solved by Newton's method with GMRES on difference quotients. On a
+// cloth of 32 x 32 particles over 1 s, this is the best combination found for CVODE: it needs 2.6 s of CPU time for an
+// error of 5e-6 m. Adams' formulas with fixed-point iteration take 4.5 s for 1e-5 m, backward differentiation with
+// GMRES 4.3 s for 3e-5 m.
 
 namespace {
 
