@@ -13,9 +13,9 @@ struct LimitEstimate {
   Trajectory path;
   std::vector<double> bar;  // m, up to each sample; infinite where nothing is known
 };
-/// For a fixed-step rule, the run at a quarter of the step. Let d1 be the difference between the whole and half the
-/// step, d2 that between half and a quarter of the step, and p the order (1 with contact). As long as d2 is at most
-/// 2^(1/2 - p) d1, the error is assumed to behave like C h^p. The limit is then within three times d2 / (2^p - 1)
+/// For a fixed-step rule, the best run is that at a quarter of the step. Let d1 be the difference between the whole and
+/// half the step, d2 that between half and a quarter of the step, and p the order (1 with contact). As long as d2 is at
+/// most 2^(1/2 - p) d1, the error is assumed to behave like C h^p. The limit is then within three times d2 / (2^p - 1)
 /// (Richardson's estimate, with the factor of the error bars of converged truths, reference/truth/truth.h), plus twice
 /// the rounding. For an adaptive rule without contact: the difference of two tolerances. For a truth: its error bar,
 /// which is a mean over the particles, times the square root of their number. Throws CannotBeAsked and RunFailed.

@@ -41,7 +41,7 @@ struct SceneDraft {
   std::vector<std::array<int, 2>> constraints;  // distances that keep their initial value
   SpringLaw law = SpringLaw::hooke;
   std::optional<Motion> pin_motion;
-  std::optional<double> rotation;  // rad/s; then there are only particles
+  std::optional<double> rotation;  // rad/s; a rotating scene contains only particles
   std::optional<Vec3> gravity;     // m/s^2
   std::optional<double> gamma;     // 1/s, drag over mass
   std::optional<Breeze> wind;

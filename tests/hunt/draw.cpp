@@ -55,7 +55,7 @@ class DraftMaker {
     draft.particles.push_back(p);
     return draft.size() - 1;
   }
-  /// `strain`: largest relative difference between initial and rest length.
+  /// Adds a spring. `strain`: largest relative difference between initial and rest length.
   void spring(int a, int b, double strain, double damping = 0, Family family = Family::single) {
     if (a == b || !joined_.insert(std::minmax(a, b)).second) return;
     SceneDraft::Link s{a, b, to_digits(units_.k() * random_.between(0.5, 2), 3), std::nullopt, 0, family};
