@@ -1,5 +1,5 @@
-// Bullet compared with mysim on small scenes: the explicit world, the implicit world, the position-based map and its
-// link law, refusals.
+// Bullet compared with mysim on small scenes: the explicit world, the implicit world, the position-based world with the
+// law of its links, and refused scenes.
 
 #include <Eigen/Dense>
 
@@ -46,7 +46,7 @@ TEST(BulletExplicit, IsSymplecticEulerOnSpringPendulumAndChain) {
 }
 
 TEST(BulletExplicit, IsSymplecticEulerOnASmallClothWithEveryIngredient) {
-  // three stiffnesses, wind, moving pins: our own force class
+  // three stiffnesses, wind, moving pins: Crosscheck's own force class
   EXPECT_LE(apart(small_cloth(), {1e-3, 1, 20}, own_force), identity);
 }
 
@@ -255,7 +255,7 @@ TEST(BulletImplicit, TightIsOneNewtonStepOfBackwardEuler) {
   for (const Case& c : cases()) {
     const double tight = distance_to_newton_step("bullet/deformable-implicit+tight", c.scene);
     fmt::print("{:24} {:.2g} m\n", c.name, tight);
-    // Required bound: both solve to round-off, 1e-15 m per step, whose growth drag and implicit steps damp.
+    // Required bound: both solvers leave round-off of 1e-15 m per step; drag and implicit steps damp its growth.
     EXPECT_LE(tight, 1e-12) << c.name;
   }
 }
@@ -272,7 +272,7 @@ TEST(BulletImplicit, DefaultToleranceCostsEightDigits) {
   }
 }
 
-/// The root with positive imaginary part of the recurrence y_{n+2} = p y_{n+1} - q y_n that fits best.
+/// Root with positive imaginary part of the recurrence y_{n+2} = p y_{n+1} - q y_n that fits `y` best.
 std::complex<double> root_of(const std::vector<double>& y) {
   Eigen::MatrixXd known(y.size() - 2, 2);
   Eigen::VectorXd next(y.size() - 2);

@@ -140,8 +140,8 @@ TEST(ContactEvents, ThirdApexIsExactAndEndlessBouncesEndInRest) {
       ASSERT_TRUE(exact);
       const double fall = std::sqrt(0.6 / g), apex = fall * (1 + 2 * e + 2 * e * e + e * e * e);
       const Trajectory t = with_events(rule, scene, 7e-3, apex, 30);
-      // Some roundings of 1.3 m and of the impact time at 2.4 m/s, in a few hundred steps. Newton's method of implicit
-      // rules may leave 1e-10 of the force m v / h at 2 m/s: 1e-10 g t^2 times v / (h g).
+      // Each of a few hundred steps adds some roundings of 1.3 m, and of the impact time at 2.4 m/s. Newton's method of
+      // implicit rules may leave 1e-10 of the force m v / h at 2 m/s: 1e-10 g t^2 times v / (h g).
       const double allowed = rule == "implicit-midpoint" ? 1e-7 : 1e-13 * 30;
       for (int i = 0; i < t.frames(); ++i) EXPECT_NEAR(t.x[i](1, 0), exact->at(t.t[i]).x(1, 0), allowed);
       EXPECT_NEAR(t.x.back()(1, 0) - 1, 0.3 * std::pow(e, 6), allowed);
@@ -212,7 +212,7 @@ TEST(EventDriven, IsWhatClosedFormsSay) {
     Recorder r;
     run_event_driven(scene, {1e-3, 1, 50, 1e-12}, r);
     for (int i = 0; i < r.trajectory.frames(); ++i)
-      // a tolerance of 1e-12 of some metres in each of a thousand steps
+      // each of a thousand steps may err by the tolerance, 1e-12 of some metres
       EXPECT_LT((r.trajectory.x[i] - exact->at(r.trajectory.t[i]).x).norm(), 1e-9) << name << ' ' << i;
   }
 }
@@ -322,7 +322,7 @@ TEST(EventTruth, BarsBesideMovingBallsAreThoseOfRoutesOfHighOrder) {
   for (int i = 0; i < path.trajectory.frames(); ++i) {
     const double t = path.trajectory.t[i], s = t - low;
     const double height = s < 0 ? 1 + displacement_at(away, t)[1] : from + v * s - g * s * s / 2;
-    EXPECT_NEAR(path.trajectory.x[i](1, 0), height, 1e-9) << t;  // differences of velocities over 2e-5 s
+    EXPECT_NEAR(path.trajectory.x[i](1, 0), height, 1e-9) << t;  // error of a root from differences over 2e-5 s
   }
   // a slide with friction, compared with the same route at a tighter tolerance
   for (const double friction : {0., 0.1, 0.3}) {

@@ -60,7 +60,7 @@ TEST(Bounces, KeepEnergyBetweenImpacts) {
       // the energy left is the initial one times a power of e^2
       const double e = i == 1 ? 0.5 : 0.9, impacts = std::log(energy / start) / std::log(e * e);
       if (i > 0 && energy > 1e-3) {
-        EXPECT_NEAR(impacts, std::round(impacts), 1e-9);  // a logarithm, to some ulps
+        EXPECT_NEAR(impacts, std::round(impacts), 1e-9);  // a logarithm, exact to some ulps
       }
     }
   }
@@ -143,7 +143,7 @@ TEST(FrictionHold, StaysWithinTheConeAndIsNotClaimedOutside) {
     const auto exact = exact_solution(scene);
     ASSERT_TRUE(exact) << more;
     EXPECT_EQ(exact->at(5).x, scene.start.x);
-    // a wind along the slope drives it out of the friction cone
+    // a wind along the slope drives the particle out of the friction cone
     EXPECT_FALSE(exact_solution(held(1.001, "[wind]\nacceleration = [0.1, 0, 0]\n")));
   }
   Scene moving = held(1.001);
@@ -166,7 +166,7 @@ TEST(FrictionHold, MysimHoldsIt) {
     // Each step puts the particle back on the surface to a few roundings of 1 m. Friction removes the rest of its
     // motion.
     EXPECT_LT(off(in, *exact_solution(in), method, 1e-3, 1), 1000 * 4 * eps) << method;
-    // outside the cone it moves by g (sin - mu cos) t^2 / 2 = g sin / 200
+    // outside the cone, the particle moves by g (sin - mu cos) t^2 / 2 = g sin / 200
     EXPECT_GT(off(out, *exact_solution(in), method, 1e-3, 1), 0.5 * 9.81 * 0.342 / 200) << method;
   }
 }

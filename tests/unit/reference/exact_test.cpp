@@ -156,7 +156,7 @@ TEST(Exact, IsClaimedOnlyWhereItHolds) {
     SCOPED_TRACE(c.name);
     EXPECT_FALSE(exact_solution(c.scene));
   }
-  EXPECT_TRUE(exact_solution(small_scene(spring_text("", -2.19))));  // 1.092 m from equilibrium: just below
+  EXPECT_TRUE(exact_solution(small_scene(spring_text("", -2.19))));  // 1.092 m from equilibrium: just short of it
 }
 
 TEST(Exact, TruthSaysItsTier) {

@@ -196,7 +196,7 @@ TEST(Integrators, OdeintsRungeKuttaIsMysims) {
     EXPECT_EQ(theirs.outcome.evaluations, 4 * theirs.outcome.steps);
     EXPECT_EQ(theirs.outcome.steps, ours.outcome.steps);
     EXPECT_EQ(ours.trajectory.t, theirs.trajectory.t);
-    // one rounding in each of some thousand steps, grown at most a hundredfold
+    // each of some thousand steps rounds once, and perturbations grow at most a hundredfold
     EXPECT_LT(sup_rms(ours.trajectory, theirs.trajectory), 1e-11);
   }
 }

@@ -74,7 +74,7 @@ struct LinearisedSolution {
 };
 
 /// Small motion of Hooke's springs under gravity, steady wind and one drag rate about an equilibrium (3 x n, m) near
-/// the initial state. Returns nothing if the positions are no equilibrium or an unstable one (an unstretched cloth has
+/// the initial state. Returns nullopt if the positions are no equilibrium or an unstable one (an unstretched cloth has
 /// no transverse stiffness, and a compressed one buckles), and for other scenes.
 ///
 /// Neglected terms start with the square of the amplitude a. A flat cloth that moves out of its plane is symmetric in

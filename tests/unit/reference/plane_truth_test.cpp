@@ -160,7 +160,7 @@ TEST(EventDriven, OnPlanesIsWhatClosedFormsSay) {
     }
     EXPECT_GT(r.trajectory.frames(), name.starts_with("corner") ? 0 : 50);
     for (int i = 0; i < r.trajectory.frames(); ++i)
-      // a tolerance of 1e-12 of some metres in each of a thousand steps
+      // each of a thousand steps may err by the tolerance, 1e-12 of some metres
       EXPECT_LT((r.trajectory.x[i] - exact->at(r.trajectory.t[i]).x).norm(), 1e-9) << i;
   }
 }

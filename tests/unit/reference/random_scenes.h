@@ -56,7 +56,7 @@ class SceneWriter {
   std::string text_;
 };
 
-/// Uniform in its logarithm, between low and high.
+/// Random number between `low` and `high`, uniform in its logarithm.
 inline double decades(Random& random, double low, double high) {
   return low * std::pow(high / low, random.between(0, 1));
 }

@@ -59,7 +59,7 @@ TEST_F(Cache, ReturnsTheSameBitsWithoutComputingAgain) {
   EXPECT_EQ(again->until, 0.25);
   EXPECT_EQ(again->contact, (std::vector{0., 2.}));
   EXPECT_EQ(again->contact_bars, (std::vector{0, 1e-3}));
-  // one file and its lock, no partial file
+  // one file and its lock, and no partial file
   EXPECT_EQ(std::distance(fs::directory_iterator(folder), {}), 2);
   EXPECT_TRUE(fs::exists(cache.file_of(scene, run).string() + ".lock"));
 }
