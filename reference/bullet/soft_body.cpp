@@ -259,7 +259,7 @@ void Obstacles::read_back(const btDiscreteDynamicsWorld& world, const btSoftBody
   readback.margin = body.getCollisionShape()->getMargin();
   readback.spheres.emplace(), readback.planes.emplace();
   const btCollisionObjectArray& objects = world.getCollisionObjectArray();
-  size_t known = 0;  // number of objects built here; objects beyond it are at their current positions
+  size_t known = 0;  // spheres and boxes so far; those beyond built_ were not built here
   for (int i = 0; i < objects.size(); ++i) {
     const auto* ball = dynamic_cast<const btSphereShape*>(objects[i]->getCollisionShape());
     const auto* box = dynamic_cast<const btBoxShape*>(objects[i]->getCollisionShape());

@@ -58,7 +58,7 @@ inline constexpr double sequential_limit = 0.03;
 
 /// An engine's numbers: a row of the table.
 struct EngineNumbers {
-  std::string_view name = {};        // of an engine that is no method here, e.g. "jolt"; empty: the methods' names
+  std::string_view name = {};        // an engine that is no method here, e.g. "jolt"; empty: the methods' names
   std::string_view title = {};       // for display
   std::string_view iterations = {};  // the engine's name for iterations; empty: not adjustable
   int usual_iterations = 1;

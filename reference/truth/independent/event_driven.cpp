@@ -2,8 +2,8 @@
 // right-hand side, interrupted at each impact, take-off, stop and slip. An independent route to the limit of mysim's
 // contact rules, none of which is called.
 //
-// Each free particle is in one of four modes. On a surface of radius R about c, let r = x - c, n = r / R, and a the
-// acceleration relative to c without the surface's force:
+// Each free particle is in one of four modes. On a surface of radius R about c, let r = x - c, n = r / R, and let `a`
+// be the acceleration relative to c without the surface's force:
 //   flies    r'' = a, until |r| = R
 //   slides   differentiating |r|^2 = R^2 twice gives r . r'' = -|r'|^2. The surface pushes with
 //            N = -a.n - |r'|^2 / R along n (R is infinite for a plane), and with mu N against the motion, until N = 0
@@ -11,8 +11,8 @@
 //            rest is shorter than any step. If friction would stop the particle within `shortest_slide`, and the
 //            force is parallel to the motion to a hundredth, the particle keeps its direction ("creeps"). This neglects
 //            a hundredth of |r'| at most
-//   sticks   r'' = 0, until the component of a along the surface exceeds mu N
-//   wedged   at rest between two fixed surfaces: a must lie between the planes of both, or the run is refused
+//   sticks   r'' = 0, until the component of `a` along the surface exceeds mu N
+//   wedged   at rest between two fixed surfaces: `a` must lie between the planes of both, or the run is refused
 // An impact reverses the normal speed u times e, and reduces the tangential speed by at most mu (1 + e) u. Rebounds
 // lower than `lowest_rebound` are ignored. Both limits are relative to the scene's size.
 
