@@ -73,8 +73,8 @@ TEST(Exact, SatisfiesTheEquationOfMotion) {
     const auto* drag = c.scene.model.find<Drag>();
     const double fastest = std::max(10.0, drag ? f.drag_rate().maxCoeff() : 0);  // 1/s; omega is at most 10
     const double dt = std::cbrt(eps) / fastest;
-    // Central differences: (rate dt)^2 from the third derivative and eps / dt from rounding, for positions up to 10 m.
-    // The errors of velocities are larger by a factor of the rate.
+    // Central differences err by (rate dt)^2 from the third derivative and by eps / dt from rounding, for positions up
+    // to 10 m. The errors of velocities are larger by a factor of the rate.
     const double tolerance = 10 * (std::pow(fastest * dt, 2) + eps / dt);
     for (int i = 1; i < 20; ++i) {
       State s = exact->at(0.05 * i), rate = s;
@@ -156,7 +156,7 @@ TEST(Exact, IsClaimedOnlyWhereItHolds) {
     SCOPED_TRACE(c.name);
     EXPECT_FALSE(exact_solution(c.scene));
   }
-  EXPECT_TRUE(exact_solution(small_scene(spring_text("", -2.19))));  // 1.092 m from equilibrium: just short of it
+  EXPECT_TRUE(exact_solution(small_scene(spring_text("", -2.19))));  // 1.092 m from equilibrium: short of the anchor
 }
 
 TEST(Exact, TruthSaysItsTier) {
@@ -184,7 +184,8 @@ TEST(RigidPendulum, PeriodAgainstKnownValues) {
   EXPECT_NEAR(rigid_pendulum_period(1, 9.81, 0.1) / small, 1 + 0.01 / 16 + 11e-4 / 3072, 3e-10);
 }
 
-/// Mean period of the first swings of the shipped pendulum with another stiffness, by passages of the vertical.
+/// Mean period of the first swings of the shipped pendulum with a different stiffness, from its passages through the
+/// vertical.
 double swing_period(double stiffness) {
   Scene scene = shipped_scene("pendulum");
   for (Term& term : scene.model.terms)
@@ -384,7 +385,7 @@ TEST(Linearised, AgreesWithTheExactModesOfAStretchedChain) {
   const auto motion = linearised_solution(scene, resting.start.x);
   const auto exact = exact_solution(scene);
   ASSERT_TRUE(motion && exact);
-  // 60 rad/s for 2 s, from eigenvalues with rounding errors of some eps of the largest
+  // phases reach 120 rad (60 rad/s for 2 s), and each frequency is rounded by some eps of the largest eigenvalue
   for (double t = 0; t < 2; t += 0.1) EXPECT_LT((motion->at(t).x - exact->at(t).x).norm(), 1e-12) << t;
 }
 

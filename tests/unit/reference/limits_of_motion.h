@@ -77,9 +77,9 @@ struct LinearisedSolution {
 /// the initial state. Returns nullopt if the positions are no equilibrium or an unstable one (an unstretched cloth has
 /// no transverse stiffness, and a compressed one buckles), and for other scenes.
 ///
-/// Neglected terms start with the square of the amplitude a. A flat cloth that moves out of its plane is symmetric in
-/// up and down: out of the plane, the deviation divided by a decreases as a^2; in the plane, where nothing moves to
-/// first order, it decreases as a. Motion in the plane has a relative error of first order in a.
+/// Neglected terms start with the square of the amplitude `a`. A flat cloth that moves out of its plane is symmetric in
+/// up and down: out of the plane, the deviation divided by `a` decreases as a^2; in the plane, where nothing moves to
+/// first order, it decreases as `a`. Motion in the plane has a relative error of first order in `a`.
 /// Example: a cloth of 6 x 6 particles, held along its edge of 1 m, stretched by a tenth and released in its first
 /// bump, deviates by 1 % within three periods from an amplitude of 11 mm out of the plane, or 8.8 mm in it.
 inline std::optional<LinearisedSolution> linearised_solution(const Scene& scene, const Points& equilibrium) {

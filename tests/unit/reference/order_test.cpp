@@ -81,8 +81,8 @@ TEST(Adaptive, ErrorFollowsTheToleranceOverSixDecades) {
   for (const auto name : {"pendulum", "chain"}) {
     const Scene scene = with_drag(without_drag(shipped_scene(name)), 1);
     const int samples = 20;
-    // At least 1700 steps per period of the fastest spring: an error of (2 pi / 1700)^4 / 120 times a vibration of 0.01
-    // m per radian, 3e-12 m in 180 radians.
+    // The truth has at least 1700 steps per period of the fastest spring. Per radian, it errs by (2 pi / 1700)^4 / 120
+    // of a vibration of 0.01 m: by 3e-12 m in 180 radians.
     const Trajectory truth = trajectory_of(stepper("rk4"), scene, {2e-5, 1, samples});
     for (const Stepper& s : adaptive_steppers()) {
       double before = INFINITY, first = 0, last = 0;
@@ -218,8 +218,9 @@ TEST(Adaptive, EveryContactOnTheWayToAStateIsInTheLedger) {
       // Without other losses, the imbalance is the error of a few hundred steps, plus the error of the contact rule.
       // Each step's error is below the tolerance times the 20 J that the fall converts.
       // In each step the contact rule moves a particle back by a h^2 / 2, where a = g cos theta - v^2 / R presses it
-      // on, and takes m (a h)^2 / 2. This is too little by m h^2 a (v^2 / R) / 2. On the way down from rest a v^2 / R
-      // is at most g^2 / 6: g^2 h / 6 for two kilograms in a second.
+      // on, and takes the energy m (a h)^2 / 2, which is too little by m h^2 a (v^2 / R) / 2. On the way down from
+      // rest, the product of `a` and v^2 / R is at most g^2 / 6, so for two kilograms g^2 h / 6 is missing after a
+      // second.
       const double rule = 9.81 * 9.81 / 6 * out.step;
       fmt::print("{} tolerance {:.0e}: contact took {:.4g} J, open {:.2g} J, the rule's {:.2g} J\n", s.name, tolerance,
                  rows.back().contact, rows.back().balance() - rows.front().balance(), rule);

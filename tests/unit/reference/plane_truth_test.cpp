@@ -177,8 +177,8 @@ TEST(ContactEvents, OnFixedPlanesUnderConstantForcesMakesRoundingsOnly) {
         double worst = 0;
         for (int i = 0; i < r.trajectory.frames(); ++i)
           worst = std::max(worst, (r.trajectory.x[i] - exact->at(r.trajectory.t[i]).x).norm());
-        // Rebounds within a step are ignored: for e = 0.5 to 0.9 a height of g h^2 / 8 and its friction. Implicit rules
-        // may leave 1e-10 of the force m v / h.
+        // Rebounds within a step are ignored. For e = 0.5 to 0.9 this neglects a height of g h^2 / 8 and the friction
+        // of these rebounds. Implicit rules may leave 1e-10 of the force m v / h.
         const bool ends_in_rest = contains(name, "bounces") || contains(name, "returns") || name == "lift";
         EXPECT_LT(worst, 1e-11 + (ends_in_rest ? g * h * h : 0) + (std::string(rule) == "leapfrog" ? 0 : 1e-6));
       }
