@@ -22,7 +22,7 @@ int run(int argc, char** argv) {
   return run_command_line(commands, argc, argv);
 }
 
-/// Command line that resumes an interrupted command; empty if the command starts over.
+/// Command line that resumes an interrupted command; empty if the command must start over.
 std::string resumption(std::vector<std::string> words) {
   const auto given = [&](const char* word) { return std::find(words.begin(), words.end(), word) != words.end(); };
   const std::string command = words.size() > 1 ? words[1] : "";

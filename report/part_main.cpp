@@ -1,5 +1,5 @@
-// A program with only some of crosscheck's commands, which builds faster. CMakeLists.txt lists them: `report` and
-// related commands for crosscheck_report, `run` and `validate` for crosscheck_run.
+// A program with only some of crosscheck's commands, so that it builds faster. CMakeLists.txt lists the commands:
+// `report` and related ones for crosscheck_report, `run` and `validate` for crosscheck_run.
 
 #include "mysim/base/errors.h"
 #include "mysim/base/this_process.h"

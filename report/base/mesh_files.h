@@ -19,13 +19,13 @@ struct Shape {
 };
 Shape shape_of(const Scene& scene);
 
-/// Coordinates in metres, exact to the last bit. Indices count from 1, as the format requires.
+/// Wavefront OBJ file. Coordinates are in metres, exact to the last bit. Indices count from 1, as the format requires.
 std::string obj_bytes(const Points& x, const Shape& shape);
-/// Binary, little endian, double precision; lines are the element `edge`.
+/// Stanford PLY file (binary, little endian, double precision), in which the lines of the shape are elements `edge`.
 std::string ply_bytes(const Points& x, const Shape& shape);
 
-/// Ball around the origin: a pole, 31 rings of 64 vertices, the other pole. Triangles are counter-clockwise as seen
-/// from outside. The chords dip below the ball by 0.12 % of its radius.
+/// Mesh of a ball around the origin. Its vertices are a pole, 31 rings of 64 vertices, and the other pole. Triangles
+/// are counter-clockwise as seen from outside. The chords dip below the ball by 0.12 % of its radius.
 std::pair<Points, Shape> ball_mesh(double radius);
 
 /// Writes FOLDER/frame-0001.obj (or .ply) and so on, beginning with the initial state; vertices are particles. Writes

@@ -13,13 +13,13 @@ namespace fs = std::filesystem;
 namespace {
 
 struct AdviseOptions {
-  std::string scene, methods, tolerance;  // empty tolerance: only parameters are fitted
+  std::string scene, methods, tolerance;  // if the tolerance is empty, only parameters are fitted
   fs::path out = "out/advise";
   std::string command_line;
 };
 
-/// Size (m) of a scene's motion up to its window: that of its truth, otherwise that of its own method at its own step.
-/// Throws InputError if both are unknown.
+/// Size (m) of a scene's motion up to the end of its comparison window: from the truth if there is one, otherwise from
+/// the scene's own method and step. Throws InputError if neither is available.
 double motion_of_scene(const Scene& scene) {
   if (const auto truth = truth_of(scene, default_run(scene))) return motion_of(truth->trajectory);
   Recorder recorder;
@@ -262,7 +262,8 @@ int advise_command(const AdviseOptions& options) {
   try {
     return advised(options, folder);
   } catch (const CannotGuarantee& why) {
-    // finish() removes earlier advice, which could be mistaken for this one; keep it if it is the scene of this command
+    // finish() removes an earlier advice.toml, which could be mistaken for the new advice; keep that file if it is the
+    // scene of this command
     const fs::path old = options.out / "advice.toml", now = folder.path() / "advice.toml";
     if (!fs::exists(now) && fs::exists(old) && fs::exists(options.scene) && fs::equivalent(old, options.scene))
       fs::copy_file(old, now);

@@ -63,7 +63,7 @@ void choose_representatives(std::vector<BenchLine>& lines) {
   for (const BenchLine& line : lines)
     if (line.work == bench_work::springs && std::ranges::count(cloths, line.scene) == 0) cloths.push_back(line.scene);
   for (BenchLine& line : lines) {
-    // the plain loop is not a peer, and times of threads are not CPU times
+    // omit the plain loop, which is not a peer, and runs of two threads, whose times are not CPU times
     line.representative = line.best && line.work != bench_work::two_threads && !line.subject.starts_with("plain loop");
     if (line.work == bench_work::springs) line.representative &= line.scene == cloths[cloths.size() / 2];
     for (const BenchLine& other : lines)

@@ -15,9 +15,9 @@ struct BenchSuite;
 
 /// One comparison: merges all rows that differ only in mysim's instruction set.
 struct BenchLine {
-  std::string work, scene, subject;  // subject: the peer, or mysim's kernel compared with the naive loop
+  std::string work, scene, subject;  // subject: the peer, or mysim's kernel, which is compared with the naive loop
   std::string label;
-  std::string detail;  // times behind the ratio, for the best instruction set; or why there is no ratio
+  std::string detail;  // the two times of the ratio (best instruction set), or the reason why there is no ratio
   std::optional<Timing> best, baseline;  // ratios
   bool representative = true;            // shown in the figure
 
@@ -25,8 +25,9 @@ struct BenchLine {
   std::string heading() const;
 };
 
-/// One line per comparison, in the order of the rows. Of the shipped scenes, only the one with the smallest gain of the
-/// engine's own kernel is kept. The figure shows the kernels on the middle cloth, and each peer's best run.
+/// Returns one line per comparison, in the order of the rows. Of the shipped scenes, keeps only the one with the
+/// smallest gain of the engine's own kernel. The figure shows the kernels on the middle cloth, and each peer's best
+/// run.
 std::vector<BenchLine> bench_lines(const std::vector<BenchRow>& rows);
 
 /// CPU-time ratios of the representative lines: two markers each, for the best and the baseline instruction set.

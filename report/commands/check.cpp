@@ -41,7 +41,7 @@ struct CheckOptions {
   std::vector<std::string> words;
   std::string known, junit, out, relation;
   unsigned seed = 1;
-  std::string program;  // program for --protocol; empty: test relations
+  std::string program;  // argument of --protocol; if it is empty, the command tests relations
   bool json = false;
   std::string command_line;
 };
@@ -85,7 +85,8 @@ Json json_of(const std::vector<Answer>& answers) {
   return all;
 }
 
-/// One case per answer: failed if broken; skipped if the break is known, or the relation not applicable.
+/// JUnit XML with one test case per answer: failed if the relation is broken; skipped if the break is known, or the
+/// relation is not applicable.
 std::string junit_of(const std::vector<Answer>& answers) {
   std::vector<TestCase> cases;
   for (const Answer& a : answers)
@@ -97,7 +98,8 @@ std::string junit_of(const std::vector<Answer>& answers) {
   return junit_xml("check", cases);
 }
 
-/// Draws the run of each unknown break, at the time of the break or at the end. Omits breaks that cannot be drawn.
+/// Draws the run of each unknown break, at the time of the break or, if that is unknown, at the end. Omits breaks that
+/// cannot be drawn.
 std::vector<PageImage> draw_breaks(const std::vector<Answer>& answers, const std::vector<Method>& methods,
                                    const std::vector<Scene>& scenes, const std::filesystem::path& folder,
                                    ResumableOutput& output) {

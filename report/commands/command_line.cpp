@@ -10,7 +10,7 @@
 namespace crosscheck {
 namespace {
 
-/// Accepts a number or a fraction, with a unit of time if `times`, and passes it on as a plain number.
+/// Validator that accepts a number or a fraction, with a unit of time if `times` is true, and passes on a plain number.
 CLI::Validator number(bool zero_allowed, bool times) {
   const auto read = [times](const std::string& text) -> std::optional<double> {
     static const std::map<std::string, double> seconds = {{"s", 1},     {"ms", 1e-3}, {"us", 1e-6},
@@ -57,8 +57,8 @@ bool is_method(const std::string& word) {
   }
 }
 
-/// Throws InputError with the probable command line if a method or number is given where a scene is expected, and the
-/// command has an option for it.
+/// Throws InputError with the command line that was probably meant if a method or number is given where a scene is
+/// expected, and the command has an option for it.
 void require_words_in_place(const CLI::App& command, std::span<const std::string> words) {
   const auto named = [&](std::initializer_list<const char*> names) -> std::string {
     for (const char* name : names)

@@ -43,7 +43,7 @@ std::pair<CLI::App&, Options&> add_command(CLI::App& app, Invocation& call, cons
 }
 
 /// Splits a text into the number at its start, which may be a fraction such as 1/1000, and the rest without blanks.
-/// Nothing if it does not start with a number.
+/// Returns nullopt if the text does not start with a number.
 std::optional<std::pair<double, std::string>> number_and_rest(const std::string& text);
 
 /// Throws InputError if the -o argument is a folder or cannot be written.

@@ -21,7 +21,8 @@ struct Invocation {
 
 using AddCommand = void (*)(CLI::App&, Invocation&);
 
-/// Runs the command of a command line and returns its exit status. Throws InputError that suggests the nearest word.
+/// Runs the command of a command line and returns its exit status. For an unknown word, throws InputError that suggests
+/// the nearest known one.
 int run_command_line(std::span<const AddCommand> commands, int argc, char** argv);
 
 void add_doctor(CLI::App& app, Invocation& call);
@@ -59,7 +60,7 @@ struct ReportOptions {
   std::string methods;
   std::string engines = {};  // "all": every engine that `engine NAME` has built
   bool full = false;
-  std::vector<std::string> experiments = {};  // experiments with chapters; empty: all
+  std::vector<std::string> experiments = {};  // experiments that get a chapter; empty: all
   std::filesystem::path against = {};
   std::filesystem::path out = "out/report";
   std::string command_line;

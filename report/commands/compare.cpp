@@ -103,7 +103,8 @@ int compare_command(const CompareOptions& options) {
     Request shown = request;
     shown.methods = {with_progress(method, progress)};
     const Outcome& out = result_of(shown, scene, shown.methods[0], answers).outcome;
-    // differences need all runs; a comparison that is stopped keeps the runs so far
+    // write a table after each run, so that an interrupted comparison keeps its finished runs; their differences are
+    // computed after the last one
     add(so_far, EngineRow{scene.name, method.name, out.verdict, out.reason, out.end, out.step, out.steps,
                           out.evaluations, out.degenerate_springs});
     write_file(folder.growing(so_far.name + ".csv"), csv(so_far, lines));
@@ -116,7 +117,7 @@ int compare_command(const CompareOptions& options) {
     write_csv(table, lines, options.out);
   }
 
-  bool mismatch = false;  // a mismatch withholds the numbers of that engine only
+  bool mismatch = false;  // the numbers of the other engines are printed nevertheless
   for (const Certificate& certificate : result.certificates) {
     print(certificate, result.certificates.size() > 3);
     const std::string file = file_name_of("certificate-" + certificate.method) + ".json";

@@ -185,7 +185,7 @@ std::vector<Chart> charts_of(const std::vector<Scene>& scenes, const TableSet& r
   return charts;
 }
 
-/// Keeps the charts with these names (all if empty). Throws InputError that lists the valid names.
+/// Keeps the charts with these names; keeps all if no names are given. Throws InputError that lists the valid names.
 void keep_named(std::vector<Chart>& charts, const std::vector<std::string>& names) {
   if (names.empty()) return;
   std::vector<std::string> known;
@@ -197,7 +197,7 @@ void keep_named(std::vector<Chart>& charts, const std::vector<std::string>& name
   std::erase_if(charts, [&](const Chart& chart) { return std::ranges::count(names, figure_info(chart)->name) == 0; });
 }
 
-/// Draws charts in parallel, after `drawings`. Returns their entries of the catalogue.
+/// Draws charts in parallel, after `drawings`. Returns the charts' entries of the catalogue.
 std::vector<FigureInSet> draw_charts(std::vector<Chart>& charts, const FigureSize& size, const Provenance& lines,
                                      const std::filesystem::path& folder, const Store& store, Problems& problems,
                                      std::vector<Point> drawings = {}) {

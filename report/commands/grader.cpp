@@ -61,7 +61,7 @@ int grade_with_charts(std::vector<std::string> words, const fs::path& page) {
   for (const std::string& part : yours) options.methods += ",exec:steppers/" + part;
   options.command_line = "crosscheck " + shell_join({words.data(), words.size() - more.size()});
   options.out = fs::absolute(charts);
-  fs::current_path(folder.path());  // for short names of methods
+  fs::current_path(folder.path());  // so that the names of methods are short relative paths
   fmt::print("charts of {}, compared with mysim and Bullet\n", fmt::join(yours, ", "));
   return report_command(options, folder);
 }

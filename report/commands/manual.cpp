@@ -8,7 +8,7 @@
 namespace crosscheck {
 namespace {
 
-/// Kinds of names (as in `list KIND`) that complete a word; empty if there are none.
+/// Kinds of names (as in `list KIND`) that complete a word; empty if the word stands for no name.
 std::string kinds_of(const std::string& command, const std::string& word) {
   if (word == "SCENE" || word == "scenes") return "scenes";
   if (word == "METHOD") return "methods scenes";
@@ -18,8 +18,8 @@ std::string kinds_of(const std::string& command, const std::string& word) {
   return "";
 }
 
-/// All commands in the format of command_table(), with the kinds of their words. The grader's commands replace their
-/// bare names.
+/// All commands in the format of command_table(), with the kinds of names that complete their words. Describes the
+/// grader's commands fully, although they are registered by name only.
 Json all_commands(const CLI::App& app) {
   Json commands = Json::parse(command_table(app));
   const Json graders = Json::parse(grader_table());

@@ -54,7 +54,7 @@ Series offsets_of(const Trajectory& path) {
   return series;
 }
 
-/// The run as a result, for pictures; nothing if it was refused.
+/// The run as a result, for pictures; nullopt if the run was refused.
 std::optional<MethodResult> pictured(const Case& test_case, const CaseRun& case_run, const std::string& was_or_is) {
   if (case_run.trajectory.x.empty()) return std::nullopt;
   return MethodResult{test_case.scene.name, was_or_is + test_case.method.name, case_run.outcome, case_run.trajectory};
@@ -62,7 +62,7 @@ std::optional<MethodResult> pictured(const Case& test_case, const CaseRun& case_
 
 bool owns(const Case& q) { return q.without.empty() && q.method.name == find_method(q.scene.method).name; }
 
-/// Reads the old run from a baseline, at no more than eight times.
+/// Reads the old run from a baseline, which stores at most eight times.
 void beside_baseline(FailureDetails& e, const Regression& regression) {
   for (const double t : times_of(e.test_case)) {
     const Comparison *offset = e.find(offset_at(t)), *places = e.find(places_at(t));
@@ -80,7 +80,7 @@ void beside_baseline(FailureDetails& e, const Regression& regression) {
   e.old_result->trajectory.t = {shape->t}, e.old_result->trajectory.x = {shape->x};
 }
 
-/// Compares both runs at every sample. A sample has the tolerance of the next time that a baseline would store.
+/// Compares both runs at every sample. The tolerance of a sample is that of the next time that a baseline would store.
 void beside_other(FailureDetails& e, const Method& against) {
   Case old = e.test_case;
   old.method = against;
@@ -102,7 +102,7 @@ void beside_other(FailureDetails& e, const Method& against) {
   }
 }
 
-/// The curves are empty if the run was refused.
+/// The curves are empty if the method refused the run.
 FailureDetails failure_details(const Case& test_case, const std::vector<Comparison>& rows,
                                const Regression& regression) {
   FailureDetails e{test_case};

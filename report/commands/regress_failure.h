@@ -22,8 +22,8 @@ struct FailurePart {
 FailurePart drawn_failure(const Case& test_case, const std::vector<Comparison>& rows, const Regression& regression,
                           const Provenance& lines, std::vector<std::string>& problems);
 
-/// Selects at most `most` failed cases: first one per scene, preferably with its own method and all ingredients; then
-/// those with the largest deviations.
+/// Selects at most `most` failed cases: first one per scene, preferably with its own method and without removed
+/// ingredients; then those with the largest deviations.
 std::vector<Case> failures_to_draw(const std::vector<Case>& all, const std::vector<Comparison>& rows, int most);
 
 }  // namespace crosscheck

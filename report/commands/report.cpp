@@ -76,7 +76,7 @@ ReportOptions with_all_engines(ReportOptions options) {
   return options;
 }
 
-/// Computes each point in a process; returns failures.
+/// Computes the points in separate processes, and returns descriptions of failures.
 Workers workers_of(const Store& store) {
   return [&store, patience = LockPatience()](const std::vector<Point>& points) {
     std::vector<std::string> problems;
@@ -116,7 +116,7 @@ ReportData data_of_runs(const ReportOptions& options, Request& request, const fs
   }
   for (size_t i = pictures; i < points.size(); ++i) plan.points.push_back({points[i].name, points[i].hash()});
   data.problems = workers(points);
-  std::vector<std::string> missing;  // already listed as failed
+  std::vector<std::string> missing;  // points without a result; they are already among the problems
   data.rows = joined(plan, {&store, 1}, missing);
   for (const Certificate& c : data.rows.certificates)
     if (c.mismatch())
@@ -198,7 +198,7 @@ int report_command(const ReportOptions& options, OutputFolder& folder) {
     require_resources_to_keep(methods_of(request, scene), scene, run_of(request, scene));
   request.scenes_only = !options.scenes.empty() && !options.full;
   if (!options.against.empty()) {
-    changes_since(options.against, {});  // throws if `against` is no report, before the work begins
+    changes_since(options.against, {});  // called early, because it throws if `against` is not a report
     if (fs::weakly_canonical(options.against) == fs::weakly_canonical(options.out))
       throw InputError("--against: expected a folder other than that of --out, which is overwritten");
   }

@@ -78,7 +78,7 @@ int run_command(const RunOptions& options) {
   if (out.verdict == Verdict::ok)
     if (const std::string outlook = stability_warning(method, scene, out.step); !outlook.empty())
       out.remark += (out.remark.empty() ? "" : "; ") + outlook;
-  if (!ledger.rows().empty()) {  // empty if velocities are missing
+  if (!ledger.rows().empty()) {  // there are no energies if velocities are missing
     Table energy = table_of<SceneEnergyRow>("energy");
     add_ledger(energy, method.name, ledger.rows(), ledger.contact_inferred());
     write_csv(energy, with_scene(provenance(options.command_line), scene), folder.path());
@@ -87,7 +87,7 @@ int run_command(const RunOptions& options) {
   folder.finish();
   fmt::print("{} by {}: {}{}\n", scene.name, method.name, in_words(out.verdict),
              out.reason.empty() ? "" : ", " + out.reason);
-  // external programs may report no count: then it is 0
+  // an external program that does not report a count has 0 here
   const bool outside = out.process_seconds > 0;
   const auto counted = [&](long count, const char* what) {
     return count > 0 || !outside ? fmt::format("{} {}", count, what) : fmt::format("{} (number not reported)", what);

@@ -28,8 +28,8 @@ struct SceneSummary {
   std::optional<double> mass_per_area;  // kg/m^2, if the scene is a sheet
 };
 
-/// Mass / area of a sheet. Nothing for the closed surface of a block: its V particles have 2 V - 4 triangles, more than
-/// any sheet.
+/// Mass / area of a sheet. Returns nullopt for the closed surface of a block: its V particles have 2 V - 4 triangles,
+/// more than any sheet.
 std::optional<double> mass_per_area_of(const Scene& scene) {
   std::set<int> particles;
   double area = 0, mass = 0;
