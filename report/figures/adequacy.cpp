@@ -21,7 +21,7 @@ const MethodStyle scene_styles[] = {{"#0072B2", "1", 7},      {"#D55E00", "(6,3)
                                     {"#009E73", "(2,2)", 9},  {"#CC79A7", "(10,3,2,3)", 13},
                                     {"#E69F00", "(4,2)", 11}, {"#332288", "(12,3,3,3)", 12}};
 
-/// Curve of a column's positive values on a scene.
+/// Curve of a scene's positive values in a column, against the number of particles minus `cells_less`.
 Curve curve_over(const std::vector<GridRow>& rows, const std::string& scene, double cells_less,
                  OptionalNumber GridRow::*value, const MethodStyle& style) {
   Curve curve{scene, style, {}, true, true};
@@ -59,7 +59,7 @@ bool sag_runs_on(const std::vector<GridRow>& rows, const std::string& scene) {
 /// Describes for each scene how the motion converges to that of the finest grid.
 std::string motion_sentence(const std::vector<GridRow>& grids, const TableSet& rows, const std::vector<Curve>& curves) {
   std::vector<std::string> falls, others, unbounded;
-  size_t fewest = 4;  // fewer points only hint at a power
+  size_t fewest = 4;  // 4, because fewer points give only a hint of the power
   for (const Curve& c : curves) fewest = std::min(fewest, c.points.size());
   for (const Curve& c : curves)
     if (sag_runs_on(grids, c.title))
@@ -111,7 +111,7 @@ Chart grids(const std::vector<GridRow>& rows, const TableSet& tables, const std:
     style[scene] = own;
     Curve c = curve_over(rows, scene, 0, &GridRow::error, own);
     for (const auto& [n, error] : c.points) furthest = std::max(furthest, error);
-    // no points if the reference, the finest run, is missing
+    // without the finest run, which is the reference, there are no points
     if (!c.points.empty()) f.curves.push_back(std::move(c));
   }
   f.finding = motion_sentence(rows, tables, f.curves);
@@ -131,7 +131,7 @@ Chart grids(const std::vector<GridRow>& rows, const TableSet& tables, const std:
   return chart;
 }
 
-/// Stiffness that keeps sag and deflection constant on other grids; empty if neither was found.
+/// Stiffness that keeps sag and deflection constant on other grids; nullopt if no such stiffness was found.
 std::optional<Chart> scaling(const std::vector<GridRow>& rows, const TableSet& tables, const std::string& commit) {
   Figure f;
   f.y.low = 0.5;
@@ -248,7 +248,7 @@ Chart removal_chart(const std::vector<AdequacyRow>& rows, const std::string& sce
   return chart;
 }
 
-/// Adds the question of a scene without a card in the report.
+/// Adds the scene's question to a chart if the scene has no card in the report.
 void add_question(Chart& chart, const std::vector<Scene>& shown, const std::string& scene) {
   const auto shipped = shipped_scenes();
   if (std::ranges::none_of(shown, [&](const Scene& s) { return s.name == scene; }) &&
@@ -256,7 +256,7 @@ void add_question(Chart& chart, const std::vector<Scene>& shown, const std::stri
     chart.text = load_scene(scene).question + (chart.text.empty() ? "" : " ") + chart.text;
 }
 
-/// For scenes without a chart of their own, the removal with the smallest error.
+/// Table with the removal of smallest error for each scene that has no chart of its own.
 PageTable least_removals_of(const std::vector<AdequacyRow>& rows, const std::vector<std::string>& scenes) {
   PageTable page{"The removal with the smallest error", {"scene", "removed", "error", "error / motion"}, {}};
   for (const std::string& scene : scenes) {

@@ -58,7 +58,7 @@ Drawing drawing_of(const StackedBars& bars) {
 
 namespace {
 
-/// Position of a line. Headings, and the text next to 1, take lines of their own.
+/// Vertical position of a line, in lines. Each heading above it takes an extra line, as does the label `right_of_one`.
 double place_of(const DotPlot& dots, size_t line) {
   const auto above = std::count_if(dots.headings.begin(), dots.headings.end(),
                                    [&](const auto& heading) { return heading.first <= line; });
@@ -79,7 +79,7 @@ Table data_of(const DotPlot& dots) {
   return checked(std::move(table));
 }
 
-/// Moves series off the middle of their line, so that they do not hide each other.
+/// Offset of a series from the middle of its line, so that series do not hide each other.
 double offset_of(size_t series, size_t count) {
   return count < 2 ? 0 : 0.3 * (static_cast<double>(series) / static_cast<double>(count - 1) - 0.5);
 }

@@ -12,7 +12,7 @@ namespace crosscheck {
 /// A particle on balls and planes (contact_particle.cpp).
 std::vector<Chart> particle_charts(const TableSet& tables, const std::string& commit);
 
-/// Over step and stiffness, or step and drag: one map per scene and kind (stability_maps.cpp).
+/// One map per scene and kind, over step and stiffness or over step and drag (stability_maps.cpp).
 std::vector<Chart> map_charts(const std::vector<MapRow>& cells, const std::vector<MapLimitRow>& limits,
                               const std::string& commit);
 

@@ -148,7 +148,7 @@ Json series_json(const Curve& curve, const std::set<std::pair<double, double>>& 
   if (curve.line) json["line"] = true;
   add_dash(json, curve.style.dash);
   add_mark(json, curve.style.marker);
-  // a few marks that distinguish lines and do not stand for runs
+  // these marks are few, and only distinguish lines: they do not stand for runs
   if (curve.line && !curve.markers) json["few"] = true;
   const std::vector<size_t> kept = thinned(curve.points);
   Json points = Json::array(), open = Json::array(), tips = Json::array();

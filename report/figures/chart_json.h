@@ -8,8 +8,8 @@
 
 namespace crosscheck {
 
-/// Curves of more than 600 points are thinned: each stretch keeps its first, lowest, highest and last point. Null if
-/// the chart has no figure.
+/// JSON of a chart, or null if the chart has no figure. Curves of more than 600 points are thinned: each stretch keeps
+/// its first, lowest, highest and last point.
 Json chart_json(const Chart& chart);
 
 /// Appearance of each method on the page: short title, colour name (style.css), marker, and whether it is a main

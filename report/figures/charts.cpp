@@ -31,7 +31,7 @@ std::string builds_text(const std::vector<std::string>& methods) {
 
 namespace {
 
-/// Throws std::logic_error if the figure has no tier.
+/// Appends the figure's tier to its caption. Throws std::logic_error if the figure has no tier.
 void append_tier(Chart& chart) {
   std::visit(
       []<class F>(F& figure) {

@@ -16,7 +16,7 @@
 namespace crosscheck {
 
 /// Builds of the methods in a chart, given by name or as "ENGINE/": "mysim and odeint built here, Bullet by Debian for
-/// generic x86-64". Omits absent engines.
+/// generic x86-64". Omits engines without a method in the chart.
 std::string builds_text(const std::vector<std::string>& methods);
 
 /// Title of the points whose time is scaled from a part of the run. Figures ring the markers of these runs.
@@ -44,12 +44,13 @@ struct Snapshot {
     std::string method;
     Run run;
   };
-  std::string name;     // file name without ending
+  std::string name;     // file name without extension
   std::string caption;  // also the alternative text
   Scene scene;
   std::vector<Panel> panels;
   Shot shot;
-  /// Pictures at these times (s) instead of the shot's, each a file with its caption.
+  /// Times (s) with captions. If there are any, there is one picture, in a file of its own, for each of these times
+  /// instead of the shot's time.
   std::vector<std::pair<double, std::string>> moments = {};
 };
 
@@ -58,27 +59,27 @@ using AnyFigure = std::variant<Figure, StackedBars, DotPlot, HeatMap, StepLimits
 
 /// An element of a scene's card, of a chapter, or of the first screen.
 struct Chart {
-  std::string scene;  // scene with this card; empty: in a chapter, or on the first screen
+  std::string scene;  // scene whose card contains it; empty: it is in a chapter, or on the first screen
   AnyFigure figure;
   std::string chapter = {};  // id of the chapter (report/page/texts/)
   std::string text = {};     // above the figure
   std::string heading = {};  // empty: the figure's title
   std::vector<PageTable> tables = {};
   std::vector<Snapshot> snapshots = {};
-  bool shown = false;  // open in its chapter, not folded
+  bool shown = false;  // true: open in its chapter; false: folded
 };
 
-// Texts of figures, from texts.md: below "## NAME OF FIGURE" one line "WORD: text" each, with {values}. Words are
-// title, x and y ("log x" makes the axis logarithmic), caption, tier, finding, and, for its chart, chapter, heading and
-// text.
+// Texts of figures, from texts.md: below a heading "## NAME OF FIGURE" there is one line "WORD: text" per text, which
+// may contain {values}. Words are title, x and y ("log x" makes the axis logarithmic), caption, tier and finding; for
+// the figure's chart also chapter, heading and text.
 
 using fmt::literals::operator""_a;
 
-/// Text of a word with its values inserted; empty if the figure has no such text.
+/// A figure's text for `word` with its values inserted; empty if the figure has no such text.
 std::string filled_text(const std::string& key, const std::string& word, fmt::format_args values = {});
 Chart described_chart(const std::string& key, AnyFigure figure, fmt::format_args values);
-/// Chart of a figure. The figure's own texts replace those missing in texts.md. Without curves and failures, the chart
-/// keeps only its text, or else the caption.
+/// Chart of a figure. The figure's own texts replace those missing in texts.md. If the figure has neither curves nor
+/// failures, the chart keeps only its text, or else the caption.
 template <class... Values>
 Chart described(const std::string& key, AnyFigure figure, const Values&... values) {
   return described_chart(key, std::move(figure), fmt::make_format_args(values...));
@@ -99,7 +100,7 @@ std::vector<T> distinct(const std::vector<Row>& rows, T Row::*member) {
   return all;
 }
 
-/// Null if the chart has no figure.
+/// The common part of the chart's figure, or null if the chart has no figure.
 const FigureInfo* figure_info(const Chart& chart);
 /// Writes and draws the chart's figure, if it has one, like draw().
 void draw_figure(const Chart& chart, const Provenance& provenance, const std::filesystem::path& folder);
@@ -112,7 +113,7 @@ std::vector<std::string> methods_in(const Chart& chart);
 
 std::vector<Chart> scoreboard_charts(const ChartInput& input);  // error of every method on every scene
 std::vector<Chart> matrix_charts(const ChartInput& input);      // engines by questions
-std::vector<Chart> same_rule_charts(const ChartInput& input);   // differences between engines with the same rule
+std::vector<Chart> same_rule_charts(const ChartInput& input);   // differences between engines that use the same rule
 std::vector<Chart> error_charts(const ChartInput& input);       // over time, per scene with a truth
 std::vector<Chart> agreement_charts(const ChartInput& input);   // Bullet and the same rule of mysim, over time
 std::vector<Chart> contact_charts(const ChartInput& input);     // centres of mass, clearance, creep on a sphere
@@ -138,7 +139,7 @@ std::vector<std::pair<double, double>> points_of(const Table& table, const std::
 
 /// "Scene cloth-hang; step 500 µs; commit abc."
 std::string caption_of(const Scene& scene, const std::string& commit);
-/// Tiers of figures: the scene's truth with its error bar; another engine with the round-off bound.
+/// Texts for the tier of a figure: the scene's truth with its error bar, or another engine with the round-off bound.
 std::string tier_of(const SceneData& facts);
 std::string another_engine(const SceneData& facts);
 

@@ -19,7 +19,7 @@ namespace {
 /// Depth in %; round-off on the surface counts as zero.
 std::string depth_text(double percent) { return percent < 1e-9 ? "0" : nice(percent); }
 
-/// Penetration by method and time step; empty if nothing penetrates.
+/// Penetration by method and time step; nullopt if nothing penetrates.
 std::optional<Chart> depth_chart(const std::vector<PenetrationRow>& rows, const std::string& scene,
                                  const std::string& commit) {
   Figure f;
@@ -82,8 +82,8 @@ std::optional<Chart> depth_chart(const std::vector<PenetrationRow>& rows, const 
 
 bool is_step(double h, double step) { return std::abs(h / step - 1) < 1e-6; }
 
-/// Final state of a scene with a draped body, by method, at the step that all methods share; adaptive methods choose
-/// their steps.
+/// Final state of a scene with a draped body, for each method, at the step that all methods share; adaptive methods
+/// choose their steps.
 Chart ends_chart(const std::vector<DrapeRow>& rows, const std::string& scene) {
   const double step = usual_step(rows);
   PageTable page{fmt::format("{}: final state, at time steps of {}", scene, step_text(step)),
@@ -117,7 +117,7 @@ Chart drape_snapshot(const std::vector<DrapeRow>& rows) {
   s.name = "sphere-drop-aside";
   s.scene = drop_aside();
   Run run = default_run(s.scene);
-  // ends before the cloth leaves the picture
+  // the run ends before the cloth leaves the picture
   run.duration = 1.16, run.samples = 58;
   for (const std::string& method : representatives_in_contact())
     if (std::ranges::find(rows, method, &DrapeRow::method) != rows.end()) s.panels.push_back({method, run});
@@ -165,7 +165,7 @@ std::string still_sliding(const RunsOverTime& runs, double end) {
                          : fmt::format("Still above 1 mm/s at the end: {}.", joined(sliding));
 }
 
-/// Methods that deviate from mirror symmetry by a micrometre or more, and since when.
+/// Methods that deviate from mirror symmetry by a micrometre or more, each with the time of the first such deviation.
 std::string broken_symmetry(const RunsOverTime& runs) {
   std::vector<std::string> broken;
   double others = 0;

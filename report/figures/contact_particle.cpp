@@ -71,7 +71,7 @@ Chart cone_law(const std::vector<ConeRow>& rows, const std::vector<ConeRow>& pla
       f.curves.push_back({method, style_of(method), ball.points, false, true});
     if (flat.right < flat.all && method != sticky_sphere && !flat.points.empty()) {
       Curve curve{reader_name(method) + ", plane", style_of(method), flat.points, false, true, {}, method};
-      --curve.style.marker;  // the open form of the marker
+      --curve.style.marker;  // gnuplot's open marker precedes the filled one
       f.curves.push_back(std::move(curve));
     }
   }
@@ -93,7 +93,7 @@ Chart rebound_chart(const std::vector<ReboundRow>& rows, const std::string& comm
     Curve curve{method, style_of(method), {}, true, true};
     std::vector<std::string>& texts = page.rows.emplace_back(page.header.size());
     texts[0] = method;
-    // draw the run without restitution if the method refuses restitution
+    // if the method refuses restitution, draw its run without
     const bool refused = std::ranges::any_of(
         rows, [&](const ReboundRow& row) { return row.method == method && row.verdict == Verdict::unsupported; });
     for (const ReboundRow& row : rows | with(&ReboundRow::method, method)) {
@@ -124,12 +124,12 @@ std::optional<Chart> leaving_chart(const std::vector<LeavingRow>& rows, const st
                    "speed"_a = rows.back().speed_by_theory, "commit"_a = commit);
 }
 
-/// Error against step of a slide with friction that leaves the ball, with and without +events. Empty unless a method
-/// ran both ways.
+/// Error against step of a slide with friction that leaves the ball, with and without +events. Returns nullopt unless a
+/// method ran both ways.
 std::optional<Chart> contact_order_chart(const std::vector<ContactOrderRow>& all, const std::string& commit) {
   constexpr std::string_view events = "+events";
   Figure f;
-  std::map<bool, std::pair<double, double>> slopes;  // smallest and largest, with events
+  std::map<bool, std::pair<double, double>> slopes;  // smallest and largest; key: with events
   std::vector<ContactOrderRow> rows;
   std::ranges::copy(all | with(&ContactOrderRow::probe, "leaves with friction"), std::back_inserter(rows));
   for (const std::string& method : distinct(rows, &ContactOrderRow::method)) {

@@ -94,7 +94,7 @@ bool CurvePlot::place_beside(const std::string& words, const std::string& colour
                              const std::vector<std::vector<Place>>& paths, const std::vector<Place>& marks,
                              const std::vector<std::vector<Place>>& others) {
   const double width = width_of(words), half = 6.2;
-  double best = 60;  // cost above which a key is easier to read
+  double best = 60;  // at a higher cost, a key is easier to read
   std::optional<Rect> found;
   const auto attempt = [&](double left, double middle, double penalty) {
     const Rect r{left, left + width, middle - half, middle + half};
@@ -130,8 +130,8 @@ bool CurvePlot::place_beside(const std::string& words, const std::string& colour
   return true;
 }
 
-/// Places the remaining labels. Returns false if many curves end at the right, one of them found no room for its label,
-/// and there is no column of names yet.
+/// Places the remaining labels. Returns false if many curves end at the right, no free space was found for a label of
+/// one of them, and there is no column of names yet.
 bool CurvePlot::place_names() {
   const bool column = column_ > 0;
   std::vector<size_t> missing, order;
@@ -190,7 +190,7 @@ bool CurvePlot::place_names() {
   return true;
 }
 
-/// Names to the right of the plot, at the heights where their curves end, or pushed apart.
+/// Places names to the right of the plot, at the heights where their curves end, or pushed apart.
 void CurvePlot::column_of_names() {
   struct Entry {
     size_t part;
@@ -228,7 +228,7 @@ void CurvePlot::column_of_names() {
   }
 }
 
-/// Labels of straight lines and guides, where they cover nothing.
+/// Places labels of straight lines and guides where they cover nothing.
 void CurvePlot::place_lines() {
   const auto beside = [&](double y, const std::string& words, const MethodStyle& style, bool in_key) {
     if (y < box_.bottom || y > box_.top) return;
@@ -287,8 +287,8 @@ void CurvePlot::place_lines() {
   }
 }
 
-/// Explains the marks above the frame. A single kind of crosses is explained next to the last one of the top row, if
-/// there is room.
+/// Explains the marks above the frame. If there is only one kind of cross, explains it next to the last cross of the
+/// top row, if there is space.
 void CurvePlot::place_kinds() {
   for (const auto& [words, marker] : mark_meanings(f_, y_floor_))
     remarks_.push_back({words, KeyEntry::Kind::mark, {"#444444", "1", marker}});

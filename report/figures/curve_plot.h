@@ -30,13 +30,14 @@ struct NamedCurves {
 
 std::vector<NamedCurves> named_parts(const Figure& f);
 
-/// Ranges of both axes. `y_high` is below the strip of failures. Values below `y_floor` are drawn on the axis.
+/// Ranges of both axes. `y_high` lies below the strip where failed runs are drawn. Values below `y_floor` are drawn on
+/// the axis.
 struct PlotRange {
   double x_low, x_high, y_low, y_high, y_floor = -INFINITY;
 };
 PlotRange plot_range(const Figure& f, const std::vector<NamedCurves>& parts);
 
-/// True if the name is in the key, because scattered marks have no end for a label.
+/// True if the name is shown in the key, because scattered marks have no end at which a label could stand.
 bool named_in_key(const Figure& f, const std::vector<NamedCurves>& parts, const NamedCurves& part);
 
 std::string kind_of(const FailureMark& mark);
@@ -54,7 +55,7 @@ class CurvePlot {
     frame(0);
     fill_board();
     if (!place_names()) {
-      // put labels that found no room next to their curves into a column at the right
+      // put labels without space next to their curves into a column at the right
       double widest = 0;
       for (const size_t i : ending_right_) widest = std::max(widest, width_of(parts_[i].name));
       frame(widest + 24);
@@ -87,11 +88,12 @@ class CurvePlot {
                  at = scaled(f_.y, y_low_) + part * (scaled(f_.y, y_high_) - scaled(f_.y, y_low_));
     return f_.y.logarithmic ? std::pow(10, at) : at;
   }
-  /// Longer names are in the key.
+  /// True if the name is short enough for a label; longer names are in the key.
   bool is_short(const NamedCurves& part) const { return width_of(part.name) < 0.45 * wide_; }
 
-  /// Position of the marker that tells whose crosses these are without relying on colour: to their left, or to their
-  /// right if the frame is near. Nothing if only one entry has failures, or if it has no marker.
+  /// Position of a marker that identifies an entry's crosses without relying on colour: to the left of the crosses, or
+  /// to their right if the frame is near. Returns nullopt if only one entry has failures, or if the entry has no
+  /// marker.
   std::optional<Place> sign_of(const NamedCurves& part, size_t row) const;
   void assign_rows();
   void frame(double right_column);
@@ -117,10 +119,10 @@ class CurvePlot {
   size_t strip_ = 0;
   std::vector<Tick> x_ticks_, y_ticks_;
   int turned_ = 0;
-  double room_below_ = 0;  // for the tick labels
+  double room_below_ = 0;  // space for the tick labels
   double column_ = 0;      // width of the column of names; 0: none
   bool y_title_on_top_ = false;
-  Rect box_{};  // without the key below
+  Rect box_{};  // excludes the key below the plot
   std::optional<Board> board_;
   std::vector<Label> labels_;
   std::vector<KeyEntry> key_;
@@ -131,7 +133,7 @@ class CurvePlot {
     Place from, to;
     MethodStyle style;
   };
-  std::vector<Leader> leaders_;  // to the column of names
+  std::vector<Leader> leaders_;  // lines from curve ends to the column of names
 };
 
 }  // namespace crosscheck

@@ -47,8 +47,8 @@ std::string common_words(const std::string& a, const std::string& b) {
   return a.substr(0, last);
 }
 
-/// Priority for colours: curves that are not methods, representative and position-based methods, other methods of these
-/// engines, integrators, all others.
+/// Priority for colours: first curves that are not methods, then representative and position-based methods, other
+/// methods of these engines, integrators, and all others.
 int place_in_line(const NamedCurves& named) {
   const std::string method = method_named(named.title);
   if (method.empty()) return 0;
@@ -188,7 +188,7 @@ std::optional<Place> CurvePlot::sign_of(const NamedCurves& part, size_t row) con
   return Place{left - 11 > box_.left + 5 ? left - 11 : right + 11, y_of_row(row)};
 }
 
-/// Assigns the crosses to rows from the top; each row takes as many as fit.
+/// Assigns the crosses to rows from the top; each row takes as many crosses as fit.
 void CurvePlot::assign_rows() {
   rows_.clear();
   strip_ = 0;
@@ -270,7 +270,7 @@ void CurvePlot::frame_categories() {
     for (const Tick& t : x_ticks_)
       box_.left += std::max(0., 4 + std::cos(angle) * width_of(t.text) - place(t.at, y_low_).x);
 }
-/// The plot command; selects each curve's rows by name.
+/// Returns the plot command, which selects each curve's rows by name.
 std::string CurvePlot::elements() const {
   std::vector<std::string> parts;
   const auto rows = [&](const std::string& curve, const std::string& y) {

@@ -12,7 +12,7 @@
 namespace crosscheck {
 namespace {
 
-/// The method's own style, or a spare colour if it occurred before with other options.
+/// The method's own style, or a spare colour if the method occurred before with other options.
 MethodStyle style_after(int before, const std::string& method) {
   static constexpr std::pair<const char*, const char*> spare[] = {
       {"#E69F00", "(6,3)"}, {"#CC79A7", "(2,2)"}, {"#332288", "(10,3,2,3)"}, {"#999933", "(16,3,2,3)"}};
@@ -53,7 +53,7 @@ std::vector<Chart> disagreement_charts(const ChartInput& input) {
         f.failures.push_back({fmt::format("{}: {}", curve, failure_class(verdict)), own.style, own.points.back().first,
                               own.points.back().second});
     }
-    // removes the reference, and runs without a result, which are crosses
+    // removes the reference, and runs without a result, which are drawn as crosses
     std::erase_if(f.curves, [](const Curve& c) { return c.points.size() < 2; });
     charts.push_back(
         described("{name}-disagreement", std::move(f), "name"_a = row.name, "what"_a = row.what,

@@ -37,7 +37,7 @@ std::string length_text(const std::vector<EnergyRow>& runs) {
   return fmt::format("{:.4g} s, up to {} steps of {}", longest->end, longest->steps, step_text(longest->step));
 }
 
-/// Empty without dissipation and supplied energy.
+/// Chart of the energy budget; nullopt if energy is neither dissipated nor supplied.
 std::optional<Chart> budget_chart(const std::vector<EnergyRow>& runs, const std::string& commit) {
   const std::string& scene = runs[0].scene;
   StackedBars bars;
@@ -83,8 +83,8 @@ Chart drift_chart(const std::vector<EnergyRow>& runs, const Table& ledger, const
   Figure f;
   f.y.high = 3;
   double lowest = 1;
-  std::vector<std::string> absent;                                        // runs without a curve, with the reason
-  std::vector<std::pair<std::string, std::vector<std::string>>> classes;  // kind of residual; its methods
+  std::vector<std::string> absent;                                        // runs that have no curve, with the reason
+  std::vector<std::pair<std::string, std::vector<std::string>>> classes;  // class of the residual, and its methods
   for (const EnergyRow& run : runs) {
     const std::string name = name_in_sentence(run.method);
     const double turned = run.turned_over.value_or(0);
@@ -112,7 +112,7 @@ Chart drift_chart(const std::vector<EnergyRow>& runs, const Table& ledger, const
   f.y.low = std::pow(10, std::floor(std::log10(lowest)));
   for (const auto& [what, methods] : classes)
     f.finding += fmt::format("{}{}: {}.", f.finding.empty() ? "" : " ", capital(what), joined(methods));
-  // at rest, and for engines without closure of the budget
+  // there are no curves at rest, and none for engines that do not close the budget
   if (f.curves.empty()) f.failures.clear();
   return described("{scene}-energy-drift", std::move(f), "scene"_a = runs[0].scene, "length"_a = length_text(runs),
                    "absent"_a = absent.empty() ? "" : fmt::format(" Not drawn: {}.", joined(absent)),
@@ -122,10 +122,10 @@ Chart drift_chart(const std::vector<EnergyRow>& runs, const Table& ledger, const
 Chart damping_chart(const std::vector<DampingRow>& rows, const std::string& commit) {
   Figure f;
   f.y.low = 1e-9, f.y.high = 3;
-  constexpr double omega = 10;  // rad/s, the table's oscillator
+  constexpr double omega = 10;  // rad/s, the oscillator of the table
   double worst = 0;
   size_t checked = 0;
-  std::vector<std::string> damped;  // methods that damp: in theory, and as measured
+  std::vector<std::string> damped;  // methods that damp in theory, in the order of the table
   std::vector<std::pair<double, double>> implicit_euler, rk4;
   for (int i = 0; i <= 240; ++i) {
     const double y = 0.01 * std::pow(500, i / 240.);

@@ -30,8 +30,8 @@ double order_at_end(const Curve& curve) {
   return std::log(before / after) / std::log(fine / coarse);
 }
 
-/// Curves of other loads would coincide: draws the lightest, a middle and the heaviest, and the largest load at the
-/// tip.
+/// True for the lightest, a middle and the heaviest load, and for the largest load at the tip. Curves of other loads
+/// would coincide with these.
 bool is_drawn(const CantileverRow& row) {
   return row.tip_load > 0 ? row.tip_load == 5 : row.gamma == 0.1 || row.gamma == 5 || row.gamma == 50;
 }
@@ -131,7 +131,7 @@ Chart drape(const std::vector<DrapedDiscRow>& rows, const std::vector<DrapedPart
   for (int nodes = 4; nodes < 10; ++nodes) f.categories.emplace_back(nodes, std::to_string(nodes));
   f.y.low = 64, f.y.high = 80;
   f.floor = {"cotton, measured", 68.4};
-  // on the finest grid, with the first row's shear stiffness
+  // the row with the finest grid and the first row's shear stiffness
   const DrapedDiscRow& lowest = *std::find_if(
       rows.rbegin(), rows.rend(), [&](const DrapedDiscRow& row) { return row.shear == rows.front().shear; });
   double least = INFINITY, most = 0, before = 0, sheared = 0;

@@ -32,7 +32,7 @@ std::vector<Terminal> terminals_of(const FigureInfo& figure, double height) {
   return {{fmt::format("svg size {:.0f},{:.0f} dynamic font \"DejaVu Sans,12\" background \"#FFFFFF\" name {}", wide,
                        height, single_quoted(svg_name)),
            ".svg"},
-          // 12 is scaled to the figure's font size, and 0.75 makes gnuplot's points those of the page
+          // font size 12 is scaled to the figure's, and the factor 0.75 makes gnuplot's points as large as the page's
           {fmt::format("pdfcairo size {:.4g}cm,{:.4g}cm font \"DejaVu Sans,12\" fontscale {:.4g} linewidth {:.3g} "
                        "pointscale {:.3g}",
                        figure.size.width, figure.size.width * height / wide, 0.75 * figure.size.font / 12,
@@ -77,7 +77,7 @@ struct StyleOfMethod {
   CurveStyle style;
 };
 
-// Other built-in methods have spare styles.
+// Other built-in methods get spare styles.
 constexpr StyleOfMethod styles[] = {
     {"mysim/explicit-euler", {"#C0609A", "(10,3,2,3)", 15}},
     {"mysim/trapezoidal", {"#B87A00", "(2,2)", 11}},
@@ -101,7 +101,7 @@ constexpr StyleOfMethod styles[] = {
     {"sundials/cvode", {"#7A6A4A", "(4,2,2,2)", 13}},
 };
 
-// for external programs and methods without a row
+// styles of external programs, and of methods without a row above
 constexpr CurveStyle spare_styles[] = {{"#3F5F78", "(8,2,2,2,2,2)", 3},
                                        {"#AA3377", "(6,2,2,2)", 10},
                                        {"#117733", "(10,2,4,2)", 8},
@@ -136,7 +136,7 @@ MethodStyle style_of(const std::string& method) {
   }
   unsigned sum = 0;
   for (char c : method) sum = 31 * sum + static_cast<unsigned char>(c);
-  // programs of equal colour differ in dash or marker
+  // two programs of the same colour differ in dash or marker
   constexpr size_t n = std::size(spare_styles);
   return styled({spare_styles[sum % n].colour, spare_styles[sum / n % n].dash, spare_styles[sum / n / n % n].marker});
 }

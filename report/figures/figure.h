@@ -19,24 +19,24 @@ struct MethodStyle {
   int marker;          // gnuplot point type
 };
 MethodStyle style_of(const std::string& method);
-/// Style of built-in methods that have none of their own; `place` counts from 0. Other methods never have it.
+/// Style number `place`, counted from 0, for built-in methods that have no style of their own. No other method gets it.
 MethodStyle spare_style(size_t place);
 
 struct Tooltip {
-  std::string words;     // shown under the pointer
-  std::string run = {};  // run that a click plays (FigureInfo::runs): "METHOD INDEX", the index among the method's runs
+  std::string words;     // shown when the pointer is on the marker
+  std::string run = {};  // run that a click plays: "METHOD INDEX", the index among the method's runs
 };
 
 inline constexpr int no_marker = 0;  // gnuplot's dot
 
 struct Curve {
   std::string title;  // in the key
-  MethodStyle style;  // no_marker: a reference, not a method
+  MethodStyle style;  // no_marker: the curve is a reference, not a method
   std::vector<std::pair<double, double>> points;
   bool line = true;
-  bool markers = false;                // on every point; otherwise on a few
+  bool markers = false;                // true: a marker on every point; false: a few markers
   std::vector<Tooltip> tooltips = {};  // one per marker
-  std::string method = {};             // gives the colour on the page if the title names no method
+  std::string method = {};             // the method whose colour the page uses if the title names no method
 };
 
 /// A failed run, drawn as a cross.
@@ -55,15 +55,15 @@ struct Axis {
   std::optional<double> low = {}, high = {};
 };
 
-/// The layout depends on width / font.
+/// Size of a printed figure. The layout depends only on width / font.
 struct FigureSize {
   double width = 17;   // cm
   double font = 8.5;   // pt, on paper
-  bool titled = true;  // false: the title is in the caption
+  bool titled = true;  // false: the caption contains the title
   /// Width in units of 1/12 of the font size.
   double units() const { return width / 2.54 * 72 * 12 / font; }
 };
-/// 300, or less above 30 cm, because posters are viewed from a distance.
+/// Resolution: 300, or less for figures wider than 30 cm, because posters are viewed from a distance.
 double pixels_per_inch(const FigureSize& size);
 
 struct FigureInfo {
@@ -74,7 +74,7 @@ struct FigureInfo {
   std::string finding;      // a sentence, also the alternative text
   bool from_costs = false;  // drawn from timings, which differ in every run
   FigureSize size = {};
-  std::string runs = {};  // set of runs that its markers or cells play
+  std::string runs = {};  // the set of runs that the figure's markers or cells play
 };
 
 struct Guide {
@@ -90,23 +90,23 @@ struct OnPage {
     std::string name, more;
   };
   std::optional<Take> take;  // recommended run, drawn with a ring
-  bool flat = false;         // less high, for charts next to pictures
+  bool flat = false;         // lower, for charts next to pictures
 };
 
 struct Figure : FigureInfo {
   Axis x, y;
   std::vector<Curve> curves;
   std::vector<FailureMark> failures;
-  std::vector<std::pair<double, double>> pareto;           // stairs beneath the curves, from left to right
+  std::vector<std::pair<double, double>> pareto;           // drawn as stairs beneath the curves, from left to right
   std::optional<std::pair<std::string, double>> floor;     // horizontal line: name, y
-  std::optional<std::pair<double, std::string>> window;    // beyond this x the plot is grey; label
+  std::optional<std::pair<double, std::string>> window;    // the plot is grey beyond this x; label
   std::vector<std::pair<double, std::string>> categories;  // tick labels on x
   std::vector<Guide> guides;
   std::optional<double> cut;  // lower values are drawn on the axis
   OnPage on_page = {};
 };
 
-/// Data, and the script that draws NAME.svg, NAME.pdf and NAME.png from NAME.csv.
+/// Data, and a script that draws NAME.svg, NAME.pdf and NAME.png from NAME.csv.
 struct Drawing {
   std::string name;
   Table data;
@@ -154,7 +154,7 @@ struct DotPlot : FigureInfo {
   };
   std::string label;
   std::vector<std::string> names;  // from the top
-  /// Each above the line with that index.
+  /// Each heading is above the line with its index.
   std::vector<std::pair<size_t, std::string>> headings;
   std::vector<Series> series;
   std::string right_of_one = {};  // meaning of values above 1

@@ -46,7 +46,7 @@ FigureSize figure_size(const std::string& set, const std::string& width) {
 }
 
 std::string latex(const std::string& text) {
-  // each line is "CHARACTER LATEX"
+  // each line of the file is "CHARACTER LATEX"
   static const std::vector<std::string> table = split(asset("figures/latex.txt"), '\n');
   std::string out;
   for (size_t i = 0; i < text.size();) {

@@ -19,7 +19,7 @@ FigureSize figure_size(const std::string& set, const std::string& width);
 /// Escapes special characters for LaTeX. Greek letters and symbols become mathematics.
 std::string latex(const std::string& text);
 
-/// Sets the size of the chart's figure. Returns false if it has none.
+/// Sets the size of the chart's figure. Returns false if the chart has no figure.
 bool resize(Chart& chart, const FigureSize& size);
 
 /// Writes the caption as text (NAME.txt) and as a LaTeX figure environment (NAME.tex).
@@ -38,11 +38,12 @@ struct FigureInSet {
 void write_catalogue(const std::vector<FigureInSet>& figures, const Provenance& provenance,
                      const std::filesystem::path& folder);
 
-// A picture of a scene as a printed figure: SCENE-picture.
+// Name of a scene's picture as a printed figure: SCENE-picture.
 
 std::string picture_name(const Scene& scene);
 
-/// A shot for this width at 300 pixels per inch (less above 30 cm), with the figure's font size on paper.
+/// Shot for a figure of this width at 300 pixels per inch (less for figures wider than 30 cm), with the figure's font
+/// size on paper.
 Shot shot_for_print(const Scene& scene, const FigureSize& size, bool full);
 
 FigureInfo picture_info(const Scene& scene, const std::vector<const MethodResult*>& answers, const FigureSize& size,

@@ -16,7 +16,7 @@ namespace {
 
 int columns_of(const HeatMap& map) { return map.size.units() < 600 ? 2 : 3; }
 
-/// Half the smallest distance between neighbours, as a factor.
+/// Half the smallest distance between neighbours on a logarithmic scale, returned as a factor.
 double half_spacing(const std::set<double>& values) {
   double least = 1e300;
   for (auto it = values.begin(); it != values.end() && std::next(it) != values.end(); ++it)
@@ -29,7 +29,7 @@ struct MapGrid {
   double left, right, bottom, top;  // edges of the cells
 };
 
-/// Panels may have different cells over the same axes.
+/// Cells of a panel. Panels may have different cells over the same axes.
 MapGrid grid_of(const HeatMap& map, const HeatMap::Panel& panel) {
   std::set<double> xs, ys;
   for (const HeatMap::HeatCell& c : panel.cells) {
@@ -99,7 +99,7 @@ std::string panel_plot(const HeatMap& map, const HeatMap::Panel& p) {
   return joined_plot(parts);
 }
 
-/// The kinds of cells that occur, and the limits.
+/// Key entries of the kinds of cells that occur, and of the limits.
 std::vector<KeyEntry> key_of(const HeatMap& map) {
   std::vector<KeyEntry> key;
   const auto any = [&](auto has) { return std::ranges::any_of(map.panels, has); };

@@ -34,7 +34,7 @@ Points2 column_of(const std::vector<OrderRow>& rows, const std::string& method, 
 }
 
 /// Error at the smallest step / difference of the last two steps: about 1 for a first-order method, less for higher
-/// orders, and large if the method converges to another solution than the truth.
+/// orders, and large if the method converges to a solution other than the truth.
 double error_over_difference(const Points2& errors, const Points2& own) {
   return errors.empty() || own.empty() ? 0 : errors.back().second / own.back().second;
 }
@@ -83,18 +83,19 @@ std::vector<Chart> order_charts(const ChartInput& input) {
       Curve curve{title_of(slopes, method), style_of(method), {}, true, true};
       Points2 errors = column_of(rows, method, &OrderRow::error),
               own = column_of(rows, method, &OrderRow::distance_to_finest);
-      // 4: the ratio is 1 for a first-order rule with last errors 2 e and e, and up to 2 if convergence starts slowly
+      // why 4: for a first-order rule with last errors 2 e and e the ratio is 1, and it is up to 2 if convergence
+      // starts slowly
       const bool converges_elsewhere = error_over_difference(errors, own) > 4 && errors.back().second > 10 * error_bar;
       // errors below the truth's error bar are unknown
       std::erase_if(errors, [&](const auto& p) { return p.second <= error_bar; });
       curve.points = std::move(errors);
-      // name marks after their curve, if there is one
+      // give marks the name of their curve, if there is one
       const std::string& marked = curve.points.empty() ? method : curve.title;
       for (const OrderRow& row : rows | with(&OrderRow::method, method))
         if (const std::string word = failure_class(row.verdict); row.verdict != Verdict::ok)
           f.failures.push_back({marked + ": " + word, style_of(method), row.step, 10 * scene.size(), word});
       if (!curve.points.empty()) f.curves.push_back(std::move(curve));
-      // otherwise the two curves nearly coincide
+      // draw the difference only in this case; otherwise the two curves nearly coincide
       if (converges_elsewhere) {
         elsewhere.push_back(method);
         const MethodStyle open{style_of(method).colour, "(1,3)", 6};
@@ -104,7 +105,7 @@ std::vector<Chart> order_charts(const ChartInput& input) {
     if (f.curves.empty() && f.failures.empty()) continue;
     f.floor = {"error bar of the truth", error_bar};
     f.caption = caption_of(scene, input.commit);
-    SceneData truth;  // from this table, because other experiments may not have run
+    SceneData truth;  // built from this table, because other experiments may not have run
     truth.tier = name_of(rows[0].truth_tier), truth.truth = rows[0].truth, truth.error_bar = error_bar;
     f.tier = tier_of(truth);
     f.finding = slopes_sentence(slopes);

@@ -15,7 +15,7 @@ namespace {
 using Make = std::vector<Chart> (*)(const ChartInput& input, const Scene& scene, const SceneData& facts,
                                     const Table& table);
 
-/// Makes the charts of all scenes that have a table with this ending.
+/// Makes the charts of all scenes that have a table whose name ends with `ending`.
 std::vector<Chart> of_all_scenes(const ChartInput& input, const char* ending, Make make) {
   std::vector<Chart> charts;
   for (size_t i = 0; i < input.scenes.size(); ++i) {
@@ -93,7 +93,7 @@ std::vector<Chart> agreement_charts_of(const ChartInput& input, const Scene& sce
 
 struct Quantity {
   const char *column, *name;
-  double factor;  // from SI to the label's unit
+  double factor;  // converts from SI to the label's unit
   bool positive;
 };
 constexpr Quantity quantities[] = {{"difference from converged contact", "{scene}-converged", 1e3, true},
@@ -113,7 +113,7 @@ std::vector<Chart> contact_charts_of(const ChartInput& input, const Scene& scene
       if (!m.ok()) continue;
       Curve curve{m.method, style_of(m.method), points_of(table, m.method, q.column, q.positive)};
       for (auto& point : curve.points) point.second *= q.factor;
-      // omit cloths that still fall
+      // omit values of cloths that are still falling
       if (&q == &quantities[2]) std::erase_if(curve.points, [](const auto& p) { return p.second > 1; });
       if (!curve.points.empty()) f.curves.push_back(std::move(curve));
     }
@@ -121,7 +121,7 @@ std::vector<Chart> contact_charts_of(const ChartInput& input, const Scene& scene
       f.x.high = *facts.contact_until;
       f.floor = {"error bar of the converged contact rule", facts.error_bar * q.factor};
     }
-    // if all curves are zero, the text says so
+    // if all curves are zero, the chart has only its text, which says so
     const bool flat = std::ranges::all_of(f.curves, [](const Curve& c) {
       return std::ranges::all_of(c.points, [](const auto& p) { return std::abs(p.second) < 1e-9; });
     });
@@ -134,7 +134,7 @@ std::vector<Chart> contact_charts_of(const ChartInput& input, const Scene& scene
   return charts;
 }
 
-/// Largest energy (J) exchanged by any completed method: the scale of the balance error.
+/// Largest energy (J) exchanged by any completed method; it is the scale of the balance error.
 double turned_over(const std::vector<EngineEnergyRow>& rows, const std::string& scene) {
   double most = 0;
   for (const EngineEnergyRow& row : rows)

@@ -46,7 +46,7 @@ bool is_far(double value) { return value != 0 && (std::abs(value) < 0.9e-4 || st
 std::string tick_text(double value) { return number_text(value, is_far(value)); }
 
 std::vector<Tick> ticks_of(double low, double high, bool logarithmic, double length, bool upright) {
-  // received tables may hold any numbers; a range below 1e-12 of its values has no distinct numbers
+  // tables read from elsewhere may contain any numbers; a range below 1e-12 of its values has no distinct tick labels
   if (logarithmic ? !std::isfinite(std::log10(low)) || !std::isfinite(std::log10(high))
                   : !std::isfinite(high - low) || !(high - low > 1e-12 * std::max(std::abs(low), std::abs(high))))
     throw std::runtime_error(fmt::format("no axis reaches from {:g} to {:g}", low, high));
@@ -94,7 +94,7 @@ std::vector<Tick> ticks_of(double low, double high, bool logarithmic, double len
   if (!all_fit(ticks) || decades > 2.5) ticks = at({1, 3}, 1);
   if (decades > 4) ticks = at({1}, 1);
   for (int stride = 1; !all_fit(ticks); ++stride) ticks = at({1}, stride);
-  if (ticks.size() < 2)  // a single number shows no scale
+  if (ticks.size() < 2)  // one tick label alone shows no scale
     for (const Tick& more : at({1, 2, 3, 5}, 1))
       if (std::ranges::all_of(ticks, [&](const Tick& other) { return fits(other, more); })) ticks.push_back(more);
   if (last - first < 9)
@@ -186,7 +186,7 @@ constexpr double sample_width = 26, gap = 14;
 
 double sample_of(const KeyEntry& entry) { return entry.kind == KeyEntry::Kind::line ? sample_width : 12; }
 
-/// Number of columns: as many as fit side by side.
+/// Number of columns, as many as fit side by side.
 size_t columns_of(const std::vector<KeyEntry>& entries, double wide) {
   double widest = 1;
   for (const KeyEntry& e : entries) widest = std::max(widest, sample_of(e) + 5 + width_of(e.text) + gap);
@@ -251,14 +251,14 @@ std::string rule_name(const std::string& method) {
   if (constexpr std::string_view known = "deformable-"; rule.starts_with(known)) rule.erase(0, known.size());
   std::ranges::replace(rule, '-', ' ');
   if (const size_t at = rule.find("euler"); at != std::string::npos) rule[at] = 'E';
-  if (rule == "trapezoidal") rule = "Heun";  // the name of the literature
+  if (rule == "trapezoidal") rule = "Heun";  // the rule's name in the literature
   return plus == std::string::npos ? rule : rule + ", " + method.substr(plus + 1);
 }
 
 std::string reader_name(const std::string& title, std::span<const std::string> beside) {
   const std::string method = method_named(title);
   if (method.empty()) return title;
-  // omit text after a colon, such as an order, for lack of room on paper
+  // omit the text after a colon, such as an order, because paper has little space
   const std::string words = title.substr(0, title.find(": "));
   // programs' names contain a colon
   const size_t end = words.find_first_of(":, ", words.starts_with(method) ? method.size() : 0);

@@ -1,4 +1,4 @@
-// Layout of printed figures: ticks, keys, and free room for labels. The unit is 1/12 of the font size.
+// Layout of printed figures: ticks, keys, and free space for labels. The unit is 1/12 of the font size.
 #pragma once
 
 #include <optional>
@@ -23,7 +23,7 @@ struct Tick {
   double at;
   std::string text;  // empty: a minor tick
 };
-/// As many round numbers from `low` to `high` as fit on an axis of this length.
+/// Ticks at round numbers from `low` to `high`, as many as fit on an axis of this length.
 std::vector<Tick> ticks_of(double low, double high, bool logarithmic, double length, bool upright);
 /// "set xtics ('1' 1, '' 2 1)"
 std::string tick_command(const std::string& letter, const std::vector<Tick>& ticks);
@@ -44,16 +44,16 @@ struct Rect {
 /// Commands that draw on the sheet, at positions from its bottom left corner.
 class Sheet {
  public:
-  /// `up` is added to all heights, for instance for a key below.
+  /// `up` is added to all heights, for instance to leave space for a key below.
   Sheet(double wide, double tall, double up = 0) : wide_(wide), tall_(tall), up_(up) {}
   std::string at(Place p) const;
-  /// `align`: left, center or right; `more`: such as "rotate by 90".
+  /// `align`: left, center or right; `more`: further gnuplot options such as "rotate by 90".
   std::string text(Place p, const std::string& words, const std::string& align, const std::string& colour,
                    const std::string& more = "") const;
   std::string mark(Place p, const std::string& colour, int marker, double size = 0.8) const;
   std::string line(Place from, Place to, const std::string& colour, double thick, const std::string& dash) const;
   std::string box(Rect r, const std::string& colour, const std::string& fill = "solid") const;
-  /// Sets the margins so that this is the plot's box.
+  /// Sets the margins so that `box` is the box of the plot.
   std::string margins(const Rect& box) const;
 
  private:
@@ -73,32 +73,33 @@ struct KeyEntry {
   MethodStyle style;
   std::string fill = "solid";  // for a box
 };
-/// Entries wrap into lines.
+/// Height of the key. Its entries wrap into lines.
 double key_height(const std::vector<KeyEntry>& entries, double wide);
 std::string key_commands(const Sheet& sheet, const std::vector<KeyEntry>& entries, Place top_left, double wide);
 
-/// Truncates a text that is wider than the room, preferably at a colon, a comma or a parenthesis.
+/// Truncates a text that is wider than `room`, preferably at a colon, a comma or a parenthesis.
 std::string shortened(const std::string& text, double room);
 
-/// The method in a title, with or without its prefix; empty if there is none.
+/// The method in a title, whose prefix may be missing; empty if the title names no method.
 std::string method_named(const std::string& title);
 
-/// Title for readers: engine, blank, rule. Names of programs are made to differ within the titles `beside`.
+/// Title for readers: engine, a space, and the integrator. If two programs in the titles `beside` would have the same
+/// name, their names are extended until they differ.
 std::string reader_name(const std::string& title, std::span<const std::string> beside = {});
 /// Name of the method's rule in the literature, with its options: "symplectic Euler", "Heun, events".
 std::string rule_name(const std::string& method);
 
 inline constexpr double line_of_names = 17;
 
-/// Names on the left, one below the other, and an axis under the plot, as in bars, dots and limits.
+/// Layout with one name per line at the left and an axis under the plot, as in bars, dots and limits.
 struct NamedLines {
-  /// `right`: room to the right of the plot.
+  /// `right`: space to the right of the plot.
   NamedLines(const FigureInfo& figure, const std::string& label, const std::vector<std::string>& titles, double lines,
              const std::vector<KeyEntry>& key, double right = 14);
   double y_of(double place) const { return box.top - 2 - line_of_names * (place - 0.5); }
   std::string commands(const FigureInfo& figure, const std::vector<Tick>& ticks) const;
   std::string name(double place, size_t index) const;
-  /// Text at the sheet's left edge.
+  /// Commands for a text at the sheet's left edge.
   std::string heading(double place, const std::string& text) const;
   std::string ending_at(double x, double place, const std::string& text) const {
     return Sheet(wide, tall, below).text({x, y_of(place)}, text, "right", "#222222");
@@ -121,7 +122,8 @@ class Board {
   void add_line(Place from, Place to, bool yields = false);
   void add_mark(Place at);
   void add(const Rect& taken);
-  /// Amount of yielding content that a text would cover; nothing if it would cover other content or leave the box.
+  /// Amount of yielding content that a text would cover, or nullopt if the text would cover other content or leave the
+  /// box.
   std::optional<double> cost(const Rect& text) const;
 
  private:

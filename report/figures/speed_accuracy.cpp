@@ -1,5 +1,5 @@
 // Error against cost, in evaluations and in CPU time: all methods, the Pareto front, the truth's error bar and failed
-// runs; with each figure, the cheapest methods.
+// runs. Each figure comes with its cheapest methods.
 
 #include <fmt/ranges.h>
 
@@ -49,7 +49,8 @@ struct SceneRuns {
     const SpeedAccuracyCostRow* timed = timing(run);
     return timed ? std::optional(timed->cpu) : std::nullopt;
   }
-  /// True if only a part of the run was timed; its time is scaled by evaluations (for Bullet's worlds: by steps).
+  /// True if only a part of the run was timed; the time of that part is scaled by evaluations (for Bullet's worlds: by
+  /// steps).
   bool is_scaled(const Row& run) const {
     const SpeedAccuracyCostRow* timed = timing(run);
     return timed && timed->part < 1;
@@ -142,7 +143,7 @@ std::optional<Chart> chart_of(const SceneRuns& s, bool time, const ChartInput& i
   double lowest = s.error_bar ? std::max(*s.error_bar, 1e-16) / unit : 1, furthest = 0;
   size_t good = 0;
   int beyond = 0, uncounted = 0;
-  // drawn separately, beneath all methods, so that a pointer finds the run
+  // draw these marks separately, beneath all methods, so that a pointer finds the run
   Curve scaled{scaled_times, {"#777777", "1", scaled_ring}, {}, false, true};
   std::set<std::string> methods;
   for (const Row& run : s.runs) {

@@ -62,7 +62,7 @@ std::string effort_text(const std::vector<LimitRow>& rows) {
   return text;
 }
 
-/// A figure of all scenes, or one table per scene if theory gives no limits as h omega.
+/// A figure of all scenes, or one table per scene if theory gives no limits in terms of h omega.
 Chart limits_chart(const std::vector<LimitRow>& rows, const std::string& scene, const TableSet& tables,
                    const std::string& commit) {
   StepLimits f = step_limits_of(rows, scene);
@@ -71,12 +71,12 @@ Chart limits_chart(const std::vector<LimitRow>& rows, const std::string& scene, 
   const std::string columns_of = f.columns_of;
   Chart chart = described("stability-limits", any ? AnyFigure(std::move(f)) : std::monostate{},
                           "effort"_a = effort_text(rows), "scene"_a = columns_of, "commit"_a = commit);
-  if (!any)  // limits without a theory are in tables
+  if (!any)  // limits are in tables if theory predicts none of them
     for (const std::string& each : distinct(rows, &LimitRow::scene)) chart.tables.push_back(limits_table(rows, each));
   return chart;
 }
 
-/// "+1.25e-5": four digits, so that values that agree to five look equal.
+/// Signed number such as "+1.25e-5", with four digits, so that values that agree to five digits look equal.
 std::string signed_text(double value) {
   std::string text = fmt::format("{:+.4g}", value);
   if (const size_t e = text.find("e-0"); e != std::string::npos) text.erase(e + 2, 1);
@@ -123,11 +123,11 @@ std::string energy_text(double energy) {
                      : fmt::format("{:.0f} {}", 10 * std::round(value / 10), unit);
 }
 
-/// The last steps of a run above its limit, as a curve and in pictures, on the preferred or the first scene that has
-/// one.
+/// The last steps of a run above its stability limit, as a curve and in pictures, on the preferred scene or else the
+/// first one that has such a run.
 std::optional<Chart> failure_chart(const ChartInput& input, const std::string& preferred) {
   std::vector<FailureRow> rows = rows_of<FailureRow>(input.result);
-  // scenes that fail slowly enough to be visible
+  // consider only scenes that fail slowly enough to be visible
   std::set<std::string> seen;
   for (const FailureRow& row : rows)
     if (row.still) seen.insert(row.scene);

@@ -43,10 +43,10 @@ class RowsAgainstTheory {
       if (held > longest_) longest_ = held, by_ = row.method;
       return;
     }
-    // both limits are beyond the same end of the map
+    // both limits lie beyond the same end of the map
     if ((held == 0 && failed >= predicted) || (std::isinf(failed) && held <= predicted)) return;
     ++compared_;
-    // rows that are stable, or fail, at every step have no measured limit
+    // a row that is stable at every step, or fails at every step, has no measured limit
     const double off =
         held > 0 && std::isfinite(failed) ? std::abs(std::sqrt(held * failed) / predicted - 1) : INFINITY;
     if (off > near)

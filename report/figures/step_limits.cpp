@@ -14,7 +14,7 @@
 namespace crosscheck {
 namespace {
 
-/// Fastest vibration that limits the step of each scene, rad/s.
+/// Frequency (rad/s) of the fastest vibration that limits the step of each scene.
 std::map<std::string, double> fastest_of(const std::vector<LimitRow>& table) {
   std::map<std::string, double> fastest;
   for (const LimitRow& row : table)
@@ -23,7 +23,7 @@ std::map<std::string, double> fastest_of(const std::vector<LimitRow>& table) {
   return fastest;
 }
 
-/// The scene of the columns, and up to three others whose frequencies differ most.
+/// The scene `always`, for which the columns are, and up to three others whose frequencies differ most.
 std::vector<StepLimits::SceneMark> marked_scenes(const std::map<std::string, double>& fastest,
                                                  const std::string& always) {
   std::vector<StepLimits::SceneMark> all;
@@ -78,7 +78,7 @@ namespace {
 /// Results of one method over all scenes.
 struct Gathered {
   StepLimits::Row row;
-  std::string without;                   // scene without a stable step
+  std::string without;                   // a scene without a stable step
   std::string bound;                     // scene with a limit
   std::optional<double> every, refused;  // h omega, minimum over scenes. every: largest tried, if no step failed;
                                          // refused: largest that the method accepts

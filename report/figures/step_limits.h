@@ -23,7 +23,7 @@ struct StepLimits : FigureInfo {
     bool open = false;  // no step failed
     std::string words;  // next to the bar
     std::vector<Mark> marks;
-    std::string measured, predicted;  // ms, on the scene `columns_of`
+    std::string measured, predicted;  // ms, on the scene named by `columns_of`
   };
   struct SceneMark {
     std::string name;
@@ -35,12 +35,12 @@ struct StepLimits : FigureInfo {
   std::string columns_of;
 };
 
-/// Reads the rows of table `stability` about states of rest. Methods that are stable at every step come first, then
-/// long limits before short ones. Empty if no limit is known as h omega. The columns are for `scene`, if it was
-/// searched.
+/// Reads the rows of table `stability` about states of rest. Methods that are stable at every step come first, then the
+/// others by decreasing limit. The result is empty if no limit is known in terms of h omega. Its columns are for
+/// `scene`, if the limits of that scene were searched.
 StepLimits step_limits_of(const std::vector<LimitRow>& table, const std::string& scene);
 
-/// Limits in ms, or a word.
+/// Text of the measured or predicted limit: a step in ms, or a word.
 std::string measured_text(const LimitRow& row);
 std::string predicted_text(const LimitRow& row);
 

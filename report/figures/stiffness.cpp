@@ -33,7 +33,7 @@ Chart single_links(const std::vector<LinkStiffnessRow>& rows, const std::string&
   double worst = 0;
   for (const long n : values_of(rows, &LinkStiffnessRow::iterations)) {
     MethodStyle plain = by_iterations[style];
-    plain.marker = -1;  // markers are for measurements
+    plain.marker = -1;  // no marker, because markers are for measurements
     Curve formula{iterations_text(n) + ", formula", plain, {}},
         measured{iterations_text(n) + ", measured", by_iterations[style], {}, false, true};
     double low = 1, high = 0;
@@ -92,12 +92,13 @@ constexpr EffectiveMeasure effective_measures[] = {
     {"stiffness-effective", "cloth", &EffectiveStiffnessRow::by_sag},
     {"stiffness-effective-period", "chain", &EffectiveStiffnessRow::by_period}};
 
-/// "4 iterations of pbd": a title that begins with a method would be shortened to its name.
+/// "4 iterations of pbd". The number comes first because a title that begins with a method would be shortened to the
+/// method's name.
 std::string curve_title(const EffectiveStiffnessRow& row) {
   return fmt::format("{} of {}", passes_text(row.method, row.iterations), row.method.substr(row.method.find('/') + 1));
 }
 
-/// Methods without iterations are only in the table. Empty if the net was not measured.
+/// Chart of effective stiffness; nullopt if the net was not measured. Methods without iterations are only in the table.
 std::optional<Chart> effective_stiffness(const std::vector<EffectiveStiffnessRow>& rows,
                                          const EffectiveMeasure& measure, const std::string& commit) {
   Figure f;
@@ -112,7 +113,7 @@ std::optional<Chart> effective_stiffness(const std::vector<EffectiveStiffnessRow
     const std::string title = curve_title(row);
     auto curve = std::ranges::find(f.curves, title, &Curve::title);
     if (curve == f.curves.end()) {
-      // in shades of the engine's colour, because curves of one colour share a name
+      // use shades of the engine's colour, because curves of the same colour share a name
       const bool ours = method->family().is_subject();
       const size_t place = std::min<size_t>(by_method[row.method]++, 3);
       const MethodStyle style{(ours ? greys : browns)[place], dashes[place],
@@ -138,7 +139,7 @@ Chart pulled_sheets(const std::vector<PulledSheetRow>& rows, const std::string& 
   for (const PulledSheetRow& row : rows) {
     if (f.curves.empty() || f.curves.back().title != row.net + ", measured") {
       MethodStyle plain = by_iterations[style];
-      plain.marker = -1;  // markers are for measurements
+      plain.marker = -1;  // no marker, because markers are for measurements
       f.curves.push_back({row.net, plain, {}});
       f.curves.push_back({row.net + ", measured", by_iterations[style], {}, false, true});
       style = std::min(style + 1, std::size(by_iterations) - 1);
